@@ -1,0 +1,179 @@
+"""YAML files as plain data that still knows where each value stood, checked against a pydantic schema.
+
+User files are data: they are composed, never constructed, so no YAML tag can run code; aliases are refused, because a
+few of them can stand for more data than a machine holds.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TypeVar
+
+import yaml
+from pydantic import BaseModel, ValidationError
+
+from rsrm_gen.errors import Source, Span, UserError, did_you_mean
+
+MAX_CHARACTERS = 200_000
+MAX_DEPTH = 40
+
+Path_ = tuple[str | int, ...]
+Model = TypeVar("Model", bound=BaseModel)
+
+
+@dataclass(frozen=True)
+class Document:
+    """A YAML document: `data` as dicts, lists and scalars; the positions of every value and key by path."""
+
+    source: Source
+    data: dict[str, Any]
+    values: dict[Path_, Span] = field(repr=False)
+    keys: dict[Path_, Span] = field(repr=False)
+
+    def span(self, path: Path_) -> Span:
+        """Where the value at that path stands; the closest enclosing value if there is none."""
+        while path and path not in self.values:
+            path = path[:-1]
+        return self.values[path]
+
+    def key_span(self, path: Path_) -> Span:
+        """Where the key at that path stands."""
+        return self.keys.get(path) or self.span(path)
+
+
+def read_document(path: Path) -> Document:
+    """Read a YAML file; every way in which it can be unreadable is a `UserError`."""
+    try:
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        folder = path.parent
+        names = [p.name for p in folder.iterdir()] if folder.is_dir() else []
+        raise UserError(f"there is no file {path}", hint=did_you_mean(path.name, names)) from None
+    except UnicodeDecodeError as error:
+        raise UserError(f"{path} is not UTF-8 text (byte {error.start})") from None
+    except OSError as error:
+        raise UserError(f"cannot read {path}: {error.strerror}") from None
+    return parse_document(text, str(path))
+
+
+def parse_document(text: str, name: str = "<text>") -> Document:
+    """Parse YAML text whose top level is a mapping."""
+    source = Source(name, text)
+    if len(text) > MAX_CHARACTERS:
+        raise UserError(f"{name} has {len(text)} characters; at most {MAX_CHARACTERS} are read")
+    try:
+        root = yaml.compose(text, Loader=yaml.SafeLoader)
+        loader = yaml.SafeLoader("")
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark
+        span = Span(source, mark.line + 1, mark.column + 1) if mark else None
+        raise UserError(f"this is not valid YAML: {error.problem}", span, _yaml_hint(error, source)) from None
+    except yaml.YAMLError as error:
+        raise UserError(f"{name} is not valid YAML: {error}") from None
+    except RecursionError:
+        raise UserError(f"{name} is nested too deeply; at most {MAX_DEPTH} levels are read") from None
+    if not isinstance(root, yaml.MappingNode):
+        raise UserError(f"{name} must be a mapping of `key: value` lines", Span(source, 1, 1))
+    walker = _Walker(source, loader)
+    data = walker.value(root, ())
+    return Document(source, data, walker.values, walker.keys)
+
+
+def _yaml_hint(error: yaml.MarkedYAMLError, source: Source) -> str | None:
+    line = source.line(error.problem_mark.line + 1) if error.problem_mark else ""
+    if "\t" in line:
+        return "YAML is indented with spaces, not tabs"
+    return "a value that holds `: `, `#`, `{`, `[` or starts with a quote must be put in double quotes"
+
+
+class _Walker:
+    """Turns YAML nodes into data and notes where each stood."""
+
+    def __init__(self, source: Source, loader: yaml.SafeLoader) -> None:
+        self.source = source
+        self.loader = loader
+        self.values: dict[Path_, Span] = {}
+        self.keys: dict[Path_, Span] = {}
+        self.seen: set[int] = set()
+
+    def value(self, node: yaml.Node, path: Path_) -> Any:
+        span = self.values[path] = self.span(node)
+        if id(node) in self.seen:
+            raise UserError("YAML aliases (`*name`) are not read", span, "write the value out")
+        if len(path) > MAX_DEPTH:
+            raise UserError(f"nested too deeply; at most {MAX_DEPTH} levels are read", span)
+        self.seen.add(id(node))
+        if isinstance(node, yaml.MappingNode):
+            return self.mapping(node, path)
+        if isinstance(node, yaml.SequenceNode):
+            return [self.value(item, (*path, i)) for i, item in enumerate(node.value)]
+        return self.scalar(node, span)
+
+    def mapping(self, node: yaml.MappingNode, path: Path_) -> dict[str, Any]:
+        result: dict[str, Any] = {}
+        for key_node, value_node in node.value:
+            span = self.span(key_node)
+            key = key_node.value
+            if not isinstance(key, str):
+                raise UserError("a key must be a plain word", span)
+            if key in result:
+                raise UserError(f"`{key}` is given twice", span, "keep one of them")
+            self.keys[(*path, key)] = span
+            result[key] = self.value(value_node, (*path, key))
+        return result
+
+    def scalar(self, node: yaml.Node, span: Span) -> Any:
+        plain = {"str", "int", "float", "bool", "null"}
+        if node.tag.removeprefix("tag:yaml.org,2002:") not in plain:
+            raise UserError(f"the YAML type `{node.tag}` is not read here", span, "write text, a number, or a list")
+        try:
+            # The loader's own constructor for the five plain types: numbers as YAML 1.1 writes them.
+            return self.loader.construct_object(node)
+        except ValueError as error:
+            raise UserError(f"not a value: {error}", span) from None
+
+    def span(self, node: yaml.Node) -> Span:
+        mark, end = node.start_mark, node.end_mark
+        line = self.source.line(mark.line + 1)
+        stop = end.column if end.line == mark.line else len(line)
+        quoted = isinstance(node, yaml.ScalarNode) and node.style in ("'", '"')
+        start = mark.column + (1 if quoted else 0)  # the text inside the quotes
+        return Span(self.source, mark.line + 1, start + 1, max(stop - start - (1 if quoted else 0), 1))
+
+
+def validate(document: Document, model: type[Model], data: Any = None, at: Path_ = ()) -> Model:
+    """Check data (by default the whole document) against a schema; the first problem is raised where it stands."""
+    try:
+        return model.model_validate(document.data if data is None else data)
+    except ValidationError as error:
+        first = error.errors()[0]
+        raise _schema_error(document, model, first, at) from None
+
+
+def _schema_error(document: Document, model: type[BaseModel], error: Any, at: Path_) -> UserError:
+    # pydantic puts the tags of union members into the path; only what the document has is a place in it.
+    path: Path_ = at
+    for part in error["loc"]:
+        if (*path, part) in document.values or part == error["loc"][-1]:
+            path = (*path, part)
+    name = ".".join(str(part) for part in path)
+    if error["type"] == "extra_forbidden":
+        known = _fields_at(model, path[len(at) : -1])
+        return UserError(f"unknown key `{path[-1]}`", document.key_span(path), did_you_mean(str(path[-1]), known))
+    if error["type"] == "missing":
+        return UserError(f"`{name}` is missing", document.span(path[:-1]), f"add a line `{path[-1]}: ...`")
+    message = str(error["msg"]).removeprefix("Value error, ")
+    return UserError(f"`{name}`: {message[:1].lower()}{message[1:]}", document.span(path))
+
+
+def _fields_at(model: type[BaseModel], path: Path_) -> list[str]:
+    """The keys that the schema knows at a path, as far as plain nested models tell."""
+    for part in path:
+        field_info = model.model_fields.get(str(part))
+        arguments = getattr(field_info.annotation, "__args__", (field_info.annotation,)) if field_info else ()
+        nested = [a for a in arguments if isinstance(a, type) and issubclass(a, BaseModel)]
+        if not nested:
+            return []
+        model = nested[0]
+    return [info.alias or name for name, info in model.model_fields.items()]
