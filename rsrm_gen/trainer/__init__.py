@@ -1,0 +1,1 @@
+"""Arrival-time fields on any manifold behind the `Manifold` protocol: scenes, model, training, planning."""
