@@ -1,0 +1,200 @@
+"""The training loop: fresh points, one backward pass, a step, now and then other splats; kept so that it can go on.
+
+A training that was interrupted goes on exactly as if it had not been: all random numbers come from one generator, and
+its state is kept with the splats, the moments and the step.
+"""
+
+from __future__ import annotations
+
+import math
+import signal
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from types import FrameType
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from rsrm_gen.errors import UserError
+from rsrm_gen.trainer.density import make_density, pick_apart, pick_spread
+from rsrm_gen.trainer.objective import Eikonal
+from rsrm_gen.trainer.optimise import AdamW
+from rsrm_gen.trainer.run import Arrays, Metric, RunFolder, Summary, fill_rows, new_arrival
+from rsrm_gen.trainer.scene import Scene
+
+RECORD_EVERY = 10  # steps between two lines of metrics
+POOL = 4096  # points at which the residual is looked at for new splats
+FINAL_POINTS = 16384  # points of the final loss
+
+Progress = Callable[[Metric], None]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a training ended: `summary` is None when it was interrupted after `step` steps."""
+
+    step: int
+    splats: int
+    summary: Summary | None
+
+
+class Trainer:
+    """All that changes during a training, and one step of it."""
+
+    def __init__(self, scene: Scene) -> None:
+        """At step 0 and without splats: place the first ones, or restore a checkpoint."""
+        settings = scene.training
+        self.scene = scene
+        self.settings = settings
+        self.arrival = new_arrival(scene, settings.capacity)
+        self.field = self.arrival.field
+        self.objective = Eikonal(scene, settings.objective.residual)
+        self.density = make_density(settings)
+        self.adam = AdamW(self.field, settings.weight_decay, settings.gradient_clip)
+        self.generator = torch.Generator().manual_seed(settings.seed)
+        self.step = 0
+
+    def place_first_splats(self) -> None:
+        """Well spread over the domain."""
+        count = self.settings.splats.initial
+        candidates = self.scene.sample(8 * count, self.generator)
+        self.field.append(pick_spread(self.scene.manifold, candidates, count), self.settings.splats.shape)
+
+    def advance(self) -> float:
+        """One step: its loss. A loss or gradient that is not finite is a `FloatingPointError`, and nothing moved."""
+        loss, _ = self.objective.loss(self.arrival, self.points(self.settings.points))
+        value = float(loss.detach())
+        if not math.isfinite(value):
+            raise FloatingPointError(f"the loss is {value}")
+        loss.backward()  # type: ignore[no-untyped-call]
+        self.adam.step(self.learning_rate())
+        self.field.clamp_shapes(self.settings.splats.min_singular)
+        self.step += 1
+        change = self.density.update(self.step, self.field, self.propose)
+        if change:
+            self.adam.follow(change)
+        return value
+
+    def points(self, count: int) -> Tensor:
+        """Fresh points of the domain, uniform in volume, without those near the goal: (at most `count`, D)."""
+        x = self.scene.sample(count, self.generator)
+        far = self.scene.manifold.distance(x, self.scene.goal) > self.settings.goal_exclusion
+        if not far.any():
+            raise UserError(f"no point of the domain is farther than {self.settings.goal_exclusion:g} from the goal")
+        return x[far]
+
+    def propose(self, count: int) -> Tensor:
+        """Centres for new splats where the residual is largest, not closer to each other than half a shape: (k, D)."""
+        x = self.points(POOL)
+        with torch.no_grad():
+            residual = self.objective.loss(self.arrival, x)[1]
+        return pick_apart(self.scene.manifold, x, residual, count, self.settings.splats.shape / 2)
+
+    def learning_rate(self) -> float:
+        """Of the step to come: constant, or a half cosine down to the final one."""
+        first, final = self.settings.learning_rate, self.settings.final_learning_rate
+        if final is None:
+            return first
+        return final + (first - final) * (1 + math.cos(math.pi * self.step / self.settings.steps)) / 2
+
+    @torch.no_grad()
+    def final_loss(self) -> float:
+        """The mean residual at many fresh points."""
+        x = self.points(FINAL_POINTS)
+        return float(torch.cat([self.objective.loss(self.arrival, part)[1] for part in torch.split(x, POOL)]).mean())
+
+    def arrays(self, seconds: float) -> Arrays:
+        """Everything that changes, as plain arrays: active rows only."""
+        buffers = {**self.field.buffers_of_splats(), **self.adam.buffers_of_splats()}
+        arrays: Arrays = {name: rows[: self.field.count].numpy() for name, rows in buffers.items()}
+        generator = self.generator.get_state().numpy()
+        return {**arrays, "generator": generator, "step": np.array(self.step), "seconds": np.array(seconds)}
+
+    def restore(self, arrays: Arrays, folder: RunFolder) -> None:
+        """Go back to what `arrays` gave."""
+        buffers = {**self.field.buffers_of_splats(), **self.adam.buffers_of_splats()}
+        self.field.count = fill_rows(buffers, arrays, folder.checkpoint)
+        self.generator.set_state(torch.from_numpy(arrays["generator"]))
+        self.step = int(arrays["step"])
+
+
+def train(scene: Scene, folder: RunFolder, resume: bool = False, progress: Progress = lambda metric: None) -> Outcome:
+    """Train a scene's field into a run folder that `create` has made; `resume` goes on from its checkpoint.
+
+    Ctrl-C ends the training after the step it is in, with a checkpoint; `progress` is called after every step.
+    """
+    trainer, before = Trainer(scene), 0.0
+    if resume:
+        arrays = folder.restore()
+        trainer.restore(arrays, folder)
+        before = float(arrays["seconds"])
+        folder.drop_metrics_after(trainer.step)
+        folder.summary.unlink(missing_ok=True)  # of a training that is now made longer
+    else:
+        trainer.place_first_splats()
+    start = time.perf_counter() - before
+    with _ctrl_c_noted() as stopped:
+        while trainer.step < scene.training.steps and not stopped.is_set():
+            loss = _advance(trainer, folder)
+            metric = Metric(trainer.step, loss, trainer.field.count, round(time.perf_counter() - start, 3))
+            _keep(trainer, folder, metric)
+            progress(metric)
+    seconds = time.perf_counter() - start
+    folder.save(trainer.arrays(seconds))
+    return Outcome(trainer.step, trainer.field.count, _finish(trainer, folder, seconds))
+
+
+def _advance(trainer: Trainer, folder: RunFolder) -> float:
+    try:
+        return trainer.advance()
+    except FloatingPointError as error:
+        kept = f"the checkpoint in {folder.path} is from before" if folder.checkpoint.exists() else "nothing was kept"
+        message = f"step {trainer.step + 1}: {error}; {kept}"
+        raise UserError(message, hint="try a smaller learning_rate, or dtype: float64") from None
+
+
+def _keep(trainer: Trainer, folder: RunFolder, metric: Metric) -> None:
+    last = metric.step == trainer.settings.steps
+    if metric.step % RECORD_EVERY == 0 or last:
+        folder.record(metric)
+    if metric.step % trainer.settings.checkpoint_every == 0 and not last:
+        folder.save(trainer.arrays(metric.seconds))
+
+
+def _finish(trainer: Trainer, folder: RunFolder, seconds: float) -> Summary | None:
+    steps = trainer.settings.steps
+    if trainer.step < steps:
+        return None
+    summary = Summary(
+        loss=trainer.final_loss(),
+        steps=trainer.step,
+        splats=trainer.field.count,
+        parameters=trainer.field.parameter_count,
+        ms_per_step=round(1000 * seconds / trainer.step, 3),
+        seconds=round(seconds, 3),
+    )
+    folder.write_summary(summary)
+    return summary
+
+
+@contextmanager
+def _ctrl_c_noted() -> Iterator[threading.Event]:
+    """Ctrl-C sets an event instead of tearing a step apart; a second one interrupts as usual."""
+    stopped = threading.Event()
+
+    def note(signum: int, frame: FrameType | None) -> None:
+        stopped.set()
+        signal.signal(signal.SIGINT, before)
+
+    if threading.current_thread() is not threading.main_thread():
+        yield stopped  # only the main thread may set handlers
+        return
+    before = signal.signal(signal.SIGINT, note)
+    try:
+        yield stopped
+    finally:
+        signal.signal(signal.SIGINT, before)
