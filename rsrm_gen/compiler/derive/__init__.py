@@ -1,0 +1,227 @@
+"""Stage 2: `ManifoldSpec` -> `Geometry`. The mathematics: nothing here knows of precisions or target languages."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cached_property
+
+import mpmath as mp
+import sympy as sp
+
+from rsrm_gen.compiler.derive.determinant import StagedJacobian, closed_form, staged_jacobian, staged_log_det
+from rsrm_gen.compiler.derive.geometry import (
+    Argument,
+    Assignment,
+    Choose,
+    Function,
+    Geometry,
+    Wrap,
+    argument,
+)
+from rsrm_gen.compiler.derive.numeric import Values, run, value
+from rsrm_gen.compiler.derive.operators import Operators
+from rsrm_gen.compiler.derive.sampling import Sampler, truth
+from rsrm_gen.compiler.derive.scalarise import Reading, Trace, Truth, number, scalarised
+from rsrm_gen.compiler.derive.singularities import Ray, exp_ray, guarded, log_ray, remove, smooth_squares
+from rsrm_gen.compiler.spec import ManifoldSpec, Map
+from rsrm_gen.errors import UserError
+
+__all__ = ["Geometry", "derive"]
+
+
+def derive(spec: ManifoldSpec) -> Geometry:
+    """Derive every function of the manifold from its spec; raises `UserError` where a formula cannot be mended."""
+    return _Derivation(spec).geometry()
+
+
+class _Derivation:
+    """The derivation of one spec, its steps named as properties in the order in which they build on one another."""
+
+    def __init__(self, spec: ManifoldSpec) -> None:
+        self.spec = spec
+        self.p, self.q = argument("p", spec.point_size), argument("q", spec.point_size)
+        self.v = argument("v", spec.tangent_size)
+        self.rng = random.Random(0)
+
+    def geometry(self) -> Geometry:
+        """Everything, under the names of the `Manifold` protocol."""
+        spec, operators = self.spec, self.operators
+        log_det, origin = self.log_abs_det
+        functions = (
+            self.project, operators.to_tangent(), operators.inner(), operators.norm(), operators.flat(), self.exp, self.log,
+            self.distance, log_det, operators.riemannian_gradient(), operators.gradient_norm(),
+        )  # fmt: skip
+        periods = spec.periods and tuple(number(spec, period) if period else None for period in spec.periods)
+        return Geometry(
+            spec,
+            functions,
+            origin,
+            number(spec, spec.injectivity_radius),
+            number(spec, spec.diameter),
+            periods if periods and any(periods) else None,
+        )
+
+    @cached_property
+    def project(self) -> Function:
+        """The author's projection; in a chart, coordinates brought into their period."""
+        spec = self.spec
+        x = replace(self.p, name="x", symbols=argument("x", spec.point_size).symbols)
+        if spec.project is not None:
+            function = scalarised(spec, "project", spec.project, (self.p,), (spec.point_size,))
+            renamed = dict(zip(self.p.symbols, x.symbols, strict=True))
+            assignments = tuple(replace(a, expression=a.expression.xreplace(renamed)) for a in function.assignments)
+            return replace(function, arguments=(x,), assignments=assignments, results=tuple(r.xreplace(renamed) for r in function.results))
+        periods = [number(spec, period) if period else None for period in spec.periods or ()]
+        results = tuple(Wrap(c, period) if period else c for c, period in zip(x.symbols, periods, strict=True))
+        return Function("project", (x,), (), results, (spec.point_size,), "x, periodic coordinates wrapped" if any(periods) else "x")
+
+    @cached_property
+    def operators(self) -> Operators:
+        """The linear algebra of the tangent spaces."""
+        size = self.spec.point_size
+        vectors = [[mp.mpf(self.rng.gauss(0, 1)) for _ in range(size)] for _ in range(4)]
+        return Operators(self.spec, [run(self.project, x)[0] for x in vectors] if self.spec.embedded else [])
+
+    @cached_property
+    def sampler(self) -> Sampler:
+        """Where points come from while formulas are looked at."""
+        spec = self.spec
+        radius = number(spec, spec.injectivity_radius)
+        reach = mp.mpf(1) if radius == sp.oo else mp.mpf(str(sp.N(radius, 30))) / 2
+        domain = None
+        if spec.domain is not None:
+            comparison = Reading(spec, Trace([self.p])).read(spec.domain)
+            assert isinstance(comparison, Truth)
+            domain = truth(comparison.kind, comparison.a, comparison.b)
+        project = self.project if spec.embedded else None
+        return Sampler(project, domain, self.operators.to_tangent(), self.operators.norm(), self.plain_exp[0], spec.point_size, reach)
+
+    @cached_property
+    def plain_exp(self) -> tuple[Function, Trace]:
+        """Exp as the author wrote it, traced with the zero vector as a probe."""
+        spec = self.spec
+        base = self.project and run(self.project, [mp.mpf(k + 2) / (k + 3) for k in range(spec.point_size)])[0]
+        probe = self.probe((self.p, base), (self.v, [mp.mpf(0)] * spec.tangent_size))
+        return self.traced("exp", spec.exp, (self.p, self.v), probe, (spec.point_size,))
+
+    @cached_property
+    def exp(self) -> Function:
+        """Exp with its 0/0 at the zero vector removed."""
+        function, trace = self.plain_exp
+        return self.mended(function, trace, exp_ray(function, self.sampler), spec_map=self.spec.exp).pruned()
+
+    @cached_property
+    def plain_log(self) -> tuple[Function, Trace]:
+        """Log as the author wrote it, traced with coincident points as a probe."""
+        point = self.sampler.point(self.rng)
+        return self.traced("log", self.spec.log, (self.p, self.q), self.probe((self.p, point), (self.q, point)), (self.spec.tangent_size,))
+
+    @cached_property
+    def mended_log(self) -> Function:
+        """Log with its 0/0 at coincident points removed, before the cut locus is looked at."""
+        function, trace = self.plain_log
+        return self.mended(function, trace, self.ray, spec_map=self.spec.log)
+
+    @cached_property
+    def log(self) -> Function:
+        """Log, with the declared value on the cut locus."""
+        spec = self.spec
+        if spec.cut_locus is None or spec.cut_locus.log is None:
+            return self.mended_log.pruned()
+        _, trace = self.plain_log
+        reading = Reading(spec, trace)
+        condition = reading.read(spec.cut_locus.where)
+        values = reading.entries(spec.cut_locus.log)
+        assert isinstance(condition, Truth)
+        guards = {a.symbol: a for a in self.mended_log.assignments}
+        assignments = tuple(guards.get(a.symbol, a) for a in trace.assignments)
+        pairs = zip(values, self.mended_log.results, strict=True)
+        results = tuple(Choose(condition.kind, condition.a, condition.b, there, else_) for there, else_ in pairs)
+        return replace(self.mended_log, assignments=assignments, results=results).pruned()
+
+    @cached_property
+    def ray(self) -> Ray:
+        """Rays along which quantities of Log are looked at near coincident points."""
+        return log_ray(self.plain_log[0], self.sampler)
+
+    @cached_property
+    def jacobian(self) -> StagedJacobian:
+        """d Log_p(q) / d q, away from the cut locus."""
+        return staged_jacobian(self.mended_log.pruned())
+
+    @cached_property
+    def distance(self) -> Function:
+        """The author's closed form, or the length of Log."""
+        spec = self.spec
+        if spec.distance is not None:
+            return self.with_log_names("distance", spec.distance)
+        norm = self.operators.norm()
+        entries = [Assignment(sp.Symbol(f"log{i}", real=True), e) for i, e in enumerate(self.log.results)]
+        length = norm.results[0].xreplace(dict(zip(norm.arguments[1].symbols, (a.symbol for a in entries), strict=True)))
+        return Function("distance", self.log.arguments, (*self.log.assignments, *entries), (length,), (), "|Log_p(q)|_p")
+
+    @cached_property
+    def log_abs_det(self) -> tuple[Function, str]:
+        """log |det D Log|, and where it is from."""
+        spec = self.spec
+        if spec.log_det is not None:
+            function = self.with_log_names("log_abs_det", spec.log_det)
+            return self.smooth_log_det(function, function.results[0]), "author"
+        _, trace = self.plain_log
+        found = closed_form(self.jacobian, trace.scalars, self.operators, self.sampler)
+        if found is None:
+            return staged_log_det(self.jacobian, self.operators).pruned(), "staged"
+        expression = found.log()
+        function = replace(self.mended_log, name="log_abs_det", results=(expression,), shape=(), formula=str(expression))
+        return self.smooth_log_det(function, expression), "closed form"
+
+    def smooth_log_det(self, function: Function, expression: sp.Expr) -> Function:
+        """A closed form that is log(0/0) at coincident points, mended there: it vanishes like the distance squared."""
+        point = self.sampler.point(self.rng)
+        at_zero = run(function, point, point)[1]
+        if mp.isfinite(value(expression, at_zero)):
+            return function.pruned()
+        guard = remove(expression, smooth_squares(function, at_zero), self.ray, self.reach(), order=1)
+        if guard is None:
+            raise UserError("log |det D Log| is not finite where the points coincide, and no smooth quantity mends it", self.spec.log.value.span)
+        symbol = sp.Symbol("log_det", real=True)
+        return replace(function, assignments=(*function.assignments, Assignment(symbol, expression, guard)), results=(symbol,)).pruned()
+
+    def with_log_names(self, name: str, chart_map: Map) -> Function:
+        """A scalar formula that may use the names of Log, on top of the mended assignments of Log."""
+        _, trace = self.plain_log
+        result = Reading(self.spec, trace).entries(chart_map)
+        mended = {a.symbol: a for a in self.mended_log.assignments}
+        assignments = tuple(mended.get(a.symbol, a) for a in trace.assignments)
+        return Function(name, (self.p, self.q), assignments, result, (), chart_map.value.text).pruned()
+
+    def traced(self, name: str, chart_map: Map, arguments: Sequence[Argument], probe: Values, shape: tuple[int, ...]) -> tuple[Function, Trace]:
+        """A map of the spec, and the trace of how it was read."""
+        trace = Trace(arguments, probe)
+        results = Reading(self.spec, trace).entries(chart_map)
+        return Function(name, tuple(arguments), tuple(trace.assignments), results, shape, chart_map.value.text), trace
+
+    def mended(self, function: Function, trace: Trace, ray: Ray, spec_map: Map) -> Function:
+        """The function with guards; an error at the formula where a 0/0 stays."""
+        if not trace.quotients:
+            return function
+        squares = smooth_squares(function, trace.probe or {})
+        result, failed = guarded(function, trace.quotients, squares, ray, self.reach())
+        if failed:
+            place = "Exp at the zero vector" if function.name == "exp" else "Log at coincident points"
+            raise UserError(
+                f"{place} is 0/0 in `{failed[0]}`, and no smooth quantity under a square root mends it",
+                spec_map.value.span,
+                "divide by a norm only what vanishes with it, as in t * w / norm(w), or use sinc(x) and sinhc(x)",
+            )
+        return result
+
+    def reach(self) -> mp.mpf:
+        """How far a polynomial near a singular place is asked to reach, at first."""
+        return self.sampler.reach * 2 / 3
+
+    def probe(self, *pairs: tuple[Argument, Sequence[mp.mpf]]) -> Values:
+        """Values for the arguments of a trace."""
+        return {s: x for a, values in pairs for s, x in zip(a.symbols, values, strict=True)}

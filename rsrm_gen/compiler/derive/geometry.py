@@ -1,0 +1,141 @@
+"""What stage 2 gives: the functions of a manifold, each as a list of small sympy assignments.
+
+Assignments are kept as the author's formulas suggest them (a `let`, a norm, a dot product is one), because the
+order in which a formula computes is part of its accuracy, and because people read what comes out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import sympy as sp
+
+from rsrm_gen.compiler.spec import ManifoldSpec
+from rsrm_gen.compiler.spec.vocabulary import Shape
+
+LESS, LESS_EQUAL, EQUAL = sp.Integer(0), sp.Integer(1), sp.Integer(2)
+EPS = sp.Symbol("eps", positive=True)  # the rounding unit, a number only once a precision is chosen
+
+
+class Choose(sp.Function):  # type: ignore[misc]
+    """Choose(kind, a, b, x, y): x where a < b (or a <= b, a == b, by kind), else y."""
+
+    nargs = 5
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """The chosen branch passes its derivative on; the comparison has none."""
+        kind, a, b, _, _ = self.args
+        return {4: Choose(kind, a, b, 1, 0), 5: Choose(kind, a, b, 0, 1)}.get(argindex, sp.Integer(0))
+
+
+class Wrap(sp.Function):  # type: ignore[misc]
+    """Wrap(x, L): x less the nearest multiple of L."""
+
+    nargs = 2
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """1 in x: the jumps lie on the cut locus."""
+        return sp.Integer(1 if argindex == 1 else 0)
+
+
+class Polynomial(sp.Function):  # type: ignore[misc]
+    """Polynomial(x, c0, c1, ...): c0 + c1 x + c2 x^2 + ..."""
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """The polynomial with the coefficients k c_k."""
+        x, *coefficients = self.args
+        return Polynomial(x, *(k * c for k, c in enumerate(coefficients) if k)) if len(coefficients) > 1 else sp.Integer(0)
+
+
+@dataclass(frozen=True)
+class Guard:
+    """A removable singularity, removed: below the threshold, `near` stands for the expression.
+
+    `variable` is smooth and vanishes where the expression is 0/0; `near` is a polynomial in it whose relative error
+    on [0, threshold] is at most `error`.
+    """
+
+    variable: sp.Expr
+    threshold: sp.Float
+    near: sp.Expr
+    error: float
+
+
+@dataclass(frozen=True)
+class Assignment:
+    """symbol := expression, except where the guard holds."""
+
+    symbol: sp.Symbol
+    expression: sp.Expr
+    guard: Guard | None = None
+
+    def inputs(self) -> set[sp.Symbol]:
+        """The symbols that the assignment reads."""
+        symbols: set[sp.Symbol] = set(self.expression.free_symbols)
+        return symbols | self.guard.variable.free_symbols | self.guard.near.free_symbols if self.guard else symbols
+
+
+@dataclass(frozen=True)
+class Argument:
+    """An argument of a function, with the symbols of its entries in row-major order."""
+
+    name: str
+    shape: Shape
+    symbols: tuple[sp.Symbol, ...]
+
+
+def argument(name: str, *shape: int) -> Argument:
+    """An argument whose entries are called name0, name1, ... (or name00, name01, ... for a matrix)."""
+    if not shape:
+        return Argument(name, (), (sp.Symbol(name, real=True),))
+    indices = [(i,) for i in range(shape[0])] if len(shape) == 1 else [(i, j) for i in range(shape[0]) for j in range(shape[1])]
+    return Argument(name, shape, tuple(sp.Symbol(name + "_".join(map(str, index)), real=True) for index in indices))
+
+
+@dataclass(frozen=True)
+class Function:
+    """A function as staged assignments; `results` are its entries in row-major order, `formula` says it to a reader."""
+
+    name: str
+    arguments: tuple[Argument, ...]
+    assignments: tuple[Assignment, ...]
+    results: tuple[sp.Expr, ...]
+    shape: Shape
+    formula: str
+
+    def symbols(self) -> tuple[sp.Symbol, ...]:
+        """The symbols of all arguments, in order."""
+        return tuple(s for argument in self.arguments for s in argument.symbols)
+
+    def pruned(self) -> Function:
+        """Without the assignments that no result needs."""
+        needed: set[sp.Symbol] = set().union(*(r.free_symbols for r in self.results))
+        kept = []
+        for assignment in reversed(self.assignments):
+            if assignment.symbol in needed:
+                kept.append(assignment)
+                needed |= assignment.inputs()
+        return replace(self, assignments=tuple(reversed(kept)))
+
+
+@dataclass(frozen=True)
+class Geometry:
+    """All that was derived from a spec.
+
+    `log_det_origin` says how log |det D Log| was got: "author" (a closed form in the file, for the audit to judge),
+    "closed form" (found as a product of powers of quantities in the formula of Log) or "staged" (a determinant).
+    """
+
+    spec: ManifoldSpec
+    functions: tuple[Function, ...]
+    log_det_origin: str
+    injectivity_radius: sp.Expr
+    diameter: sp.Expr
+    periods: tuple[sp.Expr | None, ...] | None
+
+    def __getitem__(self, name: str) -> Function:
+        return next(function for function in self.functions if function.name == name)
+
+    def __iter__(self) -> Iterator[Function]:
+        return iter(self.functions)

@@ -1,0 +1,167 @@
+"""Linear algebra of the tangent spaces: metric, musical isomorphism, tangent projection, Riemannian gradient.
+
+With the ambient or chart metric G and constraints c(p) = 0, the normals are G^-1 dc, and the tangential part of a vector
+x is x - N (dc N)^-1 dc x. A gradient is G^-1 df, made tangential.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import mpmath as mp
+import sympy as sp
+
+from rsrm_gen.compiler.derive.geometry import Argument, Function, argument
+from rsrm_gen.compiler.derive.numeric import TINY, value
+from rsrm_gen.compiler.derive.scalarise import Reading, Trace
+from rsrm_gen.compiler.spec import ManifoldSpec
+
+
+class Operators:
+    """The operators of one spec, as sympy matrices in the symbols of p."""
+
+    def __init__(self, spec: ManifoldSpec, points: Sequence[Sequence[Any]]) -> None:
+        """`points` are some points of the manifold in high precision, to see what is constant on it."""
+        self.spec = spec
+        self.p = argument("p", spec.point_size)
+        self.points = [dict(zip(self.p.symbols, point, strict=True)) for point in points]
+        self.metric = self.read_metric()
+        self.frame = self.read_frame()  # rows: the vectors that tangent components multiply
+        self.constraint_jacobian = self.read_constraint_jacobian()  # (constraints, D)
+        self.metric_inverse = _inverse(self.metric)
+
+    def read_metric(self) -> sp.Matrix:
+        spec, size = self.spec, self.spec.tangent_size
+        if spec.metric.value.shape:
+            trace = Trace([self.p])
+            entries = Reading(spec, trace).entries(spec.metric)
+            return sp.Matrix(size, size, [_unfold(e, trace) for e in entries])
+        unit = sp.eye(size)
+        return sp.Matrix(size, size, lambda i, j: self.metric_of(unit.row(i), unit.row(j)))
+
+    def metric_of(self, u: sp.Matrix, v: sp.Matrix) -> sp.Expr:
+        """<u, v>_p from the author's formula."""
+        size = self.spec.tangent_size
+        trace = Trace([self.p, Argument("u", (size,), tuple(u)), Argument("v", (size,), tuple(v))])
+        return _unfold(Reading(self.spec, trace).entries(self.spec.metric)[0], trace)
+
+    def read_frame(self) -> sp.Matrix:
+        spec = self.spec
+        if spec.frame is None:
+            return sp.eye(spec.point_size)
+        trace = Trace([self.p])
+        entries = Reading(spec, trace).entries(spec.frame)
+        return sp.Matrix(spec.tangent_size, spec.point_size, [_unfold(e, trace) for e in entries])
+
+    def read_constraint_jacobian(self) -> sp.Matrix:
+        if self.spec.constraint is None:
+            return sp.zeros(0, self.spec.point_size)
+        trace = Trace([self.p])
+        entries = Reading(self.spec, trace).entries(self.spec.constraint)
+        jacobian = sp.Matrix([_unfold(e, trace) for e in entries]).jacobian(self.p.symbols)
+        # A constraint and its half have the same normals: 2 p and p on the sphere.
+        contents = [sp.gcd_list([e.as_coeff_Mul()[0] for e in jacobian.row(i) if e != 0]) for i in range(jacobian.rows)]
+        return sp.Matrix(*jacobian.shape, lambda i, j: jacobian[i, j] / contents[i])
+
+    def on_manifold(self, matrix: sp.Matrix) -> sp.Matrix:
+        """The matrix with those entries as numbers that are constant on the manifold, like p . p on the sphere."""
+
+        def constant(entry: sp.Expr) -> sp.Expr:
+            values = [value(entry, point) for point in self.points] if entry.free_symbols else []
+            rational = sp.nsimplify(str(mp.nstr(values[0], 20)), rational=True) if values else entry
+            small = values and rational.q <= 64 and all(abs(x - mp.mpf(rational.p) / rational.q) < TINY for x in values)
+            return rational if small else entry
+
+        return matrix.applyfunc(constant)
+
+    def normals(self) -> sp.Matrix:
+        """The normal vectors as columns, not of unit length (ambient tangents only)."""
+        return self.metric_inverse * self.constraint_jacobian.T
+
+    def tangential(self, x: sp.Matrix) -> sp.Matrix:
+        """The tangential part of an ambient vector (ambient tangents only)."""
+        normals, jacobian = self.normals(), self.constraint_jacobian
+        return x - normals * _inverse(self.on_manifold(jacobian * normals)) * (jacobian * x)
+
+    def to_tangent(self) -> Function:
+        """The tangent part of an ambient vector; components in the frame are those of the nearest tangent vector."""
+        x = argument("x", self.spec.point_size)
+        vector = sp.Matrix(x.symbols)
+        if self.spec.frame is not None:
+            result, formula = _inverse(self.on_manifold(self.frame * self.frame.T)) * (self.frame * vector), "(E E^T)^-1 E x"
+        elif self.spec.embedded:
+            result, formula = self.tangential(vector), "x - N (dc N)^-1 dc x"
+        else:
+            result, formula = vector, "x"
+        return self.function("to_tangent", (self.p, x), result, (self.spec.tangent_size,), formula)
+
+    def inner(self) -> Function:
+        """<u, v>_p as the author wrote it."""
+        spec = self.spec
+        u, v = argument("u", spec.tangent_size), argument("v", spec.tangent_size)
+        formula = spec.metric.value.text
+        if spec.metric.value.shape:
+            result, formula = sp.Matrix(u.symbols).T * self.metric * sp.Matrix(v.symbols), "u^T G(p) v"
+        else:
+            result = sp.Matrix([self.metric_of(sp.Matrix(u.symbols).T, sp.Matrix(v.symbols).T)])
+        return self.function("inner", (self.p, u, v), result, (), formula)
+
+    def norm(self) -> Function:
+        """|v|_p = sqrt(<v, v>_p)."""
+        v = argument("v", self.spec.tangent_size)
+        inner = self.inner()
+        replaced = dict(zip(inner.arguments[1].symbols + inner.arguments[2].symbols, v.symbols * 2, strict=True))
+        square = inner.results[0].xreplace(replaced)
+        return self.function("norm", (self.p, v), sp.Matrix([sp.sqrt(square)]), (), "sqrt(<v, v>_p)")
+
+    def flat(self) -> Function:
+        """The covector <v, .>_p."""
+        v = argument("v", self.spec.tangent_size)
+        return self.function("flat", (self.p, v), self.metric * sp.Matrix(v.symbols), (self.spec.tangent_size,), "G(p) v")
+
+    def riemannian_gradient(self) -> Function:
+        """grad f from the partial derivatives df."""
+        df = argument("df", self.spec.point_size)
+        return self.function("riemannian_gradient", (self.p, df), self.gradient(df), (self.spec.tangent_size,), self.gradient_formula())
+
+    def gradient_norm(self) -> Function:
+        """|grad f|_p from the partial derivatives df."""
+        df = argument("df", self.spec.point_size)
+        trace = Trace((self.p, df))
+        gradient = [trace.define(f"gradient{i}", e) for i, e in enumerate(self.gradient(df))]
+        norm = self.norm()
+        length = norm.results[0].xreplace(dict(zip(norm.arguments[1].symbols, gradient, strict=True)))
+        return Function("gradient_norm", (self.p, df), tuple(trace.assignments), (length,), (), "|grad f|_p")
+
+    def gradient(self, df: Argument) -> sp.Matrix:
+        """The entries of grad f."""
+        partials = sp.Matrix(df.symbols)
+        if self.spec.ambient_tangents:
+            return self.tangential(self.metric_inverse * partials)
+        return self.metric_inverse * (self.frame * partials)
+
+    def gradient_formula(self) -> str:
+        """How the gradient is made, for the generated documentation."""
+        if self.spec.ambient_tangents:
+            return "the tangential part of G^-1 df"
+        return "G^-1 E df" if self.spec.frame else "G(p)^-1 df"
+
+    @staticmethod
+    def function(name: str, arguments: tuple[Argument, ...], entries: sp.Matrix, shape: tuple[int, ...], formula: str) -> Function:
+        """A function without assignments of its own."""
+        return Function(name, arguments, (), tuple(entries), shape, formula)
+
+
+def _unfold(expression: sp.Expr, trace: Trace) -> sp.Expr:
+    """An expression in the arguments alone."""
+    for assignment in reversed(trace.assignments):
+        expression = expression.xreplace({assignment.symbol: assignment.expression})
+    return expression
+
+
+def _inverse(matrix: sp.Matrix) -> sp.Matrix:
+    if matrix.is_diagonal():
+        return sp.diag(*(1 / matrix[i, i] for i in range(matrix.rows)))
+    inverse = matrix.inv(method="ADJ")
+    return inverse.applyfunc(sp.cancel) if matrix.rows <= 4 else inverse

@@ -1,0 +1,77 @@
+"""Points and tangent vectors of a manifold in 60 digits, made from its own formulas and a seed."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import mpmath as mp
+import sympy as sp
+
+from rsrm_gen.compiler.derive.geometry import Choose, Function
+from rsrm_gen.compiler.derive.numeric import DIGITS, run, value
+from rsrm_gen.errors import UserError
+
+Numbers = list[Any]
+
+
+@dataclass(frozen=True)
+class Sampler:
+    """Draws points by `project` (or from the chart's domain) and tangent vectors by `to_tangent`.
+
+    `norm` measures them; `reach` bounds how far apart two sampled points are: half the injectivity radius, or 1.
+    """
+
+    project: Function | None
+    domain: sp.Expr | None  # positive inside
+    to_tangent: Function
+    norm: Function
+    exp: Function
+    point_size: int
+    reach: Any
+
+    def gaussian(self, rng: random.Random, size: int) -> Numbers:
+        """`size` numbers, each of three doubles' worth of random digits."""
+        with mp.workdps(DIGITS):
+            return [mp.mpf(rng.gauss(0, 1)) + mp.mpf(rng.random()) * mp.mpf(2) ** -50 + mp.mpf(rng.random()) * mp.mpf(2) ** -100 for _ in range(size)]
+
+    def point(self, rng: random.Random) -> Numbers:
+        """A point of the manifold."""
+        for _ in range(1000):
+            x = self.gaussian(rng, self.point_size)
+            p = run(self.project, x)[0] if self.project else x
+            if all(mp.isfinite(c) for c in p) and self.inside(p):
+                return p
+        raise UserError("no point found: `project` or `domain` refuses every vector that was tried")
+
+    def inside(self, p: Sequence[Any]) -> bool:
+        """Whether the domain of the spec holds at p."""
+        if self.domain is None:
+            return True
+        arguments = self.to_tangent.arguments[0].symbols
+        return bool(value(self.domain, dict(zip(arguments, p, strict=True))) == 1)
+
+    def direction(self, rng: random.Random, p: Sequence[Any]) -> Numbers:
+        """A tangent vector at p of length 1 in the metric."""
+        with mp.workdps(DIGITS):
+            v = run(self.to_tangent, p, self.gaussian(rng, self.point_size))[0]
+            length = run(self.norm, p, v)[0][0]
+            return [c / length for c in v]
+
+    def along(self, p: Sequence[Any], u: Sequence[Any], r: Any) -> Numbers:
+        """Exp_p(r u)."""
+        with mp.workdps(DIGITS):
+            return run(self.exp, p, [r * c for c in u])[0]
+
+    def pair(self, rng: random.Random) -> tuple[Numbers, Numbers]:
+        """Two points, neither close to one another nor to the cut locus."""
+        p = self.point(rng)
+        r = self.reach * (mp.mpf(rng.random()) * mp.mpf("0.8") + mp.mpf("0.2"))
+        return p, self.along(p, self.direction(rng, p), r)
+
+
+def truth(kind: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:
+    """1 where a comparison holds, else 0."""
+    return Choose(kind, a, b, 1, 0)

@@ -1,0 +1,406 @@
+"""From formulas in vectors to assignments in scalars.
+
+A scalar factor or divisor of a vector is kept beside it until the vector's entries are needed, so that `t * w / norm(w)`
+meets its 0/0 as one scalar, t / norm(w), which can be looked at and removed.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import reduce
+
+import mpmath as mp
+import sympy as sp
+
+from rsrm_gen.compiler.derive.geometry import (
+    EPS,
+    EQUAL,
+    LESS,
+    LESS_EQUAL,
+    Argument,
+    Assignment,
+    Choose,
+    Function,
+    Guard,
+    Wrap,
+)
+from rsrm_gen.compiler.derive.numeric import TINY, Values, value
+from rsrm_gen.compiler.derive.series import cardinal_series
+from rsrm_gen.compiler.spec import ManifoldSpec, Map
+from rsrm_gen.compiler.spec import formula as f
+from rsrm_gen.compiler.spec.shapes import bounds, constant
+from rsrm_gen.compiler.spec.vocabulary import Shape
+
+
+@dataclass(frozen=True)
+class Vector:
+    """entries * product(factors) / product(divisors), not multiplied out."""
+
+    entries: tuple[sp.Expr, ...]
+    factors: tuple[sp.Expr, ...] = ()
+    divisors: tuple[sp.Expr, ...] = ()
+
+
+@dataclass(frozen=True)
+class Truth:
+    """A comparison: a < b, a <= b or a == b by kind."""
+
+    kind: sp.Integer
+    a: sp.Expr
+    b: sp.Expr
+
+
+Value = sp.Expr | Vector | sp.MatrixBase | Truth
+
+FUNCTIONS = {
+    "sqrt": sp.sqrt, "exp": sp.exp, "log": sp.log, "sin": sp.sin, "cos": sp.cos, "tan": sp.tan, "sinh": sp.sinh,
+    "cosh": sp.cosh, "tanh": sp.tanh, "asinh": sp.asinh, "acos": sp.acos, "acosh": sp.acosh, "atanh": sp.atanh, "abs": sp.Abs,
+}  # fmt: skip
+
+
+class Trace:
+    """The assignments written down while formulas are read.
+
+    `probe` holds the values of the arguments where the author's formulas may be 0/0 (coincident points, a zero
+    vector); a quotient of two quantities that vanish there is recorded in `quotients`, to be removed.
+    """
+
+    def __init__(self, arguments: Sequence[Argument], probe: Values | None = None) -> None:
+        self.arguments = {a.name: a for a in arguments}
+        self.assignments: list[Assignment] = []
+        self.quotients: list[sp.Symbol] = []
+        self.scalars: list[sp.Symbol] = []  # quantities of the author's: candidates for closed forms
+        self.probe = dict(probe) if probe else None
+        self.known: dict[sp.Expr, sp.Symbol] = {}
+        self.taken = {str(s) for a in arguments for s in a.symbols} | {a.name for a in arguments}
+
+    def define(self, hint: str, expression: sp.Expr, guard: Guard | None = None) -> sp.Expr:
+        """A symbol for an expression; numbers and symbols stand for themselves, and nothing is defined twice."""
+        if expression.is_number or expression.is_Symbol:
+            return expression
+        if expression not in self.known:
+            symbol = sp.Symbol(self.fresh(hint), real=True)
+            self.known[expression] = symbol
+            self.assignments.append(Assignment(symbol, expression, guard))
+            if self.probe is not None:
+                self.probe[symbol] = value(guard.near if guard else expression, self.probe)
+        return self.known[expression]
+
+    def fresh(self, hint: str) -> str:
+        """An unused name that begins with the hint."""
+        name, count = hint, 1
+        while name in self.taken:
+            count += 1
+            name = f"{hint}_{count}"
+        self.taken.add(name)
+        return name
+
+    def vanishes(self, expression: sp.Expr) -> bool:
+        """Whether the expression is zero at the probe."""
+        return self.probe is not None and not expression.is_number and abs(value(expression, self.probe)) < TINY
+
+    def definition(self, symbol: sp.Expr) -> sp.Expr | None:
+        """The expression that a symbol was defined as."""
+        return next((a.expression for a in self.assignments if a.symbol == symbol), None)
+
+
+class Reading:
+    """Reads the maps of a spec into a trace; names are looked up in `let`s only when they are used."""
+
+    def __init__(self, spec: ManifoldSpec, trace: Trace) -> None:
+        self.parameters = dict(spec.parameters)
+        self.trace = trace
+        self.lets: dict[str, tuple[f.Tree, Value | None]] = {}
+
+    def read(self, chart_map: Map) -> Value:
+        """The value of a map whose arguments are those of the trace."""
+        for name, formula in chart_map.lets:
+            self.lets.setdefault(name, (formula.tree, None))
+        return self.value(chart_map.value.tree)
+
+    def entries(self, chart_map: Map) -> tuple[sp.Expr, ...]:
+        """The entries of a map's value in row-major order; a scalar has one."""
+        result = self.read(chart_map)
+        if isinstance(result, Vector):
+            return self.materialise(result)
+        return tuple(result) if isinstance(result, sp.MatrixBase) else (result,)
+
+    def value(self, tree: f.Tree) -> Value:
+        match tree:
+            case f.Number():
+                return sp.Rational(tree.value.numerator, tree.value.denominator)
+            case f.Name():
+                return self.name(tree.name)
+            case f.Negate():
+                return self.times(self.value(tree.operand), sp.Integer(-1))
+            case f.Binary():
+                return self.binary(tree)
+            case f.Compare():
+                return self.compare(tree)
+            case f.Stack():
+                return self.stack(tree)
+            case f.Index():
+                return self.index(tree)
+            case f.Call():
+                return self.call(tree)
+
+    def name(self, name: str) -> Value:
+        if name in self.trace.arguments:
+            return Vector(self.trace.arguments[name].symbols)
+        if name in self.lets:
+            return self.let(name)
+        if name in self.parameters:
+            number = self.parameters[name]
+            return sp.Rational(number.numerator, number.denominator)
+        return {"pi": sp.pi, "eps": EPS}[name]
+
+    def let(self, name: str) -> Value:
+        tree, result = self.lets[name]
+        if result is None:
+            result = self.call(tree, name) if isinstance(tree, f.Call) else self.value(tree)
+            if isinstance(result, Vector):
+                entries = (self.trace.define(f"{name}{i}", e) for i, e in enumerate(result.entries))
+                result = replace(result, entries=tuple(entries))
+            elif isinstance(result, sp.Expr):
+                result = self.quantity(name, result)
+            self.lets[name] = tree, result
+        return result
+
+    def quantity(self, hint: str, expression: sp.Expr) -> sp.Expr:
+        """A scalar of the author's, under a name."""
+        symbol = self.trace.define(hint, expression)
+        if symbol.is_Symbol and symbol not in self.trace.scalars:
+            self.trace.scalars.append(symbol)
+        return symbol
+
+    def binary(self, tree: f.Binary) -> Value:
+        if tree.operator == "^":
+            exponent = constant(tree.right, self.parameters)
+            return self.value(tree.left) ** sp.Rational(exponent.numerator, exponent.denominator)  # type: ignore[operator]
+        left, right = self.value(tree.left), self.value(tree.right)
+        if tree.operator == "*":
+            return self.times(left, right)
+        if tree.operator == "/":
+            return self.over(left, right)
+        return self.plus(left, right if tree.operator == "+" else self.times(right, sp.Integer(-1)))
+
+    def plus(self, x: Value, y: Value) -> Value:
+        if isinstance(x, Vector) and isinstance(y, Vector):
+            pairs = zip(self.materialise(x), self.materialise(y), strict=True)
+            return Vector(tuple(a + b for a, b in pairs))
+        return x + y  # type: ignore[operator]
+
+    def times(self, x: Value, y: Value) -> Value:
+        if isinstance(y, Vector) and isinstance(x, sp.Expr):
+            x, y = y, x
+        if isinstance(x, Vector) and isinstance(y, sp.Expr):
+            return replace(x, entries=tuple(y * e for e in x.entries)) if y.is_number else replace(x, factors=(*x.factors, y))
+        if isinstance(x, sp.MatrixBase) and isinstance(y, Vector):
+            return Vector(tuple(x * sp.Matrix(self.materialise(y))))
+        return x * y  # type: ignore[operator]
+
+    def over(self, x: Value, y: Value) -> Value:
+        assert isinstance(y, sp.Expr)
+        if isinstance(x, Vector):
+            return replace(x, entries=tuple(e / y for e in x.entries)) if y.is_number else replace(x, divisors=(*x.divisors, y))
+        return self.ratio(x, y) if isinstance(x, sp.Expr) else x / y  # type: ignore[operator]
+
+    def materialise(self, vector: Vector) -> tuple[sp.Expr, ...]:
+        """The entries, multiplied out; what is 0/0 among the scalars becomes one quotient."""
+        scale = self.ratio(sp.Mul(*vector.factors), sp.Mul(*vector.divisors))
+        if not scale.is_number and not scale.is_Symbol and len(vector.entries) > 1:
+            scale = self.trace.define("scale", scale)
+        return tuple(scale * e for e in vector.entries)
+
+    def ratio(self, x: sp.Expr, y: sp.Expr) -> sp.Expr:
+        """x / y, with the factors that make it 0/0 at the probe kept together in one quotient."""
+        small = [d for d in sp.Mul.make_args(y) if self.trace.vanishes(d)]
+        if not small:
+            return x / y
+        vanishing = [n for n in sp.Mul.make_args(x) if self.trace.vanishes(n)]
+        rest = (x / sp.Mul(*vanishing)) / (y / sp.Mul(*small))
+        return rest * self.quotient(tuple(vanishing), tuple(small))
+
+    def quotient(self, numerators: tuple[sp.Expr, ...], denominators: tuple[sp.Expr, ...]) -> sp.Expr:
+        """A named quotient that is 0/0 at the probe."""
+        names = ["_".join(_slug(e) for e in es) for es in (numerators, denominators)]
+        hint = "_over_".join(names) if all(names) else "quotient"
+        symbol = self.quantity(hint, sp.Mul(*numerators) / sp.Mul(*denominators))
+        if symbol.is_Symbol and symbol not in self.trace.quotients:
+            self.trace.quotients.append(symbol)
+        return symbol
+
+    def compare(self, tree: f.Compare) -> Truth:
+        a, b = self.value(tree.left), self.value(tree.right)
+        if tree.operator in (">", ">="):
+            a, b = b, a
+        kind = {"<": LESS, ">": LESS, "<=": LESS_EQUAL, ">=": LESS_EQUAL, "=": EQUAL}[tree.operator]
+        return Truth(kind, a, b)  # type: ignore[arg-type]
+
+    def stack(self, tree: f.Stack) -> Value:
+        parts = [self.value(item) for item in tree.items]
+        rows = len(parts) > 1 and all(isinstance(item, f.Stack) for item in tree.items)
+        if rows or (len(parts) == 1 and isinstance(tree.items[0], f.Stack)):
+            return sp.Matrix([list(self.materialise(part)) for part in parts])  # type: ignore[arg-type]
+        entries = [self.materialise(part) if isinstance(part, Vector) else (part,) for part in parts]
+        return Vector(tuple(e for part in entries for e in part))  # type: ignore[misc]
+
+    def index(self, tree: f.Index) -> Value:
+        base = self.value(tree.base)
+        length = base.rows if isinstance(base, sp.MatrixBase) else len(base.entries)  # type: ignore[union-attr]
+        start, stop = bounds(tree, length, self.parameters)
+        if isinstance(base, sp.MatrixBase):
+            return base[start:stop, :] if tree.slice else Vector(tuple(base[start, :]))
+        assert isinstance(base, Vector)
+        return replace(base, entries=base.entries[start:stop]) if tree.slice else self.materialise(base)[start]
+
+    def call(self, tree: f.Call, name: str = "") -> Value:
+        """The value of a call; a scalar becomes a named quantity."""
+        arguments = [self.value(argument) for argument in tree.arguments]
+        method = getattr(self, f"call_{tree.function}", None)
+        if method is not None:
+            result: Value = method(*arguments)
+        elif isinstance(arguments[0], Vector):
+            entries = (FUNCTIONS[tree.function](e) for e in self.materialise(arguments[0]))
+            result = Vector(tuple(entries))
+        elif tree.function == "atan2":
+            result = sp.atan2(*arguments)
+        else:
+            result = FUNCTIONS[tree.function](arguments[0])
+        if isinstance(result, sp.Expr) and tree.function not in ("where", "sum", "max", "sign", "wrap"):
+            return self.quantity(name or _hint(tree), result)
+        return result
+
+    def call_dot(self, x: Vector, y: Vector) -> sp.Expr:
+        pairs = zip(self.materialise(x), self.materialise(y), strict=True)
+        return sp.Add(*(a * b for a, b in pairs))
+
+    def call_norm(self, x: Vector) -> sp.Expr:
+        entries = self.materialise(x)
+        return sp.sqrt(sp.Add(*(e**2 for e in entries)))
+
+    def call_sum(self, x: Vector) -> sp.Expr:
+        return sp.Add(*self.materialise(x))
+
+    def call_max(self, x: Vector) -> sp.Expr:
+        return reduce(lambda a, b: Choose(LESS, a, b, b, a), self.materialise(x))
+
+    def call_cross(self, x: Vector, y: Vector) -> Vector:
+        (a, b, c), (d, e, g) = self.materialise(x), self.materialise(y)
+        return Vector((b * g - c * e, c * d - a * g, a * e - b * d))
+
+    def call_outer(self, x: Vector, y: Vector) -> sp.MatrixBase:
+        return sp.Matrix([[a * b for b in self.materialise(y)] for a in self.materialise(x)])
+
+    def call_qmul(self, x: Vector, y: Vector) -> Vector:
+        (a, b, c, d), (w, i, j, k) = self.materialise(x), self.materialise(y)
+        return Vector((
+            a * w - b * i - c * j - d * k,
+            a * i + b * w + c * k - d * j,
+            a * j - b * k + c * w + d * i,
+            a * k + b * j - c * i + d * w,
+        ))  # fmt: skip
+
+    def call_conj(self, x: Vector) -> Vector:
+        return Vector((x.entries[0], *(-e for e in x.entries[1:])), x.factors, x.divisors)
+
+    def call_transpose(self, x: sp.MatrixBase) -> sp.MatrixBase:
+        return x.T
+
+    def call_det(self, x: sp.MatrixBase) -> sp.Expr:
+        return x.det(method="berkowitz")
+
+    def call_inv(self, x: sp.MatrixBase) -> sp.MatrixBase:
+        return x.inv(method="ADJ")
+
+    def call_orthogonal(self, x: Vector) -> Vector:
+        # Of the first two axes, one is at 45 degrees or more to a unit vector: its part at right angles is no shorter than 1/sqrt 2.
+        a = self.materialise(x)
+
+        def part(axis: int) -> list[sp.Expr]:
+            length = self.trace.define(f"sine_to_axis{axis}", sp.sqrt(1 - a[axis] ** 2))
+            return [((1 if i == axis else 0) - a[axis] * e) / length for i, e in enumerate(a)]
+
+        pairs = zip(part(0), part(1), strict=True)
+        return Vector(tuple(Choose(LESS, a[0] ** 2, sp.Rational(1, 2), x0, x1) for x0, x1 in pairs))
+
+    def call_where(self, condition: Truth, x: Value, y: Value) -> Value:
+        def choose(a: sp.Expr, b: sp.Expr) -> sp.Expr:
+            return Choose(condition.kind, condition.a, condition.b, a, b)
+
+        if isinstance(x, Vector) and isinstance(y, Vector):
+            pairs = zip(self.materialise(x), self.materialise(y), strict=True)
+            return Vector(tuple(choose(a, b) for a, b in pairs))
+        return choose(x, y)  # type: ignore[arg-type]
+
+    def call_wrap(self, x: Value, period: sp.Expr = 2 * sp.pi) -> Value:
+        if isinstance(x, Vector):
+            return Vector(tuple(Wrap(e, period) for e in self.materialise(x)))
+        return Wrap(x, period)
+
+    def call_sign(self, x: Value) -> Value:
+        if isinstance(x, Vector):
+            return Vector(tuple(Choose(LESS, e, 0, -1, 1) for e in self.materialise(x)))
+        return Choose(LESS, x, 0, -1, 1)
+
+    def call_sinc(self, x: sp.Expr) -> sp.Expr:
+        return self.cardinal("sinc", sp.sin, x)
+
+    def call_sinhc(self, x: sp.Expr) -> sp.Expr:
+        return self.cardinal("sinhc", sp.sinh, x)
+
+    def cardinal(self, name: str, function: type[sp.Function], x: sp.Expr) -> sp.Expr:
+        """sin(x)/x or sinh(x)/x with its removable singularity removed, in the smooth variable x^2."""
+        series = cardinal_series(function)
+        square = self.square(x)
+        guard = Guard(square, series.threshold, series(square), series.error)
+        return self.trace.define(f"{name}_{_slug(x)}", function(x) / x, guard)
+
+    def square(self, x: sp.Expr) -> sp.Expr:
+        """x^2 without the root, where x is a norm or a multiple of one."""
+        if x.is_Mul:
+            return sp.Mul(*(self.square(factor) for factor in x.args))
+        definition = self.trace.definition(x) if x.is_Symbol else None
+        root = definition if definition is not None and definition.is_Pow and definition.exp == sp.Rational(1, 2) else None
+        return root.base if root is not None else x**2
+
+
+def scalarised(spec: ManifoldSpec, name: str, chart_map: Map, arguments: Sequence[Argument], shape: Shape) -> Function:
+    """A map of the spec as a staged function, without looking for singularities."""
+    trace = Trace(arguments)
+    results = Reading(spec, trace).entries(chart_map)
+    return Function(name, tuple(arguments), tuple(trace.assignments), results, shape, chart_map.value.text).pruned()
+
+
+def number(spec: ManifoldSpec, chart_map: Map | None) -> sp.Expr:
+    """The value of a map of nothing; infinity where there is none."""
+    return sp.oo if chart_map is None else Reading(spec, Trace(())).entries(chart_map)[0]
+
+
+def _hint(tree: f.Call) -> str:
+    """A name for a call that a reader recognises: norm_w, dot_p_d, sinh_r."""
+    words = "_".join(_tree_slug(argument) for argument in tree.arguments)
+    return f"{tree.function}_{words}" if words and len(words) <= 16 else tree.function
+
+
+def _tree_slug(tree: f.Tree) -> str:
+    match tree:
+        case f.Name():
+            return tree.name
+        case f.Number():
+            return str(tree.value).replace("/", "_over_")
+        case f.Negate():
+            return "minus_" + _tree_slug(tree.operand)
+        case f.Binary():
+            word = {"+": "plus", "-": "minus", "*": "times", "/": "over", "^": "to"}[tree.operator]
+            return f"{_tree_slug(tree.left)}_{word}_{_tree_slug(tree.right)}"
+        case f.Index():
+            return _tree_slug(tree.base) + ("s" if tree.slice else f"{_tree_slug(tree.start)}" if tree.start else "")
+    return ""
+
+
+def _slug(expression: sp.Expr) -> str:
+    text = str(expression) if expression.is_Symbol or expression.is_number else ""
+    return text if re.fullmatch(r"\w{1,12}", text) else ""

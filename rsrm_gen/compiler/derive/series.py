@@ -1,0 +1,97 @@
+"""Polynomials that stand for an expression near its removable singularity, with a threshold from their error."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import mpmath as mp
+import sympy as sp
+
+from rsrm_gen.compiler.derive.geometry import Polynomial
+from rsrm_gen.compiler.derive.numeric import DIGITS
+
+MAX_DEGREE = 14
+TESTS = 10
+ERROR = mp.mpf(2) ** -56  # relative: a sixteenth of the rounding unit in double precision
+SHRINK = mp.mpf("0.8")
+
+Curve = Callable[[Any], tuple[Any, Any]]
+
+
+@dataclass(frozen=True)
+class Fit:
+    """y ~ x^order * (c0 + c1 x + ...) on [0, threshold], with the largest relative error measured."""
+
+    order: int
+    coefficients: tuple[sp.Float, ...]
+    threshold: sp.Float
+    error: float
+
+    def __call__(self, variable: sp.Expr) -> sp.Expr:
+        """The polynomial of a variable."""
+        return variable**self.order * Polynomial(variable, *self.coefficients)
+
+
+def fit(curve: Curve, reach: Any, order: int) -> Fit | None:
+    """Fit y(x) along a curve r -> (x, y), with x ~ r^2 at 0, on the longest r-interval on which it is exact enough.
+
+    `reach` is the r to begin with. Interpolates y / x^order in Chebyshev points (in r^2, so nearly in x) with 60 digits,
+    by a polynomial of the lowest degree that is exact enough.
+    """
+    with mp.workdps(DIGITS):
+        for _ in range(24):
+            found = _fit_to(curve, reach, order, MAX_DEGREE)
+            if found is not None and found.error <= ERROR:
+                return _of_lowest_degree(curve, reach, order, found)
+            reach *= SHRINK
+    return None
+
+
+def _of_lowest_degree(curve: Curve, reach: Any, order: int, best: Fit) -> Fit:
+    low, high = 2, MAX_DEGREE  # the lowest degree is in (low, high]
+    while high - low > 1:
+        middle = (low + high) // 2
+        found = _fit_to(curve, reach, order, middle)
+        if found is not None and found.error <= ERROR:
+            high, best = middle, found
+        else:
+            low = middle
+    return best
+
+
+def _fit_to(curve: Curve, reach: Any, order: int, degree: int) -> Fit | None:
+    nodes = [reach * mp.sqrt((1 + mp.cos(mp.pi * (k + mp.mpf(1) / 2) / (degree + 1))) / 2) for k in range(degree + 1)]
+    points = [curve(r) for r in nodes]
+    if not all(mp.isfinite(x) and mp.isfinite(y) and x > 0 for x, y in points):
+        return None
+    coefficients = _interpolate([x for x, _ in points], [y / x**order for x, y in points])
+    tests = [curve(reach * mp.sqrt(mp.mpf(k) / TESTS)) for k in range(1, TESTS + 1)]
+    errors = [abs(mp.polyval(coefficients[::-1], x) * x**order / y - 1) for x, y in tests]
+    digits = tuple(sp.Float(c, 30) for c in coefficients)
+    return Fit(order, digits, sp.Float(points[0][0], 6), float(max(errors)))
+
+
+def _interpolate(x: list[Any], y: list[Any]) -> list[Any]:
+    """Monomial coefficients of the polynomial through the points, lowest first (Newton's divided differences)."""
+    newton = list(y)
+    for level in range(1, len(x)):
+        for i in range(len(x) - 1, level - 1, -1):
+            newton[i] = (newton[i] - newton[i - 1]) / (x[i] - x[i - level])
+    coefficients = [newton[-1]]
+    for i in range(len(x) - 2, -1, -1):
+        shifted = [mp.mpf(0), *coefficients]
+        coefficients = [a - x[i] * b for a, b in zip(shifted, [*coefficients, mp.mpf(0)], strict=True)]
+        coefficients[0] += newton[i]
+    return coefficients
+
+
+@lru_cache
+def cardinal_series(function: type[sp.Function]) -> Fit:
+    """sin(x)/x or sinh(x)/x as a polynomial in x^2."""
+    evaluate = {sp.sin: mp.sin, sp.sinh: mp.sinh}[function]
+    found = fit(lambda r: (r**2, evaluate(r) / r), mp.mpf(1), 0)
+    assert found is not None  # both are entire functions
+    return found

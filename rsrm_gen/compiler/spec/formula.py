@@ -1,0 +1,276 @@
+"""The grammar of formulas: text -> syntax tree, each node knowing its place.
+
+    formula    := sum [("=" | "==" | "<" | "<=" | ">" | ">=") sum]
+    sum        := product (("+" | "-") product)*
+    product    := unary (("*" | "/") unary)*
+    unary      := "-" unary | power
+    power      := item [("^" | "**") unary]            right-associative, binds tighter than unary minus
+    item       := primary ("[" index "]")*
+    primary    := number | name | name "(" formula ("," formula)* ")" | "(" formula ")" | "[" formula ("," formula)* "]"
+    index      := sum | [sum] ":" [sum]
+
+A formula is data: it is parsed by these rules and never handed to Python or sympy as text.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+
+from rsrm_gen.errors import Span, UserError
+
+MAX_CHARACTERS = 4000
+MAX_DEPTH = 40
+MAX_TERMS = 40
+
+TOKEN = re.compile(r"\s*(?:(?P<number>\d+\.?\d*(?:[eE][+-]?\d+)?)|(?P<name>[A-Za-z_][A-Za-z_0-9]*)|(?P<op>\*\*|[<>=]=|[-+*/^()\[\],:<>=]))")
+COMPARISONS = ("=", "==", "<", "<=", ">", ">=")
+
+
+@dataclass(frozen=True)
+class Number:
+    """A literal, kept exactly."""
+
+    value: Fraction
+    span: Span
+
+
+@dataclass(frozen=True)
+class Name:
+    """An argument, a parameter, a `let` or a constant."""
+
+    name: str
+    span: Span
+
+
+@dataclass(frozen=True)
+class Call:
+    """A function of the vocabulary, applied."""
+
+    function: str
+    arguments: tuple[Tree, ...]
+    span: Span
+
+
+@dataclass(frozen=True)
+class Negate:
+    """-x."""
+
+    operand: Tree
+    span: Span
+
+
+@dataclass(frozen=True)
+class Binary:
+    """x + y, x - y, x * y, x / y, x ^ y."""
+
+    operator: str
+    left: Tree
+    right: Tree
+    span: Span
+
+
+@dataclass(frozen=True)
+class Compare:
+    """x < y and its kin; "=" is exact equality."""
+
+    operator: str
+    left: Tree
+    right: Tree
+    span: Span
+
+
+@dataclass(frozen=True)
+class Stack:
+    """[a, b, ...]: scalars and vectors joined to a vector, or vectors of one length as the rows of a matrix."""
+
+    items: tuple[Tree, ...]
+    span: Span
+
+
+@dataclass(frozen=True)
+class Index:
+    """x[i], or x[start:stop] when `slice` is set; the bounds are constant formulas."""
+
+    base: Tree
+    start: Tree | None
+    stop: Tree | None
+    slice: bool
+    span: Span
+
+
+Tree = Number | Name | Call | Negate | Binary | Compare | Stack | Index
+
+
+def parse(text: str, span: Span) -> Tree:
+    """Parse one formula that stands at `span`; raises `UserError` at the offending character."""
+    if len(text) > MAX_CHARACTERS:
+        raise UserError(f"a formula of {len(text)} characters; at most {MAX_CHARACTERS} are read", span)
+    parser = _Parser(_tokens(text, span), span.inner(len(text)))
+    tree = parser.formula()
+    parser.end()
+    return tree
+
+
+@dataclass(frozen=True)
+class _Token:
+    kind: str
+    text: str
+    span: Span
+
+
+def _tokens(text: str, span: Span) -> list[_Token]:
+    tokens, at = [], 0
+    while text[at:].strip():
+        match = TOKEN.match(text, at)
+        if match is None:
+            at += len(text[at:]) - len(text[at:].lstrip())
+            raise UserError(f"the character {text[at]!r} has no meaning in a formula", span.inner(at), _advice(text[at]))
+        kind = str(match.lastgroup)
+        tokens.append(_Token(kind, match[kind], span.inner(match.start(kind), len(match[kind]))))
+        at = match.end()
+    return tokens
+
+
+def _advice(character: str) -> str | None:
+    known = {"{": "vectors are written with square brackets: [a, b]", "|": "write norm(v) for |v|", ".": "start a number with a digit: 0.5"}
+    ascii_only = None if character.isascii() else "formulas are written in plain ASCII letters"
+    return known.get(character, ascii_only)
+
+
+class _Parser:
+    """Recursive descent over the tokens, one method for each rule of the grammar."""
+
+    def __init__(self, tokens: list[_Token], end: Span) -> None:
+        self.tokens = tokens
+        self.position = 0
+        self.depth = 0
+        self.last = end
+
+    def formula(self) -> Tree:
+        self.depth += 1
+        if self.depth > MAX_DEPTH:
+            raise UserError(f"a formula nested deeper than {MAX_DEPTH} levels", self.span, "name its parts with `let`")
+        left = self.sum()
+        if self.peek() in COMPARISONS:
+            token = self.take()
+            left = Compare("=" if token.text == "==" else token.text, left, self.sum(), token.span)
+        self.depth -= 1
+        return left
+
+    def sum(self) -> Tree:
+        return self.chain(self.product, ("+", "-"))
+
+    def product(self) -> Tree:
+        return self.chain(self.unary, ("*", "/"))
+
+    def chain(self, operand: Callable[[], Tree], operators: tuple[str, ...]) -> Tree:
+        left, terms = operand(), 1
+        while self.peek() in operators:
+            token = self.take()
+            left, terms = Binary(token.text, left, operand(), token.span), terms + 1
+            if terms > MAX_TERMS:
+                raise UserError(f"more than {MAX_TERMS} terms in a row", token.span, "name its parts with `let`")
+        return left
+
+    def unary(self) -> Tree:
+        signs = []
+        while self.peek() in ("-", "+"):
+            signs.append(self.take())
+            if len(signs) > MAX_DEPTH:
+                raise UserError("too many signs in a row", signs[-1].span)
+        tree = self.power()
+        for token in reversed(signs):
+            tree = Negate(tree, token.span) if token.text == "-" else tree
+        return tree
+
+    def power(self) -> Tree:
+        bases = [self.item()]
+        carets = []
+        while self.peek() in ("^", "**"):
+            carets.append(self.take())
+            if self.peek() == "-":
+                minus = self.take()
+                bases.append(Negate(self.item(), minus.span))
+            else:
+                bases.append(self.item())
+        tree = bases.pop()
+        while carets:
+            tree = Binary("^", bases.pop(), tree, carets.pop().span)
+        return tree
+
+    def item(self) -> Tree:
+        tree = self.primary()
+        while self.peek() == "[":
+            tree = self.index(tree)
+        return tree
+
+    def index(self, base: Tree) -> Tree:
+        span = self.take().span
+        start = None if self.peek() == ":" else self.sum()
+        if self.peek() != ":":
+            self.expect("]")
+            return Index(base, start, None, False, span)
+        self.take()
+        stop = None if self.peek() == "]" else self.sum()
+        self.expect("]")
+        return Index(base, start, stop, True, span)
+
+    def primary(self) -> Tree:
+        if self.position == len(self.tokens):
+            raise UserError("the formula ends where a value is expected", self.last)
+        token = self.take()
+        if token.kind == "number":
+            return Number(_exact(token), token.span)
+        if token.kind == "name":
+            if self.peek() != "(":
+                return Name(token.text, token.span)
+            self.take()
+            return Call(token.text, self.items(")"), token.span)
+        if token.text == "(":
+            tree = self.formula()
+            self.expect(")")
+            return tree
+        if token.text == "[":
+            return Stack(self.items("]"), token.span)
+        raise UserError(f"`{token.text}` stands where a value is expected", token.span)
+
+    def items(self, closing: str) -> tuple[Tree, ...]:
+        items = [self.formula()]
+        while self.peek() == ",":
+            self.take()
+            items.append(self.formula())
+        self.expect(closing)
+        return tuple(items)
+
+    def end(self) -> None:
+        if self.position < len(self.tokens):
+            token = self.tokens[self.position]
+            hint = "write `*` between two factors" if token.kind != "op" or token.text in "([" else None
+            raise UserError(f"`{token.text}` is not expected here", token.span, hint)
+
+    def expect(self, text: str) -> None:
+        if self.peek() != text:
+            found = f"`{self.peek()}`" if self.peek() else "the end of the formula"
+            raise UserError(f"expected `{text}`, found {found}", self.span)
+        self.take()
+
+    def peek(self) -> str:
+        return self.tokens[self.position].text if self.position < len(self.tokens) else ""
+
+    def take(self) -> _Token:
+        self.position += 1
+        return self.tokens[self.position - 1]
+
+    @property
+    def span(self) -> Span:
+        return self.tokens[self.position].span if self.position < len(self.tokens) else self.last
+
+
+def _exact(token: _Token) -> Fraction:
+    exponent = re.search(r"[eE]([+-]?\d+)$", token.text)
+    if exponent and abs(int(exponent[1])) > 300:
+        raise UserError("a number out of the range of floating point", token.span)
+    return Fraction(token.text)

@@ -1,0 +1,89 @@
+"""The keys of a manifold file. Formulas are still text here; `read.py` gives them meaning."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+
+
+def _as_text(value: object) -> object:
+    """A bare number is a formula too."""
+    return str(value) if isinstance(value, int | float) and not isinstance(value, bool) else value
+
+
+FormulaText = Annotated[str, BeforeValidator(_as_text), Field(min_length=1)]
+Identifier = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=40)]
+
+
+class Section(BaseModel):
+    """A mapping in the file: unknown keys are errors, nothing is guessed."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class LetSection(Section):
+    """A formula that names its parts first."""
+
+    let: dict[Identifier, FormulaText] = {}
+    value: FormulaText
+
+
+MapText = FormulaText | LetSection
+
+
+class EmbeddedSection(Section):
+    """Points are vectors of R^D under constraints."""
+
+    space: FormulaText = Field(description="R^D, the ambient space")
+    constraint: MapText = Field(description="a formula in p that vanishes on the manifold, or a vector of them")
+    project: MapText = Field(description="a formula in p that maps nearby vectors onto the manifold")
+    domain: FormulaText | None = Field(None, description="a comparison in p that chooses a sheet, like p[0] > 0")
+    equivalent: MapText | None = Field(None, description="the other name of the same point, like -p")
+
+
+class ChartSection(Section):
+    """Points are coordinates."""
+
+    space: FormulaText = Field(description="R^d, the coordinates")
+    domain: FormulaText | None = Field(None, description="a comparison in p that holds for valid coordinates")
+    period: FormulaText | list[FormulaText | None] | None = Field(None, description="of every coordinate, or of each")
+
+
+class CutLocusSection(Section):
+    """Where shortest geodesics stop being unique, and what the code returns there."""
+
+    where: FormulaText = Field(description="a comparison in p, q and the names of log")
+    log: FormulaText | None = Field(None, description="what Log_p(q) is there")
+    policy: str | None = Field(None, pattern="^tie$", description="`tie`: the formula of log returns one of the shortest")
+
+    @model_validator(mode="after")
+    def _one_policy(self) -> CutLocusSection:
+        if (self.log is None) == (self.policy is None):
+            raise ValueError("say what Log returns there: either `policy: tie` or a formula `log:`")
+        return self
+
+
+class ManifoldFile(Section):
+    """A manifold file, key by key."""
+
+    manifold: Identifier = Field(description="the name of the manifold")
+    doc: str = Field(min_length=1, description="one or two sentences: what it is, in which units")
+    parameters: dict[Identifier, int | float | str] = Field({}, description="numbers with their default values")
+    embedded: EmbeddedSection | None = None
+    chart: ChartSection | None = None
+    frame: list[FormulaText] | None = Field(None, description="vectors in p; tangent vectors are components in it")
+    metric: MapText = Field(description="<u, v>_p, a scalar formula in p, u, v; or a matrix formula in p")
+    exp: MapText | None = Field(None, description="Exp_p(v)")
+    log: MapText | None = Field(None, description="Log_p(q)")
+    distance: MapText | None = Field(None, description="a closed form, in p, q and the names of log")
+    log_det: MapText | None = Field(None, description="a closed form of log |det D Log_p(q)|")
+    injectivity_radius: FormulaText = Field(description="of every point; `infinity` if Exp_p is a diffeomorphism")
+    diameter: FormulaText | None = Field(None, description="the largest distance; left out when not compact")
+    cut_locus: CutLocusSection | None = None
+
+    @model_validator(mode="after")
+    def _embedded_or_chart(self) -> ManifoldFile:
+        if (self.embedded is None) == (self.chart is None):
+            raise ValueError("say how a point is stored: either `embedded:` or `chart:`")
+        return self
