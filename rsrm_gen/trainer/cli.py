@@ -33,9 +33,9 @@ app = typer.Typer(
     help="Train arrival-time fields on Riemannian manifolds and plan with them.\n\n"
     "A scene file names a manifold, a goal and obstacles:\n\n"
     "\b\n"
-    "  rsrm train examples/torus.yaml            train into runs/torus\n"
-    "  rsrm eval runs/torus                      errors against a reference solution\n"
-    "  rsrm plan runs/torus --from '[1.0, 2.0]'  a path to the goal and its true cost",
+    "  rsrm train scene.yaml                 train into runs/scene\n"
+    "  rsrm eval runs/scene                  errors against a reference solution\n"
+    "  rsrm plan runs/scene --from 1.0,2.0   a path to the goal and its true cost",
 )
 
 RunArgument = Annotated[Path, typer.Argument(metavar="RUN", help="A folder that `rsrm train` made.")]
@@ -67,8 +67,8 @@ def _train(
     """Train a field: progress, checkpoint, report, picture.
 
     \b
-    rsrm train examples/torus.yaml
-    rsrm train my_scene.yaml -o runs/first --steps 500
+    rsrm train scene.yaml
+    rsrm train scene.yaml -o runs/first --steps 500
     rsrm train --resume runs/first
     """
     if resume is not None:
@@ -145,7 +145,7 @@ def _eval(run: RunArgument) -> None:
     """Judge a field by a reference solution, beside what no training at all would give.
 
     \b
-    rsrm eval runs/torus
+    rsrm eval runs/scene
     """
     console = Console()
     with _extra("a reference solution", "reference"):
@@ -164,8 +164,8 @@ def _plan(
     """Follow a field to its goal and say what each path truly costs.
 
     \b
-    rsrm plan runs/torus --from '[1.0, 2.0]'
-    rsrm plan runs/torus --from 1.0,2.0 --from 0.5,-2 -o paths.json
+    rsrm plan runs/scene --from '[1.0, 2.0]'
+    rsrm plan runs/scene --from 1.0,2.0 --from 0.5,-2 -o paths.json
     """
     if not 0 < step < float("inf"):
         raise UserError("--step must be a positive length")

@@ -19,7 +19,7 @@ class AdamW:
     """Adam with decoupled weight decay on v (C), the centres' frame components (C, d) and A (C, d, d)."""
 
     def __init__(self, field: SplatField, weight_decay: float, gradient_clip: float) -> None:
-        """The clip is the largest Euclidean norm of all gradients together."""
+        """The clip is the largest norm of all gradients together."""
         self.field = field
         self.weight_decay = weight_decay
         self.gradient_clip = gradient_clip

@@ -127,7 +127,7 @@ class RunFolder:
         if not self.checkpoint.is_file():
             raise UserError(f"{self.path} holds no checkpoint", hint="train it with `rsrm train`")
         try:
-            with np.load(self.checkpoint, allow_pickle=False) as file:
+            with self.checkpoint.open("rb") as raw, np.load(raw, allow_pickle=False) as file:
                 return {name: file[name] for name in file.files}
         except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
             raise UserError(f"{self.checkpoint} cannot be read: {_first_line(error)}") from None
@@ -178,8 +178,9 @@ class RunFolder:
                 write(file)
             os.replace(temporary, path)
         except OSError as error:
-            temporary.unlink(missing_ok=True)
             raise UserError(f"cannot write {path}: {error.strerror}") from None
+        finally:
+            temporary.unlink(missing_ok=True)
 
 
 def new_arrival(scene: Scene, capacity: int) -> ArrivalTime:

@@ -134,7 +134,7 @@ class Training(_Part):
     learning_rate: Positive = 1e-2
     final_learning_rate: Positive | None = None  # left out: constant; else a half cosine from the first to this one
     weight_decay: Annotated[Number, Field(ge=0)] = 1e-4  # of v and A; a centre has no origin to decay to
-    gradient_clip: Positive = 1.0  # the largest Euclidean norm of the gradient of all parameters
+    gradient_clip: Positive = 1.0  # the largest norm of the gradient of all parameters together
     splats: Splats = Splats()
     goal_exclusion: Annotated[Number, Field(ge=0)] = 0.25  # points nearer to the goal are left out; a length
     dtype: Literal["float32", "float64"] = "float32"

@@ -1,0 +1,116 @@
+"""The Eikonal loss, and its gradients against double differentiation of the formulas by torch."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Literal
+
+import pytest
+import torch
+from plain_manifolds import PLAIN
+from scenes import random_field, seeded, small_scene
+from torch import Tensor
+
+from rsrm_gen.manifold import Manifold
+from rsrm_gen.trainer.link import Exponential, Link, Quotient
+from rsrm_gen.trainer.model import ArrivalTime, SplatField
+from rsrm_gen.trainer.objective import Eikonal
+from rsrm_gen.trainer.scene import Scene
+
+
+def plain_slope(scene: Scene, link: str, x: Tensor, v: Tensor, mu: Tensor, E: Tensor, A: Tensor) -> Tensor:
+    """|grad T| from the model's formula, by autograd in x. E may be the frame where mu came from: moved a little, the
+    frame differs from it by a normal part, which the inner product with a tangent vector does not see."""
+    M = scene.manifold
+    x = x.clone().requires_grad_()
+    log = M.log(mu[None], x[:, None])
+    components = M.inner(mu[None, :, None], E[None], log[:, :, None])
+    z = torch.linalg.solve(A[None], components[..., None])[..., 0]
+    density = torch.exp(-(z**2).sum(-1) / 2 + M.log_abs_det(mu[None], x[:, None]))
+    f = (v * density / torch.linalg.det(A).abs()).sum(1) / (2 * math.pi) ** (M.dim / 2)
+    d = M.distance(x, scene.goal.expand_as(x))
+    t = d * torch.exp(f) if link == "exponential" else d / (0.25 + 0.75 * torch.sigmoid(f + 1))
+    (dt,) = torch.autograd.grad(t.sum(), x, create_graph=True)
+    return M.gradient_norm(x, dt)
+
+
+def plain_loss(slope: Tensor, slowness: Tensor, residual: str) -> Tensor:
+    if residual == "squared":
+        return ((slope - slowness) ** 2).mean()
+    root = torch.sqrt(slope / slowness)
+    return ((1 - root).abs() + (1 - 1 / root).abs()).mean()
+
+
+LINKS: dict[str, Link] = {"exponential": Exponential(), "quotient": Quotient(1.0, 0.25)}
+
+
+@pytest.mark.parametrize("residual", ["ratio", "squared"])
+@pytest.mark.parametrize("link", LINKS)
+@pytest.mark.parametrize("name", PLAIN)
+def test_one_backward_pass_gives_the_gradients_of_double_differentiation(
+    tmp_path: Path, name: str, link: str, residual: Literal["ratio", "squared"]
+) -> None:
+    scene = small_scene(tmp_path, name)
+    field = random_field(scene.manifold, scene.sample(6, seeded()), seeded(1))
+    arrival = ArrivalTime(field, LINKS[link], scene.manifold, scene.goal)
+    x = scene.sample(30, seeded(2))
+    loss, _ = Eikonal(scene, residual).loss(arrival, x)
+    loss.backward()
+
+    truth, gradients = doubly_differentiated(scene, field, link, residual, x)
+    assert float(loss.detach()) == pytest.approx(float(truth), rel=1e-12)
+    assert field.v.grad is not None
+    assert field.A.grad is not None
+    ours = {"v": field.v.grad[:6], "mu": field.center_gradient(), "A": field.A.grad[:6]}
+    for key, gradient in gradients.items():
+        assert float((ours[key] - gradient).norm() / gradient.norm()) < 1e-10, key
+
+
+def doubly_differentiated(
+    scene: Scene, field: SplatField, link: str, residual: str, x: Tensor
+) -> tuple[Tensor, dict[str, Tensor]]:
+    """The loss and its gradients in v, in the centres (components of a move by Exp in their frames) and in A."""
+    K, M = field.count, scene.manifold
+    v = field.v.detach()[:K].clone().requires_grad_()
+    A = field.A.detach()[:K].clone().requires_grad_()
+    move = torch.zeros(K, M.dim, dtype=torch.float64, requires_grad=True)
+    E = field.frame[:K]
+    mu = M.exp(field.mu.detach()[:K], (move[:, None] @ E)[:, 0])
+    loss = plain_loss(plain_slope(scene, link, x, v, mu, E, A), scene.slowness(x), residual)
+    return loss.detach(), dict(zip(("v", "mu", "A"), torch.autograd.grad(loss, (v, move, A)), strict=True))
+
+
+@pytest.mark.parametrize("residual", ["ratio", "squared"])
+def test_the_distance_itself_has_no_residual_in_free_space(
+    tmp_path: Path, residual: Literal["ratio", "squared"]
+) -> None:
+    scene = small_scene(tmp_path, "H2", obstacles=False)
+    manifold: Manifold = scene.manifold
+    field = random_field(manifold, scene.sample(3, seeded()), seeded(1))
+    with torch.no_grad():
+        field.v.zero_()
+    arrival = ArrivalTime(field, Exponential(), manifold, scene.goal)
+    loss, residuals = Eikonal(scene, residual).loss(arrival, scene.sample(50, seeded(2)))
+    assert float(loss.detach()) < 1e-9
+    assert residuals.shape == (50,)
+    assert not residuals.requires_grad
+
+
+def test_a_slope_twice_or_half_the_slowness_is_equally_wrong_by_the_ratio(tmp_path: Path) -> None:
+    scene = small_scene(tmp_path, "R2", obstacles=False)
+    field = random_field(scene.manifold, scene.sample(1, seeded()), seeded(1))
+    with torch.no_grad():
+        field.v.zero_()
+    x = scene.sample(10, seeded(2))
+
+    class Scaled(Exponential):
+        def partials(self, d: Tensor, f: Tensor) -> tuple[Tensor, Tensor]:
+            return factor + 0 * f, 0 * d
+
+    for factor in (2.0, 0.5):
+        arrival = ArrivalTime(field, Scaled(), scene.manifold, scene.goal)
+        ratio, _ = Eikonal(scene, "ratio").loss(arrival, x)
+        squared, _ = Eikonal(scene, "squared").loss(arrival, x)
+        assert float(ratio.detach()) == pytest.approx(math.sqrt(2) - 1 / math.sqrt(2))
+        assert float(squared.detach()) == pytest.approx((factor - 1) ** 2)
