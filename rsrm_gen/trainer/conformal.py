@@ -24,6 +24,7 @@ from rsrm_gen.manifold import Manifold
 
 PROBES = 64
 TOLERANCE = 1e-5  # of the pulled-back metric; central differences with a step of 1e-4 leave about 1e-8
+NEARLY = 1e-12  # how near to infinity the chart goes, as an angle
 FLATNESS = 1e-9  # a smaller curvature, in units of the probing radius, is a rounding error of zero
 
 
@@ -58,7 +59,9 @@ class ConformalChart:
         if self.curvature == 0:
             return r
         k = math.sqrt(abs(self.curvature))
-        return 2 / k * (torch.tan(k * r / 2) if self.curvature > 0 else torch.tanh(k * r / 2))
+        if self.curvature > 0:
+            return 2 / k * torch.tan((k * r / 2).clamp_max(math.pi / 2 - NEARLY))
+        return 2 / k * torch.tanh(k * r / 2)
 
     def geodesic_radius(self, rho: Tensor | float) -> Tensor:
         """The inverse of `radius`."""
@@ -84,8 +87,15 @@ class ConformalChart:
         """The coordinates (..., d) of the points x (..., D), of all preimages the one nearest to the centre."""
         v = self.manifold.log(self.center, x)
         a = self.manifold.inner(self.center, v.unsqueeze(-2), self.frame)
-        r = a.norm(dim=-1, keepdim=True)
-        return a * torch.where(r > 0, self.radius(r) / r.clamp_min(torch.finfo(a.dtype).tiny), 1.0)
+        length = a.norm(dim=-1, keepdim=True)
+        # The distance, not |a|: opposite the centre the logarithm has no direction, and may have no length.
+        r = self.manifold.distance(self.center, x).unsqueeze(-1)
+        direction = torch.where(length > 0, a / length.clamp_min(torch.finfo(a.dtype).tiny), self._first_axis(a))
+        return direction * self.radius(r)
+
+    @staticmethod
+    def _first_axis(like: Tensor) -> Tensor:
+        return torch.eye(like.shape[-1], dtype=like.dtype)[0]
 
     def preimages(self, y: Tensor) -> Tensor:
         """The coordinates (copies, N, d) in the cover of the points with coordinates y (N, d), the nearest ones."""

@@ -116,9 +116,9 @@ def error_row(name: str, error: Tensor, volumes: Tensor) -> ErrorRow:
 
 
 def free_cells(scene: Scene) -> Cells:
-    """The cells of the scene's evaluation grid whose middle is not in an obstacle."""
-    cells = evaluation_cells(scene)
-    free = in_double(scene).signed_distance(cells.points) >= 0
+    """The cells of the scene's evaluation grid whose middle is in the domain and not in an obstacle."""
+    cells, exact = evaluation_cells(scene), in_double(scene)
+    free = (exact.signed_distance(cells.points) >= 0) & exact.inside_domain(cells.points)
     if not bool(free.any()):
         raise UserError(f"every cell of the evaluation grid of {scene.title} lies in an obstacle")
     return Cells(cells.points[free], cells.volumes[free])
