@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import ast
+import io
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 import torch
-from plain_manifolds import PLAIN
+from plain_manifolds import PLAIN, Euclidean, FlatTorus
+from rich.console import Console
 from scenes import seeded
 from torch import Tensor
 from torch.nn.functional import softplus
 
 from rsrm_gen.errors import UserError
-from rsrm_gen.manifold import Manifold
 from rsrm_gen.trainer import reference as module
 from rsrm_gen.trainer.reference import solve_reference
 from rsrm_gen.trainer.scene import Scene, read_scene
@@ -173,6 +174,14 @@ def test_a_solution_is_taken_from_the_cache(tmp_path: Path, monkeypatch: pytest.
     assert (first.error, first.max_error) == (second.error, second.max_error)
 
 
+def test_solving_says_what_takes_the_time_and_the_cache_says_nothing(tmp_path: Path) -> None:
+    made = radial(tmp_path, "T2")
+    for expected in (True, False):
+        console = Console(file=io.StringIO(), force_terminal=True, width=300)
+        solve_reference(made, 64, console)
+        assert ("reference solution on 65 x 65 nodes" in console.file.getvalue()) is expected
+
+
 def test_another_scene_or_grid_is_another_solution(tmp_path: Path) -> None:
     made = radial(tmp_path, "T2")
     others = [
@@ -204,7 +213,7 @@ def test_a_single_precision_scene_is_solved_for_the_same_points(tmp_path: Path) 
     torch.testing.assert_close(a.time(x), b.time(x.float()), rtol=0, atol=1e-5)
 
 
-class Squeezed(type(PLAIN["T2"])):  # type: ignore[misc]
+class Squeezed(FlatTorus):
     """A flat chart whose metric changes from place to place, and whose exp does not know."""
 
     def flat(self, p: Tensor, v: Tensor) -> Tensor:
@@ -221,7 +230,7 @@ def test_a_manifold_without_a_conformal_chart_is_refused(tmp_path: Path) -> None
 
 
 def test_dimensions_that_no_grid_can_hold_are_refused(tmp_path: Path) -> None:
-    manifold: Manifold = type(PLAIN["R2"])(5)
+    manifold = Euclidean(5)
     with pytest.raises(UserError, match="2 and 3 dimensions"):
         solve_reference(replace(uniform(tmp_path, "R2"), manifold=manifold), 64)
 
