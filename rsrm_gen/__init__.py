@@ -3,6 +3,6 @@
 from rsrm_gen.errors import UserError
 from rsrm_gen.load import load
 from rsrm_gen.manifold import Manifold
+from rsrm_gen.version import __version__
 
-__version__ = "0.1.0"
 __all__ = ["Manifold", "UserError", "__version__", "load"]

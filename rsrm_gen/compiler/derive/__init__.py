@@ -14,11 +14,12 @@ from rsrm_gen.compiler.derive.determinant import StagedJacobian, closed_form, st
 from rsrm_gen.compiler.derive.geometry import (
     Argument,
     Assignment,
-    Choose,
+    ChooseSafe,
     Function,
     Geometry,
     Wrap,
     argument,
+    renamed,
 )
 from rsrm_gen.compiler.derive.numeric import Values, run, value
 from rsrm_gen.compiler.derive.operators import Operators
@@ -70,9 +71,8 @@ class _Derivation:
         x = replace(self.p, name="x", symbols=argument("x", spec.point_size).symbols)
         if spec.project is not None:
             function = scalarised(spec, "project", spec.project, (self.p,), (spec.point_size,))
-            renamed = dict(zip(self.p.symbols, x.symbols, strict=True))
-            assignments = tuple(replace(a, expression=a.expression.xreplace(renamed)) for a in function.assignments)
-            return replace(function, arguments=(x,), assignments=assignments, results=tuple(r.xreplace(renamed) for r in function.results))
+            names = dict(zip(self.p.symbols, x.symbols, strict=True))
+            return replace(renamed(function, names), arguments=(x,))
         periods = [number(spec, period) if period else None for period in spec.periods or ()]
         results = tuple(Wrap(c, period) if period else c for c, period in zip(x.symbols, periods, strict=True))
         return Function("project", (x,), (), results, (spec.point_size,), "x, periodic coordinates wrapped" if any(periods) else "x")
@@ -127,19 +127,28 @@ class _Derivation:
     @cached_property
     def log(self) -> Function:
         """Log, with the declared value on the cut locus."""
-        spec = self.spec
-        if spec.cut_locus is None or spec.cut_locus.log is None:
-            return self.mended_log.pruned()
-        _, trace = self.plain_log
-        reading = Reading(spec, trace)
-        condition = reading.read(spec.cut_locus.where)
-        values = reading.entries(spec.cut_locus.log)
+        cut = self.spec.cut_locus
+        return self.with_cut(self.mended_log, cut.log if cut else None).pruned()
+
+    def with_cut(self, regular: Function, declared: Map | None) -> Function:
+        """A function of p and q with a declared value where the cut locus is; there, the formula is given p for q."""
+        cut = self.spec.cut_locus
+        if cut is None or declared is None:
+            return regular
+        trace = Trace((self.p, self.q))
+        reading = Reading(self.spec, trace)
+        condition = reading.read(cut.where)
+        values = reading.entries(declared)
         assert isinstance(condition, Truth)
-        guards = {a.symbol: a for a in self.mended_log.assignments}
-        assignments = tuple(guards.get(a.symbol, a) for a in trace.assignments)
-        pairs = zip(values, self.mended_log.results, strict=True)
-        results = tuple(Choose(condition.kind, condition.a, condition.b, there, else_) for there, else_ in pairs)
-        return replace(self.mended_log, assignments=assignments, results=results).pruned()
+
+        def choose(there: sp.Expr, elsewhere: sp.Expr) -> sp.Expr:
+            return ChooseSafe(condition.kind, condition.a, condition.b, there, elsewhere)
+
+        safe = {q: sp.Symbol(f"{q}_off_cut", real=True) for q in self.q.symbols}
+        elsewhere = renamed(regular, {**safe, **{a.symbol: sp.Symbol(trace.fresh(str(a.symbol)), real=True) for a in regular.assignments}})
+        inputs = tuple(Assignment(safe[q], choose(p, q)) for p, q in zip(self.p.symbols, self.q.symbols, strict=True))
+        results = tuple(choose(there, e) for there, e in zip(values, elsewhere.results, strict=True))
+        return replace(regular, assignments=(*trace.assignments, *inputs, *elsewhere.assignments), results=results)
 
     @cached_property
     def ray(self) -> Ray:
@@ -164,7 +173,14 @@ class _Derivation:
 
     @cached_property
     def log_abs_det(self) -> tuple[Function, str]:
-        """log |det D Log|, and where it is from."""
+        """log |det D Log|, with the declared value on the cut locus, and where the formula is from."""
+        cut = self.spec.cut_locus
+        function, origin = self.regular_log_abs_det
+        return self.with_cut(function, cut.log_det if cut else None).pruned(), origin
+
+    @cached_property
+    def regular_log_abs_det(self) -> tuple[Function, str]:
+        """log |det D Log| away from the cut locus."""
         spec = self.spec
         if spec.log_det is not None:
             function = self.with_log_names("log_abs_det", spec.log_det)
@@ -183,7 +199,8 @@ class _Derivation:
         at_zero = run(function, point, point)[1]
         if mp.isfinite(value(expression, at_zero)):
             return function.pruned()
-        guard = remove(expression, smooth_squares(function, at_zero), self.ray, self.reach(), order=1)
+        place = {s: at_zero[s] for s in function.symbols()}
+        guard = remove(expression, smooth_squares(function, at_zero), self.ray, self.reach(), place, order=1)
         if guard is None:
             raise UserError("log |det D Log| is not finite where the points coincide, and no smooth quantity mends it", self.spec.log.value.span)
         symbol = sp.Symbol("log_det", real=True)
@@ -207,8 +224,7 @@ class _Derivation:
         """The function with guards; an error at the formula where a 0/0 stays."""
         if not trace.quotients:
             return function
-        squares = smooth_squares(function, trace.probe or {})
-        result, failed = guarded(function, trace.quotients, squares, ray, self.reach())
+        result, failed = guarded(function, trace.quotients, trace.probe or {}, ray, self.reach())
         if failed:
             place = "Exp at the zero vector" if function.name == "exp" else "Log at coincident points"
             raise UserError(

@@ -11,7 +11,7 @@ from __future__ import annotations
 import itertools
 import random
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -19,7 +19,7 @@ import mpmath as mp
 import numpy as np
 import sympy as sp
 
-from rsrm_gen.compiler.derive.geometry import Assignment, Function, Guard
+from rsrm_gen.compiler.derive.geometry import Assignment, Function
 from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, Values, run, value
 from rsrm_gen.compiler.derive.operators import Operators
 from rsrm_gen.compiler.derive.sampling import Sampler
@@ -73,7 +73,7 @@ def staged_jacobian(log: Function) -> StagedJacobian:
         assignments.append(a)
         for j, c in enumerate(q):
             expression = chain(a.expression, j)
-            guard = a.guard and Guard(a.guard.variable, a.guard.threshold, chain(a.guard.near, j), a.guard.error)
+            guard = a.guard and replace(a.guard, near=chain(a.guard.near, j))
             symbol = sp.Symbol(f"{a.symbol}_by_{c}", real=True)
             plain = guard is None and (expression.is_number or expression.is_Symbol)
             derivative[j][a.symbol] = expression if plain else symbol

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 import sympy as sp
 
@@ -26,7 +27,11 @@ class Choose(sp.Function):  # type: ignore[misc]
     def fdiff(self, argindex: int = 1) -> sp.Expr:
         """The chosen branch passes its derivative on; the comparison has none."""
         kind, a, b, _, _ = self.args
-        return {4: Choose(kind, a, b, 1, 0), 5: Choose(kind, a, b, 0, 1)}.get(argindex, sp.Integer(0))
+        return {4: self.func(kind, a, b, 1, 0), 5: self.func(kind, a, b, 0, 1)}.get(argindex, sp.Integer(0))
+
+
+class ChooseSafe(Choose):
+    """A `Choose` both of whose branches are finite everywhere, so that neither needs protection."""
 
 
 class Wrap(sp.Function):  # type: ignore[misc]
@@ -53,13 +58,15 @@ class Guard:
     """A removable singularity, removed: below the threshold, `near` stands for the expression.
 
     `variable` is smooth and vanishes where the expression is 0/0; `near` is a polynomial in it whose relative error
-    on [0, threshold] is at most `error`.
+    on [0, threshold] is at most `error`. `place` is one such place: values of the function's arguments; empty when
+    only the variable's own zero is meant.
     """
 
     variable: sp.Expr
     threshold: sp.Float
     near: sp.Expr
     error: float
+    place: tuple[tuple[sp.Symbol, Any], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -117,6 +124,17 @@ class Function:
                 kept.append(assignment)
                 needed |= assignment.inputs()
         return replace(self, assignments=tuple(reversed(kept)))
+
+
+def renamed(function: Function, names: dict[sp.Symbol, sp.Symbol]) -> Function:
+    """The function with other symbols in its assignments and results."""
+
+    def rename(a: Assignment) -> Assignment:
+        guard = a.guard and replace(a.guard, variable=a.guard.variable.xreplace(names), near=a.guard.near.xreplace(names))
+        return Assignment(names.get(a.symbol, a.symbol), a.expression.xreplace(names), guard)
+
+    results = tuple(r.xreplace(names) for r in function.results)
+    return replace(function, assignments=tuple(map(rename, function.assignments)), results=results)
 
 
 @dataclass(frozen=True)

@@ -79,22 +79,23 @@ class Operators:
         """The normal vectors as columns, not of unit length (ambient tangents only)."""
         return self.metric_inverse * self.constraint_jacobian.T
 
-    def tangential(self, x: sp.Matrix) -> sp.Matrix:
+    def tangential(self, x: sp.Matrix, trace: Trace) -> sp.Matrix:
         """The tangential part of an ambient vector (ambient tangents only)."""
         normals, jacobian = self.normals(), self.constraint_jacobian
-        return x - normals * _inverse(self.on_manifold(jacobian * normals)) * (jacobian * x)
+        parts = _inverse(self.on_manifold(jacobian * normals)) * (jacobian * x)
+        return x - normals * sp.Matrix([trace.define(f"normal_part{i if len(parts) > 1 else ''}", e) for i, e in enumerate(parts)])
 
     def to_tangent(self) -> Function:
         """The tangent part of an ambient vector; components in the frame are those of the nearest tangent vector."""
         x = argument("x", self.spec.point_size)
-        vector = sp.Matrix(x.symbols)
+        vector, trace = sp.Matrix(x.symbols), Trace((self.p, x))
         if self.spec.frame is not None:
             result, formula = _inverse(self.on_manifold(self.frame * self.frame.T)) * (self.frame * vector), "(E E^T)^-1 E x"
         elif self.spec.embedded:
-            result, formula = self.tangential(vector), "x - N (dc N)^-1 dc x"
+            result, formula = self.tangential(vector, trace), "x - N (dc N)^-1 dc x"
         else:
             result, formula = vector, "x"
-        return self.function("to_tangent", (self.p, x), result, (self.spec.tangent_size,), formula)
+        return Function("to_tangent", (self.p, x), tuple(trace.assignments), tuple(result), (self.spec.tangent_size,), formula)
 
     def inner(self) -> Function:
         """<u, v>_p as the author wrote it."""
@@ -123,22 +124,24 @@ class Operators:
     def riemannian_gradient(self) -> Function:
         """grad f from the partial derivatives df."""
         df = argument("df", self.spec.point_size)
-        return self.function("riemannian_gradient", (self.p, df), self.gradient(df), (self.spec.tangent_size,), self.gradient_formula())
+        trace = Trace((self.p, df))
+        result = tuple(self.gradient(df, trace))
+        return Function("riemannian_gradient", (self.p, df), tuple(trace.assignments), result, (self.spec.tangent_size,), self.gradient_formula())
 
     def gradient_norm(self) -> Function:
         """|grad f|_p from the partial derivatives df."""
         df = argument("df", self.spec.point_size)
         trace = Trace((self.p, df))
-        gradient = [trace.define(f"gradient{i}", e) for i, e in enumerate(self.gradient(df))]
+        gradient = [trace.define(f"gradient{i}", e) for i, e in enumerate(self.gradient(df, trace))]
         norm = self.norm()
         length = norm.results[0].xreplace(dict(zip(norm.arguments[1].symbols, gradient, strict=True)))
         return Function("gradient_norm", (self.p, df), tuple(trace.assignments), (length,), (), "|grad f|_p")
 
-    def gradient(self, df: Argument) -> sp.Matrix:
+    def gradient(self, df: Argument, trace: Trace) -> sp.Matrix:
         """The entries of grad f."""
         partials = sp.Matrix(df.symbols)
         if self.spec.ambient_tangents:
-            return self.tangential(self.metric_inverse * partials)
+            return self.tangential(self.metric_inverse * partials, trace)
         return self.metric_inverse * (self.frame * partials)
 
     def gradient_formula(self) -> str:

@@ -259,9 +259,12 @@ class Reading:
     def call(self, tree: f.Call, name: str = "") -> Value:
         """The value of a call; a scalar becomes a named quantity."""
         arguments = [self.value(argument) for argument in tree.arguments]
+        name = name or _hint(tree)
         method = getattr(self, f"call_{tree.function}", None)
-        if method is not None:
-            result: Value = method(*arguments)
+        if tree.function in ("dot", "norm"):
+            result: Value = self.product(tree, arguments, name)  # type: ignore[arg-type]
+        elif method is not None:
+            result = method(*arguments)
         elif isinstance(arguments[0], Vector):
             entries = (FUNCTIONS[tree.function](e) for e in self.materialise(arguments[0]))
             result = Vector(tuple(entries))
@@ -270,16 +273,19 @@ class Reading:
         else:
             result = FUNCTIONS[tree.function](arguments[0])
         if isinstance(result, sp.Expr) and tree.function not in ("where", "sum", "max", "sign", "wrap"):
-            return self.quantity(name or _hint(tree), result)
+            return self.quantity(name, result)
         return result
 
-    def call_dot(self, x: Vector, y: Vector) -> sp.Expr:
-        pairs = zip(self.materialise(x), self.materialise(y), strict=True)
-        return sp.Add(*(a * b for a, b in pairs))
+    def product(self, tree: f.Call, vectors: list[Vector], name: str) -> sp.Expr:
+        """dot(a, b) or norm(a); the entries of what is not a name are named first."""
+        entries = [self.named_entries(t, self.materialise(v)) for t, v in zip(tree.arguments, vectors, strict=True)]
+        total = sp.Add(*(a * b for a, b in zip(entries[0], entries[-1], strict=True)))
+        return sp.sqrt(self.trace.define(f"{name}_squared", total)) if tree.function == "norm" else total
 
-    def call_norm(self, x: Vector) -> sp.Expr:
-        entries = self.materialise(x)
-        return sp.sqrt(sp.Add(*(e**2 for e in entries)))
+    def named_entries(self, tree: f.Tree, entries: tuple[sp.Expr, ...]) -> tuple[sp.Expr, ...]:
+        slug = _tree_slug(tree)
+        hint = slug if len(slug) <= 20 else "part"
+        return tuple(self.trace.define(f"{hint}{i}", e) for i, e in enumerate(entries))
 
     def call_sum(self, x: Vector) -> sp.Expr:
         return sp.Add(*self.materialise(x))
@@ -381,8 +387,8 @@ def number(spec: ManifoldSpec, chart_map: Map | None) -> sp.Expr:
 
 def _hint(tree: f.Call) -> str:
     """A name for a call that a reader recognises: norm_w, dot_p_d, sinh_r."""
-    words = "_".join(_tree_slug(argument) for argument in tree.arguments)
-    return f"{tree.function}_{words}" if words and len(words) <= 16 else tree.function
+    words = _tree_slug(tree)
+    return words if len(words) <= 20 else f"{tree.function}_value"
 
 
 def _tree_slug(tree: f.Tree) -> str:
@@ -398,7 +404,9 @@ def _tree_slug(tree: f.Tree) -> str:
             return f"{_tree_slug(tree.left)}_{word}_{_tree_slug(tree.right)}"
         case f.Index():
             return _tree_slug(tree.base) + ("s" if tree.slice else f"{_tree_slug(tree.start)}" if tree.start else "")
-    return ""
+        case f.Call():
+            return "_".join([tree.function, *(_tree_slug(argument) for argument in tree.arguments)])
+    return "of"
 
 
 def _slug(expression: sp.Expr) -> str:

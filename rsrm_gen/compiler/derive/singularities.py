@@ -53,24 +53,26 @@ def smooth_squares(function: Function, at_zero: Values) -> list[sp.Expr]:
     return list(dict.fromkeys(found))
 
 
-def remove(quantity: sp.Expr, squares: Sequence[sp.Expr], ray: Ray, reach: Any, order: int = 0) -> Guard | None:
-    """A guard for a quantity that is 0/0, in the square in which its polynomial reaches furthest."""
+def remove(quantity: sp.Expr, squares: Sequence[sp.Expr], ray: Ray, reach: Any, place: Values, order: int = 0) -> Guard | None:
+    """A guard for a quantity that is 0/0 at a place, in the square in which its polynomial reaches furthest."""
     fits = [(square, _fit_along(quantity, square, ray, reach, order)) for square in squares]
     good = [(square, found) for square, found in fits if found is not None]
     if not good:
         return None
     square, found = max(good, key=lambda pair: _distance_covered(pair[0], pair[1], ray))
-    return Guard(square, found.threshold, found(square), found.error)
+    return Guard(square, found.threshold, found(square), found.error, tuple(place.items()))
 
 
-def guarded(function: Function, quotients: Sequence[sp.Symbol], squares: Sequence[sp.Expr], ray: Ray, reach: Any) -> tuple[Function, list[sp.Symbol]]:
+def guarded(function: Function, quotients: Sequence[sp.Symbol], at_zero: Values, ray: Ray, reach: Any) -> tuple[Function, list[sp.Symbol]]:
     """The function with its quotients guarded, and those quotients whose singularity could not be removed."""
     failed: list[sp.Symbol] = []
+    squares = smooth_squares(function, at_zero)
+    place = {s: at_zero[s] for s in function.symbols()}
 
     def guard(assignment: Assignment) -> Assignment:
         if assignment.symbol not in quotients:
             return assignment
-        found = remove(assignment.symbol, squares, ray, reach)
+        found = remove(assignment.symbol, squares, ray, reach, place)
         if found is None:
             failed.append(assignment.symbol)
         return replace(assignment, guard=found)

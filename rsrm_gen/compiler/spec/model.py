@@ -36,12 +36,13 @@ class Map:
 class CutLocus:
     """Where Exp_p stops being minimising, and what the code returns there.
 
-    `log` is the declared value of Log_p(q) where the comparison `where` holds; without one the formula for Log itself
-    returns one of the several shortest vectors there (`policy: tie`).
+    `log` and `log_det` are the declared values where the comparison `where` holds; without them the formula for Log
+    itself returns one of the several shortest vectors there (`policy: tie`).
     """
 
     where: Map
     log: Map | None
+    log_det: Map | None
 
 
 @dataclass(frozen=True)

@@ -163,7 +163,8 @@ class _Reader:
             return None
         where = self.map(section.where, ("cut_locus", "where"), ("p", "q"), TRUTH, log)
         value = self.optional(section.log, ("cut_locus", "log"), ("p", "q"), (self.tangent_size,), log)
-        return CutLocus(where, value)
+        log_det = self.optional(section.log_det, ("cut_locus", "log_det"), ("p", "q"), (), log)
+        return CutLocus(where, value, log_det)
 
     def length(self, text: str, key: str) -> Map | None:
         return None if text.strip() == "infinity" else self.map(text, (key,), (), ())

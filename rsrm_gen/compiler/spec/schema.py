@@ -55,12 +55,15 @@ class CutLocusSection(Section):
 
     where: FormulaText = Field(description="a comparison in p, q and the names of log")
     log: FormulaText | None = Field(None, description="what Log_p(q) is there")
+    log_det: FormulaText | None = Field(None, description="what log |det D Log_p(q)| is there, with `log:`")
     policy: str | None = Field(None, pattern="^tie$", description="`tie`: the formula of log returns one of the shortest")
 
     @model_validator(mode="after")
     def _one_policy(self) -> CutLocusSection:
         if (self.log is None) == (self.policy is None):
             raise ValueError("say what Log returns there: either `policy: tie` or a formula `log:`")
+        if (self.log is None) != (self.log_det is None):
+            raise ValueError("`log:` and `log_det:` say together what the code returns there: give both or neither")
         return self
 
 

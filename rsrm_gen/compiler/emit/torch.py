@@ -1,0 +1,199 @@
+"""The torch back end: one class behind the `Manifold` protocol, in a module that needs nothing but torch."""
+
+from __future__ import annotations
+
+import textwrap
+
+import sympy as sp
+
+from rsrm_gen.compiler.derive import Geometry
+from rsrm_gen.compiler.emit.expression import SUM, Printer, Spelling
+from rsrm_gen.compiler.emit.series import Coefficients, spelled, tables
+from rsrm_gen.compiler.emit.torch_runtime import FRAME, HELPERS, SAMPLE_BALL, SAMPLE_BOX, SAMPLE_NONE, SAMPLE_WHOLE, SPLATS
+from rsrm_gen.compiler.lower import Parameter, Program, Routine
+
+WIDTH = 120
+
+SPELLING = Spelling(
+    function={
+        "sqrt": "torch.sqrt({})", "root": "_root({})", "exp": "torch.exp({})", "log": "torch.log({})", "sin": "torch.sin({})",
+        "cos": "torch.cos({})", "tan": "torch.tan({})", "sinh": "torch.sinh({})", "cosh": "torch.cosh({})",
+        "tanh": "torch.tanh({})", "asinh": "torch.asinh({})", "acosh": "torch.acosh({})", "acos": "torch.acos({})",
+        "atanh": "torch.atanh({})", "atan2": "torch.atan2({}, {})", "abs": "torch.abs({})", "round": "torch.round({})",
+    },
+    select="torch.where({condition}, {x}, {y})",
+    polynomial="_polynomial({x}, {coefficients})",
+    eps="eps",
+    suffix="",
+    compare_binds=SUM,
+)  # fmt: skip
+
+PROMISES = {
+    "project": "Numbers near the manifold to the point they stand for.",
+    "to_tangent": "The tangent part at p of an ambient vector.",
+    "inner": "The metric <u, v>_p.",
+    "norm": "The length |v|_p.",
+    "flat": "The covector <v, .>_p.",
+    "exp": "Exp_p(v).",
+    "log": "Log_p(q), the shortest v with Exp_p(v) = q.",
+    "distance": "The geodesic distance.",
+    "log_abs_det": "log |det D Log_p(q)| between the Riemannian volumes at q and p.",
+    "riemannian_gradient": "The gradient in the metric from the partial derivatives df.",
+    "gradient_norm": "The length of the gradient from the partial derivatives df.",
+    "splat": "A wrapped Gaussian and its Riemannian gradient in x (RSRM eq. 3).",
+}
+
+
+def module(geometry: Geometry, program: Program, heading: list[str]) -> str:
+    """The text of the module."""
+    spec = geometry.spec
+    series = tables(program)
+    tail = [FRAME.format(dim=spec.dim, size=spec.point_size, tangent=spec.tangent_size), _sample(geometry), SAMPLE_BALL]
+    methods = [_method(routine, series) for routine in program]
+    parts = [
+        '"""' + "\n".join(heading).rstrip() + '\n"""',
+        "from __future__ import annotations\n\nimport math\n\nimport torch\nfrom torch import Generator, Tensor",
+        *(_table(name, coefficients) for coefficients, name in series.items()),
+        HELPERS,
+        "\n\n".join([_class_head(geometry, program), *methods, *(textwrap.indent(t.strip("\n"), "    ") for t in [SPLATS, *tail])]),
+    ]
+    return "\n\n".join(part.strip("\n") for part in parts[:-2]) + "\n\n\n" + HELPERS.strip("\n") + "\n\n\n" + parts[-1] + "\n"
+
+
+def class_name(program: Program) -> str:
+    """The class in the module of a program."""
+    return "".join(word.capitalize() for word in program.name.split("_"))
+
+
+def _table(name: str, coefficients: Coefficients) -> str:
+    rows = textwrap.wrap(", ".join(spelled(coefficients)) + ",", WIDTH - 4)
+    return f"_{name} = (\n" + textwrap.indent("\n".join(rows), "    ") + "\n)"
+
+
+def _class_head(geometry: Geometry, program: Program) -> str:
+    spec = geometry.spec
+    periods = "None" if geometry.periods is None else "(" + ", ".join(_float(p) for p in geometry.periods) + ",)"
+    doc = textwrap.fill(spec.doc, WIDTH - 8, subsequent_indent="    ")
+    return f'''class {class_name(program)}:
+    """{doc}
+
+    Points have shape (..., {spec.point_size}), tangent vectors (..., {spec.tangent_size}){_tangent_words(geometry)}; leading dimensions broadcast.
+    """
+
+    name = "{program.name}"
+    dim = {spec.dim}
+    point_size = {spec.point_size}
+    tangent_size = {spec.tangent_size}
+    injectivity_radius = {_float(geometry.injectivity_radius)}
+    diameter = {_float(geometry.diameter)}
+    periods = {periods}'''
+
+
+def _tangent_words(geometry: Geometry) -> str:
+    if geometry.spec.frame is not None:
+        return ", components in the frame of the manifold file"
+    return ", ambient" if geometry.spec.embedded else ", components in the chart"
+
+
+def _float(value: sp.Expr | None) -> str:
+    return "None" if value is None else "math.inf" if value == sp.oo else repr(float(value))
+
+
+def _method(routine: Routine, series: dict[Coefficients, str]) -> str:
+    """One routine as a method; a splat gets a private form that returns its entries, to be summed before they are stacked."""
+    signature = ", ".join(f"{p.name}: Tensor" for p in routine.parameters)
+    returns = "Tensor" if len(routine.results) == 1 else f"tuple[{', '.join('Tensor' for _ in routine.results)}]"
+    entries = [node for result in routine.results for node in result.nodes]
+    lines, texts = _body(routine, series)
+    doc = f'"""{PROMISES[routine.name]}\n\n{_documented(routine)}\n"""'
+    if len(routine.results) > 1:
+        public = [f"{', '.join(_pattern(r.name, r.shape) for r in routine.results)} = self._{routine.name}({', '.join(p.name for p in routine.parameters)})"]
+        public.append("return value, _stack(gradient)")
+        head = f"def {routine.name}(self, {signature}) -> {returns}:"
+        private = f"def _{routine.name}(self, {signature}) -> tuple[Tensor, ...]:"
+        explained = '"""The value and the entries of the gradient, not stacked."""'
+        body = [head, _indent(doc), *(_indent(x) for x in public), "", private, _indent(explained), *(_indent(x) for x in lines)]
+        body.append(_indent(_call("return ", texts, "")))
+        return textwrap.indent("\n".join(body), "    ")
+    result = routine.results[0]
+    like = f"_leading({', '.join(p.name for p in routine.parameters)})" if any(n.is_constant for n in entries) else ""
+    if result.shape:
+        final = _call("return _stack((", texts, "))", like)
+    else:
+        final = f"return {like.replace('_leading', '_constant').replace('(', f'({texts[0]}, ')}" if like else f"return {texts[0]}"
+    body = [f"def {routine.name}(self, {signature}) -> {returns}:", _indent(doc), *(_indent(x) for x in lines), _indent(final)]
+    return textwrap.indent("\n".join(body), "    ")
+
+
+def _pattern(name: str, shape: tuple[int, ...]) -> str:
+    return f"*{name}" if shape else name
+
+
+def _documented(routine: Routine) -> str:
+    """Formula and shapes."""
+    shapes = ", ".join(f"{p.name} {_shape(p.shape)}" for p in routine.parameters)
+    results = ", ".join(_shape(r.shape) for r in routine.results)
+    formula = textwrap.fill(f"Formula: {routine.formula}.", WIDTH - 8)
+    return f"{formula}\nShapes: {shapes} to {results}."
+
+
+def _shape(shape: tuple[int, ...]) -> str:
+    return "(..." + "".join(f", {n}" for n in shape) + ")"
+
+
+def _body(routine: Routine, series: dict[Coefficients, str]) -> tuple[list[str], list[str]]:
+    """The statements of a routine and the expressions of its results."""
+    names = {node: str(node.value) for p in routine.parameters for node in p.nodes}
+    printer = Printer(SPELLING, names, {k: f"_{name}" for k, name in series.items()})
+    lines = [line for p in routine.parameters for line in _unpacked(p, routine.inputs)]
+    if routine.reads_eps:
+        first = routine.parameters[0]
+        lines.append(f"eps = torch.full_like({first.nodes[0].value}, torch.finfo({first.name}.dtype).eps)")
+    for name, node in routine.body:
+        lines.append(_assignment(name, printer.definition(node)[0]))
+        names[node] = name
+    return lines, [printer.text(node) for result in routine.results for node in result.nodes]
+
+
+def _assignment(name: str, text: str) -> str:
+    """A statement, over several lines where it is long."""
+    line = f"{name} = {text}"
+    if len(line) <= WIDTH - 8:
+        return line
+    return f"{name} = (\n" + textwrap.fill(text, WIDTH - 12, initial_indent="    ", subsequent_indent="    ", break_long_words=False, break_on_hyphens=False) + "\n)"
+
+
+def _unpacked(parameter: Parameter, used: set[str]) -> list[str]:
+    """The entries of an argument as scalars (in truth: tensors of the leading shape)."""
+    names = [str(node.value) for node in parameter.nodes]
+    if not parameter.shape or not used.intersection(names):
+        return []
+    targets = ", ".join(name if name in used else "_" for name in names) + ("," if len(names) == 1 else "")
+    flat = f"{parameter.name}.flatten(-2)" if len(parameter.shape) == 2 else parameter.name
+    return [f"{targets} = {flat}.unbind(-1)"]
+
+
+def _call(head: str, texts: list[str], tail: str, last: str = "") -> str:
+    """Texts in one line where they fit, else one a line."""
+    if len(texts) == 1:
+        texts = [texts[0] + ","] if head.endswith("((") or not tail else texts
+    extra = f", {last}" if last else ""
+    line = f"{head}{', '.join(texts)}{tail[:-1] + extra + tail[-1:] if tail else ''}"
+    if len(line) <= WIDTH - 8:
+        return line
+    opening, closing = ("(", ")") if not tail else ("", "")
+    inner = "".join(f"    {text},\n" for text in texts)
+    return f"{head}{opening}\n{inner}{closing}{tail[:-1] + extra + tail[-1:] if tail else ''}"
+
+
+def _indent(text: str) -> str:
+    return textwrap.indent(text, "    ")
+
+
+def _sample(geometry: Geometry) -> str:
+    spec = geometry.spec
+    if geometry.periods and all(geometry.periods):
+        return SAMPLE_BOX
+    if geometry.diameter != sp.oo and geometry.diameter == geometry.injectivity_radius:
+        return SAMPLE_WHOLE.format(size=spec.point_size)
+    return SAMPLE_NONE

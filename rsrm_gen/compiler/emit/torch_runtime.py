@@ -1,0 +1,125 @@
+"""The parts of a generated torch module that are the same for every manifold, as text."""
+
+HELPERS = '''
+def _root(x: Tensor) -> Tensor:
+    """sqrt(x) with the derivative 0 at x = 0, where autograd would make 0 * inf = NaN of it."""
+    zero = x == 0
+    return torch.where(zero, 0.0, torch.sqrt(torch.where(zero, 1.0, x)))
+
+
+def _polynomial(x: Tensor, coefficients: tuple[float, ...]) -> Tensor:
+    """c0 + c1 x + c2 x^2 + ... by Horner's rule."""
+    result = x * coefficients[-1] + coefficients[-2]
+    for coefficient in coefficients[-3::-1]:
+        result = result * x + coefficient
+    return result
+
+
+def _stack(entries: tuple[Tensor | float, ...] | list[Tensor], like: Tensor | None = None) -> Tensor:
+    """Entries to one tensor, along a new last dimension; numbers take their shape from `like`."""
+    if like is not None:
+        entries = tuple(e if isinstance(e, Tensor) else torch.full_like(like, e) for e in entries)
+    return torch.stack(torch.broadcast_tensors(*entries), -1)
+
+
+def _leading(*arguments: Tensor) -> Tensor:
+    """A tensor of the shape to which the leading dimensions of the arguments broadcast."""
+    return arguments[0].new_empty(torch.broadcast_shapes(*(a.shape[:-1] for a in arguments)))
+
+
+def _constant(value: float, *arguments: Tensor) -> Tensor:
+    """A number for every row."""
+    return torch.full_like(_leading(*arguments), value)
+
+
+def _rejection(propose, bound: float, count: int, generator: Generator | None, like: Tensor) -> Tensor:
+    """`count` points with a density proportional to what `propose` returns beside its points, of which `bound` is the most.
+
+    A density above the bound starts the sampling over with a larger one.
+    """
+    kept: list[Tensor] = []
+    while sum(map(len, kept)) < count:
+        points, density = propose(2 * count + 16)
+        largest = float(density.max())
+        if largest > bound:
+            bound, kept = 1.05 * largest, []
+        uniform = torch.rand(len(points), generator=generator, dtype=like.dtype, device=like.device)
+        kept.append(points[uniform * bound < density])
+    return torch.cat(kept)[:count]
+'''
+
+SPLATS = '''
+def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+    """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
+
+    Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T).
+    """
+    value, *gradient = self._splat(x.unsqueeze(-2), mu, W, amplitude)
+    return value.sum(-1), _stack([entry.sum(-1) for entry in gradient])
+'''
+
+FRAME = '''
+def frame(self, p: Tensor) -> Tensor:
+    """An orthonormal basis of the tangent space at p, one vector a row; not continuous in p where none is.
+
+    Gram-Schmidt in the metric, always on the longest of what is left. Shapes: p (..., {size}) to (..., {dim}, {tangent}).
+    """
+    base = p.unsqueeze(-2)
+    left = self.to_tangent(base, torch.eye({size}, dtype=p.dtype, device=p.device))
+    left = left.expand(*p.shape[:-1], {size}, {tangent})
+    rows = []
+    for _ in range({dim}):
+        longest = self.norm(base, left).argmax(-1)[..., None, None].expand(*p.shape[:-1], 1, {tangent})
+        row = left.gather(-2, longest)
+        row = row / self.norm(base, row).unsqueeze(-1)
+        rows.append(row)
+        left = left - self.inner(base, row, left).unsqueeze(-1) * row
+    return torch.cat(rows, -2)
+'''
+
+SAMPLE_BALL = '''
+def sample_ball(self, center: Tensor, radius: float, count: int, generator: Generator | None = None) -> Tensor:
+    """Points uniform in volume in the geodesic ball around `center`: center (D) to (count, D).
+
+    Uniform in the tangent ball, then thinned by the volume that Exp gives it, |det D Exp| = 1 / |det D Log|.
+    """
+    if not 0 < radius <= self.injectivity_radius:
+        raise ValueError(f"the radius must be in (0, {self.injectivity_radius}], the injectivity radius; it is {radius}")
+    frame = self.frame(center)
+
+    def propose(n: int) -> tuple[Tensor, Tensor]:
+        ray = torch.randn(n, self.dim, generator=generator, dtype=center.dtype, device=center.device)
+        reach = torch.rand(n, 1, generator=generator, dtype=center.dtype, device=center.device) ** (1 / self.dim)
+        v = radius * reach * ray / torch.linalg.vector_norm(ray, dim=-1, keepdim=True)
+        points = self.exp(center, v @ frame)
+        return points, torch.exp(-self.log_abs_det(center, points))
+
+    return _rejection(propose, 0.0, count, generator, center)
+'''
+
+SAMPLE_WHOLE = '''
+def sample(self, count: int, generator: Generator | None = None, like: Tensor | None = None) -> Tensor:
+    """Points uniform in volume on the whole manifold: (count, {size}), with the dtype and device of `like`."""
+    axis = torch.eye({size}, dtype=None if like is None else like.dtype, device=None if like is None else like.device)[0]
+    return self.sample_ball(self.project(axis), self.diameter, count, generator)
+'''
+
+SAMPLE_BOX = '''
+def sample(self, count: int, generator: Generator | None = None, like: Tensor | None = None) -> Tensor:
+    """Points uniform in volume on the whole manifold: (count, D), with the dtype and device of `like`."""
+    like = torch.zeros(()) if like is None else like
+    periods = torch.tensor(self.periods, dtype=like.dtype, device=like.device)
+
+    def propose(n: int) -> tuple[Tensor, Tensor]:
+        uniform = torch.rand(n, self.dim, generator=generator, dtype=like.dtype, device=like.device)
+        points = (uniform - 0.5) * periods
+        return points, 1 / torch.linalg.det(self.frame(points)).abs()
+
+    return _rejection(propose, 0.0, count, generator, like)
+'''
+
+SAMPLE_NONE = '''
+def sample(self, count: int, generator: Generator | None = None, like: Tensor | None = None) -> Tensor:
+    """Not known for this manifold: it is not compact, or no ball in which Exp is one-to-one covers it."""
+    raise ValueError("there is no uniform distribution on the whole of this manifold; use sample_ball")
+'''

@@ -1,0 +1,54 @@
+"""Runs a routine in mpmath: the reference for every back end, and with 60 digits the truth."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import mpmath as mp
+
+from rsrm_gen.compiler.lower.ir import Node, Routine
+
+EPS = 2.0**-52
+
+OPERATIONS: dict[str, Callable[..., Any]] = {
+    "neg": lambda x: -x,
+    "add": lambda x, y: x + y,
+    "sub": lambda x, y: x - y,
+    "mul": lambda x, y: x * y,
+    "div": lambda x, y: x / y,
+    "sqrt": mp.sqrt, "root": mp.sqrt, "exp": mp.exp, "log": mp.log, "sin": mp.sin, "cos": mp.cos, "tan": mp.tan,
+    "sinh": mp.sinh, "cosh": mp.cosh, "tanh": mp.tanh, "asinh": mp.asinh, "acosh": mp.acosh, "acos": mp.acos,
+    "atanh": mp.atanh, "atan2": mp.atan2, "abs": abs, "round": mp.nint,
+    "less": lambda x, y: x < y,
+    "less_equal": lambda x, y: x <= y,
+    "equal": lambda x, y: x == y,
+    "select": lambda condition, x, y: x if condition else y,
+}  # fmt: skip
+
+
+def interpret(routine: Routine, *arguments: Sequence[Any], digits: int = 60) -> list[list[Any]]:
+    """The entries of every result for flat arguments; NaN where an operation has no value."""
+    with mp.workdps(digits):
+        values: dict[Node, Any] = {}
+        for parameter, given in zip(routine.parameters, arguments, strict=True):
+            values.update(zip(parameter.nodes, map(mp.mpf, given), strict=True))
+        for node in routine.nodes:
+            if node not in values:
+                values[node] = operate(node, [values[a] for a in node.arguments])
+        return [[values[n] for n in result.nodes] for result in routine.results]
+
+
+def operate(node: Node, arguments: list[Any]) -> Any:
+    """The value of one operation in the working precision."""
+    if node.op == "constant":
+        return mp.mpf(node.value._to_mpmath(mp.mp.prec + 10))  # type: ignore[attr-defined]
+    if node.op == "eps":
+        return mp.mpf(EPS)
+    if node.op == "polynomial":
+        coefficients = [mp.mpf(str(c)) for c in node.value]  # type: ignore[attr-defined]
+        return mp.polyval(coefficients[::-1], arguments[0])
+    try:
+        return OPERATIONS[node.op](*arguments)
+    except (ZeroDivisionError, ValueError):
+        return mp.nan

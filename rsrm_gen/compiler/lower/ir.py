@@ -1,0 +1,248 @@
+"""The intermediate representation: a hash-consed graph of scalar operations.
+
+Two nodes that compute the same are the same object, so common subexpressions are found as they are built. A node is one
+of
+
+    input      a scalar argument                      constant   an exact number: a sympy expression without symbols
+    eps        the rounding unit of the precision      neg, add, sub, mul, div
+    sqrt       of what is known to be positive        root       of what may be zero: its derivative there is 0, not infinite
+    exp log sin cos tan sinh cosh tanh asinh acosh acos atanh atan2 abs round
+    polynomial c0 + c1 x + ..., exact coefficients     select     (condition, x, y)
+    less, less_equal, equal   conditions, only as the first argument of a select
+
+What it does not have: loops, arrays, assignments. Those belong to the back ends.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+
+import sympy as sp
+
+from rsrm_gen.compiler.spec.vocabulary import Shape
+
+FUNCTIONS = ("sqrt", "root", "exp", "log", "sin", "cos", "tan", "sinh", "cosh", "tanh", "asinh", "acosh", "acos", "atanh", "atan2", "abs", "round")
+CONDITIONS = ("less", "less_equal", "equal")
+
+
+@dataclass(frozen=True, eq=False)
+class Node:
+    """One operation. Identity is equality: the graph never holds two nodes that are alike."""
+
+    op: str
+    arguments: tuple[Node, ...] = ()
+    value: object = None  # input: its name; constant: a sympy number; polynomial: its coefficients
+    number: int = field(default=0, compare=False)  # the order of creation: arguments come before their users
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether this is an exact number."""
+        return self.op == "constant"
+
+    def is_number(self, x: int) -> bool:
+        """Whether this is that number."""
+        return self.op == "constant" and bool(self.value == x)
+
+
+class Graph:
+    """Makes nodes; keeps one of each, and folds what is trivially simpler."""
+
+    def __init__(self) -> None:
+        self.nodes: dict[tuple[str, tuple[Node, ...], object], Node] = {}
+        self.names: dict[Node, str] = {}  # what a person would call a node
+
+    def node(self, op: str, *arguments: Node, value: object = None) -> Node:
+        """The node of an operation, without simplification."""
+        key = (op, arguments, value)
+        if key not in self.nodes:
+            self.nodes[key] = Node(op, arguments, value, len(self.nodes))
+        return self.nodes[key]
+
+    def named(self, name: str, node: Node) -> Node:
+        """Remember a name for a node that computes something; the first name stays."""
+        if node.arguments:
+            self.names.setdefault(node, name)
+        return node
+
+    def input(self, name: str) -> Node:
+        """A scalar argument."""
+        return self.node("input", value=name)
+
+    def constant(self, value: sp.Expr | int) -> Node:
+        """An exact number."""
+        return self.node("constant", value=sp.sympify(value) if isinstance(value, int) else value)
+
+    def neg(self, x: Node) -> Node:
+        """-x."""
+        if x.is_constant:
+            return self.constant(-x.value)  # type: ignore[operator]
+        if x.op == "neg":
+            return x.arguments[0]
+        if x.op == "sub":
+            return self.node("sub", x.arguments[1], x.arguments[0])
+        return self.node("neg", x)
+
+    def add(self, x: Node, y: Node) -> Node:
+        """x + y."""
+        if x.is_number(0):
+            return y
+        if y.is_number(0):
+            return x
+        if x.is_constant and y.is_constant:
+            return self.constant(x.value + y.value)  # type: ignore[operator]
+        if y.op == "neg":
+            return self.sub(x, y.arguments[0])
+        if x.op == "neg":
+            return self.sub(y, x.arguments[0])
+        return self.node("add", *self.ordered(x, y))
+
+    def sub(self, x: Node, y: Node) -> Node:
+        """x - y."""
+        if y.is_number(0):
+            return x
+        if x.is_number(0):
+            return self.neg(y)
+        if x is y:
+            return self.constant(0)
+        if x.is_constant and y.is_constant:
+            return self.constant(x.value - y.value)  # type: ignore[operator]
+        if y.op == "neg":
+            return self.add(x, y.arguments[0])
+        return self.node("sub", x, y)
+
+    def mul(self, x: Node, y: Node) -> Node:
+        """x y."""
+        x, y = self.ordered(x, y)
+        if x.is_constant and y.is_constant:
+            return self.constant(x.value * y.value)  # type: ignore[operator]
+        for a, b in ((x, y), (y, x)):
+            if a.is_number(0):
+                return a
+            if a.is_number(1):
+                return b
+            if a.is_number(-1):
+                return self.neg(b)
+        if x.op == "neg" and y.op == "neg":
+            return self.mul(x.arguments[0], y.arguments[0])
+        if x.op == "neg":
+            return self.neg(self.mul(x.arguments[0], y))
+        if y.op == "neg":
+            return self.neg(self.mul(x, y.arguments[0]))
+        if x is y and x.op in ("sqrt", "root"):
+            return x.arguments[0]
+        if x.is_constant and y.op == "mul" and y.arguments[0].is_constant:
+            return self.mul(self.constant(x.value * y.arguments[0].value), y.arguments[1])  # type: ignore[operator]
+        return self.node("mul", x, y)
+
+    def div(self, x: Node, y: Node) -> Node:
+        """x / y."""
+        if y.is_constant:
+            return self.mul(self.constant(1 / y.value), x)  # type: ignore[operator]
+        if x.is_number(0):
+            return x
+        if x.op == "neg":
+            return self.neg(self.div(x.arguments[0], y))
+        return self.node("div", x, y)
+
+    def function(self, name: str, *arguments: Node) -> Node:
+        """One of `FUNCTIONS`."""
+        return self.node(name, *arguments)
+
+    def polynomial(self, x: Node, coefficients: tuple[sp.Expr, ...]) -> Node:
+        """c0 + c1 x + c2 x^2 + ..."""
+        return self.constant(coefficients[0]) if len(coefficients) == 1 else self.node("polynomial", x, value=coefficients)
+
+    def select(self, condition: Node, x: Node, y: Node) -> Node:
+        """x where the condition holds, else y."""
+        return x if x is y else self.node("select", condition, x, y)
+
+    @staticmethod
+    def ordered(x: Node, y: Node) -> tuple[Node, Node]:
+        """The operands of a commutative operation in one order: constants first, then the older."""
+        key = (not x.is_constant, x.number), (not y.is_constant, y.number)
+        return (x, y) if key[0] <= key[1] else (y, x)
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """An argument of a routine: its shape and the input nodes of its entries in row-major order."""
+
+    name: str
+    shape: Shape
+    nodes: tuple[Node, ...]
+
+
+@dataclass(frozen=True)
+class Result:
+    """A result of a routine: its shape and its entries in row-major order."""
+
+    name: str
+    shape: Shape
+    nodes: tuple[Node, ...]
+
+
+@dataclass(frozen=True)
+class Routine:
+    """A function as a schedule: nodes worth a name, in the order in which they are computed, and the results.
+
+    Every node that is not in `body` is written inside the expression of the one that uses it.
+    """
+
+    name: str
+    parameters: tuple[Parameter, ...]
+    body: tuple[tuple[str, Node], ...]
+    results: tuple[Result, ...]
+    formula: str
+
+    @property
+    def nodes(self) -> list[Node]:
+        """All nodes that the results need, arguments before users."""
+        return reachable(n for result in self.results for n in result.nodes)
+
+    @property
+    def operations(self) -> int:
+        """How many arithmetic operations one call takes: every node but inputs and numbers; a polynomial counts its steps."""
+        return sum(_cost(node) for node in self.nodes)
+
+    @property
+    def inputs(self) -> set[str]:
+        """The names of the scalars that are read."""
+        return {str(node.value) for node in self.nodes if node.op == "input"}
+
+    @property
+    def reads_eps(self) -> bool:
+        """Whether the rounding unit occurs."""
+        return any(node.op == "eps" for node in self.nodes)
+
+
+@dataclass(frozen=True)
+class Program:
+    """All routines of a manifold."""
+
+    name: str
+    routines: tuple[Routine, ...]
+
+    def __getitem__(self, name: str) -> Routine:
+        return next(routine for routine in self.routines if routine.name == name)
+
+    def __iter__(self) -> Iterator[Routine]:
+        return iter(self.routines)
+
+
+def reachable(roots: Iterable[Node]) -> list[Node]:
+    """All nodes that the roots need, arguments before users."""
+    seen: dict[Node, None] = {}
+    stack = list(roots)
+    while stack:
+        node = stack.pop()
+        if node not in seen:
+            seen[node] = None
+            stack.extend(node.arguments)
+    return sorted(seen, key=lambda node: node.number)
+
+
+def _cost(node: Node) -> int:
+    if node.op in ("input", "constant", "eps"):
+        return 0
+    return 2 * (len(node.value) - 1) if node.op == "polynomial" else 1  # type: ignore[arg-type]

@@ -1,0 +1,75 @@
+"""Every function of a geometry as a routine, and the splat with its gradient."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from rsrm_gen.compiler.derive import Geometry
+from rsrm_gen.compiler.derive.geometry import Function
+from rsrm_gen.compiler.lower.differentiate import gradient
+from rsrm_gen.compiler.lower.from_sympy import inline
+from rsrm_gen.compiler.lower.ir import Graph, Node, Parameter, Program, Result, Routine
+from rsrm_gen.compiler.lower.schedule import schedule
+from rsrm_gen.compiler.spec.vocabulary import Shape
+
+RESULT_NAMES = {"project": "p", "exp": "q", "log": "v", "to_tangent": "v", "flat": "covector", "riemannian_gradient": "gradient"}
+
+
+def lower(geometry: Geometry) -> Program:
+    """The program of a manifold: the functions of the `Manifold` protocol, one routine each."""
+    routines = [_routine(function) for function in geometry]
+    return Program(geometry.spec.identifier, (*routines, _splat(geometry)))
+
+
+def _routine(function: Function) -> Routine:
+    graph = Graph()
+    parameters = tuple(_parameter(graph, a.name, a.shape, tuple(map(str, a.symbols))) for a in function.arguments)
+    nodes = inline(graph, function, *(p.nodes for p in parameters))
+    name = RESULT_NAMES.get(function.name, function.name)
+    result = Result(name, function.shape, _named(graph, name, nodes) if function.shape else nodes)
+    return schedule(graph, function.name, parameters, (result,), function.formula)
+
+
+def _splat(geometry: Geometry) -> Routine:
+    """phi = amplitude exp(log |det D Log_mu(x)| - |W Log_mu(x)|^2 / 2) and its Riemannian gradient in x (RSRM eq. 3)."""
+    spec = geometry.spec
+    graph = Graph()
+    x = _vector(graph, "x", spec.point_size)
+    mu = _vector(graph, "mu", spec.point_size)
+    W = _matrix(graph, "W", spec.dim, spec.tangent_size)
+    amplitude = _parameter(graph, "amplitude", (), ("amplitude",))
+    log = _named(graph, "v", inline(graph, geometry["log"], mu.nodes, x.nodes))
+    (log_det,) = inline(graph, geometry["log_abs_det"], mu.nodes, x.nodes)
+    z = _named(graph, "z", tuple(_dot(graph, W.nodes[i * spec.tangent_size :], log) for i in range(spec.dim)))
+    exponent = graph.sub(log_det, graph.mul(graph.constant(sp.Rational(1, 2)), _dot(graph, z, z)))
+    phi = graph.named("phi", graph.mul(amplitude.nodes[0], graph.function("exp", exponent)))
+    partials = _named(graph, "exponent_by_x", gradient(graph, exponent, x.nodes))
+    df = _named(graph, "df", tuple(graph.mul(phi, partial) for partial in partials))
+    slope = inline(graph, geometry["riemannian_gradient"], x.nodes, df)
+    results = Result("value", (), (phi,)), Result("gradient", (spec.tangent_size,), _named(graph, "gradient", slope))
+    formula = "amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)|"
+    return schedule(graph, "splat", (x, mu, W, amplitude), results, formula)
+
+
+def _named(graph: Graph, name: str, nodes: tuple[Node, ...]) -> tuple[Node, ...]:
+    return tuple(graph.named(f"{name}{i}", node) for i, node in enumerate(nodes))
+
+
+def _dot(graph: Graph, x: tuple[Node, ...], y: tuple[Node, ...]) -> Node:
+    """The sum of products, over the shorter of the two."""
+    total = graph.constant(0)
+    for a, b in zip(x, y, strict=False):
+        total = graph.add(total, graph.mul(a, b))
+    return total
+
+
+def _vector(graph: Graph, name: str, size: int) -> Parameter:
+    return _parameter(graph, name, (size,), tuple(f"{name}{i}" for i in range(size)))
+
+
+def _matrix(graph: Graph, name: str, rows: int, columns: int) -> Parameter:
+    return _parameter(graph, name, (rows, columns), tuple(f"{name}{i}_{j}" for i in range(rows) for j in range(columns)))
+
+
+def _parameter(graph: Graph, name: str, shape: Shape, entries: tuple[str, ...]) -> Parameter:
+    return Parameter(name, shape, tuple(graph.input(entry) for entry in entries))

@@ -1,0 +1,52 @@
+"""Safe branches: what a branch divides by, or takes a root or logarithm of, is 1 while the branch is not taken.
+
+A select computes both of its branches, and in a derivative 0 * inf is NaN. So the *inputs* of singular operations are
+replaced, not their results.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from rsrm_gen.compiler.lower.ir import Graph, Node
+
+ENDANGERED = {"div": 1, "sqrt": 0, "root": 0, "log": 0, "polynomial": 0, "atanh": 0, "acosh": 0}  # by which argument
+SAFE = {"polynomial": 0, "atanh": 0}  # what it is replaced by; 1 elsewhere
+
+
+def protect(graph: Graph, root: Node, condition: Node, when: bool, singular: Callable[[Node], bool] | None = None) -> Node:
+    """The same branch, harmless where `condition` is `when`: where it is not taken.
+
+    `singular` says of a node whether it vanishes somewhere there; without it, every input in danger is replaced.
+    """
+    done: dict[Node, Node] = {}
+
+    def visit(node: Node) -> Node:
+        if node not in done:
+            done[node] = rebuilt(node)
+        return done[node]
+
+    def rebuilt(node: Node) -> Node:
+        if node.op == "select":
+            if node.arguments[0] is condition:
+                return visit(node.arguments[2 if when else 1])  # where the branch is taken, the condition is known
+            arguments = (node.arguments[0], *(visit(a) for a in node.arguments[1:]))
+        else:
+            arguments = tuple(visit(a) for a in node.arguments)
+        if node.op in ENDANGERED:
+            index = ENDANGERED[node.op]
+            if not arguments[index].is_constant and (singular is None or singular(arguments[index])):
+                safe = graph.constant(SAFE.get(node.op, 1))
+                x = arguments[index]
+                x = graph.select(condition, safe, x) if when else graph.select(condition, x, safe)
+                arguments = (*arguments[:index], x, *arguments[index + 1 :])
+        return node if arguments == node.arguments else copied(node, arguments)
+
+    def copied(node: Node, arguments: tuple[Node, ...]) -> Node:
+        # A root of what cannot vanish is a plain square root.
+        copy = graph.node("sqrt" if node.op == "root" else node.op, *arguments, value=node.value)
+        if node in graph.names:
+            graph.named(graph.names[node], copy)
+        return copy
+
+    return visit(root)
