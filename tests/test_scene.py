@@ -189,3 +189,9 @@ def test_the_papers_scenes_lie_on_their_manifolds_and_leave_the_goal_free(name: 
     assert scene.signed_distance(scene.goal) > 0
     assert scene.inside_domain(scene.centers).all()
     assert (scene.law.free, scene.law.obstacle, scene.law.width) == (1, 10, 0.15)
+
+
+def test_the_demonstration_is_a_scene_that_can_be_trained() -> None:
+    scene = read_scene(EXAMPLES / "torus.yaml", PLAIN["T2"])
+    assert scene.signed_distance(scene.goal) > 0
+    assert scene.training.splats.initial <= scene.training.capacity
