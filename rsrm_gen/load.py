@@ -2,11 +2,78 @@
 
 from __future__ import annotations
 
+import hashlib
+import importlib.util
+import sys
+from collections.abc import Mapping
+from functools import lru_cache
 from pathlib import Path
 
+from rsrm_gen.compiler import compile_manifold, read_spec
+from rsrm_gen.compiler.native import cache_folder
+from rsrm_gen.compiler.output import contents, staleness, write
+from rsrm_gen.compiler.spec import ManifoldSpec
+from rsrm_gen.errors import UserError, did_you_mean
 from rsrm_gen.manifold import Manifold
+
+PACKAGE = Path(__file__).parent
 
 
 def load(manifold: str | Path, **parameters: int | float | str) -> Manifold:
-    """The torch module of a bundled manifold (by name) or of a YAML file (by path), with its parameters overridden."""
-    raise NotImplementedError
+    """The torch object of a bundled manifold (by name) or of a manifold file (by path), its parameters overridden.
+
+    Taken from the bundled generated code or from the cache where that is what the file gives today; else compiled and
+    audited, which takes some seconds. Raises `UserError` for an unknown name, a wrong file or a refused audit.
+    """
+    path = _file(manifold)
+    spec = read_spec(path, parameters)
+    folder = _generated(spec, path, parameters)
+    return _imported(folder / f"{spec.identifier}.py")
+
+
+def bundled(kind: str) -> Path:
+    """The folder of bundled `manifolds` or `generated` code: in the checkout, or in the installed package."""
+    inside = PACKAGE / "bundled" / kind
+    return inside if inside.is_dir() else PACKAGE.parent / kind
+
+
+def _file(manifold: str | Path) -> Path:
+    path = Path(manifold)
+    if path.suffix in (".yaml", ".yml") or len(path.parts) > 1:
+        return path
+    folder = bundled("manifolds")
+    names = sorted(p.stem for p in folder.glob("*.yaml"))
+    if str(manifold) not in names:
+        raise UserError(f"there is no bundled manifold `{manifold}`", hint=did_you_mean(str(manifold), names) or "give the path of a manifold file")
+    return folder / f"{manifold}.yaml"
+
+
+def _generated(spec: ManifoldSpec, path: Path, parameters: Mapping[str, int | float | str]) -> Path:
+    """A folder with up-to-date generated code of the spec."""
+    committed = bundled("generated") / spec.identifier
+    if staleness(spec, committed) is None:
+        return committed
+    cached = cache_folder() / "generated" / _generator() / spec.content_hash[:32] / spec.identifier
+    if staleness(spec, cached) is not None:
+        write(contents(compile_manifold(path, parameters)), cached)
+    return cached
+
+
+@lru_cache
+def _generator() -> str:
+    """A hash of the compiler's own source, so that code of an older compiler is not taken from the cache."""
+    sources = sorted((PACKAGE / "compiler").rglob("*.py"))
+    return hashlib.sha256(b"\0".join(source.read_bytes() for source in sources)).hexdigest()[:16]
+
+
+@lru_cache
+def _imported(path: Path) -> Manifold:
+    name = f"rsrm_gen_generated_{path.stem}_{hashlib.sha256(str(path).encode()).hexdigest()[:8]}"
+    module_spec = importlib.util.spec_from_file_location(name, path)
+    assert module_spec is not None
+    assert module_spec.loader is not None
+    module = importlib.util.module_from_spec(module_spec)
+    sys.modules[name] = module  # so that its classes can be found again, as dataclasses and torch.compile do
+    module_spec.loader.exec_module(module)
+    manifold: Manifold = module.manifold
+    return manifold

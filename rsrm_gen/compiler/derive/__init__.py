@@ -62,6 +62,7 @@ class _Derivation:
             number(spec, spec.injectivity_radius),
             number(spec, spec.diameter),
             periods if periods and any(periods) else None,
+            self.domain,
         )
 
     @cached_property
@@ -85,18 +86,22 @@ class _Derivation:
         return Operators(self.spec, [run(self.project, x)[0] for x in vectors] if self.spec.embedded else [])
 
     @cached_property
+    def domain(self) -> sp.Expr | None:
+        """1 where a point is valid."""
+        if self.spec.domain is None:
+            return None
+        comparison = Reading(self.spec, Trace([self.p])).read(self.spec.domain)
+        assert isinstance(comparison, Truth)
+        return truth(comparison.kind, comparison.a, comparison.b)
+
+    @cached_property
     def sampler(self) -> Sampler:
         """Where points come from while formulas are looked at."""
         spec = self.spec
         radius = number(spec, spec.injectivity_radius)
         reach = mp.mpf(1) if radius == sp.oo else mp.mpf(str(sp.N(radius, 30))) / 2
-        domain = None
-        if spec.domain is not None:
-            comparison = Reading(spec, Trace([self.p])).read(spec.domain)
-            assert isinstance(comparison, Truth)
-            domain = truth(comparison.kind, comparison.a, comparison.b)
         project = self.project if spec.embedded else None
-        return Sampler(project, domain, self.operators.to_tangent(), self.operators.norm(), self.plain_exp[0], spec.point_size, reach)
+        return Sampler(project, self.domain, self.operators.to_tangent(), self.operators.norm(), self.plain_exp[0], spec.point_size, reach)
 
     @cached_property
     def plain_exp(self) -> tuple[Function, Trace]:

@@ -151,6 +151,7 @@ class Geometry:
     injectivity_radius: sp.Expr
     diameter: sp.Expr
     periods: tuple[sp.Expr | None, ...] | None
+    domain: sp.Expr | None  # 1 where a point is valid, in the symbols of p; None if there is no condition
 
     def __getitem__(self, name: str) -> Function:
         return next(function for function in self.functions if function.name == name)

@@ -10,7 +10,7 @@ from typing import Any
 import mpmath as mp
 import sympy as sp
 
-from rsrm_gen.compiler.derive.geometry import Choose, Function
+from rsrm_gen.compiler.derive.geometry import Choose, Function, Geometry
 from rsrm_gen.compiler.derive.numeric import DIGITS, run, value
 from rsrm_gen.errors import UserError
 
@@ -65,11 +65,20 @@ class Sampler:
         with mp.workdps(DIGITS):
             return run(self.exp, p, [r * c for c in u])[0]
 
-    def pair(self, rng: random.Random) -> tuple[Numbers, Numbers]:
-        """Two points, neither close to one another nor to the cut locus."""
+    def pair(self, rng: random.Random, distance: Any = None) -> tuple[Numbers, Numbers]:
+        """Two points; at a distance that is neither small nor close to the cut locus, unless one is given."""
         p = self.point(rng)
-        r = self.reach * (mp.mpf(rng.random()) * mp.mpf("0.8") + mp.mpf("0.2"))
+        r = distance or self.reach * (mp.mpf(rng.random()) * mp.mpf("0.8") + mp.mpf("0.2"))
         return p, self.along(p, self.direction(rng, p), r)
+
+
+def sampler_of(geometry: Geometry) -> Sampler:
+    """The sampler of a derived manifold."""
+    spec = geometry.spec
+    radius = geometry.injectivity_radius
+    reach = mp.mpf(1) if radius == sp.oo else mp.mpf(str(sp.N(radius, 30))) / 2
+    project = geometry["project"] if spec.embedded else None
+    return Sampler(project, geometry.domain, geometry["to_tangent"], geometry["norm"], geometry["exp"], spec.point_size, reach)
 
 
 def truth(kind: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:

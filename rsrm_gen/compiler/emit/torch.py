@@ -57,7 +57,7 @@ def module(geometry: Geometry, program: Program, heading: list[str]) -> str:
         HELPERS,
         "\n\n".join([_class_head(geometry, program), *methods, *(textwrap.indent(t.strip("\n"), "    ") for t in [SPLATS, *tail])]),
     ]
-    return "\n\n".join(part.strip("\n") for part in parts[:-2]) + "\n\n\n" + HELPERS.strip("\n") + "\n\n\n" + parts[-1] + "\n"
+    return "\n\n".join(part.strip("\n") for part in parts[:-2]) + "\n\n\n" + HELPERS.strip("\n") + "\n\n\n" + parts[-1] + f"\n\n\nmanifold = {class_name(program)}()\n"
 
 
 def class_name(program: Program) -> str:

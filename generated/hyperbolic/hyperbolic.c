@@ -1,0 +1,1216 @@
+/*
+ * hyperbolic: Hyperbolic space H^n of curvature -1, the upper sheet of the hyperboloid in R^(n+1), time
+ *
+ * See the header for what the functions promise.
+ */
+
+#include "hyperbolic.h"
+
+#include <float.h>
+
+static const double SINHC_R_NEAR[8] = {
+    1.0, 0.16666666666666669, 0.0083333333333331, 0.00019841269841456446, 2.7557319150704892e-06,
+    2.5052124008953335e-08, 1.6057199454179518e-10, 7.760406418336239e-13};
+
+static const double R_OVER_SINH_R_NEAR[11] = {
+    1.0, -0.1666666666666652, 0.033333333333202014, -0.007142857138283707, 0.0015873015057159467,
+    -0.0003607495115144189, 8.324456075687903e-05, -1.9401840339024596e-05, 4.507443377513903e-06,
+    -9.732611006991387e-07, 1.4474803384958734e-07};
+
+static const double LOG_DET_SERIES[11] = {
+    -0.16666666666666666, 0.01944444444444438, -0.00313051146383882, 0.0005742945324197367,
+    -0.0001131019149457229, 2.3290036808888825e-05, -4.944739522360393e-06, 1.0725596995459732e-06,
+    -2.3422006008653426e-07, 4.811720057878731e-08, -6.917845201939211e-09};
+
+static const double LOG_DET_SERIES_SLOPE[10] = {
+    0.01944444444444438, -0.00626102292767764, 0.0017228835972592101, -0.0004524076597828916,
+    0.00011645018404444413, -2.9668437134162358e-05, 7.507917896821813e-06, -1.873760480692274e-06,
+    4.330548052090858e-07, -6.917845201939212e-08};
+
+static const double R_OVER_SINH_R_NEAR_SLOPE[10] = {
+    -0.1666666666666652, 0.06666666666640403, -0.021428571414851123, 0.006349206022863787,
+    -0.0018037475575720945, 0.0004994673645412742, -0.0001358128823731722, 3.605954702011122e-05,
+    -8.759349906292246e-06, 1.4474803384958734e-06};
+
+/* c[0] + c[1] x + ... by Horner's rule. */
+static inline double polynomial(double x, const double *c, int size) {
+    double result = c[size - 1];
+    for (int i = size - 2; i >= 0; --i) result = result * x + c[i];
+    return result;
+}
+
+/* [sqrt(1 + dot(p[1:], p[1:])), p[1:]] */
+void hyperbolic_project(const double *HYPERBOLIC_RESTRICT x, double *HYPERBOLIC_RESTRICT p_out) {
+    const double dot_ps_ps = x[1] * x[1] + x[2] * x[2];
+    const double sqrt_value = sqrt(1.0 + dot_ps_ps);
+    p_out[0] = sqrt_value;
+    p_out[1] = x[1];
+    p_out[2] = x[2];
+}
+
+void hyperbolic_project_batch(
+    size_t count,
+    const double *HYPERBOLIC_RESTRICT x,
+    double *HYPERBOLIC_RESTRICT p_out) {
+    for (size_t i = 0; i < count; ++i) hyperbolic_project(x + 3 * i, p_out + 3 * i);
+}
+
+/* x - N (dc N)^-1 dc x */
+void hyperbolic_to_tangent(
+    const double *HYPERBOLIC_RESTRICT p,
+    const double *HYPERBOLIC_RESTRICT x,
+    double *HYPERBOLIC_RESTRICT v_out) {
+    const double normal_part = p[1] * x[1] + p[2] * x[2] - p[0] * x[0];
+    const double v0 = x[0] + p[0] * normal_part;
+    const double v1 = x[1] + p[1] * normal_part;
+    const double v2 = x[2] + p[2] * normal_part;
+    v_out[0] = v0;
+    v_out[1] = v1;
+    v_out[2] = v2;
+}
+
+void hyperbolic_to_tangent_batch(
+    size_t count,
+    const double *HYPERBOLIC_RESTRICT p,
+    const double *HYPERBOLIC_RESTRICT x,
+    double *HYPERBOLIC_RESTRICT v_out) {
+    for (size_t i = 0; i < count; ++i) hyperbolic_to_tangent(p + 3 * i, x + 3 * i, v_out + 3 * i);
+}
+
+/* dot(u[1:], v[1:]) - u[0] * v[0] */
+double hyperbolic_inner(
+    const double *HYPERBOLIC_RESTRICT p,
+    const double *HYPERBOLIC_RESTRICT u,
+    const double *HYPERBOLIC_RESTRICT v) {
+    (void)p;
+    return u[1] * v[1] + u[2] * v[2] - u[0] * v[0];
+}
+
+void hyperbolic_inner_batch(
+    size_t count,
+    const double *HYPERBOLIC_RESTRICT p,
+    const double *HYPERBOLIC_RESTRICT u,
+    const double *HYPERBOLIC_RESTRICT v,
+    double *HYPERBOLIC_RESTRICT inner_out) {
+    for (size_t i = 0; i < count; ++i) inner_out[i] = hyperbolic_inner(p + 3 * i, u + 3 * i, v + 3 * i);
+}
+
+/* sqrt(<v, v>_p) */
+double hyperbolic_norm(const double *HYPERBOLIC_RESTRICT p, const double *HYPERBOLIC_RESTRICT v) {
+    (void)p;
+    return sqrt(v[1] * v[1] + v[2] * v[2] - v[0] * v[0]);
+}
+
+void hyperbolic_norm_batch(
+    size_t count,
+    const double *HYPERBOLIC_RESTRICT p,
+    const double *HYPERBOLIC_RESTRICT v,
+    double *HYPERBOLIC_RESTRICT norm_out) {
+    for (size_t i = 0; i < count; ++i) norm_out[i] = hyperbolic_norm(p + 3 * i, v + 3 * i);
+}
+
+/* G(p) v */
+void hyperbolic_flat(
+    const double *HYPERBOLIC_RESTRICT p,
+    const double *HYPERBOLIC_RESTRICT v,
+    double *HYPERBOLIC_RESTRICT covector_out) {
+    (void)p;
+    const double covector0 = -v[0];
+    covector_out[0] = covector0;
+    covector_out[1] = v[1];
+    covector_out[2] = v[2];
+}
+
+void hyperbolic_flat_batch(
+    size_t count,
+    const double *HYPERBOLIC_RESTRICT p,
+    const double *HYPERBOLIC_RESTRICT v,
+    double *HYPERBOLIC_RESTRICT covector_out) {
+    for (size_t i = 0; i < count; ++i) hyperbolic_flat(p + 3 * i, v + 3 * i, covector_out + 3 * i);
+}
+
+/* cosh(r) * [a, s] + sinhc(r) * [dot(s, h) / a, h] */
+void hyperbolic_exp(
+    const double *HYPERBOLIC_RESTRICT p,
+    const double *HYPERBOLIC_RESTRICT v,
+    double *HYPERBOLIC_RESTRICT q_out) {
+    const double dot_s_s = p[1] * p[1] + p[2] * p[2];
+    const double dot_h_h = v[1] * v[1] + v[2] * v[2];
+    const double dot_s_h = p[1] * v[1] + p[2] * v[2];
+    const double dot_s_s_total = 1.0 + dot_s_s;
+    const double a = sqrt(dot_s_s_total);
+    const int is_small = dot_s_s < 1.0;
+    const double dot_s_s_chosen = (is_small ? 1.0 : dot_s_s);
+    const double dot_s_h_ratio = dot_s_h / dot_s_s_chosen;
+    const double dot_s_h_squared = dot_s_h * dot_s_h;
+    const double chosen = (is_small ? dot_s_s_total : 1.0);
+    const double rest0 = v[1] - p[1] * dot_s_h_ratio;
+    const double rest1 = v[2] - p[2] * dot_s_h_ratio;
+    const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
+    const double chosen_2 = (is_small ? 1.0 : dot_s_s_total);
+    const double vv = (is_small ? dot_h_h - dot_s_h_squared / chosen : dot_rest_rest + dot_s_h * dot_s_h_ratio
+        / chosen_2);
+    const double r = sqrt(vv);
+    const double cosh_r = cosh(r);
+    const int near = vv < 0.9903926849365234;
+    const double dot_s_h_ratio_2 = dot_s_h / (near ? dot_s_s_chosen : 1.0);
+    const double rest0_2 = v[1] - p[1] * dot_s_h_ratio_2;
+    const double rest1_2 = v[2] - p[2] * dot_s_h_ratio_2;
+    const double dot_rest_rest_2 = rest0_2 * rest0_2 + rest1_2 * rest1_2;
+    const double vv_2 = (is_small ? dot_h_h - dot_s_h_squared / (near ? chosen : 1.0) : dot_rest_rest_2 +
+        dot_s_h * dot_s_h_ratio_2 / (near ? chosen_2 : 1.0));
+    const double sinhc_r_near = polynomial((near ? vv_2 : 0.0), SINHC_R_NEAR, 8);
+    const double dot_s_h_ratio_3 = dot_s_h / (near ? 1.0 : dot_s_s_chosen);
+    const double rest0_3 = v[1] - p[1] * dot_s_h_ratio_3;
+    const double rest1_3 = v[2] - p[2] * dot_s_h_ratio_3;
+    const double dot_rest_rest_3 = rest0_3 * rest0_3 + rest1_3 * rest1_3;
+    const double vv_3 = (is_small ? dot_h_h - dot_s_h_squared / (near ? 1.0 : chosen) : dot_rest_rest_3 +
+        dot_s_h * dot_s_h_ratio_3 / (near ? 1.0 : chosen_2));
+    const double r_2 = sqrt((near ? 1.0 : vv_3));
+    const double sinhc_r = (near ? sinhc_r_near : sinh(r_2) / (near ? 1.0 : r_2));
+    const double q0 = a * cosh_r + dot_s_h * sinhc_r / a;
+    const double q1 = p[1] * cosh_r + v[1] * sinhc_r;
+    const double q2 = p[2] * cosh_r + v[2] * sinhc_r;
+    q_out[0] = q0;
+    q_out[1] = q1;
+    q_out[2] = q2;
+}
+
+void hyperbolic_exp_batch(
+    size_t count,
+    const double *HYPERBOLIC_RESTRICT p,
+    const double *HYPERBOLIC_RESTRICT v,
+    double *HYPERBOLIC_RESTRICT q_out) {
+    for (size_t i = 0; i < count; ++i) hyperbolic_exp(p + 3 * i, v + 3 * i, q_out + 3 * i);
+}
+
+/* r / sinh(r) * ([e, D] - ww / 2 * [a, p[1:]]) */
+void hyperbolic_log(
+    const double *HYPERBOLIC_RESTRICT p,
+    const double *HYPERBOLIC_RESTRICT q,
+    double *HYPERBOLIC_RESTRICT v_out) {
+    const double S0 = p[1] + q[1];
+    const double S1 = p[2] + q[2];
+    const double dot_S_S = S0 * S0 + S1 * S1;
+    const double D0 = q[1] - p[1];
+    const double D1 = q[2] - p[2];
+    const double dot_D_D = D0 * D0 + D1 * D1;
+    const double dot_D_S = S0 * D0 + S1 * D1;
+    const double dot_ps_ps = p[1] * p[1] + p[2] * p[2];
+    const double dot_ps_ps_total = 1.0 + dot_ps_ps;
+    const double a = sqrt(dot_ps_ps_total);
+    const double dot_qs_qs = q[1] * q[1] + q[2] * q[2];
+    const double dot_qs_qs_total = 1.0 + dot_qs_qs;
+    const double b = sqrt(dot_qs_qs_total);
+    const double e = dot_D_S / (a + b);
+    const int is_small = dot_S_S < 1.0;
+    const double dot_S_S_chosen = (is_small ? 1.0 : dot_S_S);
+    const double dot_D_S_ratio = dot_D_S / dot_S_S_chosen;
+    const double dot_ps_qs = p[1] * q[1] + p[2] * q[2];
+    const double dot_ps_qs_product = 2.0 * dot_ps_qs;
+    const double chosen = (is_small ? dot_ps_ps_total : 1.0);
+    const double a_2 = sqrt(chosen);
+    const double chosen_2 = (is_small ? dot_qs_qs_total : 1.0);
+    const double b_2 = sqrt(chosen_2);
+    const double e_2 = dot_D_S / (is_small ? a_2 + b_2 : 1.0);
+    const double rest0 = D0 - S0 * dot_D_S_ratio;
+    const double rest1 = D1 - S1 * dot_D_S_ratio;
+    const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
+    const double chosen_3 = (is_small ? 1.0 : dot_qs_qs_total);
+    const double b_3 = sqrt(chosen_3);
+    const double chosen_4 = (is_small ? 1.0 : dot_ps_ps_total);
+    const double a_3 = sqrt(chosen_4);
+    const double a_total = a_3 + b_3;
+    const double c = (2.0 + b_3 * (2.0 * a_3) - dot_ps_qs_product) / (is_small ? 1.0 : a_total * a_total);
+    const double ww = (is_small ? dot_D_D - e_2 * e_2 : dot_rest_rest + dot_D_S_ratio * (dot_D_S * c));
+    const int near = ww < 0.4587184190750122;
+    const double a_4 = sqrt((near ? chosen : 1.0));
+    const double b_4 = sqrt((near ? chosen_2 : 1.0));
+    const double e_3 = dot_D_S / (near ? (is_small ? a_4 + b_4 : 1.0) : 1.0);
+    const double dot_D_S_ratio_2 = dot_D_S / (near ? dot_S_S_chosen : 1.0);
+    const double rest0_2 = D0 - S0 * dot_D_S_ratio_2;
+    const double rest1_2 = D1 - S1 * dot_D_S_ratio_2;
+    const double dot_rest_rest_2 = rest0_2 * rest0_2 + rest1_2 * rest1_2;
+    const double b_5 = sqrt((near ? chosen_3 : 1.0));
+    const double a_5 = sqrt((near ? chosen_4 : 1.0));
+    const double a_total_2 = a_5 + b_5;
+    const double c_2 = (2.0 + b_5 * (2.0 * a_5) - dot_ps_qs_product) / (near ? (is_small ? 1.0 : a_total_2 *
+        a_total_2) : 1.0);
+    const double ww_2 = (is_small ? dot_D_D - e_3 * e_3 : dot_rest_rest_2 + dot_D_S_ratio_2 * (dot_D_S *
+        c_2));
+    const double r_over_sinh_r_near = polynomial((near ? ww_2 : 0.0), R_OVER_SINH_R_NEAR, 11);
+    const double sqrt_ww = sqrt((near ? 1.0 : ww));
+    const double asinh_sqrt_ww_over_2 = asinh(0.5 * sqrt_ww);
+    const double r = 2.0 * asinh_sqrt_ww_over_2;
+    const double sinh_r = sinh(r);
+    const double r_over_sinh_r = (near ? r_over_sinh_r_near : r / sinh_r);
+    const double scale = 0.5 * ww;
+    const double v0 = r_over_sinh_r * (e - a * scale);
+    const double v1 = r_over_sinh_r * (D0 - p[1] * scale);
+    const double v2 = r_over_sinh_r * (D1 - p[2] * scale);
+    v_out[0] = v0;
+    v_out[1] = v1;
+    v_out[2] = v2;
+}
+
+void hyperbolic_log_batch(
+    size_t count,
+    const double *HYPERBOLIC_RESTRICT p,
+    const double *HYPERBOLIC_RESTRICT q,
+    double *HYPERBOLIC_RESTRICT v_out) {
+    for (size_t i = 0; i < count; ++i) hyperbolic_log(p + 3 * i, q + 3 * i, v_out + 3 * i);
+}
+
+/* r */
+double hyperbolic_distance(const double *HYPERBOLIC_RESTRICT p, const double *HYPERBOLIC_RESTRICT q) {
+    const double S0 = p[1] + q[1];
+    const double S1 = p[2] + q[2];
+    const double dot_S_S = S0 * S0 + S1 * S1;
+    const double D0 = q[1] - p[1];
+    const double D1 = q[2] - p[2];
+    const double dot_D_D = D0 * D0 + D1 * D1;
+    const double dot_D_S = S0 * D0 + S1 * D1;
+    const double dot_ps_ps = p[1] * p[1] + p[2] * p[2];
+    const double dot_ps_ps_total = 1.0 + dot_ps_ps;
+    const double dot_qs_qs = q[1] * q[1] + q[2] * q[2];
+    const double dot_qs_qs_total = 1.0 + dot_qs_qs;
+    const int is_small = dot_S_S < 1.0;
+    const double dot_D_S_ratio = dot_D_S / (is_small ? 1.0 : dot_S_S);
+    const double dot_ps_qs = p[1] * q[1] + p[2] * q[2];
+    const double a = sqrt((is_small ? dot_ps_ps_total : 1.0));
+    const double b = sqrt((is_small ? dot_qs_qs_total : 1.0));
+    const double e = dot_D_S / (is_small ? a + b : 1.0);
+    const double rest0 = D0 - S0 * dot_D_S_ratio;
+    const double rest1 = D1 - S1 * dot_D_S_ratio;
+    const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
+    const double b_2 = sqrt((is_small ? 1.0 : dot_qs_qs_total));
+    const double a_2 = sqrt((is_small ? 1.0 : dot_ps_ps_total));
+    const double a_total = a_2 + b_2;
+    const double c = (2.0 + b_2 * (2.0 * a_2) - 2.0 * dot_ps_qs) / (is_small ? 1.0 : a_total * a_total);
+    const double ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * (dot_D_S * c));
+    const double sqrt_ww = sqrt(ww);
+    const double asinh_sqrt_ww_over_2 = asinh(0.5 * sqrt_ww);
+    const double r = 2.0 * asinh_sqrt_ww_over_2;
+    return r;
+}
+
+void hyperbolic_distance_batch(
+    size_t count,
+    const double *HYPERBOLIC_RESTRICT p,
+    const double *HYPERBOLIC_RESTRICT q,
+    double *HYPERBOLIC_RESTRICT distance_out) {
+    for (size_t i = 0; i < count; ++i) distance_out[i] = hyperbolic_distance(p + 3 * i, q + 3 * i);
+}
+
+/* log(r_over_sinh_r) */
+double hyperbolic_log_abs_det(const double *HYPERBOLIC_RESTRICT p, const double *HYPERBOLIC_RESTRICT q) {
+    const double S0 = p[1] + q[1];
+    const double S1 = p[2] + q[2];
+    const double dot_S_S = S0 * S0 + S1 * S1;
+    const double D0 = q[1] - p[1];
+    const double D1 = q[2] - p[2];
+    const double dot_D_D = D0 * D0 + D1 * D1;
+    const double dot_D_S = S0 * D0 + S1 * D1;
+    const double dot_ps_ps = p[1] * p[1] + p[2] * p[2];
+    const double dot_ps_ps_total = 1.0 + dot_ps_ps;
+    const double dot_qs_qs = q[1] * q[1] + q[2] * q[2];
+    const double dot_qs_qs_total = 1.0 + dot_qs_qs;
+    const int is_small = dot_S_S < 1.0;
+    const double dot_S_S_chosen = (is_small ? 1.0 : dot_S_S);
+    const double dot_D_S_ratio = dot_D_S / dot_S_S_chosen;
+    const double dot_ps_qs = p[1] * q[1] + p[2] * q[2];
+    const double dot_ps_qs_product = 2.0 * dot_ps_qs;
+    const double chosen = (is_small ? dot_ps_ps_total : 1.0);
+    const double a = sqrt(chosen);
+    const double chosen_2 = (is_small ? dot_qs_qs_total : 1.0);
+    const double b = sqrt(chosen_2);
+    const double e = dot_D_S / (is_small ? a + b : 1.0);
+    const double rest0 = D0 - S0 * dot_D_S_ratio;
+    const double rest1 = D1 - S1 * dot_D_S_ratio;
+    const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
+    const double chosen_3 = (is_small ? 1.0 : dot_qs_qs_total);
+    const double b_2 = sqrt(chosen_3);
+    const double chosen_4 = (is_small ? 1.0 : dot_ps_ps_total);
+    const double a_2 = sqrt(chosen_4);
+    const double a_total = a_2 + b_2;
+    const double c = (2.0 + b_2 * (2.0 * a_2) - dot_ps_qs_product) / (is_small ? 1.0 : a_total * a_total);
+    const double ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * (dot_D_S * c));
+    const int near = ww < 0.4587184190750122;
+    const double a_3 = sqrt((near ? chosen : 1.0));
+    const double b_3 = sqrt((near ? chosen_2 : 1.0));
+    const double e_2 = dot_D_S / (near ? (is_small ? a_3 + b_3 : 1.0) : 1.0);
+    const double dot_D_S_ratio_2 = dot_D_S / (near ? dot_S_S_chosen : 1.0);
+    const double rest0_2 = D0 - S0 * dot_D_S_ratio_2;
+    const double rest1_2 = D1 - S1 * dot_D_S_ratio_2;
+    const double dot_rest_rest_2 = rest0_2 * rest0_2 + rest1_2 * rest1_2;
+    const double b_4 = sqrt((near ? chosen_3 : 1.0));
+    const double a_4 = sqrt((near ? chosen_4 : 1.0));
+    const double a_total_2 = a_4 + b_4;
+    const double c_2 = (2.0 + b_4 * (2.0 * a_4) - dot_ps_qs_product) / (near ? (is_small ? 1.0 : a_total_2 *
+        a_total_2) : 1.0);
+    const double ww_2 = (is_small ? dot_D_D - e_2 * e_2 : dot_rest_rest_2 + dot_D_S_ratio_2 * (dot_D_S *
+        c_2));
+    const double sqrt_ww = sqrt((near ? 1.0 : ww));
+    const double asinh_sqrt_ww_over_2 = asinh(0.5 * sqrt_ww);
+    const double r = 2.0 * asinh_sqrt_ww_over_2;
+    const double sinh_r = sinh(r);
+    const double log_det_series = polynomial((near ? ww_2 : 0.0), LOG_DET_SERIES, 11);
+    const double log_det_near = ww_2 * log_det_series;
+    const double log_det = (near ? log_det_near : log(r / sinh_r));
+    return log_det;
+}
+
+void hyperbolic_log_abs_det_batch(
+    size_t count,
+    const double *HYPERBOLIC_RESTRICT p,
+    const double *HYPERBOLIC_RESTRICT q,
+    double *HYPERBOLIC_RESTRICT log_abs_det_out) {
+    for (size_t i = 0; i < count; ++i) log_abs_det_out[i] = hyperbolic_log_abs_det(p + 3 * i, q + 3 * i);
+}
+
+/* the tangential part of G^-1 df */
+void hyperbolic_riemannian_gradient(
+    const double *HYPERBOLIC_RESTRICT p,
+    const double *HYPERBOLIC_RESTRICT df,
+    double *HYPERBOLIC_RESTRICT gradient_out) {
+    const double normal_part = p[0] * df[0] + p[1] * df[1] + p[2] * df[2];
+    const double gradient0 = p[0] * normal_part - df[0];
+    const double gradient1 = df[1] + p[1] * normal_part;
+    const double gradient2 = df[2] + p[2] * normal_part;
+    gradient_out[0] = gradient0;
+    gradient_out[1] = gradient1;
+    gradient_out[2] = gradient2;
+}
+
+void hyperbolic_riemannian_gradient_batch(
+    size_t count,
+    const double *HYPERBOLIC_RESTRICT p,
+    const double *HYPERBOLIC_RESTRICT df,
+    double *HYPERBOLIC_RESTRICT gradient_out) {
+    for (size_t i = 0; i < count; ++i) hyperbolic_riemannian_gradient(p + 3 * i, df + 3 * i, gradient_out + 3 * i);
+}
+
+/* |grad f|_p */
+double hyperbolic_gradient_norm(const double *HYPERBOLIC_RESTRICT p, const double *HYPERBOLIC_RESTRICT df) {
+    const double normal_part = p[0] * df[0] + p[1] * df[1] + p[2] * df[2];
+    const double gradient0 = p[0] * normal_part - df[0];
+    const double gradient1 = df[1] + p[1] * normal_part;
+    const double gradient2 = df[2] + p[2] * normal_part;
+    return sqrt(gradient1 * gradient1 + gradient2 * gradient2 - gradient0 * gradient0);
+}
+
+void hyperbolic_gradient_norm_batch(
+    size_t count,
+    const double *HYPERBOLIC_RESTRICT p,
+    const double *HYPERBOLIC_RESTRICT df,
+    double *HYPERBOLIC_RESTRICT gradient_norm_out) {
+    for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = hyperbolic_gradient_norm(p + 3 * i, df + 3 * i);
+}
+
+/* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */
+void hyperbolic_splat(
+    const double *HYPERBOLIC_RESTRICT x,
+    const double *HYPERBOLIC_RESTRICT mu,
+    const double *HYPERBOLIC_RESTRICT W,
+    double amplitude,
+    double *HYPERBOLIC_RESTRICT value_out,
+    double *HYPERBOLIC_RESTRICT gradient_out) {
+    const double S0 = x[1] + mu[1];
+    const double S1 = x[2] + mu[2];
+    const double dot_S_S = S0 * S0 + S1 * S1;
+    const double D0 = x[1] - mu[1];
+    const double D1 = x[2] - mu[2];
+    const double dot_D_D = D0 * D0 + D1 * D1;
+    const double dot_D_S = S0 * D0 + S1 * D1;
+    const double dot_ps_ps = mu[1] * mu[1] + mu[2] * mu[2];
+    const double dot_ps_ps_total = 1.0 + dot_ps_ps;
+    const double a = sqrt(dot_ps_ps_total);
+    const double dot_qs_qs = x[1] * x[1] + x[2] * x[2];
+    const double dot_qs_qs_total = 1.0 + dot_qs_qs;
+    const double b = sqrt(dot_qs_qs_total);
+    const double a_total = a + b;
+    const double e = dot_D_S / a_total;
+    const int is_small = dot_S_S < 1.0;
+    const double dot_S_S_chosen = (is_small ? 1.0 : dot_S_S);
+    const double dot_D_S_ratio = dot_D_S / dot_S_S_chosen;
+    const double dot_ps_qs = x[1] * mu[1] + x[2] * mu[2];
+    const double dot_ps_qs_product = 2.0 * dot_ps_qs;
+    const double chosen = (is_small ? dot_ps_ps_total : 1.0);
+    const double a_2 = sqrt(chosen);
+    const double chosen_2 = (is_small ? dot_qs_qs_total : 1.0);
+    const double b_2 = sqrt(chosen_2);
+    const double chosen_3 = (is_small ? a_2 + b_2 : 1.0);
+    const double e_2 = dot_D_S / chosen_3;
+    const double rest0 = D0 - S0 * dot_D_S_ratio;
+    const double rest1 = D1 - S1 * dot_D_S_ratio;
+    const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
+    const double chosen_4 = (is_small ? 1.0 : dot_qs_qs_total);
+    const double b_3 = sqrt(chosen_4);
+    const double chosen_5 = (is_small ? 1.0 : dot_ps_ps_total);
+    const double a_3 = sqrt(chosen_5);
+    const double a_product = 2.0 * a_3;
+    const double a_total_2 = a_3 + b_3;
+    const double chosen_6 = (is_small ? 1.0 : a_total_2 * a_total_2);
+    const double c = (2.0 + b_3 * a_product - dot_ps_qs_product) / chosen_6;
+    const double dot_D_S_product = dot_D_S * c;
+    const double ww = (is_small ? dot_D_D - e_2 * e_2 : dot_rest_rest + dot_D_S_ratio * dot_D_S_product);
+    const int near = ww < 0.4587184190750122;
+    const double a_4 = sqrt((near ? chosen : 1.0));
+    const double b_4 = sqrt((near ? chosen_2 : 1.0));
+    const double near_chosen = (near ? (is_small ? a_4 + b_4 : 1.0) : 1.0);
+    const double e_3 = dot_D_S / near_chosen;
+    const double near_chosen_2 = (near ? dot_S_S_chosen : 1.0);
+    const double dot_D_S_ratio_2 = dot_D_S / near_chosen_2;
+    const double rest0_2 = D0 - S0 * dot_D_S_ratio_2;
+    const double rest1_2 = D1 - S1 * dot_D_S_ratio_2;
+    const double dot_rest_rest_2 = rest0_2 * rest0_2 + rest1_2 * rest1_2;
+    const double b_5 = sqrt((near ? chosen_4 : 1.0));
+    const double a_5 = sqrt((near ? chosen_5 : 1.0));
+    const double a_product_2 = 2.0 * a_5;
+    const double a_total_3 = a_5 + b_5;
+    const double near_chosen_3 = (near ? (is_small ? 1.0 : a_total_3 * a_total_3) : 1.0);
+    const double c_2 = (2.0 + b_5 * a_product_2 - dot_ps_qs_product) / near_chosen_3;
+    const double dot_D_S_product_2 = dot_D_S * c_2;
+    const double ww_2 = (is_small ? dot_D_D - e_3 * e_3 : dot_rest_rest_2 + dot_D_S_ratio_2 *
+        dot_D_S_product_2);
+    const double near_chosen_4 = (near ? ww_2 : 0.0);
+    const double r_over_sinh_r_near = polynomial(near_chosen_4, R_OVER_SINH_R_NEAR, 11);
+    const double sqrt_ww = sqrt((near ? 1.0 : ww));
+    const double sqrt_ww_product = 0.5 * sqrt_ww;
+    const double asinh_sqrt_ww_over_2 = asinh(sqrt_ww_product);
+    const double r = 2.0 * asinh_sqrt_ww_over_2;
+    const double sinh_r = sinh(r);
+    const double r_ratio = r / sinh_r;
+    const double r_over_sinh_r = (near ? r_over_sinh_r_near : r_ratio);
+    const double scale = 0.5 * ww;
+    const double e_gap = e - a * scale;
+    const double v0 = r_over_sinh_r * e_gap;
+    const double D0_gap = D0 - mu[1] * scale;
+    const double v1 = r_over_sinh_r * D0_gap;
+    const double D1_gap = D1 - mu[2] * scale;
+    const double v2 = r_over_sinh_r * D1_gap;
+    const double log_det_series = polynomial(near_chosen_4, LOG_DET_SERIES, 11);
+    const double log_det_near = ww_2 * log_det_series;
+    const double log_det = (near ? log_det_near : log(r_ratio));
+    const double z0 = W[0] * v0 + W[1] * v1 + W[2] * v2;
+    const double z1 = W[3] * v0 + W[4] * v1 + W[5] * v2;
+    const double exp_2 = exp(log_det - 0.5 * (z0 * z0 + z1 * z1));
+    const double phi = amplitude * exp_2;
+    const double by_v2 = -(W[5] * z1) - W[2] * z0;
+    const double by_v1 = -(W[4] * z1) - W[1] * z0;
+    const double by_v0 = -(W[3] * z1) - W[0] * z0;
+    const double by_log_det_near = (near ? 1.0 : 0.0);
+    const double by_log_det_series = ww_2 * by_log_det_near;
+    const double log_det_series_slope = polynomial(near_chosen_4, LOG_DET_SERIES_SLOPE, 10);
+    const double product = r_over_sinh_r * by_v2;
+    const double product_2 = r_over_sinh_r * by_v1;
+    const double by_e = r_over_sinh_r * by_v0;
+    const double by_r_over_sinh_r = D1_gap * by_v2 + D0_gap * by_v1 + e_gap * by_v0;
+    const double by_scale = -(mu[2] * product) - mu[1] * product_2 - a * by_e;
+    const double by_r_over_sinh_r_near = (near ? by_r_over_sinh_r : 0.0);
+    const double sinh_r_ratio = ((near ? 0.0 : 1.0) / r_ratio + (near ? 0.0 : by_r_over_sinh_r)) / sinh_r;
+    const double by_r = sinh_r_ratio - r_ratio * sinh_r_ratio * cosh(r);
+    const double by_asinh_sqrt_ww_over_2 = 2.0 * by_r;
+    const double by_sqrt_ww = 0.5 * (by_asinh_sqrt_ww_over_2 / sqrt(1.0 + sqrt_ww_product * sqrt_ww_product));
+    const double by_ww = 0.5 * by_scale + (near ? 0.0 : by_sqrt_ww / (2.0 * sqrt_ww));
+    const double r_over_sinh_r_near_slope = polynomial(near_chosen_4, R_OVER_SINH_R_NEAR_SLOPE, 10);
+    const double by_ww_2 = log_det_series * by_log_det_near + (near ? by_log_det_series * log_det_series_slope
+        + by_r_over_sinh_r_near * r_over_sinh_r_near_slope : 0.0);
+    const double by_ww_chosen = (is_small ? by_ww_2 : 0.0);
+    const double by_dot_rest_rest = (is_small ? 0.0 : by_ww_2);
+    const double product_3 = dot_D_S_ratio_2 * by_dot_rest_rest;
+    const double by_c = dot_D_S * product_3;
+    const double by_c_ratio = by_c / near_chosen_3;
+    const double product_4 = 2.0 * (is_small ? 0.0 : (near ? -(c_2 * by_c_ratio) : 0.0));
+    const double by_b = a_total_3 * product_4 + a_product_2 * by_c_ratio;
+    const double product_5 = 2.0 * by_dot_rest_rest;
+    const double by_rest1 = rest1_2 * product_5;
+    const double by_rest0 = rest0_2 * product_5;
+    const double ratio = (dot_D_S_product_2 * by_dot_rest_rest - S1 * by_rest1 - S0 * by_rest0) /
+        near_chosen_2;
+    const double ratio_2 = e_3 * (2.0 * by_ww_chosen) / near_chosen;
+    const double by_b_2 = (is_small ? (near ? e_3 * ratio_2 : 0.0) : 0.0);
+    const double by_ww_chosen_2 = (is_small ? by_ww : 0.0);
+    const double by_dot_rest_rest_2 = (is_small ? 0.0 : by_ww);
+    const double product_6 = dot_D_S_ratio * by_dot_rest_rest_2;
+    const double by_c_2 = dot_D_S * product_6;
+    const double by_c_ratio_2 = by_c_2 / chosen_6;
+    const double product_7 = a_total_2 * (2.0 * (is_small ? 0.0 : -(c * by_c_ratio_2)));
+    const double by_b_3 = product_7 + a_product * by_c_ratio_2;
+    const double chosen_7 = (is_small ? 0.0 : (near ? by_b / (2.0 * b_5) : 0.0) + by_b_3 / (2.0 * b_3));
+    const double product_8 = 2.0 * by_dot_rest_rest_2;
+    const double by_rest1_2 = rest1 * product_8;
+    const double by_rest0_2 = rest0 * product_8;
+    const double by_dot_D_D = by_ww_chosen + by_ww_chosen_2;
+    const double ratio_3 = e_2 * (2.0 * by_ww_chosen_2) / chosen_3;
+    const double gap = c_2 * product_3 + ratio - ratio_2 + c * product_6 - ratio_3;
+    const double by_b_4 = (is_small ? e_2 * ratio_3 : 0.0);
+    const double chosen_8 = (is_small ? (near ? by_b_2 / (2.0 * b_4) : 0.0) + by_b_4 / (2.0 * b_2) : 0.0);
+    const double by_dot_ps_qs = 2.0 * (-by_c_ratio - by_c_ratio_2);
+    const double ratio_4 = (dot_D_S_product * by_dot_rest_rest_2 - S1 * by_rest1_2 - S0 * by_rest0_2) /
+        dot_S_S_chosen;
+    const double by_dot_S_S = (is_small ? 0.0 : (near ? -(dot_D_S_ratio_2 * ratio) : 0.0) - dot_D_S_ratio *
+        ratio_4);
+    const double by_e_ratio = by_e / a_total;
+    const double by_dot_D_S = gap + ratio_4 + by_e_ratio;
+    const int is_small_2 = dot_qs_qs_total == 0.0;
+    const double chosen_9 = (is_small_2 ? 0.0 : -(e * by_e_ratio / (2.0 * (is_small_2 ? 1.0 : b))));
+    const double by_dot_qs_qs = chosen_7 + chosen_8 + chosen_9;
+    const double product_9 = 2.0 * by_dot_qs_qs;
+    const double by_dot_D_D_product = 2.0 * by_dot_D_D;
+    const double by_D1 = product + by_rest1 + by_rest1_2 + S1 * by_dot_D_S + D1 * by_dot_D_D_product;
+    const double by_D0 = product_2 + by_rest0 + by_rest0_2 + S0 * by_dot_D_S + D0 * by_dot_D_D_product;
+    const double by_dot_S_S_product = 2.0 * by_dot_S_S;
+    const double by_S1 = -(dot_D_S_ratio_2 * by_rest1) - dot_D_S_ratio * by_rest1_2 + D1 * by_dot_D_S + S1 *
+        by_dot_S_S_product;
+    const double by_S0 = -(dot_D_S_ratio_2 * by_rest0) - dot_D_S_ratio * by_rest0_2 + D0 * by_dot_D_S + S0 *
+        by_dot_S_S_product;
+    const double exponent_by_x2 = mu[2] * by_dot_ps_qs + x[2] * product_9 + by_D1 + by_S1;
+    const double exponent_by_x1 = mu[1] * by_dot_ps_qs + x[1] * product_9 + by_D0 + by_S0;
+    const double df1 = phi * exponent_by_x1;
+    const double df2 = phi * exponent_by_x2;
+    const double normal_part = x[1] * df1 + x[2] * df2;
+    const double gradient0 = x[0] * normal_part;
+    const double gradient1 = df1 + x[1] * normal_part;
+    const double gradient2 = df2 + x[2] * normal_part;
+    value_out[0] = phi;
+    gradient_out[0] = gradient0;
+    gradient_out[1] = gradient1;
+    gradient_out[2] = gradient2;
+}
+
+void hyperbolic_splat_batch(
+    size_t count,
+    const double *HYPERBOLIC_RESTRICT x,
+    const double *HYPERBOLIC_RESTRICT mu,
+    const double *HYPERBOLIC_RESTRICT W,
+    const double *HYPERBOLIC_RESTRICT amplitude,
+    double *HYPERBOLIC_RESTRICT value_out,
+    double *HYPERBOLIC_RESTRICT gradient_out) {
+    for (size_t i = 0; i < count; ++i) hyperbolic_splat(x + 3 * i, mu + 3 * i, W + 6 * i, amplitude[i], value_out + i, gradient_out + 3 * i);
+}
+
+/* Gram-Schmidt in the metric, always on the longest of what is left of the projected axes. */
+void hyperbolic_frame(const double *HYPERBOLIC_RESTRICT p, double *HYPERBOLIC_RESTRICT frame) {
+    double left[3][3];
+    for (int i = 0; i < 3; ++i) {
+        double axis[3];
+        for (int j = 0; j < 3; ++j) axis[j] = i == j ? 1.0 : 0.0;
+        hyperbolic_to_tangent(p, axis, left[i]);
+    }
+    for (int row = 0; row < 2; ++row) {
+        double *e = frame + 3 * row;
+        int longest = 0;
+        for (int i = 1; i < 3; ++i)
+            if (hyperbolic_norm(p, left[i]) > hyperbolic_norm(p, left[longest])) longest = i;
+        const double length = hyperbolic_norm(p, left[longest]);
+        for (int j = 0; j < 3; ++j) e[j] = left[longest][j] / length;
+        for (int i = 0; i < 3; ++i) {
+            const double part = hyperbolic_inner(p, e, left[i]);
+            for (int j = 0; j < 3; ++j) left[i][j] -= part * e[j];
+        }
+    }
+}
+
+static const float SINHC_R_NEAR_F[8] = {
+    1.0f, 0.16666666666666669f, 0.0083333333333331f, 0.00019841269841456446f, 2.7557319150704892e-06f,
+    2.5052124008953335e-08f, 1.6057199454179518e-10f, 7.760406418336239e-13f};
+
+static const float R_OVER_SINH_R_NEAR_F[11] = {
+    1.0f, -0.1666666666666652f, 0.033333333333202014f, -0.007142857138283707f, 0.0015873015057159467f,
+    -0.0003607495115144189f, 8.324456075687903e-05f, -1.9401840339024596e-05f, 4.507443377513903e-06f,
+    -9.732611006991387e-07f, 1.4474803384958734e-07f};
+
+static const float LOG_DET_SERIES_F[11] = {
+    -0.16666666666666666f, 0.01944444444444438f, -0.00313051146383882f, 0.0005742945324197367f,
+    -0.0001131019149457229f, 2.3290036808888825e-05f, -4.944739522360393e-06f, 1.0725596995459732e-06f,
+    -2.3422006008653426e-07f, 4.811720057878731e-08f, -6.917845201939211e-09f};
+
+static const float LOG_DET_SERIES_SLOPE_F[10] = {
+    0.01944444444444438f, -0.00626102292767764f, 0.0017228835972592101f, -0.0004524076597828916f,
+    0.00011645018404444413f, -2.9668437134162358e-05f, 7.507917896821813e-06f, -1.873760480692274e-06f,
+    4.330548052090858e-07f, -6.917845201939212e-08f};
+
+static const float R_OVER_SINH_R_NEAR_SLOPE_F[10] = {
+    -0.1666666666666652f, 0.06666666666640403f, -0.021428571414851123f, 0.006349206022863787f,
+    -0.0018037475575720945f, 0.0004994673645412742f, -0.0001358128823731722f, 3.605954702011122e-05f,
+    -8.759349906292246e-06f, 1.4474803384958734e-06f};
+
+/* c[0] + c[1] x + ... by Horner's rule. */
+static inline float polynomial_f(float x, const float *c, int size) {
+    float result = c[size - 1];
+    for (int i = size - 2; i >= 0; --i) result = result * x + c[i];
+    return result;
+}
+
+/* [sqrt(1 + dot(p[1:], p[1:])), p[1:]] */
+void hyperbolic_project_f(const float *HYPERBOLIC_RESTRICT x, float *HYPERBOLIC_RESTRICT p_out) {
+    const float dot_ps_ps = x[1] * x[1] + x[2] * x[2];
+    const float sqrt_value = sqrtf(1.0f + dot_ps_ps);
+    p_out[0] = sqrt_value;
+    p_out[1] = x[1];
+    p_out[2] = x[2];
+}
+
+void hyperbolic_project_batch_f(
+    size_t count,
+    const float *HYPERBOLIC_RESTRICT x,
+    float *HYPERBOLIC_RESTRICT p_out) {
+    for (size_t i = 0; i < count; ++i) hyperbolic_project_f(x + 3 * i, p_out + 3 * i);
+}
+
+/* x - N (dc N)^-1 dc x */
+void hyperbolic_to_tangent_f(
+    const float *HYPERBOLIC_RESTRICT p,
+    const float *HYPERBOLIC_RESTRICT x,
+    float *HYPERBOLIC_RESTRICT v_out) {
+    const float normal_part = p[1] * x[1] + p[2] * x[2] - p[0] * x[0];
+    const float v0 = x[0] + p[0] * normal_part;
+    const float v1 = x[1] + p[1] * normal_part;
+    const float v2 = x[2] + p[2] * normal_part;
+    v_out[0] = v0;
+    v_out[1] = v1;
+    v_out[2] = v2;
+}
+
+void hyperbolic_to_tangent_batch_f(
+    size_t count,
+    const float *HYPERBOLIC_RESTRICT p,
+    const float *HYPERBOLIC_RESTRICT x,
+    float *HYPERBOLIC_RESTRICT v_out) {
+    for (size_t i = 0; i < count; ++i) hyperbolic_to_tangent_f(p + 3 * i, x + 3 * i, v_out + 3 * i);
+}
+
+/* dot(u[1:], v[1:]) - u[0] * v[0] */
+float hyperbolic_inner_f(
+    const float *HYPERBOLIC_RESTRICT p,
+    const float *HYPERBOLIC_RESTRICT u,
+    const float *HYPERBOLIC_RESTRICT v) {
+    (void)p;
+    return u[1] * v[1] + u[2] * v[2] - u[0] * v[0];
+}
+
+void hyperbolic_inner_batch_f(
+    size_t count,
+    const float *HYPERBOLIC_RESTRICT p,
+    const float *HYPERBOLIC_RESTRICT u,
+    const float *HYPERBOLIC_RESTRICT v,
+    float *HYPERBOLIC_RESTRICT inner_out) {
+    for (size_t i = 0; i < count; ++i) inner_out[i] = hyperbolic_inner_f(p + 3 * i, u + 3 * i, v + 3 * i);
+}
+
+/* sqrt(<v, v>_p) */
+float hyperbolic_norm_f(const float *HYPERBOLIC_RESTRICT p, const float *HYPERBOLIC_RESTRICT v) {
+    (void)p;
+    return sqrtf(v[1] * v[1] + v[2] * v[2] - v[0] * v[0]);
+}
+
+void hyperbolic_norm_batch_f(
+    size_t count,
+    const float *HYPERBOLIC_RESTRICT p,
+    const float *HYPERBOLIC_RESTRICT v,
+    float *HYPERBOLIC_RESTRICT norm_out) {
+    for (size_t i = 0; i < count; ++i) norm_out[i] = hyperbolic_norm_f(p + 3 * i, v + 3 * i);
+}
+
+/* G(p) v */
+void hyperbolic_flat_f(
+    const float *HYPERBOLIC_RESTRICT p,
+    const float *HYPERBOLIC_RESTRICT v,
+    float *HYPERBOLIC_RESTRICT covector_out) {
+    (void)p;
+    const float covector0 = -v[0];
+    covector_out[0] = covector0;
+    covector_out[1] = v[1];
+    covector_out[2] = v[2];
+}
+
+void hyperbolic_flat_batch_f(
+    size_t count,
+    const float *HYPERBOLIC_RESTRICT p,
+    const float *HYPERBOLIC_RESTRICT v,
+    float *HYPERBOLIC_RESTRICT covector_out) {
+    for (size_t i = 0; i < count; ++i) hyperbolic_flat_f(p + 3 * i, v + 3 * i, covector_out + 3 * i);
+}
+
+/* cosh(r) * [a, s] + sinhc(r) * [dot(s, h) / a, h] */
+void hyperbolic_exp_f(
+    const float *HYPERBOLIC_RESTRICT p,
+    const float *HYPERBOLIC_RESTRICT v,
+    float *HYPERBOLIC_RESTRICT q_out) {
+    const float dot_s_s = p[1] * p[1] + p[2] * p[2];
+    const float dot_h_h = v[1] * v[1] + v[2] * v[2];
+    const float dot_s_h = p[1] * v[1] + p[2] * v[2];
+    const float dot_s_s_total = 1.0f + dot_s_s;
+    const float a = sqrtf(dot_s_s_total);
+    const int is_small = dot_s_s < 1.0f;
+    const float dot_s_s_chosen = (is_small ? 1.0f : dot_s_s);
+    const float dot_s_h_ratio = dot_s_h / dot_s_s_chosen;
+    const float dot_s_h_squared = dot_s_h * dot_s_h;
+    const float chosen = (is_small ? dot_s_s_total : 1.0f);
+    const float rest0 = v[1] - p[1] * dot_s_h_ratio;
+    const float rest1 = v[2] - p[2] * dot_s_h_ratio;
+    const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
+    const float chosen_2 = (is_small ? 1.0f : dot_s_s_total);
+    const float vv = (is_small ? dot_h_h - dot_s_h_squared / chosen : dot_rest_rest + dot_s_h * dot_s_h_ratio
+        / chosen_2);
+    const float r = sqrtf(vv);
+    const float cosh_r = coshf(r);
+    const int near = vv < 0.9903926849365234f;
+    const float dot_s_h_ratio_2 = dot_s_h / (near ? dot_s_s_chosen : 1.0f);
+    const float rest0_2 = v[1] - p[1] * dot_s_h_ratio_2;
+    const float rest1_2 = v[2] - p[2] * dot_s_h_ratio_2;
+    const float dot_rest_rest_2 = rest0_2 * rest0_2 + rest1_2 * rest1_2;
+    const float vv_2 = (is_small ? dot_h_h - dot_s_h_squared / (near ? chosen : 1.0f) : dot_rest_rest_2 +
+        dot_s_h * dot_s_h_ratio_2 / (near ? chosen_2 : 1.0f));
+    const float sinhc_r_near = polynomial_f((near ? vv_2 : 0.0f), SINHC_R_NEAR_F, 8);
+    const float dot_s_h_ratio_3 = dot_s_h / (near ? 1.0f : dot_s_s_chosen);
+    const float rest0_3 = v[1] - p[1] * dot_s_h_ratio_3;
+    const float rest1_3 = v[2] - p[2] * dot_s_h_ratio_3;
+    const float dot_rest_rest_3 = rest0_3 * rest0_3 + rest1_3 * rest1_3;
+    const float vv_3 = (is_small ? dot_h_h - dot_s_h_squared / (near ? 1.0f : chosen) : dot_rest_rest_3 +
+        dot_s_h * dot_s_h_ratio_3 / (near ? 1.0f : chosen_2));
+    const float r_2 = sqrtf((near ? 1.0f : vv_3));
+    const float sinhc_r = (near ? sinhc_r_near : sinhf(r_2) / (near ? 1.0f : r_2));
+    const float q0 = a * cosh_r + dot_s_h * sinhc_r / a;
+    const float q1 = p[1] * cosh_r + v[1] * sinhc_r;
+    const float q2 = p[2] * cosh_r + v[2] * sinhc_r;
+    q_out[0] = q0;
+    q_out[1] = q1;
+    q_out[2] = q2;
+}
+
+void hyperbolic_exp_batch_f(
+    size_t count,
+    const float *HYPERBOLIC_RESTRICT p,
+    const float *HYPERBOLIC_RESTRICT v,
+    float *HYPERBOLIC_RESTRICT q_out) {
+    for (size_t i = 0; i < count; ++i) hyperbolic_exp_f(p + 3 * i, v + 3 * i, q_out + 3 * i);
+}
+
+/* r / sinh(r) * ([e, D] - ww / 2 * [a, p[1:]]) */
+void hyperbolic_log_f(
+    const float *HYPERBOLIC_RESTRICT p,
+    const float *HYPERBOLIC_RESTRICT q,
+    float *HYPERBOLIC_RESTRICT v_out) {
+    const float S0 = p[1] + q[1];
+    const float S1 = p[2] + q[2];
+    const float dot_S_S = S0 * S0 + S1 * S1;
+    const float D0 = q[1] - p[1];
+    const float D1 = q[2] - p[2];
+    const float dot_D_D = D0 * D0 + D1 * D1;
+    const float dot_D_S = S0 * D0 + S1 * D1;
+    const float dot_ps_ps = p[1] * p[1] + p[2] * p[2];
+    const float dot_ps_ps_total = 1.0f + dot_ps_ps;
+    const float a = sqrtf(dot_ps_ps_total);
+    const float dot_qs_qs = q[1] * q[1] + q[2] * q[2];
+    const float dot_qs_qs_total = 1.0f + dot_qs_qs;
+    const float b = sqrtf(dot_qs_qs_total);
+    const float e = dot_D_S / (a + b);
+    const int is_small = dot_S_S < 1.0f;
+    const float dot_S_S_chosen = (is_small ? 1.0f : dot_S_S);
+    const float dot_D_S_ratio = dot_D_S / dot_S_S_chosen;
+    const float dot_ps_qs = p[1] * q[1] + p[2] * q[2];
+    const float dot_ps_qs_product = 2.0f * dot_ps_qs;
+    const float chosen = (is_small ? dot_ps_ps_total : 1.0f);
+    const float a_2 = sqrtf(chosen);
+    const float chosen_2 = (is_small ? dot_qs_qs_total : 1.0f);
+    const float b_2 = sqrtf(chosen_2);
+    const float e_2 = dot_D_S / (is_small ? a_2 + b_2 : 1.0f);
+    const float rest0 = D0 - S0 * dot_D_S_ratio;
+    const float rest1 = D1 - S1 * dot_D_S_ratio;
+    const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
+    const float chosen_3 = (is_small ? 1.0f : dot_qs_qs_total);
+    const float b_3 = sqrtf(chosen_3);
+    const float chosen_4 = (is_small ? 1.0f : dot_ps_ps_total);
+    const float a_3 = sqrtf(chosen_4);
+    const float a_total = a_3 + b_3;
+    const float c = (2.0f + b_3 * (2.0f * a_3) - dot_ps_qs_product) / (is_small ? 1.0f : a_total * a_total);
+    const float ww = (is_small ? dot_D_D - e_2 * e_2 : dot_rest_rest + dot_D_S_ratio * (dot_D_S * c));
+    const int near = ww < 0.4587184190750122f;
+    const float a_4 = sqrtf((near ? chosen : 1.0f));
+    const float b_4 = sqrtf((near ? chosen_2 : 1.0f));
+    const float e_3 = dot_D_S / (near ? (is_small ? a_4 + b_4 : 1.0f) : 1.0f);
+    const float dot_D_S_ratio_2 = dot_D_S / (near ? dot_S_S_chosen : 1.0f);
+    const float rest0_2 = D0 - S0 * dot_D_S_ratio_2;
+    const float rest1_2 = D1 - S1 * dot_D_S_ratio_2;
+    const float dot_rest_rest_2 = rest0_2 * rest0_2 + rest1_2 * rest1_2;
+    const float b_5 = sqrtf((near ? chosen_3 : 1.0f));
+    const float a_5 = sqrtf((near ? chosen_4 : 1.0f));
+    const float a_total_2 = a_5 + b_5;
+    const float c_2 = (2.0f + b_5 * (2.0f * a_5) - dot_ps_qs_product) / (near ? (is_small ? 1.0f : a_total_2 *
+        a_total_2) : 1.0f);
+    const float ww_2 = (is_small ? dot_D_D - e_3 * e_3 : dot_rest_rest_2 + dot_D_S_ratio_2 * (dot_D_S * c_2));
+    const float r_over_sinh_r_near = polynomial_f((near ? ww_2 : 0.0f), R_OVER_SINH_R_NEAR_F, 11);
+    const float sqrt_ww = sqrtf((near ? 1.0f : ww));
+    const float asinh_sqrt_ww_over_2 = asinhf(0.5f * sqrt_ww);
+    const float r = 2.0f * asinh_sqrt_ww_over_2;
+    const float sinh_r = sinhf(r);
+    const float r_over_sinh_r = (near ? r_over_sinh_r_near : r / sinh_r);
+    const float scale = 0.5f * ww;
+    const float v0 = r_over_sinh_r * (e - a * scale);
+    const float v1 = r_over_sinh_r * (D0 - p[1] * scale);
+    const float v2 = r_over_sinh_r * (D1 - p[2] * scale);
+    v_out[0] = v0;
+    v_out[1] = v1;
+    v_out[2] = v2;
+}
+
+void hyperbolic_log_batch_f(
+    size_t count,
+    const float *HYPERBOLIC_RESTRICT p,
+    const float *HYPERBOLIC_RESTRICT q,
+    float *HYPERBOLIC_RESTRICT v_out) {
+    for (size_t i = 0; i < count; ++i) hyperbolic_log_f(p + 3 * i, q + 3 * i, v_out + 3 * i);
+}
+
+/* r */
+float hyperbolic_distance_f(const float *HYPERBOLIC_RESTRICT p, const float *HYPERBOLIC_RESTRICT q) {
+    const float S0 = p[1] + q[1];
+    const float S1 = p[2] + q[2];
+    const float dot_S_S = S0 * S0 + S1 * S1;
+    const float D0 = q[1] - p[1];
+    const float D1 = q[2] - p[2];
+    const float dot_D_D = D0 * D0 + D1 * D1;
+    const float dot_D_S = S0 * D0 + S1 * D1;
+    const float dot_ps_ps = p[1] * p[1] + p[2] * p[2];
+    const float dot_ps_ps_total = 1.0f + dot_ps_ps;
+    const float dot_qs_qs = q[1] * q[1] + q[2] * q[2];
+    const float dot_qs_qs_total = 1.0f + dot_qs_qs;
+    const int is_small = dot_S_S < 1.0f;
+    const float dot_D_S_ratio = dot_D_S / (is_small ? 1.0f : dot_S_S);
+    const float dot_ps_qs = p[1] * q[1] + p[2] * q[2];
+    const float a = sqrtf((is_small ? dot_ps_ps_total : 1.0f));
+    const float b = sqrtf((is_small ? dot_qs_qs_total : 1.0f));
+    const float e = dot_D_S / (is_small ? a + b : 1.0f);
+    const float rest0 = D0 - S0 * dot_D_S_ratio;
+    const float rest1 = D1 - S1 * dot_D_S_ratio;
+    const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
+    const float b_2 = sqrtf((is_small ? 1.0f : dot_qs_qs_total));
+    const float a_2 = sqrtf((is_small ? 1.0f : dot_ps_ps_total));
+    const float a_total = a_2 + b_2;
+    const float c = (2.0f + b_2 * (2.0f * a_2) - 2.0f * dot_ps_qs) / (is_small ? 1.0f : a_total * a_total);
+    const float ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * (dot_D_S * c));
+    const float sqrt_ww = sqrtf(ww);
+    const float asinh_sqrt_ww_over_2 = asinhf(0.5f * sqrt_ww);
+    const float r = 2.0f * asinh_sqrt_ww_over_2;
+    return r;
+}
+
+void hyperbolic_distance_batch_f(
+    size_t count,
+    const float *HYPERBOLIC_RESTRICT p,
+    const float *HYPERBOLIC_RESTRICT q,
+    float *HYPERBOLIC_RESTRICT distance_out) {
+    for (size_t i = 0; i < count; ++i) distance_out[i] = hyperbolic_distance_f(p + 3 * i, q + 3 * i);
+}
+
+/* log(r_over_sinh_r) */
+float hyperbolic_log_abs_det_f(const float *HYPERBOLIC_RESTRICT p, const float *HYPERBOLIC_RESTRICT q) {
+    const float S0 = p[1] + q[1];
+    const float S1 = p[2] + q[2];
+    const float dot_S_S = S0 * S0 + S1 * S1;
+    const float D0 = q[1] - p[1];
+    const float D1 = q[2] - p[2];
+    const float dot_D_D = D0 * D0 + D1 * D1;
+    const float dot_D_S = S0 * D0 + S1 * D1;
+    const float dot_ps_ps = p[1] * p[1] + p[2] * p[2];
+    const float dot_ps_ps_total = 1.0f + dot_ps_ps;
+    const float dot_qs_qs = q[1] * q[1] + q[2] * q[2];
+    const float dot_qs_qs_total = 1.0f + dot_qs_qs;
+    const int is_small = dot_S_S < 1.0f;
+    const float dot_S_S_chosen = (is_small ? 1.0f : dot_S_S);
+    const float dot_D_S_ratio = dot_D_S / dot_S_S_chosen;
+    const float dot_ps_qs = p[1] * q[1] + p[2] * q[2];
+    const float dot_ps_qs_product = 2.0f * dot_ps_qs;
+    const float chosen = (is_small ? dot_ps_ps_total : 1.0f);
+    const float a = sqrtf(chosen);
+    const float chosen_2 = (is_small ? dot_qs_qs_total : 1.0f);
+    const float b = sqrtf(chosen_2);
+    const float e = dot_D_S / (is_small ? a + b : 1.0f);
+    const float rest0 = D0 - S0 * dot_D_S_ratio;
+    const float rest1 = D1 - S1 * dot_D_S_ratio;
+    const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
+    const float chosen_3 = (is_small ? 1.0f : dot_qs_qs_total);
+    const float b_2 = sqrtf(chosen_3);
+    const float chosen_4 = (is_small ? 1.0f : dot_ps_ps_total);
+    const float a_2 = sqrtf(chosen_4);
+    const float a_total = a_2 + b_2;
+    const float c = (2.0f + b_2 * (2.0f * a_2) - dot_ps_qs_product) / (is_small ? 1.0f : a_total * a_total);
+    const float ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * (dot_D_S * c));
+    const int near = ww < 0.4587184190750122f;
+    const float a_3 = sqrtf((near ? chosen : 1.0f));
+    const float b_3 = sqrtf((near ? chosen_2 : 1.0f));
+    const float e_2 = dot_D_S / (near ? (is_small ? a_3 + b_3 : 1.0f) : 1.0f);
+    const float dot_D_S_ratio_2 = dot_D_S / (near ? dot_S_S_chosen : 1.0f);
+    const float rest0_2 = D0 - S0 * dot_D_S_ratio_2;
+    const float rest1_2 = D1 - S1 * dot_D_S_ratio_2;
+    const float dot_rest_rest_2 = rest0_2 * rest0_2 + rest1_2 * rest1_2;
+    const float b_4 = sqrtf((near ? chosen_3 : 1.0f));
+    const float a_4 = sqrtf((near ? chosen_4 : 1.0f));
+    const float a_total_2 = a_4 + b_4;
+    const float c_2 = (2.0f + b_4 * (2.0f * a_4) - dot_ps_qs_product) / (near ? (is_small ? 1.0f : a_total_2 *
+        a_total_2) : 1.0f);
+    const float ww_2 = (is_small ? dot_D_D - e_2 * e_2 : dot_rest_rest_2 + dot_D_S_ratio_2 * (dot_D_S * c_2));
+    const float sqrt_ww = sqrtf((near ? 1.0f : ww));
+    const float asinh_sqrt_ww_over_2 = asinhf(0.5f * sqrt_ww);
+    const float r = 2.0f * asinh_sqrt_ww_over_2;
+    const float sinh_r = sinhf(r);
+    const float log_det_series = polynomial_f((near ? ww_2 : 0.0f), LOG_DET_SERIES_F, 11);
+    const float log_det_near = ww_2 * log_det_series;
+    const float log_det = (near ? log_det_near : logf(r / sinh_r));
+    return log_det;
+}
+
+void hyperbolic_log_abs_det_batch_f(
+    size_t count,
+    const float *HYPERBOLIC_RESTRICT p,
+    const float *HYPERBOLIC_RESTRICT q,
+    float *HYPERBOLIC_RESTRICT log_abs_det_out) {
+    for (size_t i = 0; i < count; ++i) log_abs_det_out[i] = hyperbolic_log_abs_det_f(p + 3 * i, q + 3 * i);
+}
+
+/* the tangential part of G^-1 df */
+void hyperbolic_riemannian_gradient_f(
+    const float *HYPERBOLIC_RESTRICT p,
+    const float *HYPERBOLIC_RESTRICT df,
+    float *HYPERBOLIC_RESTRICT gradient_out) {
+    const float normal_part = p[0] * df[0] + p[1] * df[1] + p[2] * df[2];
+    const float gradient0 = p[0] * normal_part - df[0];
+    const float gradient1 = df[1] + p[1] * normal_part;
+    const float gradient2 = df[2] + p[2] * normal_part;
+    gradient_out[0] = gradient0;
+    gradient_out[1] = gradient1;
+    gradient_out[2] = gradient2;
+}
+
+void hyperbolic_riemannian_gradient_batch_f(
+    size_t count,
+    const float *HYPERBOLIC_RESTRICT p,
+    const float *HYPERBOLIC_RESTRICT df,
+    float *HYPERBOLIC_RESTRICT gradient_out) {
+    for (size_t i = 0; i < count; ++i) hyperbolic_riemannian_gradient_f(p + 3 * i, df + 3 * i, gradient_out + 3 * i);
+}
+
+/* |grad f|_p */
+float hyperbolic_gradient_norm_f(const float *HYPERBOLIC_RESTRICT p, const float *HYPERBOLIC_RESTRICT df) {
+    const float normal_part = p[0] * df[0] + p[1] * df[1] + p[2] * df[2];
+    const float gradient0 = p[0] * normal_part - df[0];
+    const float gradient1 = df[1] + p[1] * normal_part;
+    const float gradient2 = df[2] + p[2] * normal_part;
+    return sqrtf(gradient1 * gradient1 + gradient2 * gradient2 - gradient0 * gradient0);
+}
+
+void hyperbolic_gradient_norm_batch_f(
+    size_t count,
+    const float *HYPERBOLIC_RESTRICT p,
+    const float *HYPERBOLIC_RESTRICT df,
+    float *HYPERBOLIC_RESTRICT gradient_norm_out) {
+    for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = hyperbolic_gradient_norm_f(p + 3 * i, df + 3 * i);
+}
+
+/* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */
+void hyperbolic_splat_f(
+    const float *HYPERBOLIC_RESTRICT x,
+    const float *HYPERBOLIC_RESTRICT mu,
+    const float *HYPERBOLIC_RESTRICT W,
+    float amplitude,
+    float *HYPERBOLIC_RESTRICT value_out,
+    float *HYPERBOLIC_RESTRICT gradient_out) {
+    const float S0 = x[1] + mu[1];
+    const float S1 = x[2] + mu[2];
+    const float dot_S_S = S0 * S0 + S1 * S1;
+    const float D0 = x[1] - mu[1];
+    const float D1 = x[2] - mu[2];
+    const float dot_D_D = D0 * D0 + D1 * D1;
+    const float dot_D_S = S0 * D0 + S1 * D1;
+    const float dot_ps_ps = mu[1] * mu[1] + mu[2] * mu[2];
+    const float dot_ps_ps_total = 1.0f + dot_ps_ps;
+    const float a = sqrtf(dot_ps_ps_total);
+    const float dot_qs_qs = x[1] * x[1] + x[2] * x[2];
+    const float dot_qs_qs_total = 1.0f + dot_qs_qs;
+    const float b = sqrtf(dot_qs_qs_total);
+    const float a_total = a + b;
+    const float e = dot_D_S / a_total;
+    const int is_small = dot_S_S < 1.0f;
+    const float dot_S_S_chosen = (is_small ? 1.0f : dot_S_S);
+    const float dot_D_S_ratio = dot_D_S / dot_S_S_chosen;
+    const float dot_ps_qs = x[1] * mu[1] + x[2] * mu[2];
+    const float dot_ps_qs_product = 2.0f * dot_ps_qs;
+    const float chosen = (is_small ? dot_ps_ps_total : 1.0f);
+    const float a_2 = sqrtf(chosen);
+    const float chosen_2 = (is_small ? dot_qs_qs_total : 1.0f);
+    const float b_2 = sqrtf(chosen_2);
+    const float chosen_3 = (is_small ? a_2 + b_2 : 1.0f);
+    const float e_2 = dot_D_S / chosen_3;
+    const float rest0 = D0 - S0 * dot_D_S_ratio;
+    const float rest1 = D1 - S1 * dot_D_S_ratio;
+    const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
+    const float chosen_4 = (is_small ? 1.0f : dot_qs_qs_total);
+    const float b_3 = sqrtf(chosen_4);
+    const float chosen_5 = (is_small ? 1.0f : dot_ps_ps_total);
+    const float a_3 = sqrtf(chosen_5);
+    const float a_product = 2.0f * a_3;
+    const float a_total_2 = a_3 + b_3;
+    const float chosen_6 = (is_small ? 1.0f : a_total_2 * a_total_2);
+    const float c = (2.0f + b_3 * a_product - dot_ps_qs_product) / chosen_6;
+    const float dot_D_S_product = dot_D_S * c;
+    const float ww = (is_small ? dot_D_D - e_2 * e_2 : dot_rest_rest + dot_D_S_ratio * dot_D_S_product);
+    const int near = ww < 0.4587184190750122f;
+    const float a_4 = sqrtf((near ? chosen : 1.0f));
+    const float b_4 = sqrtf((near ? chosen_2 : 1.0f));
+    const float near_chosen = (near ? (is_small ? a_4 + b_4 : 1.0f) : 1.0f);
+    const float e_3 = dot_D_S / near_chosen;
+    const float near_chosen_2 = (near ? dot_S_S_chosen : 1.0f);
+    const float dot_D_S_ratio_2 = dot_D_S / near_chosen_2;
+    const float rest0_2 = D0 - S0 * dot_D_S_ratio_2;
+    const float rest1_2 = D1 - S1 * dot_D_S_ratio_2;
+    const float dot_rest_rest_2 = rest0_2 * rest0_2 + rest1_2 * rest1_2;
+    const float b_5 = sqrtf((near ? chosen_4 : 1.0f));
+    const float a_5 = sqrtf((near ? chosen_5 : 1.0f));
+    const float a_product_2 = 2.0f * a_5;
+    const float a_total_3 = a_5 + b_5;
+    const float near_chosen_3 = (near ? (is_small ? 1.0f : a_total_3 * a_total_3) : 1.0f);
+    const float c_2 = (2.0f + b_5 * a_product_2 - dot_ps_qs_product) / near_chosen_3;
+    const float dot_D_S_product_2 = dot_D_S * c_2;
+    const float ww_2 = (is_small ? dot_D_D - e_3 * e_3 : dot_rest_rest_2 + dot_D_S_ratio_2 *
+        dot_D_S_product_2);
+    const float near_chosen_4 = (near ? ww_2 : 0.0f);
+    const float r_over_sinh_r_near = polynomial_f(near_chosen_4, R_OVER_SINH_R_NEAR_F, 11);
+    const float sqrt_ww = sqrtf((near ? 1.0f : ww));
+    const float sqrt_ww_product = 0.5f * sqrt_ww;
+    const float asinh_sqrt_ww_over_2 = asinhf(sqrt_ww_product);
+    const float r = 2.0f * asinh_sqrt_ww_over_2;
+    const float sinh_r = sinhf(r);
+    const float r_ratio = r / sinh_r;
+    const float r_over_sinh_r = (near ? r_over_sinh_r_near : r_ratio);
+    const float scale = 0.5f * ww;
+    const float e_gap = e - a * scale;
+    const float v0 = r_over_sinh_r * e_gap;
+    const float D0_gap = D0 - mu[1] * scale;
+    const float v1 = r_over_sinh_r * D0_gap;
+    const float D1_gap = D1 - mu[2] * scale;
+    const float v2 = r_over_sinh_r * D1_gap;
+    const float log_det_series = polynomial_f(near_chosen_4, LOG_DET_SERIES_F, 11);
+    const float log_det_near = ww_2 * log_det_series;
+    const float log_det = (near ? log_det_near : logf(r_ratio));
+    const float z0 = W[0] * v0 + W[1] * v1 + W[2] * v2;
+    const float z1 = W[3] * v0 + W[4] * v1 + W[5] * v2;
+    const float exp_2 = expf(log_det - 0.5f * (z0 * z0 + z1 * z1));
+    const float phi = amplitude * exp_2;
+    const float by_v2 = -(W[5] * z1) - W[2] * z0;
+    const float by_v1 = -(W[4] * z1) - W[1] * z0;
+    const float by_v0 = -(W[3] * z1) - W[0] * z0;
+    const float by_log_det_near = (near ? 1.0f : 0.0f);
+    const float by_log_det_series = ww_2 * by_log_det_near;
+    const float log_det_series_slope = polynomial_f(near_chosen_4, LOG_DET_SERIES_SLOPE_F, 10);
+    const float product = r_over_sinh_r * by_v2;
+    const float product_2 = r_over_sinh_r * by_v1;
+    const float by_e = r_over_sinh_r * by_v0;
+    const float by_r_over_sinh_r = D1_gap * by_v2 + D0_gap * by_v1 + e_gap * by_v0;
+    const float by_scale = -(mu[2] * product) - mu[1] * product_2 - a * by_e;
+    const float by_r_over_sinh_r_near = (near ? by_r_over_sinh_r : 0.0f);
+    const float sinh_r_ratio = ((near ? 0.0f : 1.0f) / r_ratio + (near ? 0.0f : by_r_over_sinh_r)) / sinh_r;
+    const float by_r = sinh_r_ratio - r_ratio * sinh_r_ratio * coshf(r);
+    const float by_asinh_sqrt_ww_over_2 = 2.0f * by_r;
+    const float by_sqrt_ww = 0.5f * (by_asinh_sqrt_ww_over_2 / sqrtf(1.0f + sqrt_ww_product *
+        sqrt_ww_product));
+    const float by_ww = 0.5f * by_scale + (near ? 0.0f : by_sqrt_ww / (2.0f * sqrt_ww));
+    const float r_over_sinh_r_near_slope = polynomial_f(near_chosen_4, R_OVER_SINH_R_NEAR_SLOPE_F, 10);
+    const float by_ww_2 = log_det_series * by_log_det_near + (near ? by_log_det_series * log_det_series_slope
+        + by_r_over_sinh_r_near * r_over_sinh_r_near_slope : 0.0f);
+    const float by_ww_chosen = (is_small ? by_ww_2 : 0.0f);
+    const float by_dot_rest_rest = (is_small ? 0.0f : by_ww_2);
+    const float product_3 = dot_D_S_ratio_2 * by_dot_rest_rest;
+    const float by_c = dot_D_S * product_3;
+    const float by_c_ratio = by_c / near_chosen_3;
+    const float product_4 = 2.0f * (is_small ? 0.0f : (near ? -(c_2 * by_c_ratio) : 0.0f));
+    const float by_b = a_total_3 * product_4 + a_product_2 * by_c_ratio;
+    const float product_5 = 2.0f * by_dot_rest_rest;
+    const float by_rest1 = rest1_2 * product_5;
+    const float by_rest0 = rest0_2 * product_5;
+    const float ratio = (dot_D_S_product_2 * by_dot_rest_rest - S1 * by_rest1 - S0 * by_rest0) /
+        near_chosen_2;
+    const float ratio_2 = e_3 * (2.0f * by_ww_chosen) / near_chosen;
+    const float by_b_2 = (is_small ? (near ? e_3 * ratio_2 : 0.0f) : 0.0f);
+    const float by_ww_chosen_2 = (is_small ? by_ww : 0.0f);
+    const float by_dot_rest_rest_2 = (is_small ? 0.0f : by_ww);
+    const float product_6 = dot_D_S_ratio * by_dot_rest_rest_2;
+    const float by_c_2 = dot_D_S * product_6;
+    const float by_c_ratio_2 = by_c_2 / chosen_6;
+    const float product_7 = a_total_2 * (2.0f * (is_small ? 0.0f : -(c * by_c_ratio_2)));
+    const float by_b_3 = product_7 + a_product * by_c_ratio_2;
+    const float chosen_7 = (is_small ? 0.0f : (near ? by_b / (2.0f * b_5) : 0.0f) + by_b_3 / (2.0f * b_3));
+    const float product_8 = 2.0f * by_dot_rest_rest_2;
+    const float by_rest1_2 = rest1 * product_8;
+    const float by_rest0_2 = rest0 * product_8;
+    const float by_dot_D_D = by_ww_chosen + by_ww_chosen_2;
+    const float ratio_3 = e_2 * (2.0f * by_ww_chosen_2) / chosen_3;
+    const float gap = c_2 * product_3 + ratio - ratio_2 + c * product_6 - ratio_3;
+    const float by_b_4 = (is_small ? e_2 * ratio_3 : 0.0f);
+    const float chosen_8 = (is_small ? (near ? by_b_2 / (2.0f * b_4) : 0.0f) + by_b_4 / (2.0f * b_2) : 0.0f);
+    const float by_dot_ps_qs = 2.0f * (-by_c_ratio - by_c_ratio_2);
+    const float ratio_4 = (dot_D_S_product * by_dot_rest_rest_2 - S1 * by_rest1_2 - S0 * by_rest0_2) /
+        dot_S_S_chosen;
+    const float by_dot_S_S = (is_small ? 0.0f : (near ? -(dot_D_S_ratio_2 * ratio) : 0.0f) - dot_D_S_ratio *
+        ratio_4);
+    const float by_e_ratio = by_e / a_total;
+    const float by_dot_D_S = gap + ratio_4 + by_e_ratio;
+    const int is_small_2 = dot_qs_qs_total == 0.0f;
+    const float chosen_9 = (is_small_2 ? 0.0f : -(e * by_e_ratio / (2.0f * (is_small_2 ? 1.0f : b))));
+    const float by_dot_qs_qs = chosen_7 + chosen_8 + chosen_9;
+    const float product_9 = 2.0f * by_dot_qs_qs;
+    const float by_dot_D_D_product = 2.0f * by_dot_D_D;
+    const float by_D1 = product + by_rest1 + by_rest1_2 + S1 * by_dot_D_S + D1 * by_dot_D_D_product;
+    const float by_D0 = product_2 + by_rest0 + by_rest0_2 + S0 * by_dot_D_S + D0 * by_dot_D_D_product;
+    const float by_dot_S_S_product = 2.0f * by_dot_S_S;
+    const float by_S1 = -(dot_D_S_ratio_2 * by_rest1) - dot_D_S_ratio * by_rest1_2 + D1 * by_dot_D_S + S1 *
+        by_dot_S_S_product;
+    const float by_S0 = -(dot_D_S_ratio_2 * by_rest0) - dot_D_S_ratio * by_rest0_2 + D0 * by_dot_D_S + S0 *
+        by_dot_S_S_product;
+    const float exponent_by_x2 = mu[2] * by_dot_ps_qs + x[2] * product_9 + by_D1 + by_S1;
+    const float exponent_by_x1 = mu[1] * by_dot_ps_qs + x[1] * product_9 + by_D0 + by_S0;
+    const float df1 = phi * exponent_by_x1;
+    const float df2 = phi * exponent_by_x2;
+    const float normal_part = x[1] * df1 + x[2] * df2;
+    const float gradient0 = x[0] * normal_part;
+    const float gradient1 = df1 + x[1] * normal_part;
+    const float gradient2 = df2 + x[2] * normal_part;
+    value_out[0] = phi;
+    gradient_out[0] = gradient0;
+    gradient_out[1] = gradient1;
+    gradient_out[2] = gradient2;
+}
+
+void hyperbolic_splat_batch_f(
+    size_t count,
+    const float *HYPERBOLIC_RESTRICT x,
+    const float *HYPERBOLIC_RESTRICT mu,
+    const float *HYPERBOLIC_RESTRICT W,
+    const float *HYPERBOLIC_RESTRICT amplitude,
+    float *HYPERBOLIC_RESTRICT value_out,
+    float *HYPERBOLIC_RESTRICT gradient_out) {
+    for (size_t i = 0; i < count; ++i) hyperbolic_splat_f(x + 3 * i, mu + 3 * i, W + 6 * i, amplitude[i], value_out + i, gradient_out + 3 * i);
+}
+
+/* Gram-Schmidt in the metric, always on the longest of what is left of the projected axes. */
+void hyperbolic_frame_f(const float *HYPERBOLIC_RESTRICT p, float *HYPERBOLIC_RESTRICT frame) {
+    float left[3][3];
+    for (int i = 0; i < 3; ++i) {
+        float axis[3];
+        for (int j = 0; j < 3; ++j) axis[j] = i == j ? 1.0f : 0.0f;
+        hyperbolic_to_tangent_f(p, axis, left[i]);
+    }
+    for (int row = 0; row < 2; ++row) {
+        float *e = frame + 3 * row;
+        int longest = 0;
+        for (int i = 1; i < 3; ++i)
+            if (hyperbolic_norm_f(p, left[i]) > hyperbolic_norm_f(p, left[longest])) longest = i;
+        const float length = hyperbolic_norm_f(p, left[longest]);
+        for (int j = 0; j < 3; ++j) e[j] = left[longest][j] / length;
+        for (int i = 0; i < 3; ++i) {
+            const float part = hyperbolic_inner_f(p, e, left[i]);
+            for (int j = 0; j < 3; ++j) left[i][j] -= part * e[j];
+        }
+    }
+}

@@ -1,0 +1,808 @@
+/*
+ * so3: Rotations of R^3 as unit quaternions (w, x, y, z), q and -q the same; distances are rotation angles in
+ *
+ * See the header for what the functions promise.
+ */
+
+#include "so3.h"
+
+#include <float.h>
+
+static const double SINC__NEAR[8] = {
+    1.0, -0.16666666666666666, 0.008333333333333106, -0.0001984126984108742, 2.7557319152292533e-06,
+    -2.5052093081256153e-08, 1.605723315933452e-10, -7.535482987408254e-13};
+
+static const double T_OVER_NORM_S_NEAR[14] = {
+    2.0, 0.33333333333333803, 0.14999999999887204, 0.08928571439308554, 0.06076388352917429,
+    0.04474447894429192, 0.034702400890995196, 0.027970967704767306, 0.022725187457831735,
+    0.021950106306038882, 0.0059985679108534124, 0.04673327377794268, -0.046540024421261234,
+    0.06801122378850952};
+
+static const double LOG_DET_SERIES[14] = {
+    0.3333333333333333, 0.12222222222222505, 0.06737213403812269, 0.044038800770006784, 0.03163272618894735,
+    0.02412572786938261, 0.019178426063785198, 0.015745299135070896, 0.01296134121333057,
+    0.012728598238987641, 0.003298619430883951, 0.027868702271499315, -0.02806396537465957,
+    0.04072842356250539};
+
+static const double LOG_DET_SERIES_SLOPE[13] = {
+    0.12222222222222505, 0.13474426807624537, 0.13211640231002034, 0.1265309047557894, 0.12062863934691306,
+    0.1150705563827112, 0.11021709394549628, 0.10369072970664456, 0.11455738415088876, 0.032986194308839506,
+    0.3065557249864925, -0.3367675844959148, 0.5294695063125701};
+
+static const double T_OVER_NORM_S_NEAR_SLOPE[13] = {
+    0.33333333333333803, 0.29999999999774407, 0.26785714317925663, 0.24305553411669717, 0.22372239472145958,
+    0.2082144053459712, 0.19579677393337114, 0.18180149966265388, 0.19755095675434994, 0.059985679108534126,
+    0.5140660115573694, -0.5584802930551348, 0.8841459092506236};
+
+/* c[0] + c[1] x + ... by Horner's rule. */
+static inline double polynomial(double x, const double *c, int size) {
+    double result = c[size - 1];
+    for (int i = size - 2; i >= 0; --i) result = result * x + c[i];
+    return result;
+}
+
+/* p / norm(p) */
+void so3_project(const double *SO3_RESTRICT x, double *SO3_RESTRICT p_out) {
+    const double norm_p_squared = x[0] * x[0] + x[1] * x[1] + x[2] * x[2] + x[3] * x[3];
+    const double norm_p = sqrt(norm_p_squared);
+    const double scale = 1.0 / norm_p;
+    const double p0 = x[0] * scale;
+    const double p1 = x[1] * scale;
+    const double p2 = x[2] * scale;
+    const double p3 = x[3] * scale;
+    p_out[0] = p0;
+    p_out[1] = p1;
+    p_out[2] = p2;
+    p_out[3] = p3;
+}
+
+void so3_project_batch(size_t count, const double *SO3_RESTRICT x, double *SO3_RESTRICT p_out) {
+    for (size_t i = 0; i < count; ++i) so3_project(x + 4 * i, p_out + 4 * i);
+}
+
+/* (E E^T)^-1 E x */
+void so3_to_tangent(const double *SO3_RESTRICT p, const double *SO3_RESTRICT x, double *SO3_RESTRICT v_out) {
+    const double product = 2.0 * p[0];
+    const double product_2 = 2.0 * p[3];
+    const double product_3 = 2.0 * p[1];
+    const double product_4 = 2.0 * p[2];
+    const double v0 = x[1] * product + x[2] * product_2 - x[0] * product_3 - x[3] * product_4;
+    const double v1 = x[2] * product + x[3] * product_3 - x[0] * product_4 - x[1] * product_2;
+    const double v2 = x[3] * product + x[1] * product_4 - x[2] * product_3 - x[0] * product_2;
+    v_out[0] = v0;
+    v_out[1] = v1;
+    v_out[2] = v2;
+}
+
+void so3_to_tangent_batch(
+    size_t count,
+    const double *SO3_RESTRICT p,
+    const double *SO3_RESTRICT x,
+    double *SO3_RESTRICT v_out) {
+    for (size_t i = 0; i < count; ++i) so3_to_tangent(p + 4 * i, x + 4 * i, v_out + 3 * i);
+}
+
+/* dot(u, v) */
+double so3_inner(const double *SO3_RESTRICT p, const double *SO3_RESTRICT u, const double *SO3_RESTRICT v) {
+    (void)p;
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+
+void so3_inner_batch(
+    size_t count,
+    const double *SO3_RESTRICT p,
+    const double *SO3_RESTRICT u,
+    const double *SO3_RESTRICT v,
+    double *SO3_RESTRICT inner_out) {
+    for (size_t i = 0; i < count; ++i) inner_out[i] = so3_inner(p + 4 * i, u + 3 * i, v + 3 * i);
+}
+
+/* sqrt(<v, v>_p) */
+double so3_norm(const double *SO3_RESTRICT p, const double *SO3_RESTRICT v) {
+    (void)p;
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+void so3_norm_batch(
+    size_t count,
+    const double *SO3_RESTRICT p,
+    const double *SO3_RESTRICT v,
+    double *SO3_RESTRICT norm_out) {
+    for (size_t i = 0; i < count; ++i) norm_out[i] = so3_norm(p + 4 * i, v + 3 * i);
+}
+
+/* G(p) v */
+void so3_flat(const double *SO3_RESTRICT p, const double *SO3_RESTRICT v, double *SO3_RESTRICT covector_out) {
+    (void)p;
+    covector_out[0] = v[0];
+    covector_out[1] = v[1];
+    covector_out[2] = v[2];
+}
+
+void so3_flat_batch(
+    size_t count,
+    const double *SO3_RESTRICT p,
+    const double *SO3_RESTRICT v,
+    double *SO3_RESTRICT covector_out) {
+    for (size_t i = 0; i < count; ++i) so3_flat(p + 4 * i, v + 3 * i, covector_out + 3 * i);
+}
+
+/* qmul(p, [cos(norm(v) / 2), sinc(norm(v) / 2) / 2 * v]) */
+void so3_exp(const double *SO3_RESTRICT p, const double *SO3_RESTRICT v, double *SO3_RESTRICT q_out) {
+    const double norm_v_squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    const double norm_v = sqrt(norm_v_squared);
+    const double cos_norm_v_over_2 = cos(0.5 * norm_v);
+    const double product = 0.25 * norm_v_squared;
+    const int near = product < 0.9903926849365234;
+    const double sinc__near = polynomial((near ? product : 0.0), SINC__NEAR, 8);
+    const double norm_v_2 = sqrt((near ? 1.0 : norm_v_squared));
+    const double sinc_ = (near ? sinc__near : 2.0 * sin(0.5 * norm_v_2) / (near ? 1.0 : norm_v_2));
+    const double scale = 0.5 * sinc_;
+    const double scale_product = p[1] * scale;
+    const double scale_product_2 = p[2] * scale;
+    const double scale_product_3 = p[3] * scale;
+    const double q0 = p[0] * cos_norm_v_over_2 - v[0] * scale_product - v[1] * scale_product_2 - v[2] *
+        scale_product_3;
+    const double scale_product_4 = p[0] * scale;
+    const double q1 = p[1] * cos_norm_v_over_2 + v[0] * scale_product_4 + v[2] * scale_product_2 - v[1] *
+        scale_product_3;
+    const double q2 = p[2] * cos_norm_v_over_2 + v[1] * scale_product_4 + v[0] * scale_product_3 - v[2] *
+        scale_product;
+    const double q3 = p[3] * cos_norm_v_over_2 + v[2] * scale_product_4 + v[1] * scale_product - v[0] *
+        scale_product_2;
+    q_out[0] = q0;
+    q_out[1] = q1;
+    q_out[2] = q2;
+    q_out[3] = q3;
+}
+
+void so3_exp_batch(
+    size_t count,
+    const double *SO3_RESTRICT p,
+    const double *SO3_RESTRICT v,
+    double *SO3_RESTRICT q_out) {
+    for (size_t i = 0; i < count; ++i) so3_exp(p + 4 * i, v + 3 * i, q_out + 4 * i);
+}
+
+/* sign(g[0]) * t * s / norm(s) */
+void so3_log(const double *SO3_RESTRICT p, const double *SO3_RESTRICT q, double *SO3_RESTRICT v_out) {
+    const double g0 = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
+    const double g1 = p[0] * q[1] + p[3] * q[2] - p[1] * q[0] - p[2] * q[3];
+    const double g2 = p[0] * q[2] + p[1] * q[3] - p[2] * q[0] - p[3] * q[1];
+    const double g3 = p[0] * q[3] + p[2] * q[1] - p[1] * q[2] - p[3] * q[0];
+    const double norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+    const double abs_g0 = fabs(g0);
+    const int near = norm_s_squared < 0.2492869794368744;
+    const double t_over_norm_s_near = polynomial((near ? norm_s_squared : 0.0), T_OVER_NORM_S_NEAR, 14);
+    const double norm_s = sqrt((near ? 1.0 : norm_s_squared));
+    const double atan2_norm_s_abs_g0 = atan2(norm_s, abs_g0);
+    const double t = 2.0 * atan2_norm_s_abs_g0;
+    const double t_over_norm_s = (near ? t_over_norm_s_near : t / norm_s);
+    const double scale = t_over_norm_s * (g0 < 0.0 ? -1.0 : 1.0);
+    const double v0 = g1 * scale;
+    const double v1 = g2 * scale;
+    const double v2 = g3 * scale;
+    v_out[0] = v0;
+    v_out[1] = v1;
+    v_out[2] = v2;
+}
+
+void so3_log_batch(
+    size_t count,
+    const double *SO3_RESTRICT p,
+    const double *SO3_RESTRICT q,
+    double *SO3_RESTRICT v_out) {
+    for (size_t i = 0; i < count; ++i) so3_log(p + 4 * i, q + 4 * i, v_out + 3 * i);
+}
+
+/* t */
+double so3_distance(const double *SO3_RESTRICT p, const double *SO3_RESTRICT q) {
+    const double g0 = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
+    const double g1 = p[0] * q[1] + p[3] * q[2] - p[1] * q[0] - p[2] * q[3];
+    const double g2 = p[0] * q[2] + p[1] * q[3] - p[2] * q[0] - p[3] * q[1];
+    const double g3 = p[0] * q[3] + p[2] * q[1] - p[1] * q[2] - p[3] * q[0];
+    const double norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+    const double norm_s = sqrt(norm_s_squared);
+    const double abs_g0 = fabs(g0);
+    const double atan2_norm_s_abs_g0 = atan2(norm_s, abs_g0);
+    const double t = 2.0 * atan2_norm_s_abs_g0;
+    return t;
+}
+
+void so3_distance_batch(
+    size_t count,
+    const double *SO3_RESTRICT p,
+    const double *SO3_RESTRICT q,
+    double *SO3_RESTRICT distance_out) {
+    for (size_t i = 0; i < count; ++i) distance_out[i] = so3_distance(p + 4 * i, q + 4 * i);
+}
+
+/* 2*log(t_over_norm_s/2) */
+double so3_log_abs_det(const double *SO3_RESTRICT p, const double *SO3_RESTRICT q) {
+    const double g0 = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
+    const double g1 = p[0] * q[1] + p[3] * q[2] - p[1] * q[0] - p[2] * q[3];
+    const double g2 = p[0] * q[2] + p[1] * q[3] - p[2] * q[0] - p[3] * q[1];
+    const double g3 = p[0] * q[3] + p[2] * q[1] - p[1] * q[2] - p[3] * q[0];
+    const double norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+    const double abs_g0 = fabs(g0);
+    const int near = norm_s_squared < 0.2492869794368744;
+    const double norm_s = sqrt((near ? 1.0 : norm_s_squared));
+    const double atan2_norm_s_abs_g0 = atan2(norm_s, abs_g0);
+    const double t = 2.0 * atan2_norm_s_abs_g0;
+    const double log_det_series = polynomial((near ? norm_s_squared : 0.0), LOG_DET_SERIES, 14);
+    const double log_det_near = norm_s_squared * log_det_series;
+    const double log_det = (near ? log_det_near : 2.0 * log(0.5 * (t / norm_s)));
+    return log_det;
+}
+
+void so3_log_abs_det_batch(
+    size_t count,
+    const double *SO3_RESTRICT p,
+    const double *SO3_RESTRICT q,
+    double *SO3_RESTRICT log_abs_det_out) {
+    for (size_t i = 0; i < count; ++i) log_abs_det_out[i] = so3_log_abs_det(p + 4 * i, q + 4 * i);
+}
+
+/* G^-1 E df */
+void so3_riemannian_gradient(
+    const double *SO3_RESTRICT p,
+    const double *SO3_RESTRICT df,
+    double *SO3_RESTRICT gradient_out) {
+    const double product = 0.5 * df[1];
+    const double product_2 = 0.5 * df[2];
+    const double product_3 = 0.5 * df[0];
+    const double product_4 = 0.5 * df[3];
+    const double gradient0 = p[0] * product + p[3] * product_2 - p[1] * product_3 - p[2] * product_4;
+    const double gradient1 = p[0] * product_2 + p[1] * product_4 - p[2] * product_3 - p[3] * product;
+    const double gradient2 = p[2] * product + p[0] * product_4 - p[3] * product_3 - p[1] * product_2;
+    gradient_out[0] = gradient0;
+    gradient_out[1] = gradient1;
+    gradient_out[2] = gradient2;
+}
+
+void so3_riemannian_gradient_batch(
+    size_t count,
+    const double *SO3_RESTRICT p,
+    const double *SO3_RESTRICT df,
+    double *SO3_RESTRICT gradient_out) {
+    for (size_t i = 0; i < count; ++i) so3_riemannian_gradient(p + 4 * i, df + 4 * i, gradient_out + 3 * i);
+}
+
+/* |grad f|_p */
+double so3_gradient_norm(const double *SO3_RESTRICT p, const double *SO3_RESTRICT df) {
+    const double product = 0.5 * df[1];
+    const double product_2 = 0.5 * df[2];
+    const double product_3 = 0.5 * df[0];
+    const double product_4 = 0.5 * df[3];
+    const double gradient0 = p[0] * product + p[3] * product_2 - p[1] * product_3 - p[2] * product_4;
+    const double gradient1 = p[0] * product_2 + p[1] * product_4 - p[2] * product_3 - p[3] * product;
+    const double gradient2 = p[2] * product + p[0] * product_4 - p[3] * product_3 - p[1] * product_2;
+    return sqrt(gradient0 * gradient0 + gradient1 * gradient1 + gradient2 * gradient2);
+}
+
+void so3_gradient_norm_batch(
+    size_t count,
+    const double *SO3_RESTRICT p,
+    const double *SO3_RESTRICT df,
+    double *SO3_RESTRICT gradient_norm_out) {
+    for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = so3_gradient_norm(p + 4 * i, df + 4 * i);
+}
+
+/* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */
+void so3_splat(
+    const double *SO3_RESTRICT x,
+    const double *SO3_RESTRICT mu,
+    const double *SO3_RESTRICT W,
+    double amplitude,
+    double *SO3_RESTRICT value_out,
+    double *SO3_RESTRICT gradient_out) {
+    const double g0 = x[0] * mu[0] + x[1] * mu[1] + x[2] * mu[2] + x[3] * mu[3];
+    const double g1 = x[1] * mu[0] + x[2] * mu[3] - x[0] * mu[1] - x[3] * mu[2];
+    const double g2 = x[2] * mu[0] + x[3] * mu[1] - x[0] * mu[2] - x[1] * mu[3];
+    const double g3 = x[3] * mu[0] + x[1] * mu[2] - x[2] * mu[1] - x[0] * mu[3];
+    const double norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+    const double abs_g0 = fabs(g0);
+    const int near = norm_s_squared < 0.2492869794368744;
+    const double near_chosen = (near ? norm_s_squared : 0.0);
+    const double t_over_norm_s_near = polynomial(near_chosen, T_OVER_NORM_S_NEAR, 14);
+    const double near_chosen_2 = (near ? 1.0 : norm_s_squared);
+    const double norm_s = sqrt(near_chosen_2);
+    const double atan2_norm_s_abs_g0 = atan2(norm_s, abs_g0);
+    const double t = 2.0 * atan2_norm_s_abs_g0;
+    const double t_ratio = t / norm_s;
+    const double t_over_norm_s = (near ? t_over_norm_s_near : t_ratio);
+    const int is_small = g0 < 0.0;
+    const double chosen = (is_small ? -1.0 : 1.0);
+    const double scale = t_over_norm_s * chosen;
+    const double v0 = g1 * scale;
+    const double v1 = g2 * scale;
+    const double v2 = g3 * scale;
+    const double log_det_series = polynomial(near_chosen, LOG_DET_SERIES, 14);
+    const double log_det_near = norm_s_squared * log_det_series;
+    const double product = 0.5 * t_ratio;
+    const double log_det = (near ? log_det_near : 2.0 * log(product));
+    const double z0 = W[0] * v0 + W[1] * v1 + W[2] * v2;
+    const double z1 = W[3] * v0 + W[4] * v1 + W[5] * v2;
+    const double z2 = W[6] * v0 + W[7] * v1 + W[8] * v2;
+    const double log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
+    const double phi = amplitude * exp(log_det_gap);
+    const double by_v2 = -(W[8] * z2) - W[5] * z1 - W[2] * z0;
+    const double by_v1 = -(W[7] * z2) - W[4] * z1 - W[1] * z0;
+    const double by_v0 = -(W[6] * z2) - W[3] * z1 - W[0] * z0;
+    const double by_log_det_near = (near ? 1.0 : 0.0);
+    const double by_log_det_series = norm_s_squared * by_log_det_near;
+    const double log_det_series_slope = polynomial(near_chosen, LOG_DET_SERIES_SLOPE, 13);
+    const double by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
+    const double by_t_over_norm_s = chosen * by_scale;
+    const double by_t_over_norm_s_near = (near ? by_t_over_norm_s : 0.0);
+    const double total = 0.5 * (2.0 * (near ? 0.0 : 1.0) / product) + (near ? 0.0 : by_t_over_norm_s);
+    const double by_t = total / norm_s;
+    const double by_atan2_norm_s_abs_g0 = 2.0 * by_t;
+    const double ratio = by_atan2_norm_s_abs_g0 / (near_chosen_2 + abs_g0 * abs_g0);
+    const double norm_s_product = norm_s * ratio;
+    const double by_abs_g0 = -norm_s_product;
+    const double by_norm_s = abs_g0 * ratio - t_ratio * by_t;
+    const double t_over_norm_s_near_slope = polynomial(near_chosen, T_OVER_NORM_S_NEAR_SLOPE, 13);
+    const double by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0 : by_norm_s / (2.0 *
+        norm_s)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_s_near *
+        t_over_norm_s_near_slope : 0.0);
+    const double by_g0 = (is_small ? norm_s_product : by_abs_g0);
+    const double product_2 = 2.0 * by_norm_s_squared;
+    const double by_g3 = scale * by_v2 + g3 * product_2;
+    const double by_g2 = scale * by_v1 + g2 * product_2;
+    const double by_g1 = scale * by_v0 + g1 * product_2;
+    const double exponent_by_x3 = mu[0] * by_g3 + mu[1] * by_g2 - mu[2] * by_g1 + mu[3] * by_g0;
+    const double exponent_by_x2 = mu[0] * by_g2 - mu[1] * by_g3 + mu[3] * by_g1 + mu[2] * by_g0;
+    const double exponent_by_x1 = mu[2] * by_g3 - mu[3] * by_g2 + mu[0] * by_g1 + mu[1] * by_g0;
+    const double exponent_by_x0 = -(mu[3] * by_g3) - mu[2] * by_g2 - mu[1] * by_g1 + mu[0] * by_g0;
+    const double df0 = phi * exponent_by_x0;
+    const double df1 = phi * exponent_by_x1;
+    const double df2 = phi * exponent_by_x2;
+    const double df3 = phi * exponent_by_x3;
+    const double df1_product = 0.5 * df1;
+    const double df2_product = 0.5 * df2;
+    const double df0_product = 0.5 * df0;
+    const double df3_product = 0.5 * df3;
+    const double gradient0 = x[0] * df1_product + x[3] * df2_product - x[1] * df0_product - x[2] *
+        df3_product;
+    const double gradient1 = x[0] * df2_product + x[1] * df3_product - x[2] * df0_product - x[3] *
+        df1_product;
+    const double gradient2 = x[2] * df1_product + x[0] * df3_product - x[3] * df0_product - x[1] *
+        df2_product;
+    value_out[0] = phi;
+    gradient_out[0] = gradient0;
+    gradient_out[1] = gradient1;
+    gradient_out[2] = gradient2;
+}
+
+void so3_splat_batch(
+    size_t count,
+    const double *SO3_RESTRICT x,
+    const double *SO3_RESTRICT mu,
+    const double *SO3_RESTRICT W,
+    const double *SO3_RESTRICT amplitude,
+    double *SO3_RESTRICT value_out,
+    double *SO3_RESTRICT gradient_out) {
+    for (size_t i = 0; i < count; ++i) so3_splat(x + 4 * i, mu + 4 * i, W + 9 * i, amplitude[i], value_out + i, gradient_out + 3 * i);
+}
+
+/* Gram-Schmidt in the metric, always on the longest of what is left of the projected axes. */
+void so3_frame(const double *SO3_RESTRICT p, double *SO3_RESTRICT frame) {
+    double left[4][3];
+    for (int i = 0; i < 4; ++i) {
+        double axis[4];
+        for (int j = 0; j < 4; ++j) axis[j] = i == j ? 1.0 : 0.0;
+        so3_to_tangent(p, axis, left[i]);
+    }
+    for (int row = 0; row < 3; ++row) {
+        double *e = frame + 3 * row;
+        int longest = 0;
+        for (int i = 1; i < 4; ++i)
+            if (so3_norm(p, left[i]) > so3_norm(p, left[longest])) longest = i;
+        const double length = so3_norm(p, left[longest]);
+        for (int j = 0; j < 3; ++j) e[j] = left[longest][j] / length;
+        for (int i = 0; i < 4; ++i) {
+            const double part = so3_inner(p, e, left[i]);
+            for (int j = 0; j < 3; ++j) left[i][j] -= part * e[j];
+        }
+    }
+}
+
+static const float SINC__NEAR_F[8] = {
+    1.0f, -0.16666666666666666f, 0.008333333333333106f, -0.0001984126984108742f, 2.7557319152292533e-06f,
+    -2.5052093081256153e-08f, 1.605723315933452e-10f, -7.535482987408254e-13f};
+
+static const float T_OVER_NORM_S_NEAR_F[14] = {
+    2.0f, 0.33333333333333803f, 0.14999999999887204f, 0.08928571439308554f, 0.06076388352917429f,
+    0.04474447894429192f, 0.034702400890995196f, 0.027970967704767306f, 0.022725187457831735f,
+    0.021950106306038882f, 0.0059985679108534124f, 0.04673327377794268f, -0.046540024421261234f,
+    0.06801122378850952f};
+
+static const float LOG_DET_SERIES_F[14] = {
+    0.3333333333333333f, 0.12222222222222505f, 0.06737213403812269f, 0.044038800770006784f,
+    0.03163272618894735f, 0.02412572786938261f, 0.019178426063785198f, 0.015745299135070896f,
+    0.01296134121333057f, 0.012728598238987641f, 0.003298619430883951f, 0.027868702271499315f,
+    -0.02806396537465957f, 0.04072842356250539f};
+
+static const float LOG_DET_SERIES_SLOPE_F[13] = {
+    0.12222222222222505f, 0.13474426807624537f, 0.13211640231002034f, 0.1265309047557894f,
+    0.12062863934691306f, 0.1150705563827112f, 0.11021709394549628f, 0.10369072970664456f,
+    0.11455738415088876f, 0.032986194308839506f, 0.3065557249864925f, -0.3367675844959148f,
+    0.5294695063125701f};
+
+static const float T_OVER_NORM_S_NEAR_SLOPE_F[13] = {
+    0.33333333333333803f, 0.29999999999774407f, 0.26785714317925663f, 0.24305553411669717f,
+    0.22372239472145958f, 0.2082144053459712f, 0.19579677393337114f, 0.18180149966265388f,
+    0.19755095675434994f, 0.059985679108534126f, 0.5140660115573694f, -0.5584802930551348f,
+    0.8841459092506236f};
+
+/* c[0] + c[1] x + ... by Horner's rule. */
+static inline float polynomial_f(float x, const float *c, int size) {
+    float result = c[size - 1];
+    for (int i = size - 2; i >= 0; --i) result = result * x + c[i];
+    return result;
+}
+
+/* p / norm(p) */
+void so3_project_f(const float *SO3_RESTRICT x, float *SO3_RESTRICT p_out) {
+    const float norm_p_squared = x[0] * x[0] + x[1] * x[1] + x[2] * x[2] + x[3] * x[3];
+    const float norm_p = sqrtf(norm_p_squared);
+    const float scale = 1.0f / norm_p;
+    const float p0 = x[0] * scale;
+    const float p1 = x[1] * scale;
+    const float p2 = x[2] * scale;
+    const float p3 = x[3] * scale;
+    p_out[0] = p0;
+    p_out[1] = p1;
+    p_out[2] = p2;
+    p_out[3] = p3;
+}
+
+void so3_project_batch_f(size_t count, const float *SO3_RESTRICT x, float *SO3_RESTRICT p_out) {
+    for (size_t i = 0; i < count; ++i) so3_project_f(x + 4 * i, p_out + 4 * i);
+}
+
+/* (E E^T)^-1 E x */
+void so3_to_tangent_f(const float *SO3_RESTRICT p, const float *SO3_RESTRICT x, float *SO3_RESTRICT v_out) {
+    const float product = 2.0f * p[0];
+    const float product_2 = 2.0f * p[3];
+    const float product_3 = 2.0f * p[1];
+    const float product_4 = 2.0f * p[2];
+    const float v0 = x[1] * product + x[2] * product_2 - x[0] * product_3 - x[3] * product_4;
+    const float v1 = x[2] * product + x[3] * product_3 - x[0] * product_4 - x[1] * product_2;
+    const float v2 = x[3] * product + x[1] * product_4 - x[2] * product_3 - x[0] * product_2;
+    v_out[0] = v0;
+    v_out[1] = v1;
+    v_out[2] = v2;
+}
+
+void so3_to_tangent_batch_f(
+    size_t count,
+    const float *SO3_RESTRICT p,
+    const float *SO3_RESTRICT x,
+    float *SO3_RESTRICT v_out) {
+    for (size_t i = 0; i < count; ++i) so3_to_tangent_f(p + 4 * i, x + 4 * i, v_out + 3 * i);
+}
+
+/* dot(u, v) */
+float so3_inner_f(const float *SO3_RESTRICT p, const float *SO3_RESTRICT u, const float *SO3_RESTRICT v) {
+    (void)p;
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+
+void so3_inner_batch_f(
+    size_t count,
+    const float *SO3_RESTRICT p,
+    const float *SO3_RESTRICT u,
+    const float *SO3_RESTRICT v,
+    float *SO3_RESTRICT inner_out) {
+    for (size_t i = 0; i < count; ++i) inner_out[i] = so3_inner_f(p + 4 * i, u + 3 * i, v + 3 * i);
+}
+
+/* sqrt(<v, v>_p) */
+float so3_norm_f(const float *SO3_RESTRICT p, const float *SO3_RESTRICT v) {
+    (void)p;
+    return sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+void so3_norm_batch_f(
+    size_t count,
+    const float *SO3_RESTRICT p,
+    const float *SO3_RESTRICT v,
+    float *SO3_RESTRICT norm_out) {
+    for (size_t i = 0; i < count; ++i) norm_out[i] = so3_norm_f(p + 4 * i, v + 3 * i);
+}
+
+/* G(p) v */
+void so3_flat_f(const float *SO3_RESTRICT p, const float *SO3_RESTRICT v, float *SO3_RESTRICT covector_out) {
+    (void)p;
+    covector_out[0] = v[0];
+    covector_out[1] = v[1];
+    covector_out[2] = v[2];
+}
+
+void so3_flat_batch_f(
+    size_t count,
+    const float *SO3_RESTRICT p,
+    const float *SO3_RESTRICT v,
+    float *SO3_RESTRICT covector_out) {
+    for (size_t i = 0; i < count; ++i) so3_flat_f(p + 4 * i, v + 3 * i, covector_out + 3 * i);
+}
+
+/* qmul(p, [cos(norm(v) / 2), sinc(norm(v) / 2) / 2 * v]) */
+void so3_exp_f(const float *SO3_RESTRICT p, const float *SO3_RESTRICT v, float *SO3_RESTRICT q_out) {
+    const float norm_v_squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    const float norm_v = sqrtf(norm_v_squared);
+    const float cos_norm_v_over_2 = cosf(0.5f * norm_v);
+    const float product = 0.25f * norm_v_squared;
+    const int near = product < 0.9903926849365234f;
+    const float sinc__near = polynomial_f((near ? product : 0.0f), SINC__NEAR_F, 8);
+    const float norm_v_2 = sqrtf((near ? 1.0f : norm_v_squared));
+    const float sinc_ = (near ? sinc__near : 2.0f * sinf(0.5f * norm_v_2) / (near ? 1.0f : norm_v_2));
+    const float scale = 0.5f * sinc_;
+    const float scale_product = p[1] * scale;
+    const float scale_product_2 = p[2] * scale;
+    const float scale_product_3 = p[3] * scale;
+    const float q0 = p[0] * cos_norm_v_over_2 - v[0] * scale_product - v[1] * scale_product_2 - v[2] *
+        scale_product_3;
+    const float scale_product_4 = p[0] * scale;
+    const float q1 = p[1] * cos_norm_v_over_2 + v[0] * scale_product_4 + v[2] * scale_product_2 - v[1] *
+        scale_product_3;
+    const float q2 = p[2] * cos_norm_v_over_2 + v[1] * scale_product_4 + v[0] * scale_product_3 - v[2] *
+        scale_product;
+    const float q3 = p[3] * cos_norm_v_over_2 + v[2] * scale_product_4 + v[1] * scale_product - v[0] *
+        scale_product_2;
+    q_out[0] = q0;
+    q_out[1] = q1;
+    q_out[2] = q2;
+    q_out[3] = q3;
+}
+
+void so3_exp_batch_f(
+    size_t count,
+    const float *SO3_RESTRICT p,
+    const float *SO3_RESTRICT v,
+    float *SO3_RESTRICT q_out) {
+    for (size_t i = 0; i < count; ++i) so3_exp_f(p + 4 * i, v + 3 * i, q_out + 4 * i);
+}
+
+/* sign(g[0]) * t * s / norm(s) */
+void so3_log_f(const float *SO3_RESTRICT p, const float *SO3_RESTRICT q, float *SO3_RESTRICT v_out) {
+    const float g0 = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
+    const float g1 = p[0] * q[1] + p[3] * q[2] - p[1] * q[0] - p[2] * q[3];
+    const float g2 = p[0] * q[2] + p[1] * q[3] - p[2] * q[0] - p[3] * q[1];
+    const float g3 = p[0] * q[3] + p[2] * q[1] - p[1] * q[2] - p[3] * q[0];
+    const float norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+    const float abs_g0 = fabsf(g0);
+    const int near = norm_s_squared < 0.2492869794368744f;
+    const float t_over_norm_s_near = polynomial_f((near ? norm_s_squared : 0.0f), T_OVER_NORM_S_NEAR_F, 14);
+    const float norm_s = sqrtf((near ? 1.0f : norm_s_squared));
+    const float atan2_norm_s_abs_g0 = atan2f(norm_s, abs_g0);
+    const float t = 2.0f * atan2_norm_s_abs_g0;
+    const float t_over_norm_s = (near ? t_over_norm_s_near : t / norm_s);
+    const float scale = t_over_norm_s * (g0 < 0.0f ? -1.0f : 1.0f);
+    const float v0 = g1 * scale;
+    const float v1 = g2 * scale;
+    const float v2 = g3 * scale;
+    v_out[0] = v0;
+    v_out[1] = v1;
+    v_out[2] = v2;
+}
+
+void so3_log_batch_f(
+    size_t count,
+    const float *SO3_RESTRICT p,
+    const float *SO3_RESTRICT q,
+    float *SO3_RESTRICT v_out) {
+    for (size_t i = 0; i < count; ++i) so3_log_f(p + 4 * i, q + 4 * i, v_out + 3 * i);
+}
+
+/* t */
+float so3_distance_f(const float *SO3_RESTRICT p, const float *SO3_RESTRICT q) {
+    const float g0 = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
+    const float g1 = p[0] * q[1] + p[3] * q[2] - p[1] * q[0] - p[2] * q[3];
+    const float g2 = p[0] * q[2] + p[1] * q[3] - p[2] * q[0] - p[3] * q[1];
+    const float g3 = p[0] * q[3] + p[2] * q[1] - p[1] * q[2] - p[3] * q[0];
+    const float norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+    const float norm_s = sqrtf(norm_s_squared);
+    const float abs_g0 = fabsf(g0);
+    const float atan2_norm_s_abs_g0 = atan2f(norm_s, abs_g0);
+    const float t = 2.0f * atan2_norm_s_abs_g0;
+    return t;
+}
+
+void so3_distance_batch_f(
+    size_t count,
+    const float *SO3_RESTRICT p,
+    const float *SO3_RESTRICT q,
+    float *SO3_RESTRICT distance_out) {
+    for (size_t i = 0; i < count; ++i) distance_out[i] = so3_distance_f(p + 4 * i, q + 4 * i);
+}
+
+/* 2*log(t_over_norm_s/2) */
+float so3_log_abs_det_f(const float *SO3_RESTRICT p, const float *SO3_RESTRICT q) {
+    const float g0 = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
+    const float g1 = p[0] * q[1] + p[3] * q[2] - p[1] * q[0] - p[2] * q[3];
+    const float g2 = p[0] * q[2] + p[1] * q[3] - p[2] * q[0] - p[3] * q[1];
+    const float g3 = p[0] * q[3] + p[2] * q[1] - p[1] * q[2] - p[3] * q[0];
+    const float norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+    const float abs_g0 = fabsf(g0);
+    const int near = norm_s_squared < 0.2492869794368744f;
+    const float norm_s = sqrtf((near ? 1.0f : norm_s_squared));
+    const float atan2_norm_s_abs_g0 = atan2f(norm_s, abs_g0);
+    const float t = 2.0f * atan2_norm_s_abs_g0;
+    const float log_det_series = polynomial_f((near ? norm_s_squared : 0.0f), LOG_DET_SERIES_F, 14);
+    const float log_det_near = norm_s_squared * log_det_series;
+    const float log_det = (near ? log_det_near : 2.0f * logf(0.5f * (t / norm_s)));
+    return log_det;
+}
+
+void so3_log_abs_det_batch_f(
+    size_t count,
+    const float *SO3_RESTRICT p,
+    const float *SO3_RESTRICT q,
+    float *SO3_RESTRICT log_abs_det_out) {
+    for (size_t i = 0; i < count; ++i) log_abs_det_out[i] = so3_log_abs_det_f(p + 4 * i, q + 4 * i);
+}
+
+/* G^-1 E df */
+void so3_riemannian_gradient_f(
+    const float *SO3_RESTRICT p,
+    const float *SO3_RESTRICT df,
+    float *SO3_RESTRICT gradient_out) {
+    const float product = 0.5f * df[1];
+    const float product_2 = 0.5f * df[2];
+    const float product_3 = 0.5f * df[0];
+    const float product_4 = 0.5f * df[3];
+    const float gradient0 = p[0] * product + p[3] * product_2 - p[1] * product_3 - p[2] * product_4;
+    const float gradient1 = p[0] * product_2 + p[1] * product_4 - p[2] * product_3 - p[3] * product;
+    const float gradient2 = p[2] * product + p[0] * product_4 - p[3] * product_3 - p[1] * product_2;
+    gradient_out[0] = gradient0;
+    gradient_out[1] = gradient1;
+    gradient_out[2] = gradient2;
+}
+
+void so3_riemannian_gradient_batch_f(
+    size_t count,
+    const float *SO3_RESTRICT p,
+    const float *SO3_RESTRICT df,
+    float *SO3_RESTRICT gradient_out) {
+    for (size_t i = 0; i < count; ++i) so3_riemannian_gradient_f(p + 4 * i, df + 4 * i, gradient_out + 3 * i);
+}
+
+/* |grad f|_p */
+float so3_gradient_norm_f(const float *SO3_RESTRICT p, const float *SO3_RESTRICT df) {
+    const float product = 0.5f * df[1];
+    const float product_2 = 0.5f * df[2];
+    const float product_3 = 0.5f * df[0];
+    const float product_4 = 0.5f * df[3];
+    const float gradient0 = p[0] * product + p[3] * product_2 - p[1] * product_3 - p[2] * product_4;
+    const float gradient1 = p[0] * product_2 + p[1] * product_4 - p[2] * product_3 - p[3] * product;
+    const float gradient2 = p[2] * product + p[0] * product_4 - p[3] * product_3 - p[1] * product_2;
+    return sqrtf(gradient0 * gradient0 + gradient1 * gradient1 + gradient2 * gradient2);
+}
+
+void so3_gradient_norm_batch_f(
+    size_t count,
+    const float *SO3_RESTRICT p,
+    const float *SO3_RESTRICT df,
+    float *SO3_RESTRICT gradient_norm_out) {
+    for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = so3_gradient_norm_f(p + 4 * i, df + 4 * i);
+}
+
+/* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */
+void so3_splat_f(
+    const float *SO3_RESTRICT x,
+    const float *SO3_RESTRICT mu,
+    const float *SO3_RESTRICT W,
+    float amplitude,
+    float *SO3_RESTRICT value_out,
+    float *SO3_RESTRICT gradient_out) {
+    const float g0 = x[0] * mu[0] + x[1] * mu[1] + x[2] * mu[2] + x[3] * mu[3];
+    const float g1 = x[1] * mu[0] + x[2] * mu[3] - x[0] * mu[1] - x[3] * mu[2];
+    const float g2 = x[2] * mu[0] + x[3] * mu[1] - x[0] * mu[2] - x[1] * mu[3];
+    const float g3 = x[3] * mu[0] + x[1] * mu[2] - x[2] * mu[1] - x[0] * mu[3];
+    const float norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+    const float abs_g0 = fabsf(g0);
+    const int near = norm_s_squared < 0.2492869794368744f;
+    const float near_chosen = (near ? norm_s_squared : 0.0f);
+    const float t_over_norm_s_near = polynomial_f(near_chosen, T_OVER_NORM_S_NEAR_F, 14);
+    const float near_chosen_2 = (near ? 1.0f : norm_s_squared);
+    const float norm_s = sqrtf(near_chosen_2);
+    const float atan2_norm_s_abs_g0 = atan2f(norm_s, abs_g0);
+    const float t = 2.0f * atan2_norm_s_abs_g0;
+    const float t_ratio = t / norm_s;
+    const float t_over_norm_s = (near ? t_over_norm_s_near : t_ratio);
+    const int is_small = g0 < 0.0f;
+    const float chosen = (is_small ? -1.0f : 1.0f);
+    const float scale = t_over_norm_s * chosen;
+    const float v0 = g1 * scale;
+    const float v1 = g2 * scale;
+    const float v2 = g3 * scale;
+    const float log_det_series = polynomial_f(near_chosen, LOG_DET_SERIES_F, 14);
+    const float log_det_near = norm_s_squared * log_det_series;
+    const float product = 0.5f * t_ratio;
+    const float log_det = (near ? log_det_near : 2.0f * logf(product));
+    const float z0 = W[0] * v0 + W[1] * v1 + W[2] * v2;
+    const float z1 = W[3] * v0 + W[4] * v1 + W[5] * v2;
+    const float z2 = W[6] * v0 + W[7] * v1 + W[8] * v2;
+    const float log_det_gap = log_det - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
+    const float phi = amplitude * expf(log_det_gap);
+    const float by_v2 = -(W[8] * z2) - W[5] * z1 - W[2] * z0;
+    const float by_v1 = -(W[7] * z2) - W[4] * z1 - W[1] * z0;
+    const float by_v0 = -(W[6] * z2) - W[3] * z1 - W[0] * z0;
+    const float by_log_det_near = (near ? 1.0f : 0.0f);
+    const float by_log_det_series = norm_s_squared * by_log_det_near;
+    const float log_det_series_slope = polynomial_f(near_chosen, LOG_DET_SERIES_SLOPE_F, 13);
+    const float by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
+    const float by_t_over_norm_s = chosen * by_scale;
+    const float by_t_over_norm_s_near = (near ? by_t_over_norm_s : 0.0f);
+    const float total = 0.5f * (2.0f * (near ? 0.0f : 1.0f) / product) + (near ? 0.0f : by_t_over_norm_s);
+    const float by_t = total / norm_s;
+    const float by_atan2_norm_s_abs_g0 = 2.0f * by_t;
+    const float ratio = by_atan2_norm_s_abs_g0 / (near_chosen_2 + abs_g0 * abs_g0);
+    const float norm_s_product = norm_s * ratio;
+    const float by_abs_g0 = -norm_s_product;
+    const float by_norm_s = abs_g0 * ratio - t_ratio * by_t;
+    const float t_over_norm_s_near_slope = polynomial_f(near_chosen, T_OVER_NORM_S_NEAR_SLOPE_F, 13);
+    const float by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0f : by_norm_s / (2.0f *
+        norm_s)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_s_near *
+        t_over_norm_s_near_slope : 0.0f);
+    const float by_g0 = (is_small ? norm_s_product : by_abs_g0);
+    const float product_2 = 2.0f * by_norm_s_squared;
+    const float by_g3 = scale * by_v2 + g3 * product_2;
+    const float by_g2 = scale * by_v1 + g2 * product_2;
+    const float by_g1 = scale * by_v0 + g1 * product_2;
+    const float exponent_by_x3 = mu[0] * by_g3 + mu[1] * by_g2 - mu[2] * by_g1 + mu[3] * by_g0;
+    const float exponent_by_x2 = mu[0] * by_g2 - mu[1] * by_g3 + mu[3] * by_g1 + mu[2] * by_g0;
+    const float exponent_by_x1 = mu[2] * by_g3 - mu[3] * by_g2 + mu[0] * by_g1 + mu[1] * by_g0;
+    const float exponent_by_x0 = -(mu[3] * by_g3) - mu[2] * by_g2 - mu[1] * by_g1 + mu[0] * by_g0;
+    const float df0 = phi * exponent_by_x0;
+    const float df1 = phi * exponent_by_x1;
+    const float df2 = phi * exponent_by_x2;
+    const float df3 = phi * exponent_by_x3;
+    const float df1_product = 0.5f * df1;
+    const float df2_product = 0.5f * df2;
+    const float df0_product = 0.5f * df0;
+    const float df3_product = 0.5f * df3;
+    const float gradient0 = x[0] * df1_product + x[3] * df2_product - x[1] * df0_product - x[2] * df3_product;
+    const float gradient1 = x[0] * df2_product + x[1] * df3_product - x[2] * df0_product - x[3] * df1_product;
+    const float gradient2 = x[2] * df1_product + x[0] * df3_product - x[3] * df0_product - x[1] * df2_product;
+    value_out[0] = phi;
+    gradient_out[0] = gradient0;
+    gradient_out[1] = gradient1;
+    gradient_out[2] = gradient2;
+}
+
+void so3_splat_batch_f(
+    size_t count,
+    const float *SO3_RESTRICT x,
+    const float *SO3_RESTRICT mu,
+    const float *SO3_RESTRICT W,
+    const float *SO3_RESTRICT amplitude,
+    float *SO3_RESTRICT value_out,
+    float *SO3_RESTRICT gradient_out) {
+    for (size_t i = 0; i < count; ++i) so3_splat_f(x + 4 * i, mu + 4 * i, W + 9 * i, amplitude[i], value_out + i, gradient_out + 3 * i);
+}
+
+/* Gram-Schmidt in the metric, always on the longest of what is left of the projected axes. */
+void so3_frame_f(const float *SO3_RESTRICT p, float *SO3_RESTRICT frame) {
+    float left[4][3];
+    for (int i = 0; i < 4; ++i) {
+        float axis[4];
+        for (int j = 0; j < 4; ++j) axis[j] = i == j ? 1.0f : 0.0f;
+        so3_to_tangent_f(p, axis, left[i]);
+    }
+    for (int row = 0; row < 3; ++row) {
+        float *e = frame + 3 * row;
+        int longest = 0;
+        for (int i = 1; i < 4; ++i)
+            if (so3_norm_f(p, left[i]) > so3_norm_f(p, left[longest])) longest = i;
+        const float length = so3_norm_f(p, left[longest]);
+        for (int j = 0; j < 3; ++j) e[j] = left[longest][j] / length;
+        for (int i = 0; i < 4; ++i) {
+            const float part = so3_inner_f(p, e, left[i]);
+            for (int j = 0; j < 3; ++j) left[i][j] -= part * e[j];
+        }
+    }
+}

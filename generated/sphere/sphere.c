@@ -1,0 +1,979 @@
+/*
+ * sphere: The unit sphere S^n in R^(n+1) with the round metric; distances are angles in radians.
+ *
+ * See the header for what the functions promise.
+ */
+
+#include "sphere.h"
+
+#include <float.h>
+
+static const double SINC_NORM_V_NEAR[8] = {
+    1.0, -0.16666666666666666, 0.008333333333333106, -0.0001984126984108742, 2.7557319152292533e-06,
+    -2.5052093081256153e-08, 1.605723315933452e-10, -7.535482987408254e-13};
+
+static const double T_OVER_NORM_W_NEAR[15] = {
+    1.0, 0.16666666666666416, 0.033333333333506306, 0.0071428571381235645, 0.0015873016554683388,
+    0.00036074976769956093, 8.325345611107313e-05, 1.9411868200361258e-05, 4.606744523406809e-06,
+    1.0115092780821757e-06, 3.573589789663863e-07, -3.671871587646e-08, 8.060154251278906e-08,
+    -2.3969974400507724e-08, 6.744739171601492e-09};
+
+static const double LOG_DET_SERIES[15] = {
+    0.16666666666666666, 0.019444444444444355, 0.0031305114638509562, 0.0005742945324592983,
+    0.00011310192108550569, 2.329005429821089e-05, 4.945110727593644e-06, 1.0731431371692667e-06,
+    2.383732678254368e-07, 5.0521959436460696e-08, 1.5564787023532255e-08, -7.830928337301054e-10,
+    2.9922380095813834e-09, -8.46187828025567e-10, 2.4753955737430303e-10};
+
+static const double LOG_DET_SERIES_SLOPE[14] = {
+    0.019444444444444355, 0.0062610229277019125, 0.001722883597377895, 0.00045240768434202277,
+    0.00011645027149105445, 2.9670664365561865e-05, 7.512001960184866e-06, 1.9069861426034945e-06,
+    4.5469763492814626e-07, 1.5564787023532256e-07, -8.614021171031161e-09, 3.59068561149766e-08,
+    -1.100044176433237e-08, 3.4655538032402425e-09};
+
+static const double T_OVER_NORM_W_NEAR_SLOPE[14] = {
+    0.16666666666666416, 0.06666666666701261, 0.021428571414370694, 0.006349206621873355,
+    0.0018037488384978046, 0.0004995207366664387, 0.0001358830774025288, 3.685395618725447e-05,
+    9.103583502739583e-06, 3.5735897896638634e-06, -4.0390587464106003e-07, 9.672185101534689e-07,
+    -3.116096672066004e-07, 9.442634840242089e-08};
+
+/* c[0] + c[1] x + ... by Horner's rule. */
+static inline double polynomial(double x, const double *c, int size) {
+    double result = c[size - 1];
+    for (int i = size - 2; i >= 0; --i) result = result * x + c[i];
+    return result;
+}
+
+/* p / norm(p) */
+void sphere_project(const double *SPHERE_RESTRICT x, double *SPHERE_RESTRICT p_out) {
+    const double norm_p_squared = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+    const double norm_p = sqrt(norm_p_squared);
+    const double scale = 1.0 / norm_p;
+    const double p0 = x[0] * scale;
+    const double p1 = x[1] * scale;
+    const double p2 = x[2] * scale;
+    p_out[0] = p0;
+    p_out[1] = p1;
+    p_out[2] = p2;
+}
+
+void sphere_project_batch(size_t count, const double *SPHERE_RESTRICT x, double *SPHERE_RESTRICT p_out) {
+    for (size_t i = 0; i < count; ++i) sphere_project(x + 3 * i, p_out + 3 * i);
+}
+
+/* x - N (dc N)^-1 dc x */
+void sphere_to_tangent(
+    const double *SPHERE_RESTRICT p,
+    const double *SPHERE_RESTRICT x,
+    double *SPHERE_RESTRICT v_out) {
+    const double normal_part = p[0] * x[0] + p[1] * x[1] + p[2] * x[2];
+    const double v0 = x[0] - p[0] * normal_part;
+    const double v1 = x[1] - p[1] * normal_part;
+    const double v2 = x[2] - p[2] * normal_part;
+    v_out[0] = v0;
+    v_out[1] = v1;
+    v_out[2] = v2;
+}
+
+void sphere_to_tangent_batch(
+    size_t count,
+    const double *SPHERE_RESTRICT p,
+    const double *SPHERE_RESTRICT x,
+    double *SPHERE_RESTRICT v_out) {
+    for (size_t i = 0; i < count; ++i) sphere_to_tangent(p + 3 * i, x + 3 * i, v_out + 3 * i);
+}
+
+/* dot(u, v) */
+double sphere_inner(
+    const double *SPHERE_RESTRICT p,
+    const double *SPHERE_RESTRICT u,
+    const double *SPHERE_RESTRICT v) {
+    (void)p;
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+
+void sphere_inner_batch(
+    size_t count,
+    const double *SPHERE_RESTRICT p,
+    const double *SPHERE_RESTRICT u,
+    const double *SPHERE_RESTRICT v,
+    double *SPHERE_RESTRICT inner_out) {
+    for (size_t i = 0; i < count; ++i) inner_out[i] = sphere_inner(p + 3 * i, u + 3 * i, v + 3 * i);
+}
+
+/* sqrt(<v, v>_p) */
+double sphere_norm(const double *SPHERE_RESTRICT p, const double *SPHERE_RESTRICT v) {
+    (void)p;
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+void sphere_norm_batch(
+    size_t count,
+    const double *SPHERE_RESTRICT p,
+    const double *SPHERE_RESTRICT v,
+    double *SPHERE_RESTRICT norm_out) {
+    for (size_t i = 0; i < count; ++i) norm_out[i] = sphere_norm(p + 3 * i, v + 3 * i);
+}
+
+/* G(p) v */
+void sphere_flat(
+    const double *SPHERE_RESTRICT p,
+    const double *SPHERE_RESTRICT v,
+    double *SPHERE_RESTRICT covector_out) {
+    (void)p;
+    covector_out[0] = v[0];
+    covector_out[1] = v[1];
+    covector_out[2] = v[2];
+}
+
+void sphere_flat_batch(
+    size_t count,
+    const double *SPHERE_RESTRICT p,
+    const double *SPHERE_RESTRICT v,
+    double *SPHERE_RESTRICT covector_out) {
+    for (size_t i = 0; i < count; ++i) sphere_flat(p + 3 * i, v + 3 * i, covector_out + 3 * i);
+}
+
+/* cos(norm(v)) * p + sinc(norm(v)) * v */
+void sphere_exp(
+    const double *SPHERE_RESTRICT p,
+    const double *SPHERE_RESTRICT v,
+    double *SPHERE_RESTRICT q_out) {
+    const double norm_v_squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    const double norm_v = sqrt(norm_v_squared);
+    const double cos_norm_v = cos(norm_v);
+    const int near = norm_v_squared < 0.9903926849365234;
+    const double sinc_norm_v_near = polynomial((near ? norm_v_squared : 0.0), SINC_NORM_V_NEAR, 8);
+    const double norm_v_2 = sqrt((near ? 1.0 : norm_v_squared));
+    const double sinc_norm_v = (near ? sinc_norm_v_near : sin(norm_v_2) / (near ? 1.0 : norm_v_2));
+    const double q0 = p[0] * cos_norm_v + v[0] * sinc_norm_v;
+    const double q1 = p[1] * cos_norm_v + v[1] * sinc_norm_v;
+    const double q2 = p[2] * cos_norm_v + v[2] * sinc_norm_v;
+    q_out[0] = q0;
+    q_out[1] = q1;
+    q_out[2] = q2;
+}
+
+void sphere_exp_batch(
+    size_t count,
+    const double *SPHERE_RESTRICT p,
+    const double *SPHERE_RESTRICT v,
+    double *SPHERE_RESTRICT q_out) {
+    for (size_t i = 0; i < count; ++i) sphere_exp(p + 3 * i, v + 3 * i, q_out + 3 * i);
+}
+
+/* t * w / norm(w) */
+void sphere_log(
+    const double *SPHERE_RESTRICT p,
+    const double *SPHERE_RESTRICT q,
+    double *SPHERE_RESTRICT v_out) {
+    const double q_plus_p0 = p[0] + q[0];
+    const double q_plus_p1 = p[1] + q[1];
+    const double q_plus_p2 = p[2] + q[2];
+    const double norm_q_plus_p_squared = q_plus_p0 * q_plus_p0 + q_plus_p1 * q_plus_p1 + q_plus_p2 *
+        q_plus_p2;
+    const double norm_q_plus_p = sqrt(norm_q_plus_p_squared);
+    const double squared = p[0] * p[0];
+    const double gap = 1.0 - squared;
+    const double gap_2 = 1.0 - p[1] * p[1];
+    const int on_cut_locus = norm_q_plus_p <= 4.0 * DBL_EPSILON;
+    const double q0_off_cut = (on_cut_locus ? p[0] : q[0]);
+    const double q1_off_cut = (on_cut_locus ? p[1] : q[1]);
+    const double q2_off_cut = (on_cut_locus ? p[2] : q[2]);
+    const double d0 = q0_off_cut - p[0];
+    const double d1 = q1_off_cut - p[1];
+    const double d2 = q2_off_cut - p[2];
+    const double norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
+    const double q_plus_p0_2 = p[0] + q0_off_cut;
+    const double q_plus_p1_2 = p[1] + q1_off_cut;
+    const double q_plus_p2_2 = p[2] + q2_off_cut;
+    const double norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
+        * q_plus_p2_2;
+    const double norm_q_plus_p_2 = sqrt(norm_q_plus_p_squared_2);
+    const double dot_p_d = p[0] * d0 + p[1] * d1 + p[2] * d2;
+    const double w0 = d0 - p[0] * dot_p_d;
+    const double w1 = d1 - p[1] * dot_p_d;
+    const double w2 = d2 - p[2] * dot_p_d;
+    const double norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
+    const int near = norm_d_squared < 0.9975153207778931;
+    const double t_over_norm_w_near = polynomial((near ? norm_d_squared : 0.0), T_OVER_NORM_W_NEAR, 15);
+    const double norm_d = sqrt((near ? 1.0 : norm_d_squared));
+    const double atan2_value = atan2(norm_d, norm_q_plus_p_2);
+    const double t = 2.0 * atan2_value;
+    const double norm_w = sqrt((near ? 1.0 : norm_w_squared));
+    const double t_over_norm_w = (near ? t_over_norm_w_near : t / norm_w);
+    const int is_small = squared < 0.5;
+    const double sine_to_axis0 = sqrt((is_small ? gap : 1.0));
+    const double chosen = (is_small ? sine_to_axis0 : 1.0);
+    const double product = p[0] * p[1];
+    const double sine_to_axis1 = sqrt((is_small ? 1.0 : gap_2));
+    const double chosen_2 = (is_small ? 1.0 : sine_to_axis1);
+    const double v0 = (on_cut_locus ? 3.141592653589793 * (is_small ? gap / chosen : -(product / chosen_2)) :
+        w0 * t_over_norm_w);
+    const double v1 = (on_cut_locus ? 3.141592653589793 * (is_small ? -(product / chosen) : gap_2 / chosen_2)
+        : w1 * t_over_norm_w);
+    const double product_2 = 3.141592653589793 * (is_small ? -(p[0] * p[2] / chosen) : -(p[1] * p[2] /
+        chosen_2));
+    const double v2 = (on_cut_locus ? product_2 : w2 * t_over_norm_w);
+    v_out[0] = v0;
+    v_out[1] = v1;
+    v_out[2] = v2;
+}
+
+void sphere_log_batch(
+    size_t count,
+    const double *SPHERE_RESTRICT p,
+    const double *SPHERE_RESTRICT q,
+    double *SPHERE_RESTRICT v_out) {
+    for (size_t i = 0; i < count; ++i) sphere_log(p + 3 * i, q + 3 * i, v_out + 3 * i);
+}
+
+/* t */
+double sphere_distance(const double *SPHERE_RESTRICT p, const double *SPHERE_RESTRICT q) {
+    const double d0 = q[0] - p[0];
+    const double d1 = q[1] - p[1];
+    const double d2 = q[2] - p[2];
+    const double norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
+    const double norm_d = sqrt(norm_d_squared);
+    const double q_plus_p0 = p[0] + q[0];
+    const double q_plus_p1 = p[1] + q[1];
+    const double q_plus_p2 = p[2] + q[2];
+    const double norm_q_plus_p_squared = q_plus_p0 * q_plus_p0 + q_plus_p1 * q_plus_p1 + q_plus_p2 *
+        q_plus_p2;
+    const double norm_q_plus_p = sqrt(norm_q_plus_p_squared);
+    const double atan2_value = atan2(norm_d, norm_q_plus_p);
+    const double t = 2.0 * atan2_value;
+    return t;
+}
+
+void sphere_distance_batch(
+    size_t count,
+    const double *SPHERE_RESTRICT p,
+    const double *SPHERE_RESTRICT q,
+    double *SPHERE_RESTRICT distance_out) {
+    for (size_t i = 0; i < count; ++i) distance_out[i] = sphere_distance(p + 3 * i, q + 3 * i);
+}
+
+/* log(t_over_norm_w) */
+double sphere_log_abs_det(const double *SPHERE_RESTRICT p, const double *SPHERE_RESTRICT q) {
+    const double q_plus_p0 = p[0] + q[0];
+    const double q_plus_p1 = p[1] + q[1];
+    const double q_plus_p2 = p[2] + q[2];
+    const double norm_q_plus_p_squared = q_plus_p0 * q_plus_p0 + q_plus_p1 * q_plus_p1 + q_plus_p2 *
+        q_plus_p2;
+    const double norm_q_plus_p = sqrt(norm_q_plus_p_squared);
+    const double log_value = log(0.7853981633974483 / DBL_EPSILON);
+    const int on_cut_locus = norm_q_plus_p <= 4.0 * DBL_EPSILON;
+    const double q0_off_cut = (on_cut_locus ? p[0] : q[0]);
+    const double q1_off_cut = (on_cut_locus ? p[1] : q[1]);
+    const double q2_off_cut = (on_cut_locus ? p[2] : q[2]);
+    const double d0 = q0_off_cut - p[0];
+    const double d1 = q1_off_cut - p[1];
+    const double d2 = q2_off_cut - p[2];
+    const double norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
+    const double q_plus_p0_2 = p[0] + q0_off_cut;
+    const double q_plus_p1_2 = p[1] + q1_off_cut;
+    const double q_plus_p2_2 = p[2] + q2_off_cut;
+    const double norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
+        * q_plus_p2_2;
+    const double norm_q_plus_p_2 = sqrt(norm_q_plus_p_squared_2);
+    const double dot_p_d = p[0] * d0 + p[1] * d1 + p[2] * d2;
+    const double w0 = d0 - p[0] * dot_p_d;
+    const double w1 = d1 - p[1] * dot_p_d;
+    const double w2 = d2 - p[2] * dot_p_d;
+    const double norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
+    const int near = norm_d_squared < 0.9975153207778931;
+    const double norm_d = sqrt((near ? 1.0 : norm_d_squared));
+    const double atan2_value = atan2(norm_d, norm_q_plus_p_2);
+    const double t = 2.0 * atan2_value;
+    const double norm_w = sqrt((near ? 1.0 : norm_w_squared));
+    const double log_det_series = polynomial((near ? norm_d_squared : 0.0), LOG_DET_SERIES, 15);
+    const double log_det_near = norm_d_squared * log_det_series;
+    const double log_det = (near ? log_det_near : log(t / norm_w));
+    return (on_cut_locus ? log_value : log_det);
+}
+
+void sphere_log_abs_det_batch(
+    size_t count,
+    const double *SPHERE_RESTRICT p,
+    const double *SPHERE_RESTRICT q,
+    double *SPHERE_RESTRICT log_abs_det_out) {
+    for (size_t i = 0; i < count; ++i) log_abs_det_out[i] = sphere_log_abs_det(p + 3 * i, q + 3 * i);
+}
+
+/* the tangential part of G^-1 df */
+void sphere_riemannian_gradient(
+    const double *SPHERE_RESTRICT p,
+    const double *SPHERE_RESTRICT df,
+    double *SPHERE_RESTRICT gradient_out) {
+    const double normal_part = p[0] * df[0] + p[1] * df[1] + p[2] * df[2];
+    const double gradient0 = df[0] - p[0] * normal_part;
+    const double gradient1 = df[1] - p[1] * normal_part;
+    const double gradient2 = df[2] - p[2] * normal_part;
+    gradient_out[0] = gradient0;
+    gradient_out[1] = gradient1;
+    gradient_out[2] = gradient2;
+}
+
+void sphere_riemannian_gradient_batch(
+    size_t count,
+    const double *SPHERE_RESTRICT p,
+    const double *SPHERE_RESTRICT df,
+    double *SPHERE_RESTRICT gradient_out) {
+    for (size_t i = 0; i < count; ++i) sphere_riemannian_gradient(p + 3 * i, df + 3 * i, gradient_out + 3 * i);
+}
+
+/* |grad f|_p */
+double sphere_gradient_norm(const double *SPHERE_RESTRICT p, const double *SPHERE_RESTRICT df) {
+    const double normal_part = p[0] * df[0] + p[1] * df[1] + p[2] * df[2];
+    const double gradient0 = df[0] - p[0] * normal_part;
+    const double gradient1 = df[1] - p[1] * normal_part;
+    const double gradient2 = df[2] - p[2] * normal_part;
+    return sqrt(gradient0 * gradient0 + gradient1 * gradient1 + gradient2 * gradient2);
+}
+
+void sphere_gradient_norm_batch(
+    size_t count,
+    const double *SPHERE_RESTRICT p,
+    const double *SPHERE_RESTRICT df,
+    double *SPHERE_RESTRICT gradient_norm_out) {
+    for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = sphere_gradient_norm(p + 3 * i, df + 3 * i);
+}
+
+/* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */
+void sphere_splat(
+    const double *SPHERE_RESTRICT x,
+    const double *SPHERE_RESTRICT mu,
+    const double *SPHERE_RESTRICT W,
+    double amplitude,
+    double *SPHERE_RESTRICT value_out,
+    double *SPHERE_RESTRICT gradient_out) {
+    const double q_plus_p0 = x[0] + mu[0];
+    const double q_plus_p1 = x[1] + mu[1];
+    const double q_plus_p2 = x[2] + mu[2];
+    const double norm_q_plus_p_squared = q_plus_p0 * q_plus_p0 + q_plus_p1 * q_plus_p1 + q_plus_p2 *
+        q_plus_p2;
+    const double norm_q_plus_p = sqrt(norm_q_plus_p_squared);
+    const double squared = mu[0] * mu[0];
+    const double gap = 1.0 - squared;
+    const double gap_2 = 1.0 - mu[1] * mu[1];
+    const int on_cut_locus = norm_q_plus_p <= 4.0 * DBL_EPSILON;
+    const double q0_off_cut = (on_cut_locus ? mu[0] : x[0]);
+    const double q1_off_cut = (on_cut_locus ? mu[1] : x[1]);
+    const double q2_off_cut = (on_cut_locus ? mu[2] : x[2]);
+    const double d0 = q0_off_cut - mu[0];
+    const double d1 = q1_off_cut - mu[1];
+    const double d2 = q2_off_cut - mu[2];
+    const double norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
+    const double q_plus_p0_2 = mu[0] + q0_off_cut;
+    const double q_plus_p1_2 = mu[1] + q1_off_cut;
+    const double q_plus_p2_2 = mu[2] + q2_off_cut;
+    const double norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
+        * q_plus_p2_2;
+    const double norm_q_plus_p_2 = sqrt(norm_q_plus_p_squared_2);
+    const double dot_p_d = mu[0] * d0 + mu[1] * d1 + mu[2] * d2;
+    const double w0 = d0 - mu[0] * dot_p_d;
+    const double w1 = d1 - mu[1] * dot_p_d;
+    const double w2 = d2 - mu[2] * dot_p_d;
+    const double norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
+    const int near = norm_d_squared < 0.9975153207778931;
+    const double near_chosen = (near ? norm_d_squared : 0.0);
+    const double t_over_norm_w_near = polynomial(near_chosen, T_OVER_NORM_W_NEAR, 15);
+    const double near_chosen_2 = (near ? 1.0 : norm_d_squared);
+    const double norm_d = sqrt(near_chosen_2);
+    const double atan2_value = atan2(norm_d, norm_q_plus_p_2);
+    const double t = 2.0 * atan2_value;
+    const double norm_w = sqrt((near ? 1.0 : norm_w_squared));
+    const double t_ratio = t / norm_w;
+    const double t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
+    const int is_small = squared < 0.5;
+    const double sine_to_axis0 = sqrt((is_small ? gap : 1.0));
+    const double chosen = (is_small ? sine_to_axis0 : 1.0);
+    const double product = mu[0] * mu[1];
+    const double sine_to_axis1 = sqrt((is_small ? 1.0 : gap_2));
+    const double chosen_2 = (is_small ? 1.0 : sine_to_axis1);
+    const double v0 = (on_cut_locus ? 3.141592653589793 * (is_small ? gap / chosen : -(product / chosen_2)) :
+        w0 * t_over_norm_w);
+    const double v1 = (on_cut_locus ? 3.141592653589793 * (is_small ? -(product / chosen) : gap_2 / chosen_2)
+        : w1 * t_over_norm_w);
+    const double product_2 = 3.141592653589793 * (is_small ? -(mu[0] * mu[2] / chosen) : -(mu[1] * mu[2] /
+        chosen_2));
+    const double v2 = (on_cut_locus ? product_2 : w2 * t_over_norm_w);
+    const double log_value = log(0.7853981633974483 / DBL_EPSILON);
+    const double log_det_series = polynomial(near_chosen, LOG_DET_SERIES, 15);
+    const double log_det_near = norm_d_squared * log_det_series;
+    const double log_det = (near ? log_det_near : log(t_ratio));
+    const double z0 = W[0] * v0 + W[1] * v1 + W[2] * v2;
+    const double z1 = W[3] * v0 + W[4] * v1 + W[5] * v2;
+    const double exp_2 = exp((on_cut_locus ? log_value : log_det) - 0.5 * (z0 * z0 + z1 * z1));
+    const double phi = amplitude * exp_2;
+    const double by_v2 = -(W[5] * z1) - W[2] * z0;
+    const double by_v1 = -(W[4] * z1) - W[1] * z0;
+    const double by_v0 = -(W[3] * z1) - W[0] * z0;
+    const double by_log_det = (on_cut_locus ? 0.0 : 1.0);
+    const double by_log_det_near = (near ? by_log_det : 0.0);
+    const double by_log_det_series = norm_d_squared * by_log_det_near;
+    const double log_det_series_slope = polynomial(near_chosen, LOG_DET_SERIES_SLOPE, 14);
+    const double chosen_3 = (on_cut_locus ? 0.0 : by_v2);
+    const double chosen_4 = (on_cut_locus ? 0.0 : by_v1);
+    const double chosen_5 = (on_cut_locus ? 0.0 : by_v0);
+    const double by_t_over_norm_w = w2 * chosen_3 + w1 * chosen_4 + w0 * chosen_5;
+    const double by_t_over_norm_w_near = (near ? by_t_over_norm_w : 0.0);
+    const double by_t = ((near ? 0.0 : by_log_det) / t_ratio + (near ? 0.0 : by_t_over_norm_w)) / norm_w;
+    const double by_norm_w_squared = (near ? 0.0 : -(t_ratio * by_t / (2.0 * norm_w)));
+    const double by_atan2_value = 2.0 * by_t;
+    const double ratio = by_atan2_value / (norm_q_plus_p_squared_2 + near_chosen_2);
+    const double by_norm_d = norm_q_plus_p_2 * ratio;
+    const double t_over_norm_w_near_slope = polynomial(near_chosen, T_OVER_NORM_W_NEAR_SLOPE, 14);
+    const double by_norm_d_squared = log_det_series * by_log_det_near + (near ? 0.0 : by_norm_d / (2.0 *
+        norm_d)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near *
+        t_over_norm_w_near_slope : 0.0);
+    const double product_3 = 2.0 * by_norm_w_squared;
+    const double by_w2 = t_over_norm_w * chosen_3 + w2 * product_3;
+    const double by_w1 = t_over_norm_w * chosen_4 + w1 * product_3;
+    const double by_w0 = t_over_norm_w * chosen_5 + w0 * product_3;
+    const double by_dot_p_d = -(mu[2] * by_w2) - mu[1] * by_w1 - mu[0] * by_w0;
+    const int is_small_2 = norm_q_plus_p_squared_2 == 0.0;
+    const double by_norm_q_plus_p_squared_2 = (is_small_2 ? 0.0 : -(norm_d * ratio / (2.0 * (is_small_2 ? 1.0
+        : norm_q_plus_p_2))));
+    const double product_4 = 2.0 * by_norm_q_plus_p_squared_2;
+    const double by_q_plus_p2_2 = q_plus_p2_2 * product_4;
+    const double by_q_plus_p1_2 = q_plus_p1_2 * product_4;
+    const double by_q_plus_p0_2 = q_plus_p0_2 * product_4;
+    const double product_5 = 2.0 * by_norm_d_squared;
+    const double by_d2 = by_w2 + mu[2] * by_dot_p_d + d2 * product_5;
+    const double by_d1 = by_w1 + mu[1] * by_dot_p_d + d1 * product_5;
+    const double by_d0 = by_w0 + mu[0] * by_dot_p_d + d0 * product_5;
+    const double by_q2_off_cut = by_q_plus_p2_2 + by_d2;
+    const double by_q1_off_cut = by_q_plus_p1_2 + by_d1;
+    const double by_q0_off_cut = by_q_plus_p0_2 + by_d0;
+    const double exponent_by_x2 = (on_cut_locus ? 0.0 : by_q2_off_cut);
+    const double exponent_by_x1 = (on_cut_locus ? 0.0 : by_q1_off_cut);
+    const double exponent_by_x0 = (on_cut_locus ? 0.0 : by_q0_off_cut);
+    const double df0 = phi * exponent_by_x0;
+    const double df1 = phi * exponent_by_x1;
+    const double df2 = phi * exponent_by_x2;
+    const double normal_part = x[0] * df0 + x[1] * df1 + x[2] * df2;
+    const double gradient0 = df0 - x[0] * normal_part;
+    const double gradient1 = df1 - x[1] * normal_part;
+    const double gradient2 = df2 - x[2] * normal_part;
+    value_out[0] = phi;
+    gradient_out[0] = gradient0;
+    gradient_out[1] = gradient1;
+    gradient_out[2] = gradient2;
+}
+
+void sphere_splat_batch(
+    size_t count,
+    const double *SPHERE_RESTRICT x,
+    const double *SPHERE_RESTRICT mu,
+    const double *SPHERE_RESTRICT W,
+    const double *SPHERE_RESTRICT amplitude,
+    double *SPHERE_RESTRICT value_out,
+    double *SPHERE_RESTRICT gradient_out) {
+    for (size_t i = 0; i < count; ++i) sphere_splat(x + 3 * i, mu + 3 * i, W + 6 * i, amplitude[i], value_out + i, gradient_out + 3 * i);
+}
+
+/* Gram-Schmidt in the metric, always on the longest of what is left of the projected axes. */
+void sphere_frame(const double *SPHERE_RESTRICT p, double *SPHERE_RESTRICT frame) {
+    double left[3][3];
+    for (int i = 0; i < 3; ++i) {
+        double axis[3];
+        for (int j = 0; j < 3; ++j) axis[j] = i == j ? 1.0 : 0.0;
+        sphere_to_tangent(p, axis, left[i]);
+    }
+    for (int row = 0; row < 2; ++row) {
+        double *e = frame + 3 * row;
+        int longest = 0;
+        for (int i = 1; i < 3; ++i)
+            if (sphere_norm(p, left[i]) > sphere_norm(p, left[longest])) longest = i;
+        const double length = sphere_norm(p, left[longest]);
+        for (int j = 0; j < 3; ++j) e[j] = left[longest][j] / length;
+        for (int i = 0; i < 3; ++i) {
+            const double part = sphere_inner(p, e, left[i]);
+            for (int j = 0; j < 3; ++j) left[i][j] -= part * e[j];
+        }
+    }
+}
+
+static const float SINC_NORM_V_NEAR_F[8] = {
+    1.0f, -0.16666666666666666f, 0.008333333333333106f, -0.0001984126984108742f, 2.7557319152292533e-06f,
+    -2.5052093081256153e-08f, 1.605723315933452e-10f, -7.535482987408254e-13f};
+
+static const float T_OVER_NORM_W_NEAR_F[15] = {
+    1.0f, 0.16666666666666416f, 0.033333333333506306f, 0.0071428571381235645f, 0.0015873016554683388f,
+    0.00036074976769956093f, 8.325345611107313e-05f, 1.9411868200361258e-05f, 4.606744523406809e-06f,
+    1.0115092780821757e-06f, 3.573589789663863e-07f, -3.671871587646e-08f, 8.060154251278906e-08f,
+    -2.3969974400507724e-08f, 6.744739171601492e-09f};
+
+static const float LOG_DET_SERIES_F[15] = {
+    0.16666666666666666f, 0.019444444444444355f, 0.0031305114638509562f, 0.0005742945324592983f,
+    0.00011310192108550569f, 2.329005429821089e-05f, 4.945110727593644e-06f, 1.0731431371692667e-06f,
+    2.383732678254368e-07f, 5.0521959436460696e-08f, 1.5564787023532255e-08f, -7.830928337301054e-10f,
+    2.9922380095813834e-09f, -8.46187828025567e-10f, 2.4753955737430303e-10f};
+
+static const float LOG_DET_SERIES_SLOPE_F[14] = {
+    0.019444444444444355f, 0.0062610229277019125f, 0.001722883597377895f, 0.00045240768434202277f,
+    0.00011645027149105445f, 2.9670664365561865e-05f, 7.512001960184866e-06f, 1.9069861426034945e-06f,
+    4.5469763492814626e-07f, 1.5564787023532256e-07f, -8.614021171031161e-09f, 3.59068561149766e-08f,
+    -1.100044176433237e-08f, 3.4655538032402425e-09f};
+
+static const float T_OVER_NORM_W_NEAR_SLOPE_F[14] = {
+    0.16666666666666416f, 0.06666666666701261f, 0.021428571414370694f, 0.006349206621873355f,
+    0.0018037488384978046f, 0.0004995207366664387f, 0.0001358830774025288f, 3.685395618725447e-05f,
+    9.103583502739583e-06f, 3.5735897896638634e-06f, -4.0390587464106003e-07f, 9.672185101534689e-07f,
+    -3.116096672066004e-07f, 9.442634840242089e-08f};
+
+/* c[0] + c[1] x + ... by Horner's rule. */
+static inline float polynomial_f(float x, const float *c, int size) {
+    float result = c[size - 1];
+    for (int i = size - 2; i >= 0; --i) result = result * x + c[i];
+    return result;
+}
+
+/* p / norm(p) */
+void sphere_project_f(const float *SPHERE_RESTRICT x, float *SPHERE_RESTRICT p_out) {
+    const float norm_p_squared = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+    const float norm_p = sqrtf(norm_p_squared);
+    const float scale = 1.0f / norm_p;
+    const float p0 = x[0] * scale;
+    const float p1 = x[1] * scale;
+    const float p2 = x[2] * scale;
+    p_out[0] = p0;
+    p_out[1] = p1;
+    p_out[2] = p2;
+}
+
+void sphere_project_batch_f(size_t count, const float *SPHERE_RESTRICT x, float *SPHERE_RESTRICT p_out) {
+    for (size_t i = 0; i < count; ++i) sphere_project_f(x + 3 * i, p_out + 3 * i);
+}
+
+/* x - N (dc N)^-1 dc x */
+void sphere_to_tangent_f(
+    const float *SPHERE_RESTRICT p,
+    const float *SPHERE_RESTRICT x,
+    float *SPHERE_RESTRICT v_out) {
+    const float normal_part = p[0] * x[0] + p[1] * x[1] + p[2] * x[2];
+    const float v0 = x[0] - p[0] * normal_part;
+    const float v1 = x[1] - p[1] * normal_part;
+    const float v2 = x[2] - p[2] * normal_part;
+    v_out[0] = v0;
+    v_out[1] = v1;
+    v_out[2] = v2;
+}
+
+void sphere_to_tangent_batch_f(
+    size_t count,
+    const float *SPHERE_RESTRICT p,
+    const float *SPHERE_RESTRICT x,
+    float *SPHERE_RESTRICT v_out) {
+    for (size_t i = 0; i < count; ++i) sphere_to_tangent_f(p + 3 * i, x + 3 * i, v_out + 3 * i);
+}
+
+/* dot(u, v) */
+float sphere_inner_f(
+    const float *SPHERE_RESTRICT p,
+    const float *SPHERE_RESTRICT u,
+    const float *SPHERE_RESTRICT v) {
+    (void)p;
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+
+void sphere_inner_batch_f(
+    size_t count,
+    const float *SPHERE_RESTRICT p,
+    const float *SPHERE_RESTRICT u,
+    const float *SPHERE_RESTRICT v,
+    float *SPHERE_RESTRICT inner_out) {
+    for (size_t i = 0; i < count; ++i) inner_out[i] = sphere_inner_f(p + 3 * i, u + 3 * i, v + 3 * i);
+}
+
+/* sqrt(<v, v>_p) */
+float sphere_norm_f(const float *SPHERE_RESTRICT p, const float *SPHERE_RESTRICT v) {
+    (void)p;
+    return sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+void sphere_norm_batch_f(
+    size_t count,
+    const float *SPHERE_RESTRICT p,
+    const float *SPHERE_RESTRICT v,
+    float *SPHERE_RESTRICT norm_out) {
+    for (size_t i = 0; i < count; ++i) norm_out[i] = sphere_norm_f(p + 3 * i, v + 3 * i);
+}
+
+/* G(p) v */
+void sphere_flat_f(
+    const float *SPHERE_RESTRICT p,
+    const float *SPHERE_RESTRICT v,
+    float *SPHERE_RESTRICT covector_out) {
+    (void)p;
+    covector_out[0] = v[0];
+    covector_out[1] = v[1];
+    covector_out[2] = v[2];
+}
+
+void sphere_flat_batch_f(
+    size_t count,
+    const float *SPHERE_RESTRICT p,
+    const float *SPHERE_RESTRICT v,
+    float *SPHERE_RESTRICT covector_out) {
+    for (size_t i = 0; i < count; ++i) sphere_flat_f(p + 3 * i, v + 3 * i, covector_out + 3 * i);
+}
+
+/* cos(norm(v)) * p + sinc(norm(v)) * v */
+void sphere_exp_f(
+    const float *SPHERE_RESTRICT p,
+    const float *SPHERE_RESTRICT v,
+    float *SPHERE_RESTRICT q_out) {
+    const float norm_v_squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    const float norm_v = sqrtf(norm_v_squared);
+    const float cos_norm_v = cosf(norm_v);
+    const int near = norm_v_squared < 0.9903926849365234f;
+    const float sinc_norm_v_near = polynomial_f((near ? norm_v_squared : 0.0f), SINC_NORM_V_NEAR_F, 8);
+    const float norm_v_2 = sqrtf((near ? 1.0f : norm_v_squared));
+    const float sinc_norm_v = (near ? sinc_norm_v_near : sinf(norm_v_2) / (near ? 1.0f : norm_v_2));
+    const float q0 = p[0] * cos_norm_v + v[0] * sinc_norm_v;
+    const float q1 = p[1] * cos_norm_v + v[1] * sinc_norm_v;
+    const float q2 = p[2] * cos_norm_v + v[2] * sinc_norm_v;
+    q_out[0] = q0;
+    q_out[1] = q1;
+    q_out[2] = q2;
+}
+
+void sphere_exp_batch_f(
+    size_t count,
+    const float *SPHERE_RESTRICT p,
+    const float *SPHERE_RESTRICT v,
+    float *SPHERE_RESTRICT q_out) {
+    for (size_t i = 0; i < count; ++i) sphere_exp_f(p + 3 * i, v + 3 * i, q_out + 3 * i);
+}
+
+/* t * w / norm(w) */
+void sphere_log_f(
+    const float *SPHERE_RESTRICT p,
+    const float *SPHERE_RESTRICT q,
+    float *SPHERE_RESTRICT v_out) {
+    const float q_plus_p0 = p[0] + q[0];
+    const float q_plus_p1 = p[1] + q[1];
+    const float q_plus_p2 = p[2] + q[2];
+    const float norm_q_plus_p_squared = q_plus_p0 * q_plus_p0 + q_plus_p1 * q_plus_p1 + q_plus_p2 * q_plus_p2;
+    const float norm_q_plus_p = sqrtf(norm_q_plus_p_squared);
+    const float squared = p[0] * p[0];
+    const float gap = 1.0f - squared;
+    const float gap_2 = 1.0f - p[1] * p[1];
+    const int on_cut_locus = norm_q_plus_p <= 4.0f * FLT_EPSILON;
+    const float q0_off_cut = (on_cut_locus ? p[0] : q[0]);
+    const float q1_off_cut = (on_cut_locus ? p[1] : q[1]);
+    const float q2_off_cut = (on_cut_locus ? p[2] : q[2]);
+    const float d0 = q0_off_cut - p[0];
+    const float d1 = q1_off_cut - p[1];
+    const float d2 = q2_off_cut - p[2];
+    const float norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
+    const float q_plus_p0_2 = p[0] + q0_off_cut;
+    const float q_plus_p1_2 = p[1] + q1_off_cut;
+    const float q_plus_p2_2 = p[2] + q2_off_cut;
+    const float norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
+        * q_plus_p2_2;
+    const float norm_q_plus_p_2 = sqrtf(norm_q_plus_p_squared_2);
+    const float dot_p_d = p[0] * d0 + p[1] * d1 + p[2] * d2;
+    const float w0 = d0 - p[0] * dot_p_d;
+    const float w1 = d1 - p[1] * dot_p_d;
+    const float w2 = d2 - p[2] * dot_p_d;
+    const float norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
+    const int near = norm_d_squared < 0.9975153207778931f;
+    const float t_over_norm_w_near = polynomial_f((near ? norm_d_squared : 0.0f), T_OVER_NORM_W_NEAR_F, 15);
+    const float norm_d = sqrtf((near ? 1.0f : norm_d_squared));
+    const float atan2_value = atan2f(norm_d, norm_q_plus_p_2);
+    const float t = 2.0f * atan2_value;
+    const float norm_w = sqrtf((near ? 1.0f : norm_w_squared));
+    const float t_over_norm_w = (near ? t_over_norm_w_near : t / norm_w);
+    const int is_small = squared < 0.5f;
+    const float sine_to_axis0 = sqrtf((is_small ? gap : 1.0f));
+    const float chosen = (is_small ? sine_to_axis0 : 1.0f);
+    const float product = p[0] * p[1];
+    const float sine_to_axis1 = sqrtf((is_small ? 1.0f : gap_2));
+    const float chosen_2 = (is_small ? 1.0f : sine_to_axis1);
+    const float v0 = (on_cut_locus ? 3.141592653589793f * (is_small ? gap / chosen : -(product / chosen_2)) :
+        w0 * t_over_norm_w);
+    const float v1 = (on_cut_locus ? 3.141592653589793f * (is_small ? -(product / chosen) : gap_2 / chosen_2)
+        : w1 * t_over_norm_w);
+    const float product_2 = 3.141592653589793f * (is_small ? -(p[0] * p[2] / chosen) : -(p[1] * p[2] /
+        chosen_2));
+    const float v2 = (on_cut_locus ? product_2 : w2 * t_over_norm_w);
+    v_out[0] = v0;
+    v_out[1] = v1;
+    v_out[2] = v2;
+}
+
+void sphere_log_batch_f(
+    size_t count,
+    const float *SPHERE_RESTRICT p,
+    const float *SPHERE_RESTRICT q,
+    float *SPHERE_RESTRICT v_out) {
+    for (size_t i = 0; i < count; ++i) sphere_log_f(p + 3 * i, q + 3 * i, v_out + 3 * i);
+}
+
+/* t */
+float sphere_distance_f(const float *SPHERE_RESTRICT p, const float *SPHERE_RESTRICT q) {
+    const float d0 = q[0] - p[0];
+    const float d1 = q[1] - p[1];
+    const float d2 = q[2] - p[2];
+    const float norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
+    const float norm_d = sqrtf(norm_d_squared);
+    const float q_plus_p0 = p[0] + q[0];
+    const float q_plus_p1 = p[1] + q[1];
+    const float q_plus_p2 = p[2] + q[2];
+    const float norm_q_plus_p_squared = q_plus_p0 * q_plus_p0 + q_plus_p1 * q_plus_p1 + q_plus_p2 * q_plus_p2;
+    const float norm_q_plus_p = sqrtf(norm_q_plus_p_squared);
+    const float atan2_value = atan2f(norm_d, norm_q_plus_p);
+    const float t = 2.0f * atan2_value;
+    return t;
+}
+
+void sphere_distance_batch_f(
+    size_t count,
+    const float *SPHERE_RESTRICT p,
+    const float *SPHERE_RESTRICT q,
+    float *SPHERE_RESTRICT distance_out) {
+    for (size_t i = 0; i < count; ++i) distance_out[i] = sphere_distance_f(p + 3 * i, q + 3 * i);
+}
+
+/* log(t_over_norm_w) */
+float sphere_log_abs_det_f(const float *SPHERE_RESTRICT p, const float *SPHERE_RESTRICT q) {
+    const float q_plus_p0 = p[0] + q[0];
+    const float q_plus_p1 = p[1] + q[1];
+    const float q_plus_p2 = p[2] + q[2];
+    const float norm_q_plus_p_squared = q_plus_p0 * q_plus_p0 + q_plus_p1 * q_plus_p1 + q_plus_p2 * q_plus_p2;
+    const float norm_q_plus_p = sqrtf(norm_q_plus_p_squared);
+    const float log_value = logf(0.7853981633974483f / FLT_EPSILON);
+    const int on_cut_locus = norm_q_plus_p <= 4.0f * FLT_EPSILON;
+    const float q0_off_cut = (on_cut_locus ? p[0] : q[0]);
+    const float q1_off_cut = (on_cut_locus ? p[1] : q[1]);
+    const float q2_off_cut = (on_cut_locus ? p[2] : q[2]);
+    const float d0 = q0_off_cut - p[0];
+    const float d1 = q1_off_cut - p[1];
+    const float d2 = q2_off_cut - p[2];
+    const float norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
+    const float q_plus_p0_2 = p[0] + q0_off_cut;
+    const float q_plus_p1_2 = p[1] + q1_off_cut;
+    const float q_plus_p2_2 = p[2] + q2_off_cut;
+    const float norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
+        * q_plus_p2_2;
+    const float norm_q_plus_p_2 = sqrtf(norm_q_plus_p_squared_2);
+    const float dot_p_d = p[0] * d0 + p[1] * d1 + p[2] * d2;
+    const float w0 = d0 - p[0] * dot_p_d;
+    const float w1 = d1 - p[1] * dot_p_d;
+    const float w2 = d2 - p[2] * dot_p_d;
+    const float norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
+    const int near = norm_d_squared < 0.9975153207778931f;
+    const float norm_d = sqrtf((near ? 1.0f : norm_d_squared));
+    const float atan2_value = atan2f(norm_d, norm_q_plus_p_2);
+    const float t = 2.0f * atan2_value;
+    const float norm_w = sqrtf((near ? 1.0f : norm_w_squared));
+    const float log_det_series = polynomial_f((near ? norm_d_squared : 0.0f), LOG_DET_SERIES_F, 15);
+    const float log_det_near = norm_d_squared * log_det_series;
+    const float log_det = (near ? log_det_near : logf(t / norm_w));
+    return (on_cut_locus ? log_value : log_det);
+}
+
+void sphere_log_abs_det_batch_f(
+    size_t count,
+    const float *SPHERE_RESTRICT p,
+    const float *SPHERE_RESTRICT q,
+    float *SPHERE_RESTRICT log_abs_det_out) {
+    for (size_t i = 0; i < count; ++i) log_abs_det_out[i] = sphere_log_abs_det_f(p + 3 * i, q + 3 * i);
+}
+
+/* the tangential part of G^-1 df */
+void sphere_riemannian_gradient_f(
+    const float *SPHERE_RESTRICT p,
+    const float *SPHERE_RESTRICT df,
+    float *SPHERE_RESTRICT gradient_out) {
+    const float normal_part = p[0] * df[0] + p[1] * df[1] + p[2] * df[2];
+    const float gradient0 = df[0] - p[0] * normal_part;
+    const float gradient1 = df[1] - p[1] * normal_part;
+    const float gradient2 = df[2] - p[2] * normal_part;
+    gradient_out[0] = gradient0;
+    gradient_out[1] = gradient1;
+    gradient_out[2] = gradient2;
+}
+
+void sphere_riemannian_gradient_batch_f(
+    size_t count,
+    const float *SPHERE_RESTRICT p,
+    const float *SPHERE_RESTRICT df,
+    float *SPHERE_RESTRICT gradient_out) {
+    for (size_t i = 0; i < count; ++i) sphere_riemannian_gradient_f(p + 3 * i, df + 3 * i, gradient_out + 3 * i);
+}
+
+/* |grad f|_p */
+float sphere_gradient_norm_f(const float *SPHERE_RESTRICT p, const float *SPHERE_RESTRICT df) {
+    const float normal_part = p[0] * df[0] + p[1] * df[1] + p[2] * df[2];
+    const float gradient0 = df[0] - p[0] * normal_part;
+    const float gradient1 = df[1] - p[1] * normal_part;
+    const float gradient2 = df[2] - p[2] * normal_part;
+    return sqrtf(gradient0 * gradient0 + gradient1 * gradient1 + gradient2 * gradient2);
+}
+
+void sphere_gradient_norm_batch_f(
+    size_t count,
+    const float *SPHERE_RESTRICT p,
+    const float *SPHERE_RESTRICT df,
+    float *SPHERE_RESTRICT gradient_norm_out) {
+    for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = sphere_gradient_norm_f(p + 3 * i, df + 3 * i);
+}
+
+/* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */
+void sphere_splat_f(
+    const float *SPHERE_RESTRICT x,
+    const float *SPHERE_RESTRICT mu,
+    const float *SPHERE_RESTRICT W,
+    float amplitude,
+    float *SPHERE_RESTRICT value_out,
+    float *SPHERE_RESTRICT gradient_out) {
+    const float q_plus_p0 = x[0] + mu[0];
+    const float q_plus_p1 = x[1] + mu[1];
+    const float q_plus_p2 = x[2] + mu[2];
+    const float norm_q_plus_p_squared = q_plus_p0 * q_plus_p0 + q_plus_p1 * q_plus_p1 + q_plus_p2 * q_plus_p2;
+    const float norm_q_plus_p = sqrtf(norm_q_plus_p_squared);
+    const float squared = mu[0] * mu[0];
+    const float gap = 1.0f - squared;
+    const float gap_2 = 1.0f - mu[1] * mu[1];
+    const int on_cut_locus = norm_q_plus_p <= 4.0f * FLT_EPSILON;
+    const float q0_off_cut = (on_cut_locus ? mu[0] : x[0]);
+    const float q1_off_cut = (on_cut_locus ? mu[1] : x[1]);
+    const float q2_off_cut = (on_cut_locus ? mu[2] : x[2]);
+    const float d0 = q0_off_cut - mu[0];
+    const float d1 = q1_off_cut - mu[1];
+    const float d2 = q2_off_cut - mu[2];
+    const float norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
+    const float q_plus_p0_2 = mu[0] + q0_off_cut;
+    const float q_plus_p1_2 = mu[1] + q1_off_cut;
+    const float q_plus_p2_2 = mu[2] + q2_off_cut;
+    const float norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
+        * q_plus_p2_2;
+    const float norm_q_plus_p_2 = sqrtf(norm_q_plus_p_squared_2);
+    const float dot_p_d = mu[0] * d0 + mu[1] * d1 + mu[2] * d2;
+    const float w0 = d0 - mu[0] * dot_p_d;
+    const float w1 = d1 - mu[1] * dot_p_d;
+    const float w2 = d2 - mu[2] * dot_p_d;
+    const float norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
+    const int near = norm_d_squared < 0.9975153207778931f;
+    const float near_chosen = (near ? norm_d_squared : 0.0f);
+    const float t_over_norm_w_near = polynomial_f(near_chosen, T_OVER_NORM_W_NEAR_F, 15);
+    const float near_chosen_2 = (near ? 1.0f : norm_d_squared);
+    const float norm_d = sqrtf(near_chosen_2);
+    const float atan2_value = atan2f(norm_d, norm_q_plus_p_2);
+    const float t = 2.0f * atan2_value;
+    const float norm_w = sqrtf((near ? 1.0f : norm_w_squared));
+    const float t_ratio = t / norm_w;
+    const float t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
+    const int is_small = squared < 0.5f;
+    const float sine_to_axis0 = sqrtf((is_small ? gap : 1.0f));
+    const float chosen = (is_small ? sine_to_axis0 : 1.0f);
+    const float product = mu[0] * mu[1];
+    const float sine_to_axis1 = sqrtf((is_small ? 1.0f : gap_2));
+    const float chosen_2 = (is_small ? 1.0f : sine_to_axis1);
+    const float v0 = (on_cut_locus ? 3.141592653589793f * (is_small ? gap / chosen : -(product / chosen_2)) :
+        w0 * t_over_norm_w);
+    const float v1 = (on_cut_locus ? 3.141592653589793f * (is_small ? -(product / chosen) : gap_2 / chosen_2)
+        : w1 * t_over_norm_w);
+    const float product_2 = 3.141592653589793f * (is_small ? -(mu[0] * mu[2] / chosen) : -(mu[1] * mu[2] /
+        chosen_2));
+    const float v2 = (on_cut_locus ? product_2 : w2 * t_over_norm_w);
+    const float log_value = logf(0.7853981633974483f / FLT_EPSILON);
+    const float log_det_series = polynomial_f(near_chosen, LOG_DET_SERIES_F, 15);
+    const float log_det_near = norm_d_squared * log_det_series;
+    const float log_det = (near ? log_det_near : logf(t_ratio));
+    const float z0 = W[0] * v0 + W[1] * v1 + W[2] * v2;
+    const float z1 = W[3] * v0 + W[4] * v1 + W[5] * v2;
+    const float exp_2 = expf((on_cut_locus ? log_value : log_det) - 0.5f * (z0 * z0 + z1 * z1));
+    const float phi = amplitude * exp_2;
+    const float by_v2 = -(W[5] * z1) - W[2] * z0;
+    const float by_v1 = -(W[4] * z1) - W[1] * z0;
+    const float by_v0 = -(W[3] * z1) - W[0] * z0;
+    const float by_log_det = (on_cut_locus ? 0.0f : 1.0f);
+    const float by_log_det_near = (near ? by_log_det : 0.0f);
+    const float by_log_det_series = norm_d_squared * by_log_det_near;
+    const float log_det_series_slope = polynomial_f(near_chosen, LOG_DET_SERIES_SLOPE_F, 14);
+    const float chosen_3 = (on_cut_locus ? 0.0f : by_v2);
+    const float chosen_4 = (on_cut_locus ? 0.0f : by_v1);
+    const float chosen_5 = (on_cut_locus ? 0.0f : by_v0);
+    const float by_t_over_norm_w = w2 * chosen_3 + w1 * chosen_4 + w0 * chosen_5;
+    const float by_t_over_norm_w_near = (near ? by_t_over_norm_w : 0.0f);
+    const float by_t = ((near ? 0.0f : by_log_det) / t_ratio + (near ? 0.0f : by_t_over_norm_w)) / norm_w;
+    const float by_norm_w_squared = (near ? 0.0f : -(t_ratio * by_t / (2.0f * norm_w)));
+    const float by_atan2_value = 2.0f * by_t;
+    const float ratio = by_atan2_value / (norm_q_plus_p_squared_2 + near_chosen_2);
+    const float by_norm_d = norm_q_plus_p_2 * ratio;
+    const float t_over_norm_w_near_slope = polynomial_f(near_chosen, T_OVER_NORM_W_NEAR_SLOPE_F, 14);
+    const float by_norm_d_squared = log_det_series * by_log_det_near + (near ? 0.0f : by_norm_d / (2.0f *
+        norm_d)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near *
+        t_over_norm_w_near_slope : 0.0f);
+    const float product_3 = 2.0f * by_norm_w_squared;
+    const float by_w2 = t_over_norm_w * chosen_3 + w2 * product_3;
+    const float by_w1 = t_over_norm_w * chosen_4 + w1 * product_3;
+    const float by_w0 = t_over_norm_w * chosen_5 + w0 * product_3;
+    const float by_dot_p_d = -(mu[2] * by_w2) - mu[1] * by_w1 - mu[0] * by_w0;
+    const int is_small_2 = norm_q_plus_p_squared_2 == 0.0f;
+    const float by_norm_q_plus_p_squared_2 = (is_small_2 ? 0.0f : -(norm_d * ratio / (2.0f * (is_small_2 ?
+        1.0f : norm_q_plus_p_2))));
+    const float product_4 = 2.0f * by_norm_q_plus_p_squared_2;
+    const float by_q_plus_p2_2 = q_plus_p2_2 * product_4;
+    const float by_q_plus_p1_2 = q_plus_p1_2 * product_4;
+    const float by_q_plus_p0_2 = q_plus_p0_2 * product_4;
+    const float product_5 = 2.0f * by_norm_d_squared;
+    const float by_d2 = by_w2 + mu[2] * by_dot_p_d + d2 * product_5;
+    const float by_d1 = by_w1 + mu[1] * by_dot_p_d + d1 * product_5;
+    const float by_d0 = by_w0 + mu[0] * by_dot_p_d + d0 * product_5;
+    const float by_q2_off_cut = by_q_plus_p2_2 + by_d2;
+    const float by_q1_off_cut = by_q_plus_p1_2 + by_d1;
+    const float by_q0_off_cut = by_q_plus_p0_2 + by_d0;
+    const float exponent_by_x2 = (on_cut_locus ? 0.0f : by_q2_off_cut);
+    const float exponent_by_x1 = (on_cut_locus ? 0.0f : by_q1_off_cut);
+    const float exponent_by_x0 = (on_cut_locus ? 0.0f : by_q0_off_cut);
+    const float df0 = phi * exponent_by_x0;
+    const float df1 = phi * exponent_by_x1;
+    const float df2 = phi * exponent_by_x2;
+    const float normal_part = x[0] * df0 + x[1] * df1 + x[2] * df2;
+    const float gradient0 = df0 - x[0] * normal_part;
+    const float gradient1 = df1 - x[1] * normal_part;
+    const float gradient2 = df2 - x[2] * normal_part;
+    value_out[0] = phi;
+    gradient_out[0] = gradient0;
+    gradient_out[1] = gradient1;
+    gradient_out[2] = gradient2;
+}
+
+void sphere_splat_batch_f(
+    size_t count,
+    const float *SPHERE_RESTRICT x,
+    const float *SPHERE_RESTRICT mu,
+    const float *SPHERE_RESTRICT W,
+    const float *SPHERE_RESTRICT amplitude,
+    float *SPHERE_RESTRICT value_out,
+    float *SPHERE_RESTRICT gradient_out) {
+    for (size_t i = 0; i < count; ++i) sphere_splat_f(x + 3 * i, mu + 3 * i, W + 6 * i, amplitude[i], value_out + i, gradient_out + 3 * i);
+}
+
+/* Gram-Schmidt in the metric, always on the longest of what is left of the projected axes. */
+void sphere_frame_f(const float *SPHERE_RESTRICT p, float *SPHERE_RESTRICT frame) {
+    float left[3][3];
+    for (int i = 0; i < 3; ++i) {
+        float axis[3];
+        for (int j = 0; j < 3; ++j) axis[j] = i == j ? 1.0f : 0.0f;
+        sphere_to_tangent_f(p, axis, left[i]);
+    }
+    for (int row = 0; row < 2; ++row) {
+        float *e = frame + 3 * row;
+        int longest = 0;
+        for (int i = 1; i < 3; ++i)
+            if (sphere_norm_f(p, left[i]) > sphere_norm_f(p, left[longest])) longest = i;
+        const float length = sphere_norm_f(p, left[longest]);
+        for (int j = 0; j < 3; ++j) e[j] = left[longest][j] / length;
+        for (int i = 0; i < 3; ++i) {
+            const float part = sphere_inner_f(p, e, left[i]);
+            for (int j = 0; j < 3; ++j) left[i][j] -= part * e[j];
+        }
+    }
+}

@@ -1,0 +1,13 @@
+"""Stage 5: everything before it -> `AuditReport`. Checks the mathematics of the manifold file and the numbers of the code.
+
+A check that fails fails the build. What is compared with what:
+
+    laws        the author's formulas against what geometry demands of them, in 50 digits
+    readings    the same file read by sympy and our graph, and independently by CasADi
+    numbers     the generated torch and C code, in double and in float, against the formulas in 60 digits
+"""
+
+from rsrm_gen.compiler.audit.audit import audit
+from rsrm_gen.compiler.audit.report import AuditReport, Check
+
+__all__ = ["AuditReport", "Check", "audit"]

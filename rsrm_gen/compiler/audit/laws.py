@@ -1,0 +1,289 @@
+"""What geometry demands of the formulas, tried in 50 digits at random places.
+
+Derivatives are central differences with a step of 1e-16: their error is of the order 1e-32, far below the tolerances.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import mpmath as mp
+
+from rsrm_gen.compiler.audit.report import Check
+from rsrm_gen.compiler.derive import Geometry
+from rsrm_gen.compiler.derive.geometry import argument
+from rsrm_gen.compiler.derive.numeric import run, value
+from rsrm_gen.compiler.derive.sampling import Sampler, sampler_of
+from rsrm_gen.compiler.derive.scalarise import scalarised
+from rsrm_gen.compiler.lower import Program, interpret
+from rsrm_gen.compiler.spec import ManifoldSpec, Map
+from rsrm_gen.errors import Span
+
+DIGITS = 50
+STEP = mp.mpf(10) ** -16
+EXACT = 1e-12  # series are exact to 1e-17 and derivatives to 1e-32, but conditions and cancellation cost some
+PAIRS = 16
+
+Numbers = list[Any]
+
+
+@dataclass(frozen=True)
+class Worst:
+    """The largest error so far and where it was."""
+
+    error: float = 0.0
+    where: str = ""
+
+    def with_error(self, error: Any, where: str) -> Worst:
+        """This, or the new error if it is larger or not a number."""
+        number = float(error) if mp.isfinite(error) else float("inf")
+        return Worst(number, where) if number > self.error else self
+
+
+class Laws:
+    """All checks of one manifold; each method is one law."""
+
+    def __init__(self, geometry: Geometry, program: Program) -> None:
+        self.geometry = geometry
+        self.program = program
+        self.spec = geometry.spec
+        self.sampler: Sampler = sampler_of(geometry)
+        rng = random.Random(7)
+        self.rng = rng
+        with mp.workdps(DIGITS):
+            self.pairs = [self.sampler.pair(rng, reach) for reach in self.reaches()]
+
+    def reaches(self) -> list[Any]:
+        """Distances of the pairs tried: from close by to almost the injectivity radius."""
+        whole = self.sampler.reach * 2
+        return [whole * mp.mpf(k + 1) / (PAIRS + 1) for k in range(PAIRS - 1)] + [whole * mp.mpf("0.99")]
+
+    def checks(self) -> list[Check]:
+        """Every law, in the order in which a failure explains the later ones."""
+        with mp.workdps(DIGITS):
+            laws: list[Callable[[], Check | None]] = [
+                self.metric_is_an_inner_product, self.projection_lands_on_the_manifold, self.frame_is_tangent,
+                self.exp_stays_on_the_manifold, self.log_is_tangent, self.exp_inverts_log, self.log_inverts_exp,
+                self.equivalent_points_are_one, self.distance_is_the_length_of_log, self.distance_is_symmetric,
+                self.distance_has_gradient_one, self.log_is_the_gradient_of_half_squared_distance,
+                self.log_det_is_the_determinant, self.splat_gradient_is_its_derivative,
+            ]  # fmt: skip
+            return [check for check in (law() for law in laws) if check is not None]
+
+    def call(self, name: str, *arguments: Sequence[Any]) -> Numbers:
+        """A routine of the program, in high precision."""
+        return interpret(self.program[name], *arguments, digits=DIGITS)[0]
+
+    def check(self, name: str, promise: str, worst: Worst, blamed: Map | None, tolerance: float = EXACT, points: int = PAIRS) -> Check:
+        """A check that blames a formula of the file."""
+        span: Span | None = blamed.value.span if blamed else None
+        return Check(name, promise, worst.error, tolerance, points, worst.where, span)
+
+    def metric_is_an_inner_product(self) -> Check:
+        """<u, v> = u^T G v is linear in both, symmetric, and positive on tangent vectors."""
+        worst = Worst()
+        for p, _ in self.pairs:
+            u, v = self.sampler.direction(self.rng, p), self.sampler.direction(self.rng, p)
+            a, b = mp.mpf("0.37"), mp.mpf("-1.9")
+            mixed = [a * x + b * y for x, y in zip(u, v, strict=True)]
+            expected = [a * x + b * y for x, y in zip(self.call("flat", p, u), self.call("flat", p, v), strict=True)]
+            linear = self.call("inner", p, mixed, v)[0] - _dot(expected, v)
+            symmetric = self.call("inner", p, u, v)[0] - self.call("inner", p, v, u)[0]
+            positive = self.call("inner", p, u, u)[0] - 1  # directions are normalised
+            worst = worst.with_error(max(map(abs, (linear, symmetric, positive))), _at("p", p))
+        return self.check("metric", "<u, v>_p is bilinear, symmetric and positive on tangent vectors", worst, self.spec.metric)
+
+    def projection_lands_on_the_manifold(self) -> Check | None:
+        """c(project(x)) = 0, and project(p) = p."""
+        if self.spec.project is None:
+            return None
+        worst = Worst()
+        for p, _ in self.pairs:
+            x = [c + mp.mpf("0.05") * e for c, e in zip(p, self.sampler.gaussian(self.rng, len(p)), strict=True)]
+            landed = self.call("project", x)
+            errors = [*self.constraint(landed), *_difference(self.call("project", p), p)]
+            worst = worst.with_error(max(map(abs, errors)), _at("x", x))
+        return self.check("projection", "`project` maps onto the manifold and leaves its points alone", worst, self.spec.project)
+
+    def frame_is_tangent(self) -> Check | None:
+        """The vectors of a frame are tangent to the constraint."""
+        if self.spec.frame is None:
+            return None
+        frame = scalarised(self.spec, "frame", self.spec.frame, (argument("p", self.spec.point_size),), self.spec.frame.value.shape)
+        worst = Worst()
+        for p, _ in self.pairs:
+            entries = run(frame, p)[0]
+            for i in range(self.spec.tangent_size):
+                e = entries[i * len(p) : (i + 1) * len(p)]
+                worst = worst.with_error(max(map(abs, self.directional(self.constraint, p, e))), _at("p", p))
+        return self.check("frame", "the vectors of `frame` are tangent to the manifold", worst, self.spec.frame)
+
+    def exp_stays_on_the_manifold(self) -> Check | None:
+        """c(Exp_p(v)) = 0."""
+        if not self.spec.embedded:
+            return None
+        worst = Worst()
+        for p, _ in self.pairs:
+            q = self.call("exp", p, [2 * c for c in self.sampler.direction(self.rng, p)])
+            worst = worst.with_error(max(abs(c) for c in self.constraint(q)), _at("p", p))
+        return self.check("exp on manifold", "Exp_p(v) satisfies the constraint", worst, self.spec.exp)
+
+    def log_is_tangent(self) -> Check | None:
+        """dc(p) Log_p(q) = 0."""
+        if not self.spec.ambient_tangents:
+            return None
+        worst = Worst()
+        for p, q in self.pairs:
+            v = self.call("log", p, q)
+            worst = worst.with_error(max(abs(c) for c in self.directional(self.constraint, p, v)), _at("p", p, "q", q))
+        return self.check("log tangent", "Log_p(q) is tangent to the manifold at p", worst, self.spec.log)
+
+    def exp_inverts_log(self) -> Check:
+        """Exp_p(Log_p(q)) = q, or another name of q."""
+        worst = Worst()
+        for p, q in self.pairs:
+            worst = worst.with_error(self.apart(self.call("exp", p, self.call("log", p, q)), q), _at("p", p, "q", q))
+        return self.check("exp(log)", "Exp_p(Log_p(q)) = q", worst, self.spec.exp)
+
+    def log_inverts_exp(self) -> Check:
+        """Log_p(Exp_p(v)) = v for |v| below the injectivity radius."""
+        worst = Worst()
+        for (p, _), r in zip(self.pairs, self.reaches(), strict=True):
+            v = [r * c for c in self.sampler.direction(self.rng, p)]
+            back = self.call("log", p, self.call("exp", p, v))
+            worst = worst.with_error(max(map(abs, _difference(back, v))), _at("p", p, "v", v))
+        return self.check("log(exp)", "Log_p(Exp_p(v)) = v inside the injectivity radius", worst, self.spec.log)
+
+    def equivalent_points_are_one(self) -> Check | None:
+        """Log does not see which name a point has."""
+        other = self.spec.equivalent
+        if other is None:
+            return None
+        worst = Worst()
+        for p, q in self.pairs:
+            named = self.other_name(q)
+            errors = [*_difference(self.call("log", p, named), self.call("log", p, q)), *self.constraint(named)]
+            worst = worst.with_error(max(map(abs, errors)), _at("p", p, "q", q))
+        return self.check("quotient", "Log_p(q) is the same for every name of q", worst, other)
+
+    def distance_is_the_length_of_log(self) -> Check:
+        """distance(p, q) = |Log_p(q)|_p."""
+        worst = Worst()
+        for p, q in self.pairs:
+            length = self.call("norm", p, self.call("log", p, q))[0]
+            worst = worst.with_error(abs(self.call("distance", p, q)[0] - length), _at("p", p, "q", q))
+        return self.check("distance", "the distance is the length of Log", worst, self.spec.distance or self.spec.metric)
+
+    def distance_is_symmetric(self) -> Check:
+        """distance(p, q) = distance(q, p)."""
+        worst = Worst()
+        for p, q in self.pairs:
+            worst = worst.with_error(abs(self.call("distance", p, q)[0] - self.call("distance", q, p)[0]), _at("p", p, "q", q))
+        return self.check("symmetry", "distance(p, q) = distance(q, p)", worst, self.spec.distance or self.spec.log)
+
+    def distance_has_gradient_one(self) -> Check:
+        """|grad_q distance(p, q)| = 1: the Eikonal equation, which holds only if Exp runs along geodesics of the metric."""
+        worst = Worst()
+        for p, q in self.pairs:
+            partials = self.partials(lambda x, p=p: self.call("distance", p, x), q)  # type: ignore[misc]
+            worst = worst.with_error(abs(self.call("gradient_norm", q, partials)[0] - 1), _at("p", p, "q", q))
+        return self.check("eikonal", "|grad distance| = 1 in the metric", worst, self.spec.metric)
+
+    def log_is_the_gradient_of_half_squared_distance(self) -> Check:
+        """grad_q distance(p, q)^2 / 2 = -Log_q(p) (Gauss's lemma)."""
+        worst = Worst()
+        for p, q in self.pairs:
+            partials = self.partials(lambda x, p=p: [self.call("distance", p, x)[0] ** 2 / 2], q)  # type: ignore[misc]
+            gradient = self.call("riemannian_gradient", q, partials)
+            total = [g + v for g, v in zip(gradient, self.call("log", q, p), strict=True)]
+            worst = worst.with_error(max(map(abs, total)), _at("p", p, "q", q))
+        return self.check("gauss", "the gradient of distance(p, q)^2 / 2 in q is -Log_q(p)", worst, self.spec.log)
+
+    def log_det_is_the_determinant(self) -> Check:
+        """log |det D Log_p(q)| against differences of Log along geodesics out of q."""
+        worst = Worst()
+        for p, q in self.pairs:
+            basis = self.basis(q)
+            image = [self.along(lambda x, p=p: self.call("log", p, x), q, e) for e in basis]  # type: ignore[misc]
+            volumes = [self.gram(p, image), self.gram(q, basis)]
+            expected = mp.log(abs(volumes[0] / volumes[1])) / 2
+            worst = worst.with_error(abs(self.call("log_abs_det", p, q)[0] - expected), _at("p", p, "q", q))
+        return self.check("log det", "log |det D Log| is the determinant of the differences of Log", worst, self.spec.log_det or self.spec.log)
+
+    def splat_gradient_is_its_derivative(self) -> Check:
+        """<gradient of the splat, e> against its differences along e."""
+        worst = Worst()
+        for p, q in self.pairs:
+            W = self.sampler.gaussian(self.rng, self.spec.dim * self.spec.tangent_size)
+
+            def splat(x: Sequence[Any], p: Sequence[Any] = p, W: Sequence[Any] = W) -> list[Numbers]:
+                return interpret(self.program["splat"], x, p, W, [1], digits=DIGITS)
+
+            gradient, scale = splat(q)[1], abs(splat(q)[0][0]) + mp.mpf(10) ** -20
+            for e in self.basis(q):
+                slope = self.along(lambda x: splat(x)[0], q, e)[0]
+                worst = worst.with_error(abs(self.call("inner", q, gradient, e)[0] - slope) / scale, _at("x", q, "mu", p))
+        return self.check("splat gradient", "the gradient of the splat is the derivative of its value", worst, self.spec.metric)
+
+    def constraint(self, p: Sequence[Any]) -> Numbers:
+        """c(p)."""
+        assert self.spec.constraint is not None
+        function = scalarised(self.spec, "constraint", self.spec.constraint, (argument("p", self.spec.point_size),), ())
+        return run(function, p)[0]
+
+    def other_name(self, q: Sequence[Any]) -> Numbers:
+        """The equivalent point."""
+        assert self.spec.equivalent is not None
+        function = scalarised(self.spec, "equivalent", self.spec.equivalent, (argument("p", self.spec.point_size),), (self.spec.point_size,))
+        return run(function, q)[0]
+
+    def apart(self, x: Sequence[Any], q: Sequence[Any]) -> Any:
+        """How far x is from q, or from another name of q, in the largest entry."""
+        names = [list(q)] + ([self.other_name(q)] if self.spec.equivalent else [])
+        return min(max(map(abs, self.modulo_periods(_difference(x, name)))) for name in names)
+
+    def modulo_periods(self, difference: Numbers) -> Numbers:
+        """A difference of coordinates, the nearest multiple of each period taken away."""
+        periods = self.geometry.periods or (None,) * len(difference)
+        lengths = [value(period, {}) if period is not None else None for period in periods]
+        return [d - length * mp.nint(d / length) if length else d for d, length in zip(difference, lengths, strict=True)]
+
+    def basis(self, q: Sequence[Any]) -> list[Numbers]:
+        """d independent unit tangent vectors at q."""
+        return [self.sampler.direction(self.rng, q) for _ in range(self.spec.dim)]
+
+    def gram(self, at: Sequence[Any], vectors: Sequence[Numbers]) -> Any:
+        """The determinant of the inner products."""
+        return mp.det(mp.matrix([[self.call("inner", at, u, v)[0] for v in vectors] for u in vectors]))
+
+    def along(self, function: Callable[[Numbers], Numbers], q: Sequence[Any], e: Sequence[Any]) -> Numbers:
+        """The derivative along the geodesic out of q in the direction e."""
+        ahead, behind = (function(self.call("exp", q, [sign * STEP * c for c in e])) for sign in (1, -1))
+        return [(a - b) / (2 * STEP) for a, b in zip(ahead, behind, strict=True)]
+
+    def directional(self, function: Callable[[Numbers], Numbers], p: Sequence[Any], e: Sequence[Any]) -> Numbers:
+        """The derivative along the straight line p + h e in stored coordinates."""
+        ahead, behind = (function([x + sign * STEP * c for x, c in zip(p, e, strict=True)]) for sign in (1, -1))
+        return [(a - b) / (2 * STEP) for a, b in zip(ahead, behind, strict=True)]
+
+    def partials(self, function: Callable[[Numbers], Numbers], q: Sequence[Any]) -> Numbers:
+        """The partial derivatives of a scalar function in stored coordinates."""
+        unit = [[mp.mpf(int(i == j)) for j in range(len(q))] for i in range(len(q))]
+        return [self.directional(function, q, e)[0] for e in unit]
+
+
+def _difference(x: Sequence[Any], y: Sequence[Any]) -> Numbers:
+    return [a - b for a, b in zip(x, y, strict=True)]
+
+
+def _dot(x: Sequence[Any], y: Sequence[Any]) -> Any:
+    return mp.fsum(a * b for a, b in zip(x, y, strict=True))
+
+
+def _at(*named: Any) -> str:
+    """Places in words: `at p = (0.1, 0.2)`."""
+    pairs = zip(named[::2], named[1::2], strict=True)
+    return "at " + ", ".join(f"{name} = ({', '.join(mp.nstr(c, 4) for c in x)})" for name, x in pairs)

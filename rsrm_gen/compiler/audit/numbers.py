@@ -1,0 +1,178 @@
+"""The numbers of the generated code against the formulas in 60 digits.
+
+The unit of an error is what no code can avoid: how far the result moves when the inputs are rounded, and the rounding
+of the result itself. A row passes if its error is at most 64 such units.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import random
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import mpmath as mp
+import numpy as np
+import torch
+
+from rsrm_gen.compiler.audit.report import Check
+from rsrm_gen.compiler.derive import Geometry
+from rsrm_gen.compiler.derive.geometry import Function
+from rsrm_gen.compiler.derive.numeric import DIGITS, run
+from rsrm_gen.compiler.derive.sampling import Sampler, sampler_of
+from rsrm_gen.compiler.emit import Measurement
+from rsrm_gen.compiler.lower import Program, Routine, interpret
+from rsrm_gen.compiler.native import compiled, compiler
+
+UNITS = 64.0
+ROUTINES = ("exp", "log", "distance", "log_abs_det")
+PRECISIONS = {"float64": (np.float64, torch.float64, 2.0**-53), "float32": (np.float32, torch.float32, 2.0**-24)}
+
+Batch = Callable[[str, Sequence[Any], str], Any]  # (routine, arrays of rows, precision) -> array of rows
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Pairs of points in one precision (N, D), and the tangent vectors from the first to the second."""
+
+    p: Any
+    q: Any
+    v: Any
+    kinds: tuple[str, ...]
+
+
+def check_numbers(geometry: Geometry, program: Program, files: Mapping[str, str]) -> tuple[list[Check], tuple[Measurement, ...]]:
+    """Checks of torch and C in both precisions; the worst of both back ends is the measurement."""
+    backends: dict[str, Batch] = {"torch": torch_batch(program, files)}
+    if compiler() is not None:
+        library = compiled(files, program)
+        backends["C"] = lambda name, rows, precision: library.call(name, *rows, dtype=PRECISIONS[precision][0])[0]
+    checks, measured = [], []
+    for precision in PRECISIONS:
+        rows = sample_rows(geometry, precision)
+        for name in ROUTINES:
+            truth, unit = truths(geometry[name], program[name], rows, precision)
+            errors = {backend: _errors(batch(name, _inputs(name, rows), precision), truth, unit) for backend, batch in backends.items()}
+            for backend, error in errors.items():
+                k = int(np.argmax(error))
+                promise = f"{name} of the {backend} code in {precision} is as exact as its inputs allow"
+                checks.append(Check(f"{name} {backend} {precision}", promise, float(error[k]), UNITS, len(error), f"({rows.kinds[k]})", geometry.spec.log.value.span))
+            worst = max(float(e.max()) for e in errors.values())
+            measured.append(Measurement(name, precision, _power_of_two(worst), len(rows.kinds)))
+    checks += [_splat_check(geometry, program, backend, batch) for backend, batch in backends.items()]
+    return checks, tuple(measured)
+
+
+def torch_batch(program: Program, files: Mapping[str, str]) -> Batch:
+    """The generated torch class on arrays of rows."""
+    manifold = imported(program, files)
+
+    def batch(name: str, rows: Sequence[Any], precision: str) -> Any:
+        shapes = [parameter.shape for parameter in program[name].parameters]
+        tensors = [torch.as_tensor(r, dtype=PRECISIONS[precision][1]).reshape(len(r), *s) for r, s in zip(rows, shapes, strict=True)]
+        result = getattr(manifold, name)(*tensors)
+        result = result[0] if isinstance(result, tuple) else result
+        return result.numpy().reshape(len(rows[0]), -1)
+
+    return batch
+
+
+def imported(program: Program, files: Mapping[str, str]) -> Any:
+    """An object of the generated class, imported from its text."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / f"{program.name}.py"
+        path.write_text(files[path.name])
+        module_spec = importlib.util.spec_from_file_location(f"generated_{program.name}", path)
+        assert module_spec is not None
+        assert module_spec.loader is not None
+        module = importlib.util.module_from_spec(module_spec)
+        module_spec.loader.exec_module(module)
+    return module.manifold
+
+
+def sample_rows(geometry: Geometry, precision: str) -> Rows:
+    """Close by (1e-12 .. 1e-2), in the middle, and near the cut locus or far away; rounded to the precision."""
+    sampler: Sampler = sampler_of(geometry)
+    rng = random.Random(11)
+    whole = sampler.reach * 2
+    finite = geometry.injectivity_radius.is_finite
+    near = [("near", mp.mpf(10) ** -k) for k in range(2, 13)]
+    middle = [("middle", whole * mp.mpf(k) / 17) for k in range(1, 17)]
+    last = [("near the cut locus", whole * (1 - mp.mpf(10) ** -k)) for k in range(1, 10)] if finite else [("far", mp.mpf(k)) for k in (3, 6, 10, 15, 20, 30)]
+    kinds, ps, qs, vs = [], [], [], []
+    dtype = PRECISIONS[precision][0]
+    for kind, r in near + middle + last:
+        p = sampler.point(rng)
+        v = [r * c for c in sampler.direction(rng, p)]
+        kinds.append(kind)
+        ps.append(p)
+        vs.append(v)
+        qs.append(sampler.along(p, v, mp.mpf(1)))
+    p, q, v = (np.array([[float(c) for c in row] for row in rows]).astype(dtype) for rows in (ps, qs, vs))
+    return Rows(p, q, v, tuple(kinds))
+
+
+def truths(function: Function, routine: Routine, rows: Rows, precision: str) -> tuple[list[list[Any]], Any]:
+    """The exact results at the rounded inputs (N, entries), and the unavoidable error of each row (N,)."""
+    name = function.name
+    eps = PRECISIONS[precision][2]
+    rng = random.Random(13)
+    results, units = [], []
+    for inputs in zip(*_inputs(name, rows), strict=True):
+        exact = _exact(function, inputs)
+        if not all(mp.isfinite(x) for x in exact):  # close points can round to one, where the formula is 0/0
+            exact = interpret(routine, *([float(c) for c in x] for x in inputs), digits=DIGITS)[0]
+        moved = 0.0
+        for _ in range(3):
+            shaken = [[mp.mpf(float(c)) * (1 + eps * rng.choice((-1, 1))) for c in x] for x in inputs]
+            moved = max(moved, _largest(a - b for a, b in zip(_exact(function, shaken), exact, strict=True)))
+        results.append(exact)
+        units.append(moved + 2 * eps * _largest(exact) + np.finfo(PRECISIONS[precision][0]).tiny)
+    return results, np.array(units)
+
+
+def _inputs(name: str, rows: Rows) -> tuple[Any, Any]:
+    return (rows.p, rows.v) if name == "exp" else (rows.p, rows.q)
+
+
+def _exact(function: Function, inputs: Sequence[Any]) -> list[Any]:
+    with mp.workdps(DIGITS):
+        return run(function, *([mp.mpf(c) if isinstance(c, mp.mpf) else mp.mpf(float(c)) for c in x] for x in inputs))[0]
+
+
+def _largest(numbers: Any) -> float:
+    return max((float(abs(x)) for x in numbers), default=0.0)
+
+
+def _errors(found: Any, truth: Sequence[Sequence[Any]], unit: Any) -> Any:
+    """The largest error of each row in its unit; infinite where the code's result is not finite."""
+    worst = []
+    for row, exact, u in zip(found, truth, unit, strict=True):
+        finite = np.all(np.isfinite(row))
+        worst.append(_largest(mp.mpf(float(a)) - b for a, b in zip(row, exact, strict=True)) / u if finite else np.inf)
+    return np.array(worst)
+
+
+def _power_of_two(x: float) -> int:
+    bound = 1
+    while bound < x and bound < 2**40:
+        bound *= 2
+    return bound
+
+
+def _splat_check(geometry: Geometry, program: Program, backend: str, batch: Batch) -> Check:
+    """The value of splats against the interpreter."""
+    rows = sample_rows(geometry, "float64")
+    keep = [k for k, kind in enumerate(rows.kinds) if kind != "near the cut locus"]  # where wide splats have no limit
+    spec = geometry.spec
+    rng = np.random.default_rng(17)
+    W = rng.normal(size=(len(keep), spec.dim * spec.tangent_size))
+    amplitude = np.ones((len(keep), 1))
+    found = batch("splat", (rows.q[keep], rows.p[keep], W, amplitude), "float64")[:, 0]
+    exact = [float(interpret(program["splat"], x, mu, w, [1.0])[0][0]) for x, mu, w in zip(rows.q[keep], rows.p[keep], W, strict=True)]
+    error = np.abs(found - exact)
+    promise = f"splats of the {backend} code in float64 are those of the formula"
+    return Check(f"splat {backend} float64", promise, float(error.max()), 1e-12, len(keep), "", spec.log.value.span)

@@ -1,0 +1,70 @@
+"""What stage 5 gives: every check with its worst point and its tolerance."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+
+from rsrm_gen.compiler.emit import Measurement
+from rsrm_gen.errors import Span, UserError
+
+
+@dataclass(frozen=True)
+class Check:
+    """One promise, tried at `points` places: kept if the worst error is at most the tolerance."""
+
+    name: str
+    promise: str
+    worst: float
+    tolerance: float
+    points: int
+    where: str = ""  # the worst place, in words
+    span: Span | None = field(default=None, compare=False)  # the formula to blame first
+
+    @property
+    def passed(self) -> bool:
+        """Whether the promise was kept; an error that is not a number breaks it."""
+        return self.worst <= self.tolerance
+
+
+@dataclass(frozen=True)
+class AuditReport:
+    """All checks of one manifold, and the accuracy measured on the way."""
+
+    manifold: str
+    content_hash: str
+    checks: tuple[Check, ...]
+    measured: tuple[Measurement, ...]
+
+    @property
+    def passed(self) -> bool:
+        """Whether every promise was kept."""
+        return all(check.passed for check in self.checks)
+
+    def require(self) -> None:
+        """Raise a `UserError` that lists what failed, at the formula to blame for the first."""
+        failed = [check for check in self.checks if not check.passed]
+        if not failed:
+            return
+        first = failed[0]
+        message = f"the audit refuses `{self.manifold}`: {first.promise}, but the error is {first.worst:.2g} (at most {first.tolerance:.1g}) {first.where}"
+        others = ", ".join(check.name for check in failed[1:])
+        raise UserError(message.rstrip(), first.span, f"also failed: {others}" if others else None)
+
+    def json(self) -> str:
+        """The report for `audit.json`: errors rounded up to powers of ten, so that machines agree on the bytes."""
+        checks = [
+            {"check": c.name, "promise": c.promise, "points": c.points, "error_below": _power_of_ten(c.worst), "tolerance": c.tolerance, "passed": c.passed}
+            for c in self.checks
+        ]
+        accuracy = [{"function": m.routine, "precision": m.precision, "error_at_most": m.bound, "points": m.points} for m in self.measured]
+        document = {"manifold": self.manifold, "content_hash": self.content_hash, "passed": self.passed, "checks": checks, "accuracy": accuracy}
+        return json.dumps(document, indent=2) + "\n"
+
+
+def _power_of_ten(x: float) -> float:
+    """The smallest power of ten above an error, no smaller than 1e-15; errors of double precision differ between machines."""
+    bound = 1e-15
+    while not x < bound and bound < 1e15:
+        bound = float(f"{bound * 10:.0e}")
+    return bound
