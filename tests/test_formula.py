@@ -196,7 +196,7 @@ def test_any_text_gives_a_tree_or_says_what_is_wrong(text: str) -> None:
         tree = parse(text)
     except UserError as error:
         refused = error.span
-        assert refused is not None  # noqa: PT017
+        assert refused is not None
     if refused:
         assert 1 <= refused.column <= len(text) + 1
     else:
