@@ -252,9 +252,10 @@ void euclidean_frame(const double *EUCLIDEAN_RESTRICT p, double *EUCLIDEAN_RESTR
             if (euclidean_norm(p, left[i]) > euclidean_norm(p, left[longest])) longest = i;
         const double length = euclidean_norm(p, left[longest]);
         for (int j = 0; j < 3; ++j) e[j] = left[longest][j] / length;
-        for (int i = 0; i < 3; ++i) {
-            const double part = euclidean_inner(p, e, left[i]);
-            for (int j = 0; j < 3; ++j) left[i][j] -= part * e[j];
+        for (int i = 0; i < 2 * 3; ++i) { /* twice, for what rounding leaves of the first subtraction */
+            double *rest = left[i % 3];
+            const double part = euclidean_inner(p, e, rest);
+            for (int j = 0; j < 3; ++j) rest[j] -= part * e[j];
         }
     }
 }
@@ -503,9 +504,10 @@ void euclidean_frame_f(const float *EUCLIDEAN_RESTRICT p, float *EUCLIDEAN_RESTR
             if (euclidean_norm_f(p, left[i]) > euclidean_norm_f(p, left[longest])) longest = i;
         const float length = euclidean_norm_f(p, left[longest]);
         for (int j = 0; j < 3; ++j) e[j] = left[longest][j] / length;
-        for (int i = 0; i < 3; ++i) {
-            const float part = euclidean_inner_f(p, e, left[i]);
-            for (int j = 0; j < 3; ++j) left[i][j] -= part * e[j];
+        for (int i = 0; i < 2 * 3; ++i) { /* twice, for what rounding leaves of the first subtraction */
+            float *rest = left[i % 3];
+            const float part = euclidean_inner_f(p, e, rest);
+            for (int j = 0; j < 3; ++j) rest[j] -= part * e[j];
         }
     }
 }

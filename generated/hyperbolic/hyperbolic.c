@@ -95,10 +95,21 @@ void hyperbolic_inner_batch(
     for (size_t i = 0; i < count; ++i) inner_out[i] = hyperbolic_inner(p + 3 * i, u + 3 * i, v + 3 * i);
 }
 
-/* sqrt(<v, v>_p) */
+/* r */
 double hyperbolic_norm(const double *HYPERBOLIC_RESTRICT p, const double *HYPERBOLIC_RESTRICT v) {
-    (void)p;
-    return sqrt(v[1] * v[1] + v[2] * v[2] - v[0] * v[0]);
+    const double dot_s_s = p[1] * p[1] + p[2] * p[2];
+    const double dot_h_h = v[1] * v[1] + v[2] * v[2];
+    const double dot_s_h = p[1] * v[1] + p[2] * v[2];
+    const double dot_s_s_total = 1.0 + dot_s_s;
+    const int is_small = dot_s_s < 1.0;
+    const double dot_s_h_ratio = dot_s_h / (is_small ? 1.0 : dot_s_s);
+    const double rest0 = v[1] - p[1] * dot_s_h_ratio;
+    const double rest1 = v[2] - p[2] * dot_s_h_ratio;
+    const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
+    const double vv = (is_small ? dot_h_h - dot_s_h * dot_s_h / (is_small ? dot_s_s_total : 1.0) :
+        dot_rest_rest + dot_s_h * dot_s_h_ratio / (is_small ? 1.0 : dot_s_s_total));
+    const double r = sqrt(vv);
+    return r;
 }
 
 void hyperbolic_norm_batch(
@@ -393,10 +404,21 @@ void hyperbolic_riemannian_gradient_batch(
 /* |grad f|_p */
 double hyperbolic_gradient_norm(const double *HYPERBOLIC_RESTRICT p, const double *HYPERBOLIC_RESTRICT df) {
     const double normal_part = p[0] * df[0] + p[1] * df[1] + p[2] * df[2];
-    const double gradient0 = p[0] * normal_part - df[0];
     const double gradient1 = df[1] + p[1] * normal_part;
     const double gradient2 = df[2] + p[2] * normal_part;
-    return sqrt(gradient1 * gradient1 + gradient2 * gradient2 - gradient0 * gradient0);
+    const double dot_s_s = p[1] * p[1] + p[2] * p[2];
+    const double dot_h_h = gradient1 * gradient1 + gradient2 * gradient2;
+    const double dot_s_h = p[1] * gradient1 + p[2] * gradient2;
+    const double dot_s_s_total = 1.0 + dot_s_s;
+    const int is_small = dot_s_s < 1.0;
+    const double dot_s_h_ratio = dot_s_h / (is_small ? 1.0 : dot_s_s);
+    const double rest0 = gradient1 - p[1] * dot_s_h_ratio;
+    const double rest1 = gradient2 - p[2] * dot_s_h_ratio;
+    const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
+    const double vv = (is_small ? dot_h_h - dot_s_h * dot_s_h / (is_small ? dot_s_s_total : 1.0) :
+        dot_rest_rest + dot_s_h * dot_s_h_ratio / (is_small ? 1.0 : dot_s_s_total));
+    const double r = sqrt(vv);
+    return r;
 }
 
 void hyperbolic_gradient_norm_batch(
@@ -605,9 +627,10 @@ void hyperbolic_frame(const double *HYPERBOLIC_RESTRICT p, double *HYPERBOLIC_RE
             if (hyperbolic_norm(p, left[i]) > hyperbolic_norm(p, left[longest])) longest = i;
         const double length = hyperbolic_norm(p, left[longest]);
         for (int j = 0; j < 3; ++j) e[j] = left[longest][j] / length;
-        for (int i = 0; i < 3; ++i) {
-            const double part = hyperbolic_inner(p, e, left[i]);
-            for (int j = 0; j < 3; ++j) left[i][j] -= part * e[j];
+        for (int i = 0; i < 2 * 3; ++i) { /* twice, for what rounding leaves of the first subtraction */
+            double *rest = left[i % 3];
+            const double part = hyperbolic_inner(p, e, rest);
+            for (int j = 0; j < 3; ++j) rest[j] -= part * e[j];
         }
     }
 }
@@ -699,10 +722,21 @@ void hyperbolic_inner_batch_f(
     for (size_t i = 0; i < count; ++i) inner_out[i] = hyperbolic_inner_f(p + 3 * i, u + 3 * i, v + 3 * i);
 }
 
-/* sqrt(<v, v>_p) */
+/* r */
 float hyperbolic_norm_f(const float *HYPERBOLIC_RESTRICT p, const float *HYPERBOLIC_RESTRICT v) {
-    (void)p;
-    return sqrtf(v[1] * v[1] + v[2] * v[2] - v[0] * v[0]);
+    const float dot_s_s = p[1] * p[1] + p[2] * p[2];
+    const float dot_h_h = v[1] * v[1] + v[2] * v[2];
+    const float dot_s_h = p[1] * v[1] + p[2] * v[2];
+    const float dot_s_s_total = 1.0f + dot_s_s;
+    const int is_small = dot_s_s < 1.0f;
+    const float dot_s_h_ratio = dot_s_h / (is_small ? 1.0f : dot_s_s);
+    const float rest0 = v[1] - p[1] * dot_s_h_ratio;
+    const float rest1 = v[2] - p[2] * dot_s_h_ratio;
+    const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
+    const float vv = (is_small ? dot_h_h - dot_s_h * dot_s_h / (is_small ? dot_s_s_total : 1.0f) :
+        dot_rest_rest + dot_s_h * dot_s_h_ratio / (is_small ? 1.0f : dot_s_s_total));
+    const float r = sqrtf(vv);
+    return r;
 }
 
 void hyperbolic_norm_batch_f(
@@ -995,10 +1029,21 @@ void hyperbolic_riemannian_gradient_batch_f(
 /* |grad f|_p */
 float hyperbolic_gradient_norm_f(const float *HYPERBOLIC_RESTRICT p, const float *HYPERBOLIC_RESTRICT df) {
     const float normal_part = p[0] * df[0] + p[1] * df[1] + p[2] * df[2];
-    const float gradient0 = p[0] * normal_part - df[0];
     const float gradient1 = df[1] + p[1] * normal_part;
     const float gradient2 = df[2] + p[2] * normal_part;
-    return sqrtf(gradient1 * gradient1 + gradient2 * gradient2 - gradient0 * gradient0);
+    const float dot_s_s = p[1] * p[1] + p[2] * p[2];
+    const float dot_h_h = gradient1 * gradient1 + gradient2 * gradient2;
+    const float dot_s_h = p[1] * gradient1 + p[2] * gradient2;
+    const float dot_s_s_total = 1.0f + dot_s_s;
+    const int is_small = dot_s_s < 1.0f;
+    const float dot_s_h_ratio = dot_s_h / (is_small ? 1.0f : dot_s_s);
+    const float rest0 = gradient1 - p[1] * dot_s_h_ratio;
+    const float rest1 = gradient2 - p[2] * dot_s_h_ratio;
+    const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
+    const float vv = (is_small ? dot_h_h - dot_s_h * dot_s_h / (is_small ? dot_s_s_total : 1.0f) :
+        dot_rest_rest + dot_s_h * dot_s_h_ratio / (is_small ? 1.0f : dot_s_s_total));
+    const float r = sqrtf(vv);
+    return r;
 }
 
 void hyperbolic_gradient_norm_batch_f(
@@ -1208,9 +1253,10 @@ void hyperbolic_frame_f(const float *HYPERBOLIC_RESTRICT p, float *HYPERBOLIC_RE
             if (hyperbolic_norm_f(p, left[i]) > hyperbolic_norm_f(p, left[longest])) longest = i;
         const float length = hyperbolic_norm_f(p, left[longest]);
         for (int j = 0; j < 3; ++j) e[j] = left[longest][j] / length;
-        for (int i = 0; i < 3; ++i) {
-            const float part = hyperbolic_inner_f(p, e, left[i]);
-            for (int j = 0; j < 3; ++j) left[i][j] -= part * e[j];
+        for (int i = 0; i < 2 * 3; ++i) { /* twice, for what rounding leaves of the first subtraction */
+            float *rest = left[i % 3];
+            const float part = hyperbolic_inner_f(p, e, rest);
+            for (int j = 0; j < 3; ++j) rest[j] -= part * e[j];
         }
     }
 }

@@ -401,9 +401,10 @@ void so3_frame(const double *SO3_RESTRICT p, double *SO3_RESTRICT frame) {
             if (so3_norm(p, left[i]) > so3_norm(p, left[longest])) longest = i;
         const double length = so3_norm(p, left[longest]);
         for (int j = 0; j < 3; ++j) e[j] = left[longest][j] / length;
-        for (int i = 0; i < 4; ++i) {
-            const double part = so3_inner(p, e, left[i]);
-            for (int j = 0; j < 3; ++j) left[i][j] -= part * e[j];
+        for (int i = 0; i < 2 * 4; ++i) { /* twice, for what rounding leaves of the first subtraction */
+            double *rest = left[i % 4];
+            const double part = so3_inner(p, e, rest);
+            for (int j = 0; j < 3; ++j) rest[j] -= part * e[j];
         }
     }
 }
@@ -800,9 +801,10 @@ void so3_frame_f(const float *SO3_RESTRICT p, float *SO3_RESTRICT frame) {
             if (so3_norm_f(p, left[i]) > so3_norm_f(p, left[longest])) longest = i;
         const float length = so3_norm_f(p, left[longest]);
         for (int j = 0; j < 3; ++j) e[j] = left[longest][j] / length;
-        for (int i = 0; i < 4; ++i) {
-            const float part = so3_inner_f(p, e, left[i]);
-            for (int j = 0; j < 3; ++j) left[i][j] -= part * e[j];
+        for (int i = 0; i < 2 * 4; ++i) { /* twice, for what rounding leaves of the first subtraction */
+            float *rest = left[i % 4];
+            const float part = so3_inner_f(p, e, rest);
+            for (int j = 0; j < 3; ++j) rest[j] -= part * e[j];
         }
     }
 }

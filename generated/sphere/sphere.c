@@ -488,9 +488,10 @@ void sphere_frame(const double *SPHERE_RESTRICT p, double *SPHERE_RESTRICT frame
             if (sphere_norm(p, left[i]) > sphere_norm(p, left[longest])) longest = i;
         const double length = sphere_norm(p, left[longest]);
         for (int j = 0; j < 3; ++j) e[j] = left[longest][j] / length;
-        for (int i = 0; i < 3; ++i) {
-            const double part = sphere_inner(p, e, left[i]);
-            for (int j = 0; j < 3; ++j) left[i][j] -= part * e[j];
+        for (int i = 0; i < 2 * 3; ++i) { /* twice, for what rounding leaves of the first subtraction */
+            double *rest = left[i % 3];
+            const double part = sphere_inner(p, e, rest);
+            for (int j = 0; j < 3; ++j) rest[j] -= part * e[j];
         }
     }
 }
@@ -971,9 +972,10 @@ void sphere_frame_f(const float *SPHERE_RESTRICT p, float *SPHERE_RESTRICT frame
             if (sphere_norm_f(p, left[i]) > sphere_norm_f(p, left[longest])) longest = i;
         const float length = sphere_norm_f(p, left[longest]);
         for (int j = 0; j < 3; ++j) e[j] = left[longest][j] / length;
-        for (int i = 0; i < 3; ++i) {
-            const float part = sphere_inner_f(p, e, left[i]);
-            for (int j = 0; j < 3; ++j) left[i][j] -= part * e[j];
+        for (int i = 0; i < 2 * 3; ++i) { /* twice, for what rounding leaves of the first subtraction */
+            float *rest = left[i % 3];
+            const float part = sphere_inner_f(p, e, rest);
+            for (int j = 0; j < 3; ++j) rest[j] -= part * e[j];
         }
     }
 }

@@ -259,9 +259,10 @@ void torus_frame(const double *TORUS_RESTRICT p, double *TORUS_RESTRICT frame) {
             if (torus_norm(p, left[i]) > torus_norm(p, left[longest])) longest = i;
         const double length = torus_norm(p, left[longest]);
         for (int j = 0; j < 2; ++j) e[j] = left[longest][j] / length;
-        for (int i = 0; i < 2; ++i) {
-            const double part = torus_inner(p, e, left[i]);
-            for (int j = 0; j < 2; ++j) left[i][j] -= part * e[j];
+        for (int i = 0; i < 2 * 2; ++i) { /* twice, for what rounding leaves of the first subtraction */
+            double *rest = left[i % 2];
+            const double part = torus_inner(p, e, rest);
+            for (int j = 0; j < 2; ++j) rest[j] -= part * e[j];
         }
     }
 }
@@ -517,9 +518,10 @@ void torus_frame_f(const float *TORUS_RESTRICT p, float *TORUS_RESTRICT frame) {
             if (torus_norm_f(p, left[i]) > torus_norm_f(p, left[longest])) longest = i;
         const float length = torus_norm_f(p, left[longest]);
         for (int j = 0; j < 2; ++j) e[j] = left[longest][j] / length;
-        for (int i = 0; i < 2; ++i) {
-            const float part = torus_inner_f(p, e, left[i]);
-            for (int j = 0; j < 2; ++j) left[i][j] -= part * e[j];
+        for (int i = 0; i < 2 * 2; ++i) { /* twice, for what rounding leaves of the first subtraction */
+            float *rest = left[i % 2];
+            const float part = torus_inner_f(p, e, rest);
+            for (int j = 0; j < 2; ++j) rest[j] -= part * e[j];
         }
     }
 }

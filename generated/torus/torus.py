@@ -267,7 +267,8 @@ class Torus:
             row = left.gather(-2, longest)
             row = row / self.norm(base, row).unsqueeze(-1)
             rows.append(row)
-            left = left - self.inner(base, row, left).unsqueeze(-1) * row
+            for _ in range(2):  # what rounding leaves of the first subtraction, the second takes away
+                left = left - self.inner(base, row, left).unsqueeze(-1) * row
         return torch.cat(rows, -2)
 
     def sample(self, count: int, generator: Generator | None = None, like: Tensor | None = None) -> Tensor:

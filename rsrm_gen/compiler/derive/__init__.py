@@ -171,10 +171,11 @@ class _Derivation:
         spec = self.spec
         if spec.distance is not None:
             return self.with_log_names("distance", spec.distance)
-        norm = self.operators.norm()
-        entries = [Assignment(sp.Symbol(f"log{i}", real=True), e) for i, e in enumerate(self.log.results)]
-        length = norm.results[0].xreplace(dict(zip(norm.arguments[1].symbols, (a.symbol for a in entries), strict=True)))
-        return Function("distance", self.log.arguments, (*self.log.assignments, *entries), (length,), (), "|Log_p(q)|_p")
+        trace = Trace(self.log.arguments)
+        trace.taken |= {str(a.symbol) for a in self.log.assignments}
+        vector = [trace.define(f"log{i}", e) for i, e in enumerate(self.log.results)]
+        length = self.operators.length_of(vector, trace)
+        return Function("distance", self.log.arguments, (*self.log.assignments, *trace.assignments), (length,), (), "|Log_p(q)|_p")
 
     @cached_property
     def log_abs_det(self) -> tuple[Function, str]:

@@ -14,7 +14,7 @@ import sympy as sp
 
 from rsrm_gen.compiler.derive.geometry import Argument, Function, argument
 from rsrm_gen.compiler.derive.numeric import TINY, value
-from rsrm_gen.compiler.derive.scalarise import Reading, Trace
+from rsrm_gen.compiler.derive.scalarise import Reading, Trace, scalarised
 from rsrm_gen.compiler.spec import ManifoldSpec
 
 
@@ -109,12 +109,22 @@ class Operators:
         return self.function("inner", (self.p, u, v), result, (), formula)
 
     def norm(self) -> Function:
-        """|v|_p = sqrt(<v, v>_p)."""
+        """|v|_p: the author's closed form, or sqrt(<v, v>_p)."""
         v = argument("v", self.spec.tangent_size)
+        if self.spec.norm is not None:
+            return scalarised(self.spec, "norm", self.spec.norm, (self.p, v), ())
         inner = self.inner()
         replaced = dict(zip(inner.arguments[1].symbols + inner.arguments[2].symbols, v.symbols * 2, strict=True))
         square = inner.results[0].xreplace(replaced)
         return self.function("norm", (self.p, v), sp.Matrix([sp.sqrt(square)]), (), "sqrt(<v, v>_p)")
+
+    def length_of(self, vector: Sequence[sp.Expr], trace: Trace) -> sp.Expr:
+        """The norm of a vector, in the assignments of a trace."""
+        norm = self.norm()
+        names = dict(zip(norm.arguments[1].symbols, vector, strict=True))
+        for a in norm.assignments:
+            names[a.symbol] = trace.define(str(a.symbol), a.expression.xreplace(names))
+        return norm.results[0].xreplace(names)
 
     def flat(self) -> Function:
         """The covector <v, .>_p."""
@@ -133,8 +143,7 @@ class Operators:
         df = argument("df", self.spec.point_size)
         trace = Trace((self.p, df))
         gradient = [trace.define(f"gradient{i}", e) for i, e in enumerate(self.gradient(df, trace))]
-        norm = self.norm()
-        length = norm.results[0].xreplace(dict(zip(norm.arguments[1].symbols, gradient, strict=True)))
+        length = self.length_of(gradient, trace)
         return Function("gradient_norm", (self.p, df), tuple(trace.assignments), (length,), (), "|grad f|_p")
 
     def gradient(self, df: Argument, trace: Trace) -> sp.Matrix:

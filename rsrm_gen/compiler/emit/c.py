@@ -222,9 +222,10 @@ def _frame(geometry: Geometry, program: Program, precision: Precision) -> str:
             if ({program.name}_norm{tag}(p, left[i]) > {program.name}_norm{tag}(p, left[longest])) longest = i;
         const {t} length = {program.name}_norm{tag}(p, left[longest]);
         for (int j = 0; j < {spec.tangent_size}; ++j) e[j] = left[longest][j] / length;
-        for (int i = 0; i < {spec.point_size}; ++i) {{
-            const {t} part = {program.name}_inner{tag}(p, e, left[i]);
-            for (int j = 0; j < {spec.tangent_size}; ++j) left[i][j] -= part * e[j];
+        for (int i = 0; i < 2 * {spec.point_size}; ++i) {{ /* twice, for what rounding leaves of the first subtraction */
+            {t} *rest = left[i % {spec.point_size}];
+            const {t} part = {program.name}_inner{tag}(p, e, rest);
+            for (int j = 0; j < {spec.tangent_size}; ++j) rest[j] -= part * e[j];
         }}
     }}
 }}"""

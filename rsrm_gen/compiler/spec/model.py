@@ -65,6 +65,7 @@ class ManifoldSpec:
     metric: Map  # of p, u, v, a scalar; or of p alone, a (T, T) matrix
     exp: Map  # of p, v, shape (D,)
     log: Map  # of p, q, shape (T,)
+    norm: Map | None  # of p, v, a scalar
     distance: Map | None  # of p, q, a scalar
     log_det: Map | None  # of p, q, a scalar
     injectivity_radius: Map | None  # of nothing; None for infinity

@@ -60,6 +60,7 @@ class _Reader:
         constraint = self.read_constraint()
         embedded = schema.embedded
         chart = schema.chart
+        exp = self.map(schema.exp, ("exp",), ("p", "v"), (self.point_size,))
         log = self.map(schema.log, ("log",), ("p", "q"), (self.tangent_size,))
         return ManifoldSpec(
             name=schema.manifold,
@@ -76,8 +77,9 @@ class _Reader:
             periods=self.read_periods(),
             frame=self.frame,
             metric=self.read_metric(),
-            exp=self.map(schema.exp, ("exp",), ("p", "v"), (self.point_size,)),
+            exp=exp,
             log=log,
+            norm=self.optional(schema.norm, ("norm",), ("p", "v"), (), exp),
             distance=self.optional(schema.distance, ("distance",), ("p", "q"), (), log),
             log_det=self.optional(schema.log_det, ("log_det",), ("p", "q"), (), log),
             injectivity_radius=self.length(schema.injectivity_radius, "injectivity_radius"),

@@ -79,6 +79,7 @@ class ManifoldFile(Section):
     metric: MapText = Field(description="<u, v>_p, a scalar formula in p, u, v; or a matrix formula in p")
     exp: MapText | None = Field(None, description="Exp_p(v)")
     log: MapText | None = Field(None, description="Log_p(q)")
+    norm: MapText | None = Field(None, description="a closed form of |v|_p, in p, v and the names of exp")
     distance: MapText | None = Field(None, description="a closed form, in p, q and the names of log")
     log_det: MapText | None = Field(None, description="a closed form of log |det D Log_p(q)|")
     injectivity_radius: FormulaText = Field(description="of every point; `infinity` if Exp_p is a diffeomorphism")
