@@ -9,11 +9,11 @@ from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
 
-from rsrm_gen.compiler import compile_manifold, read_spec
-from rsrm_gen.compiler.native import cache_folder
+from rsrm_gen.compiler.native import cache_folder, compiler
 from rsrm_gen.compiler.output import contents, staleness, write
-from rsrm_gen.compiler.spec import ManifoldSpec
+from rsrm_gen.compiler.spec import ManifoldSpec, read_spec
 from rsrm_gen.errors import UserError, did_you_mean
+from rsrm_gen.kernels import accelerated
 from rsrm_gen.manifold import Manifold
 
 PACKAGE = Path(__file__).parent
@@ -27,8 +27,7 @@ def load(manifold: str | Path, **parameters: int | float | str) -> Manifold:
     """
     path = _file(manifold)
     spec = read_spec(path, parameters)
-    folder = _generated(spec, path, parameters)
-    return _imported(folder / f"{spec.identifier}.py")
+    return _loaded(_generated(spec, path, parameters))
 
 
 def bundled(kind: str) -> Path:
@@ -55,6 +54,8 @@ def _generated(spec: ManifoldSpec, path: Path, parameters: Mapping[str, int | fl
         return committed
     cached = cache_folder() / "generated" / _generator() / spec.content_hash[:32] / spec.identifier
     if staleness(spec, cached) is not None:
+        from rsrm_gen.compiler.driver import compile_manifold  # sympy and CasADi, which fresh code does not need
+
         write(contents(compile_manifold(path, parameters)), cached)
     return cached
 
@@ -67,6 +68,14 @@ def _generator() -> str:
 
 
 @lru_cache
+def _loaded(folder: Path) -> Manifold:
+    manifold = _imported(folder / f"{folder.name}.py")
+    if compiler() is None:
+        print("no C compiler found: sums of splats run in torch, many times slower", file=sys.stderr)
+        return manifold
+    return accelerated(manifold, folder)
+
+
 def _imported(path: Path) -> Manifold:
     name = f"rsrm_gen_generated_{path.stem}_{hashlib.sha256(str(path).encode()).hexdigest()[:8]}"
     module_spec = importlib.util.spec_from_file_location(name, path)

@@ -18,6 +18,7 @@
  * riemannian_gradient            0
  * gradient_norm                  6
  * splat                         48
+ * splat_vjp                    126
  *
  * Errors are the worst of 33 points against 60 digits, in units of the error that rounding the
  * inputs and the output to the precision alone would cause.
@@ -283,6 +284,52 @@ void euclidean_splat_batch_f(
 /* An orthonormal basis of the tangent space at p, one vector a row. */
 void euclidean_frame(const double *EUCLIDEAN_RESTRICT p, double *EUCLIDEAN_RESTRICT frame);
 void euclidean_frame_f(const float *EUCLIDEAN_RESTRICT p, float *EUCLIDEAN_RESTRICT frame);
+
+/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
+void euclidean_splats(
+    size_t count,
+    size_t splat_count,
+    const double *EUCLIDEAN_RESTRICT x,
+    const double *EUCLIDEAN_RESTRICT mu,
+    const double *EUCLIDEAN_RESTRICT W,
+    const double *EUCLIDEAN_RESTRICT amplitude,
+    double *EUCLIDEAN_RESTRICT value,
+    double *EUCLIDEAN_RESTRICT gradient);
+void euclidean_splats_f(
+    size_t count,
+    size_t splat_count,
+    const float *EUCLIDEAN_RESTRICT x,
+    const float *EUCLIDEAN_RESTRICT mu,
+    const float *EUCLIDEAN_RESTRICT W,
+    const float *EUCLIDEAN_RESTRICT amplitude,
+    float *EUCLIDEAN_RESTRICT value,
+    float *EUCLIDEAN_RESTRICT gradient);
+
+/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
+void euclidean_splats_vjp(
+    size_t count,
+    size_t splat_count,
+    const double *EUCLIDEAN_RESTRICT x,
+    const double *EUCLIDEAN_RESTRICT mu,
+    const double *EUCLIDEAN_RESTRICT W,
+    const double *EUCLIDEAN_RESTRICT amplitude,
+    const double *EUCLIDEAN_RESTRICT value_bar,
+    const double *EUCLIDEAN_RESTRICT gradient_bar,
+    double *EUCLIDEAN_RESTRICT mu_bar,
+    double *EUCLIDEAN_RESTRICT W_bar,
+    double *EUCLIDEAN_RESTRICT amplitude_bar);
+void euclidean_splats_vjp_f(
+    size_t count,
+    size_t splat_count,
+    const float *EUCLIDEAN_RESTRICT x,
+    const float *EUCLIDEAN_RESTRICT mu,
+    const float *EUCLIDEAN_RESTRICT W,
+    const float *EUCLIDEAN_RESTRICT amplitude,
+    const float *EUCLIDEAN_RESTRICT value_bar,
+    const float *EUCLIDEAN_RESTRICT gradient_bar,
+    float *EUCLIDEAN_RESTRICT mu_bar,
+    float *EUCLIDEAN_RESTRICT W_bar,
+    float *EUCLIDEAN_RESTRICT amplitude_bar);
 
 #ifdef __cplusplus
 }

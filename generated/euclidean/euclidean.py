@@ -17,6 +17,7 @@ log_abs_det                    0      <= 1     <= 1
 riemannian_gradient            0
 gradient_norm                  6
 splat                         48
+splat_vjp                    126
 
 Errors are the worst of 33 points against 60 digits, in units of the error that rounding the
 inputs and the output to the precision alone would cause.

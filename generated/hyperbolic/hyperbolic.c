@@ -8,35 +8,38 @@
 
 #include <float.h>
 
-static const double SINHC_R_NEAR[8] = {
-    1.0, 0.16666666666666669, 0.0083333333333331, 0.00019841269841456446, 2.7557319150704892e-06,
-    2.5052124008953335e-08, 1.6057199454179518e-10, 7.760406418336239e-13};
+static inline double polynomial_sinhc_r_near(double x) {
+    return 1.0 + x * (0.16666666666666669 + x * (0.0083333333333331 + x * (0.00019841269841456446 + x *
+        (2.7557319150704892e-06 + x * (2.5052124008953335e-08 + x * (1.6057199454179518e-10 + x *
+        7.760406418336239e-13))))));
+}
 
-static const double R_OVER_SINH_R_NEAR[11] = {
-    1.0, -0.1666666666666652, 0.033333333333202014, -0.007142857138283707, 0.0015873015057159467,
-    -0.0003607495115144189, 8.324456075687903e-05, -1.9401840339024596e-05, 4.507443377513903e-06,
-    -9.732611006991387e-07, 1.4474803384958734e-07};
+static inline double polynomial_r_over_sinh_r_near(double x) {
+    return 1.0 + x * (-0.1666666666666652 + x * (0.033333333333202014 + x * (-0.007142857138283707 + x *
+        (0.0015873015057159467 + x * (-0.0003607495115144189 + x * (8.324456075687903e-05 + x *
+        (-1.9401840339024596e-05 + x * (4.507443377513903e-06 + x * (-9.732611006991387e-07 + x *
+        1.4474803384958734e-07)))))))));
+}
 
-static const double LOG_DET_SERIES[11] = {
-    -0.16666666666666666, 0.01944444444444438, -0.00313051146383882, 0.0005742945324197367,
-    -0.0001131019149457229, 2.3290036808888825e-05, -4.944739522360393e-06, 1.0725596995459732e-06,
-    -2.3422006008653426e-07, 4.811720057878731e-08, -6.917845201939211e-09};
+static inline double polynomial_log_det_series(double x) {
+    return -0.16666666666666666 + x * (0.01944444444444438 + x * (-0.00313051146383882 + x *
+        (0.0005742945324197367 + x * (-0.0001131019149457229 + x * (2.3290036808888825e-05 + x *
+        (-4.944739522360393e-06 + x * (1.0725596995459732e-06 + x * (-2.3422006008653426e-07 + x *
+        (4.811720057878731e-08 + x * -6.917845201939211e-09)))))))));
+}
 
-static const double LOG_DET_SERIES_SLOPE[10] = {
-    0.01944444444444438, -0.00626102292767764, 0.0017228835972592101, -0.0004524076597828916,
-    0.00011645018404444413, -2.9668437134162358e-05, 7.507917896821813e-06, -1.873760480692274e-06,
-    4.330548052090858e-07, -6.917845201939212e-08};
+static inline double polynomial_log_det_series_slope(double x) {
+    return 0.01944444444444438 + x * (-0.00626102292767764 + x * (0.0017228835972592101 + x *
+        (-0.0004524076597828916 + x * (0.00011645018404444413 + x * (-2.9668437134162358e-05 + x *
+        (7.507917896821813e-06 + x * (-1.873760480692274e-06 + x * (4.330548052090858e-07 + x *
+        -6.917845201939212e-08))))))));
+}
 
-static const double R_OVER_SINH_R_NEAR_SLOPE[10] = {
-    -0.1666666666666652, 0.06666666666640403, -0.021428571414851123, 0.006349206022863787,
-    -0.0018037475575720945, 0.0004994673645412742, -0.0001358128823731722, 3.605954702011122e-05,
-    -8.759349906292246e-06, 1.4474803384958734e-06};
-
-/* c[0] + c[1] x + ... by Horner's rule. */
-static inline double polynomial(double x, const double *c, int size) {
-    double result = c[size - 1];
-    for (int i = size - 2; i >= 0; --i) result = result * x + c[i];
-    return result;
+static inline double polynomial_r_over_sinh_r_near_slope(double x) {
+    return -0.1666666666666652 + x * (0.06666666666640403 + x * (-0.021428571414851123 + x *
+        (0.006349206022863787 + x * (-0.0018037475575720945 + x * (0.0004994673645412742 + x *
+        (-0.0001358128823731722 + x * (3.605954702011122e-05 + x * (-8.759349906292246e-06 + x *
+        1.4474803384958734e-06))))))));
 }
 
 /* [sqrt(1 + dot(p[1:], p[1:])), p[1:]] */
@@ -106,8 +109,8 @@ double hyperbolic_norm(const double *HYPERBOLIC_RESTRICT p, const double *HYPERB
     const double rest0 = v[1] - p[1] * dot_s_h_ratio;
     const double rest1 = v[2] - p[2] * dot_s_h_ratio;
     const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
-    const double vv = (is_small ? dot_h_h - dot_s_h * dot_s_h / (is_small ? dot_s_s_total : 1.0) :
-        dot_rest_rest + dot_s_h * dot_s_h_ratio / (is_small ? 1.0 : dot_s_s_total));
+    const double vv = (is_small ? dot_h_h - dot_s_h * dot_s_h / dot_s_s_total : dot_rest_rest + dot_s_h *
+        dot_s_h_ratio / dot_s_s_total);
     const double r = sqrt(vv);
     return r;
 }
@@ -153,31 +156,22 @@ void hyperbolic_exp(
     const int is_small = dot_s_s < 1.0;
     const double dot_s_s_chosen = (is_small ? 1.0 : dot_s_s);
     const double dot_s_h_ratio = dot_s_h / dot_s_s_chosen;
-    const double dot_s_h_squared = dot_s_h * dot_s_h;
-    const double chosen = (is_small ? dot_s_s_total : 1.0);
+    const double dot_h_h_gap = dot_h_h - dot_s_h * dot_s_h / dot_s_s_total;
     const double rest0 = v[1] - p[1] * dot_s_h_ratio;
     const double rest1 = v[2] - p[2] * dot_s_h_ratio;
     const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
-    const double chosen_2 = (is_small ? 1.0 : dot_s_s_total);
-    const double vv = (is_small ? dot_h_h - dot_s_h_squared / chosen : dot_rest_rest + dot_s_h * dot_s_h_ratio
-        / chosen_2);
+    const double vv = (is_small ? dot_h_h_gap : dot_rest_rest + dot_s_h * dot_s_h_ratio / dot_s_s_total);
     const double r = sqrt(vv);
     const double cosh_r = cosh(r);
     const int near = vv < 0.9903926849365234;
-    const double dot_s_h_ratio_2 = dot_s_h / (near ? dot_s_s_chosen : 1.0);
+    const double sinhc_r_near = polynomial_sinhc_r_near((near ? vv : 0.0));
+    const double dot_s_h_ratio_2 = dot_s_h / (near ? 1.0 : dot_s_s_chosen);
     const double rest0_2 = v[1] - p[1] * dot_s_h_ratio_2;
     const double rest1_2 = v[2] - p[2] * dot_s_h_ratio_2;
     const double dot_rest_rest_2 = rest0_2 * rest0_2 + rest1_2 * rest1_2;
-    const double vv_2 = (is_small ? dot_h_h - dot_s_h_squared / (near ? chosen : 1.0) : dot_rest_rest_2 +
-        dot_s_h * dot_s_h_ratio_2 / (near ? chosen_2 : 1.0));
-    const double sinhc_r_near = polynomial((near ? vv_2 : 0.0), SINHC_R_NEAR, 8);
-    const double dot_s_h_ratio_3 = dot_s_h / (near ? 1.0 : dot_s_s_chosen);
-    const double rest0_3 = v[1] - p[1] * dot_s_h_ratio_3;
-    const double rest1_3 = v[2] - p[2] * dot_s_h_ratio_3;
-    const double dot_rest_rest_3 = rest0_3 * rest0_3 + rest1_3 * rest1_3;
-    const double vv_3 = (is_small ? dot_h_h - dot_s_h_squared / (near ? 1.0 : chosen) : dot_rest_rest_3 +
-        dot_s_h * dot_s_h_ratio_3 / (near ? 1.0 : chosen_2));
-    const double r_2 = sqrt((near ? 1.0 : vv_3));
+    const double vv_2 = (is_small ? dot_h_h_gap : dot_rest_rest_2 + dot_s_h * dot_s_h_ratio_2 /
+        dot_s_s_total);
+    const double r_2 = sqrt((near ? 1.0 : vv_2));
     const double sinhc_r = (near ? sinhc_r_near : sinh(r_2) / (near ? 1.0 : r_2));
     const double q0 = a * cosh_r + dot_s_h * sinhc_r / a;
     const double q1 = p[1] * cosh_r + v[1] * sinhc_r;
@@ -195,7 +189,7 @@ void hyperbolic_exp_batch(
     for (size_t i = 0; i < count; ++i) hyperbolic_exp(p + 3 * i, v + 3 * i, q_out + 3 * i);
 }
 
-/* r / sinh(r) * ([e, D] - ww / 2 * [a, p[1:]]) */
+/* r / sinh_r * ([e, D] - ww / 2 * [a, p[1:]]) */
 void hyperbolic_log(
     const double *HYPERBOLIC_RESTRICT p,
     const double *HYPERBOLIC_RESTRICT q,
@@ -208,52 +202,25 @@ void hyperbolic_log(
     const double dot_D_D = D0 * D0 + D1 * D1;
     const double dot_D_S = S0 * D0 + S1 * D1;
     const double dot_ps_ps = p[1] * p[1] + p[2] * p[2];
-    const double dot_ps_ps_total = 1.0 + dot_ps_ps;
-    const double a = sqrt(dot_ps_ps_total);
+    const double a = sqrt(1.0 + dot_ps_ps);
     const double dot_qs_qs = q[1] * q[1] + q[2] * q[2];
-    const double dot_qs_qs_total = 1.0 + dot_qs_qs;
-    const double b = sqrt(dot_qs_qs_total);
-    const double e = dot_D_S / (a + b);
+    const double b = sqrt(1.0 + dot_qs_qs);
+    const double a_total = a + b;
+    const double e = dot_D_S / a_total;
     const int is_small = dot_S_S < 1.0;
-    const double dot_S_S_chosen = (is_small ? 1.0 : dot_S_S);
-    const double dot_D_S_ratio = dot_D_S / dot_S_S_chosen;
+    const double dot_D_S_ratio = dot_D_S / (is_small ? 1.0 : dot_S_S);
     const double dot_ps_qs = p[1] * q[1] + p[2] * q[2];
-    const double dot_ps_qs_product = 2.0 * dot_ps_qs;
-    const double chosen = (is_small ? dot_ps_ps_total : 1.0);
-    const double a_2 = sqrt(chosen);
-    const double chosen_2 = (is_small ? dot_qs_qs_total : 1.0);
-    const double b_2 = sqrt(chosen_2);
-    const double e_2 = dot_D_S / (is_small ? a_2 + b_2 : 1.0);
+    const double c = (2.0 + b * (2.0 * a) - 2.0 * dot_ps_qs) / (a_total * a_total);
     const double rest0 = D0 - S0 * dot_D_S_ratio;
     const double rest1 = D1 - S1 * dot_D_S_ratio;
     const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
-    const double chosen_3 = (is_small ? 1.0 : dot_qs_qs_total);
-    const double b_3 = sqrt(chosen_3);
-    const double chosen_4 = (is_small ? 1.0 : dot_ps_ps_total);
-    const double a_3 = sqrt(chosen_4);
-    const double a_total = a_3 + b_3;
-    const double c = (2.0 + b_3 * (2.0 * a_3) - dot_ps_qs_product) / (is_small ? 1.0 : a_total * a_total);
-    const double ww = (is_small ? dot_D_D - e_2 * e_2 : dot_rest_rest + dot_D_S_ratio * (dot_D_S * c));
+    const double ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * (dot_D_S * c));
     const int near = ww < 0.4587184190750122;
-    const double a_4 = sqrt((near ? chosen : 1.0));
-    const double b_4 = sqrt((near ? chosen_2 : 1.0));
-    const double e_3 = dot_D_S / (near ? (is_small ? a_4 + b_4 : 1.0) : 1.0);
-    const double dot_D_S_ratio_2 = dot_D_S / (near ? dot_S_S_chosen : 1.0);
-    const double rest0_2 = D0 - S0 * dot_D_S_ratio_2;
-    const double rest1_2 = D1 - S1 * dot_D_S_ratio_2;
-    const double dot_rest_rest_2 = rest0_2 * rest0_2 + rest1_2 * rest1_2;
-    const double b_5 = sqrt((near ? chosen_3 : 1.0));
-    const double a_5 = sqrt((near ? chosen_4 : 1.0));
-    const double a_total_2 = a_5 + b_5;
-    const double c_2 = (2.0 + b_5 * (2.0 * a_5) - dot_ps_qs_product) / (near ? (is_small ? 1.0 : a_total_2 *
-        a_total_2) : 1.0);
-    const double ww_2 = (is_small ? dot_D_D - e_3 * e_3 : dot_rest_rest_2 + dot_D_S_ratio_2 * (dot_D_S *
-        c_2));
-    const double r_over_sinh_r_near = polynomial((near ? ww_2 : 0.0), R_OVER_SINH_R_NEAR, 11);
+    const double r_over_sinh_r_near = polynomial_r_over_sinh_r_near((near ? ww : 0.0));
     const double sqrt_ww = sqrt((near ? 1.0 : ww));
     const double asinh_sqrt_ww_over_2 = asinh(0.5 * sqrt_ww);
     const double r = 2.0 * asinh_sqrt_ww_over_2;
-    const double sinh_r = sinh(r);
+    const double sinh_r = sqrt((near ? 1.0 : ww * (1.0 + 0.25 * ww)));
     const double r_over_sinh_r = (near ? r_over_sinh_r_near : r / sinh_r);
     const double scale = 0.5 * ww;
     const double v0 = r_over_sinh_r * (e - a * scale);
@@ -282,22 +249,18 @@ double hyperbolic_distance(const double *HYPERBOLIC_RESTRICT p, const double *HY
     const double dot_D_D = D0 * D0 + D1 * D1;
     const double dot_D_S = S0 * D0 + S1 * D1;
     const double dot_ps_ps = p[1] * p[1] + p[2] * p[2];
-    const double dot_ps_ps_total = 1.0 + dot_ps_ps;
+    const double a = sqrt(1.0 + dot_ps_ps);
     const double dot_qs_qs = q[1] * q[1] + q[2] * q[2];
-    const double dot_qs_qs_total = 1.0 + dot_qs_qs;
+    const double b = sqrt(1.0 + dot_qs_qs);
+    const double a_total = a + b;
+    const double e = dot_D_S / a_total;
     const int is_small = dot_S_S < 1.0;
     const double dot_D_S_ratio = dot_D_S / (is_small ? 1.0 : dot_S_S);
     const double dot_ps_qs = p[1] * q[1] + p[2] * q[2];
-    const double a = sqrt((is_small ? dot_ps_ps_total : 1.0));
-    const double b = sqrt((is_small ? dot_qs_qs_total : 1.0));
-    const double e = dot_D_S / (is_small ? a + b : 1.0);
+    const double c = (2.0 + b * (2.0 * a) - 2.0 * dot_ps_qs) / (a_total * a_total);
     const double rest0 = D0 - S0 * dot_D_S_ratio;
     const double rest1 = D1 - S1 * dot_D_S_ratio;
     const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
-    const double b_2 = sqrt((is_small ? 1.0 : dot_qs_qs_total));
-    const double a_2 = sqrt((is_small ? 1.0 : dot_ps_ps_total));
-    const double a_total = a_2 + b_2;
-    const double c = (2.0 + b_2 * (2.0 * a_2) - 2.0 * dot_ps_qs) / (is_small ? 1.0 : a_total * a_total);
     const double ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * (dot_D_S * c));
     const double sqrt_ww = sqrt(ww);
     const double asinh_sqrt_ww_over_2 = asinh(0.5 * sqrt_ww);
@@ -323,50 +286,26 @@ double hyperbolic_log_abs_det(const double *HYPERBOLIC_RESTRICT p, const double 
     const double dot_D_D = D0 * D0 + D1 * D1;
     const double dot_D_S = S0 * D0 + S1 * D1;
     const double dot_ps_ps = p[1] * p[1] + p[2] * p[2];
-    const double dot_ps_ps_total = 1.0 + dot_ps_ps;
+    const double a = sqrt(1.0 + dot_ps_ps);
     const double dot_qs_qs = q[1] * q[1] + q[2] * q[2];
-    const double dot_qs_qs_total = 1.0 + dot_qs_qs;
+    const double b = sqrt(1.0 + dot_qs_qs);
+    const double a_total = a + b;
+    const double e = dot_D_S / a_total;
     const int is_small = dot_S_S < 1.0;
-    const double dot_S_S_chosen = (is_small ? 1.0 : dot_S_S);
-    const double dot_D_S_ratio = dot_D_S / dot_S_S_chosen;
+    const double dot_D_S_ratio = dot_D_S / (is_small ? 1.0 : dot_S_S);
     const double dot_ps_qs = p[1] * q[1] + p[2] * q[2];
-    const double dot_ps_qs_product = 2.0 * dot_ps_qs;
-    const double chosen = (is_small ? dot_ps_ps_total : 1.0);
-    const double a = sqrt(chosen);
-    const double chosen_2 = (is_small ? dot_qs_qs_total : 1.0);
-    const double b = sqrt(chosen_2);
-    const double e = dot_D_S / (is_small ? a + b : 1.0);
+    const double c = (2.0 + b * (2.0 * a) - 2.0 * dot_ps_qs) / (a_total * a_total);
     const double rest0 = D0 - S0 * dot_D_S_ratio;
     const double rest1 = D1 - S1 * dot_D_S_ratio;
     const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
-    const double chosen_3 = (is_small ? 1.0 : dot_qs_qs_total);
-    const double b_2 = sqrt(chosen_3);
-    const double chosen_4 = (is_small ? 1.0 : dot_ps_ps_total);
-    const double a_2 = sqrt(chosen_4);
-    const double a_total = a_2 + b_2;
-    const double c = (2.0 + b_2 * (2.0 * a_2) - dot_ps_qs_product) / (is_small ? 1.0 : a_total * a_total);
     const double ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * (dot_D_S * c));
     const int near = ww < 0.4587184190750122;
-    const double a_3 = sqrt((near ? chosen : 1.0));
-    const double b_3 = sqrt((near ? chosen_2 : 1.0));
-    const double e_2 = dot_D_S / (near ? (is_small ? a_3 + b_3 : 1.0) : 1.0);
-    const double dot_D_S_ratio_2 = dot_D_S / (near ? dot_S_S_chosen : 1.0);
-    const double rest0_2 = D0 - S0 * dot_D_S_ratio_2;
-    const double rest1_2 = D1 - S1 * dot_D_S_ratio_2;
-    const double dot_rest_rest_2 = rest0_2 * rest0_2 + rest1_2 * rest1_2;
-    const double b_4 = sqrt((near ? chosen_3 : 1.0));
-    const double a_4 = sqrt((near ? chosen_4 : 1.0));
-    const double a_total_2 = a_4 + b_4;
-    const double c_2 = (2.0 + b_4 * (2.0 * a_4) - dot_ps_qs_product) / (near ? (is_small ? 1.0 : a_total_2 *
-        a_total_2) : 1.0);
-    const double ww_2 = (is_small ? dot_D_D - e_2 * e_2 : dot_rest_rest_2 + dot_D_S_ratio_2 * (dot_D_S *
-        c_2));
     const double sqrt_ww = sqrt((near ? 1.0 : ww));
     const double asinh_sqrt_ww_over_2 = asinh(0.5 * sqrt_ww);
     const double r = 2.0 * asinh_sqrt_ww_over_2;
-    const double sinh_r = sinh(r);
-    const double log_det_series = polynomial((near ? ww_2 : 0.0), LOG_DET_SERIES, 11);
-    const double log_det_near = ww_2 * log_det_series;
+    const double sinh_r = sqrt((near ? 1.0 : ww * (1.0 + 0.25 * ww)));
+    const double log_det_series = polynomial_log_det_series((near ? ww : 0.0));
+    const double log_det_near = ww * log_det_series;
     const double log_det = (near ? log_det_near : log(r / sinh_r));
     return log_det;
 }
@@ -415,8 +354,8 @@ double hyperbolic_gradient_norm(const double *HYPERBOLIC_RESTRICT p, const doubl
     const double rest0 = gradient1 - p[1] * dot_s_h_ratio;
     const double rest1 = gradient2 - p[2] * dot_s_h_ratio;
     const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
-    const double vv = (is_small ? dot_h_h - dot_s_h * dot_s_h / (is_small ? dot_s_s_total : 1.0) :
-        dot_rest_rest + dot_s_h * dot_s_h_ratio / (is_small ? 1.0 : dot_s_s_total));
+    const double vv = (is_small ? dot_h_h - dot_s_h * dot_s_h / dot_s_s_total : dot_rest_rest + dot_s_h *
+        dot_s_h_ratio / dot_s_s_total);
     const double r = sqrt(vv);
     return r;
 }
@@ -445,8 +384,7 @@ void hyperbolic_splat(
     const double dot_D_D = D0 * D0 + D1 * D1;
     const double dot_D_S = S0 * D0 + S1 * D1;
     const double dot_ps_ps = mu[1] * mu[1] + mu[2] * mu[2];
-    const double dot_ps_ps_total = 1.0 + dot_ps_ps;
-    const double a = sqrt(dot_ps_ps_total);
+    const double a = sqrt(1.0 + dot_ps_ps);
     const double dot_qs_qs = x[1] * x[1] + x[2] * x[2];
     const double dot_qs_qs_total = 1.0 + dot_qs_qs;
     const double b = sqrt(dot_qs_qs_total);
@@ -456,52 +394,23 @@ void hyperbolic_splat(
     const double dot_S_S_chosen = (is_small ? 1.0 : dot_S_S);
     const double dot_D_S_ratio = dot_D_S / dot_S_S_chosen;
     const double dot_ps_qs = x[1] * mu[1] + x[2] * mu[2];
-    const double dot_ps_qs_product = 2.0 * dot_ps_qs;
-    const double chosen = (is_small ? dot_ps_ps_total : 1.0);
-    const double a_2 = sqrt(chosen);
-    const double chosen_2 = (is_small ? dot_qs_qs_total : 1.0);
-    const double b_2 = sqrt(chosen_2);
-    const double chosen_3 = (is_small ? a_2 + b_2 : 1.0);
-    const double e_2 = dot_D_S / chosen_3;
+    const double squared = a_total * a_total;
+    const double a_product = 2.0 * a;
+    const double c = (2.0 + b * a_product - 2.0 * dot_ps_qs) / squared;
+    const double dot_D_S_product = dot_D_S * c;
     const double rest0 = D0 - S0 * dot_D_S_ratio;
     const double rest1 = D1 - S1 * dot_D_S_ratio;
     const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
-    const double chosen_4 = (is_small ? 1.0 : dot_qs_qs_total);
-    const double b_3 = sqrt(chosen_4);
-    const double chosen_5 = (is_small ? 1.0 : dot_ps_ps_total);
-    const double a_3 = sqrt(chosen_5);
-    const double a_product = 2.0 * a_3;
-    const double a_total_2 = a_3 + b_3;
-    const double chosen_6 = (is_small ? 1.0 : a_total_2 * a_total_2);
-    const double c = (2.0 + b_3 * a_product - dot_ps_qs_product) / chosen_6;
-    const double dot_D_S_product = dot_D_S * c;
-    const double ww = (is_small ? dot_D_D - e_2 * e_2 : dot_rest_rest + dot_D_S_ratio * dot_D_S_product);
+    const double ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * dot_D_S_product);
+    const double total = 1.0 + 0.25 * ww;
     const int near = ww < 0.4587184190750122;
-    const double a_4 = sqrt((near ? chosen : 1.0));
-    const double b_4 = sqrt((near ? chosen_2 : 1.0));
-    const double near_chosen = (near ? (is_small ? a_4 + b_4 : 1.0) : 1.0);
-    const double e_3 = dot_D_S / near_chosen;
-    const double near_chosen_2 = (near ? dot_S_S_chosen : 1.0);
-    const double dot_D_S_ratio_2 = dot_D_S / near_chosen_2;
-    const double rest0_2 = D0 - S0 * dot_D_S_ratio_2;
-    const double rest1_2 = D1 - S1 * dot_D_S_ratio_2;
-    const double dot_rest_rest_2 = rest0_2 * rest0_2 + rest1_2 * rest1_2;
-    const double b_5 = sqrt((near ? chosen_4 : 1.0));
-    const double a_5 = sqrt((near ? chosen_5 : 1.0));
-    const double a_product_2 = 2.0 * a_5;
-    const double a_total_3 = a_5 + b_5;
-    const double near_chosen_3 = (near ? (is_small ? 1.0 : a_total_3 * a_total_3) : 1.0);
-    const double c_2 = (2.0 + b_5 * a_product_2 - dot_ps_qs_product) / near_chosen_3;
-    const double dot_D_S_product_2 = dot_D_S * c_2;
-    const double ww_2 = (is_small ? dot_D_D - e_3 * e_3 : dot_rest_rest_2 + dot_D_S_ratio_2 *
-        dot_D_S_product_2);
-    const double near_chosen_4 = (near ? ww_2 : 0.0);
-    const double r_over_sinh_r_near = polynomial(near_chosen_4, R_OVER_SINH_R_NEAR, 11);
+    const double near_chosen = (near ? ww : 0.0);
+    const double r_over_sinh_r_near = polynomial_r_over_sinh_r_near(near_chosen);
     const double sqrt_ww = sqrt((near ? 1.0 : ww));
     const double sqrt_ww_product = 0.5 * sqrt_ww;
     const double asinh_sqrt_ww_over_2 = asinh(sqrt_ww_product);
     const double r = 2.0 * asinh_sqrt_ww_over_2;
-    const double sinh_r = sinh(r);
+    const double sinh_r = sqrt((near ? 1.0 : ww * total));
     const double r_ratio = r / sinh_r;
     const double r_over_sinh_r = (near ? r_over_sinh_r_near : r_ratio);
     const double scale = 0.5 * ww;
@@ -511,8 +420,8 @@ void hyperbolic_splat(
     const double v1 = r_over_sinh_r * D0_gap;
     const double D1_gap = D1 - mu[2] * scale;
     const double v2 = r_over_sinh_r * D1_gap;
-    const double log_det_series = polynomial(near_chosen_4, LOG_DET_SERIES, 11);
-    const double log_det_near = ww_2 * log_det_series;
+    const double log_det_series = polynomial_log_det_series(near_chosen);
+    const double log_det_near = ww * log_det_series;
     const double log_det = (near ? log_det_near : log(r_ratio));
     const double z0 = W[0] * v0 + W[1] * v1 + W[2] * v2;
     const double z1 = W[3] * v0 + W[4] * v1 + W[5] * v2;
@@ -522,73 +431,51 @@ void hyperbolic_splat(
     const double by_v1 = -(W[4] * z1) - W[1] * z0;
     const double by_v0 = -(W[3] * z1) - W[0] * z0;
     const double by_log_det_near = (near ? 1.0 : 0.0);
-    const double by_log_det_series = ww_2 * by_log_det_near;
-    const double log_det_series_slope = polynomial(near_chosen_4, LOG_DET_SERIES_SLOPE, 10);
+    const double by_log_det_series = ww * by_log_det_near;
+    const double log_det_series_slope = polynomial_log_det_series_slope(near_chosen);
     const double product = r_over_sinh_r * by_v2;
     const double product_2 = r_over_sinh_r * by_v1;
-    const double by_e = r_over_sinh_r * by_v0;
+    const double product_3 = r_over_sinh_r * by_v0;
     const double by_r_over_sinh_r = D1_gap * by_v2 + D0_gap * by_v1 + e_gap * by_v0;
-    const double by_scale = -(mu[2] * product) - mu[1] * product_2 - a * by_e;
+    const double by_scale = -(mu[2] * product) - mu[1] * product_2 - a * product_3;
     const double by_r_over_sinh_r_near = (near ? by_r_over_sinh_r : 0.0);
-    const double sinh_r_ratio = ((near ? 0.0 : 1.0) / r_ratio + (near ? 0.0 : by_r_over_sinh_r)) / sinh_r;
-    const double by_r = sinh_r_ratio - r_ratio * sinh_r_ratio * cosh(r);
+    const double by_r = ((near ? 0.0 : 1.0) / r_ratio + (near ? 0.0 : by_r_over_sinh_r)) / sinh_r;
+    const double near_chosen_2 = (near ? 0.0 : -(r_ratio * by_r / (2.0 * sinh_r)));
     const double by_asinh_sqrt_ww_over_2 = 2.0 * by_r;
     const double by_sqrt_ww = 0.5 * (by_asinh_sqrt_ww_over_2 / sqrt(1.0 + sqrt_ww_product * sqrt_ww_product));
-    const double by_ww = 0.5 * by_scale + (near ? 0.0 : by_sqrt_ww / (2.0 * sqrt_ww));
-    const double r_over_sinh_r_near_slope = polynomial(near_chosen_4, R_OVER_SINH_R_NEAR_SLOPE, 10);
-    const double by_ww_2 = log_det_series * by_log_det_near + (near ? by_log_det_series * log_det_series_slope
-        + by_r_over_sinh_r_near * r_over_sinh_r_near_slope : 0.0);
-    const double by_ww_chosen = (is_small ? by_ww_2 : 0.0);
-    const double by_dot_rest_rest = (is_small ? 0.0 : by_ww_2);
-    const double product_3 = dot_D_S_ratio_2 * by_dot_rest_rest;
-    const double by_c = dot_D_S * product_3;
-    const double by_c_ratio = by_c / near_chosen_3;
-    const double product_4 = 2.0 * (is_small ? 0.0 : (near ? -(c_2 * by_c_ratio) : 0.0));
-    const double by_b = a_total_3 * product_4 + a_product_2 * by_c_ratio;
+    const double r_over_sinh_r_near_slope = polynomial_r_over_sinh_r_near_slope(near_chosen);
+    const double total_2 = log_det_series * by_log_det_near + 0.5 * by_scale + (near ? 0.0 : by_sqrt_ww / (2.0
+        * sqrt_ww)) + (near ? by_log_det_series * log_det_series_slope + by_r_over_sinh_r_near *
+        r_over_sinh_r_near_slope : 0.0);
+    const double by_ww = total_2 + total * near_chosen_2 + 0.25 * (ww * near_chosen_2);
+    const double by_dot_D_D = (is_small ? by_ww : 0.0);
+    const double by_dot_rest_rest = (is_small ? 0.0 : by_ww);
+    const double product_4 = dot_D_S_ratio * by_dot_rest_rest;
     const double product_5 = 2.0 * by_dot_rest_rest;
-    const double by_rest1 = rest1_2 * product_5;
-    const double by_rest0 = rest0_2 * product_5;
-    const double ratio = (dot_D_S_product_2 * by_dot_rest_rest - S1 * by_rest1 - S0 * by_rest0) /
-        near_chosen_2;
-    const double ratio_2 = e_3 * (2.0 * by_ww_chosen) / near_chosen;
-    const double by_b_2 = (is_small ? (near ? e_3 * ratio_2 : 0.0) : 0.0);
-    const double by_ww_chosen_2 = (is_small ? by_ww : 0.0);
-    const double by_dot_rest_rest_2 = (is_small ? 0.0 : by_ww);
-    const double product_6 = dot_D_S_ratio * by_dot_rest_rest_2;
-    const double by_c_2 = dot_D_S * product_6;
-    const double by_c_ratio_2 = by_c_2 / chosen_6;
-    const double product_7 = a_total_2 * (2.0 * (is_small ? 0.0 : -(c * by_c_ratio_2)));
-    const double by_b_3 = product_7 + a_product * by_c_ratio_2;
-    const double chosen_7 = (is_small ? 0.0 : (near ? by_b / (2.0 * b_5) : 0.0) + by_b_3 / (2.0 * b_3));
-    const double product_8 = 2.0 * by_dot_rest_rest_2;
-    const double by_rest1_2 = rest1 * product_8;
-    const double by_rest0_2 = rest0 * product_8;
-    const double by_dot_D_D = by_ww_chosen + by_ww_chosen_2;
-    const double ratio_3 = e_2 * (2.0 * by_ww_chosen_2) / chosen_3;
-    const double gap = c_2 * product_3 + ratio - ratio_2 + c * product_6 - ratio_3;
-    const double by_b_4 = (is_small ? e_2 * ratio_3 : 0.0);
-    const double chosen_8 = (is_small ? (near ? by_b_2 / (2.0 * b_4) : 0.0) + by_b_4 / (2.0 * b_2) : 0.0);
-    const double by_dot_ps_qs = 2.0 * (-by_c_ratio - by_c_ratio_2);
-    const double ratio_4 = (dot_D_S_product * by_dot_rest_rest_2 - S1 * by_rest1_2 - S0 * by_rest0_2) /
-        dot_S_S_chosen;
-    const double by_dot_S_S = (is_small ? 0.0 : (near ? -(dot_D_S_ratio_2 * ratio) : 0.0) - dot_D_S_ratio *
-        ratio_4);
-    const double by_e_ratio = by_e / a_total;
-    const double by_dot_D_S = gap + ratio_4 + by_e_ratio;
-    const int is_small_2 = dot_qs_qs_total == 0.0;
-    const double chosen_9 = (is_small_2 ? 0.0 : -(e * by_e_ratio / (2.0 * (is_small_2 ? 1.0 : b))));
-    const double by_dot_qs_qs = chosen_7 + chosen_8 + chosen_9;
-    const double product_9 = 2.0 * by_dot_qs_qs;
+    const double by_rest1 = rest1 * product_5;
+    const double by_rest0 = rest0 * product_5;
+    const double by_c = dot_D_S * product_4;
     const double by_dot_D_D_product = 2.0 * by_dot_D_D;
-    const double by_D1 = product + by_rest1 + by_rest1_2 + S1 * by_dot_D_S + D1 * by_dot_D_D_product;
-    const double by_D0 = product_2 + by_rest0 + by_rest0_2 + S0 * by_dot_D_S + D0 * by_dot_D_D_product;
+    const double by_e = product_3 - e * by_dot_D_D_product;
+    const double by_c_ratio = by_c / squared;
+    const double product_6 = 2.0 * by_c_ratio;
+    const double ratio = (dot_D_S_product * by_dot_rest_rest - S1 * by_rest1 - S0 * by_rest0) /
+        dot_S_S_chosen;
+    const double by_dot_S_S = (is_small ? 0.0 : -(dot_D_S_ratio * ratio));
+    const double by_e_ratio = by_e / a_total;
+    const double by_dot_D_S = c * product_4 + ratio + by_e_ratio;
+    const double gap = -(a_total * (2.0 * (c * by_c_ratio))) - e * by_e_ratio;
+    const double by_b = a_product * by_c_ratio + gap;
+    const int is_small_2 = dot_qs_qs_total == 0.0;
+    const double by_dot_qs_qs = (is_small_2 ? 0.0 : by_b / (2.0 * (is_small_2 ? 1.0 : b)));
+    const double product_7 = 2.0 * by_dot_qs_qs;
+    const double by_D1 = product + by_rest1 + S1 * by_dot_D_S + D1 * by_dot_D_D_product;
+    const double by_D0 = product_2 + by_rest0 + S0 * by_dot_D_S + D0 * by_dot_D_D_product;
     const double by_dot_S_S_product = 2.0 * by_dot_S_S;
-    const double by_S1 = -(dot_D_S_ratio_2 * by_rest1) - dot_D_S_ratio * by_rest1_2 + D1 * by_dot_D_S + S1 *
-        by_dot_S_S_product;
-    const double by_S0 = -(dot_D_S_ratio_2 * by_rest0) - dot_D_S_ratio * by_rest0_2 + D0 * by_dot_D_S + S0 *
-        by_dot_S_S_product;
-    const double exponent_by_x2 = mu[2] * by_dot_ps_qs + x[2] * product_9 + by_D1 + by_S1;
-    const double exponent_by_x1 = mu[1] * by_dot_ps_qs + x[1] * product_9 + by_D0 + by_S0;
+    const double by_S1 = D1 * by_dot_D_S - dot_D_S_ratio * by_rest1 + S1 * by_dot_S_S_product;
+    const double by_S0 = D0 * by_dot_D_S - dot_D_S_ratio * by_rest0 + S0 * by_dot_S_S_product;
+    const double exponent_by_x2 = x[2] * product_7 - mu[2] * product_6 + by_D1 + by_S1;
+    const double exponent_by_x1 = x[1] * product_7 - mu[1] * product_6 + by_D0 + by_S0;
     const double df1 = phi * exponent_by_x1;
     const double df2 = phi * exponent_by_x2;
     const double normal_part = x[1] * df1 + x[2] * df2;
@@ -635,35 +522,38 @@ void hyperbolic_frame(const double *HYPERBOLIC_RESTRICT p, double *HYPERBOLIC_RE
     }
 }
 
-static const float SINHC_R_NEAR_F[8] = {
-    1.0f, 0.16666666666666669f, 0.0083333333333331f, 0.00019841269841456446f, 2.7557319150704892e-06f,
-    2.5052124008953335e-08f, 1.6057199454179518e-10f, 7.760406418336239e-13f};
+static inline float polynomial_sinhc_r_near_f(float x) {
+    return 1.0f + x * (0.16666666666666669f + x * (0.0083333333333331f + x * (0.00019841269841456446f + x *
+        (2.7557319150704892e-06f + x * (2.5052124008953335e-08f + x * (1.6057199454179518e-10f + x *
+        7.760406418336239e-13f))))));
+}
 
-static const float R_OVER_SINH_R_NEAR_F[11] = {
-    1.0f, -0.1666666666666652f, 0.033333333333202014f, -0.007142857138283707f, 0.0015873015057159467f,
-    -0.0003607495115144189f, 8.324456075687903e-05f, -1.9401840339024596e-05f, 4.507443377513903e-06f,
-    -9.732611006991387e-07f, 1.4474803384958734e-07f};
+static inline float polynomial_r_over_sinh_r_near_f(float x) {
+    return 1.0f + x * (-0.1666666666666652f + x * (0.033333333333202014f + x * (-0.007142857138283707f + x *
+        (0.0015873015057159467f + x * (-0.0003607495115144189f + x * (8.324456075687903e-05f + x *
+        (-1.9401840339024596e-05f + x * (4.507443377513903e-06f + x * (-9.732611006991387e-07f + x *
+        1.4474803384958734e-07f)))))))));
+}
 
-static const float LOG_DET_SERIES_F[11] = {
-    -0.16666666666666666f, 0.01944444444444438f, -0.00313051146383882f, 0.0005742945324197367f,
-    -0.0001131019149457229f, 2.3290036808888825e-05f, -4.944739522360393e-06f, 1.0725596995459732e-06f,
-    -2.3422006008653426e-07f, 4.811720057878731e-08f, -6.917845201939211e-09f};
+static inline float polynomial_log_det_series_f(float x) {
+    return -0.16666666666666666f + x * (0.01944444444444438f + x * (-0.00313051146383882f + x *
+        (0.0005742945324197367f + x * (-0.0001131019149457229f + x * (2.3290036808888825e-05f + x *
+        (-4.944739522360393e-06f + x * (1.0725596995459732e-06f + x * (-2.3422006008653426e-07f + x *
+        (4.811720057878731e-08f + x * -6.917845201939211e-09f)))))))));
+}
 
-static const float LOG_DET_SERIES_SLOPE_F[10] = {
-    0.01944444444444438f, -0.00626102292767764f, 0.0017228835972592101f, -0.0004524076597828916f,
-    0.00011645018404444413f, -2.9668437134162358e-05f, 7.507917896821813e-06f, -1.873760480692274e-06f,
-    4.330548052090858e-07f, -6.917845201939212e-08f};
+static inline float polynomial_log_det_series_slope_f(float x) {
+    return 0.01944444444444438f + x * (-0.00626102292767764f + x * (0.0017228835972592101f + x *
+        (-0.0004524076597828916f + x * (0.00011645018404444413f + x * (-2.9668437134162358e-05f + x *
+        (7.507917896821813e-06f + x * (-1.873760480692274e-06f + x * (4.330548052090858e-07f + x *
+        -6.917845201939212e-08f))))))));
+}
 
-static const float R_OVER_SINH_R_NEAR_SLOPE_F[10] = {
-    -0.1666666666666652f, 0.06666666666640403f, -0.021428571414851123f, 0.006349206022863787f,
-    -0.0018037475575720945f, 0.0004994673645412742f, -0.0001358128823731722f, 3.605954702011122e-05f,
-    -8.759349906292246e-06f, 1.4474803384958734e-06f};
-
-/* c[0] + c[1] x + ... by Horner's rule. */
-static inline float polynomial_f(float x, const float *c, int size) {
-    float result = c[size - 1];
-    for (int i = size - 2; i >= 0; --i) result = result * x + c[i];
-    return result;
+static inline float polynomial_r_over_sinh_r_near_slope_f(float x) {
+    return -0.1666666666666652f + x * (0.06666666666640403f + x * (-0.021428571414851123f + x *
+        (0.006349206022863787f + x * (-0.0018037475575720945f + x * (0.0004994673645412742f + x *
+        (-0.0001358128823731722f + x * (3.605954702011122e-05f + x * (-8.759349906292246e-06f + x *
+        1.4474803384958734e-06f))))))));
 }
 
 /* [sqrt(1 + dot(p[1:], p[1:])), p[1:]] */
@@ -733,8 +623,8 @@ float hyperbolic_norm_f(const float *HYPERBOLIC_RESTRICT p, const float *HYPERBO
     const float rest0 = v[1] - p[1] * dot_s_h_ratio;
     const float rest1 = v[2] - p[2] * dot_s_h_ratio;
     const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
-    const float vv = (is_small ? dot_h_h - dot_s_h * dot_s_h / (is_small ? dot_s_s_total : 1.0f) :
-        dot_rest_rest + dot_s_h * dot_s_h_ratio / (is_small ? 1.0f : dot_s_s_total));
+    const float vv = (is_small ? dot_h_h - dot_s_h * dot_s_h / dot_s_s_total : dot_rest_rest + dot_s_h *
+        dot_s_h_ratio / dot_s_s_total);
     const float r = sqrtf(vv);
     return r;
 }
@@ -780,31 +670,21 @@ void hyperbolic_exp_f(
     const int is_small = dot_s_s < 1.0f;
     const float dot_s_s_chosen = (is_small ? 1.0f : dot_s_s);
     const float dot_s_h_ratio = dot_s_h / dot_s_s_chosen;
-    const float dot_s_h_squared = dot_s_h * dot_s_h;
-    const float chosen = (is_small ? dot_s_s_total : 1.0f);
+    const float dot_h_h_gap = dot_h_h - dot_s_h * dot_s_h / dot_s_s_total;
     const float rest0 = v[1] - p[1] * dot_s_h_ratio;
     const float rest1 = v[2] - p[2] * dot_s_h_ratio;
     const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
-    const float chosen_2 = (is_small ? 1.0f : dot_s_s_total);
-    const float vv = (is_small ? dot_h_h - dot_s_h_squared / chosen : dot_rest_rest + dot_s_h * dot_s_h_ratio
-        / chosen_2);
+    const float vv = (is_small ? dot_h_h_gap : dot_rest_rest + dot_s_h * dot_s_h_ratio / dot_s_s_total);
     const float r = sqrtf(vv);
     const float cosh_r = coshf(r);
     const int near = vv < 0.9903926849365234f;
-    const float dot_s_h_ratio_2 = dot_s_h / (near ? dot_s_s_chosen : 1.0f);
+    const float sinhc_r_near = polynomial_sinhc_r_near_f((near ? vv : 0.0f));
+    const float dot_s_h_ratio_2 = dot_s_h / (near ? 1.0f : dot_s_s_chosen);
     const float rest0_2 = v[1] - p[1] * dot_s_h_ratio_2;
     const float rest1_2 = v[2] - p[2] * dot_s_h_ratio_2;
     const float dot_rest_rest_2 = rest0_2 * rest0_2 + rest1_2 * rest1_2;
-    const float vv_2 = (is_small ? dot_h_h - dot_s_h_squared / (near ? chosen : 1.0f) : dot_rest_rest_2 +
-        dot_s_h * dot_s_h_ratio_2 / (near ? chosen_2 : 1.0f));
-    const float sinhc_r_near = polynomial_f((near ? vv_2 : 0.0f), SINHC_R_NEAR_F, 8);
-    const float dot_s_h_ratio_3 = dot_s_h / (near ? 1.0f : dot_s_s_chosen);
-    const float rest0_3 = v[1] - p[1] * dot_s_h_ratio_3;
-    const float rest1_3 = v[2] - p[2] * dot_s_h_ratio_3;
-    const float dot_rest_rest_3 = rest0_3 * rest0_3 + rest1_3 * rest1_3;
-    const float vv_3 = (is_small ? dot_h_h - dot_s_h_squared / (near ? 1.0f : chosen) : dot_rest_rest_3 +
-        dot_s_h * dot_s_h_ratio_3 / (near ? 1.0f : chosen_2));
-    const float r_2 = sqrtf((near ? 1.0f : vv_3));
+    const float vv_2 = (is_small ? dot_h_h_gap : dot_rest_rest_2 + dot_s_h * dot_s_h_ratio_2 / dot_s_s_total);
+    const float r_2 = sqrtf((near ? 1.0f : vv_2));
     const float sinhc_r = (near ? sinhc_r_near : sinhf(r_2) / (near ? 1.0f : r_2));
     const float q0 = a * cosh_r + dot_s_h * sinhc_r / a;
     const float q1 = p[1] * cosh_r + v[1] * sinhc_r;
@@ -822,7 +702,7 @@ void hyperbolic_exp_batch_f(
     for (size_t i = 0; i < count; ++i) hyperbolic_exp_f(p + 3 * i, v + 3 * i, q_out + 3 * i);
 }
 
-/* r / sinh(r) * ([e, D] - ww / 2 * [a, p[1:]]) */
+/* r / sinh_r * ([e, D] - ww / 2 * [a, p[1:]]) */
 void hyperbolic_log_f(
     const float *HYPERBOLIC_RESTRICT p,
     const float *HYPERBOLIC_RESTRICT q,
@@ -835,51 +715,25 @@ void hyperbolic_log_f(
     const float dot_D_D = D0 * D0 + D1 * D1;
     const float dot_D_S = S0 * D0 + S1 * D1;
     const float dot_ps_ps = p[1] * p[1] + p[2] * p[2];
-    const float dot_ps_ps_total = 1.0f + dot_ps_ps;
-    const float a = sqrtf(dot_ps_ps_total);
+    const float a = sqrtf(1.0f + dot_ps_ps);
     const float dot_qs_qs = q[1] * q[1] + q[2] * q[2];
-    const float dot_qs_qs_total = 1.0f + dot_qs_qs;
-    const float b = sqrtf(dot_qs_qs_total);
-    const float e = dot_D_S / (a + b);
+    const float b = sqrtf(1.0f + dot_qs_qs);
+    const float a_total = a + b;
+    const float e = dot_D_S / a_total;
     const int is_small = dot_S_S < 1.0f;
-    const float dot_S_S_chosen = (is_small ? 1.0f : dot_S_S);
-    const float dot_D_S_ratio = dot_D_S / dot_S_S_chosen;
+    const float dot_D_S_ratio = dot_D_S / (is_small ? 1.0f : dot_S_S);
     const float dot_ps_qs = p[1] * q[1] + p[2] * q[2];
-    const float dot_ps_qs_product = 2.0f * dot_ps_qs;
-    const float chosen = (is_small ? dot_ps_ps_total : 1.0f);
-    const float a_2 = sqrtf(chosen);
-    const float chosen_2 = (is_small ? dot_qs_qs_total : 1.0f);
-    const float b_2 = sqrtf(chosen_2);
-    const float e_2 = dot_D_S / (is_small ? a_2 + b_2 : 1.0f);
+    const float c = (2.0f + b * (2.0f * a) - 2.0f * dot_ps_qs) / (a_total * a_total);
     const float rest0 = D0 - S0 * dot_D_S_ratio;
     const float rest1 = D1 - S1 * dot_D_S_ratio;
     const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
-    const float chosen_3 = (is_small ? 1.0f : dot_qs_qs_total);
-    const float b_3 = sqrtf(chosen_3);
-    const float chosen_4 = (is_small ? 1.0f : dot_ps_ps_total);
-    const float a_3 = sqrtf(chosen_4);
-    const float a_total = a_3 + b_3;
-    const float c = (2.0f + b_3 * (2.0f * a_3) - dot_ps_qs_product) / (is_small ? 1.0f : a_total * a_total);
-    const float ww = (is_small ? dot_D_D - e_2 * e_2 : dot_rest_rest + dot_D_S_ratio * (dot_D_S * c));
+    const float ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * (dot_D_S * c));
     const int near = ww < 0.4587184190750122f;
-    const float a_4 = sqrtf((near ? chosen : 1.0f));
-    const float b_4 = sqrtf((near ? chosen_2 : 1.0f));
-    const float e_3 = dot_D_S / (near ? (is_small ? a_4 + b_4 : 1.0f) : 1.0f);
-    const float dot_D_S_ratio_2 = dot_D_S / (near ? dot_S_S_chosen : 1.0f);
-    const float rest0_2 = D0 - S0 * dot_D_S_ratio_2;
-    const float rest1_2 = D1 - S1 * dot_D_S_ratio_2;
-    const float dot_rest_rest_2 = rest0_2 * rest0_2 + rest1_2 * rest1_2;
-    const float b_5 = sqrtf((near ? chosen_3 : 1.0f));
-    const float a_5 = sqrtf((near ? chosen_4 : 1.0f));
-    const float a_total_2 = a_5 + b_5;
-    const float c_2 = (2.0f + b_5 * (2.0f * a_5) - dot_ps_qs_product) / (near ? (is_small ? 1.0f : a_total_2 *
-        a_total_2) : 1.0f);
-    const float ww_2 = (is_small ? dot_D_D - e_3 * e_3 : dot_rest_rest_2 + dot_D_S_ratio_2 * (dot_D_S * c_2));
-    const float r_over_sinh_r_near = polynomial_f((near ? ww_2 : 0.0f), R_OVER_SINH_R_NEAR_F, 11);
+    const float r_over_sinh_r_near = polynomial_r_over_sinh_r_near_f((near ? ww : 0.0f));
     const float sqrt_ww = sqrtf((near ? 1.0f : ww));
     const float asinh_sqrt_ww_over_2 = asinhf(0.5f * sqrt_ww);
     const float r = 2.0f * asinh_sqrt_ww_over_2;
-    const float sinh_r = sinhf(r);
+    const float sinh_r = sqrtf((near ? 1.0f : ww * (1.0f + 0.25f * ww)));
     const float r_over_sinh_r = (near ? r_over_sinh_r_near : r / sinh_r);
     const float scale = 0.5f * ww;
     const float v0 = r_over_sinh_r * (e - a * scale);
@@ -908,22 +762,18 @@ float hyperbolic_distance_f(const float *HYPERBOLIC_RESTRICT p, const float *HYP
     const float dot_D_D = D0 * D0 + D1 * D1;
     const float dot_D_S = S0 * D0 + S1 * D1;
     const float dot_ps_ps = p[1] * p[1] + p[2] * p[2];
-    const float dot_ps_ps_total = 1.0f + dot_ps_ps;
+    const float a = sqrtf(1.0f + dot_ps_ps);
     const float dot_qs_qs = q[1] * q[1] + q[2] * q[2];
-    const float dot_qs_qs_total = 1.0f + dot_qs_qs;
+    const float b = sqrtf(1.0f + dot_qs_qs);
+    const float a_total = a + b;
+    const float e = dot_D_S / a_total;
     const int is_small = dot_S_S < 1.0f;
     const float dot_D_S_ratio = dot_D_S / (is_small ? 1.0f : dot_S_S);
     const float dot_ps_qs = p[1] * q[1] + p[2] * q[2];
-    const float a = sqrtf((is_small ? dot_ps_ps_total : 1.0f));
-    const float b = sqrtf((is_small ? dot_qs_qs_total : 1.0f));
-    const float e = dot_D_S / (is_small ? a + b : 1.0f);
+    const float c = (2.0f + b * (2.0f * a) - 2.0f * dot_ps_qs) / (a_total * a_total);
     const float rest0 = D0 - S0 * dot_D_S_ratio;
     const float rest1 = D1 - S1 * dot_D_S_ratio;
     const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
-    const float b_2 = sqrtf((is_small ? 1.0f : dot_qs_qs_total));
-    const float a_2 = sqrtf((is_small ? 1.0f : dot_ps_ps_total));
-    const float a_total = a_2 + b_2;
-    const float c = (2.0f + b_2 * (2.0f * a_2) - 2.0f * dot_ps_qs) / (is_small ? 1.0f : a_total * a_total);
     const float ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * (dot_D_S * c));
     const float sqrt_ww = sqrtf(ww);
     const float asinh_sqrt_ww_over_2 = asinhf(0.5f * sqrt_ww);
@@ -949,49 +799,26 @@ float hyperbolic_log_abs_det_f(const float *HYPERBOLIC_RESTRICT p, const float *
     const float dot_D_D = D0 * D0 + D1 * D1;
     const float dot_D_S = S0 * D0 + S1 * D1;
     const float dot_ps_ps = p[1] * p[1] + p[2] * p[2];
-    const float dot_ps_ps_total = 1.0f + dot_ps_ps;
+    const float a = sqrtf(1.0f + dot_ps_ps);
     const float dot_qs_qs = q[1] * q[1] + q[2] * q[2];
-    const float dot_qs_qs_total = 1.0f + dot_qs_qs;
+    const float b = sqrtf(1.0f + dot_qs_qs);
+    const float a_total = a + b;
+    const float e = dot_D_S / a_total;
     const int is_small = dot_S_S < 1.0f;
-    const float dot_S_S_chosen = (is_small ? 1.0f : dot_S_S);
-    const float dot_D_S_ratio = dot_D_S / dot_S_S_chosen;
+    const float dot_D_S_ratio = dot_D_S / (is_small ? 1.0f : dot_S_S);
     const float dot_ps_qs = p[1] * q[1] + p[2] * q[2];
-    const float dot_ps_qs_product = 2.0f * dot_ps_qs;
-    const float chosen = (is_small ? dot_ps_ps_total : 1.0f);
-    const float a = sqrtf(chosen);
-    const float chosen_2 = (is_small ? dot_qs_qs_total : 1.0f);
-    const float b = sqrtf(chosen_2);
-    const float e = dot_D_S / (is_small ? a + b : 1.0f);
+    const float c = (2.0f + b * (2.0f * a) - 2.0f * dot_ps_qs) / (a_total * a_total);
     const float rest0 = D0 - S0 * dot_D_S_ratio;
     const float rest1 = D1 - S1 * dot_D_S_ratio;
     const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
-    const float chosen_3 = (is_small ? 1.0f : dot_qs_qs_total);
-    const float b_2 = sqrtf(chosen_3);
-    const float chosen_4 = (is_small ? 1.0f : dot_ps_ps_total);
-    const float a_2 = sqrtf(chosen_4);
-    const float a_total = a_2 + b_2;
-    const float c = (2.0f + b_2 * (2.0f * a_2) - dot_ps_qs_product) / (is_small ? 1.0f : a_total * a_total);
     const float ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * (dot_D_S * c));
     const int near = ww < 0.4587184190750122f;
-    const float a_3 = sqrtf((near ? chosen : 1.0f));
-    const float b_3 = sqrtf((near ? chosen_2 : 1.0f));
-    const float e_2 = dot_D_S / (near ? (is_small ? a_3 + b_3 : 1.0f) : 1.0f);
-    const float dot_D_S_ratio_2 = dot_D_S / (near ? dot_S_S_chosen : 1.0f);
-    const float rest0_2 = D0 - S0 * dot_D_S_ratio_2;
-    const float rest1_2 = D1 - S1 * dot_D_S_ratio_2;
-    const float dot_rest_rest_2 = rest0_2 * rest0_2 + rest1_2 * rest1_2;
-    const float b_4 = sqrtf((near ? chosen_3 : 1.0f));
-    const float a_4 = sqrtf((near ? chosen_4 : 1.0f));
-    const float a_total_2 = a_4 + b_4;
-    const float c_2 = (2.0f + b_4 * (2.0f * a_4) - dot_ps_qs_product) / (near ? (is_small ? 1.0f : a_total_2 *
-        a_total_2) : 1.0f);
-    const float ww_2 = (is_small ? dot_D_D - e_2 * e_2 : dot_rest_rest_2 + dot_D_S_ratio_2 * (dot_D_S * c_2));
     const float sqrt_ww = sqrtf((near ? 1.0f : ww));
     const float asinh_sqrt_ww_over_2 = asinhf(0.5f * sqrt_ww);
     const float r = 2.0f * asinh_sqrt_ww_over_2;
-    const float sinh_r = sinhf(r);
-    const float log_det_series = polynomial_f((near ? ww_2 : 0.0f), LOG_DET_SERIES_F, 11);
-    const float log_det_near = ww_2 * log_det_series;
+    const float sinh_r = sqrtf((near ? 1.0f : ww * (1.0f + 0.25f * ww)));
+    const float log_det_series = polynomial_log_det_series_f((near ? ww : 0.0f));
+    const float log_det_near = ww * log_det_series;
     const float log_det = (near ? log_det_near : logf(r / sinh_r));
     return log_det;
 }
@@ -1040,8 +867,8 @@ float hyperbolic_gradient_norm_f(const float *HYPERBOLIC_RESTRICT p, const float
     const float rest0 = gradient1 - p[1] * dot_s_h_ratio;
     const float rest1 = gradient2 - p[2] * dot_s_h_ratio;
     const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
-    const float vv = (is_small ? dot_h_h - dot_s_h * dot_s_h / (is_small ? dot_s_s_total : 1.0f) :
-        dot_rest_rest + dot_s_h * dot_s_h_ratio / (is_small ? 1.0f : dot_s_s_total));
+    const float vv = (is_small ? dot_h_h - dot_s_h * dot_s_h / dot_s_s_total : dot_rest_rest + dot_s_h *
+        dot_s_h_ratio / dot_s_s_total);
     const float r = sqrtf(vv);
     return r;
 }
@@ -1070,8 +897,7 @@ void hyperbolic_splat_f(
     const float dot_D_D = D0 * D0 + D1 * D1;
     const float dot_D_S = S0 * D0 + S1 * D1;
     const float dot_ps_ps = mu[1] * mu[1] + mu[2] * mu[2];
-    const float dot_ps_ps_total = 1.0f + dot_ps_ps;
-    const float a = sqrtf(dot_ps_ps_total);
+    const float a = sqrtf(1.0f + dot_ps_ps);
     const float dot_qs_qs = x[1] * x[1] + x[2] * x[2];
     const float dot_qs_qs_total = 1.0f + dot_qs_qs;
     const float b = sqrtf(dot_qs_qs_total);
@@ -1081,52 +907,23 @@ void hyperbolic_splat_f(
     const float dot_S_S_chosen = (is_small ? 1.0f : dot_S_S);
     const float dot_D_S_ratio = dot_D_S / dot_S_S_chosen;
     const float dot_ps_qs = x[1] * mu[1] + x[2] * mu[2];
-    const float dot_ps_qs_product = 2.0f * dot_ps_qs;
-    const float chosen = (is_small ? dot_ps_ps_total : 1.0f);
-    const float a_2 = sqrtf(chosen);
-    const float chosen_2 = (is_small ? dot_qs_qs_total : 1.0f);
-    const float b_2 = sqrtf(chosen_2);
-    const float chosen_3 = (is_small ? a_2 + b_2 : 1.0f);
-    const float e_2 = dot_D_S / chosen_3;
+    const float squared = a_total * a_total;
+    const float a_product = 2.0f * a;
+    const float c = (2.0f + b * a_product - 2.0f * dot_ps_qs) / squared;
+    const float dot_D_S_product = dot_D_S * c;
     const float rest0 = D0 - S0 * dot_D_S_ratio;
     const float rest1 = D1 - S1 * dot_D_S_ratio;
     const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
-    const float chosen_4 = (is_small ? 1.0f : dot_qs_qs_total);
-    const float b_3 = sqrtf(chosen_4);
-    const float chosen_5 = (is_small ? 1.0f : dot_ps_ps_total);
-    const float a_3 = sqrtf(chosen_5);
-    const float a_product = 2.0f * a_3;
-    const float a_total_2 = a_3 + b_3;
-    const float chosen_6 = (is_small ? 1.0f : a_total_2 * a_total_2);
-    const float c = (2.0f + b_3 * a_product - dot_ps_qs_product) / chosen_6;
-    const float dot_D_S_product = dot_D_S * c;
-    const float ww = (is_small ? dot_D_D - e_2 * e_2 : dot_rest_rest + dot_D_S_ratio * dot_D_S_product);
+    const float ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * dot_D_S_product);
+    const float total = 1.0f + 0.25f * ww;
     const int near = ww < 0.4587184190750122f;
-    const float a_4 = sqrtf((near ? chosen : 1.0f));
-    const float b_4 = sqrtf((near ? chosen_2 : 1.0f));
-    const float near_chosen = (near ? (is_small ? a_4 + b_4 : 1.0f) : 1.0f);
-    const float e_3 = dot_D_S / near_chosen;
-    const float near_chosen_2 = (near ? dot_S_S_chosen : 1.0f);
-    const float dot_D_S_ratio_2 = dot_D_S / near_chosen_2;
-    const float rest0_2 = D0 - S0 * dot_D_S_ratio_2;
-    const float rest1_2 = D1 - S1 * dot_D_S_ratio_2;
-    const float dot_rest_rest_2 = rest0_2 * rest0_2 + rest1_2 * rest1_2;
-    const float b_5 = sqrtf((near ? chosen_4 : 1.0f));
-    const float a_5 = sqrtf((near ? chosen_5 : 1.0f));
-    const float a_product_2 = 2.0f * a_5;
-    const float a_total_3 = a_5 + b_5;
-    const float near_chosen_3 = (near ? (is_small ? 1.0f : a_total_3 * a_total_3) : 1.0f);
-    const float c_2 = (2.0f + b_5 * a_product_2 - dot_ps_qs_product) / near_chosen_3;
-    const float dot_D_S_product_2 = dot_D_S * c_2;
-    const float ww_2 = (is_small ? dot_D_D - e_3 * e_3 : dot_rest_rest_2 + dot_D_S_ratio_2 *
-        dot_D_S_product_2);
-    const float near_chosen_4 = (near ? ww_2 : 0.0f);
-    const float r_over_sinh_r_near = polynomial_f(near_chosen_4, R_OVER_SINH_R_NEAR_F, 11);
+    const float near_chosen = (near ? ww : 0.0f);
+    const float r_over_sinh_r_near = polynomial_r_over_sinh_r_near_f(near_chosen);
     const float sqrt_ww = sqrtf((near ? 1.0f : ww));
     const float sqrt_ww_product = 0.5f * sqrt_ww;
     const float asinh_sqrt_ww_over_2 = asinhf(sqrt_ww_product);
     const float r = 2.0f * asinh_sqrt_ww_over_2;
-    const float sinh_r = sinhf(r);
+    const float sinh_r = sqrtf((near ? 1.0f : ww * total));
     const float r_ratio = r / sinh_r;
     const float r_over_sinh_r = (near ? r_over_sinh_r_near : r_ratio);
     const float scale = 0.5f * ww;
@@ -1136,8 +933,8 @@ void hyperbolic_splat_f(
     const float v1 = r_over_sinh_r * D0_gap;
     const float D1_gap = D1 - mu[2] * scale;
     const float v2 = r_over_sinh_r * D1_gap;
-    const float log_det_series = polynomial_f(near_chosen_4, LOG_DET_SERIES_F, 11);
-    const float log_det_near = ww_2 * log_det_series;
+    const float log_det_series = polynomial_log_det_series_f(near_chosen);
+    const float log_det_near = ww * log_det_series;
     const float log_det = (near ? log_det_near : logf(r_ratio));
     const float z0 = W[0] * v0 + W[1] * v1 + W[2] * v2;
     const float z1 = W[3] * v0 + W[4] * v1 + W[5] * v2;
@@ -1147,74 +944,51 @@ void hyperbolic_splat_f(
     const float by_v1 = -(W[4] * z1) - W[1] * z0;
     const float by_v0 = -(W[3] * z1) - W[0] * z0;
     const float by_log_det_near = (near ? 1.0f : 0.0f);
-    const float by_log_det_series = ww_2 * by_log_det_near;
-    const float log_det_series_slope = polynomial_f(near_chosen_4, LOG_DET_SERIES_SLOPE_F, 10);
+    const float by_log_det_series = ww * by_log_det_near;
+    const float log_det_series_slope = polynomial_log_det_series_slope_f(near_chosen);
     const float product = r_over_sinh_r * by_v2;
     const float product_2 = r_over_sinh_r * by_v1;
-    const float by_e = r_over_sinh_r * by_v0;
+    const float product_3 = r_over_sinh_r * by_v0;
     const float by_r_over_sinh_r = D1_gap * by_v2 + D0_gap * by_v1 + e_gap * by_v0;
-    const float by_scale = -(mu[2] * product) - mu[1] * product_2 - a * by_e;
+    const float by_scale = -(mu[2] * product) - mu[1] * product_2 - a * product_3;
     const float by_r_over_sinh_r_near = (near ? by_r_over_sinh_r : 0.0f);
-    const float sinh_r_ratio = ((near ? 0.0f : 1.0f) / r_ratio + (near ? 0.0f : by_r_over_sinh_r)) / sinh_r;
-    const float by_r = sinh_r_ratio - r_ratio * sinh_r_ratio * coshf(r);
+    const float by_r = ((near ? 0.0f : 1.0f) / r_ratio + (near ? 0.0f : by_r_over_sinh_r)) / sinh_r;
+    const float near_chosen_2 = (near ? 0.0f : -(r_ratio * by_r / (2.0f * sinh_r)));
     const float by_asinh_sqrt_ww_over_2 = 2.0f * by_r;
     const float by_sqrt_ww = 0.5f * (by_asinh_sqrt_ww_over_2 / sqrtf(1.0f + sqrt_ww_product *
         sqrt_ww_product));
-    const float by_ww = 0.5f * by_scale + (near ? 0.0f : by_sqrt_ww / (2.0f * sqrt_ww));
-    const float r_over_sinh_r_near_slope = polynomial_f(near_chosen_4, R_OVER_SINH_R_NEAR_SLOPE_F, 10);
-    const float by_ww_2 = log_det_series * by_log_det_near + (near ? by_log_det_series * log_det_series_slope
-        + by_r_over_sinh_r_near * r_over_sinh_r_near_slope : 0.0f);
-    const float by_ww_chosen = (is_small ? by_ww_2 : 0.0f);
-    const float by_dot_rest_rest = (is_small ? 0.0f : by_ww_2);
-    const float product_3 = dot_D_S_ratio_2 * by_dot_rest_rest;
-    const float by_c = dot_D_S * product_3;
-    const float by_c_ratio = by_c / near_chosen_3;
-    const float product_4 = 2.0f * (is_small ? 0.0f : (near ? -(c_2 * by_c_ratio) : 0.0f));
-    const float by_b = a_total_3 * product_4 + a_product_2 * by_c_ratio;
+    const float r_over_sinh_r_near_slope = polynomial_r_over_sinh_r_near_slope_f(near_chosen);
+    const float total_2 = log_det_series * by_log_det_near + 0.5f * by_scale + (near ? 0.0f : by_sqrt_ww /
+        (2.0f * sqrt_ww)) + (near ? by_log_det_series * log_det_series_slope + by_r_over_sinh_r_near *
+        r_over_sinh_r_near_slope : 0.0f);
+    const float by_ww = total_2 + total * near_chosen_2 + 0.25f * (ww * near_chosen_2);
+    const float by_dot_D_D = (is_small ? by_ww : 0.0f);
+    const float by_dot_rest_rest = (is_small ? 0.0f : by_ww);
+    const float product_4 = dot_D_S_ratio * by_dot_rest_rest;
     const float product_5 = 2.0f * by_dot_rest_rest;
-    const float by_rest1 = rest1_2 * product_5;
-    const float by_rest0 = rest0_2 * product_5;
-    const float ratio = (dot_D_S_product_2 * by_dot_rest_rest - S1 * by_rest1 - S0 * by_rest0) /
-        near_chosen_2;
-    const float ratio_2 = e_3 * (2.0f * by_ww_chosen) / near_chosen;
-    const float by_b_2 = (is_small ? (near ? e_3 * ratio_2 : 0.0f) : 0.0f);
-    const float by_ww_chosen_2 = (is_small ? by_ww : 0.0f);
-    const float by_dot_rest_rest_2 = (is_small ? 0.0f : by_ww);
-    const float product_6 = dot_D_S_ratio * by_dot_rest_rest_2;
-    const float by_c_2 = dot_D_S * product_6;
-    const float by_c_ratio_2 = by_c_2 / chosen_6;
-    const float product_7 = a_total_2 * (2.0f * (is_small ? 0.0f : -(c * by_c_ratio_2)));
-    const float by_b_3 = product_7 + a_product * by_c_ratio_2;
-    const float chosen_7 = (is_small ? 0.0f : (near ? by_b / (2.0f * b_5) : 0.0f) + by_b_3 / (2.0f * b_3));
-    const float product_8 = 2.0f * by_dot_rest_rest_2;
-    const float by_rest1_2 = rest1 * product_8;
-    const float by_rest0_2 = rest0 * product_8;
-    const float by_dot_D_D = by_ww_chosen + by_ww_chosen_2;
-    const float ratio_3 = e_2 * (2.0f * by_ww_chosen_2) / chosen_3;
-    const float gap = c_2 * product_3 + ratio - ratio_2 + c * product_6 - ratio_3;
-    const float by_b_4 = (is_small ? e_2 * ratio_3 : 0.0f);
-    const float chosen_8 = (is_small ? (near ? by_b_2 / (2.0f * b_4) : 0.0f) + by_b_4 / (2.0f * b_2) : 0.0f);
-    const float by_dot_ps_qs = 2.0f * (-by_c_ratio - by_c_ratio_2);
-    const float ratio_4 = (dot_D_S_product * by_dot_rest_rest_2 - S1 * by_rest1_2 - S0 * by_rest0_2) /
-        dot_S_S_chosen;
-    const float by_dot_S_S = (is_small ? 0.0f : (near ? -(dot_D_S_ratio_2 * ratio) : 0.0f) - dot_D_S_ratio *
-        ratio_4);
-    const float by_e_ratio = by_e / a_total;
-    const float by_dot_D_S = gap + ratio_4 + by_e_ratio;
-    const int is_small_2 = dot_qs_qs_total == 0.0f;
-    const float chosen_9 = (is_small_2 ? 0.0f : -(e * by_e_ratio / (2.0f * (is_small_2 ? 1.0f : b))));
-    const float by_dot_qs_qs = chosen_7 + chosen_8 + chosen_9;
-    const float product_9 = 2.0f * by_dot_qs_qs;
+    const float by_rest1 = rest1 * product_5;
+    const float by_rest0 = rest0 * product_5;
+    const float by_c = dot_D_S * product_4;
     const float by_dot_D_D_product = 2.0f * by_dot_D_D;
-    const float by_D1 = product + by_rest1 + by_rest1_2 + S1 * by_dot_D_S + D1 * by_dot_D_D_product;
-    const float by_D0 = product_2 + by_rest0 + by_rest0_2 + S0 * by_dot_D_S + D0 * by_dot_D_D_product;
+    const float by_e = product_3 - e * by_dot_D_D_product;
+    const float by_c_ratio = by_c / squared;
+    const float product_6 = 2.0f * by_c_ratio;
+    const float ratio = (dot_D_S_product * by_dot_rest_rest - S1 * by_rest1 - S0 * by_rest0) / dot_S_S_chosen;
+    const float by_dot_S_S = (is_small ? 0.0f : -(dot_D_S_ratio * ratio));
+    const float by_e_ratio = by_e / a_total;
+    const float by_dot_D_S = c * product_4 + ratio + by_e_ratio;
+    const float gap = -(a_total * (2.0f * (c * by_c_ratio))) - e * by_e_ratio;
+    const float by_b = a_product * by_c_ratio + gap;
+    const int is_small_2 = dot_qs_qs_total == 0.0f;
+    const float by_dot_qs_qs = (is_small_2 ? 0.0f : by_b / (2.0f * (is_small_2 ? 1.0f : b)));
+    const float product_7 = 2.0f * by_dot_qs_qs;
+    const float by_D1 = product + by_rest1 + S1 * by_dot_D_S + D1 * by_dot_D_D_product;
+    const float by_D0 = product_2 + by_rest0 + S0 * by_dot_D_S + D0 * by_dot_D_D_product;
     const float by_dot_S_S_product = 2.0f * by_dot_S_S;
-    const float by_S1 = -(dot_D_S_ratio_2 * by_rest1) - dot_D_S_ratio * by_rest1_2 + D1 * by_dot_D_S + S1 *
-        by_dot_S_S_product;
-    const float by_S0 = -(dot_D_S_ratio_2 * by_rest0) - dot_D_S_ratio * by_rest0_2 + D0 * by_dot_D_S + S0 *
-        by_dot_S_S_product;
-    const float exponent_by_x2 = mu[2] * by_dot_ps_qs + x[2] * product_9 + by_D1 + by_S1;
-    const float exponent_by_x1 = mu[1] * by_dot_ps_qs + x[1] * product_9 + by_D0 + by_S0;
+    const float by_S1 = D1 * by_dot_D_S - dot_D_S_ratio * by_rest1 + S1 * by_dot_S_S_product;
+    const float by_S0 = D0 * by_dot_D_S - dot_D_S_ratio * by_rest0 + S0 * by_dot_S_S_product;
+    const float exponent_by_x2 = x[2] * product_7 - mu[2] * product_6 + by_D1 + by_S1;
+    const float exponent_by_x1 = x[1] * product_7 - mu[1] * product_6 + by_D0 + by_S0;
     const float df1 = phi * exponent_by_x1;
     const float df2 = phi * exponent_by_x2;
     const float normal_part = x[1] * df1 + x[2] * df2;

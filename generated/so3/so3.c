@@ -8,37 +8,40 @@
 
 #include <float.h>
 
-static const double SINC__NEAR[8] = {
-    1.0, -0.16666666666666666, 0.008333333333333106, -0.0001984126984108742, 2.7557319152292533e-06,
-    -2.5052093081256153e-08, 1.605723315933452e-10, -7.535482987408254e-13};
+static inline double polynomial_sinc__near(double x) {
+    return 1.0 + x * (-0.16666666666666666 + x * (0.008333333333333106 + x * (-0.0001984126984108742 + x *
+        (2.7557319152292533e-06 + x * (-2.5052093081256153e-08 + x * (1.605723315933452e-10 + x *
+        -7.535482987408254e-13))))));
+}
 
-static const double T_OVER_NORM_S_NEAR[14] = {
-    2.0, 0.33333333333333803, 0.14999999999887204, 0.08928571439308554, 0.06076388352917429,
-    0.04474447894429192, 0.034702400890995196, 0.027970967704767306, 0.022725187457831735,
-    0.021950106306038882, 0.0059985679108534124, 0.04673327377794268, -0.046540024421261234,
-    0.06801122378850952};
+static inline double polynomial_t_over_norm_s_near(double x) {
+    return 2.0 + x * (0.33333333333333803 + x * (0.14999999999887204 + x * (0.08928571439308554 + x *
+        (0.06076388352917429 + x * (0.04474447894429192 + x * (0.034702400890995196 + x *
+        (0.027970967704767306 + x * (0.022725187457831735 + x * (0.021950106306038882 + x *
+        (0.0059985679108534124 + x * (0.04673327377794268 + x * (-0.046540024421261234 + x *
+        0.06801122378850952))))))))))));
+}
 
-static const double LOG_DET_SERIES[14] = {
-    0.3333333333333333, 0.12222222222222505, 0.06737213403812269, 0.044038800770006784, 0.03163272618894735,
-    0.02412572786938261, 0.019178426063785198, 0.015745299135070896, 0.01296134121333057,
-    0.012728598238987641, 0.003298619430883951, 0.027868702271499315, -0.02806396537465957,
-    0.04072842356250539};
+static inline double polynomial_log_det_series(double x) {
+    return 0.3333333333333333 + x * (0.12222222222222505 + x * (0.06737213403812269 + x *
+        (0.044038800770006784 + x * (0.03163272618894735 + x * (0.02412572786938261 + x *
+        (0.019178426063785198 + x * (0.015745299135070896 + x * (0.01296134121333057 + x *
+        (0.012728598238987641 + x * (0.003298619430883951 + x * (0.027868702271499315 + x *
+        (-0.02806396537465957 + x * 0.04072842356250539))))))))))));
+}
 
-static const double LOG_DET_SERIES_SLOPE[13] = {
-    0.12222222222222505, 0.13474426807624537, 0.13211640231002034, 0.1265309047557894, 0.12062863934691306,
-    0.1150705563827112, 0.11021709394549628, 0.10369072970664456, 0.11455738415088876, 0.032986194308839506,
-    0.3065557249864925, -0.3367675844959148, 0.5294695063125701};
+static inline double polynomial_log_det_series_slope(double x) {
+    return 0.12222222222222505 + x * (0.13474426807624537 + x * (0.13211640231002034 + x * (0.1265309047557894
+        + x * (0.12062863934691306 + x * (0.1150705563827112 + x * (0.11021709394549628 + x *
+        (0.10369072970664456 + x * (0.11455738415088876 + x * (0.032986194308839506 + x * (0.3065557249864925
+        + x * (-0.3367675844959148 + x * 0.5294695063125701)))))))))));
+}
 
-static const double T_OVER_NORM_S_NEAR_SLOPE[13] = {
-    0.33333333333333803, 0.29999999999774407, 0.26785714317925663, 0.24305553411669717, 0.22372239472145958,
-    0.2082144053459712, 0.19579677393337114, 0.18180149966265388, 0.19755095675434994, 0.059985679108534126,
-    0.5140660115573694, -0.5584802930551348, 0.8841459092506236};
-
-/* c[0] + c[1] x + ... by Horner's rule. */
-static inline double polynomial(double x, const double *c, int size) {
-    double result = c[size - 1];
-    for (int i = size - 2; i >= 0; --i) result = result * x + c[i];
-    return result;
+static inline double polynomial_t_over_norm_s_near_slope(double x) {
+    return 0.33333333333333803 + x * (0.29999999999774407 + x * (0.26785714317925663 + x *
+        (0.24305553411669717 + x * (0.22372239472145958 + x * (0.2082144053459712 + x * (0.19579677393337114 +
+        x * (0.18180149966265388 + x * (0.19755095675434994 + x * (0.059985679108534126 + x *
+        (0.5140660115573694 + x * (-0.5584802930551348 + x * 0.8841459092506236)))))))))));
 }
 
 /* p / norm(p) */
@@ -134,7 +137,7 @@ void so3_exp(const double *SO3_RESTRICT p, const double *SO3_RESTRICT v, double 
     const double cos_norm_v_over_2 = cos(0.5 * norm_v);
     const double product = 0.25 * norm_v_squared;
     const int near = product < 0.9903926849365234;
-    const double sinc__near = polynomial((near ? product : 0.0), SINC__NEAR, 8);
+    const double sinc__near = polynomial_sinc__near((near ? product : 0.0));
     const double norm_v_2 = sqrt((near ? 1.0 : norm_v_squared));
     const double sinc_ = (near ? sinc__near : 2.0 * sin(0.5 * norm_v_2) / (near ? 1.0 : norm_v_2));
     const double scale = 0.5 * sinc_;
@@ -173,7 +176,7 @@ void so3_log(const double *SO3_RESTRICT p, const double *SO3_RESTRICT q, double 
     const double norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
     const double abs_g0 = fabs(g0);
     const int near = norm_s_squared < 0.2492869794368744;
-    const double t_over_norm_s_near = polynomial((near ? norm_s_squared : 0.0), T_OVER_NORM_S_NEAR, 14);
+    const double t_over_norm_s_near = polynomial_t_over_norm_s_near((near ? norm_s_squared : 0.0));
     const double norm_s = sqrt((near ? 1.0 : norm_s_squared));
     const double atan2_norm_s_abs_g0 = atan2(norm_s, abs_g0);
     const double t = 2.0 * atan2_norm_s_abs_g0;
@@ -229,7 +232,7 @@ double so3_log_abs_det(const double *SO3_RESTRICT p, const double *SO3_RESTRICT 
     const double norm_s = sqrt((near ? 1.0 : norm_s_squared));
     const double atan2_norm_s_abs_g0 = atan2(norm_s, abs_g0);
     const double t = 2.0 * atan2_norm_s_abs_g0;
-    const double log_det_series = polynomial((near ? norm_s_squared : 0.0), LOG_DET_SERIES, 14);
+    const double log_det_series = polynomial_log_det_series((near ? norm_s_squared : 0.0));
     const double log_det_near = norm_s_squared * log_det_series;
     const double log_det = (near ? log_det_near : 2.0 * log(0.5 * (t / norm_s)));
     return log_det;
@@ -304,7 +307,7 @@ void so3_splat(
     const double abs_g0 = fabs(g0);
     const int near = norm_s_squared < 0.2492869794368744;
     const double near_chosen = (near ? norm_s_squared : 0.0);
-    const double t_over_norm_s_near = polynomial(near_chosen, T_OVER_NORM_S_NEAR, 14);
+    const double t_over_norm_s_near = polynomial_t_over_norm_s_near(near_chosen);
     const double near_chosen_2 = (near ? 1.0 : norm_s_squared);
     const double norm_s = sqrt(near_chosen_2);
     const double atan2_norm_s_abs_g0 = atan2(norm_s, abs_g0);
@@ -317,7 +320,7 @@ void so3_splat(
     const double v0 = g1 * scale;
     const double v1 = g2 * scale;
     const double v2 = g3 * scale;
-    const double log_det_series = polynomial(near_chosen, LOG_DET_SERIES, 14);
+    const double log_det_series = polynomial_log_det_series(near_chosen);
     const double log_det_near = norm_s_squared * log_det_series;
     const double product = 0.5 * t_ratio;
     const double log_det = (near ? log_det_near : 2.0 * log(product));
@@ -331,7 +334,7 @@ void so3_splat(
     const double by_v0 = -(W[6] * z2) - W[3] * z1 - W[0] * z0;
     const double by_log_det_near = (near ? 1.0 : 0.0);
     const double by_log_det_series = norm_s_squared * by_log_det_near;
-    const double log_det_series_slope = polynomial(near_chosen, LOG_DET_SERIES_SLOPE, 13);
+    const double log_det_series_slope = polynomial_log_det_series_slope(near_chosen);
     const double by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
     const double by_t_over_norm_s = chosen * by_scale;
     const double by_t_over_norm_s_near = (near ? by_t_over_norm_s : 0.0);
@@ -342,7 +345,7 @@ void so3_splat(
     const double norm_s_product = norm_s * ratio;
     const double by_abs_g0 = -norm_s_product;
     const double by_norm_s = abs_g0 * ratio - t_ratio * by_t;
-    const double t_over_norm_s_near_slope = polynomial(near_chosen, T_OVER_NORM_S_NEAR_SLOPE, 13);
+    const double t_over_norm_s_near_slope = polynomial_t_over_norm_s_near_slope(near_chosen);
     const double by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0 : by_norm_s / (2.0 *
         norm_s)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_s_near *
         t_over_norm_s_near_slope : 0.0);
@@ -409,39 +412,42 @@ void so3_frame(const double *SO3_RESTRICT p, double *SO3_RESTRICT frame) {
     }
 }
 
-static const float SINC__NEAR_F[8] = {
-    1.0f, -0.16666666666666666f, 0.008333333333333106f, -0.0001984126984108742f, 2.7557319152292533e-06f,
-    -2.5052093081256153e-08f, 1.605723315933452e-10f, -7.535482987408254e-13f};
+static inline float polynomial_sinc__near_f(float x) {
+    return 1.0f + x * (-0.16666666666666666f + x * (0.008333333333333106f + x * (-0.0001984126984108742f + x *
+        (2.7557319152292533e-06f + x * (-2.5052093081256153e-08f + x * (1.605723315933452e-10f + x *
+        -7.535482987408254e-13f))))));
+}
 
-static const float T_OVER_NORM_S_NEAR_F[14] = {
-    2.0f, 0.33333333333333803f, 0.14999999999887204f, 0.08928571439308554f, 0.06076388352917429f,
-    0.04474447894429192f, 0.034702400890995196f, 0.027970967704767306f, 0.022725187457831735f,
-    0.021950106306038882f, 0.0059985679108534124f, 0.04673327377794268f, -0.046540024421261234f,
-    0.06801122378850952f};
+static inline float polynomial_t_over_norm_s_near_f(float x) {
+    return 2.0f + x * (0.33333333333333803f + x * (0.14999999999887204f + x * (0.08928571439308554f + x *
+        (0.06076388352917429f + x * (0.04474447894429192f + x * (0.034702400890995196f + x *
+        (0.027970967704767306f + x * (0.022725187457831735f + x * (0.021950106306038882f + x *
+        (0.0059985679108534124f + x * (0.04673327377794268f + x * (-0.046540024421261234f + x *
+        0.06801122378850952f))))))))))));
+}
 
-static const float LOG_DET_SERIES_F[14] = {
-    0.3333333333333333f, 0.12222222222222505f, 0.06737213403812269f, 0.044038800770006784f,
-    0.03163272618894735f, 0.02412572786938261f, 0.019178426063785198f, 0.015745299135070896f,
-    0.01296134121333057f, 0.012728598238987641f, 0.003298619430883951f, 0.027868702271499315f,
-    -0.02806396537465957f, 0.04072842356250539f};
+static inline float polynomial_log_det_series_f(float x) {
+    return 0.3333333333333333f + x * (0.12222222222222505f + x * (0.06737213403812269f + x *
+        (0.044038800770006784f + x * (0.03163272618894735f + x * (0.02412572786938261f + x *
+        (0.019178426063785198f + x * (0.015745299135070896f + x * (0.01296134121333057f + x *
+        (0.012728598238987641f + x * (0.003298619430883951f + x * (0.027868702271499315f + x *
+        (-0.02806396537465957f + x * 0.04072842356250539f))))))))))));
+}
 
-static const float LOG_DET_SERIES_SLOPE_F[13] = {
-    0.12222222222222505f, 0.13474426807624537f, 0.13211640231002034f, 0.1265309047557894f,
-    0.12062863934691306f, 0.1150705563827112f, 0.11021709394549628f, 0.10369072970664456f,
-    0.11455738415088876f, 0.032986194308839506f, 0.3065557249864925f, -0.3367675844959148f,
-    0.5294695063125701f};
+static inline float polynomial_log_det_series_slope_f(float x) {
+    return 0.12222222222222505f + x * (0.13474426807624537f + x * (0.13211640231002034f + x *
+        (0.1265309047557894f + x * (0.12062863934691306f + x * (0.1150705563827112f + x *
+        (0.11021709394549628f + x * (0.10369072970664456f + x * (0.11455738415088876f + x *
+        (0.032986194308839506f + x * (0.3065557249864925f + x * (-0.3367675844959148f + x *
+        0.5294695063125701f)))))))))));
+}
 
-static const float T_OVER_NORM_S_NEAR_SLOPE_F[13] = {
-    0.33333333333333803f, 0.29999999999774407f, 0.26785714317925663f, 0.24305553411669717f,
-    0.22372239472145958f, 0.2082144053459712f, 0.19579677393337114f, 0.18180149966265388f,
-    0.19755095675434994f, 0.059985679108534126f, 0.5140660115573694f, -0.5584802930551348f,
-    0.8841459092506236f};
-
-/* c[0] + c[1] x + ... by Horner's rule. */
-static inline float polynomial_f(float x, const float *c, int size) {
-    float result = c[size - 1];
-    for (int i = size - 2; i >= 0; --i) result = result * x + c[i];
-    return result;
+static inline float polynomial_t_over_norm_s_near_slope_f(float x) {
+    return 0.33333333333333803f + x * (0.29999999999774407f + x * (0.26785714317925663f + x *
+        (0.24305553411669717f + x * (0.22372239472145958f + x * (0.2082144053459712f + x *
+        (0.19579677393337114f + x * (0.18180149966265388f + x * (0.19755095675434994f + x *
+        (0.059985679108534126f + x * (0.5140660115573694f + x * (-0.5584802930551348f + x *
+        0.8841459092506236f)))))))))));
 }
 
 /* p / norm(p) */
@@ -537,7 +543,7 @@ void so3_exp_f(const float *SO3_RESTRICT p, const float *SO3_RESTRICT v, float *
     const float cos_norm_v_over_2 = cosf(0.5f * norm_v);
     const float product = 0.25f * norm_v_squared;
     const int near = product < 0.9903926849365234f;
-    const float sinc__near = polynomial_f((near ? product : 0.0f), SINC__NEAR_F, 8);
+    const float sinc__near = polynomial_sinc__near_f((near ? product : 0.0f));
     const float norm_v_2 = sqrtf((near ? 1.0f : norm_v_squared));
     const float sinc_ = (near ? sinc__near : 2.0f * sinf(0.5f * norm_v_2) / (near ? 1.0f : norm_v_2));
     const float scale = 0.5f * sinc_;
@@ -576,7 +582,7 @@ void so3_log_f(const float *SO3_RESTRICT p, const float *SO3_RESTRICT q, float *
     const float norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
     const float abs_g0 = fabsf(g0);
     const int near = norm_s_squared < 0.2492869794368744f;
-    const float t_over_norm_s_near = polynomial_f((near ? norm_s_squared : 0.0f), T_OVER_NORM_S_NEAR_F, 14);
+    const float t_over_norm_s_near = polynomial_t_over_norm_s_near_f((near ? norm_s_squared : 0.0f));
     const float norm_s = sqrtf((near ? 1.0f : norm_s_squared));
     const float atan2_norm_s_abs_g0 = atan2f(norm_s, abs_g0);
     const float t = 2.0f * atan2_norm_s_abs_g0;
@@ -632,7 +638,7 @@ float so3_log_abs_det_f(const float *SO3_RESTRICT p, const float *SO3_RESTRICT q
     const float norm_s = sqrtf((near ? 1.0f : norm_s_squared));
     const float atan2_norm_s_abs_g0 = atan2f(norm_s, abs_g0);
     const float t = 2.0f * atan2_norm_s_abs_g0;
-    const float log_det_series = polynomial_f((near ? norm_s_squared : 0.0f), LOG_DET_SERIES_F, 14);
+    const float log_det_series = polynomial_log_det_series_f((near ? norm_s_squared : 0.0f));
     const float log_det_near = norm_s_squared * log_det_series;
     const float log_det = (near ? log_det_near : 2.0f * logf(0.5f * (t / norm_s)));
     return log_det;
@@ -707,7 +713,7 @@ void so3_splat_f(
     const float abs_g0 = fabsf(g0);
     const int near = norm_s_squared < 0.2492869794368744f;
     const float near_chosen = (near ? norm_s_squared : 0.0f);
-    const float t_over_norm_s_near = polynomial_f(near_chosen, T_OVER_NORM_S_NEAR_F, 14);
+    const float t_over_norm_s_near = polynomial_t_over_norm_s_near_f(near_chosen);
     const float near_chosen_2 = (near ? 1.0f : norm_s_squared);
     const float norm_s = sqrtf(near_chosen_2);
     const float atan2_norm_s_abs_g0 = atan2f(norm_s, abs_g0);
@@ -720,7 +726,7 @@ void so3_splat_f(
     const float v0 = g1 * scale;
     const float v1 = g2 * scale;
     const float v2 = g3 * scale;
-    const float log_det_series = polynomial_f(near_chosen, LOG_DET_SERIES_F, 14);
+    const float log_det_series = polynomial_log_det_series_f(near_chosen);
     const float log_det_near = norm_s_squared * log_det_series;
     const float product = 0.5f * t_ratio;
     const float log_det = (near ? log_det_near : 2.0f * logf(product));
@@ -734,7 +740,7 @@ void so3_splat_f(
     const float by_v0 = -(W[6] * z2) - W[3] * z1 - W[0] * z0;
     const float by_log_det_near = (near ? 1.0f : 0.0f);
     const float by_log_det_series = norm_s_squared * by_log_det_near;
-    const float log_det_series_slope = polynomial_f(near_chosen, LOG_DET_SERIES_SLOPE_F, 13);
+    const float log_det_series_slope = polynomial_log_det_series_slope_f(near_chosen);
     const float by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
     const float by_t_over_norm_s = chosen * by_scale;
     const float by_t_over_norm_s_near = (near ? by_t_over_norm_s : 0.0f);
@@ -745,7 +751,7 @@ void so3_splat_f(
     const float norm_s_product = norm_s * ratio;
     const float by_abs_g0 = -norm_s_product;
     const float by_norm_s = abs_g0 * ratio - t_ratio * by_t;
-    const float t_over_norm_s_near_slope = polynomial_f(near_chosen, T_OVER_NORM_S_NEAR_SLOPE_F, 13);
+    const float t_over_norm_s_near_slope = polynomial_t_over_norm_s_near_slope_f(near_chosen);
     const float by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0f : by_norm_s / (2.0f *
         norm_s)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_s_near *
         t_over_norm_s_near_slope : 0.0f);

@@ -19,6 +19,7 @@
  * riemannian_gradient           25
  * gradient_norm                 31
  * splat                        299
+ * splat_vjp                    634
  *
  * Errors are the worst of 36 points against 60 digits, in units of the error that rounding the
  * inputs and the output to the precision alone would cause.
@@ -248,6 +249,52 @@ void so3_splat_batch_f(
 /* An orthonormal basis of the tangent space at p, one vector a row. */
 void so3_frame(const double *SO3_RESTRICT p, double *SO3_RESTRICT frame);
 void so3_frame_f(const float *SO3_RESTRICT p, float *SO3_RESTRICT frame);
+
+/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
+void so3_splats(
+    size_t count,
+    size_t splat_count,
+    const double *SO3_RESTRICT x,
+    const double *SO3_RESTRICT mu,
+    const double *SO3_RESTRICT W,
+    const double *SO3_RESTRICT amplitude,
+    double *SO3_RESTRICT value,
+    double *SO3_RESTRICT gradient);
+void so3_splats_f(
+    size_t count,
+    size_t splat_count,
+    const float *SO3_RESTRICT x,
+    const float *SO3_RESTRICT mu,
+    const float *SO3_RESTRICT W,
+    const float *SO3_RESTRICT amplitude,
+    float *SO3_RESTRICT value,
+    float *SO3_RESTRICT gradient);
+
+/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
+void so3_splats_vjp(
+    size_t count,
+    size_t splat_count,
+    const double *SO3_RESTRICT x,
+    const double *SO3_RESTRICT mu,
+    const double *SO3_RESTRICT W,
+    const double *SO3_RESTRICT amplitude,
+    const double *SO3_RESTRICT value_bar,
+    const double *SO3_RESTRICT gradient_bar,
+    double *SO3_RESTRICT mu_bar,
+    double *SO3_RESTRICT W_bar,
+    double *SO3_RESTRICT amplitude_bar);
+void so3_splats_vjp_f(
+    size_t count,
+    size_t splat_count,
+    const float *SO3_RESTRICT x,
+    const float *SO3_RESTRICT mu,
+    const float *SO3_RESTRICT W,
+    const float *SO3_RESTRICT amplitude,
+    const float *SO3_RESTRICT value_bar,
+    const float *SO3_RESTRICT gradient_bar,
+    float *SO3_RESTRICT mu_bar,
+    float *SO3_RESTRICT W_bar,
+    float *SO3_RESTRICT amplitude_bar);
 
 #ifdef __cplusplus
 }

@@ -18,6 +18,7 @@ log_abs_det                   72      <= 1     <= 2
 riemannian_gradient           25
 gradient_norm                 31
 splat                        299
+splat_vjp                    634
 
 Errors are the worst of 36 points against 60 digits, in units of the error that rounding the
 inputs and the output to the precision alone would cause.

@@ -8,39 +8,42 @@
 
 #include <float.h>
 
-static const double SINC_NORM_V_NEAR[8] = {
-    1.0, -0.16666666666666666, 0.008333333333333106, -0.0001984126984108742, 2.7557319152292533e-06,
-    -2.5052093081256153e-08, 1.605723315933452e-10, -7.535482987408254e-13};
+static inline double polynomial_sinc_norm_v_near(double x) {
+    return 1.0 + x * (-0.16666666666666666 + x * (0.008333333333333106 + x * (-0.0001984126984108742 + x *
+        (2.7557319152292533e-06 + x * (-2.5052093081256153e-08 + x * (1.605723315933452e-10 + x *
+        -7.535482987408254e-13))))));
+}
 
-static const double T_OVER_NORM_W_NEAR[15] = {
-    1.0, 0.16666666666666416, 0.033333333333506306, 0.0071428571381235645, 0.0015873016554683388,
-    0.00036074976769956093, 8.325345611107313e-05, 1.9411868200361258e-05, 4.606744523406809e-06,
-    1.0115092780821757e-06, 3.573589789663863e-07, -3.671871587646e-08, 8.060154251278906e-08,
-    -2.3969974400507724e-08, 6.744739171601492e-09};
+static inline double polynomial_t_over_norm_w_near(double x) {
+    return 1.0 + x * (0.16666666666666416 + x * (0.033333333333506306 + x * (0.0071428571381235645 + x *
+        (0.0015873016554683388 + x * (0.00036074976769956093 + x * (8.325345611107313e-05 + x *
+        (1.9411868200361258e-05 + x * (4.606744523406809e-06 + x * (1.0115092780821757e-06 + x *
+        (3.573589789663863e-07 + x * (-3.671871587646e-08 + x * (8.060154251278906e-08 + x *
+        (-2.3969974400507724e-08 + x * 6.744739171601492e-09)))))))))))));
+}
 
-static const double LOG_DET_SERIES[15] = {
-    0.16666666666666666, 0.019444444444444355, 0.0031305114638509562, 0.0005742945324592983,
-    0.00011310192108550569, 2.329005429821089e-05, 4.945110727593644e-06, 1.0731431371692667e-06,
-    2.383732678254368e-07, 5.0521959436460696e-08, 1.5564787023532255e-08, -7.830928337301054e-10,
-    2.9922380095813834e-09, -8.46187828025567e-10, 2.4753955737430303e-10};
+static inline double polynomial_log_det_series(double x) {
+    return 0.16666666666666666 + x * (0.019444444444444355 + x * (0.0031305114638509562 + x *
+        (0.0005742945324592983 + x * (0.00011310192108550569 + x * (2.329005429821089e-05 + x *
+        (4.945110727593644e-06 + x * (1.0731431371692667e-06 + x * (2.383732678254368e-07 + x *
+        (5.0521959436460696e-08 + x * (1.5564787023532255e-08 + x * (-7.830928337301054e-10 + x *
+        (2.9922380095813834e-09 + x * (-8.46187828025567e-10 + x * 2.4753955737430303e-10)))))))))))));
+}
 
-static const double LOG_DET_SERIES_SLOPE[14] = {
-    0.019444444444444355, 0.0062610229277019125, 0.001722883597377895, 0.00045240768434202277,
-    0.00011645027149105445, 2.9670664365561865e-05, 7.512001960184866e-06, 1.9069861426034945e-06,
-    4.5469763492814626e-07, 1.5564787023532256e-07, -8.614021171031161e-09, 3.59068561149766e-08,
-    -1.100044176433237e-08, 3.4655538032402425e-09};
+static inline double polynomial_log_det_series_slope(double x) {
+    return 0.019444444444444355 + x * (0.0062610229277019125 + x * (0.001722883597377895 + x *
+        (0.00045240768434202277 + x * (0.00011645027149105445 + x * (2.9670664365561865e-05 + x *
+        (7.512001960184866e-06 + x * (1.9069861426034945e-06 + x * (4.5469763492814626e-07 + x *
+        (1.5564787023532256e-07 + x * (-8.614021171031161e-09 + x * (3.59068561149766e-08 + x *
+        (-1.100044176433237e-08 + x * 3.4655538032402425e-09))))))))))));
+}
 
-static const double T_OVER_NORM_W_NEAR_SLOPE[14] = {
-    0.16666666666666416, 0.06666666666701261, 0.021428571414370694, 0.006349206621873355,
-    0.0018037488384978046, 0.0004995207366664387, 0.0001358830774025288, 3.685395618725447e-05,
-    9.103583502739583e-06, 3.5735897896638634e-06, -4.0390587464106003e-07, 9.672185101534689e-07,
-    -3.116096672066004e-07, 9.442634840242089e-08};
-
-/* c[0] + c[1] x + ... by Horner's rule. */
-static inline double polynomial(double x, const double *c, int size) {
-    double result = c[size - 1];
-    for (int i = size - 2; i >= 0; --i) result = result * x + c[i];
-    return result;
+static inline double polynomial_t_over_norm_w_near_slope(double x) {
+    return 0.16666666666666416 + x * (0.06666666666701261 + x * (0.021428571414370694 + x *
+        (0.006349206621873355 + x * (0.0018037488384978046 + x * (0.0004995207366664387 + x *
+        (0.0001358830774025288 + x * (3.685395618725447e-05 + x * (9.103583502739583e-06 + x *
+        (3.5735897896638634e-06 + x * (-4.0390587464106003e-07 + x * (9.672185101534689e-07 + x *
+        (-3.116096672066004e-07 + x * 9.442634840242089e-08))))))))))));
 }
 
 /* p / norm(p) */
@@ -142,7 +145,7 @@ void sphere_exp(
     const double norm_v = sqrt(norm_v_squared);
     const double cos_norm_v = cos(norm_v);
     const int near = norm_v_squared < 0.9903926849365234;
-    const double sinc_norm_v_near = polynomial((near ? norm_v_squared : 0.0), SINC_NORM_V_NEAR, 8);
+    const double sinc_norm_v_near = polynomial_sinc_norm_v_near((near ? norm_v_squared : 0.0));
     const double norm_v_2 = sqrt((near ? 1.0 : norm_v_squared));
     const double sinc_norm_v = (near ? sinc_norm_v_near : sin(norm_v_2) / (near ? 1.0 : norm_v_2));
     const double q0 = p[0] * cos_norm_v + v[0] * sinc_norm_v;
@@ -195,7 +198,7 @@ void sphere_log(
     const double w2 = d2 - p[2] * dot_p_d;
     const double norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
     const int near = norm_d_squared < 0.9975153207778931;
-    const double t_over_norm_w_near = polynomial((near ? norm_d_squared : 0.0), T_OVER_NORM_W_NEAR, 15);
+    const double t_over_norm_w_near = polynomial_t_over_norm_w_near((near ? norm_d_squared : 0.0));
     const double norm_d = sqrt((near ? 1.0 : norm_d_squared));
     const double atan2_value = atan2(norm_d, norm_q_plus_p_2);
     const double t = 2.0 * atan2_value;
@@ -286,7 +289,7 @@ double sphere_log_abs_det(const double *SPHERE_RESTRICT p, const double *SPHERE_
     const double atan2_value = atan2(norm_d, norm_q_plus_p_2);
     const double t = 2.0 * atan2_value;
     const double norm_w = sqrt((near ? 1.0 : norm_w_squared));
-    const double log_det_series = polynomial((near ? norm_d_squared : 0.0), LOG_DET_SERIES, 15);
+    const double log_det_series = polynomial_log_det_series((near ? norm_d_squared : 0.0));
     const double log_det_near = norm_d_squared * log_det_series;
     const double log_det = (near ? log_det_near : log(t / norm_w));
     return (on_cut_locus ? log_value : log_det);
@@ -377,7 +380,7 @@ void sphere_splat(
     const double norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
     const int near = norm_d_squared < 0.9975153207778931;
     const double near_chosen = (near ? norm_d_squared : 0.0);
-    const double t_over_norm_w_near = polynomial(near_chosen, T_OVER_NORM_W_NEAR, 15);
+    const double t_over_norm_w_near = polynomial_t_over_norm_w_near(near_chosen);
     const double near_chosen_2 = (near ? 1.0 : norm_d_squared);
     const double norm_d = sqrt(near_chosen_2);
     const double atan2_value = atan2(norm_d, norm_q_plus_p_2);
@@ -399,7 +402,7 @@ void sphere_splat(
         chosen_2));
     const double v2 = (on_cut_locus ? product_2 : w2 * t_over_norm_w);
     const double log_value = log(0.7853981633974483 / DBL_EPSILON);
-    const double log_det_series = polynomial(near_chosen, LOG_DET_SERIES, 15);
+    const double log_det_series = polynomial_log_det_series(near_chosen);
     const double log_det_near = norm_d_squared * log_det_series;
     const double log_det = (near ? log_det_near : log(t_ratio));
     const double z0 = W[0] * v0 + W[1] * v1 + W[2] * v2;
@@ -412,7 +415,7 @@ void sphere_splat(
     const double by_log_det = (on_cut_locus ? 0.0 : 1.0);
     const double by_log_det_near = (near ? by_log_det : 0.0);
     const double by_log_det_series = norm_d_squared * by_log_det_near;
-    const double log_det_series_slope = polynomial(near_chosen, LOG_DET_SERIES_SLOPE, 14);
+    const double log_det_series_slope = polynomial_log_det_series_slope(near_chosen);
     const double chosen_3 = (on_cut_locus ? 0.0 : by_v2);
     const double chosen_4 = (on_cut_locus ? 0.0 : by_v1);
     const double chosen_5 = (on_cut_locus ? 0.0 : by_v0);
@@ -423,7 +426,7 @@ void sphere_splat(
     const double by_atan2_value = 2.0 * by_t;
     const double ratio = by_atan2_value / (norm_q_plus_p_squared_2 + near_chosen_2);
     const double by_norm_d = norm_q_plus_p_2 * ratio;
-    const double t_over_norm_w_near_slope = polynomial(near_chosen, T_OVER_NORM_W_NEAR_SLOPE, 14);
+    const double t_over_norm_w_near_slope = polynomial_t_over_norm_w_near_slope(near_chosen);
     const double by_norm_d_squared = log_det_series * by_log_det_near + (near ? 0.0 : by_norm_d / (2.0 *
         norm_d)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near *
         t_over_norm_w_near_slope : 0.0);
@@ -496,39 +499,42 @@ void sphere_frame(const double *SPHERE_RESTRICT p, double *SPHERE_RESTRICT frame
     }
 }
 
-static const float SINC_NORM_V_NEAR_F[8] = {
-    1.0f, -0.16666666666666666f, 0.008333333333333106f, -0.0001984126984108742f, 2.7557319152292533e-06f,
-    -2.5052093081256153e-08f, 1.605723315933452e-10f, -7.535482987408254e-13f};
+static inline float polynomial_sinc_norm_v_near_f(float x) {
+    return 1.0f + x * (-0.16666666666666666f + x * (0.008333333333333106f + x * (-0.0001984126984108742f + x *
+        (2.7557319152292533e-06f + x * (-2.5052093081256153e-08f + x * (1.605723315933452e-10f + x *
+        -7.535482987408254e-13f))))));
+}
 
-static const float T_OVER_NORM_W_NEAR_F[15] = {
-    1.0f, 0.16666666666666416f, 0.033333333333506306f, 0.0071428571381235645f, 0.0015873016554683388f,
-    0.00036074976769956093f, 8.325345611107313e-05f, 1.9411868200361258e-05f, 4.606744523406809e-06f,
-    1.0115092780821757e-06f, 3.573589789663863e-07f, -3.671871587646e-08f, 8.060154251278906e-08f,
-    -2.3969974400507724e-08f, 6.744739171601492e-09f};
+static inline float polynomial_t_over_norm_w_near_f(float x) {
+    return 1.0f + x * (0.16666666666666416f + x * (0.033333333333506306f + x * (0.0071428571381235645f + x *
+        (0.0015873016554683388f + x * (0.00036074976769956093f + x * (8.325345611107313e-05f + x *
+        (1.9411868200361258e-05f + x * (4.606744523406809e-06f + x * (1.0115092780821757e-06f + x *
+        (3.573589789663863e-07f + x * (-3.671871587646e-08f + x * (8.060154251278906e-08f + x *
+        (-2.3969974400507724e-08f + x * 6.744739171601492e-09f)))))))))))));
+}
 
-static const float LOG_DET_SERIES_F[15] = {
-    0.16666666666666666f, 0.019444444444444355f, 0.0031305114638509562f, 0.0005742945324592983f,
-    0.00011310192108550569f, 2.329005429821089e-05f, 4.945110727593644e-06f, 1.0731431371692667e-06f,
-    2.383732678254368e-07f, 5.0521959436460696e-08f, 1.5564787023532255e-08f, -7.830928337301054e-10f,
-    2.9922380095813834e-09f, -8.46187828025567e-10f, 2.4753955737430303e-10f};
+static inline float polynomial_log_det_series_f(float x) {
+    return 0.16666666666666666f + x * (0.019444444444444355f + x * (0.0031305114638509562f + x *
+        (0.0005742945324592983f + x * (0.00011310192108550569f + x * (2.329005429821089e-05f + x *
+        (4.945110727593644e-06f + x * (1.0731431371692667e-06f + x * (2.383732678254368e-07f + x *
+        (5.0521959436460696e-08f + x * (1.5564787023532255e-08f + x * (-7.830928337301054e-10f + x *
+        (2.9922380095813834e-09f + x * (-8.46187828025567e-10f + x * 2.4753955737430303e-10f)))))))))))));
+}
 
-static const float LOG_DET_SERIES_SLOPE_F[14] = {
-    0.019444444444444355f, 0.0062610229277019125f, 0.001722883597377895f, 0.00045240768434202277f,
-    0.00011645027149105445f, 2.9670664365561865e-05f, 7.512001960184866e-06f, 1.9069861426034945e-06f,
-    4.5469763492814626e-07f, 1.5564787023532256e-07f, -8.614021171031161e-09f, 3.59068561149766e-08f,
-    -1.100044176433237e-08f, 3.4655538032402425e-09f};
+static inline float polynomial_log_det_series_slope_f(float x) {
+    return 0.019444444444444355f + x * (0.0062610229277019125f + x * (0.001722883597377895f + x *
+        (0.00045240768434202277f + x * (0.00011645027149105445f + x * (2.9670664365561865e-05f + x *
+        (7.512001960184866e-06f + x * (1.9069861426034945e-06f + x * (4.5469763492814626e-07f + x *
+        (1.5564787023532256e-07f + x * (-8.614021171031161e-09f + x * (3.59068561149766e-08f + x *
+        (-1.100044176433237e-08f + x * 3.4655538032402425e-09f))))))))))));
+}
 
-static const float T_OVER_NORM_W_NEAR_SLOPE_F[14] = {
-    0.16666666666666416f, 0.06666666666701261f, 0.021428571414370694f, 0.006349206621873355f,
-    0.0018037488384978046f, 0.0004995207366664387f, 0.0001358830774025288f, 3.685395618725447e-05f,
-    9.103583502739583e-06f, 3.5735897896638634e-06f, -4.0390587464106003e-07f, 9.672185101534689e-07f,
-    -3.116096672066004e-07f, 9.442634840242089e-08f};
-
-/* c[0] + c[1] x + ... by Horner's rule. */
-static inline float polynomial_f(float x, const float *c, int size) {
-    float result = c[size - 1];
-    for (int i = size - 2; i >= 0; --i) result = result * x + c[i];
-    return result;
+static inline float polynomial_t_over_norm_w_near_slope_f(float x) {
+    return 0.16666666666666416f + x * (0.06666666666701261f + x * (0.021428571414370694f + x *
+        (0.006349206621873355f + x * (0.0018037488384978046f + x * (0.0004995207366664387f + x *
+        (0.0001358830774025288f + x * (3.685395618725447e-05f + x * (9.103583502739583e-06f + x *
+        (3.5735897896638634e-06f + x * (-4.0390587464106003e-07f + x * (9.672185101534689e-07f + x *
+        (-3.116096672066004e-07f + x * 9.442634840242089e-08f))))))))))));
 }
 
 /* p / norm(p) */
@@ -630,7 +636,7 @@ void sphere_exp_f(
     const float norm_v = sqrtf(norm_v_squared);
     const float cos_norm_v = cosf(norm_v);
     const int near = norm_v_squared < 0.9903926849365234f;
-    const float sinc_norm_v_near = polynomial_f((near ? norm_v_squared : 0.0f), SINC_NORM_V_NEAR_F, 8);
+    const float sinc_norm_v_near = polynomial_sinc_norm_v_near_f((near ? norm_v_squared : 0.0f));
     const float norm_v_2 = sqrtf((near ? 1.0f : norm_v_squared));
     const float sinc_norm_v = (near ? sinc_norm_v_near : sinf(norm_v_2) / (near ? 1.0f : norm_v_2));
     const float q0 = p[0] * cos_norm_v + v[0] * sinc_norm_v;
@@ -682,7 +688,7 @@ void sphere_log_f(
     const float w2 = d2 - p[2] * dot_p_d;
     const float norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
     const int near = norm_d_squared < 0.9975153207778931f;
-    const float t_over_norm_w_near = polynomial_f((near ? norm_d_squared : 0.0f), T_OVER_NORM_W_NEAR_F, 15);
+    const float t_over_norm_w_near = polynomial_t_over_norm_w_near_f((near ? norm_d_squared : 0.0f));
     const float norm_d = sqrtf((near ? 1.0f : norm_d_squared));
     const float atan2_value = atan2f(norm_d, norm_q_plus_p_2);
     const float t = 2.0f * atan2_value;
@@ -771,7 +777,7 @@ float sphere_log_abs_det_f(const float *SPHERE_RESTRICT p, const float *SPHERE_R
     const float atan2_value = atan2f(norm_d, norm_q_plus_p_2);
     const float t = 2.0f * atan2_value;
     const float norm_w = sqrtf((near ? 1.0f : norm_w_squared));
-    const float log_det_series = polynomial_f((near ? norm_d_squared : 0.0f), LOG_DET_SERIES_F, 15);
+    const float log_det_series = polynomial_log_det_series_f((near ? norm_d_squared : 0.0f));
     const float log_det_near = norm_d_squared * log_det_series;
     const float log_det = (near ? log_det_near : logf(t / norm_w));
     return (on_cut_locus ? log_value : log_det);
@@ -861,7 +867,7 @@ void sphere_splat_f(
     const float norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
     const int near = norm_d_squared < 0.9975153207778931f;
     const float near_chosen = (near ? norm_d_squared : 0.0f);
-    const float t_over_norm_w_near = polynomial_f(near_chosen, T_OVER_NORM_W_NEAR_F, 15);
+    const float t_over_norm_w_near = polynomial_t_over_norm_w_near_f(near_chosen);
     const float near_chosen_2 = (near ? 1.0f : norm_d_squared);
     const float norm_d = sqrtf(near_chosen_2);
     const float atan2_value = atan2f(norm_d, norm_q_plus_p_2);
@@ -883,7 +889,7 @@ void sphere_splat_f(
         chosen_2));
     const float v2 = (on_cut_locus ? product_2 : w2 * t_over_norm_w);
     const float log_value = logf(0.7853981633974483f / FLT_EPSILON);
-    const float log_det_series = polynomial_f(near_chosen, LOG_DET_SERIES_F, 15);
+    const float log_det_series = polynomial_log_det_series_f(near_chosen);
     const float log_det_near = norm_d_squared * log_det_series;
     const float log_det = (near ? log_det_near : logf(t_ratio));
     const float z0 = W[0] * v0 + W[1] * v1 + W[2] * v2;
@@ -896,7 +902,7 @@ void sphere_splat_f(
     const float by_log_det = (on_cut_locus ? 0.0f : 1.0f);
     const float by_log_det_near = (near ? by_log_det : 0.0f);
     const float by_log_det_series = norm_d_squared * by_log_det_near;
-    const float log_det_series_slope = polynomial_f(near_chosen, LOG_DET_SERIES_SLOPE_F, 14);
+    const float log_det_series_slope = polynomial_log_det_series_slope_f(near_chosen);
     const float chosen_3 = (on_cut_locus ? 0.0f : by_v2);
     const float chosen_4 = (on_cut_locus ? 0.0f : by_v1);
     const float chosen_5 = (on_cut_locus ? 0.0f : by_v0);
@@ -907,7 +913,7 @@ void sphere_splat_f(
     const float by_atan2_value = 2.0f * by_t;
     const float ratio = by_atan2_value / (norm_q_plus_p_squared_2 + near_chosen_2);
     const float by_norm_d = norm_q_plus_p_2 * ratio;
-    const float t_over_norm_w_near_slope = polynomial_f(near_chosen, T_OVER_NORM_W_NEAR_SLOPE_F, 14);
+    const float t_over_norm_w_near_slope = polynomial_t_over_norm_w_near_slope_f(near_chosen);
     const float by_norm_d_squared = log_det_series * by_log_det_near + (near ? 0.0f : by_norm_d / (2.0f *
         norm_d)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near *
         t_over_norm_w_near_slope : 0.0f);

@@ -18,6 +18,7 @@
  * riemannian_gradient           11
  * gradient_norm                 17
  * splat                        332
+ * splat_vjp                    725
  *
  * Errors are the worst of 36 points against 60 digits, in units of the error that rounding the
  * inputs and the output to the precision alone would cause.
@@ -277,6 +278,52 @@ void sphere_splat_batch_f(
 /* An orthonormal basis of the tangent space at p, one vector a row. */
 void sphere_frame(const double *SPHERE_RESTRICT p, double *SPHERE_RESTRICT frame);
 void sphere_frame_f(const float *SPHERE_RESTRICT p, float *SPHERE_RESTRICT frame);
+
+/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
+void sphere_splats(
+    size_t count,
+    size_t splat_count,
+    const double *SPHERE_RESTRICT x,
+    const double *SPHERE_RESTRICT mu,
+    const double *SPHERE_RESTRICT W,
+    const double *SPHERE_RESTRICT amplitude,
+    double *SPHERE_RESTRICT value,
+    double *SPHERE_RESTRICT gradient);
+void sphere_splats_f(
+    size_t count,
+    size_t splat_count,
+    const float *SPHERE_RESTRICT x,
+    const float *SPHERE_RESTRICT mu,
+    const float *SPHERE_RESTRICT W,
+    const float *SPHERE_RESTRICT amplitude,
+    float *SPHERE_RESTRICT value,
+    float *SPHERE_RESTRICT gradient);
+
+/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
+void sphere_splats_vjp(
+    size_t count,
+    size_t splat_count,
+    const double *SPHERE_RESTRICT x,
+    const double *SPHERE_RESTRICT mu,
+    const double *SPHERE_RESTRICT W,
+    const double *SPHERE_RESTRICT amplitude,
+    const double *SPHERE_RESTRICT value_bar,
+    const double *SPHERE_RESTRICT gradient_bar,
+    double *SPHERE_RESTRICT mu_bar,
+    double *SPHERE_RESTRICT W_bar,
+    double *SPHERE_RESTRICT amplitude_bar);
+void sphere_splats_vjp_f(
+    size_t count,
+    size_t splat_count,
+    const float *SPHERE_RESTRICT x,
+    const float *SPHERE_RESTRICT mu,
+    const float *SPHERE_RESTRICT W,
+    const float *SPHERE_RESTRICT amplitude,
+    const float *SPHERE_RESTRICT value_bar,
+    const float *SPHERE_RESTRICT gradient_bar,
+    float *SPHERE_RESTRICT mu_bar,
+    float *SPHERE_RESTRICT W_bar,
+    float *SPHERE_RESTRICT amplitude_bar);
 
 #ifdef __cplusplus
 }

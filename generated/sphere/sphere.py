@@ -17,6 +17,7 @@ log_abs_det                   90      <= 2    <= 32
 riemannian_gradient           11
 gradient_norm                 17
 splat                        332
+splat_vjp                    725
 
 Errors are the worst of 36 points against 60 digits, in units of the error that rounding the
 inputs and the output to the precision alone would cause.

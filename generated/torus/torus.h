@@ -18,6 +18,7 @@
  * riemannian_gradient            0
  * gradient_norm                  4
  * splat                         41
+ * splat_vjp                     80
  *
  * Errors are the worst of 36 points against 60 digits, in units of the error that rounding the
  * inputs and the output to the precision alone would cause.
@@ -265,6 +266,52 @@ void torus_splat_batch_f(
 /* An orthonormal basis of the tangent space at p, one vector a row. */
 void torus_frame(const double *TORUS_RESTRICT p, double *TORUS_RESTRICT frame);
 void torus_frame_f(const float *TORUS_RESTRICT p, float *TORUS_RESTRICT frame);
+
+/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
+void torus_splats(
+    size_t count,
+    size_t splat_count,
+    const double *TORUS_RESTRICT x,
+    const double *TORUS_RESTRICT mu,
+    const double *TORUS_RESTRICT W,
+    const double *TORUS_RESTRICT amplitude,
+    double *TORUS_RESTRICT value,
+    double *TORUS_RESTRICT gradient);
+void torus_splats_f(
+    size_t count,
+    size_t splat_count,
+    const float *TORUS_RESTRICT x,
+    const float *TORUS_RESTRICT mu,
+    const float *TORUS_RESTRICT W,
+    const float *TORUS_RESTRICT amplitude,
+    float *TORUS_RESTRICT value,
+    float *TORUS_RESTRICT gradient);
+
+/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
+void torus_splats_vjp(
+    size_t count,
+    size_t splat_count,
+    const double *TORUS_RESTRICT x,
+    const double *TORUS_RESTRICT mu,
+    const double *TORUS_RESTRICT W,
+    const double *TORUS_RESTRICT amplitude,
+    const double *TORUS_RESTRICT value_bar,
+    const double *TORUS_RESTRICT gradient_bar,
+    double *TORUS_RESTRICT mu_bar,
+    double *TORUS_RESTRICT W_bar,
+    double *TORUS_RESTRICT amplitude_bar);
+void torus_splats_vjp_f(
+    size_t count,
+    size_t splat_count,
+    const float *TORUS_RESTRICT x,
+    const float *TORUS_RESTRICT mu,
+    const float *TORUS_RESTRICT W,
+    const float *TORUS_RESTRICT amplitude,
+    const float *TORUS_RESTRICT value_bar,
+    const float *TORUS_RESTRICT gradient_bar,
+    float *TORUS_RESTRICT mu_bar,
+    float *TORUS_RESTRICT W_bar,
+    float *TORUS_RESTRICT amplitude_bar);
 
 #ifdef __cplusplus
 }

@@ -17,6 +17,7 @@ log_abs_det                    0      <= 1     <= 1
 riemannian_gradient            0
 gradient_norm                  4
 splat                         41
+splat_vjp                     80
 
 Errors are the worst of 36 points against 60 digits, in units of the error that rounding the
 inputs and the output to the precision alone would cause.

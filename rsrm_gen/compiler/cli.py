@@ -14,9 +14,10 @@ from rich.console import Console
 from rich.status import Status
 from rich.table import Table
 
-from rsrm_gen.compiler import STAGES, Compiled, compile_manifold, read_spec
+from rsrm_gen.compiler.driver import STAGES, Compiled, compile_manifold
 from rsrm_gen.compiler.native import compiler
 from rsrm_gen.compiler.output import contents, staleness, write
+from rsrm_gen.compiler.spec import read_spec
 from rsrm_gen.errors import UserError
 from rsrm_gen.version import __version__
 

@@ -1,10 +1,11 @@
-"""Generated C, compiled once per content and called from Python."""
+"""Generated C, compiled once per content into shared libraries."""
 
 from __future__ import annotations
 
 import ctypes
 import hashlib
 import os
+import platform
 import shutil
 import subprocess
 import tempfile
@@ -16,10 +17,26 @@ from typing import Any
 import numpy as np
 from platformdirs import user_cache_path
 
-from rsrm_gen.compiler.lower import Program
 from rsrm_gen.errors import UserError
 
-FLAGS = ("-std=c99", "-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-Werror", "-fPIC", "-shared")
+COMMON = ("-std=c99", "-Wall", "-Wextra", "-Werror", "-fPIC", "-shared")
+EXACT = ("-O2", "-ffp-contract=off")  # what the audit measures: no code that a flag could have made better or worse
+FAST = ("-O3", "-march=native", "-ffp-contract=fast", "-fno-math-errno", "-fno-trapping-math", "-include", "vector_math.h")  # never -ffast-math
+
+# glibc has vector versions of these functions, exact to 4 units in the last place, but tells gcc of them only under
+# -ffast-math, which would also let it reorder sums and forget NaN. With them the loops over points vectorise.
+VECTOR_MATH = """
+#include <math.h>
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && defined(__GLIBC__)
+#if __GLIBC_PREREQ(2, 35)
+#define VECTOR(f) __attribute__((simd("notinbranch"))) double f(double); __attribute__((simd("notinbranch"))) float f##f(float);
+VECTOR(exp) VECTOR(log) VECTOR(sin) VECTOR(cos) VECTOR(tan) VECTOR(sinh) VECTOR(cosh) VECTOR(tanh)
+VECTOR(asinh) VECTOR(acosh) VECTOR(acos) VECTOR(atanh)
+__attribute__((simd("notinbranch"))) double atan2(double, double);
+__attribute__((simd("notinbranch"))) float atan2f(float, float);
+#endif
+#endif
+"""
 
 
 def cache_folder() -> Path:
@@ -33,44 +50,45 @@ def compiler() -> str | None:
     return shutil.which(os.environ.get("CC") or "cc")
 
 
-def compiled(files: Mapping[str, str], program: Program) -> NativeLibrary:
-    """The library of a program, compiled unless the same text was compiled before."""
+def compiled(files: Mapping[str, str], source: str, flags: tuple[str, ...]) -> ctypes.CDLL:
+    """One of some C files as a library, compiled unless the same text was compiled before with the same flags."""
     cc = compiler()
     if cc is None:
         raise UserError("no C compiler found", hint="install one, or name it in CC; torch code needs none")
-    name = f"{program.name}.c"
-    key = hashlib.sha256("\0".join([cc, *FLAGS, files[f"{program.name}.h"], files[name]]).encode()).hexdigest()[:32]
-    path = cache_folder() / "native" / f"{program.name}-{key}.so"
+    headers = [text for name, text in sorted(files.items()) if name.endswith(".h")]
+    key = "\0".join([cc, *COMMON, *flags, VECTOR_MATH, _processor(), source, files[source], *headers])
+    name = Path(source).stem + "-" + hashlib.sha256(key.encode()).hexdigest()[:32] + ".so"
+    path = cache_folder() / "native" / name
     if not path.exists():
-        _compile(cc, files, name, path)
-    return NativeLibrary(ctypes.CDLL(str(path)), program)
+        _compile(cc, files, source, flags, path)
+    return ctypes.CDLL(str(path))
 
 
-def _compile(cc: str, files: Mapping[str, str], name: str, path: Path) -> None:
+def _compile(cc: str, files: Mapping[str, str], source: str, flags: tuple[str, ...], path: Path) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=path.parent) as folder:
         for file, text in files.items():
-            (Path(folder) / file).write_text(text)
-        result = subprocess.run([cc, *FLAGS, name, "-o", "library.so", "-lm"], cwd=folder, capture_output=True, text=True)
+            (Path(folder) / file).write_text(text, encoding="utf-8")
+        (Path(folder) / "vector_math.h").write_text(VECTOR_MATH, encoding="utf-8")
+        command = [cc, *COMMON, *flags, source, "-o", "library.so", "-lm"]
+        result = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
         if result.returncode:
-            raise UserError(f"the C compiler refuses the generated {name}:\n{result.stderr}")
+            raise UserError(f"the C compiler refuses the generated {source}:\n{result.stderr}")
         os.replace(Path(folder) / "library.so", path)  # whole or not at all, also when two processes do it at once
 
 
-class NativeLibrary:
-    """The batch functions of a compiled program, on numpy arrays."""
+@lru_cache
+def _processor() -> str:
+    """What -march=native depends on: a cache may be shared by different machines."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    except OSError:
+        return platform.machine() + platform.processor()
+    return next((line for line in lines if line.startswith(("flags", "Features"))), platform.machine())
 
-    def __init__(self, library: ctypes.CDLL, program: Program) -> None:
-        self.library = library
-        self.program = program
 
-    def call(self, routine_name: str, *arguments: Any, dtype: Any = np.float64) -> list[Any]:
-        """A routine on arrays of rows (N, entries); its results as (N, entries)."""
-        routine = self.program[routine_name]
-        function = getattr(self.library, f"{self.program.name}_{routine_name}_batch" + ("_f" if dtype == np.float32 else ""))
-        inputs = [np.ascontiguousarray(a, dtype=dtype) for a in arguments]
-        count = len(inputs[0])
-        outputs = [np.empty((count, len(result.nodes)), dtype=dtype) for result in routine.results]
-        pointers = [a.ctypes.data_as(ctypes.c_void_p) for a in (*inputs, *outputs)]
-        function(ctypes.c_size_t(count), *pointers)
-        return outputs
+def pointer(array: Any) -> ctypes.c_void_p:
+    """The address of a contiguous numpy array's numbers."""
+    assert isinstance(array, np.ndarray)
+    assert array.flags.c_contiguous
+    return array.ctypes.data_as(ctypes.c_void_p)

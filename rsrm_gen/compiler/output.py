@@ -8,11 +8,14 @@ import os
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from rsrm_gen.compiler import Compiled
 from rsrm_gen.compiler.spec import ManifoldSpec
 from rsrm_gen.errors import UserError
 from rsrm_gen.version import __version__
+
+if TYPE_CHECKING:
+    from rsrm_gen.compiler.driver import Compiled
 
 AUDIT = "audit.json"
 

@@ -6,6 +6,7 @@ of the result itself. A row passes if its error is at most 64 such units.
 
 from __future__ import annotations
 
+import ctypes
 import importlib.util
 import random
 import tempfile
@@ -25,7 +26,7 @@ from rsrm_gen.compiler.derive.numeric import DIGITS, run
 from rsrm_gen.compiler.derive.sampling import Sampler, sampler_of
 from rsrm_gen.compiler.emit import Measurement
 from rsrm_gen.compiler.lower import Program, Routine, interpret
-from rsrm_gen.compiler.native import compiled, compiler
+from rsrm_gen.compiler.native import EXACT, compiled, compiler, pointer
 
 UNITS = 64.0
 ROUTINES = ("exp", "log", "distance", "log_abs_det")
@@ -48,8 +49,7 @@ def check_numbers(geometry: Geometry, program: Program, files: Mapping[str, str]
     """Checks of torch and C in both precisions; the worst of both back ends is the measurement."""
     backends: dict[str, Batch] = {"torch": torch_batch(program, files)}
     if compiler() is not None:
-        library = compiled(files, program)
-        backends["C"] = lambda name, rows, precision: library.call(name, *rows, dtype=PRECISIONS[precision][0])[0]
+        backends["C"] = native_batch(program, files)
     checks, measured = [], []
     for precision in PRECISIONS:
         rows = sample_rows(geometry, precision)
@@ -76,6 +76,21 @@ def torch_batch(program: Program, files: Mapping[str, str]) -> Batch:
         result = getattr(manifold, name)(*tensors)
         result = result[0] if isinstance(result, tuple) else result
         return result.numpy().reshape(len(rows[0]), -1)
+
+    return batch
+
+
+def native_batch(program: Program, files: Mapping[str, str]) -> Batch:
+    """The `_batch` functions of the generated C on arrays of rows."""
+    library = compiled(files, f"{program.name}.c", EXACT)
+
+    def batch(name: str, rows: Sequence[Any], precision: str) -> Any:
+        dtype = PRECISIONS[precision][0]
+        function = getattr(library, f"{program.name}_{name}_batch" + ("_f" if precision == "float32" else ""))
+        inputs = [np.ascontiguousarray(r, dtype=dtype) for r in rows]
+        outputs = [np.empty((len(inputs[0]), len(result.nodes)), dtype=dtype) for result in program[name].results]
+        function(ctypes.c_size_t(len(inputs[0])), *map(pointer, (*inputs, *outputs)))
+        return outputs[0]
 
     return batch
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rsrm_gen.compiler.derive import Geometry
-from rsrm_gen.compiler.emit import c, torch
+from rsrm_gen.compiler.emit import c, c_splats, torch
 from rsrm_gen.compiler.emit.heading import Measurement, heading
 from rsrm_gen.compiler.lower import Program
 
@@ -17,4 +17,5 @@ def emit(geometry: Geometry, program: Program, measured: tuple[Measurement, ...]
         f"{program.name}.py": torch.module(geometry, program, lines),
         f"{program.name}.h": c.header(geometry, program, lines),
         f"{program.name}.c": c.source(geometry, program, lines),
+        f"{program.name}_splats.c": c_splats.source(geometry, program, lines),
     }

@@ -8,6 +8,7 @@ import sympy as sp
 
 from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.emit.expression import SUM, Printer, Spelling
+from rsrm_gen.compiler.emit.promises import PROMISES, public
 from rsrm_gen.compiler.emit.series import Coefficients, spelled, tables
 from rsrm_gen.compiler.emit.torch_runtime import FRAME, HELPERS, SAMPLE_BALL, SAMPLE_BOX, SAMPLE_NONE, SAMPLE_WHOLE, SPLATS
 from rsrm_gen.compiler.lower import Parameter, Program, Routine
@@ -28,25 +29,10 @@ SPELLING = Spelling(
     compare_binds=SUM,
 )  # fmt: skip
 
-PROMISES = {
-    "project": "Numbers near the manifold to the point they stand for.",
-    "to_tangent": "The tangent part at p of an ambient vector.",
-    "inner": "The metric <u, v>_p.",
-    "norm": "The length |v|_p.",
-    "flat": "The covector <v, .>_p.",
-    "exp": "Exp_p(v).",
-    "log": "Log_p(q), the shortest v with Exp_p(v) = q.",
-    "distance": "The geodesic distance.",
-    "log_abs_det": "log |det D Log_p(q)| between the Riemannian volumes at q and p.",
-    "riemannian_gradient": "The gradient in the metric from the partial derivatives df.",
-    "gradient_norm": "The length of the gradient from the partial derivatives df.",
-    "splat": "A wrapped Gaussian and its Riemannian gradient in x (RSRM eq. 3).",
-}
-
-
 def module(geometry: Geometry, program: Program, heading: list[str]) -> str:
     """The text of the module."""
     spec = geometry.spec
+    program = public(program)  # the adjoint of the splat is autograd's here
     series = tables(program)
     tail = [FRAME.format(dim=spec.dim, size=spec.point_size, tangent=spec.tangent_size), _sample(geometry), SAMPLE_BALL]
     methods = [_method(routine, series) for routine in program]

@@ -39,14 +39,17 @@ def _guarded(builder: Builder, assignment: Assignment, far: Node, given: Mapping
     """The polynomial near the singular place, else the expression, each harmless where the other is taken."""
     graph, guard = builder.graph, assignment.guard
     assert guard is not None
-    near = graph.named("near", graph.node("less", builder.node(guard.variable), graph.constant(guard.threshold)))
+    variable = builder.node(guard.variable)
+    near = graph.named("near", graph.node("less", variable, graph.constant(guard.threshold)))
     series = graph.named(f"{assignment.symbol}_near", builder.node(guard.near))
     for node in reachable([series]):
         if node.op == "polynomial":
             graph.named(f"{assignment.symbol}_series", node)
     place = {given[symbol]: x for symbol, x in guard.place}
     singular = _vanishing_at(place) if place else None
-    return graph.select(near, protect(graph, series, near, False), protect(graph, far, near, True, singular))
+    # Far away only the polynomial itself can do harm, by overflow; its variable is needed there to know that it is far.
+    series = protect(graph, series, near, False, lambda node: node is variable)
+    return graph.select(near, series, protect(graph, far, near, True, singular))
 
 
 def _vanishing_at(place: Mapping[Node, Any]) -> Callable[[Node], bool]:

@@ -18,7 +18,8 @@ RESULT_NAMES = {"project": "p", "exp": "q", "log": "v", "to_tangent": "v", "flat
 def lower(geometry: Geometry) -> Program:
     """The program of a manifold: the functions of the `Manifold` protocol, one routine each."""
     routines = [_routine(function) for function in geometry]
-    return Program(geometry.spec.identifier, (*routines, _splat(geometry)))
+    splat = _Splat(geometry)
+    return Program(geometry.spec.identifier, (*routines, splat.routine(), splat.vjp()))
 
 
 def _routine(function: Function) -> Routine:
@@ -30,25 +31,44 @@ def _routine(function: Function) -> Routine:
     return schedule(graph, function.name, parameters, (result,), function.formula)
 
 
-def _splat(geometry: Geometry) -> Routine:
+class _Splat:
     """phi = amplitude exp(log |det D Log_mu(x)| - |W Log_mu(x)|^2 / 2) and its Riemannian gradient in x (RSRM eq. 3)."""
-    spec = geometry.spec
-    graph = Graph()
-    x = _vector(graph, "x", spec.point_size)
-    mu = _vector(graph, "mu", spec.point_size)
-    W = _matrix(graph, "W", spec.dim, spec.tangent_size)
-    amplitude = _parameter(graph, "amplitude", (), ("amplitude",))
-    log = _named(graph, "v", inline(graph, geometry["log"], mu.nodes, x.nodes))
-    (log_det,) = inline(graph, geometry["log_abs_det"], mu.nodes, x.nodes)
-    z = _named(graph, "z", tuple(_dot(graph, W.nodes[i * spec.tangent_size :], log) for i in range(spec.dim)))
-    exponent = graph.sub(log_det, graph.mul(graph.constant(sp.Rational(1, 2)), _dot(graph, z, z)))
-    phi = graph.named("phi", graph.mul(amplitude.nodes[0], graph.function("exp", exponent)))
-    partials = _named(graph, "exponent_by_x", gradient(graph, exponent, x.nodes))
-    df = _named(graph, "df", tuple(graph.mul(phi, partial) for partial in partials))
-    slope = inline(graph, geometry["riemannian_gradient"], x.nodes, df)
-    results = Result("value", (), (phi,)), Result("gradient", (spec.tangent_size,), _named(graph, "gradient", slope))
+
     formula = "amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)|"
-    return schedule(graph, "splat", (x, mu, W, amplitude), results, formula)
+
+    def __init__(self, geometry: Geometry) -> None:
+        spec = geometry.spec
+        self.size = spec.tangent_size
+        self.graph = graph = Graph()
+        self.x, self.mu = _vector(graph, "x", spec.point_size), _vector(graph, "mu", spec.point_size)
+        self.W = _matrix(graph, "W", spec.dim, self.size)
+        self.amplitude = _parameter(graph, "amplitude", (), ("amplitude",))
+        log = _named(graph, "v", inline(graph, geometry["log"], self.mu.nodes, self.x.nodes))
+        (log_det,) = inline(graph, geometry["log_abs_det"], self.mu.nodes, self.x.nodes)
+        z = _named(graph, "z", tuple(_dot(graph, self.W.nodes[i * self.size :], log) for i in range(spec.dim)))
+        exponent = graph.sub(log_det, graph.mul(graph.constant(sp.Rational(1, 2)), _dot(graph, z, z)))
+        self.value = graph.named("phi", graph.mul(self.amplitude.nodes[0], graph.function("exp", exponent)))
+        partials = _named(graph, "exponent_by_x", gradient(graph, exponent, self.x.nodes))
+        df = _named(graph, "df", tuple(graph.mul(self.value, partial) for partial in partials))
+        slope = inline(graph, geometry["riemannian_gradient"], self.x.nodes, df)
+        self.gradient = _named(graph, "gradient", slope)
+
+    def routine(self) -> Routine:
+        """The value and the gradient."""
+        results = Result("value", (), (self.value,)), Result("gradient", (self.size,), self.gradient)
+        return schedule(self.graph, "splat", (self.x, self.mu, self.W, self.amplitude), results, self.formula)
+
+    def vjp(self) -> Routine:
+        """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu, W and amplitude."""
+        graph = self.graph
+        value_bar = _parameter(graph, "value_bar", (), ("value_bar",))
+        gradient_bar = _vector(graph, "gradient_bar", self.size)
+        total = _dot(graph, (self.value, *self.gradient), (*value_bar.nodes, *gradient_bar.nodes))
+        parameters = (self.mu, self.W, self.amplitude)
+        adjoints = iter(gradient(graph, total, [node for p in parameters for node in p.nodes]))
+        results = tuple(Result(f"{p.name}_bar", p.shape, tuple(next(adjoints) for _ in p.nodes)) for p in parameters)
+        inputs = (self.x, *parameters, value_bar, gradient_bar)
+        return schedule(graph, "splat_vjp", inputs, results, "d (value value_bar + gradient . gradient_bar)")
 
 
 def _named(graph: Graph, name: str, nodes: tuple[Node, ...]) -> tuple[Node, ...]:

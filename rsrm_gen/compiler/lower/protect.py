@@ -17,7 +17,8 @@ SAFE = {"polynomial": 0, "atanh": 0}  # what it is replaced by; 1 elsewhere
 def protect(graph: Graph, root: Node, condition: Node, when: bool, singular: Callable[[Node], bool] | None = None) -> Node:
     """The same branch, harmless where `condition` is `when`: where it is not taken.
 
-    `singular` says of a node whether it vanishes somewhere there; without it, every input in danger is replaced.
+    `singular` says of a node whether it vanishes somewhere there; without it, every input in danger is replaced that is
+    not positive by its form.
     """
     done: dict[Node, Node] = {}
 
@@ -35,7 +36,7 @@ def protect(graph: Graph, root: Node, condition: Node, when: bool, singular: Cal
             arguments = tuple(visit(a) for a in node.arguments)
         if node.op in ENDANGERED:
             index = ENDANGERED[node.op]
-            if not arguments[index].is_constant and (singular is None or singular(arguments[index])):
+            if not is_positive(arguments[index]) and (singular is None or singular(arguments[index])):
                 safe = graph.constant(SAFE.get(node.op, 1))
                 x = arguments[index]
                 x = graph.select(condition, safe, x) if when else graph.select(condition, x, safe)
@@ -50,3 +51,33 @@ def protect(graph: Graph, root: Node, condition: Node, when: bool, singular: Cal
         return copy
 
     return visit(root)
+
+
+def is_positive(node: Node) -> bool:
+    """Whether a node is above zero whatever its inputs are, as 1 + x x and its root are."""
+    a = node.arguments
+    match node.op:
+        case "constant":
+            return bool(node.value > 0)  # type: ignore[operator]
+        case "exp" | "cosh":
+            return True
+        case "add":
+            return all(map(is_nonnegative, a)) and any(map(is_positive, a))
+        case "sqrt" | "root" | "mul" | "div":
+            return all(map(is_positive, a))
+        case "select":
+            return is_positive(a[1]) and is_positive(a[2])
+    return False
+
+
+def is_nonnegative(node: Node) -> bool:
+    """Whether a node is never below zero, as a square is."""
+    a = node.arguments
+    match node.op:
+        case "abs" | "sqrt" | "root":
+            return True
+        case "mul":
+            return a[0] is a[1] or all(map(is_nonnegative, a))
+        case "add":
+            return all(map(is_nonnegative, a))
+    return is_positive(node)

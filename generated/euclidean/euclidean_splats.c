@@ -1,0 +1,327 @@
+/*
+ * euclidean: Euclidean space R^n in Cartesian coordinates.
+ *
+ * Sums of splats, forward and backward. See the header for what the functions promise.
+ */
+
+#include "euclidean.h"
+
+#include <float.h>
+
+#define LANES 64
+
+void euclidean_splats(
+    size_t count,
+    size_t splat_count,
+    const double *EUCLIDEAN_RESTRICT x,
+    const double *EUCLIDEAN_RESTRICT mu,
+    const double *EUCLIDEAN_RESTRICT W,
+    const double *EUCLIDEAN_RESTRICT amplitude,
+    double *EUCLIDEAN_RESTRICT value,
+    double *EUCLIDEAN_RESTRICT gradient) {
+    for (size_t start = 0; start < count; start += LANES) {
+        const size_t lanes = count - start < LANES ? count - start : LANES;
+        double x_block[3][LANES], sum[4][LANES] = {{0}};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            const size_t n = start + (lane < lanes ? lane : lanes - 1);
+            for (size_t i = 0; i < 3; ++i) x_block[i][lane] = x[3 * n + i];
+        }
+        for (size_t k = 0; k < splat_count; ++k) {
+            const double mu0 = mu[3 * k + 0];
+            const double mu1 = mu[3 * k + 1];
+            const double mu2 = mu[3 * k + 2];
+            const double W0 = W[9 * k + 0];
+            const double W1 = W[9 * k + 1];
+            const double W2 = W[9 * k + 2];
+            const double W3 = W[9 * k + 3];
+            const double W4 = W[9 * k + 4];
+            const double W5 = W[9 * k + 5];
+            const double W6 = W[9 * k + 6];
+            const double W7 = W[9 * k + 7];
+            const double W8 = W[9 * k + 8];
+            const double amplitude0 = amplitude[1 * k + 0];
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                const double v0 = x_block[0][lane] - mu0;
+                const double v1 = x_block[1][lane] - mu1;
+                const double v2 = x_block[2][lane] - mu2;
+                const double z0 = W0 * v0 + W1 * v1 + W2 * v2;
+                const double z1 = W3 * v0 + W4 * v1 + W5 * v2;
+                const double z2 = W6 * v0 + W7 * v1 + W8 * v2;
+                const double minus = -(0.5 * (z0 * z0 + z1 * z1 + z2 * z2));
+                const double phi = amplitude0 * exp(minus);
+                const double by_v2 = -(W8 * z2) - W5 * z1 - W2 * z0;
+                const double by_v1 = -(W7 * z2) - W4 * z1 - W1 * z0;
+                const double by_v0 = -(W6 * z2) - W3 * z1 - W0 * z0;
+                const double df0 = phi * by_v0;
+                const double df1 = phi * by_v1;
+                const double df2 = phi * by_v2;
+                sum[0][lane] += phi;
+                sum[1][lane] += df0;
+                sum[2][lane] += df1;
+                sum[3][lane] += df2;
+            }
+        }
+        for (size_t lane = 0; lane < lanes; ++lane) {
+            value[start + lane] = sum[0][lane];
+            for (size_t i = 0; i < 3; ++i) gradient[3 * (start + lane) + i] = sum[i + 1][lane];
+        }
+    }
+}
+
+void euclidean_splats_vjp(
+    size_t count,
+    size_t splat_count,
+    const double *EUCLIDEAN_RESTRICT x,
+    const double *EUCLIDEAN_RESTRICT mu,
+    const double *EUCLIDEAN_RESTRICT W,
+    const double *EUCLIDEAN_RESTRICT amplitude,
+    const double *EUCLIDEAN_RESTRICT value_bar,
+    const double *EUCLIDEAN_RESTRICT gradient_bar,
+    double *EUCLIDEAN_RESTRICT mu_bar,
+    double *EUCLIDEAN_RESTRICT W_bar,
+    double *EUCLIDEAN_RESTRICT amplitude_bar) {
+    for (size_t i = 0; i < 3 * splat_count; ++i) mu_bar[i] = 0;
+    for (size_t i = 0; i < 9 * splat_count; ++i) W_bar[i] = 0;
+    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
+    for (size_t start = 0; start < count; start += LANES) {
+        const size_t lanes = count - start < LANES ? count - start : LANES;
+        double x_block[3][LANES], value_bar_block[1][LANES], gradient_bar_block[3][LANES];
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            const size_t n = start + (lane < lanes ? lane : lanes - 1);
+            const double weight = lane < lanes ? 1 : 0;
+            for (size_t i = 0; i < 3; ++i) x_block[i][lane] = x[3 * n + i];
+            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
+            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] = gradient_bar[3 * n + i];
+            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
+            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] *= weight;
+        }
+        for (size_t k = 0; k < splat_count; ++k) {
+            double sum[13][LANES] = {{0}}, total[13] = {0};
+            const double mu0 = mu[3 * k + 0];
+            const double mu1 = mu[3 * k + 1];
+            const double mu2 = mu[3 * k + 2];
+            const double W0 = W[9 * k + 0];
+            const double W1 = W[9 * k + 1];
+            const double W2 = W[9 * k + 2];
+            const double W3 = W[9 * k + 3];
+            const double W4 = W[9 * k + 4];
+            const double W5 = W[9 * k + 5];
+            const double W6 = W[9 * k + 6];
+            const double W7 = W[9 * k + 7];
+            const double W8 = W[9 * k + 8];
+            const double amplitude0 = amplitude[1 * k + 0];
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                const double v0 = x_block[0][lane] - mu0;
+                const double v1 = x_block[1][lane] - mu1;
+                const double v2 = x_block[2][lane] - mu2;
+                const double z0 = W0 * v0 + W1 * v1 + W2 * v2;
+                const double z1 = W3 * v0 + W4 * v1 + W5 * v2;
+                const double z2 = W6 * v0 + W7 * v1 + W8 * v2;
+                const double minus = -(0.5 * (z0 * z0 + z1 * z1 + z2 * z2));
+                const double exp_2 = exp(minus);
+                const double phi = amplitude0 * exp_2;
+                const double by_v2 = -(W8 * z2) - W5 * z1 - W2 * z0;
+                const double by_v1 = -(W7 * z2) - W4 * z1 - W1 * z0;
+                const double by_v0 = -(W6 * z2) - W3 * z1 - W0 * z0;
+                const double by_by_v2 = phi * gradient_bar_block[2][lane];
+                const double by_by_v1 = phi * gradient_bar_block[1][lane];
+                const double by_by_v0 = phi * gradient_bar_block[0][lane];
+                const double by_phi = value_bar_block[0][lane] + by_v2 * gradient_bar_block[2][lane] + by_v1 *
+                    gradient_bar_block[1][lane] + by_v0 * gradient_bar_block[0][lane];
+                const double product = exp_2 * (amplitude0 * by_phi);
+                const double by_z2 = -(W6 * by_by_v0) - W7 * by_by_v1 - W8 * by_by_v2 - z2 * product;
+                const double by_z1 = -(W3 * by_by_v0) - W4 * by_by_v1 - W5 * by_by_v2 - z1 * product;
+                const double by_z0 = -(W0 * by_by_v0) - W1 * by_by_v1 - W2 * by_by_v2 - z0 * product;
+                const double by_v2_2 = W8 * by_z2 + W5 * by_z1 + W2 * by_z0;
+                const double by_v1_2 = W7 * by_z2 + W4 * by_z1 + W1 * by_z0;
+                const double by_v0_2 = W6 * by_z2 + W3 * by_z1 + W0 * by_z0;
+                sum[0][lane] += -by_v0_2;
+                sum[1][lane] += -by_v1_2;
+                sum[2][lane] += -by_v2_2;
+                sum[3][lane] += v0 * by_z0 - z0 * by_by_v0;
+                sum[4][lane] += v1 * by_z0 - z0 * by_by_v1;
+                sum[5][lane] += v2 * by_z0 - z0 * by_by_v2;
+                sum[6][lane] += v0 * by_z1 - z1 * by_by_v0;
+                sum[7][lane] += v1 * by_z1 - z1 * by_by_v1;
+                sum[8][lane] += v2 * by_z1 - z1 * by_by_v2;
+                sum[9][lane] += v0 * by_z2 - z2 * by_by_v0;
+                sum[10][lane] += v1 * by_z2 - z2 * by_by_v1;
+                sum[11][lane] += v2 * by_z2 - z2 * by_by_v2;
+                sum[12][lane] += exp_2 * by_phi;
+            }
+            for (size_t i = 0; i < 13; ++i)
+                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
+            mu_bar[3 * k + 0] += total[0];
+            mu_bar[3 * k + 1] += total[1];
+            mu_bar[3 * k + 2] += total[2];
+            W_bar[9 * k + 0] += total[3];
+            W_bar[9 * k + 1] += total[4];
+            W_bar[9 * k + 2] += total[5];
+            W_bar[9 * k + 3] += total[6];
+            W_bar[9 * k + 4] += total[7];
+            W_bar[9 * k + 5] += total[8];
+            W_bar[9 * k + 6] += total[9];
+            W_bar[9 * k + 7] += total[10];
+            W_bar[9 * k + 8] += total[11];
+            amplitude_bar[1 * k + 0] += total[12];
+        }
+    }
+}
+
+void euclidean_splats_f(
+    size_t count,
+    size_t splat_count,
+    const float *EUCLIDEAN_RESTRICT x,
+    const float *EUCLIDEAN_RESTRICT mu,
+    const float *EUCLIDEAN_RESTRICT W,
+    const float *EUCLIDEAN_RESTRICT amplitude,
+    float *EUCLIDEAN_RESTRICT value,
+    float *EUCLIDEAN_RESTRICT gradient) {
+    for (size_t start = 0; start < count; start += LANES) {
+        const size_t lanes = count - start < LANES ? count - start : LANES;
+        float x_block[3][LANES], sum[4][LANES] = {{0}};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            const size_t n = start + (lane < lanes ? lane : lanes - 1);
+            for (size_t i = 0; i < 3; ++i) x_block[i][lane] = x[3 * n + i];
+        }
+        for (size_t k = 0; k < splat_count; ++k) {
+            const float mu0 = mu[3 * k + 0];
+            const float mu1 = mu[3 * k + 1];
+            const float mu2 = mu[3 * k + 2];
+            const float W0 = W[9 * k + 0];
+            const float W1 = W[9 * k + 1];
+            const float W2 = W[9 * k + 2];
+            const float W3 = W[9 * k + 3];
+            const float W4 = W[9 * k + 4];
+            const float W5 = W[9 * k + 5];
+            const float W6 = W[9 * k + 6];
+            const float W7 = W[9 * k + 7];
+            const float W8 = W[9 * k + 8];
+            const float amplitude0 = amplitude[1 * k + 0];
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                const float v0 = x_block[0][lane] - mu0;
+                const float v1 = x_block[1][lane] - mu1;
+                const float v2 = x_block[2][lane] - mu2;
+                const float z0 = W0 * v0 + W1 * v1 + W2 * v2;
+                const float z1 = W3 * v0 + W4 * v1 + W5 * v2;
+                const float z2 = W6 * v0 + W7 * v1 + W8 * v2;
+                const float minus = -(0.5f * (z0 * z0 + z1 * z1 + z2 * z2));
+                const float phi = amplitude0 * expf(minus);
+                const float by_v2 = -(W8 * z2) - W5 * z1 - W2 * z0;
+                const float by_v1 = -(W7 * z2) - W4 * z1 - W1 * z0;
+                const float by_v0 = -(W6 * z2) - W3 * z1 - W0 * z0;
+                const float df0 = phi * by_v0;
+                const float df1 = phi * by_v1;
+                const float df2 = phi * by_v2;
+                sum[0][lane] += phi;
+                sum[1][lane] += df0;
+                sum[2][lane] += df1;
+                sum[3][lane] += df2;
+            }
+        }
+        for (size_t lane = 0; lane < lanes; ++lane) {
+            value[start + lane] = sum[0][lane];
+            for (size_t i = 0; i < 3; ++i) gradient[3 * (start + lane) + i] = sum[i + 1][lane];
+        }
+    }
+}
+
+void euclidean_splats_vjp_f(
+    size_t count,
+    size_t splat_count,
+    const float *EUCLIDEAN_RESTRICT x,
+    const float *EUCLIDEAN_RESTRICT mu,
+    const float *EUCLIDEAN_RESTRICT W,
+    const float *EUCLIDEAN_RESTRICT amplitude,
+    const float *EUCLIDEAN_RESTRICT value_bar,
+    const float *EUCLIDEAN_RESTRICT gradient_bar,
+    float *EUCLIDEAN_RESTRICT mu_bar,
+    float *EUCLIDEAN_RESTRICT W_bar,
+    float *EUCLIDEAN_RESTRICT amplitude_bar) {
+    for (size_t i = 0; i < 3 * splat_count; ++i) mu_bar[i] = 0;
+    for (size_t i = 0; i < 9 * splat_count; ++i) W_bar[i] = 0;
+    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
+    for (size_t start = 0; start < count; start += LANES) {
+        const size_t lanes = count - start < LANES ? count - start : LANES;
+        float x_block[3][LANES], value_bar_block[1][LANES], gradient_bar_block[3][LANES];
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            const size_t n = start + (lane < lanes ? lane : lanes - 1);
+            const float weight = lane < lanes ? 1 : 0;
+            for (size_t i = 0; i < 3; ++i) x_block[i][lane] = x[3 * n + i];
+            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
+            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] = gradient_bar[3 * n + i];
+            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
+            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] *= weight;
+        }
+        for (size_t k = 0; k < splat_count; ++k) {
+            float sum[13][LANES] = {{0}}, total[13] = {0};
+            const float mu0 = mu[3 * k + 0];
+            const float mu1 = mu[3 * k + 1];
+            const float mu2 = mu[3 * k + 2];
+            const float W0 = W[9 * k + 0];
+            const float W1 = W[9 * k + 1];
+            const float W2 = W[9 * k + 2];
+            const float W3 = W[9 * k + 3];
+            const float W4 = W[9 * k + 4];
+            const float W5 = W[9 * k + 5];
+            const float W6 = W[9 * k + 6];
+            const float W7 = W[9 * k + 7];
+            const float W8 = W[9 * k + 8];
+            const float amplitude0 = amplitude[1 * k + 0];
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                const float v0 = x_block[0][lane] - mu0;
+                const float v1 = x_block[1][lane] - mu1;
+                const float v2 = x_block[2][lane] - mu2;
+                const float z0 = W0 * v0 + W1 * v1 + W2 * v2;
+                const float z1 = W3 * v0 + W4 * v1 + W5 * v2;
+                const float z2 = W6 * v0 + W7 * v1 + W8 * v2;
+                const float minus = -(0.5f * (z0 * z0 + z1 * z1 + z2 * z2));
+                const float exp_2 = expf(minus);
+                const float phi = amplitude0 * exp_2;
+                const float by_v2 = -(W8 * z2) - W5 * z1 - W2 * z0;
+                const float by_v1 = -(W7 * z2) - W4 * z1 - W1 * z0;
+                const float by_v0 = -(W6 * z2) - W3 * z1 - W0 * z0;
+                const float by_by_v2 = phi * gradient_bar_block[2][lane];
+                const float by_by_v1 = phi * gradient_bar_block[1][lane];
+                const float by_by_v0 = phi * gradient_bar_block[0][lane];
+                const float by_phi = value_bar_block[0][lane] + by_v2 * gradient_bar_block[2][lane] + by_v1 *
+                    gradient_bar_block[1][lane] + by_v0 * gradient_bar_block[0][lane];
+                const float product = exp_2 * (amplitude0 * by_phi);
+                const float by_z2 = -(W6 * by_by_v0) - W7 * by_by_v1 - W8 * by_by_v2 - z2 * product;
+                const float by_z1 = -(W3 * by_by_v0) - W4 * by_by_v1 - W5 * by_by_v2 - z1 * product;
+                const float by_z0 = -(W0 * by_by_v0) - W1 * by_by_v1 - W2 * by_by_v2 - z0 * product;
+                const float by_v2_2 = W8 * by_z2 + W5 * by_z1 + W2 * by_z0;
+                const float by_v1_2 = W7 * by_z2 + W4 * by_z1 + W1 * by_z0;
+                const float by_v0_2 = W6 * by_z2 + W3 * by_z1 + W0 * by_z0;
+                sum[0][lane] += -by_v0_2;
+                sum[1][lane] += -by_v1_2;
+                sum[2][lane] += -by_v2_2;
+                sum[3][lane] += v0 * by_z0 - z0 * by_by_v0;
+                sum[4][lane] += v1 * by_z0 - z0 * by_by_v1;
+                sum[5][lane] += v2 * by_z0 - z0 * by_by_v2;
+                sum[6][lane] += v0 * by_z1 - z1 * by_by_v0;
+                sum[7][lane] += v1 * by_z1 - z1 * by_by_v1;
+                sum[8][lane] += v2 * by_z1 - z1 * by_by_v2;
+                sum[9][lane] += v0 * by_z2 - z2 * by_by_v0;
+                sum[10][lane] += v1 * by_z2 - z2 * by_by_v1;
+                sum[11][lane] += v2 * by_z2 - z2 * by_by_v2;
+                sum[12][lane] += exp_2 * by_phi;
+            }
+            for (size_t i = 0; i < 13; ++i)
+                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
+            mu_bar[3 * k + 0] += total[0];
+            mu_bar[3 * k + 1] += total[1];
+            mu_bar[3 * k + 2] += total[2];
+            W_bar[9 * k + 0] += total[3];
+            W_bar[9 * k + 1] += total[4];
+            W_bar[9 * k + 2] += total[5];
+            W_bar[9 * k + 3] += total[6];
+            W_bar[9 * k + 4] += total[7];
+            W_bar[9 * k + 5] += total[8];
+            W_bar[9 * k + 6] += total[9];
+            W_bar[9 * k + 7] += total[10];
+            W_bar[9 * k + 8] += total[11];
+            amplitude_bar[1 * k + 0] += total[12];
+        }
+    }
+}

@@ -1,0 +1,808 @@
+/*
+ * so3: Rotations of R^3 as unit quaternions (w, x, y, z), q and -q the same; distances are rotation angles in
+ *
+ * Sums of splats, forward and backward. See the header for what the functions promise.
+ */
+
+#include "so3.h"
+
+#include <float.h>
+
+#define LANES 64
+
+static inline double polynomial_t_over_norm_s_near(double x) {
+    return 2.0 + x * (0.33333333333333803 + x * (0.14999999999887204 + x * (0.08928571439308554 + x *
+        (0.06076388352917429 + x * (0.04474447894429192 + x * (0.034702400890995196 + x *
+        (0.027970967704767306 + x * (0.022725187457831735 + x * (0.021950106306038882 + x *
+        (0.0059985679108534124 + x * (0.04673327377794268 + x * (-0.046540024421261234 + x *
+        0.06801122378850952))))))))))));
+}
+
+static inline double polynomial_log_det_series(double x) {
+    return 0.3333333333333333 + x * (0.12222222222222505 + x * (0.06737213403812269 + x *
+        (0.044038800770006784 + x * (0.03163272618894735 + x * (0.02412572786938261 + x *
+        (0.019178426063785198 + x * (0.015745299135070896 + x * (0.01296134121333057 + x *
+        (0.012728598238987641 + x * (0.003298619430883951 + x * (0.027868702271499315 + x *
+        (-0.02806396537465957 + x * 0.04072842356250539))))))))))));
+}
+
+static inline double polynomial_log_det_series_slope(double x) {
+    return 0.12222222222222505 + x * (0.13474426807624537 + x * (0.13211640231002034 + x * (0.1265309047557894
+        + x * (0.12062863934691306 + x * (0.1150705563827112 + x * (0.11021709394549628 + x *
+        (0.10369072970664456 + x * (0.11455738415088876 + x * (0.032986194308839506 + x * (0.3065557249864925
+        + x * (-0.3367675844959148 + x * 0.5294695063125701)))))))))));
+}
+
+static inline double polynomial_t_over_norm_s_near_slope(double x) {
+    return 0.33333333333333803 + x * (0.29999999999774407 + x * (0.26785714317925663 + x *
+        (0.24305553411669717 + x * (0.22372239472145958 + x * (0.2082144053459712 + x * (0.19579677393337114 +
+        x * (0.18180149966265388 + x * (0.19755095675434994 + x * (0.059985679108534126 + x *
+        (0.5140660115573694 + x * (-0.5584802930551348 + x * 0.8841459092506236)))))))))));
+}
+
+static inline double polynomial_t_over_norm_s_near_slope_slope(double x) {
+    return 0.29999999999774407 + x * (0.5357142863585133 + x * (0.7291666023500915 + x * (0.8948895788858383 +
+        x * (1.0410720267298559 + x * (1.1747806436002268 + x * (1.272610497638577 + x * (1.5804076540347995 +
+        x * (0.5398711119768071 + x * (5.140660115573694 + x * (-6.143283223606483 + x *
+        10.609750911007485))))))))));
+}
+
+static inline double polynomial_log_det_series_slope_slope(double x) {
+    return 0.13474426807624537 + x * (0.2642328046200407 + x * (0.37959271426736824 + x * (0.48251455738765225
+        + x * (0.575352781913556 + x * (0.6613025636729777 + x * (0.7258351079465118 + x * (0.9164590732071101
+        + x * (0.2968757487795556 + x * (3.065557249864925 + x * (-3.704443429455063 + x *
+        6.353634075750841))))))))));
+}
+
+void so3_splats(
+    size_t count,
+    size_t splat_count,
+    const double *SO3_RESTRICT x,
+    const double *SO3_RESTRICT mu,
+    const double *SO3_RESTRICT W,
+    const double *SO3_RESTRICT amplitude,
+    double *SO3_RESTRICT value,
+    double *SO3_RESTRICT gradient) {
+    for (size_t start = 0; start < count; start += LANES) {
+        const size_t lanes = count - start < LANES ? count - start : LANES;
+        double x_block[4][LANES], sum[4][LANES] = {{0}};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            const size_t n = start + (lane < lanes ? lane : lanes - 1);
+            for (size_t i = 0; i < 4; ++i) x_block[i][lane] = x[4 * n + i];
+        }
+        for (size_t k = 0; k < splat_count; ++k) {
+            const double mu0 = mu[4 * k + 0];
+            const double mu1 = mu[4 * k + 1];
+            const double mu2 = mu[4 * k + 2];
+            const double mu3 = mu[4 * k + 3];
+            const double W0 = W[9 * k + 0];
+            const double W1 = W[9 * k + 1];
+            const double W2 = W[9 * k + 2];
+            const double W3 = W[9 * k + 3];
+            const double W4 = W[9 * k + 4];
+            const double W5 = W[9 * k + 5];
+            const double W6 = W[9 * k + 6];
+            const double W7 = W[9 * k + 7];
+            const double W8 = W[9 * k + 8];
+            const double amplitude0 = amplitude[1 * k + 0];
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                const double g0 = x_block[0][lane] * mu0 + x_block[1][lane] * mu1 + x_block[2][lane] * mu2 +
+                    x_block[3][lane] * mu3;
+                const double g1 = x_block[1][lane] * mu0 + x_block[2][lane] * mu3 - x_block[0][lane] * mu1 -
+                    x_block[3][lane] * mu2;
+                const double g2 = x_block[2][lane] * mu0 + x_block[3][lane] * mu1 - x_block[0][lane] * mu2 -
+                    x_block[1][lane] * mu3;
+                const double g3 = x_block[3][lane] * mu0 + x_block[1][lane] * mu2 - x_block[2][lane] * mu1 -
+                    x_block[0][lane] * mu3;
+                const double norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+                const double abs_g0 = fabs(g0);
+                const int near = norm_s_squared < 0.2492869794368744;
+                const double near_chosen = (near ? norm_s_squared : 0.0);
+                const double t_over_norm_s_near = polynomial_t_over_norm_s_near(near_chosen);
+                const double near_chosen_2 = (near ? 1.0 : norm_s_squared);
+                const double norm_s = sqrt(near_chosen_2);
+                const double atan2_norm_s_abs_g0 = atan2(norm_s, abs_g0);
+                const double t = 2.0 * atan2_norm_s_abs_g0;
+                const double t_ratio = t / norm_s;
+                const double t_over_norm_s = (near ? t_over_norm_s_near : t_ratio);
+                const int is_small = g0 < 0.0;
+                const double chosen = (is_small ? -1.0 : 1.0);
+                const double scale = t_over_norm_s * chosen;
+                const double v0 = g1 * scale;
+                const double v1 = g2 * scale;
+                const double v2 = g3 * scale;
+                const double log_det_series = polynomial_log_det_series(near_chosen);
+                const double log_det_near = norm_s_squared * log_det_series;
+                const double product = 0.5 * t_ratio;
+                const double log_det = (near ? log_det_near : 2.0 * log(product));
+                const double z0 = W0 * v0 + W1 * v1 + W2 * v2;
+                const double z1 = W3 * v0 + W4 * v1 + W5 * v2;
+                const double z2 = W6 * v0 + W7 * v1 + W8 * v2;
+                const double log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
+                const double phi = amplitude0 * exp(log_det_gap);
+                const double by_v2 = -(W8 * z2) - W5 * z1 - W2 * z0;
+                const double by_v1 = -(W7 * z2) - W4 * z1 - W1 * z0;
+                const double by_v0 = -(W6 * z2) - W3 * z1 - W0 * z0;
+                const double by_log_det_near = (near ? 1.0 : 0.0);
+                const double by_log_det_series = norm_s_squared * by_log_det_near;
+                const double log_det_series_slope = polynomial_log_det_series_slope(near_chosen);
+                const double by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
+                const double by_t_over_norm_s = chosen * by_scale;
+                const double by_t_over_norm_s_near = (near ? by_t_over_norm_s : 0.0);
+                const double total = 0.5 * (2.0 * (near ? 0.0 : 1.0) / product) + (near ? 0.0 : by_t_over_norm_s);
+                const double by_t = total / norm_s;
+                const double by_atan2_norm_s_abs_g0 = 2.0 * by_t;
+                const double ratio = by_atan2_norm_s_abs_g0 / (near_chosen_2 + abs_g0 * abs_g0);
+                const double norm_s_product = norm_s * ratio;
+                const double by_abs_g0 = -norm_s_product;
+                const double by_norm_s = abs_g0 * ratio - t_ratio * by_t;
+                const double t_over_norm_s_near_slope = polynomial_t_over_norm_s_near_slope(near_chosen);
+                const double by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0 : by_norm_s / (2.0 *
+                    norm_s)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_s_near *
+                    t_over_norm_s_near_slope : 0.0);
+                const double by_g0 = (is_small ? norm_s_product : by_abs_g0);
+                const double product_2 = 2.0 * by_norm_s_squared;
+                const double by_g3 = scale * by_v2 + g3 * product_2;
+                const double by_g2 = scale * by_v1 + g2 * product_2;
+                const double by_g1 = scale * by_v0 + g1 * product_2;
+                const double exponent_by_x3 = mu0 * by_g3 + mu1 * by_g2 - mu2 * by_g1 + mu3 * by_g0;
+                const double exponent_by_x2 = mu0 * by_g2 - mu1 * by_g3 + mu3 * by_g1 + mu2 * by_g0;
+                const double exponent_by_x1 = mu2 * by_g3 - mu3 * by_g2 + mu0 * by_g1 + mu1 * by_g0;
+                const double exponent_by_x0 = -(mu3 * by_g3) - mu2 * by_g2 - mu1 * by_g1 + mu0 * by_g0;
+                const double df0 = phi * exponent_by_x0;
+                const double df1 = phi * exponent_by_x1;
+                const double df2 = phi * exponent_by_x2;
+                const double df3 = phi * exponent_by_x3;
+                const double df1_product = 0.5 * df1;
+                const double df2_product = 0.5 * df2;
+                const double df0_product = 0.5 * df0;
+                const double df3_product = 0.5 * df3;
+                const double gradient0 = x_block[0][lane] * df1_product + x_block[3][lane] * df2_product -
+                    x_block[1][lane] * df0_product - x_block[2][lane] * df3_product;
+                const double gradient1 = x_block[0][lane] * df2_product + x_block[1][lane] * df3_product -
+                    x_block[2][lane] * df0_product - x_block[3][lane] * df1_product;
+                const double gradient2 = x_block[2][lane] * df1_product + x_block[0][lane] * df3_product -
+                    x_block[3][lane] * df0_product - x_block[1][lane] * df2_product;
+                sum[0][lane] += phi;
+                sum[1][lane] += gradient0;
+                sum[2][lane] += gradient1;
+                sum[3][lane] += gradient2;
+            }
+        }
+        for (size_t lane = 0; lane < lanes; ++lane) {
+            value[start + lane] = sum[0][lane];
+            for (size_t i = 0; i < 3; ++i) gradient[3 * (start + lane) + i] = sum[i + 1][lane];
+        }
+    }
+}
+
+void so3_splats_vjp(
+    size_t count,
+    size_t splat_count,
+    const double *SO3_RESTRICT x,
+    const double *SO3_RESTRICT mu,
+    const double *SO3_RESTRICT W,
+    const double *SO3_RESTRICT amplitude,
+    const double *SO3_RESTRICT value_bar,
+    const double *SO3_RESTRICT gradient_bar,
+    double *SO3_RESTRICT mu_bar,
+    double *SO3_RESTRICT W_bar,
+    double *SO3_RESTRICT amplitude_bar) {
+    for (size_t i = 0; i < 4 * splat_count; ++i) mu_bar[i] = 0;
+    for (size_t i = 0; i < 9 * splat_count; ++i) W_bar[i] = 0;
+    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
+    for (size_t start = 0; start < count; start += LANES) {
+        const size_t lanes = count - start < LANES ? count - start : LANES;
+        double x_block[4][LANES], value_bar_block[1][LANES], gradient_bar_block[3][LANES];
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            const size_t n = start + (lane < lanes ? lane : lanes - 1);
+            const double weight = lane < lanes ? 1 : 0;
+            for (size_t i = 0; i < 4; ++i) x_block[i][lane] = x[4 * n + i];
+            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
+            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] = gradient_bar[3 * n + i];
+            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
+            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] *= weight;
+        }
+        for (size_t k = 0; k < splat_count; ++k) {
+            double sum[14][LANES] = {{0}}, total[14] = {0};
+            const double mu0 = mu[4 * k + 0];
+            const double mu1 = mu[4 * k + 1];
+            const double mu2 = mu[4 * k + 2];
+            const double mu3 = mu[4 * k + 3];
+            const double W0 = W[9 * k + 0];
+            const double W1 = W[9 * k + 1];
+            const double W2 = W[9 * k + 2];
+            const double W3 = W[9 * k + 3];
+            const double W4 = W[9 * k + 4];
+            const double W5 = W[9 * k + 5];
+            const double W6 = W[9 * k + 6];
+            const double W7 = W[9 * k + 7];
+            const double W8 = W[9 * k + 8];
+            const double amplitude0 = amplitude[1 * k + 0];
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                const double g0 = x_block[0][lane] * mu0 + x_block[1][lane] * mu1 + x_block[2][lane] * mu2 +
+                    x_block[3][lane] * mu3;
+                const double g1 = x_block[1][lane] * mu0 + x_block[2][lane] * mu3 - x_block[0][lane] * mu1 -
+                    x_block[3][lane] * mu2;
+                const double g2 = x_block[2][lane] * mu0 + x_block[3][lane] * mu1 - x_block[0][lane] * mu2 -
+                    x_block[1][lane] * mu3;
+                const double g3 = x_block[3][lane] * mu0 + x_block[1][lane] * mu2 - x_block[2][lane] * mu1 -
+                    x_block[0][lane] * mu3;
+                const double norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+                const double abs_g0 = fabs(g0);
+                const int near = norm_s_squared < 0.2492869794368744;
+                const double near_chosen = (near ? norm_s_squared : 0.0);
+                const double t_over_norm_s_near = polynomial_t_over_norm_s_near(near_chosen);
+                const double near_chosen_2 = (near ? 1.0 : norm_s_squared);
+                const double norm_s = sqrt(near_chosen_2);
+                const double atan2_norm_s_abs_g0 = atan2(norm_s, abs_g0);
+                const double t = 2.0 * atan2_norm_s_abs_g0;
+                const double t_ratio = t / norm_s;
+                const double t_over_norm_s = (near ? t_over_norm_s_near : t_ratio);
+                const int is_small = g0 < 0.0;
+                const double chosen = (is_small ? -1.0 : 1.0);
+                const double scale = t_over_norm_s * chosen;
+                const double v0 = g1 * scale;
+                const double v1 = g2 * scale;
+                const double v2 = g3 * scale;
+                const double log_det_series = polynomial_log_det_series(near_chosen);
+                const double log_det_near = norm_s_squared * log_det_series;
+                const double product = 0.5 * t_ratio;
+                const double log_det = (near ? log_det_near : 2.0 * log(product));
+                const double z0 = W0 * v0 + W1 * v1 + W2 * v2;
+                const double z1 = W3 * v0 + W4 * v1 + W5 * v2;
+                const double z2 = W6 * v0 + W7 * v1 + W8 * v2;
+                const double log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
+                const double exp_2 = exp(log_det_gap);
+                const double phi = amplitude0 * exp_2;
+                const double by_v2 = -(W8 * z2) - W5 * z1 - W2 * z0;
+                const double by_v1 = -(W7 * z2) - W4 * z1 - W1 * z0;
+                const double by_v0 = -(W6 * z2) - W3 * z1 - W0 * z0;
+                const double by_log_det_near = (near ? 1.0 : 0.0);
+                const double ratio = 2.0 * (near ? 0.0 : 1.0) / product;
+                const double by_log_det_series = norm_s_squared * by_log_det_near;
+                const double log_det_series_slope = polynomial_log_det_series_slope(near_chosen);
+                const double by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
+                const double by_t_over_norm_s = chosen * by_scale;
+                const double by_t_over_norm_s_near = (near ? by_t_over_norm_s : 0.0);
+                const double by_t = (0.5 * ratio + (near ? 0.0 : by_t_over_norm_s)) / norm_s;
+                const double by_atan2_norm_s_abs_g0 = 2.0 * by_t;
+                const double total = near_chosen_2 + abs_g0 * abs_g0;
+                const double ratio_2 = by_atan2_norm_s_abs_g0 / total;
+                const double norm_s_product = norm_s * ratio_2;
+                const double by_abs_g0 = -norm_s_product;
+                const double by_norm_s = abs_g0 * ratio_2 - t_ratio * by_t;
+                const double norm_s_product_2 = 2.0 * norm_s;
+                const double by_norm_s_ratio = by_norm_s / norm_s_product_2;
+                const double t_over_norm_s_near_slope = polynomial_t_over_norm_s_near_slope(near_chosen);
+                const double by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0 : by_norm_s_ratio) + (near
+                    ? by_log_det_series * log_det_series_slope + by_t_over_norm_s_near * t_over_norm_s_near_slope : 0.0);
+                const double by_g0 = (is_small ? norm_s_product : by_abs_g0);
+                const double product_2 = 2.0 * by_norm_s_squared;
+                const double by_g3 = scale * by_v2 + g3 * product_2;
+                const double by_g2 = scale * by_v1 + g2 * product_2;
+                const double by_g1 = scale * by_v0 + g1 * product_2;
+                const double exponent_by_x3 = mu0 * by_g3 + mu1 * by_g2 - mu2 * by_g1 + mu3 * by_g0;
+                const double exponent_by_x2 = mu0 * by_g2 - mu1 * by_g3 + mu3 * by_g1 + mu2 * by_g0;
+                const double exponent_by_x1 = mu2 * by_g3 - mu3 * by_g2 + mu0 * by_g1 + mu1 * by_g0;
+                const double exponent_by_x0 = -(mu3 * by_g3) - mu2 * by_g2 - mu1 * by_g1 + mu0 * by_g0;
+                const double by_df3 = 0.5 * (x_block[0][lane] * gradient_bar_block[2][lane] + x_block[1][lane] *
+                    gradient_bar_block[1][lane] - x_block[2][lane] * gradient_bar_block[0][lane]);
+                const double by_df0 = 0.5 * (-(x_block[3][lane] * gradient_bar_block[2][lane]) - x_block[2][lane] *
+                    gradient_bar_block[1][lane] - x_block[1][lane] * gradient_bar_block[0][lane]);
+                const double by_df2 = 0.5 * (x_block[0][lane] * gradient_bar_block[1][lane] - x_block[1][lane] *
+                    gradient_bar_block[2][lane] + x_block[3][lane] * gradient_bar_block[0][lane]);
+                const double by_df1 = 0.5 * (x_block[2][lane] * gradient_bar_block[2][lane] - x_block[3][lane] *
+                    gradient_bar_block[1][lane] + x_block[0][lane] * gradient_bar_block[0][lane]);
+                const double by_exponent_by_x3 = phi * by_df3;
+                const double by_exponent_by_x2 = phi * by_df2;
+                const double by_exponent_by_x1 = phi * by_df1;
+                const double by_exponent_by_x0 = phi * by_df0;
+                const double by_phi = value_bar_block[0][lane] + exponent_by_x3 * by_df3 + exponent_by_x2 * by_df2 +
+                    exponent_by_x1 * by_df1 + exponent_by_x0 * by_df0;
+                const double by_by_g0 = mu0 * by_exponent_by_x0 + mu1 * by_exponent_by_x1 + mu2 * by_exponent_by_x2 + mu3
+                    * by_exponent_by_x3;
+                const double by_by_g1 = mu0 * by_exponent_by_x1 + mu3 * by_exponent_by_x2 - mu1 * by_exponent_by_x0 - mu2
+                    * by_exponent_by_x3;
+                const double by_by_g2 = mu0 * by_exponent_by_x2 + mu1 * by_exponent_by_x3 - mu2 * by_exponent_by_x0 - mu3
+                    * by_exponent_by_x1;
+                const double by_by_g3 = mu0 * by_exponent_by_x3 + mu2 * by_exponent_by_x1 - mu1 * by_exponent_by_x2 - mu3
+                    * by_exponent_by_x0;
+                const double by_by_norm_s_squared = 2.0 * (g1 * by_by_g1 + g2 * by_by_g2 + g3 * by_by_g3);
+                const double by_by_abs_g0 = (is_small ? 0.0 : by_by_g0);
+                const double near_chosen_3 = (near ? by_by_norm_s_squared : 0.0);
+                const double by_by_t_over_norm_s_near = t_over_norm_s_near_slope * near_chosen_3;
+                const double by_t_over_norm_s_near_slope = by_t_over_norm_s_near * near_chosen_3;
+                const double t_over_norm_s_near_slope_slope = polynomial_t_over_norm_s_near_slope_slope(near_chosen);
+                const double by_by_norm_s = (near ? 0.0 : by_by_norm_s_squared) / norm_s_product_2;
+                const double gap = (is_small ? by_by_g0 : 0.0) - by_by_abs_g0;
+                const double by_by_atan2_norm_s_abs_g0 = (norm_s * gap + abs_g0 * by_by_norm_s) / total;
+                const double product_3 = ratio_2 * by_by_atan2_norm_s_abs_g0;
+                const double gap_2 = ratio_2 * by_by_norm_s - abs_g0 * (2.0 * product_3);
+                const double by_by_t = 2.0 * by_by_atan2_norm_s_abs_g0 - t_ratio * by_by_norm_s;
+                const double by_by_t_ratio = by_by_t / norm_s;
+                const double by_by_t_over_norm_s = (near ? 0.0 : by_by_t_ratio) + (near ? by_by_t_over_norm_s_near : 0.0);
+                const double by_by_scale = chosen * by_by_t_over_norm_s;
+                const double by_by_v0 = g1 * by_by_scale + scale * by_by_g1;
+                const double by_by_v1 = g2 * by_by_scale + scale * by_by_g2;
+                const double by_by_v2 = g3 * by_by_scale + scale * by_by_g3;
+                const double by_by_log_det_series = log_det_series_slope * near_chosen_3;
+                const double by_log_det_series_slope = by_log_det_series * near_chosen_3;
+                const double log_det_series_slope_slope = polynomial_log_det_series_slope_slope(near_chosen);
+                const double by_log_det = exp_2 * (amplitude0 * by_phi);
+                const double by_z2 = -(W6 * by_by_v0) - W7 * by_by_v1 - W8 * by_by_v2 - z2 * by_log_det;
+                const double by_z1 = -(W3 * by_by_v0) - W4 * by_by_v1 - W5 * by_by_v2 - z1 * by_log_det;
+                const double by_z0 = -(W0 * by_by_v0) - W1 * by_by_v1 - W2 * by_by_v2 - z0 * by_log_det;
+                const double by_v2_2 = W8 * by_z2 + W5 * by_z1 + W2 * by_z0;
+                const double by_v1_2 = W7 * by_z2 + W4 * by_z1 + W1 * by_z0;
+                const double by_v0_2 = W6 * by_z2 + W3 * by_z1 + W0 * by_z0;
+                const double by_log_det_near_2 = (near ? by_log_det : 0.0);
+                const double product_4 = 0.5 * (2.0 * (near ? 0.0 : by_log_det) / product - ratio * (0.5 * by_by_t_ratio /
+                    product));
+                const double by_log_det_series_2 = by_log_det_near * by_by_norm_s_squared + norm_s_squared *
+                    by_log_det_near_2;
+                const double total_2 = by_v0 * by_by_g1 + by_v1 * by_by_g2 + by_v2 * by_by_g3 + g3 * by_v2_2 + g2 *
+                    by_v1_2;
+                const double by_scale_2 = total_2 + g1 * by_v0_2;
+                const double by_t_over_norm_s_2 = chosen * by_scale_2;
+                const double by_t_over_norm_s_near_2 = (near ? by_t_over_norm_s_2 : 0.0);
+                const double by_t_2 = (product_4 - by_t * by_by_norm_s + (near ? 0.0 : by_t_over_norm_s_2)) / norm_s;
+                const double gap_3 = ratio_2 * gap - 2.0 * (by_norm_s_ratio * by_by_norm_s) - by_t * by_by_t_ratio -
+                    t_ratio * by_t_2;
+                const double by_atan2_norm_s_abs_g0_2 = 2.0 * by_t_2;
+                const double ratio_3 = by_atan2_norm_s_abs_g0_2 / total;
+                const double norm_s_product_3 = norm_s * ratio_3;
+                const double by_norm_s_2 = gap_3 + abs_g0 * ratio_3;
+                const double by_abs_g0_2 = gap_2 - norm_s_product_3;
+                const double near_chosen_4 = (near ? by_t_over_norm_s_near_slope * t_over_norm_s_near_slope_slope +
+                    by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
+                    t_over_norm_s_near_slope * by_t_over_norm_s_near_2 : 0.0);
+                const double by_norm_s_squared_2 = by_log_det_near * by_by_log_det_series + log_det_series *
+                    by_log_det_near_2 + (near ? 0.0 : by_norm_s_2 / norm_s_product_2 - product_3) + near_chosen_4;
+                const double by_g0_2 = (is_small ? norm_s_product_3 - gap_2 : by_abs_g0_2);
+                const double product_5 = 2.0 * by_norm_s_squared_2;
+                const double by_g3_2 = product_2 * by_by_g3 + by_v2 * by_by_scale + scale * by_v2_2 + g3 * product_5;
+                const double by_g2_2 = product_2 * by_by_g2 + by_v1 * by_by_scale + scale * by_v1_2 + g2 * product_5;
+                const double by_g1_2 = product_2 * by_by_g1 + by_v0 * by_by_scale + scale * by_v0_2 + g1 * product_5;
+                const double gap_4 = by_g0 * by_exponent_by_x3 + by_g1 * by_exponent_by_x2 - by_g2 * by_exponent_by_x1 -
+                    by_g3 * by_exponent_by_x0 - x_block[0][lane] * by_g3_2;
+                const double gap_5 = by_g0 * by_exponent_by_x1 - by_g1 * by_exponent_by_x0 + by_g2 * by_exponent_by_x3 -
+                    by_g3 * by_exponent_by_x2 - x_block[2][lane] * by_g3_2;
+                const double total_3 = by_g0 * by_exponent_by_x2 - by_g1 * by_exponent_by_x3 - by_g2 * by_exponent_by_x0 +
+                    by_g3 * by_exponent_by_x1 + x_block[1][lane] * by_g3_2;
+                const double total_4 = by_g0 * by_exponent_by_x0 + by_g1 * by_exponent_by_x1 + by_g2 * by_exponent_by_x2 +
+                    by_g3 * by_exponent_by_x3 + x_block[3][lane] * by_g3_2;
+                sum[0][lane] += total_4 + x_block[2][lane] * by_g2_2 + x_block[1][lane] * by_g1_2 + x_block[0][lane] * by_g0_2;
+                sum[1][lane] += gap_5 + x_block[3][lane] * by_g2_2 - x_block[0][lane] * by_g1_2 + x_block[1][lane] * by_g0_2;
+                sum[2][lane] += total_3 - x_block[0][lane] * by_g2_2 - x_block[3][lane] * by_g1_2 + x_block[2][lane] * by_g0_2;
+                sum[3][lane] += gap_4 - x_block[1][lane] * by_g2_2 + x_block[2][lane] * by_g1_2 + x_block[3][lane] * by_g0_2;
+                sum[4][lane] += v0 * by_z0 - z0 * by_by_v0;
+                sum[5][lane] += v1 * by_z0 - z0 * by_by_v1;
+                sum[6][lane] += v2 * by_z0 - z0 * by_by_v2;
+                sum[7][lane] += v0 * by_z1 - z1 * by_by_v0;
+                sum[8][lane] += v1 * by_z1 - z1 * by_by_v1;
+                sum[9][lane] += v2 * by_z1 - z1 * by_by_v2;
+                sum[10][lane] += v0 * by_z2 - z2 * by_by_v0;
+                sum[11][lane] += v1 * by_z2 - z2 * by_by_v1;
+                sum[12][lane] += v2 * by_z2 - z2 * by_by_v2;
+                sum[13][lane] += exp_2 * by_phi;
+            }
+            for (size_t i = 0; i < 14; ++i)
+                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
+            mu_bar[4 * k + 0] += total[0];
+            mu_bar[4 * k + 1] += total[1];
+            mu_bar[4 * k + 2] += total[2];
+            mu_bar[4 * k + 3] += total[3];
+            W_bar[9 * k + 0] += total[4];
+            W_bar[9 * k + 1] += total[5];
+            W_bar[9 * k + 2] += total[6];
+            W_bar[9 * k + 3] += total[7];
+            W_bar[9 * k + 4] += total[8];
+            W_bar[9 * k + 5] += total[9];
+            W_bar[9 * k + 6] += total[10];
+            W_bar[9 * k + 7] += total[11];
+            W_bar[9 * k + 8] += total[12];
+            amplitude_bar[1 * k + 0] += total[13];
+        }
+    }
+}
+
+static inline float polynomial_t_over_norm_s_near_f(float x) {
+    return 2.0f + x * (0.33333333333333803f + x * (0.14999999999887204f + x * (0.08928571439308554f + x *
+        (0.06076388352917429f + x * (0.04474447894429192f + x * (0.034702400890995196f + x *
+        (0.027970967704767306f + x * (0.022725187457831735f + x * (0.021950106306038882f + x *
+        (0.0059985679108534124f + x * (0.04673327377794268f + x * (-0.046540024421261234f + x *
+        0.06801122378850952f))))))))))));
+}
+
+static inline float polynomial_log_det_series_f(float x) {
+    return 0.3333333333333333f + x * (0.12222222222222505f + x * (0.06737213403812269f + x *
+        (0.044038800770006784f + x * (0.03163272618894735f + x * (0.02412572786938261f + x *
+        (0.019178426063785198f + x * (0.015745299135070896f + x * (0.01296134121333057f + x *
+        (0.012728598238987641f + x * (0.003298619430883951f + x * (0.027868702271499315f + x *
+        (-0.02806396537465957f + x * 0.04072842356250539f))))))))))));
+}
+
+static inline float polynomial_log_det_series_slope_f(float x) {
+    return 0.12222222222222505f + x * (0.13474426807624537f + x * (0.13211640231002034f + x *
+        (0.1265309047557894f + x * (0.12062863934691306f + x * (0.1150705563827112f + x *
+        (0.11021709394549628f + x * (0.10369072970664456f + x * (0.11455738415088876f + x *
+        (0.032986194308839506f + x * (0.3065557249864925f + x * (-0.3367675844959148f + x *
+        0.5294695063125701f)))))))))));
+}
+
+static inline float polynomial_t_over_norm_s_near_slope_f(float x) {
+    return 0.33333333333333803f + x * (0.29999999999774407f + x * (0.26785714317925663f + x *
+        (0.24305553411669717f + x * (0.22372239472145958f + x * (0.2082144053459712f + x *
+        (0.19579677393337114f + x * (0.18180149966265388f + x * (0.19755095675434994f + x *
+        (0.059985679108534126f + x * (0.5140660115573694f + x * (-0.5584802930551348f + x *
+        0.8841459092506236f)))))))))));
+}
+
+static inline float polynomial_t_over_norm_s_near_slope_slope_f(float x) {
+    return 0.29999999999774407f + x * (0.5357142863585133f + x * (0.7291666023500915f + x *
+        (0.8948895788858383f + x * (1.0410720267298559f + x * (1.1747806436002268f + x * (1.272610497638577f +
+        x * (1.5804076540347995f + x * (0.5398711119768071f + x * (5.140660115573694f + x *
+        (-6.143283223606483f + x * 10.609750911007485f))))))))));
+}
+
+static inline float polynomial_log_det_series_slope_slope_f(float x) {
+    return 0.13474426807624537f + x * (0.2642328046200407f + x * (0.37959271426736824f + x *
+        (0.48251455738765225f + x * (0.575352781913556f + x * (0.6613025636729777f + x * (0.7258351079465118f
+        + x * (0.9164590732071101f + x * (0.2968757487795556f + x * (3.065557249864925f + x *
+        (-3.704443429455063f + x * 6.353634075750841f))))))))));
+}
+
+void so3_splats_f(
+    size_t count,
+    size_t splat_count,
+    const float *SO3_RESTRICT x,
+    const float *SO3_RESTRICT mu,
+    const float *SO3_RESTRICT W,
+    const float *SO3_RESTRICT amplitude,
+    float *SO3_RESTRICT value,
+    float *SO3_RESTRICT gradient) {
+    for (size_t start = 0; start < count; start += LANES) {
+        const size_t lanes = count - start < LANES ? count - start : LANES;
+        float x_block[4][LANES], sum[4][LANES] = {{0}};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            const size_t n = start + (lane < lanes ? lane : lanes - 1);
+            for (size_t i = 0; i < 4; ++i) x_block[i][lane] = x[4 * n + i];
+        }
+        for (size_t k = 0; k < splat_count; ++k) {
+            const float mu0 = mu[4 * k + 0];
+            const float mu1 = mu[4 * k + 1];
+            const float mu2 = mu[4 * k + 2];
+            const float mu3 = mu[4 * k + 3];
+            const float W0 = W[9 * k + 0];
+            const float W1 = W[9 * k + 1];
+            const float W2 = W[9 * k + 2];
+            const float W3 = W[9 * k + 3];
+            const float W4 = W[9 * k + 4];
+            const float W5 = W[9 * k + 5];
+            const float W6 = W[9 * k + 6];
+            const float W7 = W[9 * k + 7];
+            const float W8 = W[9 * k + 8];
+            const float amplitude0 = amplitude[1 * k + 0];
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                const float g0 = x_block[0][lane] * mu0 + x_block[1][lane] * mu1 + x_block[2][lane] * mu2 +
+                    x_block[3][lane] * mu3;
+                const float g1 = x_block[1][lane] * mu0 + x_block[2][lane] * mu3 - x_block[0][lane] * mu1 -
+                    x_block[3][lane] * mu2;
+                const float g2 = x_block[2][lane] * mu0 + x_block[3][lane] * mu1 - x_block[0][lane] * mu2 -
+                    x_block[1][lane] * mu3;
+                const float g3 = x_block[3][lane] * mu0 + x_block[1][lane] * mu2 - x_block[2][lane] * mu1 -
+                    x_block[0][lane] * mu3;
+                const float norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+                const float abs_g0 = fabsf(g0);
+                const int near = norm_s_squared < 0.2492869794368744f;
+                const float near_chosen = (near ? norm_s_squared : 0.0f);
+                const float t_over_norm_s_near = polynomial_t_over_norm_s_near_f(near_chosen);
+                const float near_chosen_2 = (near ? 1.0f : norm_s_squared);
+                const float norm_s = sqrtf(near_chosen_2);
+                const float atan2_norm_s_abs_g0 = atan2f(norm_s, abs_g0);
+                const float t = 2.0f * atan2_norm_s_abs_g0;
+                const float t_ratio = t / norm_s;
+                const float t_over_norm_s = (near ? t_over_norm_s_near : t_ratio);
+                const int is_small = g0 < 0.0f;
+                const float chosen = (is_small ? -1.0f : 1.0f);
+                const float scale = t_over_norm_s * chosen;
+                const float v0 = g1 * scale;
+                const float v1 = g2 * scale;
+                const float v2 = g3 * scale;
+                const float log_det_series = polynomial_log_det_series_f(near_chosen);
+                const float log_det_near = norm_s_squared * log_det_series;
+                const float product = 0.5f * t_ratio;
+                const float log_det = (near ? log_det_near : 2.0f * logf(product));
+                const float z0 = W0 * v0 + W1 * v1 + W2 * v2;
+                const float z1 = W3 * v0 + W4 * v1 + W5 * v2;
+                const float z2 = W6 * v0 + W7 * v1 + W8 * v2;
+                const float log_det_gap = log_det - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
+                const float phi = amplitude0 * expf(log_det_gap);
+                const float by_v2 = -(W8 * z2) - W5 * z1 - W2 * z0;
+                const float by_v1 = -(W7 * z2) - W4 * z1 - W1 * z0;
+                const float by_v0 = -(W6 * z2) - W3 * z1 - W0 * z0;
+                const float by_log_det_near = (near ? 1.0f : 0.0f);
+                const float by_log_det_series = norm_s_squared * by_log_det_near;
+                const float log_det_series_slope = polynomial_log_det_series_slope_f(near_chosen);
+                const float by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
+                const float by_t_over_norm_s = chosen * by_scale;
+                const float by_t_over_norm_s_near = (near ? by_t_over_norm_s : 0.0f);
+                const float total = 0.5f * (2.0f * (near ? 0.0f : 1.0f) / product) + (near ? 0.0f : by_t_over_norm_s);
+                const float by_t = total / norm_s;
+                const float by_atan2_norm_s_abs_g0 = 2.0f * by_t;
+                const float ratio = by_atan2_norm_s_abs_g0 / (near_chosen_2 + abs_g0 * abs_g0);
+                const float norm_s_product = norm_s * ratio;
+                const float by_abs_g0 = -norm_s_product;
+                const float by_norm_s = abs_g0 * ratio - t_ratio * by_t;
+                const float t_over_norm_s_near_slope = polynomial_t_over_norm_s_near_slope_f(near_chosen);
+                const float by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0f : by_norm_s / (2.0f *
+                    norm_s)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_s_near *
+                    t_over_norm_s_near_slope : 0.0f);
+                const float by_g0 = (is_small ? norm_s_product : by_abs_g0);
+                const float product_2 = 2.0f * by_norm_s_squared;
+                const float by_g3 = scale * by_v2 + g3 * product_2;
+                const float by_g2 = scale * by_v1 + g2 * product_2;
+                const float by_g1 = scale * by_v0 + g1 * product_2;
+                const float exponent_by_x3 = mu0 * by_g3 + mu1 * by_g2 - mu2 * by_g1 + mu3 * by_g0;
+                const float exponent_by_x2 = mu0 * by_g2 - mu1 * by_g3 + mu3 * by_g1 + mu2 * by_g0;
+                const float exponent_by_x1 = mu2 * by_g3 - mu3 * by_g2 + mu0 * by_g1 + mu1 * by_g0;
+                const float exponent_by_x0 = -(mu3 * by_g3) - mu2 * by_g2 - mu1 * by_g1 + mu0 * by_g0;
+                const float df0 = phi * exponent_by_x0;
+                const float df1 = phi * exponent_by_x1;
+                const float df2 = phi * exponent_by_x2;
+                const float df3 = phi * exponent_by_x3;
+                const float df1_product = 0.5f * df1;
+                const float df2_product = 0.5f * df2;
+                const float df0_product = 0.5f * df0;
+                const float df3_product = 0.5f * df3;
+                const float gradient0 = x_block[0][lane] * df1_product + x_block[3][lane] * df2_product - x_block[1][lane]
+                    * df0_product - x_block[2][lane] * df3_product;
+                const float gradient1 = x_block[0][lane] * df2_product + x_block[1][lane] * df3_product - x_block[2][lane]
+                    * df0_product - x_block[3][lane] * df1_product;
+                const float gradient2 = x_block[2][lane] * df1_product + x_block[0][lane] * df3_product - x_block[3][lane]
+                    * df0_product - x_block[1][lane] * df2_product;
+                sum[0][lane] += phi;
+                sum[1][lane] += gradient0;
+                sum[2][lane] += gradient1;
+                sum[3][lane] += gradient2;
+            }
+        }
+        for (size_t lane = 0; lane < lanes; ++lane) {
+            value[start + lane] = sum[0][lane];
+            for (size_t i = 0; i < 3; ++i) gradient[3 * (start + lane) + i] = sum[i + 1][lane];
+        }
+    }
+}
+
+void so3_splats_vjp_f(
+    size_t count,
+    size_t splat_count,
+    const float *SO3_RESTRICT x,
+    const float *SO3_RESTRICT mu,
+    const float *SO3_RESTRICT W,
+    const float *SO3_RESTRICT amplitude,
+    const float *SO3_RESTRICT value_bar,
+    const float *SO3_RESTRICT gradient_bar,
+    float *SO3_RESTRICT mu_bar,
+    float *SO3_RESTRICT W_bar,
+    float *SO3_RESTRICT amplitude_bar) {
+    for (size_t i = 0; i < 4 * splat_count; ++i) mu_bar[i] = 0;
+    for (size_t i = 0; i < 9 * splat_count; ++i) W_bar[i] = 0;
+    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
+    for (size_t start = 0; start < count; start += LANES) {
+        const size_t lanes = count - start < LANES ? count - start : LANES;
+        float x_block[4][LANES], value_bar_block[1][LANES], gradient_bar_block[3][LANES];
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            const size_t n = start + (lane < lanes ? lane : lanes - 1);
+            const float weight = lane < lanes ? 1 : 0;
+            for (size_t i = 0; i < 4; ++i) x_block[i][lane] = x[4 * n + i];
+            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
+            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] = gradient_bar[3 * n + i];
+            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
+            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] *= weight;
+        }
+        for (size_t k = 0; k < splat_count; ++k) {
+            float sum[14][LANES] = {{0}}, total[14] = {0};
+            const float mu0 = mu[4 * k + 0];
+            const float mu1 = mu[4 * k + 1];
+            const float mu2 = mu[4 * k + 2];
+            const float mu3 = mu[4 * k + 3];
+            const float W0 = W[9 * k + 0];
+            const float W1 = W[9 * k + 1];
+            const float W2 = W[9 * k + 2];
+            const float W3 = W[9 * k + 3];
+            const float W4 = W[9 * k + 4];
+            const float W5 = W[9 * k + 5];
+            const float W6 = W[9 * k + 6];
+            const float W7 = W[9 * k + 7];
+            const float W8 = W[9 * k + 8];
+            const float amplitude0 = amplitude[1 * k + 0];
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                const float g0 = x_block[0][lane] * mu0 + x_block[1][lane] * mu1 + x_block[2][lane] * mu2 +
+                    x_block[3][lane] * mu3;
+                const float g1 = x_block[1][lane] * mu0 + x_block[2][lane] * mu3 - x_block[0][lane] * mu1 -
+                    x_block[3][lane] * mu2;
+                const float g2 = x_block[2][lane] * mu0 + x_block[3][lane] * mu1 - x_block[0][lane] * mu2 -
+                    x_block[1][lane] * mu3;
+                const float g3 = x_block[3][lane] * mu0 + x_block[1][lane] * mu2 - x_block[2][lane] * mu1 -
+                    x_block[0][lane] * mu3;
+                const float norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+                const float abs_g0 = fabsf(g0);
+                const int near = norm_s_squared < 0.2492869794368744f;
+                const float near_chosen = (near ? norm_s_squared : 0.0f);
+                const float t_over_norm_s_near = polynomial_t_over_norm_s_near_f(near_chosen);
+                const float near_chosen_2 = (near ? 1.0f : norm_s_squared);
+                const float norm_s = sqrtf(near_chosen_2);
+                const float atan2_norm_s_abs_g0 = atan2f(norm_s, abs_g0);
+                const float t = 2.0f * atan2_norm_s_abs_g0;
+                const float t_ratio = t / norm_s;
+                const float t_over_norm_s = (near ? t_over_norm_s_near : t_ratio);
+                const int is_small = g0 < 0.0f;
+                const float chosen = (is_small ? -1.0f : 1.0f);
+                const float scale = t_over_norm_s * chosen;
+                const float v0 = g1 * scale;
+                const float v1 = g2 * scale;
+                const float v2 = g3 * scale;
+                const float log_det_series = polynomial_log_det_series_f(near_chosen);
+                const float log_det_near = norm_s_squared * log_det_series;
+                const float product = 0.5f * t_ratio;
+                const float log_det = (near ? log_det_near : 2.0f * logf(product));
+                const float z0 = W0 * v0 + W1 * v1 + W2 * v2;
+                const float z1 = W3 * v0 + W4 * v1 + W5 * v2;
+                const float z2 = W6 * v0 + W7 * v1 + W8 * v2;
+                const float log_det_gap = log_det - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
+                const float exp_2 = expf(log_det_gap);
+                const float phi = amplitude0 * exp_2;
+                const float by_v2 = -(W8 * z2) - W5 * z1 - W2 * z0;
+                const float by_v1 = -(W7 * z2) - W4 * z1 - W1 * z0;
+                const float by_v0 = -(W6 * z2) - W3 * z1 - W0 * z0;
+                const float by_log_det_near = (near ? 1.0f : 0.0f);
+                const float ratio = 2.0f * (near ? 0.0f : 1.0f) / product;
+                const float by_log_det_series = norm_s_squared * by_log_det_near;
+                const float log_det_series_slope = polynomial_log_det_series_slope_f(near_chosen);
+                const float by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
+                const float by_t_over_norm_s = chosen * by_scale;
+                const float by_t_over_norm_s_near = (near ? by_t_over_norm_s : 0.0f);
+                const float by_t = (0.5f * ratio + (near ? 0.0f : by_t_over_norm_s)) / norm_s;
+                const float by_atan2_norm_s_abs_g0 = 2.0f * by_t;
+                const float total = near_chosen_2 + abs_g0 * abs_g0;
+                const float ratio_2 = by_atan2_norm_s_abs_g0 / total;
+                const float norm_s_product = norm_s * ratio_2;
+                const float by_abs_g0 = -norm_s_product;
+                const float by_norm_s = abs_g0 * ratio_2 - t_ratio * by_t;
+                const float norm_s_product_2 = 2.0f * norm_s;
+                const float by_norm_s_ratio = by_norm_s / norm_s_product_2;
+                const float t_over_norm_s_near_slope = polynomial_t_over_norm_s_near_slope_f(near_chosen);
+                const float by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0f : by_norm_s_ratio) + (near
+                    ? by_log_det_series * log_det_series_slope + by_t_over_norm_s_near * t_over_norm_s_near_slope : 0.0f);
+                const float by_g0 = (is_small ? norm_s_product : by_abs_g0);
+                const float product_2 = 2.0f * by_norm_s_squared;
+                const float by_g3 = scale * by_v2 + g3 * product_2;
+                const float by_g2 = scale * by_v1 + g2 * product_2;
+                const float by_g1 = scale * by_v0 + g1 * product_2;
+                const float exponent_by_x3 = mu0 * by_g3 + mu1 * by_g2 - mu2 * by_g1 + mu3 * by_g0;
+                const float exponent_by_x2 = mu0 * by_g2 - mu1 * by_g3 + mu3 * by_g1 + mu2 * by_g0;
+                const float exponent_by_x1 = mu2 * by_g3 - mu3 * by_g2 + mu0 * by_g1 + mu1 * by_g0;
+                const float exponent_by_x0 = -(mu3 * by_g3) - mu2 * by_g2 - mu1 * by_g1 + mu0 * by_g0;
+                const float by_df3 = 0.5f * (x_block[0][lane] * gradient_bar_block[2][lane] + x_block[1][lane] *
+                    gradient_bar_block[1][lane] - x_block[2][lane] * gradient_bar_block[0][lane]);
+                const float by_df0 = 0.5f * (-(x_block[3][lane] * gradient_bar_block[2][lane]) - x_block[2][lane] *
+                    gradient_bar_block[1][lane] - x_block[1][lane] * gradient_bar_block[0][lane]);
+                const float by_df2 = 0.5f * (x_block[0][lane] * gradient_bar_block[1][lane] - x_block[1][lane] *
+                    gradient_bar_block[2][lane] + x_block[3][lane] * gradient_bar_block[0][lane]);
+                const float by_df1 = 0.5f * (x_block[2][lane] * gradient_bar_block[2][lane] - x_block[3][lane] *
+                    gradient_bar_block[1][lane] + x_block[0][lane] * gradient_bar_block[0][lane]);
+                const float by_exponent_by_x3 = phi * by_df3;
+                const float by_exponent_by_x2 = phi * by_df2;
+                const float by_exponent_by_x1 = phi * by_df1;
+                const float by_exponent_by_x0 = phi * by_df0;
+                const float by_phi = value_bar_block[0][lane] + exponent_by_x3 * by_df3 + exponent_by_x2 * by_df2 +
+                    exponent_by_x1 * by_df1 + exponent_by_x0 * by_df0;
+                const float by_by_g0 = mu0 * by_exponent_by_x0 + mu1 * by_exponent_by_x1 + mu2 * by_exponent_by_x2 + mu3 *
+                    by_exponent_by_x3;
+                const float by_by_g1 = mu0 * by_exponent_by_x1 + mu3 * by_exponent_by_x2 - mu1 * by_exponent_by_x0 - mu2 *
+                    by_exponent_by_x3;
+                const float by_by_g2 = mu0 * by_exponent_by_x2 + mu1 * by_exponent_by_x3 - mu2 * by_exponent_by_x0 - mu3 *
+                    by_exponent_by_x1;
+                const float by_by_g3 = mu0 * by_exponent_by_x3 + mu2 * by_exponent_by_x1 - mu1 * by_exponent_by_x2 - mu3 *
+                    by_exponent_by_x0;
+                const float by_by_norm_s_squared = 2.0f * (g1 * by_by_g1 + g2 * by_by_g2 + g3 * by_by_g3);
+                const float by_by_abs_g0 = (is_small ? 0.0f : by_by_g0);
+                const float near_chosen_3 = (near ? by_by_norm_s_squared : 0.0f);
+                const float by_by_t_over_norm_s_near = t_over_norm_s_near_slope * near_chosen_3;
+                const float by_t_over_norm_s_near_slope = by_t_over_norm_s_near * near_chosen_3;
+                const float t_over_norm_s_near_slope_slope = polynomial_t_over_norm_s_near_slope_slope_f(near_chosen);
+                const float by_by_norm_s = (near ? 0.0f : by_by_norm_s_squared) / norm_s_product_2;
+                const float gap = (is_small ? by_by_g0 : 0.0f) - by_by_abs_g0;
+                const float by_by_atan2_norm_s_abs_g0 = (norm_s * gap + abs_g0 * by_by_norm_s) / total;
+                const float product_3 = ratio_2 * by_by_atan2_norm_s_abs_g0;
+                const float gap_2 = ratio_2 * by_by_norm_s - abs_g0 * (2.0f * product_3);
+                const float by_by_t = 2.0f * by_by_atan2_norm_s_abs_g0 - t_ratio * by_by_norm_s;
+                const float by_by_t_ratio = by_by_t / norm_s;
+                const float by_by_t_over_norm_s = (near ? 0.0f : by_by_t_ratio) + (near ? by_by_t_over_norm_s_near :
+                    0.0f);
+                const float by_by_scale = chosen * by_by_t_over_norm_s;
+                const float by_by_v0 = g1 * by_by_scale + scale * by_by_g1;
+                const float by_by_v1 = g2 * by_by_scale + scale * by_by_g2;
+                const float by_by_v2 = g3 * by_by_scale + scale * by_by_g3;
+                const float by_by_log_det_series = log_det_series_slope * near_chosen_3;
+                const float by_log_det_series_slope = by_log_det_series * near_chosen_3;
+                const float log_det_series_slope_slope = polynomial_log_det_series_slope_slope_f(near_chosen);
+                const float by_log_det = exp_2 * (amplitude0 * by_phi);
+                const float by_z2 = -(W6 * by_by_v0) - W7 * by_by_v1 - W8 * by_by_v2 - z2 * by_log_det;
+                const float by_z1 = -(W3 * by_by_v0) - W4 * by_by_v1 - W5 * by_by_v2 - z1 * by_log_det;
+                const float by_z0 = -(W0 * by_by_v0) - W1 * by_by_v1 - W2 * by_by_v2 - z0 * by_log_det;
+                const float by_v2_2 = W8 * by_z2 + W5 * by_z1 + W2 * by_z0;
+                const float by_v1_2 = W7 * by_z2 + W4 * by_z1 + W1 * by_z0;
+                const float by_v0_2 = W6 * by_z2 + W3 * by_z1 + W0 * by_z0;
+                const float by_log_det_near_2 = (near ? by_log_det : 0.0f);
+                const float product_4 = 0.5f * (2.0f * (near ? 0.0f : by_log_det) / product - ratio * (0.5f *
+                    by_by_t_ratio / product));
+                const float by_log_det_series_2 = by_log_det_near * by_by_norm_s_squared + norm_s_squared *
+                    by_log_det_near_2;
+                const float total_2 = by_v0 * by_by_g1 + by_v1 * by_by_g2 + by_v2 * by_by_g3 + g3 * by_v2_2 + g2 *
+                    by_v1_2;
+                const float by_scale_2 = total_2 + g1 * by_v0_2;
+                const float by_t_over_norm_s_2 = chosen * by_scale_2;
+                const float by_t_over_norm_s_near_2 = (near ? by_t_over_norm_s_2 : 0.0f);
+                const float by_t_2 = (product_4 - by_t * by_by_norm_s + (near ? 0.0f : by_t_over_norm_s_2)) / norm_s;
+                const float gap_3 = ratio_2 * gap - 2.0f * (by_norm_s_ratio * by_by_norm_s) - by_t * by_by_t_ratio -
+                    t_ratio * by_t_2;
+                const float by_atan2_norm_s_abs_g0_2 = 2.0f * by_t_2;
+                const float ratio_3 = by_atan2_norm_s_abs_g0_2 / total;
+                const float norm_s_product_3 = norm_s * ratio_3;
+                const float by_norm_s_2 = gap_3 + abs_g0 * ratio_3;
+                const float by_abs_g0_2 = gap_2 - norm_s_product_3;
+                const float near_chosen_4 = (near ? by_t_over_norm_s_near_slope * t_over_norm_s_near_slope_slope +
+                    by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
+                    t_over_norm_s_near_slope * by_t_over_norm_s_near_2 : 0.0f);
+                const float by_norm_s_squared_2 = by_log_det_near * by_by_log_det_series + log_det_series *
+                    by_log_det_near_2 + (near ? 0.0f : by_norm_s_2 / norm_s_product_2 - product_3) + near_chosen_4;
+                const float by_g0_2 = (is_small ? norm_s_product_3 - gap_2 : by_abs_g0_2);
+                const float product_5 = 2.0f * by_norm_s_squared_2;
+                const float by_g3_2 = product_2 * by_by_g3 + by_v2 * by_by_scale + scale * by_v2_2 + g3 * product_5;
+                const float by_g2_2 = product_2 * by_by_g2 + by_v1 * by_by_scale + scale * by_v1_2 + g2 * product_5;
+                const float by_g1_2 = product_2 * by_by_g1 + by_v0 * by_by_scale + scale * by_v0_2 + g1 * product_5;
+                const float gap_4 = by_g0 * by_exponent_by_x3 + by_g1 * by_exponent_by_x2 - by_g2 * by_exponent_by_x1 -
+                    by_g3 * by_exponent_by_x0 - x_block[0][lane] * by_g3_2;
+                const float gap_5 = by_g0 * by_exponent_by_x1 - by_g1 * by_exponent_by_x0 + by_g2 * by_exponent_by_x3 -
+                    by_g3 * by_exponent_by_x2 - x_block[2][lane] * by_g3_2;
+                const float total_3 = by_g0 * by_exponent_by_x2 - by_g1 * by_exponent_by_x3 - by_g2 * by_exponent_by_x0 +
+                    by_g3 * by_exponent_by_x1 + x_block[1][lane] * by_g3_2;
+                const float total_4 = by_g0 * by_exponent_by_x0 + by_g1 * by_exponent_by_x1 + by_g2 * by_exponent_by_x2 +
+                    by_g3 * by_exponent_by_x3 + x_block[3][lane] * by_g3_2;
+                sum[0][lane] += total_4 + x_block[2][lane] * by_g2_2 + x_block[1][lane] * by_g1_2 + x_block[0][lane] * by_g0_2;
+                sum[1][lane] += gap_5 + x_block[3][lane] * by_g2_2 - x_block[0][lane] * by_g1_2 + x_block[1][lane] * by_g0_2;
+                sum[2][lane] += total_3 - x_block[0][lane] * by_g2_2 - x_block[3][lane] * by_g1_2 + x_block[2][lane] * by_g0_2;
+                sum[3][lane] += gap_4 - x_block[1][lane] * by_g2_2 + x_block[2][lane] * by_g1_2 + x_block[3][lane] * by_g0_2;
+                sum[4][lane] += v0 * by_z0 - z0 * by_by_v0;
+                sum[5][lane] += v1 * by_z0 - z0 * by_by_v1;
+                sum[6][lane] += v2 * by_z0 - z0 * by_by_v2;
+                sum[7][lane] += v0 * by_z1 - z1 * by_by_v0;
+                sum[8][lane] += v1 * by_z1 - z1 * by_by_v1;
+                sum[9][lane] += v2 * by_z1 - z1 * by_by_v2;
+                sum[10][lane] += v0 * by_z2 - z2 * by_by_v0;
+                sum[11][lane] += v1 * by_z2 - z2 * by_by_v1;
+                sum[12][lane] += v2 * by_z2 - z2 * by_by_v2;
+                sum[13][lane] += exp_2 * by_phi;
+            }
+            for (size_t i = 0; i < 14; ++i)
+                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
+            mu_bar[4 * k + 0] += total[0];
+            mu_bar[4 * k + 1] += total[1];
+            mu_bar[4 * k + 2] += total[2];
+            mu_bar[4 * k + 3] += total[3];
+            W_bar[9 * k + 0] += total[4];
+            W_bar[9 * k + 1] += total[5];
+            W_bar[9 * k + 2] += total[6];
+            W_bar[9 * k + 3] += total[7];
+            W_bar[9 * k + 4] += total[8];
+            W_bar[9 * k + 5] += total[9];
+            W_bar[9 * k + 6] += total[10];
+            W_bar[9 * k + 7] += total[11];
+            W_bar[9 * k + 8] += total[12];
+            amplitude_bar[1 * k + 0] += total[13];
+        }
+    }
+}

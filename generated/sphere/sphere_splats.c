@@ -1,0 +1,1008 @@
+/*
+ * sphere: The unit sphere S^n in R^(n+1) with the round metric; distances are angles in radians.
+ *
+ * Sums of splats, forward and backward. See the header for what the functions promise.
+ */
+
+#include "sphere.h"
+
+#include <float.h>
+
+#define LANES 64
+
+static inline double polynomial_t_over_norm_w_near(double x) {
+    return 1.0 + x * (0.16666666666666416 + x * (0.033333333333506306 + x * (0.0071428571381235645 + x *
+        (0.0015873016554683388 + x * (0.00036074976769956093 + x * (8.325345611107313e-05 + x *
+        (1.9411868200361258e-05 + x * (4.606744523406809e-06 + x * (1.0115092780821757e-06 + x *
+        (3.573589789663863e-07 + x * (-3.671871587646e-08 + x * (8.060154251278906e-08 + x *
+        (-2.3969974400507724e-08 + x * 6.744739171601492e-09)))))))))))));
+}
+
+static inline double polynomial_log_det_series(double x) {
+    return 0.16666666666666666 + x * (0.019444444444444355 + x * (0.0031305114638509562 + x *
+        (0.0005742945324592983 + x * (0.00011310192108550569 + x * (2.329005429821089e-05 + x *
+        (4.945110727593644e-06 + x * (1.0731431371692667e-06 + x * (2.383732678254368e-07 + x *
+        (5.0521959436460696e-08 + x * (1.5564787023532255e-08 + x * (-7.830928337301054e-10 + x *
+        (2.9922380095813834e-09 + x * (-8.46187828025567e-10 + x * 2.4753955737430303e-10)))))))))))));
+}
+
+static inline double polynomial_log_det_series_slope(double x) {
+    return 0.019444444444444355 + x * (0.0062610229277019125 + x * (0.001722883597377895 + x *
+        (0.00045240768434202277 + x * (0.00011645027149105445 + x * (2.9670664365561865e-05 + x *
+        (7.512001960184866e-06 + x * (1.9069861426034945e-06 + x * (4.5469763492814626e-07 + x *
+        (1.5564787023532256e-07 + x * (-8.614021171031161e-09 + x * (3.59068561149766e-08 + x *
+        (-1.100044176433237e-08 + x * 3.4655538032402425e-09))))))))))));
+}
+
+static inline double polynomial_t_over_norm_w_near_slope(double x) {
+    return 0.16666666666666416 + x * (0.06666666666701261 + x * (0.021428571414370694 + x *
+        (0.006349206621873355 + x * (0.0018037488384978046 + x * (0.0004995207366664387 + x *
+        (0.0001358830774025288 + x * (3.685395618725447e-05 + x * (9.103583502739583e-06 + x *
+        (3.5735897896638634e-06 + x * (-4.0390587464106003e-07 + x * (9.672185101534689e-07 + x *
+        (-3.116096672066004e-07 + x * 9.442634840242089e-08))))))))))));
+}
+
+static inline double polynomial_t_over_norm_w_near_slope_slope(double x) {
+    return 0.06666666666701261 + x * (0.04285714282874139 + x * (0.019047619865620067 + x *
+        (0.007214995353991218 + x * (0.002497603683332194 + x * (0.0008152984644151728 + x *
+        (0.0002579776933107813 + x * (7.282866802191666e-05 + x * (3.216230810697477e-05 + x *
+        (-4.0390587464106e-06 + x * (1.0639403611688156e-05 + x * (-3.7393160064792053e-06 + x *
+        1.2275425292314716e-06)))))))))));
+}
+
+static inline double polynomial_log_det_series_slope_slope(double x) {
+    return 0.0062610229277019125 + x * (0.00344576719475579 + x * (0.0013572230530260682 + x *
+        (0.0004658010859642178 + x * (0.00014835332182780932 + x * (4.50720117611092e-05 + x *
+        (1.3348902998224461e-05 + x * (3.63758107942517e-06 + x * (1.400830832117903e-06 + x *
+        (-8.61402117103116e-08 + x * (3.949754172647426e-07 + x * (-1.3200530117198845e-07 + x *
+        4.505219944212315e-08)))))))))));
+}
+
+void sphere_splats(
+    size_t count,
+    size_t splat_count,
+    const double *SPHERE_RESTRICT x,
+    const double *SPHERE_RESTRICT mu,
+    const double *SPHERE_RESTRICT W,
+    const double *SPHERE_RESTRICT amplitude,
+    double *SPHERE_RESTRICT value,
+    double *SPHERE_RESTRICT gradient) {
+    for (size_t start = 0; start < count; start += LANES) {
+        const size_t lanes = count - start < LANES ? count - start : LANES;
+        double x_block[3][LANES], sum[4][LANES] = {{0}};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            const size_t n = start + (lane < lanes ? lane : lanes - 1);
+            for (size_t i = 0; i < 3; ++i) x_block[i][lane] = x[3 * n + i];
+        }
+        for (size_t k = 0; k < splat_count; ++k) {
+            const double mu0 = mu[3 * k + 0];
+            const double mu1 = mu[3 * k + 1];
+            const double mu2 = mu[3 * k + 2];
+            const double W0 = W[6 * k + 0];
+            const double W1 = W[6 * k + 1];
+            const double W2 = W[6 * k + 2];
+            const double W3 = W[6 * k + 3];
+            const double W4 = W[6 * k + 4];
+            const double W5 = W[6 * k + 5];
+            const double amplitude0 = amplitude[1 * k + 0];
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                const double q_plus_p0 = x_block[0][lane] + mu0;
+                const double q_plus_p1 = x_block[1][lane] + mu1;
+                const double q_plus_p2 = x_block[2][lane] + mu2;
+                const double norm_q_plus_p_squared = q_plus_p0 * q_plus_p0 + q_plus_p1 * q_plus_p1 + q_plus_p2 *
+                    q_plus_p2;
+                const double norm_q_plus_p = sqrt(norm_q_plus_p_squared);
+                const double squared = mu0 * mu0;
+                const double gap = 1.0 - squared;
+                const double gap_2 = 1.0 - mu1 * mu1;
+                const int on_cut_locus = norm_q_plus_p <= 4.0 * DBL_EPSILON;
+                const double q0_off_cut = (on_cut_locus ? mu0 : x_block[0][lane]);
+                const double q1_off_cut = (on_cut_locus ? mu1 : x_block[1][lane]);
+                const double q2_off_cut = (on_cut_locus ? mu2 : x_block[2][lane]);
+                const double d0 = q0_off_cut - mu0;
+                const double d1 = q1_off_cut - mu1;
+                const double d2 = q2_off_cut - mu2;
+                const double norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
+                const double q_plus_p0_2 = mu0 + q0_off_cut;
+                const double q_plus_p1_2 = mu1 + q1_off_cut;
+                const double q_plus_p2_2 = mu2 + q2_off_cut;
+                const double norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
+                    * q_plus_p2_2;
+                const double norm_q_plus_p_2 = sqrt(norm_q_plus_p_squared_2);
+                const double dot_p_d = mu0 * d0 + mu1 * d1 + mu2 * d2;
+                const double w0 = d0 - mu0 * dot_p_d;
+                const double w1 = d1 - mu1 * dot_p_d;
+                const double w2 = d2 - mu2 * dot_p_d;
+                const double norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
+                const int near = norm_d_squared < 0.9975153207778931;
+                const double near_chosen = (near ? norm_d_squared : 0.0);
+                const double t_over_norm_w_near = polynomial_t_over_norm_w_near(near_chosen);
+                const double near_chosen_2 = (near ? 1.0 : norm_d_squared);
+                const double norm_d = sqrt(near_chosen_2);
+                const double atan2_value = atan2(norm_d, norm_q_plus_p_2);
+                const double t = 2.0 * atan2_value;
+                const double norm_w = sqrt((near ? 1.0 : norm_w_squared));
+                const double t_ratio = t / norm_w;
+                const double t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
+                const int is_small = squared < 0.5;
+                const double sine_to_axis0 = sqrt((is_small ? gap : 1.0));
+                const double chosen = (is_small ? sine_to_axis0 : 1.0);
+                const double product = mu0 * mu1;
+                const double sine_to_axis1 = sqrt((is_small ? 1.0 : gap_2));
+                const double chosen_2 = (is_small ? 1.0 : sine_to_axis1);
+                const double v0 = (on_cut_locus ? 3.141592653589793 * (is_small ? gap / chosen : -(product / chosen_2)) :
+                    w0 * t_over_norm_w);
+                const double v1 = (on_cut_locus ? 3.141592653589793 * (is_small ? -(product / chosen) : gap_2 / chosen_2)
+                    : w1 * t_over_norm_w);
+                const double product_2 = 3.141592653589793 * (is_small ? -(mu0 * mu2 / chosen) : -(mu1 * mu2 / chosen_2));
+                const double v2 = (on_cut_locus ? product_2 : w2 * t_over_norm_w);
+                const double log_value = log(0.7853981633974483 / DBL_EPSILON);
+                const double log_det_series = polynomial_log_det_series(near_chosen);
+                const double log_det_near = norm_d_squared * log_det_series;
+                const double log_det = (near ? log_det_near : log(t_ratio));
+                const double z0 = W0 * v0 + W1 * v1 + W2 * v2;
+                const double z1 = W3 * v0 + W4 * v1 + W5 * v2;
+                const double exp_2 = exp((on_cut_locus ? log_value : log_det) - 0.5 * (z0 * z0 + z1 * z1));
+                const double phi = amplitude0 * exp_2;
+                const double by_v2 = -(W5 * z1) - W2 * z0;
+                const double by_v1 = -(W4 * z1) - W1 * z0;
+                const double by_v0 = -(W3 * z1) - W0 * z0;
+                const double by_log_det = (on_cut_locus ? 0.0 : 1.0);
+                const double by_log_det_near = (near ? by_log_det : 0.0);
+                const double by_log_det_series = norm_d_squared * by_log_det_near;
+                const double log_det_series_slope = polynomial_log_det_series_slope(near_chosen);
+                const double chosen_3 = (on_cut_locus ? 0.0 : by_v2);
+                const double chosen_4 = (on_cut_locus ? 0.0 : by_v1);
+                const double chosen_5 = (on_cut_locus ? 0.0 : by_v0);
+                const double by_t_over_norm_w = w2 * chosen_3 + w1 * chosen_4 + w0 * chosen_5;
+                const double by_t_over_norm_w_near = (near ? by_t_over_norm_w : 0.0);
+                const double by_t = ((near ? 0.0 : by_log_det) / t_ratio + (near ? 0.0 : by_t_over_norm_w)) / norm_w;
+                const double by_norm_w_squared = (near ? 0.0 : -(t_ratio * by_t / (2.0 * norm_w)));
+                const double by_atan2_value = 2.0 * by_t;
+                const double ratio = by_atan2_value / (norm_q_plus_p_squared_2 + near_chosen_2);
+                const double by_norm_d = norm_q_plus_p_2 * ratio;
+                const double t_over_norm_w_near_slope = polynomial_t_over_norm_w_near_slope(near_chosen);
+                const double by_norm_d_squared = log_det_series * by_log_det_near + (near ? 0.0 : by_norm_d / (2.0 *
+                    norm_d)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near *
+                    t_over_norm_w_near_slope : 0.0);
+                const double product_3 = 2.0 * by_norm_w_squared;
+                const double by_w2 = t_over_norm_w * chosen_3 + w2 * product_3;
+                const double by_w1 = t_over_norm_w * chosen_4 + w1 * product_3;
+                const double by_w0 = t_over_norm_w * chosen_5 + w0 * product_3;
+                const double by_dot_p_d = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
+                const int is_small_2 = norm_q_plus_p_squared_2 == 0.0;
+                const double by_norm_q_plus_p_squared_2 = (is_small_2 ? 0.0 : -(norm_d * ratio / (2.0 * (is_small_2 ? 1.0
+                    : norm_q_plus_p_2))));
+                const double product_4 = 2.0 * by_norm_q_plus_p_squared_2;
+                const double by_q_plus_p2_2 = q_plus_p2_2 * product_4;
+                const double by_q_plus_p1_2 = q_plus_p1_2 * product_4;
+                const double by_q_plus_p0_2 = q_plus_p0_2 * product_4;
+                const double product_5 = 2.0 * by_norm_d_squared;
+                const double by_d2 = by_w2 + mu2 * by_dot_p_d + d2 * product_5;
+                const double by_d1 = by_w1 + mu1 * by_dot_p_d + d1 * product_5;
+                const double by_d0 = by_w0 + mu0 * by_dot_p_d + d0 * product_5;
+                const double by_q2_off_cut = by_q_plus_p2_2 + by_d2;
+                const double by_q1_off_cut = by_q_plus_p1_2 + by_d1;
+                const double by_q0_off_cut = by_q_plus_p0_2 + by_d0;
+                const double exponent_by_x2 = (on_cut_locus ? 0.0 : by_q2_off_cut);
+                const double exponent_by_x1 = (on_cut_locus ? 0.0 : by_q1_off_cut);
+                const double exponent_by_x0 = (on_cut_locus ? 0.0 : by_q0_off_cut);
+                const double df0 = phi * exponent_by_x0;
+                const double df1 = phi * exponent_by_x1;
+                const double df2 = phi * exponent_by_x2;
+                const double normal_part = x_block[0][lane] * df0 + x_block[1][lane] * df1 + x_block[2][lane] * df2;
+                const double gradient0 = df0 - x_block[0][lane] * normal_part;
+                const double gradient1 = df1 - x_block[1][lane] * normal_part;
+                const double gradient2 = df2 - x_block[2][lane] * normal_part;
+                sum[0][lane] += phi;
+                sum[1][lane] += gradient0;
+                sum[2][lane] += gradient1;
+                sum[3][lane] += gradient2;
+            }
+        }
+        for (size_t lane = 0; lane < lanes; ++lane) {
+            value[start + lane] = sum[0][lane];
+            for (size_t i = 0; i < 3; ++i) gradient[3 * (start + lane) + i] = sum[i + 1][lane];
+        }
+    }
+}
+
+void sphere_splats_vjp(
+    size_t count,
+    size_t splat_count,
+    const double *SPHERE_RESTRICT x,
+    const double *SPHERE_RESTRICT mu,
+    const double *SPHERE_RESTRICT W,
+    const double *SPHERE_RESTRICT amplitude,
+    const double *SPHERE_RESTRICT value_bar,
+    const double *SPHERE_RESTRICT gradient_bar,
+    double *SPHERE_RESTRICT mu_bar,
+    double *SPHERE_RESTRICT W_bar,
+    double *SPHERE_RESTRICT amplitude_bar) {
+    for (size_t i = 0; i < 3 * splat_count; ++i) mu_bar[i] = 0;
+    for (size_t i = 0; i < 6 * splat_count; ++i) W_bar[i] = 0;
+    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
+    for (size_t start = 0; start < count; start += LANES) {
+        const size_t lanes = count - start < LANES ? count - start : LANES;
+        double x_block[3][LANES], value_bar_block[1][LANES], gradient_bar_block[3][LANES];
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            const size_t n = start + (lane < lanes ? lane : lanes - 1);
+            const double weight = lane < lanes ? 1 : 0;
+            for (size_t i = 0; i < 3; ++i) x_block[i][lane] = x[3 * n + i];
+            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
+            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] = gradient_bar[3 * n + i];
+            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
+            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] *= weight;
+        }
+        for (size_t k = 0; k < splat_count; ++k) {
+            double sum[10][LANES] = {{0}}, total[10] = {0};
+            const double mu0 = mu[3 * k + 0];
+            const double mu1 = mu[3 * k + 1];
+            const double mu2 = mu[3 * k + 2];
+            const double W0 = W[6 * k + 0];
+            const double W1 = W[6 * k + 1];
+            const double W2 = W[6 * k + 2];
+            const double W3 = W[6 * k + 3];
+            const double W4 = W[6 * k + 4];
+            const double W5 = W[6 * k + 5];
+            const double amplitude0 = amplitude[1 * k + 0];
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                const double q_plus_p0 = x_block[0][lane] + mu0;
+                const double q_plus_p1 = x_block[1][lane] + mu1;
+                const double q_plus_p2 = x_block[2][lane] + mu2;
+                const double norm_q_plus_p_squared = q_plus_p0 * q_plus_p0 + q_plus_p1 * q_plus_p1 + q_plus_p2 *
+                    q_plus_p2;
+                const double norm_q_plus_p = sqrt(norm_q_plus_p_squared);
+                const double squared = mu0 * mu0;
+                const double gap = 1.0 - squared;
+                const double gap_2 = 1.0 - mu1 * mu1;
+                const int on_cut_locus = norm_q_plus_p <= 4.0 * DBL_EPSILON;
+                const double q0_off_cut = (on_cut_locus ? mu0 : x_block[0][lane]);
+                const double q1_off_cut = (on_cut_locus ? mu1 : x_block[1][lane]);
+                const double q2_off_cut = (on_cut_locus ? mu2 : x_block[2][lane]);
+                const double d0 = q0_off_cut - mu0;
+                const double d1 = q1_off_cut - mu1;
+                const double d2 = q2_off_cut - mu2;
+                const double norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
+                const double q_plus_p0_2 = mu0 + q0_off_cut;
+                const double q_plus_p1_2 = mu1 + q1_off_cut;
+                const double q_plus_p2_2 = mu2 + q2_off_cut;
+                const double norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
+                    * q_plus_p2_2;
+                const double norm_q_plus_p_2 = sqrt(norm_q_plus_p_squared_2);
+                const double dot_p_d = mu0 * d0 + mu1 * d1 + mu2 * d2;
+                const double w0 = d0 - mu0 * dot_p_d;
+                const double w1 = d1 - mu1 * dot_p_d;
+                const double w2 = d2 - mu2 * dot_p_d;
+                const double norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
+                const int near = norm_d_squared < 0.9975153207778931;
+                const double near_chosen = (near ? norm_d_squared : 0.0);
+                const double t_over_norm_w_near = polynomial_t_over_norm_w_near(near_chosen);
+                const double near_chosen_2 = (near ? 1.0 : norm_d_squared);
+                const double norm_d = sqrt(near_chosen_2);
+                const double atan2_value = atan2(norm_d, norm_q_plus_p_2);
+                const double t = 2.0 * atan2_value;
+                const double norm_w = sqrt((near ? 1.0 : norm_w_squared));
+                const double t_ratio = t / norm_w;
+                const double t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
+                const int is_small = squared < 0.5;
+                const double sine_to_axis0 = sqrt((is_small ? gap : 1.0));
+                const double chosen = (is_small ? sine_to_axis0 : 1.0);
+                const double ratio = gap / chosen;
+                const double product = mu0 * mu1;
+                const double sine_to_axis1 = sqrt((is_small ? 1.0 : gap_2));
+                const double chosen_2 = (is_small ? 1.0 : sine_to_axis1);
+                const double ratio_2 = product / chosen_2;
+                const double v0 = (on_cut_locus ? 3.141592653589793 * (is_small ? ratio : -ratio_2) : w0 * t_over_norm_w);
+                const double ratio_3 = product / chosen;
+                const double ratio_4 = gap_2 / chosen_2;
+                const double v1 = (on_cut_locus ? 3.141592653589793 * (is_small ? -ratio_3 : ratio_4) : w1 *
+                    t_over_norm_w);
+                const double ratio_5 = mu0 * mu2 / chosen;
+                const double ratio_6 = mu1 * mu2 / chosen_2;
+                const double v2 = (on_cut_locus ? 3.141592653589793 * (is_small ? -ratio_5 : -ratio_6) : w2 *
+                    t_over_norm_w);
+                const double log_value = log(0.7853981633974483 / DBL_EPSILON);
+                const double log_det_series = polynomial_log_det_series(near_chosen);
+                const double log_det_near = norm_d_squared * log_det_series;
+                const double log_det = (near ? log_det_near : log(t_ratio));
+                const double z0 = W0 * v0 + W1 * v1 + W2 * v2;
+                const double z1 = W3 * v0 + W4 * v1 + W5 * v2;
+                const double exp_2 = exp((on_cut_locus ? log_value : log_det) - 0.5 * (z0 * z0 + z1 * z1));
+                const double phi = amplitude0 * exp_2;
+                const double by_v2 = -(W5 * z1) - W2 * z0;
+                const double by_v1 = -(W4 * z1) - W1 * z0;
+                const double by_v0 = -(W3 * z1) - W0 * z0;
+                const double by_log_det = (on_cut_locus ? 0.0 : 1.0);
+                const double by_log_det_near = (near ? by_log_det : 0.0);
+                const double ratio_7 = (near ? 0.0 : by_log_det) / t_ratio;
+                const double by_log_det_series = norm_d_squared * by_log_det_near;
+                const double log_det_series_slope = polynomial_log_det_series_slope(near_chosen);
+                const double chosen_3 = (on_cut_locus ? 0.0 : by_v2);
+                const double chosen_4 = (on_cut_locus ? 0.0 : by_v1);
+                const double chosen_5 = (on_cut_locus ? 0.0 : by_v0);
+                const double by_t_over_norm_w = w2 * chosen_3 + w1 * chosen_4 + w0 * chosen_5;
+                const double by_t_over_norm_w_near = (near ? by_t_over_norm_w : 0.0);
+                const double by_t = (ratio_7 + (near ? 0.0 : by_t_over_norm_w)) / norm_w;
+                const double norm_w_product = 2.0 * norm_w;
+                const double ratio_8 = t_ratio * by_t / norm_w_product;
+                const double by_norm_w_squared = (near ? 0.0 : -ratio_8);
+                const double by_atan2_value = 2.0 * by_t;
+                const double total = norm_q_plus_p_squared_2 + near_chosen_2;
+                const double ratio_9 = by_atan2_value / total;
+                const double by_norm_d = norm_q_plus_p_2 * ratio_9;
+                const double norm_d_product = 2.0 * norm_d;
+                const double by_norm_d_ratio = by_norm_d / norm_d_product;
+                const double t_over_norm_w_near_slope = polynomial_t_over_norm_w_near_slope(near_chosen);
+                const double by_norm_d_squared = log_det_series * by_log_det_near + (near ? 0.0 : by_norm_d_ratio) + (near
+                    ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near * t_over_norm_w_near_slope : 0.0);
+                const double product_2 = 2.0 * by_norm_w_squared;
+                const double by_w2 = t_over_norm_w * chosen_3 + w2 * product_2;
+                const double by_w1 = t_over_norm_w * chosen_4 + w1 * product_2;
+                const double by_w0 = t_over_norm_w * chosen_5 + w0 * product_2;
+                const double by_dot_p_d = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
+                const int is_small_2 = norm_q_plus_p_squared_2 == 0.0;
+                const double product_3 = 2.0 * (is_small_2 ? 1.0 : norm_q_plus_p_2);
+                const double ratio_10 = norm_d * ratio_9 / product_3;
+                const double by_norm_q_plus_p_squared_2 = (is_small_2 ? 0.0 : -ratio_10);
+                const double product_4 = 2.0 * by_norm_q_plus_p_squared_2;
+                const double by_q_plus_p2_2 = q_plus_p2_2 * product_4;
+                const double by_q_plus_p1_2 = q_plus_p1_2 * product_4;
+                const double by_q_plus_p0_2 = q_plus_p0_2 * product_4;
+                const double product_5 = 2.0 * by_norm_d_squared;
+                const double by_d2 = by_w2 + mu2 * by_dot_p_d + d2 * product_5;
+                const double by_d1 = by_w1 + mu1 * by_dot_p_d + d1 * product_5;
+                const double by_d0 = by_w0 + mu0 * by_dot_p_d + d0 * product_5;
+                const double by_q2_off_cut = by_q_plus_p2_2 + by_d2;
+                const double by_q1_off_cut = by_q_plus_p1_2 + by_d1;
+                const double by_q0_off_cut = by_q_plus_p0_2 + by_d0;
+                const double exponent_by_x2 = (on_cut_locus ? 0.0 : by_q2_off_cut);
+                const double exponent_by_x1 = (on_cut_locus ? 0.0 : by_q1_off_cut);
+                const double exponent_by_x0 = (on_cut_locus ? 0.0 : by_q0_off_cut);
+                const double by_normal_part = -(x_block[2][lane] * gradient_bar_block[2][lane]) - x_block[1][lane] *
+                    gradient_bar_block[1][lane] - x_block[0][lane] * gradient_bar_block[0][lane];
+                const double by_df2 = gradient_bar_block[2][lane] + x_block[2][lane] * by_normal_part;
+                const double by_df1 = gradient_bar_block[1][lane] + x_block[1][lane] * by_normal_part;
+                const double by_df0 = gradient_bar_block[0][lane] + x_block[0][lane] * by_normal_part;
+                const double by_exponent_by_x2 = phi * by_df2;
+                const double by_exponent_by_x1 = phi * by_df1;
+                const double by_exponent_by_x0 = phi * by_df0;
+                const double by_phi = value_bar_block[0][lane] + exponent_by_x2 * by_df2 + exponent_by_x1 * by_df1 +
+                    exponent_by_x0 * by_df0;
+                const double by_by_q0_off_cut = (on_cut_locus ? 0.0 : by_exponent_by_x0);
+                const double by_by_q1_off_cut = (on_cut_locus ? 0.0 : by_exponent_by_x1);
+                const double by_by_q2_off_cut = (on_cut_locus ? 0.0 : by_exponent_by_x2);
+                const double by_by_norm_d_squared = 2.0 * (d0 * by_by_q0_off_cut + d1 * by_by_q1_off_cut + d2 *
+                    by_by_q2_off_cut);
+                const double by_by_norm_q_plus_p_squared_2 = 2.0 * (q_plus_p0_2 * by_by_q0_off_cut + q_plus_p1_2 *
+                    by_by_q1_off_cut + q_plus_p2_2 * by_by_q2_off_cut);
+                const double ratio_11 = (is_small_2 ? 0.0 : by_by_norm_q_plus_p_squared_2) / product_3;
+                const double by_by_dot_p_d = mu0 * by_by_q0_off_cut + mu1 * by_by_q1_off_cut + mu2 * by_by_q2_off_cut;
+                const double by_by_w0 = by_by_q0_off_cut - mu0 * by_by_dot_p_d;
+                const double by_by_w1 = by_by_q1_off_cut - mu1 * by_by_dot_p_d;
+                const double by_by_w2 = by_by_q2_off_cut - mu2 * by_by_dot_p_d;
+                const double by_by_norm_w_squared = 2.0 * (w0 * by_by_w0 + w1 * by_by_w1 + w2 * by_by_w2);
+                const double near_chosen_3 = (near ? by_by_norm_d_squared : 0.0);
+                const double by_by_t_over_norm_w_near = t_over_norm_w_near_slope * near_chosen_3;
+                const double by_t_over_norm_w_near_slope = by_t_over_norm_w_near * near_chosen_3;
+                const double t_over_norm_w_near_slope_slope = polynomial_t_over_norm_w_near_slope_slope(near_chosen);
+                const double by_by_norm_d = (near ? 0.0 : by_by_norm_d_squared) / norm_d_product;
+                const double by_by_atan2_value = (norm_q_plus_p_2 * by_by_norm_d - norm_d * ratio_11) / total;
+                const double product_6 = ratio_9 * by_by_atan2_value;
+                const double ratio_12 = (near ? 0.0 : by_by_norm_w_squared) / norm_w_product;
+                const double by_by_t = 2.0 * by_by_atan2_value - t_ratio * ratio_12;
+                const double by_by_t_ratio = by_by_t / norm_w;
+                const double by_by_t_over_norm_w = (near ? 0.0 : by_by_t_ratio) + (near ? by_by_t_over_norm_w_near : 0.0);
+                const double by_by_v0 = (on_cut_locus ? 0.0 : w0 * by_by_t_over_norm_w + t_over_norm_w * by_by_w0);
+                const double by_by_v1 = (on_cut_locus ? 0.0 : w1 * by_by_t_over_norm_w + t_over_norm_w * by_by_w1);
+                const double by_by_v2 = (on_cut_locus ? 0.0 : w2 * by_by_t_over_norm_w + t_over_norm_w * by_by_w2);
+                const double by_by_log_det_series = log_det_series_slope * near_chosen_3;
+                const double by_log_det_series_slope = by_log_det_series * near_chosen_3;
+                const double log_det_series_slope_slope = polynomial_log_det_series_slope_slope(near_chosen);
+                const double product_7 = exp_2 * (amplitude0 * by_phi);
+                const double by_z1 = -(W3 * by_by_v0) - W4 * by_by_v1 - W5 * by_by_v2 - z1 * product_7;
+                const double by_z0 = -(W0 * by_by_v0) - W1 * by_by_v1 - W2 * by_by_v2 - z0 * product_7;
+                const double by_v2_2 = W5 * by_z1 + W2 * by_z0;
+                const double by_v1_2 = W4 * by_z1 + W1 * by_z0;
+                const double by_v0_2 = W3 * by_z1 + W0 * by_z0;
+                const double by_log_det_2 = (on_cut_locus ? 0.0 : product_7);
+                const double by_log_det_near_2 = (near ? by_log_det_2 : 0.0);
+                const double by_log_det_series_2 = by_log_det_near * by_by_norm_d_squared + norm_d_squared *
+                    by_log_det_near_2;
+                const double chosen_6 = (on_cut_locus ? 0.0 : by_v2_2);
+                const double product_8 = 3.141592653589793 * (on_cut_locus ? by_v2_2 : 0.0);
+                const double ratio_13 = (is_small ? 0.0 : product_8) / chosen_2;
+                const double ratio_14 = (is_small ? product_8 : 0.0) / chosen;
+                const double chosen_7 = (on_cut_locus ? 0.0 : by_v1_2);
+                const double total_2 = chosen_5 * by_by_w0 + chosen_4 * by_by_w1 + chosen_3 * by_by_w2 + w2 * chosen_6 +
+                    w1 * chosen_7;
+                const double product_9 = 3.141592653589793 * (on_cut_locus ? by_v1_2 : 0.0);
+                const double ratio_15 = (is_small ? 0.0 : product_9) / chosen_2;
+                const double ratio_16 = (is_small ? product_9 : 0.0) / chosen;
+                const double chosen_8 = (on_cut_locus ? 0.0 : by_v0_2);
+                const double by_t_over_norm_w_2 = total_2 + w0 * chosen_8;
+                const double product_10 = 3.141592653589793 * (on_cut_locus ? by_v0_2 : 0.0);
+                const double ratio_17 = (is_small ? 0.0 : product_10) / chosen_2;
+                const double gap_3 = -ratio_16 - ratio_17;
+                const double by_sine_to_axis1 = (is_small ? 0.0 : ratio_6 * ratio_13 - ratio_4 * ratio_15 + ratio_2 *
+                    ratio_17);
+                const double ratio_18 = (is_small ? product_10 : 0.0) / chosen;
+                const double by_sine_to_axis0 = (is_small ? ratio_5 * ratio_14 + ratio_3 * ratio_16 - ratio * ratio_18 :
+                    0.0);
+                const double by_t_over_norm_w_near_2 = (near ? by_t_over_norm_w_2 : 0.0);
+                const double total_3 = -(by_t * ratio_12) - ratio_7 * (by_by_t_ratio / t_ratio) + (near ? 0.0 :
+                    by_log_det_2) / t_ratio + (near ? 0.0 : by_t_over_norm_w_2);
+                const double by_t_2 = total_3 / norm_w;
+                const double by_norm_w = 2.0 * (ratio_8 * ratio_12) - by_t * by_by_t_ratio - t_ratio * by_t_2;
+                const double by_norm_w_squared_2 = (near ? 0.0 : by_norm_w / norm_w_product);
+                const double by_atan2_value_2 = 2.0 * by_t_2;
+                const double ratio_19 = by_atan2_value_2 / total;
+                const double by_norm_d_2 = -(2.0 * (by_norm_d_ratio * by_by_norm_d)) - ratio_9 * ratio_11 +
+                    norm_q_plus_p_2 * ratio_19;
+                const double by_norm_q_plus_p_2 = (is_small_2 ? 0.0 : 2.0 * (ratio_10 * ratio_11)) + ratio_9 *
+                    by_by_norm_d - norm_d * ratio_19;
+                const double near_chosen_4 = (near ? by_t_over_norm_w_near_slope * t_over_norm_w_near_slope_slope +
+                    by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
+                    t_over_norm_w_near_slope * by_t_over_norm_w_near_2 : 0.0);
+                const double by_norm_d_squared_2 = by_log_det_near * by_by_log_det_series + log_det_series *
+                    by_log_det_near_2 + (near ? 0.0 : by_norm_d_2 / norm_d_product - product_6) + near_chosen_4;
+                const double product_11 = 2.0 * by_norm_w_squared_2;
+                const double by_w2_2 = product_2 * by_by_w2 + chosen_3 * by_by_t_over_norm_w + t_over_norm_w * chosen_6 +
+                    w2 * product_11;
+                const double by_w1_2 = product_2 * by_by_w1 + chosen_4 * by_by_t_over_norm_w + t_over_norm_w * chosen_7 +
+                    w1 * product_11;
+                const double by_w0_2 = product_2 * by_by_w0 + chosen_5 * by_by_t_over_norm_w + t_over_norm_w * chosen_8 +
+                    w0 * product_11;
+                const double gap_4 = by_dot_p_d * by_by_q2_off_cut - by_w2 * by_by_dot_p_d - mu1 * ratio_13 - mu0 *
+                    ratio_14 - dot_p_d * by_w2_2;
+                const double gap_5 = by_dot_p_d * by_by_q1_off_cut - by_w1 * by_by_dot_p_d - mu2 * ratio_13 + mu0 * gap_3
+                    - dot_p_d * by_w1_2;
+                const double gap_6 = by_dot_p_d * by_by_q0_off_cut - by_w0 * by_by_dot_p_d - mu2 * ratio_14 + mu1 * gap_3
+                    - dot_p_d * by_w0_2;
+                const double by_dot_p_d_2 = -(mu2 * by_w2_2) - mu1 * by_w1_2 - mu0 * by_w0_2;
+                const double by_norm_q_plus_p_squared_2_2 = (is_small_2 ? 0.0 : by_norm_q_plus_p_2 / product_3) -
+                    product_6;
+                const double product_12 = 2.0 * by_norm_q_plus_p_squared_2_2;
+                const double by_q_plus_p2_2_2 = product_4 * by_by_q2_off_cut + q_plus_p2_2 * product_12;
+                const double by_q_plus_p1_2_2 = product_4 * by_by_q1_off_cut + q_plus_p1_2 * product_12;
+                const double by_q_plus_p0_2_2 = product_4 * by_by_q0_off_cut + q_plus_p0_2 * product_12;
+                const double product_13 = 2.0 * by_norm_d_squared_2;
+                const double by_d2_2 = product_5 * by_by_q2_off_cut + by_w2_2 + mu2 * by_dot_p_d_2 + d2 * product_13;
+                const double by_d1_2 = product_5 * by_by_q1_off_cut + by_w1_2 + mu1 * by_dot_p_d_2 + d1 * product_13;
+                const double by_d0_2 = product_5 * by_by_q0_off_cut + by_w0_2 + mu0 * by_dot_p_d_2 + d0 * product_13;
+                const double by_q2_off_cut_2 = by_q_plus_p2_2_2 + by_d2_2;
+                const double by_q1_off_cut_2 = by_q_plus_p1_2_2 + by_d1_2;
+                const double by_q0_off_cut_2 = by_q_plus_p0_2_2 + by_d0_2;
+                const double total_4 = gap_4 + d2 * by_dot_p_d_2 + by_q_plus_p2_2_2 - by_d2_2 + (on_cut_locus ?
+                    by_q2_off_cut_2 : 0.0);
+                const double total_5 = gap_5 + d1 * by_dot_p_d_2 + by_q_plus_p1_2_2 - by_d1_2 + (on_cut_locus ?
+                    by_q1_off_cut_2 : 0.0);
+                const double total_6 = gap_6 + d0 * by_dot_p_d_2 + by_q_plus_p0_2_2 - by_d0_2 + (on_cut_locus ?
+                    by_q0_off_cut_2 : 0.0);
+                const double product_14 = 2.0 * (ratio_15 + (is_small ? 0.0 : by_sine_to_axis1 / (2.0 * sine_to_axis1)));
+                const double product_15 = 2.0 * (ratio_18 + (is_small ? by_sine_to_axis0 / (2.0 * sine_to_axis0) : 0.0));
+                sum[0][lane] += total_6 - mu0 * product_15;
+                sum[1][lane] += total_5 - mu1 * product_14;
+                sum[2][lane] += total_4;
+                sum[3][lane] += v0 * by_z0 - z0 * by_by_v0;
+                sum[4][lane] += v1 * by_z0 - z0 * by_by_v1;
+                sum[5][lane] += v2 * by_z0 - z0 * by_by_v2;
+                sum[6][lane] += v0 * by_z1 - z1 * by_by_v0;
+                sum[7][lane] += v1 * by_z1 - z1 * by_by_v1;
+                sum[8][lane] += v2 * by_z1 - z1 * by_by_v2;
+                sum[9][lane] += exp_2 * by_phi;
+            }
+            for (size_t i = 0; i < 10; ++i)
+                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
+            mu_bar[3 * k + 0] += total[0];
+            mu_bar[3 * k + 1] += total[1];
+            mu_bar[3 * k + 2] += total[2];
+            W_bar[6 * k + 0] += total[3];
+            W_bar[6 * k + 1] += total[4];
+            W_bar[6 * k + 2] += total[5];
+            W_bar[6 * k + 3] += total[6];
+            W_bar[6 * k + 4] += total[7];
+            W_bar[6 * k + 5] += total[8];
+            amplitude_bar[1 * k + 0] += total[9];
+        }
+    }
+}
+
+static inline float polynomial_t_over_norm_w_near_f(float x) {
+    return 1.0f + x * (0.16666666666666416f + x * (0.033333333333506306f + x * (0.0071428571381235645f + x *
+        (0.0015873016554683388f + x * (0.00036074976769956093f + x * (8.325345611107313e-05f + x *
+        (1.9411868200361258e-05f + x * (4.606744523406809e-06f + x * (1.0115092780821757e-06f + x *
+        (3.573589789663863e-07f + x * (-3.671871587646e-08f + x * (8.060154251278906e-08f + x *
+        (-2.3969974400507724e-08f + x * 6.744739171601492e-09f)))))))))))));
+}
+
+static inline float polynomial_log_det_series_f(float x) {
+    return 0.16666666666666666f + x * (0.019444444444444355f + x * (0.0031305114638509562f + x *
+        (0.0005742945324592983f + x * (0.00011310192108550569f + x * (2.329005429821089e-05f + x *
+        (4.945110727593644e-06f + x * (1.0731431371692667e-06f + x * (2.383732678254368e-07f + x *
+        (5.0521959436460696e-08f + x * (1.5564787023532255e-08f + x * (-7.830928337301054e-10f + x *
+        (2.9922380095813834e-09f + x * (-8.46187828025567e-10f + x * 2.4753955737430303e-10f)))))))))))));
+}
+
+static inline float polynomial_log_det_series_slope_f(float x) {
+    return 0.019444444444444355f + x * (0.0062610229277019125f + x * (0.001722883597377895f + x *
+        (0.00045240768434202277f + x * (0.00011645027149105445f + x * (2.9670664365561865e-05f + x *
+        (7.512001960184866e-06f + x * (1.9069861426034945e-06f + x * (4.5469763492814626e-07f + x *
+        (1.5564787023532256e-07f + x * (-8.614021171031161e-09f + x * (3.59068561149766e-08f + x *
+        (-1.100044176433237e-08f + x * 3.4655538032402425e-09f))))))))))));
+}
+
+static inline float polynomial_t_over_norm_w_near_slope_f(float x) {
+    return 0.16666666666666416f + x * (0.06666666666701261f + x * (0.021428571414370694f + x *
+        (0.006349206621873355f + x * (0.0018037488384978046f + x * (0.0004995207366664387f + x *
+        (0.0001358830774025288f + x * (3.685395618725447e-05f + x * (9.103583502739583e-06f + x *
+        (3.5735897896638634e-06f + x * (-4.0390587464106003e-07f + x * (9.672185101534689e-07f + x *
+        (-3.116096672066004e-07f + x * 9.442634840242089e-08f))))))))))));
+}
+
+static inline float polynomial_t_over_norm_w_near_slope_slope_f(float x) {
+    return 0.06666666666701261f + x * (0.04285714282874139f + x * (0.019047619865620067f + x *
+        (0.007214995353991218f + x * (0.002497603683332194f + x * (0.0008152984644151728f + x *
+        (0.0002579776933107813f + x * (7.282866802191666e-05f + x * (3.216230810697477e-05f + x *
+        (-4.0390587464106e-06f + x * (1.0639403611688156e-05f + x * (-3.7393160064792053e-06f + x *
+        1.2275425292314716e-06f)))))))))));
+}
+
+static inline float polynomial_log_det_series_slope_slope_f(float x) {
+    return 0.0062610229277019125f + x * (0.00344576719475579f + x * (0.0013572230530260682f + x *
+        (0.0004658010859642178f + x * (0.00014835332182780932f + x * (4.50720117611092e-05f + x *
+        (1.3348902998224461e-05f + x * (3.63758107942517e-06f + x * (1.400830832117903e-06f + x *
+        (-8.61402117103116e-08f + x * (3.949754172647426e-07f + x * (-1.3200530117198845e-07f + x *
+        4.505219944212315e-08f)))))))))));
+}
+
+void sphere_splats_f(
+    size_t count,
+    size_t splat_count,
+    const float *SPHERE_RESTRICT x,
+    const float *SPHERE_RESTRICT mu,
+    const float *SPHERE_RESTRICT W,
+    const float *SPHERE_RESTRICT amplitude,
+    float *SPHERE_RESTRICT value,
+    float *SPHERE_RESTRICT gradient) {
+    for (size_t start = 0; start < count; start += LANES) {
+        const size_t lanes = count - start < LANES ? count - start : LANES;
+        float x_block[3][LANES], sum[4][LANES] = {{0}};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            const size_t n = start + (lane < lanes ? lane : lanes - 1);
+            for (size_t i = 0; i < 3; ++i) x_block[i][lane] = x[3 * n + i];
+        }
+        for (size_t k = 0; k < splat_count; ++k) {
+            const float mu0 = mu[3 * k + 0];
+            const float mu1 = mu[3 * k + 1];
+            const float mu2 = mu[3 * k + 2];
+            const float W0 = W[6 * k + 0];
+            const float W1 = W[6 * k + 1];
+            const float W2 = W[6 * k + 2];
+            const float W3 = W[6 * k + 3];
+            const float W4 = W[6 * k + 4];
+            const float W5 = W[6 * k + 5];
+            const float amplitude0 = amplitude[1 * k + 0];
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                const float q_plus_p0 = x_block[0][lane] + mu0;
+                const float q_plus_p1 = x_block[1][lane] + mu1;
+                const float q_plus_p2 = x_block[2][lane] + mu2;
+                const float norm_q_plus_p_squared = q_plus_p0 * q_plus_p0 + q_plus_p1 * q_plus_p1 + q_plus_p2 * q_plus_p2;
+                const float norm_q_plus_p = sqrtf(norm_q_plus_p_squared);
+                const float squared = mu0 * mu0;
+                const float gap = 1.0f - squared;
+                const float gap_2 = 1.0f - mu1 * mu1;
+                const int on_cut_locus = norm_q_plus_p <= 4.0f * FLT_EPSILON;
+                const float q0_off_cut = (on_cut_locus ? mu0 : x_block[0][lane]);
+                const float q1_off_cut = (on_cut_locus ? mu1 : x_block[1][lane]);
+                const float q2_off_cut = (on_cut_locus ? mu2 : x_block[2][lane]);
+                const float d0 = q0_off_cut - mu0;
+                const float d1 = q1_off_cut - mu1;
+                const float d2 = q2_off_cut - mu2;
+                const float norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
+                const float q_plus_p0_2 = mu0 + q0_off_cut;
+                const float q_plus_p1_2 = mu1 + q1_off_cut;
+                const float q_plus_p2_2 = mu2 + q2_off_cut;
+                const float norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
+                    * q_plus_p2_2;
+                const float norm_q_plus_p_2 = sqrtf(norm_q_plus_p_squared_2);
+                const float dot_p_d = mu0 * d0 + mu1 * d1 + mu2 * d2;
+                const float w0 = d0 - mu0 * dot_p_d;
+                const float w1 = d1 - mu1 * dot_p_d;
+                const float w2 = d2 - mu2 * dot_p_d;
+                const float norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
+                const int near = norm_d_squared < 0.9975153207778931f;
+                const float near_chosen = (near ? norm_d_squared : 0.0f);
+                const float t_over_norm_w_near = polynomial_t_over_norm_w_near_f(near_chosen);
+                const float near_chosen_2 = (near ? 1.0f : norm_d_squared);
+                const float norm_d = sqrtf(near_chosen_2);
+                const float atan2_value = atan2f(norm_d, norm_q_plus_p_2);
+                const float t = 2.0f * atan2_value;
+                const float norm_w = sqrtf((near ? 1.0f : norm_w_squared));
+                const float t_ratio = t / norm_w;
+                const float t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
+                const int is_small = squared < 0.5f;
+                const float sine_to_axis0 = sqrtf((is_small ? gap : 1.0f));
+                const float chosen = (is_small ? sine_to_axis0 : 1.0f);
+                const float product = mu0 * mu1;
+                const float sine_to_axis1 = sqrtf((is_small ? 1.0f : gap_2));
+                const float chosen_2 = (is_small ? 1.0f : sine_to_axis1);
+                const float v0 = (on_cut_locus ? 3.141592653589793f * (is_small ? gap / chosen : -(product / chosen_2)) :
+                    w0 * t_over_norm_w);
+                const float v1 = (on_cut_locus ? 3.141592653589793f * (is_small ? -(product / chosen) : gap_2 / chosen_2)
+                    : w1 * t_over_norm_w);
+                const float product_2 = 3.141592653589793f * (is_small ? -(mu0 * mu2 / chosen) : -(mu1 * mu2 / chosen_2));
+                const float v2 = (on_cut_locus ? product_2 : w2 * t_over_norm_w);
+                const float log_value = logf(0.7853981633974483f / FLT_EPSILON);
+                const float log_det_series = polynomial_log_det_series_f(near_chosen);
+                const float log_det_near = norm_d_squared * log_det_series;
+                const float log_det = (near ? log_det_near : logf(t_ratio));
+                const float z0 = W0 * v0 + W1 * v1 + W2 * v2;
+                const float z1 = W3 * v0 + W4 * v1 + W5 * v2;
+                const float exp_2 = expf((on_cut_locus ? log_value : log_det) - 0.5f * (z0 * z0 + z1 * z1));
+                const float phi = amplitude0 * exp_2;
+                const float by_v2 = -(W5 * z1) - W2 * z0;
+                const float by_v1 = -(W4 * z1) - W1 * z0;
+                const float by_v0 = -(W3 * z1) - W0 * z0;
+                const float by_log_det = (on_cut_locus ? 0.0f : 1.0f);
+                const float by_log_det_near = (near ? by_log_det : 0.0f);
+                const float by_log_det_series = norm_d_squared * by_log_det_near;
+                const float log_det_series_slope = polynomial_log_det_series_slope_f(near_chosen);
+                const float chosen_3 = (on_cut_locus ? 0.0f : by_v2);
+                const float chosen_4 = (on_cut_locus ? 0.0f : by_v1);
+                const float chosen_5 = (on_cut_locus ? 0.0f : by_v0);
+                const float by_t_over_norm_w = w2 * chosen_3 + w1 * chosen_4 + w0 * chosen_5;
+                const float by_t_over_norm_w_near = (near ? by_t_over_norm_w : 0.0f);
+                const float by_t = ((near ? 0.0f : by_log_det) / t_ratio + (near ? 0.0f : by_t_over_norm_w)) / norm_w;
+                const float by_norm_w_squared = (near ? 0.0f : -(t_ratio * by_t / (2.0f * norm_w)));
+                const float by_atan2_value = 2.0f * by_t;
+                const float ratio = by_atan2_value / (norm_q_plus_p_squared_2 + near_chosen_2);
+                const float by_norm_d = norm_q_plus_p_2 * ratio;
+                const float t_over_norm_w_near_slope = polynomial_t_over_norm_w_near_slope_f(near_chosen);
+                const float by_norm_d_squared = log_det_series * by_log_det_near + (near ? 0.0f : by_norm_d / (2.0f *
+                    norm_d)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near *
+                    t_over_norm_w_near_slope : 0.0f);
+                const float product_3 = 2.0f * by_norm_w_squared;
+                const float by_w2 = t_over_norm_w * chosen_3 + w2 * product_3;
+                const float by_w1 = t_over_norm_w * chosen_4 + w1 * product_3;
+                const float by_w0 = t_over_norm_w * chosen_5 + w0 * product_3;
+                const float by_dot_p_d = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
+                const int is_small_2 = norm_q_plus_p_squared_2 == 0.0f;
+                const float by_norm_q_plus_p_squared_2 = (is_small_2 ? 0.0f : -(norm_d * ratio / (2.0f * (is_small_2 ?
+                    1.0f : norm_q_plus_p_2))));
+                const float product_4 = 2.0f * by_norm_q_plus_p_squared_2;
+                const float by_q_plus_p2_2 = q_plus_p2_2 * product_4;
+                const float by_q_plus_p1_2 = q_plus_p1_2 * product_4;
+                const float by_q_plus_p0_2 = q_plus_p0_2 * product_4;
+                const float product_5 = 2.0f * by_norm_d_squared;
+                const float by_d2 = by_w2 + mu2 * by_dot_p_d + d2 * product_5;
+                const float by_d1 = by_w1 + mu1 * by_dot_p_d + d1 * product_5;
+                const float by_d0 = by_w0 + mu0 * by_dot_p_d + d0 * product_5;
+                const float by_q2_off_cut = by_q_plus_p2_2 + by_d2;
+                const float by_q1_off_cut = by_q_plus_p1_2 + by_d1;
+                const float by_q0_off_cut = by_q_plus_p0_2 + by_d0;
+                const float exponent_by_x2 = (on_cut_locus ? 0.0f : by_q2_off_cut);
+                const float exponent_by_x1 = (on_cut_locus ? 0.0f : by_q1_off_cut);
+                const float exponent_by_x0 = (on_cut_locus ? 0.0f : by_q0_off_cut);
+                const float df0 = phi * exponent_by_x0;
+                const float df1 = phi * exponent_by_x1;
+                const float df2 = phi * exponent_by_x2;
+                const float normal_part = x_block[0][lane] * df0 + x_block[1][lane] * df1 + x_block[2][lane] * df2;
+                const float gradient0 = df0 - x_block[0][lane] * normal_part;
+                const float gradient1 = df1 - x_block[1][lane] * normal_part;
+                const float gradient2 = df2 - x_block[2][lane] * normal_part;
+                sum[0][lane] += phi;
+                sum[1][lane] += gradient0;
+                sum[2][lane] += gradient1;
+                sum[3][lane] += gradient2;
+            }
+        }
+        for (size_t lane = 0; lane < lanes; ++lane) {
+            value[start + lane] = sum[0][lane];
+            for (size_t i = 0; i < 3; ++i) gradient[3 * (start + lane) + i] = sum[i + 1][lane];
+        }
+    }
+}
+
+void sphere_splats_vjp_f(
+    size_t count,
+    size_t splat_count,
+    const float *SPHERE_RESTRICT x,
+    const float *SPHERE_RESTRICT mu,
+    const float *SPHERE_RESTRICT W,
+    const float *SPHERE_RESTRICT amplitude,
+    const float *SPHERE_RESTRICT value_bar,
+    const float *SPHERE_RESTRICT gradient_bar,
+    float *SPHERE_RESTRICT mu_bar,
+    float *SPHERE_RESTRICT W_bar,
+    float *SPHERE_RESTRICT amplitude_bar) {
+    for (size_t i = 0; i < 3 * splat_count; ++i) mu_bar[i] = 0;
+    for (size_t i = 0; i < 6 * splat_count; ++i) W_bar[i] = 0;
+    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
+    for (size_t start = 0; start < count; start += LANES) {
+        const size_t lanes = count - start < LANES ? count - start : LANES;
+        float x_block[3][LANES], value_bar_block[1][LANES], gradient_bar_block[3][LANES];
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            const size_t n = start + (lane < lanes ? lane : lanes - 1);
+            const float weight = lane < lanes ? 1 : 0;
+            for (size_t i = 0; i < 3; ++i) x_block[i][lane] = x[3 * n + i];
+            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
+            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] = gradient_bar[3 * n + i];
+            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
+            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] *= weight;
+        }
+        for (size_t k = 0; k < splat_count; ++k) {
+            float sum[10][LANES] = {{0}}, total[10] = {0};
+            const float mu0 = mu[3 * k + 0];
+            const float mu1 = mu[3 * k + 1];
+            const float mu2 = mu[3 * k + 2];
+            const float W0 = W[6 * k + 0];
+            const float W1 = W[6 * k + 1];
+            const float W2 = W[6 * k + 2];
+            const float W3 = W[6 * k + 3];
+            const float W4 = W[6 * k + 4];
+            const float W5 = W[6 * k + 5];
+            const float amplitude0 = amplitude[1 * k + 0];
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                const float q_plus_p0 = x_block[0][lane] + mu0;
+                const float q_plus_p1 = x_block[1][lane] + mu1;
+                const float q_plus_p2 = x_block[2][lane] + mu2;
+                const float norm_q_plus_p_squared = q_plus_p0 * q_plus_p0 + q_plus_p1 * q_plus_p1 + q_plus_p2 * q_plus_p2;
+                const float norm_q_plus_p = sqrtf(norm_q_plus_p_squared);
+                const float squared = mu0 * mu0;
+                const float gap = 1.0f - squared;
+                const float gap_2 = 1.0f - mu1 * mu1;
+                const int on_cut_locus = norm_q_plus_p <= 4.0f * FLT_EPSILON;
+                const float q0_off_cut = (on_cut_locus ? mu0 : x_block[0][lane]);
+                const float q1_off_cut = (on_cut_locus ? mu1 : x_block[1][lane]);
+                const float q2_off_cut = (on_cut_locus ? mu2 : x_block[2][lane]);
+                const float d0 = q0_off_cut - mu0;
+                const float d1 = q1_off_cut - mu1;
+                const float d2 = q2_off_cut - mu2;
+                const float norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
+                const float q_plus_p0_2 = mu0 + q0_off_cut;
+                const float q_plus_p1_2 = mu1 + q1_off_cut;
+                const float q_plus_p2_2 = mu2 + q2_off_cut;
+                const float norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
+                    * q_plus_p2_2;
+                const float norm_q_plus_p_2 = sqrtf(norm_q_plus_p_squared_2);
+                const float dot_p_d = mu0 * d0 + mu1 * d1 + mu2 * d2;
+                const float w0 = d0 - mu0 * dot_p_d;
+                const float w1 = d1 - mu1 * dot_p_d;
+                const float w2 = d2 - mu2 * dot_p_d;
+                const float norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
+                const int near = norm_d_squared < 0.9975153207778931f;
+                const float near_chosen = (near ? norm_d_squared : 0.0f);
+                const float t_over_norm_w_near = polynomial_t_over_norm_w_near_f(near_chosen);
+                const float near_chosen_2 = (near ? 1.0f : norm_d_squared);
+                const float norm_d = sqrtf(near_chosen_2);
+                const float atan2_value = atan2f(norm_d, norm_q_plus_p_2);
+                const float t = 2.0f * atan2_value;
+                const float norm_w = sqrtf((near ? 1.0f : norm_w_squared));
+                const float t_ratio = t / norm_w;
+                const float t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
+                const int is_small = squared < 0.5f;
+                const float sine_to_axis0 = sqrtf((is_small ? gap : 1.0f));
+                const float chosen = (is_small ? sine_to_axis0 : 1.0f);
+                const float ratio = gap / chosen;
+                const float product = mu0 * mu1;
+                const float sine_to_axis1 = sqrtf((is_small ? 1.0f : gap_2));
+                const float chosen_2 = (is_small ? 1.0f : sine_to_axis1);
+                const float ratio_2 = product / chosen_2;
+                const float v0 = (on_cut_locus ? 3.141592653589793f * (is_small ? ratio : -ratio_2) : w0 * t_over_norm_w);
+                const float ratio_3 = product / chosen;
+                const float ratio_4 = gap_2 / chosen_2;
+                const float v1 = (on_cut_locus ? 3.141592653589793f * (is_small ? -ratio_3 : ratio_4) : w1 *
+                    t_over_norm_w);
+                const float ratio_5 = mu0 * mu2 / chosen;
+                const float ratio_6 = mu1 * mu2 / chosen_2;
+                const float v2 = (on_cut_locus ? 3.141592653589793f * (is_small ? -ratio_5 : -ratio_6) : w2 *
+                    t_over_norm_w);
+                const float log_value = logf(0.7853981633974483f / FLT_EPSILON);
+                const float log_det_series = polynomial_log_det_series_f(near_chosen);
+                const float log_det_near = norm_d_squared * log_det_series;
+                const float log_det = (near ? log_det_near : logf(t_ratio));
+                const float z0 = W0 * v0 + W1 * v1 + W2 * v2;
+                const float z1 = W3 * v0 + W4 * v1 + W5 * v2;
+                const float exp_2 = expf((on_cut_locus ? log_value : log_det) - 0.5f * (z0 * z0 + z1 * z1));
+                const float phi = amplitude0 * exp_2;
+                const float by_v2 = -(W5 * z1) - W2 * z0;
+                const float by_v1 = -(W4 * z1) - W1 * z0;
+                const float by_v0 = -(W3 * z1) - W0 * z0;
+                const float by_log_det = (on_cut_locus ? 0.0f : 1.0f);
+                const float by_log_det_near = (near ? by_log_det : 0.0f);
+                const float ratio_7 = (near ? 0.0f : by_log_det) / t_ratio;
+                const float by_log_det_series = norm_d_squared * by_log_det_near;
+                const float log_det_series_slope = polynomial_log_det_series_slope_f(near_chosen);
+                const float chosen_3 = (on_cut_locus ? 0.0f : by_v2);
+                const float chosen_4 = (on_cut_locus ? 0.0f : by_v1);
+                const float chosen_5 = (on_cut_locus ? 0.0f : by_v0);
+                const float by_t_over_norm_w = w2 * chosen_3 + w1 * chosen_4 + w0 * chosen_5;
+                const float by_t_over_norm_w_near = (near ? by_t_over_norm_w : 0.0f);
+                const float by_t = (ratio_7 + (near ? 0.0f : by_t_over_norm_w)) / norm_w;
+                const float norm_w_product = 2.0f * norm_w;
+                const float ratio_8 = t_ratio * by_t / norm_w_product;
+                const float by_norm_w_squared = (near ? 0.0f : -ratio_8);
+                const float by_atan2_value = 2.0f * by_t;
+                const float total = norm_q_plus_p_squared_2 + near_chosen_2;
+                const float ratio_9 = by_atan2_value / total;
+                const float by_norm_d = norm_q_plus_p_2 * ratio_9;
+                const float norm_d_product = 2.0f * norm_d;
+                const float by_norm_d_ratio = by_norm_d / norm_d_product;
+                const float t_over_norm_w_near_slope = polynomial_t_over_norm_w_near_slope_f(near_chosen);
+                const float by_norm_d_squared = log_det_series * by_log_det_near + (near ? 0.0f : by_norm_d_ratio) + (near
+                    ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near * t_over_norm_w_near_slope : 0.0f);
+                const float product_2 = 2.0f * by_norm_w_squared;
+                const float by_w2 = t_over_norm_w * chosen_3 + w2 * product_2;
+                const float by_w1 = t_over_norm_w * chosen_4 + w1 * product_2;
+                const float by_w0 = t_over_norm_w * chosen_5 + w0 * product_2;
+                const float by_dot_p_d = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
+                const int is_small_2 = norm_q_plus_p_squared_2 == 0.0f;
+                const float product_3 = 2.0f * (is_small_2 ? 1.0f : norm_q_plus_p_2);
+                const float ratio_10 = norm_d * ratio_9 / product_3;
+                const float by_norm_q_plus_p_squared_2 = (is_small_2 ? 0.0f : -ratio_10);
+                const float product_4 = 2.0f * by_norm_q_plus_p_squared_2;
+                const float by_q_plus_p2_2 = q_plus_p2_2 * product_4;
+                const float by_q_plus_p1_2 = q_plus_p1_2 * product_4;
+                const float by_q_plus_p0_2 = q_plus_p0_2 * product_4;
+                const float product_5 = 2.0f * by_norm_d_squared;
+                const float by_d2 = by_w2 + mu2 * by_dot_p_d + d2 * product_5;
+                const float by_d1 = by_w1 + mu1 * by_dot_p_d + d1 * product_5;
+                const float by_d0 = by_w0 + mu0 * by_dot_p_d + d0 * product_5;
+                const float by_q2_off_cut = by_q_plus_p2_2 + by_d2;
+                const float by_q1_off_cut = by_q_plus_p1_2 + by_d1;
+                const float by_q0_off_cut = by_q_plus_p0_2 + by_d0;
+                const float exponent_by_x2 = (on_cut_locus ? 0.0f : by_q2_off_cut);
+                const float exponent_by_x1 = (on_cut_locus ? 0.0f : by_q1_off_cut);
+                const float exponent_by_x0 = (on_cut_locus ? 0.0f : by_q0_off_cut);
+                const float by_normal_part = -(x_block[2][lane] * gradient_bar_block[2][lane]) - x_block[1][lane] *
+                    gradient_bar_block[1][lane] - x_block[0][lane] * gradient_bar_block[0][lane];
+                const float by_df2 = gradient_bar_block[2][lane] + x_block[2][lane] * by_normal_part;
+                const float by_df1 = gradient_bar_block[1][lane] + x_block[1][lane] * by_normal_part;
+                const float by_df0 = gradient_bar_block[0][lane] + x_block[0][lane] * by_normal_part;
+                const float by_exponent_by_x2 = phi * by_df2;
+                const float by_exponent_by_x1 = phi * by_df1;
+                const float by_exponent_by_x0 = phi * by_df0;
+                const float by_phi = value_bar_block[0][lane] + exponent_by_x2 * by_df2 + exponent_by_x1 * by_df1 +
+                    exponent_by_x0 * by_df0;
+                const float by_by_q0_off_cut = (on_cut_locus ? 0.0f : by_exponent_by_x0);
+                const float by_by_q1_off_cut = (on_cut_locus ? 0.0f : by_exponent_by_x1);
+                const float by_by_q2_off_cut = (on_cut_locus ? 0.0f : by_exponent_by_x2);
+                const float by_by_norm_d_squared = 2.0f * (d0 * by_by_q0_off_cut + d1 * by_by_q1_off_cut + d2 *
+                    by_by_q2_off_cut);
+                const float by_by_norm_q_plus_p_squared_2 = 2.0f * (q_plus_p0_2 * by_by_q0_off_cut + q_plus_p1_2 *
+                    by_by_q1_off_cut + q_plus_p2_2 * by_by_q2_off_cut);
+                const float ratio_11 = (is_small_2 ? 0.0f : by_by_norm_q_plus_p_squared_2) / product_3;
+                const float by_by_dot_p_d = mu0 * by_by_q0_off_cut + mu1 * by_by_q1_off_cut + mu2 * by_by_q2_off_cut;
+                const float by_by_w0 = by_by_q0_off_cut - mu0 * by_by_dot_p_d;
+                const float by_by_w1 = by_by_q1_off_cut - mu1 * by_by_dot_p_d;
+                const float by_by_w2 = by_by_q2_off_cut - mu2 * by_by_dot_p_d;
+                const float by_by_norm_w_squared = 2.0f * (w0 * by_by_w0 + w1 * by_by_w1 + w2 * by_by_w2);
+                const float near_chosen_3 = (near ? by_by_norm_d_squared : 0.0f);
+                const float by_by_t_over_norm_w_near = t_over_norm_w_near_slope * near_chosen_3;
+                const float by_t_over_norm_w_near_slope = by_t_over_norm_w_near * near_chosen_3;
+                const float t_over_norm_w_near_slope_slope = polynomial_t_over_norm_w_near_slope_slope_f(near_chosen);
+                const float by_by_norm_d = (near ? 0.0f : by_by_norm_d_squared) / norm_d_product;
+                const float by_by_atan2_value = (norm_q_plus_p_2 * by_by_norm_d - norm_d * ratio_11) / total;
+                const float product_6 = ratio_9 * by_by_atan2_value;
+                const float ratio_12 = (near ? 0.0f : by_by_norm_w_squared) / norm_w_product;
+                const float by_by_t = 2.0f * by_by_atan2_value - t_ratio * ratio_12;
+                const float by_by_t_ratio = by_by_t / norm_w;
+                const float by_by_t_over_norm_w = (near ? 0.0f : by_by_t_ratio) + (near ? by_by_t_over_norm_w_near :
+                    0.0f);
+                const float by_by_v0 = (on_cut_locus ? 0.0f : w0 * by_by_t_over_norm_w + t_over_norm_w * by_by_w0);
+                const float by_by_v1 = (on_cut_locus ? 0.0f : w1 * by_by_t_over_norm_w + t_over_norm_w * by_by_w1);
+                const float by_by_v2 = (on_cut_locus ? 0.0f : w2 * by_by_t_over_norm_w + t_over_norm_w * by_by_w2);
+                const float by_by_log_det_series = log_det_series_slope * near_chosen_3;
+                const float by_log_det_series_slope = by_log_det_series * near_chosen_3;
+                const float log_det_series_slope_slope = polynomial_log_det_series_slope_slope_f(near_chosen);
+                const float product_7 = exp_2 * (amplitude0 * by_phi);
+                const float by_z1 = -(W3 * by_by_v0) - W4 * by_by_v1 - W5 * by_by_v2 - z1 * product_7;
+                const float by_z0 = -(W0 * by_by_v0) - W1 * by_by_v1 - W2 * by_by_v2 - z0 * product_7;
+                const float by_v2_2 = W5 * by_z1 + W2 * by_z0;
+                const float by_v1_2 = W4 * by_z1 + W1 * by_z0;
+                const float by_v0_2 = W3 * by_z1 + W0 * by_z0;
+                const float by_log_det_2 = (on_cut_locus ? 0.0f : product_7);
+                const float by_log_det_near_2 = (near ? by_log_det_2 : 0.0f);
+                const float by_log_det_series_2 = by_log_det_near * by_by_norm_d_squared + norm_d_squared *
+                    by_log_det_near_2;
+                const float chosen_6 = (on_cut_locus ? 0.0f : by_v2_2);
+                const float product_8 = 3.141592653589793f * (on_cut_locus ? by_v2_2 : 0.0f);
+                const float ratio_13 = (is_small ? 0.0f : product_8) / chosen_2;
+                const float ratio_14 = (is_small ? product_8 : 0.0f) / chosen;
+                const float chosen_7 = (on_cut_locus ? 0.0f : by_v1_2);
+                const float total_2 = chosen_5 * by_by_w0 + chosen_4 * by_by_w1 + chosen_3 * by_by_w2 + w2 * chosen_6 + w1
+                    * chosen_7;
+                const float product_9 = 3.141592653589793f * (on_cut_locus ? by_v1_2 : 0.0f);
+                const float ratio_15 = (is_small ? 0.0f : product_9) / chosen_2;
+                const float ratio_16 = (is_small ? product_9 : 0.0f) / chosen;
+                const float chosen_8 = (on_cut_locus ? 0.0f : by_v0_2);
+                const float by_t_over_norm_w_2 = total_2 + w0 * chosen_8;
+                const float product_10 = 3.141592653589793f * (on_cut_locus ? by_v0_2 : 0.0f);
+                const float ratio_17 = (is_small ? 0.0f : product_10) / chosen_2;
+                const float gap_3 = -ratio_16 - ratio_17;
+                const float by_sine_to_axis1 = (is_small ? 0.0f : ratio_6 * ratio_13 - ratio_4 * ratio_15 + ratio_2 *
+                    ratio_17);
+                const float ratio_18 = (is_small ? product_10 : 0.0f) / chosen;
+                const float by_sine_to_axis0 = (is_small ? ratio_5 * ratio_14 + ratio_3 * ratio_16 - ratio * ratio_18 :
+                    0.0f);
+                const float by_t_over_norm_w_near_2 = (near ? by_t_over_norm_w_2 : 0.0f);
+                const float total_3 = -(by_t * ratio_12) - ratio_7 * (by_by_t_ratio / t_ratio) + (near ? 0.0f :
+                    by_log_det_2) / t_ratio + (near ? 0.0f : by_t_over_norm_w_2);
+                const float by_t_2 = total_3 / norm_w;
+                const float by_norm_w = 2.0f * (ratio_8 * ratio_12) - by_t * by_by_t_ratio - t_ratio * by_t_2;
+                const float by_norm_w_squared_2 = (near ? 0.0f : by_norm_w / norm_w_product);
+                const float by_atan2_value_2 = 2.0f * by_t_2;
+                const float ratio_19 = by_atan2_value_2 / total;
+                const float by_norm_d_2 = -(2.0f * (by_norm_d_ratio * by_by_norm_d)) - ratio_9 * ratio_11 +
+                    norm_q_plus_p_2 * ratio_19;
+                const float by_norm_q_plus_p_2 = (is_small_2 ? 0.0f : 2.0f * (ratio_10 * ratio_11)) + ratio_9 *
+                    by_by_norm_d - norm_d * ratio_19;
+                const float near_chosen_4 = (near ? by_t_over_norm_w_near_slope * t_over_norm_w_near_slope_slope +
+                    by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
+                    t_over_norm_w_near_slope * by_t_over_norm_w_near_2 : 0.0f);
+                const float by_norm_d_squared_2 = by_log_det_near * by_by_log_det_series + log_det_series *
+                    by_log_det_near_2 + (near ? 0.0f : by_norm_d_2 / norm_d_product - product_6) + near_chosen_4;
+                const float product_11 = 2.0f * by_norm_w_squared_2;
+                const float by_w2_2 = product_2 * by_by_w2 + chosen_3 * by_by_t_over_norm_w + t_over_norm_w * chosen_6 +
+                    w2 * product_11;
+                const float by_w1_2 = product_2 * by_by_w1 + chosen_4 * by_by_t_over_norm_w + t_over_norm_w * chosen_7 +
+                    w1 * product_11;
+                const float by_w0_2 = product_2 * by_by_w0 + chosen_5 * by_by_t_over_norm_w + t_over_norm_w * chosen_8 +
+                    w0 * product_11;
+                const float gap_4 = by_dot_p_d * by_by_q2_off_cut - by_w2 * by_by_dot_p_d - mu1 * ratio_13 - mu0 *
+                    ratio_14 - dot_p_d * by_w2_2;
+                const float gap_5 = by_dot_p_d * by_by_q1_off_cut - by_w1 * by_by_dot_p_d - mu2 * ratio_13 + mu0 * gap_3 -
+                    dot_p_d * by_w1_2;
+                const float gap_6 = by_dot_p_d * by_by_q0_off_cut - by_w0 * by_by_dot_p_d - mu2 * ratio_14 + mu1 * gap_3 -
+                    dot_p_d * by_w0_2;
+                const float by_dot_p_d_2 = -(mu2 * by_w2_2) - mu1 * by_w1_2 - mu0 * by_w0_2;
+                const float by_norm_q_plus_p_squared_2_2 = (is_small_2 ? 0.0f : by_norm_q_plus_p_2 / product_3) -
+                    product_6;
+                const float product_12 = 2.0f * by_norm_q_plus_p_squared_2_2;
+                const float by_q_plus_p2_2_2 = product_4 * by_by_q2_off_cut + q_plus_p2_2 * product_12;
+                const float by_q_plus_p1_2_2 = product_4 * by_by_q1_off_cut + q_plus_p1_2 * product_12;
+                const float by_q_plus_p0_2_2 = product_4 * by_by_q0_off_cut + q_plus_p0_2 * product_12;
+                const float product_13 = 2.0f * by_norm_d_squared_2;
+                const float by_d2_2 = product_5 * by_by_q2_off_cut + by_w2_2 + mu2 * by_dot_p_d_2 + d2 * product_13;
+                const float by_d1_2 = product_5 * by_by_q1_off_cut + by_w1_2 + mu1 * by_dot_p_d_2 + d1 * product_13;
+                const float by_d0_2 = product_5 * by_by_q0_off_cut + by_w0_2 + mu0 * by_dot_p_d_2 + d0 * product_13;
+                const float by_q2_off_cut_2 = by_q_plus_p2_2_2 + by_d2_2;
+                const float by_q1_off_cut_2 = by_q_plus_p1_2_2 + by_d1_2;
+                const float by_q0_off_cut_2 = by_q_plus_p0_2_2 + by_d0_2;
+                const float total_4 = gap_4 + d2 * by_dot_p_d_2 + by_q_plus_p2_2_2 - by_d2_2 + (on_cut_locus ?
+                    by_q2_off_cut_2 : 0.0f);
+                const float total_5 = gap_5 + d1 * by_dot_p_d_2 + by_q_plus_p1_2_2 - by_d1_2 + (on_cut_locus ?
+                    by_q1_off_cut_2 : 0.0f);
+                const float total_6 = gap_6 + d0 * by_dot_p_d_2 + by_q_plus_p0_2_2 - by_d0_2 + (on_cut_locus ?
+                    by_q0_off_cut_2 : 0.0f);
+                const float product_14 = 2.0f * (ratio_15 + (is_small ? 0.0f : by_sine_to_axis1 / (2.0f *
+                    sine_to_axis1)));
+                const float product_15 = 2.0f * (ratio_18 + (is_small ? by_sine_to_axis0 / (2.0f * sine_to_axis0) :
+                    0.0f));
+                sum[0][lane] += total_6 - mu0 * product_15;
+                sum[1][lane] += total_5 - mu1 * product_14;
+                sum[2][lane] += total_4;
+                sum[3][lane] += v0 * by_z0 - z0 * by_by_v0;
+                sum[4][lane] += v1 * by_z0 - z0 * by_by_v1;
+                sum[5][lane] += v2 * by_z0 - z0 * by_by_v2;
+                sum[6][lane] += v0 * by_z1 - z1 * by_by_v0;
+                sum[7][lane] += v1 * by_z1 - z1 * by_by_v1;
+                sum[8][lane] += v2 * by_z1 - z1 * by_by_v2;
+                sum[9][lane] += exp_2 * by_phi;
+            }
+            for (size_t i = 0; i < 10; ++i)
+                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
+            mu_bar[3 * k + 0] += total[0];
+            mu_bar[3 * k + 1] += total[1];
+            mu_bar[3 * k + 2] += total[2];
+            W_bar[6 * k + 0] += total[3];
+            W_bar[6 * k + 1] += total[4];
+            W_bar[6 * k + 2] += total[5];
+            W_bar[6 * k + 3] += total[6];
+            W_bar[6 * k + 4] += total[7];
+            W_bar[6 * k + 5] += total[8];
+            amplitude_bar[1 * k + 0] += total[9];
+        }
+    }
+}

@@ -1,0 +1,78 @@
+"""How C writes what the graph computes: precisions, spellings, statements. Shared by the C files that are emitted."""
+
+from __future__ import annotations
+
+import textwrap
+from dataclasses import dataclass
+
+from rsrm_gen.compiler.emit.expression import UNARY, Printer, Spelling
+from rsrm_gen.compiler.emit.series import Coefficients, spelled
+from rsrm_gen.compiler.lower import Program, Routine
+from rsrm_gen.compiler.lower.ir import CONDITIONS, FUNCTIONS
+
+WIDTH = 110
+NAMES = {"root": "sqrt", "abs": "fabs", "round": "rint"}  # the others are called in C what they are called here
+
+
+@dataclass(frozen=True)
+class Precision:
+    """One of the two instances of every function."""
+
+    type: str
+    suffix: str  # of C function names and literals
+    tag: str  # of our function names
+    eps: str
+
+
+DOUBLE = Precision("double", "", "", "DBL_EPSILON")
+FLOAT = Precision("float", "f", "_f", "FLT_EPSILON")
+PRECISIONS = (DOUBLE, FLOAT)
+
+
+def comment(lines: list[str]) -> str:
+    return "/*\n" + "".join(f" * {line}".rstrip() + "\n" for line in lines) + " */"
+
+
+def restrict(program: Program) -> str:
+    """The macro that stands for C's restrict, which C++ spells otherwise."""
+    return f"{program.name.upper()}_RESTRICT"
+
+
+def spelling(precision: Precision) -> Spelling:
+    function = {name: f"{NAMES.get(name, name)}{precision.suffix}({{}})" for name in FUNCTIONS}
+    function["atan2"] = f"atan2{precision.suffix}({{}}, {{}})"
+    return Spelling(
+        function,
+        select="({condition} ? {x} : {y})",
+        polynomial="{coefficients}({x})",
+        eps=precision.eps,
+        suffix=precision.suffix,
+        compare_binds=UNARY,
+    )
+
+
+def series_name(table: str, precision: Precision) -> str:
+    """The function of a table of coefficients."""
+    return f"polynomial_{table.lower()}{precision.tag}"
+
+
+def series_function(name: str, coefficients: Coefficients, precision: Precision) -> str:
+    """A polynomial by Horner's rule, as an inline function."""
+    *rest, last = spelled(coefficients, precision.suffix)
+    text = last
+    for coefficient in reversed(rest):
+        text = f"{coefficient} + x * ({text})" if text != last else f"{coefficient} + x * {text}"
+    body = textwrap.fill(f"return {text};", WIDTH - 4, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False)
+    t = precision.type
+    return f"static inline {t} {series_name(name, precision)}({t} x) {{\n{textwrap.indent(body, '    ')}\n}}"
+
+
+def statements(routine: Routine, printer: Printer, precision: Precision) -> list[str]:
+    """The body of a routine; the printer learns its names."""
+    lines = []
+    for name, node in routine.body:
+        condition = node.op in ("less", "less_equal", "equal")
+        text = f"const {'int' if condition else precision.type} {name} = {printer.definition(node)[0]};"
+        lines.append(textwrap.fill(text, WIDTH - 4, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False))
+        printer.names[node] = name
+    return lines
