@@ -29,11 +29,12 @@ VECTOR_MATH = """
 #include <math.h>
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && defined(__GLIBC__)
 #if __GLIBC_PREREQ(2, 35)
-#define VECTOR(f) __attribute__((simd("notinbranch"))) double f(double); __attribute__((simd("notinbranch"))) float f##f(float);
+#define SIMD __attribute__((simd("notinbranch")))
+#define VECTOR(name) SIMD double name(double); SIMD float name##f(float);
 VECTOR(exp) VECTOR(log) VECTOR(sin) VECTOR(cos) VECTOR(tan) VECTOR(sinh) VECTOR(cosh) VECTOR(tanh)
 VECTOR(asinh) VECTOR(acosh) VECTOR(acos) VECTOR(atanh)
-__attribute__((simd("notinbranch"))) double atan2(double, double);
-__attribute__((simd("notinbranch"))) float atan2f(float, float);
+SIMD double atan2(double, double);
+SIMD float atan2f(float, float);
 #endif
 #endif
 """
