@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import hashlib
+import math
 import os
 import random
 import re
@@ -35,7 +36,7 @@ from compiled import (
 from rsrm_gen.compiler.derive import derive
 from rsrm_gen.compiler.emit import Measurement, emit
 from rsrm_gen.compiler.lower import Node, Parameter, Routine, interpret, lower
-from rsrm_gen.compiler.lower.ir import CONDITIONS, FUNCTIONS, Graph, Result
+from rsrm_gen.compiler.lower.ir import CONDITIONS, FUNCTIONS, Graph, Result, reachable
 from rsrm_gen.compiler.lower.schedule import schedule
 from rsrm_gen.manifold import Manifold
 from rsrm_gen.version import __version__
@@ -64,6 +65,7 @@ def every_operation(g: Graph, *inputs: Node) -> list[Node]:
     nodes += [g.function("abs", g.sub(x, a)), g.mul(g.node("eps"), a), g.constant(sp.Rational(22, 7))]
     polynomial = g.polynomial(y, (sp.Integer(1), sp.Rational(-1, 3), sp.Rational(1, 7), sp.Integer(-2)))
     nodes += [polynomial, g.polynomial(x, (sp.Integer(3), sp.Rational(22, 7)))]
+    nodes.append(g.select(g.node("less", a, x), g.constant(sp.Rational(1, 3)), g.constant(sp.pi)))
     for condition in CONDITIONS:
         nodes += [g.select(g.node(condition, s, t), g.add(a, b), g.neg(c)) for s, t in ((a, x), (x, a), (a, a))]
     return nodes
@@ -73,6 +75,10 @@ def random_trees(g: Graph, *inputs: Node) -> list[Node]:
     """Expressions nested every way, so that a parenthesis too few changes a value."""
     rng = random.Random(5)
 
+    def alive(node: Node) -> Node:
+        """Not a number alone: those are computed by sympy and never reach a function or a comparison."""
+        return node if any(n.op == "input" for n in reachable([node])) else g.add(node, inputs[0])
+
     def tree(depth: int) -> Node:
         if depth == 0:
             return rng.choice([*inputs, g.constant(sp.Rational(-3, 4)), g.constant(2)])
@@ -81,11 +87,11 @@ def random_trees(g: Graph, *inputs: Node) -> list[Node]:
         if kind == "neg":
             return g.node("neg", x)
         if kind == "select":
-            return g.select(g.node(rng.choice(CONDITIONS), x, y), tree(depth - 1), y)
+            return g.select(g.node(rng.choice(CONDITIONS), alive(x), y), tree(depth - 1), alive(y))
         if kind == "function":
-            return g.function(rng.choice(["sin", "cos", "tanh", "asinh", "abs"]), x)
+            return g.function(rng.choice(["sin", "cos", "tanh", "asinh", "abs"]), alive(x))
         if kind == "div":
-            return g.node("div", x, g.add(g.constant(3), g.function("cos", y)))
+            return g.node("div", x, g.add(g.constant(3), g.function("cos", alive(y))))
         return g.node(kind, x, y)
 
     return [tree(depth) for depth in (1, 2, 3, 4, 5) for _ in range(24)]
@@ -166,6 +172,30 @@ def test_literals_in_c_read_back_as_the_nearest_number(tmp_path: Path) -> None:
     (single,) = call_batch(library, "euclidean", routine, zero, zero, dtype=np.float32)
     assert double[0].tolist() == [exact(value) for value in LITERALS]
     assert single[0].tolist() == [float(np.float32(exact(value))) for value in LITERALS]
+
+
+@pytest.mark.parametrize(
+    ("formula", "expected"),
+    [
+        ("norm(q - p) * where(n < 4, 2, 3)", 10.0),
+        ("norm(q - p) + where(q[0] < 0, 1, pi)", 5 + math.pi),
+        ("where(q[0] < 0, 1, 1/3)", 1 / 3),
+        ("max([n, 2 * n, 1])", 6.0),
+        ("7 / 3", 7 / 3),
+    ],
+)
+def test_numbers_and_parameters_may_stand_anywhere(formula: str, expected: float, tmp_path: Path) -> None:
+    text = (MANIFOLDS / "euclidean.yaml").read_text().replace("log: q - p\n", f"log: q - p\ndistance: {formula}\n")
+    made = derive(spec_of(text))
+    texts = emit(made, lower(made))
+    p, q = torch.zeros(2, 3, dtype=torch.float64), torch.tensor([[3.0, 4.0, 0.0]] * 2, dtype=torch.float64)
+    found = torch_module(texts, "euclidean", tmp_path).manifold.distance(p, q)
+    assert found.tolist() == pytest.approx([expected] * 2, rel=1e-15)
+    assert found.dtype == torch.float64
+    if CC:
+        library = shared_library(texts, "euclidean", tmp_path)
+        (found_in_c,) = call_batch(library, "euclidean", lower(made)["distance"], p.numpy(), q.numpy())
+        assert found_in_c.tolist() == pytest.approx([expected] * 2, rel=1e-15)
 
 
 # Whole files.
