@@ -147,15 +147,16 @@ def validate(document: Document, model: type[Model], data: Any = None, at: Path_
     try:
         return model.model_validate(document.data if data is None else data)
     except ValidationError as error:
-        first = error.errors()[0]
-        raise _schema_error(document, model, first, at) from None
+        # A misspelt key is also a missing one: what is there and unknown is said first.
+        errors = sorted(error.errors(), key=lambda e: e["type"] != "extra_forbidden")
+        raise _schema_error(document, model, errors[0], at) from None
 
 
 def _schema_error(document: Document, model: type[BaseModel], error: Any, at: Path_) -> UserError:
     # pydantic puts the tags of union members into the path; only what the document has is a place in it.
     path: Path_ = at
     for part in error["loc"]:
-        if (*path, part) in document.values or part == error["loc"][-1]:
+        if (*path, part) in document.values or (error["type"] == "missing" and part == error["loc"][-1]):
             path = (*path, part)
     name = ".".join(str(part) for part in path)
     if error["type"] == "extra_forbidden":
@@ -163,8 +164,19 @@ def _schema_error(document: Document, model: type[BaseModel], error: Any, at: Pa
         return UserError(f"unknown key `{path[-1]}`", document.key_span(path), did_you_mean(str(path[-1]), known))
     if error["type"] == "missing":
         return UserError(f"`{name}` is missing", document.span(path[:-1]), f"add a line `{path[-1]}: ...`")
+    if error["type"] == "string_pattern_mismatch":
+        return UserError(
+            f"`{error['input']}` is not what can stand here as `{name}`", document.span(path), _pattern_hint(error)
+        )
     message = str(error["msg"]).removeprefix("Value error, ")
-    return UserError(f"`{name}`: {message[:1].lower()}{message[1:]}", document.span(path))
+    message = message[:1].lower() + message[1:]
+    return UserError(f"`{name}`: {message}" if name else message, document.span(path))
+
+
+def _pattern_hint(error: Any) -> str:
+    pattern = str(error["ctx"]["pattern"])
+    words = pattern.strip("^$")
+    return f"write `{words}`" if words.isalpha() else "use letters, digits and underscores, a letter first"
 
 
 def _fields_at(model: type[BaseModel], path: Path_) -> list[str]:

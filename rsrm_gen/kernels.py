@@ -7,6 +7,7 @@ machines without a C compiler use the generated torch code, which gives the same
 from __future__ import annotations
 
 import ctypes
+import itertools
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -30,12 +31,16 @@ def accelerated(manifold: Manifold, folder: Path) -> Manifold:
 
         def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
             tensors = (x, mu, W, amplitude)
-            if x.requires_grad or x.dtype not in DTYPES or any(t.device.type != "cpu" or t.dtype != x.dtype for t in tensors):
+            if (
+                x.requires_grad
+                or x.dtype not in DTYPES
+                or any(t.device.type != "cpu" or t.dtype != x.dtype for t in tensors)
+            ):
                 value, gradient = super().splats(x, mu, W, amplitude)
                 return value, gradient
             if Accelerated.kernel is None:
                 Accelerated.kernel = SplatKernel(manifold, folder)
-            value, gradient = _Splats.apply(Accelerated.kernel, *tensors)
+            value, gradient = _Splats.apply(Accelerated.kernel, *tensors)  # type: ignore[no-untyped-call]
             return value, gradient
 
     Accelerated.__name__ = generated.__name__
@@ -73,17 +78,19 @@ class SplatKernel:
 
         def part(rows: slice) -> tuple[Any, Any, Any]:
             sums = np.empty_like(mu), np.empty_like(W), np.empty_like(amplitude)
-            self.call("splats_vjp", rows, len(mu), x[rows], mu, W, amplitude, value_bar[rows], gradient_bar[rows], *sums)
+            self.call(
+                "splats_vjp", rows, len(mu), x[rows], mu, W, amplitude, value_bar[rows], gradient_bar[rows], *sums
+            )
             return sums
 
         parts = self.share(len(x), part)
-        return tuple(sum(arrays[1:], start=arrays[0]) for arrays in zip(*parts, strict=True))  # type: ignore[return-value]
+        return tuple(sum(arrays[1:], start=arrays[0]) for arrays in zip(*parts, strict=True))
 
     def share(self, count: int, part: Any) -> list[Any]:
         """Call `part` on consecutive slices of the points, one a thread."""
         threads = max(1, min(torch.get_num_threads(), count // SMALLEST_SHARE))
         bounds = [count * i // threads for i in range(threads + 1)]
-        slices = [slice(a, b) for a, b in zip(bounds, bounds[1:], strict=False)]
+        slices = [slice(a, b) for a, b in itertools.pairwise(bounds)]
         if threads == 1:
             return [part(slices[0])]
         if self.pool is None or self.pool._max_workers < threads:
@@ -101,7 +108,9 @@ class _Splats(torch.autograd.Function):
     """The kernel under autograd; differentiable once, in mu, W and amplitude."""
 
     @staticmethod
-    def forward(ctx: Any, kernel: SplatKernel, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+    def forward(
+        ctx: Any, kernel: SplatKernel, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor
+    ) -> tuple[Tensor, Tensor]:
         arrays = [t.detach().contiguous().numpy() for t in (x, mu, W, amplitude)]
         ctx.kernel, ctx.arrays = kernel, arrays
         value, gradient = kernel.forward(*arrays)

@@ -43,7 +43,10 @@ def _file(manifold: str | Path) -> Path:
     folder = bundled("manifolds")
     names = sorted(p.stem for p in folder.glob("*.yaml"))
     if str(manifold) not in names:
-        raise UserError(f"there is no bundled manifold `{manifold}`", hint=did_you_mean(str(manifold), names) or "give the path of a manifold file")
+        raise UserError(
+            f"there is no bundled manifold `{manifold}`",
+            hint=did_you_mean(str(manifold), names) or "give the path of a manifold file",
+        )
     return folder / f"{manifold}.yaml"
 
 

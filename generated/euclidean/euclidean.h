@@ -43,8 +43,8 @@ extern "C" {
 #define EUCLIDEAN_DIAMETER HUGE_VAL
 
 /*
- * Points are 3 numbers, tangent vectors 3. Arguments and results must not overlap.
- * `_f` functions are in float; `_batch` functions take `count` rows of every argument, one after the other.
+ * Points are 3 numbers, tangent vectors 3. Arguments and results must not
+ * overlap. `_f` functions are in float; `_batch` functions take `count` rows of every argument.
  */
 
 /* Numbers near the manifold to the point they stand for.

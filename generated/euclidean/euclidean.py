@@ -26,6 +26,7 @@ inputs and the output to the precision alone would cause.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 
 import torch
 from torch import Generator, Tensor
@@ -45,29 +46,31 @@ def _polynomial(x: Tensor, coefficients: tuple[float, ...]) -> Tensor:
     return result
 
 
-def _stack(entries: tuple[Tensor | float, ...] | list[Tensor], like: Tensor | None = None) -> Tensor:
-    """Entries to one tensor, along a new last dimension; numbers take their shape from `like`."""
-    if like is not None:
-        entries = tuple(e if isinstance(e, Tensor) else torch.full_like(like, e) for e in entries)
+def _pick(condition: Tensor, x: float, y: float, like: Tensor) -> Tensor:
+    """x where the condition holds, else y, in the precision of `like` (torch.where of two numbers is float32)."""
+    return torch.where(condition, like.new_tensor(x), like.new_tensor(y))
+
+
+def _stack(entries: Sequence[Tensor]) -> Tensor:
+    """Entries to one tensor, along a new last dimension."""
     return torch.stack(torch.broadcast_tensors(*entries), -1)
 
 
-def _leading(*arguments: Tensor) -> Tensor:
-    """A tensor of the shape to which the leading dimensions of the arguments broadcast."""
-    return arguments[0].new_empty(torch.broadcast_shapes(*(a.shape[:-1] for a in arguments)))
+def _rows(entry: Tensor | float, *arguments: Tensor) -> Tensor:
+    """A result that does not depend on all arguments, for every row to which their leading dimensions broadcast."""
+    shape = torch.broadcast_shapes(*(a.shape[:-1] for a in arguments))
+    return entry.expand(shape) if isinstance(entry, Tensor) else arguments[0].new_full(shape, entry)
 
 
-def _constant(value: float, *arguments: Tensor) -> Tensor:
-    """A number for every row."""
-    return torch.full_like(_leading(*arguments), value)
+def _rejection(
+    propose: Callable[[int], tuple[Tensor, Tensor]], count: int, generator: Generator | None, like: Tensor
+) -> Tensor:
+    """`count` points with a density proportional to what `propose` returns beside its points.
 
-
-def _rejection(propose, bound: float, count: int, generator: Generator | None, like: Tensor) -> Tensor:
-    """`count` points with a density proportional to what `propose` returns beside its points, of which `bound` is the most.
-
-    A density above the bound starts the sampling over with a larger one.
+    A density above the largest seen so far starts the sampling over.
     """
     kept: list[Tensor] = []
+    bound = 0.0
     while sum(map(len, kept)) < count:
         points, density = propose(2 * count + 16)
         largest = float(density.max())
@@ -81,7 +84,8 @@ def _rejection(propose, bound: float, count: int, generator: Generator | None, l
 class Euclidean:
     """Euclidean space R^n in Cartesian coordinates.
 
-    Points have shape (..., 3), tangent vectors (..., 3), components in the chart; leading dimensions broadcast.
+    Points have shape (..., 3), tangent vectors (..., 3), components in the chart;
+    leading dimensions broadcast.
     """
 
     name = "euclidean"
@@ -108,7 +112,7 @@ class Euclidean:
         Shapes: p (..., 3), x (..., 3) to (..., 3).
         """
         x0, x1, x2 = x.unbind(-1)
-        return _stack((x0, x1, x2))
+        return _stack((_rows(x0, p, x), x1, x2))
 
     def inner(self, p: Tensor, u: Tensor, v: Tensor) -> Tensor:
         """The metric <u, v>_p.
@@ -118,7 +122,7 @@ class Euclidean:
         """
         u0, u1, u2 = u.unbind(-1)
         v0, v1, v2 = v.unbind(-1)
-        return u0 * v0 + u1 * v1 + u2 * v2
+        return _rows(u0 * v0 + u1 * v1 + u2 * v2, p, u, v)
 
     def norm(self, p: Tensor, v: Tensor) -> Tensor:
         """The length |v|_p.
@@ -127,7 +131,7 @@ class Euclidean:
         Shapes: p (..., 3), v (..., 3) to (...).
         """
         v0, v1, v2 = v.unbind(-1)
-        return _root(v0 * v0 + v1 * v1 + v2 * v2)
+        return _rows(_root(v0 * v0 + v1 * v1 + v2 * v2), p, v)
 
     def flat(self, p: Tensor, v: Tensor) -> Tensor:
         """The covector <v, .>_p.
@@ -136,7 +140,7 @@ class Euclidean:
         Shapes: p (..., 3), v (..., 3) to (..., 3).
         """
         v0, v1, v2 = v.unbind(-1)
-        return _stack((v0, v1, v2))
+        return _stack((_rows(v0, p, v), v1, v2))
 
     def exp(self, p: Tensor, v: Tensor) -> Tensor:
         """Exp_p(v).
@@ -183,7 +187,7 @@ class Euclidean:
         Formula: 0.
         Shapes: p (..., 3), q (..., 3) to (...).
         """
-        return _constant(0.0, p, q)
+        return _rows(0.0, p, q)
 
     def riemannian_gradient(self, p: Tensor, df: Tensor) -> Tensor:
         """The gradient in the metric from the partial derivatives df.
@@ -192,7 +196,7 @@ class Euclidean:
         Shapes: p (..., 3), df (..., 3) to (..., 3).
         """
         df0, df1, df2 = df.unbind(-1)
-        return _stack((df0, df1, df2))
+        return _stack((_rows(df0, p, df), df1, df2))
 
     def gradient_norm(self, p: Tensor, df: Tensor) -> Tensor:
         """The length of the gradient from the partial derivatives df.
@@ -201,7 +205,7 @@ class Euclidean:
         Shapes: p (..., 3), df (..., 3) to (...).
         """
         df0, df1, df2 = df.unbind(-1)
-        return _root(df0 * df0 + df1 * df1 + df2 * df2)
+        return _rows(_root(df0 * df0 + df1 * df1 + df2 * df2), p, df)
 
     def splat(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
         """A wrapped Gaussian and its Riemannian gradient in x (RSRM eq. 3).
@@ -231,7 +235,7 @@ class Euclidean:
         df0 = phi * by_v0
         df1 = phi * by_v1
         df2 = phi * by_v2
-        return phi, df0, df1, df2
+        return (phi, df0, df1, df2)
 
     def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
         """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
@@ -279,7 +283,7 @@ class Euclidean:
             points = self.exp(center, v @ frame)
             return points, torch.exp(-self.log_abs_det(center, points))
 
-        return _rejection(propose, 0.0, count, generator, center)
+        return _rejection(propose, count, generator, center)
 
 
 manifold = Euclidean()

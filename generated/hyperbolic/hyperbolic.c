@@ -402,7 +402,7 @@ void hyperbolic_splat(
     const double rest1 = D1 - S1 * dot_D_S_ratio;
     const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
     const double ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * dot_D_S_product);
-    const double total = 1.0 + 0.25 * ww;
+    const double total_2 = 1.0 + 0.25 * ww;
     const int near = ww < 0.4587184190750122;
     const double near_chosen = (near ? ww : 0.0);
     const double r_over_sinh_r_near = polynomial_r_over_sinh_r_near(near_chosen);
@@ -410,7 +410,7 @@ void hyperbolic_splat(
     const double sqrt_ww_product = 0.5 * sqrt_ww;
     const double asinh_sqrt_ww_over_2 = asinh(sqrt_ww_product);
     const double r = 2.0 * asinh_sqrt_ww_over_2;
-    const double sinh_r = sqrt((near ? 1.0 : ww * total));
+    const double sinh_r = sqrt((near ? 1.0 : ww * total_2));
     const double r_ratio = r / sinh_r;
     const double r_over_sinh_r = (near ? r_over_sinh_r_near : r_ratio);
     const double scale = 0.5 * ww;
@@ -444,10 +444,10 @@ void hyperbolic_splat(
     const double by_asinh_sqrt_ww_over_2 = 2.0 * by_r;
     const double by_sqrt_ww = 0.5 * (by_asinh_sqrt_ww_over_2 / sqrt(1.0 + sqrt_ww_product * sqrt_ww_product));
     const double r_over_sinh_r_near_slope = polynomial_r_over_sinh_r_near_slope(near_chosen);
-    const double total_2 = log_det_series * by_log_det_near + 0.5 * by_scale + (near ? 0.0 : by_sqrt_ww / (2.0
+    const double total_3 = log_det_series * by_log_det_near + 0.5 * by_scale + (near ? 0.0 : by_sqrt_ww / (2.0
         * sqrt_ww)) + (near ? by_log_det_series * log_det_series_slope + by_r_over_sinh_r_near *
         r_over_sinh_r_near_slope : 0.0);
-    const double by_ww = total_2 + total * near_chosen_2 + 0.25 * (ww * near_chosen_2);
+    const double by_ww = total_3 + total_2 * near_chosen_2 + 0.25 * (ww * near_chosen_2);
     const double by_dot_D_D = (is_small ? by_ww : 0.0);
     const double by_dot_rest_rest = (is_small ? 0.0 : by_ww);
     const double product_4 = dot_D_S_ratio * by_dot_rest_rest;
@@ -915,7 +915,7 @@ void hyperbolic_splat_f(
     const float rest1 = D1 - S1 * dot_D_S_ratio;
     const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
     const float ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * dot_D_S_product);
-    const float total = 1.0f + 0.25f * ww;
+    const float total_2 = 1.0f + 0.25f * ww;
     const int near = ww < 0.4587184190750122f;
     const float near_chosen = (near ? ww : 0.0f);
     const float r_over_sinh_r_near = polynomial_r_over_sinh_r_near_f(near_chosen);
@@ -923,7 +923,7 @@ void hyperbolic_splat_f(
     const float sqrt_ww_product = 0.5f * sqrt_ww;
     const float asinh_sqrt_ww_over_2 = asinhf(sqrt_ww_product);
     const float r = 2.0f * asinh_sqrt_ww_over_2;
-    const float sinh_r = sqrtf((near ? 1.0f : ww * total));
+    const float sinh_r = sqrtf((near ? 1.0f : ww * total_2));
     const float r_ratio = r / sinh_r;
     const float r_over_sinh_r = (near ? r_over_sinh_r_near : r_ratio);
     const float scale = 0.5f * ww;
@@ -958,10 +958,10 @@ void hyperbolic_splat_f(
     const float by_sqrt_ww = 0.5f * (by_asinh_sqrt_ww_over_2 / sqrtf(1.0f + sqrt_ww_product *
         sqrt_ww_product));
     const float r_over_sinh_r_near_slope = polynomial_r_over_sinh_r_near_slope_f(near_chosen);
-    const float total_2 = log_det_series * by_log_det_near + 0.5f * by_scale + (near ? 0.0f : by_sqrt_ww /
+    const float total_3 = log_det_series * by_log_det_near + 0.5f * by_scale + (near ? 0.0f : by_sqrt_ww /
         (2.0f * sqrt_ww)) + (near ? by_log_det_series * log_det_series_slope + by_r_over_sinh_r_near *
         r_over_sinh_r_near_slope : 0.0f);
-    const float by_ww = total_2 + total * near_chosen_2 + 0.25f * (ww * near_chosen_2);
+    const float by_ww = total_3 + total_2 * near_chosen_2 + 0.25f * (ww * near_chosen_2);
     const float by_dot_D_D = (is_small ? by_ww : 0.0f);
     const float by_dot_rest_rest = (is_small ? 0.0f : by_ww);
     const float product_4 = dot_D_S_ratio * by_dot_rest_rest;

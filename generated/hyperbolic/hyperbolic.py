@@ -27,6 +27,7 @@ inputs and the output to the precision alone would cause.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 
 import torch
 from torch import Generator, Tensor
@@ -75,29 +76,31 @@ def _polynomial(x: Tensor, coefficients: tuple[float, ...]) -> Tensor:
     return result
 
 
-def _stack(entries: tuple[Tensor | float, ...] | list[Tensor], like: Tensor | None = None) -> Tensor:
-    """Entries to one tensor, along a new last dimension; numbers take their shape from `like`."""
-    if like is not None:
-        entries = tuple(e if isinstance(e, Tensor) else torch.full_like(like, e) for e in entries)
+def _pick(condition: Tensor, x: float, y: float, like: Tensor) -> Tensor:
+    """x where the condition holds, else y, in the precision of `like` (torch.where of two numbers is float32)."""
+    return torch.where(condition, like.new_tensor(x), like.new_tensor(y))
+
+
+def _stack(entries: Sequence[Tensor]) -> Tensor:
+    """Entries to one tensor, along a new last dimension."""
     return torch.stack(torch.broadcast_tensors(*entries), -1)
 
 
-def _leading(*arguments: Tensor) -> Tensor:
-    """A tensor of the shape to which the leading dimensions of the arguments broadcast."""
-    return arguments[0].new_empty(torch.broadcast_shapes(*(a.shape[:-1] for a in arguments)))
+def _rows(entry: Tensor | float, *arguments: Tensor) -> Tensor:
+    """A result that does not depend on all arguments, for every row to which their leading dimensions broadcast."""
+    shape = torch.broadcast_shapes(*(a.shape[:-1] for a in arguments))
+    return entry.expand(shape) if isinstance(entry, Tensor) else arguments[0].new_full(shape, entry)
 
 
-def _constant(value: float, *arguments: Tensor) -> Tensor:
-    """A number for every row."""
-    return torch.full_like(_leading(*arguments), value)
+def _rejection(
+    propose: Callable[[int], tuple[Tensor, Tensor]], count: int, generator: Generator | None, like: Tensor
+) -> Tensor:
+    """`count` points with a density proportional to what `propose` returns beside its points.
 
-
-def _rejection(propose, bound: float, count: int, generator: Generator | None, like: Tensor) -> Tensor:
-    """`count` points with a density proportional to what `propose` returns beside its points, of which `bound` is the most.
-
-    A density above the bound starts the sampling over with a larger one.
+    A density above the largest seen so far starts the sampling over.
     """
     kept: list[Tensor] = []
+    bound = 0.0
     while sum(map(len, kept)) < count:
         points, density = propose(2 * count + 16)
         largest = float(density.max())
@@ -111,7 +114,8 @@ def _rejection(propose, bound: float, count: int, generator: Generator | None, l
 class Hyperbolic:
     """Hyperbolic space H^n of curvature -1, the upper sheet of the hyperboloid in R^(n+1), time coordinate first.
 
-    Points have shape (..., 3), tangent vectors (..., 3), ambient; leading dimensions broadcast.
+    Points have shape (..., 3), tangent vectors (..., 3), ambient;
+    leading dimensions broadcast.
     """
 
     name = "hyperbolic"
@@ -155,7 +159,7 @@ class Hyperbolic:
         """
         u0, u1, u2 = u.unbind(-1)
         v0, v1, v2 = v.unbind(-1)
-        return u1 * v1 + u2 * v2 - u0 * v0
+        return _rows(u1 * v1 + u2 * v2 - u0 * v0, p, u, v)
 
     def norm(self, p: Tensor, v: Tensor) -> Tensor:
         """The length |v|_p.
@@ -189,7 +193,7 @@ class Hyperbolic:
         """
         v0, v1, v2 = v.unbind(-1)
         covector0 = -v0
-        return _stack((covector0, v1, v2))
+        return _stack((_rows(covector0, p, v), v1, v2))
 
     def exp(self, p: Tensor, v: Tensor) -> Tensor:
         """Exp_p(v).
@@ -424,7 +428,7 @@ class Hyperbolic:
         rest1 = D1 - S1 * dot_D_S_ratio
         dot_rest_rest = rest0 * rest0 + rest1 * rest1
         ww = torch.where(is_small, dot_D_D - e * e, dot_rest_rest + dot_D_S_ratio * dot_D_S_product)
-        total = 1.0 + 0.25 * ww
+        total_2 = 1.0 + 0.25 * ww
         near = ww < 0.4587184190750122
         near_chosen = torch.where(near, ww, 0.0)
         r_over_sinh_r_near = _polynomial(near_chosen, _R_OVER_SINH_R_NEAR)
@@ -432,7 +436,7 @@ class Hyperbolic:
         sqrt_ww_product = 0.5 * sqrt_ww
         asinh_sqrt_ww_over_2 = torch.asinh(sqrt_ww_product)
         r = 2.0 * asinh_sqrt_ww_over_2
-        sinh_r = torch.sqrt(torch.where(near, 1.0, ww * total))
+        sinh_r = torch.sqrt(torch.where(near, 1.0, ww * total_2))
         r_ratio = r / sinh_r
         r_over_sinh_r = torch.where(near, r_over_sinh_r_near, r_ratio)
         scale = 0.5 * ww
@@ -452,7 +456,7 @@ class Hyperbolic:
         by_v2 = -(W1_2 * z1) - W0_2 * z0
         by_v1 = -(W1_1 * z1) - W0_1 * z0
         by_v0 = -(W1_0 * z1) - W0_0 * z0
-        by_log_det_near = torch.where(near, 1.0, 0.0)
+        by_log_det_near = _pick(near, 1.0, 0.0, ww)
         by_log_det_series = ww * by_log_det_near
         log_det_series_slope = _polynomial(near_chosen, _LOG_DET_SERIES_SLOPE)
         product = r_over_sinh_r * by_v2
@@ -461,17 +465,17 @@ class Hyperbolic:
         by_r_over_sinh_r = D1_gap * by_v2 + D0_gap * by_v1 + e_gap * by_v0
         by_scale = -(mu2 * product) - mu1 * product_2 - a * product_3
         by_r_over_sinh_r_near = torch.where(near, by_r_over_sinh_r, 0.0)
-        by_r = (torch.where(near, 0.0, 1.0) / r_ratio + torch.where(near, 0.0, by_r_over_sinh_r)) / sinh_r
+        by_r = (_pick(near, 0.0, 1.0, ww) / r_ratio + torch.where(near, 0.0, by_r_over_sinh_r)) / sinh_r
         near_chosen_2 = torch.where(near, 0.0, -(r_ratio * by_r / (2.0 * sinh_r)))
         by_asinh_sqrt_ww_over_2 = 2.0 * by_r
         by_sqrt_ww = 0.5 * (by_asinh_sqrt_ww_over_2 / torch.sqrt(1.0 + sqrt_ww_product * sqrt_ww_product))
         r_over_sinh_r_near_slope = _polynomial(near_chosen, _R_OVER_SINH_R_NEAR_SLOPE)
-        total_2 = (
+        total_3 = (
             log_det_series * by_log_det_near + 0.5 * by_scale + torch.where(near, 0.0, by_sqrt_ww / (2.0 * sqrt_ww))
             + torch.where(near, by_log_det_series * log_det_series_slope + by_r_over_sinh_r_near *
             r_over_sinh_r_near_slope, 0.0)
         )
-        by_ww = total_2 + total * near_chosen_2 + 0.25 * (ww * near_chosen_2)
+        by_ww = total_3 + total_2 * near_chosen_2 + 0.25 * (ww * near_chosen_2)
         by_dot_D_D = torch.where(is_small, by_ww, 0.0)
         by_dot_rest_rest = torch.where(is_small, 0.0, by_ww)
         product_4 = dot_D_S_ratio * by_dot_rest_rest
@@ -505,7 +509,7 @@ class Hyperbolic:
         gradient0 = x0 * normal_part
         gradient1 = df1 + x1 * normal_part
         gradient2 = df2 + x2 * normal_part
-        return phi, gradient0, gradient1, gradient2
+        return (phi, gradient0, gradient1, gradient2)
 
     def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
         """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
@@ -553,7 +557,7 @@ class Hyperbolic:
             points = self.exp(center, v @ frame)
             return points, torch.exp(-self.log_abs_det(center, points))
 
-        return _rejection(propose, 0.0, count, generator, center)
+        return _rejection(propose, count, generator, center)
 
 
 manifold = Hyperbolic()

@@ -118,7 +118,7 @@ void hyperbolic_splats(
                 const double rest1 = D1 - S1 * dot_D_S_ratio;
                 const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
                 const double ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * dot_D_S_product);
-                const double total = 1.0 + 0.25 * ww;
+                const double total_2 = 1.0 + 0.25 * ww;
                 const int near = ww < 0.4587184190750122;
                 const double near_chosen = (near ? ww : 0.0);
                 const double r_over_sinh_r_near = polynomial_r_over_sinh_r_near(near_chosen);
@@ -126,7 +126,7 @@ void hyperbolic_splats(
                 const double sqrt_ww_product = 0.5 * sqrt_ww;
                 const double asinh_sqrt_ww_over_2 = asinh(sqrt_ww_product);
                 const double r = 2.0 * asinh_sqrt_ww_over_2;
-                const double sinh_r = sqrt((near ? 1.0 : ww * total));
+                const double sinh_r = sqrt((near ? 1.0 : ww * total_2));
                 const double r_ratio = r / sinh_r;
                 const double r_over_sinh_r = (near ? r_over_sinh_r_near : r_ratio);
                 const double scale = 0.5 * ww;
@@ -160,10 +160,10 @@ void hyperbolic_splats(
                 const double by_asinh_sqrt_ww_over_2 = 2.0 * by_r;
                 const double by_sqrt_ww = 0.5 * (by_asinh_sqrt_ww_over_2 / sqrt(1.0 + sqrt_ww_product * sqrt_ww_product));
                 const double r_over_sinh_r_near_slope = polynomial_r_over_sinh_r_near_slope(near_chosen);
-                const double total_2 = log_det_series * by_log_det_near + 0.5 * by_scale + (near ? 0.0 : by_sqrt_ww / (2.0
+                const double total_3 = log_det_series * by_log_det_near + 0.5 * by_scale + (near ? 0.0 : by_sqrt_ww / (2.0
                     * sqrt_ww)) + (near ? by_log_det_series * log_det_series_slope + by_r_over_sinh_r_near *
                     r_over_sinh_r_near_slope : 0.0);
-                const double by_ww = total_2 + total * near_chosen_2 + 0.25 * (ww * near_chosen_2);
+                const double by_ww = total_3 + total_2 * near_chosen_2 + 0.25 * (ww * near_chosen_2);
                 const double by_dot_D_D = (is_small ? by_ww : 0.0);
                 const double by_dot_rest_rest = (is_small ? 0.0 : by_ww);
                 const double product_4 = dot_D_S_ratio * by_dot_rest_rest;
@@ -279,7 +279,7 @@ void hyperbolic_splats_vjp(
                 const double rest1 = D1 - S1 * dot_D_S_ratio;
                 const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
                 const double ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * dot_D_S_product);
-                const double total = 1.0 + 0.25 * ww;
+                const double total_2 = 1.0 + 0.25 * ww;
                 const int near = ww < 0.4587184190750122;
                 const double near_chosen = (near ? ww : 0.0);
                 const double r_over_sinh_r_near = polynomial_r_over_sinh_r_near(near_chosen);
@@ -287,7 +287,7 @@ void hyperbolic_splats_vjp(
                 const double sqrt_ww_product = 0.5 * sqrt_ww;
                 const double asinh_sqrt_ww_over_2 = asinh(sqrt_ww_product);
                 const double r = 2.0 * asinh_sqrt_ww_over_2;
-                const double sinh_r = sqrt((near ? 1.0 : ww * total));
+                const double sinh_r = sqrt((near ? 1.0 : ww * total_2));
                 const double r_ratio = r / sinh_r;
                 const double r_over_sinh_r = (near ? r_over_sinh_r_near : r_ratio);
                 const double scale = 0.5 * ww;
@@ -328,10 +328,10 @@ void hyperbolic_splats_vjp(
                 const double sqrt_ww_product_2 = 2.0 * sqrt_ww;
                 const double by_sqrt_ww_ratio = by_sqrt_ww / sqrt_ww_product_2;
                 const double r_over_sinh_r_near_slope = polynomial_r_over_sinh_r_near_slope(near_chosen);
-                const double total_2 = log_det_series * by_log_det_near + 0.5 * by_scale + (near ? 0.0 : by_sqrt_ww_ratio)
+                const double total_3 = log_det_series * by_log_det_near + 0.5 * by_scale + (near ? 0.0 : by_sqrt_ww_ratio)
                     + (near ? by_log_det_series * log_det_series_slope + by_r_over_sinh_r_near * r_over_sinh_r_near_slope
-                    : 0.0) + total * near_chosen_2;
-                const double by_ww = total_2 + 0.25 * (ww * near_chosen_2);
+                    : 0.0) + total_2 * near_chosen_2;
+                const double by_ww = total_3 + 0.25 * (ww * near_chosen_2);
                 const double by_dot_D_D = (is_small ? by_ww : 0.0);
                 const double by_dot_rest_rest = (is_small ? 0.0 : by_ww);
                 const double product_4 = dot_D_S_ratio * by_dot_rest_rest;
@@ -383,16 +383,16 @@ void hyperbolic_splats_vjp(
                 const double chosen = (is_small ? 0.0 : by_by_dot_S_S);
                 const double ratio_5 = (by_by_dot_D_S - dot_D_S_ratio * chosen) / dot_S_S_chosen;
                 const double product_10 = 2.0 * (a_total * by_by_b);
-                const double total_3 = a_product * by_by_b + 2.0 * (-(mu1 * by_exponent_by_x1) - mu2 * by_exponent_by_x2);
-                const double by_by_c = (total_3 - c * product_10) / squared;
+                const double total_4 = a_product * by_by_b + 2.0 * (-(mu1 * by_exponent_by_x1) - mu2 * by_exponent_by_x2);
+                const double by_by_c = (total_4 - c * product_10) / squared;
                 const double by_by_dot_D_D = 2.0 * (D0_product + D1_product - e * by_by_e);
-                const double total_4 = dot_D_S * by_by_c + c * by_by_dot_D_S;
+                const double total_5 = dot_D_S * by_by_c + c * by_by_dot_D_S;
                 const double by_by_rest0 = by_exponent_by_x1 + (-(S0 * ratio_5) - dot_D_S_ratio * by_exponent_by_x1);
                 const double by_by_rest1 = by_exponent_by_x2 + (-(S1 * ratio_5) - dot_D_S_ratio * by_exponent_by_x2);
-                const double total_5 = -(ratio_4 * chosen) - by_rest0 * by_exponent_by_x1 - by_rest1 * by_exponent_by_x2 +
-                    by_dot_rest_rest * total_4;
+                const double total_6 = -(ratio_4 * chosen) - by_rest0 * by_exponent_by_x1 - by_rest1 * by_exponent_by_x2 +
+                    by_dot_rest_rest * total_5;
                 const double by_by_dot_rest_rest = 2.0 * (rest0 * by_by_rest0 + rest1 * by_by_rest1) + dot_D_S_ratio *
-                    total_4 + dot_D_S_product * ratio_5;
+                    total_5 + dot_D_S_product * ratio_5;
                 const double by_by_ww = (is_small ? 0.0 : by_by_dot_rest_rest) + (is_small ? by_by_dot_D_D : 0.0);
                 const double by_by_ww_product = 0.25 * by_by_ww;
                 const double near_chosen_3 = (near ? by_by_ww : 0.0);
@@ -401,7 +401,7 @@ void hyperbolic_splats_vjp(
                 const double r_over_sinh_r_near_slope_slope = polynomial_r_over_sinh_r_near_slope_slope(near_chosen);
                 const double by_by_sqrt_ww = (near ? 0.0 : by_by_ww) / sqrt_ww_product_2;
                 const double by_by_asinh_sqrt_ww_over_2 = 0.5 * by_by_sqrt_ww / sqrt_2;
-                const double ratio_6 = (near ? 0.0 : ww * by_by_ww_product + total * by_by_ww) / sinh_r_product;
+                const double ratio_6 = (near ? 0.0 : ww * by_by_ww_product + total_2 * by_by_ww) / sinh_r_product;
                 const double by_by_r = 2.0 * by_by_asinh_sqrt_ww_over_2 - r_ratio * ratio_6;
                 const double by_by_r_ratio = by_by_r / sinh_r;
                 const double by_by_r_over_sinh_r = (near ? 0.0 : by_by_r_ratio) + (near ? by_by_r_over_sinh_r_near : 0.0);
@@ -423,72 +423,72 @@ void hyperbolic_splats_vjp(
                 const double by_v0_2 = W3 * by_z1 + W0 * by_z0;
                 const double by_log_det_near_2 = (near ? by_log_det : 0.0);
                 const double by_log_det_series_2 = by_log_det_near * by_by_ww + ww * by_log_det_near_2;
-                const double total_6 = by_v2 * by_by_r_over_sinh_r + r_over_sinh_r * by_v2_2;
-                const double total_7 = by_v0 * by_by_e_gap + by_v1 * gap + by_v2 * gap_2 + D1_gap * by_v2_2 + D0_gap *
+                const double total_7 = by_v2 * by_by_r_over_sinh_r + r_over_sinh_r * by_v2_2;
+                const double total_8 = by_v0 * by_by_e_gap + by_v1 * gap + by_v2 * gap_2 + D1_gap * by_v2_2 + D0_gap *
                     by_v1_2;
-                const double total_8 = by_v1 * by_by_r_over_sinh_r + r_over_sinh_r * by_v1_2;
-                const double by_r_over_sinh_r_2 = total_7 + e_gap * by_v0_2;
-                const double total_9 = by_v0 * by_by_r_over_sinh_r + r_over_sinh_r * by_v0_2;
-                const double by_scale_2 = -(mu2 * total_6) - mu1 * total_8 - a * total_9;
+                const double total_9 = by_v1 * by_by_r_over_sinh_r + r_over_sinh_r * by_v1_2;
+                const double by_r_over_sinh_r_2 = total_8 + e_gap * by_v0_2;
+                const double total_10 = by_v0 * by_by_r_over_sinh_r + r_over_sinh_r * by_v0_2;
+                const double by_scale_2 = -(mu2 * total_7) - mu1 * total_9 - a * total_10;
                 const double by_r_over_sinh_r_near_2 = (near ? by_r_over_sinh_r_2 : 0.0);
-                const double total_10 = -(by_r * ratio_6) - ratio * (by_by_r_ratio / r_ratio) + (near ? 0.0 : by_log_det)
+                const double total_11 = -(by_r * ratio_6) - ratio * (by_by_r_ratio / r_ratio) + (near ? 0.0 : by_log_det)
                     / r_ratio + (near ? 0.0 : by_r_over_sinh_r_2);
-                const double by_r_2 = total_10 / sinh_r;
+                const double by_r_2 = total_11 / sinh_r;
                 const double by_sinh_r = 2.0 * (ratio_2 * ratio_6) - by_r * by_by_r_ratio - r_ratio * by_r_2;
                 const double near_chosen_4 = (near ? 0.0 : by_sinh_r / sinh_r_product);
                 const double by_asinh_sqrt_ww_over_2_2 = 2.0 * by_r_2;
                 const double gap_3 = by_asinh_sqrt_ww_over_2_2 / sqrt_2 - sqrt_ww_product * (2.0 * (ratio_3 *
                     by_by_asinh_sqrt_ww_over_2 / (2.0 * sqrt_2)));
                 const double by_sqrt_ww_2 = 0.5 * gap_3 - 2.0 * (by_sqrt_ww_ratio * by_by_sqrt_ww);
-                const double total_11 = near_chosen_2 * by_by_ww_product + by_log_det_near * by_by_log_det_series +
+                const double total_12 = near_chosen_2 * by_by_ww_product + by_log_det_near * by_by_log_det_series +
                     log_det_series * by_log_det_near_2 + 0.5 * by_scale_2 + (near ? 0.0 : by_sqrt_ww_2 /
                     sqrt_ww_product_2);
                 const double near_chosen_5 = (near ? by_r_over_sinh_r_near_slope * r_over_sinh_r_near_slope_slope +
                     by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
                     r_over_sinh_r_near_slope * by_r_over_sinh_r_near_2 : 0.0);
-                const double by_ww_2 = total_11 + near_chosen_5 + total * near_chosen_4 + 0.25 * (near_chosen_2 * by_by_ww
-                    + ww * near_chosen_4);
+                const double by_ww_2 = total_12 + near_chosen_5 + total_2 * near_chosen_4 + 0.25 * (near_chosen_2 *
+                    by_by_ww + ww * near_chosen_4);
                 const double by_dot_D_D_2 = (is_small ? by_ww_2 : 0.0);
                 const double by_dot_rest_rest_2 = (is_small ? 0.0 : by_ww_2);
-                const double total_12 = by_dot_rest_rest * ratio_5 + dot_D_S_ratio * by_dot_rest_rest_2;
+                const double total_13 = by_dot_rest_rest * ratio_5 + dot_D_S_ratio * by_dot_rest_rest_2;
                 const double product_11 = 2.0 * by_dot_rest_rest_2;
                 const double by_rest1_2 = product_5 * by_by_rest1 + rest1 * product_11;
                 const double by_rest0_2 = product_5 * by_by_rest0 + rest0 * product_11;
-                const double by_c_2 = product_4 * by_by_dot_D_S - by_c_ratio * product_10 + dot_D_S * total_12;
+                const double by_c_2 = product_4 * by_by_dot_D_S - by_c_ratio * product_10 + dot_D_S * total_13;
                 const double by_dot_D_D_product_2 = 2.0 * by_dot_D_D_2;
-                const double by_e_2 = -(by_e_ratio * by_by_b) - by_dot_D_D_product * by_by_e + total_9 - e *
+                const double by_e_2 = -(by_e_ratio * by_by_b) - by_dot_D_D_product * by_by_e + total_10 - e *
                     by_dot_D_D_product_2;
                 const double by_c_ratio_2 = by_c_2 / squared;
                 const double product_12 = 2.0 * by_c_ratio_2;
                 const double product_13 = a_total * (2.0 * (-(by_c_ratio * by_by_c) - c * by_c_ratio_2));
-                const double gap_4 = -(product_6 * by_exponent_by_x2) - product * by_by_scale - scale * total_6 -
+                const double gap_4 = -(product_6 * by_exponent_by_x2) - product * by_by_scale - scale * total_7 -
                     x_block[2][lane] * product_12;
-                const double gap_5 = -(product_6 * by_exponent_by_x1) - product_2 * by_by_scale - scale * total_8 -
+                const double gap_5 = -(product_6 * by_exponent_by_x1) - product_2 * by_by_scale - scale * total_9 -
                     x_block[1][lane] * product_12;
-                const double ratio_7 = (total_5 + dot_D_S_product * by_dot_rest_rest_2 - S1 * by_rest1_2 - S0 *
+                const double ratio_7 = (total_6 + dot_D_S_product * by_dot_rest_rest_2 - S1 * by_rest1_2 - S0 *
                     by_rest0_2) / dot_S_S_chosen;
                 const double by_dot_S_S_2 = (is_small ? 0.0 : -(ratio_4 * ratio_5) - dot_D_S_ratio * ratio_7);
                 const double by_e_ratio_2 = by_e_2 / a_total;
-                const double by_dot_D_S_2 = product_4 * by_by_c + c * total_12 + ratio_7 + by_e_ratio_2;
+                const double by_dot_D_S_2 = product_4 * by_by_c + c * total_13 + ratio_7 + by_e_ratio_2;
                 const double gap_6 = -(by_e_ratio * by_by_e) - product_7 * by_by_b + product_13 - e * by_e_ratio_2;
-                const double by_a = -(product_3 * by_by_scale) - scale * total_9 + 2.0 * (by_c_ratio * by_by_b + b *
+                const double by_a = -(product_3 * by_by_scale) - scale * total_10 + 2.0 * (by_c_ratio * by_by_b + b *
                     by_c_ratio_2) + gap_6;
                 const int is_small_3 = dot_ps_ps_total == 0.0;
                 const double by_dot_ps_ps = (is_small_3 ? 0.0 : by_a / (2.0 * (is_small_3 ? 1.0 : a)));
                 const double product_14 = 2.0 * by_dot_ps_ps;
-                const double total_13 = by_dot_S_S_product * by_exponent_by_x2 + by_dot_D_S_product_2 - by_rest1 * ratio_5
+                const double total_14 = by_dot_S_S_product * by_exponent_by_x2 + by_dot_D_S_product_2 - by_rest1 * ratio_5
                     - dot_D_S_ratio * by_rest1_2 + D1 * by_dot_D_S_2;
-                const double total_14 = by_dot_D_D_product * by_exponent_by_x2 + by_dot_D_S_product_2 + total_6 +
+                const double total_15 = by_dot_D_D_product * by_exponent_by_x2 + by_dot_D_S_product_2 + total_7 +
                     by_rest1_2 + S1 * by_dot_D_S_2;
-                const double total_15 = by_dot_S_S_product * by_exponent_by_x1 + by_dot_D_S_product - by_rest0 * ratio_5 -
+                const double total_16 = by_dot_S_S_product * by_exponent_by_x1 + by_dot_D_S_product - by_rest0 * ratio_5 -
                     dot_D_S_ratio * by_rest0_2 + D0 * by_dot_D_S_2;
-                const double total_16 = by_dot_D_D_product * by_exponent_by_x1 + by_dot_D_S_product + total_8 + by_rest0_2
+                const double total_17 = by_dot_D_D_product * by_exponent_by_x1 + by_dot_D_S_product + total_9 + by_rest0_2
                     + S0 * by_dot_D_S_2;
-                const double by_D1_2 = total_14 + D1 * by_dot_D_D_product_2;
-                const double by_D0_2 = total_16 + D0 * by_dot_D_D_product_2;
+                const double by_D1_2 = total_15 + D1 * by_dot_D_D_product_2;
+                const double by_D0_2 = total_17 + D0 * by_dot_D_D_product_2;
                 const double by_dot_S_S_product_2 = 2.0 * by_dot_S_S_2;
-                const double by_S1_2 = total_13 + S1 * by_dot_S_S_product_2;
-                const double by_S0_2 = total_15 + S0 * by_dot_S_S_product_2;
+                const double by_S1_2 = total_14 + S1 * by_dot_S_S_product_2;
+                const double by_S0_2 = total_16 + S0 * by_dot_S_S_product_2;
                 sum[0][lane] += 0.0;
                 sum[1][lane] += gap_5 + mu1 * product_14 - by_D0_2 + by_S0_2;
                 sum[2][lane] += gap_4 + mu2 * product_14 - by_D1_2 + by_S1_2;
@@ -611,7 +611,7 @@ void hyperbolic_splats_f(
                 const float rest1 = D1 - S1 * dot_D_S_ratio;
                 const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
                 const float ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * dot_D_S_product);
-                const float total = 1.0f + 0.25f * ww;
+                const float total_2 = 1.0f + 0.25f * ww;
                 const int near = ww < 0.4587184190750122f;
                 const float near_chosen = (near ? ww : 0.0f);
                 const float r_over_sinh_r_near = polynomial_r_over_sinh_r_near_f(near_chosen);
@@ -619,7 +619,7 @@ void hyperbolic_splats_f(
                 const float sqrt_ww_product = 0.5f * sqrt_ww;
                 const float asinh_sqrt_ww_over_2 = asinhf(sqrt_ww_product);
                 const float r = 2.0f * asinh_sqrt_ww_over_2;
-                const float sinh_r = sqrtf((near ? 1.0f : ww * total));
+                const float sinh_r = sqrtf((near ? 1.0f : ww * total_2));
                 const float r_ratio = r / sinh_r;
                 const float r_over_sinh_r = (near ? r_over_sinh_r_near : r_ratio);
                 const float scale = 0.5f * ww;
@@ -654,10 +654,10 @@ void hyperbolic_splats_f(
                 const float by_sqrt_ww = 0.5f * (by_asinh_sqrt_ww_over_2 / sqrtf(1.0f + sqrt_ww_product *
                     sqrt_ww_product));
                 const float r_over_sinh_r_near_slope = polynomial_r_over_sinh_r_near_slope_f(near_chosen);
-                const float total_2 = log_det_series * by_log_det_near + 0.5f * by_scale + (near ? 0.0f : by_sqrt_ww /
+                const float total_3 = log_det_series * by_log_det_near + 0.5f * by_scale + (near ? 0.0f : by_sqrt_ww /
                     (2.0f * sqrt_ww)) + (near ? by_log_det_series * log_det_series_slope + by_r_over_sinh_r_near *
                     r_over_sinh_r_near_slope : 0.0f);
-                const float by_ww = total_2 + total * near_chosen_2 + 0.25f * (ww * near_chosen_2);
+                const float by_ww = total_3 + total_2 * near_chosen_2 + 0.25f * (ww * near_chosen_2);
                 const float by_dot_D_D = (is_small ? by_ww : 0.0f);
                 const float by_dot_rest_rest = (is_small ? 0.0f : by_ww);
                 const float product_4 = dot_D_S_ratio * by_dot_rest_rest;
@@ -772,7 +772,7 @@ void hyperbolic_splats_vjp_f(
                 const float rest1 = D1 - S1 * dot_D_S_ratio;
                 const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
                 const float ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * dot_D_S_product);
-                const float total = 1.0f + 0.25f * ww;
+                const float total_2 = 1.0f + 0.25f * ww;
                 const int near = ww < 0.4587184190750122f;
                 const float near_chosen = (near ? ww : 0.0f);
                 const float r_over_sinh_r_near = polynomial_r_over_sinh_r_near_f(near_chosen);
@@ -780,7 +780,7 @@ void hyperbolic_splats_vjp_f(
                 const float sqrt_ww_product = 0.5f * sqrt_ww;
                 const float asinh_sqrt_ww_over_2 = asinhf(sqrt_ww_product);
                 const float r = 2.0f * asinh_sqrt_ww_over_2;
-                const float sinh_r = sqrtf((near ? 1.0f : ww * total));
+                const float sinh_r = sqrtf((near ? 1.0f : ww * total_2));
                 const float r_ratio = r / sinh_r;
                 const float r_over_sinh_r = (near ? r_over_sinh_r_near : r_ratio);
                 const float scale = 0.5f * ww;
@@ -821,10 +821,10 @@ void hyperbolic_splats_vjp_f(
                 const float sqrt_ww_product_2 = 2.0f * sqrt_ww;
                 const float by_sqrt_ww_ratio = by_sqrt_ww / sqrt_ww_product_2;
                 const float r_over_sinh_r_near_slope = polynomial_r_over_sinh_r_near_slope_f(near_chosen);
-                const float total_2 = log_det_series * by_log_det_near + 0.5f * by_scale + (near ? 0.0f :
+                const float total_3 = log_det_series * by_log_det_near + 0.5f * by_scale + (near ? 0.0f :
                     by_sqrt_ww_ratio) + (near ? by_log_det_series * log_det_series_slope + by_r_over_sinh_r_near *
-                    r_over_sinh_r_near_slope : 0.0f) + total * near_chosen_2;
-                const float by_ww = total_2 + 0.25f * (ww * near_chosen_2);
+                    r_over_sinh_r_near_slope : 0.0f) + total_2 * near_chosen_2;
+                const float by_ww = total_3 + 0.25f * (ww * near_chosen_2);
                 const float by_dot_D_D = (is_small ? by_ww : 0.0f);
                 const float by_dot_rest_rest = (is_small ? 0.0f : by_ww);
                 const float product_4 = dot_D_S_ratio * by_dot_rest_rest;
@@ -876,16 +876,16 @@ void hyperbolic_splats_vjp_f(
                 const float chosen = (is_small ? 0.0f : by_by_dot_S_S);
                 const float ratio_5 = (by_by_dot_D_S - dot_D_S_ratio * chosen) / dot_S_S_chosen;
                 const float product_10 = 2.0f * (a_total * by_by_b);
-                const float total_3 = a_product * by_by_b + 2.0f * (-(mu1 * by_exponent_by_x1) - mu2 * by_exponent_by_x2);
-                const float by_by_c = (total_3 - c * product_10) / squared;
+                const float total_4 = a_product * by_by_b + 2.0f * (-(mu1 * by_exponent_by_x1) - mu2 * by_exponent_by_x2);
+                const float by_by_c = (total_4 - c * product_10) / squared;
                 const float by_by_dot_D_D = 2.0f * (D0_product + D1_product - e * by_by_e);
-                const float total_4 = dot_D_S * by_by_c + c * by_by_dot_D_S;
+                const float total_5 = dot_D_S * by_by_c + c * by_by_dot_D_S;
                 const float by_by_rest0 = by_exponent_by_x1 + (-(S0 * ratio_5) - dot_D_S_ratio * by_exponent_by_x1);
                 const float by_by_rest1 = by_exponent_by_x2 + (-(S1 * ratio_5) - dot_D_S_ratio * by_exponent_by_x2);
-                const float total_5 = -(ratio_4 * chosen) - by_rest0 * by_exponent_by_x1 - by_rest1 * by_exponent_by_x2 +
-                    by_dot_rest_rest * total_4;
+                const float total_6 = -(ratio_4 * chosen) - by_rest0 * by_exponent_by_x1 - by_rest1 * by_exponent_by_x2 +
+                    by_dot_rest_rest * total_5;
                 const float by_by_dot_rest_rest = 2.0f * (rest0 * by_by_rest0 + rest1 * by_by_rest1) + dot_D_S_ratio *
-                    total_4 + dot_D_S_product * ratio_5;
+                    total_5 + dot_D_S_product * ratio_5;
                 const float by_by_ww = (is_small ? 0.0f : by_by_dot_rest_rest) + (is_small ? by_by_dot_D_D : 0.0f);
                 const float by_by_ww_product = 0.25f * by_by_ww;
                 const float near_chosen_3 = (near ? by_by_ww : 0.0f);
@@ -894,7 +894,7 @@ void hyperbolic_splats_vjp_f(
                 const float r_over_sinh_r_near_slope_slope = polynomial_r_over_sinh_r_near_slope_slope_f(near_chosen);
                 const float by_by_sqrt_ww = (near ? 0.0f : by_by_ww) / sqrt_ww_product_2;
                 const float by_by_asinh_sqrt_ww_over_2 = 0.5f * by_by_sqrt_ww / sqrt_2;
-                const float ratio_6 = (near ? 0.0f : ww * by_by_ww_product + total * by_by_ww) / sinh_r_product;
+                const float ratio_6 = (near ? 0.0f : ww * by_by_ww_product + total_2 * by_by_ww) / sinh_r_product;
                 const float by_by_r = 2.0f * by_by_asinh_sqrt_ww_over_2 - r_ratio * ratio_6;
                 const float by_by_r_ratio = by_by_r / sinh_r;
                 const float by_by_r_over_sinh_r = (near ? 0.0f : by_by_r_ratio) + (near ? by_by_r_over_sinh_r_near :
@@ -917,72 +917,72 @@ void hyperbolic_splats_vjp_f(
                 const float by_v0_2 = W3 * by_z1 + W0 * by_z0;
                 const float by_log_det_near_2 = (near ? by_log_det : 0.0f);
                 const float by_log_det_series_2 = by_log_det_near * by_by_ww + ww * by_log_det_near_2;
-                const float total_6 = by_v2 * by_by_r_over_sinh_r + r_over_sinh_r * by_v2_2;
-                const float total_7 = by_v0 * by_by_e_gap + by_v1 * gap + by_v2 * gap_2 + D1_gap * by_v2_2 + D0_gap *
+                const float total_7 = by_v2 * by_by_r_over_sinh_r + r_over_sinh_r * by_v2_2;
+                const float total_8 = by_v0 * by_by_e_gap + by_v1 * gap + by_v2 * gap_2 + D1_gap * by_v2_2 + D0_gap *
                     by_v1_2;
-                const float total_8 = by_v1 * by_by_r_over_sinh_r + r_over_sinh_r * by_v1_2;
-                const float by_r_over_sinh_r_2 = total_7 + e_gap * by_v0_2;
-                const float total_9 = by_v0 * by_by_r_over_sinh_r + r_over_sinh_r * by_v0_2;
-                const float by_scale_2 = -(mu2 * total_6) - mu1 * total_8 - a * total_9;
+                const float total_9 = by_v1 * by_by_r_over_sinh_r + r_over_sinh_r * by_v1_2;
+                const float by_r_over_sinh_r_2 = total_8 + e_gap * by_v0_2;
+                const float total_10 = by_v0 * by_by_r_over_sinh_r + r_over_sinh_r * by_v0_2;
+                const float by_scale_2 = -(mu2 * total_7) - mu1 * total_9 - a * total_10;
                 const float by_r_over_sinh_r_near_2 = (near ? by_r_over_sinh_r_2 : 0.0f);
-                const float total_10 = -(by_r * ratio_6) - ratio * (by_by_r_ratio / r_ratio) + (near ? 0.0f : by_log_det)
+                const float total_11 = -(by_r * ratio_6) - ratio * (by_by_r_ratio / r_ratio) + (near ? 0.0f : by_log_det)
                     / r_ratio + (near ? 0.0f : by_r_over_sinh_r_2);
-                const float by_r_2 = total_10 / sinh_r;
+                const float by_r_2 = total_11 / sinh_r;
                 const float by_sinh_r = 2.0f * (ratio_2 * ratio_6) - by_r * by_by_r_ratio - r_ratio * by_r_2;
                 const float near_chosen_4 = (near ? 0.0f : by_sinh_r / sinh_r_product);
                 const float by_asinh_sqrt_ww_over_2_2 = 2.0f * by_r_2;
                 const float gap_3 = by_asinh_sqrt_ww_over_2_2 / sqrt_2 - sqrt_ww_product * (2.0f * (ratio_3 *
                     by_by_asinh_sqrt_ww_over_2 / (2.0f * sqrt_2)));
                 const float by_sqrt_ww_2 = 0.5f * gap_3 - 2.0f * (by_sqrt_ww_ratio * by_by_sqrt_ww);
-                const float total_11 = near_chosen_2 * by_by_ww_product + by_log_det_near * by_by_log_det_series +
+                const float total_12 = near_chosen_2 * by_by_ww_product + by_log_det_near * by_by_log_det_series +
                     log_det_series * by_log_det_near_2 + 0.5f * by_scale_2 + (near ? 0.0f : by_sqrt_ww_2 /
                     sqrt_ww_product_2);
                 const float near_chosen_5 = (near ? by_r_over_sinh_r_near_slope * r_over_sinh_r_near_slope_slope +
                     by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
                     r_over_sinh_r_near_slope * by_r_over_sinh_r_near_2 : 0.0f);
-                const float by_ww_2 = total_11 + near_chosen_5 + total * near_chosen_4 + 0.25f * (near_chosen_2 * by_by_ww
-                    + ww * near_chosen_4);
+                const float by_ww_2 = total_12 + near_chosen_5 + total_2 * near_chosen_4 + 0.25f * (near_chosen_2 *
+                    by_by_ww + ww * near_chosen_4);
                 const float by_dot_D_D_2 = (is_small ? by_ww_2 : 0.0f);
                 const float by_dot_rest_rest_2 = (is_small ? 0.0f : by_ww_2);
-                const float total_12 = by_dot_rest_rest * ratio_5 + dot_D_S_ratio * by_dot_rest_rest_2;
+                const float total_13 = by_dot_rest_rest * ratio_5 + dot_D_S_ratio * by_dot_rest_rest_2;
                 const float product_11 = 2.0f * by_dot_rest_rest_2;
                 const float by_rest1_2 = product_5 * by_by_rest1 + rest1 * product_11;
                 const float by_rest0_2 = product_5 * by_by_rest0 + rest0 * product_11;
-                const float by_c_2 = product_4 * by_by_dot_D_S - by_c_ratio * product_10 + dot_D_S * total_12;
+                const float by_c_2 = product_4 * by_by_dot_D_S - by_c_ratio * product_10 + dot_D_S * total_13;
                 const float by_dot_D_D_product_2 = 2.0f * by_dot_D_D_2;
-                const float by_e_2 = -(by_e_ratio * by_by_b) - by_dot_D_D_product * by_by_e + total_9 - e *
+                const float by_e_2 = -(by_e_ratio * by_by_b) - by_dot_D_D_product * by_by_e + total_10 - e *
                     by_dot_D_D_product_2;
                 const float by_c_ratio_2 = by_c_2 / squared;
                 const float product_12 = 2.0f * by_c_ratio_2;
                 const float product_13 = a_total * (2.0f * (-(by_c_ratio * by_by_c) - c * by_c_ratio_2));
-                const float gap_4 = -(product_6 * by_exponent_by_x2) - product * by_by_scale - scale * total_6 -
+                const float gap_4 = -(product_6 * by_exponent_by_x2) - product * by_by_scale - scale * total_7 -
                     x_block[2][lane] * product_12;
-                const float gap_5 = -(product_6 * by_exponent_by_x1) - product_2 * by_by_scale - scale * total_8 -
+                const float gap_5 = -(product_6 * by_exponent_by_x1) - product_2 * by_by_scale - scale * total_9 -
                     x_block[1][lane] * product_12;
-                const float ratio_7 = (total_5 + dot_D_S_product * by_dot_rest_rest_2 - S1 * by_rest1_2 - S0 * by_rest0_2)
+                const float ratio_7 = (total_6 + dot_D_S_product * by_dot_rest_rest_2 - S1 * by_rest1_2 - S0 * by_rest0_2)
                     / dot_S_S_chosen;
                 const float by_dot_S_S_2 = (is_small ? 0.0f : -(ratio_4 * ratio_5) - dot_D_S_ratio * ratio_7);
                 const float by_e_ratio_2 = by_e_2 / a_total;
-                const float by_dot_D_S_2 = product_4 * by_by_c + c * total_12 + ratio_7 + by_e_ratio_2;
+                const float by_dot_D_S_2 = product_4 * by_by_c + c * total_13 + ratio_7 + by_e_ratio_2;
                 const float gap_6 = -(by_e_ratio * by_by_e) - product_7 * by_by_b + product_13 - e * by_e_ratio_2;
-                const float by_a = -(product_3 * by_by_scale) - scale * total_9 + 2.0f * (by_c_ratio * by_by_b + b *
+                const float by_a = -(product_3 * by_by_scale) - scale * total_10 + 2.0f * (by_c_ratio * by_by_b + b *
                     by_c_ratio_2) + gap_6;
                 const int is_small_3 = dot_ps_ps_total == 0.0f;
                 const float by_dot_ps_ps = (is_small_3 ? 0.0f : by_a / (2.0f * (is_small_3 ? 1.0f : a)));
                 const float product_14 = 2.0f * by_dot_ps_ps;
-                const float total_13 = by_dot_S_S_product * by_exponent_by_x2 + by_dot_D_S_product_2 - by_rest1 * ratio_5
+                const float total_14 = by_dot_S_S_product * by_exponent_by_x2 + by_dot_D_S_product_2 - by_rest1 * ratio_5
                     - dot_D_S_ratio * by_rest1_2 + D1 * by_dot_D_S_2;
-                const float total_14 = by_dot_D_D_product * by_exponent_by_x2 + by_dot_D_S_product_2 + total_6 +
+                const float total_15 = by_dot_D_D_product * by_exponent_by_x2 + by_dot_D_S_product_2 + total_7 +
                     by_rest1_2 + S1 * by_dot_D_S_2;
-                const float total_15 = by_dot_S_S_product * by_exponent_by_x1 + by_dot_D_S_product - by_rest0 * ratio_5 -
+                const float total_16 = by_dot_S_S_product * by_exponent_by_x1 + by_dot_D_S_product - by_rest0 * ratio_5 -
                     dot_D_S_ratio * by_rest0_2 + D0 * by_dot_D_S_2;
-                const float total_16 = by_dot_D_D_product * by_exponent_by_x1 + by_dot_D_S_product + total_8 + by_rest0_2
+                const float total_17 = by_dot_D_D_product * by_exponent_by_x1 + by_dot_D_S_product + total_9 + by_rest0_2
                     + S0 * by_dot_D_S_2;
-                const float by_D1_2 = total_14 + D1 * by_dot_D_D_product_2;
-                const float by_D0_2 = total_16 + D0 * by_dot_D_D_product_2;
+                const float by_D1_2 = total_15 + D1 * by_dot_D_D_product_2;
+                const float by_D0_2 = total_17 + D0 * by_dot_D_D_product_2;
                 const float by_dot_S_S_product_2 = 2.0f * by_dot_S_S_2;
-                const float by_S1_2 = total_13 + S1 * by_dot_S_S_product_2;
-                const float by_S0_2 = total_15 + S0 * by_dot_S_S_product_2;
+                const float by_S1_2 = total_14 + S1 * by_dot_S_S_product_2;
+                const float by_S0_2 = total_16 + S0 * by_dot_S_S_product_2;
                 sum[0][lane] += 0.0f;
                 sum[1][lane] += gap_5 + mu1 * product_14 - by_D0_2 + by_S0_2;
                 sum[2][lane] += gap_4 + mu2 * product_14 - by_D1_2 + by_S1_2;

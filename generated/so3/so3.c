@@ -338,8 +338,8 @@ void so3_splat(
     const double by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
     const double by_t_over_norm_s = chosen * by_scale;
     const double by_t_over_norm_s_near = (near ? by_t_over_norm_s : 0.0);
-    const double total = 0.5 * (2.0 * (near ? 0.0 : 1.0) / product) + (near ? 0.0 : by_t_over_norm_s);
-    const double by_t = total / norm_s;
+    const double total_2 = 0.5 * (2.0 * (near ? 0.0 : 1.0) / product) + (near ? 0.0 : by_t_over_norm_s);
+    const double by_t = total_2 / norm_s;
     const double by_atan2_norm_s_abs_g0 = 2.0 * by_t;
     const double ratio = by_atan2_norm_s_abs_g0 / (near_chosen_2 + abs_g0 * abs_g0);
     const double norm_s_product = norm_s * ratio;
@@ -744,8 +744,8 @@ void so3_splat_f(
     const float by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
     const float by_t_over_norm_s = chosen * by_scale;
     const float by_t_over_norm_s_near = (near ? by_t_over_norm_s : 0.0f);
-    const float total = 0.5f * (2.0f * (near ? 0.0f : 1.0f) / product) + (near ? 0.0f : by_t_over_norm_s);
-    const float by_t = total / norm_s;
+    const float total_2 = 0.5f * (2.0f * (near ? 0.0f : 1.0f) / product) + (near ? 0.0f : by_t_over_norm_s);
+    const float by_t = total_2 / norm_s;
     const float by_atan2_norm_s_abs_g0 = 2.0f * by_t;
     const float ratio = by_atan2_norm_s_abs_g0 / (near_chosen_2 + abs_g0 * abs_g0);
     const float norm_s_product = norm_s * ratio;

@@ -27,6 +27,7 @@ inputs and the output to the precision alone would cause.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 
 import torch
 from torch import Generator, Tensor
@@ -75,29 +76,31 @@ def _polynomial(x: Tensor, coefficients: tuple[float, ...]) -> Tensor:
     return result
 
 
-def _stack(entries: tuple[Tensor | float, ...] | list[Tensor], like: Tensor | None = None) -> Tensor:
-    """Entries to one tensor, along a new last dimension; numbers take their shape from `like`."""
-    if like is not None:
-        entries = tuple(e if isinstance(e, Tensor) else torch.full_like(like, e) for e in entries)
+def _pick(condition: Tensor, x: float, y: float, like: Tensor) -> Tensor:
+    """x where the condition holds, else y, in the precision of `like` (torch.where of two numbers is float32)."""
+    return torch.where(condition, like.new_tensor(x), like.new_tensor(y))
+
+
+def _stack(entries: Sequence[Tensor]) -> Tensor:
+    """Entries to one tensor, along a new last dimension."""
     return torch.stack(torch.broadcast_tensors(*entries), -1)
 
 
-def _leading(*arguments: Tensor) -> Tensor:
-    """A tensor of the shape to which the leading dimensions of the arguments broadcast."""
-    return arguments[0].new_empty(torch.broadcast_shapes(*(a.shape[:-1] for a in arguments)))
+def _rows(entry: Tensor | float, *arguments: Tensor) -> Tensor:
+    """A result that does not depend on all arguments, for every row to which their leading dimensions broadcast."""
+    shape = torch.broadcast_shapes(*(a.shape[:-1] for a in arguments))
+    return entry.expand(shape) if isinstance(entry, Tensor) else arguments[0].new_full(shape, entry)
 
 
-def _constant(value: float, *arguments: Tensor) -> Tensor:
-    """A number for every row."""
-    return torch.full_like(_leading(*arguments), value)
+def _rejection(
+    propose: Callable[[int], tuple[Tensor, Tensor]], count: int, generator: Generator | None, like: Tensor
+) -> Tensor:
+    """`count` points with a density proportional to what `propose` returns beside its points.
 
-
-def _rejection(propose, bound: float, count: int, generator: Generator | None, like: Tensor) -> Tensor:
-    """`count` points with a density proportional to what `propose` returns beside its points, of which `bound` is the most.
-
-    A density above the bound starts the sampling over with a larger one.
+    A density above the largest seen so far starts the sampling over.
     """
     kept: list[Tensor] = []
+    bound = 0.0
     while sum(map(len, kept)) < count:
         points, density = propose(2 * count + 16)
         largest = float(density.max())
@@ -111,7 +114,8 @@ def _rejection(propose, bound: float, count: int, generator: Generator | None, l
 class So3:
     """Rotations of R^3 as unit quaternions (w, x, y, z), q and -q the same; distances are rotation angles in radians.
 
-    Points have shape (..., 4), tangent vectors (..., 3), components in the frame of the manifold file; leading dimensions broadcast.
+    Points have shape (..., 4), tangent vectors (..., 3), components in the frame of the manifold file;
+    leading dimensions broadcast.
     """
 
     name = "so3"
@@ -163,7 +167,7 @@ class So3:
         """
         u0, u1, u2 = u.unbind(-1)
         v0, v1, v2 = v.unbind(-1)
-        return u0 * v0 + u1 * v1 + u2 * v2
+        return _rows(u0 * v0 + u1 * v1 + u2 * v2, p, u, v)
 
     def norm(self, p: Tensor, v: Tensor) -> Tensor:
         """The length |v|_p.
@@ -172,7 +176,7 @@ class So3:
         Shapes: p (..., 4), v (..., 3) to (...).
         """
         v0, v1, v2 = v.unbind(-1)
-        return _root(v0 * v0 + v1 * v1 + v2 * v2)
+        return _rows(_root(v0 * v0 + v1 * v1 + v2 * v2), p, v)
 
     def flat(self, p: Tensor, v: Tensor) -> Tensor:
         """The covector <v, .>_p.
@@ -181,7 +185,7 @@ class So3:
         Shapes: p (..., 4), v (..., 3) to (..., 3).
         """
         v0, v1, v2 = v.unbind(-1)
-        return _stack((v0, v1, v2))
+        return _stack((_rows(v0, p, v), v1, v2))
 
     def exp(self, p: Tensor, v: Tensor) -> Tensor:
         """Exp_p(v).
@@ -230,7 +234,7 @@ class So3:
         atan2_norm_s_abs_g0 = torch.atan2(norm_s, abs_g0)
         t = 2.0 * atan2_norm_s_abs_g0
         t_over_norm_s = torch.where(near, t_over_norm_s_near, t / norm_s)
-        scale = t_over_norm_s * torch.where(g0 < 0.0, -1.0, 1.0)
+        scale = t_over_norm_s * _pick(g0 < 0.0, -1.0, 1.0, g0)
         v0 = g1 * scale
         v1 = g2 * scale
         v2 = g3 * scale
@@ -342,7 +346,7 @@ class So3:
         t_ratio = t / norm_s
         t_over_norm_s = torch.where(near, t_over_norm_s_near, t_ratio)
         is_small = g0 < 0.0
-        chosen = torch.where(is_small, -1.0, 1.0)
+        chosen = _pick(is_small, -1.0, 1.0, g0)
         scale = t_over_norm_s * chosen
         v0 = g1 * scale
         v1 = g2 * scale
@@ -359,14 +363,16 @@ class So3:
         by_v2 = -(W2_2 * z2) - W1_2 * z1 - W0_2 * z0
         by_v1 = -(W2_1 * z2) - W1_1 * z1 - W0_1 * z0
         by_v0 = -(W2_0 * z2) - W1_0 * z1 - W0_0 * z0
-        by_log_det_near = torch.where(near, 1.0, 0.0)
+        by_log_det_near = _pick(near, 1.0, 0.0, norm_s_squared)
         by_log_det_series = norm_s_squared * by_log_det_near
         log_det_series_slope = _polynomial(near_chosen, _LOG_DET_SERIES_SLOPE)
         by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0
         by_t_over_norm_s = chosen * by_scale
         by_t_over_norm_s_near = torch.where(near, by_t_over_norm_s, 0.0)
-        total = 0.5 * (2.0 * torch.where(near, 0.0, 1.0) / product) + torch.where(near, 0.0, by_t_over_norm_s)
-        by_t = total / norm_s
+        total_2 = (
+            0.5 * (2.0 * _pick(near, 0.0, 1.0, norm_s_squared) / product) + torch.where(near, 0.0, by_t_over_norm_s)
+        )
+        by_t = total_2 / norm_s
         by_atan2_norm_s_abs_g0 = 2.0 * by_t
         ratio = by_atan2_norm_s_abs_g0 / (near_chosen_2 + abs_g0 * abs_g0)
         norm_s_product = norm_s * ratio
@@ -398,7 +404,7 @@ class So3:
         gradient0 = x0 * df1_product + x3 * df2_product - x1 * df0_product - x2 * df3_product
         gradient1 = x0 * df2_product + x1 * df3_product - x2 * df0_product - x3 * df1_product
         gradient2 = x2 * df1_product + x0 * df3_product - x3 * df0_product - x1 * df2_product
-        return phi, gradient0, gradient1, gradient2
+        return (phi, gradient0, gradient1, gradient2)
 
     def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
         """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
@@ -447,7 +453,7 @@ class So3:
             points = self.exp(center, v @ frame)
             return points, torch.exp(-self.log_abs_det(center, points))
 
-        return _rejection(propose, 0.0, count, generator, center)
+        return _rejection(propose, count, generator, center)
 
 
 manifold = So3()

@@ -144,8 +144,8 @@ void so3_splats(
                 const double by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
                 const double by_t_over_norm_s = chosen * by_scale;
                 const double by_t_over_norm_s_near = (near ? by_t_over_norm_s : 0.0);
-                const double total = 0.5 * (2.0 * (near ? 0.0 : 1.0) / product) + (near ? 0.0 : by_t_over_norm_s);
-                const double by_t = total / norm_s;
+                const double total_2 = 0.5 * (2.0 * (near ? 0.0 : 1.0) / product) + (near ? 0.0 : by_t_over_norm_s);
+                const double by_t = total_2 / norm_s;
                 const double by_atan2_norm_s_abs_g0 = 2.0 * by_t;
                 const double ratio = by_atan2_norm_s_abs_g0 / (near_chosen_2 + abs_g0 * abs_g0);
                 const double norm_s_product = norm_s * ratio;
@@ -284,8 +284,8 @@ void so3_splats_vjp(
                 const double by_t_over_norm_s_near = (near ? by_t_over_norm_s : 0.0);
                 const double by_t = (0.5 * ratio + (near ? 0.0 : by_t_over_norm_s)) / norm_s;
                 const double by_atan2_norm_s_abs_g0 = 2.0 * by_t;
-                const double total = near_chosen_2 + abs_g0 * abs_g0;
-                const double ratio_2 = by_atan2_norm_s_abs_g0 / total;
+                const double total_2 = near_chosen_2 + abs_g0 * abs_g0;
+                const double ratio_2 = by_atan2_norm_s_abs_g0 / total_2;
                 const double norm_s_product = norm_s * ratio_2;
                 const double by_abs_g0 = -norm_s_product;
                 const double by_norm_s = abs_g0 * ratio_2 - t_ratio * by_t;
@@ -333,7 +333,7 @@ void so3_splats_vjp(
                 const double t_over_norm_s_near_slope_slope = polynomial_t_over_norm_s_near_slope_slope(near_chosen);
                 const double by_by_norm_s = (near ? 0.0 : by_by_norm_s_squared) / norm_s_product_2;
                 const double gap = (is_small ? by_by_g0 : 0.0) - by_by_abs_g0;
-                const double by_by_atan2_norm_s_abs_g0 = (norm_s * gap + abs_g0 * by_by_norm_s) / total;
+                const double by_by_atan2_norm_s_abs_g0 = (norm_s * gap + abs_g0 * by_by_norm_s) / total_2;
                 const double product_3 = ratio_2 * by_by_atan2_norm_s_abs_g0;
                 const double gap_2 = ratio_2 * by_by_norm_s - abs_g0 * (2.0 * product_3);
                 const double by_by_t = 2.0 * by_by_atan2_norm_s_abs_g0 - t_ratio * by_by_norm_s;
@@ -358,16 +358,16 @@ void so3_splats_vjp(
                     product));
                 const double by_log_det_series_2 = by_log_det_near * by_by_norm_s_squared + norm_s_squared *
                     by_log_det_near_2;
-                const double total_2 = by_v0 * by_by_g1 + by_v1 * by_by_g2 + by_v2 * by_by_g3 + g3 * by_v2_2 + g2 *
+                const double total_3 = by_v0 * by_by_g1 + by_v1 * by_by_g2 + by_v2 * by_by_g3 + g3 * by_v2_2 + g2 *
                     by_v1_2;
-                const double by_scale_2 = total_2 + g1 * by_v0_2;
+                const double by_scale_2 = total_3 + g1 * by_v0_2;
                 const double by_t_over_norm_s_2 = chosen * by_scale_2;
                 const double by_t_over_norm_s_near_2 = (near ? by_t_over_norm_s_2 : 0.0);
                 const double by_t_2 = (product_4 - by_t * by_by_norm_s + (near ? 0.0 : by_t_over_norm_s_2)) / norm_s;
                 const double gap_3 = ratio_2 * gap - 2.0 * (by_norm_s_ratio * by_by_norm_s) - by_t * by_by_t_ratio -
                     t_ratio * by_t_2;
                 const double by_atan2_norm_s_abs_g0_2 = 2.0 * by_t_2;
-                const double ratio_3 = by_atan2_norm_s_abs_g0_2 / total;
+                const double ratio_3 = by_atan2_norm_s_abs_g0_2 / total_2;
                 const double norm_s_product_3 = norm_s * ratio_3;
                 const double by_norm_s_2 = gap_3 + abs_g0 * ratio_3;
                 const double by_abs_g0_2 = gap_2 - norm_s_product_3;
@@ -385,13 +385,13 @@ void so3_splats_vjp(
                     by_g3 * by_exponent_by_x0 - x_block[0][lane] * by_g3_2;
                 const double gap_5 = by_g0 * by_exponent_by_x1 - by_g1 * by_exponent_by_x0 + by_g2 * by_exponent_by_x3 -
                     by_g3 * by_exponent_by_x2 - x_block[2][lane] * by_g3_2;
-                const double total_3 = by_g0 * by_exponent_by_x2 - by_g1 * by_exponent_by_x3 - by_g2 * by_exponent_by_x0 +
+                const double total_4 = by_g0 * by_exponent_by_x2 - by_g1 * by_exponent_by_x3 - by_g2 * by_exponent_by_x0 +
                     by_g3 * by_exponent_by_x1 + x_block[1][lane] * by_g3_2;
-                const double total_4 = by_g0 * by_exponent_by_x0 + by_g1 * by_exponent_by_x1 + by_g2 * by_exponent_by_x2 +
+                const double total_5 = by_g0 * by_exponent_by_x0 + by_g1 * by_exponent_by_x1 + by_g2 * by_exponent_by_x2 +
                     by_g3 * by_exponent_by_x3 + x_block[3][lane] * by_g3_2;
-                sum[0][lane] += total_4 + x_block[2][lane] * by_g2_2 + x_block[1][lane] * by_g1_2 + x_block[0][lane] * by_g0_2;
+                sum[0][lane] += total_5 + x_block[2][lane] * by_g2_2 + x_block[1][lane] * by_g1_2 + x_block[0][lane] * by_g0_2;
                 sum[1][lane] += gap_5 + x_block[3][lane] * by_g2_2 - x_block[0][lane] * by_g1_2 + x_block[1][lane] * by_g0_2;
-                sum[2][lane] += total_3 - x_block[0][lane] * by_g2_2 - x_block[3][lane] * by_g1_2 + x_block[2][lane] * by_g0_2;
+                sum[2][lane] += total_4 - x_block[0][lane] * by_g2_2 - x_block[3][lane] * by_g1_2 + x_block[2][lane] * by_g0_2;
                 sum[3][lane] += gap_4 - x_block[1][lane] * by_g2_2 + x_block[2][lane] * by_g1_2 + x_block[3][lane] * by_g0_2;
                 sum[4][lane] += v0 * by_z0 - z0 * by_by_v0;
                 sum[5][lane] += v1 * by_z0 - z0 * by_by_v1;
@@ -547,8 +547,8 @@ void so3_splats_f(
                 const float by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
                 const float by_t_over_norm_s = chosen * by_scale;
                 const float by_t_over_norm_s_near = (near ? by_t_over_norm_s : 0.0f);
-                const float total = 0.5f * (2.0f * (near ? 0.0f : 1.0f) / product) + (near ? 0.0f : by_t_over_norm_s);
-                const float by_t = total / norm_s;
+                const float total_2 = 0.5f * (2.0f * (near ? 0.0f : 1.0f) / product) + (near ? 0.0f : by_t_over_norm_s);
+                const float by_t = total_2 / norm_s;
                 const float by_atan2_norm_s_abs_g0 = 2.0f * by_t;
                 const float ratio = by_atan2_norm_s_abs_g0 / (near_chosen_2 + abs_g0 * abs_g0);
                 const float norm_s_product = norm_s * ratio;
@@ -687,8 +687,8 @@ void so3_splats_vjp_f(
                 const float by_t_over_norm_s_near = (near ? by_t_over_norm_s : 0.0f);
                 const float by_t = (0.5f * ratio + (near ? 0.0f : by_t_over_norm_s)) / norm_s;
                 const float by_atan2_norm_s_abs_g0 = 2.0f * by_t;
-                const float total = near_chosen_2 + abs_g0 * abs_g0;
-                const float ratio_2 = by_atan2_norm_s_abs_g0 / total;
+                const float total_2 = near_chosen_2 + abs_g0 * abs_g0;
+                const float ratio_2 = by_atan2_norm_s_abs_g0 / total_2;
                 const float norm_s_product = norm_s * ratio_2;
                 const float by_abs_g0 = -norm_s_product;
                 const float by_norm_s = abs_g0 * ratio_2 - t_ratio * by_t;
@@ -736,7 +736,7 @@ void so3_splats_vjp_f(
                 const float t_over_norm_s_near_slope_slope = polynomial_t_over_norm_s_near_slope_slope_f(near_chosen);
                 const float by_by_norm_s = (near ? 0.0f : by_by_norm_s_squared) / norm_s_product_2;
                 const float gap = (is_small ? by_by_g0 : 0.0f) - by_by_abs_g0;
-                const float by_by_atan2_norm_s_abs_g0 = (norm_s * gap + abs_g0 * by_by_norm_s) / total;
+                const float by_by_atan2_norm_s_abs_g0 = (norm_s * gap + abs_g0 * by_by_norm_s) / total_2;
                 const float product_3 = ratio_2 * by_by_atan2_norm_s_abs_g0;
                 const float gap_2 = ratio_2 * by_by_norm_s - abs_g0 * (2.0f * product_3);
                 const float by_by_t = 2.0f * by_by_atan2_norm_s_abs_g0 - t_ratio * by_by_norm_s;
@@ -762,16 +762,16 @@ void so3_splats_vjp_f(
                     by_by_t_ratio / product));
                 const float by_log_det_series_2 = by_log_det_near * by_by_norm_s_squared + norm_s_squared *
                     by_log_det_near_2;
-                const float total_2 = by_v0 * by_by_g1 + by_v1 * by_by_g2 + by_v2 * by_by_g3 + g3 * by_v2_2 + g2 *
+                const float total_3 = by_v0 * by_by_g1 + by_v1 * by_by_g2 + by_v2 * by_by_g3 + g3 * by_v2_2 + g2 *
                     by_v1_2;
-                const float by_scale_2 = total_2 + g1 * by_v0_2;
+                const float by_scale_2 = total_3 + g1 * by_v0_2;
                 const float by_t_over_norm_s_2 = chosen * by_scale_2;
                 const float by_t_over_norm_s_near_2 = (near ? by_t_over_norm_s_2 : 0.0f);
                 const float by_t_2 = (product_4 - by_t * by_by_norm_s + (near ? 0.0f : by_t_over_norm_s_2)) / norm_s;
                 const float gap_3 = ratio_2 * gap - 2.0f * (by_norm_s_ratio * by_by_norm_s) - by_t * by_by_t_ratio -
                     t_ratio * by_t_2;
                 const float by_atan2_norm_s_abs_g0_2 = 2.0f * by_t_2;
-                const float ratio_3 = by_atan2_norm_s_abs_g0_2 / total;
+                const float ratio_3 = by_atan2_norm_s_abs_g0_2 / total_2;
                 const float norm_s_product_3 = norm_s * ratio_3;
                 const float by_norm_s_2 = gap_3 + abs_g0 * ratio_3;
                 const float by_abs_g0_2 = gap_2 - norm_s_product_3;
@@ -789,13 +789,13 @@ void so3_splats_vjp_f(
                     by_g3 * by_exponent_by_x0 - x_block[0][lane] * by_g3_2;
                 const float gap_5 = by_g0 * by_exponent_by_x1 - by_g1 * by_exponent_by_x0 + by_g2 * by_exponent_by_x3 -
                     by_g3 * by_exponent_by_x2 - x_block[2][lane] * by_g3_2;
-                const float total_3 = by_g0 * by_exponent_by_x2 - by_g1 * by_exponent_by_x3 - by_g2 * by_exponent_by_x0 +
+                const float total_4 = by_g0 * by_exponent_by_x2 - by_g1 * by_exponent_by_x3 - by_g2 * by_exponent_by_x0 +
                     by_g3 * by_exponent_by_x1 + x_block[1][lane] * by_g3_2;
-                const float total_4 = by_g0 * by_exponent_by_x0 + by_g1 * by_exponent_by_x1 + by_g2 * by_exponent_by_x2 +
+                const float total_5 = by_g0 * by_exponent_by_x0 + by_g1 * by_exponent_by_x1 + by_g2 * by_exponent_by_x2 +
                     by_g3 * by_exponent_by_x3 + x_block[3][lane] * by_g3_2;
-                sum[0][lane] += total_4 + x_block[2][lane] * by_g2_2 + x_block[1][lane] * by_g1_2 + x_block[0][lane] * by_g0_2;
+                sum[0][lane] += total_5 + x_block[2][lane] * by_g2_2 + x_block[1][lane] * by_g1_2 + x_block[0][lane] * by_g0_2;
                 sum[1][lane] += gap_5 + x_block[3][lane] * by_g2_2 - x_block[0][lane] * by_g1_2 + x_block[1][lane] * by_g0_2;
-                sum[2][lane] += total_3 - x_block[0][lane] * by_g2_2 - x_block[3][lane] * by_g1_2 + x_block[2][lane] * by_g0_2;
+                sum[2][lane] += total_4 - x_block[0][lane] * by_g2_2 - x_block[3][lane] * by_g1_2 + x_block[2][lane] * by_g0_2;
                 sum[3][lane] += gap_4 - x_block[1][lane] * by_g2_2 + x_block[2][lane] * by_g1_2 + x_block[3][lane] * by_g0_2;
                 sum[4][lane] += v0 * by_z0 - z0 * by_by_v0;
                 sum[5][lane] += v1 * by_z0 - z0 * by_by_v1;

@@ -26,6 +26,7 @@ inputs and the output to the precision alone would cause.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 
 import torch
 from torch import Generator, Tensor
@@ -77,29 +78,31 @@ def _polynomial(x: Tensor, coefficients: tuple[float, ...]) -> Tensor:
     return result
 
 
-def _stack(entries: tuple[Tensor | float, ...] | list[Tensor], like: Tensor | None = None) -> Tensor:
-    """Entries to one tensor, along a new last dimension; numbers take their shape from `like`."""
-    if like is not None:
-        entries = tuple(e if isinstance(e, Tensor) else torch.full_like(like, e) for e in entries)
+def _pick(condition: Tensor, x: float, y: float, like: Tensor) -> Tensor:
+    """x where the condition holds, else y, in the precision of `like` (torch.where of two numbers is float32)."""
+    return torch.where(condition, like.new_tensor(x), like.new_tensor(y))
+
+
+def _stack(entries: Sequence[Tensor]) -> Tensor:
+    """Entries to one tensor, along a new last dimension."""
     return torch.stack(torch.broadcast_tensors(*entries), -1)
 
 
-def _leading(*arguments: Tensor) -> Tensor:
-    """A tensor of the shape to which the leading dimensions of the arguments broadcast."""
-    return arguments[0].new_empty(torch.broadcast_shapes(*(a.shape[:-1] for a in arguments)))
+def _rows(entry: Tensor | float, *arguments: Tensor) -> Tensor:
+    """A result that does not depend on all arguments, for every row to which their leading dimensions broadcast."""
+    shape = torch.broadcast_shapes(*(a.shape[:-1] for a in arguments))
+    return entry.expand(shape) if isinstance(entry, Tensor) else arguments[0].new_full(shape, entry)
 
 
-def _constant(value: float, *arguments: Tensor) -> Tensor:
-    """A number for every row."""
-    return torch.full_like(_leading(*arguments), value)
+def _rejection(
+    propose: Callable[[int], tuple[Tensor, Tensor]], count: int, generator: Generator | None, like: Tensor
+) -> Tensor:
+    """`count` points with a density proportional to what `propose` returns beside its points.
 
-
-def _rejection(propose, bound: float, count: int, generator: Generator | None, like: Tensor) -> Tensor:
-    """`count` points with a density proportional to what `propose` returns beside its points, of which `bound` is the most.
-
-    A density above the bound starts the sampling over with a larger one.
+    A density above the largest seen so far starts the sampling over.
     """
     kept: list[Tensor] = []
+    bound = 0.0
     while sum(map(len, kept)) < count:
         points, density = propose(2 * count + 16)
         largest = float(density.max())
@@ -113,7 +116,8 @@ def _rejection(propose, bound: float, count: int, generator: Generator | None, l
 class Sphere:
     """The unit sphere S^n in R^(n+1) with the round metric; distances are angles in radians.
 
-    Points have shape (..., 3), tangent vectors (..., 3), ambient; leading dimensions broadcast.
+    Points have shape (..., 3), tangent vectors (..., 3), ambient;
+    leading dimensions broadcast.
     """
 
     name = "sphere"
@@ -161,7 +165,7 @@ class Sphere:
         """
         u0, u1, u2 = u.unbind(-1)
         v0, v1, v2 = v.unbind(-1)
-        return u0 * v0 + u1 * v1 + u2 * v2
+        return _rows(u0 * v0 + u1 * v1 + u2 * v2, p, u, v)
 
     def norm(self, p: Tensor, v: Tensor) -> Tensor:
         """The length |v|_p.
@@ -170,7 +174,7 @@ class Sphere:
         Shapes: p (..., 3), v (..., 3) to (...).
         """
         v0, v1, v2 = v.unbind(-1)
-        return _root(v0 * v0 + v1 * v1 + v2 * v2)
+        return _rows(_root(v0 * v0 + v1 * v1 + v2 * v2), p, v)
 
     def flat(self, p: Tensor, v: Tensor) -> Tensor:
         """The covector <v, .>_p.
@@ -179,7 +183,7 @@ class Sphere:
         Shapes: p (..., 3), v (..., 3) to (..., 3).
         """
         v0, v1, v2 = v.unbind(-1)
-        return _stack((v0, v1, v2))
+        return _stack((_rows(v0, p, v), v1, v2))
 
     def exp(self, p: Tensor, v: Tensor) -> Tensor:
         """Exp_p(v).
@@ -432,7 +436,7 @@ class Sphere:
         by_v2 = -(W1_2 * z1) - W0_2 * z0
         by_v1 = -(W1_1 * z1) - W0_1 * z0
         by_v0 = -(W1_0 * z1) - W0_0 * z0
-        by_log_det = torch.where(on_cut_locus, 0.0, 1.0)
+        by_log_det = _pick(on_cut_locus, 0.0, 1.0, norm_q_plus_p)
         by_log_det_near = torch.where(near, by_log_det, 0.0)
         by_log_det_series = norm_d_squared * by_log_det_near
         log_det_series_slope = _polynomial(near_chosen, _LOG_DET_SERIES_SLOPE)
@@ -482,7 +486,7 @@ class Sphere:
         gradient0 = df0 - x0 * normal_part
         gradient1 = df1 - x1 * normal_part
         gradient2 = df2 - x2 * normal_part
-        return phi, gradient0, gradient1, gradient2
+        return (phi, gradient0, gradient1, gradient2)
 
     def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
         """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
@@ -531,7 +535,7 @@ class Sphere:
             points = self.exp(center, v @ frame)
             return points, torch.exp(-self.log_abs_det(center, points))
 
-        return _rejection(propose, 0.0, count, generator, center)
+        return _rejection(propose, count, generator, center)
 
 
 manifold = Sphere()

@@ -345,8 +345,8 @@ void sphere_splats_vjp(
                 const double ratio_8 = t_ratio * by_t / norm_w_product;
                 const double by_norm_w_squared = (near ? 0.0 : -ratio_8);
                 const double by_atan2_value = 2.0 * by_t;
-                const double total = norm_q_plus_p_squared_2 + near_chosen_2;
-                const double ratio_9 = by_atan2_value / total;
+                const double total_2 = norm_q_plus_p_squared_2 + near_chosen_2;
+                const double ratio_9 = by_atan2_value / total_2;
                 const double by_norm_d = norm_q_plus_p_2 * ratio_9;
                 const double norm_d_product = 2.0 * norm_d;
                 const double by_norm_d_ratio = by_norm_d / norm_d_product;
@@ -404,7 +404,7 @@ void sphere_splats_vjp(
                 const double by_t_over_norm_w_near_slope = by_t_over_norm_w_near * near_chosen_3;
                 const double t_over_norm_w_near_slope_slope = polynomial_t_over_norm_w_near_slope_slope(near_chosen);
                 const double by_by_norm_d = (near ? 0.0 : by_by_norm_d_squared) / norm_d_product;
-                const double by_by_atan2_value = (norm_q_plus_p_2 * by_by_norm_d - norm_d * ratio_11) / total;
+                const double by_by_atan2_value = (norm_q_plus_p_2 * by_by_norm_d - norm_d * ratio_11) / total_2;
                 const double product_6 = ratio_9 * by_by_atan2_value;
                 const double ratio_12 = (near ? 0.0 : by_by_norm_w_squared) / norm_w_product;
                 const double by_by_t = 2.0 * by_by_atan2_value - t_ratio * ratio_12;
@@ -431,13 +431,13 @@ void sphere_splats_vjp(
                 const double ratio_13 = (is_small ? 0.0 : product_8) / chosen_2;
                 const double ratio_14 = (is_small ? product_8 : 0.0) / chosen;
                 const double chosen_7 = (on_cut_locus ? 0.0 : by_v1_2);
-                const double total_2 = chosen_5 * by_by_w0 + chosen_4 * by_by_w1 + chosen_3 * by_by_w2 + w2 * chosen_6 +
+                const double total_3 = chosen_5 * by_by_w0 + chosen_4 * by_by_w1 + chosen_3 * by_by_w2 + w2 * chosen_6 +
                     w1 * chosen_7;
                 const double product_9 = 3.141592653589793 * (on_cut_locus ? by_v1_2 : 0.0);
                 const double ratio_15 = (is_small ? 0.0 : product_9) / chosen_2;
                 const double ratio_16 = (is_small ? product_9 : 0.0) / chosen;
                 const double chosen_8 = (on_cut_locus ? 0.0 : by_v0_2);
-                const double by_t_over_norm_w_2 = total_2 + w0 * chosen_8;
+                const double by_t_over_norm_w_2 = total_3 + w0 * chosen_8;
                 const double product_10 = 3.141592653589793 * (on_cut_locus ? by_v0_2 : 0.0);
                 const double ratio_17 = (is_small ? 0.0 : product_10) / chosen_2;
                 const double gap_3 = -ratio_16 - ratio_17;
@@ -447,13 +447,13 @@ void sphere_splats_vjp(
                 const double by_sine_to_axis0 = (is_small ? ratio_5 * ratio_14 + ratio_3 * ratio_16 - ratio * ratio_18 :
                     0.0);
                 const double by_t_over_norm_w_near_2 = (near ? by_t_over_norm_w_2 : 0.0);
-                const double total_3 = -(by_t * ratio_12) - ratio_7 * (by_by_t_ratio / t_ratio) + (near ? 0.0 :
+                const double total_4 = -(by_t * ratio_12) - ratio_7 * (by_by_t_ratio / t_ratio) + (near ? 0.0 :
                     by_log_det_2) / t_ratio + (near ? 0.0 : by_t_over_norm_w_2);
-                const double by_t_2 = total_3 / norm_w;
+                const double by_t_2 = total_4 / norm_w;
                 const double by_norm_w = 2.0 * (ratio_8 * ratio_12) - by_t * by_by_t_ratio - t_ratio * by_t_2;
                 const double by_norm_w_squared_2 = (near ? 0.0 : by_norm_w / norm_w_product);
                 const double by_atan2_value_2 = 2.0 * by_t_2;
-                const double ratio_19 = by_atan2_value_2 / total;
+                const double ratio_19 = by_atan2_value_2 / total_2;
                 const double by_norm_d_2 = -(2.0 * (by_norm_d_ratio * by_by_norm_d)) - ratio_9 * ratio_11 +
                     norm_q_plus_p_2 * ratio_19;
                 const double by_norm_q_plus_p_2 = (is_small_2 ? 0.0 : 2.0 * (ratio_10 * ratio_11)) + ratio_9 *
@@ -490,17 +490,17 @@ void sphere_splats_vjp(
                 const double by_q2_off_cut_2 = by_q_plus_p2_2_2 + by_d2_2;
                 const double by_q1_off_cut_2 = by_q_plus_p1_2_2 + by_d1_2;
                 const double by_q0_off_cut_2 = by_q_plus_p0_2_2 + by_d0_2;
-                const double total_4 = gap_4 + d2 * by_dot_p_d_2 + by_q_plus_p2_2_2 - by_d2_2 + (on_cut_locus ?
+                const double total_5 = gap_4 + d2 * by_dot_p_d_2 + by_q_plus_p2_2_2 - by_d2_2 + (on_cut_locus ?
                     by_q2_off_cut_2 : 0.0);
-                const double total_5 = gap_5 + d1 * by_dot_p_d_2 + by_q_plus_p1_2_2 - by_d1_2 + (on_cut_locus ?
+                const double total_6 = gap_5 + d1 * by_dot_p_d_2 + by_q_plus_p1_2_2 - by_d1_2 + (on_cut_locus ?
                     by_q1_off_cut_2 : 0.0);
-                const double total_6 = gap_6 + d0 * by_dot_p_d_2 + by_q_plus_p0_2_2 - by_d0_2 + (on_cut_locus ?
+                const double total_7 = gap_6 + d0 * by_dot_p_d_2 + by_q_plus_p0_2_2 - by_d0_2 + (on_cut_locus ?
                     by_q0_off_cut_2 : 0.0);
                 const double product_14 = 2.0 * (ratio_15 + (is_small ? 0.0 : by_sine_to_axis1 / (2.0 * sine_to_axis1)));
                 const double product_15 = 2.0 * (ratio_18 + (is_small ? by_sine_to_axis0 / (2.0 * sine_to_axis0) : 0.0));
-                sum[0][lane] += total_6 - mu0 * product_15;
-                sum[1][lane] += total_5 - mu1 * product_14;
-                sum[2][lane] += total_4;
+                sum[0][lane] += total_7 - mu0 * product_15;
+                sum[1][lane] += total_6 - mu1 * product_14;
+                sum[2][lane] += total_5;
                 sum[3][lane] += v0 * by_z0 - z0 * by_by_v0;
                 sum[4][lane] += v1 * by_z0 - z0 * by_by_v1;
                 sum[5][lane] += v2 * by_z0 - z0 * by_by_v2;
@@ -845,8 +845,8 @@ void sphere_splats_vjp_f(
                 const float ratio_8 = t_ratio * by_t / norm_w_product;
                 const float by_norm_w_squared = (near ? 0.0f : -ratio_8);
                 const float by_atan2_value = 2.0f * by_t;
-                const float total = norm_q_plus_p_squared_2 + near_chosen_2;
-                const float ratio_9 = by_atan2_value / total;
+                const float total_2 = norm_q_plus_p_squared_2 + near_chosen_2;
+                const float ratio_9 = by_atan2_value / total_2;
                 const float by_norm_d = norm_q_plus_p_2 * ratio_9;
                 const float norm_d_product = 2.0f * norm_d;
                 const float by_norm_d_ratio = by_norm_d / norm_d_product;
@@ -904,7 +904,7 @@ void sphere_splats_vjp_f(
                 const float by_t_over_norm_w_near_slope = by_t_over_norm_w_near * near_chosen_3;
                 const float t_over_norm_w_near_slope_slope = polynomial_t_over_norm_w_near_slope_slope_f(near_chosen);
                 const float by_by_norm_d = (near ? 0.0f : by_by_norm_d_squared) / norm_d_product;
-                const float by_by_atan2_value = (norm_q_plus_p_2 * by_by_norm_d - norm_d * ratio_11) / total;
+                const float by_by_atan2_value = (norm_q_plus_p_2 * by_by_norm_d - norm_d * ratio_11) / total_2;
                 const float product_6 = ratio_9 * by_by_atan2_value;
                 const float ratio_12 = (near ? 0.0f : by_by_norm_w_squared) / norm_w_product;
                 const float by_by_t = 2.0f * by_by_atan2_value - t_ratio * ratio_12;
@@ -932,13 +932,13 @@ void sphere_splats_vjp_f(
                 const float ratio_13 = (is_small ? 0.0f : product_8) / chosen_2;
                 const float ratio_14 = (is_small ? product_8 : 0.0f) / chosen;
                 const float chosen_7 = (on_cut_locus ? 0.0f : by_v1_2);
-                const float total_2 = chosen_5 * by_by_w0 + chosen_4 * by_by_w1 + chosen_3 * by_by_w2 + w2 * chosen_6 + w1
+                const float total_3 = chosen_5 * by_by_w0 + chosen_4 * by_by_w1 + chosen_3 * by_by_w2 + w2 * chosen_6 + w1
                     * chosen_7;
                 const float product_9 = 3.141592653589793f * (on_cut_locus ? by_v1_2 : 0.0f);
                 const float ratio_15 = (is_small ? 0.0f : product_9) / chosen_2;
                 const float ratio_16 = (is_small ? product_9 : 0.0f) / chosen;
                 const float chosen_8 = (on_cut_locus ? 0.0f : by_v0_2);
-                const float by_t_over_norm_w_2 = total_2 + w0 * chosen_8;
+                const float by_t_over_norm_w_2 = total_3 + w0 * chosen_8;
                 const float product_10 = 3.141592653589793f * (on_cut_locus ? by_v0_2 : 0.0f);
                 const float ratio_17 = (is_small ? 0.0f : product_10) / chosen_2;
                 const float gap_3 = -ratio_16 - ratio_17;
@@ -948,13 +948,13 @@ void sphere_splats_vjp_f(
                 const float by_sine_to_axis0 = (is_small ? ratio_5 * ratio_14 + ratio_3 * ratio_16 - ratio * ratio_18 :
                     0.0f);
                 const float by_t_over_norm_w_near_2 = (near ? by_t_over_norm_w_2 : 0.0f);
-                const float total_3 = -(by_t * ratio_12) - ratio_7 * (by_by_t_ratio / t_ratio) + (near ? 0.0f :
+                const float total_4 = -(by_t * ratio_12) - ratio_7 * (by_by_t_ratio / t_ratio) + (near ? 0.0f :
                     by_log_det_2) / t_ratio + (near ? 0.0f : by_t_over_norm_w_2);
-                const float by_t_2 = total_3 / norm_w;
+                const float by_t_2 = total_4 / norm_w;
                 const float by_norm_w = 2.0f * (ratio_8 * ratio_12) - by_t * by_by_t_ratio - t_ratio * by_t_2;
                 const float by_norm_w_squared_2 = (near ? 0.0f : by_norm_w / norm_w_product);
                 const float by_atan2_value_2 = 2.0f * by_t_2;
-                const float ratio_19 = by_atan2_value_2 / total;
+                const float ratio_19 = by_atan2_value_2 / total_2;
                 const float by_norm_d_2 = -(2.0f * (by_norm_d_ratio * by_by_norm_d)) - ratio_9 * ratio_11 +
                     norm_q_plus_p_2 * ratio_19;
                 const float by_norm_q_plus_p_2 = (is_small_2 ? 0.0f : 2.0f * (ratio_10 * ratio_11)) + ratio_9 *
@@ -991,19 +991,19 @@ void sphere_splats_vjp_f(
                 const float by_q2_off_cut_2 = by_q_plus_p2_2_2 + by_d2_2;
                 const float by_q1_off_cut_2 = by_q_plus_p1_2_2 + by_d1_2;
                 const float by_q0_off_cut_2 = by_q_plus_p0_2_2 + by_d0_2;
-                const float total_4 = gap_4 + d2 * by_dot_p_d_2 + by_q_plus_p2_2_2 - by_d2_2 + (on_cut_locus ?
+                const float total_5 = gap_4 + d2 * by_dot_p_d_2 + by_q_plus_p2_2_2 - by_d2_2 + (on_cut_locus ?
                     by_q2_off_cut_2 : 0.0f);
-                const float total_5 = gap_5 + d1 * by_dot_p_d_2 + by_q_plus_p1_2_2 - by_d1_2 + (on_cut_locus ?
+                const float total_6 = gap_5 + d1 * by_dot_p_d_2 + by_q_plus_p1_2_2 - by_d1_2 + (on_cut_locus ?
                     by_q1_off_cut_2 : 0.0f);
-                const float total_6 = gap_6 + d0 * by_dot_p_d_2 + by_q_plus_p0_2_2 - by_d0_2 + (on_cut_locus ?
+                const float total_7 = gap_6 + d0 * by_dot_p_d_2 + by_q_plus_p0_2_2 - by_d0_2 + (on_cut_locus ?
                     by_q0_off_cut_2 : 0.0f);
                 const float product_14 = 2.0f * (ratio_15 + (is_small ? 0.0f : by_sine_to_axis1 / (2.0f *
                     sine_to_axis1)));
                 const float product_15 = 2.0f * (ratio_18 + (is_small ? by_sine_to_axis0 / (2.0f * sine_to_axis0) :
                     0.0f));
-                sum[0][lane] += total_6 - mu0 * product_15;
-                sum[1][lane] += total_5 - mu1 * product_14;
-                sum[2][lane] += total_4;
+                sum[0][lane] += total_7 - mu0 * product_15;
+                sum[1][lane] += total_6 - mu1 * product_14;
+                sum[2][lane] += total_5;
                 sum[3][lane] += v0 * by_z0 - z0 * by_by_v0;
                 sum[4][lane] += v1 * by_z0 - z0 * by_by_v1;
                 sum[5][lane] += v2 * by_z0 - z0 * by_by_v2;

@@ -94,13 +94,13 @@ void torus_flat_batch(
 
 /* wrap(p + v) */
 void torus_exp(const double *TORUS_RESTRICT p, const double *TORUS_RESTRICT v, double *TORUS_RESTRICT q_out) {
-    const double total = p[0] + v[0];
-    const double round_2 = rint(0.15915494309189535 * total);
-    const double q0 = total - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
+    const double total_2 = p[0] + v[0];
+    const double round_2 = rint(0.15915494309189535 * total_2);
+    const double q0 = total_2 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
         round_2;
-    const double total_2 = p[1] + v[1];
-    const double round_3 = rint(0.15915494309189535 * total_2);
-    const double q1 = total_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
+    const double total_3 = p[1] + v[1];
+    const double round_3 = rint(0.15915494309189535 * total_3);
+    const double q1 = total_3 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
         round_3;
     q_out[0] = q0;
     q_out[1] = q1;
@@ -353,13 +353,13 @@ void torus_flat_batch_f(
 
 /* wrap(p + v) */
 void torus_exp_f(const float *TORUS_RESTRICT p, const float *TORUS_RESTRICT v, float *TORUS_RESTRICT q_out) {
-    const float total = p[0] + v[0];
-    const float round_2 = rintf(0.15915494309189535f * total);
-    const float q0 = total - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
-    const float total_2 = p[1] + v[1];
-    const float round_3 = rintf(0.15915494309189535f * total_2);
-    const float q1 = total_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
+    const float total_2 = p[0] + v[0];
+    const float round_2 = rintf(0.15915494309189535f * total_2);
+    const float q0 = total_2 - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f
+        * round_2;
+    const float total_3 = p[1] + v[1];
+    const float round_3 = rintf(0.15915494309189535f * total_3);
+    const float q1 = total_3 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
         * round_3;
     q_out[0] = q0;
     q_out[1] = q1;

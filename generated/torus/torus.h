@@ -43,8 +43,8 @@ extern "C" {
 #define TORUS_DIAMETER 4.442882938158366
 
 /*
- * Points are 2 numbers, tangent vectors 2. Arguments and results must not overlap.
- * `_f` functions are in float; `_batch` functions take `count` rows of every argument, one after the other.
+ * Points are 2 numbers, tangent vectors 2. Arguments and results must not
+ * overlap. `_f` functions are in float; `_batch` functions take `count` rows of every argument.
  */
 
 /* Numbers near the manifold to the point they stand for.

@@ -26,6 +26,7 @@ inputs and the output to the precision alone would cause.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 
 import torch
 from torch import Generator, Tensor
@@ -45,29 +46,31 @@ def _polynomial(x: Tensor, coefficients: tuple[float, ...]) -> Tensor:
     return result
 
 
-def _stack(entries: tuple[Tensor | float, ...] | list[Tensor], like: Tensor | None = None) -> Tensor:
-    """Entries to one tensor, along a new last dimension; numbers take their shape from `like`."""
-    if like is not None:
-        entries = tuple(e if isinstance(e, Tensor) else torch.full_like(like, e) for e in entries)
+def _pick(condition: Tensor, x: float, y: float, like: Tensor) -> Tensor:
+    """x where the condition holds, else y, in the precision of `like` (torch.where of two numbers is float32)."""
+    return torch.where(condition, like.new_tensor(x), like.new_tensor(y))
+
+
+def _stack(entries: Sequence[Tensor]) -> Tensor:
+    """Entries to one tensor, along a new last dimension."""
     return torch.stack(torch.broadcast_tensors(*entries), -1)
 
 
-def _leading(*arguments: Tensor) -> Tensor:
-    """A tensor of the shape to which the leading dimensions of the arguments broadcast."""
-    return arguments[0].new_empty(torch.broadcast_shapes(*(a.shape[:-1] for a in arguments)))
+def _rows(entry: Tensor | float, *arguments: Tensor) -> Tensor:
+    """A result that does not depend on all arguments, for every row to which their leading dimensions broadcast."""
+    shape = torch.broadcast_shapes(*(a.shape[:-1] for a in arguments))
+    return entry.expand(shape) if isinstance(entry, Tensor) else arguments[0].new_full(shape, entry)
 
 
-def _constant(value: float, *arguments: Tensor) -> Tensor:
-    """A number for every row."""
-    return torch.full_like(_leading(*arguments), value)
+def _rejection(
+    propose: Callable[[int], tuple[Tensor, Tensor]], count: int, generator: Generator | None, like: Tensor
+) -> Tensor:
+    """`count` points with a density proportional to what `propose` returns beside its points.
 
-
-def _rejection(propose, bound: float, count: int, generator: Generator | None, like: Tensor) -> Tensor:
-    """`count` points with a density proportional to what `propose` returns beside its points, of which `bound` is the most.
-
-    A density above the bound starts the sampling over with a larger one.
+    A density above the largest seen so far starts the sampling over.
     """
     kept: list[Tensor] = []
+    bound = 0.0
     while sum(map(len, kept)) < count:
         points, density = propose(2 * count + 16)
         largest = float(density.max())
@@ -81,7 +84,8 @@ def _rejection(propose, bound: float, count: int, generator: Generator | None, l
 class Torus:
     """The flat torus T^n, n angles in radians, each modulo 2 pi.
 
-    Points have shape (..., 2), tangent vectors (..., 2), components in the chart; leading dimensions broadcast.
+    Points have shape (..., 2), tangent vectors (..., 2), components in the chart;
+    leading dimensions broadcast.
     """
 
     name = "torus"
@@ -112,7 +116,7 @@ class Torus:
         Shapes: p (..., 2), x (..., 2) to (..., 2).
         """
         x0, x1 = x.unbind(-1)
-        return _stack((x0, x1))
+        return _stack((_rows(x0, p, x), x1))
 
     def inner(self, p: Tensor, u: Tensor, v: Tensor) -> Tensor:
         """The metric <u, v>_p.
@@ -122,7 +126,7 @@ class Torus:
         """
         u0, u1 = u.unbind(-1)
         v0, v1 = v.unbind(-1)
-        return u0 * v0 + u1 * v1
+        return _rows(u0 * v0 + u1 * v1, p, u, v)
 
     def norm(self, p: Tensor, v: Tensor) -> Tensor:
         """The length |v|_p.
@@ -131,7 +135,7 @@ class Torus:
         Shapes: p (..., 2), v (..., 2) to (...).
         """
         v0, v1 = v.unbind(-1)
-        return _root(v0 * v0 + v1 * v1)
+        return _rows(_root(v0 * v0 + v1 * v1), p, v)
 
     def flat(self, p: Tensor, v: Tensor) -> Tensor:
         """The covector <v, .>_p.
@@ -140,7 +144,7 @@ class Torus:
         Shapes: p (..., 2), v (..., 2) to (..., 2).
         """
         v0, v1 = v.unbind(-1)
-        return _stack((v0, v1))
+        return _stack((_rows(v0, p, v), v1))
 
     def exp(self, p: Tensor, v: Tensor) -> Tensor:
         """Exp_p(v).
@@ -150,12 +154,12 @@ class Torus:
         """
         p0, p1 = p.unbind(-1)
         v0, v1 = v.unbind(-1)
-        total = p0 + v0
-        round_2 = torch.round(0.15915494309189535 * total)
-        q0 = total - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
-        total_2 = p1 + v1
-        round_3 = torch.round(0.15915494309189535 * total_2)
-        q1 = total_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        total_2 = p0 + v0
+        round_2 = torch.round(0.15915494309189535 * total_2)
+        q0 = total_2 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        total_3 = p1 + v1
+        round_3 = torch.round(0.15915494309189535 * total_3)
+        q1 = total_3 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
         return _stack((q0, q1))
 
     def log(self, p: Tensor, q: Tensor) -> Tensor:
@@ -196,7 +200,7 @@ class Torus:
         Formula: 0.
         Shapes: p (..., 2), q (..., 2) to (...).
         """
-        return _constant(0.0, p, q)
+        return _rows(0.0, p, q)
 
     def riemannian_gradient(self, p: Tensor, df: Tensor) -> Tensor:
         """The gradient in the metric from the partial derivatives df.
@@ -205,7 +209,7 @@ class Torus:
         Shapes: p (..., 2), df (..., 2) to (..., 2).
         """
         df0, df1 = df.unbind(-1)
-        return _stack((df0, df1))
+        return _stack((_rows(df0, p, df), df1))
 
     def gradient_norm(self, p: Tensor, df: Tensor) -> Tensor:
         """The length of the gradient from the partial derivatives df.
@@ -214,7 +218,7 @@ class Torus:
         Shapes: p (..., 2), df (..., 2) to (...).
         """
         df0, df1 = df.unbind(-1)
-        return _root(df0 * df0 + df1 * df1)
+        return _rows(_root(df0 * df0 + df1 * df1), p, df)
 
     def splat(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
         """A wrapped Gaussian and its Riemannian gradient in x (RSRM eq. 3).
@@ -244,7 +248,7 @@ class Torus:
         by_v0 = -(W1_0 * z1) - W0_0 * z0
         df0 = phi * by_v0
         df1 = phi * by_v1
-        return phi, df0, df1
+        return (phi, df0, df1)
 
     def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
         """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
@@ -282,7 +286,7 @@ class Torus:
             points = (uniform - 0.5) * periods
             return points, 1 / torch.linalg.det(self.frame(points)).abs()
 
-        return _rejection(propose, 0.0, count, generator, like)
+        return _rejection(propose, count, generator, like)
 
     def sample_ball(self, center: Tensor, radius: float, count: int, generator: Generator | None = None) -> Tensor:
         """Points uniform in volume in the geodesic ball around `center`: center (D) to (count, D).
@@ -300,7 +304,7 @@ class Torus:
             points = self.exp(center, v @ frame)
             return points, torch.exp(-self.log_abs_det(center, points))
 
-        return _rejection(propose, 0.0, count, generator, center)
+        return _rejection(propose, count, generator, center)
 
 
 manifold = Torus()

@@ -52,11 +52,20 @@ def _show_version(wanted: bool) -> None:
 @app.command(help=HELP)
 def compile_command(
     files: Annotated[list[Path], typer.Argument(metavar="FILE...", help="Manifold files.", show_default=False)],
-    parameter: Annotated[list[str], typer.Option("-p", "--parameter", metavar="NAME=VALUE", help="Set a parameter of the manifold; repeatable.")] = [],  # noqa: B006
-    output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="The folder to write to.")] = Path("generated"),
-    check: Annotated[bool, typer.Option("--check", help="Write nothing; say whether the generated files are stale or were edited.")] = False,
+    parameter: Annotated[
+        list[str],
+        typer.Option("-p", "--parameter", metavar="NAME=VALUE", help="Set a parameter of the manifold; repeatable."),
+    ] = [],  # noqa: B006
+    output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="The folder to write to.")] = Path(
+        "generated"
+    ),
+    check: Annotated[
+        bool, typer.Option("--check", help="Write nothing; say whether the generated files are stale or were edited.")
+    ] = False,
     timings: Annotated[bool, typer.Option("--timings", help="Show the seconds of every stage.")] = False,
-    version: Annotated[bool, typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version.")] = False,
+    version: Annotated[
+        bool, typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version.")
+    ] = False,
 ) -> None:
     """Compile, or check, manifold files."""
     parameters = dict(_assignment(text) for text in parameter)
@@ -81,7 +90,10 @@ def _check(files: list[Path], parameters: dict[str, str], output: Path) -> None:
     for folder, reason in reasons.items():
         print(f"{folder}: {reason or 'up to date'}")
     if any(reasons.values()):
-        raise UserError("some generated files are not up to date", hint=f"generate them again: rsrm-gen {' '.join(map(str, files))} -o {output}")
+        raise UserError(
+            "some generated files are not up to date",
+            hint=f"generate them again: rsrm-gen {' '.join(map(str, files))} -o {output}",
+        )
 
 
 def _compile(files: list[Path], parameters: dict[str, str], output: Path, timings: bool) -> None:
@@ -116,7 +128,16 @@ def _progress(file: Path) -> Iterator:  # type: ignore[type-arg]
 
 def _table(done: list[Compiled], timings: bool) -> Table:
     table = Table(box=None, pad_edge=False, header_style="dim")
-    for column in ("manifold", "dim", "operations", "float64", "float32", "audit", *(STAGES if timings else ()), "seconds"):
+    for column in (
+        "manifold",
+        "dim",
+        "operations",
+        "float64",
+        "float32",
+        "audit",
+        *(STAGES if timings else ()),
+        "seconds",
+    ):
         table.add_column(column, justify="left" if column in ("manifold", "audit") else "right", no_wrap=True)
     for compiled in done:
         seconds = [f"{compiled.seconds[stage]:.2f}" for stage in STAGES] if timings else []
@@ -129,7 +150,9 @@ def _table(done: list[Compiled], timings: bool) -> Table:
             *seconds,
             f"{sum(compiled.seconds.values()):.1f}",
         )
-    table.caption = "operations: of a splat with its gradient; float64, float32: the worst error in units of what rounding costs"
+    table.caption = (
+        "operations: of a splat with its gradient; float64, float32: the worst error in units of what rounding costs"
+    )
     table.caption_justify = "left"
     return table
 

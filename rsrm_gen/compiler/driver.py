@@ -39,7 +39,9 @@ class Compiled:
 
 
 def compile_manifold(
-    file: Path, parameters: Mapping[str, int | float | str] | None = None, progress: Callable[[str], None] = lambda stage: None
+    file: Path,
+    parameters: Mapping[str, int | float | str] | None = None,
+    progress: Callable[[str], None] = lambda stage: None,
 ) -> Compiled:
     """Compile one manifold file; raises `UserError` for a wrong file and for one that the audit refuses."""
     seconds: dict[str, float] = {}

@@ -21,7 +21,15 @@ from rsrm_gen.errors import UserError
 
 COMMON = ("-std=c99", "-Wall", "-Wextra", "-Werror", "-fPIC", "-shared")
 EXACT = ("-O2", "-ffp-contract=off")  # what the audit measures: no code that a flag could have made better or worse
-FAST = ("-O3", "-march=native", "-ffp-contract=fast", "-fno-math-errno", "-fno-trapping-math", "-include", "vector_math.h")  # never -ffast-math
+FAST = (
+    "-O3",
+    "-march=native",
+    "-ffp-contract=fast",
+    "-fno-math-errno",
+    "-fno-trapping-math",
+    "-include",
+    "vector_math.h",
+)  # never -ffast-math
 
 # glibc has vector versions of these functions, exact to 4 units in the last place, but tells gcc of them only under
 # -ffast-math, which would also let it reorder sums and forget NaN. With them the loops over points vectorise.

@@ -19,7 +19,7 @@ from rsrm_gen.compiler.derive.numeric import run, value
 from rsrm_gen.compiler.derive.sampling import Sampler, sampler_of
 from rsrm_gen.compiler.derive.scalarise import scalarised
 from rsrm_gen.compiler.lower import Program, interpret
-from rsrm_gen.compiler.spec import ManifoldSpec, Map
+from rsrm_gen.compiler.spec import Map
 from rsrm_gen.errors import Span
 
 DIGITS = 50
@@ -77,7 +77,9 @@ class Laws:
         """A routine of the program, in high precision."""
         return interpret(self.program[name], *arguments, digits=DIGITS)[0]
 
-    def check(self, name: str, promise: str, worst: Worst, blamed: Map | None, tolerance: float = EXACT, points: int = PAIRS) -> Check:
+    def check(
+        self, name: str, promise: str, worst: Worst, blamed: Map | None, tolerance: float = EXACT, points: int = PAIRS
+    ) -> Check:
         """A check that blames a formula of the file."""
         span: Span | None = blamed.value.span if blamed else None
         return Check(name, promise, worst.error, tolerance, points, worst.where, span)
@@ -94,7 +96,9 @@ class Laws:
             symmetric = self.call("inner", p, u, v)[0] - self.call("inner", p, v, u)[0]
             positive = self.call("inner", p, u, u)[0] - 1  # directions are normalised
             worst = worst.with_error(max(map(abs, (linear, symmetric, positive))), _at("p", p))
-        return self.check("metric", "<u, v>_p is bilinear, symmetric and positive on tangent vectors", worst, self.spec.metric)
+        return self.check(
+            "metric", "<u, v>_p is bilinear, symmetric and positive on tangent vectors", worst, self.spec.metric
+        )
 
     def projection_lands_on_the_manifold(self) -> Check | None:
         """c(project(x)) = 0, and project(p) = p."""
@@ -106,13 +110,17 @@ class Laws:
             landed = self.call("project", x)
             errors = [*self.constraint(landed), *_difference(self.call("project", p), p)]
             worst = worst.with_error(max(map(abs, errors)), _at("x", x))
-        return self.check("projection", "`project` maps onto the manifold and leaves its points alone", worst, self.spec.project)
+        return self.check(
+            "projection", "`project` maps onto the manifold and leaves its points alone", worst, self.spec.project
+        )
 
     def frame_is_tangent(self) -> Check | None:
         """The vectors of a frame are tangent to the constraint."""
         if self.spec.frame is None:
             return None
-        frame = scalarised(self.spec, "frame", self.spec.frame, (argument("p", self.spec.point_size),), self.spec.frame.value.shape)
+        frame = scalarised(
+            self.spec, "frame", self.spec.frame, (argument("p", self.spec.point_size),), self.spec.frame.value.shape
+        )
         worst = Worst()
         for p, _ in self.pairs:
             entries = run(frame, p)[0]
@@ -175,13 +183,17 @@ class Laws:
         for p, q in self.pairs:
             length = self.call("norm", p, self.call("log", p, q))[0]
             worst = worst.with_error(abs(self.call("distance", p, q)[0] - length), _at("p", p, "q", q))
-        return self.check("distance", "the distance is the length of Log", worst, self.spec.distance or self.spec.metric)
+        return self.check(
+            "distance", "the distance is the length of Log", worst, self.spec.distance or self.spec.metric
+        )
 
     def distance_is_symmetric(self) -> Check:
         """distance(p, q) = distance(q, p)."""
         worst = Worst()
         for p, q in self.pairs:
-            worst = worst.with_error(abs(self.call("distance", p, q)[0] - self.call("distance", q, p)[0]), _at("p", p, "q", q))
+            worst = worst.with_error(
+                abs(self.call("distance", p, q)[0] - self.call("distance", q, p)[0]), _at("p", p, "q", q)
+            )
         return self.check("symmetry", "distance(p, q) = distance(q, p)", worst, self.spec.distance or self.spec.log)
 
     def distance_has_gradient_one(self) -> Check:
@@ -211,7 +223,12 @@ class Laws:
             volumes = [self.gram(p, image), self.gram(q, basis)]
             expected = mp.log(abs(volumes[0] / volumes[1])) / 2
             worst = worst.with_error(abs(self.call("log_abs_det", p, q)[0] - expected), _at("p", p, "q", q))
-        return self.check("log det", "log |det D Log| is the determinant of the differences of Log", worst, self.spec.log_det or self.spec.log)
+        return self.check(
+            "log det",
+            "log |det D Log| is the determinant of the differences of Log",
+            worst,
+            self.spec.log_det or self.spec.log,
+        )
 
     def splat_gradient_is_its_derivative(self) -> Check:
         """<gradient of the splat, e> against its differences along e."""
@@ -225,8 +242,12 @@ class Laws:
             gradient, scale = splat(q)[1], abs(splat(q)[0][0]) + mp.mpf(10) ** -20
             for e in self.basis(q):
                 slope = self.along(lambda x: splat(x)[0], q, e)[0]
-                worst = worst.with_error(abs(self.call("inner", q, gradient, e)[0] - slope) / scale, _at("x", q, "mu", p))
-        return self.check("splat gradient", "the gradient of the splat is the derivative of its value", worst, self.spec.metric)
+                worst = worst.with_error(
+                    abs(self.call("inner", q, gradient, e)[0] - slope) / scale, _at("x", q, "mu", p)
+                )
+        return self.check(
+            "splat gradient", "the gradient of the splat is the derivative of its value", worst, self.spec.metric
+        )
 
     def constraint(self, p: Sequence[Any]) -> Numbers:
         """c(p)."""
@@ -237,7 +258,13 @@ class Laws:
     def other_name(self, q: Sequence[Any]) -> Numbers:
         """The equivalent point."""
         assert self.spec.equivalent is not None
-        function = scalarised(self.spec, "equivalent", self.spec.equivalent, (argument("p", self.spec.point_size),), (self.spec.point_size,))
+        function = scalarised(
+            self.spec,
+            "equivalent",
+            self.spec.equivalent,
+            (argument("p", self.spec.point_size),),
+            (self.spec.point_size,),
+        )
         return run(function, q)[0]
 
     def apart(self, x: Sequence[Any], q: Sequence[Any]) -> Any:
@@ -249,7 +276,9 @@ class Laws:
         """A difference of coordinates, the nearest multiple of each period taken away."""
         periods = self.geometry.periods or (None,) * len(difference)
         lengths = [value(period, {}) if period is not None else None for period in periods]
-        return [d - length * mp.nint(d / length) if length else d for d, length in zip(difference, lengths, strict=True)]
+        return [
+            d - length * mp.nint(d / length) if length else d for d, length in zip(difference, lengths, strict=True)
+        ]
 
     def basis(self, q: Sequence[Any]) -> list[Numbers]:
         """d independent unit tangent vectors at q."""

@@ -30,7 +30,10 @@ from rsrm_gen.compiler.native import EXACT, compiled, compiler, pointer
 
 UNITS = 64.0
 ROUTINES = ("exp", "log", "distance", "log_abs_det")
-PRECISIONS = {"float64": (np.float64, torch.float64, 2.0**-53), "float32": (np.float32, torch.float32, 2.0**-24)}
+PRECISIONS: dict[str, tuple[Any, torch.dtype, float]] = {
+    "float64": (np.float64, torch.float64, 2.0**-53),
+    "float32": (np.float32, torch.float32, 2.0**-24),
+}
 
 Batch = Callable[[str, Sequence[Any], str], Any]  # (routine, arrays of rows, precision) -> array of rows
 
@@ -45,7 +48,9 @@ class Rows:
     kinds: tuple[str, ...]
 
 
-def check_numbers(geometry: Geometry, program: Program, files: Mapping[str, str]) -> tuple[list[Check], tuple[Measurement, ...]]:
+def check_numbers(
+    geometry: Geometry, program: Program, files: Mapping[str, str]
+) -> tuple[list[Check], tuple[Measurement, ...]]:
     """Checks of torch and C in both precisions; the worst of both back ends is the measurement."""
     backends: dict[str, Batch] = {"torch": torch_batch(program, files)}
     if compiler() is not None:
@@ -55,11 +60,24 @@ def check_numbers(geometry: Geometry, program: Program, files: Mapping[str, str]
         rows = sample_rows(geometry, precision)
         for name in ROUTINES:
             truth, unit = truths(geometry[name], program[name], rows, precision)
-            errors = {backend: _errors(batch(name, _inputs(name, rows), precision), truth, unit) for backend, batch in backends.items()}
+            errors = {
+                backend: _errors(batch(name, _inputs(name, rows), precision), truth, unit)
+                for backend, batch in backends.items()
+            }
             for backend, error in errors.items():
                 k = int(np.argmax(error))
                 promise = f"{name} of the {backend} code in {precision} is as exact as its inputs allow"
-                checks.append(Check(f"{name} {backend} {precision}", promise, float(error[k]), UNITS, len(error), f"({rows.kinds[k]})", geometry.spec.log.value.span))
+                checks.append(
+                    Check(
+                        f"{name} {backend} {precision}",
+                        promise,
+                        float(error[k]),
+                        UNITS,
+                        len(error),
+                        f"({rows.kinds[k]})",
+                        geometry.spec.log.value.span,
+                    )
+                )
             worst = max(float(e.max()) for e in errors.values())
             measured.append(Measurement(name, precision, _power_of_two(worst), len(rows.kinds)))
     checks += [_splat_check(geometry, program, backend, batch) for backend, batch in backends.items()]
@@ -72,7 +90,10 @@ def torch_batch(program: Program, files: Mapping[str, str]) -> Batch:
 
     def batch(name: str, rows: Sequence[Any], precision: str) -> Any:
         shapes = [parameter.shape for parameter in program[name].parameters]
-        tensors = [torch.as_tensor(r, dtype=PRECISIONS[precision][1]).reshape(len(r), *s) for r, s in zip(rows, shapes, strict=True)]
+        tensors = [
+            torch.as_tensor(r, dtype=PRECISIONS[precision][1]).reshape(len(r), *s)
+            for r, s in zip(rows, shapes, strict=True)
+        ]
         result = getattr(manifold, name)(*tensors)
         result = result[0] if isinstance(result, tuple) else result
         return result.numpy().reshape(len(rows[0]), -1)
@@ -116,18 +137,25 @@ def sample_rows(geometry: Geometry, precision: str) -> Rows:
     finite = geometry.injectivity_radius.is_finite
     near = [("near", mp.mpf(10) ** -k) for k in range(2, 13)]
     middle = [("middle", whole * mp.mpf(k) / 17) for k in range(1, 17)]
-    last = [("near the cut locus", whole * (1 - mp.mpf(10) ** -k)) for k in range(1, 10)] if finite else [("far", mp.mpf(k)) for k in (3, 6, 10, 15, 20, 30)]
-    kinds, ps, qs, vs = [], [], [], []
-    dtype = PRECISIONS[precision][0]
+    last = (
+        [("near the cut locus", whole * (1 - mp.mpf(10) ** -k)) for k in range(1, 10)]
+        if finite
+        else [("far", mp.mpf(k)) for k in (3, 6, 10, 15, 20, 30)]
+    )
+    kinds, rows = [], []
     for kind, r in near + middle + last:
         p = sampler.point(rng)
         v = [r * c for c in sampler.direction(rng, p)]
-        kinds.append(kind)
-        ps.append(p)
-        vs.append(v)
-        qs.append(sampler.along(p, v, mp.mpf(1)))
-    p, q, v = (np.array([[float(c) for c in row] for row in rows]).astype(dtype) for rows in (ps, qs, vs))
-    return Rows(p, q, v, tuple(kinds))
+        row = [_rounded(x, precision) for x in (p, sampler.along(p, v, mp.mpf(1)), v)]
+        if all(sampler.inside([mp.mpf(float(c)) for c in x]) for x in row[:2]):  # far points may round out of a chart
+            kinds.append(kind)
+            rows.append(row)
+    stacked = [np.stack(column) for column in zip(*rows, strict=True)]
+    return Rows(stacked[0], stacked[1], stacked[2], tuple(kinds))
+
+
+def _rounded(x: Sequence[Any], precision: str) -> Any:
+    return np.array([float(c) for c in x]).astype(PRECISIONS[precision][0])
 
 
 def truths(function: Function, routine: Routine, rows: Rows, precision: str) -> tuple[list[list[Any]], Any]:
@@ -155,7 +183,9 @@ def _inputs(name: str, rows: Rows) -> tuple[Any, Any]:
 
 def _exact(function: Function, inputs: Sequence[Any]) -> list[Any]:
     with mp.workdps(DIGITS):
-        return run(function, *([mp.mpf(c) if isinstance(c, mp.mpf) else mp.mpf(float(c)) for c in x] for x in inputs))[0]
+        return run(function, *([mp.mpf(c) if isinstance(c, mp.mpf) else mp.mpf(float(c)) for c in x] for x in inputs))[
+            0
+        ]
 
 
 def _largest(numbers: Any) -> float:
@@ -187,7 +217,10 @@ def _splat_check(geometry: Geometry, program: Program, backend: str, batch: Batc
     W = rng.normal(size=(len(keep), spec.dim * spec.tangent_size))
     amplitude = np.ones((len(keep), 1))
     found = batch("splat", (rows.q[keep], rows.p[keep], W, amplitude), "float64")[:, 0]
-    exact = [float(interpret(program["splat"], x, mu, w, [1.0])[0][0]) for x, mu, w in zip(rows.q[keep], rows.p[keep], W, strict=True)]
+    exact = [
+        float(interpret(program["splat"], x, mu, w, [1.0])[0][0])
+        for x, mu, w in zip(rows.q[keep], rows.p[keep], W, strict=True)
+    ]
     error = np.abs(found - exact)
     promise = f"splats of the {backend} code in float64 are those of the formula"
     return Check(f"splat {backend} float64", promise, float(error.max()), 1e-12, len(keep), "", spec.log.value.span)

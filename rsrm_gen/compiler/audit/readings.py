@@ -33,10 +33,15 @@ def check_readings(geometry: Geometry, program: Program) -> list[Check]:
         "log_abs_det": (reading.log_abs_det, lambda p, q: (p, q)),
         "riemannian_gradient": (reading.riemannian_gradient, lambda p, q: (p, partials)),
     }
-    return [_compare(name, theirs, [inputs(p, q) for p, q in places], geometry, program) for name, (theirs, inputs) in functions.items()]
+    return [
+        _compare(name, theirs, [inputs(p, q) for p, q in places], geometry, program)
+        for name, (theirs, inputs) in functions.items()
+    ]
 
 
-def _compare(name: str, theirs: Callable[..., Any], inputs: list[Sequence[Any]], geometry: Geometry, program: Program) -> Check:
+def _compare(
+    name: str, theirs: Callable[..., Any], inputs: list[Sequence[Any]], geometry: Geometry, program: Program
+) -> Check:
     worst = 0.0
     for arguments in inputs:
         ours = np.array([float(x) for x in interpret(program[name], *arguments, digits=30)[0]])

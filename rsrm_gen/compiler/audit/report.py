@@ -47,18 +47,35 @@ class AuditReport:
         if not failed:
             return
         first = failed[0]
-        message = f"the audit refuses `{self.manifold}`: {first.promise}, but the error is {first.worst:.2g} (at most {first.tolerance:.1g}) {first.where}"
+        error = f"the error is {first.worst:.2g} (at most {first.tolerance:.1g}) {first.where}"
+        message = f"the audit refuses `{self.manifold}`: {first.promise}, but {error}"
         others = ", ".join(check.name for check in failed[1:])
         raise UserError(message.rstrip(), first.span, f"also failed: {others}" if others else None)
 
     def json(self) -> str:
         """The report for `audit.json`: errors rounded up to powers of ten, so that machines agree on the bytes."""
         checks = [
-            {"check": c.name, "promise": c.promise, "points": c.points, "error_below": _power_of_ten(c.worst), "tolerance": c.tolerance, "passed": c.passed}
+            {
+                "check": c.name,
+                "promise": c.promise,
+                "points": c.points,
+                "error_below": _power_of_ten(c.worst),
+                "tolerance": c.tolerance,
+                "passed": c.passed,
+            }
             for c in self.checks
         ]
-        accuracy = [{"function": m.routine, "precision": m.precision, "error_at_most": m.bound, "points": m.points} for m in self.measured]
-        document = {"manifold": self.manifold, "content_hash": self.content_hash, "passed": self.passed, "checks": checks, "accuracy": accuracy}
+        accuracy = [
+            {"function": m.routine, "precision": m.precision, "error_at_most": m.bound, "points": m.points}
+            for m in self.measured
+        ]
+        document = {
+            "manifold": self.manifold,
+            "content_hash": self.content_hash,
+            "passed": self.passed,
+            "checks": checks,
+            "accuracy": accuracy,
+        }
         return json.dumps(document, indent=2) + "\n"
 
 

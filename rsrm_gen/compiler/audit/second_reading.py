@@ -101,9 +101,9 @@ class _Evaluator:
                 a, b = self.value(tree.left), self.value(tree.right)
                 return {"=": ca.eq, "<": ca.lt, "<=": ca.le, ">": ca.gt, ">=": ca.ge}[tree.operator](a, b)
             case f.Stack():
-                parts = [self.value(item) for item in tree.items]
-                matrix = all(isinstance(item, f.Stack) for item in tree.items)
-                return ca.vertcat(*(part.T for part in parts)) if matrix else ca.vertcat(*parts)
+                return ca.vertcat(*(self.value(item) for item in tree.items))
+            case f.Rows():
+                return ca.vertcat(*(self.value(item).T for item in tree.items))
             case f.Index():
                 base = self.value(tree.base)
                 start, stop = bounds(tree, base.shape[0], self.parameters)
@@ -126,7 +126,12 @@ class _Evaluator:
         right = self.value(tree.right)
         if tree.operator == "*" and left.shape[1] > 1:
             return left @ right
-        return {"+": lambda: left + right, "-": lambda: left - right, "*": lambda: left * right, "/": lambda: left / right}[tree.operator]()
+        return {
+            "+": lambda: left + right,
+            "-": lambda: left - right,
+            "*": lambda: left * right,
+            "/": lambda: left / right,
+        }[tree.operator]()
 
 
 def _quaternion_product(a: Any, b: Any) -> Any:
@@ -151,8 +156,8 @@ def _cardinal(function: Callable[[Any], Any]) -> Callable[[Any], Any]:
 WORDS: dict[str, Callable[..., Any]] = {
     "dot": ca.dot, "norm": ca.norm_2, "sum": ca.sum1, "max": ca.mmax, "cross": ca.cross, "outer": lambda a, b: a @ b.T,
     "qmul": _quaternion_product, "conj": lambda a: ca.vertcat(a[0], -a[1:]), "transpose": lambda A: A.T, "det": ca.det,
-    "inv": ca.inv, "orthogonal": _orthogonal, "where": ca.if_else, "wrap": _wrap, "atan2": ca.atan2, "sqrt": ca.sqrt, "exp": ca.exp,
-    "log": ca.log, "sin": ca.sin, "cos": ca.cos, "tan": ca.tan, "sinh": ca.sinh, "cosh": ca.cosh, "tanh": ca.tanh,
-    "asinh": ca.asinh, "acos": ca.acos, "acosh": ca.acosh, "atanh": ca.atanh, "abs": ca.fabs,
+    "inv": ca.inv, "orthogonal": _orthogonal, "where": ca.if_else, "wrap": _wrap, "atan2": ca.atan2, "sqrt": ca.sqrt,
+    "exp": ca.exp, "log": ca.log, "sin": ca.sin, "cos": ca.cos, "tan": ca.tan, "sinh": ca.sinh, "cosh": ca.cosh,
+    "tanh": ca.tanh, "asinh": ca.asinh, "acos": ca.acos, "acosh": ca.acosh, "atanh": ca.atanh, "abs": ca.fabs,
     "sign": lambda x: ca.if_else(x < 0, -1, 1), "sinc": _cardinal(ca.sin), "sinhc": _cardinal(ca.sinh),
 }  # fmt: skip

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import itertools
 import random
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
+from typing import Any
 
 import mpmath as mp
 import sympy as sp
@@ -49,9 +51,10 @@ class _Derivation:
     def geometry(self) -> Geometry:
         """Everything, under the names of the `Manifold` protocol."""
         spec, operators = self.spec, self.operators
+        exp = self.exp  # first: what is wrong with it is not to be blamed on Log
         log_det, origin = self.log_abs_det
         functions = (
-            self.project, operators.to_tangent(), operators.inner(), operators.norm(), operators.flat(), self.exp, self.log,
+            self.project, operators.to_tangent(), operators.inner(), operators.norm(), operators.flat(), exp, self.log,
             self.distance, log_det, operators.riemannian_gradient(), operators.gradient_norm(),
         )  # fmt: skip
         periods = spec.periods and tuple(number(spec, period) if period else None for period in spec.periods)
@@ -76,23 +79,31 @@ class _Derivation:
             return replace(renamed(function, names), arguments=(x,))
         periods = [number(spec, period) if period else None for period in spec.periods or ()]
         results = tuple(Wrap(c, period) if period else c for c, period in zip(x.symbols, periods, strict=True))
-        return Function("project", (x,), (), results, (spec.point_size,), "x, periodic coordinates wrapped" if any(periods) else "x")
+        return Function(
+            "project", (x,), (), results, (spec.point_size,), "x, periodic coordinates wrapped" if any(periods) else "x"
+        )
 
     @cached_property
     def operators(self) -> Operators:
         """The linear algebra of the tangent spaces."""
         size = self.spec.point_size
-        vectors = [[mp.mpf(self.rng.gauss(0, 1)) for _ in range(size)] for _ in range(4)]
-        return Operators(self.spec, [run(self.project, x)[0] for x in vectors] if self.spec.embedded else [])
+        vectors = ([mp.mpf(self.rng.gauss(0, 1)) for _ in range(size)] for _ in range(400))
+        points = (run(self.project, x)[0] if self.spec.embedded else x for x in vectors)
+        return Operators(self.spec, list(itertools.islice(filter(self.is_valid, points), 4)))
+
+    def is_valid(self, p: Sequence[Any]) -> bool:
+        """Whether the domain of the spec, if it has one, holds at p."""
+        return self.domain is None or bool(value(self.domain, dict(zip(self.p.symbols, p, strict=True))) == 1)
 
     @cached_property
     def domain(self) -> sp.Expr | None:
         """1 where a point is valid."""
         if self.spec.domain is None:
             return None
-        comparison = Reading(self.spec, Trace([self.p])).read(self.spec.domain)
+        trace = Trace([self.p])
+        comparison = Reading(self.spec, trace).read(self.spec.domain)
         assert isinstance(comparison, Truth)
-        return truth(comparison.kind, comparison.a, comparison.b)
+        return truth(comparison.kind, trace.unfolded(comparison.a), trace.unfolded(comparison.b))
 
     @cached_property
     def sampler(self) -> Sampler:
@@ -101,13 +112,21 @@ class _Derivation:
         radius = number(spec, spec.injectivity_radius)
         reach = mp.mpf(1) if radius == sp.oo else mp.mpf(str(sp.N(radius, 30))) / 2
         project = self.project if spec.embedded else None
-        return Sampler(project, self.domain, self.operators.to_tangent(), self.operators.norm(), self.plain_exp[0], spec.point_size, reach)
+        return Sampler(
+            project,
+            self.domain,
+            self.operators.to_tangent(),
+            self.operators.norm(),
+            self.plain_exp[0],
+            spec.point_size,
+            reach,
+        )
 
     @cached_property
     def plain_exp(self) -> tuple[Function, Trace]:
         """Exp as the author wrote it, traced with the zero vector as a probe."""
         spec = self.spec
-        base = self.project and run(self.project, [mp.mpf(k + 2) / (k + 3) for k in range(spec.point_size)])[0]
+        base = run(self.project, [mp.mpf(k + 2) / (k + 3) for k in range(spec.point_size)])[0]
         probe = self.probe((self.p, base), (self.v, [mp.mpf(0)] * spec.tangent_size))
         return self.traced("exp", spec.exp, (self.p, self.v), probe, (spec.point_size,))
 
@@ -121,7 +140,13 @@ class _Derivation:
     def plain_log(self) -> tuple[Function, Trace]:
         """Log as the author wrote it, traced with coincident points as a probe."""
         point = self.sampler.point(self.rng)
-        return self.traced("log", self.spec.log, (self.p, self.q), self.probe((self.p, point), (self.q, point)), (self.spec.tangent_size,))
+        return self.traced(
+            "log",
+            self.spec.log,
+            (self.p, self.q),
+            self.probe((self.p, point), (self.q, point)),
+            (self.spec.tangent_size,),
+        )
 
     @cached_property
     def mended_log(self) -> Function:
@@ -150,7 +175,10 @@ class _Derivation:
             return ChooseSafe(condition.kind, condition.a, condition.b, there, elsewhere)
 
         safe = {q: sp.Symbol(f"{q}_off_cut", real=True) for q in self.q.symbols}
-        elsewhere = renamed(regular, {**safe, **{a.symbol: sp.Symbol(trace.fresh(str(a.symbol)), real=True) for a in regular.assignments}})
+        elsewhere = renamed(
+            regular,
+            {**safe, **{a.symbol: sp.Symbol(trace.fresh(str(a.symbol)), real=True) for a in regular.assignments}},
+        )
         inputs = tuple(Assignment(safe[q], choose(p, q)) for p, q in zip(self.p.symbols, self.q.symbols, strict=True))
         results = tuple(choose(there, e) for there, e in zip(values, elsewhere.results, strict=True))
         return replace(regular, assignments=(*trace.assignments, *inputs, *elsewhere.assignments), results=results)
@@ -175,7 +203,9 @@ class _Derivation:
         trace.taken |= {str(a.symbol) for a in self.log.assignments}
         vector = [trace.define(f"log{i}", e) for i, e in enumerate(self.log.results)]
         length = self.operators.length_of(vector, trace)
-        return Function("distance", self.log.arguments, (*self.log.assignments, *trace.assignments), (length,), (), "|Log_p(q)|_p")
+        return Function(
+            "distance", self.log.arguments, (*self.log.assignments, *trace.assignments), (length,), (), "|Log_p(q)|_p"
+        )
 
     @cached_property
     def log_abs_det(self) -> tuple[Function, str]:
@@ -196,7 +226,9 @@ class _Derivation:
         if found is None:
             return staged_log_det(self.jacobian, self.operators).pruned(), "staged"
         expression = found.log()
-        function = replace(self.mended_log, name="log_abs_det", results=(expression,), shape=(), formula=str(expression))
+        function = replace(
+            self.mended_log, name="log_abs_det", results=(expression,), shape=(), formula=str(expression)
+        )
         return self.smooth_log_det(function, expression), "closed form"
 
     def smooth_log_det(self, function: Function, expression: sp.Expr) -> Function:
@@ -206,11 +238,17 @@ class _Derivation:
         if mp.isfinite(value(expression, at_zero)):
             return function.pruned()
         place = {s: at_zero[s] for s in function.symbols()}
-        guard = remove(expression, smooth_squares(function, at_zero), self.ray, self.reach(), place, order=1)
+        ray = log_ray(function, self.sampler)
+        guard = remove(expression, smooth_squares(function, at_zero), ray, self.reach(), place, order=1)
         if guard is None:
-            raise UserError("log |det D Log| is not finite where the points coincide, and no smooth quantity mends it", self.spec.log.value.span)
+            raise UserError(
+                "log |det D Log| is not finite where the points coincide, and no smooth quantity mends it",
+                self.spec.log.value.span,
+            )
         symbol = sp.Symbol("log_det", real=True)
-        return replace(function, assignments=(*function.assignments, Assignment(symbol, expression, guard)), results=(symbol,)).pruned()
+        return replace(
+            function, assignments=(*function.assignments, Assignment(symbol, expression, guard)), results=(symbol,)
+        ).pruned()
 
     def with_log_names(self, name: str, chart_map: Map) -> Function:
         """A scalar formula that may use the names of Log, on top of the mended assignments of Log."""
@@ -220,7 +258,9 @@ class _Derivation:
         assignments = tuple(mended.get(a.symbol, a) for a in trace.assignments)
         return Function(name, (self.p, self.q), assignments, result, (), chart_map.value.text).pruned()
 
-    def traced(self, name: str, chart_map: Map, arguments: Sequence[Argument], probe: Values, shape: tuple[int, ...]) -> tuple[Function, Trace]:
+    def traced(
+        self, name: str, chart_map: Map, arguments: Sequence[Argument], probe: Values, shape: tuple[int, ...]
+    ) -> tuple[Function, Trace]:
         """A map of the spec, and the trace of how it was read."""
         trace = Trace(arguments, probe)
         results = Reading(self.spec, trace).entries(chart_map)
@@ -236,7 +276,7 @@ class _Derivation:
             raise UserError(
                 f"{place} is 0/0 in `{failed[0]}`, and no smooth quantity under a square root mends it",
                 spec_map.value.span,
-                "divide by a norm only what vanishes with it, as in t * w / norm(w), or use sinc(x) and sinhc(x)",
+                "write it as a function of one norm alone, as tanh(x) / x with x = norm(...), or use sinc(x) and sinhc(x)",
             )
         return result
 

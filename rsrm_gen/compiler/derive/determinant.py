@@ -81,15 +81,21 @@ def staged_jacobian(log: Function) -> StagedJacobian:
                 assignments.append(Assignment(symbol, expression, guard))
     entries = tuple(tuple(chain(result, j) for j in range(len(q))) for result in log.results)
     flat = tuple(e for row in entries for e in row)
-    function = Function("log_jacobian", log.arguments, tuple(assignments), flat, (len(entries), len(q)), "d Log_p(q) / d q")
+    function = Function(
+        "log_jacobian", log.arguments, tuple(assignments), flat, (len(entries), len(q)), "d Log_p(q) / d q"
+    )
     return StagedJacobian(function, entries)
 
 
-def closed_form(jacobian: StagedJacobian, scalars: Sequence[sp.Symbol], operators: Operators, sampler: Sampler) -> ClosedForm | None:
+def closed_form(
+    jacobian: StagedJacobian, scalars: Sequence[sp.Symbol], operators: Operators, sampler: Sampler
+) -> ClosedForm | None:
     """The determinant as a product of powers of at most three of the scalars, if it is one."""
     rng = random.Random(2)
     samples = [_sample(jacobian, operators, sampler, rng) for _ in range(PAIRS)]
     target = [log_det for log_det, _ in samples]
+    if not all(mp.isfinite(x) for x in target):
+        raise UserError("D Log_p(q) is singular: Log does not tell points apart", operators.spec.log.value.span)
     if all(abs(x) < TINY for x in target):
         return ClosedForm(Fraction(1), ())
     logs = {s: _logs(s, [values for _, values in samples]) for s in scalars}
@@ -190,7 +196,9 @@ def _exponents(target: Sequence[Any], logs: Sequence[Any]) -> tuple[Fraction, li
             return None
         exponents = [k for k in rationals if k is not None]
         for i in range(PAIRS):
-            sum_of_logs = mp.fsum(mp.mpf(k.numerator) / k.denominator * x[i] for k, x in zip(exponents, logs, strict=True))
+            sum_of_logs = mp.fsum(
+                mp.mpf(k.numerator) / k.denominator * x[i] for k, x in zip(exponents, logs, strict=True)
+            )
             if abs(sum_of_logs + mp.log(mp.mpf(constant.numerator) / constant.denominator) - target[i]) > TINY:
                 return None
     return constant, exponents
@@ -231,7 +239,9 @@ def staged_log_det(jacobian: StagedJacobian, operators: Operators) -> Function:
     matrix, volume_ratio = _square_form(entries, operators, jacobian.function)
     determinant = staged("M", matrix).det(method="berkowitz")
     result = sp.log(sp.Abs(determinant)) + sp.log(volume_ratio) / 2
-    return Function("log_abs_det", jacobian.function.arguments, tuple(assignments), (result,), (), "log |det D Log_p(q)|, staged")
+    return Function(
+        "log_abs_det", jacobian.function.arguments, tuple(assignments), (result,), (), "log |det D Log_p(q)|, staged"
+    )
 
 
 def _square_form(jacobian: sp.Matrix, operators: Operators, function: Function) -> tuple[sp.Matrix, sp.Expr]:
@@ -243,7 +253,7 @@ def _square_form(jacobian: sp.Matrix, operators: Operators, function: Function) 
     p, q = (argument.symbols for argument in function.arguments)
     to_q = dict(zip(p, q, strict=True))
     metric_p, metric_q = operators.metric, operators.metric.xreplace(to_q)
-    volume_ratio = metric_p.det(method="berkowitz") / metric_q.det(method="berkowitz")
+    volume_ratio = _determinant(metric_p) / _determinant(metric_q)
     if not operators.spec.ambient_tangents:
         return jacobian * operators.frame.xreplace(to_q).T, volume_ratio
     constraint_q = operators.constraint_jacobian.xreplace(to_q)
@@ -253,3 +263,8 @@ def _square_form(jacobian: sp.Matrix, operators: Operators, function: Function) 
     lower = gram_q.inv(method="ADJ") * constraint_q
     matrix = jacobian * (sp.eye(operators.spec.point_size) - normals_q * lower) + normals_p * lower
     return matrix, volume_ratio * gram_q.det() / gram_p.det()
+
+
+def _determinant(matrix: sp.Matrix) -> sp.Expr:
+    """Of a metric: the product of the diagonal where that is all there is, for it reads and rounds better."""
+    return sp.Mul(*matrix.diagonal()) if matrix.is_diagonal() else matrix.det(method="berkowitz")

@@ -50,7 +50,9 @@ class Polynomial(sp.Function):  # type: ignore[misc]
     def fdiff(self, argindex: int = 1) -> sp.Expr:
         """The polynomial with the coefficients k c_k."""
         x, *coefficients = self.args
-        return Polynomial(x, *(k * c for k, c in enumerate(coefficients) if k)) if len(coefficients) > 1 else sp.Integer(0)
+        return (
+            Polynomial(x, *(k * c for k, c in enumerate(coefficients) if k)) if len(coefficients) > 1 else sp.Integer(0)
+        )
 
 
 @dataclass(frozen=True)
@@ -96,7 +98,11 @@ def argument(name: str, *shape: int) -> Argument:
     """An argument whose entries are called name0, name1, ... (or name00, name01, ... for a matrix)."""
     if not shape:
         return Argument(name, (), (sp.Symbol(name, real=True),))
-    indices = [(i,) for i in range(shape[0])] if len(shape) == 1 else [(i, j) for i in range(shape[0]) for j in range(shape[1])]
+    indices = (
+        [(i,) for i in range(shape[0])]
+        if len(shape) == 1
+        else [(i, j) for i in range(shape[0]) for j in range(shape[1])]
+    )
     return Argument(name, shape, tuple(sp.Symbol(name + "_".join(map(str, index)), real=True) for index in indices))
 
 
@@ -130,7 +136,9 @@ def renamed(function: Function, names: dict[sp.Symbol, sp.Symbol]) -> Function:
     """The function with other symbols in its assignments and results."""
 
     def rename(a: Assignment) -> Assignment:
-        guard = a.guard and replace(a.guard, variable=a.guard.variable.xreplace(names), near=a.guard.near.xreplace(names))
+        guard = a.guard and replace(
+            a.guard, variable=a.guard.variable.xreplace(names), near=a.guard.near.xreplace(names)
+        )
         return Assignment(names.get(a.symbol, a.symbol), a.expression.xreplace(names), guard)
 
     results = tuple(r.xreplace(names) for r in function.results)

@@ -6,16 +6,18 @@ x is x - N (dc N)^-1 dc x. A gradient is G^-1 df, made tangential.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import random
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import mpmath as mp
 import sympy as sp
 
 from rsrm_gen.compiler.derive.geometry import Argument, Function, argument
-from rsrm_gen.compiler.derive.numeric import TINY, value
+from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, value
 from rsrm_gen.compiler.derive.scalarise import Reading, Trace, scalarised
 from rsrm_gen.compiler.spec import ManifoldSpec
+from rsrm_gen.errors import UserError
 
 
 class Operators:
@@ -29,6 +31,7 @@ class Operators:
         self.metric = self.read_metric()
         self.frame = self.read_frame()  # rows: the vectors that tangent components multiply
         self.constraint_jacobian = self.read_constraint_jacobian()  # (constraints, D)
+        self.check_metric()
         self.metric_inverse = _inverse(self.metric)
 
     def read_metric(self) -> sp.Matrix:
@@ -36,15 +39,39 @@ class Operators:
         if spec.metric.value.shape:
             trace = Trace([self.p])
             entries = Reading(spec, trace).entries(spec.metric)
-            return sp.Matrix(size, size, [_unfold(e, trace) for e in entries])
+            return sp.Matrix(size, size, [trace.unfolded(e) for e in entries])
         unit = sp.eye(size)
         return sp.Matrix(size, size, lambda i, j: self.metric_of(unit.row(i), unit.row(j)))
+
+    def check_metric(self) -> None:
+        """Refuse a formula that is not bilinear, or a matrix that is not symmetric or not invertible."""
+        spec, span = self.spec, self.spec.metric.value.span
+        rng = random.Random(3)
+        size = spec.tangent_size
+        for point in self.points:
+            with mp.workdps(DIGITS):
+                u, v = (mp.matrix([mp.mpf(rng.gauss(0, 1)) for _ in range(size)]) for _ in range(2))
+                G = mp.matrix([[value(self.metric[i, j], point) for j in range(size)] for i in range(size)])
+                if not all(mp.isfinite(x) for x in G) or abs(mp.det(G)) < TINY:
+                    raise UserError("the metric has no inverse", span)
+                if mp.norm(G - G.T) > TINY:
+                    raise UserError("the metric is not symmetric: <u, v> and <v, u> differ", span)
+                if not spec.metric.value.shape and abs(self.inner_value(point, u, v) - (u.T * G * v)[0]) > TINY:
+                    raise UserError("the metric is not linear in u and in v", span)
+
+    def inner_value(self, point: Mapping[sp.Symbol, Any], u: Sequence[Any], v: Sequence[Any]) -> Any:
+        """The author's <u, v>_p in high precision."""
+        inner = self.inner()
+        values = dict(point)
+        for declared, given in zip(inner.arguments[1:], (u, v), strict=True):
+            values.update(zip(declared.symbols, given, strict=True))
+        return value(inner.results[0], values)
 
     def metric_of(self, u: sp.Matrix, v: sp.Matrix) -> sp.Expr:
         """<u, v>_p from the author's formula."""
         size = self.spec.tangent_size
         trace = Trace([self.p, Argument("u", (size,), tuple(u)), Argument("v", (size,), tuple(v))])
-        return _unfold(Reading(self.spec, trace).entries(self.spec.metric)[0], trace)
+        return trace.unfolded(Reading(self.spec, trace).entries(self.spec.metric)[0])
 
     def read_frame(self) -> sp.Matrix:
         spec = self.spec
@@ -52,14 +79,14 @@ class Operators:
             return sp.eye(spec.point_size)
         trace = Trace([self.p])
         entries = Reading(spec, trace).entries(spec.frame)
-        return sp.Matrix(spec.tangent_size, spec.point_size, [_unfold(e, trace) for e in entries])
+        return sp.Matrix(spec.tangent_size, spec.point_size, [trace.unfolded(e) for e in entries])
 
     def read_constraint_jacobian(self) -> sp.Matrix:
         if self.spec.constraint is None:
             return sp.zeros(0, self.spec.point_size)
         trace = Trace([self.p])
         entries = Reading(self.spec, trace).entries(self.spec.constraint)
-        jacobian = sp.Matrix([_unfold(e, trace) for e in entries]).jacobian(self.p.symbols)
+        jacobian = sp.Matrix([trace.unfolded(e) for e in entries]).jacobian(self.p.symbols)
         # A constraint and its half have the same normals: 2 p and p on the sphere.
         contents = [sp.gcd_list([e.as_coeff_Mul()[0] for e in jacobian.row(i) if e != 0]) for i in range(jacobian.rows)]
         return sp.Matrix(*jacobian.shape, lambda i, j: jacobian[i, j] / contents[i])
@@ -83,19 +110,26 @@ class Operators:
         """The tangential part of an ambient vector (ambient tangents only)."""
         normals, jacobian = self.normals(), self.constraint_jacobian
         parts = _inverse(self.on_manifold(jacobian * normals)) * (jacobian * x)
-        return x - normals * sp.Matrix([trace.define(f"normal_part{i if len(parts) > 1 else ''}", e) for i, e in enumerate(parts)])
+        return x - normals * sp.Matrix(
+            [trace.define(f"normal_part{i if len(parts) > 1 else ''}", e) for i, e in enumerate(parts)]
+        )
 
     def to_tangent(self) -> Function:
         """The tangent part of an ambient vector; components in the frame are those of the nearest tangent vector."""
         x = argument("x", self.spec.point_size)
         vector, trace = sp.Matrix(x.symbols), Trace((self.p, x))
         if self.spec.frame is not None:
-            result, formula = _inverse(self.on_manifold(self.frame * self.frame.T)) * (self.frame * vector), "(E E^T)^-1 E x"
+            result, formula = (
+                _inverse(self.on_manifold(self.frame * self.frame.T)) * (self.frame * vector),
+                "(E E^T)^-1 E x",
+            )
         elif self.spec.embedded:
             result, formula = self.tangential(vector, trace), "x - N (dc N)^-1 dc x"
         else:
             result, formula = vector, "x"
-        return Function("to_tangent", (self.p, x), tuple(trace.assignments), tuple(result), (self.spec.tangent_size,), formula)
+        return Function(
+            "to_tangent", (self.p, x), tuple(trace.assignments), tuple(result), (self.spec.tangent_size,), formula
+        )
 
     def inner(self) -> Function:
         """<u, v>_p as the author wrote it."""
@@ -129,14 +163,23 @@ class Operators:
     def flat(self) -> Function:
         """The covector <v, .>_p."""
         v = argument("v", self.spec.tangent_size)
-        return self.function("flat", (self.p, v), self.metric * sp.Matrix(v.symbols), (self.spec.tangent_size,), "G(p) v")
+        return self.function(
+            "flat", (self.p, v), self.metric * sp.Matrix(v.symbols), (self.spec.tangent_size,), "G(p) v"
+        )
 
     def riemannian_gradient(self) -> Function:
         """grad f from the partial derivatives df."""
         df = argument("df", self.spec.point_size)
         trace = Trace((self.p, df))
         result = tuple(self.gradient(df, trace))
-        return Function("riemannian_gradient", (self.p, df), tuple(trace.assignments), result, (self.spec.tangent_size,), self.gradient_formula())
+        return Function(
+            "riemannian_gradient",
+            (self.p, df),
+            tuple(trace.assignments),
+            result,
+            (self.spec.tangent_size,),
+            self.gradient_formula(),
+        )
 
     def gradient_norm(self) -> Function:
         """|grad f|_p from the partial derivatives df."""
@@ -160,16 +203,11 @@ class Operators:
         return "G^-1 E df" if self.spec.frame else "G(p)^-1 df"
 
     @staticmethod
-    def function(name: str, arguments: tuple[Argument, ...], entries: sp.Matrix, shape: tuple[int, ...], formula: str) -> Function:
+    def function(
+        name: str, arguments: tuple[Argument, ...], entries: sp.Matrix, shape: tuple[int, ...], formula: str
+    ) -> Function:
         """A function without assignments of its own."""
         return Function(name, arguments, (), tuple(entries), shape, formula)
-
-
-def _unfold(expression: sp.Expr, trace: Trace) -> sp.Expr:
-    """An expression in the arguments alone."""
-    for assignment in reversed(trace.assignments):
-        expression = expression.xreplace({assignment.symbol: assignment.expression})
-    return expression
 
 
 def _inverse(matrix: sp.Matrix) -> sp.Matrix:

@@ -35,7 +35,12 @@ class Sampler:
     def gaussian(self, rng: random.Random, size: int) -> Numbers:
         """`size` numbers, each of three doubles' worth of random digits."""
         with mp.workdps(DIGITS):
-            return [mp.mpf(rng.gauss(0, 1)) + mp.mpf(rng.random()) * mp.mpf(2) ** -50 + mp.mpf(rng.random()) * mp.mpf(2) ** -100 for _ in range(size)]
+            return [
+                mp.mpf(rng.gauss(0, 1))
+                + mp.mpf(rng.random()) * mp.mpf(2) ** -50
+                + mp.mpf(rng.random()) * mp.mpf(2) ** -100
+                for _ in range(size)
+            ]
 
     def point(self, rng: random.Random) -> Numbers:
         """A point of the manifold."""
@@ -78,7 +83,9 @@ def sampler_of(geometry: Geometry) -> Sampler:
     radius = geometry.injectivity_radius
     reach = mp.mpf(1) if radius == sp.oo else mp.mpf(str(sp.N(radius, 30))) / 2
     project = geometry["project"] if spec.embedded else None
-    return Sampler(project, geometry.domain, geometry["to_tangent"], geometry["norm"], geometry["exp"], spec.point_size, reach)
+    return Sampler(
+        project, geometry.domain, geometry["to_tangent"], geometry["norm"], geometry["exp"], spec.point_size, reach
+    )
 
 
 def truth(kind: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:

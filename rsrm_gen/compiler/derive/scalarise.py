@@ -7,11 +7,11 @@ meets its 0/0 as one scalar, t / norm(w), which can be looked at and removed.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
+from typing import Any, TypeAlias
 
-import mpmath as mp
 import sympy as sp
 
 from rsrm_gen.compiler.derive.geometry import (
@@ -32,6 +32,7 @@ from rsrm_gen.compiler.spec import ManifoldSpec, Map
 from rsrm_gen.compiler.spec import formula as f
 from rsrm_gen.compiler.spec.shapes import bounds, constant
 from rsrm_gen.compiler.spec.vocabulary import Shape
+from rsrm_gen.errors import UserError
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,7 @@ class Truth:
     b: sp.Expr
 
 
-Value = sp.Expr | Vector | sp.MatrixBase | Truth
+Value: TypeAlias = Any  # a scalar (sympy expression), a `Vector`, a sympy matrix or a `Truth`; sympy has no types
 
 FUNCTIONS = {
     "sqrt": sp.sqrt, "exp": sp.exp, "log": sp.log, "sin": sp.sin, "cos": sp.cos, "tan": sp.tan, "sinh": sp.sinh,
@@ -101,6 +102,12 @@ class Trace:
         """Whether the expression is zero at the probe."""
         return self.probe is not None and not expression.is_number and abs(value(expression, self.probe)) < TINY
 
+    def unfolded(self, expression: sp.Expr) -> sp.Expr:
+        """An expression in the arguments alone."""
+        for assignment in reversed(self.assignments):
+            expression = expression.xreplace({assignment.symbol: assignment.expression})
+        return expression
+
     def definition(self, symbol: sp.Expr) -> sp.Expr | None:
         """The expression that a symbol was defined as."""
         return next((a.expression for a in self.assignments if a.symbol == symbol), None)
@@ -128,6 +135,14 @@ class Reading:
         return tuple(result) if isinstance(result, sp.MatrixBase) else (result,)
 
     def value(self, tree: f.Tree) -> Value:
+        """The value of a formula; a `UserError` where it is no finite real number whatever the arguments are."""
+        result = self.plain_value(tree)
+        parts = result.entries if isinstance(result, Vector) else (result,)
+        if any(isinstance(e, sp.Expr) and e.has(sp.zoo, sp.nan, sp.oo, sp.I) for e in parts):
+            raise UserError("this is no finite real number", tree.span)
+        return result
+
+    def plain_value(self, tree: f.Tree) -> Value:
         match tree:
             case f.Number():
                 return sp.Rational(tree.value.numerator, tree.value.denominator)
@@ -141,6 +156,8 @@ class Reading:
                 return self.compare(tree)
             case f.Stack():
                 return self.stack(tree)
+            case f.Rows():
+                return sp.Matrix([list(self.materialise(self.value(item))) for item in tree.items])
             case f.Index():
                 return self.index(tree)
             case f.Call():
@@ -178,7 +195,7 @@ class Reading:
     def binary(self, tree: f.Binary) -> Value:
         if tree.operator == "^":
             exponent = constant(tree.right, self.parameters)
-            return self.value(tree.left) ** sp.Rational(exponent.numerator, exponent.denominator)  # type: ignore[operator]
+            return self.value(tree.left) ** sp.Rational(exponent.numerator, exponent.denominator)
         left, right = self.value(tree.left), self.value(tree.right)
         if tree.operator == "*":
             return self.times(left, right)
@@ -190,22 +207,30 @@ class Reading:
         if isinstance(x, Vector) and isinstance(y, Vector):
             pairs = zip(self.materialise(x), self.materialise(y), strict=True)
             return Vector(tuple(a + b for a, b in pairs))
-        return x + y  # type: ignore[operator]
+        return x + y
 
     def times(self, x: Value, y: Value) -> Value:
         if isinstance(y, Vector) and isinstance(x, sp.Expr):
             x, y = y, x
         if isinstance(x, Vector) and isinstance(y, sp.Expr):
-            return replace(x, entries=tuple(y * e for e in x.entries)) if y.is_number else replace(x, factors=(*x.factors, y))
+            return (
+                replace(x, entries=tuple(y * e for e in x.entries))
+                if y.is_number
+                else replace(x, factors=(*x.factors, y))
+            )
         if isinstance(x, sp.MatrixBase) and isinstance(y, Vector):
             return Vector(tuple(x * sp.Matrix(self.materialise(y))))
-        return x * y  # type: ignore[operator]
+        return x * y
 
     def over(self, x: Value, y: Value) -> Value:
         assert isinstance(y, sp.Expr)
         if isinstance(x, Vector):
-            return replace(x, entries=tuple(e / y for e in x.entries)) if y.is_number else replace(x, divisors=(*x.divisors, y))
-        return self.ratio(x, y) if isinstance(x, sp.Expr) else x / y  # type: ignore[operator]
+            return (
+                replace(x, entries=tuple(e / y for e in x.entries))
+                if y.is_number
+                else replace(x, divisors=(*x.divisors, y))
+            )
+        return self.ratio(x, y) if isinstance(x, sp.Expr) else x / y
 
     def materialise(self, vector: Vector) -> tuple[sp.Expr, ...]:
         """The entries, multiplied out; what is 0/0 among the scalars becomes one quotient."""
@@ -237,19 +262,16 @@ class Reading:
         if tree.operator in (">", ">="):
             a, b = b, a
         kind = {"<": LESS, ">": LESS, "<=": LESS_EQUAL, ">=": LESS_EQUAL, "=": EQUAL}[tree.operator]
-        return Truth(kind, a, b)  # type: ignore[arg-type]
+        return Truth(kind, a, b)
 
     def stack(self, tree: f.Stack) -> Value:
         parts = [self.value(item) for item in tree.items]
-        rows = len(parts) > 1 and all(isinstance(item, f.Stack) for item in tree.items)
-        if rows or (len(parts) == 1 and isinstance(tree.items[0], f.Stack)):
-            return sp.Matrix([list(self.materialise(part)) for part in parts])  # type: ignore[arg-type]
         entries = [self.materialise(part) if isinstance(part, Vector) else (part,) for part in parts]
-        return Vector(tuple(e for part in entries for e in part))  # type: ignore[misc]
+        return Vector(tuple(e for part in entries for e in part))
 
     def index(self, tree: f.Index) -> Value:
         base = self.value(tree.base)
-        length = base.rows if isinstance(base, sp.MatrixBase) else len(base.entries)  # type: ignore[union-attr]
+        length = base.rows if isinstance(base, sp.MatrixBase) else len(base.entries)
         start, stop = bounds(tree, length, self.parameters)
         if isinstance(base, sp.MatrixBase):
             return base[start:stop, :] if tree.slice else Vector(tuple(base[start, :]))
@@ -262,7 +284,7 @@ class Reading:
         name = name or _hint(tree)
         method = getattr(self, f"call_{tree.function}", None)
         if tree.function in ("dot", "norm"):
-            result: Value = self.product(tree, arguments, name)  # type: ignore[arg-type]
+            result: Value = self.product(tree, arguments, name)
         elif method is not None:
             result = method(*arguments)
         elif isinstance(arguments[0], Vector):
@@ -284,14 +306,14 @@ class Reading:
 
     def named_entries(self, tree: f.Tree, entries: tuple[sp.Expr, ...]) -> tuple[sp.Expr, ...]:
         slug = _tree_slug(tree)
-        hint = slug if len(slug) <= 20 else "part"
+        hint = slug if len(slug) <= 20 and slug.isidentifier() else "part"
         return tuple(self.trace.define(f"{hint}{i}", e) for i, e in enumerate(entries))
 
     def call_sum(self, x: Vector) -> sp.Expr:
         return sp.Add(*self.materialise(x))
 
     def call_max(self, x: Vector) -> sp.Expr:
-        return reduce(lambda a, b: Choose(LESS, a, b, b, a), self.materialise(x))
+        return reduce(lambda a, b: choose(Truth(LESS, a, b), b, a), self.materialise(x))
 
     def call_cross(self, x: Vector, y: Vector) -> Vector:
         (a, b, c), (d, e, g) = self.materialise(x), self.materialise(y)
@@ -322,7 +344,8 @@ class Reading:
         return x.inv(method="ADJ")
 
     def call_orthogonal(self, x: Vector) -> Vector:
-        # Of the first two axes, one is at 45 degrees or more to a unit vector: its part at right angles is no shorter than 1/sqrt 2.
+        # Of the first two axes, one is at 45 degrees or more to a unit vector: its part at right angles to the vector
+        # is no shorter than 1/sqrt 2.
         a = self.materialise(x)
 
         def part(axis: int) -> list[sp.Expr]:
@@ -330,16 +353,14 @@ class Reading:
             return [((1 if i == axis else 0) - a[axis] * e) / length for i, e in enumerate(a)]
 
         pairs = zip(part(0), part(1), strict=True)
-        return Vector(tuple(Choose(LESS, a[0] ** 2, sp.Rational(1, 2), x0, x1) for x0, x1 in pairs))
+        nearer = Truth(LESS, a[0] ** 2, sp.Rational(1, 2))
+        return Vector(tuple(choose(nearer, x0, x1) for x0, x1 in pairs))
 
     def call_where(self, condition: Truth, x: Value, y: Value) -> Value:
-        def choose(a: sp.Expr, b: sp.Expr) -> sp.Expr:
-            return Choose(condition.kind, condition.a, condition.b, a, b)
-
         if isinstance(x, Vector) and isinstance(y, Vector):
             pairs = zip(self.materialise(x), self.materialise(y), strict=True)
-            return Vector(tuple(choose(a, b) for a, b in pairs))
-        return choose(x, y)  # type: ignore[arg-type]
+            return Vector(tuple(choose(condition, a, b) for a, b in pairs))
+        return choose(condition, x, y)
 
     def call_wrap(self, x: Value, period: sp.Expr = 2 * sp.pi) -> Value:
         if isinstance(x, Vector):
@@ -348,8 +369,8 @@ class Reading:
 
     def call_sign(self, x: Value) -> Value:
         if isinstance(x, Vector):
-            return Vector(tuple(Choose(LESS, e, 0, -1, 1) for e in self.materialise(x)))
-        return Choose(LESS, x, 0, -1, 1)
+            return Vector(tuple(self.call_sign(e) for e in self.materialise(x)))
+        return choose(Truth(LESS, x, sp.Integer(0)), sp.Integer(-1), sp.Integer(1))
 
     def call_sinc(self, x: sp.Expr) -> sp.Expr:
         return self.cardinal("sinc", sp.sin, x)
@@ -357,9 +378,9 @@ class Reading:
     def call_sinhc(self, x: sp.Expr) -> sp.Expr:
         return self.cardinal("sinhc", sp.sinh, x)
 
-    def cardinal(self, name: str, function: type[sp.Function], x: sp.Expr) -> sp.Expr:
+    def cardinal(self, name: str, function: Any, x: sp.Expr) -> sp.Expr:
         """sin(x)/x or sinh(x)/x with its removable singularity removed, in the smooth variable x^2."""
-        series = cardinal_series(function)
+        series = cardinal_series(name)
         square = self.square(x)
         guard = Guard(square, series.threshold, series(square), series.error)
         return self.trace.define(f"{name}_{_slug(x)}", function(x) / x, guard)
@@ -369,8 +390,20 @@ class Reading:
         if x.is_Mul:
             return sp.Mul(*(self.square(factor) for factor in x.args))
         definition = self.trace.definition(x) if x.is_Symbol else None
-        root = definition if definition is not None and definition.is_Pow and definition.exp == sp.Rational(1, 2) else None
+        root = (
+            definition if definition is not None and definition.is_Pow and definition.exp == sp.Rational(1, 2) else None
+        )
         return root.base if root is not None else x**2
+
+
+def choose(condition: Truth, x: sp.Expr, y: sp.Expr) -> sp.Expr:
+    """x where the condition holds, else y; decided here when it compares numbers."""
+    a, b = condition.a, condition.b
+    if not (a - b).is_number or (a - b).has(EPS):
+        return Choose(condition.kind, a, b, x, y)
+    difference = value(a - b, {})
+    holds = {LESS: difference < 0, LESS_EQUAL: difference <= 0, EQUAL: difference == 0}[condition.kind]
+    return x if holds else y
 
 
 def scalarised(spec: ManifoldSpec, name: str, chart_map: Map, arguments: Sequence[Argument], shape: Shape) -> Function:
@@ -388,7 +421,7 @@ def number(spec: ManifoldSpec, chart_map: Map | None) -> sp.Expr:
 def _hint(tree: f.Call) -> str:
     """A name for a call that a reader recognises: norm_w, dot_p_d, sinh_r."""
     words = _tree_slug(tree)
-    return words if len(words) <= 20 else f"{tree.function}_value"
+    return words if len(words) <= 20 and words.isidentifier() else f"{tree.function}_value"
 
 
 def _tree_slug(tree: f.Tree) -> str:

@@ -89,9 +89,9 @@ def _interpolate(x: list[Any], y: list[Any]) -> list[Any]:
 
 
 @lru_cache
-def cardinal_series(function: type[sp.Function]) -> Fit:
-    """sin(x)/x or sinh(x)/x as a polynomial in x^2."""
-    evaluate = {sp.sin: mp.sin, sp.sinh: mp.sinh}[function]
+def cardinal_series(name: str) -> Fit:
+    """sinc or sinhc as a polynomial in x^2."""
+    evaluate = {"sinc": mp.sin, "sinhc": mp.sinh}[name]
     found = fit(lambda r: (r**2, evaluate(r) / r), mp.mpf(1), 0)
     assert found is not None  # both are entire functions
     return found

@@ -48,12 +48,16 @@ def exp_ray(exp: Function, sampler: Sampler) -> Ray:
 
 def smooth_squares(function: Function, at_zero: Values) -> list[sp.Expr]:
     """What stands under square roots and vanishes at the singular place: smooth there, and of the order r^2."""
-    roots = (a.expression for a in function.assignments if a.expression.is_Pow and a.expression.exp == sp.Rational(1, 2))
+    roots = (
+        a.expression for a in function.assignments if a.expression.is_Pow and a.expression.exp == sp.Rational(1, 2)
+    )
     found = [root.base for root in roots if abs(value(root.base, at_zero)) < TINY]
     return list(dict.fromkeys(found))
 
 
-def remove(quantity: sp.Expr, squares: Sequence[sp.Expr], ray: Ray, reach: Any, place: Values, order: int = 0) -> Guard | None:
+def remove(
+    quantity: sp.Expr, squares: Sequence[sp.Expr], ray: Ray, reach: Any, place: Values, order: int = 0
+) -> Guard | None:
     """A guard for a quantity that is 0/0 at a place, in the square in which its polynomial reaches furthest."""
     fits = [(square, _fit_along(quantity, square, ray, reach, order)) for square in squares]
     good = [(square, found) for square, found in fits if found is not None]
@@ -63,7 +67,9 @@ def remove(quantity: sp.Expr, squares: Sequence[sp.Expr], ray: Ray, reach: Any, 
     return Guard(square, found.threshold, found(square), found.error, tuple(place.items()))
 
 
-def guarded(function: Function, quotients: Sequence[sp.Symbol], at_zero: Values, ray: Ray, reach: Any) -> tuple[Function, list[sp.Symbol]]:
+def guarded(
+    function: Function, quotients: Sequence[sp.Symbol], at_zero: Values, ray: Ray, reach: Any
+) -> tuple[Function, list[sp.Symbol]]:
     """The function with its quotients guarded, and those quotients whose singularity could not be removed."""
     failed: list[sp.Symbol] = []
     squares = smooth_squares(function, at_zero)

@@ -14,8 +14,6 @@ import sympy as sp
 from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.emit import c_splats as splats
 from rsrm_gen.compiler.emit.c_language import (
-    DOUBLE,
-    FLOAT,
     PRECISIONS,
     WIDTH,
     Precision,
@@ -32,6 +30,7 @@ from rsrm_gen.compiler.emit.series import Coefficients, tables
 from rsrm_gen.compiler.lower import Parameter, Program, Routine
 from rsrm_gen.compiler.lower.ir import Result
 
+
 def header(geometry: Geometry, program: Program, heading: list[str]) -> str:
     """The text of the header."""
     guard = f"{program.name.upper()}_H"
@@ -44,14 +43,16 @@ def header(geometry: Geometry, program: Program, heading: list[str]) -> str:
         f"#define {program.name.upper()}_DIAMETER {_number(geometry.diameter)}",
     ]
     declarations = [_declarations(program, routine) for routine in public(program)]
-    frame = f"/* An orthonormal basis of the tangent space at p, one vector a row. */\n{_frame_signature(program, DOUBLE)};\n{_frame_signature(program, FLOAT)};"
+    signatures = "\n".join(_frame_signature(program, precision) + ";" for precision in PRECISIONS)
+    frame = f"/* An orthonormal basis of the tangent space at p, one vector a row. */\n{signatures}"
     return "\n".join([
         comment(heading),
         f"#ifndef {guard}\n#define {guard}\n\n#include <math.h>\n#include <stddef.h>\n",
-        f'#ifdef __cplusplus\n#define {restrict(program)} __restrict\nextern "C" {{\n#else\n#define {restrict(program)} restrict\n#endif\n',
+        f"#ifdef __cplusplus\n#define {restrict(program)} __restrict",
+        f'extern "C" {{\n#else\n#define {restrict(program)} restrict\n#endif\n',
         "\n".join(constants) + "\n",
-        f"/*\n * Points are {spec.point_size} numbers, tangent vectors {spec.tangent_size}. Arguments and results must not overlap.\n"
-        " * `_f` functions are in float; `_batch` functions take `count` rows of every argument, one after the other.\n */\n",
+        f"/*\n * Points are {spec.point_size} numbers, tangent vectors {spec.tangent_size}. Arguments and results must not\n"
+        " * overlap. `_f` functions are in float; `_batch` functions take `count` rows of every argument.\n */\n",
         "\n\n".join([*declarations, frame, *splats.declarations(program)]),
         "\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n",
     ])  # fmt: skip
@@ -60,7 +61,10 @@ def header(geometry: Geometry, program: Program, heading: list[str]) -> str:
 def source(geometry: Geometry, program: Program, heading: list[str]) -> str:
     """The text of the source file."""
     series = tables(public(program))
-    parts = [comment([heading[0], "", "See the header for what the functions promise."]), f'#include "{program.name}.h"\n\n#include <float.h>']
+    parts = [
+        comment([heading[0], "", "See the header for what the functions promise."]),
+        f'#include "{program.name}.h"\n\n#include <float.h>',
+    ]
     for precision in PRECISIONS:
         parts += [series_function(name, coefficients, precision) for coefficients, name in series.items()]
         parts += [_function(program, routine, series, precision) for routine in public(program)]
@@ -82,7 +86,11 @@ def _declarations(program: Program, routine: Routine) -> str:
 
 
 def _inputs(parameter: Parameter, program: Program, precision: Precision) -> str:
-    return f"const {precision.type} *{restrict(program)} {parameter.name}" if parameter.shape else f"{precision.type} {parameter.name}"
+    return (
+        f"const {precision.type} *{restrict(program)} {parameter.name}"
+        if parameter.shape
+        else f"{precision.type} {parameter.name}"
+    )
 
 
 def _outputs(result: Result, program: Program, precision: Precision) -> str:
@@ -121,7 +129,9 @@ def _wrapped(head: str, arguments: list[str]) -> str:
 def _function(program: Program, routine: Routine, series: dict[Coefficients, str], precision: Precision) -> str:
     """The scalar function and its batch."""
     coefficients = {k: series_name(name, precision) for k, name in series.items()}
-    names = {node: (f"{p.name}[{i}]" if p.shape else p.name) for p in routine.parameters for i, node in enumerate(p.nodes)}
+    names = {
+        node: (f"{p.name}[{i}]" if p.shape else p.name) for p in routine.parameters for i, node in enumerate(p.nodes)
+    }
     printer = Printer(spelling(precision), names, coefficients)
     lines = [f"(void){p.name};" for p in routine.parameters if not routine.inputs & {str(n.value) for n in p.nodes}]
     lines += statements(routine, printer, precision)

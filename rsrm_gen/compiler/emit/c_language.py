@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from rsrm_gen.compiler.emit.expression import UNARY, Printer, Spelling
 from rsrm_gen.compiler.emit.series import Coefficients, spelled
 from rsrm_gen.compiler.lower import Program, Routine
-from rsrm_gen.compiler.lower.ir import CONDITIONS, FUNCTIONS
+from rsrm_gen.compiler.lower.ir import FUNCTIONS
 
 WIDTH = 110
 NAMES = {"root": "sqrt", "abs": "fabs", "round": "rint"}  # the others are called in C what they are called here
@@ -30,7 +30,9 @@ PRECISIONS = (DOUBLE, FLOAT)
 
 
 def comment(lines: list[str]) -> str:
-    return "/*\n" + "".join(f" * {line}".rstrip() + "\n" for line in lines) + " */"
+    """A block comment."""
+    safe = (line.replace("*/", "* /").replace("/*", "/ *").replace("??/", "?? /") for line in lines)
+    return "/*\n" + "".join(f" * {line}".rstrip() + "\n" for line in safe) + " */"
 
 
 def restrict(program: Program) -> str:
@@ -39,11 +41,13 @@ def restrict(program: Program) -> str:
 
 
 def spelling(precision: Precision) -> Spelling:
+    """How C writes the operations in a precision."""
     function = {name: f"{NAMES.get(name, name)}{precision.suffix}({{}})" for name in FUNCTIONS}
     function["atan2"] = f"atan2{precision.suffix}({{}}, {{}})"
     return Spelling(
         function,
         select="({condition} ? {x} : {y})",
+        pick="({condition} ? {x} : {y})",
         polynomial="{coefficients}({x})",
         eps=precision.eps,
         suffix=precision.suffix,
@@ -62,7 +66,9 @@ def series_function(name: str, coefficients: Coefficients, precision: Precision)
     text = last
     for coefficient in reversed(rest):
         text = f"{coefficient} + x * ({text})" if text != last else f"{coefficient} + x * {text}"
-    body = textwrap.fill(f"return {text};", WIDTH - 4, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False)
+    body = textwrap.fill(
+        f"return {text};", WIDTH - 4, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False
+    )
     t = precision.type
     return f"static inline {t} {series_name(name, precision)}({t} x) {{\n{textwrap.indent(body, '    ')}\n}}"
 
@@ -73,6 +79,8 @@ def statements(routine: Routine, printer: Printer, precision: Precision) -> list
     for name, node in routine.body:
         condition = node.op in ("less", "less_equal", "equal")
         text = f"const {'int' if condition else precision.type} {name} = {printer.definition(node)[0]};"
-        lines.append(textwrap.fill(text, WIDTH - 4, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False))
+        lines.append(
+            textwrap.fill(text, WIDTH - 4, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False)
+        )
         printer.names[node] = name
     return lines

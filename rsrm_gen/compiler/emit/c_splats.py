@@ -10,7 +10,16 @@ from __future__ import annotations
 import textwrap
 
 from rsrm_gen.compiler.derive import Geometry
-from rsrm_gen.compiler.emit.c_language import PRECISIONS, Precision, comment, restrict, series_function, series_name, spelling, statements
+from rsrm_gen.compiler.emit.c_language import (
+    PRECISIONS,
+    Precision,
+    comment,
+    restrict,
+    series_function,
+    series_name,
+    spelling,
+    statements,
+)
 from rsrm_gen.compiler.emit.expression import Printer
 from rsrm_gen.compiler.emit.series import Coefficients, tables
 from rsrm_gen.compiler.lower import Parameter, Program, Routine
@@ -36,7 +45,9 @@ static void restore_denormals(unsigned mode) { (void)mode; }
 def declarations(program: Program) -> list[str]:
     """The prototypes, for the header."""
     forward = "/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */"
-    backward = "/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */"
+    backward = (
+        "/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */"
+    )
     return [
         "\n".join([forward, *(_forward_signature(program, p) + ";" for p in PRECISIONS)]),
         "\n".join([backward, *(_backward_signature(program, p) + ";" for p in PRECISIONS)]),
@@ -47,7 +58,9 @@ def source(geometry: Geometry, program: Program, heading: list[str]) -> str:
     """The text of NAME_splats.c."""
     kernels = Program(program.name, (program["splat"], program["splat_vjp"]))
     series = tables(kernels)
-    top = comment([heading[0], "", "Sums of splats, forward and backward. See the header for what the functions promise."])
+    top = comment(
+        [heading[0], "", "Sums of splats, forward and backward. See the header for what the functions promise."]
+    )
     parts = [top, f'#include "{program.name}.h"\n\n#include <float.h>\n\n#define LANES {LANES}', FLUSH]
     for precision in PRECISIONS:
         parts += [series_function(name, coefficients, precision) for coefficients, name in series.items()]
@@ -60,7 +73,9 @@ def _pointer(name: str, program: Program, precision: Precision, const: bool = Tr
 
 
 def _arguments(program: Program, precision: Precision, inputs: list[str], outputs: list[str]) -> str:
-    pointers = [_pointer(n, program, precision) for n in inputs] + [_pointer(n, program, precision, False) for n in outputs]
+    pointers = [_pointer(n, program, precision) for n in inputs] + [
+        _pointer(n, program, precision, False) for n in outputs
+    ]
     return ",\n    ".join(["size_t count", "size_t splat_count", *pointers])
 
 
@@ -79,7 +94,9 @@ def _size(parameter: Parameter) -> int:
     return len(parameter.nodes)
 
 
-def _body(routine: Routine, series: dict[Coefficients, str], precision: Precision, per_point: tuple[str, ...]) -> tuple[list[str], list[str]]:
+def _body(
+    routine: Routine, series: dict[Coefficients, str], precision: Precision, per_point: tuple[str, ...]
+) -> tuple[list[str], list[str]]:
     """Statements of one pair and the expressions of its results; what belongs to the point is read from its lane."""
     names = {}
     for parameter in routine.parameters:
@@ -98,7 +115,9 @@ def _splat_locals(routine: Routine, precision: Precision, names: tuple[str, ...]
         if parameter.name in names:
             for i, node in enumerate(parameter.nodes):
                 if str(node.value) in routine.inputs:
-                    lines.append(f"const {precision.type} {parameter.name}{i} = {parameter.name}[{_size(parameter)} * k + {i}];")
+                    lines.append(
+                        f"const {precision.type} {parameter.name}{i} = {parameter.name}[{_size(parameter)} * k + {i}];"
+                    )
     return "\n".join(lines)
 
 
@@ -147,7 +166,9 @@ def _backward(program: Program, series: dict[Coefficients, str], precision: Prec
     blocks = ", ".join(f"{p.name}_block[{_size(p)}][LANES]" for p in points)
     loads = "\n".join(" " * 12 + _load(p, "n") for p in points)
     # A lane past the end has adjoints of zero, and so adds nothing.
-    mask = "\n".join(f"{' ' * 12}for (size_t i = 0; i < {_size(p)}; ++i) {p.name}_block[i][lane] *= weight;" for p in points[1:])
+    mask = "\n".join(
+        f"{' ' * 12}for (size_t i = 0; i < {_size(p)}; ++i) {p.name}_block[i][lane] *= weight;" for p in points[1:]
+    )
     outputs = [(f"{name}_bar", _size(by_name[name])) for name in ("mu", "W", "amplitude")]
     clear = "\n".join(f"    for (size_t i = 0; i < {n} * splat_count; ++i) {name}[i] = 0;" for name, n in outputs)
     offset, stores = 0, []
@@ -183,4 +204,3 @@ def _backward(program: Program, series: dict[Coefficients, str], precision: Prec
 
 def _indented(lines: list[str], width: int) -> str:
     return textwrap.indent("\n".join(lines), " " * width)
-

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from rsrm_gen.compiler.lower import Node
 
@@ -20,6 +21,7 @@ class Spelling:
 
     function: Mapping[str, str]
     select: str  # {condition}, {x}, {y}
+    pick: str  # the same for two numbers; {like} is a quantity of the precision in use
     polynomial: str  # {x}, {coefficients}
     eps: str
     suffix: str  # of floating-point literals
@@ -29,7 +31,7 @@ class Spelling:
 class Printer:
     """Prints nodes: those with a name by their name, the others in place."""
 
-    def __init__(self, spelling: Spelling, names: dict[Node, str], coefficients: Mapping[object, str]) -> None:
+    def __init__(self, spelling: Spelling, names: dict[Node, str], coefficients: Mapping[Any, str]) -> None:
         self.spelling = spelling
         self.names = names
         self.coefficients = coefficients  # of polynomials, to the names of their tables
@@ -50,7 +52,7 @@ class Printer:
             case "eps":
                 return self.spelling.eps, ATOM
             case "neg":
-                return f"-{self.text(a[0], UNARY)}", UNARY
+                return f"-{self.text(a[0], ATOM)}", UNARY
             case "add" | "sub":
                 sign = "+" if node.op == "add" else "-"
                 return f"{self.text(a[0], SUM)} {sign} {self.text(a[1], PRODUCT)}", SUM
@@ -58,17 +60,26 @@ class Printer:
                 sign = "*" if node.op == "mul" else "/"
                 return f"{self.text(a[0], PRODUCT)} {sign} {self.text(a[1], UNARY)}", PRODUCT
             case "less" | "less_equal" | "equal":
-                return f"{self.text(a[0], SUM)} {COMPARISONS[node.op]} {self.text(a[1], SUM)}", self.spelling.compare_binds
+                return (
+                    f"{self.text(a[0], SUM)} {COMPARISONS[node.op]} {self.text(a[1], SUM)}",
+                    self.spelling.compare_binds,
+                )
             case "select":
                 parts = (self.text(x, binding) for x, binding in zip(a, (SUM, SUM, SUM), strict=True))
                 condition, x, y = parts
-                return self.spelling.select.format(condition=condition, x=x, y=y), ATOM
+                template = self.spelling.pick if a[1].is_constant and a[2].is_constant else self.spelling.select
+                return template.format(condition=condition, x=x, y=y, like=self.operand(a[0])), ATOM
             case "polynomial":
-                return self.spelling.polynomial.format(x=self.text(a[0]), coefficients=self.coefficients[node.value]), ATOM
+                return self.spelling.polynomial.format(
+                    x=self.text(a[0]), coefficients=self.coefficients[node.value]
+                ), ATOM
         return self.spelling.function[node.op].format(*(self.text(x) for x in a)), ATOM
+
+    def operand(self, node: Node) -> str:
+        """Something that a condition compares and that is not a number."""
+        return next((self.text(x) for x in node.arguments if not x.is_constant), "")
 
     def number(self, node: Node) -> tuple[str, int]:
         """An exact number as the nearest double."""
         value = float(node.value.evalf(25))  # type: ignore[attr-defined]
-        text = repr(value) if abs(value) < 1e16 else f"{value:.17g}"
-        return text + self.spelling.suffix, ATOM if value >= 0 else UNARY
+        return repr(value) + self.spelling.suffix, ATOM if value >= 0 else UNARY

@@ -58,7 +58,11 @@ def _table(program: Program, measured: tuple[Measurement, ...]) -> list[str]:
         rows.append(f"{routine.name:22}{routine.operations:>10}  {errors[0]:>8}{errors[1]:>9}".rstrip())
     if measured:
         points = measured[0].points
-        rows += ["", f"Errors are the worst of {points} points against 60 digits, in units of the error that rounding the", "inputs and the output to the precision alone would cause."]
+        rows += [
+            "",
+            f"Errors are the worst of {points} points against 60 digits, in units of the error that rounding the",
+            "inputs and the output to the precision alone would cause.",
+        ]
     return rows
 
 

@@ -29,5 +29,3 @@ def _fresh(hint: str, found: dict[Coefficients, str]) -> str:
 def spelled(coefficients: Coefficients, suffix: str = "") -> list[str]:
     """The coefficients, lowest first, as literals that read back as the nearest doubles."""
     return [repr(float(c.evalf(25))) + suffix for c in coefficients]  # type: ignore[attr-defined]
-
-

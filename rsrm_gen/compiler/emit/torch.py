@@ -10,7 +10,15 @@ from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.emit.expression import SUM, Printer, Spelling
 from rsrm_gen.compiler.emit.promises import PROMISES, public
 from rsrm_gen.compiler.emit.series import Coefficients, spelled, tables
-from rsrm_gen.compiler.emit.torch_runtime import FRAME, HELPERS, SAMPLE_BALL, SAMPLE_BOX, SAMPLE_NONE, SAMPLE_WHOLE, SPLATS
+from rsrm_gen.compiler.emit.torch_runtime import (
+    FRAME,
+    HELPERS,
+    SAMPLE_BALL,
+    SAMPLE_BOX,
+    SAMPLE_NONE,
+    SAMPLE_WHOLE,
+    SPLATS,
+)
 from rsrm_gen.compiler.lower import Parameter, Program, Routine
 
 WIDTH = 120
@@ -23,27 +31,35 @@ SPELLING = Spelling(
         "atanh": "torch.atanh({})", "atan2": "torch.atan2({}, {})", "abs": "torch.abs({})", "round": "torch.round({})",
     },
     select="torch.where({condition}, {x}, {y})",
+    pick="_pick({condition}, {x}, {y}, {like})",
     polynomial="_polynomial({x}, {coefficients})",
     eps="eps",
     suffix="",
     compare_binds=SUM,
 )  # fmt: skip
 
+
 def module(geometry: Geometry, program: Program, heading: list[str]) -> str:
     """The text of the module."""
     spec = geometry.spec
     program = public(program)  # the adjoint of the splat is autograd's here
     series = tables(program)
-    tail = [FRAME.format(dim=spec.dim, size=spec.point_size, tangent=spec.tangent_size), _sample(geometry), SAMPLE_BALL]
-    methods = [_method(routine, series) for routine in program]
-    parts = [
-        '"""' + "\n".join(heading).rstrip() + '\n"""',
-        "from __future__ import annotations\n\nimport math\n\nimport torch\nfrom torch import Generator, Tensor",
+    template = FRAME.format(dim=spec.dim, size=spec.point_size, tangent=spec.tangent_size)
+    fixed = [textwrap.indent(text.strip("\n"), "    ") for text in (SPLATS, template, _sample(geometry), SAMPLE_BALL)]
+    top = [
+        f'"""{_python_text(heading)}\n"""',
+        "from __future__ import annotations\n\nimport math\nfrom collections.abc import Callable, Sequence\n\nimport torch\n"
+        "from torch import Generator, Tensor",
         *(_table(name, coefficients) for coefficients, name in series.items()),
-        HELPERS,
-        "\n\n".join([_class_head(geometry, program), *methods, *(textwrap.indent(t.strip("\n"), "    ") for t in [SPLATS, *tail])]),
     ]
-    return "\n\n".join(part.strip("\n") for part in parts[:-2]) + "\n\n\n" + HELPERS.strip("\n") + "\n\n\n" + parts[-1] + f"\n\n\nmanifold = {class_name(program)}()\n"
+    methods = [_class_head(geometry, program), *(_method(routine, series) for routine in program), *fixed]
+    parts = ["\n\n".join(top), HELPERS.strip("\n"), "\n\n".join(methods), f"manifold = {class_name(program)}()"]
+    return "\n\n\n".join(parts) + "\n"
+
+
+def _python_text(lines: list[str]) -> str:
+    """Lines that an author wrote, inside a docstring."""
+    return "\n".join(lines).rstrip().replace("\\", "\\\\").replace('"""', '\\"\\"\\"')
 
 
 def class_name(program: Program) -> str:
@@ -59,11 +75,12 @@ def _table(name: str, coefficients: Coefficients) -> str:
 def _class_head(geometry: Geometry, program: Program) -> str:
     spec = geometry.spec
     periods = "None" if geometry.periods is None else "(" + ", ".join(_float(p) for p in geometry.periods) + ",)"
-    doc = textwrap.fill(spec.doc, WIDTH - 8, subsequent_indent="    ")
+    doc = _python_text([textwrap.fill(spec.doc, WIDTH - 8, subsequent_indent="    ")])
     return f'''class {class_name(program)}:
     """{doc}
 
-    Points have shape (..., {spec.point_size}), tangent vectors (..., {spec.tangent_size}){_tangent_words(geometry)}; leading dimensions broadcast.
+    Points have shape (..., {spec.point_size}), tangent vectors (..., {spec.tangent_size}){_tangent_words(geometry)};
+    leading dimensions broadcast.
     """
 
     name = "{program.name}"
@@ -86,33 +103,39 @@ def _float(value: sp.Expr | None) -> str:
 
 
 def _method(routine: Routine, series: dict[Coefficients, str]) -> str:
-    """One routine as a method; a splat gets a private form that returns its entries, to be summed before they are stacked."""
-    signature = ", ".join(f"{p.name}: Tensor" for p in routine.parameters)
-    returns = "Tensor" if len(routine.results) == 1 else f"tuple[{', '.join('Tensor' for _ in routine.results)}]"
-    entries = [node for result in routine.results for node in result.nodes]
+    """One routine as a method."""
     lines, texts = _body(routine, series)
-    doc = f'"""{PROMISES[routine.name]}\n\n{_documented(routine)}\n"""'
     if len(routine.results) > 1:
-        public = [f"{', '.join(_pattern(r.name, r.shape) for r in routine.results)} = self._{routine.name}({', '.join(p.name for p in routine.parameters)})"]
-        public.append("return value, _stack(gradient)")
-        head = f"def {routine.name}(self, {signature}) -> {returns}:"
-        private = f"def _{routine.name}(self, {signature}) -> tuple[Tensor, ...]:"
-        explained = '"""The value and the entries of the gradient, not stacked."""'
-        body = [head, _indent(doc), *(_indent(x) for x in public), "", private, _indent(explained), *(_indent(x) for x in lines)]
-        body.append(_indent(_call("return ", texts, "")))
-        return textwrap.indent("\n".join(body), "    ")
-    result = routine.results[0]
-    like = f"_leading({', '.join(p.name for p in routine.parameters)})" if any(n.is_constant for n in entries) else ""
-    if result.shape:
-        final = _call("return _stack((", texts, "))", like)
-    else:
-        final = f"return {like.replace('_leading', '_constant').replace('(', f'({texts[0]}, ')}" if like else f"return {texts[0]}"
-    body = [f"def {routine.name}(self, {signature}) -> {returns}:", _indent(doc), *(_indent(x) for x in lines), _indent(final)]
-    return textwrap.indent("\n".join(body), "    ")
+        return textwrap.indent("\n\n".join(_public_and_private(routine, lines, texts)), "    ")
+    names = ", ".join(p.name for p in routine.parameters)
+    unread = any(not routine.inputs & {str(n.value) for n in p.nodes} for p in routine.parameters)
+    for i, node in enumerate(routine.results[0].nodes):
+        if node.is_constant or (i == 0 and unread):
+            texts[i] = f"_rows({texts[i]}, {names})"
+    final = _listed("return _stack((", texts, "))") if routine.results[0].shape else f"return {texts[0]}"
+    return textwrap.indent(_definition(routine.name, routine, "Tensor", _docstring(routine), [*lines, final]), "    ")
 
 
-def _pattern(name: str, shape: tuple[int, ...]) -> str:
-    return f"*{name}" if shape else name
+def _public_and_private(routine: Routine, lines: list[str], texts: list[str]) -> tuple[str, str]:
+    """A splat has a private form that returns its entries, to be summed before they are stacked."""
+    call = f"value, *gradient = self._{routine.name}({', '.join(p.name for p in routine.parameters)})"
+    public = [call, "return value, _stack(gradient)"]
+    private = [*lines, _listed("return (", texts, ")")]
+    explained = '"""The value and the entries of the gradient, not stacked."""'
+    return (
+        _definition(routine.name, routine, "tuple[Tensor, Tensor]", _docstring(routine), public),
+        _definition(f"_{routine.name}", routine, "tuple[Tensor, ...]", explained, private),
+    )
+
+
+def _definition(name: str, routine: Routine, returns: str, doc: str, statements: list[str]) -> str:
+    signature = ", ".join(f"{p.name}: Tensor" for p in routine.parameters)
+    body = textwrap.indent("\n".join([doc, *statements]), "    ")
+    return f"def {name}(self, {signature}) -> {returns}:\n{body}"
+
+
+def _docstring(routine: Routine) -> str:
+    return f'"""{PROMISES[routine.name]}\n\n{_documented(routine)}\n"""'
 
 
 def _documented(routine: Routine) -> str:
@@ -146,7 +169,18 @@ def _assignment(name: str, text: str) -> str:
     line = f"{name} = {text}"
     if len(line) <= WIDTH - 8:
         return line
-    return f"{name} = (\n" + textwrap.fill(text, WIDTH - 12, initial_indent="    ", subsequent_indent="    ", break_long_words=False, break_on_hyphens=False) + "\n)"
+    return (
+        f"{name} = (\n"
+        + textwrap.fill(
+            text,
+            WIDTH - 12,
+            initial_indent="    ",
+            subsequent_indent="    ",
+            break_long_words=False,
+            break_on_hyphens=False,
+        )
+        + "\n)"
+    )
 
 
 def _unpacked(parameter: Parameter, used: set[str]) -> list[str]:
@@ -159,21 +193,13 @@ def _unpacked(parameter: Parameter, used: set[str]) -> list[str]:
     return [f"{targets} = {flat}.unbind(-1)"]
 
 
-def _call(head: str, texts: list[str], tail: str, last: str = "") -> str:
-    """Texts in one line where they fit, else one a line."""
-    if len(texts) == 1:
-        texts = [texts[0] + ","] if head.endswith("((") or not tail else texts
-    extra = f", {last}" if last else ""
-    line = f"{head}{', '.join(texts)}{tail[:-1] + extra + tail[-1:] if tail else ''}"
+def _listed(head: str, texts: list[str], tail: str) -> str:
+    """A tuple of texts in one line where it fits, else one a line."""
+    line = f"{head}{', '.join(texts)}{',' if len(texts) == 1 else ''}{tail}"
     if len(line) <= WIDTH - 8:
         return line
-    opening, closing = ("(", ")") if not tail else ("", "")
     inner = "".join(f"    {text},\n" for text in texts)
-    return f"{head}{opening}\n{inner}{closing}{tail[:-1] + extra + tail[-1:] if tail else ''}"
-
-
-def _indent(text: str) -> str:
-    return textwrap.indent(text, "    ")
+    return f"{head}\n{inner}{tail}"
 
 
 def _sample(geometry: Geometry) -> str:

@@ -21,7 +21,9 @@ def gradient(graph: Graph, output: Node, inputs: Sequence[Node]) -> tuple[Node, 
         contributions = RULES[node.op](graph, node, adjoints[node])
         for argument, contribution in zip(node.arguments, contributions, strict=True):
             if contribution is not None and argument in dependent:
-                adjoints[argument] = graph.add(adjoints[argument], contribution) if argument in adjoints else contribution
+                adjoints[argument] = (
+                    graph.add(adjoints[argument], contribution) if argument in adjoints else contribution
+                )
     return tuple(adjoints.get(x, graph.constant(0)) for x in inputs)
 
 

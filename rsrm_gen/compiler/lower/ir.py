@@ -22,7 +22,25 @@ import sympy as sp
 
 from rsrm_gen.compiler.spec.vocabulary import Shape
 
-FUNCTIONS = ("sqrt", "root", "exp", "log", "sin", "cos", "tan", "sinh", "cosh", "tanh", "asinh", "acosh", "acos", "atanh", "atan2", "abs", "round")
+FUNCTIONS = (
+    "sqrt",
+    "root",
+    "exp",
+    "log",
+    "sin",
+    "cos",
+    "tan",
+    "sinh",
+    "cosh",
+    "tanh",
+    "asinh",
+    "acosh",
+    "acos",
+    "atanh",
+    "atan2",
+    "abs",
+    "round",
+)
 CONDITIONS = ("less", "less_equal", "equal")
 
 
@@ -71,7 +89,7 @@ class Graph:
 
     def constant(self, value: sp.Expr | int) -> Node:
         """An exact number."""
-        return self.node("constant", value=sp.sympify(value) if isinstance(value, int) else value)
+        return self.node("constant", value=sp.Integer(value) if isinstance(value, int) else value)
 
     def neg(self, x: Node) -> Node:
         """-x."""
@@ -151,7 +169,9 @@ class Graph:
 
     def polynomial(self, x: Node, coefficients: tuple[sp.Expr, ...]) -> Node:
         """c0 + c1 x + c2 x^2 + ..."""
-        return self.constant(coefficients[0]) if len(coefficients) == 1 else self.node("polynomial", x, value=coefficients)
+        return (
+            self.constant(coefficients[0]) if len(coefficients) == 1 else self.node("polynomial", x, value=coefficients)
+        )
 
     def select(self, condition: Node, x: Node, y: Node) -> Node:
         """x where the condition holds, else y."""

@@ -12,7 +12,14 @@ from rsrm_gen.compiler.lower.ir import Graph, Node, Parameter, Program, Result, 
 from rsrm_gen.compiler.lower.schedule import schedule
 from rsrm_gen.compiler.spec.vocabulary import Shape
 
-RESULT_NAMES = {"project": "p", "exp": "q", "log": "v", "to_tangent": "v", "flat": "covector", "riemannian_gradient": "gradient"}
+RESULT_NAMES = {
+    "project": "p",
+    "exp": "q",
+    "log": "v",
+    "to_tangent": "v",
+    "flat": "covector",
+    "riemannian_gradient": "gradient",
+}
 
 
 def lower(geometry: Geometry) -> Program:
@@ -88,7 +95,9 @@ def _vector(graph: Graph, name: str, size: int) -> Parameter:
 
 
 def _matrix(graph: Graph, name: str, rows: int, columns: int) -> Parameter:
-    return _parameter(graph, name, (rows, columns), tuple(f"{name}{i}_{j}" for i in range(rows) for j in range(columns)))
+    return _parameter(
+        graph, name, (rows, columns), tuple(f"{name}{i}_{j}" for i in range(rows) for j in range(columns))
+    )
 
 
 def _parameter(graph: Graph, name: str, shape: Shape, entries: tuple[str, ...]) -> Parameter:

@@ -14,7 +14,9 @@ ENDANGERED = {"div": 1, "sqrt": 0, "root": 0, "log": 0, "polynomial": 0, "atanh"
 SAFE = {"polynomial": 0, "atanh": 0}  # what it is replaced by; 1 elsewhere
 
 
-def protect(graph: Graph, root: Node, condition: Node, when: bool, singular: Callable[[Node], bool] | None = None) -> Node:
+def protect(
+    graph: Graph, root: Node, condition: Node, when: bool, singular: Callable[[Node], bool] | None = None
+) -> Node:
     """The same branch, harmless where `condition` is `when`: where it is not taken.
 
     `singular` says of a node whether it vanishes somewhere there; without it, every input in danger is replaced that is

@@ -11,18 +11,27 @@ INLINE_DEPTH = 4  # deeper expressions are broken up, for people
 
 # Names that mean something in the languages written, or would hide a function there.
 RESERVED = {
-    *FUNCTIONS, "polynomial", "i", "count", "fabs", "rint", "floor", "ceil", "gamma", "signgam", "y0", "y1", "yn", "j0", "j1", "jn", "self", "torch", "math",
+    *FUNCTIONS, "polynomial", "i", "k", "n", "lane", "count", "sum", "total", "start", "weight", "mode", "fabs", "rint",
+    "floor", "ceil", "gamma", "signgam", "y0", "y1", "yn", "j0", "j1", "jn", "self", "torch", "math",
+    "case", "default", "do", "goto", "NAN", "NULL", "INFINITY", "HUGE_VAL", "DBL_EPSILON", "FLT_EPSILON", "LANES",
     "auto", "char", "const", "double", "enum", "extern", "float", "inline", "int", "long", "register", "restrict", "short",
     "signed", "sizeof", "static", "struct", "switch", "typedef", "union", "unsigned", "void", "volatile",
 }  # fmt: skip
 
 
-def schedule(graph: Graph, name: str, parameters: tuple[Parameter, ...], results: tuple[Result, ...], formula: str) -> Routine:
+def schedule(
+    graph: Graph, name: str, parameters: tuple[Parameter, ...], results: tuple[Result, ...], formula: str
+) -> Routine:
     """Name what is used twice, what the author named, and what would nest too deeply; write the rest in place."""
     roots = [node for result in results for node in result.nodes]
     nodes = reachable(roots)
     uses = Counter(argument for node in nodes for argument in node.arguments) + Counter(roots)
-    names = _Names(RESERVED | {p.name for p in parameters} | {r.name for r in results} | {str(n.value) for p in parameters for n in p.nodes})
+    names = _Names(
+        RESERVED
+        | {p.name for p in parameters}
+        | {r.name for r in results}
+        | {str(n.value) for p in parameters for n in p.nodes}
+    )
     depth: dict[Node, int] = {}
     body: list[tuple[str, Node]] = []
     for node in nodes:
@@ -48,7 +57,15 @@ class _Names:
         if node.op in CONDITIONS:
             return "is_small" if node.arguments[1].is_constant else "is_" + node.op
         inner = next((graph.names[a] for a in node.arguments if a in graph.names), "")
-        words = {"mul": "product", "add": "total", "sub": "gap", "div": "ratio", "select": "chosen", "neg": "minus", "root": "length"}
+        words = {
+            "mul": "product",
+            "add": "total",
+            "sub": "gap",
+            "div": "ratio",
+            "select": "chosen",
+            "neg": "minus",
+            "root": "length",
+        }
         word = words.get(node.op, node.op)
         if node.op == "mul" and node.arguments[0] is node.arguments[1]:
             word = "squared"

@@ -25,7 +25,9 @@ MAX_CHARACTERS = 4000
 MAX_DEPTH = 40
 MAX_TERMS = 40
 
-TOKEN = re.compile(r"\s*(?:(?P<number>\d+\.?\d*(?:[eE][+-]?\d+)?)|(?P<name>[A-Za-z_][A-Za-z_0-9]*)|(?P<op>\*\*|[<>=]=|[-+*/^()\[\],:<>=]))")
+TOKEN = re.compile(
+    r"\s*(?:(?P<number>[0-9]+\.?[0-9]*(?:[eE][+-]?[0-9]+)?)|(?P<name>[A-Za-z_][A-Za-z_0-9]*)|(?P<op>\*\*|[<>=]=|[-+*/^()\[\],:<>=]))"
+)
 COMPARISONS = ("=", "==", "<", "<=", ">", ">=")
 
 
@@ -84,7 +86,15 @@ class Compare:
 
 @dataclass(frozen=True)
 class Stack:
-    """[a, b, ...]: scalars and vectors joined to a vector, or vectors of one length as the rows of a matrix."""
+    """[a, b, ...]: scalars and vectors joined to a vector."""
+
+    items: tuple[Tree, ...]
+    span: Span
+
+
+@dataclass(frozen=True)
+class Rows:
+    """[[a, b], [c, d]]: vectors of one length as the rows of a matrix."""
 
     items: tuple[Tree, ...]
     span: Span
@@ -101,7 +111,7 @@ class Index:
     span: Span
 
 
-Tree = Number | Name | Call | Negate | Binary | Compare | Stack | Index
+Tree = Number | Name | Call | Negate | Binary | Compare | Stack | Rows | Index
 
 
 def parse(text: str, span: Span) -> Tree:
@@ -127,7 +137,9 @@ def _tokens(text: str, span: Span) -> list[_Token]:
         match = TOKEN.match(text, at)
         if match is None:
             at += len(text[at:]) - len(text[at:].lstrip())
-            raise UserError(f"the character {text[at]!r} has no meaning in a formula", span.inner(at), _advice(text[at]))
+            raise UserError(
+                f"the character {text[at]!r} has no meaning in a formula", span.inner(at), _advice(text[at])
+            )
         kind = str(match.lastgroup)
         tokens.append(_Token(kind, match[kind], span.inner(match.start(kind), len(match[kind]))))
         at = match.end()
@@ -135,7 +147,11 @@ def _tokens(text: str, span: Span) -> list[_Token]:
 
 
 def _advice(character: str) -> str | None:
-    known = {"{": "vectors are written with square brackets: [a, b]", "|": "write norm(v) for |v|", ".": "start a number with a digit: 0.5"}
+    known = {
+        "{": "vectors are written with square brackets: [a, b]",
+        "|": "write norm(v) for |v|",
+        ".": "start a number with a digit: 0.5",
+    }
     ascii_only = None if character.isascii() else "formulas are written in plain ASCII letters"
     return known.get(character, ascii_only)
 
@@ -150,9 +166,9 @@ class _Parser:
         self.last = end
 
     def formula(self) -> Tree:
-        self.depth += 1
-        if self.depth > MAX_DEPTH:
-            raise UserError(f"a formula nested deeper than {MAX_DEPTH} levels", self.span, "name its parts with `let`")
+        self.deeper(
+            self.tokens[min(self.position, len(self.tokens) - 1)] if self.tokens else _Token("end", "", self.last)
+        )
         left = self.sum()
         if self.peek() in COMPARISONS:
             token = self.take()
@@ -187,36 +203,39 @@ class _Parser:
         return tree
 
     def power(self) -> Tree:
-        bases = [self.item()]
-        carets = []
-        while self.peek() in ("^", "**"):
-            carets.append(self.take())
-            if self.peek() == "-":
-                minus = self.take()
-                bases.append(Negate(self.item(), minus.span))
-            else:
-                bases.append(self.item())
-        tree = bases.pop()
-        while carets:
-            tree = Binary("^", bases.pop(), tree, carets.pop().span)
-        return tree
+        base = self.item()
+        if self.peek() not in ("^", "**"):
+            return base
+        token = self.deeper(self.take())
+        exponent = self.unary()
+        self.depth -= 1
+        return Binary("^", base, exponent, token.span)
+
+    def deeper(self, token: _Token) -> _Token:
+        """Count one level of nesting."""
+        self.depth += 1
+        if self.depth > MAX_DEPTH:
+            raise UserError(f"a formula nested deeper than {MAX_DEPTH} levels", token.span, "name its parts with `let`")
+        return token
 
     def item(self) -> Tree:
-        tree = self.primary()
+        tree, indices = self.primary(), 0
         while self.peek() == "[":
-            tree = self.index(tree)
+            tree, indices = self.index(tree), indices + 1
+            if indices > 2:
+                raise UserError("nothing has more than two indices", self.tokens[self.position - 1].span)
         return tree
 
     def index(self, base: Tree) -> Tree:
-        span = self.take().span
+        span = self.deeper(self.take()).span
         start = None if self.peek() == ":" else self.sum()
-        if self.peek() != ":":
-            self.expect("]")
-            return Index(base, start, None, False, span)
-        self.take()
-        stop = None if self.peek() == "]" else self.sum()
+        stop, is_slice = None, self.peek() == ":"
+        if is_slice:
+            self.take()
+            stop = None if self.peek() == "]" else self.sum()
         self.expect("]")
-        return Index(base, start, stop, True, span)
+        self.depth -= 1
+        return Index(base, start, stop, is_slice, span)
 
     def primary(self) -> Tree:
         if self.position == len(self.tokens):
@@ -234,7 +253,9 @@ class _Parser:
             self.expect(")")
             return tree
         if token.text == "[":
-            return Stack(self.items("]"), token.span)
+            items = self.items("]")
+            rows = all(isinstance(item, Stack) for item in items)
+            return Rows(items, token.span) if rows else Stack(items, token.span)
         raise UserError(f"`{token.text}` stands where a value is expected", token.span)
 
     def items(self, closing: str) -> tuple[Tree, ...]:

@@ -11,8 +11,8 @@ from pathlib import Path
 from rsrm_gen.compiler.spec import formula as f
 from rsrm_gen.compiler.spec.model import CutLocus, Formula, ManifoldSpec, Map
 from rsrm_gen.compiler.spec.schema import ManifoldFile
-from rsrm_gen.compiler.spec.shapes import TRUTH, Scope, describe, integer, shape_of
-from rsrm_gen.compiler.spec.vocabulary import CONSTANTS, WORDS, Shape
+from rsrm_gen.compiler.spec.shapes import Scope, constant, describe, integer, shape_of
+from rsrm_gen.compiler.spec.vocabulary import CONSTANTS, TRUTH, WORDS, Shape
 from rsrm_gen.document import Document, Path_, read_document, validate
 from rsrm_gen.errors import UserError, did_you_mean
 
@@ -34,9 +34,13 @@ def _refuse_future_keys(document: Document) -> None:
         if key in document.data:
             raise UserError(f"{what} (`{key}:`) are not compiled by this version", document.key_span((key,)))
     for key in ("exp", "log"):
-        if "metric" in document.data and key not in document.data and "manifold" in document.data:
+        if "metric" in document.data and document.data.get(key) is None and "manifold" in document.data:
             span = document.key_span(("metric",))
-            raise UserError(f"a metric without `{key}:` is not compiled by this version: geodesics are not solved for", span, f"add the closed form `{key}: ...`")
+            raise UserError(
+                f"a metric without `{key}:` is not compiled by this version: geodesics are not solved for",
+                span,
+                f"add the closed form `{key}: ...`",
+            )
 
 
 class _Reader:
@@ -71,9 +75,13 @@ class _Reader:
             tangent_size=self.tangent_size,
             dim=self.read_dim(constraint),
             constraint=constraint,
-            project=self.map(embedded.project, ("embedded", "project"), ("p",), (self.point_size,)) if embedded else None,
+            project=self.map(embedded.project, ("embedded", "project"), ("p",), (self.point_size,))
+            if embedded
+            else None,
             domain=self.optional((embedded or chart).domain, (self.kind, "domain"), ("p",), TRUTH),  # type: ignore[union-attr]
-            equivalent=self.optional(embedded.equivalent, ("embedded", "equivalent"), ("p",), (self.point_size,)) if embedded else None,
+            equivalent=self.optional(embedded.equivalent, ("embedded", "equivalent"), ("p",), (self.point_size,))
+            if embedded
+            else None,
             periods=self.read_periods(),
             frame=self.frame,
             metric=self.read_metric(),
@@ -93,17 +101,29 @@ class _Reader:
         declared = self.schema.parameters
         for name in declared:
             if name in RESERVED:
-                raise UserError(f"`{name}` has a meaning of its own", self.document.key_span(("parameters", name)), "choose another name")
+                raise UserError(
+                    f"`{name}` has a meaning of its own",
+                    self.document.key_span(("parameters", name)),
+                    "choose another name",
+                )
         for name in overrides:
             if name not in declared:
-                raise UserError(f"`{self.schema.manifold}` has no parameter `{name}`", hint=did_you_mean(name, declared))
+                raise UserError(
+                    f"`{self.schema.manifold}` has no parameter `{name}`", hint=did_you_mean(name, declared)
+                )
         return {name: self.number(overrides.get(name, value), name) for name, value in declared.items()}
 
     def number(self, value: int | float | str, name: str) -> Fraction:
+        text = str(value)
+        exponent = re.search(r"[eE]([+-]?[0-9]+)$", text)
         try:
-            return Fraction(str(value))  # the decimal as it is written, not its binary neighbour
+            if len(text) > 40 or (exponent and abs(int(exponent[1])) > 300):
+                raise ValueError
+            return Fraction(text)  # the decimal as it is written, not its binary neighbour
         except (ValueError, ZeroDivisionError):
-            raise UserError(f"parameter `{name}` must be a number, this is {value!r}", self.document.span(("parameters", name))) from None
+            raise UserError(
+                f"parameter `{name}` must be a number, this is {value!r}", self.document.span(("parameters", name))
+            ) from None
 
     def space_size(self, text: str, path: Path_) -> int:
         span = self.document.span(path)
@@ -124,9 +144,14 @@ class _Reader:
         constraints = 0 if constraint is None else (constraint.value.shape or (1,))[0]
         dim = self.point_size - constraints
         if not 1 <= dim <= MAX_DIM:
-            raise UserError(f"a manifold of {dim} dimensions; 1 to {MAX_DIM} are compiled", self.document.span((self.kind, "space")))
+            raise UserError(
+                f"a manifold of {dim} dimensions; 1 to {MAX_DIM} are compiled", self.document.span((self.kind, "space"))
+            )
         if self.frame is not None and self.tangent_size != dim:
-            raise UserError(f"the frame has {self.tangent_size} vectors, the manifold {dim} dimensions", self.document.key_span(("frame",)))
+            raise UserError(
+                f"the frame has {self.tangent_size} vectors, the manifold {dim} dimensions",
+                self.document.key_span(("frame",)),
+            )
         return dim
 
     def read_frame(self) -> Map | None:
@@ -134,9 +159,14 @@ class _Reader:
         if rows is None:
             return None
         if self.schema.embedded is None:
-            raise UserError("a chart needs no frame: its tangent vectors are components already", self.document.key_span(("frame",)))
-        formulas = [self.formula(text, ("frame", i), {"p": (self.point_size,)}, (self.point_size,)) for i, text in enumerate(rows)]
-        tree = f.Stack(tuple(f.Stack((row.tree,), row.span) for row in formulas), formulas[0].span)
+            raise UserError(
+                "a chart needs no frame: its tangent vectors are components already", self.document.key_span(("frame",))
+            )
+        formulas = [
+            self.formula(text, ("frame", i), {"p": (self.point_size,)}, (self.point_size,))
+            for i, text in enumerate(rows)
+        ]
+        tree = f.Rows(tuple(row.tree for row in formulas), formulas[0].span)
         value = Formula("; ".join(rows), tree, (len(rows), self.point_size), formulas[0].span)
         return Map(("p",), (), value)
 
@@ -146,17 +176,29 @@ class _Reader:
         period = self.schema.chart.period
         if isinstance(period, list):
             if len(period) != self.point_size:
-                raise UserError(f"{len(period)} periods for {self.point_size} coordinates", self.document.span(("chart", "period")))
-            return tuple(self.optional(text, ("chart", "period", i), (), ()) for i, text in enumerate(period))
-        return (self.optional(period, ("chart", "period"), (), ()),) * self.point_size
+                raise UserError(
+                    f"{len(period)} periods for {self.point_size} coordinates", self.document.span(("chart", "period"))
+                )
+            return tuple(self.period(text, ("chart", "period", i)) for i, text in enumerate(period))
+        return (self.period(period, ("chart", "period")),) * self.point_size
+
+    def period(self, text: str | None, path: Path_) -> Map | None:
+        """One coordinate's period, a positive number."""
+        period = self.optional(text, path, (), ())
+        if period is not None:
+            self.check_positive(period, "period")
+        return period
 
     def read_metric(self) -> Map:
         metric = self.map(self.schema.metric, ("metric",), ("p", "u", "v"), None)
         if metric.value.shape not in ((), (self.tangent_size, self.tangent_size)):
             raise UserError(
-                f"a metric is a scalar in p, u, v or a {self.tangent_size} x {self.tangent_size} matrix in p, this is {describe(metric.value.shape)}",
+                f"a metric is a scalar in p, u, v or a {self.tangent_size} x {self.tangent_size} matrix in p, "
+                f"this is {describe(metric.value.shape)}",
                 metric.value.span,
             )
+        if metric.value.shape:  # a matrix is a function of the point alone
+            return self.map(self.schema.metric, ("metric",), ("p",), metric.value.shape)
         return metric
 
     def read_cut_locus(self, log: Map) -> CutLocus | None:
@@ -169,12 +211,29 @@ class _Reader:
         return CutLocus(where, value, log_det)
 
     def length(self, text: str, key: str) -> Map | None:
-        return None if text.strip() == "infinity" else self.map(text, (key,), (), ())
+        if text.strip() == "infinity":
+            return None
+        length = self.map(text, (key,), (), ())
+        self.check_positive(length, key)
+        return length
 
-    def optional(self, text: object, path: Path_, arguments: tuple[str, ...], shape: Shape | None, lets_of: Map | None = None) -> Map | None:
+    def check_positive(self, length: Map, what: str) -> None:
+        """Refuse a length that is not above zero; what is not a number of parameters and pi is left to `derive`."""
+        try:
+            number = constant(length.value.tree, {**self.parameters, "pi": Fraction(355, 113)})
+        except UserError:
+            return
+        if number <= 0:
+            raise UserError(f"`{what}` must be positive, this is {float(number):g}", length.value.span)
+
+    def optional(
+        self, text: object, path: Path_, arguments: tuple[str, ...], shape: Shape | None, lets_of: Map | None = None
+    ) -> Map | None:
         return None if text is None else self.map(text, path, arguments, shape, lets_of)
 
-    def map(self, section: object, path: Path_, arguments: tuple[str, ...], shape: Shape | None, lets_of: Map | None = None) -> Map:
+    def map(
+        self, section: object, path: Path_, arguments: tuple[str, ...], shape: Shape | None, lets_of: Map | None = None
+    ) -> Map:
         """A formula with its `let`s; `lets_of` is a map whose names it may use too."""
         sizes = {"p": self.point_size, "q": self.point_size, "u": self.tangent_size, "v": self.tangent_size}
         scope: dict[str, Shape] = {name: (sizes[name],) for name in arguments}
@@ -205,7 +264,9 @@ class _Reader:
         if found == TRUTH and shape is None:
             raise UserError("a comparison has no value here", span, "use it as the first argument of where(c, x, y)")
         if shape is not None and found != shape:
-            raise UserError(f"`{'.'.join(str(k) for k in path)}` must be {describe(shape)}, this is {describe(found)}", span)
+            raise UserError(
+                f"`{'.'.join(str(k) for k in path)}` must be {describe(shape)}, this is {describe(found)}", span
+            )
         return Formula(text, tree, found, span)
 
     def content_hash(self) -> str:

@@ -8,7 +8,9 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_valida
 
 
 def _as_text(value: object) -> object:
-    """A bare number is a formula too."""
+    """A bare number is a formula too, and so is a YAML list of formulas: [[1, 0], [0, 1]]."""
+    if isinstance(value, list):
+        return "[" + ", ".join(str(_as_text(item)) for item in value) + "]"
     return str(value) if isinstance(value, int | float) and not isinstance(value, bool) else value
 
 
@@ -47,7 +49,9 @@ class ChartSection(Section):
 
     space: FormulaText = Field(description="R^d, the coordinates")
     domain: FormulaText | None = Field(None, description="a comparison in p that holds for valid coordinates")
-    period: FormulaText | list[FormulaText | None] | None = Field(None, description="of every coordinate, or of each")
+    period: list[FormulaText | None] | FormulaText | None = Field(
+        None, union_mode="left_to_right", description="of every coordinate, or of each"
+    )
 
 
 class CutLocusSection(Section):
@@ -56,7 +60,9 @@ class CutLocusSection(Section):
     where: FormulaText = Field(description="a comparison in p, q and the names of log")
     log: FormulaText | None = Field(None, description="what Log_p(q) is there")
     log_det: FormulaText | None = Field(None, description="what log |det D Log_p(q)| is there, with `log:`")
-    policy: str | None = Field(None, pattern="^tie$", description="`tie`: the formula of log returns one of the shortest")
+    policy: str | None = Field(
+        None, pattern="^tie$", description="`tie`: the formula of log returns one of the shortest"
+    )
 
     @model_validator(mode="after")
     def _one_policy(self) -> CutLocusSection:

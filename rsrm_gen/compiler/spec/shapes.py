@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from fractions import Fraction
 
 from rsrm_gen.compiler.spec import formula as f
-from rsrm_gen.compiler.spec.vocabulary import CONSTANTS, WORDS, Shape
+from rsrm_gen.compiler.spec.vocabulary import TRUTH, WORDS, Shape
 from rsrm_gen.errors import Span, UserError, did_you_mean
 
-TRUTH: Shape = ("truth",)  # type: ignore[assignment]  # the "shape" of a comparison
 MAX_EXPONENT = 64
 MAX_SIZE = 64
+MAX_BITS = 1000  # of a constant's numerator and denominator
 
 Scope = Mapping[str, Shape]
 Parameters = Mapping[str, Fraction]
@@ -32,6 +32,8 @@ def shape_of(tree: f.Tree, scope: Scope, parameters: Parameters) -> Shape:
             return _compare(tree, scope, parameters)
         case f.Stack():
             return _stack(tree, [shape_of(item, scope, parameters) for item in tree.items])
+        case f.Rows():
+            return _rows(tree, [shape_of(item, scope, parameters) for item in tree.items])
         case f.Index():
             return _index(tree, shape_of(tree.base, scope, parameters), parameters)
         case f.Call():
@@ -88,6 +90,8 @@ def _fold(tree: f.Binary, x: Fraction, y: Fraction) -> Fraction:
     if tree.operator == "^":
         if y.denominator != 1 or abs(y) > MAX_EXPONENT or (x == 0 and y < 0):
             raise UserError(f"not a constant power: {x} ^ {y}", tree.span)
+        if abs(y) * max(x.numerator.bit_length(), x.denominator.bit_length()) > MAX_BITS:
+            raise UserError("a number out of the range of floating point", tree.span)
         return Fraction(x ** int(y))
     return {"+": lambda: x + y, "-": lambda: x - y, "*": lambda: x * y, "/": lambda: x / y}[tree.operator]()
 
@@ -99,7 +103,9 @@ def _name(tree: f.Name, scope: Scope, parameters: Parameters) -> Shape:
         return ()
     if tree.name in WORDS:
         raise UserError(f"`{tree.name}` is a function", tree.span, f"write {WORDS[tree.name].signature}")
-    known = [*scope, *parameters, *CONSTANTS]
+    if tree.name == "infinity":
+        raise UserError("`infinity` stands alone: it is not a number to calculate with", tree.span)
+    known = [*scope, *parameters, "pi", "eps"]
     raise UserError(f"unknown symbol `{tree.name}`", tree.span, did_you_mean(tree.name, known))
 
 
@@ -107,7 +113,11 @@ def _binary(tree: f.Binary, scope: Scope, parameters: Parameters) -> Shape:
     left, right = (shape_of(side, scope, parameters) for side in (tree.left, tree.right))
     shape = _binary_shape(tree.operator, left, right)
     if shape is None:
-        hint = "a product of vectors is dot(a, b), cross(a, b) or outer(a, b)" if tree.operator == "*" and len(left) == len(right) == 1 else None
+        hint = (
+            "a product of vectors is dot(a, b), cross(a, b) or outer(a, b)"
+            if tree.operator == "*" and len(left) == len(right) == 1
+            else None
+        )
         raise UserError(f"`{tree.operator}` of {describe(left)} and {describe(right)}", tree.span, hint)
     if tree.operator == "^":
         _check_exponent(tree, parameters)
@@ -133,7 +143,9 @@ def _binary_shape(operator: str, left: Shape, right: Shape) -> Shape | None:
 def _check_exponent(tree: f.Binary, parameters: Parameters) -> None:
     exponent = constant(tree.right, parameters)
     if abs(exponent) > MAX_EXPONENT or exponent.denominator > 4:
-        raise UserError(f"the exponent {exponent} is out of range (at most {MAX_EXPONENT}, in quarters)", tree.right.span)
+        raise UserError(
+            f"the exponent {exponent} is out of range (at most {MAX_EXPONENT}, in quarters)", tree.right.span
+        )
 
 
 def _compare(tree: f.Compare, scope: Scope, parameters: Parameters) -> Shape:
@@ -147,11 +159,13 @@ def _compare(tree: f.Compare, scope: Scope, parameters: Parameters) -> Shape:
 def _stack(tree: f.Stack, shapes: list[Shape]) -> Shape:
     if any(s == TRUTH or len(s) > 1 for s in shapes):
         raise UserError("[ ] joins scalars and vectors", tree.span)
-    if len(shapes) > 1 and all(len(s) == 1 for s in shapes) and all(isinstance(item, f.Stack) for item in tree.items):
-        if len(set(shapes)) > 1:
-            raise UserError("the rows of a matrix must have one length", tree.span)
-        return (len(shapes), *shapes[0])
     return (_limited(sum(s[0] if s else 1 for s in shapes), tree.span),)
+
+
+def _rows(tree: f.Rows, shapes: list[Shape]) -> Shape:
+    if len(set(shapes)) > 1:
+        raise UserError("the rows of a matrix must have one length", tree.span)
+    return (len(shapes), *shapes[0])
 
 
 def _limited(size: int, span: Span) -> int:

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 Shape = tuple[int, ...]
+TRUTH: Shape = (-1,)  # the "shape" of a comparison
 
 CONSTANTS = {
     "pi": "the circle constant",
@@ -49,7 +50,7 @@ def _square(x: Shape) -> Shape | None:
 
 
 def _where(condition: Shape, x: Shape, y: Shape) -> Shape | None:
-    return x if condition == ("truth",) and x == y else None
+    return x if condition == TRUTH and x == y and len(x) <= 1 else None
 
 
 def _wrap(x: Shape, period: Shape = ()) -> Shape | None:
@@ -67,12 +68,19 @@ WORDS: dict[str, Word] = {
     "max": Word("max(a)", "the largest entry", (1,), _vector_to_scalar),
     "cross": Word("cross(a, b)", "the vector product in R^3", (2,), lambda x, y: (3,) if x == y == (3,) else None),
     "outer": Word("outer(a, b)", "the matrix a_i b_j", (2,), lambda x, y: x + y if len(x) == len(y) == 1 else None),
-    "qmul": Word("qmul(a, b)", "the product of quaternions (w, x, y, z)", (2,), lambda x, y: (4,) if x == y == (4,) else None),
+    "qmul": Word(
+        "qmul(a, b)", "the product of quaternions (w, x, y, z)", (2,), lambda x, y: (4,) if x == y == (4,) else None
+    ),
     "conj": Word("conj(a)", "the conjugate quaternion (w, -x, -y, -z)", (1,), lambda x: x if x == (4,) else None),
     "transpose": Word("transpose(A)", "the transposed matrix", (1,), lambda x: x[::-1] if len(x) == 2 else None),
     "det": Word("det(A)", "the determinant", (1,), lambda x: () if _square(x) else None),
     "inv": Word("inv(A)", "the inverse matrix", (1,), _square),
-    "orthogonal": Word("orthogonal(a)", "a unit vector at right angles to the unit vector a", (1,), lambda x: x if len(x) == 1 and x[0] > 1 else None),
+    "orthogonal": Word(
+        "orthogonal(a)",
+        "a unit vector at right angles to the unit vector a",
+        (1,),
+        lambda x: x if len(x) == 1 and x[0] > 1 else None,
+    ),
     "where": Word("where(c, x, y)", "x where the comparison c holds, else y", (3,), _where),
     "wrap": Word("wrap(x) or wrap(x, L)", "x less the nearest multiple of the period L (2 pi)", (1, 2), _wrap),
     "atan2": Word("atan2(y, x)", "the angle of the point (x, y)", (2,), _scalars),
@@ -91,6 +99,6 @@ WORDS: dict[str, Word] = {
     "atanh": _scalar_function("atanh", "the inverse hyperbolic tangent"),
     "abs": _scalar_function("abs", "the absolute value"),
     "sign": _scalar_function("sign", "1 for x >= 0, else -1 (never 0)"),
-    "sinc": _scalar_function("sinc", "sin(x) / x, and 1 at 0"),
-    "sinhc": _scalar_function("sinhc", "sinh(x) / x, and 1 at 0"),
+    "sinc": Word("sinc(x)", "sin(x) / x, and 1 at 0", (1,), _scalars),
+    "sinhc": Word("sinhc(x)", "sinh(x) / x, and 1 at 0", (1,), _scalars),
 }
