@@ -148,7 +148,8 @@ def validate(document: Document, model: type[Model], data: Any = None, at: Path_
         return model.model_validate(document.data if data is None else data)
     except ValidationError as error:
         # A misspelt key is also a missing one: what is there and unknown is said first.
-        errors = sorted(error.errors(), key=lambda e: e["type"] != "extra_forbidden")
+        # Of the ways in which neither of two forms fits, the one that is not about plain text says more.
+        errors = sorted(error.errors(), key=lambda e: (e["type"] != "extra_forbidden", e["type"] == "string_type"))
         raise _schema_error(document, model, errors[0], at) from None
 
 

@@ -28,7 +28,7 @@ def shown(tree: f.Tree) -> str:
             return f"(-{shown(operand)})"
         case f.Binary(operator, left, right) | f.Compare(operator, left, right):
             return f"({shown(left)} {operator} {shown(right)})"
-        case f.Stack(items):
+        case f.Stack(items) | f.Rows(items):
             return f"[{', '.join(map(shown, items))}]"
         case f.Call(function, arguments):
             return f"{function}({', '.join(map(shown, arguments))})"

@@ -108,7 +108,7 @@ MISTAKES = {
     "an exponent in fifths": Mistake("euclidean", EXP, "exp: p + v * 2^(1@/5)\n", "in quarters"),
     "a parameter that is a word": Mistake("sphere", "{n: 2}", "{n: @two}", "must be a number, this is 'two'"),
     "a parameter that is infinite": Mistake("sphere", "{n: 2}", "{n: @.inf}", "must be a number"),
-    "a parameter out of range": Mistake("sphere", "{n: 2}", '{n: @"1e999999999"}', "`n`"),
+    "a parameter out of range": Mistake("sphere", "{n: 2}", '{n: "@1e999999999"}', "`n`"),
     "half a dimension": Mistake(
         "euclidean", SPACE, "  space: R^(n@/2)\n", "a whole number is expected here, this is 3/2"
     ),

@@ -150,7 +150,10 @@ def _wrap(x: Any, period: Any = 2 * np.pi) -> Any:
 
 
 def _cardinal(function: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    return lambda x: ca.if_else(x == 0, 1, function(x) / ca.if_else(x == 0, 1, x))
+    # Scalar by scalar: CasADi's if_else wants a scalar condition.
+    return lambda x: ca.vertcat(
+        *(ca.if_else(e == 0, 1, function(e) / ca.if_else(e == 0, 1, e)) for e in ca.vertsplit(x))
+    )
 
 
 WORDS: dict[str, Callable[..., Any]] = {

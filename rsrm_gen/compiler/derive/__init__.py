@@ -112,15 +112,20 @@ class _Derivation:
         radius = number(spec, spec.injectivity_radius)
         reach = mp.mpf(1) if radius == sp.oo else mp.mpf(str(sp.N(radius, 30))) / 2
         project = self.project if spec.embedded else None
-        return Sampler(
-            project,
-            self.domain,
-            self.operators.to_tangent(),
-            self.operators.norm(),
-            self.plain_exp[0],
-            spec.point_size,
-            reach,
-        )
+        to_tangent, norm = self.operators.to_tangent(), self.operators.norm()
+        sampler = Sampler(project, self.domain, to_tangent, norm, self.plain_exp[0], spec.point_size, reach)
+        self.check_positive(sampler)
+        return sampler
+
+    def check_positive(self, sampler: Sampler) -> None:
+        """Refuse a metric that is not positive on tangent vectors."""
+        inner = self.operators.inner()
+        for _ in range(3):
+            p = sampler.point(self.rng)
+            v = run(sampler.to_tangent, p, sampler.gaussian(self.rng, self.spec.point_size))[0]
+            if not run(inner, p, v, v)[0][0] > 0:
+                span = self.spec.metric.value.span
+                raise UserError("the metric is not positive: <v, v> <= 0 for a tangent vector v", span)
 
     @cached_property
     def plain_exp(self) -> tuple[Function, Trace]:
@@ -276,7 +281,7 @@ class _Derivation:
             raise UserError(
                 f"{place} is 0/0 in `{failed[0]}`, and no smooth quantity under a square root mends it",
                 spec_map.value.span,
-                "write it as a function of one norm alone, as tanh(x) / x with x = norm(...), or use sinc(x) and sinhc(x)",
+                "divide by a norm only what vanishes with it and is a function of it alone: t * w / norm(w), sinc(x), sinhc(x)",
             )
         return result
 

@@ -138,7 +138,7 @@ class Reading:
         """The value of a formula; a `UserError` where it is no finite real number whatever the arguments are."""
         result = self.plain_value(tree)
         parts = result.entries if isinstance(result, Vector) else (result,)
-        if any(isinstance(e, sp.Expr) and e.has(sp.zoo, sp.nan, sp.oo, sp.I) for e in parts):
+        if any(isinstance(e, sp.Expr) and not _may_be_real(e) for e in parts):
             raise UserError("this is no finite real number", tree.span)
         return result
 
@@ -360,6 +360,8 @@ class Reading:
         if isinstance(x, Vector) and isinstance(y, Vector):
             pairs = zip(self.materialise(x), self.materialise(y), strict=True)
             return Vector(tuple(choose(condition, a, b) for a, b in pairs))
+        if isinstance(x, sp.MatrixBase):
+            return sp.Matrix(*x.shape, [choose(condition, a, b) for a, b in zip(x, y, strict=True)])
         return choose(condition, x, y)
 
     def call_wrap(self, x: Value, period: sp.Expr = 2 * sp.pi) -> Value:
@@ -372,14 +374,18 @@ class Reading:
             return Vector(tuple(self.call_sign(e) for e in self.materialise(x)))
         return choose(Truth(LESS, x, sp.Integer(0)), sp.Integer(-1), sp.Integer(1))
 
-    def call_sinc(self, x: sp.Expr) -> sp.Expr:
+    def call_sinc(self, x: Value) -> Value:
         return self.cardinal("sinc", sp.sin, x)
 
-    def call_sinhc(self, x: sp.Expr) -> sp.Expr:
+    def call_sinhc(self, x: Value) -> Value:
         return self.cardinal("sinhc", sp.sinh, x)
 
-    def cardinal(self, name: str, function: Any, x: sp.Expr) -> sp.Expr:
+    def cardinal(self, name: str, function: Any, x: Value) -> Value:
         """sin(x)/x or sinh(x)/x with its removable singularity removed, in the smooth variable x^2."""
+        if isinstance(x, Vector):
+            return Vector(tuple(self.cardinal(name, function, e) for e in self.materialise(x)))
+        if x.is_number:
+            return function(x) / x if x != 0 else sp.Integer(1)
         series = cardinal_series(name)
         square = self.square(x)
         guard = Guard(square, series.threshold, series(square), series.error)
@@ -416,6 +422,13 @@ def scalarised(spec: ManifoldSpec, name: str, chart_map: Map, arguments: Sequenc
 def number(spec: ManifoldSpec, chart_map: Map | None) -> sp.Expr:
     """The value of a map of nothing; infinity where there is none."""
     return sp.oo if chart_map is None else Reading(spec, Trace(())).entries(chart_map)[0]
+
+
+def _may_be_real(expression: sp.Expr) -> bool:
+    """Whether an expression can be a finite real number."""
+    if expression.has(sp.zoo, sp.nan, sp.oo, sp.I):
+        return False
+    return not expression.is_number or expression.has(EPS) or expression.is_extended_real is not False
 
 
 def _hint(tree: f.Call) -> str:

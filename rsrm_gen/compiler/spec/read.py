@@ -35,7 +35,7 @@ def _refuse_future_keys(document: Document) -> None:
             raise UserError(f"{what} (`{key}:`) are not compiled by this version", document.key_span((key,)))
     for key in ("exp", "log"):
         if "metric" in document.data and document.data.get(key) is None and "manifold" in document.data:
-            span = document.key_span(("metric",))
+            span = document.key_span((key,) if key in document.data else ("metric",))
             raise UserError(
                 f"a metric without `{key}:` is not compiled by this version: geodesics are not solved for",
                 span,

@@ -105,7 +105,7 @@ def _name(tree: f.Name, scope: Scope, parameters: Parameters) -> Shape:
         raise UserError(f"`{tree.name}` is a function", tree.span, f"write {WORDS[tree.name].signature}")
     if tree.name == "infinity":
         raise UserError("`infinity` stands alone: it is not a number to calculate with", tree.span)
-    known = [*scope, *parameters, "pi", "eps"]
+    known = [*scope, *parameters, "pi", "eps"] if scope else [*parameters, "pi", "infinity"]
     raise UserError(f"unknown symbol `{tree.name}`", tree.span, did_you_mean(tree.name, known))
 
 

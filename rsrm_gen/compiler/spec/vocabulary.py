@@ -50,7 +50,7 @@ def _square(x: Shape) -> Shape | None:
 
 
 def _where(condition: Shape, x: Shape, y: Shape) -> Shape | None:
-    return x if condition == TRUTH and x == y and len(x) <= 1 else None
+    return x if condition == TRUTH and x == y else None
 
 
 def _wrap(x: Shape, period: Shape = ()) -> Shape | None:
@@ -99,6 +99,6 @@ WORDS: dict[str, Word] = {
     "atanh": _scalar_function("atanh", "the inverse hyperbolic tangent"),
     "abs": _scalar_function("abs", "the absolute value"),
     "sign": _scalar_function("sign", "1 for x >= 0, else -1 (never 0)"),
-    "sinc": Word("sinc(x)", "sin(x) / x, and 1 at 0", (1,), _scalars),
-    "sinhc": Word("sinhc(x)", "sinh(x) / x, and 1 at 0", (1,), _scalars),
+    "sinc": _scalar_function("sinc", "sin(x) / x, and 1 at 0"),
+    "sinhc": _scalar_function("sinhc", "sinh(x) / x, and 1 at 0"),
 }
