@@ -9,10 +9,11 @@ from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
 
-from rsrm_gen.compiler.native import cache_folder, compiler
+from rsrm_gen.compiler.native import compiler
 from rsrm_gen.compiler.output import contents, staleness, write
 from rsrm_gen.compiler.spec import ManifoldSpec, read_spec
 from rsrm_gen.errors import UserError, did_you_mean
+from rsrm_gen.files import cache_folder
 from rsrm_gen.kernels import accelerated
 from rsrm_gen.manifold import Manifold
 

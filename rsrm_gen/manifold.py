@@ -22,6 +22,11 @@ class Manifold(Protocol):
         ...
 
     @property
+    def content_hash(self) -> str:
+        """A hash of the manifold file and its parameters: two manifolds with the same one are the same."""
+        ...
+
+    @property
     def dim(self) -> int:
         """d, the dimension of the manifold."""
         ...

@@ -24,6 +24,10 @@ class Plain:
     diameter: float
     periods: tuple[float | None, ...] | None = None
 
+    @property
+    def content_hash(self) -> str:
+        return f"plain {self.name}"
+
     def exp(self, p: Tensor, v: Tensor) -> Tensor: ...
     def log(self, p: Tensor, q: Tensor) -> Tensor: ...
     def distance(self, p: Tensor, q: Tensor) -> Tensor: ...

@@ -15,13 +15,14 @@ PACKAGE = "rsrm_gen"
 STAGES = ("spec", "derive", "lower", "emit", "audit")
 
 # Every room and the rooms that it may import besides itself.
-INPUT = {"errors", "document"}
+INPUT = {"errors", "document", "files"}
 MAY_IMPORT = {
     "errors": set(),
     "document": {"errors"},
+    "files": {"errors"},
     "version": set(),
     "manifold": set(),
-    "native": {*INPUT, "lower"},
+    "native": INPUT,
     "driver": {*INPUT, "version", "native", *STAGES},
     "kernels": {*INPUT, "manifold", "native"},
     "load": {*INPUT, "version", "manifold", "spec", "driver", "native", "kernels"},

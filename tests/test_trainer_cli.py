@@ -78,7 +78,7 @@ def test_a_plan_says_what_the_path_costs(rsrm: Rsrm, capsys: Capture) -> None:
     assert rsrm("plan", "run", "--from", "[-0.6, 0, 0.8]", "--from=0,0,1", "-o", "paths.json") == 0
     table = capsys.readouterr().out
     assert "[-0.6, 0, 0.8]" in table
-    assert "cost of the path" in table
+    assert "true cost" in table
     paths = json.loads(Path("paths.json").read_text())
     assert [path["reached"] for path in paths] == [True, True]
     assert f"{paths[0]['cost']:.4f}" in table

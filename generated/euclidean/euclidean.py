@@ -89,6 +89,7 @@ class Euclidean:
     """
 
     name = "euclidean"
+    content_hash = "671e06af8e304bc4eca1791a55c677fe"
     dim = 3
     point_size = 3
     tangent_size = 3

@@ -119,6 +119,7 @@ class Hyperbolic:
     """
 
     name = "hyperbolic"
+    content_hash = "1d58bff954b040e7e2d2510015f7f37d"
     dim = 2
     point_size = 3
     tangent_size = 3

@@ -119,6 +119,7 @@ class So3:
     """
 
     name = "so3"
+    content_hash = "b0961487afe79c1c5508e359a9e2cf26"
     dim = 3
     point_size = 4
     tangent_size = 3

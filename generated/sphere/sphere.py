@@ -121,6 +121,7 @@ class Sphere:
     """
 
     name = "sphere"
+    content_hash = "dd196d2cd7317f0513cbd4e72ace480d"
     dim = 2
     point_size = 3
     tangent_size = 3

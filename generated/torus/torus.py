@@ -89,6 +89,7 @@ class Torus:
     """
 
     name = "torus"
+    content_hash = "7e5afe777cf3dd7c65e69fb67fe5cb46"
     dim = 2
     point_size = 2
     tangent_size = 2

@@ -15,9 +15,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from platformdirs import user_cache_path
 
 from rsrm_gen.errors import UserError
+from rsrm_gen.files import cache_folder
 
 COMMON = ("-std=c99", "-Wall", "-Wextra", "-Werror", "-fPIC", "-shared")
 EXACT = ("-O2", "-ffp-contract=off")  # what the audit measures: no code that a flag could have made better or worse
@@ -46,11 +46,6 @@ SIMD float atan2f(float, float);
 #endif
 #endif
 """
-
-
-def cache_folder() -> Path:
-    """Where compiled code is kept; `RSRM_GEN_CACHE` overrides the platform's place."""
-    return Path(os.environ.get("RSRM_GEN_CACHE") or user_cache_path("rsrm-gen"))
 
 
 @lru_cache

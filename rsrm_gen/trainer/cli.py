@@ -191,12 +191,14 @@ def _start(run: Run, text: str) -> torch.Tensor:
 
 
 def _table(starts: Sequence[str], paths: Paths) -> Table:
-    table = Table("from", "T, by the field", "cost of the path", "length", "clearance", "")
+    table = Table(box=None, pad_edge=False, header_style="dim")
+    for heading in ("from", "T by the field", "true cost", "length", "clearance", "reaches the goal"):
+        table.add_column(heading, justify="left" if heading == "from" else "right", no_wrap=True)
     columns = (paths.value, paths.cost, paths.length, paths.clearance)
     for i, start in enumerate(starts):
-        said = "through an obstacle" if paths.entered[i] else ""
+        said = "yes, through an obstacle" if paths.entered[i] else "yes"
         if not paths.reached[i]:
-            said = "did not reach the goal"
+            said = "no"
         table.add_row(start.replace("[", r"\["), *[f"{float(column[i]):.4f}" for column in columns], said)
     return table
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -19,8 +18,9 @@ from rich.table import Table
 from torch import Generator, Tensor
 
 from rsrm_gen.errors import UserError
+from rsrm_gen.files import write_text_whole
 from rsrm_gen.manifold import Manifold
-from rsrm_gen.trainer.reference import Reference, in_double, solve_reference
+from rsrm_gen.trainer.reference import Reference, solve_reference
 from rsrm_gen.trainer.run import load_run
 from rsrm_gen.trainer.scene import Scene
 
@@ -70,18 +70,8 @@ def evaluate_run(
     run = load_run(path, manifold)
     reference = solve_reference(run.scene, cells, console)
     evaluation = evaluate_all(run.scene, {"field": run.arrival.time}, reference)
-    _write_whole(path / "evaluation.json", json.dumps(asdict(evaluation), indent=2) + "\n")
+    write_text_whole(path / "evaluation.json", json.dumps(asdict(evaluation), indent=2) + "\n")
     return evaluation
-
-
-def _write_whole(path: Path, text: str) -> None:
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        temporary.write_text(text, encoding="utf-8")
-        os.replace(temporary, path)
-    except OSError as error:
-        temporary.unlink(missing_ok=True)
-        raise UserError(f"cannot write {path}: {error.strerror}") from None
 
 
 def evaluate(scene: Scene, time: TimeFunction, reference: Reference, name: str = "field") -> ErrorRow:
@@ -93,7 +83,7 @@ def evaluate_all(scene: Scene, fields: dict[str, TimeFunction], reference: Refer
     """The errors of several fields on the same cells, and of T = d after them."""
     cells = free_cells(scene)
     truth = reference.time(cells.points)
-    goal = in_double(scene).goal
+    goal = scene.in_double().goal
     fields = {**fields, "T = d": lambda x: scene.manifold.distance(x.double(), goal)}
     rows = [error_row(name, values(time, cells.points, scene) - truth, cells.volumes) for name, time in fields.items()]
     return Evaluation(scene.title, len(truth), tuple(rows), reference.error, reference.max_error, reference.note)
@@ -117,7 +107,7 @@ def error_row(name: str, error: Tensor, volumes: Tensor) -> ErrorRow:
 
 def free_cells(scene: Scene) -> Cells:
     """The cells of the scene's evaluation grid whose middle is in the domain and not in an obstacle."""
-    cells, exact = evaluation_cells(scene), in_double(scene)
+    cells, exact = evaluation_cells(scene), scene.in_double()
     free = (exact.signed_distance(cells.points) >= 0) & exact.inside_domain(cells.points)
     if not bool(free.any()):
         raise UserError(f"every cell of the evaluation grid of {scene.title} lies in an obstacle")
@@ -126,7 +116,7 @@ def free_cells(scene: Scene) -> Cells:
 
 def evaluation_cells(scene: Scene) -> Cells:
     """The grid that the scene asks for: `chart`, `polar`, or volume-uniform samples where there is no polar grid."""
-    scene, count = in_double(scene), scene.evaluation.cells
+    scene, count = scene.in_double(), scene.evaluation.cells
     periods = scene.manifold.periods
     periodic = periods is not None and None not in periods
     grid = scene.evaluation.grid or ("chart" if periodic else "polar")

@@ -8,7 +8,6 @@ for all.
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -27,11 +26,11 @@ from matplotlib.tri import LinearTriInterpolator, Triangulation
 from torch import Generator, Tensor
 
 from rsrm_gen.errors import UserError
+from rsrm_gen.files import write_whole
 from rsrm_gen.manifold import Manifold
 from rsrm_gen.trainer.conformal import conformal_chart
 from rsrm_gen.trainer.evaluate import TimeFunction, values
 from rsrm_gen.trainer.plan import plan
-from rsrm_gen.trainer.reference import in_double
 from rsrm_gen.trainer.run import load_run
 from rsrm_gen.trainer.scene import Ball, Scene
 
@@ -83,7 +82,7 @@ def draw_scene_field(
     scene: Scene, time: TimeFunction, paths: Sequence[Tensor] = (), view: View | None = None
 ) -> Figure:
     """The picture of T as a figure: `time` takes points (N, D) to T (N), each path is (m, D)."""
-    exact = in_double(scene)
+    exact = scene.in_double()
     canvases = _canvases(exact, view or scene.picture.view or default_view(scene))
     shown = [canvas.points.reshape(-1, scene.manifold.point_size) for canvas in canvases]
     fields = [
@@ -391,12 +390,5 @@ def _draw_bar(figure: Figure, axes: list[Axes], top: float) -> None:
 
 
 def _save(figure: Figure, path: Path) -> None:
-    """Write a picture whole or not at all."""
-    temporary = path.with_name(f".{os.getpid()}.{path.name}")
-    try:
-        with matplotlib.rc_context(STYLE):
-            figure.savefig(temporary, dpi=200)
-        os.replace(temporary, path)
-    except OSError as error:
-        temporary.unlink(missing_ok=True)
-        raise UserError(f"cannot write {path}: {error.strerror}") from None
+    with matplotlib.rc_context(STYLE):
+        write_whole(path, lambda file: figure.savefig(file, format=path.suffix[1:], dpi=200))

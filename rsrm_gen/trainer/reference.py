@@ -11,23 +11,21 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-import os
-import tempfile
 import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import platformdirs
 import torch
 from rich.console import Console
 from torch import Generator, Tensor
 
 from rsrm_gen.errors import UserError
+from rsrm_gen.files import cache_folder, write_whole
 from rsrm_gen.trainer.conformal import ConformalChart, conformal_chart, random_directions
 from rsrm_gen.trainer.scene import Ball, Scene
 
@@ -150,7 +148,7 @@ def solve_reference(scene: Scene, cells: int | None = None, console: Console | N
         raise UserError(f"reference solutions are computed in 2 and 3 dimensions, not in {scene.manifold.dim}")
     if any(find_spec(name) is None for name in ("eikonalfm", "scipy")):
         raise UserError("the reference solver is not installed", hint="pip install 'rsrm-gen[reference]'")
-    scene = in_double(scene)
+    scene = scene.in_double()
     place = _place(scene)
     goal = place.chart.coordinates(scene.goal)
     grid = _grid(goal, place.reach, cells or CELLS[scene.manifold.dim])
@@ -158,7 +156,8 @@ def solve_reference(scene: Scene, cells: int | None = None, console: Console | N
     stored = _read(path)
     if stored is None:
         with _progress(console, grid):
-            _write(path, *_solve(scene, place, goal, grid))
+            factor, errors = _solve(scene, place, goal, grid)
+            write_whole(path, lambda file: np.savez(file, factor=factor, errors=errors))
         stored = _read(path)
         if stored is None:
             raise UserError(f"the cache folder {path.parent} does not give back what was written to it")
@@ -167,20 +166,6 @@ def solve_reference(scene: Scene, cells: int | None = None, console: Console | N
     note = f"factored fast marching, {nodes} nodes, extrapolated; {place.note}"
     coefficients = _coefficients(factor)
     return Reference(scene, place, goal, grid.coarser(), coefficients, float(errors[0]), float(errors[1]), note)
-
-
-def in_double(scene: Scene) -> Scene:
-    """The same scene in float64, its points put back exactly onto the manifold."""
-    exact = scene.manifold.project
-    domain = scene.domain and replace(scene.domain, center=exact(scene.domain.center.double()))
-    goal, centers = exact(scene.goal.double()), exact(scene.centers.double())
-    return replace(scene, goal=goal, centers=centers, radii=scene.radii.double(), domain=domain)
-
-
-def cache_folder() -> Path:
-    """Where solutions are kept: $RSRM_GEN_CACHE, or the platform's cache folder of the user."""
-    chosen = os.environ.get("RSRM_GEN_CACHE")
-    return Path(chosen) if chosen else Path(platformdirs.user_cache_dir("rsrm-gen", appauthor=False))
 
 
 def _place(scene: Scene) -> Place:
@@ -321,7 +306,7 @@ def _key(scene: Scene, grid: Grid) -> str:
     """A hash of all that the solution depends on."""
     said = {
         "version": VERSION,
-        "manifold": [scene.manifold.name, scene.manifold.dim],
+        "manifold": [scene.manifold.name, scene.manifold.content_hash],
         "goal": scene.goal.tolist(),
         "obstacles": [scene.centers.tolist(), scene.radii.tolist()],
         "slowness": scene.law.model_dump(),
@@ -338,18 +323,6 @@ def _read(path: Path) -> tuple[Array, Array] | None:
             return file["factor"], file["errors"]
     except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
         return None
-
-
-def _write(path: Path, factor: Array, errors: Array) -> None:
-    """Whole or not at all: another process never reads half a file."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=path.parent, suffix=".part")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            np.savez(file, factor=factor, errors=errors)
-        os.replace(name, path)
-    finally:
-        Path(name).unlink(missing_ok=True)
 
 
 @contextmanager

@@ -13,10 +13,9 @@ import json
 import os
 import platform
 import zipfile
-from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -25,6 +24,7 @@ from pydantic import ValidationError
 
 import rsrm_gen
 from rsrm_gen.errors import UserError
+from rsrm_gen.files import write_text_whole, write_whole
 from rsrm_gen.manifold import Manifold
 from rsrm_gen.trainer.link import make_link
 from rsrm_gen.trainer.model import ArrivalTime, SplatField
@@ -89,7 +89,7 @@ class RunFolder:
             self.metrics.write_text("")
         except OSError as error:
             raise UserError(f"cannot write to {self.path}: {error.strerror}") from None
-        self._write("scene.yaml", _scene_text(scene, self.path))
+        write_text_whole(self.path / "scene.yaml", _scene_text(scene, self.path))
         self.write_settings(scene)
 
     def write_settings(self, scene: Scene) -> None:
@@ -105,7 +105,7 @@ class RunFolder:
             "training": scene.training.model_dump(mode="json"),
             "versions": versions,
         }
-        self._write("settings.json", json.dumps(settings, indent=2) + "\n")
+        write_text_whole(self.path / "settings.json", json.dumps(settings, indent=2) + "\n")
 
     def read_scene(self, manifold: Manifold | None = None) -> Scene:
         """The scene of the run with the settings it is trained with."""
@@ -120,7 +120,7 @@ class RunFolder:
 
     def save(self, arrays: Arrays) -> None:
         """Write the checkpoint; whoever reads meanwhile sees the old one or the new one."""
-        self._replace(self.checkpoint, lambda file: np.savez(file, allow_pickle=False, **arrays))
+        write_whole(self.checkpoint, lambda file: np.savez(file, allow_pickle=False, **arrays))
 
     def restore(self) -> Arrays:
         """Read the checkpoint."""
@@ -153,11 +153,11 @@ class RunFolder:
     def drop_metrics_after(self, step: int) -> None:
         """Forget what was recorded past the checkpoint: those steps are made again."""
         kept = [metric for metric in self.read_metrics() if metric.step <= step]
-        self._write("metrics.jsonl", "".join(json.dumps(asdict(metric)) + "\n" for metric in kept))
+        write_text_whole(self.path / "metrics.jsonl", "".join(json.dumps(asdict(metric)) + "\n" for metric in kept))
 
     def write_summary(self, summary: Summary) -> None:
         """Say what came out."""
-        self._write("summary.json", json.dumps(asdict(summary), indent=2) + "\n")
+        write_text_whole(self.path / "summary.json", json.dumps(asdict(summary), indent=2) + "\n")
 
     def read_summary(self) -> Summary | None:
         """What came out; None when the training is not finished."""
@@ -167,20 +167,6 @@ class RunFolder:
             return Summary(**json.loads(self.summary.read_text()))
         except (OSError, ValueError, TypeError) as error:
             raise UserError(f"{self.summary} cannot be read: {_first_line(error)}") from None
-
-    def _write(self, name: str, text: str) -> None:
-        self._replace(self.path / name, lambda file: file.write(text.encode()))
-
-    def _replace(self, path: Path, write: Callable[[BinaryIO], Any]) -> None:
-        temporary = path.with_name(f".{path.name}.{os.getpid()}")
-        try:
-            with temporary.open("wb") as file:
-                write(file)
-            os.replace(temporary, path)
-        except OSError as error:
-            raise UserError(f"cannot write {path}: {error.strerror}") from None
-        finally:
-            temporary.unlink(missing_ok=True)
 
 
 def new_arrival(scene: Scene, capacity: int) -> ArrivalTime:

@@ -57,6 +57,13 @@ class Scene:
         distances: Tensor = self.manifold.distance(x[..., None, :], self.centers) - self.radii
         return distances.amin(-1)
 
+    def in_double(self) -> Scene:
+        """The same scene in float64, its points put back exactly onto the manifold."""
+        exact = self.manifold.project
+        domain = self.domain and replace(self.domain, center=exact(self.domain.center.double()))
+        goal, centers = exact(self.goal.double()), exact(self.centers.double())
+        return replace(self, goal=goal, centers=centers, radii=self.radii.double(), domain=domain)
+
     def slowness(self, x: Tensor) -> Tensor:
         """s(x) = free + (obstacle - free) sigmoid(-sdf / width): (...)."""
         inside = torch.sigmoid(-self.signed_distance(x) / self.law.width)

@@ -84,6 +84,7 @@ def _class_head(geometry: Geometry, program: Program) -> str:
     """
 
     name = "{program.name}"
+    content_hash = "{spec.content_hash[:32]}"
     dim = {spec.dim}
     point_size = {spec.point_size}
     tangent_size = {spec.tangent_size}

@@ -1,0 +1,37 @@
+"""Files that are written whole or not at all, and where what can be made again is kept."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from platformdirs import user_cache_path
+
+from rsrm_gen.errors import UserError
+
+
+def cache_folder() -> Path:
+    """Where compiled code and reference solutions are kept; `RSRM_GEN_CACHE` overrides the platform's place."""
+    return Path(os.environ.get("RSRM_GEN_CACHE") or user_cache_path("rsrm-gen", appauthor=False))
+
+
+def write_whole(path: Path, write: Callable[[BinaryIO], Any]) -> None:
+    """Let `write` fill a file under a temporary name beside `path`, then rename it; the folder is made if need be."""
+    temporary = path.with_name(f".{os.getpid()}.{path.name}")  # keeps the suffix, by which some writers choose a format
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with temporary.open("wb") as file:
+            write(file)
+        os.replace(temporary, path)
+    except OSError as error:
+        raise UserError(f"cannot write {path}: {error.strerror}") from None
+    finally:
+        if path.parent.is_dir():
+            temporary.unlink(missing_ok=True)
+
+
+def write_text_whole(path: Path, text: str) -> None:
+    """`write_whole` for a text, in UTF-8."""
+    write_whole(path, lambda file: file.write(text.encode()))
