@@ -172,7 +172,7 @@ void hyperbolic_exp(
     const double vv_2 = (is_small ? dot_h_h_gap : dot_rest_rest_2 + dot_s_h * dot_s_h_ratio_2 /
         dot_s_s_total);
     const double r_2 = sqrt((near ? 1.0 : vv_2));
-    const double sinhc_r = (near ? sinhc_r_near : sinh(r_2) / (near ? 1.0 : r_2));
+    const double sinhc_r = (near ? sinhc_r_near : sinh(r_2) / r_2);
     const double q0 = a * cosh_r + dot_s_h * sinhc_r / a;
     const double q1 = p[1] * cosh_r + v[1] * sinhc_r;
     const double q2 = p[2] * cosh_r + v[2] * sinhc_r;
@@ -685,7 +685,7 @@ void hyperbolic_exp_f(
     const float dot_rest_rest_2 = rest0_2 * rest0_2 + rest1_2 * rest1_2;
     const float vv_2 = (is_small ? dot_h_h_gap : dot_rest_rest_2 + dot_s_h * dot_s_h_ratio_2 / dot_s_s_total);
     const float r_2 = sqrtf((near ? 1.0f : vv_2));
-    const float sinhc_r = (near ? sinhc_r_near : sinhf(r_2) / (near ? 1.0f : r_2));
+    const float sinhc_r = (near ? sinhc_r_near : sinhf(r_2) / r_2);
     const float q0 = a * cosh_r + dot_s_h * sinhc_r / a;
     const float q1 = p[1] * cosh_r + v[1] * sinhc_r;
     const float q2 = p[2] * cosh_r + v[2] * sinhc_r;

@@ -11,7 +11,7 @@ to_tangent                    11
 inner                          5
 norm                          28
 flat                           1
-exp                           75      <= 2     <= 2
+exp                           74      <= 2     <= 2
 log                           95     <= 16     <= 8
 distance                      55      <= 2     <= 2
 log_abs_det                   87      <= 4     <= 4
@@ -227,7 +227,7 @@ class Hyperbolic:
         dot_rest_rest_2 = rest0_2 * rest0_2 + rest1_2 * rest1_2
         vv_2 = torch.where(is_small, dot_h_h_gap, dot_rest_rest_2 + dot_s_h * dot_s_h_ratio_2 / dot_s_s_total)
         r_2 = torch.sqrt(torch.where(near, 1.0, vv_2))
-        sinhc_r = torch.where(near, sinhc_r_near, torch.sinh(r_2) / torch.where(near, 1.0, r_2))
+        sinhc_r = torch.where(near, sinhc_r_near, torch.sinh(r_2) / r_2)
         q0 = a * cosh_r + dot_s_h * sinhc_r / a
         q1 = p1 * cosh_r + v1 * sinhc_r
         q2 = p2 * cosh_r + v2 * sinhc_r

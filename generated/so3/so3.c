@@ -139,7 +139,7 @@ void so3_exp(const double *SO3_RESTRICT p, const double *SO3_RESTRICT v, double 
     const int near = product < 0.9903926849365234;
     const double sinc__near = polynomial_sinc__near((near ? product : 0.0));
     const double norm_v_2 = sqrt((near ? 1.0 : norm_v_squared));
-    const double sinc_ = (near ? sinc__near : 2.0 * sin(0.5 * norm_v_2) / (near ? 1.0 : norm_v_2));
+    const double sinc_ = (near ? sinc__near : 2.0 * sin(0.5 * norm_v_2) / norm_v_2);
     const double scale = 0.5 * sinc_;
     const double scale_product = p[1] * scale;
     const double scale_product_2 = p[2] * scale;
@@ -545,7 +545,7 @@ void so3_exp_f(const float *SO3_RESTRICT p, const float *SO3_RESTRICT v, float *
     const int near = product < 0.9903926849365234f;
     const float sinc__near = polynomial_sinc__near_f((near ? product : 0.0f));
     const float norm_v_2 = sqrtf((near ? 1.0f : norm_v_squared));
-    const float sinc_ = (near ? sinc__near : 2.0f * sinf(0.5f * norm_v_2) / (near ? 1.0f : norm_v_2));
+    const float sinc_ = (near ? sinc__near : 2.0f * sinf(0.5f * norm_v_2) / norm_v_2);
     const float scale = 0.5f * sinc_;
     const float scale_product = p[1] * scale;
     const float scale_product_2 = p[2] * scale;

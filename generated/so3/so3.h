@@ -12,7 +12,7 @@
  * inner                          5
  * norm                           6
  * flat                           0
- * exp                           66      <= 1     <= 1
+ * exp                           65      <= 1     <= 1
  * log                           74      <= 2     <= 1
  * distance                      37      <= 2     <= 2
  * log_abs_det                   72      <= 1     <= 2

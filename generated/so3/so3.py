@@ -11,7 +11,7 @@ to_tangent                    25
 inner                          5
 norm                           6
 flat                           0
-exp                           66      <= 1     <= 1
+exp                           65      <= 1     <= 1
 log                           74      <= 2     <= 1
 distance                      37      <= 2     <= 2
 log_abs_det                   72      <= 1     <= 2
@@ -203,7 +203,7 @@ class So3:
         near = product < 0.9903926849365234
         sinc__near = _polynomial(torch.where(near, product, 0.0), _SINC__NEAR)
         norm_v_2 = torch.sqrt(torch.where(near, 1.0, norm_v_squared))
-        sinc_ = torch.where(near, sinc__near, 2.0 * torch.sin(0.5 * norm_v_2) / torch.where(near, 1.0, norm_v_2))
+        sinc_ = torch.where(near, sinc__near, 2.0 * torch.sin(0.5 * norm_v_2) / norm_v_2)
         scale = 0.5 * sinc_
         scale_product = p1 * scale
         scale_product_2 = p2 * scale

@@ -147,7 +147,7 @@ void sphere_exp(
     const int near = norm_v_squared < 0.9903926849365234;
     const double sinc_norm_v_near = polynomial_sinc_norm_v_near((near ? norm_v_squared : 0.0));
     const double norm_v_2 = sqrt((near ? 1.0 : norm_v_squared));
-    const double sinc_norm_v = (near ? sinc_norm_v_near : sin(norm_v_2) / (near ? 1.0 : norm_v_2));
+    const double sinc_norm_v = (near ? sinc_norm_v_near : sin(norm_v_2) / norm_v_2);
     const double q0 = p[0] * cos_norm_v + v[0] * sinc_norm_v;
     const double q1 = p[1] * cos_norm_v + v[1] * sinc_norm_v;
     const double q2 = p[2] * cos_norm_v + v[2] * sinc_norm_v;
@@ -206,16 +206,14 @@ void sphere_log(
     const double t_over_norm_w = (near ? t_over_norm_w_near : t / norm_w);
     const int is_small = squared < 0.5;
     const double sine_to_axis0 = sqrt((is_small ? gap : 1.0));
-    const double chosen = (is_small ? sine_to_axis0 : 1.0);
     const double product = p[0] * p[1];
     const double sine_to_axis1 = sqrt((is_small ? 1.0 : gap_2));
-    const double chosen_2 = (is_small ? 1.0 : sine_to_axis1);
-    const double v0 = (on_cut_locus ? 3.141592653589793 * (is_small ? gap / chosen : -(product / chosen_2)) :
-        w0 * t_over_norm_w);
-    const double v1 = (on_cut_locus ? 3.141592653589793 * (is_small ? -(product / chosen) : gap_2 / chosen_2)
-        : w1 * t_over_norm_w);
-    const double product_2 = 3.141592653589793 * (is_small ? -(p[0] * p[2] / chosen) : -(p[1] * p[2] /
-        chosen_2));
+    const double v0 = (on_cut_locus ? 3.141592653589793 * (is_small ? gap / sine_to_axis0 : -(product /
+        sine_to_axis1)) : w0 * t_over_norm_w);
+    const double v1 = (on_cut_locus ? 3.141592653589793 * (is_small ? -(product / sine_to_axis0) : gap_2 /
+        sine_to_axis1) : w1 * t_over_norm_w);
+    const double product_2 = 3.141592653589793 * (is_small ? -(p[0] * p[2] / sine_to_axis0) : -(p[1] * p[2] /
+        sine_to_axis1));
     const double v2 = (on_cut_locus ? product_2 : w2 * t_over_norm_w);
     v_out[0] = v0;
     v_out[1] = v1;
@@ -390,16 +388,14 @@ void sphere_splat(
     const double t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
     const int is_small = squared < 0.5;
     const double sine_to_axis0 = sqrt((is_small ? gap : 1.0));
-    const double chosen = (is_small ? sine_to_axis0 : 1.0);
     const double product = mu[0] * mu[1];
     const double sine_to_axis1 = sqrt((is_small ? 1.0 : gap_2));
-    const double chosen_2 = (is_small ? 1.0 : sine_to_axis1);
-    const double v0 = (on_cut_locus ? 3.141592653589793 * (is_small ? gap / chosen : -(product / chosen_2)) :
-        w0 * t_over_norm_w);
-    const double v1 = (on_cut_locus ? 3.141592653589793 * (is_small ? -(product / chosen) : gap_2 / chosen_2)
-        : w1 * t_over_norm_w);
-    const double product_2 = 3.141592653589793 * (is_small ? -(mu[0] * mu[2] / chosen) : -(mu[1] * mu[2] /
-        chosen_2));
+    const double v0 = (on_cut_locus ? 3.141592653589793 * (is_small ? gap / sine_to_axis0 : -(product /
+        sine_to_axis1)) : w0 * t_over_norm_w);
+    const double v1 = (on_cut_locus ? 3.141592653589793 * (is_small ? -(product / sine_to_axis0) : gap_2 /
+        sine_to_axis1) : w1 * t_over_norm_w);
+    const double product_2 = 3.141592653589793 * (is_small ? -(mu[0] * mu[2] / sine_to_axis0) : -(mu[1] *
+        mu[2] / sine_to_axis1));
     const double v2 = (on_cut_locus ? product_2 : w2 * t_over_norm_w);
     const double log_value = log(0.7853981633974483 / DBL_EPSILON);
     const double log_det_series = polynomial_log_det_series(near_chosen);
@@ -416,10 +412,10 @@ void sphere_splat(
     const double by_log_det_near = (near ? by_log_det : 0.0);
     const double by_log_det_series = norm_d_squared * by_log_det_near;
     const double log_det_series_slope = polynomial_log_det_series_slope(near_chosen);
-    const double chosen_3 = (on_cut_locus ? 0.0 : by_v2);
-    const double chosen_4 = (on_cut_locus ? 0.0 : by_v1);
-    const double chosen_5 = (on_cut_locus ? 0.0 : by_v0);
-    const double by_t_over_norm_w = w2 * chosen_3 + w1 * chosen_4 + w0 * chosen_5;
+    const double chosen = (on_cut_locus ? 0.0 : by_v2);
+    const double chosen_2 = (on_cut_locus ? 0.0 : by_v1);
+    const double chosen_3 = (on_cut_locus ? 0.0 : by_v0);
+    const double by_t_over_norm_w = w2 * chosen + w1 * chosen_2 + w0 * chosen_3;
     const double by_t_over_norm_w_near = (near ? by_t_over_norm_w : 0.0);
     const double by_t = ((near ? 0.0 : by_log_det) / t_ratio + (near ? 0.0 : by_t_over_norm_w)) / norm_w;
     const double by_norm_w_squared = (near ? 0.0 : -(t_ratio * by_t / (2.0 * norm_w)));
@@ -431,9 +427,9 @@ void sphere_splat(
         norm_d)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near *
         t_over_norm_w_near_slope : 0.0);
     const double product_3 = 2.0 * by_norm_w_squared;
-    const double by_w2 = t_over_norm_w * chosen_3 + w2 * product_3;
-    const double by_w1 = t_over_norm_w * chosen_4 + w1 * product_3;
-    const double by_w0 = t_over_norm_w * chosen_5 + w0 * product_3;
+    const double by_w2 = t_over_norm_w * chosen + w2 * product_3;
+    const double by_w1 = t_over_norm_w * chosen_2 + w1 * product_3;
+    const double by_w0 = t_over_norm_w * chosen_3 + w0 * product_3;
     const double by_dot_p_d = -(mu[2] * by_w2) - mu[1] * by_w1 - mu[0] * by_w0;
     const int is_small_2 = norm_q_plus_p_squared_2 == 0.0;
     const double by_norm_q_plus_p_squared_2 = (is_small_2 ? 0.0 : -(norm_d * ratio / (2.0 * (is_small_2 ? 1.0
@@ -638,7 +634,7 @@ void sphere_exp_f(
     const int near = norm_v_squared < 0.9903926849365234f;
     const float sinc_norm_v_near = polynomial_sinc_norm_v_near_f((near ? norm_v_squared : 0.0f));
     const float norm_v_2 = sqrtf((near ? 1.0f : norm_v_squared));
-    const float sinc_norm_v = (near ? sinc_norm_v_near : sinf(norm_v_2) / (near ? 1.0f : norm_v_2));
+    const float sinc_norm_v = (near ? sinc_norm_v_near : sinf(norm_v_2) / norm_v_2);
     const float q0 = p[0] * cos_norm_v + v[0] * sinc_norm_v;
     const float q1 = p[1] * cos_norm_v + v[1] * sinc_norm_v;
     const float q2 = p[2] * cos_norm_v + v[2] * sinc_norm_v;
@@ -696,16 +692,14 @@ void sphere_log_f(
     const float t_over_norm_w = (near ? t_over_norm_w_near : t / norm_w);
     const int is_small = squared < 0.5f;
     const float sine_to_axis0 = sqrtf((is_small ? gap : 1.0f));
-    const float chosen = (is_small ? sine_to_axis0 : 1.0f);
     const float product = p[0] * p[1];
     const float sine_to_axis1 = sqrtf((is_small ? 1.0f : gap_2));
-    const float chosen_2 = (is_small ? 1.0f : sine_to_axis1);
-    const float v0 = (on_cut_locus ? 3.141592653589793f * (is_small ? gap / chosen : -(product / chosen_2)) :
-        w0 * t_over_norm_w);
-    const float v1 = (on_cut_locus ? 3.141592653589793f * (is_small ? -(product / chosen) : gap_2 / chosen_2)
-        : w1 * t_over_norm_w);
-    const float product_2 = 3.141592653589793f * (is_small ? -(p[0] * p[2] / chosen) : -(p[1] * p[2] /
-        chosen_2));
+    const float v0 = (on_cut_locus ? 3.141592653589793f * (is_small ? gap / sine_to_axis0 : -(product /
+        sine_to_axis1)) : w0 * t_over_norm_w);
+    const float v1 = (on_cut_locus ? 3.141592653589793f * (is_small ? -(product / sine_to_axis0) : gap_2 /
+        sine_to_axis1) : w1 * t_over_norm_w);
+    const float product_2 = 3.141592653589793f * (is_small ? -(p[0] * p[2] / sine_to_axis0) : -(p[1] * p[2] /
+        sine_to_axis1));
     const float v2 = (on_cut_locus ? product_2 : w2 * t_over_norm_w);
     v_out[0] = v0;
     v_out[1] = v1;
@@ -877,16 +871,14 @@ void sphere_splat_f(
     const float t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
     const int is_small = squared < 0.5f;
     const float sine_to_axis0 = sqrtf((is_small ? gap : 1.0f));
-    const float chosen = (is_small ? sine_to_axis0 : 1.0f);
     const float product = mu[0] * mu[1];
     const float sine_to_axis1 = sqrtf((is_small ? 1.0f : gap_2));
-    const float chosen_2 = (is_small ? 1.0f : sine_to_axis1);
-    const float v0 = (on_cut_locus ? 3.141592653589793f * (is_small ? gap / chosen : -(product / chosen_2)) :
-        w0 * t_over_norm_w);
-    const float v1 = (on_cut_locus ? 3.141592653589793f * (is_small ? -(product / chosen) : gap_2 / chosen_2)
-        : w1 * t_over_norm_w);
-    const float product_2 = 3.141592653589793f * (is_small ? -(mu[0] * mu[2] / chosen) : -(mu[1] * mu[2] /
-        chosen_2));
+    const float v0 = (on_cut_locus ? 3.141592653589793f * (is_small ? gap / sine_to_axis0 : -(product /
+        sine_to_axis1)) : w0 * t_over_norm_w);
+    const float v1 = (on_cut_locus ? 3.141592653589793f * (is_small ? -(product / sine_to_axis0) : gap_2 /
+        sine_to_axis1) : w1 * t_over_norm_w);
+    const float product_2 = 3.141592653589793f * (is_small ? -(mu[0] * mu[2] / sine_to_axis0) : -(mu[1] *
+        mu[2] / sine_to_axis1));
     const float v2 = (on_cut_locus ? product_2 : w2 * t_over_norm_w);
     const float log_value = logf(0.7853981633974483f / FLT_EPSILON);
     const float log_det_series = polynomial_log_det_series_f(near_chosen);
@@ -903,10 +895,10 @@ void sphere_splat_f(
     const float by_log_det_near = (near ? by_log_det : 0.0f);
     const float by_log_det_series = norm_d_squared * by_log_det_near;
     const float log_det_series_slope = polynomial_log_det_series_slope_f(near_chosen);
-    const float chosen_3 = (on_cut_locus ? 0.0f : by_v2);
-    const float chosen_4 = (on_cut_locus ? 0.0f : by_v1);
-    const float chosen_5 = (on_cut_locus ? 0.0f : by_v0);
-    const float by_t_over_norm_w = w2 * chosen_3 + w1 * chosen_4 + w0 * chosen_5;
+    const float chosen = (on_cut_locus ? 0.0f : by_v2);
+    const float chosen_2 = (on_cut_locus ? 0.0f : by_v1);
+    const float chosen_3 = (on_cut_locus ? 0.0f : by_v0);
+    const float by_t_over_norm_w = w2 * chosen + w1 * chosen_2 + w0 * chosen_3;
     const float by_t_over_norm_w_near = (near ? by_t_over_norm_w : 0.0f);
     const float by_t = ((near ? 0.0f : by_log_det) / t_ratio + (near ? 0.0f : by_t_over_norm_w)) / norm_w;
     const float by_norm_w_squared = (near ? 0.0f : -(t_ratio * by_t / (2.0f * norm_w)));
@@ -918,9 +910,9 @@ void sphere_splat_f(
         norm_d)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near *
         t_over_norm_w_near_slope : 0.0f);
     const float product_3 = 2.0f * by_norm_w_squared;
-    const float by_w2 = t_over_norm_w * chosen_3 + w2 * product_3;
-    const float by_w1 = t_over_norm_w * chosen_4 + w1 * product_3;
-    const float by_w0 = t_over_norm_w * chosen_5 + w0 * product_3;
+    const float by_w2 = t_over_norm_w * chosen + w2 * product_3;
+    const float by_w1 = t_over_norm_w * chosen_2 + w1 * product_3;
+    const float by_w0 = t_over_norm_w * chosen_3 + w0 * product_3;
     const float by_dot_p_d = -(mu[2] * by_w2) - mu[1] * by_w1 - mu[0] * by_w0;
     const int is_small_2 = norm_q_plus_p_squared_2 == 0.0f;
     const float by_norm_q_plus_p_squared_2 = (is_small_2 ? 0.0f : -(norm_d * ratio / (2.0f * (is_small_2 ?

@@ -10,14 +10,14 @@ to_tangent                    11
 inner                          5
 norm                           6
 flat                           0
-exp                           38      <= 2     <= 1
-log                          121      <= 1     <= 4
+exp                           37      <= 2     <= 1
+log                          119      <= 1     <= 4
 distance                      20      <= 1     <= 1
 log_abs_det                   90      <= 2    <= 32
 riemannian_gradient           11
 gradient_norm                 17
-splat                        332
-splat_vjp                    725
+splat                        330
+splat_vjp                    721
 
 Errors are the worst of 36 points against 60 digits, in units of the error that rounding the
 inputs and the output to the precision alone would cause.
@@ -200,7 +200,7 @@ class Sphere:
         near = norm_v_squared < 0.9903926849365234
         sinc_norm_v_near = _polynomial(torch.where(near, norm_v_squared, 0.0), _SINC_NORM_V_NEAR)
         norm_v_2 = torch.sqrt(torch.where(near, 1.0, norm_v_squared))
-        sinc_norm_v = torch.where(near, sinc_norm_v_near, torch.sin(norm_v_2) / torch.where(near, 1.0, norm_v_2))
+        sinc_norm_v = torch.where(near, sinc_norm_v_near, torch.sin(norm_v_2) / norm_v_2)
         q0 = p0 * cos_norm_v + v0 * sinc_norm_v
         q1 = p1 * cos_norm_v + v1 * sinc_norm_v
         q2 = p2 * cos_norm_v + v2 * sinc_norm_v
@@ -250,19 +250,17 @@ class Sphere:
         t_over_norm_w = torch.where(near, t_over_norm_w_near, t / norm_w)
         is_small = squared < 0.5
         sine_to_axis0 = torch.sqrt(torch.where(is_small, gap, 1.0))
-        chosen = torch.where(is_small, sine_to_axis0, 1.0)
         product = p0 * p1
         sine_to_axis1 = torch.sqrt(torch.where(is_small, 1.0, gap_2))
-        chosen_2 = torch.where(is_small, 1.0, sine_to_axis1)
         v0 = (
-            torch.where(on_cut_locus, 3.141592653589793 * torch.where(is_small, gap / chosen, -(product /
-            chosen_2)), w0 * t_over_norm_w)
+            torch.where(on_cut_locus, 3.141592653589793 * torch.where(is_small, gap / sine_to_axis0, -(product /
+            sine_to_axis1)), w0 * t_over_norm_w)
         )
         v1 = (
-            torch.where(on_cut_locus, 3.141592653589793 * torch.where(is_small, -(product / chosen), gap_2 /
-            chosen_2), w1 * t_over_norm_w)
+            torch.where(on_cut_locus, 3.141592653589793 * torch.where(is_small, -(product / sine_to_axis0), gap_2 /
+            sine_to_axis1), w1 * t_over_norm_w)
         )
-        product_2 = 3.141592653589793 * torch.where(is_small, -(p0 * p2 / chosen), -(p1 * p2 / chosen_2))
+        product_2 = 3.141592653589793 * torch.where(is_small, -(p0 * p2 / sine_to_axis0), -(p1 * p2 / sine_to_axis1))
         v2 = torch.where(on_cut_locus, product_2, w2 * t_over_norm_w)
         return _stack((v0, v1, v2))
 
@@ -412,19 +410,19 @@ class Sphere:
         t_over_norm_w = torch.where(near, t_over_norm_w_near, t_ratio)
         is_small = squared < 0.5
         sine_to_axis0 = torch.sqrt(torch.where(is_small, gap, 1.0))
-        chosen = torch.where(is_small, sine_to_axis0, 1.0)
         product = mu0 * mu1
         sine_to_axis1 = torch.sqrt(torch.where(is_small, 1.0, gap_2))
-        chosen_2 = torch.where(is_small, 1.0, sine_to_axis1)
         v0 = (
-            torch.where(on_cut_locus, 3.141592653589793 * torch.where(is_small, gap / chosen, -(product /
-            chosen_2)), w0 * t_over_norm_w)
+            torch.where(on_cut_locus, 3.141592653589793 * torch.where(is_small, gap / sine_to_axis0, -(product /
+            sine_to_axis1)), w0 * t_over_norm_w)
         )
         v1 = (
-            torch.where(on_cut_locus, 3.141592653589793 * torch.where(is_small, -(product / chosen), gap_2 /
-            chosen_2), w1 * t_over_norm_w)
+            torch.where(on_cut_locus, 3.141592653589793 * torch.where(is_small, -(product / sine_to_axis0), gap_2 /
+            sine_to_axis1), w1 * t_over_norm_w)
         )
-        product_2 = 3.141592653589793 * torch.where(is_small, -(mu0 * mu2 / chosen), -(mu1 * mu2 / chosen_2))
+        product_2 = (
+            3.141592653589793 * torch.where(is_small, -(mu0 * mu2 / sine_to_axis0), -(mu1 * mu2 / sine_to_axis1))
+        )
         v2 = torch.where(on_cut_locus, product_2, w2 * t_over_norm_w)
         log_value = torch.log(0.7853981633974483 / eps)
         log_det_series = _polynomial(near_chosen, _LOG_DET_SERIES)
@@ -441,10 +439,10 @@ class Sphere:
         by_log_det_near = torch.where(near, by_log_det, 0.0)
         by_log_det_series = norm_d_squared * by_log_det_near
         log_det_series_slope = _polynomial(near_chosen, _LOG_DET_SERIES_SLOPE)
-        chosen_3 = torch.where(on_cut_locus, 0.0, by_v2)
-        chosen_4 = torch.where(on_cut_locus, 0.0, by_v1)
-        chosen_5 = torch.where(on_cut_locus, 0.0, by_v0)
-        by_t_over_norm_w = w2 * chosen_3 + w1 * chosen_4 + w0 * chosen_5
+        chosen = torch.where(on_cut_locus, 0.0, by_v2)
+        chosen_2 = torch.where(on_cut_locus, 0.0, by_v1)
+        chosen_3 = torch.where(on_cut_locus, 0.0, by_v0)
+        by_t_over_norm_w = w2 * chosen + w1 * chosen_2 + w0 * chosen_3
         by_t_over_norm_w_near = torch.where(near, by_t_over_norm_w, 0.0)
         by_t = (torch.where(near, 0.0, by_log_det) / t_ratio + torch.where(near, 0.0, by_t_over_norm_w)) / norm_w
         by_norm_w_squared = torch.where(near, 0.0, -(t_ratio * by_t / (2.0 * norm_w)))
@@ -458,9 +456,9 @@ class Sphere:
             t_over_norm_w_near_slope, 0.0)
         )
         product_3 = 2.0 * by_norm_w_squared
-        by_w2 = t_over_norm_w * chosen_3 + w2 * product_3
-        by_w1 = t_over_norm_w * chosen_4 + w1 * product_3
-        by_w0 = t_over_norm_w * chosen_5 + w0 * product_3
+        by_w2 = t_over_norm_w * chosen + w2 * product_3
+        by_w1 = t_over_norm_w * chosen_2 + w1 * product_3
+        by_w0 = t_over_norm_w * chosen_3 + w0 * product_3
         by_dot_p_d = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0
         is_small_2 = norm_q_plus_p_squared_2 == 0.0
         by_norm_q_plus_p_squared_2 = (

@@ -141,15 +141,14 @@ void sphere_splats(
                 const double t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
                 const int is_small = squared < 0.5;
                 const double sine_to_axis0 = sqrt((is_small ? gap : 1.0));
-                const double chosen = (is_small ? sine_to_axis0 : 1.0);
                 const double product = mu0 * mu1;
                 const double sine_to_axis1 = sqrt((is_small ? 1.0 : gap_2));
-                const double chosen_2 = (is_small ? 1.0 : sine_to_axis1);
-                const double v0 = (on_cut_locus ? 3.141592653589793 * (is_small ? gap / chosen : -(product / chosen_2)) :
-                    w0 * t_over_norm_w);
-                const double v1 = (on_cut_locus ? 3.141592653589793 * (is_small ? -(product / chosen) : gap_2 / chosen_2)
-                    : w1 * t_over_norm_w);
-                const double product_2 = 3.141592653589793 * (is_small ? -(mu0 * mu2 / chosen) : -(mu1 * mu2 / chosen_2));
+                const double v0 = (on_cut_locus ? 3.141592653589793 * (is_small ? gap / sine_to_axis0 : -(product /
+                    sine_to_axis1)) : w0 * t_over_norm_w);
+                const double v1 = (on_cut_locus ? 3.141592653589793 * (is_small ? -(product / sine_to_axis0) : gap_2 /
+                    sine_to_axis1) : w1 * t_over_norm_w);
+                const double product_2 = 3.141592653589793 * (is_small ? -(mu0 * mu2 / sine_to_axis0) : -(mu1 * mu2 /
+                    sine_to_axis1));
                 const double v2 = (on_cut_locus ? product_2 : w2 * t_over_norm_w);
                 const double log_value = log(0.7853981633974483 / DBL_EPSILON);
                 const double log_det_series = polynomial_log_det_series(near_chosen);
@@ -166,10 +165,10 @@ void sphere_splats(
                 const double by_log_det_near = (near ? by_log_det : 0.0);
                 const double by_log_det_series = norm_d_squared * by_log_det_near;
                 const double log_det_series_slope = polynomial_log_det_series_slope(near_chosen);
-                const double chosen_3 = (on_cut_locus ? 0.0 : by_v2);
-                const double chosen_4 = (on_cut_locus ? 0.0 : by_v1);
-                const double chosen_5 = (on_cut_locus ? 0.0 : by_v0);
-                const double by_t_over_norm_w = w2 * chosen_3 + w1 * chosen_4 + w0 * chosen_5;
+                const double chosen = (on_cut_locus ? 0.0 : by_v2);
+                const double chosen_2 = (on_cut_locus ? 0.0 : by_v1);
+                const double chosen_3 = (on_cut_locus ? 0.0 : by_v0);
+                const double by_t_over_norm_w = w2 * chosen + w1 * chosen_2 + w0 * chosen_3;
                 const double by_t_over_norm_w_near = (near ? by_t_over_norm_w : 0.0);
                 const double by_t = ((near ? 0.0 : by_log_det) / t_ratio + (near ? 0.0 : by_t_over_norm_w)) / norm_w;
                 const double by_norm_w_squared = (near ? 0.0 : -(t_ratio * by_t / (2.0 * norm_w)));
@@ -181,9 +180,9 @@ void sphere_splats(
                     norm_d)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near *
                     t_over_norm_w_near_slope : 0.0);
                 const double product_3 = 2.0 * by_norm_w_squared;
-                const double by_w2 = t_over_norm_w * chosen_3 + w2 * product_3;
-                const double by_w1 = t_over_norm_w * chosen_4 + w1 * product_3;
-                const double by_w0 = t_over_norm_w * chosen_5 + w0 * product_3;
+                const double by_w2 = t_over_norm_w * chosen + w2 * product_3;
+                const double by_w1 = t_over_norm_w * chosen_2 + w1 * product_3;
+                const double by_w0 = t_over_norm_w * chosen_3 + w0 * product_3;
                 const double by_dot_p_d = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
                 const int is_small_2 = norm_q_plus_p_squared_2 == 0.0;
                 const double by_norm_q_plus_p_squared_2 = (is_small_2 ? 0.0 : -(norm_d * ratio / (2.0 * (is_small_2 ? 1.0
@@ -304,19 +303,17 @@ void sphere_splats_vjp(
                 const double t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
                 const int is_small = squared < 0.5;
                 const double sine_to_axis0 = sqrt((is_small ? gap : 1.0));
-                const double chosen = (is_small ? sine_to_axis0 : 1.0);
-                const double ratio = gap / chosen;
+                const double ratio = gap / sine_to_axis0;
                 const double product = mu0 * mu1;
                 const double sine_to_axis1 = sqrt((is_small ? 1.0 : gap_2));
-                const double chosen_2 = (is_small ? 1.0 : sine_to_axis1);
-                const double ratio_2 = product / chosen_2;
+                const double ratio_2 = product / sine_to_axis1;
                 const double v0 = (on_cut_locus ? 3.141592653589793 * (is_small ? ratio : -ratio_2) : w0 * t_over_norm_w);
-                const double ratio_3 = product / chosen;
-                const double ratio_4 = gap_2 / chosen_2;
+                const double ratio_3 = product / sine_to_axis0;
+                const double ratio_4 = gap_2 / sine_to_axis1;
                 const double v1 = (on_cut_locus ? 3.141592653589793 * (is_small ? -ratio_3 : ratio_4) : w1 *
                     t_over_norm_w);
-                const double ratio_5 = mu0 * mu2 / chosen;
-                const double ratio_6 = mu1 * mu2 / chosen_2;
+                const double ratio_5 = mu0 * mu2 / sine_to_axis0;
+                const double ratio_6 = mu1 * mu2 / sine_to_axis1;
                 const double v2 = (on_cut_locus ? 3.141592653589793 * (is_small ? -ratio_5 : -ratio_6) : w2 *
                     t_over_norm_w);
                 const double log_value = log(0.7853981633974483 / DBL_EPSILON);
@@ -335,10 +332,10 @@ void sphere_splats_vjp(
                 const double ratio_7 = (near ? 0.0 : by_log_det) / t_ratio;
                 const double by_log_det_series = norm_d_squared * by_log_det_near;
                 const double log_det_series_slope = polynomial_log_det_series_slope(near_chosen);
-                const double chosen_3 = (on_cut_locus ? 0.0 : by_v2);
-                const double chosen_4 = (on_cut_locus ? 0.0 : by_v1);
-                const double chosen_5 = (on_cut_locus ? 0.0 : by_v0);
-                const double by_t_over_norm_w = w2 * chosen_3 + w1 * chosen_4 + w0 * chosen_5;
+                const double chosen = (on_cut_locus ? 0.0 : by_v2);
+                const double chosen_2 = (on_cut_locus ? 0.0 : by_v1);
+                const double chosen_3 = (on_cut_locus ? 0.0 : by_v0);
+                const double by_t_over_norm_w = w2 * chosen + w1 * chosen_2 + w0 * chosen_3;
                 const double by_t_over_norm_w_near = (near ? by_t_over_norm_w : 0.0);
                 const double by_t = (ratio_7 + (near ? 0.0 : by_t_over_norm_w)) / norm_w;
                 const double norm_w_product = 2.0 * norm_w;
@@ -354,9 +351,9 @@ void sphere_splats_vjp(
                 const double by_norm_d_squared = log_det_series * by_log_det_near + (near ? 0.0 : by_norm_d_ratio) + (near
                     ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near * t_over_norm_w_near_slope : 0.0);
                 const double product_2 = 2.0 * by_norm_w_squared;
-                const double by_w2 = t_over_norm_w * chosen_3 + w2 * product_2;
-                const double by_w1 = t_over_norm_w * chosen_4 + w1 * product_2;
-                const double by_w0 = t_over_norm_w * chosen_5 + w0 * product_2;
+                const double by_w2 = t_over_norm_w * chosen + w2 * product_2;
+                const double by_w1 = t_over_norm_w * chosen_2 + w1 * product_2;
+                const double by_w0 = t_over_norm_w * chosen_3 + w0 * product_2;
                 const double by_dot_p_d = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
                 const int is_small_2 = norm_q_plus_p_squared_2 == 0.0;
                 const double product_3 = 2.0 * (is_small_2 ? 1.0 : norm_q_plus_p_2);
@@ -426,26 +423,24 @@ void sphere_splats_vjp(
                 const double by_log_det_near_2 = (near ? by_log_det_2 : 0.0);
                 const double by_log_det_series_2 = by_log_det_near * by_by_norm_d_squared + norm_d_squared *
                     by_log_det_near_2;
-                const double chosen_6 = (on_cut_locus ? 0.0 : by_v2_2);
+                const double chosen_4 = (on_cut_locus ? 0.0 : by_v2_2);
                 const double product_8 = 3.141592653589793 * (on_cut_locus ? by_v2_2 : 0.0);
-                const double ratio_13 = (is_small ? 0.0 : product_8) / chosen_2;
-                const double ratio_14 = (is_small ? product_8 : 0.0) / chosen;
-                const double chosen_7 = (on_cut_locus ? 0.0 : by_v1_2);
-                const double total_3 = chosen_5 * by_by_w0 + chosen_4 * by_by_w1 + chosen_3 * by_by_w2 + w2 * chosen_6 +
-                    w1 * chosen_7;
+                const double ratio_13 = (is_small ? 0.0 : product_8) / sine_to_axis1;
+                const double ratio_14 = (is_small ? product_8 : 0.0) / sine_to_axis0;
+                const double chosen_5 = (on_cut_locus ? 0.0 : by_v1_2);
+                const double total_3 = chosen_3 * by_by_w0 + chosen_2 * by_by_w1 + chosen * by_by_w2 + w2 * chosen_4 + w1
+                    * chosen_5;
                 const double product_9 = 3.141592653589793 * (on_cut_locus ? by_v1_2 : 0.0);
-                const double ratio_15 = (is_small ? 0.0 : product_9) / chosen_2;
-                const double ratio_16 = (is_small ? product_9 : 0.0) / chosen;
-                const double chosen_8 = (on_cut_locus ? 0.0 : by_v0_2);
-                const double by_t_over_norm_w_2 = total_3 + w0 * chosen_8;
+                const double ratio_15 = (is_small ? 0.0 : product_9) / sine_to_axis1;
+                const double ratio_16 = (is_small ? product_9 : 0.0) / sine_to_axis0;
+                const double chosen_6 = (on_cut_locus ? 0.0 : by_v0_2);
+                const double by_t_over_norm_w_2 = total_3 + w0 * chosen_6;
                 const double product_10 = 3.141592653589793 * (on_cut_locus ? by_v0_2 : 0.0);
-                const double ratio_17 = (is_small ? 0.0 : product_10) / chosen_2;
+                const double ratio_17 = (is_small ? 0.0 : product_10) / sine_to_axis1;
                 const double gap_3 = -ratio_16 - ratio_17;
-                const double by_sine_to_axis1 = (is_small ? 0.0 : ratio_6 * ratio_13 - ratio_4 * ratio_15 + ratio_2 *
-                    ratio_17);
-                const double ratio_18 = (is_small ? product_10 : 0.0) / chosen;
-                const double by_sine_to_axis0 = (is_small ? ratio_5 * ratio_14 + ratio_3 * ratio_16 - ratio * ratio_18 :
-                    0.0);
+                const double by_sine_to_axis1 = ratio_6 * ratio_13 - ratio_4 * ratio_15 + ratio_2 * ratio_17;
+                const double ratio_18 = (is_small ? product_10 : 0.0) / sine_to_axis0;
+                const double by_sine_to_axis0 = ratio_5 * ratio_14 + ratio_3 * ratio_16 - ratio * ratio_18;
                 const double by_t_over_norm_w_near_2 = (near ? by_t_over_norm_w_2 : 0.0);
                 const double total_4 = -(by_t * ratio_12) - ratio_7 * (by_by_t_ratio / t_ratio) + (near ? 0.0 :
                     by_log_det_2) / t_ratio + (near ? 0.0 : by_t_over_norm_w_2);
@@ -464,11 +459,11 @@ void sphere_splats_vjp(
                 const double by_norm_d_squared_2 = by_log_det_near * by_by_log_det_series + log_det_series *
                     by_log_det_near_2 + (near ? 0.0 : by_norm_d_2 / norm_d_product - product_6) + near_chosen_4;
                 const double product_11 = 2.0 * by_norm_w_squared_2;
-                const double by_w2_2 = product_2 * by_by_w2 + chosen_3 * by_by_t_over_norm_w + t_over_norm_w * chosen_6 +
-                    w2 * product_11;
-                const double by_w1_2 = product_2 * by_by_w1 + chosen_4 * by_by_t_over_norm_w + t_over_norm_w * chosen_7 +
+                const double by_w2_2 = product_2 * by_by_w2 + chosen * by_by_t_over_norm_w + t_over_norm_w * chosen_4 + w2
+                    * product_11;
+                const double by_w1_2 = product_2 * by_by_w1 + chosen_2 * by_by_t_over_norm_w + t_over_norm_w * chosen_5 +
                     w1 * product_11;
-                const double by_w0_2 = product_2 * by_by_w0 + chosen_5 * by_by_t_over_norm_w + t_over_norm_w * chosen_8 +
+                const double by_w0_2 = product_2 * by_by_w0 + chosen_3 * by_by_t_over_norm_w + t_over_norm_w * chosen_6 +
                     w0 * product_11;
                 const double gap_4 = by_dot_p_d * by_by_q2_off_cut - by_w2 * by_by_dot_p_d - mu1 * ratio_13 - mu0 *
                     ratio_14 - dot_p_d * by_w2_2;
@@ -642,15 +637,14 @@ void sphere_splats_f(
                 const float t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
                 const int is_small = squared < 0.5f;
                 const float sine_to_axis0 = sqrtf((is_small ? gap : 1.0f));
-                const float chosen = (is_small ? sine_to_axis0 : 1.0f);
                 const float product = mu0 * mu1;
                 const float sine_to_axis1 = sqrtf((is_small ? 1.0f : gap_2));
-                const float chosen_2 = (is_small ? 1.0f : sine_to_axis1);
-                const float v0 = (on_cut_locus ? 3.141592653589793f * (is_small ? gap / chosen : -(product / chosen_2)) :
-                    w0 * t_over_norm_w);
-                const float v1 = (on_cut_locus ? 3.141592653589793f * (is_small ? -(product / chosen) : gap_2 / chosen_2)
-                    : w1 * t_over_norm_w);
-                const float product_2 = 3.141592653589793f * (is_small ? -(mu0 * mu2 / chosen) : -(mu1 * mu2 / chosen_2));
+                const float v0 = (on_cut_locus ? 3.141592653589793f * (is_small ? gap / sine_to_axis0 : -(product /
+                    sine_to_axis1)) : w0 * t_over_norm_w);
+                const float v1 = (on_cut_locus ? 3.141592653589793f * (is_small ? -(product / sine_to_axis0) : gap_2 /
+                    sine_to_axis1) : w1 * t_over_norm_w);
+                const float product_2 = 3.141592653589793f * (is_small ? -(mu0 * mu2 / sine_to_axis0) : -(mu1 * mu2 /
+                    sine_to_axis1));
                 const float v2 = (on_cut_locus ? product_2 : w2 * t_over_norm_w);
                 const float log_value = logf(0.7853981633974483f / FLT_EPSILON);
                 const float log_det_series = polynomial_log_det_series_f(near_chosen);
@@ -667,10 +661,10 @@ void sphere_splats_f(
                 const float by_log_det_near = (near ? by_log_det : 0.0f);
                 const float by_log_det_series = norm_d_squared * by_log_det_near;
                 const float log_det_series_slope = polynomial_log_det_series_slope_f(near_chosen);
-                const float chosen_3 = (on_cut_locus ? 0.0f : by_v2);
-                const float chosen_4 = (on_cut_locus ? 0.0f : by_v1);
-                const float chosen_5 = (on_cut_locus ? 0.0f : by_v0);
-                const float by_t_over_norm_w = w2 * chosen_3 + w1 * chosen_4 + w0 * chosen_5;
+                const float chosen = (on_cut_locus ? 0.0f : by_v2);
+                const float chosen_2 = (on_cut_locus ? 0.0f : by_v1);
+                const float chosen_3 = (on_cut_locus ? 0.0f : by_v0);
+                const float by_t_over_norm_w = w2 * chosen + w1 * chosen_2 + w0 * chosen_3;
                 const float by_t_over_norm_w_near = (near ? by_t_over_norm_w : 0.0f);
                 const float by_t = ((near ? 0.0f : by_log_det) / t_ratio + (near ? 0.0f : by_t_over_norm_w)) / norm_w;
                 const float by_norm_w_squared = (near ? 0.0f : -(t_ratio * by_t / (2.0f * norm_w)));
@@ -682,9 +676,9 @@ void sphere_splats_f(
                     norm_d)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near *
                     t_over_norm_w_near_slope : 0.0f);
                 const float product_3 = 2.0f * by_norm_w_squared;
-                const float by_w2 = t_over_norm_w * chosen_3 + w2 * product_3;
-                const float by_w1 = t_over_norm_w * chosen_4 + w1 * product_3;
-                const float by_w0 = t_over_norm_w * chosen_5 + w0 * product_3;
+                const float by_w2 = t_over_norm_w * chosen + w2 * product_3;
+                const float by_w1 = t_over_norm_w * chosen_2 + w1 * product_3;
+                const float by_w0 = t_over_norm_w * chosen_3 + w0 * product_3;
                 const float by_dot_p_d = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
                 const int is_small_2 = norm_q_plus_p_squared_2 == 0.0f;
                 const float by_norm_q_plus_p_squared_2 = (is_small_2 ? 0.0f : -(norm_d * ratio / (2.0f * (is_small_2 ?
@@ -804,19 +798,17 @@ void sphere_splats_vjp_f(
                 const float t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
                 const int is_small = squared < 0.5f;
                 const float sine_to_axis0 = sqrtf((is_small ? gap : 1.0f));
-                const float chosen = (is_small ? sine_to_axis0 : 1.0f);
-                const float ratio = gap / chosen;
+                const float ratio = gap / sine_to_axis0;
                 const float product = mu0 * mu1;
                 const float sine_to_axis1 = sqrtf((is_small ? 1.0f : gap_2));
-                const float chosen_2 = (is_small ? 1.0f : sine_to_axis1);
-                const float ratio_2 = product / chosen_2;
+                const float ratio_2 = product / sine_to_axis1;
                 const float v0 = (on_cut_locus ? 3.141592653589793f * (is_small ? ratio : -ratio_2) : w0 * t_over_norm_w);
-                const float ratio_3 = product / chosen;
-                const float ratio_4 = gap_2 / chosen_2;
+                const float ratio_3 = product / sine_to_axis0;
+                const float ratio_4 = gap_2 / sine_to_axis1;
                 const float v1 = (on_cut_locus ? 3.141592653589793f * (is_small ? -ratio_3 : ratio_4) : w1 *
                     t_over_norm_w);
-                const float ratio_5 = mu0 * mu2 / chosen;
-                const float ratio_6 = mu1 * mu2 / chosen_2;
+                const float ratio_5 = mu0 * mu2 / sine_to_axis0;
+                const float ratio_6 = mu1 * mu2 / sine_to_axis1;
                 const float v2 = (on_cut_locus ? 3.141592653589793f * (is_small ? -ratio_5 : -ratio_6) : w2 *
                     t_over_norm_w);
                 const float log_value = logf(0.7853981633974483f / FLT_EPSILON);
@@ -835,10 +827,10 @@ void sphere_splats_vjp_f(
                 const float ratio_7 = (near ? 0.0f : by_log_det) / t_ratio;
                 const float by_log_det_series = norm_d_squared * by_log_det_near;
                 const float log_det_series_slope = polynomial_log_det_series_slope_f(near_chosen);
-                const float chosen_3 = (on_cut_locus ? 0.0f : by_v2);
-                const float chosen_4 = (on_cut_locus ? 0.0f : by_v1);
-                const float chosen_5 = (on_cut_locus ? 0.0f : by_v0);
-                const float by_t_over_norm_w = w2 * chosen_3 + w1 * chosen_4 + w0 * chosen_5;
+                const float chosen = (on_cut_locus ? 0.0f : by_v2);
+                const float chosen_2 = (on_cut_locus ? 0.0f : by_v1);
+                const float chosen_3 = (on_cut_locus ? 0.0f : by_v0);
+                const float by_t_over_norm_w = w2 * chosen + w1 * chosen_2 + w0 * chosen_3;
                 const float by_t_over_norm_w_near = (near ? by_t_over_norm_w : 0.0f);
                 const float by_t = (ratio_7 + (near ? 0.0f : by_t_over_norm_w)) / norm_w;
                 const float norm_w_product = 2.0f * norm_w;
@@ -854,9 +846,9 @@ void sphere_splats_vjp_f(
                 const float by_norm_d_squared = log_det_series * by_log_det_near + (near ? 0.0f : by_norm_d_ratio) + (near
                     ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near * t_over_norm_w_near_slope : 0.0f);
                 const float product_2 = 2.0f * by_norm_w_squared;
-                const float by_w2 = t_over_norm_w * chosen_3 + w2 * product_2;
-                const float by_w1 = t_over_norm_w * chosen_4 + w1 * product_2;
-                const float by_w0 = t_over_norm_w * chosen_5 + w0 * product_2;
+                const float by_w2 = t_over_norm_w * chosen + w2 * product_2;
+                const float by_w1 = t_over_norm_w * chosen_2 + w1 * product_2;
+                const float by_w0 = t_over_norm_w * chosen_3 + w0 * product_2;
                 const float by_dot_p_d = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
                 const int is_small_2 = norm_q_plus_p_squared_2 == 0.0f;
                 const float product_3 = 2.0f * (is_small_2 ? 1.0f : norm_q_plus_p_2);
@@ -927,26 +919,24 @@ void sphere_splats_vjp_f(
                 const float by_log_det_near_2 = (near ? by_log_det_2 : 0.0f);
                 const float by_log_det_series_2 = by_log_det_near * by_by_norm_d_squared + norm_d_squared *
                     by_log_det_near_2;
-                const float chosen_6 = (on_cut_locus ? 0.0f : by_v2_2);
+                const float chosen_4 = (on_cut_locus ? 0.0f : by_v2_2);
                 const float product_8 = 3.141592653589793f * (on_cut_locus ? by_v2_2 : 0.0f);
-                const float ratio_13 = (is_small ? 0.0f : product_8) / chosen_2;
-                const float ratio_14 = (is_small ? product_8 : 0.0f) / chosen;
-                const float chosen_7 = (on_cut_locus ? 0.0f : by_v1_2);
-                const float total_3 = chosen_5 * by_by_w0 + chosen_4 * by_by_w1 + chosen_3 * by_by_w2 + w2 * chosen_6 + w1
-                    * chosen_7;
+                const float ratio_13 = (is_small ? 0.0f : product_8) / sine_to_axis1;
+                const float ratio_14 = (is_small ? product_8 : 0.0f) / sine_to_axis0;
+                const float chosen_5 = (on_cut_locus ? 0.0f : by_v1_2);
+                const float total_3 = chosen_3 * by_by_w0 + chosen_2 * by_by_w1 + chosen * by_by_w2 + w2 * chosen_4 + w1 *
+                    chosen_5;
                 const float product_9 = 3.141592653589793f * (on_cut_locus ? by_v1_2 : 0.0f);
-                const float ratio_15 = (is_small ? 0.0f : product_9) / chosen_2;
-                const float ratio_16 = (is_small ? product_9 : 0.0f) / chosen;
-                const float chosen_8 = (on_cut_locus ? 0.0f : by_v0_2);
-                const float by_t_over_norm_w_2 = total_3 + w0 * chosen_8;
+                const float ratio_15 = (is_small ? 0.0f : product_9) / sine_to_axis1;
+                const float ratio_16 = (is_small ? product_9 : 0.0f) / sine_to_axis0;
+                const float chosen_6 = (on_cut_locus ? 0.0f : by_v0_2);
+                const float by_t_over_norm_w_2 = total_3 + w0 * chosen_6;
                 const float product_10 = 3.141592653589793f * (on_cut_locus ? by_v0_2 : 0.0f);
-                const float ratio_17 = (is_small ? 0.0f : product_10) / chosen_2;
+                const float ratio_17 = (is_small ? 0.0f : product_10) / sine_to_axis1;
                 const float gap_3 = -ratio_16 - ratio_17;
-                const float by_sine_to_axis1 = (is_small ? 0.0f : ratio_6 * ratio_13 - ratio_4 * ratio_15 + ratio_2 *
-                    ratio_17);
-                const float ratio_18 = (is_small ? product_10 : 0.0f) / chosen;
-                const float by_sine_to_axis0 = (is_small ? ratio_5 * ratio_14 + ratio_3 * ratio_16 - ratio * ratio_18 :
-                    0.0f);
+                const float by_sine_to_axis1 = ratio_6 * ratio_13 - ratio_4 * ratio_15 + ratio_2 * ratio_17;
+                const float ratio_18 = (is_small ? product_10 : 0.0f) / sine_to_axis0;
+                const float by_sine_to_axis0 = ratio_5 * ratio_14 + ratio_3 * ratio_16 - ratio * ratio_18;
                 const float by_t_over_norm_w_near_2 = (near ? by_t_over_norm_w_2 : 0.0f);
                 const float total_4 = -(by_t * ratio_12) - ratio_7 * (by_by_t_ratio / t_ratio) + (near ? 0.0f :
                     by_log_det_2) / t_ratio + (near ? 0.0f : by_t_over_norm_w_2);
@@ -965,11 +955,11 @@ void sphere_splats_vjp_f(
                 const float by_norm_d_squared_2 = by_log_det_near * by_by_log_det_series + log_det_series *
                     by_log_det_near_2 + (near ? 0.0f : by_norm_d_2 / norm_d_product - product_6) + near_chosen_4;
                 const float product_11 = 2.0f * by_norm_w_squared_2;
-                const float by_w2_2 = product_2 * by_by_w2 + chosen_3 * by_by_t_over_norm_w + t_over_norm_w * chosen_6 +
-                    w2 * product_11;
-                const float by_w1_2 = product_2 * by_by_w1 + chosen_4 * by_by_t_over_norm_w + t_over_norm_w * chosen_7 +
+                const float by_w2_2 = product_2 * by_by_w2 + chosen * by_by_t_over_norm_w + t_over_norm_w * chosen_4 + w2
+                    * product_11;
+                const float by_w1_2 = product_2 * by_by_w1 + chosen_2 * by_by_t_over_norm_w + t_over_norm_w * chosen_5 +
                     w1 * product_11;
-                const float by_w0_2 = product_2 * by_by_w0 + chosen_5 * by_by_t_over_norm_w + t_over_norm_w * chosen_8 +
+                const float by_w0_2 = product_2 * by_by_w0 + chosen_3 * by_by_t_over_norm_w + t_over_norm_w * chosen_6 +
                     w0 * product_11;
                 const float gap_4 = by_dot_p_d * by_by_q2_off_cut - by_w2 * by_by_dot_p_d - mu1 * ratio_13 - mu0 *
                     ratio_14 - dot_p_d * by_w2_2;

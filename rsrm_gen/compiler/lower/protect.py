@@ -38,7 +38,7 @@ def protect(
             arguments = tuple(visit(a) for a in node.arguments)
         if node.op in ENDANGERED:
             index = ENDANGERED[node.op]
-            if not is_positive(arguments[index]) and (singular is None or singular(arguments[index])):
+            if not is_positive(arguments[index], condition, when) and (singular is None or singular(arguments[index])):
                 safe = graph.constant(SAFE.get(node.op, 1))
                 x = arguments[index]
                 x = graph.select(condition, safe, x) if when else graph.select(condition, x, safe)
@@ -55,20 +55,29 @@ def protect(
     return visit(root)
 
 
-def is_positive(node: Node) -> bool:
-    """Whether a node is above zero whatever its inputs are, as 1 + x x and its root are."""
+def is_positive(node: Node, condition: Node | None = None, when: bool = True) -> bool:
+    """Whether a node is above zero whatever its inputs are, as 1 + x x and its root are.
+
+    With a condition: whether it is so where the condition is `when`.
+    """
     a = node.arguments
+
+    def positive(argument: Node) -> bool:
+        return is_positive(argument, condition, when)
+
     match node.op:
         case "constant":
             return bool(node.value > 0)  # type: ignore[operator]
         case "exp" | "cosh":
             return True
         case "add":
-            return all(map(is_nonnegative, a)) and any(map(is_positive, a))
+            return all(map(is_nonnegative, a)) and any(map(positive, a))
         case "sqrt" | "root" | "mul" | "div":
-            return all(map(is_positive, a))
+            return all(map(positive, a))
+        case "select" if a[0] is condition:
+            return positive(a[1] if when else a[2])
         case "select":
-            return is_positive(a[1]) and is_positive(a[2])
+            return positive(a[1]) and positive(a[2])
     return False
 
 
