@@ -29,6 +29,7 @@ from rsrm_gen.compiler.lower import Program, Routine, interpret
 from rsrm_gen.compiler.native import EXACT, compiled, compiler, pointer
 
 UNITS = 64.0
+NEAR_CUT = "near the cut locus"
 ROUTINES = ("exp", "log", "distance", "log_abs_det")
 PRECISIONS: dict[str, tuple[Any, torch.dtype, float]] = {
     "float64": (np.float64, torch.float64, 2.0**-53),
@@ -64,24 +65,24 @@ def check_numbers(
                 backend: _errors(batch(name, _inputs(name, rows), precision), truth, unit)
                 for backend, batch in backends.items()
             }
-            for backend, error in errors.items():
-                k = int(np.argmax(error))
-                promise = f"{name} of the {backend} code in {precision} is as exact as its inputs allow"
-                checks.append(
-                    Check(
-                        f"{name} {backend} {precision}",
-                        promise,
-                        float(error[k]),
-                        UNITS,
-                        len(error),
-                        f"({rows.kinds[k]})",
-                        geometry.spec.log.value.span,
-                    )
-                )
+            checks += [_check(geometry, name, backend, precision, e, rows) for backend, e in errors.items()]
             worst = max(float(e.max()) for e in errors.values())
             measured.append(Measurement(name, precision, _power_of_two(worst), len(rows.kinds)))
     checks += [_splat_check(geometry, program, backend, batch) for backend, batch in backends.items()]
     return checks, tuple(measured)
+
+
+def _check(geometry: Geometry, name: str, backend: str, precision: str, errors: Any, rows: Rows) -> Check:
+    worst = int(np.argmax(errors))
+    kind = rows.kinds[worst]
+    promise = f"{name} of the {backend} code in {precision} is as exact as its inputs allow"
+    hint = None
+    if kind == NEAR_CUT and geometry.spec.cut_locus is not None and not np.isfinite(errors[worst]):
+        hint = "say under `cut_locus:` what `log:` and `log_det:` are there, as manifolds/sphere.yaml does"
+    span = geometry.spec.log.value.span
+    return Check(
+        f"{name} {backend} {precision}", promise, float(errors[worst]), UNITS, len(errors), f"({kind})", span, hint
+    )
 
 
 def torch_batch(program: Program, files: Mapping[str, str]) -> Batch:
@@ -138,7 +139,7 @@ def sample_rows(geometry: Geometry, precision: str) -> Rows:
     near = [("near", mp.mpf(10) ** -k) for k in range(2, 13)]
     middle = [("middle", whole * mp.mpf(k) / 17) for k in range(1, 17)]
     last = (
-        [("near the cut locus", whole * (1 - mp.mpf(10) ** -k)) for k in range(1, 10)]
+        [(NEAR_CUT, whole * (1 - mp.mpf(10) ** -k)) for k in range(1, 10)]
         if finite
         else [("far", mp.mpf(k)) for k in (3, 6, 10, 15, 20, 30)]
     )
@@ -211,7 +212,7 @@ def _power_of_two(x: float) -> int:
 def _splat_check(geometry: Geometry, program: Program, backend: str, batch: Batch) -> Check:
     """The value of splats against the interpreter."""
     rows = sample_rows(geometry, "float64")
-    keep = [k for k, kind in enumerate(rows.kinds) if kind != "near the cut locus"]  # where wide splats have no limit
+    keep = [k for k, kind in enumerate(rows.kinds) if kind != NEAR_CUT]  # where wide splats have no limit
     spec = geometry.spec
     rng = np.random.default_rng(17)
     W = rng.normal(size=(len(keep), spec.dim * spec.tangent_size))

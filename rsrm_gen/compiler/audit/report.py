@@ -20,6 +20,7 @@ class Check:
     points: int
     where: str = ""  # the worst place, in words
     span: Span | None = field(default=None, compare=False)  # the formula to blame first
+    hint: str | None = None  # what to write instead, where that is known
 
     @property
     def passed(self) -> bool:
@@ -47,10 +48,11 @@ class AuditReport:
         if not failed:
             return
         first = failed[0]
-        error = f"the error is {first.worst:.2g} (at most {first.tolerance:.1g}) {first.where}"
+        error = f"the error is {first.worst:.2g} (at most {first.tolerance:.3g}) {first.where}"
         message = f"the audit refuses `{self.manifold}`: {first.promise}, but {error}"
         others = ", ".join(check.name for check in failed[1:])
-        raise UserError(message.rstrip(), first.span, f"also failed: {others}" if others else None)
+        hints = [first.hint, f"also failed: {others}" if others else None]
+        raise UserError(message.rstrip(), first.span, "; ".join(filter(None, hints)) or None)
 
     def json(self) -> str:
         """The report for `audit.json`: errors rounded up to powers of ten, so that machines agree on the bytes."""
