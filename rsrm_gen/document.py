@@ -6,6 +6,7 @@ few of them can stand for more data than a machine holds.
 
 from __future__ import annotations
 
+import difflib
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
@@ -48,8 +49,10 @@ def read_document(path: Path) -> Document:
         text = path.read_text(encoding="utf-8")
     except FileNotFoundError:
         folder = path.parent
-        names = [p.name for p in folder.iterdir()] if folder.is_dir() else []
-        raise UserError(f"there is no file {path}", hint=did_you_mean(path.name, names)) from None
+        stems = {p.stem: p.name for p in folder.glob(f"*{path.suffix}")} if folder.is_dir() else {}
+        close = difflib.get_close_matches(path.stem, stems, n=1)
+        hint = f"did you mean `{folder / stems[close[0]]}`?" if close else None
+        raise UserError(f"there is no file {path}", hint=hint) from None
     except UnicodeDecodeError as error:
         raise UserError(f"{path} is not UTF-8 text (byte {error.start})") from None
     except OSError as error:

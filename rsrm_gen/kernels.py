@@ -61,6 +61,7 @@ class SplatKernel:
         self.tangent_size = manifold.tangent_size
         self.library = compiled(files, f"{self.name}_splats.c", FAST)
         self.pool: ThreadPoolExecutor | None = None
+        self.pool_size = 0
 
     def forward(self, x: Any, mu: Any, W: Any, amplitude: Any) -> tuple[Any, Any]:
         """Values (N,) and gradients (N, T) from numpy arrays."""
@@ -93,8 +94,8 @@ class SplatKernel:
         slices = [slice(a, b) for a, b in itertools.pairwise(bounds)]
         if threads == 1:
             return [part(slices[0])]
-        if self.pool is None or self.pool._max_workers < threads:
-            self.pool = ThreadPoolExecutor(threads)
+        if self.pool is None or self.pool_size < threads:
+            self.pool, self.pool_size = ThreadPoolExecutor(threads), threads
         return list(self.pool.map(part, slices))
 
     def call(self, function: str, rows: slice, splats: int, *arrays: Any) -> None:

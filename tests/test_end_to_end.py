@@ -72,8 +72,9 @@ evaluation: {cells: 30}
 """
 TRAINING = """\
 training:
-  steps: 100
+  steps: 150
   points: 256
+  link: {kind: quotient, offset: 2}
   learning_rate: 0.03
   splats: {initial: 24, add: 8, every: 40, shape: 0.7}
 """
