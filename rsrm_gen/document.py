@@ -51,7 +51,7 @@ def read_document(path: Path) -> Document:
         folder = path.parent
         stems = {p.stem: p.name for p in folder.glob(f"*{path.suffix}")} if folder.is_dir() else {}
         close = difflib.get_close_matches(path.stem, stems, n=1)
-        hint = f"did you mean `{folder / stems[close[0]]}`?" if close else None
+        hint = f"did you mean `{stems[close[0]]}`?" if close else None
         raise UserError(f"there is no file {path}", hint=hint) from None
     except UnicodeDecodeError as error:
         raise UserError(f"{path} is not UTF-8 text (byte {error.start})") from None

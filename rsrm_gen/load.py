@@ -46,7 +46,7 @@ def _file(manifold: str | Path) -> Path:
     if str(manifold) not in names:
         raise UserError(
             f"there is no bundled manifold `{manifold}`",
-            hint=did_you_mean(str(manifold), names) or "give the path of a manifold file",
+            hint=f"{did_you_mean(str(manifold), names)}; or give the path of a manifold file, ending in .yaml",
         )
     return folder / f"{manifold}.yaml"
 

@@ -24,18 +24,30 @@ from rsrm_gen.version import __version__
 HELP = """Compile manifolds from YAML to audited torch and C code.
 
 A manifold file says how a point is stored, the metric, and the formulas of Exp and Log. rsrm-gen derives the rest,
-proves the formulas right, and writes OUT/NAME/{NAME.py,NAME.h,NAME.c,audit.json}.
+proves the formulas right, and writes OUT/NAME/{NAME.py,NAME.h,NAME.c,NAME_splats.c,audit.json}.
 
 Examples:
 
-    rsrm-gen manifolds/so3.yaml                    one manifold, into generated/so3/
+\b
+  rsrm-gen manifolds/so3.yaml              into generated/so3/
+  rsrm-gen manifolds/*.yaml --timings      several, with each stage's seconds
+  rsrm-gen manifolds/sphere.yaml -p n=5    S^5, into generated/sphere_n5/
+  rsrm-gen manifolds/*.yaml --check        is what is there up to date?
 
-    rsrm-gen manifolds/*.yaml                      several at once
+A manifold file has these keys; docs are in the files of manifolds/:
 
-    rsrm-gen manifolds/sphere.yaml -p n=5          S^5, into generated/sphere_n5/
-
-    rsrm-gen manifolds/*.yaml --check              is what is there what would be generated?
+\b
+  manifold, doc, parameters     a name, a sentence, numbers with defaults
+  embedded: or chart:           how a point is stored: constraint and project,
+                                or domain and period
+  frame                         vectors that tangent components multiply
+  metric, exp, log              formulas in p, q, u, v
+  norm, distance, log_det       closed forms, optional: checked, not trusted
+  injectivity_radius, diameter  lengths
+  cut_locus                     where Log jumps, and what is returned there
 """
+
+EXPLANATION = "operations of a splat with its gradient; worst errors in units of what rounding inputs and output costs"
 
 app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
 out, err = Console(), Console(stderr=True)
@@ -90,25 +102,29 @@ def _check(files: list[Path], parameters: dict[str, str], output: Path) -> None:
     for folder, reason in reasons.items():
         print(f"{folder}: {reason or 'up to date'}")
     if any(reasons.values()):
+        options = "".join(f" -p {name}={value}" for name, value in parameters.items())
         raise UserError(
             "some generated files are not up to date",
-            hint=f"generate them again: rsrm-gen {' '.join(map(str, files))} -o {output}",
+            hint=f"generate them again: rsrm-gen {' '.join(map(str, files))}{options} -o {output}",
         )
 
 
 def _compile(files: list[Path], parameters: dict[str, str], output: Path, timings: bool) -> None:
     if compiler() is None:
-        err.print("no C compiler found: the C code is written but not compiled and not audited; torch code needs none")
+        err.print("no C compiler found: the C code is written, but its numbers are not audited", soft_wrap=True)
     done: list[Compiled] = []
     try:
         for file in files:
             with _progress(file) as progress:
                 compiled = compile_manifold(file, parameters, progress)
+            if any(compiled.program.name == other.program.name for other in done):
+                raise UserError(f"{file} describes a second `{compiled.program.name}`", hint="give each its own name")
             write(contents(compiled), output / compiled.program.name)
             done.append(compiled)
     finally:
         if done:
             out.print(_table(done, timings))
+            out.print(EXPLANATION, style="dim", soft_wrap=True)
 
 
 @contextmanager
@@ -150,10 +166,6 @@ def _table(done: list[Compiled], timings: bool) -> Table:
             *seconds,
             f"{sum(compiled.seconds.values()):.1f}",
         )
-    table.caption = (
-        "operations: of a splat with its gradient; float64, float32: the worst error in units of what rounding costs"
-    )
-    table.caption_justify = "left"
     return table
 
 

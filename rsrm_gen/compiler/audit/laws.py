@@ -65,10 +65,15 @@ class Laws:
         """Every law, in the order in which a failure explains the later ones."""
         with mp.workdps(DIGITS):
             laws: list[Callable[[], Check | None]] = [
+                self.norm_is_the_length,
                 self.metric_is_an_inner_product, self.projection_lands_on_the_manifold, self.frame_is_tangent,
                 self.exp_stays_on_the_manifold, self.log_is_tangent, self.exp_inverts_log, self.log_inverts_exp,
-                self.equivalent_points_are_one, self.distance_is_the_length_of_log, self.distance_is_symmetric,
+                self.equivalent_points_are_one,
+                self.periods_do_not_matter,
+                self.cut_locus_is_reached,
+ self.distance_is_the_length_of_log, self.distance_is_symmetric,
                 self.distance_has_gradient_one, self.log_is_the_gradient_of_half_squared_distance,
+                self.diameter_is_not_exceeded,
                 self.log_det_is_the_determinant, self.splat_gradient_is_its_derivative,
             ]  # fmt: skip
             return [check for check in (law() for law in laws) if check is not None]
@@ -99,6 +104,17 @@ class Laws:
         return self.check(
             "metric", "<u, v>_p is bilinear, symmetric and positive on tangent vectors", worst, self.spec.metric
         )
+
+    def norm_is_the_length(self) -> Check | None:
+        """|v|_p = sqrt(<v, v>_p), where the author gave a closed form."""
+        if self.spec.norm is None:
+            return None
+        worst = Worst()
+        for p, _ in self.pairs:
+            v = self.call("to_tangent", p, self.sampler.gaussian(self.rng, self.spec.point_size))
+            length = mp.sqrt(self.call("inner", p, v, v)[0])
+            worst = worst.with_error(abs(self.call("norm", p, v)[0] / length - 1), _at("p", p, "v", v))
+        return self.check("norm", "`norm` is the length of v in the metric", worst, self.spec.norm)
 
     def projection_lands_on_the_manifold(self) -> Check | None:
         """c(project(x)) = 0, and project(p) = p."""
@@ -176,6 +192,58 @@ class Laws:
             errors = [*_difference(self.call("log", p, named), self.call("log", p, q)), *self.constraint(named)]
             worst = worst.with_error(max(map(abs, errors)), _at("p", p, "q", q))
         return self.check("quotient", "Log_p(q) is the same for every name of q", worst, other)
+
+    def periods_do_not_matter(self) -> Check | None:
+        """Log does not see a coordinate's full turn."""
+        if self.geometry.periods is None:
+            return None
+        worst, blamed = Worst(), None
+        for i, period in enumerate(self.geometry.periods):
+            if period is None:
+                continue
+            assert self.spec.periods is not None
+            blamed = blamed or self.spec.periods[i]
+            for p, q in self.pairs:
+                turned = [c + (value(period, {}) if k == i else 0) for k, c in enumerate(q)]
+                errors = _difference(self.call("log", p, turned), self.call("log", p, q))
+                worst = worst.with_error(max(map(abs, errors)), _at("p", p, "q", q))
+        return self.check(
+            "period", "Log_p(q) is the same when a coordinate of q goes through its period", worst, blamed
+        )
+
+    def diameter_is_not_exceeded(self) -> Check | None:
+        """No two points are farther apart than the diameter."""
+        if self.spec.diameter is None:
+            return None
+        worst, count = Worst(), 8 * PAIRS
+        diameter = value(self.geometry.diameter, {})
+        for _ in range(count):
+            p, q = self.anywhere(), self.anywhere()
+            excess = self.call("distance", p, q)[0] / diameter - 1
+            worst = worst.with_error(max(excess, mp.mpf(0)), _at("p", p, "q", q))
+        return self.check(
+            "diameter", "no distance is larger than the diameter", worst, self.spec.diameter, points=count
+        )
+
+    def anywhere(self) -> Numbers:
+        """A point that can be anywhere: in a period, or around the manifold."""
+        p = self.sampler.point(self.rng)
+        periods = self.geometry.periods or (None,) * len(p)
+        turns = [value(period, {}) * mp.mpf(self.rng.random()) if period is not None else 0 for period in periods]
+        return [c + turn for c, turn in zip(p, turns, strict=True)]
+
+    def cut_locus_is_reached(self) -> Check | None:
+        """Where the author declares Log: Exp of it is the point, and it is as long as the injectivity radius."""
+        cut = self.spec.cut_locus
+        if cut is None or cut.log is None or self.spec.injectivity_radius is None:
+            return None
+        worst, radius = Worst(), value(self.geometry.injectivity_radius, {})
+        for p, _ in self.pairs:
+            q = self.sampler.along(p, self.sampler.direction(self.rng, p), radius)
+            v = self.call("log", p, q)
+            error = max(self.apart(self.call("exp", p, v), q), abs(self.call("norm", p, v)[0] - radius))
+            worst = worst.with_error(error, _at("p", p, "q", q))
+        return self.check("cut locus", "Log on the cut locus leads there, over the injectivity radius", worst, cut.log)
 
     def distance_is_the_length_of_log(self) -> Check:
         """distance(p, q) = |Log_p(q)|_p."""

@@ -157,7 +157,8 @@ def _cardinal(function: Callable[[Any], Any]) -> Callable[[Any], Any]:
 
 
 WORDS: dict[str, Callable[..., Any]] = {
-    "dot": ca.dot, "norm": ca.norm_2, "sum": ca.sum1, "max": ca.mmax, "cross": ca.cross, "outer": lambda a, b: a @ b.T,
+    "dot": ca.dot, "norm": ca.norm_2, "sum": ca.sum1, "max": ca.mmax,
+    "min": ca.mmin, "cross": ca.cross, "outer": lambda a, b: a @ b.T,
     "qmul": _quaternion_product, "conj": lambda a: ca.vertcat(a[0], -a[1:]), "transpose": lambda A: A.T, "det": ca.det,
     "inv": ca.inv, "orthogonal": _orthogonal, "where": ca.if_else, "wrap": _wrap, "atan2": ca.atan2, "sqrt": ca.sqrt,
     "exp": ca.exp, "log": ca.log, "sin": ca.sin, "cos": ca.cos, "tan": ca.tan, "sinh": ca.sinh, "cosh": ca.cosh,

@@ -23,7 +23,7 @@ from rsrm_gen.compiler.derive.geometry import (
     argument,
     renamed,
 )
-from rsrm_gen.compiler.derive.numeric import Values, run, value
+from rsrm_gen.compiler.derive.numeric import TINY, Values, run, value
 from rsrm_gen.compiler.derive.operators import Operators
 from rsrm_gen.compiler.derive.sampling import Sampler, truth
 from rsrm_gen.compiler.derive.scalarise import Reading, Trace, Truth, number, scalarised
@@ -89,7 +89,22 @@ class _Derivation:
         size = self.spec.point_size
         vectors = ([mp.mpf(self.rng.gauss(0, 1)) for _ in range(size)] for _ in range(400))
         points = (run(self.project, x)[0] if self.spec.embedded else x for x in vectors)
-        return Operators(self.spec, list(itertools.islice(filter(self.is_valid, points), 4)))
+        found = list(itertools.islice(filter(self.is_valid, points), 4))
+        self.check_on_manifold(found)
+        return Operators(self.spec, found)
+
+    def check_on_manifold(self, points: Sequence[Sequence[Any]]) -> None:
+        """Refuse a `project` whose points do not satisfy the constraint: everything is derived from such points."""
+        spec = self.spec
+        if not points and spec.domain is not None:
+            raise UserError("no point satisfies `domain`", spec.domain.value.span)
+        if spec.constraint is None or spec.project is None:
+            return
+        constraint = scalarised(spec, "constraint", spec.constraint, (self.p,), ())
+        errors = [abs(c) for p in points for c in run(constraint, p)[0]]
+        if not all(e < TINY for e in errors):
+            span = spec.project.value.span
+            raise UserError("`project` does not map onto the manifold: its points do not satisfy `constraint`", span)
 
     def is_valid(self, p: Sequence[Any]) -> bool:
         """Whether the domain of the spec, if it has one, holds at p."""

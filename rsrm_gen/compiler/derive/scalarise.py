@@ -294,7 +294,7 @@ class Reading:
             result = sp.atan2(*arguments)
         else:
             result = FUNCTIONS[tree.function](arguments[0])
-        if isinstance(result, sp.Expr) and tree.function not in ("where", "sum", "max", "sign", "wrap"):
+        if isinstance(result, sp.Expr) and tree.function not in ("where", "sum", "max", "min", "sign", "wrap"):
             return self.quantity(name, result)
         return result
 
@@ -314,6 +314,9 @@ class Reading:
 
     def call_max(self, x: Vector) -> sp.Expr:
         return reduce(lambda a, b: choose(Truth(LESS, a, b), b, a), self.materialise(x))
+
+    def call_min(self, x: Vector) -> sp.Expr:
+        return reduce(lambda a, b: choose(Truth(LESS, a, b), a, b), self.materialise(x))
 
     def call_cross(self, x: Vector, y: Vector) -> Vector:
         (a, b, c), (d, e, g) = self.materialise(x), self.materialise(y)

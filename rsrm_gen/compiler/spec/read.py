@@ -23,22 +23,26 @@ RESERVED = {"p", "q", "u", "v", "x", "mu", "W", "amplitude", "df", *CONSTANTS, *
 def read_spec(file: Path | Document, overrides: Mapping[str, int | float | str] | None = None) -> ManifoldSpec:
     """Read a manifold file, with some of its parameters overridden; raises `UserError` for whatever is wrong."""
     document = read_document(file) if isinstance(file, Path) else file
-    _refuse_future_keys(document)
+    _refuse_future_words(document)
     schema = validate(document, ManifoldFile)
+    _require_maps(document, schema)
     return _Reader(document, schema, dict(overrides or {})).spec()
 
 
-def _refuse_future_keys(document: Document) -> None:
+def _refuse_future_words(document: Document) -> None:
     """Words of the language that this version does not compile are named, not called unknown."""
     for key, what in {"product": "products of manifolds", "maps": "retractions", "scale": "scaled metrics"}.items():
         if key in document.data:
             raise UserError(f"{what} (`{key}:`) are not compiled by this version", document.key_span((key,)))
+
+
+def _require_maps(document: Document, schema: ManifoldFile) -> None:
+    """A metric alone describes a manifold, but not one that this version compiles."""
     for key in ("exp", "log"):
-        if "metric" in document.data and document.data.get(key) is None and "manifold" in document.data:
-            span = document.key_span((key,) if key in document.data else ("metric",))
+        if getattr(schema, key) is None:
             raise UserError(
                 f"a metric without `{key}:` is not compiled by this version: geodesics are not solved for",
-                span,
+                document.key_span((key,) if key in document.data else ("metric",)),
                 f"add the closed form `{key}: ...`",
             )
 

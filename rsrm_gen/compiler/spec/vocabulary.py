@@ -66,6 +66,7 @@ WORDS: dict[str, Word] = {
     "norm": Word("norm(a)", "sqrt(dot(a, a))", (1,), _vector_to_scalar),
     "sum": Word("sum(a)", "the sum of the entries", (1,), _vector_to_scalar),
     "max": Word("max(a)", "the largest entry", (1,), _vector_to_scalar),
+    "min": Word("min(a)", "the smallest entry", (1,), _vector_to_scalar),
     "cross": Word("cross(a, b)", "the vector product in R^3", (2,), lambda x, y: (3,) if x == y == (3,) else None),
     "outer": Word("outer(a, b)", "the matrix a_i b_j", (2,), lambda x, y: x + y if len(x) == len(y) == 1 else None),
     "qmul": Word(
