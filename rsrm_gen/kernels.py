@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ctypes
 import itertools
+import os
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -31,11 +32,7 @@ def accelerated(manifold: Manifold, folder: Path) -> Manifold:
 
         def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
             tensors = (x, mu, W, amplitude)
-            if (
-                x.requires_grad
-                or x.dtype not in DTYPES
-                or any(t.device.type != "cpu" or t.dtype != x.dtype for t in tensors)
-            ):
+            if x.requires_grad or not _fit_the_kernel(manifold, *tensors):
                 value, gradient = super().splats(x, mu, W, amplitude)
                 return value, gradient
             if Accelerated.kernel is None:
@@ -47,6 +44,15 @@ def accelerated(manifold: Manifold, folder: Path) -> Manifold:
     Accelerated.__qualname__ = generated.__qualname__
     Accelerated.splats.__doc__ = generated.splats.__doc__
     return Accelerated()
+
+
+def _fit_the_kernel(manifold: Manifold, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> bool:
+    """Whether C may read these tensors: one dtype, on the CPU, and shaped as said, not merely broadcastable to it."""
+    D, K = manifold.point_size, len(mu) if mu.dim() else 0
+    tensors = (x, mu, W, amplitude)
+    shapes = ((len(x) if x.dim() else 0, D), (K, D), (K, manifold.dim, manifold.tangent_size), (K,))
+    alike = all(t.device.type == "cpu" and t.dtype == x.dtype for t in tensors)
+    return alike and x.dtype in DTYPES and all(t.shape == shape for t, shape in zip(tensors, shapes, strict=True))
 
 
 DTYPES = {torch.float64: ("", np.float64), torch.float32: ("_f", np.float32)}
@@ -61,7 +67,7 @@ class SplatKernel:
         self.tangent_size = manifold.tangent_size
         self.library = compiled(files, f"{self.name}_splats.c", FAST)
         self.pool: ThreadPoolExecutor | None = None
-        self.pool_size = 0
+        self.pool_of = (0, 0)  # the process and the number of threads of the pool
 
     def forward(self, x: Any, mu: Any, W: Any, amplitude: Any) -> tuple[Any, Any]:
         """Values (N,) and gradients (N, T) from numpy arrays."""
@@ -94,8 +100,8 @@ class SplatKernel:
         slices = [slice(a, b) for a, b in itertools.pairwise(bounds)]
         if threads == 1:
             return [part(slices[0])]
-        if self.pool is None or self.pool_size < threads:
-            self.pool, self.pool_size = ThreadPoolExecutor(threads), threads
+        if self.pool is None or self.pool_of != (os.getpid(), threads):  # threads do not survive a fork
+            self.pool, self.pool_of = ThreadPoolExecutor(threads), (os.getpid(), threads)
         return list(self.pool.map(part, slices))
 
     def call(self, function: str, rows: slice, splats: int, *arrays: Any) -> None:
@@ -112,14 +118,17 @@ class _Splats(torch.autograd.Function):
     def forward(
         ctx: Any, kernel: SplatKernel, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor
     ) -> tuple[Tensor, Tensor]:
-        arrays = [t.detach().contiguous().numpy() for t in (x, mu, W, amplitude)]
-        ctx.kernel, ctx.arrays = kernel, arrays
-        value, gradient = kernel.forward(*arrays)
+        ctx.kernel = kernel
+        ctx.save_for_backward(x, mu, W, amplitude)  # autograd notices when one is changed before the backward pass
+        value, gradient = kernel.forward(*map(_array, (x, mu, W, amplitude)))
         return torch.from_numpy(value), torch.from_numpy(gradient)
 
     @staticmethod
     @torch.autograd.function.once_differentiable
     def backward(ctx: Any, value_bar: Tensor, gradient_bar: Tensor) -> tuple[Any, ...]:
-        bars = (value_bar.contiguous().numpy(), gradient_bar.contiguous().numpy())
-        sums = ctx.kernel.vjp(*ctx.arrays, *bars)
+        sums = ctx.kernel.vjp(*map(_array, (*ctx.saved_tensors, value_bar, gradient_bar)))
         return None, None, *(torch.from_numpy(s) for s in sums)
+
+
+def _array(tensor: Tensor) -> Any:
+    return tensor.detach().contiguous().numpy()

@@ -9,37 +9,37 @@
 #include <float.h>
 
 static inline double polynomial_sinhc_r_near(double x) {
-    return 1.0 + x * (0.16666666666666669 + x * (0.0083333333333331 + x * (0.00019841269841456446 + x *
-        (2.7557319150704892e-06 + x * (2.5052124008953335e-08 + x * (1.6057199454179518e-10 + x *
-        7.760406418336239e-13))))));
+    return 1.0 + x * (0.1650655 + x * (0.008173985787074772 + x * (0.0001927490072784454 + x *
+        (2.6513509313345557e-06 + x * (2.3871645886590894e-08 + x * (1.5153577513073096e-10 + x *
+        7.253329405682668e-13))))));
 }
 
 static inline double polynomial_r_over_sinh_r_near(double x) {
-    return 1.0 + x * (-0.1666666666666652 + x * (0.033333333333202014 + x * (-0.007142857138283707 + x *
-        (0.0015873015057159467 + x * (-0.0003607495115144189 + x * (8.324456075687903e-05 + x *
-        (-1.9401840339024596e-05 + x * (4.507443377513903e-06 + x * (-9.732611006991387e-07 + x *
-        1.4474803384958734e-07)))))))));
+    return 1.0 + x * (-0.07645299999999933 + x * (0.007014073450772367 + x * (-0.0006894603735308533 + x *
+        (7.028174834933066e-05 + x * (-7.3271429095332685e-06 + x * (7.755870671311039e-07 + x *
+        (-8.292078427084355e-08 + x * (8.836830738665055e-09 + x * (-8.752687130842103e-10 + x *
+        5.971322045969488e-11)))))))));
 }
 
 static inline double polynomial_log_det_series(double x) {
-    return -0.16666666666666666 + x * (0.01944444444444438 + x * (-0.00313051146383882 + x *
-        (0.0005742945324197367 + x * (-0.0001131019149457229 + x * (2.3290036808888825e-05 + x *
-        (-4.944739522360393e-06 + x * (1.0725596995459732e-06 + x * (-2.3422006008653426e-07 + x *
-        (4.811720057878731e-08 + x * -6.917845201939211e-09)))))))));
+    return -0.16666666666666666 + x * (0.008919516666666636 + x * (-0.0006587291203781074 + x *
+        (5.5433465232930376e-05 + x * (-5.007870461546201e-06 + x * (4.73041328179866e-07 + x *
+        (-4.606998930627231e-08 + x * (4.58397192789824e-09 + x * (-4.5918780409089634e-10 + x *
+        (4.3272540326081547e-11 + x * -2.8538336906095128e-12)))))))));
 }
 
 static inline double polynomial_log_det_series_slope(double x) {
-    return 0.01944444444444438 + x * (-0.00626102292767764 + x * (0.0017228835972592101 + x *
-        (-0.0004524076597828916 + x * (0.00011645018404444413 + x * (-2.9668437134162358e-05 + x *
-        (7.507917896821813e-06 + x * (-1.873760480692274e-06 + x * (4.330548052090858e-07 + x *
-        -6.917845201939212e-08))))))));
+    return 0.008919516666666636 + x * (-0.0013174582407562147 + x * (0.00016630039569879112 + x *
+        (-2.0031481846184804e-05 + x * (2.36520664089933e-06 + x * (-2.7641993583763386e-07 + x *
+        (3.208780349528768e-08 + x * (-3.6735024327271707e-09 + x * (3.8945286293473394e-10 + x *
+        -2.8538336906095128e-11))))))));
 }
 
 static inline double polynomial_r_over_sinh_r_near_slope(double x) {
-    return -0.1666666666666652 + x * (0.06666666666640403 + x * (-0.021428571414851123 + x *
-        (0.006349206022863787 + x * (-0.0018037475575720945 + x * (0.0004994673645412742 + x *
-        (-0.0001358128823731722 + x * (3.605954702011122e-05 + x * (-8.759349906292246e-06 + x *
-        1.4474803384958734e-06))))))));
+    return -0.07645299999999933 + x * (0.014028146901544735 + x * (-0.00206838112059256 + x *
+        (0.00028112699339732266 + x * (-3.663571454766634e-05 + x * (4.6535224027866236e-06 + x *
+        (-5.804454898959049e-07 + x * (7.069464590932044e-08 + x * (-7.877418417757893e-09 + x *
+        5.971322045969487e-10))))))));
 }
 
 /* [sqrt(1 + dot(p[1:], p[1:])), p[1:]] */
@@ -163,8 +163,8 @@ void hyperbolic_exp(
     const double vv = (is_small ? dot_h_h_gap : dot_rest_rest + dot_s_h * dot_s_h_ratio / dot_s_s_total);
     const double r = sqrt(vv);
     const double cosh_r = cosh(r);
-    const int near = vv < 0.9903926849365234;
-    const double sinhc_r_near = polynomial_sinhc_r_near((near ? vv : 0.0));
+    const int near = vv < 0.990393;
+    const double sinhc_r_near = polynomial_sinhc_r_near((near ? 1.0097001897226656 * vv : 0.0));
     const double dot_s_h_ratio_2 = dot_s_h / (near ? 1.0 : dot_s_s_chosen);
     const double rest0_2 = v[1] - p[1] * dot_s_h_ratio_2;
     const double rest1_2 = v[2] - p[2] * dot_s_h_ratio_2;
@@ -215,8 +215,8 @@ void hyperbolic_log(
     const double rest1 = D1 - S1 * dot_D_S_ratio;
     const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
     const double ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * (dot_D_S * c));
-    const int near = ww < 0.4587184190750122;
-    const double r_over_sinh_r_near = polynomial_r_over_sinh_r_near((near ? ww : 0.0));
+    const int near = ww < 0.458718;
+    const double r_over_sinh_r_near = polynomial_r_over_sinh_r_near((near ? 2.1799885768598575 * ww : 0.0));
     const double sqrt_ww = sqrt((near ? 1.0 : ww));
     const double asinh_sqrt_ww_over_2 = asinh(0.5 * sqrt_ww);
     const double r = 2.0 * asinh_sqrt_ww_over_2;
@@ -299,12 +299,12 @@ double hyperbolic_log_abs_det(const double *HYPERBOLIC_RESTRICT p, const double 
     const double rest1 = D1 - S1 * dot_D_S_ratio;
     const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
     const double ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * (dot_D_S * c));
-    const int near = ww < 0.4587184190750122;
+    const int near = ww < 0.458718;
     const double sqrt_ww = sqrt((near ? 1.0 : ww));
     const double asinh_sqrt_ww_over_2 = asinh(0.5 * sqrt_ww);
     const double r = 2.0 * asinh_sqrt_ww_over_2;
     const double sinh_r = sqrt((near ? 1.0 : ww * (1.0 + 0.25 * ww)));
-    const double log_det_series = polynomial_log_det_series((near ? ww : 0.0));
+    const double log_det_series = polynomial_log_det_series((near ? 2.1799885768598575 * ww : 0.0));
     const double log_det_near = ww * log_det_series;
     const double log_det = (near ? log_det_near : log(r / sinh_r));
     return log_det;
@@ -403,8 +403,8 @@ void hyperbolic_splat(
     const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
     const double ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * dot_D_S_product);
     const double total_2 = 1.0 + 0.25 * ww;
-    const int near = ww < 0.4587184190750122;
-    const double near_chosen = (near ? ww : 0.0);
+    const int near = ww < 0.458718;
+    const double near_chosen = (near ? 2.1799885768598575 * ww : 0.0);
     const double r_over_sinh_r_near = polynomial_r_over_sinh_r_near(near_chosen);
     const double sqrt_ww = sqrt((near ? 1.0 : ww));
     const double sqrt_ww_product = 0.5 * sqrt_ww;
@@ -445,8 +445,8 @@ void hyperbolic_splat(
     const double by_sqrt_ww = 0.5 * (by_asinh_sqrt_ww_over_2 / sqrt(1.0 + sqrt_ww_product * sqrt_ww_product));
     const double r_over_sinh_r_near_slope = polynomial_r_over_sinh_r_near_slope(near_chosen);
     const double total_3 = log_det_series * by_log_det_near + 0.5 * by_scale + (near ? 0.0 : by_sqrt_ww / (2.0
-        * sqrt_ww)) + (near ? by_log_det_series * log_det_series_slope + by_r_over_sinh_r_near *
-        r_over_sinh_r_near_slope : 0.0);
+        * sqrt_ww)) + 2.1799885768598575 * (near ? by_log_det_series * log_det_series_slope +
+        by_r_over_sinh_r_near * r_over_sinh_r_near_slope : 0.0);
     const double by_ww = total_3 + total_2 * near_chosen_2 + 0.25 * (ww * near_chosen_2);
     const double by_dot_D_D = (is_small ? by_ww : 0.0);
     const double by_dot_rest_rest = (is_small ? 0.0 : by_ww);
@@ -523,37 +523,37 @@ void hyperbolic_frame(const double *HYPERBOLIC_RESTRICT p, double *HYPERBOLIC_RE
 }
 
 static inline float polynomial_sinhc_r_near_f(float x) {
-    return 1.0f + x * (0.16666666666666669f + x * (0.0083333333333331f + x * (0.00019841269841456446f + x *
-        (2.7557319150704892e-06f + x * (2.5052124008953335e-08f + x * (1.6057199454179518e-10f + x *
-        7.760406418336239e-13f))))));
+    return 1.0f + x * (0.1650655f + x * (0.008173985787074772f + x * (0.0001927490072784454f + x *
+        (2.6513509313345557e-06f + x * (2.3871645886590894e-08f + x * (1.5153577513073096e-10f + x *
+        7.253329405682668e-13f))))));
 }
 
 static inline float polynomial_r_over_sinh_r_near_f(float x) {
-    return 1.0f + x * (-0.1666666666666652f + x * (0.033333333333202014f + x * (-0.007142857138283707f + x *
-        (0.0015873015057159467f + x * (-0.0003607495115144189f + x * (8.324456075687903e-05f + x *
-        (-1.9401840339024596e-05f + x * (4.507443377513903e-06f + x * (-9.732611006991387e-07f + x *
-        1.4474803384958734e-07f)))))))));
+    return 1.0f + x * (-0.07645299999999933f + x * (0.007014073450772367f + x * (-0.0006894603735308533f + x *
+        (7.028174834933066e-05f + x * (-7.3271429095332685e-06f + x * (7.755870671311039e-07f + x *
+        (-8.292078427084355e-08f + x * (8.836830738665055e-09f + x * (-8.752687130842103e-10f + x *
+        5.971322045969488e-11f)))))))));
 }
 
 static inline float polynomial_log_det_series_f(float x) {
-    return -0.16666666666666666f + x * (0.01944444444444438f + x * (-0.00313051146383882f + x *
-        (0.0005742945324197367f + x * (-0.0001131019149457229f + x * (2.3290036808888825e-05f + x *
-        (-4.944739522360393e-06f + x * (1.0725596995459732e-06f + x * (-2.3422006008653426e-07f + x *
-        (4.811720057878731e-08f + x * -6.917845201939211e-09f)))))))));
+    return -0.16666666666666666f + x * (0.008919516666666636f + x * (-0.0006587291203781074f + x *
+        (5.5433465232930376e-05f + x * (-5.007870461546201e-06f + x * (4.73041328179866e-07f + x *
+        (-4.606998930627231e-08f + x * (4.58397192789824e-09f + x * (-4.5918780409089634e-10f + x *
+        (4.3272540326081547e-11f + x * -2.8538336906095128e-12f)))))))));
 }
 
 static inline float polynomial_log_det_series_slope_f(float x) {
-    return 0.01944444444444438f + x * (-0.00626102292767764f + x * (0.0017228835972592101f + x *
-        (-0.0004524076597828916f + x * (0.00011645018404444413f + x * (-2.9668437134162358e-05f + x *
-        (7.507917896821813e-06f + x * (-1.873760480692274e-06f + x * (4.330548052090858e-07f + x *
-        -6.917845201939212e-08f))))))));
+    return 0.008919516666666636f + x * (-0.0013174582407562147f + x * (0.00016630039569879112f + x *
+        (-2.0031481846184804e-05f + x * (2.36520664089933e-06f + x * (-2.7641993583763386e-07f + x *
+        (3.208780349528768e-08f + x * (-3.6735024327271707e-09f + x * (3.8945286293473394e-10f + x *
+        -2.8538336906095128e-11f))))))));
 }
 
 static inline float polynomial_r_over_sinh_r_near_slope_f(float x) {
-    return -0.1666666666666652f + x * (0.06666666666640403f + x * (-0.021428571414851123f + x *
-        (0.006349206022863787f + x * (-0.0018037475575720945f + x * (0.0004994673645412742f + x *
-        (-0.0001358128823731722f + x * (3.605954702011122e-05f + x * (-8.759349906292246e-06f + x *
-        1.4474803384958734e-06f))))))));
+    return -0.07645299999999933f + x * (0.014028146901544735f + x * (-0.00206838112059256f + x *
+        (0.00028112699339732266f + x * (-3.663571454766634e-05f + x * (4.6535224027866236e-06f + x *
+        (-5.804454898959049e-07f + x * (7.069464590932044e-08f + x * (-7.877418417757893e-09f + x *
+        5.971322045969487e-10f))))))));
 }
 
 /* [sqrt(1 + dot(p[1:], p[1:])), p[1:]] */
@@ -677,8 +677,8 @@ void hyperbolic_exp_f(
     const float vv = (is_small ? dot_h_h_gap : dot_rest_rest + dot_s_h * dot_s_h_ratio / dot_s_s_total);
     const float r = sqrtf(vv);
     const float cosh_r = coshf(r);
-    const int near = vv < 0.9903926849365234f;
-    const float sinhc_r_near = polynomial_sinhc_r_near_f((near ? vv : 0.0f));
+    const int near = vv < 0.990393f;
+    const float sinhc_r_near = polynomial_sinhc_r_near_f((near ? 1.0097001897226656f * vv : 0.0f));
     const float dot_s_h_ratio_2 = dot_s_h / (near ? 1.0f : dot_s_s_chosen);
     const float rest0_2 = v[1] - p[1] * dot_s_h_ratio_2;
     const float rest1_2 = v[2] - p[2] * dot_s_h_ratio_2;
@@ -728,8 +728,9 @@ void hyperbolic_log_f(
     const float rest1 = D1 - S1 * dot_D_S_ratio;
     const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
     const float ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * (dot_D_S * c));
-    const int near = ww < 0.4587184190750122f;
-    const float r_over_sinh_r_near = polynomial_r_over_sinh_r_near_f((near ? ww : 0.0f));
+    const int near = ww < 0.458718f;
+    const float r_over_sinh_r_near = polynomial_r_over_sinh_r_near_f((near ? 2.1799885768598575f * ww :
+        0.0f));
     const float sqrt_ww = sqrtf((near ? 1.0f : ww));
     const float asinh_sqrt_ww_over_2 = asinhf(0.5f * sqrt_ww);
     const float r = 2.0f * asinh_sqrt_ww_over_2;
@@ -812,12 +813,12 @@ float hyperbolic_log_abs_det_f(const float *HYPERBOLIC_RESTRICT p, const float *
     const float rest1 = D1 - S1 * dot_D_S_ratio;
     const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
     const float ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * (dot_D_S * c));
-    const int near = ww < 0.4587184190750122f;
+    const int near = ww < 0.458718f;
     const float sqrt_ww = sqrtf((near ? 1.0f : ww));
     const float asinh_sqrt_ww_over_2 = asinhf(0.5f * sqrt_ww);
     const float r = 2.0f * asinh_sqrt_ww_over_2;
     const float sinh_r = sqrtf((near ? 1.0f : ww * (1.0f + 0.25f * ww)));
-    const float log_det_series = polynomial_log_det_series_f((near ? ww : 0.0f));
+    const float log_det_series = polynomial_log_det_series_f((near ? 2.1799885768598575f * ww : 0.0f));
     const float log_det_near = ww * log_det_series;
     const float log_det = (near ? log_det_near : logf(r / sinh_r));
     return log_det;
@@ -916,8 +917,8 @@ void hyperbolic_splat_f(
     const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
     const float ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * dot_D_S_product);
     const float total_2 = 1.0f + 0.25f * ww;
-    const int near = ww < 0.4587184190750122f;
-    const float near_chosen = (near ? ww : 0.0f);
+    const int near = ww < 0.458718f;
+    const float near_chosen = (near ? 2.1799885768598575f * ww : 0.0f);
     const float r_over_sinh_r_near = polynomial_r_over_sinh_r_near_f(near_chosen);
     const float sqrt_ww = sqrtf((near ? 1.0f : ww));
     const float sqrt_ww_product = 0.5f * sqrt_ww;
@@ -959,8 +960,8 @@ void hyperbolic_splat_f(
         sqrt_ww_product));
     const float r_over_sinh_r_near_slope = polynomial_r_over_sinh_r_near_slope_f(near_chosen);
     const float total_3 = log_det_series * by_log_det_near + 0.5f * by_scale + (near ? 0.0f : by_sqrt_ww /
-        (2.0f * sqrt_ww)) + (near ? by_log_det_series * log_det_series_slope + by_r_over_sinh_r_near *
-        r_over_sinh_r_near_slope : 0.0f);
+        (2.0f * sqrt_ww)) + 2.1799885768598575f * (near ? by_log_det_series * log_det_series_slope +
+        by_r_over_sinh_r_near * r_over_sinh_r_near_slope : 0.0f);
     const float by_ww = total_3 + total_2 * near_chosen_2 + 0.25f * (ww * near_chosen_2);
     const float by_dot_D_D = (is_small ? by_ww : 0.0f);
     const float by_dot_rest_rest = (is_small ? 0.0f : by_ww);

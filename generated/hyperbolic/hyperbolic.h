@@ -12,14 +12,14 @@
  * inner                          5
  * norm                          28
  * flat                           1
- * exp                           74      <= 2     <= 2
- * log                           95     <= 16     <= 8
+ * exp                           75      <= 2     <= 2
+ * log                           96     <= 16     <= 8
  * distance                      55      <= 2     <= 2
- * log_abs_det                   87      <= 4     <= 4
+ * log_abs_det                   88      <= 4     <= 4
  * riemannian_gradient           11
  * gradient_norm                 37
- * splat                        313
- * splat_vjp                    729
+ * splat                        315
+ * splat_vjp                    733
  *
  * Errors are the worst of 33 points against 60 digits, in units of the error that rounding the
  * inputs and the output to the precision alone would cause.

@@ -25,43 +25,43 @@ static void restore_denormals(unsigned mode) { (void)mode; }
 #endif
 
 static inline double polynomial_r_over_sinh_r_near(double x) {
-    return 1.0 + x * (-0.1666666666666652 + x * (0.033333333333202014 + x * (-0.007142857138283707 + x *
-        (0.0015873015057159467 + x * (-0.0003607495115144189 + x * (8.324456075687903e-05 + x *
-        (-1.9401840339024596e-05 + x * (4.507443377513903e-06 + x * (-9.732611006991387e-07 + x *
-        1.4474803384958734e-07)))))))));
+    return 1.0 + x * (-0.07645299999999933 + x * (0.007014073450772367 + x * (-0.0006894603735308533 + x *
+        (7.028174834933066e-05 + x * (-7.3271429095332685e-06 + x * (7.755870671311039e-07 + x *
+        (-8.292078427084355e-08 + x * (8.836830738665055e-09 + x * (-8.752687130842103e-10 + x *
+        5.971322045969488e-11)))))))));
 }
 
 static inline double polynomial_log_det_series(double x) {
-    return -0.16666666666666666 + x * (0.01944444444444438 + x * (-0.00313051146383882 + x *
-        (0.0005742945324197367 + x * (-0.0001131019149457229 + x * (2.3290036808888825e-05 + x *
-        (-4.944739522360393e-06 + x * (1.0725596995459732e-06 + x * (-2.3422006008653426e-07 + x *
-        (4.811720057878731e-08 + x * -6.917845201939211e-09)))))))));
+    return -0.16666666666666666 + x * (0.008919516666666636 + x * (-0.0006587291203781074 + x *
+        (5.5433465232930376e-05 + x * (-5.007870461546201e-06 + x * (4.73041328179866e-07 + x *
+        (-4.606998930627231e-08 + x * (4.58397192789824e-09 + x * (-4.5918780409089634e-10 + x *
+        (4.3272540326081547e-11 + x * -2.8538336906095128e-12)))))))));
 }
 
 static inline double polynomial_log_det_series_slope(double x) {
-    return 0.01944444444444438 + x * (-0.00626102292767764 + x * (0.0017228835972592101 + x *
-        (-0.0004524076597828916 + x * (0.00011645018404444413 + x * (-2.9668437134162358e-05 + x *
-        (7.507917896821813e-06 + x * (-1.873760480692274e-06 + x * (4.330548052090858e-07 + x *
-        -6.917845201939212e-08))))))));
+    return 0.008919516666666636 + x * (-0.0013174582407562147 + x * (0.00016630039569879112 + x *
+        (-2.0031481846184804e-05 + x * (2.36520664089933e-06 + x * (-2.7641993583763386e-07 + x *
+        (3.208780349528768e-08 + x * (-3.6735024327271707e-09 + x * (3.8945286293473394e-10 + x *
+        -2.8538336906095128e-11))))))));
 }
 
 static inline double polynomial_r_over_sinh_r_near_slope(double x) {
-    return -0.1666666666666652 + x * (0.06666666666640403 + x * (-0.021428571414851123 + x *
-        (0.006349206022863787 + x * (-0.0018037475575720945 + x * (0.0004994673645412742 + x *
-        (-0.0001358128823731722 + x * (3.605954702011122e-05 + x * (-8.759349906292246e-06 + x *
-        1.4474803384958734e-06))))))));
+    return -0.07645299999999933 + x * (0.014028146901544735 + x * (-0.00206838112059256 + x *
+        (0.00028112699339732266 + x * (-3.663571454766634e-05 + x * (4.6535224027866236e-06 + x *
+        (-5.804454898959049e-07 + x * (7.069464590932044e-08 + x * (-7.877418417757893e-09 + x *
+        5.971322045969487e-10))))))));
 }
 
 static inline double polynomial_r_over_sinh_r_near_slope_slope(double x) {
-    return 0.06666666666640403 + x * (-0.042857142829702245 + x * (0.01904761806859136 + x *
-        (-0.007214990230288378 + x * (0.002497336822706371 + x * (-0.0008148772942390331 + x *
-        (0.00025241682914077854 + x * (-7.007479925033797e-05 + x * 1.302732304646286e-05)))))));
+    return 0.014028146901544735 + x * (-0.00413676224118512 + x * (0.000843380980191968 + x *
+        (-0.00014654285819066536 + x * (2.3267612013933116e-05 + x * (-3.482672939375429e-06 + x *
+        (4.948625213652431e-07 + x * (-6.301934734206314e-08 + x * 5.3741898413725385e-09)))))));
 }
 
 static inline double polynomial_log_det_series_slope_slope(double x) {
-    return -0.00626102292767764 + x * (0.0034457671945184202 + x * (-0.0013572229793486748 + x *
-        (0.0004658007361777765 + x * (-0.0001483421856708118 + x * (4.504750738093088e-05 + x *
-        (-1.3116323364845918e-05 + x * (3.4644384416726863e-06 + x * -6.22606068174529e-07)))))));
+    return -0.0013174582407562147 + x * (0.00033260079139758224 + x * (-6.009444553855441e-05 + x *
+        (9.46082656359732e-06 + x * (-1.3820996791881693e-06 + x * (1.925268209717261e-07 + x *
+        (-2.5714517029090196e-08 + x * (3.1156229034778715e-09 + x * -2.5684503215485614e-10)))))));
 }
 
 void hyperbolic_splats(
@@ -84,13 +84,13 @@ void hyperbolic_splats(
         for (size_t k = 0; k < splat_count; ++k) {
             const double mu1 = mu[3 * k + 1];
             const double mu2 = mu[3 * k + 2];
-            const double W0 = W[6 * k + 0];
-            const double W1 = W[6 * k + 1];
-            const double W2 = W[6 * k + 2];
-            const double W3 = W[6 * k + 3];
-            const double W4 = W[6 * k + 4];
-            const double W5 = W[6 * k + 5];
-            const double amplitude0 = amplitude[1 * k + 0];
+            const double W0_0 = W[6 * k + 0];
+            const double W0_1 = W[6 * k + 1];
+            const double W0_2 = W[6 * k + 2];
+            const double W1_0 = W[6 * k + 3];
+            const double W1_1 = W[6 * k + 4];
+            const double W1_2 = W[6 * k + 5];
+            const double amplitude_k = amplitude[1 * k + 0];
             for (size_t lane = 0; lane < LANES; ++lane) {
                 const double S0 = x_block[1][lane] + mu1;
                 const double S1 = x_block[2][lane] + mu2;
@@ -119,8 +119,8 @@ void hyperbolic_splats(
                 const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
                 const double ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * dot_D_S_product);
                 const double total_2 = 1.0 + 0.25 * ww;
-                const int near = ww < 0.4587184190750122;
-                const double near_chosen = (near ? ww : 0.0);
+                const int near = ww < 0.458718;
+                const double near_chosen = (near ? 2.1799885768598575 * ww : 0.0);
                 const double r_over_sinh_r_near = polynomial_r_over_sinh_r_near(near_chosen);
                 const double sqrt_ww = sqrt((near ? 1.0 : ww));
                 const double sqrt_ww_product = 0.5 * sqrt_ww;
@@ -139,13 +139,13 @@ void hyperbolic_splats(
                 const double log_det_series = polynomial_log_det_series(near_chosen);
                 const double log_det_near = ww * log_det_series;
                 const double log_det = (near ? log_det_near : log(r_ratio));
-                const double z0 = W0 * v0 + W1 * v1 + W2 * v2;
-                const double z1 = W3 * v0 + W4 * v1 + W5 * v2;
+                const double z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+                const double z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
                 const double exp_2 = exp(log_det - 0.5 * (z0 * z0 + z1 * z1));
-                const double phi = amplitude0 * exp_2;
-                const double by_v2 = -(W5 * z1) - W2 * z0;
-                const double by_v1 = -(W4 * z1) - W1 * z0;
-                const double by_v0 = -(W3 * z1) - W0 * z0;
+                const double phi = amplitude_k * exp_2;
+                const double by_v2 = -(W1_2 * z1) - W0_2 * z0;
+                const double by_v1 = -(W1_1 * z1) - W0_1 * z0;
+                const double by_v0 = -(W1_0 * z1) - W0_0 * z0;
                 const double by_log_det_near = (near ? 1.0 : 0.0);
                 const double by_log_det_series = ww * by_log_det_near;
                 const double log_det_series_slope = polynomial_log_det_series_slope(near_chosen);
@@ -161,8 +161,8 @@ void hyperbolic_splats(
                 const double by_sqrt_ww = 0.5 * (by_asinh_sqrt_ww_over_2 / sqrt(1.0 + sqrt_ww_product * sqrt_ww_product));
                 const double r_over_sinh_r_near_slope = polynomial_r_over_sinh_r_near_slope(near_chosen);
                 const double total_3 = log_det_series * by_log_det_near + 0.5 * by_scale + (near ? 0.0 : by_sqrt_ww / (2.0
-                    * sqrt_ww)) + (near ? by_log_det_series * log_det_series_slope + by_r_over_sinh_r_near *
-                    r_over_sinh_r_near_slope : 0.0);
+                    * sqrt_ww)) + 2.1799885768598575 * (near ? by_log_det_series * log_det_series_slope +
+                    by_r_over_sinh_r_near * r_over_sinh_r_near_slope : 0.0);
                 const double by_ww = total_3 + total_2 * near_chosen_2 + 0.25 * (ww * near_chosen_2);
                 const double by_dot_D_D = (is_small ? by_ww : 0.0);
                 const double by_dot_rest_rest = (is_small ? 0.0 : by_ww);
@@ -244,13 +244,13 @@ void hyperbolic_splats_vjp(
             double sum[10][LANES] = {{0}}, total[10] = {0};
             const double mu1 = mu[3 * k + 1];
             const double mu2 = mu[3 * k + 2];
-            const double W0 = W[6 * k + 0];
-            const double W1 = W[6 * k + 1];
-            const double W2 = W[6 * k + 2];
-            const double W3 = W[6 * k + 3];
-            const double W4 = W[6 * k + 4];
-            const double W5 = W[6 * k + 5];
-            const double amplitude0 = amplitude[1 * k + 0];
+            const double W0_0 = W[6 * k + 0];
+            const double W0_1 = W[6 * k + 1];
+            const double W0_2 = W[6 * k + 2];
+            const double W1_0 = W[6 * k + 3];
+            const double W1_1 = W[6 * k + 4];
+            const double W1_2 = W[6 * k + 5];
+            const double amplitude_k = amplitude[1 * k + 0];
             for (size_t lane = 0; lane < LANES; ++lane) {
                 const double S0 = x_block[1][lane] + mu1;
                 const double S1 = x_block[2][lane] + mu2;
@@ -280,8 +280,8 @@ void hyperbolic_splats_vjp(
                 const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
                 const double ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * dot_D_S_product);
                 const double total_2 = 1.0 + 0.25 * ww;
-                const int near = ww < 0.4587184190750122;
-                const double near_chosen = (near ? ww : 0.0);
+                const int near = ww < 0.458718;
+                const double near_chosen = (near ? 2.1799885768598575 * ww : 0.0);
                 const double r_over_sinh_r_near = polynomial_r_over_sinh_r_near(near_chosen);
                 const double sqrt_ww = sqrt((near ? 1.0 : ww));
                 const double sqrt_ww_product = 0.5 * sqrt_ww;
@@ -300,13 +300,13 @@ void hyperbolic_splats_vjp(
                 const double log_det_series = polynomial_log_det_series(near_chosen);
                 const double log_det_near = ww * log_det_series;
                 const double log_det = (near ? log_det_near : log(r_ratio));
-                const double z0 = W0 * v0 + W1 * v1 + W2 * v2;
-                const double z1 = W3 * v0 + W4 * v1 + W5 * v2;
+                const double z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+                const double z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
                 const double exp_2 = exp(log_det - 0.5 * (z0 * z0 + z1 * z1));
-                const double phi = amplitude0 * exp_2;
-                const double by_v2 = -(W5 * z1) - W2 * z0;
-                const double by_v1 = -(W4 * z1) - W1 * z0;
-                const double by_v0 = -(W3 * z1) - W0 * z0;
+                const double phi = amplitude_k * exp_2;
+                const double by_v2 = -(W1_2 * z1) - W0_2 * z0;
+                const double by_v1 = -(W1_1 * z1) - W0_1 * z0;
+                const double by_v0 = -(W1_0 * z1) - W0_0 * z0;
                 const double by_log_det_near = (near ? 1.0 : 0.0);
                 const double ratio = (near ? 0.0 : 1.0) / r_ratio;
                 const double by_log_det_series = ww * by_log_det_near;
@@ -329,9 +329,9 @@ void hyperbolic_splats_vjp(
                 const double by_sqrt_ww_ratio = by_sqrt_ww / sqrt_ww_product_2;
                 const double r_over_sinh_r_near_slope = polynomial_r_over_sinh_r_near_slope(near_chosen);
                 const double total_3 = log_det_series * by_log_det_near + 0.5 * by_scale + (near ? 0.0 : by_sqrt_ww_ratio)
-                    + (near ? by_log_det_series * log_det_series_slope + by_r_over_sinh_r_near * r_over_sinh_r_near_slope
-                    : 0.0) + total_2 * near_chosen_2;
-                const double by_ww = total_3 + 0.25 * (ww * near_chosen_2);
+                    + 2.1799885768598575 * (near ? by_log_det_series * log_det_series_slope + by_r_over_sinh_r_near *
+                    r_over_sinh_r_near_slope : 0.0);
+                const double by_ww = total_3 + total_2 * near_chosen_2 + 0.25 * (ww * near_chosen_2);
                 const double by_dot_D_D = (is_small ? by_ww : 0.0);
                 const double by_dot_rest_rest = (is_small ? 0.0 : by_ww);
                 const double product_4 = dot_D_S_ratio * by_dot_rest_rest;
@@ -395,7 +395,7 @@ void hyperbolic_splats_vjp(
                     total_5 + dot_D_S_product * ratio_5;
                 const double by_by_ww = (is_small ? 0.0 : by_by_dot_rest_rest) + (is_small ? by_by_dot_D_D : 0.0);
                 const double by_by_ww_product = 0.25 * by_by_ww;
-                const double near_chosen_3 = (near ? by_by_ww : 0.0);
+                const double near_chosen_3 = (near ? 2.1799885768598575 * by_by_ww : 0.0);
                 const double by_by_r_over_sinh_r_near = r_over_sinh_r_near_slope * near_chosen_3;
                 const double by_r_over_sinh_r_near_slope = by_r_over_sinh_r_near * near_chosen_3;
                 const double r_over_sinh_r_near_slope_slope = polynomial_r_over_sinh_r_near_slope_slope(near_chosen);
@@ -415,12 +415,12 @@ void hyperbolic_splats_vjp(
                 const double by_by_log_det_series = log_det_series_slope * near_chosen_3;
                 const double by_log_det_series_slope = by_log_det_series * near_chosen_3;
                 const double log_det_series_slope_slope = polynomial_log_det_series_slope_slope(near_chosen);
-                const double by_log_det = exp_2 * (amplitude0 * by_phi);
-                const double by_z1 = -(W3 * by_by_v0) - W4 * by_by_v1 - W5 * by_by_v2 - z1 * by_log_det;
-                const double by_z0 = -(W0 * by_by_v0) - W1 * by_by_v1 - W2 * by_by_v2 - z0 * by_log_det;
-                const double by_v2_2 = W5 * by_z1 + W2 * by_z0;
-                const double by_v1_2 = W4 * by_z1 + W1 * by_z0;
-                const double by_v0_2 = W3 * by_z1 + W0 * by_z0;
+                const double by_log_det = exp_2 * (amplitude_k * by_phi);
+                const double by_z1 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2 - z1 * by_log_det;
+                const double by_z0 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2 - z0 * by_log_det;
+                const double by_v2_2 = W1_2 * by_z1 + W0_2 * by_z0;
+                const double by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0;
+                const double by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0;
                 const double by_log_det_near_2 = (near ? by_log_det : 0.0);
                 const double by_log_det_series_2 = by_log_det_near * by_by_ww + ww * by_log_det_near_2;
                 const double total_7 = by_v2 * by_by_r_over_sinh_r + r_over_sinh_r * by_v2_2;
@@ -446,8 +446,8 @@ void hyperbolic_splats_vjp(
                 const double near_chosen_5 = (near ? by_r_over_sinh_r_near_slope * r_over_sinh_r_near_slope_slope +
                     by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
                     r_over_sinh_r_near_slope * by_r_over_sinh_r_near_2 : 0.0);
-                const double by_ww_2 = total_12 + near_chosen_5 + total_2 * near_chosen_4 + 0.25 * (near_chosen_2 *
-                    by_by_ww + ww * near_chosen_4);
+                const double by_ww_2 = total_12 + 2.1799885768598575 * near_chosen_5 + total_2 * near_chosen_4 + 0.25 *
+                    (near_chosen_2 * by_by_ww + ww * near_chosen_4);
                 const double by_dot_D_D_2 = (is_small ? by_ww_2 : 0.0);
                 const double by_dot_rest_rest_2 = (is_small ? 0.0 : by_ww_2);
                 const double total_13 = by_dot_rest_rest * ratio_5 + dot_D_S_ratio * by_dot_rest_rest_2;
@@ -518,43 +518,43 @@ void hyperbolic_splats_vjp(
 }
 
 static inline float polynomial_r_over_sinh_r_near_f(float x) {
-    return 1.0f + x * (-0.1666666666666652f + x * (0.033333333333202014f + x * (-0.007142857138283707f + x *
-        (0.0015873015057159467f + x * (-0.0003607495115144189f + x * (8.324456075687903e-05f + x *
-        (-1.9401840339024596e-05f + x * (4.507443377513903e-06f + x * (-9.732611006991387e-07f + x *
-        1.4474803384958734e-07f)))))))));
+    return 1.0f + x * (-0.07645299999999933f + x * (0.007014073450772367f + x * (-0.0006894603735308533f + x *
+        (7.028174834933066e-05f + x * (-7.3271429095332685e-06f + x * (7.755870671311039e-07f + x *
+        (-8.292078427084355e-08f + x * (8.836830738665055e-09f + x * (-8.752687130842103e-10f + x *
+        5.971322045969488e-11f)))))))));
 }
 
 static inline float polynomial_log_det_series_f(float x) {
-    return -0.16666666666666666f + x * (0.01944444444444438f + x * (-0.00313051146383882f + x *
-        (0.0005742945324197367f + x * (-0.0001131019149457229f + x * (2.3290036808888825e-05f + x *
-        (-4.944739522360393e-06f + x * (1.0725596995459732e-06f + x * (-2.3422006008653426e-07f + x *
-        (4.811720057878731e-08f + x * -6.917845201939211e-09f)))))))));
+    return -0.16666666666666666f + x * (0.008919516666666636f + x * (-0.0006587291203781074f + x *
+        (5.5433465232930376e-05f + x * (-5.007870461546201e-06f + x * (4.73041328179866e-07f + x *
+        (-4.606998930627231e-08f + x * (4.58397192789824e-09f + x * (-4.5918780409089634e-10f + x *
+        (4.3272540326081547e-11f + x * -2.8538336906095128e-12f)))))))));
 }
 
 static inline float polynomial_log_det_series_slope_f(float x) {
-    return 0.01944444444444438f + x * (-0.00626102292767764f + x * (0.0017228835972592101f + x *
-        (-0.0004524076597828916f + x * (0.00011645018404444413f + x * (-2.9668437134162358e-05f + x *
-        (7.507917896821813e-06f + x * (-1.873760480692274e-06f + x * (4.330548052090858e-07f + x *
-        -6.917845201939212e-08f))))))));
+    return 0.008919516666666636f + x * (-0.0013174582407562147f + x * (0.00016630039569879112f + x *
+        (-2.0031481846184804e-05f + x * (2.36520664089933e-06f + x * (-2.7641993583763386e-07f + x *
+        (3.208780349528768e-08f + x * (-3.6735024327271707e-09f + x * (3.8945286293473394e-10f + x *
+        -2.8538336906095128e-11f))))))));
 }
 
 static inline float polynomial_r_over_sinh_r_near_slope_f(float x) {
-    return -0.1666666666666652f + x * (0.06666666666640403f + x * (-0.021428571414851123f + x *
-        (0.006349206022863787f + x * (-0.0018037475575720945f + x * (0.0004994673645412742f + x *
-        (-0.0001358128823731722f + x * (3.605954702011122e-05f + x * (-8.759349906292246e-06f + x *
-        1.4474803384958734e-06f))))))));
+    return -0.07645299999999933f + x * (0.014028146901544735f + x * (-0.00206838112059256f + x *
+        (0.00028112699339732266f + x * (-3.663571454766634e-05f + x * (4.6535224027866236e-06f + x *
+        (-5.804454898959049e-07f + x * (7.069464590932044e-08f + x * (-7.877418417757893e-09f + x *
+        5.971322045969487e-10f))))))));
 }
 
 static inline float polynomial_r_over_sinh_r_near_slope_slope_f(float x) {
-    return 0.06666666666640403f + x * (-0.042857142829702245f + x * (0.01904761806859136f + x *
-        (-0.007214990230288378f + x * (0.002497336822706371f + x * (-0.0008148772942390331f + x *
-        (0.00025241682914077854f + x * (-7.007479925033797e-05f + x * 1.302732304646286e-05f)))))));
+    return 0.014028146901544735f + x * (-0.00413676224118512f + x * (0.000843380980191968f + x *
+        (-0.00014654285819066536f + x * (2.3267612013933116e-05f + x * (-3.482672939375429e-06f + x *
+        (4.948625213652431e-07f + x * (-6.301934734206314e-08f + x * 5.3741898413725385e-09f)))))));
 }
 
 static inline float polynomial_log_det_series_slope_slope_f(float x) {
-    return -0.00626102292767764f + x * (0.0034457671945184202f + x * (-0.0013572229793486748f + x *
-        (0.0004658007361777765f + x * (-0.0001483421856708118f + x * (4.504750738093088e-05f + x *
-        (-1.3116323364845918e-05f + x * (3.4644384416726863e-06f + x * -6.22606068174529e-07f)))))));
+    return -0.0013174582407562147f + x * (0.00033260079139758224f + x * (-6.009444553855441e-05f + x *
+        (9.46082656359732e-06f + x * (-1.3820996791881693e-06f + x * (1.925268209717261e-07f + x *
+        (-2.5714517029090196e-08f + x * (3.1156229034778715e-09f + x * -2.5684503215485614e-10f)))))));
 }
 
 void hyperbolic_splats_f(
@@ -577,13 +577,13 @@ void hyperbolic_splats_f(
         for (size_t k = 0; k < splat_count; ++k) {
             const float mu1 = mu[3 * k + 1];
             const float mu2 = mu[3 * k + 2];
-            const float W0 = W[6 * k + 0];
-            const float W1 = W[6 * k + 1];
-            const float W2 = W[6 * k + 2];
-            const float W3 = W[6 * k + 3];
-            const float W4 = W[6 * k + 4];
-            const float W5 = W[6 * k + 5];
-            const float amplitude0 = amplitude[1 * k + 0];
+            const float W0_0 = W[6 * k + 0];
+            const float W0_1 = W[6 * k + 1];
+            const float W0_2 = W[6 * k + 2];
+            const float W1_0 = W[6 * k + 3];
+            const float W1_1 = W[6 * k + 4];
+            const float W1_2 = W[6 * k + 5];
+            const float amplitude_k = amplitude[1 * k + 0];
             for (size_t lane = 0; lane < LANES; ++lane) {
                 const float S0 = x_block[1][lane] + mu1;
                 const float S1 = x_block[2][lane] + mu2;
@@ -612,8 +612,8 @@ void hyperbolic_splats_f(
                 const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
                 const float ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * dot_D_S_product);
                 const float total_2 = 1.0f + 0.25f * ww;
-                const int near = ww < 0.4587184190750122f;
-                const float near_chosen = (near ? ww : 0.0f);
+                const int near = ww < 0.458718f;
+                const float near_chosen = (near ? 2.1799885768598575f * ww : 0.0f);
                 const float r_over_sinh_r_near = polynomial_r_over_sinh_r_near_f(near_chosen);
                 const float sqrt_ww = sqrtf((near ? 1.0f : ww));
                 const float sqrt_ww_product = 0.5f * sqrt_ww;
@@ -632,13 +632,13 @@ void hyperbolic_splats_f(
                 const float log_det_series = polynomial_log_det_series_f(near_chosen);
                 const float log_det_near = ww * log_det_series;
                 const float log_det = (near ? log_det_near : logf(r_ratio));
-                const float z0 = W0 * v0 + W1 * v1 + W2 * v2;
-                const float z1 = W3 * v0 + W4 * v1 + W5 * v2;
+                const float z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+                const float z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
                 const float exp_2 = expf(log_det - 0.5f * (z0 * z0 + z1 * z1));
-                const float phi = amplitude0 * exp_2;
-                const float by_v2 = -(W5 * z1) - W2 * z0;
-                const float by_v1 = -(W4 * z1) - W1 * z0;
-                const float by_v0 = -(W3 * z1) - W0 * z0;
+                const float phi = amplitude_k * exp_2;
+                const float by_v2 = -(W1_2 * z1) - W0_2 * z0;
+                const float by_v1 = -(W1_1 * z1) - W0_1 * z0;
+                const float by_v0 = -(W1_0 * z1) - W0_0 * z0;
                 const float by_log_det_near = (near ? 1.0f : 0.0f);
                 const float by_log_det_series = ww * by_log_det_near;
                 const float log_det_series_slope = polynomial_log_det_series_slope_f(near_chosen);
@@ -655,8 +655,8 @@ void hyperbolic_splats_f(
                     sqrt_ww_product));
                 const float r_over_sinh_r_near_slope = polynomial_r_over_sinh_r_near_slope_f(near_chosen);
                 const float total_3 = log_det_series * by_log_det_near + 0.5f * by_scale + (near ? 0.0f : by_sqrt_ww /
-                    (2.0f * sqrt_ww)) + (near ? by_log_det_series * log_det_series_slope + by_r_over_sinh_r_near *
-                    r_over_sinh_r_near_slope : 0.0f);
+                    (2.0f * sqrt_ww)) + 2.1799885768598575f * (near ? by_log_det_series * log_det_series_slope +
+                    by_r_over_sinh_r_near * r_over_sinh_r_near_slope : 0.0f);
                 const float by_ww = total_3 + total_2 * near_chosen_2 + 0.25f * (ww * near_chosen_2);
                 const float by_dot_D_D = (is_small ? by_ww : 0.0f);
                 const float by_dot_rest_rest = (is_small ? 0.0f : by_ww);
@@ -737,13 +737,13 @@ void hyperbolic_splats_vjp_f(
             float sum[10][LANES] = {{0}}, total[10] = {0};
             const float mu1 = mu[3 * k + 1];
             const float mu2 = mu[3 * k + 2];
-            const float W0 = W[6 * k + 0];
-            const float W1 = W[6 * k + 1];
-            const float W2 = W[6 * k + 2];
-            const float W3 = W[6 * k + 3];
-            const float W4 = W[6 * k + 4];
-            const float W5 = W[6 * k + 5];
-            const float amplitude0 = amplitude[1 * k + 0];
+            const float W0_0 = W[6 * k + 0];
+            const float W0_1 = W[6 * k + 1];
+            const float W0_2 = W[6 * k + 2];
+            const float W1_0 = W[6 * k + 3];
+            const float W1_1 = W[6 * k + 4];
+            const float W1_2 = W[6 * k + 5];
+            const float amplitude_k = amplitude[1 * k + 0];
             for (size_t lane = 0; lane < LANES; ++lane) {
                 const float S0 = x_block[1][lane] + mu1;
                 const float S1 = x_block[2][lane] + mu2;
@@ -773,8 +773,8 @@ void hyperbolic_splats_vjp_f(
                 const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
                 const float ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * dot_D_S_product);
                 const float total_2 = 1.0f + 0.25f * ww;
-                const int near = ww < 0.4587184190750122f;
-                const float near_chosen = (near ? ww : 0.0f);
+                const int near = ww < 0.458718f;
+                const float near_chosen = (near ? 2.1799885768598575f * ww : 0.0f);
                 const float r_over_sinh_r_near = polynomial_r_over_sinh_r_near_f(near_chosen);
                 const float sqrt_ww = sqrtf((near ? 1.0f : ww));
                 const float sqrt_ww_product = 0.5f * sqrt_ww;
@@ -793,13 +793,13 @@ void hyperbolic_splats_vjp_f(
                 const float log_det_series = polynomial_log_det_series_f(near_chosen);
                 const float log_det_near = ww * log_det_series;
                 const float log_det = (near ? log_det_near : logf(r_ratio));
-                const float z0 = W0 * v0 + W1 * v1 + W2 * v2;
-                const float z1 = W3 * v0 + W4 * v1 + W5 * v2;
+                const float z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+                const float z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
                 const float exp_2 = expf(log_det - 0.5f * (z0 * z0 + z1 * z1));
-                const float phi = amplitude0 * exp_2;
-                const float by_v2 = -(W5 * z1) - W2 * z0;
-                const float by_v1 = -(W4 * z1) - W1 * z0;
-                const float by_v0 = -(W3 * z1) - W0 * z0;
+                const float phi = amplitude_k * exp_2;
+                const float by_v2 = -(W1_2 * z1) - W0_2 * z0;
+                const float by_v1 = -(W1_1 * z1) - W0_1 * z0;
+                const float by_v0 = -(W1_0 * z1) - W0_0 * z0;
                 const float by_log_det_near = (near ? 1.0f : 0.0f);
                 const float ratio = (near ? 0.0f : 1.0f) / r_ratio;
                 const float by_log_det_series = ww * by_log_det_near;
@@ -822,9 +822,9 @@ void hyperbolic_splats_vjp_f(
                 const float by_sqrt_ww_ratio = by_sqrt_ww / sqrt_ww_product_2;
                 const float r_over_sinh_r_near_slope = polynomial_r_over_sinh_r_near_slope_f(near_chosen);
                 const float total_3 = log_det_series * by_log_det_near + 0.5f * by_scale + (near ? 0.0f :
-                    by_sqrt_ww_ratio) + (near ? by_log_det_series * log_det_series_slope + by_r_over_sinh_r_near *
-                    r_over_sinh_r_near_slope : 0.0f) + total_2 * near_chosen_2;
-                const float by_ww = total_3 + 0.25f * (ww * near_chosen_2);
+                    by_sqrt_ww_ratio) + 2.1799885768598575f * (near ? by_log_det_series * log_det_series_slope +
+                    by_r_over_sinh_r_near * r_over_sinh_r_near_slope : 0.0f);
+                const float by_ww = total_3 + total_2 * near_chosen_2 + 0.25f * (ww * near_chosen_2);
                 const float by_dot_D_D = (is_small ? by_ww : 0.0f);
                 const float by_dot_rest_rest = (is_small ? 0.0f : by_ww);
                 const float product_4 = dot_D_S_ratio * by_dot_rest_rest;
@@ -888,7 +888,7 @@ void hyperbolic_splats_vjp_f(
                     total_5 + dot_D_S_product * ratio_5;
                 const float by_by_ww = (is_small ? 0.0f : by_by_dot_rest_rest) + (is_small ? by_by_dot_D_D : 0.0f);
                 const float by_by_ww_product = 0.25f * by_by_ww;
-                const float near_chosen_3 = (near ? by_by_ww : 0.0f);
+                const float near_chosen_3 = (near ? 2.1799885768598575f * by_by_ww : 0.0f);
                 const float by_by_r_over_sinh_r_near = r_over_sinh_r_near_slope * near_chosen_3;
                 const float by_r_over_sinh_r_near_slope = by_r_over_sinh_r_near * near_chosen_3;
                 const float r_over_sinh_r_near_slope_slope = polynomial_r_over_sinh_r_near_slope_slope_f(near_chosen);
@@ -909,12 +909,12 @@ void hyperbolic_splats_vjp_f(
                 const float by_by_log_det_series = log_det_series_slope * near_chosen_3;
                 const float by_log_det_series_slope = by_log_det_series * near_chosen_3;
                 const float log_det_series_slope_slope = polynomial_log_det_series_slope_slope_f(near_chosen);
-                const float by_log_det = exp_2 * (amplitude0 * by_phi);
-                const float by_z1 = -(W3 * by_by_v0) - W4 * by_by_v1 - W5 * by_by_v2 - z1 * by_log_det;
-                const float by_z0 = -(W0 * by_by_v0) - W1 * by_by_v1 - W2 * by_by_v2 - z0 * by_log_det;
-                const float by_v2_2 = W5 * by_z1 + W2 * by_z0;
-                const float by_v1_2 = W4 * by_z1 + W1 * by_z0;
-                const float by_v0_2 = W3 * by_z1 + W0 * by_z0;
+                const float by_log_det = exp_2 * (amplitude_k * by_phi);
+                const float by_z1 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2 - z1 * by_log_det;
+                const float by_z0 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2 - z0 * by_log_det;
+                const float by_v2_2 = W1_2 * by_z1 + W0_2 * by_z0;
+                const float by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0;
+                const float by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0;
                 const float by_log_det_near_2 = (near ? by_log_det : 0.0f);
                 const float by_log_det_series_2 = by_log_det_near * by_by_ww + ww * by_log_det_near_2;
                 const float total_7 = by_v2 * by_by_r_over_sinh_r + r_over_sinh_r * by_v2_2;
@@ -940,8 +940,8 @@ void hyperbolic_splats_vjp_f(
                 const float near_chosen_5 = (near ? by_r_over_sinh_r_near_slope * r_over_sinh_r_near_slope_slope +
                     by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
                     r_over_sinh_r_near_slope * by_r_over_sinh_r_near_2 : 0.0f);
-                const float by_ww_2 = total_12 + near_chosen_5 + total_2 * near_chosen_4 + 0.25f * (near_chosen_2 *
-                    by_by_ww + ww * near_chosen_4);
+                const float by_ww_2 = total_12 + 2.1799885768598575f * near_chosen_5 + total_2 * near_chosen_4 + 0.25f *
+                    (near_chosen_2 * by_by_ww + ww * near_chosen_4);
                 const float by_dot_D_D_2 = (is_small ? by_ww_2 : 0.0f);
                 const float by_dot_rest_rest_2 = (is_small ? 0.0f : by_ww_2);
                 const float total_13 = by_dot_rest_rest * ratio_5 + dot_D_S_ratio * by_dot_rest_rest_2;

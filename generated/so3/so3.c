@@ -9,39 +9,41 @@
 #include <float.h>
 
 static inline double polynomial_sinc__near(double x) {
-    return 1.0 + x * (-0.16666666666666666 + x * (0.008333333333333106 + x * (-0.0001984126984108742 + x *
-        (2.7557319152292533e-06 + x * (-2.5052093081256153e-08 + x * (1.605723315933452e-10 + x *
-        -7.535482987408254e-13))))));
+    return 1.0 + x * (-0.16506549999999998 + x * (0.008173985787074777 + x * (-0.00019274900727486046 + x *
+        (2.6513509314873062e-06 + x * (-2.3871616416234012e-08 + x * (1.5153609321464116e-10 + x *
+        -7.043102821193199e-13))))));
 }
 
 static inline double polynomial_t_over_norm_s_near(double x) {
-    return 2.0 + x * (0.33333333333333803 + x * (0.14999999999887204 + x * (0.08928571439308554 + x *
-        (0.06076388352917429 + x * (0.04474447894429192 + x * (0.034702400890995196 + x *
-        (0.027970967704767306 + x * (0.022725187457831735 + x * (0.021950106306038882 + x *
-        (0.0059985679108534124 + x * (0.04673327377794268 + x * (-0.046540024421261234 + x *
-        0.06801122378850952))))))))))));
+    return 2.0 + x * (0.08309566666666784 + x * (0.009321601255279904 + x * (0.0013831869136529075 + x *
+        (0.00023466269139487824 + x * (4.307622244387224e-05 + x * (8.328318196009972e-06 + x *
+        (1.6734198264338605e-06 + x * (3.3892571731146964e-07 + x * (8.16081078697975e-08 + x *
+        (5.559604423994885e-09 + x * (1.0797473542320032e-08 + x * (-2.6805393136717467e-09 + x *
+        9.76507976303961e-10))))))))))));
 }
 
 static inline double polynomial_log_det_series(double x) {
-    return 0.3333333333333333 + x * (0.12222222222222505 + x * (0.06737213403812269 + x *
-        (0.044038800770006784 + x * (0.03163272618894735 + x * (0.02412572786938261 + x *
-        (0.019178426063785198 + x * (0.015745299135070896 + x * (0.01296134121333057 + x *
-        (0.012728598238987641 + x * (0.003298619430883951 + x * (0.027868702271499315 + x *
-        (-0.02806396537465957 + x * 0.04072842356250539))))))))))));
+    return 0.3333333333333333 + x * (0.030468411111111815 + x * (0.004186774461502485 + x *
+        (0.0006822355998616309 + x * (0.0001221617222686508 + x * (2.3226222426586787e-05 + x *
+        (4.602679660683086e-06 + x * (9.419944287901338e-07 + x * (1.9330673844597267e-07 + x *
+        (4.7323543842374766e-08 + x * (3.057232901845871e-09 + x * (6.438914955222616e-09 + x *
+        (-1.6163842503256468e-09 + x * 5.847803973465938e-10))))))))))));
 }
 
 static inline double polynomial_log_det_series_slope(double x) {
-    return 0.12222222222222505 + x * (0.13474426807624537 + x * (0.13211640231002034 + x * (0.1265309047557894
-        + x * (0.12062863934691306 + x * (0.1150705563827112 + x * (0.11021709394549628 + x *
-        (0.10369072970664456 + x * (0.11455738415088876 + x * (0.032986194308839506 + x * (0.3065557249864925
-        + x * (-0.3367675844959148 + x * 0.5294695063125701)))))))))));
+    return 0.030468411111111815 + x * (0.00837354892300497 + x * (0.002046706799584893 + x *
+        (0.0004886468890746032 + x * (0.00011613111213293394 + x * (2.7616077964098513e-05 + x *
+        (6.5939610015309365e-06 + x * (1.5464539075677813e-06 + x * (4.259118945813729e-07 + x *
+        (3.057232901845871e-08 + x * (7.082806450744877e-08 + x * (-1.939661100390776e-08 + x *
+        7.602145165505719e-09)))))))))));
 }
 
 static inline double polynomial_t_over_norm_s_near_slope(double x) {
-    return 0.33333333333333803 + x * (0.29999999999774407 + x * (0.26785714317925663 + x *
-        (0.24305553411669717 + x * (0.22372239472145958 + x * (0.2082144053459712 + x * (0.19579677393337114 +
-        x * (0.18180149966265388 + x * (0.19755095675434994 + x * (0.059985679108534126 + x *
-        (0.5140660115573694 + x * (-0.5584802930551348 + x * 0.8841459092506236)))))))))));
+    return 0.08309566666666784 + x * (0.018643202510559807 + x * (0.004149560740958722 + x *
+        (0.0009386507655795129 + x * (0.0002153811122193612 + x * (4.996990917605983e-05 + x *
+        (1.1713938785037024e-05 + x * (2.711405738491757e-06 + x * (7.344729708281775e-07 + x *
+        (5.559604423994885e-08 + x * (1.1877220896552035e-07 + x * (-3.216647176406096e-08 + x *
+        1.2694603691951493e-08)))))))))));
 }
 
 /* p / norm(p) */
@@ -135,9 +137,8 @@ void so3_exp(const double *SO3_RESTRICT p, const double *SO3_RESTRICT v, double 
     const double norm_v_squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     const double norm_v = sqrt(norm_v_squared);
     const double cos_norm_v_over_2 = cos(0.5 * norm_v);
-    const double product = 0.25 * norm_v_squared;
-    const int near = product < 0.9903926849365234;
-    const double sinc__near = polynomial_sinc__near((near ? product : 0.0));
+    const int near = 0.25 * norm_v_squared < 0.990393;
+    const double sinc__near = polynomial_sinc__near((near ? 0.2524250474306664 * norm_v_squared : 0.0));
     const double norm_v_2 = sqrt((near ? 1.0 : norm_v_squared));
     const double sinc_ = (near ? sinc__near : 2.0 * sin(0.5 * norm_v_2) / norm_v_2);
     const double scale = 0.5 * sinc_;
@@ -175,8 +176,9 @@ void so3_log(const double *SO3_RESTRICT p, const double *SO3_RESTRICT q, double 
     const double g3 = p[0] * q[3] + p[2] * q[1] - p[1] * q[2] - p[3] * q[0];
     const double norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
     const double abs_g0 = fabs(g0);
-    const int near = norm_s_squared < 0.2492869794368744;
-    const double t_over_norm_s_near = polynomial_t_over_norm_s_near((near ? norm_s_squared : 0.0));
+    const int near = norm_s_squared < 0.249287;
+    const double t_over_norm_s_near = polynomial_t_over_norm_s_near((near ? 4.011440628672975 * norm_s_squared
+        : 0.0));
     const double norm_s = sqrt((near ? 1.0 : norm_s_squared));
     const double atan2_norm_s_abs_g0 = atan2(norm_s, abs_g0);
     const double t = 2.0 * atan2_norm_s_abs_g0;
@@ -228,11 +230,12 @@ double so3_log_abs_det(const double *SO3_RESTRICT p, const double *SO3_RESTRICT 
     const double g3 = p[0] * q[3] + p[2] * q[1] - p[1] * q[2] - p[3] * q[0];
     const double norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
     const double abs_g0 = fabs(g0);
-    const int near = norm_s_squared < 0.2492869794368744;
+    const int near = norm_s_squared < 0.249287;
     const double norm_s = sqrt((near ? 1.0 : norm_s_squared));
     const double atan2_norm_s_abs_g0 = atan2(norm_s, abs_g0);
     const double t = 2.0 * atan2_norm_s_abs_g0;
-    const double log_det_series = polynomial_log_det_series((near ? norm_s_squared : 0.0));
+    const double log_det_series = polynomial_log_det_series((near ? 4.011440628672975 * norm_s_squared :
+        0.0));
     const double log_det_near = norm_s_squared * log_det_series;
     const double log_det = (near ? log_det_near : 2.0 * log(0.5 * (t / norm_s)));
     return log_det;
@@ -305,8 +308,8 @@ void so3_splat(
     const double g3 = x[3] * mu[0] + x[1] * mu[2] - x[2] * mu[1] - x[0] * mu[3];
     const double norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
     const double abs_g0 = fabs(g0);
-    const int near = norm_s_squared < 0.2492869794368744;
-    const double near_chosen = (near ? norm_s_squared : 0.0);
+    const int near = norm_s_squared < 0.249287;
+    const double near_chosen = (near ? 4.011440628672975 * norm_s_squared : 0.0);
     const double t_over_norm_s_near = polynomial_t_over_norm_s_near(near_chosen);
     const double near_chosen_2 = (near ? 1.0 : norm_s_squared);
     const double norm_s = sqrt(near_chosen_2);
@@ -347,8 +350,8 @@ void so3_splat(
     const double by_norm_s = abs_g0 * ratio - t_ratio * by_t;
     const double t_over_norm_s_near_slope = polynomial_t_over_norm_s_near_slope(near_chosen);
     const double by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0 : by_norm_s / (2.0 *
-        norm_s)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_s_near *
-        t_over_norm_s_near_slope : 0.0);
+        norm_s)) + 4.011440628672975 * (near ? by_log_det_series * log_det_series_slope +
+        by_t_over_norm_s_near * t_over_norm_s_near_slope : 0.0);
     const double by_g0 = (is_small ? norm_s_product : by_abs_g0);
     const double product_2 = 2.0 * by_norm_s_squared;
     const double by_g3 = scale * by_v2 + g3 * product_2;
@@ -413,41 +416,41 @@ void so3_frame(const double *SO3_RESTRICT p, double *SO3_RESTRICT frame) {
 }
 
 static inline float polynomial_sinc__near_f(float x) {
-    return 1.0f + x * (-0.16666666666666666f + x * (0.008333333333333106f + x * (-0.0001984126984108742f + x *
-        (2.7557319152292533e-06f + x * (-2.5052093081256153e-08f + x * (1.605723315933452e-10f + x *
-        -7.535482987408254e-13f))))));
+    return 1.0f + x * (-0.16506549999999998f + x * (0.008173985787074777f + x * (-0.00019274900727486046f + x
+        * (2.6513509314873062e-06f + x * (-2.3871616416234012e-08f + x * (1.5153609321464116e-10f + x *
+        -7.043102821193199e-13f))))));
 }
 
 static inline float polynomial_t_over_norm_s_near_f(float x) {
-    return 2.0f + x * (0.33333333333333803f + x * (0.14999999999887204f + x * (0.08928571439308554f + x *
-        (0.06076388352917429f + x * (0.04474447894429192f + x * (0.034702400890995196f + x *
-        (0.027970967704767306f + x * (0.022725187457831735f + x * (0.021950106306038882f + x *
-        (0.0059985679108534124f + x * (0.04673327377794268f + x * (-0.046540024421261234f + x *
-        0.06801122378850952f))))))))))));
+    return 2.0f + x * (0.08309566666666784f + x * (0.009321601255279904f + x * (0.0013831869136529075f + x *
+        (0.00023466269139487824f + x * (4.307622244387224e-05f + x * (8.328318196009972e-06f + x *
+        (1.6734198264338605e-06f + x * (3.3892571731146964e-07f + x * (8.16081078697975e-08f + x *
+        (5.559604423994885e-09f + x * (1.0797473542320032e-08f + x * (-2.6805393136717467e-09f + x *
+        9.76507976303961e-10f))))))))))));
 }
 
 static inline float polynomial_log_det_series_f(float x) {
-    return 0.3333333333333333f + x * (0.12222222222222505f + x * (0.06737213403812269f + x *
-        (0.044038800770006784f + x * (0.03163272618894735f + x * (0.02412572786938261f + x *
-        (0.019178426063785198f + x * (0.015745299135070896f + x * (0.01296134121333057f + x *
-        (0.012728598238987641f + x * (0.003298619430883951f + x * (0.027868702271499315f + x *
-        (-0.02806396537465957f + x * 0.04072842356250539f))))))))))));
+    return 0.3333333333333333f + x * (0.030468411111111815f + x * (0.004186774461502485f + x *
+        (0.0006822355998616309f + x * (0.0001221617222686508f + x * (2.3226222426586787e-05f + x *
+        (4.602679660683086e-06f + x * (9.419944287901338e-07f + x * (1.9330673844597267e-07f + x *
+        (4.7323543842374766e-08f + x * (3.057232901845871e-09f + x * (6.438914955222616e-09f + x *
+        (-1.6163842503256468e-09f + x * 5.847803973465938e-10f))))))))))));
 }
 
 static inline float polynomial_log_det_series_slope_f(float x) {
-    return 0.12222222222222505f + x * (0.13474426807624537f + x * (0.13211640231002034f + x *
-        (0.1265309047557894f + x * (0.12062863934691306f + x * (0.1150705563827112f + x *
-        (0.11021709394549628f + x * (0.10369072970664456f + x * (0.11455738415088876f + x *
-        (0.032986194308839506f + x * (0.3065557249864925f + x * (-0.3367675844959148f + x *
-        0.5294695063125701f)))))))))));
+    return 0.030468411111111815f + x * (0.00837354892300497f + x * (0.002046706799584893f + x *
+        (0.0004886468890746032f + x * (0.00011613111213293394f + x * (2.7616077964098513e-05f + x *
+        (6.5939610015309365e-06f + x * (1.5464539075677813e-06f + x * (4.259118945813729e-07f + x *
+        (3.057232901845871e-08f + x * (7.082806450744877e-08f + x * (-1.939661100390776e-08f + x *
+        7.602145165505719e-09f)))))))))));
 }
 
 static inline float polynomial_t_over_norm_s_near_slope_f(float x) {
-    return 0.33333333333333803f + x * (0.29999999999774407f + x * (0.26785714317925663f + x *
-        (0.24305553411669717f + x * (0.22372239472145958f + x * (0.2082144053459712f + x *
-        (0.19579677393337114f + x * (0.18180149966265388f + x * (0.19755095675434994f + x *
-        (0.059985679108534126f + x * (0.5140660115573694f + x * (-0.5584802930551348f + x *
-        0.8841459092506236f)))))))))));
+    return 0.08309566666666784f + x * (0.018643202510559807f + x * (0.004149560740958722f + x *
+        (0.0009386507655795129f + x * (0.0002153811122193612f + x * (4.996990917605983e-05f + x *
+        (1.1713938785037024e-05f + x * (2.711405738491757e-06f + x * (7.344729708281775e-07f + x *
+        (5.559604423994885e-08f + x * (1.1877220896552035e-07f + x * (-3.216647176406096e-08f + x *
+        1.2694603691951493e-08f)))))))))));
 }
 
 /* p / norm(p) */
@@ -541,9 +544,8 @@ void so3_exp_f(const float *SO3_RESTRICT p, const float *SO3_RESTRICT v, float *
     const float norm_v_squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     const float norm_v = sqrtf(norm_v_squared);
     const float cos_norm_v_over_2 = cosf(0.5f * norm_v);
-    const float product = 0.25f * norm_v_squared;
-    const int near = product < 0.9903926849365234f;
-    const float sinc__near = polynomial_sinc__near_f((near ? product : 0.0f));
+    const int near = 0.25f * norm_v_squared < 0.990393f;
+    const float sinc__near = polynomial_sinc__near_f((near ? 0.2524250474306664f * norm_v_squared : 0.0f));
     const float norm_v_2 = sqrtf((near ? 1.0f : norm_v_squared));
     const float sinc_ = (near ? sinc__near : 2.0f * sinf(0.5f * norm_v_2) / norm_v_2);
     const float scale = 0.5f * sinc_;
@@ -581,8 +583,9 @@ void so3_log_f(const float *SO3_RESTRICT p, const float *SO3_RESTRICT q, float *
     const float g3 = p[0] * q[3] + p[2] * q[1] - p[1] * q[2] - p[3] * q[0];
     const float norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
     const float abs_g0 = fabsf(g0);
-    const int near = norm_s_squared < 0.2492869794368744f;
-    const float t_over_norm_s_near = polynomial_t_over_norm_s_near_f((near ? norm_s_squared : 0.0f));
+    const int near = norm_s_squared < 0.249287f;
+    const float t_over_norm_s_near = polynomial_t_over_norm_s_near_f((near ? 4.011440628672975f *
+        norm_s_squared : 0.0f));
     const float norm_s = sqrtf((near ? 1.0f : norm_s_squared));
     const float atan2_norm_s_abs_g0 = atan2f(norm_s, abs_g0);
     const float t = 2.0f * atan2_norm_s_abs_g0;
@@ -634,11 +637,12 @@ float so3_log_abs_det_f(const float *SO3_RESTRICT p, const float *SO3_RESTRICT q
     const float g3 = p[0] * q[3] + p[2] * q[1] - p[1] * q[2] - p[3] * q[0];
     const float norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
     const float abs_g0 = fabsf(g0);
-    const int near = norm_s_squared < 0.2492869794368744f;
+    const int near = norm_s_squared < 0.249287f;
     const float norm_s = sqrtf((near ? 1.0f : norm_s_squared));
     const float atan2_norm_s_abs_g0 = atan2f(norm_s, abs_g0);
     const float t = 2.0f * atan2_norm_s_abs_g0;
-    const float log_det_series = polynomial_log_det_series_f((near ? norm_s_squared : 0.0f));
+    const float log_det_series = polynomial_log_det_series_f((near ? 4.011440628672975f * norm_s_squared :
+        0.0f));
     const float log_det_near = norm_s_squared * log_det_series;
     const float log_det = (near ? log_det_near : 2.0f * logf(0.5f * (t / norm_s)));
     return log_det;
@@ -711,8 +715,8 @@ void so3_splat_f(
     const float g3 = x[3] * mu[0] + x[1] * mu[2] - x[2] * mu[1] - x[0] * mu[3];
     const float norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
     const float abs_g0 = fabsf(g0);
-    const int near = norm_s_squared < 0.2492869794368744f;
-    const float near_chosen = (near ? norm_s_squared : 0.0f);
+    const int near = norm_s_squared < 0.249287f;
+    const float near_chosen = (near ? 4.011440628672975f * norm_s_squared : 0.0f);
     const float t_over_norm_s_near = polynomial_t_over_norm_s_near_f(near_chosen);
     const float near_chosen_2 = (near ? 1.0f : norm_s_squared);
     const float norm_s = sqrtf(near_chosen_2);
@@ -753,8 +757,8 @@ void so3_splat_f(
     const float by_norm_s = abs_g0 * ratio - t_ratio * by_t;
     const float t_over_norm_s_near_slope = polynomial_t_over_norm_s_near_slope_f(near_chosen);
     const float by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0f : by_norm_s / (2.0f *
-        norm_s)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_s_near *
-        t_over_norm_s_near_slope : 0.0f);
+        norm_s)) + 4.011440628672975f * (near ? by_log_det_series * log_det_series_slope +
+        by_t_over_norm_s_near * t_over_norm_s_near_slope : 0.0f);
     const float by_g0 = (is_small ? norm_s_product : by_abs_g0);
     const float product_2 = 2.0f * by_norm_s_squared;
     const float by_g3 = scale * by_v2 + g3 * product_2;

@@ -12,14 +12,14 @@
  * inner                          5
  * norm                           6
  * flat                           0
- * exp                           65      <= 1     <= 1
- * log                           74      <= 2     <= 1
+ * exp                           66      <= 1     <= 1
+ * log                           75      <= 2     <= 1
  * distance                      37      <= 2     <= 2
- * log_abs_det                   72      <= 1     <= 2
+ * log_abs_det                   73      <= 1     <= 2
  * riemannian_gradient           25
  * gradient_norm                 31
- * splat                        299
- * splat_vjp                    634
+ * splat                        301
+ * splat_vjp                    638
  *
  * Errors are the worst of 36 points against 60 digits, in units of the error that rounding the
  * inputs and the output to the precision alone would cause.

@@ -11,14 +11,14 @@ to_tangent                    25
 inner                          5
 norm                           6
 flat                           0
-exp                           65      <= 1     <= 1
-log                           74      <= 2     <= 1
+exp                           66      <= 1     <= 1
+log                           75      <= 2     <= 1
 distance                      37      <= 2     <= 2
-log_abs_det                   72      <= 1     <= 2
+log_abs_det                   73      <= 1     <= 2
 riemannian_gradient           25
 gradient_norm                 31
-splat                        299
-splat_vjp                    634
+splat                        301
+splat_vjp                    638
 
 Errors are the worst of 36 points against 60 digits, in units of the error that rounding the
 inputs and the output to the precision alone would cause.
@@ -33,32 +33,33 @@ import torch
 from torch import Generator, Tensor
 
 _SINC__NEAR = (
-    1.0, -0.16666666666666666, 0.008333333333333106, -0.0001984126984108742, 2.7557319152292533e-06,
-    -2.5052093081256153e-08, 1.605723315933452e-10, -7.535482987408254e-13,
+    1.0, -0.16506549999999998, 0.008173985787074777, -0.00019274900727486046, 2.6513509314873062e-06,
+    -2.3871616416234012e-08, 1.5153609321464116e-10, -7.043102821193199e-13,
 )
 
 _T_OVER_NORM_S_NEAR = (
-    2.0, 0.33333333333333803, 0.14999999999887204, 0.08928571439308554, 0.06076388352917429, 0.04474447894429192,
-    0.034702400890995196, 0.027970967704767306, 0.022725187457831735, 0.021950106306038882, 0.0059985679108534124,
-    0.04673327377794268, -0.046540024421261234, 0.06801122378850952,
+    2.0, 0.08309566666666784, 0.009321601255279904, 0.0013831869136529075, 0.00023466269139487824,
+    4.307622244387224e-05, 8.328318196009972e-06, 1.6734198264338605e-06, 3.3892571731146964e-07, 8.16081078697975e-08,
+    5.559604423994885e-09, 1.0797473542320032e-08, -2.6805393136717467e-09, 9.76507976303961e-10,
 )
 
 _LOG_DET_SERIES = (
-    0.3333333333333333, 0.12222222222222505, 0.06737213403812269, 0.044038800770006784, 0.03163272618894735,
-    0.02412572786938261, 0.019178426063785198, 0.015745299135070896, 0.01296134121333057, 0.012728598238987641,
-    0.003298619430883951, 0.027868702271499315, -0.02806396537465957, 0.04072842356250539,
+    0.3333333333333333, 0.030468411111111815, 0.004186774461502485, 0.0006822355998616309, 0.0001221617222686508,
+    2.3226222426586787e-05, 4.602679660683086e-06, 9.419944287901338e-07, 1.9330673844597267e-07,
+    4.7323543842374766e-08, 3.057232901845871e-09, 6.438914955222616e-09, -1.6163842503256468e-09,
+    5.847803973465938e-10,
 )
 
 _LOG_DET_SERIES_SLOPE = (
-    0.12222222222222505, 0.13474426807624537, 0.13211640231002034, 0.1265309047557894, 0.12062863934691306,
-    0.1150705563827112, 0.11021709394549628, 0.10369072970664456, 0.11455738415088876, 0.032986194308839506,
-    0.3065557249864925, -0.3367675844959148, 0.5294695063125701,
+    0.030468411111111815, 0.00837354892300497, 0.002046706799584893, 0.0004886468890746032, 0.00011613111213293394,
+    2.7616077964098513e-05, 6.5939610015309365e-06, 1.5464539075677813e-06, 4.259118945813729e-07,
+    3.057232901845871e-08, 7.082806450744877e-08, -1.939661100390776e-08, 7.602145165505719e-09,
 )
 
 _T_OVER_NORM_S_NEAR_SLOPE = (
-    0.33333333333333803, 0.29999999999774407, 0.26785714317925663, 0.24305553411669717, 0.22372239472145958,
-    0.2082144053459712, 0.19579677393337114, 0.18180149966265388, 0.19755095675434994, 0.059985679108534126,
-    0.5140660115573694, -0.5584802930551348, 0.8841459092506236,
+    0.08309566666666784, 0.018643202510559807, 0.004149560740958722, 0.0009386507655795129, 0.0002153811122193612,
+    4.996990917605983e-05, 1.1713938785037024e-05, 2.711405738491757e-06, 7.344729708281775e-07, 5.559604423994885e-08,
+    1.1877220896552035e-07, -3.216647176406096e-08, 1.2694603691951493e-08,
 )
 
 
@@ -199,9 +200,8 @@ class So3:
         norm_v_squared = v0 * v0 + v1 * v1 + v2 * v2
         norm_v = _root(norm_v_squared)
         cos_norm_v_over_2 = torch.cos(0.5 * norm_v)
-        product = 0.25 * norm_v_squared
-        near = product < 0.9903926849365234
-        sinc__near = _polynomial(torch.where(near, product, 0.0), _SINC__NEAR)
+        near = 0.25 * norm_v_squared < 0.990393
+        sinc__near = _polynomial(torch.where(near, 0.2524250474306664 * norm_v_squared, 0.0), _SINC__NEAR)
         norm_v_2 = torch.sqrt(torch.where(near, 1.0, norm_v_squared))
         sinc_ = torch.where(near, sinc__near, 2.0 * torch.sin(0.5 * norm_v_2) / norm_v_2)
         scale = 0.5 * sinc_
@@ -229,8 +229,10 @@ class So3:
         g3 = p0 * q3 + p2 * q1 - p1 * q2 - p3 * q0
         norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3
         abs_g0 = torch.abs(g0)
-        near = norm_s_squared < 0.2492869794368744
-        t_over_norm_s_near = _polynomial(torch.where(near, norm_s_squared, 0.0), _T_OVER_NORM_S_NEAR)
+        near = norm_s_squared < 0.249287
+        t_over_norm_s_near = (
+            _polynomial(torch.where(near, 4.011440628672975 * norm_s_squared, 0.0), _T_OVER_NORM_S_NEAR)
+        )
         norm_s = torch.sqrt(torch.where(near, 1.0, norm_s_squared))
         atan2_norm_s_abs_g0 = torch.atan2(norm_s, abs_g0)
         t = 2.0 * atan2_norm_s_abs_g0
@@ -274,11 +276,11 @@ class So3:
         g3 = p0 * q3 + p2 * q1 - p1 * q2 - p3 * q0
         norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3
         abs_g0 = torch.abs(g0)
-        near = norm_s_squared < 0.2492869794368744
+        near = norm_s_squared < 0.249287
         norm_s = torch.sqrt(torch.where(near, 1.0, norm_s_squared))
         atan2_norm_s_abs_g0 = torch.atan2(norm_s, abs_g0)
         t = 2.0 * atan2_norm_s_abs_g0
-        log_det_series = _polynomial(torch.where(near, norm_s_squared, 0.0), _LOG_DET_SERIES)
+        log_det_series = _polynomial(torch.where(near, 4.011440628672975 * norm_s_squared, 0.0), _LOG_DET_SERIES)
         log_det_near = norm_s_squared * log_det_series
         log_det = torch.where(near, log_det_near, 2.0 * torch.log(0.5 * (t / norm_s)))
         return log_det
@@ -337,8 +339,8 @@ class So3:
         g3 = x3 * mu0 + x1 * mu2 - x2 * mu1 - x0 * mu3
         norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3
         abs_g0 = torch.abs(g0)
-        near = norm_s_squared < 0.2492869794368744
-        near_chosen = torch.where(near, norm_s_squared, 0.0)
+        near = norm_s_squared < 0.249287
+        near_chosen = torch.where(near, 4.011440628672975 * norm_s_squared, 0.0)
         t_over_norm_s_near = _polynomial(near_chosen, _T_OVER_NORM_S_NEAR)
         near_chosen_2 = torch.where(near, 1.0, norm_s_squared)
         norm_s = torch.sqrt(near_chosen_2)
@@ -382,7 +384,7 @@ class So3:
         t_over_norm_s_near_slope = _polynomial(near_chosen, _T_OVER_NORM_S_NEAR_SLOPE)
         by_norm_s_squared = (
             log_det_series * by_log_det_near + torch.where(near, 0.0, by_norm_s / (2.0 * norm_s)) +
-            torch.where(near, by_log_det_series * log_det_series_slope + by_t_over_norm_s_near *
+            4.011440628672975 * torch.where(near, by_log_det_series * log_det_series_slope + by_t_over_norm_s_near *
             t_over_norm_s_near_slope, 0.0)
         )
         by_g0 = torch.where(is_small, norm_s_product, by_abs_g0)

@@ -25,47 +25,49 @@ static void restore_denormals(unsigned mode) { (void)mode; }
 #endif
 
 static inline double polynomial_t_over_norm_s_near(double x) {
-    return 2.0 + x * (0.33333333333333803 + x * (0.14999999999887204 + x * (0.08928571439308554 + x *
-        (0.06076388352917429 + x * (0.04474447894429192 + x * (0.034702400890995196 + x *
-        (0.027970967704767306 + x * (0.022725187457831735 + x * (0.021950106306038882 + x *
-        (0.0059985679108534124 + x * (0.04673327377794268 + x * (-0.046540024421261234 + x *
-        0.06801122378850952))))))))))));
+    return 2.0 + x * (0.08309566666666784 + x * (0.009321601255279904 + x * (0.0013831869136529075 + x *
+        (0.00023466269139487824 + x * (4.307622244387224e-05 + x * (8.328318196009972e-06 + x *
+        (1.6734198264338605e-06 + x * (3.3892571731146964e-07 + x * (8.16081078697975e-08 + x *
+        (5.559604423994885e-09 + x * (1.0797473542320032e-08 + x * (-2.6805393136717467e-09 + x *
+        9.76507976303961e-10))))))))))));
 }
 
 static inline double polynomial_log_det_series(double x) {
-    return 0.3333333333333333 + x * (0.12222222222222505 + x * (0.06737213403812269 + x *
-        (0.044038800770006784 + x * (0.03163272618894735 + x * (0.02412572786938261 + x *
-        (0.019178426063785198 + x * (0.015745299135070896 + x * (0.01296134121333057 + x *
-        (0.012728598238987641 + x * (0.003298619430883951 + x * (0.027868702271499315 + x *
-        (-0.02806396537465957 + x * 0.04072842356250539))))))))))));
+    return 0.3333333333333333 + x * (0.030468411111111815 + x * (0.004186774461502485 + x *
+        (0.0006822355998616309 + x * (0.0001221617222686508 + x * (2.3226222426586787e-05 + x *
+        (4.602679660683086e-06 + x * (9.419944287901338e-07 + x * (1.9330673844597267e-07 + x *
+        (4.7323543842374766e-08 + x * (3.057232901845871e-09 + x * (6.438914955222616e-09 + x *
+        (-1.6163842503256468e-09 + x * 5.847803973465938e-10))))))))))));
 }
 
 static inline double polynomial_log_det_series_slope(double x) {
-    return 0.12222222222222505 + x * (0.13474426807624537 + x * (0.13211640231002034 + x * (0.1265309047557894
-        + x * (0.12062863934691306 + x * (0.1150705563827112 + x * (0.11021709394549628 + x *
-        (0.10369072970664456 + x * (0.11455738415088876 + x * (0.032986194308839506 + x * (0.3065557249864925
-        + x * (-0.3367675844959148 + x * 0.5294695063125701)))))))))));
+    return 0.030468411111111815 + x * (0.00837354892300497 + x * (0.002046706799584893 + x *
+        (0.0004886468890746032 + x * (0.00011613111213293394 + x * (2.7616077964098513e-05 + x *
+        (6.5939610015309365e-06 + x * (1.5464539075677813e-06 + x * (4.259118945813729e-07 + x *
+        (3.057232901845871e-08 + x * (7.082806450744877e-08 + x * (-1.939661100390776e-08 + x *
+        7.602145165505719e-09)))))))))));
 }
 
 static inline double polynomial_t_over_norm_s_near_slope(double x) {
-    return 0.33333333333333803 + x * (0.29999999999774407 + x * (0.26785714317925663 + x *
-        (0.24305553411669717 + x * (0.22372239472145958 + x * (0.2082144053459712 + x * (0.19579677393337114 +
-        x * (0.18180149966265388 + x * (0.19755095675434994 + x * (0.059985679108534126 + x *
-        (0.5140660115573694 + x * (-0.5584802930551348 + x * 0.8841459092506236)))))))))));
+    return 0.08309566666666784 + x * (0.018643202510559807 + x * (0.004149560740958722 + x *
+        (0.0009386507655795129 + x * (0.0002153811122193612 + x * (4.996990917605983e-05 + x *
+        (1.1713938785037024e-05 + x * (2.711405738491757e-06 + x * (7.344729708281775e-07 + x *
+        (5.559604423994885e-08 + x * (1.1877220896552035e-07 + x * (-3.216647176406096e-08 + x *
+        1.2694603691951493e-08)))))))))));
 }
 
 static inline double polynomial_t_over_norm_s_near_slope_slope(double x) {
-    return 0.29999999999774407 + x * (0.5357142863585133 + x * (0.7291666023500915 + x * (0.8948895788858383 +
-        x * (1.0410720267298559 + x * (1.1747806436002268 + x * (1.272610497638577 + x * (1.5804076540347995 +
-        x * (0.5398711119768071 + x * (5.140660115573694 + x * (-6.143283223606483 + x *
-        10.609750911007485))))))))));
+    return 0.018643202510559807 + x * (0.008299121481917445 + x * (0.0028159522967385387 + x *
+        (0.0008615244488774448 + x * (0.00024984954588029915 + x * (7.028363271022215e-05 + x *
+        (1.89798401694423e-05 + x * (5.87578376662542e-06 + x * (5.003643981595396e-07 + x *
+        (1.1877220896552035e-06 + x * (-3.538311894046706e-07 + x * 1.5233524430341793e-07))))))))));
 }
 
 static inline double polynomial_log_det_series_slope_slope(double x) {
-    return 0.13474426807624537 + x * (0.2642328046200407 + x * (0.37959271426736824 + x * (0.48251455738765225
-        + x * (0.575352781913556 + x * (0.6613025636729777 + x * (0.7258351079465118 + x * (0.9164590732071101
-        + x * (0.2968757487795556 + x * (3.065557249864925 + x * (-3.704443429455063 + x *
-        6.353634075750841))))))))));
+    return 0.00837354892300497 + x * (0.004093413599169786 + x * (0.0014659406672238098 + x *
+        (0.00046452444853173575 + x * (0.00013808038982049257 + x * (3.956376600918562e-05 + x *
+        (1.0825177352974468e-05 + x * (3.407295156650983e-06 + x * (2.751509611661284e-07 + x *
+        (7.082806450744877e-07 + x * (-2.1336272104298536e-07 + x * 9.122574198606863e-08))))))))));
 }
 
 void so3_splats(
@@ -90,16 +92,16 @@ void so3_splats(
             const double mu1 = mu[4 * k + 1];
             const double mu2 = mu[4 * k + 2];
             const double mu3 = mu[4 * k + 3];
-            const double W0 = W[9 * k + 0];
-            const double W1 = W[9 * k + 1];
-            const double W2 = W[9 * k + 2];
-            const double W3 = W[9 * k + 3];
-            const double W4 = W[9 * k + 4];
-            const double W5 = W[9 * k + 5];
-            const double W6 = W[9 * k + 6];
-            const double W7 = W[9 * k + 7];
-            const double W8 = W[9 * k + 8];
-            const double amplitude0 = amplitude[1 * k + 0];
+            const double W0_0 = W[9 * k + 0];
+            const double W0_1 = W[9 * k + 1];
+            const double W0_2 = W[9 * k + 2];
+            const double W1_0 = W[9 * k + 3];
+            const double W1_1 = W[9 * k + 4];
+            const double W1_2 = W[9 * k + 5];
+            const double W2_0 = W[9 * k + 6];
+            const double W2_1 = W[9 * k + 7];
+            const double W2_2 = W[9 * k + 8];
+            const double amplitude_k = amplitude[1 * k + 0];
             for (size_t lane = 0; lane < LANES; ++lane) {
                 const double g0 = x_block[0][lane] * mu0 + x_block[1][lane] * mu1 + x_block[2][lane] * mu2 +
                     x_block[3][lane] * mu3;
@@ -111,8 +113,8 @@ void so3_splats(
                     x_block[0][lane] * mu3;
                 const double norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
                 const double abs_g0 = fabs(g0);
-                const int near = norm_s_squared < 0.2492869794368744;
-                const double near_chosen = (near ? norm_s_squared : 0.0);
+                const int near = norm_s_squared < 0.249287;
+                const double near_chosen = (near ? 4.011440628672975 * norm_s_squared : 0.0);
                 const double t_over_norm_s_near = polynomial_t_over_norm_s_near(near_chosen);
                 const double near_chosen_2 = (near ? 1.0 : norm_s_squared);
                 const double norm_s = sqrt(near_chosen_2);
@@ -130,14 +132,14 @@ void so3_splats(
                 const double log_det_near = norm_s_squared * log_det_series;
                 const double product = 0.5 * t_ratio;
                 const double log_det = (near ? log_det_near : 2.0 * log(product));
-                const double z0 = W0 * v0 + W1 * v1 + W2 * v2;
-                const double z1 = W3 * v0 + W4 * v1 + W5 * v2;
-                const double z2 = W6 * v0 + W7 * v1 + W8 * v2;
+                const double z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+                const double z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+                const double z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
                 const double log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
-                const double phi = amplitude0 * exp(log_det_gap);
-                const double by_v2 = -(W8 * z2) - W5 * z1 - W2 * z0;
-                const double by_v1 = -(W7 * z2) - W4 * z1 - W1 * z0;
-                const double by_v0 = -(W6 * z2) - W3 * z1 - W0 * z0;
+                const double phi = amplitude_k * exp(log_det_gap);
+                const double by_v2 = -(W2_2 * z2) - W1_2 * z1 - W0_2 * z0;
+                const double by_v1 = -(W2_1 * z2) - W1_1 * z1 - W0_1 * z0;
+                const double by_v0 = -(W2_0 * z2) - W1_0 * z1 - W0_0 * z0;
                 const double by_log_det_near = (near ? 1.0 : 0.0);
                 const double by_log_det_series = norm_s_squared * by_log_det_near;
                 const double log_det_series_slope = polynomial_log_det_series_slope(near_chosen);
@@ -153,8 +155,8 @@ void so3_splats(
                 const double by_norm_s = abs_g0 * ratio - t_ratio * by_t;
                 const double t_over_norm_s_near_slope = polynomial_t_over_norm_s_near_slope(near_chosen);
                 const double by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0 : by_norm_s / (2.0 *
-                    norm_s)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_s_near *
-                    t_over_norm_s_near_slope : 0.0);
+                    norm_s)) + 4.011440628672975 * (near ? by_log_det_series * log_det_series_slope +
+                    by_t_over_norm_s_near * t_over_norm_s_near_slope : 0.0);
                 const double by_g0 = (is_small ? norm_s_product : by_abs_g0);
                 const double product_2 = 2.0 * by_norm_s_squared;
                 const double by_g3 = scale * by_v2 + g3 * product_2;
@@ -226,16 +228,16 @@ void so3_splats_vjp(
             const double mu1 = mu[4 * k + 1];
             const double mu2 = mu[4 * k + 2];
             const double mu3 = mu[4 * k + 3];
-            const double W0 = W[9 * k + 0];
-            const double W1 = W[9 * k + 1];
-            const double W2 = W[9 * k + 2];
-            const double W3 = W[9 * k + 3];
-            const double W4 = W[9 * k + 4];
-            const double W5 = W[9 * k + 5];
-            const double W6 = W[9 * k + 6];
-            const double W7 = W[9 * k + 7];
-            const double W8 = W[9 * k + 8];
-            const double amplitude0 = amplitude[1 * k + 0];
+            const double W0_0 = W[9 * k + 0];
+            const double W0_1 = W[9 * k + 1];
+            const double W0_2 = W[9 * k + 2];
+            const double W1_0 = W[9 * k + 3];
+            const double W1_1 = W[9 * k + 4];
+            const double W1_2 = W[9 * k + 5];
+            const double W2_0 = W[9 * k + 6];
+            const double W2_1 = W[9 * k + 7];
+            const double W2_2 = W[9 * k + 8];
+            const double amplitude_k = amplitude[1 * k + 0];
             for (size_t lane = 0; lane < LANES; ++lane) {
                 const double g0 = x_block[0][lane] * mu0 + x_block[1][lane] * mu1 + x_block[2][lane] * mu2 +
                     x_block[3][lane] * mu3;
@@ -247,8 +249,8 @@ void so3_splats_vjp(
                     x_block[0][lane] * mu3;
                 const double norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
                 const double abs_g0 = fabs(g0);
-                const int near = norm_s_squared < 0.2492869794368744;
-                const double near_chosen = (near ? norm_s_squared : 0.0);
+                const int near = norm_s_squared < 0.249287;
+                const double near_chosen = (near ? 4.011440628672975 * norm_s_squared : 0.0);
                 const double t_over_norm_s_near = polynomial_t_over_norm_s_near(near_chosen);
                 const double near_chosen_2 = (near ? 1.0 : norm_s_squared);
                 const double norm_s = sqrt(near_chosen_2);
@@ -266,15 +268,15 @@ void so3_splats_vjp(
                 const double log_det_near = norm_s_squared * log_det_series;
                 const double product = 0.5 * t_ratio;
                 const double log_det = (near ? log_det_near : 2.0 * log(product));
-                const double z0 = W0 * v0 + W1 * v1 + W2 * v2;
-                const double z1 = W3 * v0 + W4 * v1 + W5 * v2;
-                const double z2 = W6 * v0 + W7 * v1 + W8 * v2;
+                const double z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+                const double z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+                const double z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
                 const double log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
                 const double exp_2 = exp(log_det_gap);
-                const double phi = amplitude0 * exp_2;
-                const double by_v2 = -(W8 * z2) - W5 * z1 - W2 * z0;
-                const double by_v1 = -(W7 * z2) - W4 * z1 - W1 * z0;
-                const double by_v0 = -(W6 * z2) - W3 * z1 - W0 * z0;
+                const double phi = amplitude_k * exp_2;
+                const double by_v2 = -(W2_2 * z2) - W1_2 * z1 - W0_2 * z0;
+                const double by_v1 = -(W2_1 * z2) - W1_1 * z1 - W0_1 * z0;
+                const double by_v0 = -(W2_0 * z2) - W1_0 * z1 - W0_0 * z0;
                 const double by_log_det_near = (near ? 1.0 : 0.0);
                 const double ratio = 2.0 * (near ? 0.0 : 1.0) / product;
                 const double by_log_det_series = norm_s_squared * by_log_det_near;
@@ -292,8 +294,9 @@ void so3_splats_vjp(
                 const double norm_s_product_2 = 2.0 * norm_s;
                 const double by_norm_s_ratio = by_norm_s / norm_s_product_2;
                 const double t_over_norm_s_near_slope = polynomial_t_over_norm_s_near_slope(near_chosen);
-                const double by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0 : by_norm_s_ratio) + (near
-                    ? by_log_det_series * log_det_series_slope + by_t_over_norm_s_near * t_over_norm_s_near_slope : 0.0);
+                const double by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0 : by_norm_s_ratio) +
+                    4.011440628672975 * (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_s_near *
+                    t_over_norm_s_near_slope : 0.0);
                 const double by_g0 = (is_small ? norm_s_product : by_abs_g0);
                 const double product_2 = 2.0 * by_norm_s_squared;
                 const double by_g3 = scale * by_v2 + g3 * product_2;
@@ -325,9 +328,10 @@ void so3_splats_vjp(
                     * by_exponent_by_x1;
                 const double by_by_g3 = mu0 * by_exponent_by_x3 + mu2 * by_exponent_by_x1 - mu1 * by_exponent_by_x2 - mu3
                     * by_exponent_by_x0;
-                const double by_by_norm_s_squared = 2.0 * (g1 * by_by_g1 + g2 * by_by_g2 + g3 * by_by_g3);
+                const double total_3 = g1 * by_by_g1 + g2 * by_by_g2 + g3 * by_by_g3;
+                const double by_by_norm_s_squared = 2.0 * total_3;
                 const double by_by_abs_g0 = (is_small ? 0.0 : by_by_g0);
-                const double near_chosen_3 = (near ? by_by_norm_s_squared : 0.0);
+                const double near_chosen_3 = (near ? 8.02288125734595 * total_3 : 0.0);
                 const double by_by_t_over_norm_s_near = t_over_norm_s_near_slope * near_chosen_3;
                 const double by_t_over_norm_s_near_slope = by_t_over_norm_s_near * near_chosen_3;
                 const double t_over_norm_s_near_slope_slope = polynomial_t_over_norm_s_near_slope_slope(near_chosen);
@@ -346,21 +350,21 @@ void so3_splats_vjp(
                 const double by_by_log_det_series = log_det_series_slope * near_chosen_3;
                 const double by_log_det_series_slope = by_log_det_series * near_chosen_3;
                 const double log_det_series_slope_slope = polynomial_log_det_series_slope_slope(near_chosen);
-                const double by_log_det = exp_2 * (amplitude0 * by_phi);
-                const double by_z2 = -(W6 * by_by_v0) - W7 * by_by_v1 - W8 * by_by_v2 - z2 * by_log_det;
-                const double by_z1 = -(W3 * by_by_v0) - W4 * by_by_v1 - W5 * by_by_v2 - z1 * by_log_det;
-                const double by_z0 = -(W0 * by_by_v0) - W1 * by_by_v1 - W2 * by_by_v2 - z0 * by_log_det;
-                const double by_v2_2 = W8 * by_z2 + W5 * by_z1 + W2 * by_z0;
-                const double by_v1_2 = W7 * by_z2 + W4 * by_z1 + W1 * by_z0;
-                const double by_v0_2 = W6 * by_z2 + W3 * by_z1 + W0 * by_z0;
+                const double by_log_det = exp_2 * (amplitude_k * by_phi);
+                const double by_z2 = -(W2_0 * by_by_v0) - W2_1 * by_by_v1 - W2_2 * by_by_v2 - z2 * by_log_det;
+                const double by_z1 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2 - z1 * by_log_det;
+                const double by_z0 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2 - z0 * by_log_det;
+                const double by_v2_2 = W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0;
+                const double by_v1_2 = W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
+                const double by_v0_2 = W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0;
                 const double by_log_det_near_2 = (near ? by_log_det : 0.0);
                 const double product_4 = 0.5 * (2.0 * (near ? 0.0 : by_log_det) / product - ratio * (0.5 * by_by_t_ratio /
                     product));
                 const double by_log_det_series_2 = by_log_det_near * by_by_norm_s_squared + norm_s_squared *
                     by_log_det_near_2;
-                const double total_3 = by_v0 * by_by_g1 + by_v1 * by_by_g2 + by_v2 * by_by_g3 + g3 * by_v2_2 + g2 *
+                const double total_4 = by_v0 * by_by_g1 + by_v1 * by_by_g2 + by_v2 * by_by_g3 + g3 * by_v2_2 + g2 *
                     by_v1_2;
-                const double by_scale_2 = total_3 + g1 * by_v0_2;
+                const double by_scale_2 = total_4 + g1 * by_v0_2;
                 const double by_t_over_norm_s_2 = chosen * by_scale_2;
                 const double by_t_over_norm_s_near_2 = (near ? by_t_over_norm_s_2 : 0.0);
                 const double by_t_2 = (product_4 - by_t * by_by_norm_s + (near ? 0.0 : by_t_over_norm_s_2)) / norm_s;
@@ -375,7 +379,8 @@ void so3_splats_vjp(
                     by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
                     t_over_norm_s_near_slope * by_t_over_norm_s_near_2 : 0.0);
                 const double by_norm_s_squared_2 = by_log_det_near * by_by_log_det_series + log_det_series *
-                    by_log_det_near_2 + (near ? 0.0 : by_norm_s_2 / norm_s_product_2 - product_3) + near_chosen_4;
+                    by_log_det_near_2 + (near ? 0.0 : by_norm_s_2 / norm_s_product_2 - product_3) + 4.011440628672975 *
+                    near_chosen_4;
                 const double by_g0_2 = (is_small ? norm_s_product_3 - gap_2 : by_abs_g0_2);
                 const double product_5 = 2.0 * by_norm_s_squared_2;
                 const double by_g3_2 = product_2 * by_by_g3 + by_v2 * by_by_scale + scale * by_v2_2 + g3 * product_5;
@@ -385,13 +390,13 @@ void so3_splats_vjp(
                     by_g3 * by_exponent_by_x0 - x_block[0][lane] * by_g3_2;
                 const double gap_5 = by_g0 * by_exponent_by_x1 - by_g1 * by_exponent_by_x0 + by_g2 * by_exponent_by_x3 -
                     by_g3 * by_exponent_by_x2 - x_block[2][lane] * by_g3_2;
-                const double total_4 = by_g0 * by_exponent_by_x2 - by_g1 * by_exponent_by_x3 - by_g2 * by_exponent_by_x0 +
+                const double total_5 = by_g0 * by_exponent_by_x2 - by_g1 * by_exponent_by_x3 - by_g2 * by_exponent_by_x0 +
                     by_g3 * by_exponent_by_x1 + x_block[1][lane] * by_g3_2;
-                const double total_5 = by_g0 * by_exponent_by_x0 + by_g1 * by_exponent_by_x1 + by_g2 * by_exponent_by_x2 +
+                const double total_6 = by_g0 * by_exponent_by_x0 + by_g1 * by_exponent_by_x1 + by_g2 * by_exponent_by_x2 +
                     by_g3 * by_exponent_by_x3 + x_block[3][lane] * by_g3_2;
-                sum[0][lane] += total_5 + x_block[2][lane] * by_g2_2 + x_block[1][lane] * by_g1_2 + x_block[0][lane] * by_g0_2;
+                sum[0][lane] += total_6 + x_block[2][lane] * by_g2_2 + x_block[1][lane] * by_g1_2 + x_block[0][lane] * by_g0_2;
                 sum[1][lane] += gap_5 + x_block[3][lane] * by_g2_2 - x_block[0][lane] * by_g1_2 + x_block[1][lane] * by_g0_2;
-                sum[2][lane] += total_4 - x_block[0][lane] * by_g2_2 - x_block[3][lane] * by_g1_2 + x_block[2][lane] * by_g0_2;
+                sum[2][lane] += total_5 - x_block[0][lane] * by_g2_2 - x_block[3][lane] * by_g1_2 + x_block[2][lane] * by_g0_2;
                 sum[3][lane] += gap_4 - x_block[1][lane] * by_g2_2 + x_block[2][lane] * by_g1_2 + x_block[3][lane] * by_g0_2;
                 sum[4][lane] += v0 * by_z0 - z0 * by_by_v0;
                 sum[5][lane] += v1 * by_z0 - z0 * by_by_v1;
@@ -426,49 +431,49 @@ void so3_splats_vjp(
 }
 
 static inline float polynomial_t_over_norm_s_near_f(float x) {
-    return 2.0f + x * (0.33333333333333803f + x * (0.14999999999887204f + x * (0.08928571439308554f + x *
-        (0.06076388352917429f + x * (0.04474447894429192f + x * (0.034702400890995196f + x *
-        (0.027970967704767306f + x * (0.022725187457831735f + x * (0.021950106306038882f + x *
-        (0.0059985679108534124f + x * (0.04673327377794268f + x * (-0.046540024421261234f + x *
-        0.06801122378850952f))))))))))));
+    return 2.0f + x * (0.08309566666666784f + x * (0.009321601255279904f + x * (0.0013831869136529075f + x *
+        (0.00023466269139487824f + x * (4.307622244387224e-05f + x * (8.328318196009972e-06f + x *
+        (1.6734198264338605e-06f + x * (3.3892571731146964e-07f + x * (8.16081078697975e-08f + x *
+        (5.559604423994885e-09f + x * (1.0797473542320032e-08f + x * (-2.6805393136717467e-09f + x *
+        9.76507976303961e-10f))))))))))));
 }
 
 static inline float polynomial_log_det_series_f(float x) {
-    return 0.3333333333333333f + x * (0.12222222222222505f + x * (0.06737213403812269f + x *
-        (0.044038800770006784f + x * (0.03163272618894735f + x * (0.02412572786938261f + x *
-        (0.019178426063785198f + x * (0.015745299135070896f + x * (0.01296134121333057f + x *
-        (0.012728598238987641f + x * (0.003298619430883951f + x * (0.027868702271499315f + x *
-        (-0.02806396537465957f + x * 0.04072842356250539f))))))))))));
+    return 0.3333333333333333f + x * (0.030468411111111815f + x * (0.004186774461502485f + x *
+        (0.0006822355998616309f + x * (0.0001221617222686508f + x * (2.3226222426586787e-05f + x *
+        (4.602679660683086e-06f + x * (9.419944287901338e-07f + x * (1.9330673844597267e-07f + x *
+        (4.7323543842374766e-08f + x * (3.057232901845871e-09f + x * (6.438914955222616e-09f + x *
+        (-1.6163842503256468e-09f + x * 5.847803973465938e-10f))))))))))));
 }
 
 static inline float polynomial_log_det_series_slope_f(float x) {
-    return 0.12222222222222505f + x * (0.13474426807624537f + x * (0.13211640231002034f + x *
-        (0.1265309047557894f + x * (0.12062863934691306f + x * (0.1150705563827112f + x *
-        (0.11021709394549628f + x * (0.10369072970664456f + x * (0.11455738415088876f + x *
-        (0.032986194308839506f + x * (0.3065557249864925f + x * (-0.3367675844959148f + x *
-        0.5294695063125701f)))))))))));
+    return 0.030468411111111815f + x * (0.00837354892300497f + x * (0.002046706799584893f + x *
+        (0.0004886468890746032f + x * (0.00011613111213293394f + x * (2.7616077964098513e-05f + x *
+        (6.5939610015309365e-06f + x * (1.5464539075677813e-06f + x * (4.259118945813729e-07f + x *
+        (3.057232901845871e-08f + x * (7.082806450744877e-08f + x * (-1.939661100390776e-08f + x *
+        7.602145165505719e-09f)))))))))));
 }
 
 static inline float polynomial_t_over_norm_s_near_slope_f(float x) {
-    return 0.33333333333333803f + x * (0.29999999999774407f + x * (0.26785714317925663f + x *
-        (0.24305553411669717f + x * (0.22372239472145958f + x * (0.2082144053459712f + x *
-        (0.19579677393337114f + x * (0.18180149966265388f + x * (0.19755095675434994f + x *
-        (0.059985679108534126f + x * (0.5140660115573694f + x * (-0.5584802930551348f + x *
-        0.8841459092506236f)))))))))));
+    return 0.08309566666666784f + x * (0.018643202510559807f + x * (0.004149560740958722f + x *
+        (0.0009386507655795129f + x * (0.0002153811122193612f + x * (4.996990917605983e-05f + x *
+        (1.1713938785037024e-05f + x * (2.711405738491757e-06f + x * (7.344729708281775e-07f + x *
+        (5.559604423994885e-08f + x * (1.1877220896552035e-07f + x * (-3.216647176406096e-08f + x *
+        1.2694603691951493e-08f)))))))))));
 }
 
 static inline float polynomial_t_over_norm_s_near_slope_slope_f(float x) {
-    return 0.29999999999774407f + x * (0.5357142863585133f + x * (0.7291666023500915f + x *
-        (0.8948895788858383f + x * (1.0410720267298559f + x * (1.1747806436002268f + x * (1.272610497638577f +
-        x * (1.5804076540347995f + x * (0.5398711119768071f + x * (5.140660115573694f + x *
-        (-6.143283223606483f + x * 10.609750911007485f))))))))));
+    return 0.018643202510559807f + x * (0.008299121481917445f + x * (0.0028159522967385387f + x *
+        (0.0008615244488774448f + x * (0.00024984954588029915f + x * (7.028363271022215e-05f + x *
+        (1.89798401694423e-05f + x * (5.87578376662542e-06f + x * (5.003643981595396e-07f + x *
+        (1.1877220896552035e-06f + x * (-3.538311894046706e-07f + x * 1.5233524430341793e-07f))))))))));
 }
 
 static inline float polynomial_log_det_series_slope_slope_f(float x) {
-    return 0.13474426807624537f + x * (0.2642328046200407f + x * (0.37959271426736824f + x *
-        (0.48251455738765225f + x * (0.575352781913556f + x * (0.6613025636729777f + x * (0.7258351079465118f
-        + x * (0.9164590732071101f + x * (0.2968757487795556f + x * (3.065557249864925f + x *
-        (-3.704443429455063f + x * 6.353634075750841f))))))))));
+    return 0.00837354892300497f + x * (0.004093413599169786f + x * (0.0014659406672238098f + x *
+        (0.00046452444853173575f + x * (0.00013808038982049257f + x * (3.956376600918562e-05f + x *
+        (1.0825177352974468e-05f + x * (3.407295156650983e-06f + x * (2.751509611661284e-07f + x *
+        (7.082806450744877e-07f + x * (-2.1336272104298536e-07f + x * 9.122574198606863e-08f))))))))));
 }
 
 void so3_splats_f(
@@ -493,16 +498,16 @@ void so3_splats_f(
             const float mu1 = mu[4 * k + 1];
             const float mu2 = mu[4 * k + 2];
             const float mu3 = mu[4 * k + 3];
-            const float W0 = W[9 * k + 0];
-            const float W1 = W[9 * k + 1];
-            const float W2 = W[9 * k + 2];
-            const float W3 = W[9 * k + 3];
-            const float W4 = W[9 * k + 4];
-            const float W5 = W[9 * k + 5];
-            const float W6 = W[9 * k + 6];
-            const float W7 = W[9 * k + 7];
-            const float W8 = W[9 * k + 8];
-            const float amplitude0 = amplitude[1 * k + 0];
+            const float W0_0 = W[9 * k + 0];
+            const float W0_1 = W[9 * k + 1];
+            const float W0_2 = W[9 * k + 2];
+            const float W1_0 = W[9 * k + 3];
+            const float W1_1 = W[9 * k + 4];
+            const float W1_2 = W[9 * k + 5];
+            const float W2_0 = W[9 * k + 6];
+            const float W2_1 = W[9 * k + 7];
+            const float W2_2 = W[9 * k + 8];
+            const float amplitude_k = amplitude[1 * k + 0];
             for (size_t lane = 0; lane < LANES; ++lane) {
                 const float g0 = x_block[0][lane] * mu0 + x_block[1][lane] * mu1 + x_block[2][lane] * mu2 +
                     x_block[3][lane] * mu3;
@@ -514,8 +519,8 @@ void so3_splats_f(
                     x_block[0][lane] * mu3;
                 const float norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
                 const float abs_g0 = fabsf(g0);
-                const int near = norm_s_squared < 0.2492869794368744f;
-                const float near_chosen = (near ? norm_s_squared : 0.0f);
+                const int near = norm_s_squared < 0.249287f;
+                const float near_chosen = (near ? 4.011440628672975f * norm_s_squared : 0.0f);
                 const float t_over_norm_s_near = polynomial_t_over_norm_s_near_f(near_chosen);
                 const float near_chosen_2 = (near ? 1.0f : norm_s_squared);
                 const float norm_s = sqrtf(near_chosen_2);
@@ -533,14 +538,14 @@ void so3_splats_f(
                 const float log_det_near = norm_s_squared * log_det_series;
                 const float product = 0.5f * t_ratio;
                 const float log_det = (near ? log_det_near : 2.0f * logf(product));
-                const float z0 = W0 * v0 + W1 * v1 + W2 * v2;
-                const float z1 = W3 * v0 + W4 * v1 + W5 * v2;
-                const float z2 = W6 * v0 + W7 * v1 + W8 * v2;
+                const float z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+                const float z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+                const float z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
                 const float log_det_gap = log_det - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
-                const float phi = amplitude0 * expf(log_det_gap);
-                const float by_v2 = -(W8 * z2) - W5 * z1 - W2 * z0;
-                const float by_v1 = -(W7 * z2) - W4 * z1 - W1 * z0;
-                const float by_v0 = -(W6 * z2) - W3 * z1 - W0 * z0;
+                const float phi = amplitude_k * expf(log_det_gap);
+                const float by_v2 = -(W2_2 * z2) - W1_2 * z1 - W0_2 * z0;
+                const float by_v1 = -(W2_1 * z2) - W1_1 * z1 - W0_1 * z0;
+                const float by_v0 = -(W2_0 * z2) - W1_0 * z1 - W0_0 * z0;
                 const float by_log_det_near = (near ? 1.0f : 0.0f);
                 const float by_log_det_series = norm_s_squared * by_log_det_near;
                 const float log_det_series_slope = polynomial_log_det_series_slope_f(near_chosen);
@@ -556,8 +561,8 @@ void so3_splats_f(
                 const float by_norm_s = abs_g0 * ratio - t_ratio * by_t;
                 const float t_over_norm_s_near_slope = polynomial_t_over_norm_s_near_slope_f(near_chosen);
                 const float by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0f : by_norm_s / (2.0f *
-                    norm_s)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_s_near *
-                    t_over_norm_s_near_slope : 0.0f);
+                    norm_s)) + 4.011440628672975f * (near ? by_log_det_series * log_det_series_slope +
+                    by_t_over_norm_s_near * t_over_norm_s_near_slope : 0.0f);
                 const float by_g0 = (is_small ? norm_s_product : by_abs_g0);
                 const float product_2 = 2.0f * by_norm_s_squared;
                 const float by_g3 = scale * by_v2 + g3 * product_2;
@@ -629,16 +634,16 @@ void so3_splats_vjp_f(
             const float mu1 = mu[4 * k + 1];
             const float mu2 = mu[4 * k + 2];
             const float mu3 = mu[4 * k + 3];
-            const float W0 = W[9 * k + 0];
-            const float W1 = W[9 * k + 1];
-            const float W2 = W[9 * k + 2];
-            const float W3 = W[9 * k + 3];
-            const float W4 = W[9 * k + 4];
-            const float W5 = W[9 * k + 5];
-            const float W6 = W[9 * k + 6];
-            const float W7 = W[9 * k + 7];
-            const float W8 = W[9 * k + 8];
-            const float amplitude0 = amplitude[1 * k + 0];
+            const float W0_0 = W[9 * k + 0];
+            const float W0_1 = W[9 * k + 1];
+            const float W0_2 = W[9 * k + 2];
+            const float W1_0 = W[9 * k + 3];
+            const float W1_1 = W[9 * k + 4];
+            const float W1_2 = W[9 * k + 5];
+            const float W2_0 = W[9 * k + 6];
+            const float W2_1 = W[9 * k + 7];
+            const float W2_2 = W[9 * k + 8];
+            const float amplitude_k = amplitude[1 * k + 0];
             for (size_t lane = 0; lane < LANES; ++lane) {
                 const float g0 = x_block[0][lane] * mu0 + x_block[1][lane] * mu1 + x_block[2][lane] * mu2 +
                     x_block[3][lane] * mu3;
@@ -650,8 +655,8 @@ void so3_splats_vjp_f(
                     x_block[0][lane] * mu3;
                 const float norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
                 const float abs_g0 = fabsf(g0);
-                const int near = norm_s_squared < 0.2492869794368744f;
-                const float near_chosen = (near ? norm_s_squared : 0.0f);
+                const int near = norm_s_squared < 0.249287f;
+                const float near_chosen = (near ? 4.011440628672975f * norm_s_squared : 0.0f);
                 const float t_over_norm_s_near = polynomial_t_over_norm_s_near_f(near_chosen);
                 const float near_chosen_2 = (near ? 1.0f : norm_s_squared);
                 const float norm_s = sqrtf(near_chosen_2);
@@ -669,15 +674,15 @@ void so3_splats_vjp_f(
                 const float log_det_near = norm_s_squared * log_det_series;
                 const float product = 0.5f * t_ratio;
                 const float log_det = (near ? log_det_near : 2.0f * logf(product));
-                const float z0 = W0 * v0 + W1 * v1 + W2 * v2;
-                const float z1 = W3 * v0 + W4 * v1 + W5 * v2;
-                const float z2 = W6 * v0 + W7 * v1 + W8 * v2;
+                const float z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+                const float z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+                const float z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
                 const float log_det_gap = log_det - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
                 const float exp_2 = expf(log_det_gap);
-                const float phi = amplitude0 * exp_2;
-                const float by_v2 = -(W8 * z2) - W5 * z1 - W2 * z0;
-                const float by_v1 = -(W7 * z2) - W4 * z1 - W1 * z0;
-                const float by_v0 = -(W6 * z2) - W3 * z1 - W0 * z0;
+                const float phi = amplitude_k * exp_2;
+                const float by_v2 = -(W2_2 * z2) - W1_2 * z1 - W0_2 * z0;
+                const float by_v1 = -(W2_1 * z2) - W1_1 * z1 - W0_1 * z0;
+                const float by_v0 = -(W2_0 * z2) - W1_0 * z1 - W0_0 * z0;
                 const float by_log_det_near = (near ? 1.0f : 0.0f);
                 const float ratio = 2.0f * (near ? 0.0f : 1.0f) / product;
                 const float by_log_det_series = norm_s_squared * by_log_det_near;
@@ -695,8 +700,9 @@ void so3_splats_vjp_f(
                 const float norm_s_product_2 = 2.0f * norm_s;
                 const float by_norm_s_ratio = by_norm_s / norm_s_product_2;
                 const float t_over_norm_s_near_slope = polynomial_t_over_norm_s_near_slope_f(near_chosen);
-                const float by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0f : by_norm_s_ratio) + (near
-                    ? by_log_det_series * log_det_series_slope + by_t_over_norm_s_near * t_over_norm_s_near_slope : 0.0f);
+                const float by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0f : by_norm_s_ratio) +
+                    4.011440628672975f * (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_s_near *
+                    t_over_norm_s_near_slope : 0.0f);
                 const float by_g0 = (is_small ? norm_s_product : by_abs_g0);
                 const float product_2 = 2.0f * by_norm_s_squared;
                 const float by_g3 = scale * by_v2 + g3 * product_2;
@@ -728,9 +734,10 @@ void so3_splats_vjp_f(
                     by_exponent_by_x1;
                 const float by_by_g3 = mu0 * by_exponent_by_x3 + mu2 * by_exponent_by_x1 - mu1 * by_exponent_by_x2 - mu3 *
                     by_exponent_by_x0;
-                const float by_by_norm_s_squared = 2.0f * (g1 * by_by_g1 + g2 * by_by_g2 + g3 * by_by_g3);
+                const float total_3 = g1 * by_by_g1 + g2 * by_by_g2 + g3 * by_by_g3;
+                const float by_by_norm_s_squared = 2.0f * total_3;
                 const float by_by_abs_g0 = (is_small ? 0.0f : by_by_g0);
-                const float near_chosen_3 = (near ? by_by_norm_s_squared : 0.0f);
+                const float near_chosen_3 = (near ? 8.02288125734595f * total_3 : 0.0f);
                 const float by_by_t_over_norm_s_near = t_over_norm_s_near_slope * near_chosen_3;
                 const float by_t_over_norm_s_near_slope = by_t_over_norm_s_near * near_chosen_3;
                 const float t_over_norm_s_near_slope_slope = polynomial_t_over_norm_s_near_slope_slope_f(near_chosen);
@@ -750,21 +757,21 @@ void so3_splats_vjp_f(
                 const float by_by_log_det_series = log_det_series_slope * near_chosen_3;
                 const float by_log_det_series_slope = by_log_det_series * near_chosen_3;
                 const float log_det_series_slope_slope = polynomial_log_det_series_slope_slope_f(near_chosen);
-                const float by_log_det = exp_2 * (amplitude0 * by_phi);
-                const float by_z2 = -(W6 * by_by_v0) - W7 * by_by_v1 - W8 * by_by_v2 - z2 * by_log_det;
-                const float by_z1 = -(W3 * by_by_v0) - W4 * by_by_v1 - W5 * by_by_v2 - z1 * by_log_det;
-                const float by_z0 = -(W0 * by_by_v0) - W1 * by_by_v1 - W2 * by_by_v2 - z0 * by_log_det;
-                const float by_v2_2 = W8 * by_z2 + W5 * by_z1 + W2 * by_z0;
-                const float by_v1_2 = W7 * by_z2 + W4 * by_z1 + W1 * by_z0;
-                const float by_v0_2 = W6 * by_z2 + W3 * by_z1 + W0 * by_z0;
+                const float by_log_det = exp_2 * (amplitude_k * by_phi);
+                const float by_z2 = -(W2_0 * by_by_v0) - W2_1 * by_by_v1 - W2_2 * by_by_v2 - z2 * by_log_det;
+                const float by_z1 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2 - z1 * by_log_det;
+                const float by_z0 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2 - z0 * by_log_det;
+                const float by_v2_2 = W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0;
+                const float by_v1_2 = W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
+                const float by_v0_2 = W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0;
                 const float by_log_det_near_2 = (near ? by_log_det : 0.0f);
                 const float product_4 = 0.5f * (2.0f * (near ? 0.0f : by_log_det) / product - ratio * (0.5f *
                     by_by_t_ratio / product));
                 const float by_log_det_series_2 = by_log_det_near * by_by_norm_s_squared + norm_s_squared *
                     by_log_det_near_2;
-                const float total_3 = by_v0 * by_by_g1 + by_v1 * by_by_g2 + by_v2 * by_by_g3 + g3 * by_v2_2 + g2 *
+                const float total_4 = by_v0 * by_by_g1 + by_v1 * by_by_g2 + by_v2 * by_by_g3 + g3 * by_v2_2 + g2 *
                     by_v1_2;
-                const float by_scale_2 = total_3 + g1 * by_v0_2;
+                const float by_scale_2 = total_4 + g1 * by_v0_2;
                 const float by_t_over_norm_s_2 = chosen * by_scale_2;
                 const float by_t_over_norm_s_near_2 = (near ? by_t_over_norm_s_2 : 0.0f);
                 const float by_t_2 = (product_4 - by_t * by_by_norm_s + (near ? 0.0f : by_t_over_norm_s_2)) / norm_s;
@@ -779,7 +786,8 @@ void so3_splats_vjp_f(
                     by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
                     t_over_norm_s_near_slope * by_t_over_norm_s_near_2 : 0.0f);
                 const float by_norm_s_squared_2 = by_log_det_near * by_by_log_det_series + log_det_series *
-                    by_log_det_near_2 + (near ? 0.0f : by_norm_s_2 / norm_s_product_2 - product_3) + near_chosen_4;
+                    by_log_det_near_2 + (near ? 0.0f : by_norm_s_2 / norm_s_product_2 - product_3) + 4.011440628672975f *
+                    near_chosen_4;
                 const float by_g0_2 = (is_small ? norm_s_product_3 - gap_2 : by_abs_g0_2);
                 const float product_5 = 2.0f * by_norm_s_squared_2;
                 const float by_g3_2 = product_2 * by_by_g3 + by_v2 * by_by_scale + scale * by_v2_2 + g3 * product_5;
@@ -789,13 +797,13 @@ void so3_splats_vjp_f(
                     by_g3 * by_exponent_by_x0 - x_block[0][lane] * by_g3_2;
                 const float gap_5 = by_g0 * by_exponent_by_x1 - by_g1 * by_exponent_by_x0 + by_g2 * by_exponent_by_x3 -
                     by_g3 * by_exponent_by_x2 - x_block[2][lane] * by_g3_2;
-                const float total_4 = by_g0 * by_exponent_by_x2 - by_g1 * by_exponent_by_x3 - by_g2 * by_exponent_by_x0 +
+                const float total_5 = by_g0 * by_exponent_by_x2 - by_g1 * by_exponent_by_x3 - by_g2 * by_exponent_by_x0 +
                     by_g3 * by_exponent_by_x1 + x_block[1][lane] * by_g3_2;
-                const float total_5 = by_g0 * by_exponent_by_x0 + by_g1 * by_exponent_by_x1 + by_g2 * by_exponent_by_x2 +
+                const float total_6 = by_g0 * by_exponent_by_x0 + by_g1 * by_exponent_by_x1 + by_g2 * by_exponent_by_x2 +
                     by_g3 * by_exponent_by_x3 + x_block[3][lane] * by_g3_2;
-                sum[0][lane] += total_5 + x_block[2][lane] * by_g2_2 + x_block[1][lane] * by_g1_2 + x_block[0][lane] * by_g0_2;
+                sum[0][lane] += total_6 + x_block[2][lane] * by_g2_2 + x_block[1][lane] * by_g1_2 + x_block[0][lane] * by_g0_2;
                 sum[1][lane] += gap_5 + x_block[3][lane] * by_g2_2 - x_block[0][lane] * by_g1_2 + x_block[1][lane] * by_g0_2;
-                sum[2][lane] += total_4 - x_block[0][lane] * by_g2_2 - x_block[3][lane] * by_g1_2 + x_block[2][lane] * by_g0_2;
+                sum[2][lane] += total_5 - x_block[0][lane] * by_g2_2 - x_block[3][lane] * by_g1_2 + x_block[2][lane] * by_g0_2;
                 sum[3][lane] += gap_4 - x_block[1][lane] * by_g2_2 + x_block[2][lane] * by_g1_2 + x_block[3][lane] * by_g0_2;
                 sum[4][lane] += v0 * by_z0 - z0 * by_by_v0;
                 sum[5][lane] += v1 * by_z0 - z0 * by_by_v1;

@@ -9,41 +9,41 @@
 #include <float.h>
 
 static inline double polynomial_sinc_norm_v_near(double x) {
-    return 1.0 + x * (-0.16666666666666666 + x * (0.008333333333333106 + x * (-0.0001984126984108742 + x *
-        (2.7557319152292533e-06 + x * (-2.5052093081256153e-08 + x * (1.605723315933452e-10 + x *
-        -7.535482987408254e-13))))));
+    return 1.0 + x * (-0.16506549999999998 + x * (0.008173985787074777 + x * (-0.00019274900727486046 + x *
+        (2.6513509314873062e-06 + x * (-2.3871616416234012e-08 + x * (1.5153609321464116e-10 + x *
+        -7.043102821193199e-13))))));
 }
 
 static inline double polynomial_t_over_norm_w_near(double x) {
-    return 1.0 + x * (0.16666666666666416 + x * (0.033333333333506306 + x * (0.0071428571381235645 + x *
-        (0.0015873016554683388 + x * (0.00036074976769956093 + x * (8.325345611107313e-05 + x *
-        (1.9411868200361258e-05 + x * (4.606744523406809e-06 + x * (1.0115092780821757e-06 + x *
-        (3.573589789663863e-07 + x * (-3.671871587646e-08 + x * (8.060154251278906e-08 + x *
-        (-2.3969974400507724e-08 + x * 6.744739171601492e-09)))))))))))));
+    return 1.0 + x * (0.1662524999999975 + x * (0.033167872507672114 + x * (0.0070897393547985224 + x *
+        (0.0015715825913113733 + x * (0.00035628967365586723 + x * (8.201983320917496e-05 + x *
+        (1.907670567869169e-05 + x * (4.515955030924914e-06 + x * (9.891104407795466e-07 + x *
+        (3.4857725787739105e-07 + x * (-3.572738831505136e-08 + x * (7.823058427560207e-08 + x *
+        (-2.32070653876956e-08 + x * 6.513842453315234e-09)))))))))))));
 }
 
 static inline double polynomial_log_det_series(double x) {
-    return 0.16666666666666666 + x * (0.019444444444444355 + x * (0.0031305114638509562 + x *
-        (0.0005742945324592983 + x * (0.00011310192108550569 + x * (2.329005429821089e-05 + x *
-        (4.945110727593644e-06 + x * (1.0731431371692667e-06 + x * (2.383732678254368e-07 + x *
-        (5.0521959436460696e-08 + x * (1.5564787023532255e-08 + x * (-7.830928337301054e-10 + x *
-        (2.9922380095813834e-09 + x * (-8.46187828025567e-10 + x * 2.4753955737430303e-10)))))))))))));
+    return 0.16666666666666666 + x * (0.01939612499999991 + x * (0.0031149721534882713 + x *
+        (0.0005700237971008779 + x * (0.00011198187163070022 + x * (2.3002110017289655e-05 + x *
+        (4.8718356693444944e-06 + x * (1.054614402260622e-06 + x * (2.3367541929114962e-07 + x *
+        (4.940320237298334e-08 + x * (1.518229875124757e-08 + x * (-7.619509857463658e-10 + x *
+        (2.904218957646796e-09 + x * (-8.192556206837457e-10 + x * 2.390653866184622e-10)))))))))))));
 }
 
 static inline double polynomial_log_det_series_slope(double x) {
-    return 0.019444444444444355 + x * (0.0062610229277019125 + x * (0.001722883597377895 + x *
-        (0.00045240768434202277 + x * (0.00011645027149105445 + x * (2.9670664365561865e-05 + x *
-        (7.512001960184866e-06 + x * (1.9069861426034945e-06 + x * (4.5469763492814626e-07 + x *
-        (1.5564787023532256e-07 + x * (-8.614021171031161e-09 + x * (3.59068561149766e-08 + x *
-        (-1.100044176433237e-08 + x * 3.4655538032402425e-09))))))))))));
+    return 0.01939612499999991 + x * (0.0062299443069765426 + x * (0.0017100713913026338 + x *
+        (0.00044792748652280087 + x * (0.00011501055008644827 + x * (2.9231014016066968e-05 + x *
+        (7.382300815824355e-06 + x * (1.869403354329197e-06 + x * (4.446288213568501e-07 + x *
+        (1.518229875124757e-07 + x * (-8.381460843210023e-09 + x * (3.4850627491761557e-08 + x *
+        (-1.0650323068888695e-08 + x * 3.3469154126584707e-09))))))))))));
 }
 
 static inline double polynomial_t_over_norm_w_near_slope(double x) {
-    return 0.16666666666666416 + x * (0.06666666666701261 + x * (0.021428571414370694 + x *
-        (0.006349206621873355 + x * (0.0018037488384978046 + x * (0.0004995207366664387 + x *
-        (0.0001358830774025288 + x * (3.685395618725447e-05 + x * (9.103583502739583e-06 + x *
-        (3.5735897896638634e-06 + x * (-4.0390587464106003e-07 + x * (9.672185101534689e-07 + x *
-        (-3.116096672066004e-07 + x * 9.442634840242089e-08))))))))))));
+    return 0.1662524999999975 + x * (0.06633574501534423 + x * (0.021269218064395565 + x *
+        (0.006286330365245493 + x * (0.0017814483682793362 + x * (0.0004921189992550497 + x *
+        (0.00013353693975084183 + x * (3.6127640247399315e-05 + x * (8.90199396701592e-06 + x *
+        (3.4857725787739103e-06 + x * (-3.93001271465565e-07 + x * (9.387670113072248e-07 + x *
+        (-3.0169185004004283e-07 + x * 9.119379434641327e-08))))))))))));
 }
 
 /* p / norm(p) */
@@ -144,8 +144,9 @@ void sphere_exp(
     const double norm_v_squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     const double norm_v = sqrt(norm_v_squared);
     const double cos_norm_v = cos(norm_v);
-    const int near = norm_v_squared < 0.9903926849365234;
-    const double sinc_norm_v_near = polynomial_sinc_norm_v_near((near ? norm_v_squared : 0.0));
+    const int near = norm_v_squared < 0.990393;
+    const double sinc_norm_v_near = polynomial_sinc_norm_v_near((near ? 1.0097001897226656 * norm_v_squared :
+        0.0));
     const double norm_v_2 = sqrt((near ? 1.0 : norm_v_squared));
     const double sinc_norm_v = (near ? sinc_norm_v_near : sin(norm_v_2) / norm_v_2);
     const double q0 = p[0] * cos_norm_v + v[0] * sinc_norm_v;
@@ -197,8 +198,9 @@ void sphere_log(
     const double w1 = d1 - p[1] * dot_p_d;
     const double w2 = d2 - p[2] * dot_p_d;
     const double norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
-    const int near = norm_d_squared < 0.9975153207778931;
-    const double t_over_norm_w_near = polynomial_t_over_norm_w_near((near ? norm_d_squared : 0.0));
+    const int near = norm_d_squared < 0.997515;
+    const double t_over_norm_w_near = polynomial_t_over_norm_w_near((near ? 1.0024911906086624 *
+        norm_d_squared : 0.0));
     const double norm_d = sqrt((near ? 1.0 : norm_d_squared));
     const double atan2_value = atan2(norm_d, norm_q_plus_p_2);
     const double t = 2.0 * atan2_value;
@@ -282,12 +284,13 @@ double sphere_log_abs_det(const double *SPHERE_RESTRICT p, const double *SPHERE_
     const double w1 = d1 - p[1] * dot_p_d;
     const double w2 = d2 - p[2] * dot_p_d;
     const double norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
-    const int near = norm_d_squared < 0.9975153207778931;
+    const int near = norm_d_squared < 0.997515;
     const double norm_d = sqrt((near ? 1.0 : norm_d_squared));
     const double atan2_value = atan2(norm_d, norm_q_plus_p_2);
     const double t = 2.0 * atan2_value;
     const double norm_w = sqrt((near ? 1.0 : norm_w_squared));
-    const double log_det_series = polynomial_log_det_series((near ? norm_d_squared : 0.0));
+    const double log_det_series = polynomial_log_det_series((near ? 1.0024911906086624 * norm_d_squared :
+        0.0));
     const double log_det_near = norm_d_squared * log_det_series;
     const double log_det = (near ? log_det_near : log(t / norm_w));
     return (on_cut_locus ? log_value : log_det);
@@ -376,8 +379,8 @@ void sphere_splat(
     const double w1 = d1 - mu[1] * dot_p_d;
     const double w2 = d2 - mu[2] * dot_p_d;
     const double norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
-    const int near = norm_d_squared < 0.9975153207778931;
-    const double near_chosen = (near ? norm_d_squared : 0.0);
+    const int near = norm_d_squared < 0.997515;
+    const double near_chosen = (near ? 1.0024911906086624 * norm_d_squared : 0.0);
     const double t_over_norm_w_near = polynomial_t_over_norm_w_near(near_chosen);
     const double near_chosen_2 = (near ? 1.0 : norm_d_squared);
     const double norm_d = sqrt(near_chosen_2);
@@ -424,8 +427,8 @@ void sphere_splat(
     const double by_norm_d = norm_q_plus_p_2 * ratio;
     const double t_over_norm_w_near_slope = polynomial_t_over_norm_w_near_slope(near_chosen);
     const double by_norm_d_squared = log_det_series * by_log_det_near + (near ? 0.0 : by_norm_d / (2.0 *
-        norm_d)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near *
-        t_over_norm_w_near_slope : 0.0);
+        norm_d)) + 1.0024911906086624 * (near ? by_log_det_series * log_det_series_slope +
+        by_t_over_norm_w_near * t_over_norm_w_near_slope : 0.0);
     const double product_3 = 2.0 * by_norm_w_squared;
     const double by_w2 = t_over_norm_w * chosen + w2 * product_3;
     const double by_w1 = t_over_norm_w * chosen_2 + w1 * product_3;
@@ -496,41 +499,41 @@ void sphere_frame(const double *SPHERE_RESTRICT p, double *SPHERE_RESTRICT frame
 }
 
 static inline float polynomial_sinc_norm_v_near_f(float x) {
-    return 1.0f + x * (-0.16666666666666666f + x * (0.008333333333333106f + x * (-0.0001984126984108742f + x *
-        (2.7557319152292533e-06f + x * (-2.5052093081256153e-08f + x * (1.605723315933452e-10f + x *
-        -7.535482987408254e-13f))))));
+    return 1.0f + x * (-0.16506549999999998f + x * (0.008173985787074777f + x * (-0.00019274900727486046f + x
+        * (2.6513509314873062e-06f + x * (-2.3871616416234012e-08f + x * (1.5153609321464116e-10f + x *
+        -7.043102821193199e-13f))))));
 }
 
 static inline float polynomial_t_over_norm_w_near_f(float x) {
-    return 1.0f + x * (0.16666666666666416f + x * (0.033333333333506306f + x * (0.0071428571381235645f + x *
-        (0.0015873016554683388f + x * (0.00036074976769956093f + x * (8.325345611107313e-05f + x *
-        (1.9411868200361258e-05f + x * (4.606744523406809e-06f + x * (1.0115092780821757e-06f + x *
-        (3.573589789663863e-07f + x * (-3.671871587646e-08f + x * (8.060154251278906e-08f + x *
-        (-2.3969974400507724e-08f + x * 6.744739171601492e-09f)))))))))))));
+    return 1.0f + x * (0.1662524999999975f + x * (0.033167872507672114f + x * (0.0070897393547985224f + x *
+        (0.0015715825913113733f + x * (0.00035628967365586723f + x * (8.201983320917496e-05f + x *
+        (1.907670567869169e-05f + x * (4.515955030924914e-06f + x * (9.891104407795466e-07f + x *
+        (3.4857725787739105e-07f + x * (-3.572738831505136e-08f + x * (7.823058427560207e-08f + x *
+        (-2.32070653876956e-08f + x * 6.513842453315234e-09f)))))))))))));
 }
 
 static inline float polynomial_log_det_series_f(float x) {
-    return 0.16666666666666666f + x * (0.019444444444444355f + x * (0.0031305114638509562f + x *
-        (0.0005742945324592983f + x * (0.00011310192108550569f + x * (2.329005429821089e-05f + x *
-        (4.945110727593644e-06f + x * (1.0731431371692667e-06f + x * (2.383732678254368e-07f + x *
-        (5.0521959436460696e-08f + x * (1.5564787023532255e-08f + x * (-7.830928337301054e-10f + x *
-        (2.9922380095813834e-09f + x * (-8.46187828025567e-10f + x * 2.4753955737430303e-10f)))))))))))));
+    return 0.16666666666666666f + x * (0.01939612499999991f + x * (0.0031149721534882713f + x *
+        (0.0005700237971008779f + x * (0.00011198187163070022f + x * (2.3002110017289655e-05f + x *
+        (4.8718356693444944e-06f + x * (1.054614402260622e-06f + x * (2.3367541929114962e-07f + x *
+        (4.940320237298334e-08f + x * (1.518229875124757e-08f + x * (-7.619509857463658e-10f + x *
+        (2.904218957646796e-09f + x * (-8.192556206837457e-10f + x * 2.390653866184622e-10f)))))))))))));
 }
 
 static inline float polynomial_log_det_series_slope_f(float x) {
-    return 0.019444444444444355f + x * (0.0062610229277019125f + x * (0.001722883597377895f + x *
-        (0.00045240768434202277f + x * (0.00011645027149105445f + x * (2.9670664365561865e-05f + x *
-        (7.512001960184866e-06f + x * (1.9069861426034945e-06f + x * (4.5469763492814626e-07f + x *
-        (1.5564787023532256e-07f + x * (-8.614021171031161e-09f + x * (3.59068561149766e-08f + x *
-        (-1.100044176433237e-08f + x * 3.4655538032402425e-09f))))))))))));
+    return 0.01939612499999991f + x * (0.0062299443069765426f + x * (0.0017100713913026338f + x *
+        (0.00044792748652280087f + x * (0.00011501055008644827f + x * (2.9231014016066968e-05f + x *
+        (7.382300815824355e-06f + x * (1.869403354329197e-06f + x * (4.446288213568501e-07f + x *
+        (1.518229875124757e-07f + x * (-8.381460843210023e-09f + x * (3.4850627491761557e-08f + x *
+        (-1.0650323068888695e-08f + x * 3.3469154126584707e-09f))))))))))));
 }
 
 static inline float polynomial_t_over_norm_w_near_slope_f(float x) {
-    return 0.16666666666666416f + x * (0.06666666666701261f + x * (0.021428571414370694f + x *
-        (0.006349206621873355f + x * (0.0018037488384978046f + x * (0.0004995207366664387f + x *
-        (0.0001358830774025288f + x * (3.685395618725447e-05f + x * (9.103583502739583e-06f + x *
-        (3.5735897896638634e-06f + x * (-4.0390587464106003e-07f + x * (9.672185101534689e-07f + x *
-        (-3.116096672066004e-07f + x * 9.442634840242089e-08f))))))))))));
+    return 0.1662524999999975f + x * (0.06633574501534423f + x * (0.021269218064395565f + x *
+        (0.006286330365245493f + x * (0.0017814483682793362f + x * (0.0004921189992550497f + x *
+        (0.00013353693975084183f + x * (3.6127640247399315e-05f + x * (8.90199396701592e-06f + x *
+        (3.4857725787739103e-06f + x * (-3.93001271465565e-07f + x * (9.387670113072248e-07f + x *
+        (-3.0169185004004283e-07f + x * 9.119379434641327e-08f))))))))))));
 }
 
 /* p / norm(p) */
@@ -631,8 +634,9 @@ void sphere_exp_f(
     const float norm_v_squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     const float norm_v = sqrtf(norm_v_squared);
     const float cos_norm_v = cosf(norm_v);
-    const int near = norm_v_squared < 0.9903926849365234f;
-    const float sinc_norm_v_near = polynomial_sinc_norm_v_near_f((near ? norm_v_squared : 0.0f));
+    const int near = norm_v_squared < 0.990393f;
+    const float sinc_norm_v_near = polynomial_sinc_norm_v_near_f((near ? 1.0097001897226656f * norm_v_squared
+        : 0.0f));
     const float norm_v_2 = sqrtf((near ? 1.0f : norm_v_squared));
     const float sinc_norm_v = (near ? sinc_norm_v_near : sinf(norm_v_2) / norm_v_2);
     const float q0 = p[0] * cos_norm_v + v[0] * sinc_norm_v;
@@ -683,8 +687,9 @@ void sphere_log_f(
     const float w1 = d1 - p[1] * dot_p_d;
     const float w2 = d2 - p[2] * dot_p_d;
     const float norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
-    const int near = norm_d_squared < 0.9975153207778931f;
-    const float t_over_norm_w_near = polynomial_t_over_norm_w_near_f((near ? norm_d_squared : 0.0f));
+    const int near = norm_d_squared < 0.997515f;
+    const float t_over_norm_w_near = polynomial_t_over_norm_w_near_f((near ? 1.0024911906086624f *
+        norm_d_squared : 0.0f));
     const float norm_d = sqrtf((near ? 1.0f : norm_d_squared));
     const float atan2_value = atan2f(norm_d, norm_q_plus_p_2);
     const float t = 2.0f * atan2_value;
@@ -766,12 +771,13 @@ float sphere_log_abs_det_f(const float *SPHERE_RESTRICT p, const float *SPHERE_R
     const float w1 = d1 - p[1] * dot_p_d;
     const float w2 = d2 - p[2] * dot_p_d;
     const float norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
-    const int near = norm_d_squared < 0.9975153207778931f;
+    const int near = norm_d_squared < 0.997515f;
     const float norm_d = sqrtf((near ? 1.0f : norm_d_squared));
     const float atan2_value = atan2f(norm_d, norm_q_plus_p_2);
     const float t = 2.0f * atan2_value;
     const float norm_w = sqrtf((near ? 1.0f : norm_w_squared));
-    const float log_det_series = polynomial_log_det_series_f((near ? norm_d_squared : 0.0f));
+    const float log_det_series = polynomial_log_det_series_f((near ? 1.0024911906086624f * norm_d_squared :
+        0.0f));
     const float log_det_near = norm_d_squared * log_det_series;
     const float log_det = (near ? log_det_near : logf(t / norm_w));
     return (on_cut_locus ? log_value : log_det);
@@ -859,8 +865,8 @@ void sphere_splat_f(
     const float w1 = d1 - mu[1] * dot_p_d;
     const float w2 = d2 - mu[2] * dot_p_d;
     const float norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
-    const int near = norm_d_squared < 0.9975153207778931f;
-    const float near_chosen = (near ? norm_d_squared : 0.0f);
+    const int near = norm_d_squared < 0.997515f;
+    const float near_chosen = (near ? 1.0024911906086624f * norm_d_squared : 0.0f);
     const float t_over_norm_w_near = polynomial_t_over_norm_w_near_f(near_chosen);
     const float near_chosen_2 = (near ? 1.0f : norm_d_squared);
     const float norm_d = sqrtf(near_chosen_2);
@@ -907,8 +913,8 @@ void sphere_splat_f(
     const float by_norm_d = norm_q_plus_p_2 * ratio;
     const float t_over_norm_w_near_slope = polynomial_t_over_norm_w_near_slope_f(near_chosen);
     const float by_norm_d_squared = log_det_series * by_log_det_near + (near ? 0.0f : by_norm_d / (2.0f *
-        norm_d)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near *
-        t_over_norm_w_near_slope : 0.0f);
+        norm_d)) + 1.0024911906086624f * (near ? by_log_det_series * log_det_series_slope +
+        by_t_over_norm_w_near * t_over_norm_w_near_slope : 0.0f);
     const float product_3 = 2.0f * by_norm_w_squared;
     const float by_w2 = t_over_norm_w * chosen + w2 * product_3;
     const float by_w1 = t_over_norm_w * chosen_2 + w1 * product_3;

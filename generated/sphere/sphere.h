@@ -11,14 +11,14 @@
  * inner                          5
  * norm                           6
  * flat                           0
- * exp                           37      <= 2     <= 1
- * log                          119      <= 1     <= 4
+ * exp                           38      <= 2     <= 1
+ * log                          120      <= 1     <= 4
  * distance                      20      <= 1     <= 1
- * log_abs_det                   90      <= 2    <= 32
+ * log_abs_det                   91      <= 2    <= 32
  * riemannian_gradient           11
  * gradient_norm                 17
- * splat                        330
- * splat_vjp                    721
+ * splat                        332
+ * splat_vjp                    725
  *
  * Errors are the worst of 36 points against 60 digits, in units of the error that rounding the
  * inputs and the output to the precision alone would cause.

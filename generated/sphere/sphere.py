@@ -10,14 +10,14 @@ to_tangent                    11
 inner                          5
 norm                           6
 flat                           0
-exp                           37      <= 2     <= 1
-log                          119      <= 1     <= 4
+exp                           38      <= 2     <= 1
+log                          120      <= 1     <= 4
 distance                      20      <= 1     <= 1
-log_abs_det                   90      <= 2    <= 32
+log_abs_det                   91      <= 2    <= 32
 riemannian_gradient           11
 gradient_norm                 17
-splat                        330
-splat_vjp                    721
+splat                        332
+splat_vjp                    725
 
 Errors are the worst of 36 points against 60 digits, in units of the error that rounding the
 inputs and the output to the precision alone would cause.
@@ -32,35 +32,33 @@ import torch
 from torch import Generator, Tensor
 
 _SINC_NORM_V_NEAR = (
-    1.0, -0.16666666666666666, 0.008333333333333106, -0.0001984126984108742, 2.7557319152292533e-06,
-    -2.5052093081256153e-08, 1.605723315933452e-10, -7.535482987408254e-13,
+    1.0, -0.16506549999999998, 0.008173985787074777, -0.00019274900727486046, 2.6513509314873062e-06,
+    -2.3871616416234012e-08, 1.5153609321464116e-10, -7.043102821193199e-13,
 )
 
 _T_OVER_NORM_W_NEAR = (
-    1.0, 0.16666666666666416, 0.033333333333506306, 0.0071428571381235645, 0.0015873016554683388,
-    0.00036074976769956093, 8.325345611107313e-05, 1.9411868200361258e-05, 4.606744523406809e-06,
-    1.0115092780821757e-06, 3.573589789663863e-07, -3.671871587646e-08, 8.060154251278906e-08, -2.3969974400507724e-08,
-    6.744739171601492e-09,
+    1.0, 0.1662524999999975, 0.033167872507672114, 0.0070897393547985224, 0.0015715825913113733, 0.00035628967365586723,
+    8.201983320917496e-05, 1.907670567869169e-05, 4.515955030924914e-06, 9.891104407795466e-07, 3.4857725787739105e-07,
+    -3.572738831505136e-08, 7.823058427560207e-08, -2.32070653876956e-08, 6.513842453315234e-09,
 )
 
 _LOG_DET_SERIES = (
-    0.16666666666666666, 0.019444444444444355, 0.0031305114638509562, 0.0005742945324592983, 0.00011310192108550569,
-    2.329005429821089e-05, 4.945110727593644e-06, 1.0731431371692667e-06, 2.383732678254368e-07, 5.0521959436460696e-08,
-    1.5564787023532255e-08, -7.830928337301054e-10, 2.9922380095813834e-09, -8.46187828025567e-10,
-    2.4753955737430303e-10,
+    0.16666666666666666, 0.01939612499999991, 0.0031149721534882713, 0.0005700237971008779, 0.00011198187163070022,
+    2.3002110017289655e-05, 4.8718356693444944e-06, 1.054614402260622e-06, 2.3367541929114962e-07,
+    4.940320237298334e-08, 1.518229875124757e-08, -7.619509857463658e-10, 2.904218957646796e-09, -8.192556206837457e-10,
+    2.390653866184622e-10,
 )
 
 _LOG_DET_SERIES_SLOPE = (
-    0.019444444444444355, 0.0062610229277019125, 0.001722883597377895, 0.00045240768434202277, 0.00011645027149105445,
-    2.9670664365561865e-05, 7.512001960184866e-06, 1.9069861426034945e-06, 4.5469763492814626e-07,
-    1.5564787023532256e-07, -8.614021171031161e-09, 3.59068561149766e-08, -1.100044176433237e-08,
-    3.4655538032402425e-09,
+    0.01939612499999991, 0.0062299443069765426, 0.0017100713913026338, 0.00044792748652280087, 0.00011501055008644827,
+    2.9231014016066968e-05, 7.382300815824355e-06, 1.869403354329197e-06, 4.446288213568501e-07, 1.518229875124757e-07,
+    -8.381460843210023e-09, 3.4850627491761557e-08, -1.0650323068888695e-08, 3.3469154126584707e-09,
 )
 
 _T_OVER_NORM_W_NEAR_SLOPE = (
-    0.16666666666666416, 0.06666666666701261, 0.021428571414370694, 0.006349206621873355, 0.0018037488384978046,
-    0.0004995207366664387, 0.0001358830774025288, 3.685395618725447e-05, 9.103583502739583e-06, 3.5735897896638634e-06,
-    -4.0390587464106003e-07, 9.672185101534689e-07, -3.116096672066004e-07, 9.442634840242089e-08,
+    0.1662524999999975, 0.06633574501534423, 0.021269218064395565, 0.006286330365245493, 0.0017814483682793362,
+    0.0004921189992550497, 0.00013353693975084183, 3.6127640247399315e-05, 8.90199396701592e-06, 3.4857725787739103e-06,
+    -3.93001271465565e-07, 9.387670113072248e-07, -3.0169185004004283e-07, 9.119379434641327e-08,
 )
 
 
@@ -197,8 +195,8 @@ class Sphere:
         norm_v_squared = v0 * v0 + v1 * v1 + v2 * v2
         norm_v = _root(norm_v_squared)
         cos_norm_v = torch.cos(norm_v)
-        near = norm_v_squared < 0.9903926849365234
-        sinc_norm_v_near = _polynomial(torch.where(near, norm_v_squared, 0.0), _SINC_NORM_V_NEAR)
+        near = norm_v_squared < 0.990393
+        sinc_norm_v_near = _polynomial(torch.where(near, 1.0097001897226656 * norm_v_squared, 0.0), _SINC_NORM_V_NEAR)
         norm_v_2 = torch.sqrt(torch.where(near, 1.0, norm_v_squared))
         sinc_norm_v = torch.where(near, sinc_norm_v_near, torch.sin(norm_v_2) / norm_v_2)
         q0 = p0 * cos_norm_v + v0 * sinc_norm_v
@@ -214,7 +212,7 @@ class Sphere:
         """
         p0, p1, p2 = p.unbind(-1)
         q0, q1, q2 = q.unbind(-1)
-        eps = torch.full_like(p0, torch.finfo(p.dtype).eps)
+        eps = torch.full_like(p0, torch.finfo(p0.dtype).eps)
         q_plus_p0 = p0 + q0
         q_plus_p1 = p1 + q1
         q_plus_p2 = p2 + q2
@@ -241,8 +239,10 @@ class Sphere:
         w1 = d1 - p1 * dot_p_d
         w2 = d2 - p2 * dot_p_d
         norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2
-        near = norm_d_squared < 0.9975153207778931
-        t_over_norm_w_near = _polynomial(torch.where(near, norm_d_squared, 0.0), _T_OVER_NORM_W_NEAR)
+        near = norm_d_squared < 0.997515
+        t_over_norm_w_near = (
+            _polynomial(torch.where(near, 1.0024911906086624 * norm_d_squared, 0.0), _T_OVER_NORM_W_NEAR)
+        )
         norm_d = torch.sqrt(torch.where(near, 1.0, norm_d_squared))
         atan2_value = torch.atan2(norm_d, norm_q_plus_p_2)
         t = 2.0 * atan2_value
@@ -294,7 +294,7 @@ class Sphere:
         """
         p0, p1, p2 = p.unbind(-1)
         q0, q1, q2 = q.unbind(-1)
-        eps = torch.full_like(p0, torch.finfo(p.dtype).eps)
+        eps = torch.full_like(p0, torch.finfo(p0.dtype).eps)
         q_plus_p0 = p0 + q0
         q_plus_p1 = p1 + q1
         q_plus_p2 = p2 + q2
@@ -319,12 +319,12 @@ class Sphere:
         w1 = d1 - p1 * dot_p_d
         w2 = d2 - p2 * dot_p_d
         norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2
-        near = norm_d_squared < 0.9975153207778931
+        near = norm_d_squared < 0.997515
         norm_d = torch.sqrt(torch.where(near, 1.0, norm_d_squared))
         atan2_value = torch.atan2(norm_d, norm_q_plus_p_2)
         t = 2.0 * atan2_value
         norm_w = torch.sqrt(torch.where(near, 1.0, norm_w_squared))
-        log_det_series = _polynomial(torch.where(near, norm_d_squared, 0.0), _LOG_DET_SERIES)
+        log_det_series = _polynomial(torch.where(near, 1.0024911906086624 * norm_d_squared, 0.0), _LOG_DET_SERIES)
         log_det_near = norm_d_squared * log_det_series
         log_det = torch.where(near, log_det_near, torch.log(t / norm_w))
         return torch.where(on_cut_locus, log_value, log_det)
@@ -371,7 +371,7 @@ class Sphere:
         x0, x1, x2 = x.unbind(-1)
         mu0, mu1, mu2 = mu.unbind(-1)
         W0_0, W0_1, W0_2, W1_0, W1_1, W1_2 = W.flatten(-2).unbind(-1)
-        eps = torch.full_like(x0, torch.finfo(x.dtype).eps)
+        eps = torch.full_like(x0, torch.finfo(x0.dtype).eps)
         q_plus_p0 = x0 + mu0
         q_plus_p1 = x1 + mu1
         q_plus_p2 = x2 + mu2
@@ -398,8 +398,8 @@ class Sphere:
         w1 = d1 - mu1 * dot_p_d
         w2 = d2 - mu2 * dot_p_d
         norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2
-        near = norm_d_squared < 0.9975153207778931
-        near_chosen = torch.where(near, norm_d_squared, 0.0)
+        near = norm_d_squared < 0.997515
+        near_chosen = torch.where(near, 1.0024911906086624 * norm_d_squared, 0.0)
         t_over_norm_w_near = _polynomial(near_chosen, _T_OVER_NORM_W_NEAR)
         near_chosen_2 = torch.where(near, 1.0, norm_d_squared)
         norm_d = torch.sqrt(near_chosen_2)
@@ -452,8 +452,8 @@ class Sphere:
         t_over_norm_w_near_slope = _polynomial(near_chosen, _T_OVER_NORM_W_NEAR_SLOPE)
         by_norm_d_squared = (
             log_det_series * by_log_det_near + torch.where(near, 0.0, by_norm_d / (2.0 * norm_d)) +
-            torch.where(near, by_log_det_series * log_det_series_slope + by_t_over_norm_w_near *
-            t_over_norm_w_near_slope, 0.0)
+            1.0024911906086624 * torch.where(near, by_log_det_series * log_det_series_slope + by_t_over_norm_w_near
+            * t_over_norm_w_near_slope, 0.0)
         )
         product_3 = 2.0 * by_norm_w_squared
         by_w2 = t_over_norm_w * chosen + w2 * product_3

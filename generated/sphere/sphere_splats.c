@@ -25,51 +25,51 @@ static void restore_denormals(unsigned mode) { (void)mode; }
 #endif
 
 static inline double polynomial_t_over_norm_w_near(double x) {
-    return 1.0 + x * (0.16666666666666416 + x * (0.033333333333506306 + x * (0.0071428571381235645 + x *
-        (0.0015873016554683388 + x * (0.00036074976769956093 + x * (8.325345611107313e-05 + x *
-        (1.9411868200361258e-05 + x * (4.606744523406809e-06 + x * (1.0115092780821757e-06 + x *
-        (3.573589789663863e-07 + x * (-3.671871587646e-08 + x * (8.060154251278906e-08 + x *
-        (-2.3969974400507724e-08 + x * 6.744739171601492e-09)))))))))))));
+    return 1.0 + x * (0.1662524999999975 + x * (0.033167872507672114 + x * (0.0070897393547985224 + x *
+        (0.0015715825913113733 + x * (0.00035628967365586723 + x * (8.201983320917496e-05 + x *
+        (1.907670567869169e-05 + x * (4.515955030924914e-06 + x * (9.891104407795466e-07 + x *
+        (3.4857725787739105e-07 + x * (-3.572738831505136e-08 + x * (7.823058427560207e-08 + x *
+        (-2.32070653876956e-08 + x * 6.513842453315234e-09)))))))))))));
 }
 
 static inline double polynomial_log_det_series(double x) {
-    return 0.16666666666666666 + x * (0.019444444444444355 + x * (0.0031305114638509562 + x *
-        (0.0005742945324592983 + x * (0.00011310192108550569 + x * (2.329005429821089e-05 + x *
-        (4.945110727593644e-06 + x * (1.0731431371692667e-06 + x * (2.383732678254368e-07 + x *
-        (5.0521959436460696e-08 + x * (1.5564787023532255e-08 + x * (-7.830928337301054e-10 + x *
-        (2.9922380095813834e-09 + x * (-8.46187828025567e-10 + x * 2.4753955737430303e-10)))))))))))));
+    return 0.16666666666666666 + x * (0.01939612499999991 + x * (0.0031149721534882713 + x *
+        (0.0005700237971008779 + x * (0.00011198187163070022 + x * (2.3002110017289655e-05 + x *
+        (4.8718356693444944e-06 + x * (1.054614402260622e-06 + x * (2.3367541929114962e-07 + x *
+        (4.940320237298334e-08 + x * (1.518229875124757e-08 + x * (-7.619509857463658e-10 + x *
+        (2.904218957646796e-09 + x * (-8.192556206837457e-10 + x * 2.390653866184622e-10)))))))))))));
 }
 
 static inline double polynomial_log_det_series_slope(double x) {
-    return 0.019444444444444355 + x * (0.0062610229277019125 + x * (0.001722883597377895 + x *
-        (0.00045240768434202277 + x * (0.00011645027149105445 + x * (2.9670664365561865e-05 + x *
-        (7.512001960184866e-06 + x * (1.9069861426034945e-06 + x * (4.5469763492814626e-07 + x *
-        (1.5564787023532256e-07 + x * (-8.614021171031161e-09 + x * (3.59068561149766e-08 + x *
-        (-1.100044176433237e-08 + x * 3.4655538032402425e-09))))))))))));
+    return 0.01939612499999991 + x * (0.0062299443069765426 + x * (0.0017100713913026338 + x *
+        (0.00044792748652280087 + x * (0.00011501055008644827 + x * (2.9231014016066968e-05 + x *
+        (7.382300815824355e-06 + x * (1.869403354329197e-06 + x * (4.446288213568501e-07 + x *
+        (1.518229875124757e-07 + x * (-8.381460843210023e-09 + x * (3.4850627491761557e-08 + x *
+        (-1.0650323068888695e-08 + x * 3.3469154126584707e-09))))))))))));
 }
 
 static inline double polynomial_t_over_norm_w_near_slope(double x) {
-    return 0.16666666666666416 + x * (0.06666666666701261 + x * (0.021428571414370694 + x *
-        (0.006349206621873355 + x * (0.0018037488384978046 + x * (0.0004995207366664387 + x *
-        (0.0001358830774025288 + x * (3.685395618725447e-05 + x * (9.103583502739583e-06 + x *
-        (3.5735897896638634e-06 + x * (-4.0390587464106003e-07 + x * (9.672185101534689e-07 + x *
-        (-3.116096672066004e-07 + x * 9.442634840242089e-08))))))))))));
+    return 0.1662524999999975 + x * (0.06633574501534423 + x * (0.021269218064395565 + x *
+        (0.006286330365245493 + x * (0.0017814483682793362 + x * (0.0004921189992550497 + x *
+        (0.00013353693975084183 + x * (3.6127640247399315e-05 + x * (8.90199396701592e-06 + x *
+        (3.4857725787739103e-06 + x * (-3.93001271465565e-07 + x * (9.387670113072248e-07 + x *
+        (-3.0169185004004283e-07 + x * 9.119379434641327e-08))))))))))));
 }
 
 static inline double polynomial_t_over_norm_w_near_slope_slope(double x) {
-    return 0.06666666666701261 + x * (0.04285714282874139 + x * (0.019047619865620067 + x *
-        (0.007214995353991218 + x * (0.002497603683332194 + x * (0.0008152984644151728 + x *
-        (0.0002579776933107813 + x * (7.282866802191666e-05 + x * (3.216230810697477e-05 + x *
-        (-4.0390587464106e-06 + x * (1.0639403611688156e-05 + x * (-3.7393160064792053e-06 + x *
-        1.2275425292314716e-06)))))))))));
+    return 0.06633574501534423 + x * (0.04253843612879113 + x * (0.01885899109573648 + x *
+        (0.007125793473117345 + x * (0.0024605949962752485 + x * (0.000801221638505051 + x *
+        (0.0002528934817317952 + x * (7.121595173612736e-05 + x * (3.137195320896519e-05 + x *
+        (-3.93001271465565e-06 + x * (1.0326437124379473e-05 + x * (-3.6203022004805136e-06 + x *
+        1.1855193265033726e-06)))))))))));
 }
 
 static inline double polynomial_log_det_series_slope_slope(double x) {
-    return 0.0062610229277019125 + x * (0.00344576719475579 + x * (0.0013572230530260682 + x *
-        (0.0004658010859642178 + x * (0.00014835332182780932 + x * (4.50720117611092e-05 + x *
-        (1.3348902998224461e-05 + x * (3.63758107942517e-06 + x * (1.400830832117903e-06 + x *
-        (-8.61402117103116e-08 + x * (3.949754172647426e-07 + x * (-1.3200530117198845e-07 + x *
-        4.505219944212315e-08)))))))))));
+    return 0.0062299443069765426 + x * (0.0034201427826052676 + x * (0.0013437824595684026 + x *
+        (0.0004600422003457931 + x * (0.00014615507008033484 + x * (4.429380489494613e-05 + x *
+        (1.3085823480304379e-05 + x * (3.557030570854801e-06 + x * (1.366406887612281e-06 + x *
+        (-8.381460843210023e-08 + x * (3.833569024093771e-07 + x * (-1.2780387682666434e-07 + x *
+        4.350990036456012e-08)))))))))));
 }
 
 void sphere_splats(
@@ -93,13 +93,13 @@ void sphere_splats(
             const double mu0 = mu[3 * k + 0];
             const double mu1 = mu[3 * k + 1];
             const double mu2 = mu[3 * k + 2];
-            const double W0 = W[6 * k + 0];
-            const double W1 = W[6 * k + 1];
-            const double W2 = W[6 * k + 2];
-            const double W3 = W[6 * k + 3];
-            const double W4 = W[6 * k + 4];
-            const double W5 = W[6 * k + 5];
-            const double amplitude0 = amplitude[1 * k + 0];
+            const double W0_0 = W[6 * k + 0];
+            const double W0_1 = W[6 * k + 1];
+            const double W0_2 = W[6 * k + 2];
+            const double W1_0 = W[6 * k + 3];
+            const double W1_1 = W[6 * k + 4];
+            const double W1_2 = W[6 * k + 5];
+            const double amplitude_k = amplitude[1 * k + 0];
             for (size_t lane = 0; lane < LANES; ++lane) {
                 const double q_plus_p0 = x_block[0][lane] + mu0;
                 const double q_plus_p1 = x_block[1][lane] + mu1;
@@ -129,8 +129,8 @@ void sphere_splats(
                 const double w1 = d1 - mu1 * dot_p_d;
                 const double w2 = d2 - mu2 * dot_p_d;
                 const double norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
-                const int near = norm_d_squared < 0.9975153207778931;
-                const double near_chosen = (near ? norm_d_squared : 0.0);
+                const int near = norm_d_squared < 0.997515;
+                const double near_chosen = (near ? 1.0024911906086624 * norm_d_squared : 0.0);
                 const double t_over_norm_w_near = polynomial_t_over_norm_w_near(near_chosen);
                 const double near_chosen_2 = (near ? 1.0 : norm_d_squared);
                 const double norm_d = sqrt(near_chosen_2);
@@ -154,13 +154,13 @@ void sphere_splats(
                 const double log_det_series = polynomial_log_det_series(near_chosen);
                 const double log_det_near = norm_d_squared * log_det_series;
                 const double log_det = (near ? log_det_near : log(t_ratio));
-                const double z0 = W0 * v0 + W1 * v1 + W2 * v2;
-                const double z1 = W3 * v0 + W4 * v1 + W5 * v2;
+                const double z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+                const double z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
                 const double exp_2 = exp((on_cut_locus ? log_value : log_det) - 0.5 * (z0 * z0 + z1 * z1));
-                const double phi = amplitude0 * exp_2;
-                const double by_v2 = -(W5 * z1) - W2 * z0;
-                const double by_v1 = -(W4 * z1) - W1 * z0;
-                const double by_v0 = -(W3 * z1) - W0 * z0;
+                const double phi = amplitude_k * exp_2;
+                const double by_v2 = -(W1_2 * z1) - W0_2 * z0;
+                const double by_v1 = -(W1_1 * z1) - W0_1 * z0;
+                const double by_v0 = -(W1_0 * z1) - W0_0 * z0;
                 const double by_log_det = (on_cut_locus ? 0.0 : 1.0);
                 const double by_log_det_near = (near ? by_log_det : 0.0);
                 const double by_log_det_series = norm_d_squared * by_log_det_near;
@@ -177,8 +177,8 @@ void sphere_splats(
                 const double by_norm_d = norm_q_plus_p_2 * ratio;
                 const double t_over_norm_w_near_slope = polynomial_t_over_norm_w_near_slope(near_chosen);
                 const double by_norm_d_squared = log_det_series * by_log_det_near + (near ? 0.0 : by_norm_d / (2.0 *
-                    norm_d)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near *
-                    t_over_norm_w_near_slope : 0.0);
+                    norm_d)) + 1.0024911906086624 * (near ? by_log_det_series * log_det_series_slope +
+                    by_t_over_norm_w_near * t_over_norm_w_near_slope : 0.0);
                 const double product_3 = 2.0 * by_norm_w_squared;
                 const double by_w2 = t_over_norm_w * chosen + w2 * product_3;
                 const double by_w1 = t_over_norm_w * chosen_2 + w1 * product_3;
@@ -255,13 +255,13 @@ void sphere_splats_vjp(
             const double mu0 = mu[3 * k + 0];
             const double mu1 = mu[3 * k + 1];
             const double mu2 = mu[3 * k + 2];
-            const double W0 = W[6 * k + 0];
-            const double W1 = W[6 * k + 1];
-            const double W2 = W[6 * k + 2];
-            const double W3 = W[6 * k + 3];
-            const double W4 = W[6 * k + 4];
-            const double W5 = W[6 * k + 5];
-            const double amplitude0 = amplitude[1 * k + 0];
+            const double W0_0 = W[6 * k + 0];
+            const double W0_1 = W[6 * k + 1];
+            const double W0_2 = W[6 * k + 2];
+            const double W1_0 = W[6 * k + 3];
+            const double W1_1 = W[6 * k + 4];
+            const double W1_2 = W[6 * k + 5];
+            const double amplitude_k = amplitude[1 * k + 0];
             for (size_t lane = 0; lane < LANES; ++lane) {
                 const double q_plus_p0 = x_block[0][lane] + mu0;
                 const double q_plus_p1 = x_block[1][lane] + mu1;
@@ -291,8 +291,8 @@ void sphere_splats_vjp(
                 const double w1 = d1 - mu1 * dot_p_d;
                 const double w2 = d2 - mu2 * dot_p_d;
                 const double norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
-                const int near = norm_d_squared < 0.9975153207778931;
-                const double near_chosen = (near ? norm_d_squared : 0.0);
+                const int near = norm_d_squared < 0.997515;
+                const double near_chosen = (near ? 1.0024911906086624 * norm_d_squared : 0.0);
                 const double t_over_norm_w_near = polynomial_t_over_norm_w_near(near_chosen);
                 const double near_chosen_2 = (near ? 1.0 : norm_d_squared);
                 const double norm_d = sqrt(near_chosen_2);
@@ -320,13 +320,13 @@ void sphere_splats_vjp(
                 const double log_det_series = polynomial_log_det_series(near_chosen);
                 const double log_det_near = norm_d_squared * log_det_series;
                 const double log_det = (near ? log_det_near : log(t_ratio));
-                const double z0 = W0 * v0 + W1 * v1 + W2 * v2;
-                const double z1 = W3 * v0 + W4 * v1 + W5 * v2;
+                const double z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+                const double z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
                 const double exp_2 = exp((on_cut_locus ? log_value : log_det) - 0.5 * (z0 * z0 + z1 * z1));
-                const double phi = amplitude0 * exp_2;
-                const double by_v2 = -(W5 * z1) - W2 * z0;
-                const double by_v1 = -(W4 * z1) - W1 * z0;
-                const double by_v0 = -(W3 * z1) - W0 * z0;
+                const double phi = amplitude_k * exp_2;
+                const double by_v2 = -(W1_2 * z1) - W0_2 * z0;
+                const double by_v1 = -(W1_1 * z1) - W0_1 * z0;
+                const double by_v0 = -(W1_0 * z1) - W0_0 * z0;
                 const double by_log_det = (on_cut_locus ? 0.0 : 1.0);
                 const double by_log_det_near = (near ? by_log_det : 0.0);
                 const double ratio_7 = (near ? 0.0 : by_log_det) / t_ratio;
@@ -348,8 +348,9 @@ void sphere_splats_vjp(
                 const double norm_d_product = 2.0 * norm_d;
                 const double by_norm_d_ratio = by_norm_d / norm_d_product;
                 const double t_over_norm_w_near_slope = polynomial_t_over_norm_w_near_slope(near_chosen);
-                const double by_norm_d_squared = log_det_series * by_log_det_near + (near ? 0.0 : by_norm_d_ratio) + (near
-                    ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near * t_over_norm_w_near_slope : 0.0);
+                const double by_norm_d_squared = log_det_series * by_log_det_near + (near ? 0.0 : by_norm_d_ratio) +
+                    1.0024911906086624 * (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near *
+                    t_over_norm_w_near_slope : 0.0);
                 const double product_2 = 2.0 * by_norm_w_squared;
                 const double by_w2 = t_over_norm_w * chosen + w2 * product_2;
                 const double by_w1 = t_over_norm_w * chosen_2 + w1 * product_2;
@@ -386,8 +387,8 @@ void sphere_splats_vjp(
                 const double by_by_q0_off_cut = (on_cut_locus ? 0.0 : by_exponent_by_x0);
                 const double by_by_q1_off_cut = (on_cut_locus ? 0.0 : by_exponent_by_x1);
                 const double by_by_q2_off_cut = (on_cut_locus ? 0.0 : by_exponent_by_x2);
-                const double by_by_norm_d_squared = 2.0 * (d0 * by_by_q0_off_cut + d1 * by_by_q1_off_cut + d2 *
-                    by_by_q2_off_cut);
+                const double total_3 = d0 * by_by_q0_off_cut + d1 * by_by_q1_off_cut + d2 * by_by_q2_off_cut;
+                const double by_by_norm_d_squared = 2.0 * total_3;
                 const double by_by_norm_q_plus_p_squared_2 = 2.0 * (q_plus_p0_2 * by_by_q0_off_cut + q_plus_p1_2 *
                     by_by_q1_off_cut + q_plus_p2_2 * by_by_q2_off_cut);
                 const double ratio_11 = (is_small_2 ? 0.0 : by_by_norm_q_plus_p_squared_2) / product_3;
@@ -396,7 +397,7 @@ void sphere_splats_vjp(
                 const double by_by_w1 = by_by_q1_off_cut - mu1 * by_by_dot_p_d;
                 const double by_by_w2 = by_by_q2_off_cut - mu2 * by_by_dot_p_d;
                 const double by_by_norm_w_squared = 2.0 * (w0 * by_by_w0 + w1 * by_by_w1 + w2 * by_by_w2);
-                const double near_chosen_3 = (near ? by_by_norm_d_squared : 0.0);
+                const double near_chosen_3 = (near ? 2.004982381217325 * total_3 : 0.0);
                 const double by_by_t_over_norm_w_near = t_over_norm_w_near_slope * near_chosen_3;
                 const double by_t_over_norm_w_near_slope = by_t_over_norm_w_near * near_chosen_3;
                 const double t_over_norm_w_near_slope_slope = polynomial_t_over_norm_w_near_slope_slope(near_chosen);
@@ -413,12 +414,12 @@ void sphere_splats_vjp(
                 const double by_by_log_det_series = log_det_series_slope * near_chosen_3;
                 const double by_log_det_series_slope = by_log_det_series * near_chosen_3;
                 const double log_det_series_slope_slope = polynomial_log_det_series_slope_slope(near_chosen);
-                const double product_7 = exp_2 * (amplitude0 * by_phi);
-                const double by_z1 = -(W3 * by_by_v0) - W4 * by_by_v1 - W5 * by_by_v2 - z1 * product_7;
-                const double by_z0 = -(W0 * by_by_v0) - W1 * by_by_v1 - W2 * by_by_v2 - z0 * product_7;
-                const double by_v2_2 = W5 * by_z1 + W2 * by_z0;
-                const double by_v1_2 = W4 * by_z1 + W1 * by_z0;
-                const double by_v0_2 = W3 * by_z1 + W0 * by_z0;
+                const double product_7 = exp_2 * (amplitude_k * by_phi);
+                const double by_z1 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2 - z1 * product_7;
+                const double by_z0 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2 - z0 * product_7;
+                const double by_v2_2 = W1_2 * by_z1 + W0_2 * by_z0;
+                const double by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0;
+                const double by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0;
                 const double by_log_det_2 = (on_cut_locus ? 0.0 : product_7);
                 const double by_log_det_near_2 = (near ? by_log_det_2 : 0.0);
                 const double by_log_det_series_2 = by_log_det_near * by_by_norm_d_squared + norm_d_squared *
@@ -428,13 +429,13 @@ void sphere_splats_vjp(
                 const double ratio_13 = (is_small ? 0.0 : product_8) / sine_to_axis1;
                 const double ratio_14 = (is_small ? product_8 : 0.0) / sine_to_axis0;
                 const double chosen_5 = (on_cut_locus ? 0.0 : by_v1_2);
-                const double total_3 = chosen_3 * by_by_w0 + chosen_2 * by_by_w1 + chosen * by_by_w2 + w2 * chosen_4 + w1
+                const double total_4 = chosen_3 * by_by_w0 + chosen_2 * by_by_w1 + chosen * by_by_w2 + w2 * chosen_4 + w1
                     * chosen_5;
                 const double product_9 = 3.141592653589793 * (on_cut_locus ? by_v1_2 : 0.0);
                 const double ratio_15 = (is_small ? 0.0 : product_9) / sine_to_axis1;
                 const double ratio_16 = (is_small ? product_9 : 0.0) / sine_to_axis0;
                 const double chosen_6 = (on_cut_locus ? 0.0 : by_v0_2);
-                const double by_t_over_norm_w_2 = total_3 + w0 * chosen_6;
+                const double by_t_over_norm_w_2 = total_4 + w0 * chosen_6;
                 const double product_10 = 3.141592653589793 * (on_cut_locus ? by_v0_2 : 0.0);
                 const double ratio_17 = (is_small ? 0.0 : product_10) / sine_to_axis1;
                 const double gap_3 = -ratio_16 - ratio_17;
@@ -442,9 +443,9 @@ void sphere_splats_vjp(
                 const double ratio_18 = (is_small ? product_10 : 0.0) / sine_to_axis0;
                 const double by_sine_to_axis0 = ratio_5 * ratio_14 + ratio_3 * ratio_16 - ratio * ratio_18;
                 const double by_t_over_norm_w_near_2 = (near ? by_t_over_norm_w_2 : 0.0);
-                const double total_4 = -(by_t * ratio_12) - ratio_7 * (by_by_t_ratio / t_ratio) + (near ? 0.0 :
+                const double total_5 = -(by_t * ratio_12) - ratio_7 * (by_by_t_ratio / t_ratio) + (near ? 0.0 :
                     by_log_det_2) / t_ratio + (near ? 0.0 : by_t_over_norm_w_2);
-                const double by_t_2 = total_4 / norm_w;
+                const double by_t_2 = total_5 / norm_w;
                 const double by_norm_w = 2.0 * (ratio_8 * ratio_12) - by_t * by_by_t_ratio - t_ratio * by_t_2;
                 const double by_norm_w_squared_2 = (near ? 0.0 : by_norm_w / norm_w_product);
                 const double by_atan2_value_2 = 2.0 * by_t_2;
@@ -457,7 +458,8 @@ void sphere_splats_vjp(
                     by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
                     t_over_norm_w_near_slope * by_t_over_norm_w_near_2 : 0.0);
                 const double by_norm_d_squared_2 = by_log_det_near * by_by_log_det_series + log_det_series *
-                    by_log_det_near_2 + (near ? 0.0 : by_norm_d_2 / norm_d_product - product_6) + near_chosen_4;
+                    by_log_det_near_2 + (near ? 0.0 : by_norm_d_2 / norm_d_product - product_6) + 1.0024911906086624 *
+                    near_chosen_4;
                 const double product_11 = 2.0 * by_norm_w_squared_2;
                 const double by_w2_2 = product_2 * by_by_w2 + chosen * by_by_t_over_norm_w + t_over_norm_w * chosen_4 + w2
                     * product_11;
@@ -485,17 +487,17 @@ void sphere_splats_vjp(
                 const double by_q2_off_cut_2 = by_q_plus_p2_2_2 + by_d2_2;
                 const double by_q1_off_cut_2 = by_q_plus_p1_2_2 + by_d1_2;
                 const double by_q0_off_cut_2 = by_q_plus_p0_2_2 + by_d0_2;
-                const double total_5 = gap_4 + d2 * by_dot_p_d_2 + by_q_plus_p2_2_2 - by_d2_2 + (on_cut_locus ?
+                const double total_6 = gap_4 + d2 * by_dot_p_d_2 + by_q_plus_p2_2_2 - by_d2_2 + (on_cut_locus ?
                     by_q2_off_cut_2 : 0.0);
-                const double total_6 = gap_5 + d1 * by_dot_p_d_2 + by_q_plus_p1_2_2 - by_d1_2 + (on_cut_locus ?
+                const double total_7 = gap_5 + d1 * by_dot_p_d_2 + by_q_plus_p1_2_2 - by_d1_2 + (on_cut_locus ?
                     by_q1_off_cut_2 : 0.0);
-                const double total_7 = gap_6 + d0 * by_dot_p_d_2 + by_q_plus_p0_2_2 - by_d0_2 + (on_cut_locus ?
+                const double total_8 = gap_6 + d0 * by_dot_p_d_2 + by_q_plus_p0_2_2 - by_d0_2 + (on_cut_locus ?
                     by_q0_off_cut_2 : 0.0);
                 const double product_14 = 2.0 * (ratio_15 + (is_small ? 0.0 : by_sine_to_axis1 / (2.0 * sine_to_axis1)));
                 const double product_15 = 2.0 * (ratio_18 + (is_small ? by_sine_to_axis0 / (2.0 * sine_to_axis0) : 0.0));
-                sum[0][lane] += total_7 - mu0 * product_15;
-                sum[1][lane] += total_6 - mu1 * product_14;
-                sum[2][lane] += total_5;
+                sum[0][lane] += total_8 - mu0 * product_15;
+                sum[1][lane] += total_7 - mu1 * product_14;
+                sum[2][lane] += total_6;
                 sum[3][lane] += v0 * by_z0 - z0 * by_by_v0;
                 sum[4][lane] += v1 * by_z0 - z0 * by_by_v1;
                 sum[5][lane] += v2 * by_z0 - z0 * by_by_v2;
@@ -522,51 +524,51 @@ void sphere_splats_vjp(
 }
 
 static inline float polynomial_t_over_norm_w_near_f(float x) {
-    return 1.0f + x * (0.16666666666666416f + x * (0.033333333333506306f + x * (0.0071428571381235645f + x *
-        (0.0015873016554683388f + x * (0.00036074976769956093f + x * (8.325345611107313e-05f + x *
-        (1.9411868200361258e-05f + x * (4.606744523406809e-06f + x * (1.0115092780821757e-06f + x *
-        (3.573589789663863e-07f + x * (-3.671871587646e-08f + x * (8.060154251278906e-08f + x *
-        (-2.3969974400507724e-08f + x * 6.744739171601492e-09f)))))))))))));
+    return 1.0f + x * (0.1662524999999975f + x * (0.033167872507672114f + x * (0.0070897393547985224f + x *
+        (0.0015715825913113733f + x * (0.00035628967365586723f + x * (8.201983320917496e-05f + x *
+        (1.907670567869169e-05f + x * (4.515955030924914e-06f + x * (9.891104407795466e-07f + x *
+        (3.4857725787739105e-07f + x * (-3.572738831505136e-08f + x * (7.823058427560207e-08f + x *
+        (-2.32070653876956e-08f + x * 6.513842453315234e-09f)))))))))))));
 }
 
 static inline float polynomial_log_det_series_f(float x) {
-    return 0.16666666666666666f + x * (0.019444444444444355f + x * (0.0031305114638509562f + x *
-        (0.0005742945324592983f + x * (0.00011310192108550569f + x * (2.329005429821089e-05f + x *
-        (4.945110727593644e-06f + x * (1.0731431371692667e-06f + x * (2.383732678254368e-07f + x *
-        (5.0521959436460696e-08f + x * (1.5564787023532255e-08f + x * (-7.830928337301054e-10f + x *
-        (2.9922380095813834e-09f + x * (-8.46187828025567e-10f + x * 2.4753955737430303e-10f)))))))))))));
+    return 0.16666666666666666f + x * (0.01939612499999991f + x * (0.0031149721534882713f + x *
+        (0.0005700237971008779f + x * (0.00011198187163070022f + x * (2.3002110017289655e-05f + x *
+        (4.8718356693444944e-06f + x * (1.054614402260622e-06f + x * (2.3367541929114962e-07f + x *
+        (4.940320237298334e-08f + x * (1.518229875124757e-08f + x * (-7.619509857463658e-10f + x *
+        (2.904218957646796e-09f + x * (-8.192556206837457e-10f + x * 2.390653866184622e-10f)))))))))))));
 }
 
 static inline float polynomial_log_det_series_slope_f(float x) {
-    return 0.019444444444444355f + x * (0.0062610229277019125f + x * (0.001722883597377895f + x *
-        (0.00045240768434202277f + x * (0.00011645027149105445f + x * (2.9670664365561865e-05f + x *
-        (7.512001960184866e-06f + x * (1.9069861426034945e-06f + x * (4.5469763492814626e-07f + x *
-        (1.5564787023532256e-07f + x * (-8.614021171031161e-09f + x * (3.59068561149766e-08f + x *
-        (-1.100044176433237e-08f + x * 3.4655538032402425e-09f))))))))))));
+    return 0.01939612499999991f + x * (0.0062299443069765426f + x * (0.0017100713913026338f + x *
+        (0.00044792748652280087f + x * (0.00011501055008644827f + x * (2.9231014016066968e-05f + x *
+        (7.382300815824355e-06f + x * (1.869403354329197e-06f + x * (4.446288213568501e-07f + x *
+        (1.518229875124757e-07f + x * (-8.381460843210023e-09f + x * (3.4850627491761557e-08f + x *
+        (-1.0650323068888695e-08f + x * 3.3469154126584707e-09f))))))))))));
 }
 
 static inline float polynomial_t_over_norm_w_near_slope_f(float x) {
-    return 0.16666666666666416f + x * (0.06666666666701261f + x * (0.021428571414370694f + x *
-        (0.006349206621873355f + x * (0.0018037488384978046f + x * (0.0004995207366664387f + x *
-        (0.0001358830774025288f + x * (3.685395618725447e-05f + x * (9.103583502739583e-06f + x *
-        (3.5735897896638634e-06f + x * (-4.0390587464106003e-07f + x * (9.672185101534689e-07f + x *
-        (-3.116096672066004e-07f + x * 9.442634840242089e-08f))))))))))));
+    return 0.1662524999999975f + x * (0.06633574501534423f + x * (0.021269218064395565f + x *
+        (0.006286330365245493f + x * (0.0017814483682793362f + x * (0.0004921189992550497f + x *
+        (0.00013353693975084183f + x * (3.6127640247399315e-05f + x * (8.90199396701592e-06f + x *
+        (3.4857725787739103e-06f + x * (-3.93001271465565e-07f + x * (9.387670113072248e-07f + x *
+        (-3.0169185004004283e-07f + x * 9.119379434641327e-08f))))))))))));
 }
 
 static inline float polynomial_t_over_norm_w_near_slope_slope_f(float x) {
-    return 0.06666666666701261f + x * (0.04285714282874139f + x * (0.019047619865620067f + x *
-        (0.007214995353991218f + x * (0.002497603683332194f + x * (0.0008152984644151728f + x *
-        (0.0002579776933107813f + x * (7.282866802191666e-05f + x * (3.216230810697477e-05f + x *
-        (-4.0390587464106e-06f + x * (1.0639403611688156e-05f + x * (-3.7393160064792053e-06f + x *
-        1.2275425292314716e-06f)))))))))));
+    return 0.06633574501534423f + x * (0.04253843612879113f + x * (0.01885899109573648f + x *
+        (0.007125793473117345f + x * (0.0024605949962752485f + x * (0.000801221638505051f + x *
+        (0.0002528934817317952f + x * (7.121595173612736e-05f + x * (3.137195320896519e-05f + x *
+        (-3.93001271465565e-06f + x * (1.0326437124379473e-05f + x * (-3.6203022004805136e-06f + x *
+        1.1855193265033726e-06f)))))))))));
 }
 
 static inline float polynomial_log_det_series_slope_slope_f(float x) {
-    return 0.0062610229277019125f + x * (0.00344576719475579f + x * (0.0013572230530260682f + x *
-        (0.0004658010859642178f + x * (0.00014835332182780932f + x * (4.50720117611092e-05f + x *
-        (1.3348902998224461e-05f + x * (3.63758107942517e-06f + x * (1.400830832117903e-06f + x *
-        (-8.61402117103116e-08f + x * (3.949754172647426e-07f + x * (-1.3200530117198845e-07f + x *
-        4.505219944212315e-08f)))))))))));
+    return 0.0062299443069765426f + x * (0.0034201427826052676f + x * (0.0013437824595684026f + x *
+        (0.0004600422003457931f + x * (0.00014615507008033484f + x * (4.429380489494613e-05f + x *
+        (1.3085823480304379e-05f + x * (3.557030570854801e-06f + x * (1.366406887612281e-06f + x *
+        (-8.381460843210023e-08f + x * (3.833569024093771e-07f + x * (-1.2780387682666434e-07f + x *
+        4.350990036456012e-08f)))))))))));
 }
 
 void sphere_splats_f(
@@ -590,13 +592,13 @@ void sphere_splats_f(
             const float mu0 = mu[3 * k + 0];
             const float mu1 = mu[3 * k + 1];
             const float mu2 = mu[3 * k + 2];
-            const float W0 = W[6 * k + 0];
-            const float W1 = W[6 * k + 1];
-            const float W2 = W[6 * k + 2];
-            const float W3 = W[6 * k + 3];
-            const float W4 = W[6 * k + 4];
-            const float W5 = W[6 * k + 5];
-            const float amplitude0 = amplitude[1 * k + 0];
+            const float W0_0 = W[6 * k + 0];
+            const float W0_1 = W[6 * k + 1];
+            const float W0_2 = W[6 * k + 2];
+            const float W1_0 = W[6 * k + 3];
+            const float W1_1 = W[6 * k + 4];
+            const float W1_2 = W[6 * k + 5];
+            const float amplitude_k = amplitude[1 * k + 0];
             for (size_t lane = 0; lane < LANES; ++lane) {
                 const float q_plus_p0 = x_block[0][lane] + mu0;
                 const float q_plus_p1 = x_block[1][lane] + mu1;
@@ -625,8 +627,8 @@ void sphere_splats_f(
                 const float w1 = d1 - mu1 * dot_p_d;
                 const float w2 = d2 - mu2 * dot_p_d;
                 const float norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
-                const int near = norm_d_squared < 0.9975153207778931f;
-                const float near_chosen = (near ? norm_d_squared : 0.0f);
+                const int near = norm_d_squared < 0.997515f;
+                const float near_chosen = (near ? 1.0024911906086624f * norm_d_squared : 0.0f);
                 const float t_over_norm_w_near = polynomial_t_over_norm_w_near_f(near_chosen);
                 const float near_chosen_2 = (near ? 1.0f : norm_d_squared);
                 const float norm_d = sqrtf(near_chosen_2);
@@ -650,13 +652,13 @@ void sphere_splats_f(
                 const float log_det_series = polynomial_log_det_series_f(near_chosen);
                 const float log_det_near = norm_d_squared * log_det_series;
                 const float log_det = (near ? log_det_near : logf(t_ratio));
-                const float z0 = W0 * v0 + W1 * v1 + W2 * v2;
-                const float z1 = W3 * v0 + W4 * v1 + W5 * v2;
+                const float z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+                const float z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
                 const float exp_2 = expf((on_cut_locus ? log_value : log_det) - 0.5f * (z0 * z0 + z1 * z1));
-                const float phi = amplitude0 * exp_2;
-                const float by_v2 = -(W5 * z1) - W2 * z0;
-                const float by_v1 = -(W4 * z1) - W1 * z0;
-                const float by_v0 = -(W3 * z1) - W0 * z0;
+                const float phi = amplitude_k * exp_2;
+                const float by_v2 = -(W1_2 * z1) - W0_2 * z0;
+                const float by_v1 = -(W1_1 * z1) - W0_1 * z0;
+                const float by_v0 = -(W1_0 * z1) - W0_0 * z0;
                 const float by_log_det = (on_cut_locus ? 0.0f : 1.0f);
                 const float by_log_det_near = (near ? by_log_det : 0.0f);
                 const float by_log_det_series = norm_d_squared * by_log_det_near;
@@ -673,8 +675,8 @@ void sphere_splats_f(
                 const float by_norm_d = norm_q_plus_p_2 * ratio;
                 const float t_over_norm_w_near_slope = polynomial_t_over_norm_w_near_slope_f(near_chosen);
                 const float by_norm_d_squared = log_det_series * by_log_det_near + (near ? 0.0f : by_norm_d / (2.0f *
-                    norm_d)) + (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near *
-                    t_over_norm_w_near_slope : 0.0f);
+                    norm_d)) + 1.0024911906086624f * (near ? by_log_det_series * log_det_series_slope +
+                    by_t_over_norm_w_near * t_over_norm_w_near_slope : 0.0f);
                 const float product_3 = 2.0f * by_norm_w_squared;
                 const float by_w2 = t_over_norm_w * chosen + w2 * product_3;
                 const float by_w1 = t_over_norm_w * chosen_2 + w1 * product_3;
@@ -751,13 +753,13 @@ void sphere_splats_vjp_f(
             const float mu0 = mu[3 * k + 0];
             const float mu1 = mu[3 * k + 1];
             const float mu2 = mu[3 * k + 2];
-            const float W0 = W[6 * k + 0];
-            const float W1 = W[6 * k + 1];
-            const float W2 = W[6 * k + 2];
-            const float W3 = W[6 * k + 3];
-            const float W4 = W[6 * k + 4];
-            const float W5 = W[6 * k + 5];
-            const float amplitude0 = amplitude[1 * k + 0];
+            const float W0_0 = W[6 * k + 0];
+            const float W0_1 = W[6 * k + 1];
+            const float W0_2 = W[6 * k + 2];
+            const float W1_0 = W[6 * k + 3];
+            const float W1_1 = W[6 * k + 4];
+            const float W1_2 = W[6 * k + 5];
+            const float amplitude_k = amplitude[1 * k + 0];
             for (size_t lane = 0; lane < LANES; ++lane) {
                 const float q_plus_p0 = x_block[0][lane] + mu0;
                 const float q_plus_p1 = x_block[1][lane] + mu1;
@@ -786,8 +788,8 @@ void sphere_splats_vjp_f(
                 const float w1 = d1 - mu1 * dot_p_d;
                 const float w2 = d2 - mu2 * dot_p_d;
                 const float norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
-                const int near = norm_d_squared < 0.9975153207778931f;
-                const float near_chosen = (near ? norm_d_squared : 0.0f);
+                const int near = norm_d_squared < 0.997515f;
+                const float near_chosen = (near ? 1.0024911906086624f * norm_d_squared : 0.0f);
                 const float t_over_norm_w_near = polynomial_t_over_norm_w_near_f(near_chosen);
                 const float near_chosen_2 = (near ? 1.0f : norm_d_squared);
                 const float norm_d = sqrtf(near_chosen_2);
@@ -815,13 +817,13 @@ void sphere_splats_vjp_f(
                 const float log_det_series = polynomial_log_det_series_f(near_chosen);
                 const float log_det_near = norm_d_squared * log_det_series;
                 const float log_det = (near ? log_det_near : logf(t_ratio));
-                const float z0 = W0 * v0 + W1 * v1 + W2 * v2;
-                const float z1 = W3 * v0 + W4 * v1 + W5 * v2;
+                const float z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+                const float z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
                 const float exp_2 = expf((on_cut_locus ? log_value : log_det) - 0.5f * (z0 * z0 + z1 * z1));
-                const float phi = amplitude0 * exp_2;
-                const float by_v2 = -(W5 * z1) - W2 * z0;
-                const float by_v1 = -(W4 * z1) - W1 * z0;
-                const float by_v0 = -(W3 * z1) - W0 * z0;
+                const float phi = amplitude_k * exp_2;
+                const float by_v2 = -(W1_2 * z1) - W0_2 * z0;
+                const float by_v1 = -(W1_1 * z1) - W0_1 * z0;
+                const float by_v0 = -(W1_0 * z1) - W0_0 * z0;
                 const float by_log_det = (on_cut_locus ? 0.0f : 1.0f);
                 const float by_log_det_near = (near ? by_log_det : 0.0f);
                 const float ratio_7 = (near ? 0.0f : by_log_det) / t_ratio;
@@ -843,8 +845,9 @@ void sphere_splats_vjp_f(
                 const float norm_d_product = 2.0f * norm_d;
                 const float by_norm_d_ratio = by_norm_d / norm_d_product;
                 const float t_over_norm_w_near_slope = polynomial_t_over_norm_w_near_slope_f(near_chosen);
-                const float by_norm_d_squared = log_det_series * by_log_det_near + (near ? 0.0f : by_norm_d_ratio) + (near
-                    ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near * t_over_norm_w_near_slope : 0.0f);
+                const float by_norm_d_squared = log_det_series * by_log_det_near + (near ? 0.0f : by_norm_d_ratio) +
+                    1.0024911906086624f * (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near *
+                    t_over_norm_w_near_slope : 0.0f);
                 const float product_2 = 2.0f * by_norm_w_squared;
                 const float by_w2 = t_over_norm_w * chosen + w2 * product_2;
                 const float by_w1 = t_over_norm_w * chosen_2 + w1 * product_2;
@@ -881,8 +884,8 @@ void sphere_splats_vjp_f(
                 const float by_by_q0_off_cut = (on_cut_locus ? 0.0f : by_exponent_by_x0);
                 const float by_by_q1_off_cut = (on_cut_locus ? 0.0f : by_exponent_by_x1);
                 const float by_by_q2_off_cut = (on_cut_locus ? 0.0f : by_exponent_by_x2);
-                const float by_by_norm_d_squared = 2.0f * (d0 * by_by_q0_off_cut + d1 * by_by_q1_off_cut + d2 *
-                    by_by_q2_off_cut);
+                const float total_3 = d0 * by_by_q0_off_cut + d1 * by_by_q1_off_cut + d2 * by_by_q2_off_cut;
+                const float by_by_norm_d_squared = 2.0f * total_3;
                 const float by_by_norm_q_plus_p_squared_2 = 2.0f * (q_plus_p0_2 * by_by_q0_off_cut + q_plus_p1_2 *
                     by_by_q1_off_cut + q_plus_p2_2 * by_by_q2_off_cut);
                 const float ratio_11 = (is_small_2 ? 0.0f : by_by_norm_q_plus_p_squared_2) / product_3;
@@ -891,7 +894,7 @@ void sphere_splats_vjp_f(
                 const float by_by_w1 = by_by_q1_off_cut - mu1 * by_by_dot_p_d;
                 const float by_by_w2 = by_by_q2_off_cut - mu2 * by_by_dot_p_d;
                 const float by_by_norm_w_squared = 2.0f * (w0 * by_by_w0 + w1 * by_by_w1 + w2 * by_by_w2);
-                const float near_chosen_3 = (near ? by_by_norm_d_squared : 0.0f);
+                const float near_chosen_3 = (near ? 2.004982381217325f * total_3 : 0.0f);
                 const float by_by_t_over_norm_w_near = t_over_norm_w_near_slope * near_chosen_3;
                 const float by_t_over_norm_w_near_slope = by_t_over_norm_w_near * near_chosen_3;
                 const float t_over_norm_w_near_slope_slope = polynomial_t_over_norm_w_near_slope_slope_f(near_chosen);
@@ -909,12 +912,12 @@ void sphere_splats_vjp_f(
                 const float by_by_log_det_series = log_det_series_slope * near_chosen_3;
                 const float by_log_det_series_slope = by_log_det_series * near_chosen_3;
                 const float log_det_series_slope_slope = polynomial_log_det_series_slope_slope_f(near_chosen);
-                const float product_7 = exp_2 * (amplitude0 * by_phi);
-                const float by_z1 = -(W3 * by_by_v0) - W4 * by_by_v1 - W5 * by_by_v2 - z1 * product_7;
-                const float by_z0 = -(W0 * by_by_v0) - W1 * by_by_v1 - W2 * by_by_v2 - z0 * product_7;
-                const float by_v2_2 = W5 * by_z1 + W2 * by_z0;
-                const float by_v1_2 = W4 * by_z1 + W1 * by_z0;
-                const float by_v0_2 = W3 * by_z1 + W0 * by_z0;
+                const float product_7 = exp_2 * (amplitude_k * by_phi);
+                const float by_z1 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2 - z1 * product_7;
+                const float by_z0 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2 - z0 * product_7;
+                const float by_v2_2 = W1_2 * by_z1 + W0_2 * by_z0;
+                const float by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0;
+                const float by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0;
                 const float by_log_det_2 = (on_cut_locus ? 0.0f : product_7);
                 const float by_log_det_near_2 = (near ? by_log_det_2 : 0.0f);
                 const float by_log_det_series_2 = by_log_det_near * by_by_norm_d_squared + norm_d_squared *
@@ -924,13 +927,13 @@ void sphere_splats_vjp_f(
                 const float ratio_13 = (is_small ? 0.0f : product_8) / sine_to_axis1;
                 const float ratio_14 = (is_small ? product_8 : 0.0f) / sine_to_axis0;
                 const float chosen_5 = (on_cut_locus ? 0.0f : by_v1_2);
-                const float total_3 = chosen_3 * by_by_w0 + chosen_2 * by_by_w1 + chosen * by_by_w2 + w2 * chosen_4 + w1 *
+                const float total_4 = chosen_3 * by_by_w0 + chosen_2 * by_by_w1 + chosen * by_by_w2 + w2 * chosen_4 + w1 *
                     chosen_5;
                 const float product_9 = 3.141592653589793f * (on_cut_locus ? by_v1_2 : 0.0f);
                 const float ratio_15 = (is_small ? 0.0f : product_9) / sine_to_axis1;
                 const float ratio_16 = (is_small ? product_9 : 0.0f) / sine_to_axis0;
                 const float chosen_6 = (on_cut_locus ? 0.0f : by_v0_2);
-                const float by_t_over_norm_w_2 = total_3 + w0 * chosen_6;
+                const float by_t_over_norm_w_2 = total_4 + w0 * chosen_6;
                 const float product_10 = 3.141592653589793f * (on_cut_locus ? by_v0_2 : 0.0f);
                 const float ratio_17 = (is_small ? 0.0f : product_10) / sine_to_axis1;
                 const float gap_3 = -ratio_16 - ratio_17;
@@ -938,9 +941,9 @@ void sphere_splats_vjp_f(
                 const float ratio_18 = (is_small ? product_10 : 0.0f) / sine_to_axis0;
                 const float by_sine_to_axis0 = ratio_5 * ratio_14 + ratio_3 * ratio_16 - ratio * ratio_18;
                 const float by_t_over_norm_w_near_2 = (near ? by_t_over_norm_w_2 : 0.0f);
-                const float total_4 = -(by_t * ratio_12) - ratio_7 * (by_by_t_ratio / t_ratio) + (near ? 0.0f :
+                const float total_5 = -(by_t * ratio_12) - ratio_7 * (by_by_t_ratio / t_ratio) + (near ? 0.0f :
                     by_log_det_2) / t_ratio + (near ? 0.0f : by_t_over_norm_w_2);
-                const float by_t_2 = total_4 / norm_w;
+                const float by_t_2 = total_5 / norm_w;
                 const float by_norm_w = 2.0f * (ratio_8 * ratio_12) - by_t * by_by_t_ratio - t_ratio * by_t_2;
                 const float by_norm_w_squared_2 = (near ? 0.0f : by_norm_w / norm_w_product);
                 const float by_atan2_value_2 = 2.0f * by_t_2;
@@ -953,7 +956,8 @@ void sphere_splats_vjp_f(
                     by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
                     t_over_norm_w_near_slope * by_t_over_norm_w_near_2 : 0.0f);
                 const float by_norm_d_squared_2 = by_log_det_near * by_by_log_det_series + log_det_series *
-                    by_log_det_near_2 + (near ? 0.0f : by_norm_d_2 / norm_d_product - product_6) + near_chosen_4;
+                    by_log_det_near_2 + (near ? 0.0f : by_norm_d_2 / norm_d_product - product_6) + 1.0024911906086624f *
+                    near_chosen_4;
                 const float product_11 = 2.0f * by_norm_w_squared_2;
                 const float by_w2_2 = product_2 * by_by_w2 + chosen * by_by_t_over_norm_w + t_over_norm_w * chosen_4 + w2
                     * product_11;
@@ -981,19 +985,19 @@ void sphere_splats_vjp_f(
                 const float by_q2_off_cut_2 = by_q_plus_p2_2_2 + by_d2_2;
                 const float by_q1_off_cut_2 = by_q_plus_p1_2_2 + by_d1_2;
                 const float by_q0_off_cut_2 = by_q_plus_p0_2_2 + by_d0_2;
-                const float total_5 = gap_4 + d2 * by_dot_p_d_2 + by_q_plus_p2_2_2 - by_d2_2 + (on_cut_locus ?
+                const float total_6 = gap_4 + d2 * by_dot_p_d_2 + by_q_plus_p2_2_2 - by_d2_2 + (on_cut_locus ?
                     by_q2_off_cut_2 : 0.0f);
-                const float total_6 = gap_5 + d1 * by_dot_p_d_2 + by_q_plus_p1_2_2 - by_d1_2 + (on_cut_locus ?
+                const float total_7 = gap_5 + d1 * by_dot_p_d_2 + by_q_plus_p1_2_2 - by_d1_2 + (on_cut_locus ?
                     by_q1_off_cut_2 : 0.0f);
-                const float total_7 = gap_6 + d0 * by_dot_p_d_2 + by_q_plus_p0_2_2 - by_d0_2 + (on_cut_locus ?
+                const float total_8 = gap_6 + d0 * by_dot_p_d_2 + by_q_plus_p0_2_2 - by_d0_2 + (on_cut_locus ?
                     by_q0_off_cut_2 : 0.0f);
                 const float product_14 = 2.0f * (ratio_15 + (is_small ? 0.0f : by_sine_to_axis1 / (2.0f *
                     sine_to_axis1)));
                 const float product_15 = 2.0f * (ratio_18 + (is_small ? by_sine_to_axis0 / (2.0f * sine_to_axis0) :
                     0.0f));
-                sum[0][lane] += total_7 - mu0 * product_15;
-                sum[1][lane] += total_6 - mu1 * product_14;
-                sum[2][lane] += total_5;
+                sum[0][lane] += total_8 - mu0 * product_15;
+                sum[1][lane] += total_7 - mu1 * product_14;
+                sum[2][lane] += total_6;
                 sum[3][lane] += v0 * by_z0 - z0 * by_by_v0;
                 sum[4][lane] += v1 * by_z0 - z0 * by_by_v1;
                 sum[5][lane] += v2 * by_z0 - z0 * by_by_v2;

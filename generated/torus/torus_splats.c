@@ -44,11 +44,11 @@ void torus_splats(
         for (size_t k = 0; k < splat_count; ++k) {
             const double mu0 = mu[2 * k + 0];
             const double mu1 = mu[2 * k + 1];
-            const double W0 = W[4 * k + 0];
-            const double W1 = W[4 * k + 1];
-            const double W2 = W[4 * k + 2];
-            const double W3 = W[4 * k + 3];
-            const double amplitude0 = amplitude[1 * k + 0];
+            const double W0_0 = W[4 * k + 0];
+            const double W0_1 = W[4 * k + 1];
+            const double W1_0 = W[4 * k + 2];
+            const double W1_1 = W[4 * k + 3];
+            const double amplitude_k = amplitude[1 * k + 0];
             for (size_t lane = 0; lane < LANES; ++lane) {
                 const double gap = x_block[0][lane] - mu0;
                 const double round_2 = rint(0.15915494309189535 * gap);
@@ -58,12 +58,12 @@ void torus_splats(
                 const double round_3 = rint(0.15915494309189535 * gap_2);
                 const double v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
                     round_3;
-                const double z0 = W0 * v0 + W1 * v1;
-                const double z1 = W2 * v0 + W3 * v1;
+                const double z0 = W0_0 * v0 + W0_1 * v1;
+                const double z1 = W1_0 * v0 + W1_1 * v1;
                 const double exp_2 = exp(-(0.5 * (z0 * z0 + z1 * z1)));
-                const double phi = amplitude0 * exp_2;
-                const double by_v1 = -(W3 * z1) - W1 * z0;
-                const double by_v0 = -(W2 * z1) - W0 * z0;
+                const double phi = amplitude_k * exp_2;
+                const double by_v1 = -(W1_1 * z1) - W0_1 * z0;
+                const double by_v0 = -(W1_0 * z1) - W0_0 * z0;
                 const double df0 = phi * by_v0;
                 const double df1 = phi * by_v1;
                 sum[0][lane] += phi;
@@ -111,11 +111,11 @@ void torus_splats_vjp(
             double sum[7][LANES] = {{0}}, total[7] = {0};
             const double mu0 = mu[2 * k + 0];
             const double mu1 = mu[2 * k + 1];
-            const double W0 = W[4 * k + 0];
-            const double W1 = W[4 * k + 1];
-            const double W2 = W[4 * k + 2];
-            const double W3 = W[4 * k + 3];
-            const double amplitude0 = amplitude[1 * k + 0];
+            const double W0_0 = W[4 * k + 0];
+            const double W0_1 = W[4 * k + 1];
+            const double W1_0 = W[4 * k + 2];
+            const double W1_1 = W[4 * k + 3];
+            const double amplitude_k = amplitude[1 * k + 0];
             for (size_t lane = 0; lane < LANES; ++lane) {
                 const double gap = x_block[0][lane] - mu0;
                 const double round_2 = rint(0.15915494309189535 * gap);
@@ -125,21 +125,21 @@ void torus_splats_vjp(
                 const double round_3 = rint(0.15915494309189535 * gap_2);
                 const double v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
                     round_3;
-                const double z0 = W0 * v0 + W1 * v1;
-                const double z1 = W2 * v0 + W3 * v1;
+                const double z0 = W0_0 * v0 + W0_1 * v1;
+                const double z1 = W1_0 * v0 + W1_1 * v1;
                 const double exp_2 = exp(-(0.5 * (z0 * z0 + z1 * z1)));
-                const double phi = amplitude0 * exp_2;
-                const double by_v1 = -(W3 * z1) - W1 * z0;
-                const double by_v0 = -(W2 * z1) - W0 * z0;
+                const double phi = amplitude_k * exp_2;
+                const double by_v1 = -(W1_1 * z1) - W0_1 * z0;
+                const double by_v0 = -(W1_0 * z1) - W0_0 * z0;
                 const double by_by_v1 = phi * gradient_bar_block[1][lane];
                 const double by_by_v0 = phi * gradient_bar_block[0][lane];
                 const double by_phi = value_bar_block[0][lane] + by_v1 * gradient_bar_block[1][lane] + by_v0 *
                     gradient_bar_block[0][lane];
-                const double product = exp_2 * (amplitude0 * by_phi);
-                const double by_z1 = -(W2 * by_by_v0) - W3 * by_by_v1 - z1 * product;
-                const double by_z0 = -(W0 * by_by_v0) - W1 * by_by_v1 - z0 * product;
-                const double by_v1_2 = W3 * by_z1 + W1 * by_z0;
-                const double by_v0_2 = W2 * by_z1 + W0 * by_z0;
+                const double product = exp_2 * (amplitude_k * by_phi);
+                const double by_z1 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - z1 * product;
+                const double by_z0 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - z0 * product;
+                const double by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0;
+                const double by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0;
                 sum[0][lane] += -by_v0_2;
                 sum[1][lane] += -by_v1_2;
                 sum[2][lane] += v0 * by_z0 - z0 * by_by_v0;
@@ -182,11 +182,11 @@ void torus_splats_f(
         for (size_t k = 0; k < splat_count; ++k) {
             const float mu0 = mu[2 * k + 0];
             const float mu1 = mu[2 * k + 1];
-            const float W0 = W[4 * k + 0];
-            const float W1 = W[4 * k + 1];
-            const float W2 = W[4 * k + 2];
-            const float W3 = W[4 * k + 3];
-            const float amplitude0 = amplitude[1 * k + 0];
+            const float W0_0 = W[4 * k + 0];
+            const float W0_1 = W[4 * k + 1];
+            const float W1_0 = W[4 * k + 2];
+            const float W1_1 = W[4 * k + 3];
+            const float amplitude_k = amplitude[1 * k + 0];
             for (size_t lane = 0; lane < LANES; ++lane) {
                 const float gap = x_block[0][lane] - mu0;
                 const float round_2 = rintf(0.15915494309189535f * gap);
@@ -196,12 +196,12 @@ void torus_splats_f(
                 const float round_3 = rintf(0.15915494309189535f * gap_2);
                 const float v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f *
                     round_3;
-                const float z0 = W0 * v0 + W1 * v1;
-                const float z1 = W2 * v0 + W3 * v1;
+                const float z0 = W0_0 * v0 + W0_1 * v1;
+                const float z1 = W1_0 * v0 + W1_1 * v1;
                 const float exp_2 = expf(-(0.5f * (z0 * z0 + z1 * z1)));
-                const float phi = amplitude0 * exp_2;
-                const float by_v1 = -(W3 * z1) - W1 * z0;
-                const float by_v0 = -(W2 * z1) - W0 * z0;
+                const float phi = amplitude_k * exp_2;
+                const float by_v1 = -(W1_1 * z1) - W0_1 * z0;
+                const float by_v0 = -(W1_0 * z1) - W0_0 * z0;
                 const float df0 = phi * by_v0;
                 const float df1 = phi * by_v1;
                 sum[0][lane] += phi;
@@ -249,11 +249,11 @@ void torus_splats_vjp_f(
             float sum[7][LANES] = {{0}}, total[7] = {0};
             const float mu0 = mu[2 * k + 0];
             const float mu1 = mu[2 * k + 1];
-            const float W0 = W[4 * k + 0];
-            const float W1 = W[4 * k + 1];
-            const float W2 = W[4 * k + 2];
-            const float W3 = W[4 * k + 3];
-            const float amplitude0 = amplitude[1 * k + 0];
+            const float W0_0 = W[4 * k + 0];
+            const float W0_1 = W[4 * k + 1];
+            const float W1_0 = W[4 * k + 2];
+            const float W1_1 = W[4 * k + 3];
+            const float amplitude_k = amplitude[1 * k + 0];
             for (size_t lane = 0; lane < LANES; ++lane) {
                 const float gap = x_block[0][lane] - mu0;
                 const float round_2 = rintf(0.15915494309189535f * gap);
@@ -263,21 +263,21 @@ void torus_splats_vjp_f(
                 const float round_3 = rintf(0.15915494309189535f * gap_2);
                 const float v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f *
                     round_3;
-                const float z0 = W0 * v0 + W1 * v1;
-                const float z1 = W2 * v0 + W3 * v1;
+                const float z0 = W0_0 * v0 + W0_1 * v1;
+                const float z1 = W1_0 * v0 + W1_1 * v1;
                 const float exp_2 = expf(-(0.5f * (z0 * z0 + z1 * z1)));
-                const float phi = amplitude0 * exp_2;
-                const float by_v1 = -(W3 * z1) - W1 * z0;
-                const float by_v0 = -(W2 * z1) - W0 * z0;
+                const float phi = amplitude_k * exp_2;
+                const float by_v1 = -(W1_1 * z1) - W0_1 * z0;
+                const float by_v0 = -(W1_0 * z1) - W0_0 * z0;
                 const float by_by_v1 = phi * gradient_bar_block[1][lane];
                 const float by_by_v0 = phi * gradient_bar_block[0][lane];
                 const float by_phi = value_bar_block[0][lane] + by_v1 * gradient_bar_block[1][lane] + by_v0 *
                     gradient_bar_block[0][lane];
-                const float product = exp_2 * (amplitude0 * by_phi);
-                const float by_z1 = -(W2 * by_by_v0) - W3 * by_by_v1 - z1 * product;
-                const float by_z0 = -(W0 * by_by_v0) - W1 * by_by_v1 - z0 * product;
-                const float by_v1_2 = W3 * by_z1 + W1 * by_z0;
-                const float by_v0_2 = W2 * by_z1 + W0 * by_z0;
+                const float product = exp_2 * (amplitude_k * by_phi);
+                const float by_z1 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - z1 * product;
+                const float by_z0 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - z0 * product;
+                const float by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0;
+                const float by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0;
                 sum[0][lane] += -by_v0_2;
                 sum[1][lane] += -by_v1_2;
                 sum[2][lane] += v0 * by_z0 - z0 * by_by_v0;

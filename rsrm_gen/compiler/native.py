@@ -6,6 +6,7 @@ import ctypes
 import hashlib
 import os
 import platform
+import shlex
 import shutil
 import subprocess
 import tempfile
@@ -28,7 +29,7 @@ FAST = (
     "-fno-math-errno",
     "-fno-trapping-math",
     "-include",
-    "vector_math.h",
+    "rsrm_vector_math.h",
 )  # never -ffast-math
 
 # glibc has vector versions of these functions, exact to 4 units in the last place, but tells gcc of them only under
@@ -49,9 +50,10 @@ SIMD float atan2f(float, float);
 
 
 @lru_cache
-def compiler() -> str | None:
-    """The C compiler of this machine (`CC`, or cc), or None."""
-    return shutil.which(os.environ.get("CC") or "cc")
+def compiler() -> tuple[str, ...] | None:
+    """The C compiler of this machine with its own arguments (`CC`, or cc), or None."""
+    command = shlex.split(os.environ.get("CC") or "cc")
+    return tuple(command) if command and shutil.which(command[0]) else None
 
 
 def compiled(files: Mapping[str, str], source: str, flags: tuple[str, ...]) -> ctypes.CDLL:
@@ -60,21 +62,25 @@ def compiled(files: Mapping[str, str], source: str, flags: tuple[str, ...]) -> c
     if cc is None:
         raise UserError("no C compiler found", hint="install one, or name it in CC; torch code needs none")
     headers = [text for name, text in sorted(files.items()) if name.endswith(".h")]
-    key = "\0".join([cc, *COMMON, *flags, VECTOR_MATH, _processor(), source, files[source], *headers])
+    key = "\0".join([*cc, *COMMON, *flags, VECTOR_MATH, _processor(), source, files[source], *headers])
     name = Path(source).stem + "-" + hashlib.sha256(key.encode()).hexdigest()[:32] + ".so"
     path = cache_folder() / "native" / name
     if not path.exists():
-        _compile(cc, files, source, flags, path)
+        try:
+            _compile(cc, files, source, flags, path)
+        except OSError as error:
+            hint = "set RSRM_GEN_CACHE to a folder that can be written"
+            raise UserError(f"cannot compile into {path.parent}: {error.strerror}", hint=hint) from None
     return ctypes.CDLL(str(path))
 
 
-def _compile(cc: str, files: Mapping[str, str], source: str, flags: tuple[str, ...], path: Path) -> None:
+def _compile(cc: tuple[str, ...], files: Mapping[str, str], source: str, flags: tuple[str, ...], path: Path) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=path.parent) as folder:
         for file, text in files.items():
             (Path(folder) / file).write_text(text, encoding="utf-8")
-        (Path(folder) / "vector_math.h").write_text(VECTOR_MATH, encoding="utf-8")
-        command = [cc, *COMMON, *flags, source, "-o", "library.so", "-lm"]
+        (Path(folder) / "rsrm_vector_math.h").write_text(VECTOR_MATH, encoding="utf-8")
+        command = [*cc, *COMMON, *flags, source, "-o", "library.so", "-lm"]
         result = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
         if result.returncode:
             raise UserError(f"the C compiler refuses the generated {source}:\n{result.stderr}")

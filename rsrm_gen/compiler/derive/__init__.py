@@ -23,7 +23,7 @@ from rsrm_gen.compiler.derive.geometry import (
     argument,
     renamed,
 )
-from rsrm_gen.compiler.derive.numeric import TINY, Values, run, value
+from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, Values, run, value
 from rsrm_gen.compiler.derive.operators import Operators
 from rsrm_gen.compiler.derive.sampling import Sampler, truth
 from rsrm_gen.compiler.derive.scalarise import Reading, Trace, Truth, number, scalarised
@@ -137,8 +137,12 @@ class _Derivation:
         inner = self.operators.inner()
         for _ in range(3):
             p = sampler.point(self.rng)
-            v = run(sampler.to_tangent, p, sampler.gaussian(self.rng, self.spec.point_size))[0]
-            if not run(inner, p, v, v)[0][0] > 0:
+            size = range(self.spec.dim)
+            basis = [run(sampler.to_tangent, p, sampler.gaussian(self.rng, self.spec.point_size))[0] for _ in size]
+            with mp.workdps(DIGITS):
+                gram = mp.matrix([[run(inner, p, u, v)[0][0] for v in basis] for u in basis])
+                positive = all(mp.isfinite(x) for x in gram) and min(mp.eigsy(gram, eigvals_only=True)) > TINY**2
+            if not positive:
                 span = self.spec.metric.value.span
                 raise UserError("the metric is not positive: <v, v> <= 0 for a tangent vector v", span)
 

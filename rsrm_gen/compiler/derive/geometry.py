@@ -65,7 +65,7 @@ class Guard:
     """
 
     variable: sp.Expr
-    threshold: sp.Float
+    threshold: sp.Rational
     near: sp.Expr
     error: float
     place: tuple[tuple[sp.Symbol, Any], ...] = ()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import mpmath as mp
@@ -26,14 +26,15 @@ def value(expression: sp.Expr, values: Mapping[sp.Symbol, Any]) -> Any:
     """The value of an expression; NaN where it is singular."""
     try:
         with mp.workdps(DIGITS):
-            return _value(expression, values)
-    except (ZeroDivisionError, ValueError):
+            result = _value(expression, values)
+    except (ZeroDivisionError, ValueError, TypeError):  # TypeError: complex numbers are not ordered
         return mp.nan
+    return mp.nan if isinstance(result, mp.mpc) else result
 
 
 def _value(expression: sp.Expr, values: Mapping[sp.Symbol, Any]) -> Any:
     if expression.is_Symbol:
-        return mp.mpf(2) ** -52 if expression == EPS else values[expression]
+        return values.get(EPS, mp.mpf(2) ** -52) if expression == EPS else values[expression]
     if not expression.args:
         return mp.mpf(expression._to_mpmath(mp.mp.prec + 10))
     if isinstance(expression, Choose):
@@ -59,9 +60,15 @@ def _chosen(expression: Choose, values: Mapping[sp.Symbol, Any]) -> Any:
     return _value(expression.args[3 if (a < b, a <= b, a == b)[kind] else 4], values)
 
 
-def run(function: Function, *arguments: Sequence[Any]) -> tuple[list[Any], Values]:
+def largest(numbers: Iterable[Any]) -> Any:
+    """The largest absolute value; infinite when one of the numbers is not finite, which max() would pass over."""
+    sizes = [abs(x) if mp.isfinite(x) else mp.inf for x in numbers]
+    return max(sizes, default=mp.mpf(0))
+
+
+def run(function: Function, *arguments: Sequence[Any], eps: float = 2.0**-52) -> tuple[list[Any], Values]:
     """The results of a staged function, unguarded, and the values of all its symbols."""
-    values: Values = {}
+    values: Values = {EPS: mp.mpf(eps)}
     for declared, given in zip(function.arguments, arguments, strict=True):
         values.update(zip(declared.symbols, given, strict=True))
     for assignment in function.assignments:

@@ -11,7 +11,7 @@ import mpmath as mp
 import sympy as sp
 
 from rsrm_gen.compiler.derive.geometry import Polynomial
-from rsrm_gen.compiler.derive.numeric import DIGITS
+from rsrm_gen.compiler.derive.numeric import DIGITS, largest
 
 MAX_DEGREE = 14
 TESTS = 10
@@ -23,16 +23,19 @@ Curve = Callable[[Any], tuple[Any, Any]]
 
 @dataclass(frozen=True)
 class Fit:
-    """y ~ x^order * (c0 + c1 x + ...) on [0, threshold], with the largest relative error measured."""
+    """y ~ x^order * (c0 + c1 u + ...), u = x / threshold, on [0, threshold], with the largest relative error measured.
+
+    In u the coefficients are of the order of y, whatever the units of length are.
+    """
 
     order: int
     coefficients: tuple[sp.Float, ...]
-    threshold: sp.Float
+    threshold: sp.Rational
     error: float
 
     def __call__(self, variable: sp.Expr) -> sp.Expr:
         """The polynomial of a variable."""
-        return variable**self.order * Polynomial(variable, *self.coefficients)
+        return variable**self.order * Polynomial(variable / self.threshold, *self.coefficients)
 
 
 def fit(curve: Curve, reach: Any, order: int) -> Fit | None:
@@ -69,9 +72,13 @@ def _fit_to(curve: Curve, reach: Any, order: int, degree: int) -> Fit | None:
         return None
     coefficients = _interpolate([x for x, _ in points], [y / x**order for x, y in points])
     tests = [curve(reach * mp.sqrt(mp.mpf(k) / TESTS)) for k in range(1, TESTS + 1)]
-    errors = [abs(mp.polyval(coefficients[::-1], x) * x**order / y - 1) for x, y in tests]
-    digits = tuple(sp.Float(c, 30) for c in coefficients)
-    return Fit(order, digits, sp.Float(points[0][0], 6), float(max(errors)))
+    if any(y == 0 for _, y in tests):
+        return None
+    errors = [mp.polyval(coefficients[::-1], x) * x**order / y - 1 for x, y in tests]
+    threshold = sp.Rational(mp.nstr(points[0][0], 6))  # exact, for exact is what it divides
+    scale = mp.mpf(threshold.p) / threshold.q
+    scaled = tuple(sp.Float(c * scale**k, 30) for k, c in enumerate(coefficients))
+    return Fit(order, scaled, threshold, float(largest(errors)))
 
 
 def _interpolate(x: list[Any], y: list[Any]) -> list[Any]:

@@ -105,8 +105,9 @@ def _agrees(found: Fit, curve: Callable[[Any], tuple[Any, Any]], reach: Any) -> 
     """Whether the polynomial holds on another ray too."""
     x, y = curve(reach * mp.mpf("0.07"))
     with mp.workdps(DIGITS):
-        polynomial = mp.polyval([mp.mpf(str(c)) for c in found.coefficients[::-1]], x) * x**found.order
-        return bool(x < found.threshold and abs(polynomial / y - 1) < 4 * ERROR)
+        u = x * found.threshold.q / found.threshold.p
+        polynomial = mp.polyval([mp.mpf(str(c)) for c in found.coefficients[::-1]], u) * x**found.order
+        return bool(x < found.threshold and abs(polynomial - y) < 4 * ERROR * abs(y))
 
 
 def _distance_covered(square: sp.Expr, found: Fit, ray: Ray) -> Any:

@@ -94,6 +94,11 @@ def _size(parameter: Parameter) -> int:
     return len(parameter.nodes)
 
 
+def _local(parameter: Parameter, i: int) -> str:
+    """The name of an entry of splat k; the graph gave it, so that no name of the author's is the same."""
+    return str(parameter.nodes[i].value) if parameter.shape else f"{parameter.name}_k"
+
+
 def _body(
     routine: Routine, series: dict[Coefficients, str], precision: Precision, per_point: tuple[str, ...]
 ) -> tuple[list[str], list[str]]:
@@ -101,8 +106,7 @@ def _body(
     names = {}
     for parameter in routine.parameters:
         for i, node in enumerate(parameter.nodes):
-            entry = f"{parameter.name}_block[{i}][lane]" if parameter.name in per_point else f"{parameter.name}{i}"
-            names[node] = entry if parameter.shape or parameter.name in per_point else parameter.name + "0"
+            names[node] = f"{parameter.name}_block[{i}][lane]" if parameter.name in per_point else _local(parameter, i)
     printer = Printer(spelling(precision), names, {k: series_name(name, precision) for k, name in series.items()})
     lines = statements(routine, printer, precision)
     return lines, [printer.text(node) for result in routine.results for node in result.nodes]
@@ -116,7 +120,7 @@ def _splat_locals(routine: Routine, precision: Precision, names: tuple[str, ...]
             for i, node in enumerate(parameter.nodes):
                 if str(node.value) in routine.inputs:
                     lines.append(
-                        f"const {precision.type} {parameter.name}{i} = {parameter.name}[{_size(parameter)} * k + {i}];"
+                        f"const {precision.type} {_local(parameter, i)} = {parameter.name}[{_size(parameter)} * k + {i}];"
                     )
     return "\n".join(lines)
 

@@ -64,7 +64,8 @@ def _python_text(lines: list[str]) -> str:
 
 def class_name(program: Program) -> str:
     """The class in the module of a program."""
-    return "".join(word.capitalize() for word in program.name.split("_"))
+    name = "".join(word.capitalize() for word in program.name.split("_"))
+    return f"{name}Manifold" if name in ("Tensor", "Generator", "Callable", "Sequence") else name
 
 
 def _table(name: str, coefficients: Coefficients) -> str:
@@ -157,8 +158,8 @@ def _body(routine: Routine, series: dict[Coefficients, str]) -> tuple[list[str],
     printer = Printer(SPELLING, names, {k: f"_{name}" for k, name in series.items()})
     lines = [line for p in routine.parameters for line in _unpacked(p, routine.inputs)]
     if routine.reads_eps:
-        first = routine.parameters[0]
-        lines.append(f"eps = torch.full_like({first.nodes[0].value}, torch.finfo({first.name}.dtype).eps)")
+        read = next(str(n.value) for p in routine.parameters for n in p.nodes if str(n.value) in routine.inputs)
+        lines.append(f"eps = torch.full_like({read}, torch.finfo({read}.dtype).eps)")
     for name, node in routine.body:
         lines.append(_assignment(name, printer.definition(node)[0]))
         names[node] = name

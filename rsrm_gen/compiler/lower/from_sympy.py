@@ -48,7 +48,8 @@ def _guarded(builder: Builder, assignment: Assignment, far: Node, given: Mapping
     place = {given[symbol]: x for symbol, x in guard.place}
     singular = _vanishing_at(place) if place else None
     # Far away only the polynomial itself can do harm, by overflow; its variable is needed there to know that it is far.
-    series = protect(graph, series, near, False, lambda node: node is variable)
+    scaled = builder.node(guard.variable / guard.threshold)
+    series = protect(graph, series, near, False, lambda node: node is scaled)
     return graph.select(near, series, protect(graph, far, near, True, singular))
 
 

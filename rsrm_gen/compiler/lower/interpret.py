@@ -49,6 +49,7 @@ def operate(node: Node, arguments: list[Any]) -> Any:
         coefficients = [mp.mpf(str(c)) for c in node.value]  # type: ignore[attr-defined]
         return mp.polyval(coefficients[::-1], arguments[0])
     try:
-        return OPERATIONS[node.op](*arguments)
-    except (ZeroDivisionError, ValueError):
+        result = OPERATIONS[node.op](*arguments)
+    except (ZeroDivisionError, ValueError, TypeError):
         return mp.nan
+    return mp.nan if isinstance(result, mp.mpc) else result

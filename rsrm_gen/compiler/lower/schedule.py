@@ -11,11 +11,13 @@ INLINE_DEPTH = 4  # deeper expressions are broken up, for people
 
 # Names that mean something in the languages written, or would hide a function there.
 RESERVED = {
-    *FUNCTIONS, "polynomial", "i", "k", "n", "lane", "count", "sum", "total", "start", "weight", "mode", "fabs", "rint",
-    "floor", "ceil", "gamma", "signgam", "y0", "y1", "yn", "j0", "j1", "jn", "self", "torch", "math",
-    "case", "default", "do", "goto", "NAN", "NULL", "INFINITY", "HUGE_VAL", "DBL_EPSILON", "FLT_EPSILON", "LANES",
-    "auto", "char", "const", "double", "enum", "extern", "float", "inline", "int", "long", "register", "restrict", "short",
-    "signed", "sizeof", "static", "struct", "switch", "typedef", "union", "unsigned", "void", "volatile",
+    *FUNCTIONS, *(f"{name}f" for name in FUNCTIONS), "fabs", "rint", "fabsf", "rintf", "floor", "ceil", "gamma", "signgam",
+    "y0", "y1", "yn", "j0", "j1", "jn", "NAN", "NULL", "INFINITY", "HUGE_VAL", "DBL_EPSILON", "FLT_EPSILON", "LANES",
+    "SIMD", "VECTOR", "self", "torch", "math", "eps", "polynomial", "i", "k", "n", "lane", "lanes", "count", "sum", "total",
+    "start", "weight", "mode", "rest", "amplitude_k", "x_block", "value_bar_block", "gradient_bar_block",
+    "auto", "case", "char", "const", "default", "do", "double", "enum", "extern", "float", "goto", "inline", "int", "long",
+    "register", "restrict", "short", "signed", "sizeof", "static", "struct", "switch", "typedef", "union", "unsigned", "void",
+    "volatile",
 }  # fmt: skip
 
 
