@@ -15,7 +15,7 @@
  * exp                           66      <= 1     <= 1
  * log                           75      <= 2     <= 1
  * distance                      37      <= 2     <= 2
- * log_abs_det                   73      <= 1     <= 2
+ * log_abs_det                   73      <= 1     <= 4
  * riemannian_gradient           25
  * gradient_norm                 31
  * splat                        301

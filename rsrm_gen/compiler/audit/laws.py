@@ -15,7 +15,7 @@ import mpmath as mp
 from rsrm_gen.compiler.audit.report import Check
 from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.derive.geometry import argument
-from rsrm_gen.compiler.derive.numeric import run, value
+from rsrm_gen.compiler.derive.numeric import largest, run, value
 from rsrm_gen.compiler.derive.sampling import Sampler, sampler_of
 from rsrm_gen.compiler.derive.scalarise import scalarised
 from rsrm_gen.compiler.lower import Program, interpret
@@ -26,6 +26,12 @@ DIGITS = 50
 STEP = mp.mpf(10) ** -16
 EXACT = 1e-12  # series are exact to 1e-17 and derivatives to 1e-32, but conditions and cancellation cost some
 PAIRS = 16
+FAR = (
+    3,
+    6,
+    10,
+    20,
+)  # where there is no injectivity radius to end at; beyond, 50 digits begin to run out on some manifolds
 
 Numbers = list[Any]
 
@@ -57,9 +63,11 @@ class Laws:
             self.pairs = [self.sampler.pair(rng, reach) for reach in self.reaches()]
 
     def reaches(self) -> list[Any]:
-        """Distances of the pairs tried: from close by to almost the injectivity radius."""
+        """Distances of the pairs tried: from close by to almost the injectivity radius, or to far away."""
         whole = self.sampler.reach * 2
-        return [whole * mp.mpf(k + 1) / (PAIRS + 1) for k in range(PAIRS - 1)] + [whole * mp.mpf("0.99")]
+        last = [whole * mp.mpf("0.99")] if self.geometry.injectivity_radius.is_finite else [mp.mpf(r) for r in FAR]
+        steps = PAIRS - len(last)
+        return [whole * mp.mpf(k + 1) / (steps + 2) for k in range(steps)] + last
 
     def checks(self) -> list[Check]:
         """Every law, in the order in which a failure explains the later ones."""
@@ -100,7 +108,7 @@ class Laws:
             linear = self.call("inner", p, mixed, v)[0] - _dot(expected, v)
             symmetric = self.call("inner", p, u, v)[0] - self.call("inner", p, v, u)[0]
             positive = self.call("inner", p, u, u)[0] - 1  # directions are normalised
-            worst = worst.with_error(max(map(abs, (linear, symmetric, positive))), _at("p", p))
+            worst = worst.with_error(largest((linear, symmetric, positive)), _at("p", p))
         return self.check(
             "metric", "<u, v>_p is bilinear, symmetric and positive on tangent vectors", worst, self.spec.metric
         )
@@ -122,10 +130,10 @@ class Laws:
             return None
         worst = Worst()
         for p, _ in self.pairs:
-            x = [c + mp.mpf("0.05") * e for c, e in zip(p, self.sampler.gaussian(self.rng, len(p)), strict=True)]
-            landed = self.call("project", x)
-            errors = [*self.constraint(landed), *_difference(self.call("project", p), p)]
-            worst = worst.with_error(max(map(abs, errors)), _at("x", x))
+            off = mp.mpf("0.05") * largest(p)
+            x = [c + off * e for c, e in zip(p, self.sampler.gaussian(self.rng, len(p)), strict=True)]
+            moved = _relative(_difference(self.call("project", p), p), p)
+            worst = worst.with_error(largest([self.off_manifold(self.call("project", x)), moved]), _at("x", x))
         return self.check(
             "projection", "`project` maps onto the manifold and leaves its points alone", worst, self.spec.project
         )
@@ -142,7 +150,7 @@ class Laws:
             entries = run(frame, p)[0]
             for i in range(self.spec.tangent_size):
                 e = entries[i * len(p) : (i + 1) * len(p)]
-                worst = worst.with_error(max(map(abs, self.directional(self.constraint, p, e))), _at("p", p))
+                worst = worst.with_error(self.off_tangent(p, e), _at("p", p))
         return self.check("frame", "the vectors of `frame` are tangent to the manifold", worst, self.spec.frame)
 
     def exp_stays_on_the_manifold(self) -> Check | None:
@@ -151,8 +159,9 @@ class Laws:
             return None
         worst = Worst()
         for p, _ in self.pairs:
-            q = self.call("exp", p, [2 * c for c in self.sampler.direction(self.rng, p)])
-            worst = worst.with_error(max(abs(c) for c in self.constraint(q)), _at("p", p))
+            length = self.sampler.reach * 2
+            q = self.call("exp", p, [length * c for c in self.sampler.direction(self.rng, p)])
+            worst = worst.with_error(self.off_manifold(q), _at("p", p))
         return self.check("exp on manifold", "Exp_p(v) satisfies the constraint", worst, self.spec.exp)
 
     def log_is_tangent(self) -> Check | None:
@@ -162,7 +171,7 @@ class Laws:
         worst = Worst()
         for p, q in self.pairs:
             v = self.call("log", p, q)
-            worst = worst.with_error(max(abs(c) for c in self.directional(self.constraint, p, v)), _at("p", p, "q", q))
+            worst = worst.with_error(self.off_tangent(p, v), _at("p", p, "q", q))
         return self.check("log tangent", "Log_p(q) is tangent to the manifold at p", worst, self.spec.log)
 
     def exp_inverts_log(self) -> Check:
@@ -178,7 +187,7 @@ class Laws:
         for (p, _), r in zip(self.pairs, self.reaches(), strict=True):
             v = [r * c for c in self.sampler.direction(self.rng, p)]
             back = self.call("log", p, self.call("exp", p, v))
-            worst = worst.with_error(max(map(abs, _difference(back, v))), _at("p", p, "v", v))
+            worst = worst.with_error(_relative(_difference(back, v), v), _at("p", p, "v", v))
         return self.check("log(exp)", "Log_p(Exp_p(v)) = v inside the injectivity radius", worst, self.spec.log)
 
     def equivalent_points_are_one(self) -> Check | None:
@@ -189,8 +198,9 @@ class Laws:
         worst = Worst()
         for p, q in self.pairs:
             named = self.other_name(q)
-            errors = [*_difference(self.call("log", p, named), self.call("log", p, q)), *self.constraint(named)]
-            worst = worst.with_error(max(map(abs, errors)), _at("p", p, "q", q))
+            v = self.call("log", p, q)
+            difference = _relative(_difference(self.call("log", p, named), v), v)
+            worst = worst.with_error(largest([difference, self.off_manifold(named)]), _at("p", p, "q", q))
         return self.check("quotient", "Log_p(q) is the same for every name of q", worst, other)
 
     def periods_do_not_matter(self) -> Check | None:
@@ -205,8 +215,8 @@ class Laws:
             blamed = blamed or self.spec.periods[i]
             for p, q in self.pairs:
                 turned = [c + (value(period, {}) if k == i else 0) for k, c in enumerate(q)]
-                errors = _difference(self.call("log", p, turned), self.call("log", p, q))
-                worst = worst.with_error(max(map(abs, errors)), _at("p", p, "q", q))
+                v = self.call("log", p, q)
+                worst = worst.with_error(_relative(_difference(self.call("log", p, turned), v), v), _at("p", p, "q", q))
         return self.check(
             "period", "Log_p(q) is the same when a coordinate of q goes through its period", worst, blamed
         )
@@ -241,8 +251,8 @@ class Laws:
         for p, _ in self.pairs:
             q = self.sampler.along(p, self.sampler.direction(self.rng, p), radius)
             v = self.call("log", p, q)
-            error = max(self.apart(self.call("exp", p, v), q), abs(self.call("norm", p, v)[0] - radius))
-            worst = worst.with_error(error, _at("p", p, "q", q))
+            errors = [self.apart(self.call("exp", p, v), q), self.call("norm", p, v)[0] / radius - 1]
+            worst = worst.with_error(largest(errors), _at("p", p, "q", q))
         return self.check("cut locus", "Log on the cut locus leads there, over the injectivity radius", worst, cut.log)
 
     def distance_is_the_length_of_log(self) -> Check:
@@ -250,7 +260,7 @@ class Laws:
         worst = Worst()
         for p, q in self.pairs:
             length = self.call("norm", p, self.call("log", p, q))[0]
-            worst = worst.with_error(abs(self.call("distance", p, q)[0] - length), _at("p", p, "q", q))
+            worst = worst.with_error(abs(self.call("distance", p, q)[0] / length - 1), _at("p", p, "q", q))
         return self.check(
             "distance", "the distance is the length of Log", worst, self.spec.distance or self.spec.metric
         )
@@ -259,9 +269,8 @@ class Laws:
         """distance(p, q) = distance(q, p)."""
         worst = Worst()
         for p, q in self.pairs:
-            worst = worst.with_error(
-                abs(self.call("distance", p, q)[0] - self.call("distance", q, p)[0]), _at("p", p, "q", q)
-            )
+            there, back = self.call("distance", p, q)[0], self.call("distance", q, p)[0]
+            worst = worst.with_error(abs(there / back - 1), _at("p", p, "q", q))
         return self.check("symmetry", "distance(p, q) = distance(q, p)", worst, self.spec.distance or self.spec.log)
 
     def distance_has_gradient_one(self) -> Check:
@@ -278,8 +287,9 @@ class Laws:
         for p, q in self.pairs:
             partials = self.partials(lambda x, p=p: [self.call("distance", p, x)[0] ** 2 / 2], q)  # type: ignore[misc]
             gradient = self.call("riemannian_gradient", q, partials)
-            total = [g + v for g, v in zip(gradient, self.call("log", q, p), strict=True)]
-            worst = worst.with_error(max(map(abs, total)), _at("p", p, "q", q))
+            back = self.call("log", q, p)
+            total = [g + v for g, v in zip(gradient, back, strict=True)]
+            worst = worst.with_error(_relative(total, back), _at("p", p, "q", q))
         return self.check("gauss", "the gradient of distance(p, q)^2 / 2 in q is -Log_q(p)", worst, self.spec.log)
 
     def log_det_is_the_determinant(self) -> Check:
@@ -302,7 +312,8 @@ class Laws:
         """<gradient of the splat, e> against its differences along e."""
         worst = Worst()
         for p, q in self.pairs:
-            W = self.sampler.gaussian(self.rng, self.spec.dim * self.spec.tangent_size)
+            distance = self.call("distance", p, q)[0]  # splats as wide as the points are apart
+            W = [c / distance for c in self.sampler.gaussian(self.rng, self.spec.dim * self.spec.tangent_size)]
 
             def splat(x: Sequence[Any], p: Sequence[Any] = p, W: Sequence[Any] = W) -> list[Numbers]:
                 return interpret(self.program["splat"], x, p, W, [1], digits=DIGITS)
@@ -311,7 +322,7 @@ class Laws:
             for e in self.basis(q):
                 slope = self.along(lambda x: splat(x)[0], q, e)[0]
                 worst = worst.with_error(
-                    abs(self.call("inner", q, gradient, e)[0] - slope) / scale, _at("x", q, "mu", p)
+                    abs(self.call("inner", q, gradient, e)[0] - slope) * distance / scale, _at("x", q, "mu", p)
                 )
         return self.check(
             "splat gradient", "the gradient of the splat is the derivative of its value", worst, self.spec.metric
@@ -336,9 +347,18 @@ class Laws:
         return run(function, q)[0]
 
     def apart(self, x: Sequence[Any], q: Sequence[Any]) -> Any:
-        """How far x is from q, or from another name of q, in the largest entry."""
+        """How far x is from q, or from another name of q, as a part of the largest entry."""
         names = [list(q)] + ([self.other_name(q)] if self.spec.equivalent else [])
-        return min(max(map(abs, self.modulo_periods(_difference(x, name)))) for name in names)
+        return min(_relative(self.modulo_periods(_difference(x, name)), q) for name in names)
+
+    def off_manifold(self, p: Sequence[Any]) -> Any:
+        """How far the constraint is from zero, beside how much it changes when p is stretched."""
+        return _relative(self.constraint(p), self.directional(self.constraint, p, p))
+
+    def off_tangent(self, p: Sequence[Any], v: Sequence[Any]) -> Any:
+        """How much the constraint changes along v, beside how much along a vector as long as v that stretches p."""
+        stretch = [c * largest(v) / largest(p) for c in p]
+        return _relative(self.directional(self.constraint, p, v), self.directional(self.constraint, p, stretch))
 
     def modulo_periods(self, difference: Numbers) -> Numbers:
         """A difference of coordinates, the nearest multiple of each period taken away."""
@@ -374,6 +394,11 @@ class Laws:
 
 def _difference(x: Sequence[Any], y: Sequence[Any]) -> Numbers:
     return [a - b for a, b in zip(x, y, strict=True)]
+
+
+def _relative(errors: Sequence[Any], scale: Sequence[Any]) -> Any:
+    """The largest error as a part of the largest of some numbers of the same unit."""
+    return largest(errors) / largest(scale)
 
 
 def _dot(x: Sequence[Any], y: Sequence[Any]) -> Any:

@@ -22,7 +22,7 @@ import torch
 from rsrm_gen.compiler.audit.report import Check
 from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.derive.geometry import Function
-from rsrm_gen.compiler.derive.numeric import DIGITS, run
+from rsrm_gen.compiler.derive.numeric import DIGITS, largest, run
 from rsrm_gen.compiler.derive.sampling import Sampler, sampler_of
 from rsrm_gen.compiler.emit import Measurement
 from rsrm_gen.compiler.lower import Program, Routine, interpret
@@ -136,7 +136,7 @@ def sample_rows(geometry: Geometry, precision: str) -> Rows:
     rng = random.Random(11)
     whole = sampler.reach * 2
     finite = geometry.injectivity_radius.is_finite
-    near = [("near", mp.mpf(10) ** -k) for k in range(2, 13)]
+    near = [("near", whole * mp.mpf(10) ** -k) for k in range(2, 13)]
     middle = [("middle", whole * mp.mpf(k) / 17) for k in range(1, 17)]
     last = (
         [(NEAR_CUT, whole * (1 - mp.mpf(10) ** -k)) for k in range(1, 10)]
@@ -166,13 +166,13 @@ def truths(function: Function, routine: Routine, rows: Rows, precision: str) -> 
     rng = random.Random(13)
     results, units = [], []
     for inputs in zip(*_inputs(name, rows), strict=True):
-        exact = _exact(function, inputs)
+        exact = _exact(function, inputs, eps)
         if not all(mp.isfinite(x) for x in exact):  # close points can round to one, where the formula is 0/0
             exact = interpret(routine, *([float(c) for c in x] for x in inputs), digits=DIGITS)[0]
         moved = 0.0
         for _ in range(3):
             shaken = [[mp.mpf(float(c)) * (1 + eps * rng.choice((-1, 1))) for c in x] for x in inputs]
-            moved = max(moved, _largest(a - b for a, b in zip(_exact(function, shaken), exact, strict=True)))
+            moved = max(moved, _largest(a - b for a, b in zip(_exact(function, shaken, eps), exact, strict=True)))
         results.append(exact)
         units.append(moved + 2 * eps * _largest(exact) + np.finfo(PRECISIONS[precision][0]).tiny)
     return results, np.array(units)
@@ -182,15 +182,17 @@ def _inputs(name: str, rows: Rows) -> tuple[Any, Any]:
     return (rows.p, rows.v) if name == "exp" else (rows.p, rows.q)
 
 
-def _exact(function: Function, inputs: Sequence[Any]) -> list[Any]:
+def _exact(function: Function, inputs: Sequence[Any], eps: float) -> list[Any]:
     with mp.workdps(DIGITS):
-        return run(function, *([mp.mpf(c) if isinstance(c, mp.mpf) else mp.mpf(float(c)) for c in x] for x in inputs))[
-            0
-        ]
+        return run(
+            function,
+            eps=2 * eps,
+            *([mp.mpf(c) if isinstance(c, mp.mpf) else mp.mpf(float(c)) for c in x] for x in inputs),
+        )[0]
 
 
 def _largest(numbers: Any) -> float:
-    return max((float(abs(x)) for x in numbers), default=0.0)
+    return float(largest(numbers))
 
 
 def _errors(found: Any, truth: Sequence[Sequence[Any]], unit: Any) -> Any:
@@ -215,7 +217,7 @@ def _splat_check(geometry: Geometry, program: Program, backend: str, batch: Batc
     keep = [k for k, kind in enumerate(rows.kinds) if kind != NEAR_CUT]  # where wide splats have no limit
     spec = geometry.spec
     rng = np.random.default_rng(17)
-    W = rng.normal(size=(len(keep), spec.dim * spec.tangent_size))
+    W = rng.normal(size=(len(keep), spec.dim * spec.tangent_size)) / float(sampler_of(geometry).reach)
     amplitude = np.ones((len(keep), 1))
     found = batch("splat", (rows.q[keep], rows.p[keep], W, amplitude), "float64")[:, 0]
     exact = [
