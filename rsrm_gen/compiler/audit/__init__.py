@@ -4,7 +4,8 @@ A check that fails fails the build. What is compared with what:
 
     laws        the author's formulas against what geometry demands of them, in 50 digits
     readings    the same file read by sympy and our graph, and independently by CasADi
-    numbers     the generated torch and C code, in double and in float, against the formulas in 60 digits
+    numbers     exp, log, distance and log det of the torch and C code, in double and in float, against 60 digits
+    kernels     every other function, and the C sums of splats forward and backward, against exact ones
 """
 
 from rsrm_gen.compiler.audit.audit import audit

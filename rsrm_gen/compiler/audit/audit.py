@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from rsrm_gen.compiler.audit.kernels import check_kernels
 from rsrm_gen.compiler.audit.laws import Laws
 from rsrm_gen.compiler.audit.numbers import check_numbers
 from rsrm_gen.compiler.audit.readings import check_readings
@@ -19,4 +20,5 @@ def audit(geometry: Geometry, program: Program, files: Mapping[str, str]) -> Aud
     if not all(check.passed for check in [*laws, *readings]):  # numbers of wrong formulas say nothing
         return AuditReport(program.name, geometry.spec.content_hash, (*laws, *readings), ())
     numbers, measured = check_numbers(geometry, program, files)
-    return AuditReport(program.name, geometry.spec.content_hash, (*laws, *readings, *numbers), measured)
+    kernels = check_kernels(geometry, program, files)
+    return AuditReport(program.name, geometry.spec.content_hash, (*laws, *readings, *numbers, *kernels), measured)

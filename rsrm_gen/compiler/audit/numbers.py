@@ -68,7 +68,6 @@ def check_numbers(
             checks += [_check(geometry, name, backend, precision, e, rows) for backend, e in errors.items()]
             worst = max(float(e.max()) for e in errors.values())
             measured.append(Measurement(name, precision, _power_of_two(worst), len(rows.kinds)))
-    checks += [_splat_check(geometry, program, backend, batch) for backend, batch in backends.items()]
     return checks, tuple(measured)
 
 
@@ -184,11 +183,8 @@ def _inputs(name: str, rows: Rows) -> tuple[Any, Any]:
 
 def _exact(function: Function, inputs: Sequence[Any], eps: float) -> list[Any]:
     with mp.workdps(DIGITS):
-        return run(
-            function,
-            eps=2 * eps,
-            *([mp.mpf(c) if isinstance(c, mp.mpf) else mp.mpf(float(c)) for c in x] for x in inputs),
-        )[0]
+        numbers = ([c if isinstance(c, mp.mpf) else mp.mpf(float(c)) for c in x] for x in inputs)
+        return run(function, *numbers, eps=2 * eps)[0]
 
 
 def _largest(numbers: Any) -> float:
@@ -209,21 +205,3 @@ def _power_of_two(x: float) -> int:
     while bound < x and bound < 2**40:
         bound *= 2
     return bound
-
-
-def _splat_check(geometry: Geometry, program: Program, backend: str, batch: Batch) -> Check:
-    """The value of splats against the interpreter."""
-    rows = sample_rows(geometry, "float64")
-    keep = [k for k, kind in enumerate(rows.kinds) if kind != NEAR_CUT]  # where wide splats have no limit
-    spec = geometry.spec
-    rng = np.random.default_rng(17)
-    W = rng.normal(size=(len(keep), spec.dim * spec.tangent_size)) / float(sampler_of(geometry).reach)
-    amplitude = np.ones((len(keep), 1))
-    found = batch("splat", (rows.q[keep], rows.p[keep], W, amplitude), "float64")[:, 0]
-    exact = [
-        float(interpret(program["splat"], x, mu, w, [1.0])[0][0])
-        for x, mu, w in zip(rows.q[keep], rows.p[keep], W, strict=True)
-    ]
-    error = np.abs(found - exact)
-    promise = f"splats of the {backend} code in float64 are those of the formula"
-    return Check(f"splat {backend} float64", promise, float(error.max()), 1e-12, len(keep), "", spec.log.value.span)

@@ -21,6 +21,8 @@ from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, Values, run, value
 from rsrm_gen.compiler.derive.sampling import Sampler
 from rsrm_gen.compiler.derive.series import ERROR, Fit, fit
 
+WHOLE_OF_REACH = 3  # `reach` is a third of the injectivity radius
+
 Ray = Callable[[random.Random], Callable[[Any], Values]]  # rng -> (r -> values of all symbols at distance r)
 
 
@@ -60,7 +62,7 @@ def remove(
 ) -> Guard | None:
     """A guard for a quantity that is 0/0 at a place, in the square in which its polynomial reaches furthest."""
     fits = [(square, _fit_along(quantity, square, ray, reach, order)) for square in squares]
-    good = [(square, found) for square, found in fits if found is not None]
+    good = [(square, found) for square, found in fits if found is not None and _stays_above(square, found, ray, reach)]
     if not good:
         return None
     square, found = max(good, key=lambda pair: _distance_covered(pair[0], pair[1], ray))
@@ -108,6 +110,14 @@ def _agrees(found: Fit, curve: Callable[[Any], tuple[Any, Any]], reach: Any) -> 
         u = x * found.threshold.q / found.threshold.p
         polynomial = mp.polyval([mp.mpf(str(c)) for c in found.coefficients[::-1]], u) * x**found.order
         return bool(x < found.threshold and abs(polynomial - y) < 4 * ERROR * abs(y))
+
+
+def _stays_above(square: sp.Expr, found: Fit, ray: Ray, reach: Any) -> bool:
+    """Whether the square is small near the singular place only: sin(r)^2 is small at the antipode too."""
+    along = ray(random.Random(1))
+    values = [value(square, along(reach * mp.mpf(k) / 8)) for k in range(1, WHOLE_OF_REACH * 8)]
+    above = [bool(x >= found.threshold) for x in values]
+    return above[-1] and above == sorted(above)
 
 
 def _distance_covered(square: sp.Expr, found: Fit, ray: Ray) -> Any:
