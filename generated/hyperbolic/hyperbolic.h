@@ -12,7 +12,7 @@
  * inner                          5
  * norm                          28
  * flat                           1
- * exp                           75      <= 2     <= 2
+ * exp                           75      <= 4     <= 2
  * log                           96     <= 16     <= 8
  * distance                      55      <= 2     <= 2
  * log_abs_det                   88      <= 4     <= 4

@@ -11,7 +11,7 @@ to_tangent                    11
 inner                          5
 norm                          28
 flat                           1
-exp                           75      <= 2     <= 2
+exp                           75      <= 4     <= 2
 log                           96     <= 16     <= 8
 distance                      55      <= 2     <= 2
 log_abs_det                   88      <= 4     <= 4
@@ -104,6 +104,8 @@ def _rejection(
     while sum(map(len, kept)) < count:
         points, density = propose(2 * count + 16)
         largest = float(density.max())
+        if not 0 < largest < math.inf:
+            raise ValueError(f"the volume of Exp is not finite where points are sampled: {largest}")
         if largest > bound:
             bound, kept = 1.05 * largest, []
         uniform = torch.rand(len(points), generator=generator, dtype=like.dtype, device=like.device)

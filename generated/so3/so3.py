@@ -105,6 +105,8 @@ def _rejection(
     while sum(map(len, kept)) < count:
         points, density = propose(2 * count + 16)
         largest = float(density.max())
+        if not 0 < largest < math.inf:
+            raise ValueError(f"the volume of Exp is not finite where points are sampled: {largest}")
         if largest > bound:
             bound, kept = 1.05 * largest, []
         uniform = torch.rand(len(points), generator=generator, dtype=like.dtype, device=like.device)

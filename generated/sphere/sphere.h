@@ -14,7 +14,7 @@
  * exp                           38      <= 2     <= 1
  * log                          120      <= 1     <= 2
  * distance                      20      <= 1     <= 1
- * log_abs_det                   91      <= 2    <= 16
+ * log_abs_det                   91      <= 4    <= 16
  * riemannian_gradient           11
  * gradient_norm                 17
  * splat                        332

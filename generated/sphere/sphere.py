@@ -13,7 +13,7 @@ flat                           0
 exp                           38      <= 2     <= 1
 log                          120      <= 1     <= 2
 distance                      20      <= 1     <= 1
-log_abs_det                   91      <= 2    <= 16
+log_abs_det                   91      <= 4    <= 16
 riemannian_gradient           11
 gradient_norm                 17
 splat                        332
@@ -104,6 +104,8 @@ def _rejection(
     while sum(map(len, kept)) < count:
         points, density = propose(2 * count + 16)
         largest = float(density.max())
+        if not 0 < largest < math.inf:
+            raise ValueError(f"the volume of Exp is not finite where points are sampled: {largest}")
         if largest > bound:
             bound, kept = 1.05 * largest, []
         uniform = torch.rand(len(points), generator=generator, dtype=like.dtype, device=like.device)

@@ -11,8 +11,8 @@ inner                          3
 norm                           4
 flat                           0
 exp                           18      <= 1     <= 1
-log                           18      <= 1     <= 1
-distance                      22      <= 1     <= 1
+log                           18      <= 2     <= 1
+distance                      22      <= 2     <= 1
 log_abs_det                    0      <= 1     <= 1
 riemannian_gradient            0
 gradient_norm                  4
@@ -74,6 +74,8 @@ def _rejection(
     while sum(map(len, kept)) < count:
         points, density = propose(2 * count + 16)
         largest = float(density.max())
+        if not 0 < largest < math.inf:
+            raise ValueError(f"the volume of Exp is not finite where points are sampled: {largest}")
         if largest > bound:
             bound, kept = 1.05 * largest, []
         uniform = torch.rand(len(points), generator=generator, dtype=like.dtype, device=like.device)

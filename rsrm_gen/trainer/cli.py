@@ -103,7 +103,13 @@ def _resumed(
         raise UserError("--resume RUN takes its scene, folder and seed from the run", hint="only --steps may be given")
     folder = RunFolder(run)
     resumed = _with_options(folder.read_scene(), steps, None)
-    done = int(folder.restore()["step"])
+    stored = folder.restore()
+    done, splats = int(stored["step"]), len(stored["v"])
+    if splats > resumed.training.capacity:
+        hint = "train it with more steps"
+        raise UserError(
+            f"{run} has {splats} splats; so few steps leave room for {resumed.training.capacity}", hint=hint
+        )
     if done >= resumed.training.steps:
         hint = f"train it further with `--resume {run} --steps {2 * done}`"
         raise UserError(f"{run} is trained: it has made {done} of {resumed.training.steps} steps", hint=hint)

@@ -84,13 +84,18 @@ class RunFolder:
             raise UserError(f"{self.path} already holds a training", hint=hint)
         try:
             self.path.mkdir(parents=True, exist_ok=True)
-            for file in (self.checkpoint, self.summary):
-                file.unlink(missing_ok=True)
+            self.checkpoint.unlink(missing_ok=True)
+            self.forget_results()
             self.metrics.write_text("")
         except OSError as error:
             raise UserError(f"cannot write to {self.path}: {error.strerror}") from None
         write_text_whole(self.path / "scene.yaml", _scene_text(scene, self.path))
         self.write_settings(scene)
+
+    def forget_results(self) -> None:
+        """Remove what was said and drawn of a field that is about to change."""
+        for name in ("summary.json", "evaluation.json", "field.png", "field.pdf"):
+            (self.path / name).unlink(missing_ok=True)
 
     def write_settings(self, scene: Scene) -> None:
         """Keep the resolved settings and the versions that run."""
@@ -102,6 +107,7 @@ class RunFolder:
         }
         settings = {
             "manifold": scene.manifold.name,
+            "content_hash": scene.manifold.content_hash,
             "training": scene.training.model_dump(mode="json"),
             "versions": versions,
         }
@@ -114,9 +120,17 @@ class RunFolder:
         scene = read_scene(self.path / "scene.yaml", manifold)
         try:
             settings = json.loads((self.path / "settings.json").read_text(encoding="utf-8"))
-            return replace(scene, training=Training.model_validate(settings["training"]))
+            trained_on = settings["content_hash"]
+            prepared = replace(scene, training=Training.model_validate(settings["training"]))
         except (OSError, ValueError, KeyError, TypeError, ValidationError) as error:
             raise UserError(f"{self.path / 'settings.json'} cannot be read: {_first_line(error)}") from None
+        if trained_on != scene.manifold.content_hash:
+            raise UserError(
+                f"`{scene.manifold.name}` is not the manifold any more on which {self.path} was trained",
+                scene.manifold_span,
+                "bring the old manifold file back, or train again with --force",
+            )
+        return prepared
 
     def save(self, arrays: Arrays) -> None:
         """Write the checkpoint; whoever reads meanwhile sees the old one or the new one."""

@@ -133,7 +133,7 @@ def train(scene: Scene, folder: RunFolder, resume: bool = False, progress: Progr
         trainer.restore(arrays, folder)
         before = float(arrays["seconds"])
         folder.drop_metrics_after(trainer.step)
-        folder.summary.unlink(missing_ok=True)  # of a training that is now made longer
+        folder.forget_results()  # of a training that is now made longer
     else:
         trainer.place_first_splats()
     start = time.perf_counter() - before

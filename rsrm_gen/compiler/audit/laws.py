@@ -159,7 +159,7 @@ class Laws:
             return None
         worst = Worst()
         for p, _ in self.pairs:
-            length = self.sampler.reach * 2
+            length = self.sampler.reach * mp.mpf("1.3")
             q = self.call("exp", p, [length * c for c in self.sampler.direction(self.rng, p)])
             worst = worst.with_error(self.off_manifold(q), _at("p", p))
         return self.check("exp on manifold", "Exp_p(v) satisfies the constraint", worst, self.spec.exp)

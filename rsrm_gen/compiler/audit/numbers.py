@@ -160,18 +160,18 @@ def _rounded(x: Sequence[Any], precision: str) -> Any:
 
 def truths(function: Function, routine: Routine, rows: Rows, precision: str) -> tuple[list[list[Any]], Any]:
     """The exact results at the rounded inputs (N, entries), and the unavoidable error of each row (N,)."""
-    name = function.name
     eps = PRECISIONS[precision][2]
     rng = random.Random(13)
     results, units = [], []
-    for inputs in zip(*_inputs(name, rows), strict=True):
-        exact = _exact(function, inputs, eps)
-        if not all(mp.isfinite(x) for x in exact):  # close points can round to one, where the formula is 0/0
-            exact = interpret(routine, *([float(c) for c in x] for x in inputs), digits=DIGITS)[0]
+    for inputs in zip(*_inputs(function.name, rows), strict=True):
+        given = [[mp.mpf(float(c)) for c in x] for x in inputs]
+        exact = _exact(function, routine, given, eps)
         moved = 0.0
         for _ in range(3):
-            shaken = [[mp.mpf(float(c)) * (1 + eps * rng.choice((-1, 1))) for c in x] for x in inputs]
-            moved = max(moved, _largest(a - b for a, b in zip(_exact(function, shaken, eps), exact, strict=True)))
+            with mp.workdps(DIGITS):
+                shaken = [[c * (1 + eps * rng.choice((-1, 1))) for c in x] for x in given]
+            there = _exact(function, routine, shaken, eps)
+            moved = max(moved, _largest(a - b for a, b in zip(there, exact, strict=True)))
         results.append(exact)
         units.append(moved + 2 * eps * _largest(exact) + np.finfo(PRECISIONS[precision][0]).tiny)
     return results, np.array(units)
@@ -181,10 +181,11 @@ def _inputs(name: str, rows: Rows) -> tuple[Any, Any]:
     return (rows.p, rows.v) if name == "exp" else (rows.p, rows.q)
 
 
-def _exact(function: Function, inputs: Sequence[Any], eps: float) -> list[Any]:
+def _exact(function: Function, routine: Routine, inputs: Sequence[Sequence[Any]], eps: float) -> list[Any]:
+    """The formula in 60 digits; where close points rounded to one and it is 0/0, the routine with its series."""
     with mp.workdps(DIGITS):
-        numbers = ([c if isinstance(c, mp.mpf) else mp.mpf(float(c)) for c in x] for x in inputs)
-        return run(function, *numbers, eps=2 * eps)[0]
+        exact = run(function, *inputs, eps=2 * eps)[0]
+    return exact if mp.isfinite(largest(exact)) else interpret(routine, *inputs, digits=DIGITS)[0]
 
 
 def _largest(numbers: Any) -> float:
@@ -192,10 +193,10 @@ def _largest(numbers: Any) -> float:
 
 
 def _errors(found: Any, truth: Sequence[Sequence[Any]], unit: Any) -> Any:
-    """The largest error of each row in its unit; infinite where the code's result is not finite."""
+    """The largest error of each row in its unit; infinite where the code's result, or the unit itself, is not finite."""
     worst = []
     for row, exact, u in zip(found, truth, unit, strict=True):
-        finite = np.all(np.isfinite(row))
+        finite = np.all(np.isfinite(row)) and np.isfinite(u)
         worst.append(_largest(mp.mpf(float(a)) - b for a, b in zip(row, exact, strict=True)) / u if finite else np.inf)
     return np.array(worst)
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import textwrap
 from dataclasses import dataclass
-from fractions import Fraction
 
 from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.lower import Program
@@ -64,8 +63,3 @@ def _table(program: Program, measured: tuple[Measurement, ...]) -> list[str]:
             "inputs and the output to the precision alone would cause.",
         ]
     return rows
-
-
-def spell(value: Fraction | float) -> str:
-    """A number that reads back as the same double."""
-    return repr(float(value))
