@@ -40,6 +40,19 @@ RETRACTION = (
 ONE_LAW = r"\|grad distance\| = 1|length of Log|Gauss"  # the metric and Exp contradict each other: either may be wrong
 
 MUTANTS = {
+    "formulas that change far away": Mutant(
+        "euclidean",
+        (
+            ("exp: p + v", "exp: where(dot(v, v) > 5, p + 3 * v, p + v)"),
+            ("log: q - p", "log: where(dot(q - p, q - p) > 5, 2 * (q - p), q - p)"),
+        ),
+        r"Exp_p\(Log_p\(q\)\) = q",
+    ),
+    "a quotient whose only square is small at the antipode too": Mutant(
+        "sphere",
+        (("t: 2 * atan2(norm(d), norm(q + p))", "t: acos(dot(p, q))"),),
+        "not finite where the points coincide|as exact as its inputs allow|mends it",
+    ),
     "a diameter that is too small": Mutant("torus", (("pi * sqrt(n)", "pi"),), "diameter", "diameter:"),
     "another period than that of Exp": Mutant("torus", (("period: 2 * pi", "period: 2"),), "period", "period:"),
     "a Log on the cut locus of another length": Mutant(

@@ -210,3 +210,33 @@ def test_without_a_compiler_torch_sums_and_one_line_says_so(tmp_path: Path) -> N
     assert ran.stdout == "[2.0, 2.0]\n"
     assert ran.stderr.count("\n") == 1
     assert "no C compiler found" in ran.stderr
+
+
+@needs_compiler
+@pytest.mark.parametrize("name", NAMES)
+def test_tensors_that_only_broadcast_are_left_to_torch(name: str) -> None:
+    m = load(name)
+    x, mu, W, _ = some_splats(m, 5, 4)
+    for odd in ((x, mu, W, torch.ones(1).double()), (x[None], mu, W, torch.ones(4).double())):
+        for ours, truth in zip(m.splats(*odd), in_torch(m, *odd), strict=True):
+            assert ours.shape == truth.shape
+            torch.testing.assert_close(ours, truth)
+
+
+@needs_compiler
+def test_splats_that_do_not_fit_are_an_error_and_not_read() -> None:
+    m = load("sphere")
+    x, mu, W, amplitude = some_splats(m, 5, 4)
+    with pytest.raises(RuntimeError):
+        m.splats(x, mu, W[:3], amplitude)
+
+
+@needs_compiler
+def test_what_was_changed_before_the_backward_pass_is_noticed() -> None:
+    m = load("sphere")
+    x, mu, W, amplitude = some_splats(m, 5, 4)
+    value, _ = m.splats(x, mu, W, amplitude)
+    with torch.no_grad():
+        mu += 0.1
+    with pytest.raises(RuntimeError, match="modified by an inplace operation"):
+        value.sum().backward()

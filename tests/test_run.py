@@ -145,3 +145,22 @@ def test_the_manifolds_file_is_found_again_from_the_run(tmp_path: Path, monkeypa
     assert [path.resolve() for path in asked] == [(tmp_path / "own" / "mine.yaml").resolve()] * 2
     copied = (folder.path / "scene.yaml").read_text()
     assert copied == text.replace("../own/mine.yaml", "../../../own/mine.yaml")
+
+
+def test_a_run_is_not_continued_on_another_manifold_of_the_same_name(tmp_path: Path) -> None:
+    run = trained(tmp_path)
+
+    class Larger(Sphere):
+        content_hash = "another"  # type: ignore[assignment]
+
+    with pytest.raises(UserError, match="is not the manifold any more on which"):
+        load_run(run.path, Larger(2))
+
+
+def test_results_of_a_field_that_changes_are_removed(tmp_path: Path) -> None:
+    run = trained(tmp_path)
+    stale = [run.path / name for name in ("evaluation.json", "field.png", "field.pdf")]
+    for path in stale:
+        path.write_text("old")
+    run.create(small_scene(tmp_path, "S2", TINY), force=True)
+    assert not any(path.exists() for path in [*stale, run.summary])
