@@ -1,10 +1,14 @@
-"""Files that are written whole or not at all, and where what can be made again is kept."""
+"""Files that are written whole or not at all, where what can be made again is kept, and Python files as modules."""
 
 from __future__ import annotations
 
+import hashlib
+import importlib.util
 import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
 from typing import Any, BinaryIO
 
 from platformdirs import user_cache_path
@@ -35,3 +39,16 @@ def write_whole(path: Path, write: Callable[[BinaryIO], Any]) -> None:
 def write_text_whole(path: Path, text: str) -> None:
     """`write_whole` for a text, in UTF-8."""
     write_whole(path, lambda file: file.write(text.encode()))
+
+
+def imported(path: Path, keep: bool = True) -> ModuleType:
+    """A Python file as a module; kept ones can be found again by their classes, as torch.compile does."""
+    name = f"rsrm_gen_generated_{path.stem}_{hashlib.sha256(str(path).encode()).hexdigest()[:8]}"
+    spec = importlib.util.spec_from_file_location(name, path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    if keep:
+        sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return module

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import importlib.util
 import sys
 from collections.abc import Mapping
 from functools import lru_cache
@@ -13,7 +12,7 @@ from rsrm_gen.compiler.native import compiler
 from rsrm_gen.compiler.output import contents, staleness, write
 from rsrm_gen.compiler.spec import ManifoldSpec, read_spec
 from rsrm_gen.errors import UserError, did_you_mean
-from rsrm_gen.files import cache_folder
+from rsrm_gen.files import cache_folder, imported
 from rsrm_gen.kernels import accelerated
 from rsrm_gen.manifold import Manifold
 
@@ -28,7 +27,7 @@ def load(manifold: str | Path, **parameters: int | float | str) -> Manifold:
     """
     path = _file(manifold)
     spec = read_spec(path, parameters)
-    return _loaded(_generated(spec, path, parameters))
+    return _loaded(_generated(spec, path, parameters), spec.content_hash)
 
 
 def bundled(kind: str) -> Path:
@@ -72,21 +71,10 @@ def _generator() -> str:
 
 
 @lru_cache
-def _loaded(folder: Path) -> Manifold:
-    manifold = _imported(folder / f"{folder.name}.py")
+def _loaded(folder: Path, content_hash: str) -> Manifold:
+    # The hash is in the key of the cache alone: a folder that was generated again is another manifold.
+    manifold: Manifold = imported(folder / f"{folder.name}.py").manifold
     if compiler() is None:
         print("no C compiler found: sums of splats run in torch, many times slower", file=sys.stderr)
         return manifold
     return accelerated(manifold, folder)
-
-
-def _imported(path: Path) -> Manifold:
-    name = f"rsrm_gen_generated_{path.stem}_{hashlib.sha256(str(path).encode()).hexdigest()[:8]}"
-    module_spec = importlib.util.spec_from_file_location(name, path)
-    assert module_spec is not None
-    assert module_spec.loader is not None
-    module = importlib.util.module_from_spec(module_spec)
-    sys.modules[name] = module  # so that its classes can be found again, as dataclasses and torch.compile do
-    module_spec.loader.exec_module(module)
-    manifold: Manifold = module.manifold
-    return manifold

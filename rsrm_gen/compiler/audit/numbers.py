@@ -7,7 +7,6 @@ of the result itself. A row passes if its error is at most 64 such units.
 from __future__ import annotations
 
 import ctypes
-import importlib.util
 import random
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
@@ -27,6 +26,7 @@ from rsrm_gen.compiler.derive.sampling import Sampler, sampler_of
 from rsrm_gen.compiler.emit import Measurement
 from rsrm_gen.compiler.lower import Program, Routine, interpret
 from rsrm_gen.compiler.native import EXACT, compiled, compiler, pointer
+from rsrm_gen.files import imported
 
 UNITS = 64.0
 NEAR_CUT = "near the cut locus"
@@ -86,7 +86,10 @@ def _check(geometry: Geometry, name: str, backend: str, precision: str, errors: 
 
 def torch_batch(program: Program, files: Mapping[str, str]) -> Batch:
     """The generated torch class on arrays of rows."""
-    manifold = imported(program, files)
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / f"{program.name}.py"
+        path.write_text(files[path.name], encoding="utf-8")
+        manifold = imported(path, keep=False).manifold
 
     def batch(name: str, rows: Sequence[Any], precision: str) -> Any:
         shapes = [parameter.shape for parameter in program[name].parameters]
@@ -114,19 +117,6 @@ def native_batch(program: Program, files: Mapping[str, str]) -> Batch:
         return outputs[0]
 
     return batch
-
-
-def imported(program: Program, files: Mapping[str, str]) -> Any:
-    """An object of the generated class, imported from its text."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / f"{program.name}.py"
-        path.write_text(files[path.name])
-        module_spec = importlib.util.spec_from_file_location(f"generated_{program.name}", path)
-        assert module_spec is not None
-        assert module_spec.loader is not None
-        module = importlib.util.module_from_spec(module_spec)
-        module_spec.loader.exec_module(module)
-    return module.manifold
 
 
 def sample_rows(geometry: Geometry, precision: str) -> Rows:

@@ -25,7 +25,7 @@ from rsrm_gen.compiler.derive.geometry import (
 )
 from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, Values, run, value
 from rsrm_gen.compiler.derive.operators import Operators
-from rsrm_gen.compiler.derive.sampling import Sampler, truth
+from rsrm_gen.compiler.derive.sampling import Sampler, reach_of, truth
 from rsrm_gen.compiler.derive.scalarise import Reading, Trace, Truth, number, scalarised
 from rsrm_gen.compiler.derive.singularities import Ray, exp_ray, guarded, log_ray, remove, smooth_squares
 from rsrm_gen.compiler.spec import ManifoldSpec, Map
@@ -124,8 +124,7 @@ class _Derivation:
     def sampler(self) -> Sampler:
         """Where points come from while formulas are looked at."""
         spec = self.spec
-        radius = number(spec, spec.injectivity_radius)
-        reach = mp.mpf(1) if radius == sp.oo else mp.mpf(str(sp.N(radius, 30))) / 2
+        reach = reach_of(number(spec, spec.injectivity_radius))
         project = self.project if spec.embedded else None
         to_tangent, norm = self.operators.to_tangent(), self.operators.norm()
         sampler = Sampler(project, self.domain, to_tangent, norm, self.plain_exp[0], spec.point_size, reach)

@@ -77,15 +77,18 @@ class Sampler:
         return p, self.along(p, self.direction(rng, p), r)
 
 
+def reach_of(injectivity_radius: sp.Expr) -> Any:
+    """Half the injectivity radius, or 1 where there is none."""
+    return mp.mpf(1) if injectivity_radius == sp.oo else value(injectivity_radius, {}) / 2
+
+
 def sampler_of(geometry: Geometry) -> Sampler:
     """The sampler of a derived manifold."""
     spec = geometry.spec
-    radius = geometry.injectivity_radius
-    reach = mp.mpf(1) if radius == sp.oo else mp.mpf(str(sp.N(radius, 30))) / 2
     project = geometry["project"] if spec.embedded else None
-    return Sampler(
-        project, geometry.domain, geometry["to_tangent"], geometry["norm"], geometry["exp"], spec.point_size, reach
-    )
+    reach = reach_of(geometry.injectivity_radius)
+    functions = geometry["to_tangent"], geometry["norm"], geometry["exp"]
+    return Sampler(project, geometry.domain, *functions, spec.point_size, reach)
 
 
 def truth(kind: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:
