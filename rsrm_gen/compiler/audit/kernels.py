@@ -30,18 +30,20 @@ def check_kernels(geometry: Geometry, program: Program, files: Mapping[str, str]
     backends: dict[str, Batch] = {"torch": torch_batch(program, files)}
     if compiler() is not None:
         backends["C"] = native_batch(program, files)
+    rows = {precision: _middling(sample_rows(geometry, precision)) for precision in PRECISIONS}
     checks = [
-        _functions_check(geometry, program, backend, batch, precision)
+        _functions_check(geometry, program, backend, batch, precision, rows[precision])
         for precision in PRECISIONS
         for backend, batch in backends.items()
     ]
     if compiler() is not None:
-        checks += [_sums_check(geometry, program, files, precision) for precision in PRECISIONS]
+        checks += [_sums_check(geometry, program, files, precision, rows[precision]) for precision in PRECISIONS]
     return checks
 
 
-def _functions_check(geometry: Geometry, program: Program, backend: str, batch: Batch, precision: str) -> Check:
-    rows = _middling(sample_rows(geometry, precision))
+def _functions_check(
+    geometry: Geometry, program: Program, backend: str, batch: Batch, precision: str, rows: Rows
+) -> Check:
     worst, culprit = 0.0, ""
     for routine in public(program):
         inputs = _inputs(routine, rows, precision)
@@ -54,9 +56,8 @@ def _functions_check(geometry: Geometry, program: Program, backend: str, batch: 
     return Check(name, promise, worst, TOLERANCE[precision], len(rows.p), culprit, geometry.spec.metric.value.span)
 
 
-def _sums_check(geometry: Geometry, program: Program, files: Mapping[str, str], precision: str) -> Check:
+def _sums_check(geometry: Geometry, program: Program, files: Mapping[str, str], precision: str, rows: Rows) -> Check:
     """The fused C sums, forward and backward, compiled with the flags with which they train."""
-    rows = _middling(sample_rows(geometry, precision))
     dtype = PRECISIONS[precision][0]
     x, mu = rows.q[:POINTS], rows.p[:SPLATS]
     rng = np.random.default_rng(23)

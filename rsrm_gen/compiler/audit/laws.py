@@ -8,13 +8,14 @@ from __future__ import annotations
 import random
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import mpmath as mp
 
 from rsrm_gen.compiler.audit.report import Check
 from rsrm_gen.compiler.derive import Geometry
-from rsrm_gen.compiler.derive.geometry import argument
+from rsrm_gen.compiler.derive.geometry import Function, argument
 from rsrm_gen.compiler.derive.numeric import largest, run, value
 from rsrm_gen.compiler.derive.sampling import Sampler, sampler_of
 from rsrm_gen.compiler.derive.scalarise import scalarised
@@ -330,9 +331,13 @@ class Laws:
 
     def constraint(self, p: Sequence[Any]) -> Numbers:
         """c(p)."""
+        return run(self.constraint_function, p)[0]
+
+    @cached_property
+    def constraint_function(self) -> Function:
+        """The constraint as a staged function, read once."""
         assert self.spec.constraint is not None
-        function = scalarised(self.spec, "constraint", self.spec.constraint, (argument("p", self.spec.point_size),), ())
-        return run(function, p)[0]
+        return scalarised(self.spec, "constraint", self.spec.constraint, (argument("p", self.spec.point_size),), ())
 
     def other_name(self, q: Sequence[Any]) -> Numbers:
         """The equivalent point."""

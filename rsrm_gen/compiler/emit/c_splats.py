@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import textwrap
 
-from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.emit.c_language import (
     PRECISIONS,
     Precision,
@@ -54,7 +53,7 @@ def declarations(program: Program) -> list[str]:
     ]
 
 
-def source(geometry: Geometry, program: Program, heading: list[str]) -> str:
+def source(program: Program, heading: list[str]) -> str:
     """The text of NAME_splats.c."""
     kernels = Program(program.name, (program["splat"], program["splat_vjp"]))
     series = tables(kernels)
