@@ -15,10 +15,18 @@ from platformdirs import user_cache_path
 
 from rsrm_gen.errors import UserError
 
+PACKAGE = Path(__file__).parent
+
 
 def cache_folder() -> Path:
     """Where compiled code and reference solutions are kept; `RSRM_GEN_CACHE` overrides the platform's place."""
     return Path(os.environ.get("RSRM_GEN_CACHE") or user_cache_path("rsrm-gen", appauthor=False))
+
+
+def bundled(kind: str) -> Path:
+    """The folder of bundled `manifolds` or `generated` code: in the installed package, or in the checkout."""
+    inside = PACKAGE / "bundled" / kind
+    return inside if inside.is_dir() else PACKAGE.parent / kind
 
 
 def write_whole(path: Path, write: Callable[[BinaryIO], Any]) -> None:

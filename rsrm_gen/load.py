@@ -10,9 +10,9 @@ from pathlib import Path
 
 from rsrm_gen.compiler.native import compiler
 from rsrm_gen.compiler.output import contents, staleness, write
-from rsrm_gen.compiler.spec import ManifoldSpec, read_spec
+from rsrm_gen.compiler.spec import Spec, read_spec
 from rsrm_gen.errors import UserError, did_you_mean
-from rsrm_gen.files import cache_folder, imported
+from rsrm_gen.files import bundled, cache_folder, imported
 from rsrm_gen.kernels import accelerated
 from rsrm_gen.manifold import Manifold
 
@@ -30,12 +30,6 @@ def load(manifold: str | Path, **parameters: int | float | str) -> Manifold:
     return _loaded(_generated(spec, path, parameters), spec.content_hash)
 
 
-def bundled(kind: str) -> Path:
-    """The folder of bundled `manifolds` or `generated` code: in the checkout, or in the installed package."""
-    inside = PACKAGE / "bundled" / kind
-    return inside if inside.is_dir() else PACKAGE.parent / kind
-
-
 def _file(manifold: str | Path) -> Path:
     path = Path(manifold)
     if path.suffix in (".yaml", ".yml") or len(path.parts) > 1:
@@ -50,7 +44,7 @@ def _file(manifold: str | Path) -> Path:
     return folder / f"{manifold}.yaml"
 
 
-def _generated(spec: ManifoldSpec, path: Path, parameters: Mapping[str, int | float | str]) -> Path:
+def _generated(spec: Spec, path: Path, parameters: Mapping[str, int | float | str]) -> Path:
     """A folder with up-to-date generated code of the spec."""
     committed = bundled("generated") / spec.identifier
     if staleness(spec, committed) is None:

@@ -56,6 +56,11 @@ class Manifold(Protocol):
         """For a chart, each coordinate's period (None: not periodic); None as a whole for an embedded manifold."""
         ...
 
+    @property
+    def maps(self) -> str:
+        """ "geodesic", or "retraction" where exp and log are a retraction of the metric and its inverse."""
+        ...
+
     def exp(self, p: Tensor, v: Tensor) -> Tensor:
         """Exp_p(v): points (..., D) and tangent vectors (..., T) to points (..., D)."""
         ...
@@ -102,6 +107,10 @@ class Manifold(Protocol):
 
     def gradient_norm(self, p: Tensor, df: Tensor) -> Tensor:
         """|grad f|_p from the partial derivatives df (..., D): (...)."""
+        ...
+
+    def transport(self, p: Tensor, q: Tensor, v: Tensor) -> Tensor:
+        """v at p, carried in parallel along the geodesic to q: (..., T); where the manifold file gives it."""
         ...
 
     def sample(self, count: int, generator: Generator | None = None, like: Tensor | None = None) -> Tensor:

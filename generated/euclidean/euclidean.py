@@ -98,6 +98,7 @@ class Euclidean:
     injectivity_radius = math.inf
     diameter = math.inf
     periods = None
+    maps = "geodesic"
 
     def project(self, x: Tensor) -> Tensor:
         """Numbers near the manifold to the point they stand for.
@@ -247,6 +248,10 @@ class Euclidean:
         """
         value, *gradient = self._splat(x.unsqueeze(-2), mu, W, amplitude)
         return value.sum(-1), _stack([entry.sum(-1) for entry in gradient])
+
+    def transport(self, p: Tensor, q: Tensor, v: Tensor) -> Tensor:
+        """Not known for this manifold: its file gives no `transport:`."""
+        raise ValueError("parallel transport is not known here: give its closed form as `transport:` in the manifold file")
 
     def frame(self, p: Tensor) -> Tensor:
         """An orthonormal basis of the tangent space at p, one vector a row; not continuous in p where none is.

@@ -15,7 +15,7 @@
  * exp                           75      <= 4     <= 2
  * log                           96     <= 16     <= 8
  * distance                      55      <= 2     <= 2
- * log_abs_det                   88      <= 4     <= 4
+ * log_abs_det                   88      <= 4     <= 2
  * riemannian_gradient           11
  * gradient_norm                 37
  * splat                        315

@@ -14,8 +14,8 @@
  * flat                           0
  * exp                           66      <= 1     <= 1
  * log                           75      <= 2     <= 1
- * distance                      37      <= 2     <= 2
- * log_abs_det                   73      <= 1     <= 4
+ * distance                      37      <= 2     <= 1
+ * log_abs_det                   73      <= 1     <= 2
  * riemannian_gradient           25
  * gradient_norm                 31
  * splat                        301

@@ -12,9 +12,9 @@
  * norm                           6
  * flat                           0
  * exp                           38      <= 2     <= 1
- * log                          120      <= 1     <= 2
+ * log                          120      <= 2     <= 1
  * distance                      20      <= 1     <= 1
- * log_abs_det                   91      <= 4    <= 16
+ * log_abs_det                   91      <= 8     <= 2
  * riemannian_gradient           11
  * gradient_norm                 17
  * splat                        332

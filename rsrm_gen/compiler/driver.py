@@ -1,7 +1,7 @@
 """The compiler's driver. The pipeline, stage by stage:
 
-    spec     YAML text -> ManifoldSpec     formulas parsed, names and shapes checked, every error with its place
-    derive   ManifoldSpec -> Geometry      tangent spaces, gradients, |det D Log|; removable singularities removed
+    spec     YAML text -> Spec             formulas parsed, names and shapes checked, every error with its place
+    derive   Spec -> Geometry              tangent spaces, gradients, |det D Log|; removable singularities removed
     lower    Geometry -> Program           a shared graph of scalar operations; the splat differentiated; branches guarded
     emit     Program -> text               a torch module, a C header and source; no algebra
     audit    all of these -> AuditReport   the laws of geometry, a second reading by CasADi, the numbers of the code
@@ -21,7 +21,7 @@ from rsrm_gen.compiler.audit import AuditReport, audit
 from rsrm_gen.compiler.derive import Geometry, derive
 from rsrm_gen.compiler.emit import emit
 from rsrm_gen.compiler.lower import Program, lower
-from rsrm_gen.compiler.spec import ManifoldSpec, read_spec
+from rsrm_gen.compiler.spec import Spec, read_spec
 
 STAGES = ("spec", "derive", "lower", "emit", "audit")
 
@@ -30,7 +30,7 @@ STAGES = ("spec", "derive", "lower", "emit", "audit")
 class Compiled:
     """A manifold, compiled and audited: the files to write, and what each stage made and took."""
 
-    spec: ManifoldSpec
+    spec: Spec
     geometry: Geometry
     program: Program
     report: AuditReport

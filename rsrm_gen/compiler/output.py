@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rsrm_gen.compiler.spec import ManifoldSpec
+from rsrm_gen.compiler.spec import Spec
 from rsrm_gen.errors import UserError
 from rsrm_gen.version import __version__
 
@@ -41,7 +41,7 @@ def write(files: Mapping[str, str], folder: Path) -> None:
         raise UserError(f"cannot write to {folder}: {error.strerror}", hint="choose another folder with -o") from None
 
 
-def staleness(spec: ManifoldSpec, folder: Path) -> str | None:
+def staleness(spec: Spec, folder: Path) -> str | None:
     """Why the files in a folder are not what the spec would give, or None if they are."""
     try:
         document = json.loads((folder / AUDIT).read_text(encoding="utf-8"))

@@ -20,7 +20,7 @@ from rsrm_gen.compiler.derive.numeric import largest, run, value
 from rsrm_gen.compiler.derive.sampling import Sampler, sampler_of
 from rsrm_gen.compiler.derive.scalarise import scalarised
 from rsrm_gen.compiler.lower import Program, interpret
-from rsrm_gen.compiler.spec import Map
+from rsrm_gen.compiler.spec import ManifoldSpec, Map
 from rsrm_gen.errors import Span
 
 DIGITS = 50
@@ -56,7 +56,7 @@ class Laws:
     def __init__(self, geometry: Geometry, program: Program) -> None:
         self.geometry = geometry
         self.program = program
-        self.spec = geometry.spec
+        self.spec: ManifoldSpec = geometry.spec  # type: ignore[assignment]  # of a product, only what it has is asked for
         self.sampler: Sampler = sampler_of(geometry)
         rng = random.Random(7)
         self.rng = rng
@@ -85,6 +85,12 @@ class Laws:
                 self.diameter_is_not_exceeded,
                 self.log_det_is_the_determinant, self.splat_gradient_is_its_derivative,
             ]  # fmt: skip
+            if self.spec.maps == "retraction":  # right to first order; it promises no more
+                of_geodesics: list[Callable[[], Check | None]] = [
+                    self.distance_is_symmetric, self.distance_has_gradient_one,
+                    self.log_is_the_gradient_of_half_squared_distance, self.diameter_is_not_exceeded,
+                ]  # fmt: skip
+                laws = [law for law in laws if law not in of_geodesics] + [self.maps_are_right_to_first_order]
             return [check for check in (law() for law in laws) if check is not None]
 
     def call(self, name: str, *arguments: Sequence[Any]) -> Numbers:
@@ -190,6 +196,16 @@ class Laws:
             back = self.call("log", p, self.call("exp", p, v))
             worst = worst.with_error(_relative(_difference(back, v), v), _at("p", p, "v", v))
         return self.check("log(exp)", "Log_p(Exp_p(v)) = v inside the injectivity radius", worst, self.spec.log)
+
+    def maps_are_right_to_first_order(self) -> Check:
+        """Exp_p(0) = p and D Exp_p(0) = identity."""
+        worst = Worst()
+        for p, _ in self.pairs:
+            v = self.sampler.direction(self.rng, p)
+            velocity = self.call("to_tangent", p, self.along(lambda x: x, p, v))
+            stays = self.apart(self.call("exp", p, [mp.mpf(0)] * len(v)), p)
+            worst = worst.with_error(largest([stays, _relative(_difference(velocity, v), v)]), _at("p", p, "v", v))
+        return self.check("first order", "Exp_p(0) = p, and d/dt Exp_p(t v) = v at t = 0", worst, self.spec.exp)
 
     def equivalent_points_are_one(self) -> Check | None:
         """Log does not see which name a point has."""

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from rsrm_gen.compiler.audit.report import Check
-from rsrm_gen.compiler.audit.second_reading import SecondReading
+from rsrm_gen.compiler.audit.second_reading import read_again
 from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.derive.sampling import sampler_of
 from rsrm_gen.compiler.lower import Program, interpret
@@ -20,7 +20,7 @@ TOLERANCE = 1e-9  # CasADi's reading is double precision and does not mend singu
 
 def check_readings(geometry: Geometry, program: Program) -> list[Check]:
     """One check a function."""
-    reading = SecondReading(geometry.spec)
+    reading = read_again(geometry.spec)
     sampler = sampler_of(geometry)
     rng = random.Random(5)
     pairs = [sampler.pair(rng) for _ in range(PAIRS)]

@@ -11,11 +11,16 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from rsrm_gen.compiler.spec import ManifoldSpec, Map
+from rsrm_gen.compiler.spec import ManifoldSpec, Map, ProductSpec, Spec
 from rsrm_gen.compiler.spec import formula as f
 from rsrm_gen.compiler.spec.shapes import bounds, constant
 
 EPS = 2.0**-52
+
+
+def read_again(spec: Spec) -> SecondReading | ProductReading:
+    """The second reading of a manifold or of a product."""
+    return SecondReading(spec) if isinstance(spec, ManifoldSpec) else ProductReading(spec)
 
 
 class SecondReading:
@@ -25,14 +30,15 @@ class SecondReading:
         self.spec = spec
         D, T = spec.point_size, spec.tangent_size
         p, q, u, v = (ca.SX.sym(name, n) for name, n in (("p", D), ("q", D), ("u", T), ("v", T)))
-        inner = self.metric(p, u, v)
+        length = _constant(spec, spec.scale)
+        inner = length**2 * self.metric(p, u, v)
         log = self.read(spec.log, p=p, q=q)
         distance = self.read(spec.distance, p=p, q=q) if spec.distance else ca.sqrt(self.metric(p, log, log))
         constraint = self.read(spec.constraint, p=p) if spec.constraint else ca.SX.zeros(0, 1)
         frame = self.read(spec.frame, p=p) if spec.frame else ca.SX.eye(D)
         self.exp = ca.Function("exp", [p, v], [self.read(spec.exp, p=p, v=v)])
         self.log = ca.Function("log", [p, q], [log])
-        self.distance = ca.Function("distance", [p, q], [distance])
+        self.distance = ca.Function("distance", [p, q], [length * distance])
         self.log_jacobian = ca.Function("log_jacobian", [p, q], [ca.jacobian(log, q)])
         self.metric_matrix = ca.Function("metric", [p], [ca.jacobian(ca.jacobian(inner, u).T, v)])
         self.constraint_jacobian = ca.Function("normals", [p], [ca.jacobian(constraint, p)])
@@ -70,9 +76,57 @@ class SecondReading:
     def read(self, chart_map: Map | None, **arguments: Any) -> Any:
         """The expression of a map."""
         assert chart_map is not None
-        scope = dict(arguments)
-        trees = {name: formula.tree for name, formula in chart_map.lets}
-        return _Evaluator(dict(self.spec.parameters), scope, trees).value(chart_map.value.tree)
+        return _read(self.spec, chart_map, **arguments)
+
+
+class ProductReading:
+    """The second readings of the factors, put together."""
+
+    def __init__(self, spec: ProductSpec) -> None:
+        self.spec = spec
+        self.length = _constant(spec, spec.scale)
+        self.factors = [(read_again(f.spec), self.length * _constant(spec, f.weight), f.spec) for f in spec.factors]
+
+    def parts(self, point: Sequence[float], tangent: bool = False) -> list[Any]:
+        """The parts of a point or of a tangent vector that belong to the factors."""
+        sizes = [spec.tangent_size if tangent else spec.point_size for _, _, spec in self.factors]
+        return np.split(np.asarray(point), np.cumsum(sizes)[:-1])
+
+    def exp(self, p: Sequence[float], v: Sequence[float]) -> Any:
+        """Exp, factor by factor."""
+        pairs = zip(self.factors, self.parts(p), self.parts(v, tangent=True), strict=True)
+        return np.concatenate([np.asarray(reading.exp(a, b)).ravel() for (reading, _, _), a, b in pairs])
+
+    def log(self, p: Sequence[float], q: Sequence[float]) -> Any:
+        """Log, factor by factor."""
+        pairs = zip(self.factors, self.parts(p), self.parts(q), strict=True)
+        return np.concatenate([np.asarray(reading.log(a, b)).ravel() for (reading, _, _), a, b in pairs])
+
+    def distance(self, p: Sequence[float], q: Sequence[float]) -> float:
+        """The root of the sum of squares."""
+        pairs = zip(self.factors, self.parts(p), self.parts(q), strict=True)
+        return float(np.sqrt(sum((w * float(reading.distance(a, b))) ** 2 for (reading, w, _), a, b in pairs)))
+
+    def log_abs_det(self, p: Sequence[float], q: Sequence[float]) -> float:
+        """The sum."""
+        pairs = zip(self.factors, self.parts(p), self.parts(q), strict=True)
+        return sum(reading.log_abs_det(a, b) for (reading, _, _), a, b in pairs)
+
+    def riemannian_gradient(self, p: Sequence[float], df: Sequence[float]) -> Any:
+        """The gradients, divided by the squares of the weights."""
+        pairs = zip(self.factors, self.parts(p), self.parts(df), strict=True)
+        gradients = [np.asarray(reading.riemannian_gradient(a, b)).ravel() / w**2 for (reading, w, _), a, b in pairs]
+        return np.concatenate(gradients)
+
+
+def _read(spec: Spec, chart_map: Map, **arguments: Any) -> Any:
+    trees = {name: formula.tree for name, formula in chart_map.lets}
+    return _Evaluator(dict(spec.parameters), arguments, trees).value(chart_map.value.tree)
+
+
+def _constant(spec: Spec, chart_map: Map | None) -> float:
+    """The value of a map of nothing; 1 where there is none."""
+    return 1.0 if chart_map is None else float(ca.evalf(_read(spec, chart_map)))
 
 
 def _dense(x: Any) -> Any:

@@ -1,4 +1,4 @@
-"""Stage 2: `ManifoldSpec` -> `Geometry`. The mathematics: nothing here knows of precisions or target languages."""
+"""Stage 2: `Spec` -> `Geometry`. The mathematics: nothing here knows of precisions or target languages."""
 
 from __future__ import annotations
 
@@ -25,18 +25,23 @@ from rsrm_gen.compiler.derive.geometry import (
 )
 from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, Values, run, value
 from rsrm_gen.compiler.derive.operators import Operators
+from rsrm_gen.compiler.derive.product import product, scaled
 from rsrm_gen.compiler.derive.sampling import Sampler, reach_of, truth
 from rsrm_gen.compiler.derive.scalarise import Reading, Trace, Truth, number, scalarised
 from rsrm_gen.compiler.derive.singularities import Ray, exp_ray, guarded, log_ray, remove, smooth_squares
-from rsrm_gen.compiler.spec import ManifoldSpec, Map
+from rsrm_gen.compiler.spec import ManifoldSpec, Map, Spec
 from rsrm_gen.errors import UserError
 
 __all__ = ["Geometry", "derive"]
 
 
-def derive(spec: ManifoldSpec) -> Geometry:
+def derive(spec: Spec) -> Geometry:
     """Derive every function of the manifold from its spec; raises `UserError` where a formula cannot be mended."""
-    return _Derivation(spec).geometry()
+    if isinstance(spec, ManifoldSpec):
+        geometry = _Derivation(spec).geometry()
+    else:
+        geometry = product(spec, {factor.spec.content_hash: derive(factor.spec) for factor in spec.distinct()})
+    return scaled(geometry, number(spec, spec.scale)) if spec.scale else geometry
 
 
 class _Derivation:
@@ -55,7 +60,7 @@ class _Derivation:
         log_det, origin = self.log_abs_det
         functions = (
             self.project, operators.to_tangent(), operators.inner(), operators.norm(), operators.flat(), exp, self.log,
-            self.distance, log_det, operators.riemannian_gradient(), operators.gradient_norm(),
+            self.distance, log_det, operators.riemannian_gradient(), operators.gradient_norm(), *self.given,
         )  # fmt: skip
         periods = spec.periods and tuple(number(spec, period) if period else None for period in spec.periods)
         return Geometry(
@@ -230,6 +235,17 @@ class _Derivation:
             "distance", self.log.arguments, (*self.log.assignments, *trace.assignments), (length,), (), "|Log_p(q)|_p"
         )
 
+    @property
+    def given(self) -> tuple[Function, ...]:
+        """What only the author can know: transport, and a uniform distribution."""
+        functions = []
+        if self.spec.transport is not None:
+            functions.append(self.with_log_names("transport", self.spec.transport, self.v))
+        if self.spec.sample is not None:
+            numbers = argument("normal", self.spec.point_size), argument("uniform", self.spec.point_size)
+            functions.append(scalarised(self.spec, "sample", self.spec.sample, numbers, (self.spec.point_size,)))
+        return tuple(functions)
+
     @cached_property
     def log_abs_det(self) -> tuple[Function, str]:
         """log |det D Log|, with the declared value on the cut locus, and where the formula is from."""
@@ -273,13 +289,14 @@ class _Derivation:
             function, assignments=(*function.assignments, Assignment(symbol, expression, guard)), results=(symbol,)
         ).pruned()
 
-    def with_log_names(self, name: str, chart_map: Map) -> Function:
-        """A scalar formula that may use the names of Log, on top of the mended assignments of Log."""
-        _, trace = self.plain_log
+    def with_log_names(self, name: str, chart_map: Map, *more: Argument) -> Function:
+        """A formula that may use the names of Log, on top of the mended assignments of Log."""
+        trace = self.plain_log[1].extended(*more)
         result = Reading(self.spec, trace).entries(chart_map)
         mended = {a.symbol: a for a in self.mended_log.assignments}
         assignments = tuple(mended.get(a.symbol, a) for a in trace.assignments)
-        return Function(name, (self.p, self.q), assignments, result, (), chart_map.value.text).pruned()
+        shape = chart_map.value.shape
+        return Function(name, (self.p, self.q, *more), assignments, result, shape, chart_map.value.text).pruned()
 
     def traced(
         self, name: str, chart_map: Map, arguments: Sequence[Argument], probe: Values, shape: tuple[int, ...]

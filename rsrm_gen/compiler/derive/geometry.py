@@ -12,7 +12,7 @@ from typing import Any
 
 import sympy as sp
 
-from rsrm_gen.compiler.spec import ManifoldSpec
+from rsrm_gen.compiler.spec import Spec
 from rsrm_gen.compiler.spec.vocabulary import Shape
 
 LESS, LESS_EQUAL, EQUAL = sp.Integer(0), sp.Integer(1), sp.Integer(2)
@@ -150,19 +150,25 @@ class Geometry:
     """All that was derived from a spec.
 
     `log_det_origin` says how log |det D Log| was got: "author" (a closed form in the file, for the audit to judge),
-    "closed form" (found as a product of powers of quantities in the formula of Log) or "staged" (a determinant).
+    "closed form" (found as a product of powers of quantities in the formula of Log), "staged" (a determinant) or "product"
+    (the sum of those of the factors). `factors` are the geometries of a product's distinct factors, by their names,
+    before their weights.
     """
 
-    spec: ManifoldSpec
+    spec: Spec
     functions: tuple[Function, ...]
     log_det_origin: str
     injectivity_radius: sp.Expr
     diameter: sp.Expr
     periods: tuple[sp.Expr | None, ...] | None
     domain: sp.Expr | None  # 1 where a point is valid, in the symbols of p; None if there is no condition
+    factors: tuple[tuple[str, Geometry], ...] = ()
 
     def __getitem__(self, name: str) -> Function:
         return next(function for function in self.functions if function.name == name)
 
     def __iter__(self) -> Iterator[Function]:
         return iter(self.functions)
+
+    def __contains__(self, name: str) -> bool:
+        return any(function.name == name for function in self.functions)

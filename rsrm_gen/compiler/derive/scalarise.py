@@ -8,10 +8,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 from functools import reduce
 from typing import Any, TypeAlias
 
+import mpmath as mp
 import sympy as sp
 
 from rsrm_gen.compiler.derive.geometry import (
@@ -28,7 +30,7 @@ from rsrm_gen.compiler.derive.geometry import (
 )
 from rsrm_gen.compiler.derive.numeric import TINY, Values, value
 from rsrm_gen.compiler.derive.series import cardinal_series
-from rsrm_gen.compiler.spec import ManifoldSpec, Map
+from rsrm_gen.compiler.spec import Map, Spec
 from rsrm_gen.compiler.spec import formula as f
 from rsrm_gen.compiler.spec.shapes import bounds, constant
 from rsrm_gen.compiler.spec.vocabulary import Shape
@@ -89,6 +91,18 @@ class Trace:
                 self.probe[symbol] = value(guard.near if guard else expression, self.probe)
         return self.known[expression]
 
+    def extended(self, *arguments: Argument) -> Trace:
+        """This trace itself, or a copy that knows further arguments."""
+        if not arguments:
+            return self
+        trace = copy(self)
+        trace.arguments = self.arguments | {a.name: a for a in arguments}
+        trace.assignments, trace.quotients = list(self.assignments), list(self.quotients)
+        trace.scalars, trace.known = list(self.scalars), dict(self.known)
+        trace.taken = self.taken | {str(s) for a in arguments for s in a.symbols} | {a.name for a in arguments}
+        trace.probe = self.probe and {**self.probe, **{s: mp.mpf(1) for a in arguments for s in a.symbols}}
+        return trace
+
     def fresh(self, hint: str) -> str:
         """An unused name that begins with the hint."""
         name, count = hint, 1
@@ -116,7 +130,7 @@ class Trace:
 class Reading:
     """Reads the maps of a spec into a trace; names are looked up in `let`s only when they are used."""
 
-    def __init__(self, spec: ManifoldSpec, trace: Trace) -> None:
+    def __init__(self, spec: Spec, trace: Trace) -> None:
         self.parameters = dict(spec.parameters)
         self.trace = trace
         self.lets: dict[str, tuple[f.Tree, Value | None]] = {}
@@ -415,14 +429,14 @@ def choose(condition: Truth, x: sp.Expr, y: sp.Expr) -> sp.Expr:
     return x if holds else y
 
 
-def scalarised(spec: ManifoldSpec, name: str, chart_map: Map, arguments: Sequence[Argument], shape: Shape) -> Function:
+def scalarised(spec: Spec, name: str, chart_map: Map, arguments: Sequence[Argument], shape: Shape) -> Function:
     """A map of the spec as a staged function, without looking for singularities."""
     trace = Trace(arguments)
     results = Reading(spec, trace).entries(chart_map)
     return Function(name, tuple(arguments), tuple(trace.assignments), results, shape, chart_map.value.text).pruned()
 
 
-def number(spec: ManifoldSpec, chart_map: Map | None) -> sp.Expr:
+def number(spec: Spec, chart_map: Map | None) -> sp.Expr:
     """The value of a map of nothing; infinity where there is none."""
     return sp.oo if chart_map is None else Reading(spec, Trace(())).entries(chart_map)[0]
 

@@ -25,7 +25,7 @@ from rsrm_gen.compiler.emit.c_language import (
     statements,
 )
 from rsrm_gen.compiler.emit.expression import Printer
-from rsrm_gen.compiler.emit.promises import PROMISES, public
+from rsrm_gen.compiler.emit.promises import promise, public
 from rsrm_gen.compiler.emit.series import Coefficients, tables
 from rsrm_gen.compiler.lower import Parameter, Program, Routine
 from rsrm_gen.compiler.lower.ir import Result
@@ -42,7 +42,7 @@ def header(geometry: Geometry, program: Program, heading: list[str]) -> str:
         f"#define {program.name.upper()}_INJECTIVITY_RADIUS {_number(geometry.injectivity_radius)}",
         f"#define {program.name.upper()}_DIAMETER {_number(geometry.diameter)}",
     ]
-    declarations = [_declarations(program, routine) for routine in public(program)]
+    declarations = [_declarations(geometry, program, routine) for routine in public(program)]
     signatures = "\n".join(_frame_signature(program, precision) + ";" for precision in PRECISIONS)
     frame = f"/* An orthonormal basis of the tangent space at p, one vector a row. */\n{signatures}"
     return "\n".join([
@@ -76,8 +76,8 @@ def _number(value: sp.Expr) -> str:
     return "HUGE_VAL" if value == sp.oo else repr(float(value))
 
 
-def _declarations(program: Program, routine: Routine) -> str:
-    lines = [f"/* {PROMISES[routine.name]}", f" * {textwrap.shorten(routine.formula, WIDTH - 4)} */"]
+def _declarations(geometry: Geometry, program: Program, routine: Routine) -> str:
+    lines = [f"/* {promise(geometry, routine.name)}", f" * {textwrap.shorten(routine.formula, WIDTH - 4)} */"]
     for precision in PRECISIONS:
         lines.append(_signature(program, routine, precision) + ";")
     for precision in PRECISIONS:

@@ -8,18 +8,21 @@ import sympy as sp
 
 from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.emit.expression import SUM, Printer, Spelling
-from rsrm_gen.compiler.emit.promises import PROMISES, public
+from rsrm_gen.compiler.emit.promises import promise, public
 from rsrm_gen.compiler.emit.series import Coefficients, spelled, tables
 from rsrm_gen.compiler.emit.torch_runtime import (
     FRAME,
     HELPERS,
     SAMPLE_BALL,
     SAMPLE_BOX,
+    SAMPLE_FORMULA,
     SAMPLE_NONE,
     SAMPLE_WHOLE,
     SPLATS,
+    TRANSPORT_NONE,
 )
 from rsrm_gen.compiler.lower import Parameter, Program, Routine
+from rsrm_gen.compiler.spec import ProductSpec
 
 WIDTH = 120
 
@@ -41,20 +44,25 @@ SPELLING = Spelling(
 
 def module(geometry: Geometry, program: Program, heading: list[str]) -> str:
     """The text of the module."""
-    spec = geometry.spec
     program = public(program)  # the adjoint of the splat is autograd's here
     series = tables(program)
-    template = FRAME.format(dim=spec.dim, size=spec.point_size, tangent=spec.tangent_size)
-    fixed = [textwrap.indent(text.strip("\n"), "    ") for text in (SPLATS, template, _sample(geometry), SAMPLE_BALL)]
+    fixed = [textwrap.indent(text.strip("\n"), "    ") for text in _fixed(geometry)]
     top = [
         f'"""{_python_text(heading)}\n"""',
         "from __future__ import annotations\n\nimport math\nfrom collections.abc import Callable, Sequence\n\nimport torch\n"
         "from torch import Generator, Tensor",
         *(_table(name, coefficients) for coefficients, name in series.items()),
     ]
-    methods = [_class_head(geometry, program), *(_method(routine, series) for routine in program), *fixed]
+    methods = [_class_head(geometry, program), *(_method(geometry, routine, series) for routine in program), *fixed]
     parts = ["\n\n".join(top), HELPERS.strip("\n"), "\n\n".join(methods), f"manifold = {class_name(program)}()"]
     return "\n\n\n".join(parts) + "\n"
+
+
+def _fixed(geometry: Geometry) -> list[str]:
+    """The methods that are text."""
+    spec = geometry.spec
+    frame = FRAME.format(dim=spec.dim, size=spec.point_size, tangent=spec.tangent_size)
+    return [SPLATS, *([] if "transport" in geometry else [TRANSPORT_NONE]), frame, _sample(geometry), SAMPLE_BALL]
 
 
 def _python_text(lines: list[str]) -> str:
@@ -79,7 +87,7 @@ def _class_head(geometry: Geometry, program: Program) -> str:
     doc = _python_text([textwrap.fill(spec.doc, WIDTH - 8, subsequent_indent="    ")])
     return f'''class {class_name(program)}:
     """{doc}
-
+{_symbols(geometry)}
     Points have shape (..., {spec.point_size}), tangent vectors (..., {spec.tangent_size}){_tangent_words(geometry)};
     leading dimensions broadcast.
     """
@@ -91,10 +99,19 @@ def _class_head(geometry: Geometry, program: Program) -> str:
     tangent_size = {spec.tangent_size}
     injectivity_radius = {_float(geometry.injectivity_radius)}
     diameter = {_float(geometry.diameter)}
-    periods = {periods}'''
+    periods = {periods}
+    maps = "{spec.maps}"'''
+
+
+def _symbols(geometry: Geometry) -> str:
+    """What the author said of the letters."""
+    lines = [f"        {name}: {text}" for name, text in geometry.spec.symbols]
+    return "\n    Symbols:\n" + _python_text(lines) + "\n" if lines else ""
 
 
 def _tangent_words(geometry: Geometry) -> str:
+    if isinstance(geometry.spec, ProductSpec):
+        return ", those of the factors one after the other"
     if geometry.spec.frame is not None:
         return ", components in the frame of the manifold file"
     return ", ambient" if geometry.spec.embedded else ", components in the chart"
@@ -104,28 +121,29 @@ def _float(value: sp.Expr | None) -> str:
     return "None" if value is None else "math.inf" if value == sp.oo else repr(float(value))
 
 
-def _method(routine: Routine, series: dict[Coefficients, str]) -> str:
+def _method(geometry: Geometry, routine: Routine, series: dict[Coefficients, str]) -> str:
     """One routine as a method."""
     lines, texts = _body(routine, series)
     if len(routine.results) > 1:
-        return textwrap.indent("\n\n".join(_public_and_private(routine, lines, texts)), "    ")
+        return textwrap.indent("\n\n".join(_public_and_private(geometry, routine, lines, texts)), "    ")
     names = ", ".join(p.name for p in routine.parameters)
     unread = any(not routine.inputs & {str(n.value) for n in p.nodes} for p in routine.parameters)
     for i, node in enumerate(routine.results[0].nodes):
         if node.is_constant or (i == 0 and unread):
             texts[i] = f"_rows({texts[i]}, {names})"
     final = _listed("return _stack((", texts, "))") if routine.results[0].shape else f"return {texts[0]}"
-    return textwrap.indent(_definition(routine.name, routine, "Tensor", _docstring(routine), [*lines, final]), "    ")
+    name = "_sample" if routine.name == "sample" else routine.name  # the public one draws the random numbers
+    return textwrap.indent(_definition(name, routine, "Tensor", _docstring(geometry, routine), [*lines, final]), "    ")
 
 
-def _public_and_private(routine: Routine, lines: list[str], texts: list[str]) -> tuple[str, str]:
+def _public_and_private(geometry: Geometry, routine: Routine, lines: list[str], texts: list[str]) -> tuple[str, str]:
     """A splat has a private form that returns its entries, to be summed before they are stacked."""
     call = f"value, *gradient = self._{routine.name}({', '.join(p.name for p in routine.parameters)})"
     public = [call, "return value, _stack(gradient)"]
     private = [*lines, _listed("return (", texts, ")")]
     explained = '"""The value and the entries of the gradient, not stacked."""'
     return (
-        _definition(routine.name, routine, "tuple[Tensor, Tensor]", _docstring(routine), public),
+        _definition(routine.name, routine, "tuple[Tensor, Tensor]", _docstring(geometry, routine), public),
         _definition(f"_{routine.name}", routine, "tuple[Tensor, ...]", explained, private),
     )
 
@@ -136,8 +154,8 @@ def _definition(name: str, routine: Routine, returns: str, doc: str, statements:
     return f"def {name}(self, {signature}) -> {returns}:\n{body}"
 
 
-def _docstring(routine: Routine) -> str:
-    return f'"""{PROMISES[routine.name]}\n\n{_documented(routine)}\n"""'
+def _docstring(geometry: Geometry, routine: Routine) -> str:
+    return f'"""{promise(geometry, routine.name)}\n\n{_documented(routine)}\n"""'
 
 
 def _documented(routine: Routine) -> str:
@@ -206,6 +224,8 @@ def _listed(head: str, texts: list[str], tail: str) -> str:
 
 def _sample(geometry: Geometry) -> str:
     spec = geometry.spec
+    if "sample" in geometry:
+        return SAMPLE_FORMULA.format(size=spec.point_size)
     if geometry.periods and all(geometry.periods):
         return SAMPLE_BOX
     if geometry.diameter != sp.oo and geometry.diameter == geometry.injectivity_radius:

@@ -123,6 +123,21 @@ def sample(self, count: int, generator: Generator | None = None, like: Tensor | 
     return _rejection(propose, count, generator, like)
 '''
 
+SAMPLE_FORMULA = '''
+def sample(self, count: int, generator: Generator | None = None, like: Tensor | None = None) -> Tensor:
+    """Points uniform in volume on the whole manifold: (count, {size}), with the dtype and device of `like`."""
+    like = torch.zeros(()) if like is None else like
+    normal = torch.randn(count, {size}, generator=generator, dtype=like.dtype, device=like.device)
+    uniform = torch.rand(count, {size}, generator=generator, dtype=like.dtype, device=like.device)
+    return self._sample(normal, uniform)
+'''
+
+TRANSPORT_NONE = '''
+def transport(self, p: Tensor, q: Tensor, v: Tensor) -> Tensor:
+    """Not known for this manifold: its file gives no `transport:`."""
+    raise ValueError("parallel transport is not known here: give its closed form as `transport:` in the manifold file")
+'''
+
 SAMPLE_NONE = '''
 def sample(self, count: int, generator: Generator | None = None, like: Tensor | None = None) -> Tensor:
     """Not known for this manifold: it is not compact, or no ball in which Exp is one-to-one covers it."""

@@ -19,6 +19,8 @@ RESULT_NAMES = {
     "to_tangent": "v",
     "flat": "covector",
     "riemannian_gradient": "gradient",
+    "transport": "w",
+    "sample": "p",
 }
 
 

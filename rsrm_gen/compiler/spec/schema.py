@@ -1,8 +1,8 @@
-"""The keys of a manifold file. Formulas are still text here; `read.py` gives them meaning."""
+"""The keys of a manifold file. Formulas are still text here; `read.py` and `product.py` give them meaning."""
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
@@ -73,23 +73,42 @@ class CutLocusSection(Section):
         return self
 
 
-class ManifoldFile(Section):
-    """A manifold file, key by key."""
+class Heading(Section):
+    """What every manifold file may say first."""
 
     manifold: Identifier = Field(description="the name of the manifold")
     doc: str = Field(min_length=1, description="one or two sentences: what it is, in which units")
+    symbols: dict[Identifier, Annotated[str, Field(min_length=1)]] = Field(
+        {}, description="what p, q, v, a parameter or a name of a `let` stands for, with its unit"
+    )
     parameters: dict[Identifier, int | float | str] = Field({}, description="numbers with their default values")
+    scale: FormulaText | None = Field(None, description="a number: all lengths are multiplied by it")
+
+
+class ManifoldFile(Heading):
+    """A manifold file, key by key."""
+
+    let: dict[Identifier, FormulaText] = Field({}, description="constants made of the parameters, for all formulas")
     embedded: EmbeddedSection | None = None
     chart: ChartSection | None = None
     frame: list[FormulaText] | None = Field(None, description="vectors in p; tangent vectors are components in it")
     metric: MapText = Field(description="<u, v>_p, a scalar formula in p, u, v; or a matrix formula in p")
+    maps: Literal["geodesic", "retraction"] = Field(
+        "geodesic", description="whether exp and log are those of the metric, or a retraction and its inverse"
+    )
     exp: MapText | None = Field(None, description="Exp_p(v)")
     log: MapText | None = Field(None, description="Log_p(q)")
     norm: MapText | None = Field(None, description="a closed form of |v|_p, in p, v and the names of exp")
     distance: MapText | None = Field(None, description="a closed form, in p, q and the names of log")
     log_det: MapText | None = Field(None, description="a closed form of log |det D Log_p(q)|")
-    injectivity_radius: FormulaText = Field(description="of every point; `infinity` if Exp_p is a diffeomorphism")
-    diameter: FormulaText | None = Field(None, description="the largest distance; left out when not compact")
+    transport: MapText | None = Field(
+        None, description="v carried from p to q along the geodesic, in p, q, v and the names of log"
+    )
+    sample: MapText | None = Field(
+        None, description="a point uniform in volume, in `normal` and `uniform`, as many random numbers as a point has"
+    )
+    injectivity_radius: MapText = Field(description="of every point; `infinity` if Exp_p is a diffeomorphism")
+    diameter: MapText | None = Field(None, description="the largest distance; left out when not compact")
     cut_locus: CutLocusSection | None = None
 
     @model_validator(mode="after")
@@ -97,3 +116,20 @@ class ManifoldFile(Section):
         if (self.embedded is None) == (self.chart is None):
             raise ValueError("say how a point is stored: either `embedded:` or `chart:`")
         return self
+
+
+class FactorSection(Section):
+    """A factor of a product with what differs from its defaults."""
+
+    manifold: Identifier = Field(description="a bundled manifold, or NAME.yaml beside this file")
+    parameters: dict[Identifier, FormulaText] = Field({}, description="its parameters, in those of the product")
+    weight: FormulaText | None = Field(None, description="a number: the factor's lengths are multiplied by it")
+    power: FormulaText = Field("1", description="how many copies of the factor")
+
+
+class ProductFile(Heading):
+    """The file of a product of manifolds."""
+
+    product: dict[Identifier, FactorSection | FormulaText] = Field(
+        min_length=1, description="the factors by name: `arm: torus(n=6)`, or a mapping"
+    )
