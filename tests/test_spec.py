@@ -150,9 +150,11 @@ MISTAKES = {
     "half a declared value": Mistake("torus", "policy: tie", "log: wrap(q - p)", "give both or neither"),
     "a cut locus that is a number": Mistake("sphere", "norm(q + p) <= 4 * eps", "@norm(q + p)", "must be a comparison"),
     # what later versions will read
-    "a product": Mistake("euclidean", "manifold: euclidean\n", "@product: [a, b]\n", "products of manifolds"),
-    "a retraction": Mistake("euclidean", METRIC, METRIC + "@maps: retraction\n", "retractions"),
-    "a scale": Mistake("euclidean", METRIC, METRIC + "@scale: 2\n", "scaled metrics"),
+    "maps of another kind": Mistake("euclidean", METRIC, METRIC + "maps: @cubic\n", "'geodesic' or 'retraction'"),
+    "a negative scale": Mistake("euclidean", METRIC, METRIC + "scale: @-2\n", "`scale` must be positive"),
+    "a symbol that is not there": Mistake("euclidean", METRIC, METRIC + "symbols: {@z: height}\n", "no symbol `z`"),
+    "a constant of a point": Mistake("euclidean", METRIC, METRIC + "let: {a: @p}\n", "unknown symbol `p`"),
+    "a constant named like a parameter": Mistake("euclidean", METRIC, METRIC + "let: {@n: 2}\n", "meaning of its own"),
     "a metric without exp": Mistake("euclidean", EXP, "", "a metric without `exp:`", "exp: ..."),
     "a metric without log": Mistake("euclidean", LOG, "", "a metric without `log:`", "log: ..."),
     # YAML

@@ -478,6 +478,111 @@ void dual_arm_gradient_norm_batch(
     for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = dual_arm_gradient_norm(p + 14 * i, df + 14 * i);
 }
 
+/* arm1: v, arm2: v */
+void dual_arm_transport(
+    const double *DUAL_ARM_RESTRICT p,
+    const double *DUAL_ARM_RESTRICT q,
+    const double *DUAL_ARM_RESTRICT v,
+    double *DUAL_ARM_RESTRICT w_out) {
+    (void)p;
+    (void)q;
+    w_out[0] = v[0];
+    w_out[1] = v[1];
+    w_out[2] = v[2];
+    w_out[3] = v[3];
+    w_out[4] = v[4];
+    w_out[5] = v[5];
+    w_out[6] = v[6];
+    w_out[7] = v[7];
+    w_out[8] = v[8];
+    w_out[9] = v[9];
+    w_out[10] = v[10];
+    w_out[11] = v[11];
+    w_out[12] = v[12];
+    w_out[13] = v[13];
+}
+
+void dual_arm_transport_batch(
+    size_t count,
+    const double *DUAL_ARM_RESTRICT p,
+    const double *DUAL_ARM_RESTRICT q,
+    const double *DUAL_ARM_RESTRICT v,
+    double *DUAL_ARM_RESTRICT w_out) {
+    for (size_t i = 0; i < count; ++i) dual_arm_transport(p + 14 * i, q + 14 * i, v + 14 * i, w_out + 14 * i);
+}
+
+/* arm1: wrap(2 * pi * uniform), arm2: wrap(2 * pi * uniform) */
+void dual_arm_sample(
+    const double *DUAL_ARM_RESTRICT normal,
+    const double *DUAL_ARM_RESTRICT uniform,
+    double *DUAL_ARM_RESTRICT p_out) {
+    (void)normal;
+    const double round_2 = rint(uniform[0]);
+    const double p0 = 6.283185307179586 * uniform[0] - 6.28125 * round_2 - 0.0019350051879882812 * round_2 -
+        3.019915981956753e-07 * round_2;
+    const double round_3 = rint(uniform[1]);
+    const double p1 = 6.283185307179586 * uniform[1] - 6.28125 * round_3 - 0.0019350051879882812 * round_3 -
+        3.019915981956753e-07 * round_3;
+    const double round_4 = rint(uniform[2]);
+    const double p2 = 6.283185307179586 * uniform[2] - 6.28125 * round_4 - 0.0019350051879882812 * round_4 -
+        3.019915981956753e-07 * round_4;
+    const double round_5 = rint(uniform[3]);
+    const double p3 = 6.283185307179586 * uniform[3] - 6.28125 * round_5 - 0.0019350051879882812 * round_5 -
+        3.019915981956753e-07 * round_5;
+    const double round_6 = rint(uniform[4]);
+    const double p4 = 6.283185307179586 * uniform[4] - 6.28125 * round_6 - 0.0019350051879882812 * round_6 -
+        3.019915981956753e-07 * round_6;
+    const double round_7 = rint(uniform[5]);
+    const double p5 = 6.283185307179586 * uniform[5] - 6.28125 * round_7 - 0.0019350051879882812 * round_7 -
+        3.019915981956753e-07 * round_7;
+    const double round_8 = rint(uniform[6]);
+    const double p6 = 6.283185307179586 * uniform[6] - 6.28125 * round_8 - 0.0019350051879882812 * round_8 -
+        3.019915981956753e-07 * round_8;
+    const double round_9 = rint(uniform[7]);
+    const double p7 = 6.283185307179586 * uniform[7] - 6.28125 * round_9 - 0.0019350051879882812 * round_9 -
+        3.019915981956753e-07 * round_9;
+    const double round_10 = rint(uniform[8]);
+    const double p8 = 6.283185307179586 * uniform[8] - 6.28125 * round_10 - 0.0019350051879882812 * round_10 -
+        3.019915981956753e-07 * round_10;
+    const double round_11 = rint(uniform[9]);
+    const double p9 = 6.283185307179586 * uniform[9] - 6.28125 * round_11 - 0.0019350051879882812 * round_11 -
+        3.019915981956753e-07 * round_11;
+    const double round_12 = rint(uniform[10]);
+    const double p10 = 6.283185307179586 * uniform[10] - 6.28125 * round_12 - 0.0019350051879882812 * round_12
+        - 3.019915981956753e-07 * round_12;
+    const double round_13 = rint(uniform[11]);
+    const double p11 = 6.283185307179586 * uniform[11] - 6.28125 * round_13 - 0.0019350051879882812 * round_13
+        - 3.019915981956753e-07 * round_13;
+    const double round_14 = rint(uniform[12]);
+    const double p12 = 6.283185307179586 * uniform[12] - 6.28125 * round_14 - 0.0019350051879882812 * round_14
+        - 3.019915981956753e-07 * round_14;
+    const double round_15 = rint(uniform[13]);
+    const double p13 = 6.283185307179586 * uniform[13] - 6.28125 * round_15 - 0.0019350051879882812 * round_15
+        - 3.019915981956753e-07 * round_15;
+    p_out[0] = p0;
+    p_out[1] = p1;
+    p_out[2] = p2;
+    p_out[3] = p3;
+    p_out[4] = p4;
+    p_out[5] = p5;
+    p_out[6] = p6;
+    p_out[7] = p7;
+    p_out[8] = p8;
+    p_out[9] = p9;
+    p_out[10] = p10;
+    p_out[11] = p11;
+    p_out[12] = p12;
+    p_out[13] = p13;
+}
+
+void dual_arm_sample_batch(
+    size_t count,
+    const double *DUAL_ARM_RESTRICT normal,
+    const double *DUAL_ARM_RESTRICT uniform,
+    double *DUAL_ARM_RESTRICT p_out) {
+    for (size_t i = 0; i < count; ++i) dual_arm_sample(normal + 14 * i, uniform + 14 * i, p_out + 14 * i);
+}
+
 /* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */
 void dual_arm_splat(
     const double *DUAL_ARM_RESTRICT x,
@@ -1191,6 +1296,111 @@ void dual_arm_gradient_norm_batch_f(
     const float *DUAL_ARM_RESTRICT df,
     float *DUAL_ARM_RESTRICT gradient_norm_out) {
     for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = dual_arm_gradient_norm_f(p + 14 * i, df + 14 * i);
+}
+
+/* arm1: v, arm2: v */
+void dual_arm_transport_f(
+    const float *DUAL_ARM_RESTRICT p,
+    const float *DUAL_ARM_RESTRICT q,
+    const float *DUAL_ARM_RESTRICT v,
+    float *DUAL_ARM_RESTRICT w_out) {
+    (void)p;
+    (void)q;
+    w_out[0] = v[0];
+    w_out[1] = v[1];
+    w_out[2] = v[2];
+    w_out[3] = v[3];
+    w_out[4] = v[4];
+    w_out[5] = v[5];
+    w_out[6] = v[6];
+    w_out[7] = v[7];
+    w_out[8] = v[8];
+    w_out[9] = v[9];
+    w_out[10] = v[10];
+    w_out[11] = v[11];
+    w_out[12] = v[12];
+    w_out[13] = v[13];
+}
+
+void dual_arm_transport_batch_f(
+    size_t count,
+    const float *DUAL_ARM_RESTRICT p,
+    const float *DUAL_ARM_RESTRICT q,
+    const float *DUAL_ARM_RESTRICT v,
+    float *DUAL_ARM_RESTRICT w_out) {
+    for (size_t i = 0; i < count; ++i) dual_arm_transport_f(p + 14 * i, q + 14 * i, v + 14 * i, w_out + 14 * i);
+}
+
+/* arm1: wrap(2 * pi * uniform), arm2: wrap(2 * pi * uniform) */
+void dual_arm_sample_f(
+    const float *DUAL_ARM_RESTRICT normal,
+    const float *DUAL_ARM_RESTRICT uniform,
+    float *DUAL_ARM_RESTRICT p_out) {
+    (void)normal;
+    const float round_2 = rintf(uniform[0]);
+    const float p0 = 6.283185307179586f * uniform[0] - 6.28125f * round_2 - 0.0019350051879882812f * round_2 -
+        3.019915981956753e-07f * round_2;
+    const float round_3 = rintf(uniform[1]);
+    const float p1 = 6.283185307179586f * uniform[1] - 6.28125f * round_3 - 0.0019350051879882812f * round_3 -
+        3.019915981956753e-07f * round_3;
+    const float round_4 = rintf(uniform[2]);
+    const float p2 = 6.283185307179586f * uniform[2] - 6.28125f * round_4 - 0.0019350051879882812f * round_4 -
+        3.019915981956753e-07f * round_4;
+    const float round_5 = rintf(uniform[3]);
+    const float p3 = 6.283185307179586f * uniform[3] - 6.28125f * round_5 - 0.0019350051879882812f * round_5 -
+        3.019915981956753e-07f * round_5;
+    const float round_6 = rintf(uniform[4]);
+    const float p4 = 6.283185307179586f * uniform[4] - 6.28125f * round_6 - 0.0019350051879882812f * round_6 -
+        3.019915981956753e-07f * round_6;
+    const float round_7 = rintf(uniform[5]);
+    const float p5 = 6.283185307179586f * uniform[5] - 6.28125f * round_7 - 0.0019350051879882812f * round_7 -
+        3.019915981956753e-07f * round_7;
+    const float round_8 = rintf(uniform[6]);
+    const float p6 = 6.283185307179586f * uniform[6] - 6.28125f * round_8 - 0.0019350051879882812f * round_8 -
+        3.019915981956753e-07f * round_8;
+    const float round_9 = rintf(uniform[7]);
+    const float p7 = 6.283185307179586f * uniform[7] - 6.28125f * round_9 - 0.0019350051879882812f * round_9 -
+        3.019915981956753e-07f * round_9;
+    const float round_10 = rintf(uniform[8]);
+    const float p8 = 6.283185307179586f * uniform[8] - 6.28125f * round_10 - 0.0019350051879882812f * round_10
+        - 3.019915981956753e-07f * round_10;
+    const float round_11 = rintf(uniform[9]);
+    const float p9 = 6.283185307179586f * uniform[9] - 6.28125f * round_11 - 0.0019350051879882812f * round_11
+        - 3.019915981956753e-07f * round_11;
+    const float round_12 = rintf(uniform[10]);
+    const float p10 = 6.283185307179586f * uniform[10] - 6.28125f * round_12 - 0.0019350051879882812f *
+        round_12 - 3.019915981956753e-07f * round_12;
+    const float round_13 = rintf(uniform[11]);
+    const float p11 = 6.283185307179586f * uniform[11] - 6.28125f * round_13 - 0.0019350051879882812f *
+        round_13 - 3.019915981956753e-07f * round_13;
+    const float round_14 = rintf(uniform[12]);
+    const float p12 = 6.283185307179586f * uniform[12] - 6.28125f * round_14 - 0.0019350051879882812f *
+        round_14 - 3.019915981956753e-07f * round_14;
+    const float round_15 = rintf(uniform[13]);
+    const float p13 = 6.283185307179586f * uniform[13] - 6.28125f * round_15 - 0.0019350051879882812f *
+        round_15 - 3.019915981956753e-07f * round_15;
+    p_out[0] = p0;
+    p_out[1] = p1;
+    p_out[2] = p2;
+    p_out[3] = p3;
+    p_out[4] = p4;
+    p_out[5] = p5;
+    p_out[6] = p6;
+    p_out[7] = p7;
+    p_out[8] = p8;
+    p_out[9] = p9;
+    p_out[10] = p10;
+    p_out[11] = p11;
+    p_out[12] = p12;
+    p_out[13] = p13;
+}
+
+void dual_arm_sample_batch_f(
+    size_t count,
+    const float *DUAL_ARM_RESTRICT normal,
+    const float *DUAL_ARM_RESTRICT uniform,
+    float *DUAL_ARM_RESTRICT p_out) {
+    for (size_t i = 0; i < count; ++i) dual_arm_sample_f(normal + 14 * i, uniform + 14 * i, p_out + 14 * i);
 }
 
 /* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */

@@ -198,6 +198,28 @@ void euclidean_gradient_norm_batch(
     for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = euclidean_gradient_norm(p + 3 * i, df + 3 * i);
 }
 
+/* v */
+void euclidean_transport(
+    const double *EUCLIDEAN_RESTRICT p,
+    const double *EUCLIDEAN_RESTRICT q,
+    const double *EUCLIDEAN_RESTRICT v,
+    double *EUCLIDEAN_RESTRICT w_out) {
+    (void)p;
+    (void)q;
+    w_out[0] = v[0];
+    w_out[1] = v[1];
+    w_out[2] = v[2];
+}
+
+void euclidean_transport_batch(
+    size_t count,
+    const double *EUCLIDEAN_RESTRICT p,
+    const double *EUCLIDEAN_RESTRICT q,
+    const double *EUCLIDEAN_RESTRICT v,
+    double *EUCLIDEAN_RESTRICT w_out) {
+    for (size_t i = 0; i < count; ++i) euclidean_transport(p + 3 * i, q + 3 * i, v + 3 * i, w_out + 3 * i);
+}
+
 /* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */
 void euclidean_splat(
     const double *EUCLIDEAN_RESTRICT x,
@@ -448,6 +470,28 @@ void euclidean_gradient_norm_batch_f(
     const float *EUCLIDEAN_RESTRICT df,
     float *EUCLIDEAN_RESTRICT gradient_norm_out) {
     for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = euclidean_gradient_norm_f(p + 3 * i, df + 3 * i);
+}
+
+/* v */
+void euclidean_transport_f(
+    const float *EUCLIDEAN_RESTRICT p,
+    const float *EUCLIDEAN_RESTRICT q,
+    const float *EUCLIDEAN_RESTRICT v,
+    float *EUCLIDEAN_RESTRICT w_out) {
+    (void)p;
+    (void)q;
+    w_out[0] = v[0];
+    w_out[1] = v[1];
+    w_out[2] = v[2];
+}
+
+void euclidean_transport_batch_f(
+    size_t count,
+    const float *EUCLIDEAN_RESTRICT p,
+    const float *EUCLIDEAN_RESTRICT q,
+    const float *EUCLIDEAN_RESTRICT v,
+    float *EUCLIDEAN_RESTRICT w_out) {
+    for (size_t i = 0; i < count; ++i) euclidean_transport_f(p + 3 * i, q + 3 * i, v + 3 * i, w_out + 3 * i);
 }
 
 /* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */

@@ -294,6 +294,77 @@ void so3_gradient_norm_batch(
     for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = so3_gradient_norm(p + 4 * i, df + 4 * i);
 }
 
+/* qmul(qmul(h, [0, v]), conj(h))[1:] / dot(h, h) */
+void so3_transport(
+    const double *SO3_RESTRICT p,
+    const double *SO3_RESTRICT q,
+    const double *SO3_RESTRICT v,
+    double *SO3_RESTRICT w_out) {
+    const double g0 = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
+    const double g1 = p[0] * q[1] + p[3] * q[2] - p[1] * q[0] - p[2] * q[3];
+    const double g2 = p[0] * q[2] + p[1] * q[3] - p[2] * q[0] - p[3] * q[1];
+    const double g3 = p[0] * q[3] + p[2] * q[1] - p[1] * q[2] - p[3] * q[0];
+    const double abs_g0 = fabs(g0);
+    const double chosen = (g0 < 0.0 ? -1.0 : 1.0);
+    const double h0 = 1.0 + abs_g0;
+    const double g1_product = g1 * chosen;
+    const double g2_product = g2 * chosen;
+    const double g3_product = g3 * chosen;
+    const double dot_h_h = h0 * h0 + g1_product * g1_product + g2_product * g2_product + g3_product *
+        g3_product;
+    const double scale_3 = 1.0 / dot_h_h;
+    const double total_2 = v[0] * h0 - v[2] * g2_product + v[1] * g3_product;
+    const double total_3 = v[2] * h0 - v[1] * g1_product + v[0] * g2_product;
+    const double total_4 = v[0] * g1_product + v[1] * g2_product + v[2] * g3_product;
+    const double total_5 = v[1] * h0 - v[0] * g3_product + v[2] * g1_product;
+    const double w0 = scale_3 * (h0 * total_2 - g2_product * total_3 + g1_product * total_4 + g3_product *
+        total_5);
+    const double w1 = scale_3 * (h0 * total_5 - g3_product * total_2 + g1_product * total_3 + g2_product *
+        total_4);
+    const double w2 = scale_3 * (h0 * total_3 - g1_product * total_5 + g2_product * total_2 + g3_product *
+        total_4);
+    w_out[0] = w0;
+    w_out[1] = w1;
+    w_out[2] = w2;
+}
+
+void so3_transport_batch(
+    size_t count,
+    const double *SO3_RESTRICT p,
+    const double *SO3_RESTRICT q,
+    const double *SO3_RESTRICT v,
+    double *SO3_RESTRICT w_out) {
+    for (size_t i = 0; i < count; ++i) so3_transport(p + 4 * i, q + 4 * i, v + 3 * i, w_out + 3 * i);
+}
+
+/* normal / norm(normal) */
+void so3_sample(
+    const double *SO3_RESTRICT normal,
+    const double *SO3_RESTRICT uniform,
+    double *SO3_RESTRICT p_out) {
+    (void)uniform;
+    const double norm_normal_squared = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2] +
+        normal[3] * normal[3];
+    const double norm_normal = sqrt(norm_normal_squared);
+    const double scale = 1.0 / norm_normal;
+    const double p0 = normal[0] * scale;
+    const double p1 = normal[1] * scale;
+    const double p2 = normal[2] * scale;
+    const double p3 = normal[3] * scale;
+    p_out[0] = p0;
+    p_out[1] = p1;
+    p_out[2] = p2;
+    p_out[3] = p3;
+}
+
+void so3_sample_batch(
+    size_t count,
+    const double *SO3_RESTRICT normal,
+    const double *SO3_RESTRICT uniform,
+    double *SO3_RESTRICT p_out) {
+    for (size_t i = 0; i < count; ++i) so3_sample(normal + 4 * i, uniform + 4 * i, p_out + 4 * i);
+}
+
 /* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */
 void so3_splat(
     const double *SO3_RESTRICT x,
@@ -699,6 +770,77 @@ void so3_gradient_norm_batch_f(
     const float *SO3_RESTRICT df,
     float *SO3_RESTRICT gradient_norm_out) {
     for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = so3_gradient_norm_f(p + 4 * i, df + 4 * i);
+}
+
+/* qmul(qmul(h, [0, v]), conj(h))[1:] / dot(h, h) */
+void so3_transport_f(
+    const float *SO3_RESTRICT p,
+    const float *SO3_RESTRICT q,
+    const float *SO3_RESTRICT v,
+    float *SO3_RESTRICT w_out) {
+    const float g0 = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
+    const float g1 = p[0] * q[1] + p[3] * q[2] - p[1] * q[0] - p[2] * q[3];
+    const float g2 = p[0] * q[2] + p[1] * q[3] - p[2] * q[0] - p[3] * q[1];
+    const float g3 = p[0] * q[3] + p[2] * q[1] - p[1] * q[2] - p[3] * q[0];
+    const float abs_g0 = fabsf(g0);
+    const float chosen = (g0 < 0.0f ? -1.0f : 1.0f);
+    const float h0 = 1.0f + abs_g0;
+    const float g1_product = g1 * chosen;
+    const float g2_product = g2 * chosen;
+    const float g3_product = g3 * chosen;
+    const float dot_h_h = h0 * h0 + g1_product * g1_product + g2_product * g2_product + g3_product *
+        g3_product;
+    const float scale_3 = 1.0f / dot_h_h;
+    const float total_2 = v[0] * h0 - v[2] * g2_product + v[1] * g3_product;
+    const float total_3 = v[2] * h0 - v[1] * g1_product + v[0] * g2_product;
+    const float total_4 = v[0] * g1_product + v[1] * g2_product + v[2] * g3_product;
+    const float total_5 = v[1] * h0 - v[0] * g3_product + v[2] * g1_product;
+    const float w0 = scale_3 * (h0 * total_2 - g2_product * total_3 + g1_product * total_4 + g3_product *
+        total_5);
+    const float w1 = scale_3 * (h0 * total_5 - g3_product * total_2 + g1_product * total_3 + g2_product *
+        total_4);
+    const float w2 = scale_3 * (h0 * total_3 - g1_product * total_5 + g2_product * total_2 + g3_product *
+        total_4);
+    w_out[0] = w0;
+    w_out[1] = w1;
+    w_out[2] = w2;
+}
+
+void so3_transport_batch_f(
+    size_t count,
+    const float *SO3_RESTRICT p,
+    const float *SO3_RESTRICT q,
+    const float *SO3_RESTRICT v,
+    float *SO3_RESTRICT w_out) {
+    for (size_t i = 0; i < count; ++i) so3_transport_f(p + 4 * i, q + 4 * i, v + 3 * i, w_out + 3 * i);
+}
+
+/* normal / norm(normal) */
+void so3_sample_f(
+    const float *SO3_RESTRICT normal,
+    const float *SO3_RESTRICT uniform,
+    float *SO3_RESTRICT p_out) {
+    (void)uniform;
+    const float norm_normal_squared = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2] +
+        normal[3] * normal[3];
+    const float norm_normal = sqrtf(norm_normal_squared);
+    const float scale = 1.0f / norm_normal;
+    const float p0 = normal[0] * scale;
+    const float p1 = normal[1] * scale;
+    const float p2 = normal[2] * scale;
+    const float p3 = normal[3] * scale;
+    p_out[0] = p0;
+    p_out[1] = p1;
+    p_out[2] = p2;
+    p_out[3] = p3;
+}
+
+void so3_sample_batch_f(
+    size_t count,
+    const float *SO3_RESTRICT normal,
+    const float *SO3_RESTRICT uniform,
+    float *SO3_RESTRICT p_out) {
+    for (size_t i = 0; i < count; ++i) so3_sample_f(normal + 4 * i, uniform + 4 * i, p_out + 4 * i);
 }
 
 /* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */

@@ -343,6 +343,75 @@ void sphere_gradient_norm_batch(
     for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = sphere_gradient_norm(p + 3 * i, df + 3 * i);
 }
 
+/* where(norm(s) <= 4 * eps, v - 2 * dot(orthogonal(p), v) * orthogonal(p), v - 2 * dot(s, v) / [...] */
+void sphere_transport(
+    const double *SPHERE_RESTRICT p,
+    const double *SPHERE_RESTRICT q,
+    const double *SPHERE_RESTRICT v,
+    double *SPHERE_RESTRICT w_out) {
+    const double q_plus_p0 = p[0] + q[0];
+    const double q_plus_p1 = p[1] + q[1];
+    const double q_plus_p2 = p[2] + q[2];
+    const double norm_q_plus_p_squared = q_plus_p0 * q_plus_p0 + q_plus_p1 * q_plus_p1 + q_plus_p2 *
+        q_plus_p2;
+    const double norm_q_plus_p = sqrt(norm_q_plus_p_squared);
+    const double squared = p[0] * p[0];
+    const double gap = 1.0 - squared;
+    const double gap_2 = 1.0 - p[1] * p[1];
+    const int is_small = squared < 0.5;
+    const double product = p[0] * p[1];
+    const double dot_s_v = v[0] * q_plus_p0 + v[1] * q_plus_p1 + v[2] * q_plus_p2;
+    const int is_less_equal = norm_q_plus_p <= 4.0 * DBL_EPSILON;
+    const double sine_to_axis0 = sqrt((is_less_equal ? (is_small ? gap : 1.0) : 1.0));
+    const double sine_to_axis1 = sqrt((is_less_equal ? (is_small ? 1.0 : gap_2) : 1.0));
+    const double orthogonal_p0 = (is_small ? gap / sine_to_axis0 : -(product / sine_to_axis1));
+    const double orthogonal_p1 = (is_small ? -(product / sine_to_axis0) : gap_2 / sine_to_axis1);
+    const double orthogonal_p2 = (is_small ? -(p[0] * p[2] / sine_to_axis0) : -(p[1] * p[2] / sine_to_axis1));
+    const double dot_orthogonal_p_v = v[0] * orthogonal_p0 + v[1] * orthogonal_p1 + v[2] * orthogonal_p2;
+    const double scale = 2.0 * dot_orthogonal_p_v;
+    const double scale_2 = 2.0 * dot_s_v / (is_less_equal ? 1.0 : norm_q_plus_p_squared);
+    const double w0 = (is_less_equal ? v[0] - orthogonal_p0 * scale : v[0] - q_plus_p0 * scale_2);
+    const double w1 = (is_less_equal ? v[1] - orthogonal_p1 * scale : v[1] - q_plus_p1 * scale_2);
+    const double w2 = (is_less_equal ? v[2] - orthogonal_p2 * scale : v[2] - q_plus_p2 * scale_2);
+    w_out[0] = w0;
+    w_out[1] = w1;
+    w_out[2] = w2;
+}
+
+void sphere_transport_batch(
+    size_t count,
+    const double *SPHERE_RESTRICT p,
+    const double *SPHERE_RESTRICT q,
+    const double *SPHERE_RESTRICT v,
+    double *SPHERE_RESTRICT w_out) {
+    for (size_t i = 0; i < count; ++i) sphere_transport(p + 3 * i, q + 3 * i, v + 3 * i, w_out + 3 * i);
+}
+
+/* normal / norm(normal) */
+void sphere_sample(
+    const double *SPHERE_RESTRICT normal,
+    const double *SPHERE_RESTRICT uniform,
+    double *SPHERE_RESTRICT p_out) {
+    (void)uniform;
+    const double norm_normal_squared = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+    const double norm_normal = sqrt(norm_normal_squared);
+    const double scale = 1.0 / norm_normal;
+    const double p0 = normal[0] * scale;
+    const double p1 = normal[1] * scale;
+    const double p2 = normal[2] * scale;
+    p_out[0] = p0;
+    p_out[1] = p1;
+    p_out[2] = p2;
+}
+
+void sphere_sample_batch(
+    size_t count,
+    const double *SPHERE_RESTRICT normal,
+    const double *SPHERE_RESTRICT uniform,
+    double *SPHERE_RESTRICT p_out) {
+    for (size_t i = 0; i < count; ++i) sphere_sample(normal + 3 * i, uniform + 3 * i, p_out + 3 * i);
+}
+
 /* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */
 void sphere_splat(
     const double *SPHERE_RESTRICT x,
@@ -828,6 +897,74 @@ void sphere_gradient_norm_batch_f(
     const float *SPHERE_RESTRICT df,
     float *SPHERE_RESTRICT gradient_norm_out) {
     for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = sphere_gradient_norm_f(p + 3 * i, df + 3 * i);
+}
+
+/* where(norm(s) <= 4 * eps, v - 2 * dot(orthogonal(p), v) * orthogonal(p), v - 2 * dot(s, v) / [...] */
+void sphere_transport_f(
+    const float *SPHERE_RESTRICT p,
+    const float *SPHERE_RESTRICT q,
+    const float *SPHERE_RESTRICT v,
+    float *SPHERE_RESTRICT w_out) {
+    const float q_plus_p0 = p[0] + q[0];
+    const float q_plus_p1 = p[1] + q[1];
+    const float q_plus_p2 = p[2] + q[2];
+    const float norm_q_plus_p_squared = q_plus_p0 * q_plus_p0 + q_plus_p1 * q_plus_p1 + q_plus_p2 * q_plus_p2;
+    const float norm_q_plus_p = sqrtf(norm_q_plus_p_squared);
+    const float squared = p[0] * p[0];
+    const float gap = 1.0f - squared;
+    const float gap_2 = 1.0f - p[1] * p[1];
+    const int is_small = squared < 0.5f;
+    const float product = p[0] * p[1];
+    const float dot_s_v = v[0] * q_plus_p0 + v[1] * q_plus_p1 + v[2] * q_plus_p2;
+    const int is_less_equal = norm_q_plus_p <= 4.0f * FLT_EPSILON;
+    const float sine_to_axis0 = sqrtf((is_less_equal ? (is_small ? gap : 1.0f) : 1.0f));
+    const float sine_to_axis1 = sqrtf((is_less_equal ? (is_small ? 1.0f : gap_2) : 1.0f));
+    const float orthogonal_p0 = (is_small ? gap / sine_to_axis0 : -(product / sine_to_axis1));
+    const float orthogonal_p1 = (is_small ? -(product / sine_to_axis0) : gap_2 / sine_to_axis1);
+    const float orthogonal_p2 = (is_small ? -(p[0] * p[2] / sine_to_axis0) : -(p[1] * p[2] / sine_to_axis1));
+    const float dot_orthogonal_p_v = v[0] * orthogonal_p0 + v[1] * orthogonal_p1 + v[2] * orthogonal_p2;
+    const float scale = 2.0f * dot_orthogonal_p_v;
+    const float scale_2 = 2.0f * dot_s_v / (is_less_equal ? 1.0f : norm_q_plus_p_squared);
+    const float w0 = (is_less_equal ? v[0] - orthogonal_p0 * scale : v[0] - q_plus_p0 * scale_2);
+    const float w1 = (is_less_equal ? v[1] - orthogonal_p1 * scale : v[1] - q_plus_p1 * scale_2);
+    const float w2 = (is_less_equal ? v[2] - orthogonal_p2 * scale : v[2] - q_plus_p2 * scale_2);
+    w_out[0] = w0;
+    w_out[1] = w1;
+    w_out[2] = w2;
+}
+
+void sphere_transport_batch_f(
+    size_t count,
+    const float *SPHERE_RESTRICT p,
+    const float *SPHERE_RESTRICT q,
+    const float *SPHERE_RESTRICT v,
+    float *SPHERE_RESTRICT w_out) {
+    for (size_t i = 0; i < count; ++i) sphere_transport_f(p + 3 * i, q + 3 * i, v + 3 * i, w_out + 3 * i);
+}
+
+/* normal / norm(normal) */
+void sphere_sample_f(
+    const float *SPHERE_RESTRICT normal,
+    const float *SPHERE_RESTRICT uniform,
+    float *SPHERE_RESTRICT p_out) {
+    (void)uniform;
+    const float norm_normal_squared = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+    const float norm_normal = sqrtf(norm_normal_squared);
+    const float scale = 1.0f / norm_normal;
+    const float p0 = normal[0] * scale;
+    const float p1 = normal[1] * scale;
+    const float p2 = normal[2] * scale;
+    p_out[0] = p0;
+    p_out[1] = p1;
+    p_out[2] = p2;
+}
+
+void sphere_sample_batch_f(
+    size_t count,
+    const float *SPHERE_RESTRICT normal,
+    const float *SPHERE_RESTRICT uniform,
+    float *SPHERE_RESTRICT p_out) {
+    for (size_t i = 0; i < count; ++i) sphere_sample_f(normal + 3 * i, uniform + 3 * i, p_out + 3 * i);
 }
 
 /* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */

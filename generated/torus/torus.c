@@ -204,6 +204,51 @@ void torus_gradient_norm_batch(
     for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = torus_gradient_norm(p + 2 * i, df + 2 * i);
 }
 
+/* v */
+void torus_transport(
+    const double *TORUS_RESTRICT p,
+    const double *TORUS_RESTRICT q,
+    const double *TORUS_RESTRICT v,
+    double *TORUS_RESTRICT w_out) {
+    (void)p;
+    (void)q;
+    w_out[0] = v[0];
+    w_out[1] = v[1];
+}
+
+void torus_transport_batch(
+    size_t count,
+    const double *TORUS_RESTRICT p,
+    const double *TORUS_RESTRICT q,
+    const double *TORUS_RESTRICT v,
+    double *TORUS_RESTRICT w_out) {
+    for (size_t i = 0; i < count; ++i) torus_transport(p + 2 * i, q + 2 * i, v + 2 * i, w_out + 2 * i);
+}
+
+/* wrap(2 * pi * uniform) */
+void torus_sample(
+    const double *TORUS_RESTRICT normal,
+    const double *TORUS_RESTRICT uniform,
+    double *TORUS_RESTRICT p_out) {
+    (void)normal;
+    const double round_2 = rint(uniform[0]);
+    const double p0 = 6.283185307179586 * uniform[0] - 6.28125 * round_2 - 0.0019350051879882812 * round_2 -
+        3.019915981956753e-07 * round_2;
+    const double round_3 = rint(uniform[1]);
+    const double p1 = 6.283185307179586 * uniform[1] - 6.28125 * round_3 - 0.0019350051879882812 * round_3 -
+        3.019915981956753e-07 * round_3;
+    p_out[0] = p0;
+    p_out[1] = p1;
+}
+
+void torus_sample_batch(
+    size_t count,
+    const double *TORUS_RESTRICT normal,
+    const double *TORUS_RESTRICT uniform,
+    double *TORUS_RESTRICT p_out) {
+    for (size_t i = 0; i < count; ++i) torus_sample(normal + 2 * i, uniform + 2 * i, p_out + 2 * i);
+}
+
 /* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */
 void torus_splat(
     const double *TORUS_RESTRICT x,
@@ -461,6 +506,51 @@ void torus_gradient_norm_batch_f(
     const float *TORUS_RESTRICT df,
     float *TORUS_RESTRICT gradient_norm_out) {
     for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = torus_gradient_norm_f(p + 2 * i, df + 2 * i);
+}
+
+/* v */
+void torus_transport_f(
+    const float *TORUS_RESTRICT p,
+    const float *TORUS_RESTRICT q,
+    const float *TORUS_RESTRICT v,
+    float *TORUS_RESTRICT w_out) {
+    (void)p;
+    (void)q;
+    w_out[0] = v[0];
+    w_out[1] = v[1];
+}
+
+void torus_transport_batch_f(
+    size_t count,
+    const float *TORUS_RESTRICT p,
+    const float *TORUS_RESTRICT q,
+    const float *TORUS_RESTRICT v,
+    float *TORUS_RESTRICT w_out) {
+    for (size_t i = 0; i < count; ++i) torus_transport_f(p + 2 * i, q + 2 * i, v + 2 * i, w_out + 2 * i);
+}
+
+/* wrap(2 * pi * uniform) */
+void torus_sample_f(
+    const float *TORUS_RESTRICT normal,
+    const float *TORUS_RESTRICT uniform,
+    float *TORUS_RESTRICT p_out) {
+    (void)normal;
+    const float round_2 = rintf(uniform[0]);
+    const float p0 = 6.283185307179586f * uniform[0] - 6.28125f * round_2 - 0.0019350051879882812f * round_2 -
+        3.019915981956753e-07f * round_2;
+    const float round_3 = rintf(uniform[1]);
+    const float p1 = 6.283185307179586f * uniform[1] - 6.28125f * round_3 - 0.0019350051879882812f * round_3 -
+        3.019915981956753e-07f * round_3;
+    p_out[0] = p0;
+    p_out[1] = p1;
+}
+
+void torus_sample_batch_f(
+    size_t count,
+    const float *TORUS_RESTRICT normal,
+    const float *TORUS_RESTRICT uniform,
+    float *TORUS_RESTRICT p_out) {
+    for (size_t i = 0; i < count; ++i) torus_sample_f(normal + 2 * i, uniform + 2 * i, p_out + 2 * i);
 }
 
 /* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */

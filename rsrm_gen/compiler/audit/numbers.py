@@ -84,12 +84,17 @@ def _check(geometry: Geometry, name: str, backend: str, precision: str, errors: 
     )
 
 
-def torch_batch(program: Program, files: Mapping[str, str]) -> Batch:
-    """The generated torch class on arrays of rows."""
+def torch_manifold(program: Program, files: Mapping[str, str]) -> Any:
+    """The object of the generated torch module."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / f"{program.name}.py"
         path.write_text(files[path.name], encoding="utf-8")
-        manifold = imported(path, keep=False).manifold
+        return imported(path, keep=False).manifold
+
+
+def torch_batch(program: Program, files: Mapping[str, str]) -> Batch:
+    """The generated torch class on arrays of rows."""
+    manifold = torch_manifold(program, files)
 
     def batch(name: str, rows: Sequence[Any], precision: str) -> Any:
         shapes = [parameter.shape for parameter in program[name].parameters]
@@ -159,7 +164,9 @@ def truths(function: Function, routine: Routine, rows: Rows, precision: str) -> 
         moved = 0.0
         for shake in ((1, 1), (1, 1), (1, 0), (0, 1)):  # both, and each alone: close points may move together
             with mp.workdps(DIGITS):
-                shaken = [[c * (1 + s * eps * rng.choice((-1, 1))) for c in x] for x, s in zip(given, shake, strict=True)]
+                shaken = [
+                    [c * (1 + s * eps * rng.choice((-1, 1))) for c in x] for x, s in zip(given, shake, strict=True)
+                ]
             there = _exact(function, routine, shaken, eps)
             moved = max(moved, _largest(a - b for a, b in zip(there, exact, strict=True)))
         results.append(exact)

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import mpmath as mp
 
+from rsrm_gen.compiler.audit.given import transport_checks
 from rsrm_gen.compiler.audit.laws import DIGITS, Laws
 from rsrm_gen.compiler.audit.readings import check_readings
 from rsrm_gen.compiler.audit.report import Check
@@ -22,7 +23,10 @@ def check_formulas(geometry: Geometry, program: Program) -> list[Check]:
     for name, factor in geometry.factors:
         checks += [replace(check, name=f"{name}: {check.name}") for check in check_formulas(factor, lower(factor))]
     if all(check.passed for check in checks):
-        checks += (ProductLaws if geometry.factors else Laws)(geometry, program).checks()
+        laws = (ProductLaws if geometry.factors else Laws)(geometry, program)
+        checks += laws.checks()
+        with mp.workdps(DIGITS):
+            checks += [] if geometry.factors else transport_checks(laws)  # of a product, its factors' is enough
     if all(check.passed for check in checks):
         checks += check_readings(geometry, program)
     return checks

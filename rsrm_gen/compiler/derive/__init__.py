@@ -239,11 +239,19 @@ class _Derivation:
     def given(self) -> tuple[Function, ...]:
         """What only the author can know: transport, and a uniform distribution."""
         functions = []
-        if self.spec.transport is not None:
-            functions.append(self.with_log_names("transport", self.spec.transport, self.v))
-        if self.spec.sample is not None:
+        spec = self.spec
+        if spec.transport is not None and spec.maps == "retraction":
+            raise UserError("transport is along geodesics, which a retraction does not know", spec.transport.value.span)
+        if spec.sample is not None and spec.diameter is None:
+            raise UserError(
+                "there is no uniform distribution on the whole of a manifold without a `diameter`",
+                spec.sample.value.span,
+            )
+        if spec.transport is not None:
+            functions.append(self.with_log_names("transport", spec.transport, self.v))
+        if spec.sample is not None:
             numbers = argument("normal", self.spec.point_size), argument("uniform", self.spec.point_size)
-            functions.append(scalarised(self.spec, "sample", self.spec.sample, numbers, (self.spec.point_size,)))
+            functions.append(scalarised(spec, "sample", spec.sample, numbers, (self.spec.point_size,)))
         return tuple(functions)
 
     @cached_property

@@ -1,0 +1,129 @@
+"""Closed forms that only an author can give: parallel transport, in high precision, and a uniform distribution, by counting."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
+import mpmath as mp
+import sympy as sp
+import torch
+
+from rsrm_gen.compiler.audit.laws import Laws, Worst, _at, _difference, _relative
+from rsrm_gen.compiler.audit.numbers import torch_manifold
+from rsrm_gen.compiler.audit.report import Check
+from rsrm_gen.compiler.derive import Geometry
+from rsrm_gen.compiler.derive.geometry import argument
+from rsrm_gen.compiler.derive.numeric import largest, value
+from rsrm_gen.compiler.derive.scalarise import scalarised
+from rsrm_gen.compiler.emit import emit
+from rsrm_gen.compiler.lower import Program, lower
+from rsrm_gen.compiler.spec import ManifoldSpec, Spec
+
+RUNG = mp.mpf(10) ** -10  # of the ladder: its error is of the order of its square
+SAMPLES, WAVES = 20_000, 12
+STEP = 1e-3  # of second differences
+DEVIATIONS = 5.0
+
+
+def transport_checks(laws: Laws) -> list[Check]:
+    """Transport keeps inner products, takes Log_p(q) to -Log_q(p), does not see stops, and is the ladder's limit."""
+    spec = laws.spec
+    if "transport" not in laws.geometry:
+        return []
+    worst = Worst()
+    for p, q in laws.pairs:
+        u, v = (laws.sampler.direction(laws.rng, p) for _ in range(2))
+        moved = [laws.call("transport", p, q, w) for w in (u, v)]
+        kept = laws.call("inner", q, *moved)[0] - laws.call("inner", p, u, v)[0]
+        log, back = laws.call("log", p, q), laws.call("log", q, p)
+        along = [a + b for a, b in zip(laws.call("transport", p, q, log), back, strict=True)]
+        middle = laws.call("exp", p, [c / 2 for c in log])
+        stopped = laws.call("transport", middle, q, laws.call("transport", p, middle, v))
+        errors = [
+            kept,
+            _relative(along, back),
+            _relative(_difference(stopped, moved[1]), moved[1]),
+            _ladder(laws, p, v),
+        ]
+        worst = worst.with_error(largest(errors), _at("p", p, "q", q))
+    promise = "`transport` carries v in parallel along the geodesic from p to q"
+    return [laws.check("transport", promise, worst, spec.transport)]
+
+
+def _ladder(laws: Laws, p: list[Any], v: list[Any]) -> Any:
+    """Transport over a short way against the pole ladder, which needs only Exp and Log."""
+    u = laws.sampler.direction(laws.rng, p)
+    q = laws.sampler.along(p, u, RUNG)
+    middle = laws.sampler.along(p, u, RUNG / 2)
+    tip = laws.sampler.along(p, v, RUNG)
+    reflected = laws.call("exp", middle, [-c for c in laws.call("log", middle, tip)])
+    carried = [-c / RUNG for c in laws.call("log", q, reflected)]
+    return _relative(_difference(carried, laws.call("transport", p, q, v)), v)
+
+
+def sample_checks(geometry: Geometry, program: Program, files: Mapping[str, str]) -> list[Check]:
+    """`sample` is uniform: the Laplacian of every smooth function has the mean zero on a closed manifold."""
+    if geometry.factors:
+        return [check for name, factor in geometry.factors for check in _sample_checks_of_factor(name, factor)]
+    if "sample" not in geometry:
+        return []
+    manifold = torch_manifold(program, files)
+    generator = torch.Generator().manual_seed(31)
+    points = manifold.sample(SAMPLES, generator, torch.zeros((), dtype=torch.float64))
+    waves = _Waves(geometry, generator)
+    laplacian = torch.zeros(SAMPLES, WAVES, dtype=torch.float64)
+    frame = manifold.frame(points)
+    for e in frame.unbind(-2):
+        ahead, behind = (waves(manifold.exp(points, sign * STEP * e)) for sign in (1, -1))
+        laplacian += (ahead - 2 * waves(points) + behind) / STEP**2
+    means, deviations = laplacian.mean(0), laplacian.std(0) / SAMPLES**0.5
+    worst = float((means / deviations).abs().max())
+    promise = "`sample` is uniform in volume: mean Laplacians vanish (in standard deviations)"
+    spec = geometry.spec
+    span = spec.sample.value.span if isinstance(spec, ManifoldSpec) and spec.sample else None
+    return [Check("sample", promise, worst, DEVIATIONS, SAMPLES, "", span)]
+
+
+def _sample_checks_of_factor(name: str, factor: Geometry) -> list[Check]:
+    program = lower(factor)
+    checks = sample_checks(factor, program, emit(factor, program))
+    return [replace(check, name=f"{name}: {check.name}") for check in checks]
+
+
+class _Waves:
+    """Some random cosines of the stored numbers, whole in every period and the same for both names of a point."""
+
+    def __init__(self, geometry: Geometry, generator: torch.Generator) -> None:
+        size = geometry.spec.point_size
+        periods = [float(value(L, {})) if L is not None else None for L in geometry.periods or (None,) * size]
+        rough = 2 * torch.randn(size, WAVES, generator=generator, dtype=torch.float64)
+        whole = torch.randint(-2, 3, (size, WAVES), generator=generator).double()
+        rows = [rough[i] if L is None else 2 * torch.pi / L * whole[i] for i, L in enumerate(periods)]
+        self.frequencies = torch.stack(rows)
+        self.other_name = _other_name(geometry.spec)
+        self.phases = 6 * torch.rand(WAVES, generator=generator, dtype=torch.float64)
+
+    def __call__(self, points: Any) -> Any:
+        waves = torch.cos(points @ self.frequencies + self.phases)
+        return (
+            waves
+            if self.other_name is None
+            else waves + torch.cos(self.other_name(points) @ self.frequencies + self.phases)
+        )
+
+
+def _other_name(spec: Spec) -> Callable[[Any], Any] | None:
+    """The author's `equivalent:` on rows of points."""
+    if not isinstance(spec, ManifoldSpec) or spec.equivalent is None:
+        return None
+    p = argument("p", spec.point_size)
+    function = scalarised(spec, "equivalent", spec.equivalent, (p,), (spec.point_size,))
+    entries = [function.unfolded(entry) for entry in function.results]
+    evaluate = sp.lambdify(p.symbols, entries, "torch")
+
+    def other(points: Any) -> Any:
+        return torch.stack([torch.as_tensor(e).expand(len(points)) for e in evaluate(*points.unbind(-1))], -1)
+
+    return other
