@@ -21,7 +21,7 @@ from rsrm_gen.compiler.emit import emit
 from rsrm_gen.compiler.lower import Program, lower
 from rsrm_gen.compiler.spec import ManifoldSpec, Spec
 
-RUNG = mp.mpf(10) ** -10  # of the ladder: its error is of the order of its square
+RUNG = mp.mpf(10) ** -14  # of the ladder: its error is of the order of its square
 SAMPLES, WAVES = 20_000, 12
 STEP = 1e-3  # of second differences
 DEVIATIONS = 5.0
@@ -60,7 +60,7 @@ def _ladder(laws: Laws, p: list[Any], v: list[Any]) -> Any:
     tip = laws.sampler.along(p, v, RUNG)
     reflected = laws.call("exp", middle, [-c for c in laws.call("log", middle, tip)])
     carried = [-c / RUNG for c in laws.call("log", q, reflected)]
-    return _relative(_difference(carried, laws.call("transport", p, q, v)), v)
+    return _relative(_difference(carried, laws.call("transport", p, q, v)), v) / RUNG
 
 
 def sample_checks(geometry: Geometry, program: Program, files: Mapping[str, str]) -> list[Check]:
@@ -99,7 +99,7 @@ class _Waves:
         size = geometry.spec.point_size
         periods = [float(value(L, {})) if L is not None else None for L in geometry.periods or (None,) * size]
         rough = 2 * torch.randn(size, WAVES, generator=generator, dtype=torch.float64)
-        whole = torch.randint(-2, 3, (size, WAVES), generator=generator).double()
+        whole = torch.randint(1, 4, (size, WAVES), generator=generator).double()
         rows = [rough[i] if L is None else 2 * torch.pi / L * whole[i] for i, L in enumerate(periods)]
         self.frequencies = torch.stack(rows)
         self.other_name = _other_name(geometry.spec)

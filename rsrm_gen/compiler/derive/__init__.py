@@ -38,7 +38,8 @@ __all__ = ["Geometry", "derive"]
 def derive(spec: Spec) -> Geometry:
     """Derive every function of the manifold from its spec; raises `UserError` where a formula cannot be mended."""
     if isinstance(spec, ManifoldSpec):
-        geometry = _Derivation(spec).geometry()
+        with mp.workdps(DIGITS):  # whatever precision the caller works in: the same input gives the same bytes
+            geometry = _Derivation(spec).geometry()
     else:
         geometry = product(spec, {factor.spec.content_hash: derive(factor.spec) for factor in spec.distinct()})
     return scaled(geometry, number(spec, spec.scale)) if spec.scale else geometry
