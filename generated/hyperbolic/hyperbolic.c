@@ -1,5 +1,5 @@
 /*
- * hyperbolic: Hyperbolic space H^n of curvature -1, the upper sheet of the hyperboloid in R^(n+1), time
+ * hyperbolic: Hyperbolic space H^n, points on the upper sheet of the unit hyperboloid in R^(n+1), time
  *
  * See the header for what the functions promise.
  */

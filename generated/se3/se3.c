@@ -17,33 +17,33 @@ static inline double polynomial_rotation_sinc__near(double x) {
 static inline double polynomial_rotation_t_over_norm_s_near(double x) {
     return 2.0 + x * (0.08309566666666784 + x * (0.009321601255279904 + x * (0.0013831869136529075 + x *
         (0.00023466269139487824 + x * (4.307622244387224e-05 + x * (8.328318196009972e-06 + x *
-        (1.6734198264338605e-06 + x * (3.3892571731146964e-07 + x * (8.16081078697975e-08 + x *
-        (5.559604423994885e-09 + x * (1.0797473542320032e-08 + x * (-2.6805393136717467e-09 + x *
-        9.76507976303961e-10))))))))))));
+        (1.6734198264338605e-06 + x * (3.3892571731146964e-07 + x * (8.160810786979752e-08 + x *
+        (5.559604423994873e-09 + x * (1.0797473542320039e-08 + x * (-2.6805393136717492e-09 + x *
+        9.765079763039615e-10))))))))))));
 }
 
 static inline double polynomial_rotation_log_det_series(double x) {
     return 0.3333333333333333 + x * (0.030468411111111815 + x * (0.004186774461502485 + x *
         (0.0006822355998616309 + x * (0.0001221617222686508 + x * (2.3226222426586787e-05 + x *
-        (4.602679660683086e-06 + x * (9.419944287901338e-07 + x * (1.9330673844597267e-07 + x *
-        (4.7323543842374766e-08 + x * (3.057232901845871e-09 + x * (6.438914955222616e-09 + x *
-        (-1.6163842503256468e-09 + x * 5.847803973465938e-10))))))))))));
+        (4.602679660683086e-06 + x * (9.419944287901338e-07 + x * (1.9330673844597264e-07 + x *
+        (4.732354384237477e-08 + x * (3.0572329018458638e-09 + x * (6.43891495522262e-09 + x *
+        (-1.6163842503256483e-09 + x * 5.84780397346594e-10))))))))))));
 }
 
 static inline double polynomial_rotation_log_det_series_slope(double x) {
     return 0.030468411111111815 + x * (0.00837354892300497 + x * (0.002046706799584893 + x *
         (0.0004886468890746032 + x * (0.00011613111213293394 + x * (2.7616077964098513e-05 + x *
-        (6.5939610015309365e-06 + x * (1.5464539075677813e-06 + x * (4.259118945813729e-07 + x *
-        (3.057232901845871e-08 + x * (7.082806450744877e-08 + x * (-1.939661100390776e-08 + x *
-        7.602145165505719e-09)))))))))));
+        (6.5939610015309365e-06 + x * (1.5464539075677811e-06 + x * (4.2591189458137294e-07 + x *
+        (3.057232901845864e-08 + x * (7.082806450744882e-08 + x * (-1.939661100390778e-08 + x *
+        7.602145165505722e-09)))))))))));
 }
 
 static inline double polynomial_rotation_t_over_norm_s_near_slope(double x) {
     return 0.08309566666666784 + x * (0.018643202510559807 + x * (0.004149560740958722 + x *
         (0.0009386507655795129 + x * (0.0002153811122193612 + x * (4.996990917605983e-05 + x *
-        (1.1713938785037024e-05 + x * (2.711405738491757e-06 + x * (7.344729708281775e-07 + x *
-        (5.559604423994885e-08 + x * (1.1877220896552035e-07 + x * (-3.216647176406096e-08 + x *
-        1.2694603691951493e-08)))))))))));
+        (1.1713938785037024e-05 + x * (2.711405738491757e-06 + x * (7.344729708281776e-07 + x *
+        (5.559604423994873e-08 + x * (1.1877220896552043e-07 + x * (-3.2166471764060994e-08 + x *
+        1.2694603691951498e-08)))))))))));
 }
 
 /* position: x, rotation: p / norm(p) */
@@ -333,6 +333,53 @@ void se3_gradient_norm_batch(
     for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = se3_gradient_norm(p + 7 * i, df + 7 * i);
 }
 
+/* position: v, rotation: qmul(qmul(h, [0, v]), conj(h))[1:] / dot(h, h) */
+void se3_transport(
+    const double *SE3_RESTRICT p,
+    const double *SE3_RESTRICT q,
+    const double *SE3_RESTRICT v,
+    double *SE3_RESTRICT w_out) {
+    const double rotation_g0 = p[3] * q[3] + p[4] * q[4] + p[5] * q[5] + p[6] * q[6];
+    const double rotation_g1 = p[3] * q[4] + p[6] * q[5] - p[4] * q[3] - p[5] * q[6];
+    const double rotation_g2 = p[3] * q[5] + p[4] * q[6] - p[5] * q[3] - p[6] * q[4];
+    const double rotation_g3 = p[3] * q[6] + p[5] * q[4] - p[4] * q[5] - p[6] * q[3];
+    const double rotation_abs_g0 = fabs(rotation_g0);
+    const double chosen = (rotation_g0 < 0.0 ? -1.0 : 1.0);
+    const double rotation_h0 = 1.0 + rotation_abs_g0;
+    const double rotation_g1_product = rotation_g1 * chosen;
+    const double rotation_g2_product = rotation_g2 * chosen;
+    const double rotation_g3_product = rotation_g3 * chosen;
+    const double rotation_dot_h_h = rotation_h0 * rotation_h0 + rotation_g1_product * rotation_g1_product +
+        rotation_g2_product * rotation_g2_product + rotation_g3_product * rotation_g3_product;
+    const double rotation_scale_3 = 1.0 / rotation_dot_h_h;
+    const double total_2 = v[3] * rotation_h0 - v[5] * rotation_g2_product + v[4] * rotation_g3_product;
+    const double total_3 = v[5] * rotation_h0 - v[4] * rotation_g1_product + v[3] * rotation_g2_product;
+    const double total_4 = v[3] * rotation_g1_product + v[4] * rotation_g2_product + v[5] *
+        rotation_g3_product;
+    const double total_5 = v[4] * rotation_h0 - v[3] * rotation_g3_product + v[5] * rotation_g1_product;
+    const double w3 = rotation_scale_3 * (rotation_h0 * total_2 - rotation_g2_product * total_3 +
+        rotation_g1_product * total_4 + rotation_g3_product * total_5);
+    const double w4 = rotation_scale_3 * (rotation_h0 * total_5 - rotation_g3_product * total_2 +
+        rotation_g1_product * total_3 + rotation_g2_product * total_4);
+    const double w5 = rotation_scale_3 * (rotation_h0 * total_3 - rotation_g1_product * total_5 +
+        rotation_g2_product * total_2 + rotation_g3_product * total_4);
+    w_out[0] = v[0];
+    w_out[1] = v[1];
+    w_out[2] = v[2];
+    w_out[3] = w3;
+    w_out[4] = w4;
+    w_out[5] = w5;
+}
+
+void se3_transport_batch(
+    size_t count,
+    const double *SE3_RESTRICT p,
+    const double *SE3_RESTRICT q,
+    const double *SE3_RESTRICT v,
+    double *SE3_RESTRICT w_out) {
+    for (size_t i = 0; i < count; ++i) se3_transport(p + 7 * i, q + 7 * i, v + 6 * i, w_out + 6 * i);
+}
+
 /* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */
 void se3_splat(
     const double *SE3_RESTRICT x,
@@ -500,33 +547,33 @@ static inline float polynomial_rotation_sinc__near_f(float x) {
 static inline float polynomial_rotation_t_over_norm_s_near_f(float x) {
     return 2.0f + x * (0.08309566666666784f + x * (0.009321601255279904f + x * (0.0013831869136529075f + x *
         (0.00023466269139487824f + x * (4.307622244387224e-05f + x * (8.328318196009972e-06f + x *
-        (1.6734198264338605e-06f + x * (3.3892571731146964e-07f + x * (8.16081078697975e-08f + x *
-        (5.559604423994885e-09f + x * (1.0797473542320032e-08f + x * (-2.6805393136717467e-09f + x *
-        9.76507976303961e-10f))))))))))));
+        (1.6734198264338605e-06f + x * (3.3892571731146964e-07f + x * (8.160810786979752e-08f + x *
+        (5.559604423994873e-09f + x * (1.0797473542320039e-08f + x * (-2.6805393136717492e-09f + x *
+        9.765079763039615e-10f))))))))))));
 }
 
 static inline float polynomial_rotation_log_det_series_f(float x) {
     return 0.3333333333333333f + x * (0.030468411111111815f + x * (0.004186774461502485f + x *
         (0.0006822355998616309f + x * (0.0001221617222686508f + x * (2.3226222426586787e-05f + x *
-        (4.602679660683086e-06f + x * (9.419944287901338e-07f + x * (1.9330673844597267e-07f + x *
-        (4.7323543842374766e-08f + x * (3.057232901845871e-09f + x * (6.438914955222616e-09f + x *
-        (-1.6163842503256468e-09f + x * 5.847803973465938e-10f))))))))))));
+        (4.602679660683086e-06f + x * (9.419944287901338e-07f + x * (1.9330673844597264e-07f + x *
+        (4.732354384237477e-08f + x * (3.0572329018458638e-09f + x * (6.43891495522262e-09f + x *
+        (-1.6163842503256483e-09f + x * 5.84780397346594e-10f))))))))))));
 }
 
 static inline float polynomial_rotation_log_det_series_slope_f(float x) {
     return 0.030468411111111815f + x * (0.00837354892300497f + x * (0.002046706799584893f + x *
         (0.0004886468890746032f + x * (0.00011613111213293394f + x * (2.7616077964098513e-05f + x *
-        (6.5939610015309365e-06f + x * (1.5464539075677813e-06f + x * (4.259118945813729e-07f + x *
-        (3.057232901845871e-08f + x * (7.082806450744877e-08f + x * (-1.939661100390776e-08f + x *
-        7.602145165505719e-09f)))))))))));
+        (6.5939610015309365e-06f + x * (1.5464539075677811e-06f + x * (4.2591189458137294e-07f + x *
+        (3.057232901845864e-08f + x * (7.082806450744882e-08f + x * (-1.939661100390778e-08f + x *
+        7.602145165505722e-09f)))))))))));
 }
 
 static inline float polynomial_rotation_t_over_norm_s_near_slope_f(float x) {
     return 0.08309566666666784f + x * (0.018643202510559807f + x * (0.004149560740958722f + x *
         (0.0009386507655795129f + x * (0.0002153811122193612f + x * (4.996990917605983e-05f + x *
-        (1.1713938785037024e-05f + x * (2.711405738491757e-06f + x * (7.344729708281775e-07f + x *
-        (5.559604423994885e-08f + x * (1.1877220896552035e-07f + x * (-3.216647176406096e-08f + x *
-        1.2694603691951493e-08f)))))))))));
+        (1.1713938785037024e-05f + x * (2.711405738491757e-06f + x * (7.344729708281776e-07f + x *
+        (5.559604423994873e-08f + x * (1.1877220896552043e-07f + x * (-3.2166471764060994e-08f + x *
+        1.2694603691951498e-08f)))))))))));
 }
 
 /* position: x, rotation: p / norm(p) */
@@ -811,6 +858,53 @@ void se3_gradient_norm_batch_f(
     const float *SE3_RESTRICT df,
     float *SE3_RESTRICT gradient_norm_out) {
     for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = se3_gradient_norm_f(p + 7 * i, df + 7 * i);
+}
+
+/* position: v, rotation: qmul(qmul(h, [0, v]), conj(h))[1:] / dot(h, h) */
+void se3_transport_f(
+    const float *SE3_RESTRICT p,
+    const float *SE3_RESTRICT q,
+    const float *SE3_RESTRICT v,
+    float *SE3_RESTRICT w_out) {
+    const float rotation_g0 = p[3] * q[3] + p[4] * q[4] + p[5] * q[5] + p[6] * q[6];
+    const float rotation_g1 = p[3] * q[4] + p[6] * q[5] - p[4] * q[3] - p[5] * q[6];
+    const float rotation_g2 = p[3] * q[5] + p[4] * q[6] - p[5] * q[3] - p[6] * q[4];
+    const float rotation_g3 = p[3] * q[6] + p[5] * q[4] - p[4] * q[5] - p[6] * q[3];
+    const float rotation_abs_g0 = fabsf(rotation_g0);
+    const float chosen = (rotation_g0 < 0.0f ? -1.0f : 1.0f);
+    const float rotation_h0 = 1.0f + rotation_abs_g0;
+    const float rotation_g1_product = rotation_g1 * chosen;
+    const float rotation_g2_product = rotation_g2 * chosen;
+    const float rotation_g3_product = rotation_g3 * chosen;
+    const float rotation_dot_h_h = rotation_h0 * rotation_h0 + rotation_g1_product * rotation_g1_product +
+        rotation_g2_product * rotation_g2_product + rotation_g3_product * rotation_g3_product;
+    const float rotation_scale_3 = 1.0f / rotation_dot_h_h;
+    const float total_2 = v[3] * rotation_h0 - v[5] * rotation_g2_product + v[4] * rotation_g3_product;
+    const float total_3 = v[5] * rotation_h0 - v[4] * rotation_g1_product + v[3] * rotation_g2_product;
+    const float total_4 = v[3] * rotation_g1_product + v[4] * rotation_g2_product + v[5] *
+        rotation_g3_product;
+    const float total_5 = v[4] * rotation_h0 - v[3] * rotation_g3_product + v[5] * rotation_g1_product;
+    const float w3 = rotation_scale_3 * (rotation_h0 * total_2 - rotation_g2_product * total_3 +
+        rotation_g1_product * total_4 + rotation_g3_product * total_5);
+    const float w4 = rotation_scale_3 * (rotation_h0 * total_5 - rotation_g3_product * total_2 +
+        rotation_g1_product * total_3 + rotation_g2_product * total_4);
+    const float w5 = rotation_scale_3 * (rotation_h0 * total_3 - rotation_g1_product * total_5 +
+        rotation_g2_product * total_2 + rotation_g3_product * total_4);
+    w_out[0] = v[0];
+    w_out[1] = v[1];
+    w_out[2] = v[2];
+    w_out[3] = w3;
+    w_out[4] = w4;
+    w_out[5] = w5;
+}
+
+void se3_transport_batch_f(
+    size_t count,
+    const float *SE3_RESTRICT p,
+    const float *SE3_RESTRICT q,
+    const float *SE3_RESTRICT v,
+    float *SE3_RESTRICT w_out) {
+    for (size_t i = 0; i < count; ++i) se3_transport_f(p + 7 * i, q + 7 * i, v + 6 * i, w_out + 6 * i);
 }
 
 /* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */

@@ -15,7 +15,7 @@ from rsrm_gen.compiler.audit.numbers import torch_manifold
 from rsrm_gen.compiler.audit.report import Check
 from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.derive.geometry import argument
-from rsrm_gen.compiler.derive.numeric import largest, value
+from rsrm_gen.compiler.derive.numeric import largest, run, value
 from rsrm_gen.compiler.derive.scalarise import scalarised
 from rsrm_gen.compiler.emit import emit
 from rsrm_gen.compiler.lower import Program, lower
@@ -53,13 +53,18 @@ def transport_checks(laws: Laws) -> list[Check]:
 
 
 def _ladder(laws: Laws, p: list[Any], v: list[Any]) -> Any:
-    """Transport over a short way against the pole ladder, which needs only Exp and Log."""
+    """How far transport is from the pole ladder over a short way, as a part of that way.
+
+    The ladder needs only Exp and Log; here they are the formulas themselves, whose series near coincident points would be
+    too coarse for so short a way.
+    """
+    exp, log = (laws.geometry[name] for name in ("exp", "log"))
     u = laws.sampler.direction(laws.rng, p)
     q = laws.sampler.along(p, u, RUNG)
     middle = laws.sampler.along(p, u, RUNG / 2)
     tip = laws.sampler.along(p, v, RUNG)
-    reflected = laws.call("exp", middle, [-c for c in laws.call("log", middle, tip)])
-    carried = [-c / RUNG for c in laws.call("log", q, reflected)]
+    reflected = run(exp, middle, [-c for c in run(log, middle, tip)[0]])[0]
+    carried = [-c / RUNG for c in run(log, q, reflected)[0]]
     return _relative(_difference(carried, laws.call("transport", p, q, v)), v) / RUNG
 
 

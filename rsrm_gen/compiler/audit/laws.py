@@ -66,7 +66,11 @@ class Laws:
     def reaches(self) -> list[Any]:
         """Distances of the pairs tried: from close by to almost the injectivity radius, or to far away."""
         whole = self.sampler.reach * 2
-        last = [whole * mp.mpf("0.99")] if self.geometry.injectivity_radius.is_finite else [mp.mpf(r) for r in FAR]
+        last = (
+            [whole * mp.mpf("0.99")]
+            if self.geometry.injectivity_radius.is_finite
+            else [self.sampler.reach * r for r in FAR]
+        )
         steps = PAIRS - len(last)
         return [whole * mp.mpf(k + 1) / (steps + 2) for k in range(steps)] + last
 

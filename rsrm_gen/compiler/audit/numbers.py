@@ -135,7 +135,7 @@ def sample_rows(geometry: Geometry, precision: str) -> Rows:
     last = (
         [(NEAR_CUT, whole * (1 - mp.mpf(10) ** -k)) for k in range(1, 10)]
         if finite
-        else [("far", mp.mpf(k)) for k in (3, 6, 10, 15, 20, 30)]
+        else [("far", sampler.reach * k) for k in (3, 6, 10, 15, 20, 30)]
     )
     kinds, rows = [], []
     for kind, r in near + middle + last:

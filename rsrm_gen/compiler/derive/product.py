@@ -40,6 +40,7 @@ def scaled(geometry: Geometry, length: sp.Expr) -> Geometry:
         functions=tuple(map(function, geometry)),
         injectivity_radius=length * geometry.injectivity_radius,
         diameter=length * geometry.diameter,
+        unit=length * geometry.unit,
     )
 
 
@@ -53,19 +54,24 @@ def product(spec: ProductSpec, geometries: Mapping[str, Geometry]) -> Geometry:
     parts = _Parts(spec, weighted)
     names = [f.name for f in next(iter(weighted.values())) if f.name not in OPTIONAL]
     names += [name for name in OPTIONAL if all(name in g for g in weighted.values())]
-    radii = [g.injectivity_radius for g in weighted.values()]
     periods = tuple(p for g in weighted.values() for p in g.periods or (None,) * g.spec.point_size)
     distinct = tuple((factor.name, factors[factor.name]) for factor in spec.distinct())
     return Geometry(
         spec,
         tuple(map(parts.function, names)),
         "product",
-        min(radii, key=lambda r: value(r, {}) if r.is_finite else float("inf")),
+        _least(g.injectivity_radius for g in weighted.values()),
         sp.sqrt(sp.Add(*(g.diameter**2 for g in weighted.values()))),
         periods if any(periods) else None,
         parts.domain(),
         distinct,
+        _least(g.unit for g in weighted.values()),
     )
+
+
+def _least(lengths: Iterable[sp.Expr]) -> sp.Expr:
+    """The smallest of some lengths, of which some may be infinite."""
+    return min(lengths, key=lambda length: value(length, {}) if length.is_finite else float("inf"))
 
 
 class _Parts:

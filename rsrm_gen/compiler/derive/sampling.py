@@ -77,16 +77,16 @@ class Sampler:
         return p, self.along(p, self.direction(rng, p), r)
 
 
-def reach_of(injectivity_radius: sp.Expr) -> Any:
-    """Half the injectivity radius, or 1 where there is none."""
-    return mp.mpf(1) if injectivity_radius == sp.oo else value(injectivity_radius, {}) / 2
+def reach_of(injectivity_radius: sp.Expr, unit: sp.Expr = sp.Integer(1)) -> Any:
+    """Half the injectivity radius, or a natural unit of length where there is none."""
+    return value(unit, {}) if injectivity_radius == sp.oo else value(injectivity_radius, {}) / 2
 
 
 def sampler_of(geometry: Geometry) -> Sampler:
     """The sampler of a derived manifold."""
     spec = geometry.spec
     project = geometry["project"] if spec.embedded else None
-    reach = reach_of(geometry.injectivity_radius)
+    reach = reach_of(geometry.injectivity_radius, geometry.unit)
     functions = geometry["to_tangent"], geometry["norm"], geometry["exp"]
     return Sampler(project, geometry.domain, *functions, spec.point_size, reach)
 
