@@ -169,7 +169,7 @@ class Geometry:
     periods: tuple[sp.Expr | None, ...] | None
     domain: sp.Expr | None  # 1 where a point is valid, in the symbols of p; None if there is no condition
     factors: tuple[tuple[str, Geometry], ...] = ()
-    unit: sp.Expr = sp.Integer(1)  # a length natural to the manifold, where the injectivity radius is infinite
+    unit: sp.Expr = sp.S.One  # a length natural to the manifold, where the injectivity radius is infinite
 
     def __getitem__(self, name: str) -> Function:
         return next(function for function in self.functions if function.name == name)

@@ -77,7 +77,7 @@ class Sampler:
         return p, self.along(p, self.direction(rng, p), r)
 
 
-def reach_of(injectivity_radius: sp.Expr, unit: sp.Expr = sp.Integer(1)) -> Any:
+def reach_of(injectivity_radius: sp.Expr, unit: sp.Expr = sp.S.One) -> Any:
     """Half the injectivity radius, or a natural unit of length where there is none."""
     return value(unit, {}) if injectivity_radius == sp.oo else value(injectivity_radius, {}) / 2
 
