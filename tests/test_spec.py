@@ -62,7 +62,7 @@ MISTAKES = {
     "a let called like an argument": Mistake("sphere", "    d: q - p", "    @v: q - p", "meaning of its own", "other"),
     "a let called like a function": Mistake("sphere", "    d: q - p", "    @norm: q - p", "meaning of its own"),
     "a let called like a parameter": Mistake("sphere", "    d: q - p", "    @n: q - p", "meaning of its own"),
-    "a parameter called like a function": Mistake("sphere", "{n: 2}", "{n: 2, @exp: 2}", "meaning of its own"),
+    "a parameter called like a function": Mistake("torus", "{n: 2}", "{n: 2, @exp: 2}", "meaning of its own"),
     "a name with a space": Mistake("euclidean", "manifold: euclidean", "manifold: @my space", "`manifold`"),
     "a name with a digit first": Mistake("euclidean", "manifold: euclidean", "manifold: @2d", "`manifold`"),
     # shapes
@@ -106,9 +106,9 @@ MISTAKES = {
     "an exponent that varies": Mistake("euclidean", EXP, "exp: p + v * 2^p@[0]\n", "a number is expected here"),
     "an exponent too large": Mistake("euclidean", EXP, "exp: p + v * 2^@65\n", "the exponent 65 is out of range"),
     "an exponent in fifths": Mistake("euclidean", EXP, "exp: p + v * 2^(1@/5)\n", "in quarters"),
-    "a parameter that is a word": Mistake("sphere", "{n: 2}", "{n: @two}", "must be a number, this is 'two'"),
-    "a parameter that is infinite": Mistake("sphere", "{n: 2}", "{n: @.inf}", "must be a number"),
-    "a parameter out of range": Mistake("sphere", "{n: 2}", '{n: "@1e999999999"}', "`n`"),
+    "a parameter that is a word": Mistake("torus", "{n: 2}", "{n: @two}", "must be a number, this is 'two'"),
+    "a parameter that is infinite": Mistake("torus", "{n: 2}", "{n: @.inf}", "must be a number"),
+    "a parameter out of range": Mistake("torus", "{n: 2}", '{n: "@1e999999999"}', "`n`"),
     "half a dimension": Mistake(
         "euclidean", SPACE, "  space: R^(n@/2)\n", "a whole number is expected here, this is 3/2"
     ),
@@ -248,7 +248,7 @@ def test_bundled_files_have_their_sizes(name: str) -> None:
 def test_parameters_change_sizes_and_name() -> None:
     spec = read(text_of("sphere"), n=5)
     assert (spec.point_size, spec.dim, spec.identifier) == (6, 5, "sphere_n5")
-    assert dict(spec.parameters) == {"n": Fraction(5)}
+    assert dict(spec.parameters) == {"n": Fraction(5), "radius": Fraction(1)}
     assert read(text_of("sphere"), n="5") == spec
 
 

@@ -294,6 +294,22 @@ void so3_gradient_norm_batch(
     for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = so3_gradient_norm(p + 4 * i, df + 4 * i);
 }
 
+/* -p */
+void so3_other_name(const double *SO3_RESTRICT p, double *SO3_RESTRICT q_out) {
+    const double q0 = -p[0];
+    const double q1 = -p[1];
+    const double q2 = -p[2];
+    const double q3 = -p[3];
+    q_out[0] = q0;
+    q_out[1] = q1;
+    q_out[2] = q2;
+    q_out[3] = q3;
+}
+
+void so3_other_name_batch(size_t count, const double *SO3_RESTRICT p, double *SO3_RESTRICT q_out) {
+    for (size_t i = 0; i < count; ++i) so3_other_name(p + 4 * i, q_out + 4 * i);
+}
+
 /* qmul(qmul(h, [0, v]), conj(h))[1:] / dot(h, h) */
 void so3_transport(
     const double *SO3_RESTRICT p,
@@ -770,6 +786,22 @@ void so3_gradient_norm_batch_f(
     const float *SO3_RESTRICT df,
     float *SO3_RESTRICT gradient_norm_out) {
     for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = so3_gradient_norm_f(p + 4 * i, df + 4 * i);
+}
+
+/* -p */
+void so3_other_name_f(const float *SO3_RESTRICT p, float *SO3_RESTRICT q_out) {
+    const float q0 = -p[0];
+    const float q1 = -p[1];
+    const float q2 = -p[2];
+    const float q3 = -p[3];
+    q_out[0] = q0;
+    q_out[1] = q1;
+    q_out[2] = q2;
+    q_out[3] = q3;
+}
+
+void so3_other_name_batch_f(size_t count, const float *SO3_RESTRICT p, float *SO3_RESTRICT q_out) {
+    for (size_t i = 0; i < count; ++i) so3_other_name_f(p + 4 * i, q_out + 4 * i);
 }
 
 /* qmul(qmul(h, [0, v]), conj(h))[1:] / dot(h, h) */

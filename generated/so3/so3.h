@@ -18,6 +18,7 @@
  * log_abs_det                   73      <= 1     <= 2
  * riemannian_gradient           25
  * gradient_norm                 31
+ * other_name                     4
  * transport                     87
  * sample                        13
  * splat                        301
@@ -214,6 +215,13 @@ void so3_gradient_norm_batch_f(
     const float *SO3_RESTRICT p,
     const float *SO3_RESTRICT df,
     float *SO3_RESTRICT gradient_norm_out);
+
+/* The other numbers that stand for the same point.
+ * -p */
+void so3_other_name(const double *SO3_RESTRICT p, double *SO3_RESTRICT q_out);
+void so3_other_name_f(const float *SO3_RESTRICT p, float *SO3_RESTRICT q_out);
+void so3_other_name_batch(size_t count, const double *SO3_RESTRICT p, double *SO3_RESTRICT q_out);
+void so3_other_name_batch_f(size_t count, const float *SO3_RESTRICT p, float *SO3_RESTRICT q_out);
 
 /* The tangent vector v at p, carried along the geodesic to q.
  * qmul(qmul(h, [0, v]), conj(h))[1:] / dot(h, h) */

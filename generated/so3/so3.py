@@ -17,6 +17,7 @@ distance                      37      <= 2     <= 1
 log_abs_det                   73      <= 1     <= 2
 riemannian_gradient           25
 gradient_norm                 31
+other_name                     4
 transport                     87
 sample                        13
 splat                        301
@@ -322,6 +323,19 @@ class So3:
         gradient1 = p0 * product_2 + p1 * product_4 - p2 * product_3 - p3 * product
         gradient2 = p2 * product + p0 * product_4 - p3 * product_3 - p1 * product_2
         return _root(gradient0 * gradient0 + gradient1 * gradient1 + gradient2 * gradient2)
+
+    def other_name(self, p: Tensor) -> Tensor:
+        """The other numbers that stand for the same point.
+
+        Formula: -p.
+        Shapes: p (..., 4) to (..., 4).
+        """
+        p0, p1, p2, p3 = p.unbind(-1)
+        q0 = -p0
+        q1 = -p1
+        q2 = -p2
+        q3 = -p3
+        return _stack((q0, q1, q2, q3))
 
     def transport(self, p: Tensor, q: Tensor, v: Tensor) -> Tensor:
         """The tangent vector v at p, carried along the geodesic to q.

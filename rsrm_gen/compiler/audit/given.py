@@ -7,19 +7,16 @@ from dataclasses import replace
 from typing import Any
 
 import mpmath as mp
-import sympy as sp
 import torch
 
 from rsrm_gen.compiler.audit.laws import Laws, Worst, _at, _difference, _relative
 from rsrm_gen.compiler.audit.numbers import torch_manifold
 from rsrm_gen.compiler.audit.report import Check
 from rsrm_gen.compiler.derive import Geometry
-from rsrm_gen.compiler.derive.geometry import argument
 from rsrm_gen.compiler.derive.numeric import largest, run, value
-from rsrm_gen.compiler.derive.scalarise import scalarised
 from rsrm_gen.compiler.emit import emit
 from rsrm_gen.compiler.lower import Program, lower
-from rsrm_gen.compiler.spec import ManifoldSpec, Spec
+from rsrm_gen.compiler.spec import ManifoldSpec
 
 RUNG = mp.mpf(10) ** -14  # of the ladder: its error is of the order of its square
 SAMPLES, WAVES = 20_000, 12
@@ -77,7 +74,7 @@ def sample_checks(geometry: Geometry, program: Program, files: Mapping[str, str]
     manifold = torch_manifold(program, files)
     generator = torch.Generator().manual_seed(31)
     points = manifold.sample(SAMPLES, generator, torch.zeros((), dtype=torch.float64))
-    waves = _Waves(geometry, generator)
+    waves = _Waves(geometry, generator, getattr(manifold, "other_name", None))
     laplacian = torch.zeros(SAMPLES, WAVES, dtype=torch.float64)
     frame = manifold.frame(points)
     for e in frame.unbind(-2):
@@ -100,14 +97,14 @@ def _sample_checks_of_factor(name: str, factor: Geometry) -> list[Check]:
 class _Waves:
     """Some random cosines of the stored numbers, whole in every period and the same for both names of a point."""
 
-    def __init__(self, geometry: Geometry, generator: torch.Generator) -> None:
+    def __init__(self, geometry: Geometry, generator: torch.Generator, other_name: Callable[[Any], Any] | None) -> None:
+        self.other_name = other_name
         size = geometry.spec.point_size
         periods = [float(value(L, {})) if L is not None else None for L in geometry.periods or (None,) * size]
         rough = 2 * torch.randn(size, WAVES, generator=generator, dtype=torch.float64)
         whole = torch.randint(1, 4, (size, WAVES), generator=generator).double()
         rows = [rough[i] if L is None else 2 * torch.pi / L * whole[i] for i, L in enumerate(periods)]
         self.frequencies = torch.stack(rows)
-        self.other_name = _other_name(geometry.spec)
         self.phases = 6 * torch.rand(WAVES, generator=generator, dtype=torch.float64)
 
     def __call__(self, points: Any) -> Any:
@@ -117,18 +114,3 @@ class _Waves:
             if self.other_name is None
             else waves + torch.cos(self.other_name(points) @ self.frequencies + self.phases)
         )
-
-
-def _other_name(spec: Spec) -> Callable[[Any], Any] | None:
-    """The author's `equivalent:` on rows of points."""
-    if not isinstance(spec, ManifoldSpec) or spec.equivalent is None:
-        return None
-    p = argument("p", spec.point_size)
-    function = scalarised(spec, "equivalent", spec.equivalent, (p,), (spec.point_size,))
-    entries = [function.unfolded(entry) for entry in function.results]
-    evaluate = sp.lambdify(p.symbols, entries, "torch")
-
-    def other(points: Any) -> Any:
-        return torch.stack([torch.as_tensor(e).expand(len(points)) for e in evaluate(*points.unbind(-1))], -1)
-
-    return other

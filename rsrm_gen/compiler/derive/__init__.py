@@ -238,8 +238,7 @@ class _Derivation:
 
     @property
     def given(self) -> tuple[Function, ...]:
-        """What only the author can know: transport, and a uniform distribution."""
-        functions = []
+        """What only the author can know: other names of points, transport, and a uniform distribution."""
         spec = self.spec
         if spec.transport is not None and spec.maps == "retraction":
             raise UserError("transport is along geodesics, which a retraction does not know", spec.transport.value.span)
@@ -248,6 +247,9 @@ class _Derivation:
                 "there is no uniform distribution on the whole of a manifold without a `diameter`",
                 spec.sample.value.span,
             )
+        functions = []
+        if spec.equivalent is not None:
+            functions.append(scalarised(spec, "other_name", spec.equivalent, (self.p,), (spec.point_size,)))
         if spec.transport is not None:
             functions.append(self.with_log_names("transport", spec.transport, self.v))
         if spec.sample is not None:

@@ -19,6 +19,7 @@ PROMISES = {
     "log_abs_det": "log |det D Log_p(q)| between the Riemannian volumes at q and p.",
     "riemannian_gradient": "The gradient in the metric from the partial derivatives df.",
     "gradient_norm": "The length of the gradient from the partial derivatives df.",
+    "other_name": "The other numbers that stand for the same point.",
     "transport": "The tangent vector v at p, carried along the geodesic to q.",
     "sample": "A point uniform in volume, from standard normal numbers and numbers uniform in [0, 1).",
     "splat": "A wrapped Gaussian and its Riemannian gradient in x (RSRM eq. 3).",

@@ -20,6 +20,7 @@ RESULT_NAMES = {
     "flat": "covector",
     "riemannian_gradient": "gradient",
     "transport": "w",
+    "other_name": "q",
     "sample": "p",
 }
 
