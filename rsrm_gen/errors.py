@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -61,6 +60,8 @@ class UserError(Exception):
 
 def did_you_mean(name: str, known: Iterable[str]) -> str | None:
     """A hint that names the closest of the known names, or lists them when none is close."""
+    import difflib  # not needed by who makes no mistake
+
     names = sorted(known)
     close = difflib.get_close_matches(name, names, n=1)
     if close:

@@ -24,9 +24,11 @@ MAY_IMPORT = {
     "manifold": set(),
     "native": INPUT,
     "driver": {*INPUT, "version", "native", *STAGES},
+    "cli": {*INPUT, "version", "driver", "native", *STAGES},
     "kernels": {*INPUT, "manifold", "native"},
     "load": {*INPUT, "version", "manifold", "spec", "driver", "native", "kernels"},
     "trainer": {*INPUT, "version", "manifold", "load", "package"},
+    "testing": {*INPUT, "driver", "cli", "spec", "audit"},
     "package": {"errors", "version", "manifold", "load"},
     **{stage: {*INPUT, "version", *STAGES[:i]} for i, stage in enumerate(STAGES)},
 }
@@ -50,6 +52,8 @@ def room(module: str) -> str:
             return stage
         case [_, "compiler", "native"]:
             return "native"
+        case [_, "compiler", "cli", *_]:
+            return "cli"
         case [_, "compiler", *_]:
             return "driver"
         case [_, name, *_]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
@@ -133,3 +133,10 @@ class ProductFile(Heading):
     product: dict[Identifier, FactorSection | FormulaText] = Field(
         min_length=1, description="the factors by name: `arm: torus(n=6)`, or a mapping"
     )
+
+
+def json_schema() -> dict[str, Any]:
+    """The JSON schema (draft 2020-12) of a manifold file, for editors."""
+    schema = ManifoldFile.model_json_schema()
+    schema["title"] = "A manifold for rsrm-gen"
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}
