@@ -37,14 +37,24 @@ def main() -> None:
 
 
 def _nothing_to_do(arguments: list[str]) -> bool:
-    """Whether the arguments are manifold files, none of which changed since it was compiled; then this is said.
+    """Whether this is a call to compile files, none of which changed since it was compiled; then this is said.
 
-    The commonest call of all, answered before the libraries of the command line are imported.
+    The commonest call of all, answered before the libraries of the command line are imported. What is not understood
+    here is left to them.
     """
-    if not arguments or not all(argument.endswith((".yaml", ".yml")) for argument in arguments):
+    files, parameters, output = [], {}, Path("generated")
+    waiting = iter(arguments)
+    for argument in waiting:
+        if argument == "-o":
+            output = Path(next(waiting, ""))
+        elif argument == "-p":
+            name, _, parameters[name] = next(waiting, "").partition("=")
+        else:
+            files.append(Path(argument))
+    if not files or not all(file.suffix in (".yaml", ".yml") for file in files):
         return False
-    folders = [unchanged(Path(argument), {}, Path("generated")) for argument in arguments]
-    if len(set(folders)) < len(arguments) or None in folders:
+    folders = [unchanged(file, parameters, output) for file in files]
+    if len(set(folders)) < len(files) or None in folders:
         return False
     for folder in folders:
         print(f"{folder}: up to date")
