@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from rsrm_gen.compiler.cli.account import Chapter, Fact
     from rsrm_gen.compiler.spec import Spec
 
+WIDTH = 110
 PREAMBLE = r"""\documentclass{article}
 \usepackage{amsmath,amssymb}
 \allowdisplaybreaks
@@ -51,19 +52,12 @@ def _plain(spec: Spec, chapters: Sequence[Chapter]) -> str:
 
 
 def _plain_lines(fact: Fact) -> list[str]:
-    if fact.plain is None:
+    if not fact.plain:
         return [fact.words]
-    formula = _joined(*fact.plain, relations=(" in", " of", "<", "~"))
     if fact.words == "where":
-        return [f"    where {formula}"]
-    return [formula, f"    {fact.words}"] if fact.words else [formula]
-
-
-def _joined(left: str, right: str, relations: tuple[str, ...]) -> str:
-    """`left = right`, or with the relation that the left side ends in, or one side alone."""
-    return (
-        left + right if not (left and right) else f"{left} {right}" if left.endswith(relations) else f"{left} = {right}"
-    )
+        return [f"    where {fact.plain}"]
+    line = f"{fact.plain}    ({fact.words})" if fact.words else fact.plain
+    return [line] if len(line) <= WIDTH else [fact.plain, f"    ({fact.words})"]
 
 
 def _latex(spec: Spec, chapters: Sequence[Chapter]) -> str:
@@ -75,10 +69,7 @@ def _latex(spec: Spec, chapters: Sequence[Chapter]) -> str:
 
 def _latex_fact(fact: Fact) -> str:
     words = escaped(fact.words)
-    if fact.latex is None:
-        return words + "\n"
-    formula = _joined(*fact.latex, relations=(r"\in", "<", r"\sim", "of}"))
-    return f"{words}\n\\[ {formula} \\]"
+    return f"{words}\n\\[ {fact.latex} \\]".lstrip() if fact.latex else f"{words}\n"
 
 
 def escaped(text: str) -> str:

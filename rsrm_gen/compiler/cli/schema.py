@@ -14,6 +14,6 @@ def schema_command() -> None:
     """
     import json
 
-    from rsrm_gen.compiler.spec.schema import json_schema
+    from rsrm_gen.compiler.spec.editors import json_schema
 
     print(json.dumps(json_schema(), indent=2))

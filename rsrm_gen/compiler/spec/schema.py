@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, model_validator
 
 
 def _as_text(value: object) -> object:
@@ -14,7 +14,8 @@ def _as_text(value: object) -> object:
     return str(value) if isinstance(value, int | float) and not isinstance(value, bool) else value
 
 
-FormulaText = Annotated[str, BeforeValidator(_as_text), Field(min_length=1)]
+FORMULA = {"type": "string", "format": "formula"}  # what `editors.py` knows a formula by
+FormulaText = Annotated[str, BeforeValidator(_as_text), Field(min_length=1), WithJsonSchema(FORMULA)]
 Identifier = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=40)]
 
 
@@ -27,8 +28,8 @@ class Section(BaseModel):
 class LetSection(Section):
     """A formula that names its parts first."""
 
-    let: dict[Identifier, FormulaText] = {}
-    value: FormulaText
+    let: dict[Identifier, FormulaText] = Field({}, description="names for parts; each may use those before it")
+    value: FormulaText = Field(description="the formula, in those names")
 
 
 MapText = FormulaText | LetSection
@@ -133,10 +134,3 @@ class ProductFile(Heading):
     product: dict[Identifier, FactorSection | FormulaText] = Field(
         min_length=1, description="the factors by name: `arm: torus(n=6)`, or a mapping"
     )
-
-
-def json_schema() -> dict[str, Any]:
-    """The JSON schema (draft 2020-12) of a manifold file, for editors."""
-    schema = ManifoldFile.model_json_schema()
-    schema["title"] = "A manifold for rsrm-gen"
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}
