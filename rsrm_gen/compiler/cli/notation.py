@@ -14,7 +14,7 @@ from rsrm_gen.compiler.spec import formula as f
 
 GREEK = {"alpha", "beta", "gamma", "delta", "epsilon", "theta", "kappa", "lambda", "mu", "omega", "phi", "pi", "rho",
          "sigma", "tau", "psi", "xi", "eta", "zeta", "nu"}  # fmt: skip
-COMPARISONS = {"<=": r"\le", ">=": r"\ge"}
+COMPARISONS = {"<=": r"\leq", ">=": r"\geq"}
 KINDS = ("<", "<=", "=")  # by the number in Choose
 LOOSE, SUM, PRODUCT, SIGN, POWER = range(5)  # how tightly a form binds
 
