@@ -231,7 +231,9 @@ def test_a_wrong_file_is_refused_with_its_place_and_nothing_is_written(
 WRONG_COMMANDS = {
     "a missing file": (["euclidan.yaml"], "no file euclidan.yaml", "did you mean `euclidean.yaml`?"),
     "a folder": (["."], "", ""),
-    "a command or a manifold that is not there": (["lits"], "no command or bundled manifold `lits`", "--help"),
+    "a command or a manifold that is not there": (["klein"], "no command or bundled manifold `klein`", "--help"),
+    "a misspelt command": (["adit", "so3"], "no command or bundled manifold `adit`", "did you mean `rsrm-gen audit`?"),
+    "a misspelt manifold": (["spere"], "no command or bundled manifold `spere`", "did you mean `sphere`?"),
     "half a parameter": (["euclidean.yaml", "-p", "n"], "`n` does not set a parameter", "-p NAME=VALUE"),
     "no parameter": (["euclidean.yaml", "-p", "n="], "`n=` does not set a parameter", "-p NAME=VALUE"),
     "an unknown parameter": (["euclidean.yaml", "-p", "m=3"], "no parameter `m`", "known here: n"),

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rsrm_gen.compiler.audit import AuditReport, Check, audit
+from rsrm_gen.compiler.audit.product import check_formulas
 from rsrm_gen.compiler.derive import derive
 from rsrm_gen.compiler.emit import emit
 from rsrm_gen.compiler.lower import lower
@@ -54,20 +55,18 @@ def _audit(spec: Spec, files: Mapping[str, str] | None) -> AuditReport:
     if files is None:
         return audit(geometry, program, fresh)
     missing = sorted(fresh.keys() - files.keys())
-    if missing:
-        return _does_not_run(spec, f"there is no {missing[0]}")
     try:
+        if missing:
+            raise UserError(f"there is no {missing[0]}")
         return audit(geometry, program, {name: files[name] for name in fresh})
     except Exception as error:  # whatever code that anybody may have edited raises, and the C compiler's complaints
-        return _explained(error, spec)
+        formulas = check_formulas(geometry, program)
+        return AuditReport(program.name, spec.content_hash, (*formulas, _does_not_run(error)), ())
 
 
-def _explained(error: Exception, spec: Spec) -> AuditReport:
-    first = next((line for line in str(error).splitlines() if "error" in line), str(error).partition("\n")[0])
-    name = "" if isinstance(error, UserError) else f"{type(error).__name__}: "
-    return _does_not_run(spec, f"{name}{first.strip()}")
-
-
-def _does_not_run(spec: Spec, why: str) -> AuditReport:
-    check = Check("code runs", "the generated code can be imported, compiled and called", float("inf"), 0.0, 1, why)
-    return AuditReport(spec.identifier, spec.content_hash, (check,), ())
+def _does_not_run(error: Exception) -> Check:
+    """The promise that is broken before any other can be tried."""
+    message = error.message if isinstance(error, UserError) else f"{type(error).__name__}: {error}"
+    first, *rest = message.splitlines()
+    why = next((line for line in rest if "error" in line), first)
+    return Check("code runs", "the generated code can be imported, compiled and called", float("inf"), 0.0, 1, why)

@@ -24,7 +24,7 @@ def audit_command(
     what: Annotated[
         list[str],
         typer.Argument(
-            metavar="SPEC|DIR...",
+            metavar="SPEC|DIR",
             help="Manifold files or bundled names, folders of them, folders of generated code, or folders of those.",
             show_default=False,
         ),

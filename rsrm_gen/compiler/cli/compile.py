@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -25,12 +26,13 @@ HELP = """Compile manifold files; the word `compile` may be left out.
 
 What is there already and was made of the same text, parameters and compiler is left alone.
 """
+COMMANDS = ("compile", "new", "list", "explain", "audit", "schema")
 EXPLANATION = "operations of a splat with its gradient; worst errors in units of what rounding inputs and output costs"
 
 
 def compile_command(
     files: Annotated[
-        list[str], typer.Argument(metavar="FILE...", help="Manifold files, or bundled names.", show_default=False)
+        list[str], typer.Argument(metavar="FILE", help="Manifold files, or bundled names.", show_default=False)
     ],
     parameter: ParameterOption = [],  # noqa: B006
     output: OutputOption = GENERATED,
@@ -53,10 +55,11 @@ def _file(name: str) -> Path:
     try:
         return manifold_file(name)
     except UserError as error:
-        raise UserError(
-            f"there is no command or bundled manifold `{name}`",
-            hint=f"{error.hint}; `rsrm-gen --help` lists the commands",
-        ) from None
+        close = difflib.get_close_matches(name, COMMANDS, n=1)
+        hint = (
+            f"did you mean `rsrm-gen {close[0]}`?" if close else f"{error.hint}; `rsrm-gen --help` lists the commands"
+        )
+        raise UserError(f"there is no command or bundled manifold `{name}`", hint=hint) from None
 
 
 def _check(files: list[Path], parameters: dict[str, str], output: Path) -> None:

@@ -26,8 +26,8 @@ def check_table(checks: Iterable[Check]) -> Table:
         (
             check.name,
             str(check.points),
-            f"{check.worst:.1e}",
-            f"{check.tolerance:.0e}",
+            f"{check.worst:.2g}",
+            f"{check.tolerance:.3g}",
             digits(check),
             "yes" if check.passed else "NO",
             check.where,
@@ -78,7 +78,8 @@ def summary(report: AuditReport, stale: str | None) -> str:
 
 def complaint(check: Check, blame_file: bool = True) -> str:
     """A failed check as an error message, at the formula to blame unless the code was edited."""
-    message = f"{check.promise}, but the error is {check.worst:.2g} (at most {check.tolerance:.3g}) {check.where}"
+    size = f"the error is {check.worst:.2g} (at most {check.tolerance:.3g}) {check.where}"
+    message = f"{check.promise}, but {size if check.tolerance else check.where}"
     return str(UserError(message.rstrip(), check.span if blame_file else None, check.hint))
 
 
