@@ -52,7 +52,7 @@ def test_every_check_is_a_row_with_points_error_tolerance_and_place(run: Command
     ran = run("audit", "files/torus.yaml")
     assert (ran.code, ran.err) == (0, "")
     heading, *rows = ran.out.splitlines()
-    assert heading.split() == ["check", "points", "worst", "error", "tolerance", "digits", "passed", "where"]
+    assert heading.split() == ["check", "points", "worst", "error", "tolerance", "margin", "passed", "where"]
     assert re.search(r"(?m)^log\(exp\) +16 +\d(\.\d)?e-\d+ +1e-12 +\d+ +yes +at p = \(", ran.out)
     assert re.search(r"(?m)^distance torch float32 +\d+ +[\d.e-]+ +64 +\d+ +yes", ran.out)
     assert re.search(r"(?m)^log_abs_det +<= \d+ +<= \d+ +\d+$", ran.out)

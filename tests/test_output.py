@@ -101,6 +101,24 @@ def test_what_changed_is_made_again(folder: Path, run: Command) -> None:
     assert run("torus.yaml").out == "generated/torus: up to date\n"
 
 
+def test_a_change_of_a_factor_of_a_product_is_noticed(folder: Path) -> None:
+    (folder / "line.yaml").write_text((folder / "euclidean.yaml").read_text().replace("euclidean", "line"))
+    (folder / "pair.yaml").write_text("manifold: pair\ndoc: Two.\nproduct: {a: line(n=1), b: torus(n=1)}\n")
+    compiled = compile_manifold(folder / "pair.yaml")
+    write(contents(compiled), folder / "generated" / "pair")
+    assert unchanged(folder / "pair.yaml", {}, folder / "generated") == folder / "generated" / "pair"
+    for name in ("line", "torus"):
+        text = (folder / f"{name}.yaml").read_text()
+        (folder / f"{name}.yaml").write_text(text + "# a remark\n")
+        assert unchanged(folder / "pair.yaml", {}, folder / "generated") is None
+        (folder / f"{name}.yaml").write_text(text)
+    assert unchanged(folder / "pair.yaml", {}, folder / "generated") is not None
+    (folder / "torus.yaml").unlink()  # the bundled one has the same text
+    assert unchanged(folder / "pair.yaml", {}, folder / "generated") is not None
+    (folder / "line.yaml").unlink()
+    assert unchanged(folder / "pair.yaml", {}, folder / "generated") is None
+
+
 def test_other_line_endings_are_no_change(folder: Path) -> None:
     text = (folder / "torus.yaml").read_bytes()
     (folder / "torus.yaml").write_bytes(text.replace(b"\n", b"\r\n"))

@@ -36,9 +36,9 @@ def audit_command(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the reports as JSON.")] = False,
 ) -> None:
-    """Audit generated code as it is on disk, edited or not: rerun every check and show what was found.
+    """Audit generated code as it is on disk, edited or not.
 
-    Exits with 1 when a check fails.
+    Reruns every check against that code and shows what was found. Exits with 1 when a check fails.
     """
     found = targets(what, assignments(parameter), output, spec)
     from rsrm_gen.compiler.reaudit import audit_folder
@@ -72,7 +72,7 @@ def _show(verdicts: list[Verdict]) -> None:
         failed = [check for check in verdict.report.checks if not check.passed]
         for check in failed:
             print(complaint(check, blame_file=verdict.stale is None))
-        if len(verdicts) == 1 or failed or verdict.stale:
+        if len(verdicts) == 1 or failed:
             print(f"{verdict.folder}: {summary(verdict.report, verdict.stale)}")
 
 

@@ -31,7 +31,11 @@ def explain_command(
     latex: Annotated[bool, typer.Option("--latex", help="As a LaTeX document; with --plain, both.")] = False,
     steps: Annotated[bool, typer.Option("--steps", help="Every scalar step of every derived function too.")] = False,
 ) -> None:
-    """Explain what is derived from a manifold file: storage, maps, determinant, gradient, singularities, cut locus."""
+    """Explain what is derived from a manifold file.
+
+    How points are stored, the maps, the determinant and how it was found, the gradient, the splat, where 0/0 was
+    removed and by what polynomial, and what happens on the cut locus.
+    """
     from rsrm_gen.compiler.cli.account import account
     from rsrm_gen.compiler.derive import derive
     from rsrm_gen.compiler.spec import read_spec

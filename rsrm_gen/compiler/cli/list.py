@@ -21,7 +21,10 @@ def list_command(
     ] = None,
     output: OutputOption = GENERATED,
 ) -> None:
-    """List the bundled manifolds, or those of a folder: dimension, parameters, what they are, state of their code."""
+    """List the bundled manifolds, or those of a folder.
+
+    Shows dimension and parameters, what they are, and whether their generated code is up to date.
+    """
     if folder is not None and not folder.is_dir():
         raise UserError(f"there is no folder {folder}")
     files = manifold_files(folder or bundled("manifolds"))

@@ -24,7 +24,10 @@ def new_command(
     product: Annotated[bool, typer.Option("--product", help="Points are those of several manifolds.")] = False,
     folder: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="The folder to write to.")] = Path("."),
 ) -> None:
-    """Write NAME.yaml, a commented manifold that compiles as it is, to be edited into your own."""
+    """Write NAME.yaml, a manifold to begin with.
+
+    It is commented and compiles as it is, to be edited into your own.
+    """
     if embedded + chart + product > 1:
         raise UserError("a manifold is one of --embedded, --chart and --product")
     if not NAME.fullmatch(name):

@@ -20,15 +20,15 @@ SHORT = {"float64": "f64", "float32": "f32"}
 
 
 def check_table(checks: Iterable[Check]) -> Table:
-    """One row a check; `digits` are those between the worst error and the tolerance."""
-    columns = ("check", "points", "worst error", "tolerance", "digits", "passed", "where")
+    """One row a check; the margin is how many digits lie between the worst error and the tolerance."""
+    columns = ("check", "points", "worst error", "tolerance", "margin", "passed", "where")
     rows = [
         (
             check.name,
             str(check.points),
             f"{check.worst:.2g}",
             f"{check.tolerance:.3g}",
-            digits(check),
+            margin(check),
             "yes" if check.passed else "NO",
             check.where,
         )
@@ -37,8 +37,8 @@ def check_table(checks: Iterable[Check]) -> Table:
     return table(columns, rows, left=("check", "passed", "where"), cut="where")
 
 
-def digits(check: Check) -> str:
-    """How many decimal digits the worst error stays below the tolerance; negative where it is above."""
+def margin(check: Check) -> str:
+    """How many decimal digits the worst error lies below the tolerance; negative where it is above."""
     if not check.passed and not math.isfinite(check.worst):
         return "none"
     if check.worst <= 0 or check.tolerance <= 0:

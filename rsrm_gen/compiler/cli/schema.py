@@ -4,7 +4,7 @@ from __future__ import annotations
 
 
 def schema_command() -> None:
-    """Print the JSON schema of manifold files, for editors that complete keys and show what they mean.
+    """Print the JSON schema of manifold files, for editors.
 
     Write it to a file and name that in the first line of a manifold file:
 
