@@ -19,6 +19,7 @@ from rsrm_gen.compiler import output
 from rsrm_gen.compiler.driver import compile_manifold
 from rsrm_gen.compiler.output import contents, generator, staleness, unchanged, write
 from rsrm_gen.compiler.spec import read_spec
+from rsrm_gen.errors import UserError
 
 SECONDS = 0.3
 HEAVY = ("sympy", "casadi", "torch", "numpy", "mpmath", "pydantic", "yaml", "typer", "rich")
@@ -226,3 +227,12 @@ def test_names_that_only_begin_alike_are_not_confused(folder: Path) -> None:
         parameters = {"n": "3"} if name == "torus_n3" else {}
         assert unchanged(folder / "torus.yaml", parameters, folder / "generated") is None, (name, other)
         (folder / "kept").rename(folder / "generated" / name / "audit.json")
+
+
+def test_a_cache_that_cannot_be_written_is_told(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (folder / "cache").write_text("a file")
+    monkeypatch.setenv("RSRM_GEN_CACHE", str(folder / "cache"))
+    with pytest.raises(UserError, match="cannot write to") as caught:
+        write({"a": "text"}, folder / "target")
+    assert "RSRM_GEN_CACHE" in str(caught.value.hint)
+    assert not list((folder / "target").iterdir())
