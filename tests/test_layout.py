@@ -26,7 +26,8 @@ MAY_IMPORT = {
     "driver": {*INPUT, "version", "native", *STAGES},
     "kernels": {*INPUT, "manifold", "native"},
     "load": {*INPUT, "version", "manifold", "spec", "driver", "native", "kernels"},
-    "trainer": {*INPUT, "version", "manifold", "load", "package"},
+    "trainer": {*INPUT, "version", "manifold", "load", "package", "bench"},
+    "bench": {*INPUT, "version", "manifold", "load", "native", "driver", *STAGES},
     "package": {"errors", "version", "manifold", "load"},
     **{stage: {*INPUT, "version", *STAGES[:i]} for i, stage in enumerate(STAGES)},
 }

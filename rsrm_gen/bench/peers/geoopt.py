@@ -1,0 +1,32 @@
+"""geoopt: its manifold classes in torch. It has no rotations, no torus in angles and no determinants.
+
+Its Lorentz model has the time coordinate first and, with k = 1, curvature -1, as ours.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import geoopt
+import torch
+
+from rsrm_gen.bench.peers import Evaluate
+from rsrm_gen.compiler.spec import ManifoldSpec
+
+
+def functions(spec: ManifoldSpec, precision: str) -> Mapping[str, Evaluate]:
+    """Exp, Log and the distance of spheres and hyperbolic spaces."""
+    classes = {"sphere": geoopt.Sphere, "hyperbolic": geoopt.Lorentz}
+    if spec.name not in classes:
+        return {}
+    manifold = classes[spec.name]().to(getattr(torch, precision))
+    return {"exp": _rows(manifold.expmap), "log": _rows(manifold.logmap), "distance": _rows(manifold.dist)}
+
+
+def _rows(function: Callable[..., Any]) -> Evaluate:
+    def evaluate(a: Any, b: Any) -> Any:
+        with torch.no_grad():
+            return function(torch.as_tensor(a), torch.as_tensor(b)).numpy()
+
+    return evaluate
