@@ -17,7 +17,7 @@ import numpy as np
 
 from rsrm_gen.compiler.audit.numbers import PRECISIONS, ROUTINES
 from rsrm_gen.compiler.derive import Geometry
-from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, largest, run
+from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, largest, run, value
 from rsrm_gen.compiler.derive.sampling import Sampler, sampler_of
 from rsrm_gen.compiler.lower import Program, interpret
 
@@ -63,7 +63,8 @@ def bands(geometry: Geometry, program: Program, precision: str, count: int) -> I
         if found:
             yield band(geometry, program, name, precision, found)
     if geometry.spec.embedded and _ties(geometry):
-        opposite = [_opposite(sampler, rng, k, precision) for k in range(max(count // FEWER, 1))]
+        radius = value(geometry.injectivity_radius, {})
+        opposite = [_opposite(sampler, rng, radius, k, precision) for k in range(max(count // FEWER, 1))]
         yield band(geometry, program, AT_RADIUS, precision, opposite, ("distance", "log_abs_det"))
 
 
@@ -159,12 +160,12 @@ def _row(sampler: Sampler, rng: random.Random, r: float, precision: str) -> Row 
     return None
 
 
-def _opposite(sampler: Sampler, rng: random.Random, k: int, precision: str) -> Row:
-    """A coordinate axis and a point at the injectivity radius, whose coordinates that are zero are zero exactly."""
+def _opposite(sampler: Sampler, rng: random.Random, radius: Any, k: int, precision: str) -> Row:
+    """A coordinate axis and a point at the injectivity radius from it, whose coordinates that are zero are zero exactly."""
     assert sampler.project is not None
     with mp.workdps(DIGITS):
         p = run(sampler.project, [mp.mpf(i == k % sampler.point_size) for i in range(sampler.point_size)])[0]
-        v = [2 * sampler.reach * c for c in sampler.direction(rng, p)]
+        v = [radius * c for c in sampler.direction(rng, p)]
         q = [c if abs(c) > TINY else mp.mpf(0) for c in sampler.along(p, v, mp.mpf(1))]
     return _rounded(p, precision), _rounded(q, precision), _rounded(v, precision)
 

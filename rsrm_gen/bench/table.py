@@ -56,13 +56,17 @@ def write_json(file: Path, document: Any) -> None:
 
 
 def figure(x: float) -> str:
-    """A number in a table cell, in two digits."""
+    """An error in a table cell, in two digits or less."""
+    if x == 0:
+        return "0"
+    if x < 0.01:
+        return "<0.01"
     if x >= 1e4:
         mantissa, exponent = f"{x:.0e}".split("e")
         return f"{mantissa}e{int(exponent)}"
     if x >= 99.5:
         return f"{x:.0f}"
-    return f"{x:.2g}" if x >= 0.01 or x == 0 else f"{x:.0e}"
+    return f"{x:.2g}"
 
 
 def machine() -> str:
