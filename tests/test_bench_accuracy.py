@@ -19,7 +19,7 @@ from rsrm_gen.bench.peers import PEERS, Evaluate, Peer
 from rsrm_gen.bench.rows import Band, Truth, band, bands
 from rsrm_gen.compiler.audit.numbers import PRECISIONS, ROUTINES
 from rsrm_gen.compiler.lower import interpret
-from rsrm_gen.compiler.spec import ManifoldSpec
+from rsrm_gen.compiler.spec import Spec
 from rsrm_gen.errors import UserError
 from rsrm_gen.trainer.cli import main
 
@@ -27,7 +27,7 @@ ORACLE = np.load(Path(__file__).parent / "oracle.npz")
 KEYS = {"log": "log", "distance": "dist", "log_abs_det": "logabsdet"}
 
 
-def exact(spec: ManifoldSpec, precision: str) -> Mapping[str, Evaluate]:
+def exact(spec: Spec, precision: str) -> Mapping[str, Evaluate]:
     """The program in 60 digits at the points meant, its results rounded to the precision: no code can do better."""
     routines = program(spec.name)
 
@@ -83,7 +83,7 @@ def test_a_known_error_is_what_is_found() -> None:
 
 
 def test_a_relative_error_is_as_many_units_in_the_whole_run() -> None:
-    def wrong(spec: ManifoldSpec, precision: str) -> Mapping[str, Evaluate]:
+    def wrong(spec: Spec, precision: str) -> Mapping[str, Evaluate]:
         right = exact(spec, precision)["distance"]
         return {"distance": lambda a, b: right(a, b) * (1 + 1000 * np.finfo(precision).eps)}
 
@@ -121,7 +121,7 @@ def test_a_function_that_a_peer_does_not_have_has_no_score() -> None:
 
 
 def test_peers_that_are_not_installed_are_skipped_and_named() -> None:
-    def never(spec: ManifoldSpec, precision: str) -> Mapping[str, Evaluate]:
+    def never(spec: Spec, precision: str) -> Mapping[str, Evaluate]:
         raise AssertionError("not installed, and used")
 
     result = measured(Peer("absent", "a-package-that-nobody-has-written", never), manifold="torus")
@@ -131,7 +131,7 @@ def test_peers_that_are_not_installed_are_skipped_and_named() -> None:
 
 
 def test_a_peer_that_cannot_be_imported_is_skipped_with_its_reason() -> None:
-    def broken(spec: ManifoldSpec, precision: str) -> Mapping[str, Evaluate]:
+    def broken(spec: Spec, precision: str) -> Mapping[str, Evaluate]:
         raise ImportError("cannot import name 'trapz' from 'numpy'")
 
     result = measured(peer(broken), manifold="torus")

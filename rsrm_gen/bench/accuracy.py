@@ -21,10 +21,10 @@ from rsrm_gen.compiler.derive import derive
 from rsrm_gen.compiler.emit import emit
 from rsrm_gen.compiler.lower import lower
 from rsrm_gen.compiler.native import compiler
-from rsrm_gen.compiler.spec import ManifoldSpec, read_spec
+from rsrm_gen.compiler.spec import Spec, read_spec
 
 Case = tuple[Path, Mapping[str, int | float | str]]  # a manifold file and its parameters
-Code = Callable[[ManifoldSpec, str], Mapping[str, Evaluate]]  # the functions of a manifold in a precision
+Code = Callable[[Spec, str], Mapping[str, Evaluate]]  # the functions of a manifold in a precision
 
 OURS = ("rsrm-gen torch", "rsrm-gen C")
 WORDS = {
@@ -156,7 +156,7 @@ def accuracy(
     return Accuracy(tuple(entries), versions, tuple(f"{name}: {why}" for name, why in unusable.items()))
 
 
-def _of_manifold(spec: ManifoldSpec, count: int, peers: Sequence[Peer], say: Callable[[str], None]) -> Iterator[Entry]:
+def _of_manifold(spec: Spec, count: int, peers: Sequence[Peer], say: Callable[[str], None]) -> Iterator[Entry]:
     name = spec.identifier
     say(f"{name}: generating")
     geometry = derive(spec)

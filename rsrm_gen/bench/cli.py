@@ -11,7 +11,7 @@ import typer
 from rich.console import Console
 
 from rsrm_gen.errors import UserError, did_you_mean
-from rsrm_gen.load import bundled
+from rsrm_gen.files import bundled
 
 app = typer.Typer(
     no_args_is_help=True,

@@ -19,8 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from rsrm_gen.bench.table import Table, machine
-from rsrm_gen.compiler.spec import read_spec
-from rsrm_gen.document import read_document
+from rsrm_gen.compiler.spec import ProductSpec, read_spec
 from rsrm_gen.errors import UserError
 
 Parameters = Mapping[str, int | float | str]
@@ -80,7 +79,7 @@ def _median(seconds: Sequence[float]) -> str:
 
 def _of_manifold(file: Path, parameters: Parameters, runs: int, say: Callable[[str], None]) -> Generation:
     spec = read_spec(file, parameters)
-    target = LARGE if spec.dim > LARGE_DIMENSION or _is_product(file) else COLD
+    target = LARGE if spec.dim > LARGE_DIMENSION or isinstance(spec, ProductSpec) else COLD
     cold, unchanged = [], []
     for run in range(runs):
         say(f"{spec.identifier}: run {run + 1} of {runs}")
@@ -91,10 +90,6 @@ def _of_manifold(file: Path, parameters: Parameters, runs: int, say: Callable[[s
             except UserError as error:
                 return Generation(spec.identifier, target, failure=error.message)
     return Generation(spec.identifier, target, tuple(cold), tuple(unchanged))
-
-
-def _is_product(file: Path) -> bool:
-    return "product" in read_document(file).data
 
 
 def _seconds(file: Path, parameters: Parameters, folder: Path) -> tuple[float, float]:

@@ -20,6 +20,7 @@ from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, largest, run, value
 from rsrm_gen.compiler.derive.sampling import Sampler, sampler_of
 from rsrm_gen.compiler.lower import Program, interpret
+from rsrm_gen.compiler.spec import ManifoldSpec, Spec
 
 COINCIDENT, NEAR, MIDDLE, FAR = "coincident", "1e-12..1e-2 apart", "middle", "far away, 3..30"
 NEAR_RADIUS, AT_RADIUS = "near the injectivity radius", "at the injectivity radius"  # where the cut locus begins
@@ -62,7 +63,7 @@ def bands(geometry: Geometry, program: Program, precision: str, count: int) -> I
         found = [row for r in lengths if (row := _row(sampler, rng, r, precision)) is not None]
         if found:
             yield band(geometry, program, name, precision, found)
-    if geometry.spec.embedded and _ties(geometry):
+    if _ties(geometry.spec):
         radius = value(geometry.injectivity_radius, {})
         opposite = [_opposite(sampler, rng, radius, k, precision) for k in range(max(count // FEWER, 1))]
         yield band(geometry, program, AT_RADIUS, precision, opposite, ("distance", "log_abs_det"))
@@ -89,7 +90,7 @@ class _Exact:
         self.function, self.routine = geometry[name], program[name]
         spec = geometry.spec
         self.project = geometry["project"] if spec.embedded else None
-        ambient = spec.embedded and spec.tangent_size == spec.point_size
+        ambient = isinstance(spec, ManifoldSpec) and spec.ambient_tangents
         self.to_tangent = geometry["to_tangent"] if ambient and name == "exp" else None
         self.second_is_point = name != "exp"
 
@@ -142,10 +143,10 @@ def _distances(geometry: Geometry, whole: float, precision: str, count: int) -> 
     }
 
 
-def _ties(geometry: Geometry) -> bool:
+def _ties(spec: Spec) -> bool:
     """Whether on the cut locus only Log is in doubt, between ways of one length: the determinant is the same of all."""
-    cut = geometry.spec.cut_locus
-    return geometry.injectivity_radius.is_finite and cut is not None and cut.log is None and cut.log_det is None
+    cut = spec.cut_locus if isinstance(spec, ManifoldSpec) and spec.embedded else None
+    return cut is not None and cut.log is None and cut.log_det is None
 
 
 def _row(sampler: Sampler, rng: random.Random, r: float, precision: str) -> Row | None:

@@ -14,10 +14,10 @@ from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
-from rsrm_gen.compiler.spec import ManifoldSpec
+from rsrm_gen.compiler.spec import Spec
 
 Evaluate = Callable[[Any, Any], Any]  # two arrays of rows -> array of rows
-Functions = Callable[[ManifoldSpec, str], Mapping[str, Evaluate]]
+Functions = Callable[[Spec, str], Mapping[str, Evaluate]]
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class Peer:
         except PackageNotFoundError:
             return ""
 
-    def unusable(self, spec: ManifoldSpec) -> str | None:
+    def unusable(self, spec: Spec) -> str | None:
         """Why the peer cannot be measured here, or None if it can."""
         if not self.version:
             return "not installed"
@@ -48,7 +48,7 @@ class Peer:
 
 
 def _lazily(module: str) -> Functions:
-    def functions(spec: ManifoldSpec, precision: str) -> Mapping[str, Evaluate]:
+    def functions(spec: Spec, precision: str) -> Mapping[str, Evaluate]:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of a peer about its own code
             found: Mapping[str, Evaluate] = import_module(f"{__name__}.{module}").functions(spec, precision)

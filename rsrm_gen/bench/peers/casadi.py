@@ -11,15 +11,15 @@ from typing import Any
 import numpy as np
 
 from rsrm_gen.bench.peers import Evaluate
-from rsrm_gen.compiler.audit.second_reading import SecondReading
-from rsrm_gen.compiler.spec import ManifoldSpec
+from rsrm_gen.compiler.audit.second_reading import read_again
+from rsrm_gen.compiler.spec import Spec
 
 
-def functions(spec: ManifoldSpec, precision: str) -> Mapping[str, Evaluate]:
+def functions(spec: Spec, precision: str) -> Mapping[str, Evaluate]:
     """All four functions of any manifold, in float64."""
     if precision != "float64":
         return {}
-    reading = SecondReading(spec)
+    reading = read_again(spec)
     return {
         "exp": _by_rows(reading.exp),
         "log": _by_rows(reading.log),

@@ -17,10 +17,10 @@ from geomstats.geometry.hypersphere import Hypersphere
 from geomstats.geometry.special_orthogonal import SpecialOrthogonal
 
 from rsrm_gen.bench.peers import Evaluate
-from rsrm_gen.compiler.spec import ManifoldSpec
+from rsrm_gen.compiler.spec import Spec
 
 
-def functions(spec: ManifoldSpec, precision: str) -> Mapping[str, Evaluate]:
+def functions(spec: Spec, precision: str) -> Mapping[str, Evaluate]:
     """Exp, Log and the distance of spheres, hyperbolic spaces and SO(3)."""
     match spec.name:
         case "sphere":

@@ -12,10 +12,10 @@ import geoopt
 import torch
 
 from rsrm_gen.bench.peers import Evaluate
-from rsrm_gen.compiler.spec import ManifoldSpec
+from rsrm_gen.compiler.spec import Spec
 
 
-def functions(spec: ManifoldSpec, precision: str) -> Mapping[str, Evaluate]:
+def functions(spec: Spec, precision: str) -> Mapping[str, Evaluate]:
     """Exp, Log and the distance of spheres and hyperbolic spaces."""
     classes = {"sphere": geoopt.Sphere, "hyperbolic": geoopt.Lorentz}
     if spec.name not in classes:

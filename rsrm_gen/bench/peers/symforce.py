@@ -25,13 +25,13 @@ from symforce.codegen.backends.pytorch import PyTorchConfig  # noqa: E402
 from symforce.values import Values  # noqa: E402
 
 from rsrm_gen.bench.peers import Evaluate  # noqa: E402
-from rsrm_gen.compiler.spec import ManifoldSpec  # noqa: E402
+from rsrm_gen.compiler.spec import Spec  # noqa: E402
 from rsrm_gen.files import imported  # noqa: E402
 
 Formula = Callable[[Any, Any], Any]  # two column vectors of symbols -> a matrix of expressions
 
 
-def functions(spec: ManifoldSpec, precision: str) -> Mapping[str, Evaluate]:
+def functions(spec: Spec, precision: str) -> Mapping[str, Evaluate]:
     """Exp, Log, the distance and the determinant of spheres, hyperbolic spaces, tori and SO(3)."""
     if spec.name not in FORMULAS:
         return {}

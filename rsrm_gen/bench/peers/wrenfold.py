@@ -20,7 +20,7 @@ from wrenfold.geometry import Quaternion
 from wrenfold.type_info import MatrixType
 
 from rsrm_gen.bench.peers import Evaluate
-from rsrm_gen.compiler.spec import ManifoldSpec
+from rsrm_gen.compiler.spec import Spec
 from rsrm_gen.files import imported
 
 EPSILON = 1e-16
@@ -32,7 +32,7 @@ WIDTHS = {
 Formula = Callable[[Any, Any], Any]  # two column vectors of symbols -> a matrix of expressions
 
 
-def functions(spec: ManifoldSpec, precision: str) -> Mapping[str, Evaluate]:
+def functions(spec: Spec, precision: str) -> Mapping[str, Evaluate]:
     """Exp, Log, the distance and the determinant of spheres, hyperbolic spaces, tori and SO(3)."""
     if spec.name not in FORMULAS:
         return {}
