@@ -15,11 +15,11 @@ from rsrm_gen.bench import rows as places
 from rsrm_gen.bench.accuracy import OURS, Accuracy, accuracy
 from rsrm_gen.bench.cli import app
 from rsrm_gen.bench.measure import DETERMINANT, FUNCTIONS, LOST, Score, measure
-from rsrm_gen.bench.peers import PEERS, Evaluate, Peer
+from rsrm_gen.bench.peers import PEERS, Evaluate, Peer, bundled_name
 from rsrm_gen.bench.rows import Band, Truth, band, bands
 from rsrm_gen.compiler.audit.numbers import PRECISIONS, ROUTINES
 from rsrm_gen.compiler.lower import interpret
-from rsrm_gen.compiler.spec import Spec
+from rsrm_gen.compiler.spec import Spec, read_spec
 from rsrm_gen.errors import UserError
 from rsrm_gen.trainer.cli import main
 
@@ -197,6 +197,14 @@ def test_pairs_are_as_far_apart_as_they_say(name: str, precision: str) -> None:
         assert np.allclose(found[places.AT_RADIUS], np.pi, atol=rounding)
         (opposite,) = (b for b in chosen if b.name == places.AT_RADIUS)
         assert (np.sum(opposite.p * opposite.q, axis=1) == 0).all()  # exactly where cos(angle / 2) = 0
+
+
+def test_a_peer_knows_only_the_manifolds_that_come_with_this_project(tmp_path: Path) -> None:
+    mine = tmp_path / "sphere.yaml"
+    mine.write_text((MANIFOLDS / "sphere.yaml").read_text() + "\n# mine\n")
+    assert bundled_name(read_spec(MANIFOLDS / "sphere.yaml", {"n": 4})) == "sphere"
+    assert bundled_name(read_spec(MANIFOLDS / "sphere.yaml", {"radius": 2})) is None
+    assert bundled_name(read_spec(mine)) is None
 
 
 def test_every_peer_is_in_the_extra_of_its_name() -> None:

@@ -15,6 +15,7 @@ from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 from rsrm_gen.compiler.spec import Spec
+from rsrm_gen.files import bundled
 
 Evaluate = Callable[[Any, Any], Any]  # two arrays of rows -> array of rows
 Functions = Callable[[Spec, str], Mapping[str, Evaluate]]
@@ -45,6 +46,16 @@ class Peer:
         except ImportError as error:  # installed beside something that it does not go with
             return str(error)
         return None
+
+
+def bundled_name(spec: Spec) -> str | None:
+    """The name of a manifold that comes with this project, in any dimension `n`; None for any other.
+
+    Peers know manifolds by their names, so that a file of the user's, or another radius, must not go by a name.
+    """
+    own = bundled("manifolds") / f"{spec.name}.yaml"
+    same = own.is_file() and own.read_text(encoding="utf-8") == spec.source.text
+    return spec.name if same and set(spec.overridden) <= {"n"} else None
 
 
 def _lazily(module: str) -> Functions:

@@ -14,26 +14,29 @@ import mpmath as mp
 import numpy as np
 from geomstats.geometry.hyperboloid import Hyperboloid
 from geomstats.geometry.hypersphere import Hypersphere
+from geomstats.geometry.poincare_ball import PoincareBall
 from geomstats.geometry.special_orthogonal import SpecialOrthogonal
 
-from rsrm_gen.bench.peers import Evaluate
+from rsrm_gen.bench.peers import Evaluate, bundled_name
 from rsrm_gen.compiler.spec import Spec
 
 
 def functions(spec: Spec, precision: str) -> Mapping[str, Evaluate]:
-    """Exp, Log and the distance of spheres, hyperbolic spaces and SO(3)."""
-    match spec.name:
+    """Exp, Log and the distance of spheres, hyperbolic spaces in two models and SO(3)."""
+    match bundled_name(spec):
         case "sphere":
             return _ambient(Hypersphere(spec.dim).metric)
         case "hyperbolic":
             return _ambient(Hyperboloid(spec.dim).metric)
+        case "poincare":
+            return _ambient(PoincareBall(spec.dim).metric)
         case "so3":
             return _rotations(SpecialOrthogonal(3).metric, precision)
     return {}
 
 
 def _ambient(metric: Any) -> Mapping[str, Evaluate]:
-    """A metric whose points and tangent vectors are stored as ours."""
+    """A metric whose points and tangent vectors are stored as ours, the curvature of its hyperbolic spaces -1."""
     return {
         "exp": lambda p, v: metric.exp(v, p),
         "log": lambda p, q: metric.log(q, p),

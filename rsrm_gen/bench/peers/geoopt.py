@@ -1,6 +1,6 @@
 """geoopt: its manifold classes in torch. It has no rotations, no torus in angles and no determinants.
 
-Its Lorentz model has the time coordinate first and, with k = 1, curvature -1, as ours.
+Its Lorentz model has the time coordinate first and, with k = 1, curvature -1, as ours; so has its ball, with c = 1.
 """
 
 from __future__ import annotations
@@ -11,16 +11,17 @@ from typing import Any
 import geoopt
 import torch
 
-from rsrm_gen.bench.peers import Evaluate
+from rsrm_gen.bench.peers import Evaluate, bundled_name
 from rsrm_gen.compiler.spec import Spec
 
 
 def functions(spec: Spec, precision: str) -> Mapping[str, Evaluate]:
-    """Exp, Log and the distance of spheres and hyperbolic spaces."""
-    classes = {"sphere": geoopt.Sphere, "hyperbolic": geoopt.Lorentz}
-    if spec.name not in classes:
+    """Exp, Log and the distance of spheres and of hyperbolic spaces in two models."""
+    makers = {"sphere": geoopt.Sphere, "hyperbolic": geoopt.Lorentz, "poincare": geoopt.PoincareBall}
+    make = makers.get(bundled_name(spec) or "")
+    if make is None:
         return {}
-    manifold = classes[spec.name]().to(getattr(torch, precision))
+    manifold = make().to(getattr(torch, precision))
     return {"exp": _rows(manifold.expmap), "log": _rows(manifold.logmap), "distance": _rows(manifold.dist)}
 
 

@@ -24,7 +24,7 @@ from symforce.codegen import Codegen  # noqa: E402
 from symforce.codegen.backends.pytorch import PyTorchConfig  # noqa: E402
 from symforce.values import Values  # noqa: E402
 
-from rsrm_gen.bench.peers import Evaluate  # noqa: E402
+from rsrm_gen.bench.peers import Evaluate, bundled_name  # noqa: E402
 from rsrm_gen.compiler.spec import Spec  # noqa: E402
 from rsrm_gen.files import imported  # noqa: E402
 
@@ -33,12 +33,13 @@ Formula = Callable[[Any, Any], Any]  # two column vectors of symbols -> a matrix
 
 def functions(spec: Spec, precision: str) -> Mapping[str, Evaluate]:
     """Exp, Log, the distance and the determinant of spheres, hyperbolic spaces, tori and SO(3)."""
-    if spec.name not in FORMULAS:
+    manifold = bundled_name(spec)
+    if manifold not in FORMULAS:
         return {}
     found = {}
-    for name in FORMULAS[spec.name]:
+    for name in FORMULAS[manifold]:
         right = spec.tangent_size if name == "exp" else spec.point_size
-        found[name] = _evaluate(_generated(spec.name, name, spec.point_size, right), name, precision)
+        found[name] = _evaluate(_generated(manifold, name, spec.point_size, right), name, precision)
     return found
 
 

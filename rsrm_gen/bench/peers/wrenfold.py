@@ -19,7 +19,7 @@ from wrenfold import sym
 from wrenfold.geometry import Quaternion
 from wrenfold.type_info import MatrixType
 
-from rsrm_gen.bench.peers import Evaluate
+from rsrm_gen.bench.peers import Evaluate, bundled_name
 from rsrm_gen.compiler.spec import Spec
 from rsrm_gen.files import imported
 
@@ -34,12 +34,13 @@ Formula = Callable[[Any, Any], Any]  # two column vectors of symbols -> a matrix
 
 def functions(spec: Spec, precision: str) -> Mapping[str, Evaluate]:
     """Exp, Log, the distance and the determinant of spheres, hyperbolic spaces, tori and SO(3)."""
-    if spec.name not in FORMULAS:
+    manifold = bundled_name(spec)
+    if manifold not in FORMULAS:
         return {}
     found = {}
-    for name in FORMULAS[spec.name]:
+    for name in FORMULAS[manifold]:
         right = spec.tangent_size if name == "exp" else spec.point_size
-        found[name] = _by_rows(_generated(spec.name, name, spec.point_size, right, precision), name, precision)
+        found[name] = _by_rows(_generated(manifold, name, spec.point_size, right, precision), name, precision)
     return found
 
 
