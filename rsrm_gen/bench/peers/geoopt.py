@@ -17,11 +17,17 @@ from rsrm_gen.compiler.spec import Spec
 
 def functions(spec: Spec, precision: str) -> Mapping[str, Evaluate]:
     """Exp, Log and the distance of spheres and of hyperbolic spaces in two models."""
-    makers = {"sphere": geoopt.Sphere, "hyperbolic": geoopt.Lorentz, "poincare": geoopt.PoincareBall}
-    make = makers.get(bundled_name(spec) or "")
-    if make is None:
+    dtype = getattr(torch, precision)
+    makers: dict[str | None, Callable[[], Any]] = {
+        "sphere": geoopt.Sphere,
+        "hyperbolic": lambda: geoopt.Lorentz().to(dtype),
+        # Its curvature is the softplus of a number: made in float32 and then converted, it would be -1 to 8 digits.
+        "poincare": lambda: geoopt.PoincareBall(c=torch.tensor(1.0, dtype=dtype)),
+    }
+    name = bundled_name(spec)
+    if name not in makers:
         return {}
-    manifold = make().to(getattr(torch, precision))
+    manifold = makers[name]()
     return {"exp": _rows(manifold.expmap), "log": _rows(manifold.logmap), "distance": _rows(manifold.dist)}
 
 
