@@ -62,9 +62,10 @@ def foot(results: Sequence[Generation]) -> str:
     """What is needed to read the table and to repeat it."""
     failures = "".join(f"{r.manifold} is not generated: {r.failure}\n\n" for r in results if r.failure)
     runs = max((len(r.cold) for r in results), default=0)
+    counted = f"Medians of {runs} runs" if runs > 1 else "One run"
     return (
-        f"{failures}Medians of {runs} runs. Cold: CPU seconds on one core, in a fresh process with an empty cache, audit "
-        f"and C compiler included. Unchanged: seconds until the same command, said again, is done. {machine()}."
+        f"{failures}{counted}. Cold: CPU seconds on one core, in a fresh process with an empty cache, audit and C compiler "
+        f"included. Unchanged: seconds until the same command, said again, is done. {machine()}."
     )
 
 
