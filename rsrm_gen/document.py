@@ -18,6 +18,7 @@ from rsrm_gen.errors import Source, Span, UserError, did_you_mean
 
 MAX_CHARACTERS = 200_000
 MAX_DEPTH = 40
+MAX_NUMBER = 400  # characters
 
 Path_ = tuple[str | int, ...]
 Model = TypeVar("Model", bound=BaseModel)
@@ -46,7 +47,8 @@ class Document:
 def read_document(path: Path) -> Document:
     """Read a YAML file; every way in which it can be unreadable is a `UserError`."""
     try:
-        text = path.read_text(encoding="utf-8")
+        with path.open(encoding="utf-8-sig") as file:
+            text = file.read(MAX_CHARACTERS + 1)
     except FileNotFoundError:
         folder = path.parent
         stems = {p.stem: p.name for p in folder.glob(f"*{path.suffix}")} if folder.is_dir() else {}
@@ -64,7 +66,7 @@ def parse_document(text: str, name: str = "<text>") -> Document:
     """Parse YAML text whose top level is a mapping."""
     source = Source(name, text)
     if len(text) > MAX_CHARACTERS:
-        raise UserError(f"{name} has {len(text)} characters; at most {MAX_CHARACTERS} are read")
+        raise UserError(f"{name} has more than {MAX_CHARACTERS} characters", hint="a manifold file is a page of text")
     try:
         root = yaml.compose(text, Loader=yaml.SafeLoader)
         loader = yaml.SafeLoader("")
@@ -72,8 +74,9 @@ def parse_document(text: str, name: str = "<text>") -> Document:
         mark = error.problem_mark
         span = Span(source, mark.line + 1, mark.column + 1) if mark else None
         raise UserError(f"this is not valid YAML: {error.problem}", span, _yaml_hint(error, source)) from None
-    except yaml.YAMLError as error:
-        raise UserError(f"{name} is not valid YAML: {error}") from None
+    except yaml.reader.ReaderError as error:
+        character = f"the character U+{ord(text[error.position]):04X} cannot stand in YAML"
+        raise UserError(character, _span_at(source, error.position), "remove it; it may be invisible") from None
     except RecursionError:
         raise UserError(f"{name} is nested too deeply; at most {MAX_DEPTH} levels are read") from None
     if not isinstance(root, yaml.MappingNode):
@@ -81,6 +84,14 @@ def parse_document(text: str, name: str = "<text>") -> Document:
     walker = _Walker(source, loader)
     data = walker.value(root, ())
     return Document(source, data, walker.values, walker.keys)
+
+
+def _span_at(source: Source, position: int) -> Span:
+    """Where the character with that number from 0 stands."""
+    before = source.text[:position].splitlines() or [""]
+    if source.text[:position].endswith("\n"):
+        before.append("")
+    return Span(source, len(before), len(before[-1]) + 1)
 
 
 def _yaml_hint(error: yaml.MarkedYAMLError, source: Source) -> str | None:
@@ -130,6 +141,8 @@ class _Walker:
         plain = {"str", "int", "float", "bool", "null"}
         if node.tag.removeprefix("tag:yaml.org,2002:") not in plain:
             raise UserError(f"the YAML type `{node.tag}` is not read here", span, "write text, a number, or a list")
+        if len(node.value) > MAX_NUMBER and node.tag.endswith((":int", ":float")):
+            raise UserError(f"a number of {len(node.value)} characters; at most {MAX_NUMBER} are read", span)
         try:
             # The loader's own constructor for the five plain types: numbers as YAML 1.1 writes them.
             return self.loader.construct_object(node)

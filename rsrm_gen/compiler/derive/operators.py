@@ -13,11 +13,13 @@ from typing import Any
 import mpmath as mp
 import sympy as sp
 
+from rsrm_gen.compiler.derive.bounds import Sizes, inverse, may_be_expanded
 from rsrm_gen.compiler.derive.geometry import Argument, Function, argument
 from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, value
-from rsrm_gen.compiler.derive.scalarise import Reading, Trace, scalarised
+from rsrm_gen.compiler.derive.scalarise import Reading, scalarised
+from rsrm_gen.compiler.derive.trace import Trace
 from rsrm_gen.compiler.spec import ManifoldSpec
-from rsrm_gen.errors import UserError
+from rsrm_gen.errors import Span, UserError
 
 
 class Operators:
@@ -32,14 +34,14 @@ class Operators:
         self.frame = self.read_frame()  # rows: the vectors that tangent components multiply
         self.constraint_jacobian = self.read_constraint_jacobian()  # (constraints, D)
         self.check_metric()
-        self.metric_inverse = _inverse(self.metric)
+        self.metric_inverse = _inverse(self.metric, spec.metric.value.span)
 
     def read_metric(self) -> sp.Matrix:
         spec, size = self.spec, self.spec.tangent_size
         if spec.metric.value.shape:
             trace = Trace([self.p])
             entries = Reading(spec, trace).entries(spec.metric)
-            return sp.Matrix(size, size, [trace.unfolded(e) for e in entries])
+            return sp.Matrix(size, size, [trace.unfolded(e, spec.metric.value.span) for e in entries])
         unit = sp.eye(size)
         return sp.Matrix(size, size, lambda i, j: self.metric_of(unit.row(i), unit.row(j)))
 
@@ -71,7 +73,7 @@ class Operators:
         """<u, v>_p from the author's formula."""
         size = self.spec.tangent_size
         trace = Trace([self.p, Argument("u", (size,), tuple(u)), Argument("v", (size,), tuple(v))])
-        return trace.unfolded(Reading(self.spec, trace).entries(self.spec.metric)[0])
+        return trace.unfolded(Reading(self.spec, trace).entries(self.spec.metric)[0], self.spec.metric.value.span)
 
     def read_frame(self) -> sp.Matrix:
         spec = self.spec
@@ -79,14 +81,16 @@ class Operators:
             return sp.eye(spec.point_size)
         trace = Trace([self.p])
         entries = Reading(spec, trace).entries(spec.frame)
-        return sp.Matrix(spec.tangent_size, spec.point_size, [trace.unfolded(e) for e in entries])
+        return sp.Matrix(
+            spec.tangent_size, spec.point_size, [trace.unfolded(e, spec.frame.value.span) for e in entries]
+        )
 
     def read_constraint_jacobian(self) -> sp.Matrix:
         if self.spec.constraint is None:
             return sp.zeros(0, self.spec.point_size)
-        trace = Trace([self.p])
+        trace, span = Trace([self.p]), self.spec.constraint.value.span
         entries = Reading(self.spec, trace).entries(self.spec.constraint)
-        jacobian = sp.Matrix([trace.unfolded(e) for e in entries]).jacobian(self.p.symbols)
+        jacobian = sp.Matrix([trace.unfolded(e, span) for e in entries]).jacobian(self.p.symbols)
         # A constraint and its half have the same normals: 2 p and p on the sphere.
         contents = [sp.gcd_list([e.as_coeff_Mul()[0] for e in jacobian.row(i) if e != 0]) for i in range(jacobian.rows)]
         return sp.Matrix(*jacobian.shape, lambda i, j: jacobian[i, j] / contents[i])
@@ -109,7 +113,9 @@ class Operators:
     def tangential(self, x: sp.Matrix, trace: Trace) -> sp.Matrix:
         """The tangential part of an ambient vector (ambient tangents only)."""
         normals, jacobian = self.normals(), self.constraint_jacobian
-        parts = _inverse(self.on_manifold(jacobian * normals)) * (jacobian * x)
+        assert self.spec.constraint is not None
+        span = self.spec.constraint.value.span
+        parts = _inverse(self.on_manifold(jacobian * normals), span) * (jacobian * x)
         return x - normals * sp.Matrix(
             [trace.define(f"normal_part{i if len(parts) > 1 else ''}", e) for i, e in enumerate(parts)]
         )
@@ -120,7 +126,8 @@ class Operators:
         vector, trace = sp.Matrix(x.symbols), Trace((self.p, x))
         if self.spec.frame is not None:
             result, formula = (
-                _inverse(self.on_manifold(self.frame * self.frame.T)) * (self.frame * vector),
+                _inverse(self.on_manifold(self.frame * self.frame.T), self.spec.frame.value.span)
+                * (self.frame * vector),
                 "(E E^T)^-1 E x",
             )
         elif self.spec.embedded:
@@ -210,8 +217,11 @@ class Operators:
         return Function(name, arguments, (), tuple(entries), shape, formula)
 
 
-def _inverse(matrix: sp.Matrix) -> sp.Matrix:
+def _inverse(matrix: sp.Matrix, span: Span) -> sp.Matrix:
+    """The inverse, written out; simplified where that takes no time."""
     if matrix.is_diagonal():
         return sp.diag(*(1 / matrix[i, i] for i in range(matrix.rows)))
-    inverse = matrix.inv(method="ADJ")
-    return inverse.applyfunc(sp.cancel) if matrix.rows <= 4 else inverse
+    written_out = inverse(matrix, span)
+    Sizes().check(written_out, span)
+    simplify = matrix.rows <= 4 and all(map(may_be_expanded, written_out))
+    return written_out.applyfunc(sp.cancel) if simplify else written_out

@@ -15,7 +15,7 @@ A formula is data: it is parsed by these rules and never handed to Python or sym
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -24,6 +24,8 @@ from rsrm_gen.errors import Span, UserError
 MAX_CHARACTERS = 4000
 MAX_DEPTH = 40
 MAX_TERMS = 40
+MAX_HEIGHT = 120
+LET = "name its parts with `let`"
 
 TOKEN = re.compile(
     r"\s*(?:(?P<number>[0-9]+\.?[0-9]*(?:[eE][+-]?[0-9]+)?)|(?P<name>[A-Za-z_][A-Za-z_0-9]*)|(?P<op>\*\*|[<>=]=|[-+*/^()\[\],:<>=]))"
@@ -121,7 +123,41 @@ def parse(text: str, span: Span) -> Tree:
     parser = _Parser(_tokens(text, span), span.inner(len(text)))
     tree = parser.formula()
     parser.end()
+    _require_height(tree)
     return tree
+
+
+def children(tree: Tree) -> tuple[Tree, ...]:
+    """The formulas of which a formula is made, from left to right."""
+    match tree:
+        case Call():
+            return tree.arguments
+        case Negate():
+            return (tree.operand,)
+        case Binary() | Compare():
+            return tree.left, tree.right
+        case Stack() | Rows():
+            return tree.items
+        case Index():
+            return tuple(part for part in (tree.base, tree.start, tree.stop) if part is not None)
+    return ()
+
+
+def names(tree: Tree) -> Iterator[str]:
+    """The names in a formula, from left to right."""
+    if isinstance(tree, Name):
+        yield tree.name
+    for child in children(tree):
+        yield from names(child)
+
+
+def _require_height(tree: Tree) -> None:
+    """Refuse what is too deep to be walked: long chains inside long chains, though neither is too long by itself."""
+    level, height = [tree], 1
+    while level:
+        if height > MAX_HEIGHT:
+            raise UserError("a formula with too many operations inside one another", level[0].span, LET)
+        level, height = [child for parent in level for child in children(parent)], height + 1
 
 
 @dataclass(frozen=True)
@@ -188,7 +224,7 @@ class _Parser:
             token = self.take()
             left, terms = Binary(token.text, left, operand(), token.span), terms + 1
             if terms > MAX_TERMS:
-                raise UserError(f"more than {MAX_TERMS} terms in a row", token.span, "name its parts with `let`")
+                raise UserError(f"more than {MAX_TERMS} terms in a row", token.span, LET)
         return left
 
     def unary(self) -> Tree:
@@ -215,7 +251,7 @@ class _Parser:
         """Count one level of nesting."""
         self.depth += 1
         if self.depth > MAX_DEPTH:
-            raise UserError(f"a formula nested deeper than {MAX_DEPTH} levels", token.span, "name its parts with `let`")
+            raise UserError(f"a formula nested deeper than {MAX_DEPTH} levels", token.span, LET)
         return token
 
     def item(self) -> Tree:
