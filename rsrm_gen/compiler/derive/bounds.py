@@ -103,13 +103,39 @@ def determinant(matrix: sp.MatrixBase, span: Span | None) -> sp.Expr:
             span,
             "give it in closed form",
         )
-    spend(matrix.rows**4)
-    return matrix.det(method="berkowitz")
+    return _minor(matrix, tuple(range(matrix.rows)), tuple(range(matrix.cols)), {})
 
 
 def inverse(matrix: sp.MatrixBase, span: Span | None) -> sp.MatrixBase:
-    """The inverse of a small matrix by its adjugate, written out."""
+    """The inverse of a small matrix by its minors, written out."""
     divisor = determinant(matrix, span)
     if divisor == 0:
         raise UserError("this matrix has no inverse", span)
-    return matrix.adjugate() / divisor
+    known: dict[Minor, sp.Expr] = {}
+    every = tuple(range(matrix.rows))
+
+    def entry(i: int, j: int) -> sp.Expr:
+        rows, columns = (tuple(k for k in every if k != left_out) for left_out in (j, i))
+        return (-1) ** (i + j) * _minor(matrix, rows, columns, known) / divisor
+
+    return sp.Matrix(*matrix.shape, entry)
+
+
+Minor = tuple[tuple[int, ...], tuple[int, ...]]
+
+
+def _minor(
+    matrix: sp.MatrixBase, rows: tuple[int, ...], columns: tuple[int, ...], known: dict[Minor, sp.Expr]
+) -> sp.Expr:
+    """The determinant of some rows and columns by Laplace's expansion; nothing is multiplied out, and nothing hangs."""
+    if not rows:
+        return sp.Integer(1)
+    if (rows, columns) not in known:
+        spend(1)
+        terms = (
+            (-1) ** k * matrix[rows[0], c] * _minor(matrix, rows[1:], (*columns[:k], *columns[k + 1 :]), known)
+            for k, c in enumerate(columns)
+            if matrix[rows[0], c] != 0
+        )
+        known[rows, columns] = sp.Add(*terms)
+    return known[rows, columns]

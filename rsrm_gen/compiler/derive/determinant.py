@@ -20,6 +20,7 @@ import numpy as np
 import sympy as sp
 
 from rsrm_gen.compiler.budget import spend
+from rsrm_gen.compiler.derive.bounds import Sizes
 from rsrm_gen.compiler.derive.geometry import Assignment, Function
 from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, Values, determinant, run, value
 from rsrm_gen.compiler.derive.operators import Operators
@@ -67,7 +68,10 @@ def staged_jacobian(log: Function) -> StagedJacobian:
     assignments: list[Assignment] = []
     derivative: list[dict[sp.Symbol, sp.Expr]] = [{s: sp.Integer(int(s == c)) for s in log.symbols()} for c in q]
 
+    sizes = Sizes()
+
     def chain(expression: sp.Expr, j: int) -> sp.Expr:
+        spend(sizes.of(expression).operations)
         parts = ((s, derivative[j][s]) for s in sorted(expression.free_symbols & derivative[j].keys(), key=str))
         return sp.Add(*(sp.diff(expression, s) * ds for s, ds in parts if ds != 0))
 
