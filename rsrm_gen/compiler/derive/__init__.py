@@ -24,7 +24,7 @@ from rsrm_gen.compiler.derive.geometry import (
     argument,
     renamed,
 )
-from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, Values, run, value
+from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, Values, is_positive_definite, largest, run, value
 from rsrm_gen.compiler.derive.operators import Operators
 from rsrm_gen.compiler.derive.product import product, scaled
 from rsrm_gen.compiler.derive.sampling import Sampler, reach_of, truth
@@ -159,8 +159,7 @@ class _Derivation:
             basis = [run(sampler.to_tangent, p, sampler.gaussian(self.rng, self.spec.point_size))[0] for _ in size]
             with mp.workdps(DIGITS):
                 gram = mp.matrix([[run(inner, p, u, v)[0][0] for v in basis] for u in basis])
-                positive = all(mp.isfinite(x) for x in gram) and min(mp.eigsy(gram, eigvals_only=True)) > TINY**2
-            if not positive:
+            if not is_positive_definite(gram):
                 span = self.spec.metric.value.span
                 raise UserError("the metric is not positive: <v, v> <= 0 for a tangent vector v", span)
             if self.spec.norm is not None and not run(sampler.norm, p, basis[0])[0][0] > 0:
@@ -178,6 +177,7 @@ class _Derivation:
     def exp(self) -> Function:
         """Exp with its 0/0 at the zero vector removed."""
         function, trace = self.plain_exp
+        self.check_finite(function, self.spec.exp)
         return self.mended(function, trace, exp_ray(function, self.sampler), spec_map=self.spec.exp).pruned()
 
     @cached_property
@@ -196,7 +196,16 @@ class _Derivation:
     def mended_log(self) -> Function:
         """Log with its 0/0 at coincident points removed, before the cut locus is looked at."""
         function, trace = self.plain_log
+        self.check_finite(function, self.spec.log)
         return self.mended(function, trace, self.ray, spec_map=self.spec.log)
+
+    def check_finite(self, function: Function, spec_map: Map) -> None:
+        """Refuse an Exp or a Log that has no value where it is asked for one."""
+        p, q = self.sampler.pair(random.Random(4))
+        where = q if function.name == "log" else self.sampler.direction(random.Random(4), p)
+        if not mp.isfinite(largest(run(function, p, where)[0])):
+            name = "Log_p(q)" if function.name == "log" else "Exp_p(v)"
+            raise UserError(f"{name} is no finite real vector at some points", spec_map.value.span)
 
     @cached_property
     def log(self) -> Function:
@@ -338,6 +347,7 @@ class _Derivation:
             return function
         result, failed = guarded(function, trace.quotients, trace.probe or {}, ray, self.reach())
         if failed:
+            self.check_radius(function, trace, ray)
             place = "Exp at the zero vector" if function.name == "exp" else "Log at coincident points"
             raise UserError(
                 f"{place} is 0/0 in `{failed[0]}`, and no smooth quantity under a square root mends it",
@@ -345,6 +355,17 @@ class _Derivation:
                 "divide by a norm only what vanishes with it and is a function of it alone: t * w / norm(w), sinc(x), sinhc(x)",
             )
         return result
+
+    def check_radius(self, function: Function, trace: Trace, ray: Ray) -> None:
+        """Blame the injectivity radius for a 0/0 that can be removed when no more than a part of it is looked at."""
+        if self.spec.injectivity_radius is None:
+            return
+        nearer: Ray = lambda rng: (lambda at: lambda r: at(r / 4))(ray(rng))  # noqa: E731
+        if not guarded(function, trace.quotients, trace.probe or {}, nearer, self.reach())[1]:
+            raise UserError(
+                "`injectivity_radius` is too large: Log has a second singularity within it",
+                self.spec.injectivity_radius.value.span,
+            )
 
     def reach(self) -> mp.mpf:
         """How far a polynomial near a singular place is asked to reach, at first."""

@@ -101,7 +101,7 @@ def determinant(matrix: sp.MatrixBase, span: Span | None) -> sp.Expr:
         raise UserError(
             f"a determinant of {matrix.rows} x {matrix.rows}; beyond {MAX_EXPANDED} x {MAX_EXPANDED} it is not written out",
             span,
-            "give it in closed form",
+            "write it, or what it is for, in closed form",
         )
     return _minor(matrix, tuple(range(matrix.rows)), tuple(range(matrix.cols)), {})
 

@@ -67,6 +67,16 @@ def determinant(matrix: Any) -> Any:
     return mp.det(matrix) if all(mp.isfinite(x) for x in matrix) else mp.nan
 
 
+def is_positive_definite(matrix: Any) -> bool:
+    """Whether a symmetric matrix of numbers has a Cholesky decomposition."""
+    try:
+        with mp.workdps(DIGITS):
+            factor = mp.cholesky(matrix, tol=TINY**2)
+    except (ValueError, ZeroDivisionError):
+        return False
+    return all(mp.isfinite(x) for x in factor)
+
+
 def largest(numbers: Iterable[Any]) -> Any:
     """The largest absolute value; infinite when one of the numbers is not finite, which max() would pass over."""
     sizes = [abs(x) if mp.isfinite(x) else mp.inf for x in numbers]

@@ -15,7 +15,7 @@ import sympy as sp
 
 from rsrm_gen.compiler.derive.bounds import Sizes, inverse, may_be_expanded
 from rsrm_gen.compiler.derive.geometry import Argument, Function, argument
-from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, value
+from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, determinant, value
 from rsrm_gen.compiler.derive.scalarise import Reading, scalarised
 from rsrm_gen.compiler.derive.trace import Trace
 from rsrm_gen.compiler.spec import ManifoldSpec
@@ -34,6 +34,7 @@ class Operators:
         self.frame = self.read_frame()  # rows: the vectors that tangent components multiply
         self.constraint_jacobian = self.read_constraint_jacobian()  # (constraints, D)
         self.check_metric()
+        self.check_normals_and_frame()
         self.metric_inverse = _inverse(self.metric, spec.metric.value.span)
 
     def read_metric(self) -> sp.Matrix:
@@ -54,12 +55,33 @@ class Operators:
             with mp.workdps(DIGITS):
                 u, v = (mp.matrix([mp.mpf(rng.gauss(0, 1)) for _ in range(size)]) for _ in range(2))
                 G = mp.matrix([[value(self.metric[i, j], point) for j in range(size)] for i in range(size)])
-                if not all(mp.isfinite(x) for x in G) or abs(mp.det(G)) < TINY:
-                    raise UserError("the metric has no inverse", span)
+                if not all(mp.isfinite(x) for x in G):
+                    raise UserError("the metric is no finite real number at some points", span)
+                if abs(mp.det(G)) < TINY:
+                    raise UserError(
+                        "the metric has no inverse", span, "<u, v> must not vanish for all v, except at u = 0"
+                    )
                 if mp.norm(G - G.T) > TINY:
                     raise UserError("the metric is not symmetric: <u, v> and <v, u> differ", span)
                 if not spec.metric.value.shape and abs(self.inner_value(point, u, v) - (u.T * G * v)[0]) > TINY:
                     raise UserError("the metric is not linear in u and in v", span)
+
+    def check_normals_and_frame(self) -> None:
+        """Refuse constraints and frames whose rows are not of full rank."""
+        spec = self.spec
+        for matrix, chart_map, complaint in (
+            (
+                self.constraint_jacobian,
+                spec.constraint,
+                "the derivatives of `constraint` vanish, or depend on one another",
+            ),
+            (self.frame, spec.frame, "the vectors of `frame` depend on one another"),
+        ):
+            for point in self.points if chart_map is not None else ():
+                with mp.workdps(DIGITS):
+                    rows = mp.matrix([[value(x, point) for x in matrix.row(i)] for i in range(matrix.rows)])
+                    if chart_map is not None and not abs(determinant(rows * rows.T)) > TINY:
+                        raise UserError(f"{complaint} at points of the manifold", chart_map.value.span)
 
     def inner_value(self, point: Mapping[sp.Symbol, Any], u: Sequence[Any], v: Sequence[Any]) -> Any:
         """The author's <u, v>_p in high precision."""
@@ -93,7 +115,7 @@ class Operators:
         jacobian = sp.Matrix([trace.unfolded(e, span) for e in entries]).jacobian(self.p.symbols)
         # A constraint and its half have the same normals: 2 p and p on the sphere.
         contents = [sp.gcd_list([e.as_coeff_Mul()[0] for e in jacobian.row(i) if e != 0]) for i in range(jacobian.rows)]
-        return sp.Matrix(*jacobian.shape, lambda i, j: jacobian[i, j] / contents[i])
+        return sp.Matrix(*jacobian.shape, lambda i, j: jacobian[i, j] / (contents[i] or 1))
 
     def on_manifold(self, matrix: sp.Matrix) -> sp.Matrix:
         """The matrix with those entries as numbers that are constant on the manifold, like p . p on the sphere."""
