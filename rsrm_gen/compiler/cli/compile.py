@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from rsrm_gen.compiler.budget import SECONDS
 from rsrm_gen.compiler.cli.options import GENERATED, OutputOption, ParameterOption, assignments
 from rsrm_gen.compiler.cli.screen import err, out, table
 from rsrm_gen.compiler.output import staleness, unchanged, write
@@ -40,6 +41,12 @@ def compile_command(
         bool, typer.Option("--check", help="Write nothing; say whether the generated files are stale or were edited.")
     ] = False,
     force: Annotated[bool, typer.Option("--force", help="Compile also what did not change.")] = False,
+    budget: Annotated[
+        float,
+        typer.Option(
+            "--budget", metavar="SECONDS", min=1, help="What each stage may take of the processor.", show_default=True
+        ),
+    ] = SECONDS,
     timings: Annotated[bool, typer.Option("--timings", help="Show the seconds of every stage.")] = False,
 ) -> None:
     """Compile, or check, manifold files."""
@@ -48,7 +55,7 @@ def compile_command(
     if check:
         _check(paths, parameters, output)
     else:
-        _compile(paths, parameters, output, force, timings)
+        _compile(paths, parameters, output, force, timings, budget)
 
 
 def _file(name: str) -> Path:
@@ -88,7 +95,9 @@ def _state(file: Path, parameters: dict[str, str], output: Path) -> tuple[Path, 
     return output / spec.identifier, staleness(spec, output / spec.identifier)
 
 
-def _compile(files: list[Path], parameters: dict[str, str], output: Path, force: bool, timings: bool) -> None:
+def _compile(
+    files: list[Path], parameters: dict[str, str], output: Path, force: bool, timings: bool, budget: float
+) -> None:
     done: list[Compiled] = []
     sources: dict[Path, Path] = {}  # by folder
     try:
@@ -99,14 +108,14 @@ def _compile(files: list[Path], parameters: dict[str, str], output: Path, force:
             if reason is None and not force:
                 print(f"{folder}: up to date")
             else:
-                done.append(_compiled(file, parameters, folder, warn=not done))
+                done.append(_compiled(file, parameters, folder, budget, warn=not done))
     finally:
         if done:
             out().print(_table(done, timings))
             out().print(EXPLANATION, style="dim", soft_wrap=True)
 
 
-def _compiled(file: Path, parameters: dict[str, str], folder: Path, warn: bool) -> Compiled:
+def _compiled(file: Path, parameters: dict[str, str], folder: Path, budget: float, warn: bool) -> Compiled:
     from rsrm_gen.compiler.driver import compile_manifold
     from rsrm_gen.compiler.native import compiler
     from rsrm_gen.compiler.output import contents
@@ -114,7 +123,7 @@ def _compiled(file: Path, parameters: dict[str, str], folder: Path, warn: bool) 
     if warn and compiler() is None:
         err().print("no C compiler found: the C code is written, but its numbers are not audited", soft_wrap=True)
     with progress(file.name) as tell:
-        compiled = compile_manifold(file, parameters, tell)
+        compiled = compile_manifold(file, parameters, tell, budget)
     write(contents(compiled), folder)
     return compiled
 

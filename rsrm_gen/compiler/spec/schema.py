@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Annotated, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, model_validator
@@ -9,11 +10,27 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSche
 
 def _as_text(value: object) -> object:
     """A bare number is a formula too, and so is a YAML list of formulas: [[1, 0], [0, 1]]."""
-    if isinstance(value, list):
+    if isinstance(value, list) and all(isinstance(item, str | int | float | list) for item in _leaves(value)):
         return "[" + ", ".join(str(_as_text(item)) for item in value) + "]"
     return str(value) if isinstance(value, int | float) and not isinstance(value, bool) else value
 
 
+def _leaves(value: object) -> Iterator[object]:
+    """What stands in a list of lists; a truth value counts as none of a formula's parts."""
+    if isinstance(value, list):
+        for item in value:
+            yield from _leaves(item)
+    else:
+        yield None if isinstance(value, bool) else value
+
+
+def _no_truth(value: object) -> object:
+    if isinstance(value, bool):
+        raise ValueError("this is a truth value to YAML; a parameter is a number")
+    return value
+
+
+Number = Annotated[int | float | str, BeforeValidator(_no_truth)]
 FORMULA = {"type": "string", "format": "formula"}  # what `editors.py` knows a formula by
 FormulaText = Annotated[str, BeforeValidator(_as_text), Field(min_length=1), WithJsonSchema(FORMULA)]
 Identifier = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=40)]
@@ -82,7 +99,7 @@ class Heading(Section):
     symbols: dict[Identifier, Annotated[str, Field(min_length=1)]] = Field(
         {}, description="what p, q, v, a parameter or a name of a `let` stands for, with its unit"
     )
-    parameters: dict[Identifier, int | float | str] = Field({}, description="numbers with their default values")
+    parameters: dict[Identifier, Number] = Field({}, description="numbers with their default values")
     scale: FormulaText | None = Field(None, description="a number: all lengths are multiplied by it")
 
 
