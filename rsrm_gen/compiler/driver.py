@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rsrm_gen.compiler.audit import AuditReport, audit
+from rsrm_gen.compiler.budget import SECONDS, limited
 from rsrm_gen.compiler.derive import Geometry, derive
 from rsrm_gen.compiler.emit import emit
 from rsrm_gen.compiler.lower import Program, lower
@@ -42,15 +43,20 @@ def compile_manifold(
     file: Path,
     parameters: Mapping[str, int | float | str] | None = None,
     progress: Callable[[str], None] = lambda stage: None,
+    seconds_allowed: float = SECONDS,
 ) -> Compiled:
-    """Compile one manifold file; raises `UserError` for a wrong file and for one that the audit refuses."""
+    """Compile one manifold file; raises `UserError` for a wrong file and for one that the audit refuses.
+
+    Each of the stages may take `seconds_allowed` of the processor, and operations as `budget.OPERATIONS` has it.
+    """
     seconds: dict[str, float] = {}
 
     @contextmanager
     def stage(name: str) -> Iterator[None]:
         progress(name)
         start = time.perf_counter()
-        yield
+        with limited(name, seconds_allowed):
+            yield
         seconds[name] = seconds.get(name, 0.0) + time.perf_counter() - start
 
     with stage("spec"):

@@ -95,7 +95,15 @@ class Laws:
                     self.log_is_the_gradient_of_half_squared_distance, self.diameter_is_not_exceeded,
                 ]  # fmt: skip
                 laws = [law for law in laws if law not in of_geodesics] + [self.maps_are_right_to_first_order]
-            return [check for check in (law() for law in laws) if check is not None]
+            return [check for check in map(self.tried, laws) if check is not None]
+
+    def tried(self, law: Callable[[], Check | None]) -> Check | None:
+        """A law's check; a failed one where its formulas have no value at all."""
+        try:
+            return law()
+        except ZeroDivisionError:
+            promise = (law.__doc__ or "").strip().rstrip(".")
+            return Check(law.__name__, promise, float("inf"), EXACT, PAIRS, "", self.spec.log.value.span)
 
     def call(self, name: str, *arguments: Sequence[Any]) -> Numbers:
         """A routine of the program, in high precision."""

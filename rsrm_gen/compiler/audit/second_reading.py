@@ -121,7 +121,10 @@ class ProductReading:
 
 def _read(spec: Spec, chart_map: Map, **arguments: Any) -> Any:
     trees = {name: formula.tree for name, formula in chart_map.lets}
-    return _Evaluator(dict(spec.parameters), arguments, trees).value(chart_map.value.tree)
+    evaluator = _Evaluator(dict(spec.parameters), arguments, trees)
+    for name in trees:  # in their order: each may stand on hundreds of others
+        evaluator.name(name)
+    return evaluator.value(chart_map.value.tree)
 
 
 def _constant(spec: Spec, chart_map: Map | None) -> float:

@@ -19,13 +19,16 @@ import mpmath as mp
 import numpy as np
 import sympy as sp
 
+from rsrm_gen.compiler.budget import spend
+from rsrm_gen.compiler.derive.bounds import Sizes
 from rsrm_gen.compiler.derive.geometry import Assignment, Function
-from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, Values, run, value
+from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, Values, determinant, run, value
 from rsrm_gen.compiler.derive.operators import Operators
 from rsrm_gen.compiler.derive.sampling import Sampler
 from rsrm_gen.errors import UserError
 
 MAX_STAGED = 6  # the determinant of a matrix of symbols has factorially many terms
+MAX_TRIED = 10_000  # choices of one, of two and of three scalars
 PAIRS = 12  # pairs of points at which exponents are found and tried
 
 
@@ -65,7 +68,10 @@ def staged_jacobian(log: Function) -> StagedJacobian:
     assignments: list[Assignment] = []
     derivative: list[dict[sp.Symbol, sp.Expr]] = [{s: sp.Integer(int(s == c)) for s in log.symbols()} for c in q]
 
+    sizes = Sizes()
+
     def chain(expression: sp.Expr, j: int) -> sp.Expr:
+        spend(sizes.of(expression).operations)
         parts = ((s, derivative[j][s]) for s in sorted(expression.free_symbols & derivative[j].keys(), key=str))
         return sp.Add(*(sp.diff(expression, s) * ds for s, ds in parts if ds != 0))
 
@@ -101,7 +107,8 @@ def closed_form(
     logs = {s: _logs(s, [values for _, values in samples]) for s in scalars}
     usable = [s for s in scalars if logs[s] is not None]
     for count in (1, 2, 3):
-        for chosen in itertools.combinations(usable, count):
+        for chosen in itertools.islice(itertools.combinations(usable, count), MAX_TRIED):
+            spend()
             found = _exponents(target, [logs[s] for s in chosen])
             if found is not None:
                 constant, exponents = found
@@ -127,7 +134,7 @@ def log_det_value(operators: Operators, p: Sequence[Any], q: Sequence[Any], jaco
         ambient, stored = tangent_basis(operators, q)
         image = jacobian * ambient
         volumes = [_gram(operators, at, basis) for at, basis in ((p, image), (q, stored))]
-        return mp.log(abs(volumes[0] / volumes[1])) / 2
+        return mp.log(abs(volumes[0] / volumes[1])) / 2 if volumes[1] else mp.nan
 
 
 def tangent_basis(operators: Operators, q: Sequence[Any]) -> tuple[Any, Any]:
@@ -142,7 +149,7 @@ def tangent_basis(operators: Operators, q: Sequence[Any]) -> tuple[Any, Any]:
 
 
 def _gram(operators: Operators, at: Sequence[Any], basis: Any) -> Any:
-    return mp.det(basis.T * _at(operators, operators.metric, at) * basis)
+    return determinant(basis.T * _at(operators, operators.metric, at) * basis)
 
 
 def _at(operators: Operators, matrix: sp.Matrix, point: Sequence[Any]) -> Any:
@@ -237,8 +244,8 @@ def staged_log_det(jacobian: StagedJacobian, operators: Operators) -> Function:
 
     entries = staged("J", sp.Matrix(jacobian.entries))
     matrix, volume_ratio = _square_form(entries, operators, jacobian.function)
-    determinant = staged("M", matrix).det(method="berkowitz")
-    result = sp.log(sp.Abs(determinant)) + sp.log(volume_ratio) / 2
+    written_out = staged("M", matrix).det(method="berkowitz")
+    result = sp.log(sp.Abs(written_out)) + sp.log(volume_ratio) / 2
     return Function(
         "log_abs_det", jacobian.function.arguments, tuple(assignments), (result,), (), "log |det D Log_p(q)|, staged"
     )

@@ -8,6 +8,8 @@ from typing import Any
 import mpmath as mp
 import sympy as sp
 
+from rsrm_gen.compiler.budget import spend
+from rsrm_gen.compiler.derive import magnitudes
 from rsrm_gen.compiler.derive.geometry import EPS, Choose, Function, Polynomial, Wrap
 
 DIGITS = 60  # of every value computed here
@@ -16,9 +18,9 @@ TINY = mp.mpf(10) ** -40  # what counts as zero among numbers of size 1 with so 
 Values = dict[sp.Symbol, Any]
 
 ELEMENTARY = {
-    sp.exp: mp.exp, sp.log: mp.log, sp.sin: mp.sin, sp.cos: mp.cos, sp.tan: mp.tan, sp.sinh: mp.sinh, sp.cosh: mp.cosh,
-    sp.tanh: mp.tanh, sp.asinh: mp.asinh, sp.acosh: mp.acosh, sp.acos: mp.acos, sp.atanh: mp.atanh, sp.Abs: abs,
-    sp.atan2: mp.atan2, sp.sign: mp.sign,
+    sp.exp: magnitudes.exp, sp.log: mp.log, sp.sin: magnitudes.sin, sp.cos: magnitudes.cos, sp.tan: magnitudes.tan,
+    sp.sinh: magnitudes.sinh, sp.cosh: magnitudes.cosh, sp.tanh: magnitudes.tanh, sp.asinh: mp.asinh, sp.acosh: mp.acosh,
+    sp.acos: mp.acos, sp.atanh: mp.atanh, sp.Abs: abs, sp.atan2: mp.atan2, sp.sign: mp.sign,
 }  # fmt: skip
 
 
@@ -27,7 +29,7 @@ def value(expression: sp.Expr, values: Mapping[sp.Symbol, Any]) -> Any:
     try:
         with mp.workdps(DIGITS):
             result = _value(expression, values)
-    except (ZeroDivisionError, ValueError, TypeError):  # TypeError: complex numbers are not ordered
+    except (ZeroDivisionError, ValueError, TypeError, OverflowError):  # TypeError: complex numbers are not ordered
         return mp.nan
     return mp.nan if isinstance(result, mp.mpc) else result
 
@@ -60,6 +62,21 @@ def _chosen(expression: Choose, values: Mapping[sp.Symbol, Any]) -> Any:
     return _value(expression.args[3 if (a < b, a <= b, a == b)[kind] else 4], values)
 
 
+def determinant(matrix: Any) -> Any:
+    """The determinant of a matrix of numbers; NaN where one of them is not finite, on which mpmath's would raise."""
+    return mp.det(matrix) if all(mp.isfinite(x) for x in matrix) else mp.nan
+
+
+def is_positive_definite(matrix: Any) -> bool:
+    """Whether a symmetric matrix of numbers has a Cholesky decomposition."""
+    try:
+        with mp.workdps(DIGITS):
+            factor = mp.cholesky(matrix, tol=TINY**2)
+    except (ValueError, ZeroDivisionError):
+        return False
+    return all(mp.isfinite(x) for x in factor)
+
+
 def largest(numbers: Iterable[Any]) -> Any:
     """The largest absolute value; infinite when one of the numbers is not finite, which max() would pass over."""
     sizes = [abs(x) if mp.isfinite(x) else mp.inf for x in numbers]
@@ -68,6 +85,7 @@ def largest(numbers: Iterable[Any]) -> Any:
 
 def run(function: Function, *arguments: Sequence[Any], eps: float = 2.0**-52) -> tuple[list[Any], Values]:
     """The results of a staged function, unguarded, and the values of all its symbols."""
+    spend()
     values: Values = {EPS: mp.mpf(eps)}
     for declared, given in zip(function.arguments, arguments, strict=True):
         values.update(zip(declared.symbols, given, strict=True))

@@ -13,11 +13,13 @@ from typing import Any
 import mpmath as mp
 import sympy as sp
 
+from rsrm_gen.compiler.derive.bounds import Sizes, inverse, may_be_expanded
 from rsrm_gen.compiler.derive.geometry import Argument, Function, argument
-from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, value
-from rsrm_gen.compiler.derive.scalarise import Reading, Trace, scalarised
+from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, determinant, value
+from rsrm_gen.compiler.derive.scalarise import Reading, scalarised
+from rsrm_gen.compiler.derive.trace import Trace
 from rsrm_gen.compiler.spec import ManifoldSpec
-from rsrm_gen.errors import UserError
+from rsrm_gen.errors import Span, UserError
 
 
 class Operators:
@@ -32,14 +34,15 @@ class Operators:
         self.frame = self.read_frame()  # rows: the vectors that tangent components multiply
         self.constraint_jacobian = self.read_constraint_jacobian()  # (constraints, D)
         self.check_metric()
-        self.metric_inverse = _inverse(self.metric)
+        self.check_normals_and_frame()
+        self.metric_inverse = _inverse(self.metric, spec.metric.value.span)
 
     def read_metric(self) -> sp.Matrix:
         spec, size = self.spec, self.spec.tangent_size
         if spec.metric.value.shape:
             trace = Trace([self.p])
             entries = Reading(spec, trace).entries(spec.metric)
-            return sp.Matrix(size, size, [trace.unfolded(e) for e in entries])
+            return sp.Matrix(size, size, [trace.unfolded(e, spec.metric.value.span) for e in entries])
         unit = sp.eye(size)
         return sp.Matrix(size, size, lambda i, j: self.metric_of(unit.row(i), unit.row(j)))
 
@@ -52,12 +55,33 @@ class Operators:
             with mp.workdps(DIGITS):
                 u, v = (mp.matrix([mp.mpf(rng.gauss(0, 1)) for _ in range(size)]) for _ in range(2))
                 G = mp.matrix([[value(self.metric[i, j], point) for j in range(size)] for i in range(size)])
-                if not all(mp.isfinite(x) for x in G) or abs(mp.det(G)) < TINY:
-                    raise UserError("the metric has no inverse", span)
+                if not all(mp.isfinite(x) for x in G):
+                    raise UserError("the metric is no finite real number at some points", span)
+                if abs(mp.det(G)) < TINY:
+                    raise UserError(
+                        "the metric has no inverse", span, "<u, v> must not vanish for all v, except at u = 0"
+                    )
                 if mp.norm(G - G.T) > TINY:
                     raise UserError("the metric is not symmetric: <u, v> and <v, u> differ", span)
                 if not spec.metric.value.shape and abs(self.inner_value(point, u, v) - (u.T * G * v)[0]) > TINY:
                     raise UserError("the metric is not linear in u and in v", span)
+
+    def check_normals_and_frame(self) -> None:
+        """Refuse constraints and frames whose rows are not of full rank."""
+        spec = self.spec
+        for matrix, chart_map, complaint in (
+            (
+                self.constraint_jacobian,
+                spec.constraint,
+                "the derivatives of `constraint` vanish, or depend on one another",
+            ),
+            (self.frame, spec.frame, "the vectors of `frame` depend on one another"),
+        ):
+            for point in self.points if chart_map is not None else ():
+                with mp.workdps(DIGITS):
+                    rows = mp.matrix([[value(x, point) for x in matrix.row(i)] for i in range(matrix.rows)])
+                    if chart_map is not None and not abs(determinant(rows * rows.T)) > TINY:
+                        raise UserError(f"{complaint} at points of the manifold", chart_map.value.span)
 
     def inner_value(self, point: Mapping[sp.Symbol, Any], u: Sequence[Any], v: Sequence[Any]) -> Any:
         """The author's <u, v>_p in high precision."""
@@ -71,7 +95,7 @@ class Operators:
         """<u, v>_p from the author's formula."""
         size = self.spec.tangent_size
         trace = Trace([self.p, Argument("u", (size,), tuple(u)), Argument("v", (size,), tuple(v))])
-        return trace.unfolded(Reading(self.spec, trace).entries(self.spec.metric)[0])
+        return trace.unfolded(Reading(self.spec, trace).entries(self.spec.metric)[0], self.spec.metric.value.span)
 
     def read_frame(self) -> sp.Matrix:
         spec = self.spec
@@ -79,17 +103,19 @@ class Operators:
             return sp.eye(spec.point_size)
         trace = Trace([self.p])
         entries = Reading(spec, trace).entries(spec.frame)
-        return sp.Matrix(spec.tangent_size, spec.point_size, [trace.unfolded(e) for e in entries])
+        return sp.Matrix(
+            spec.tangent_size, spec.point_size, [trace.unfolded(e, spec.frame.value.span) for e in entries]
+        )
 
     def read_constraint_jacobian(self) -> sp.Matrix:
         if self.spec.constraint is None:
             return sp.zeros(0, self.spec.point_size)
-        trace = Trace([self.p])
+        trace, span = Trace([self.p]), self.spec.constraint.value.span
         entries = Reading(self.spec, trace).entries(self.spec.constraint)
-        jacobian = sp.Matrix([trace.unfolded(e) for e in entries]).jacobian(self.p.symbols)
+        jacobian = sp.Matrix([trace.unfolded(e, span) for e in entries]).jacobian(self.p.symbols)
         # A constraint and its half have the same normals: 2 p and p on the sphere.
         contents = [sp.gcd_list([e.as_coeff_Mul()[0] for e in jacobian.row(i) if e != 0]) for i in range(jacobian.rows)]
-        return sp.Matrix(*jacobian.shape, lambda i, j: jacobian[i, j] / contents[i])
+        return sp.Matrix(*jacobian.shape, lambda i, j: jacobian[i, j] / (contents[i] or 1))
 
     def on_manifold(self, matrix: sp.Matrix) -> sp.Matrix:
         """The matrix with those entries as numbers that are constant on the manifold, like p . p on the sphere."""
@@ -109,7 +135,9 @@ class Operators:
     def tangential(self, x: sp.Matrix, trace: Trace) -> sp.Matrix:
         """The tangential part of an ambient vector (ambient tangents only)."""
         normals, jacobian = self.normals(), self.constraint_jacobian
-        parts = _inverse(self.on_manifold(jacobian * normals)) * (jacobian * x)
+        assert self.spec.constraint is not None
+        span = self.spec.constraint.value.span
+        parts = _inverse(self.on_manifold(jacobian * normals), span) * (jacobian * x)
         return x - normals * sp.Matrix(
             [trace.define(f"normal_part{i if len(parts) > 1 else ''}", e) for i, e in enumerate(parts)]
         )
@@ -120,7 +148,8 @@ class Operators:
         vector, trace = sp.Matrix(x.symbols), Trace((self.p, x))
         if self.spec.frame is not None:
             result, formula = (
-                _inverse(self.on_manifold(self.frame * self.frame.T)) * (self.frame * vector),
+                _inverse(self.on_manifold(self.frame * self.frame.T), self.spec.frame.value.span)
+                * (self.frame * vector),
                 "(E E^T)^-1 E x",
             )
         elif self.spec.embedded:
@@ -210,8 +239,11 @@ class Operators:
         return Function(name, arguments, (), tuple(entries), shape, formula)
 
 
-def _inverse(matrix: sp.Matrix) -> sp.Matrix:
+def _inverse(matrix: sp.Matrix, span: Span) -> sp.Matrix:
+    """The inverse, written out; simplified where that takes no time."""
     if matrix.is_diagonal():
         return sp.diag(*(1 / matrix[i, i] for i in range(matrix.rows)))
-    inverse = matrix.inv(method="ADJ")
-    return inverse.applyfunc(sp.cancel) if matrix.rows <= 4 else inverse
+    written_out = inverse(matrix, span)
+    Sizes().check(written_out, span)
+    simplify = matrix.rows <= 4 and all(map(may_be_expanded, written_out))
+    return written_out.applyfunc(sp.cancel) if simplify else written_out

@@ -7,6 +7,8 @@ from typing import Any
 
 import mpmath as mp
 
+from rsrm_gen.compiler.budget import spend
+from rsrm_gen.compiler.derive import magnitudes
 from rsrm_gen.compiler.lower.ir import Node, Routine
 
 EPS = 2.0**-52
@@ -17,9 +19,10 @@ OPERATIONS: dict[str, Callable[..., Any]] = {
     "sub": lambda x, y: x - y,
     "mul": lambda x, y: x * y,
     "div": lambda x, y: x / y,
-    "sqrt": mp.sqrt, "root": mp.sqrt, "exp": mp.exp, "log": mp.log, "sin": mp.sin, "cos": mp.cos, "tan": mp.tan,
-    "sinh": mp.sinh, "cosh": mp.cosh, "tanh": mp.tanh, "asinh": mp.asinh, "acosh": mp.acosh, "acos": mp.acos,
-    "atanh": mp.atanh, "atan2": mp.atan2, "abs": abs, "round": mp.nint,
+    "sqrt": mp.sqrt, "root": mp.sqrt, "exp": magnitudes.exp, "log": mp.log, "sin": magnitudes.sin,
+    "cos": magnitudes.cos, "tan": magnitudes.tan, "sinh": magnitudes.sinh, "cosh": magnitudes.cosh,
+    "tanh": magnitudes.tanh, "asinh": mp.asinh, "acosh": mp.acosh, "acos": mp.acos, "atanh": mp.atanh, "atan2": mp.atan2,
+    "abs": abs, "round": mp.nint,
     "less": lambda x, y: x < y,
     "less_equal": lambda x, y: x <= y,
     "equal": lambda x, y: x == y,
@@ -29,6 +32,7 @@ OPERATIONS: dict[str, Callable[..., Any]] = {
 
 def interpret(routine: Routine, *arguments: Sequence[Any], digits: int = 60) -> list[list[Any]]:
     """The entries of every result for flat arguments; NaN where an operation has no value."""
+    spend()
     with mp.workdps(digits):
         values: dict[Node, Any] = {}
         for parameter, given in zip(routine.parameters, arguments, strict=True):
@@ -50,6 +54,6 @@ def operate(node: Node, arguments: list[Any]) -> Any:
         return mp.polyval(coefficients[::-1], arguments[0])
     try:
         result = OPERATIONS[node.op](*arguments)
-    except (ZeroDivisionError, ValueError, TypeError):
+    except (ZeroDivisionError, ValueError, TypeError, OverflowError):
         return mp.nan
     return mp.nan if isinstance(result, mp.mpc) else result

@@ -20,6 +20,7 @@ from dataclasses import dataclass, field
 
 import sympy as sp
 
+from rsrm_gen.compiler.budget import spend
 from rsrm_gen.compiler.spec.vocabulary import Shape
 
 FUNCTIONS = (
@@ -74,6 +75,7 @@ class Graph:
         """The node of an operation, without simplification."""
         key = (op, arguments, value)
         if key not in self.nodes:
+            spend(1)
             self.nodes[key] = Node(op, arguments, value, len(self.nodes))
         return self.nodes[key]
 

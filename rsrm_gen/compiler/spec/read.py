@@ -67,6 +67,7 @@ class _Reader(FormulaReader):
         """The whole, in the order in which a reader of the file meets it."""
         schema = self.schema
         constraint = self.read_constraint()
+        dim = self.read_dim(constraint)
         embedded = schema.embedded
         chart = schema.chart
         point, tangent = self.sizes["p"], self.sizes["v"]
@@ -82,7 +83,7 @@ class _Reader(FormulaReader):
             maps=schema.maps,
             point_size=self.point_size,
             tangent_size=self.tangent_size,
-            dim=self.read_dim(constraint),
+            dim=dim,
             constraint=constraint,
             project=self.map(embedded.project, ("embedded", "project"), ("p",), point) if embedded else None,
             domain=self.optional((embedded or chart).domain, (self.kind, "domain"), ("p",), TRUTH),  # type: ignore[union-attr]
@@ -184,7 +185,11 @@ class _Reader(FormulaReader):
                 metric.value.span,
             )
         if metric.value.shape:  # a matrix is a function of the point alone
-            return self.map(self.schema.metric, ("metric",), ("p",), metric.value.shape)
+            try:
+                return self.map(self.schema.metric, ("metric",), ("p",), metric.value.shape)
+            except UserError as error:
+                said = f"a metric that is a matrix is a formula in p alone: {error.message}"
+                raise UserError(said, error.span, "or write <u, v>_p as a scalar, like dot(u, v)") from None
         return metric
 
     def read_cut_locus(self, log: Map) -> CutLocus | None:

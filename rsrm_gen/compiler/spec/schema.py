@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Annotated, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
@@ -9,11 +10,27 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_valida
 
 def _as_text(value: object) -> object:
     """A bare number is a formula too, and so is a YAML list of formulas: [[1, 0], [0, 1]]."""
-    if isinstance(value, list):
+    if isinstance(value, list) and all(isinstance(item, str | int | float | list) for item in _leaves(value)):
         return "[" + ", ".join(str(_as_text(item)) for item in value) + "]"
     return str(value) if isinstance(value, int | float) and not isinstance(value, bool) else value
 
 
+def _leaves(value: object) -> Iterator[object]:
+    """What stands in a list of lists; a truth value counts as none of a formula's parts."""
+    if isinstance(value, list):
+        for item in value:
+            yield from _leaves(item)
+    else:
+        yield None if isinstance(value, bool) else value
+
+
+def _no_truth(value: object) -> object:
+    if isinstance(value, bool):
+        raise ValueError("YAML reads this as a truth value; a parameter is a number")
+    return value
+
+
+Number = Annotated[int | float | str, BeforeValidator(_no_truth)]
 FormulaText = Annotated[str, BeforeValidator(_as_text), Field(min_length=1)]
 Identifier = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=40)]
 
@@ -81,7 +98,7 @@ class Heading(Section):
     symbols: dict[Identifier, Annotated[str, Field(min_length=1)]] = Field(
         {}, description="what p, q, v, a parameter or a name of a `let` stands for, with its unit"
     )
-    parameters: dict[Identifier, int | float | str] = Field({}, description="numbers with their default values")
+    parameters: dict[Identifier, Number] = Field({}, description="numbers with their default values")
     scale: FormulaText | None = Field(None, description="a number: all lengths are multiplied by it")
 
 

@@ -73,7 +73,9 @@ def bounds(tree: f.Index, length: int, parameters: Parameters) -> tuple[int, int
         start = integer(tree.start, parameters) if tree.start else 0
         stop = integer(tree.stop, parameters) if tree.stop else length
     if not 0 <= start < stop <= length:
-        raise UserError(f"there is no such entry: the vector has entries 0 to {length - 1}", tree.span)
+        hint = "count from the start, like p[0]" if start < 0 else None
+        hint = "a[i:j] are the entries i to j - 1" if tree.slice else hint
+        raise UserError(f"there is no such entry: the vector has entries 0 to {length - 1}", tree.span, hint)
     return start, stop
 
 
@@ -113,11 +115,13 @@ def _binary(tree: f.Binary, scope: Scope, parameters: Parameters) -> Shape:
     left, right = (shape_of(side, scope, parameters) for side in (tree.left, tree.right))
     shape = _binary_shape(tree.operator, left, right)
     if shape is None:
-        hint = (
-            "a product of vectors is dot(a, b), cross(a, b) or outer(a, b)"
-            if tree.operator == "*" and len(left) == len(right) == 1
-            else None
-        )
+        hint = None
+        if tree.operator == "*" and len(left) == len(right) == 1:
+            hint = "a product of vectors is dot(a, b), cross(a, b) or outer(a, b)"
+        elif tree.operator == "/" and len(right) == 1:
+            hint = "divide by its length norm(a) or by an entry a[0]"
+        elif tree.operator == "^" and len(left) == 1:
+            hint = "the square of its length is dot(a, a)"
         raise UserError(f"`{tree.operator}` of {describe(left)} and {describe(right)}", tree.span, hint)
     if tree.operator == "^":
         _check_exponent(tree, parameters)
