@@ -212,10 +212,15 @@ def _schema_error(document: Document, model: type[BaseModel], error: Any, kinds:
     if error["type"] == "missing":
         return UserError(f"`{name}` is missing", document.key_span(path[:-1]), f"add a line `{path[-1]}: ...`")
     if error["type"] == "string_pattern_mismatch":
-        span, what = document.span(path), f"`{name}` cannot be `{error['input']}`"
+        given = " ".join(str(error["input"]).split())
         if error["loc"][-1] == "[key]":
-            span, what = document.key_span(path), f"`{error['input']}` is no name"
-        return UserError(what, span, _pattern_hint(error))
+            return UserError(f"`{given}` is no name", document.key_span(path), _pattern_hint(error))
+        return UserError(f"`{name}` cannot be `{given}`", document.span(path), _pattern_hint(error))
+    if error["type"] == "literal_error":
+        hint = "write " + str(error["ctx"]["expected"]).replace("'", "`")
+        return UserError(f"`{name}` cannot be `{error['input']}`", document.span(path), hint)
+    if error["type"] in ("string_too_short", "too_short"):
+        return UserError(f"`{name}` is empty", document.span(path))
     if error["type"] in KINDS:
         kind = "text, or a section of `key: value` lines" if kinds >= {"string_type", "model_type"} else None
         span = document.span(path)
@@ -227,8 +232,6 @@ def _schema_error(document: Document, model: type[BaseModel], error: Any, kinds:
 
 KINDS = {
     "string_type": "text",
-    "string_too_short": "text, not nothing",
-    "too_short": "text, not nothing",
     "dict_type": "a section of `key: value` lines",
     "model_type": "a section of `key: value` lines",
     "list_type": "a list",

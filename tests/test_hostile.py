@@ -18,13 +18,15 @@ WATCHER = """
 import json, os, sys
 
 writing = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
-seen = {"written": [], "started": [], "other": []}
+changes = ("os.mkdir", "os.rename", "os.remove", "os.rmdir", "os.link", "os.symlink", "os.truncate", "os.chmod")
+seen = {}
 
 def watch(event, arguments):
     if event == "open" and arguments[2] & writing:
         seen["written"].append(os.path.abspath(str(arguments[0])))
-    elif event in ("os.mkdir", "os.rename", "os.remove", "os.link", "os.symlink", "os.truncate", "os.chmod"):
-        seen["written"] += [os.path.abspath(str(a)) for a in arguments[:2] if isinstance(a, (str, bytes, os.PathLike))]
+    elif event in changes:
+        inside = isinstance(arguments[-1], int) and arguments[-1] >= 0  # relative to a folder that is being removed
+        seen["written"] += [os.path.abspath(a) for a in arguments[:2] if isinstance(a, str) and not inside]
     elif event in ("subprocess.Popen", "os.exec", "os.spawn", "os.posix_spawn"):
         seen["started"].append([str(a) for a in arguments[1]])
     elif event in ("os.system", "os.fork", "socket.connect", "socket.bind", "urllib.Request", "pty.spawn"):
@@ -32,14 +34,16 @@ def watch(event, arguments):
 
 from rsrm_gen.compiler import cli  # what is loaded before is not the file's doing
 import casadi, sympy, torch
-sys.argv = ["rsrm-gen", *sys.argv[2:]]
+files, answers = sys.argv[1:], []
 sys.addaudithook(watch)
-try:
-    cli.main()
-except SystemExit as end:
-    code = end.code or 0
-with open(os.environ["SEEN"], "w") as file:
-    json.dump({"code": code, **seen}, file)
+for file in files:
+    seen.update(file=file, written=[], started=[], other=[])
+    sys.argv = ["rsrm-gen", file, "-o", "out"]
+    try:
+        cli.main()
+    except SystemExit as end:
+        answers.append({**seen, "code": end.code or 0})
+sys.stdout.write(chr(10) + json.dumps(answers))
 """
 
 HOSTILE = {
@@ -60,29 +64,6 @@ HOSTILE = {
 }
 
 
-def watched(tmp_path: Path, text: str) -> dict[str, Any]:
-    work = tmp_path / "work"
-    for folder in (work, tmp_path / "temporary", tmp_path / "cache"):
-        folder.mkdir()
-    (work / "m.yaml").write_text(text, encoding="utf-8")
-    environment = {
-        **os.environ,
-        "PYTHONPATH": str(Path(rsrm_gen.__file__).parent.parent),
-        "PYTHONDONTWRITEBYTECODE": "1",
-        "RSRM_GEN_CACHE": str(tmp_path / "cache"),
-        "TMPDIR": str(tmp_path / "temporary"),
-        "SEEN": str(tmp_path / "seen.json"),
-        "OMP_NUM_THREADS": "1",
-    }
-    ran = subprocess.run(
-        [sys.executable, "-c", WATCHER, "m.yaml", "m.yaml", "-o", "out"],
-        cwd=work, env=environment, capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    assert "Traceback" not in ran.stderr, ran.stderr
-    seen: dict[str, Any] = json.loads((tmp_path / "seen.json").read_text())
-    return {**seen, "err": ran.stderr}
-
-
 def changed(line: str) -> str:
     key = line.partition(":")[0]
     text = (MANIFOLDS / "euclidean.yaml").read_text(encoding="utf-8").splitlines()
@@ -90,23 +71,53 @@ def changed(line: str) -> str:
     return "\n".join([*kept, line]) + "\n"
 
 
+@pytest.fixture(scope="module")
+def watched(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any]]:
+    """The folder in which all files were compiled, and what was seen at each."""
+    home = tmp_path_factory.mktemp("hostile")
+    for folder in ("work", "temporary", "cache"):
+        (home / folder).mkdir()
+    cases = {**{case: changed(line) for case, line in HOSTILE.items()}, "a good one": changed("doc: Good.")}
+    for i, text in enumerate(cases.values()):
+        (home / "work" / f"m{i}.yaml").write_text(text.replace("euclidean", f"m{i}"), encoding="utf-8")
+    environment = {
+        **os.environ,
+        "PYTHONPATH": str(Path(rsrm_gen.__file__).parent.parent),
+        "PYTHONDONTWRITEBYTECODE": "1",
+        "RSRM_GEN_CACHE": str(home / "cache"),
+        "TMPDIR": str(home / "temporary"),
+        "OMP_NUM_THREADS": "1",
+    }
+    ran = subprocess.run(
+        [sys.executable, "-c", WATCHER, *(f"m{i}.yaml" for i in range(len(cases)))],
+        cwd=home / "work", env=environment, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert ran.returncode == 0, ran.stderr
+    return home, dict(zip(cases, json.loads(ran.stdout.splitlines()[-1]), strict=True))
+
+
 @pytest.mark.parametrize("case", HOSTILE)
-def test_a_hostile_file_writes_nothing_elsewhere_and_starts_nothing_but_the_compiler(case: str, tmp_path: Path) -> None:
-    seen = watched(tmp_path, changed(HOSTILE[case]))
-    allowed = [str(tmp_path / "work" / "out"), str(tmp_path / "temporary"), str(tmp_path / "cache"), os.devnull]
-    assert [path for path in seen["written"] if not path.startswith(tuple(allowed))] == []
-    compilers = {os.environ.get("CC") or "cc"}
-    assert [command for command in seen["started"] if command[0] not in compilers] == []
+def test_a_hostile_file_writes_nothing_elsewhere_and_starts_nothing_but_the_compiler(
+    case: str, watched: tuple[Path, dict[str, Any]]
+) -> None:
+    home, answers = watched
+    seen = answers[case]
+    allowed = (str(home / "work" / "out"), str(home / "temporary"), str(home / "cache"), os.devnull)
+    assert [path for path in seen["written"] if not path.startswith(allowed)] == []
+    assert [command for command in seen["started"] if command[0] != (os.environ.get("CC") or "cc")] == []
     assert seen["other"] == []
-    assert not [path for path in tmp_path.rglob("*") if "HACKED" in path.name]
-    if case.startswith(("a comment", "a docstring", "an include", "a line", "a trigraph", "a macro")):
-        assert seen["code"] == 0, seen["err"]
-    else:
-        assert seen["code"] == 2
-        assert {path.name for path in (tmp_path / "work").iterdir()} == {"m.yaml"}
+    assert seen["code"] == (0 if HOSTILE[case].startswith("doc") else 2)
 
 
-def test_the_watcher_sees_what_a_file_could_do(tmp_path: Path) -> None:
-    seen = watched(tmp_path, (MANIFOLDS / "euclidean.yaml").read_text(encoding="utf-8"))
-    assert seen["code"] == 0
-    assert any(path.startswith(str(tmp_path / "work" / "out")) for path in seen["written"])
+def test_no_hostile_file_left_anything(watched: tuple[Path, dict[str, Any]]) -> None:
+    home, answers = watched
+    assert not [path for path in home.rglob("*") if "HACKED" in path.name]
+    made = {f"m{i}" for i, seen in enumerate(answers.values()) if seen["code"] == 0}
+    assert {path.name for path in (home / "work" / "out").iterdir()} == made
+    assert {path.suffix for path in (home / "work").iterdir()} == {".yaml", ""}
+
+
+def test_the_watcher_sees_what_a_file_could_do(watched: tuple[Path, dict[str, Any]]) -> None:
+    home, answers = watched
+    assert answers["a good one"]["code"] == 0
+    assert any(path.startswith(str(home / "work" / "out")) for path in answers["a good one"]["written"])

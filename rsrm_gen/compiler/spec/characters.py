@@ -37,6 +37,8 @@ def advice(character: str) -> str | None:
     """A hint, or None for an ASCII character of which nothing is known."""
     if character.isascii():
         return OTHER_LANGUAGES.get(character)
+    if not character.isprintable():
+        return "formulas are written in plain ASCII: remove it, or write a space; it may be invisible"
     instead = _instead(character)
     return "formulas are written in plain ASCII" + (f": write `{instead}`" if instead else "")
 

@@ -26,7 +26,7 @@ def _leaves(value: object) -> Iterator[object]:
 
 def _no_truth(value: object) -> object:
     if isinstance(value, bool):
-        raise ValueError("YAML reads this as a truth value; a parameter is a number")
+        raise ValueError("this is a truth value to YAML; a parameter is a number")
     return value
 
 
