@@ -14,11 +14,13 @@ import os
 import re
 import sys
 import tempfile
+import unicodedata
 from pathlib import Path
 
 import pytest
 
 from rsrm_gen.compiler import cli
+from rsrm_gen.errors import WIDTH, printable
 
 FOLDER = Path(__file__).parent / "bad_specs"
 SPECS = sorted(FOLDER.glob("*.yaml"))
@@ -68,8 +70,12 @@ def test_every_message_says_where_and_speaks_of_the_file(spec: Path) -> None:
         line, column = map(int, first.split(":")[1:3])
         text = spec.read_bytes().decode("utf-8-sig", errors="replace")
         lines = re.split(r"\r\n|[\n\r\x85\u2028\u2029]", text)
-        assert rest[0] == f"  {lines[line - 1]}".rstrip("\n")
-        assert rest[1].index("^") == 1 + column
+        shown = printable(lines[line - 1])
+        if len(shown) <= WIDTH:  # a longer one is shown in part
+            assert rest[0] == f"  {shown}".expandtabs()
+            assert rest[1].index("^") == 1 + column + sum(
+                unicodedata.east_asian_width(c) in "WF" for c in shown[: column - 1]
+            )
     python = ("Traceback", "NoneType", "sympy", "pydantic", "<class", "functools", "site-packages", "``")
     assert not any(word in message for word in python)
 
