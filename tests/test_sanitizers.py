@@ -22,15 +22,9 @@ from rsrm_gen.compiler.emit.c_language import PRECISIONS, Precision
 from rsrm_gen.compiler.emit.promises import public
 from rsrm_gen.compiler.lower import Program, Routine
 
-<<<<<<< HEAD
-COUNTS = (0, 1, 63, 64, 65)  # around the points that pass together in the sums of splats
-SPLATS = (0, 1, 3)
-ROWS = 200
-=======
 ROWS = 200
 COUNTS = (0, 1, 63, 64, 65, ROWS)  # around the points that pass together in the sums of splats
 SPLATS = (0, 1, 3)
->>>>>>> safety
 ORACLES = {"euclidean": "R3", "sphere": "S2", "torus": "T2", "hyperbolic": "H2", "so3": "SO3_quat"}
 SANITIZE = ("-fsanitize=address,undefined,float-cast-overflow", "-fno-sanitize-recover=all")
 STRICT = ("-Wall", "-Wextra", "-Werror", "-pedantic")
@@ -42,11 +36,8 @@ PREAMBLE = """
 #include <string.h>
 
 static FILE *rows;
-<<<<<<< HEAD
-=======
 static const size_t counts[] = {COUNTS};
 static const size_t splats[] = {SPLATS};
->>>>>>> safety
 
 /* The next `size` bytes of the file, alone in memory of their own. */
 static void *next(size_t size) {
@@ -96,14 +87,9 @@ def driver(program: Program) -> str:
     blocks = [_block(program, routine, precision) for routine, precision in calls(program)]
     frames = [_frame(program, precision) for precision in PRECISIONS]
     body = "\n".join([*blocks, *frames])
-<<<<<<< HEAD
-    return (
-        f'#include "{program.name}.h"\n{PREAMBLE}\nint main(int argc, char **argv) {{\n'
-=======
     preamble = PREAMBLE.replace("COUNTS", ", ".join(map(str, COUNTS))).replace("SPLATS", ", ".join(map(str, SPLATS)))
     return (
         f'#include "{program.name}.h"\n{preamble}\nint main(int argc, char **argv) {{\n'
->>>>>>> safety
         f'    if (argc != 2 || (rows = fopen(argv[1], "rb")) == NULL) return 2;\n{body}\n    return fclose(rows);\n}}\n'
     )
 
@@ -113,16 +99,10 @@ def _block(program: Program, routine: Routine, precision: Precision) -> str:
     lines = [f"{t} *{a.name} = ({t} *)next({ROWS * a.size} * sizeof({t}));" for a in inputs]
     if routine.name != "splat_vjp":
         lines += [_scalar(program, routine, precision)]
-<<<<<<< HEAD
-        lines += [_batch(program, routine, precision, count) for count in (*COUNTS, ROWS)]
-    if routine.name in ("splat", "splat_vjp"):
-        lines += [_sums(program, routine, precision, n, k) for n in (*COUNTS, ROWS) for k in SPLATS]
-=======
         lines.append(f"for (size_t c = 0; c < {len(COUNTS)}; ++c) {_batch(program, routine, precision)}")
     if routine.name in ("splat", "splat_vjp"):
         loops = f"for (size_t c = 0; c < {len(COUNTS)}; ++c) for (size_t k = 0; k < {len(SPLATS)}; ++k)"
         lines.append(f"{loops} {_sums(program, routine, precision)}")
->>>>>>> safety
     lines += [f"free({a.name});" for a in inputs]
     return "    {\n" + "\n".join(f"        {line}" for line in lines) + "\n    }"
 
@@ -148,25 +128,6 @@ def _scalar(program: Program, routine: Routine, precision: Precision) -> str:
     return f"for (size_t i = 0; i < {ROWS}; ++i) {{ {copies} {memory} {call}; {freed} }}"
 
 
-<<<<<<< HEAD
-def _batch(program: Program, routine: Routine, precision: Precision, count: int) -> str:
-    return _called(
-        f"{program.name}_{routine.name}_batch{precision.tag}",
-        (str(count),),
-        arrays(routine),
-        outputs(routine),
-        precision,
-        count,
-        count,
-    )
-
-
-def _sums(program: Program, routine: Routine, precision: Precision, count: int, splats: int) -> str:
-    name = f"{program.name}_{routine.name.replace('splat', 'splats', 1)}{precision.tag}"
-    by_splat = routine.name == "splat_vjp"
-    results = [Array(r.name, r.size, by_splat) for r in outputs(routine)]
-    return _called(name, (str(count), str(splats)), arrays(routine), results, precision, count, splats)
-=======
 def _batch(program: Program, routine: Routine, precision: Precision) -> str:
     name = f"{program.name}_{routine.name}_batch{precision.tag}"
     return _called(name, ("counts[c]",), arrays(routine), outputs(routine), precision, False)
@@ -177,7 +138,6 @@ def _sums(program: Program, routine: Routine, precision: Precision) -> str:
     by_splat = routine.name == "splat_vjp"
     results = [Array(r.name, r.size, by_splat) for r in outputs(routine)]
     return _called(name, ("counts[c]", "splats[k]"), arrays(routine), results, precision, True)
->>>>>>> safety
 
 
 def _called(
@@ -186,27 +146,15 @@ def _called(
     inputs: list[Array],
     results: list[Array],
     precision: Precision,
-<<<<<<< HEAD
-    points: int,
-    splats: int,
-=======
     of_splats: bool,
->>>>>>> safety
 ) -> str:
     t = precision.type
 
     def size(a: Array) -> str:
-<<<<<<< HEAD
-        return f"{(splats if a.by_splat else points) * a.size} * sizeof({t})"
-
-    lines = [f"{t} *{a.name}_part = ({t} *)first({a.name}, {size(a)});" for a in inputs]
-    lines += [f"{t} *{r.name} = ({t} *)malloc({size(r)} + 1);" for r in results]
-=======
         return f"{'splats[k]' if of_splats and a.by_splat else 'counts[c]'} * {a.size} * sizeof({t})"
 
     lines = [f"{t} *{a.name}_part = ({t} *)first({a.name}, {size(a)});" for a in inputs]
     lines += [f"{t} *{r.name} = ({t} *)malloc({size(r)});" for r in results]
->>>>>>> safety
     given = ", ".join([*counts, *(f"{a.name}_part" for a in inputs), *(r.name for r in results)])
     freed = [f"free({name});" for name in [*(f"{a.name}_part" for a in inputs), *(r.name for r in results)]]
     return "{ " + " ".join([*lines, f"{name}({given});", *freed]) + " }"
@@ -274,11 +222,7 @@ def built(name: str, known: dict[str, Path], folder: Path) -> Path:
         for file, text in {**files(name), "driver.c": driver(program(name))}.items():
             (folder / file).write_text(text, encoding="utf-8")
         sources = ["driver.c", f"{name}.c", f"{name}_splats.c"]
-<<<<<<< HEAD
-        command = [os.environ.get("CC") or "cc", "-std=c99", "-O1", "-g", *SANITIZE, *sources, "-o", "driver", "-lm"]
-=======
         command = [os.environ.get("CC") or "cc", "-std=c99", *SANITIZE, *sources, "-o", "driver", "-lm"]
->>>>>>> safety
         made = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
         assert made.returncode == 0, made.stderr
         known[name] = folder / "driver"
