@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-<<<<<<< HEAD
-=======
-import difflib
->>>>>>> safety
 import unicodedata
 from collections.abc import Iterable
 from dataclasses import dataclass

@@ -25,10 +25,7 @@ MAY_IMPORT = {
     "budget": {"errors"},
     "native": {*INPUT, "budget"},
     "driver": {*INPUT, "version", "budget", "native", *STAGES},
-<<<<<<< HEAD
     "cli": {*INPUT, "version", "budget", "driver", "native", *STAGES},
-=======
->>>>>>> safety
     "kernels": {*INPUT, "manifold", "native"},
     "load": {*INPUT, "version", "manifold", "spec", "driver", "native", "kernels"},
     "trainer": {*INPUT, "version", "manifold", "load", "package", "bench"},
@@ -57,11 +54,8 @@ def room(module: str) -> str:
             return stage
         case [_, "compiler", "budget" | "native" as name]:
             return name
-<<<<<<< HEAD
         case [_, "compiler", "cli", *_]:
             return "cli"
-=======
->>>>>>> safety
         case [_, "compiler", *_]:
             return "driver"
         case [_, name, *_]:

@@ -55,11 +55,7 @@ def compile_manifold(
     def stage(name: str) -> Iterator[None]:
         progress(name)
         start = time.perf_counter()
-<<<<<<< HEAD
-        with limited(name, seconds_allowed):
-=======
         with limited("read" if name == "spec" else name, seconds_allowed):
->>>>>>> safety
             yield
         seconds[name] = seconds.get(name, 0.0) + time.perf_counter() - start
 

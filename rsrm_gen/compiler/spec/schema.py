@@ -31,12 +31,8 @@ def _no_truth(value: object) -> object:
 
 
 Number = Annotated[int | float | str, BeforeValidator(_no_truth)]
-<<<<<<< HEAD
 FORMULA = {"type": "string", "format": "formula"}  # what `editors.py` knows a formula by
 FormulaText = Annotated[str, BeforeValidator(_as_text), Field(min_length=1), WithJsonSchema(FORMULA)]
-=======
-FormulaText = Annotated[str, BeforeValidator(_as_text), Field(min_length=1)]
->>>>>>> safety
 Identifier = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=40)]
 
 
