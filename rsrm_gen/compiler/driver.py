@@ -17,12 +17,13 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from rsrm_gen.compiler.audit import AuditReport, audit
-from rsrm_gen.compiler.budget import SECONDS, limited
+from rsrm_gen.compiler.audit import AuditReport, audit, explained
+from rsrm_gen.compiler.budget import SECONDS, limited, spend
 from rsrm_gen.compiler.derive import Geometry, derive
 from rsrm_gen.compiler.emit import emit
 from rsrm_gen.compiler.lower import Program, lower
 from rsrm_gen.compiler.spec import Spec, read_spec
+from rsrm_gen.errors import UserError
 
 STAGES = ("spec", "derive", "lower", "emit", "audit")
 
@@ -62,7 +63,7 @@ def compile_manifold(
     with stage("spec"):
         spec = read_spec(file, parameters)
     with stage("derive"):
-        geometry = derive(spec)
+        geometry = derived(spec)
     with stage("lower"):
         program = lower(geometry)
     with stage("emit"):
@@ -73,3 +74,16 @@ def compile_manifold(
     with stage("emit"):
         files = emit(geometry, program, report.measured)  # the same code, its measured accuracy in the heading
     return Compiled(spec, geometry, program, report, files, seconds)
+
+
+def derived(spec: Spec) -> Geometry:
+    """The geometry of a spec; where there is none, the audit of its formulas as they stand says why."""
+    try:
+        return derive(spec)
+    except UserError as error:
+        reason = explained(spec, error)
+        try:
+            spend()
+        except UserError:  # what was used up is the reason
+            reason = error
+        raise reason from error

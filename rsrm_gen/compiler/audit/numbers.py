@@ -18,6 +18,8 @@ import mpmath as mp
 import numpy as np
 import torch
 
+from rsrm_gen.compiler.audit.blame import span_of
+from rsrm_gen.compiler.audit.digits import NEAR_CUT, UNITS, digits_lost, distances
 from rsrm_gen.compiler.audit.report import Check
 from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.derive.geometry import Function
@@ -28,8 +30,6 @@ from rsrm_gen.compiler.lower import Program, Routine, interpret
 from rsrm_gen.compiler.native import EXACT, compiled, compiler, pointer
 from rsrm_gen.files import imported
 
-UNITS = 64.0
-NEAR_CUT = "near the cut locus"
 ROUTINES = ("exp", "log", "distance", "log_abs_det")
 PRECISIONS: dict[str, tuple[Any, torch.dtype, float]] = {
     "float64": (np.float64, torch.float64, 2.0**-53),
@@ -65,23 +65,27 @@ def check_numbers(
                 backend: _errors(batch(name, _inputs(name, rows), precision), truth, unit)
                 for backend, batch in backends.items()
             }
-            checks += [_check(geometry, name, backend, precision, e, rows) for backend, e in errors.items()]
+            checks += [_check(geometry, program, name, backend, precision, e, rows) for backend, e in errors.items()]
             worst = max(float(e.max()) for e in errors.values())
             measured.append(Measurement(name, precision, _power_of_two(worst), len(rows.kinds)))
     return checks, tuple(measured)
 
 
-def _check(geometry: Geometry, name: str, backend: str, precision: str, errors: Any, rows: Rows) -> Check:
+def _check(
+    geometry: Geometry, program: Program, name: str, backend: str, precision: str, errors: Any, rows: Rows
+) -> Check:
     worst = int(np.argmax(errors))
     kind = rows.kinds[worst]
     promise = f"{name} of the {backend} code in {precision} is as exact as its inputs allow"
     hint = None
     if kind == NEAR_CUT and geometry.spec.cut_locus is not None and not np.isfinite(errors[worst]):
         hint = "say under `cut_locus:` what `log:` and `log_det:` are there, as manifolds/sphere.yaml does"
-    span = geometry.spec.log.value.span
-    return Check(
-        f"{name} {backend} {precision}", promise, float(errors[worst]), UNITS, len(errors), f"({kind})", span, hint
-    )
+    span, unit = span_of(geometry.spec, name), PRECISIONS[precision][2]
+    title, error = f"{name} {backend} {precision}", float(errors[worst])
+    lost = digits_lost(geometry, name, program[name]) if not error <= UNITS else None
+    if lost is not None:
+        span, hint = lost.span, lost.advice
+    return Check(title, promise, error, UNITS, len(errors), f"({kind})", span, hint, unit)
 
 
 def torch_manifold(program: Program, files: Mapping[str, str]) -> Any:
@@ -128,17 +132,8 @@ def sample_rows(geometry: Geometry, precision: str) -> Rows:
     """Close by (1e-12 .. 1e-2), in the middle, and near the cut locus or far away; rounded to the precision."""
     sampler: Sampler = sampler_of(geometry)
     rng = random.Random(11)
-    whole = sampler.reach * 2
-    finite = geometry.injectivity_radius.is_finite
-    near = [("near", whole * mp.mpf(10) ** -k) for k in range(2, 13)]
-    middle = [("middle", whole * mp.mpf(k) / 17) for k in range(1, 17)]
-    last = (
-        [(NEAR_CUT, whole * (1 - mp.mpf(10) ** -k)) for k in range(1, 10)]
-        if finite
-        else [("far", sampler.reach * k) for k in (3, 6, 10, 15, 20, 30)]
-    )
     kinds, rows = [], []
-    for kind, r in near + middle + last:
+    for kind, r in distances(geometry):
         p = sampler.point(rng)
         v = [r * c for c in sampler.direction(rng, p)]
         row = [_rounded(x, precision) for x in (p, sampler.along(p, v, mp.mpf(1)), v)]

@@ -34,7 +34,7 @@ from rsrm_gen.compiler.derive.trace import Trace
 from rsrm_gen.compiler.spec import ManifoldSpec, Map, Spec
 from rsrm_gen.errors import UserError
 
-__all__ = ["Geometry", "derive"]
+__all__ = ["Geometry", "derive", "derive_as_written"]
 
 
 def derive(spec: Spec) -> Geometry:
@@ -44,6 +44,12 @@ def derive(spec: Spec) -> Geometry:
             geometry = _Derivation(spec).geometry()
     else:
         geometry = product(spec, {factor.spec.content_hash: derive(factor.spec) for factor in spec.distinct()})
+    return scaled(geometry, number(spec, spec.scale)) if spec.scale else geometry
+
+
+def derive_as_written(spec: ManifoldSpec) -> Geometry:
+    """The formulas of a spec as they stand, no 0/0 removed and log |det D Log| left at 0: for finding what is wrong in them."""
+    geometry = _AsWritten(spec).geometry()
     return scaled(geometry, number(spec, spec.scale)) if spec.scale else geometry
 
 
@@ -121,8 +127,20 @@ class _Derivation:
         constraint = scalarised(spec, "constraint", spec.constraint, (self.p,), ())
         errors = [abs(c) for p in points for c in run(constraint, p)[0]]
         if not all(e < TINY for e in errors):
-            span = spec.project.value.span
-            raise UserError("`project` does not map onto the manifold: its points do not satisfy `constraint`", span)
+            message = "`project` does not map onto the manifold: its points do not satisfy `constraint`"
+            if self.maps_agree(points):
+                hint = "look at `constraint`: on the points of `project`, Exp undoes Log"
+                raise UserError(message, spec.constraint.value.span, hint)
+            raise UserError(message, spec.project.value.span)
+
+    def maps_agree(self, points: Sequence[Sequence[Any]]) -> bool:
+        """Whether Exp, Log and `project` fit one another: Exp_p(Log_p(q)) = q between some points."""
+        exp = scalarised(self.spec, "exp", self.spec.exp, (self.p, self.v), (self.spec.point_size,))
+        log = scalarised(self.spec, "log", self.spec.log, (self.p, self.q), (self.spec.tangent_size,))
+        pairs = itertools.pairwise(points)
+        return all(
+            abs(x - c) < TINY for p, q in pairs for x, c in zip(run(exp, p, run(log, p, q)[0])[0], q, strict=True)
+        )
 
     def is_valid(self, p: Sequence[Any]) -> bool:
         """Whether the domain of the spec, if it has one, holds at p."""
@@ -374,3 +392,14 @@ class _Derivation:
     def probe(self, *pairs: tuple[Argument, Sequence[mp.mpf]]) -> Values:
         """Values for the arguments of a trace."""
         return {s: x for a, values in pairs for s, x in zip(a.symbols, values, strict=True)}
+
+
+class _AsWritten(_Derivation):
+    """A derivation that mends nothing."""
+
+    def mended(self, function: Function, trace: Trace, ray: Ray, spec_map: Map) -> Function:
+        return function
+
+    @cached_property
+    def regular_log_abs_det(self) -> tuple[Function, str]:
+        return Function("log_abs_det", (self.p, self.q), (), (sp.Integer(0),), (), "0"), "staged"

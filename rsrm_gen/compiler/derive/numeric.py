@@ -62,11 +62,6 @@ def _chosen(expression: Choose, values: Mapping[sp.Symbol, Any]) -> Any:
     return _value(expression.args[3 if (a < b, a <= b, a == b)[kind] else 4], values)
 
 
-def determinant(matrix: Any) -> Any:
-    """The determinant of a matrix of numbers; NaN where one of them is not finite, on which mpmath's would raise."""
-    return mp.det(matrix) if all(mp.isfinite(x) for x in matrix) else mp.nan
-
-
 def is_positive_definite(matrix: Any) -> bool:
     """Whether a symmetric matrix of numbers has a Cholesky decomposition."""
     try:
@@ -81,6 +76,16 @@ def largest(numbers: Iterable[Any]) -> Any:
     """The largest absolute value; infinite when one of the numbers is not finite, which max() would pass over."""
     sizes = [abs(x) if mp.isfinite(x) else mp.inf for x in numbers]
     return max(sizes, default=mp.mpf(0))
+
+
+def determinant(matrix: Any) -> Any:
+    """The determinant of a matrix of numbers; NaN where one is not finite, zero where elimination finds no pivot."""
+    if not all(mp.isfinite(x) for x in matrix):
+        return mp.nan
+    try:
+        return mp.det(matrix)
+    except TypeError:  # mpmath's own stumbles over a column of zeros
+        return mp.mpf(0)
 
 
 def run(function: Function, *arguments: Sequence[Any], eps: float = 2.0**-52) -> tuple[list[Any], Values]:

@@ -57,7 +57,7 @@ class Operators:
                 G = mp.matrix([[value(self.metric[i, j], point) for j in range(size)] for i in range(size)])
                 if not all(mp.isfinite(x) for x in G):
                     raise UserError("the metric is no finite real number at some points", span)
-                if abs(mp.det(G)) < TINY:
+                if not abs(determinant(G)) > TINY:
                     raise UserError(
                         "the metric has no inverse", span, "<u, v> must not vanish for all v, except at u = 0"
                     )
