@@ -19,10 +19,12 @@ import torch
 from compiled import call_batch, files, needs_compiler, program, shared_library, spec_of, torch_module
 
 from rsrm_gen.compiler.audit.laws import Laws
+from rsrm_gen.compiler.audit.numbers import matrices
 from rsrm_gen.compiler.derive import derive
 from rsrm_gen.compiler.derive.matrix_numeric import FUNCTIONS, derivative, places
 from rsrm_gen.compiler.emit import emit
 from rsrm_gen.compiler.lower import interpret, lower
+from rsrm_gen.compiler.spec import read_spec
 from rsrm_gen.errors import UserError
 
 NAMES = tuple(FUNCTIONS)
@@ -467,3 +469,10 @@ def test_spaces_of_matrices_are_read() -> None:
     assert spec.point_shape == (3, 3)  # type: ignore[union-attr]
     assert (spec.point_size, spec.tangent_size, spec.dim) == (9, 6, 6)
     assert math.prod(spec.tangent_shape) == 6  # type: ignore[union-attr]
+
+
+def test_a_product_knows_which_of_its_entries_are_matrices(tmp_path: Path) -> None:
+    """They are rounded as one: the audit's unit of error is a part of the largest entry of each."""
+    file = tmp_path / "pair.yaml"
+    file.write_text("manifold: pair\ndoc: A pair.\nproduct: {a: spd, b: torus, c: so3_matrix}\n")
+    assert matrices(read_spec(file)) == [slice(0, 4), slice(6, 15)]

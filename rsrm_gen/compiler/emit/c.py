@@ -1,7 +1,7 @@
 """The C back end: a header and a source in dependency-free C99, every function in double and in float.
 
 Scalar functions for users (`so3_log`), batches of rows (`so3_log_batch`); no allocation, no global state, no branches but
-selects, so that compilers can vectorise the batches.
+selects, so that compilers can vectorise the batches; only functions of matrices are loops.
 """
 
 from __future__ import annotations

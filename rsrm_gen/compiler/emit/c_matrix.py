@@ -42,6 +42,8 @@ def call(name: str, node: Node, arguments: Sequence[str], precision: Precision) 
     eigh, entries, size = arguments[0], arguments[1:], len(places(n))
     blocks = [entries[k : k + size] for k in range(0, len(entries), size)]
     lines = [f"const {t} in_{k}[{size}] = {{{', '.join(block)}}};" for k, block in enumerate(blocks)]
+    if order == 0:
+        return f"{t} {name}[{size}];\n{_function(function, n, order)}{tag}({eigh}, {name});"
     names = ", ".join([eigh, *(f"in_{k}" for k in range(order)), name])
     statements = "\n    ".join([*lines, f"{_function(function, n, order)}{tag}({names});"])
     return f"{t} {name}[{size}];\n{{\n    {statements}\n}}"
