@@ -12,7 +12,7 @@ from pathlib import Path
 
 from rsrm_gen.compiler.audit import AuditReport, Check, audit
 from rsrm_gen.compiler.audit.product import check_formulas
-from rsrm_gen.compiler.derive import derive
+from rsrm_gen.compiler.driver import derived
 from rsrm_gen.compiler.emit import emit
 from rsrm_gen.compiler.lower import lower
 from rsrm_gen.compiler.output import Overrides, staleness
@@ -49,7 +49,7 @@ def audit_folder(folder: Path, spec: Spec) -> Verdict:
 
 
 def _audit(spec: Spec, files: Mapping[str, str] | None) -> AuditReport:
-    geometry = derive(spec)
+    geometry = derived(spec)
     program = lower(geometry)
     fresh = emit(geometry, program)
     if files is None:

@@ -28,6 +28,7 @@ from rsrm_gen.compiler.derive.sampling import Sampler, sampler_of
 from rsrm_gen.compiler.emit import Measurement
 from rsrm_gen.compiler.lower import Program, Routine, interpret
 from rsrm_gen.compiler.native import EXACT, compiled, compiler, pointer
+from rsrm_gen.compiler.spec import ManifoldSpec, Spec
 from rsrm_gen.files import imported
 
 ROUTINES = ("exp", "log", "distance", "log_abs_det")
@@ -60,7 +61,7 @@ def check_numbers(
     for precision in PRECISIONS:
         rows = sample_rows(geometry, precision)
         for name in ROUTINES:
-            truth, unit = truths(geometry[name], program[name], rows, precision)
+            truth, unit = truths(geometry[name], program[name], rows, precision, matrices(geometry.spec))
             errors = {
                 backend: _errors(batch(name, _inputs(name, rows), precision), truth, unit)
                 for backend, batch in backends.items()
@@ -137,36 +138,74 @@ def sample_rows(geometry: Geometry, precision: str) -> Rows:
         p = sampler.point(rng)
         v = [r * c for c in sampler.direction(rng, p)]
         row = [_rounded(x, precision) for x in (p, sampler.along(p, v, mp.mpf(1)), v)]
-        if all(sampler.inside([mp.mpf(float(c)) for c in x]) for x in row[:2]):  # far points may round out of a chart
+        if all(_well_inside(sampler, x, precision) for x in row[:2]):  # far points may round out of the domain
             kinds.append(kind)
             rows.append(row)
     stacked = [np.stack(column) for column in zip(*rows, strict=True)]
     return Rows(stacked[0], stacked[1], stacked[2], tuple(kinds))
 
 
+def _well_inside(sampler: Sampler, x: Sequence[Any], precision: str) -> bool:
+    """Whether a point satisfies the condition of the domain, and does so when shaken by as much as an error may be."""
+    if sampler.domain is None:
+        return True
+    rng, eps = random.Random(17), UNITS * PRECISIONS[precision][2]
+    with mp.workdps(DIGITS):
+        point = [mp.mpf(float(c)) for c in x]
+        shaken = [[c * (1 + eps * rng.choice((-1, 1))) for c in point] for _ in range(4)]
+    return all(sampler.inside(y) for y in (point, *shaken))
+
+
 def _rounded(x: Sequence[Any], precision: str) -> Any:
     return np.array([float(c) for c in x]).astype(PRECISIONS[precision][0])
 
 
-def truths(function: Function, routine: Routine, rows: Rows, precision: str) -> tuple[list[list[Any]], Any]:
-    """The exact results at the rounded inputs (N, entries), and the unavoidable error of each row (N,)."""
+def matrices(spec: Spec, start: int = 0) -> list[slice]:
+    """Which entries of a point are a matrix."""
+    if isinstance(spec, ManifoldSpec):
+        return [slice(start, start + spec.point_size)] if len(spec.point_shape) == 2 else []
+    found = []
+    for factor in spec.factors:
+        found += matrices(factor.spec, start)
+        start += factor.spec.point_size
+    return found
+
+
+def truths(
+    function: Function, routine: Routine, rows: Rows, precision: str, whole: Sequence[slice] = ()
+) -> tuple[list[list[Any]], Any]:
+    """The exact results at the rounded inputs (N, entries), and the unavoidable error of each row (N,).
+
+    The entries of a point in `whole` are a matrix, and rounded as one: to parts of its largest entry.
+    """
     eps = PRECISIONS[precision][2]
     rng = random.Random(13)
+    names = [argument.name for argument in function.arguments]
     results, units = [], []
     for inputs in zip(*_inputs(function.name, rows), strict=True):
         given = [[mp.mpf(float(c)) for c in x] for x in inputs]
         exact = _exact(function, routine, given, eps)
         moved = 0.0
+        grain = [_grain(x, whole if name != "v" else ()) for name, x in zip(names, given, strict=True)]
         for shake in ((1, 1), (1, 1), (1, 0), (0, 1)):  # both, and each alone: close points may move together
             with mp.workdps(DIGITS):
                 shaken = [
-                    [c * (1 + s * eps * rng.choice((-1, 1))) for c in x] for x, s in zip(given, shake, strict=True)
+                    [c + s * eps * size * rng.choice((-1, 1)) for c, size in zip(x, sizes, strict=True)]
+                    for x, sizes, s in zip(given, grain, shake, strict=True)
                 ]
             there = _exact(function, routine, shaken, eps)
             moved = max(moved, _largest(a - b for a, b in zip(there, exact, strict=True)))
         results.append(exact)
         units.append(moved + 2 * eps * _largest(exact) + np.finfo(PRECISIONS[precision][0]).tiny)
     return results, np.array(units)
+
+
+def _grain(x: Sequence[Any], whole: Sequence[slice]) -> list[Any]:
+    """The size of what every entry is a part of: itself, or a matrix."""
+    sizes = [abs(c) for c in x]
+    for part in whole:
+        sizes[part] = [largest(x[part])] * len(x[part])
+    return sizes
 
 
 def _inputs(name: str, rows: Rows) -> tuple[Any, Any]:

@@ -15,8 +15,9 @@ from rsrm_gen.compiler.audit.report import Check
 from rsrm_gen.compiler.audit.worst import Worst, at, difference, ratio, relative
 from rsrm_gen.compiler.derive.geometry import EQUAL, Function, argument
 from rsrm_gen.compiler.derive.numeric import DIGITS, largest, run, value
-from rsrm_gen.compiler.derive.scalarise import Reading, Truth
+from rsrm_gen.compiler.derive.scalarise import Reading
 from rsrm_gen.compiler.derive.trace import Trace
+from rsrm_gen.compiler.derive.values import Truth
 
 if TYPE_CHECKING:
     from rsrm_gen.compiler.audit.laws import Laws, Numbers

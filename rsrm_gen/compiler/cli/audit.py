@@ -90,6 +90,8 @@ def _document(verdict: Verdict) -> dict[str, Any]:
                 "check": check.name,
                 "promise": check.promise,
                 "points": check.points,
+                "exactly": check.exact,
+                "digits": check.digits,
                 "worst": check.worst if check.worst < float("inf") else None,  # JSON has no infinity
                 "tolerance": check.tolerance,
                 "where": check.where,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
@@ -20,30 +19,21 @@ SHORT = {"float64": "f64", "float32": "f32"}
 
 
 def check_table(checks: Iterable[Check]) -> Table:
-    """One row a check; the margin is how many digits lie between the worst error and the tolerance."""
-    columns = ("check", "points", "worst error", "tolerance", "margin", "passed", "where")
+    """One row a check; digits are those that agree at the worst place, at most the 15 of a double."""
+    columns = ("check", "points", "worst error", "tolerance", "digits", "passed", "where")
     rows = [
         (
             check.name,
-            str(check.points),
+            "all" if check.exact else str(check.points),
             f"{check.worst:.2g}",
             f"{check.tolerance:.3g}",
-            margin(check),
+            str(check.digits),
             "yes" if check.passed else "NO",
-            check.where,
+            check.where or ("everywhere: seen by symbols" if check.exact else ""),
         )
         for check in checks
     ]
     return table(columns, rows, left=("check", "passed", "where"), cut="where")
-
-
-def margin(check: Check) -> str:
-    """How many decimal digits the worst error lies below the tolerance; negative where it is above."""
-    if not check.passed and not math.isfinite(check.worst):
-        return "none"
-    if check.worst <= 0 or check.tolerance <= 0:
-        return "all"
-    return str(math.floor(math.log10(check.tolerance / check.worst)))
 
 
 def accuracy_table(measured: Sequence[Measurement]) -> Table:

@@ -27,10 +27,11 @@ from rsrm_gen.compiler.derive.geometry import (
 from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, Values, is_positive_definite, largest, run, value
 from rsrm_gen.compiler.derive.operators import Operators
 from rsrm_gen.compiler.derive.product import product, scaled
-from rsrm_gen.compiler.derive.sampling import Sampler, reach_of, truth
-from rsrm_gen.compiler.derive.scalarise import Reading, Truth, number, scalarised
+from rsrm_gen.compiler.derive.sampling import Sampler, is_free, reach_of, truth
+from rsrm_gen.compiler.derive.scalarise import Reading, number, scalarised
 from rsrm_gen.compiler.derive.singularities import Ray, exp_ray, guarded, log_ray, remove, smooth_squares
 from rsrm_gen.compiler.derive.trace import Trace
+from rsrm_gen.compiler.derive.values import Truth
 from rsrm_gen.compiler.spec import ManifoldSpec, Map, Spec
 from rsrm_gen.errors import UserError
 
@@ -67,7 +68,9 @@ class _Derivation:
         spec, operators = self.spec, self.operators
         with blamed(spec.exp.value.span):
             exp = self.exp  # first: what is wrong with it is not to be blamed on Log
+            self.check_symmetric(*self.plain_exp, self.v)
         with blamed(spec.log.value.span):
+            self.check_symmetric(*self.plain_log, self.q)
             log_det, origin = self.log_abs_det
         functions = (
             self.project, operators.to_tangent(), operators.inner(), operators.norm(), operators.flat(), exp, self.log,
@@ -146,6 +149,21 @@ class _Derivation:
         """Whether the domain of the spec, if it has one, holds at p."""
         return self.domain is None or bool(value(self.domain, dict(zip(self.p.symbols, p, strict=True))) == 1)
 
+    def check_symmetric(self, function: Function, trace: Trace, second: Argument) -> None:
+        """Refuse a function of symmetric matrices of a matrix that is not symmetric."""
+        if not trace.symmetries:
+            return
+        p, q = self.sampler.pair(self.rng)
+        other = q if second is self.q else self.sampler.direction(self.rng, p)
+        values = run(function, p, other)[1]
+        for symmetry in trace.symmetries:
+            entries = [[value(e, values) for e in pair] for pair in symmetry.pairs]
+            if not largest(a - b for a, b in entries) <= TINY * largest(a for a, _ in entries):
+                hint = "the symmetric part of A is (A + transpose(A)) / 2"
+                raise UserError(
+                    "this is a function of symmetric matrices; here the matrix is none", symmetry.span, hint
+                )
+
     @cached_property
     def domain(self) -> sp.Expr | None:
         """1 where a point is valid."""
@@ -164,7 +182,8 @@ class _Derivation:
         reach = reach_of(self.length(spec.injectivity_radius, "injectivity_radius"))
         project = self.project if spec.embedded else None
         to_tangent, norm = self.operators.to_tangent(), self.operators.norm()
-        sampler = Sampler(project, self.domain, to_tangent, norm, self.plain_exp[0], spec.point_size, reach)
+        exp, free = self.plain_exp[0], is_free(spec)
+        sampler = Sampler(project, self.domain, to_tangent, norm, exp, spec.point_size, reach, free)
         self.check_positive(sampler)
         return sampler
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+import operator
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import lru_cache, reduce
 from typing import Any
 
 import mpmath as mp
@@ -11,11 +13,13 @@ import sympy as sp
 from rsrm_gen.compiler.budget import spend
 from rsrm_gen.compiler.derive import magnitudes
 from rsrm_gen.compiler.derive.geometry import EPS, Choose, Function, Polynomial, Wrap
+from rsrm_gen.compiler.derive.matrix_functions import Eigenvalue, MatrixFunction
 
 DIGITS = 60  # of every value computed here
 TINY = mp.mpf(10) ** -40  # what counts as zero among numbers of size 1 with so many digits
 
 Values = dict[sp.Symbol, Any]
+Evaluation = Callable[[Mapping[sp.Symbol, Any]], Any]
 
 ELEMENTARY = {
     sp.exp: magnitudes.exp, sp.log: mp.log, sp.sin: magnitudes.sin, sp.cos: magnitudes.cos, sp.tan: magnitudes.tan,
@@ -26,40 +30,66 @@ ELEMENTARY = {
 
 def value(expression: sp.Expr, values: Mapping[sp.Symbol, Any]) -> Any:
     """The value of an expression; NaN where it is singular."""
+    with mp.workdps(DIGITS):
+        return _value(expression, values)
+
+
+def _value(expression: sp.Expr, values: Mapping[sp.Symbol, Any]) -> Any:
     try:
-        with mp.workdps(DIGITS):
-            result = _value(expression, values)
+        result = _compiled(expression)(values)
     except (ZeroDivisionError, ValueError, TypeError, OverflowError):  # TypeError: complex numbers are not ordered
         return mp.nan
     return mp.nan if isinstance(result, mp.mpc) else result
 
 
-def _value(expression: sp.Expr, values: Mapping[sp.Symbol, Any]) -> Any:
+@lru_cache(maxsize=2**16)
+def _compiled(expression: sp.Expr) -> Evaluation:
+    """The expression as nested functions of the values of its symbols: several times faster than walking the tree."""
+    if expression == EPS:
+        return lambda values: values.get(EPS, mp.mpf(2) ** -52)
     if expression.is_Symbol:
-        return values.get(EPS, mp.mpf(2) ** -52) if expression == EPS else values[expression]
+        return lambda values: values[expression]
     if not expression.args:
-        return mp.mpf(expression._to_mpmath(mp.mp.prec + 10))
+        number = lru_cache(lambda prec: mp.mpf(expression._to_mpmath(prec + 10)))
+        return lambda values: number(mp.mp.prec)
     if isinstance(expression, Choose):
-        return _chosen(expression, values)
-    arguments = [_value(a, values) for a in expression.args]
+        return _choice(expression)
+    parts = [_compiled(a) for a in expression.args]
+    if isinstance(expression, MatrixFunction):
+        return lambda values: expression.value([part(values) for part in parts[3:]])
+    if isinstance(expression, Eigenvalue):
+        return lambda values: expression.value(tuple(part(values) for part in parts[2:]))
     if expression.is_Add:
-        return mp.fsum(arguments)
+        return lambda values: sum((part(values) for part in parts[1:]), parts[0](values))
     if expression.is_Mul:
-        return mp.fprod(arguments)
+        return lambda values: reduce(operator.mul, (part(values) for part in parts))
     if expression.is_Pow:
-        return mp.power(*arguments)
+        return _power(parts[0], expression.exp, parts[1])
     if isinstance(expression, Wrap):
-        x, period = arguments
-        return x - period * mp.nint(x / period)
+        return lambda values: _wrapped(parts[0](values), parts[1](values))
     if isinstance(expression, Polynomial):
-        return mp.polyval(arguments[:0:-1], arguments[0])
-    return ELEMENTARY[expression.func](*arguments)
+        return lambda values: mp.polyval([part(values) for part in parts[:0:-1]], parts[0](values))
+    function = ELEMENTARY[expression.func]
+    return lambda values: function(*(part(values) for part in parts))
 
 
-def _chosen(expression: Choose, values: Mapping[sp.Symbol, Any]) -> Any:
+def _choice(expression: Choose) -> Evaluation:
     kind = int(expression.args[0])
-    a, b = (_value(x, values) for x in expression.args[1:3])
-    return _value(expression.args[3 if (a < b, a <= b, a == b)[kind] else 4], values)
+    a, b, x, y = (_compiled(part) for part in expression.args[1:])
+    holds = (operator.lt, operator.le, operator.eq)[kind]
+    return lambda values: (x if holds(a(values), b(values)) else y)(values)
+
+
+def _power(base: Evaluation, exponent: sp.Expr, power: Evaluation) -> Evaluation:
+    if exponent.is_Integer:
+        return lambda values: base(values) ** int(exponent)
+    if exponent == sp.Rational(1, 2):
+        return lambda values: mp.sqrt(base(values))
+    return lambda values: mp.power(base(values), power(values))
+
+
+def _wrapped(x: Any, period: Any) -> Any:
+    return x - period * mp.nint(x / period)
 
 
 def is_positive_definite(matrix: Any) -> bool:
@@ -94,6 +124,7 @@ def run(function: Function, *arguments: Sequence[Any], eps: float = 2.0**-52) ->
     values: Values = {EPS: mp.mpf(eps)}
     for declared, given in zip(function.arguments, arguments, strict=True):
         values.update(zip(declared.symbols, given, strict=True))
-    for assignment in function.assignments:
-        values[assignment.symbol] = value(assignment.expression, values)
-    return [value(result, values) for result in function.results], values
+    with mp.workdps(DIGITS):
+        for assignment in function.assignments:
+            values[assignment.symbol] = _value(assignment.expression, values)
+        return [_value(result, values) for result in function.results], values

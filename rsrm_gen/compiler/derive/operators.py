@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 from typing import Any
 
 import mpmath as mp
@@ -15,7 +16,7 @@ import sympy as sp
 
 from rsrm_gen.compiler.derive.bounds import Sizes, inverse, may_be_expanded
 from rsrm_gen.compiler.derive.geometry import Argument, Function, argument
-from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, determinant, value
+from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, determinant, run, value
 from rsrm_gen.compiler.derive.scalarise import Reading, scalarised
 from rsrm_gen.compiler.derive.trace import Trace
 from rsrm_gen.compiler.spec import ManifoldSpec
@@ -32,6 +33,7 @@ class Operators:
         self.points = [dict(zip(self.p.symbols, point, strict=True)) for point in points]
         self.metric = self.read_metric()
         self.frame = self.read_frame()  # rows: the vectors that tangent components multiply
+        self.check_frame()
         self.constraint_jacobian = self.read_constraint_jacobian()  # (constraints, D)
         self.check_metric()
         self.check_normals_and_frame()
@@ -102,10 +104,46 @@ class Operators:
         if spec.frame is None:
             return sp.eye(spec.point_size)
         trace = Trace([self.p])
-        entries = Reading(spec, trace).entries(spec.frame)
-        return sp.Matrix(
-            spec.tangent_size, spec.point_size, [trace.unfolded(e, spec.frame.value.span) for e in entries]
-        )
+        span = spec.frame.value.span
+        return self.frame_vectors(trace).applyfunc(lambda e: trace.unfolded(e, span))
+
+    def frame_vectors(self, trace: Trace) -> sp.Matrix:
+        """The vectors of the frame as rows, in the assignments of a trace: what the author's formula is for unit vectors."""
+        spec, size = self.spec, self.spec.tangent_size
+        assert spec.frame is not None
+        rows = []
+        for i in range(size):
+            trace.arguments["v"] = Argument("v", (size,), tuple(sp.eye(size).row(i)))
+            rows.append(Reading(spec, trace).entries(spec.frame))
+        del trace.arguments["v"]
+        return sp.Matrix(size, spec.point_size, [e for row in rows for e in row])
+
+    def check_frame(self) -> None:
+        """Refuse a formula that is not linear in v, or vectors that are not independent."""
+        spec, rng = self.spec, random.Random(4)
+        if spec.frame is None:
+            return
+        formula = scalarised(spec, "frame", spec.frame, (self.p, argument("v", spec.tangent_size)), spec.point_shape)
+        with mp.workdps(DIGITS):
+            for point, vectors in zip(self.points, self.frame_values, strict=True):
+                v = [mp.mpf(rng.gauss(0, 1)) for _ in range(spec.tangent_size)]
+                found = mp.matrix(run(formula, list(point.values()), v)[0])
+                if not all(mp.isfinite(x) for x in (*found, *vectors)):
+                    raise UserError("`frame` has no value at a point of the manifold", spec.frame.value.span)
+                if mp.norm(found - vectors.T * mp.matrix(v)) > TINY * mp.norm(vectors):
+                    raise UserError("`frame` is not linear in v", spec.frame.value.span)
+                if abs(determinant(vectors * vectors.T)) < TINY:
+                    raise UserError("the vectors of `frame` are not independent", spec.frame.value.span)
+
+    @cached_property
+    def frame_values(self) -> list[Any]:
+        """The frame at every one of the points, in high precision."""
+        frame = self.frame
+        with mp.workdps(DIGITS):
+            return [
+                mp.matrix([[value(frame[i, j], point) for j in range(frame.cols)] for i in range(frame.rows)])
+                for point in self.points
+            ]
 
     def read_constraint_jacobian(self) -> sp.Matrix:
         if self.spec.constraint is None:
@@ -122,6 +160,8 @@ class Operators:
 
         def constant(entry: sp.Expr) -> sp.Expr:
             values = [value(entry, point) for point in self.points] if entry.free_symbols else []
+            if values and all(abs(x) < TINY for x in values):
+                return sp.Integer(0)
             rational = sp.nsimplify(str(mp.nstr(values[0], 20)), rational=True) if values else entry
             small = values and rational.q <= 64 and all(abs(x - mp.mpf(rational.p) / rational.q) < TINY for x in values)
             return rational if small else entry
@@ -147,11 +187,7 @@ class Operators:
         x = argument("x", self.spec.point_size)
         vector, trace = sp.Matrix(x.symbols), Trace((self.p, x))
         if self.spec.frame is not None:
-            result, formula = (
-                _inverse(self.on_manifold(self.frame * self.frame.T), self.spec.frame.value.span)
-                * (self.frame * vector),
-                "(E E^T)^-1 E x",
-            )
+            result, formula = self.components(x.symbols, trace), "(E E^T)^-1 E x"
         elif self.spec.embedded:
             result, formula = self.tangential(vector, trace), "x - N (dc N)^-1 dc x"
         else:
@@ -159,6 +195,17 @@ class Operators:
         return Function(
             "to_tangent", (self.p, x), tuple(trace.assignments), tuple(result), (self.spec.tangent_size,), formula
         )
+
+    def components(self, x: Sequence[sp.Expr], trace: Trace) -> sp.Matrix:
+        """The components in the frame of the tangent vector that is nearest to an ambient vector."""
+        with mp.workdps(DIGITS):
+            grams = [vectors * vectors.T for vectors in self.frame_values]
+            constant = all(mp.norm(gram - grams[0]) < TINY for gram in grams)
+        frame = self.frame_vectors(trace)
+        if constant:
+            assert self.spec.frame is not None
+            return _inverse(self.on_manifold(frame * frame.T), self.spec.frame.value.span) * (frame * sp.Matrix(x))
+        return _least_squares([list(frame.row(i)) for i in range(frame.rows)], list(x), trace)
 
     def inner(self) -> Function:
         """<u, v>_p as the author wrote it."""
@@ -223,7 +270,8 @@ class Operators:
         partials = sp.Matrix(df.symbols)
         if self.spec.ambient_tangents:
             return self.tangential(self.metric_inverse * partials, trace)
-        return self.metric_inverse * (self.frame * partials)
+        frame = self.frame_vectors(trace) if self.spec.frame is not None else self.frame
+        return self.metric_inverse * (frame * partials)
 
     def gradient_formula(self) -> str:
         """How the gradient is made, for the generated documentation."""
@@ -237,6 +285,31 @@ class Operators:
     ) -> Function:
         """A function without assignments of its own."""
         return Function(name, arguments, (), tuple(entries), shape, formula)
+
+
+def _least_squares(vectors: list[list[sp.Expr]], x: list[sp.Expr], trace: Trace) -> sp.Matrix:
+    """The components v with sum v_k e_k nearest to x, by Gram and Schmidt, which lose fewer digits than (E E^T)^-1."""
+
+    def dot(a: Sequence[sp.Expr], b: Sequence[sp.Expr]) -> sp.Expr:
+        return sp.Add(*(s * t for s, t in zip(a, b, strict=True)))
+
+    def less(name: str, a: list[sp.Expr], part: sp.Expr, b: list[sp.Expr]) -> list[sp.Expr]:
+        return [trace.define(f"{name}_{i}", s - part * t) for i, (s, t) in enumerate(zip(a, b, strict=True))]
+
+    parts: list[sp.Expr] = []
+    upper: dict[tuple[int, int], sp.Expr] = {}
+    left = [[trace.define(f"e{k}_{i}", c) for i, c in enumerate(e)] for k, e in enumerate(vectors)]
+    for k, e in enumerate(left):
+        square = trace.define(f"e{k}_squared", dot(e, e))
+        parts.append(trace.define(f"part{k}", dot(e, x) / square))
+        x = less("rest", x, parts[k], e)
+        for j in range(k + 1, len(left)):
+            upper[k, j] = trace.define(f"shear{k}_{j}", dot(e, left[j]) / square)
+            left[j] = less(f"e{j}", left[j], upper[k, j], e)
+    for k in reversed(range(len(left))):
+        others = (upper[k, j] * parts[j] for j in range(k + 1, len(left)))
+        parts[k] = trace.define(f"component{k}", sp.Add(parts[k], *(-other for other in others)))
+    return sp.Matrix(parts)
 
 
 def _inverse(matrix: sp.Matrix, span: Span) -> sp.Matrix:

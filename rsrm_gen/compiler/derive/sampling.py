@@ -12,6 +12,7 @@ import sympy as sp
 
 from rsrm_gen.compiler.derive.geometry import Choose, Function, Geometry
 from rsrm_gen.compiler.derive.numeric import DIGITS, run, value
+from rsrm_gen.compiler.spec import ManifoldSpec, Spec
 from rsrm_gen.errors import UserError
 
 Numbers = list[Any]
@@ -31,6 +32,7 @@ class Sampler:
     exp: Function
     point_size: int
     reach: Any
+    free: bool = False  # whether any numbers are a tangent vector, as components in a chart or a frame are
 
     def gaussian(self, rng: random.Random, size: int) -> Numbers:
         """`size` numbers, each of three doubles' worth of random digits."""
@@ -61,7 +63,10 @@ class Sampler:
     def direction(self, rng: random.Random, p: Sequence[Any]) -> Numbers:
         """A tangent vector at p of length 1 in the metric."""
         with mp.workdps(DIGITS):
-            v = run(self.to_tangent, p, self.gaussian(rng, self.point_size))[0]
+            if self.free:
+                v = self.gaussian(rng, len(self.to_tangent.results))
+            else:
+                v = run(self.to_tangent, p, self.gaussian(rng, self.point_size))[0]
             length = run(self.norm, p, v)[0][0]
             return [c / length for c in v]
 
@@ -88,7 +93,12 @@ def sampler_of(geometry: Geometry) -> Sampler:
     project = geometry["project"] if spec.embedded else None
     reach = reach_of(geometry.injectivity_radius, geometry.unit)
     functions = geometry["to_tangent"], geometry["norm"], geometry["exp"]
-    return Sampler(project, geometry.domain, *functions, spec.point_size, reach)
+    return Sampler(project, geometry.domain, *functions, spec.point_size, reach, is_free(spec))
+
+
+def is_free(spec: Spec) -> bool:
+    """Whether tangent vectors are components that obey no condition; of a product it is not asked."""
+    return isinstance(spec, ManifoldSpec) and not spec.ambient_tangents
 
 
 def truth(kind: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:

@@ -1,4 +1,4 @@
-"""From formulas in vectors to assignments in scalars.
+"""From formulas in vectors and matrices to assignments in scalars.
 
 A scalar factor or divisor of a vector is kept beside it until the vector's entries are needed, so that `t * w / norm(w)`
 meets its 0/0 as one scalar, t / norm(w), which can be looked at and removed.
@@ -6,8 +6,8 @@ meets its 0/0 as one scalar, t / norm(w), which can be looked at and removed.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence, Set
+from dataclasses import replace
 from functools import reduce
 from typing import Any, TypeAlias
 
@@ -27,36 +27,20 @@ from rsrm_gen.compiler.derive.geometry import (
     Guard,
     Wrap,
 )
+from rsrm_gen.compiler.derive.matrix_functions import Eigenvalue
+from rsrm_gen.compiler.derive.matrix_words import SYMMETRIC, MatrixWords
 from rsrm_gen.compiler.derive.naming import call_name, symbol_name, tree_name
 from rsrm_gen.compiler.derive.numeric import value
 from rsrm_gen.compiler.derive.series import cardinal_series
 from rsrm_gen.compiler.derive.trace import Trace
+from rsrm_gen.compiler.derive.values import Truth, Vector, choose
 from rsrm_gen.compiler.spec import Map, Spec
 from rsrm_gen.compiler.spec import formula as f
-from rsrm_gen.compiler.spec.shapes import bounds, constant
+from rsrm_gen.compiler.spec.shapes import bounds, constant, unit_size
 from rsrm_gen.compiler.spec.vocabulary import Shape
 from rsrm_gen.errors import Span, UserError
 
-
-@dataclass(frozen=True)
-class Vector:
-    """entries * product(factors) / product(divisors), not multiplied out."""
-
-    entries: tuple[sp.Expr, ...]
-    factors: tuple[sp.Expr, ...] = ()
-    divisors: tuple[sp.Expr, ...] = ()
-
-
-@dataclass(frozen=True)
-class Truth:
-    """A comparison: a < b, a <= b or a == b by kind."""
-
-    kind: sp.Integer
-    a: sp.Expr
-    b: sp.Expr
-
-
-Value: TypeAlias = Any  # a scalar (sympy expression), a `Vector`, a sympy matrix or a `Truth`; sympy has no types
+Value: TypeAlias = Any  # a scalar (sympy expression), a `Vector` or a `Truth`; sympy has no types
 
 FUNCTIONS = {
     "sqrt": sp.sqrt, "exp": exponential, "log": sp.log, "sin": sp.sin, "cos": sp.cos, "tan": sp.tan, "sinh": sp.sinh,
@@ -68,11 +52,12 @@ MAX_OPEN_LETS = 8
 MAX_PERIOD = mp.mpf(10) ** 30
 
 
-class Reading:
+class Reading(MatrixWords):
     """Reads the maps of a spec into a trace; names are looked up in `let`s only when they are used."""
 
     def __init__(self, spec: Spec, trace: Trace) -> None:
         self.parameters = dict(spec.parameters)
+        self.shapes = spec.argument_shapes
         self.trace = trace
         self.lets: dict[str, tuple[f.Tree, Value | None]] = {}
         self.open_lets = 0
@@ -82,14 +67,24 @@ class Reading:
         for name, formula in chart_map.lets:
             self.lets.setdefault(name, (formula.tree, None))
         with blamed(chart_map.value.span):
-            return self.value(chart_map.value.tree)
+            result = self.value(chart_map.value.tree)
+        if isinstance(result, Truth):
+            return result
+        rough: set[sp.Symbol] = set()
+        for a in self.trace.assignments:
+            rough |= {a.symbol} if _is_rough(a.expression, rough) else set()
+        if any(_is_rough(e, rough) for e in _parts(result) if isinstance(e, sp.Expr)):
+            raise UserError(
+                "eigenvalues are only compared: where two of them meet they have no derivative",
+                chart_map.value.span,
+                "a smooth function of all of them is trace(logm(A)), det(A), norm(A) and the like",
+            )
+        return result
 
     def entries(self, chart_map: Map) -> tuple[sp.Expr, ...]:
         """The entries of a map's value in row-major order; a scalar has one."""
         result = self.read(chart_map)
-        if isinstance(result, Vector):
-            return self.materialise(result)
-        return tuple(result) if isinstance(result, sp.MatrixBase) else (result,)
+        return self.materialise(result) if isinstance(result, Vector) else (result,)
 
     def value(self, tree: f.Tree) -> Value:
         """The value of a formula; a `UserError` where it is no finite real number whatever the arguments are."""
@@ -114,7 +109,8 @@ class Reading:
             case f.Stack():
                 return self.stack(tree)
             case f.Rows():
-                return sp.Matrix([list(self.materialise(self.value(item))) for item in tree.items])
+                rows = [self.materialise(self.value(item)) for item in tree.items]
+                return Vector(tuple(e for row in rows for e in row), columns=len(rows[0]))
             case f.Index():
                 return self.index(tree)
             case f.Call():
@@ -122,7 +118,8 @@ class Reading:
 
     def name(self, name: str) -> Value:
         if name in self.trace.arguments:
-            return Vector(self.trace.arguments[name].symbols)
+            shape = self.shapes.get(name, ())
+            return Vector(self.trace.arguments[name].symbols, columns=shape[1] if len(shape) == 2 else None)
         if name in self.lets:
             return self.let(name)
         if name in self.parameters:
@@ -155,7 +152,7 @@ class Reading:
         if result is None:
             result = self.call(tree, name) if isinstance(tree, f.Call) else self.value(tree)
             if isinstance(result, Vector):
-                entries = (self.trace.define(f"{name}{i}", e) for i, e in enumerate(result.entries))
+                entries = (self.trace.define(f"{name}{result.suffix(i)}", e) for i, e in enumerate(result.entries))
                 result = replace(result, entries=tuple(entries))
             elif isinstance(result, sp.Expr):
                 result = self.quantity(name, result)
@@ -182,12 +179,10 @@ class Reading:
     def plus(self, x: Value, y: Value) -> Value:
         if isinstance(x, Vector) and isinstance(y, Vector):
             pairs = zip(self.materialise(x), self.materialise(y), strict=True)
-            return Vector(tuple(a + b for a, b in pairs))
+            return Vector(tuple(a + b for a, b in pairs), columns=x.columns)
         return x + y
 
     def times(self, x: Value, y: Value) -> Value:
-        if isinstance(x, sp.MatrixBase) and isinstance(y, sp.MatrixBase):
-            spend(x.rows * x.cols * y.cols)
         if isinstance(y, Vector) and isinstance(x, sp.Expr):
             x, y = y, x
         if isinstance(x, Vector) and isinstance(y, sp.Expr):
@@ -196,9 +191,18 @@ class Reading:
                 if y.is_number
                 else replace(x, factors=(*x.factors, y))
             )
-        if isinstance(x, sp.MatrixBase) and isinstance(y, Vector):
-            return Vector(tuple(x * sp.Matrix(self.materialise(y))))
+        if isinstance(x, Vector):
+            return self.matrix_product(x, y)
         return x * y
+
+    def matrix_product(self, x: Vector, y: Vector) -> Vector:
+        """A matrix times a matrix or a vector; factors and divisors stay beside the entries."""
+        assert x.columns is not None
+        spend(x.rows * x.columns * (y.columns or 1))
+        rows = [x.entries[i * x.columns : (i + 1) * x.columns] for i in range(x.rows)]
+        columns = [y.entries[j :: y.columns or 1] for j in range(y.columns or 1)]
+        entries = tuple(sp.Add(*(a * b for a, b in zip(r, c, strict=True))) for r in rows for c in columns)
+        return Vector(entries, x.factors + y.factors, x.divisors + y.divisors, y.columns)
 
     def over(self, x: Value, y: Value) -> Value:
         assert isinstance(y, sp.Expr)
@@ -208,7 +212,7 @@ class Reading:
                 if y.is_number
                 else replace(x, divisors=(*x.divisors, y))
             )
-        return self.ratio(x, y) if isinstance(x, sp.Expr) else x / y
+        return self.ratio(x, y)
 
     def materialise(self, vector: Vector) -> tuple[sp.Expr, ...]:
         """The entries, multiplied out; what is 0/0 among the scalars becomes one quotient."""
@@ -249,22 +253,30 @@ class Reading:
 
     def index(self, tree: f.Index) -> Value:
         base = self.value(tree.base)
-        length = base.rows if isinstance(base, sp.MatrixBase) else len(base.entries)
-        start, stop = bounds(tree, length, self.parameters)
-        if isinstance(base, sp.MatrixBase):
-            return base[start:stop, :] if tree.slice else Vector(tuple(base[start, :]))
         assert isinstance(base, Vector)
-        return replace(base, entries=base.entries[start:stop]) if tree.slice else self.materialise(base)[start]
+        start, stop = bounds(tree, base.rows, self.parameters)
+        if base.columns is None and not tree.slice:
+            return self.materialise(base)[start]
+        width = base.columns or 1
+        part = replace(base, entries=base.entries[start * width : stop * width])
+        return part if tree.slice else replace(part, columns=None)
 
     def call(self, tree: f.Call, name: str = "") -> Value:
         """The value of a call; a scalar becomes a named quantity."""
+        if tree.function == "eye":
+            return self.unit_matrix(unit_size(tree, self.parameters))
         arguments = [self.value(argument) for argument in tree.arguments]
         name = name or call_name(tree)
         method = getattr(self, f"call_{tree.function}", None)
         if tree.function in ("dot", "norm"):
             result: Value = self.product(tree, arguments, name)
-        elif tree.function in ("det", "inv"):
-            result = (determinant if tree.function == "det" else inverse)(self.named_matrix(arguments[0]), tree.span)
+        elif tree.function == "det":
+            result = determinant(self.named_matrix(arguments[0]), tree.span)
+        elif tree.function == "inv":
+            entries = inverse(self.named_matrix(arguments[0]), tree.span)
+            result = Vector(tuple(entries), columns=arguments[0].columns)
+        elif tree.function in SYMMETRIC:
+            result = self.of_symmetric(tree, arguments[0], name)
         elif method is not None:
             if tree.function == "wrap" and len(arguments) == 2:
                 self.check_period(arguments[1], tree.arguments[1].span)
@@ -314,8 +326,9 @@ class Reading:
         (a, b, c), (d, e, g) = self.materialise(x), self.materialise(y)
         return Vector((b * g - c * e, c * d - a * g, a * e - b * d))
 
-    def call_outer(self, x: Vector, y: Vector) -> sp.MatrixBase:
-        return sp.Matrix([[a * b for b in self.materialise(y)] for a in self.materialise(x)])
+    def call_outer(self, x: Vector, y: Vector) -> Vector:
+        rows, columns = self.materialise(x), self.materialise(y)
+        return Vector(tuple(a * b for a in rows for b in columns), columns=len(columns))
 
     def call_qmul(self, x: Vector, y: Vector) -> Vector:
         (a, b, c, d), (w, i, j, k) = self.materialise(x), self.materialise(y)
@@ -328,13 +341,6 @@ class Reading:
 
     def call_conj(self, x: Vector) -> Vector:
         return Vector((x.entries[0], *(-e for e in x.entries[1:])), x.factors, x.divisors)
-
-    def call_transpose(self, x: sp.MatrixBase) -> sp.MatrixBase:
-        return x.T
-
-    def named_matrix(self, x: sp.MatrixBase) -> sp.MatrixBase:
-        """A matrix of symbols and numbers, for what has many more terms than entries."""
-        return x.applyfunc(lambda e: self.trace.define("entry", e))
 
     def call_orthogonal(self, x: Vector) -> Vector:
         # Of the first two axes, one is at 45 degrees or more to a unit vector: its part at right angles to the vector
@@ -352,9 +358,7 @@ class Reading:
     def call_where(self, condition: Truth, x: Value, y: Value) -> Value:
         if isinstance(x, Vector) and isinstance(y, Vector):
             pairs = zip(self.materialise(x), self.materialise(y), strict=True)
-            return Vector(tuple(choose(condition, a, b) for a, b in pairs))
-        if isinstance(x, sp.MatrixBase):
-            return sp.Matrix(*x.shape, [choose(condition, a, b) for a, b in zip(x, y, strict=True)])
+            return Vector(tuple(choose(condition, a, b) for a, b in pairs), columns=x.columns)
         return choose(condition, x, y)
 
     def call_wrap(self, x: Value, period: sp.Expr = 2 * sp.pi) -> Value:
@@ -401,16 +405,6 @@ class Reading:
         return root.base if root is not None else x**2
 
 
-def choose(condition: Truth, x: sp.Expr, y: sp.Expr) -> sp.Expr:
-    """x where the condition holds, else y; decided here when it compares numbers."""
-    a, b = condition.a, condition.b
-    if not (a - b).is_number or (a - b).has(EPS):
-        return Choose(condition.kind, a, b, x, y)
-    difference = value(a - b, {})
-    holds = {LESS: difference < 0, LESS_EQUAL: difference <= 0, EQUAL: difference == 0}[condition.kind]
-    return x if holds else y
-
-
 def scalarised(spec: Spec, name: str, chart_map: Map, arguments: Sequence[Argument], shape: Shape) -> Function:
     """A map of the spec as a staged function, without looking for singularities."""
     trace = Trace(arguments)
@@ -429,4 +423,10 @@ def _parts(result: Value) -> tuple[sp.Expr, ...]:
         return result.entries + result.factors + result.divisors
     if isinstance(result, Truth):
         return result.a, result.b
-    return tuple(result) if isinstance(result, sp.MatrixBase) else (result,)
+    return (result,)
+
+
+def _is_rough(expression: sp.Expr, rough: Set[sp.Symbol]) -> bool:
+    """Whether an eigenvalue, or a symbol that is `rough`, stands outside of a comparison."""
+    parts = expression.args[3:] if isinstance(expression, Choose) else expression.args
+    return expression in rough or isinstance(expression, Eigenvalue) or any(_is_rough(e, rough) for e in parts)

@@ -12,6 +12,7 @@ from rsrm_gen.compiler.budget import spend
 from rsrm_gen.compiler.derive.bounds import Sizes
 from rsrm_gen.compiler.derive.geometry import Argument, Assignment, Guard
 from rsrm_gen.compiler.derive.numeric import TINY, Values, value
+from rsrm_gen.compiler.derive.values import Symmetry
 from rsrm_gen.errors import Span
 
 
@@ -30,6 +31,7 @@ class Trace:
         self.probe = dict(probe) if probe else None
         self.known: dict[sp.Expr, sp.Symbol] = {}
         self.sizes = Sizes()
+        self.symmetries: list[Symmetry] = []
         self.taken = {str(s) for a in arguments for s in a.symbols} | {a.name for a in arguments}
 
     def define(self, hint: str, expression: sp.Expr, guard: Guard | None = None) -> sp.Expr:
@@ -52,6 +54,7 @@ class Trace:
         trace = copy(self)
         trace.arguments = self.arguments | {a.name: a for a in arguments}
         trace.assignments, trace.quotients = list(self.assignments), list(self.quotients)
+        trace.symmetries = list(self.symmetries)
         trace.scalars, trace.known = list(self.scalars), dict(self.known)
         trace.taken = self.taken | {str(s) for a in arguments for s in a.symbols} | {a.name for a in arguments}
         trace.probe = self.probe and {**self.probe, **{s: mp.mpf(1) for a in arguments for s in a.symbols}}

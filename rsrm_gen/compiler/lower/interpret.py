@@ -9,7 +9,8 @@ import mpmath as mp
 
 from rsrm_gen.compiler.budget import spend
 from rsrm_gen.compiler.derive import magnitudes
-from rsrm_gen.compiler.lower.ir import Node, Routine
+from rsrm_gen.compiler.derive.matrix_numeric import derivative, eigenvalues
+from rsrm_gen.compiler.lower.ir import SEVERAL, Node, Routine
 
 EPS = 2.0**-52
 
@@ -52,8 +53,23 @@ def operate(node: Node, arguments: list[Any]) -> Any:
     if node.op == "polynomial":
         coefficients = [mp.mpf(str(c)) for c in node.value]  # type: ignore[attr-defined]
         return mp.polyval(coefficients[::-1], arguments[0])
+    if node.op in SEVERAL or node.op == "entry":
+        return _matrix_operation(node, arguments)
     try:
         result = OPERATIONS[node.op](*arguments)
     except (ZeroDivisionError, ValueError, TypeError, OverflowError):
         return mp.nan
     return mp.nan if isinstance(result, mp.mpc) else result
+
+
+def _matrix_operation(node: Node, arguments: list[Any]) -> Any:
+    """The value of an eigh is its matrix, decomposed only when something is picked from it."""
+    if node.op == "eigh":
+        return tuple(arguments)
+    if node.op == "spectral":
+        matrix, *entries = arguments
+        size = len(matrix)
+        directions = tuple(tuple(entries[k : k + size]) for k in range(0, len(entries), size))
+        return derivative(node.function[0], matrix, directions)
+    values = eigenvalues(arguments[0]) if node.arguments[0].op == "eigh" else arguments[0]
+    return values[node.index]

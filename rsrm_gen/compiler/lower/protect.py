@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterator, Sequence
 
+from rsrm_gen.compiler.derive.matrix_numeric import places
 from rsrm_gen.compiler.lower.ir import Graph, Node
 
 ENDANGERED = {"div": 1, "sqrt": 0, "root": 0, "log": 0, "polynomial": 0, "atanh": 0, "acosh": 0}  # by which argument
@@ -38,6 +39,10 @@ def protect(
             if node.arguments[0] is condition:
                 return parts[0]
             parts = (node.arguments[0], *parts)
+        if node.op == "eigh" and singular is None:  # its logarithm or root may not exist: of a unit matrix, it does
+            unit = [graph.constant(int(i == j)) for i, j in places(node.rows)]
+            pairs = list(zip(unit, parts, strict=True))
+            parts = tuple(graph.select(condition, *((e, x) if when else (x, e))) for e, x in pairs)
         if node.op in ENDANGERED:
             x = parts[ENDANGERED[node.op]]
             if not positive.holds(x) and (singular is None or singular(x)):

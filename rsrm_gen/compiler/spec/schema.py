@@ -55,7 +55,7 @@ MapText = FormulaText | LetSection
 class EmbeddedSection(Section):
     """Points are vectors of R^D under constraints."""
 
-    space: FormulaText = Field(description="R^D, the ambient space")
+    space: FormulaText = Field(description="R^D, the ambient space; R^(n x n) for points that are matrices")
     constraint: MapText = Field(description="a formula in p that vanishes on the manifold, or a vector of them")
     project: MapText = Field(description="a formula in p that maps nearby vectors onto the manifold")
     domain: FormulaText | None = Field(None, description="a comparison in p that chooses a sheet, like p[0] > 0")
@@ -109,7 +109,11 @@ class ManifoldFile(Heading):
     let: dict[Identifier, FormulaText] = Field({}, description="constants made of the parameters, for all formulas")
     embedded: EmbeddedSection | None = None
     chart: ChartSection | None = None
-    frame: list[FormulaText] | None = Field(None, description="vectors in p; tangent vectors are components in it")
+    frame: Annotated[list[FormulaText], Field(min_length=1)] | MapText | None = Field(
+        None,
+        union_mode="left_to_right",
+        description="vectors in p; tangent vectors are components in it. Or the ambient vector, a formula in p and v",
+    )
     metric: MapText = Field(description="<u, v>_p, a scalar formula in p, u, v; or a matrix formula in p")
     maps: Literal["geodesic", "retraction"] = Field(
         "geodesic", description="whether exp and log are those of the metric, or a retraction and its inverse"

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from fractions import Fraction
 
 from rsrm_gen.compiler.spec import formula as f
-from rsrm_gen.compiler.spec.vocabulary import TRUTH, WORDS, Shape
+from rsrm_gen.compiler.spec.vocabulary import MAX_MATRIX, TRUTH, WORDS, Shape
 from rsrm_gen.errors import Span, UserError, did_you_mean
 
 MAX_EXPONENT = 64
@@ -191,9 +191,29 @@ def _call(tree: f.Call, scope: Scope, parameters: Parameters) -> Shape:
         raise UserError(f"unknown function `{tree.function}`", tree.span, did_you_mean(tree.function, WORDS))
     if len(tree.arguments) not in word.arity:
         raise UserError(f"`{tree.function}` is written {word.signature}", tree.span, word.meaning)
+    if tree.function == "eye":
+        return (unit_size(tree, parameters),) * 2
     shapes = [shape_of(argument, scope, parameters) for argument in tree.arguments]
     shape = word.shape(*shapes)
     if shape is None:
         given = ", ".join(describe(s) for s in shapes)
-        raise UserError(f"{word.signature} does not take {given}", tree.span, word.meaning)
+        raise UserError(f"{word.signature} does not take {given}", tree.span, _advice(tree.function, shapes))
     return shape
+
+
+def unit_size(tree: f.Call, parameters: Parameters) -> int:
+    """The rows of eye(n)."""
+    n = integer(tree.arguments[0], parameters)
+    if not 1 <= n <= MAX_MATRIX:
+        raise UserError(f"a unit matrix of {n} rows; 1 to {MAX_MATRIX} are compiled", tree.span)
+    return n
+
+
+def _advice(function: str, shapes: list[Shape]) -> str:
+    """What the function is, or which function of matrices was meant."""
+    matrix = len(shapes) == 1 and len(shapes[0]) == 2
+    if matrix and f"{function}m" in WORDS:
+        return f"the function of a symmetric matrix is {function}m(A)"
+    if matrix and shapes[0][0] == shapes[0][1] and shapes[0][0] > MAX_MATRIX:
+        return f"functions of matrices are compiled for at most {MAX_MATRIX} rows"
+    return WORDS[function].meaning
