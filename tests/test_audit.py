@@ -72,9 +72,8 @@ def test_straight_lines_in_a_constant_metric_are_geodesics_exactly() -> None:
 
 
 def test_a_retraction_is_asked_for_what_it_promises_and_no_more() -> None:
-    text = (
-        (MANIFOLDS / "euclidean.yaml").read_text().replace("metric: dot(u, v)", "metric: (1 + dot(p, p)) * dot(u, v)")
-    )
+    text = (MANIFOLDS / "euclidean.yaml").read_text().replace("transport: v\n", "")
+    text = text.replace("metric: dot(u, v)", "metric: (1 + dot(p, p)) * dot(u, v)")
     checks = checks_of(text.replace("exp: p + v", "maps: retraction\nexp: p + v"))
     assert all(check.passed for check in checks.values())
     assert {"first order", "exp(log)", "log(exp)", "distance", "log det", "splat gradient"} <= checks.keys()

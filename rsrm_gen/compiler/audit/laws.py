@@ -291,7 +291,7 @@ class Laws:
             partials = self.partials(lambda x, p=p: self.call("distance", p, x), q)  # type: ignore[misc]
             found = self.call("gradient_norm", q, partials)[0]
             worst = worst.with_error(abs(found - 1), at("p", p, "q", q), found)
-        hint = worst.same_ratio("it is {}")
+        hint = worst.same_ratio("|grad distance| is {}")
         return self.check("eikonal", "|grad distance| = 1 in the metric", worst, self.spec.metric, hint=hint)
 
     def log_is_the_gradient_of_half_squared_distance(self) -> Check:

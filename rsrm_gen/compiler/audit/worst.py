@@ -33,7 +33,7 @@ class Worst:
         if not all(abs(r - first) < mp.mpf(10) ** -12 * (1 + abs(first)) for r in self.ratios):
             return None
         known = mp.isfinite(first) and abs(first - 1) > mp.mpf(10) ** -12
-        return sentence.format(mp.nstr(first, 6)) + " everywhere" if known else None
+        return sentence.format(mp.nstr(mp.chop(first, 1e-12), 6)) + " everywhere" if known else None
 
 
 def difference(x: Sequence[Any], y: Sequence[Any]) -> list[Any]:
