@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-import mpmath as mp
 import sympy as sp
 
 from rsrm_gen.compiler.derive.geometry import EPS, Assignment, Choose, ChooseSafe, Function, Polynomial, Wrap
 from rsrm_gen.compiler.derive.numeric import DIGITS, TINY
-from rsrm_gen.compiler.lower.interpret import operate
+from rsrm_gen.compiler.lower.interpret import values_at
 from rsrm_gen.compiler.lower.ir import CONDITIONS, Graph, Node, reachable
 from rsrm_gen.compiler.lower.protect import protect
 
@@ -55,14 +54,10 @@ def _guarded(builder: Builder, assignment: Assignment, far: Node, given: Mapping
 
 def _vanishing_at(place: Mapping[Node, Any]) -> Callable[[Node], bool]:
     """Whether a node is zero (or has no value) where its inputs have some given values."""
-    values: dict[Node, Any] = dict(place)
 
     def vanishes(node: Node) -> bool:
-        with mp.workdps(DIGITS):
-            for needed in reachable([node]):
-                if needed not in values:
-                    values[needed] = operate(needed, [values.get(a, mp.nan) for a in needed.arguments])
-            return not abs(values[node]) > TINY
+        (x,) = values_at(reachable([node]), place, DIGITS)[-1:]
+        return not abs(x) > TINY
 
     return vanishes
 
