@@ -142,11 +142,17 @@ def sample_rows(geometry: Geometry, precision: str) -> Rows:
         p = sampler.point(rng)
         v = [r * c for c in sampler.direction(rng, p)]
         row = [_rounded(x, precision) for x in (p, sampler.along(p, v, mp.mpf(1)), v)]
-        if all(sampler.inside([mp.mpf(float(c)) for c in x]) for x in row[:2]):  # far points may round out of a chart
+        if all(_stays_inside(sampler, x, precision) for x in row[:2]):  # far points may round out of a chart
             kinds.append(kind)
             rows.append(row)
     stacked = [np.stack(column) for column in zip(*rows, strict=True)]
     return Rows(stacked[0], stacked[1], stacked[2], tuple(kinds))
+
+
+def _stays_inside(sampler: Sampler, x: Any, precision: str) -> bool:
+    """Whether a point is in the domain, and not so close to its boundary that a few roundings lead out of it."""
+    margin = 8 * PRECISIONS[precision][2]
+    return all(sampler.inside([mp.mpf(float(c)) * factor for c in x]) for factor in (1 - margin, 1, 1 + margin))
 
 
 def _rounded(x: Sequence[Any], precision: str) -> Any:
