@@ -53,18 +53,20 @@ class ClosedForm:
 
     def log(self) -> sp.Expr:
         """Its logarithm: the factors under one logarithm where their exponents are alike, or one twice the other."""
-        if not self.exponents:
-            return sp.log(_exact(self.constant))
-        power = max(abs(k) for _, k in self.exponents)
-        alike = {k: sp.Rational(k.numerator, k.denominator) for k in (Fraction(1), Fraction(1, 2))}
-        together = [(s, k) for s, k in self.exponents if abs(k) / power in alike]
+        exponentials = sp.Add(*(_exact(k) * s.exp for s, k in self.exponents if isinstance(s, sp.exp)))
+        factors = [(s, k) for s, k in self.exponents if not isinstance(s, sp.exp)]
+        if not factors:
+            return exponentials + sp.log(_exact(self.constant))
+        power = max(abs(k) for _, k in factors)
+        alike = {k: _exact(k) for k in (Fraction(1), Fraction(1, 2))}
+        together = [(s, k) for s, k in factors if abs(k) / power in alike]
         quotient = sp.Mul(*(s ** (alike[abs(k) / power] * (1 if k > 0 else -1)) for s, k in together))
         constant = _exact(self.constant)
         root = constant ** (1 / _exact(power))
         if root.is_Rational:  # log(t / (2 |s|)) is more exact than log(t / |s|) - log(2)
             quotient, constant = root * quotient, sp.Integer(1)
-        apart = (_exact(k) * sp.log(s) for s, k in self.exponents if abs(k) / power not in alike)
-        return _exact(power) * sp.log(quotient) + sp.Add(*apart) + sp.log(constant)
+        apart = (_exact(k) * sp.log(s) for s, k in factors if abs(k) / power not in alike)
+        return _exact(power) * sp.log(quotient) + sp.Add(*apart) + exponentials + sp.log(constant)
 
 
 @dataclass(frozen=True)
@@ -98,7 +100,7 @@ def closed_form(
         for chosen in _products(samples)[:MAX_PRODUCTS]
         for constant, exponents in _exponents(target, [samples.logs[i] for i in chosen])
     ]
-    return min(found, key=_Rank(found, log, places), default=None)
+    return min(found, key=_Rank(found, log, places)) if found else None
 
 
 def _exact(x: Fraction) -> sp.Rational:
@@ -115,7 +117,7 @@ def _quantities(log: Function, scalars: Sequence[sp.Symbol], operators: Operator
     shifted = [e for s in plain for e in (1 + s**2, 1 - s**2, 1 + s, 1 - s)]
     p, q = (argument.symbols for argument in log.arguments)
     volume = metric_determinant(operators.metric)
-    volumes = [volume, volume.xreplace(dict(zip(p, q, strict=True)))]
+    volumes = [volume, volume.xreplace(dict(zip(p, q, strict=True)))] if volume is not None else []
     for expression in [*plain, *volumes, *shifted]:
         if not expression.is_number and expression not in seen and -expression not in seen:
             seen.add(expression)
@@ -290,9 +292,9 @@ class _Rank:
         function = replace(log, results=tuple(form.log() for form in forms))
         exact = np.array([[float(x) for x in run(function, p, q)[0]] for p, q in places]).T
         errors = np.abs(in_double(function, places) - exact)
-        errors = np.where(np.isfinite(errors), errors, np.inf) if forms else errors
-        best = errors.min(axis=0, initial=np.inf) + 2.0**-52 * np.abs(exact).max(axis=0, initial=0.0)
-        worst = (errors / np.maximum(best, 2.0**-60)).max(axis=1, initial=0.0) if forms else errors
+        errors = np.where(np.isfinite(errors), errors, 1e300)
+        best = errors.min(axis=0) + 2.0**-52 * np.abs(exact).max(axis=0)
+        worst = (errors / np.maximum(best, 2.0**-60)).max(axis=1)
         self.worst = {form: float(x) for form, x in zip(forms, worst, strict=True)}
 
     def __call__(self, form: ClosedForm) -> tuple[int, int, int, str]:

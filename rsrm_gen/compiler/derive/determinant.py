@@ -22,7 +22,7 @@ from rsrm_gen.compiler.derive.operators import Operators
 from rsrm_gen.errors import UserError
 
 EXPANDED = 3  # blocks up to this size are expanded; a determinant has factorially many terms
-MAX_STAGED = 10  # beyond, the derivatives of the splat are more code than a C compiler likes
+MAX_STAGED = 8  # beyond, the derivatives of the splat are more code than a C compiler likes
 
 Matrix = list[list[Any]]
 
@@ -159,26 +159,45 @@ class _Staging:
         self.taken = {str(a.symbol) for a in self.assignments} | {str(s) for s in jacobian.function.symbols()}
 
     def function(self) -> Function:
-        """The whole: a sum of logarithms, one a block, and the volumes of the metric."""
-        entries = self.named("J", sp.Matrix(self.jacobian.entries))
-        matrix, volume_ratio = _square_form(entries, self.operators, self.jacobian.function)
-        blocks = _blocks(self.named("M", matrix))
+        """The whole: a sum of logarithms, one a block, and the volumes of the metric and of the normals."""
+        operators, function = self.operators, self.jacobian.function
+        p, q = (argument.symbols for argument in function.arguments)
+        to_q = dict(zip(p, q, strict=True))
+        terms = [self.log_abs_det(self.named("J", self.bordered(to_q)))]
+        terms += [self.log_abs_det(operators.metric) / 2, -self.log_abs_det(operators.metric.xreplace(to_q)) / 2]
+        if operators.spec.ambient_tangents:
+            gram = operators.on_manifold(operators.constraint_jacobian * operators.normals())
+            terms += [-self.log_abs_det(gram) / 2, -self.log_abs_det(gram.xreplace(to_q)) / 2]
+        text = "log |det D Log_p(q)|, staged"
+        return Function("log_abs_det", function.arguments, tuple(self.assignments), (sp.Add(*terms),), (), text)
+
+    def bordered(self, to_q: dict[sp.Symbol, sp.Symbol]) -> sp.Matrix:
+        """A square matrix: D Log in components; with ambient tangents, bordered by the normals.
+
+        [[D Log, N_p], [dc_q, 0]] with N = G^-1 dc^T, whose determinant is that of D Log between the tangent spaces times
+        sqrt(det(dc N)_p det(dc N)_q det G_q / det G_p).
+        """
+        jacobian, operators = sp.Matrix(self.jacobian.entries), self.operators
+        if not operators.spec.ambient_tangents:
+            return jacobian * operators.frame.xreplace(to_q).T
+        normals, constraint = operators.normals(), operators.constraint_jacobian.xreplace(to_q)
+        return sp.Matrix([[jacobian, normals], [constraint, sp.zeros(constraint.rows, normals.cols)]])
+
+    def log_abs_det(self, matrix: sp.Matrix) -> sp.Expr:
+        """log |det matrix|, block by block."""
+        blocks = _blocks(matrix)
+        span = self.operators.spec.log.value.span
         if blocks is None:
-            raise UserError(
-                "D Log_p(q) is singular: Log does not tell points apart", self.operators.spec.log.value.span
-            )
+            raise UserError("D Log_p(q) is singular: Log does not tell points apart", span)
         largest = max(block.rows for block in blocks)
         if largest > MAX_STAGED:
             raise UserError(
                 f"no closed form of the determinant of D Log is found, and it is {largest} x {largest}; "
                 f"beyond {MAX_STAGED} x {MAX_STAGED} it is not eliminated",
-                self.operators.spec.log.value.span,
+                span,
                 "give its closed form as `log_det:`; the audit will check it",
             )
-        result = sp.Add(*(self.log_of(block) for block in blocks)) + sp.log(volume_ratio) / 2
-        arguments = self.jacobian.function.arguments
-        text = "log |det D Log_p(q)|, staged"
-        return Function("log_abs_det", arguments, tuple(self.assignments), (result,), (), text)
+        return sp.Add(*(self.log_of(block) for block in blocks))
 
     def define(self, hint: str, expression: sp.Expr) -> sp.Expr:
         """A name for an expression."""
@@ -198,14 +217,11 @@ class _Staging:
         return sp.Matrix(*matrix.shape, lambda i, j: self.define(f"{name}{i}_{j}", matrix[i, j]))
 
     def log_of(self, block: sp.Matrix) -> sp.Expr:
-        """log |det block|."""
-        if block.rows <= EXPANDED:
-            return sp.log(sp.Abs(block.det(method="berkowitz")))
-        return sp.log(sp.Mul(*(self.orthogonalised(block)))) / 2 if block.rows <= 4 else self.sum_of_logs(block)
-
-    def sum_of_logs(self, block: sp.Matrix) -> sp.Expr:
-        """A sum, for the product of many lengths may leave the range of numbers."""
-        return sp.Add(*(sp.log(square) for square in self.orthogonalised(block))) / 2
+        """log |det block|: of one expanded, or a sum, for the product of many lengths may leave the range of numbers."""
+        if block.rows > EXPANDED:
+            return sp.Add(*(sp.log(square) for square in self.orthogonalised(block))) / 2
+        determinant = block.det(method="berkowitz")
+        return sp.log(sp.Abs(determinant)) if determinant != 1 else sp.Integer(0)
 
     def orthogonalised(self, block: sp.Matrix) -> list[sp.Expr]:
         """The squared lengths of the rows, each made orthogonal to those before it (modified Gram-Schmidt)."""
@@ -259,29 +275,10 @@ def _matching(columns: Sequence[Sequence[int]]) -> list[int] | None:
     return [column_of[i] for i in range(len(columns))]
 
 
-def _square_form(jacobian: sp.Matrix, operators: Operators, function: Function) -> tuple[sp.Matrix, sp.Expr]:
-    """A square matrix and a factor: |det D Log| = |det matrix| * sqrt(factor).
-
-    With frames or in charts, D Log in components. With ambient tangents, the ambient matrix that agrees with D Log
-    on T_q M and takes the normals at q to the normals at p.
-    """
-    p, q = (argument.symbols for argument in function.arguments)
-    to_q = dict(zip(p, q, strict=True))
-    metric_p, metric_q = operators.metric, operators.metric.xreplace(to_q)
-    volume_ratio = metric_determinant(metric_p) / metric_determinant(metric_q)
-    if not operators.spec.ambient_tangents:
-        return jacobian * operators.frame.xreplace(to_q).T, volume_ratio
-    constraint_q = operators.constraint_jacobian.xreplace(to_q)
-    normals_p = operators.normals()
-    normals_q = normals_p.xreplace(to_q)
-    gram_p, gram_q = operators.constraint_jacobian * normals_p, constraint_q * normals_q
-    lower = gram_q.inv(method="ADJ") * constraint_q
-    matrix = jacobian * (sp.eye(operators.spec.point_size) - normals_q * lower) + normals_p * lower
-    return matrix, volume_ratio * gram_q.det() / gram_p.det()
-
-
-def metric_determinant(metric: sp.Matrix) -> sp.Expr:
-    """Of a metric: the product of the diagonal where that is all there is, for it reads and rounds better."""
+def metric_determinant(metric: sp.Matrix) -> sp.Expr | None:
+    """Of a metric whose blocks are small; None of another. A diagonal one's is the product, which reads and rounds best."""
     if metric.is_diagonal():
         return sp.Mul(*metric.diagonal())
-    return sp.Mul(*(block.det(method="berkowitz") for block in _blocks(metric) or [metric]))
+    blocks = _blocks(metric)
+    small = blocks is not None and all(block.rows <= EXPANDED for block in blocks)
+    return sp.Mul(*(block.det(method="berkowitz") for block in blocks)) if blocks and small else None
