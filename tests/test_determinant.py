@@ -92,10 +92,12 @@ def test_space_forms_have_closed_determinants(name: str) -> None:
 
 
 def test_of_equal_closed_forms_the_accurate_one_is_taken() -> None:
-    # Near the antipode w = q - (p . q) p loses its digits, |q + p| does not: sin t = |q - p| |q + p| / 2.
-    formula = geometry("sphere").functions[8].formula
-    assert "norm_q_plus_p" in formula
-    assert "norm_w" not in formula
+    # sqrt(1 - (p . q)^2) is sin t, and loses its digits near 0 and pi; |q - p| |q + p| / 2 is too, and does not.
+    text = (MANIFOLDS / "sphere.yaml").read_text()
+    poor = derive(spec_of(text.replace("t * w / norm(w)", "t / sqrt(1 - dot(p, q)^2) * w")))
+    assert poor.log_det_origin == "closed form"
+    assert poor["log_abs_det"].formula == "log(2*t/(norm_d*norm_q_plus_p))"
+    assert geometry("sphere")["log_abs_det"].formula == "log(t_over_norm_w)"  # as accurate, and shorter
 
 
 def test_exponents_are_simple_fractions_or_none() -> None:

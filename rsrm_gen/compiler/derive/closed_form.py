@@ -32,6 +32,8 @@ MAX_QUANTITIES = 80
 MAX_PRODUCTS = 40  # that are looked at in 60 digits
 FAR = (2, 3, 6, 10, 15, 20, 30)  # distances, where there is no cut locus
 
+MIDDLE = tuple(mp.mpf(k) / 8 for k in range(1, 8))  # distances, of the injectivity radius
+
 HALF = sp.Rational(1, 2)
 
 # What the derivative of an elementary function of x divides by.
@@ -147,7 +149,7 @@ def _inside(log: Function, scalars: Sequence[sp.Symbol]) -> Iterator[sp.Expr]:
 def _places(sampler: Sampler, rng: random.Random) -> Iterator[tuple[list[Any], list[Any]]]:
     """Pairs of points in the middle, and near the cut locus or far away."""
     whole = sampler.reach * 2
-    middle = [whole * mp.mpf(k) / 7 for k in range(1, 7)]
+    middle = [whole * fraction for fraction in MIDDLE]
     last = [whole * (1 - mp.mpf(10) ** -k) for k in range(1, 10)] if sampler.bounded else [mp.mpf(r) for r in FAR]
     for r in middle + last:
         p, q = sampler.pair(rng, r)
@@ -293,16 +295,13 @@ class _Rank:
         exact = np.array([[float(x) for x in run(function, p, q)[0]] for p, q in places]).T
         errors = np.abs(in_double(function, places) - exact)
         errors = np.where(np.isfinite(errors), errors, 1e300)
-        best = errors.min(axis=0) + 2.0**-52 * np.abs(exact).max(axis=0)
-        worst = (errors / np.maximum(best, 2.0**-60)).max(axis=1)
+        floor = np.maximum(2.0**-53 * np.abs(exact).max(axis=0), 2.0**-60)  # what rounding the result costs
+        ratios = np.log2((errors + floor) / (errors.min(axis=0) + floor))
+        middle, last = ratios[:, : len(MIDDLE)], ratios[:, len(MIDDLE) :]
+        worst = np.maximum(middle.mean(axis=1), last.mean(axis=1)) if last.size else middle.mean(axis=1)
         self.worst = {form: float(x) for form, x in zip(forms, worst, strict=True)}
 
     def __call__(self, form: ClosedForm) -> tuple[int, int, int, str]:
+        """Bits lost, in pairs; factors; length."""
         text = str(form.log())
-        worst = self.worst[form]
-        return (
-            (round(np.log2(worst) / 2) if 1 < worst < np.inf else 0 if worst <= 1 else 999),
-            len(form.exponents),
-            len(text),
-            text,
-        )
+        return int(self.worst[form] / 2), len(form.exponents), len(text), text
