@@ -1,7 +1,7 @@
-"""Safe branches: what a branch divides by, or takes a root or logarithm of, is 1 while the branch is not taken.
+"""Safe branches: what a branch divides by, or takes a root, logarithm or exponential of, is harmless while it is not taken.
 
-A select computes both of its branches, and in a derivative 0 * inf is NaN. So the *inputs* of singular operations are
-replaced, not their results.
+A select computes both of its branches, and in a derivative 0 * inf is NaN. So the *inputs* of operations that may be
+singular or overflow are replaced, not their results.
 """
 
 from __future__ import annotations
@@ -10,8 +10,18 @@ from collections.abc import Callable
 
 from rsrm_gen.compiler.lower.ir import Graph, Node
 
-ENDANGERED = {"div": 1, "sqrt": 0, "root": 0, "log": 0, "polynomial": 0, "atanh": 0, "acosh": 0}  # by which argument
-SAFE = {"polynomial": 0, "atanh": 0}  # what it is replaced by; 1 elsewhere
+# By which argument, and what it is replaced by: a value at which the operation and its derivatives are finite.
+SINGULAR = {
+    "div": (1, 1),
+    "sqrt": (0, 1),
+    "root": (0, 1),
+    "log": (0, 1),
+    "polynomial": (0, 0),
+    "atanh": (0, 0),
+    "acosh": (0, 2),
+    "acos": (0, 0),
+}
+OVERFLOWING = {"exp": (0, 0), "cosh": (0, 0), "sinh": (0, 0)}
 
 
 def protect(
@@ -19,8 +29,8 @@ def protect(
 ) -> Node:
     """The same branch, harmless where `condition` is `when`: where it is not taken.
 
-    `singular` says of a node whether it vanishes somewhere there; without it, every input in danger is replaced that is
-    not positive by its form.
+    `singular` says of a node whether it vanishes somewhere there, near a place where nothing overflows; without it, every
+    input in danger is replaced that is not harmless by its form.
     """
     done: dict[Node, Node] = {}
 
@@ -36,14 +46,22 @@ def protect(
             arguments = (node.arguments[0], *(visit(a) for a in node.arguments[1:]))
         else:
             arguments = tuple(visit(a) for a in node.arguments)
-        if node.op in ENDANGERED:
-            index = ENDANGERED[node.op]
-            if not is_positive(arguments[index], condition, when) and (singular is None or singular(arguments[index])):
-                safe = graph.constant(SAFE.get(node.op, 1))
-                x = arguments[index]
-                x = graph.select(condition, safe, x) if when else graph.select(condition, x, safe)
-                arguments = (*arguments[:index], x, *arguments[index + 1 :])
+        if is_endangered(node.op, arguments):
+            index, safe = (SINGULAR | OVERFLOWING)[node.op]
+            x, harmless = arguments[index], graph.constant(safe)
+            x = graph.select(condition, harmless, x) if when else graph.select(condition, x, harmless)
+            arguments = (*arguments[:index], x, *arguments[index + 1 :])
         return node if arguments == node.arguments else copied(node, arguments)
+
+    def is_endangered(op: str, arguments: tuple[Node, ...]) -> bool:
+        if op in OVERFLOWING:
+            return singular is None and not cannot_overflow(op, arguments[0])
+        if op not in SINGULAR:
+            return False
+        x = arguments[SINGULAR[op][0]]
+        if op in ("acos", "acosh", "atanh"):  # singular at +-1
+            return singular is None or singular(graph.sub(graph.mul(x, x), graph.constant(1)))
+        return not is_positive(x, condition, when) and (singular is None or singular(x))
 
     def copied(node: Node, arguments: tuple[Node, ...]) -> Node:
         # A root of what cannot vanish is a plain square root.
@@ -53,6 +71,11 @@ def protect(
         return copy
 
     return visit(root)
+
+
+def cannot_overflow(op: str, x: Node) -> bool:
+    """Whether an exponential is bounded by its form: of a number, or e to minus something that is not negative."""
+    return x.is_constant or (op == "exp" and x.op == "neg" and is_nonnegative(x.arguments[0]))
 
 
 def is_positive(node: Node, condition: Node | None = None, when: bool = True) -> bool:
