@@ -14,13 +14,18 @@ from typing import Any
 import mpmath as mp
 import numpy as np
 import pytest
+import sympy as sp
 import torch
 from closed_forms import CASES, ClosedForm, Point, plus, times
-from compiled import call_batch, files, geometry, needs_compiler, program, shared_library, torch_module
+from compiled import call_batch, files, geometry, needs_compiler, program, shared_library, spec_of, torch_module
 
-from rsrm_gen.compiler.lower import interpret
+from rsrm_gen.compiler.derive import derive
+from rsrm_gen.compiler.emit import emit
+from rsrm_gen.compiler.emit.series import in_double, in_single, tables
+from rsrm_gen.compiler.lower import interpret, lower
 
 DIGITS = 60
+DERIVATIVE_DIGITS = 110
 EPS = {"float64": 2.0**-53, "float32": 2.0**-24}
 DTYPES = {"float64": torch.float64, "float32": torch.float32}
 
@@ -173,10 +178,10 @@ def interpreted(case: str, function: str, p: Point, second: Point) -> Point:
     if function == "splat":
         spec = geometry(form.name, **form.parameters).spec
         W = splat_matrix(spec.dim, spec.tangent_size).ravel()
-        return interpret(made["splat"], second, p, W.tolist(), [1], digits=DIGITS)[0]
+        return interpret(made["splat"], second, p, W.tolist(), [1], digits=DERIVATIVE_DIGITS)[0]
     if function == "squared distance":
-        return [interpret(made["distance"], p, second, digits=DIGITS)[0][0] ** 2]
-    return interpret(made[function], p, second, digits=DIGITS)[0]
+        return [interpret(made["distance"], p, second, digits=DERIVATIVE_DIGITS)[0][0] ** 2]
+    return interpret(made[function], p, second, digits=DERIVATIVE_DIGITS)[0]
 
 
 def directions(size: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -187,7 +192,7 @@ def directions(size: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def differences(case: str, function: str, p: Point, second: Point) -> tuple[Any, Any]:
     """The first derivative along one direction and the second along two, of the weighted sum of the results."""
-    h, size = mp.mpf(10) ** -14, len(p)
+    h, size = mp.mpf(10) ** -30, len(p)
     d, e, _ = directions(len(p) + len(second))
 
     def at(s: int, t: int) -> Any:
@@ -201,17 +206,147 @@ def differences(case: str, function: str, p: Point, second: Point) -> tuple[Any,
 
 
 def by_autograd(manifold: Any, function: str, p: np.ndarray, second: np.ndarray, dtype: torch.dtype) -> np.ndarray:
-    """The same two numbers for every row: (rows, 2)."""
+    """The same two numbers for every row, and the largest terms of the value and of each: (rows, 5)."""
     size = p.shape[1]
     z = torch.from_numpy(np.concatenate([p, second], 1)).to(dtype).requires_grad_()
     d, e, _ = (torch.from_numpy(x).to(dtype) for x in directions(z.shape[1]))
     result = SCALARS[function](manifold, z[:, :size], z[:, size:])
     weights = torch.from_numpy(directions(result.shape[1])[2]).to(dtype)
-    if not result.requires_grad:
-        return np.zeros((len(p), 2))
-    (slope,) = torch.autograd.grad((result * weights).sum(), z, create_graph=True)
-    first = (slope * d).sum(-1)
-    if not first.requires_grad:
-        return np.stack([first.double().numpy(), np.zeros(len(p))], 1)
-    (bend,) = torch.autograd.grad(first.sum(), z)
-    return np.stack([first.detach().double().numpy(), (bend * e).sum(-1).double().numpy()], 1)
+    slope = bend = torch.zeros_like(z)
+    if result.requires_grad:
+        (slope,) = torch.autograd.grad((result * weights).sum(), z, create_graph=True)
+    if slope.requires_grad:
+        (bend,) = torch.autograd.grad((slope * d).sum(), z)
+    terms = [(slope * d).detach().double(), (bend * e).double()]
+    largest_terms = [t.abs().amax(-1) for t in (result.detach().double(), *terms)]
+    return torch.stack([*(t.sum(-1) for t in terms), *largest_terms], 1).numpy()
+
+
+@pytest.mark.parametrize("precision", EPS)
+@pytest.mark.parametrize("function", SCALARS)
+@pytest.mark.parametrize("case", ["S2", "T7", "H2", "ball3", "half2", "SO3", "circle", "cylinder"])
+def test_first_and_second_derivatives_are_as_exact_as_their_inputs_allow(
+    case: str, function: str, precision: str, folder: Any
+) -> None:
+    at, eps = rows(case, precision), EPS[precision]
+    second = at.v if function == "exp" else at.q
+    found = by_autograd(torch_manifold(case, folder), function, at.p, second, DTYPES[precision])
+    assert np.isfinite(found).all()
+    chosen = [i for i, kind in enumerate(at.kind) if i % 3 == 0 or kind != "middle"]
+    rng = random.Random(35)
+    with mp.workdps(DERIVATIVE_DIGITS):
+        for i in chosen:
+            place = [[mp.mpf(c) for c in x] for x in (at.p[i], second[i])]
+            exact = differences(case, function, *place)
+            shaken = [[[c * (1 + eps * rng.choice((-1, 1))) for c in x] for x in place] for _ in range(4)]
+            moved = [differences(case, function, *x) for x in shaken]
+            # Where points coincide the distance has a kink, and no code that sees it alone knows its square's second derivative.
+            orders = (0,) if function == "squared distance" and (at.p[i] == second[i]).all() else (0, 1)
+            for k in orders:
+                sens = max(abs(m[k] - exact[k]) for m in moved)
+                unit = sens + 2 * eps * max(abs(exact[k]), *found[i, 2 : 4 + k]) + mp.mpf(10) ** -40
+                assert abs(found[i, k] - exact[k]) <= (64, 256)[k] * unit, (
+                    at.kind[i],
+                    k + 1,
+                    float(abs(found[i, k] - exact[k]) / unit),
+                )
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_derivatives_are_finite_on_every_manifold(case: str, folder: Any) -> None:
+    manifold = torch_manifold(case, folder)
+    for precision, dtype in DTYPES.items():
+        at = rows(case, precision)
+        for function in SCALARS:
+            second = at.v if function == "exp" else at.q
+            assert np.isfinite(by_autograd(manifold, function, at.p, second, dtype)).all(), (function, precision)
+
+
+# Rows that are hostile, or on a boundary, do no harm to others.
+
+
+def hostile(p: np.ndarray, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """NaN, infinity, zero, huge, opposite and coincident rows."""
+    bad = np.repeat(p[:1], 8, axis=0)
+    other = np.stack([
+        np.full_like(q[0], np.nan), np.full_like(q[0], np.inf), np.zeros_like(q[0]), np.full_like(q[0], 1e200),
+        -q[0], q[1], q[0] * np.nan, -np.full_like(q[0], np.inf),
+    ])  # fmt: skip
+    bad[6] = np.inf
+    return bad, other
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_no_row_of_torch_feels_another(case: str, folder: Any) -> None:
+    manifold, at = torch_manifold(case, folder), rows(case, "float64")
+    for function in SCALARS:
+        second = at.v if function == "exp" else at.q
+        bad = hostile(at.p, second)
+        among = [np.concatenate([b, x, b]) for b, x in zip(bad, (at.p, second), strict=True)]
+        alone = by_autograd(manifold, function, at.p, second, torch.float64)
+        found = by_autograd(manifold, function, among[0], among[1], torch.float64)[8:-8]
+        # Vectorised and scalar code may differ in the last bits.
+        scale = np.abs(alone).max(axis=1, keepdims=True) + 1e-30
+        assert (np.abs(found - alone) <= 1e-11 * scale).all(), function
+
+
+@needs_compiler
+@pytest.mark.parametrize("case", CASES)
+def test_no_row_of_c_feels_another(case: str, folder: Any) -> None:
+    form, at = CASES[case], rows(case, "float64")
+    identifier = geometry(form.name, **form.parameters).spec.identifier
+    library = shared_library(files(form.name, **form.parameters), identifier, folder)
+    for function in TRUTH:
+        second = at.v if function == "exp" else at.q
+        among = [np.concatenate([b, x, b]) for b, x in zip(hostile(at.p, second), (at.p, second), strict=True)]
+        routine = program(form.name, **form.parameters)[function]
+        (alone,) = call_batch(library, identifier, routine, at.p, second)
+        (found,) = call_batch(library, identifier, routine, *among)
+        assert (found[8:-8] == alone).all(), function
+
+
+# What a branch that is not taken computes.
+
+STEEP = """\
+manifold: steep
+doc: A line whose formulas overflow in the branch that is not taken.
+chart: {{space: R^1}}
+metric: dot(u, v)
+exp: p + v
+log: q - p
+distance: norm(q - p) + 0 * where(q[0] < 5, 1, {large}) + where(q[0] < 5, {large}, 0) * 0
+injectivity_radius: infinity
+"""
+
+
+@pytest.mark.parametrize("large", ["exp(q[0]^2)", "cosh(9 * q[0])", "sinh(q[0]^3)", "acos(q[0])", "acosh(q[0])"])
+def test_what_is_not_taken_does_not_poison_derivatives(large: str, folder: Any) -> None:
+    made = derive(spec_of(STEEP.format(large=f"where(q[0] > 700, 1, {large})")))
+    texts = emit(made, lower(made))
+    manifold = torch_module(texts, "steep", folder).manifold
+    p, q = torch.zeros(1, 1, dtype=torch.float64), torch.tensor([[900.0]], dtype=torch.float64, requires_grad=True)
+    distance = manifold.distance(p, q)
+    (slope,) = torch.autograd.grad(distance.sum(), q)
+    assert float(distance.detach()) == 900
+    assert float(slope) == 1
+
+
+# Polynomials for single precision.
+
+
+@pytest.mark.parametrize("name", ["sphere", "hyperbolic", "so3", "poincare"])
+def test_single_precision_has_fewer_coefficients_and_they_suffice(name: str) -> None:
+    for coefficients in tables(program(name)):
+        single, double = in_single(coefficients), in_double(coefficients)
+        assert single.degree < len(double) - 1
+        assert single.error <= 2.0**-27
+        for k in range(201):
+            u = mp.mpf(k) / 200
+            exact = mp.polyval([mp.mpf(c) for c in double[::-1]], u)
+            approximate = mp.polyval([mp.mpf(c) for c in single.coefficients[::-1]], u)
+            assert abs(approximate / exact - 1) <= mp.mpf(single.error) * (1 + mp.mpf(10) ** -6)
+
+
+def test_a_polynomial_that_vanishes_keeps_its_degree() -> None:
+    coefficients = tuple(sp.Rational(c) for c in ("-1/2", "1", "1/1000000000", "1/1000000000000"))
+    assert in_single(coefficients).degree == 3

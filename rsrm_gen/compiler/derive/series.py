@@ -95,10 +95,18 @@ def _interpolate(x: list[Any], y: list[Any]) -> list[Any]:
     return coefficients
 
 
+EVEN: dict[str, Callable[[Any], Any]] = {
+    "sinc": lambda r: mp.sin(r) / r,
+    "sinhc": lambda r: mp.sinh(r) / r,
+    "cos": mp.cos,
+    "cosh": mp.cosh,
+}
+
+
 @lru_cache
-def cardinal_series(name: str) -> Fit:
-    """sinc or sinhc as a polynomial in x^2."""
-    evaluate = {"sinc": mp.sin, "sinhc": mp.sinh}[name]
-    found = fit(lambda r: (r**2, evaluate(r) / r), mp.mpf(1), 0)
-    assert found is not None  # both are entire functions
+def even_series(name: str) -> Fit:
+    """An even function of r as a polynomial in r^2."""
+    evaluate = EVEN[name]
+    found = fit(lambda r: (r**2, evaluate(r)), mp.mpf(1), 0)
+    assert found is not None  # all are entire functions
     return found

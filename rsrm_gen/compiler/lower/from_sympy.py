@@ -139,8 +139,8 @@ class Builder:
         if isinstance(expression, ChooseSafe):
             self.graph.named("on_cut_locus", condition)
             return self.graph.select(condition, self.node(x), self.node(y))
-        taken = protect(self.graph, self.node(x), condition, False)
-        return self.graph.select(condition, taken, protect(self.graph, self.node(y), condition, True))
+        taken = protect(self.graph, self.node(x), condition, False, guard=False)
+        return self.graph.select(condition, taken, protect(self.graph, self.node(y), condition, True, guard=False))
 
     def wrap(self, x: Node, period: sp.Expr) -> Node:
         """x - k L with L split into parts of few digits, so that k times the leading parts is exact."""

@@ -25,12 +25,18 @@ OVERFLOWING = {"exp": (0, 0), "cosh": (0, 0), "sinh": (0, 0)}
 
 
 def protect(
-    graph: Graph, root: Node, condition: Node, when: bool, singular: Callable[[Node], bool] | None = None
+    graph: Graph,
+    root: Node,
+    condition: Node,
+    when: bool,
+    singular: Callable[[Node], bool] | None = None,
+    guard: bool = True,
 ) -> Node:
     """The same branch, harmless where `condition` is `when`: where it is not taken.
 
-    `singular` says of a node whether it vanishes somewhere there, near a place where nothing overflows; without it, every
-    input in danger is replaced that is not harmless by its form.
+    `singular` says of a node whether it vanishes somewhere there; without it, every input in danger is replaced that is
+    not harmless by its form. A `guard` parts what is close to a singular place from the rest: nothing overflows close by,
+    and no root vanishes in the rest. Other conditions part anything.
     """
     done: dict[Node, Node] = {}
 
@@ -55,7 +61,7 @@ def protect(
 
     def is_endangered(op: str, arguments: tuple[Node, ...]) -> bool:
         if op in OVERFLOWING:
-            return singular is None and not cannot_overflow(op, arguments[0])
+            return not guard and not cannot_overflow(op, arguments[0])
         if op not in SINGULAR:
             return False
         x = arguments[SINGULAR[op][0]]
@@ -65,7 +71,8 @@ def protect(
 
     def copied(node: Node, arguments: tuple[Node, ...]) -> Node:
         # A root of what cannot vanish is a plain square root.
-        copy = graph.node("sqrt" if node.op == "root" else node.op, *arguments, value=node.value)
+        op = "sqrt" if node.op == "root" and guard else node.op
+        copy = graph.node(op, *arguments, value=node.value)
         if node in graph.names:
             graph.named(graph.names[node], copy)
         return copy
