@@ -30,7 +30,7 @@ FITTED, FRESH = 12, 6  # pairs of points at which exponents are found, and at wh
 MAX_FACTORS = 3
 MAX_QUANTITIES = 80
 MAX_PRODUCTS = 40  # that are looked at in 60 digits
-FAR = (2, 3, 6, 10, 15, 20, 30)  # distances, where there is no cut locus
+FAR = (2, 3, 6, 10, 15, 20, 30)  # distances in the manifold's unit of length, where there is no cut locus
 
 MIDDLE = tuple(mp.mpf(k) / 8 for k in range(1, 8))  # distances, of the injectivity radius
 
@@ -150,7 +150,9 @@ def _places(sampler: Sampler, rng: random.Random) -> Iterator[tuple[list[Any], l
     """Pairs of points in the middle, and near the cut locus or far away."""
     whole = sampler.reach * 2
     middle = [whole * fraction for fraction in MIDDLE]
-    last = [whole * (1 - mp.mpf(10) ** -k) for k in range(1, 10)] if sampler.bounded else [mp.mpf(r) for r in FAR]
+    last = (
+        [whole * (1 - mp.mpf(10) ** -k) for k in range(1, 10)] if sampler.bounded else [sampler.reach * r for r in FAR]
+    )
     for r in middle + last:
         p, q = sampler.pair(rng, r)
         if all(sampler.inside([mp.mpf(float(c)) for c in x]) for x in (p, q)):  # far points may round out of a chart
