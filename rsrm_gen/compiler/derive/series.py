@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache
 from typing import Any
 
 import mpmath as mp
@@ -44,6 +44,7 @@ def fit(curve: Curve, reach: Any, order: int) -> Fit | None:
     `reach` is the r to begin with. Interpolates y / x^order in Chebyshev points (in r^2, so nearly in x) with 60 digits,
     by a polynomial of the lowest degree that is exact enough.
     """
+    curve = cache(curve)  # polynomials of several degrees are tried against the same points
     with mp.workdps(DIGITS):
         for _ in range(24):
             found = _fit_to(curve, reach, order, MAX_DEGREE)
@@ -103,7 +104,7 @@ EVEN: dict[str, Callable[[Any], Any]] = {
 }
 
 
-@lru_cache
+@cache
 def even_series(name: str) -> Fit:
     """An even function of r as a polynomial in r^2."""
     evaluate = EVEN[name]
