@@ -44,8 +44,9 @@ format: $(STAMP) ## rewrite the source as ruff has it
 	$(BIN)/ruff format
 
 .PHONY: update
-update: $(STAMP) ## generate the code in generated/ again, from manifolds/
+update: $(STAMP) ## generate the code in generated/ and the table of its operations again, from manifolds/
 	$(BIN)/rsrm-gen $(MANIFOLDS)
+	$(BIN)/python -m rsrm_gen.compiler.operations docs/operations.md $(MANIFOLDS)
 
 .PHONY: clean
 clean: ## remove what was built, but not runs/

@@ -18,6 +18,9 @@ from rsrm_gen.errors import Source, Span, UserError, did_you_mean
 
 MAX_CHARACTERS = 200_000
 MAX_DEPTH = 40
+MAX_NUMBER = 400  # characters
+YAML = "tag:yaml.org,2002:"
+PLAIN = {"str", "int", "float", "bool", "null", "map", "seq"}
 
 Path_ = tuple[str | int, ...]
 Model = TypeVar("Model", bound=BaseModel)
@@ -46,7 +49,8 @@ class Document:
 def read_document(path: Path) -> Document:
     """Read a YAML file; every way in which it can be unreadable is a `UserError`."""
     try:
-        text = path.read_text(encoding="utf-8")
+        with path.open(encoding="utf-8-sig") as file:
+            text = file.read(MAX_CHARACTERS + 1)
     except FileNotFoundError:
         folder = path.parent
         stems = {p.stem: p.name for p in folder.glob(f"*{path.suffix}")} if folder.is_dir() else {}
@@ -64,30 +68,58 @@ def parse_document(text: str, name: str = "<text>") -> Document:
     """Parse YAML text whose top level is a mapping."""
     source = Source(name, text)
     if len(text) > MAX_CHARACTERS:
-        raise UserError(f"{name} has {len(text)} characters; at most {MAX_CHARACTERS} are read")
+        raise UserError(f"{name} has more than {MAX_CHARACTERS} characters", hint="a manifold file is a page of text")
     try:
         root = yaml.compose(text, Loader=yaml.SafeLoader)
         loader = yaml.SafeLoader("")
     except yaml.MarkedYAMLError as error:
-        mark = error.problem_mark
-        span = Span(source, mark.line + 1, mark.column + 1) if mark else None
-        raise UserError(f"this is not valid YAML: {error.problem}", span, _yaml_hint(error, source)) from None
-    except yaml.YAMLError as error:
-        raise UserError(f"{name} is not valid YAML: {error}") from None
+        raise _yaml_error(error, source) from None
+    except yaml.reader.ReaderError as error:
+        character = f"the character U+{ord(text[error.position]):04X} cannot stand in YAML"
+        raise UserError(character, _span_at(source, error.position), "remove it; it may be invisible") from None
     except RecursionError:
         raise UserError(f"{name} is nested too deeply; at most {MAX_DEPTH} levels are read") from None
+    if root is None:
+        raise UserError(f"{name} is empty", hint="write lines like `key: value`")
     if not isinstance(root, yaml.MappingNode):
-        raise UserError(f"{name} must be a mapping of `key: value` lines", Span(source, 1, 1))
+        raise UserError("this is no mapping: it must be made of `key: value` lines", Span(source, 1, 1))
     walker = _Walker(source, loader)
     data = walker.value(root, ())
     return Document(source, data, walker.values, walker.keys)
 
 
-def _yaml_hint(error: yaml.MarkedYAMLError, source: Source) -> str | None:
-    line = source.line(error.problem_mark.line + 1) if error.problem_mark else ""
-    if "\t" in line:
-        return "YAML is indented with spaces, not tabs"
-    return "a value that holds `: `, `#`, `{`, `[` or starts with a quote must be put in double quotes"
+def _span_at(source: Source, position: int) -> Span:
+    """Where the character with that number from 0 stands."""
+    before = source.text[:position].splitlines() or [""]
+    if source.text[:position].endswith("\n"):
+        before.append("")
+    return Span(source, len(before), len(before[-1]) + 1)
+
+
+def _yaml_error(error: yaml.MarkedYAMLError, source: Source) -> UserError:
+    """What PyYAML found, at the bracket or quote that stays open when the file goes on without closing it."""
+    mark, opened = error.problem_mark, error.context_mark
+    context = error.context or ""
+    if "single document" in context and mark:
+        return UserError("a second document begins here", _span_of(source, mark), "keep one document in a file")
+    unclosed = "flow" in context or "quoted" in context
+    if unclosed and opened and mark and opened.line != mark.line:
+        mark = opened
+    hint = "a value that holds `: `, ` #`, `{`, `[` or begins with a sign like % or @ must be put in double quotes"
+    if mark and "\t" in source.line(mark.line + 1):
+        hint = "YAML is indented with spaces, not tabs"
+    elif "quoted" in context:
+        hint = "close the quote that is opened here"
+    elif "block end" in str(error.problem):
+        hint = "the keys of a section begin in the same column"
+    problem = str(error.problem)
+    if unclosed and mark is opened:
+        problem = "this is opened and not closed"
+    return UserError(f"this is not valid YAML: {problem}", _span_of(source, mark) if mark else None, hint)
+
+
+def _span_of(source: Source, mark: yaml.Mark) -> Span:
+    return Span(source, mark.line + 1, mark.column + 1)
 
 
 class _Walker:
@@ -103,10 +135,12 @@ class _Walker:
     def value(self, node: yaml.Node, path: Path_) -> Any:
         span = self.values[path] = self.span(node)
         if id(node) in self.seen:
-            raise UserError("YAML aliases (`*name`) are not read", span, "write the value out")
+            hint = "write the value out in both places"
+            raise UserError("YAML anchors and aliases (`&name`, `*name`) are not read", span, hint)
         if len(path) > MAX_DEPTH:
             raise UserError(f"nested too deeply; at most {MAX_DEPTH} levels are read", span)
         self.seen.add(id(node))
+        self.check_tag(node, span)
         if isinstance(node, yaml.MappingNode):
             return self.mapping(node, path)
         if isinstance(node, yaml.SequenceNode):
@@ -127,14 +161,22 @@ class _Walker:
         return result
 
     def scalar(self, node: yaml.Node, span: Span) -> Any:
-        plain = {"str", "int", "float", "bool", "null"}
-        if node.tag.removeprefix("tag:yaml.org,2002:") not in plain:
-            raise UserError(f"the YAML type `{node.tag}` is not read here", span, "write text, a number, or a list")
+        if len(node.value) > MAX_NUMBER and node.tag.endswith((":int", ":float")):
+            raise UserError(f"a number of {len(node.value)} characters; at most {MAX_NUMBER} are read", span)
         try:
             # The loader's own constructor for the five plain types: numbers as YAML 1.1 writes them.
             return self.loader.construct_object(node)
         except ValueError as error:
             raise UserError(f"not a value: {error}", span) from None
+
+    def check_tag(self, node: yaml.Node, span: Span) -> None:
+        """Refuse all but plain data: no tag of a user's makes anything."""
+        kind = node.tag.removeprefix(YAML)
+        if kind == "timestamp":
+            raise UserError("YAML reads this as a date", span, "put it in double quotes")
+        if kind not in PLAIN:
+            tag = f"!!{kind}" if node.tag.startswith(YAML) else node.tag
+            raise UserError(f"the YAML tag `{tag}` is not read here", span, "write plain text, a number or a list")
 
     def span(self, node: yaml.Node) -> Span:
         mark, end = node.start_mark, node.end_mark
@@ -153,10 +195,11 @@ def validate(document: Document, model: type[Model], data: Any = None, at: Path_
         # A misspelt key is also a missing one: what is there and unknown is said first.
         # Of the ways in which neither of two forms fits, the one that is not about plain text says more.
         errors = sorted(error.errors(), key=lambda e: (e["type"] != "extra_forbidden", e["type"] == "string_type"))
-        raise _schema_error(document, model, errors[0], at) from None
+        kinds = {str(e["type"]) for e in errors if e["input"] is errors[0]["input"]}
+        raise _schema_error(document, model, errors[0], kinds, at) from None
 
 
-def _schema_error(document: Document, model: type[BaseModel], error: Any, at: Path_) -> UserError:
+def _schema_error(document: Document, model: type[BaseModel], error: Any, kinds: set[str], at: Path_) -> UserError:
     # pydantic puts the tags of union members into the path; only what the document has is a place in it.
     path: Path_ = at
     for part in error["loc"]:
@@ -167,14 +210,43 @@ def _schema_error(document: Document, model: type[BaseModel], error: Any, at: Pa
         known = _fields_at(model, path[len(at) : -1])
         return UserError(f"unknown key `{path[-1]}`", document.key_span(path), did_you_mean(str(path[-1]), known))
     if error["type"] == "missing":
-        return UserError(f"`{name}` is missing", document.span(path[:-1]), f"add a line `{path[-1]}: ...`")
+        return UserError(f"`{name}` is missing", document.key_span(path[:-1]), f"add a line `{path[-1]}: ...`")
     if error["type"] == "string_pattern_mismatch":
-        return UserError(
-            f"`{error['input']}` is not what can stand here as `{name}`", document.span(path), _pattern_hint(error)
-        )
+        given = " ".join(str(error["input"]).split())
+        if error["loc"][-1] == "[key]":
+            return UserError(f"`{given}` is no name", document.key_span(path), _pattern_hint(error))
+        return UserError(f"`{name}` cannot be `{given}`", document.span(path), _pattern_hint(error))
+    if error["type"] == "literal_error":
+        hint = "write " + str(error["ctx"]["expected"]).replace("'", "`")
+        return UserError(f"`{name}` cannot be `{error['input']}`", document.span(path), hint)
+    if error["type"] in ("string_too_short", "too_short"):
+        return UserError(f"`{name}` is empty", document.span(path))
+    if error["type"] in KINDS:
+        kind = "text, or a section of `key: value` lines" if kinds >= {"string_type", "model_type"} else None
+        span = document.span(path)
+        return UserError(f"`{name}` must be {kind or KINDS[error['type']]}", span, _kind_hint(error["input"]))
     message = str(error["msg"]).removeprefix("Value error, ")
     message = message[:1].lower() + message[1:]
     return UserError(f"`{name}`: {message}" if name else message, document.span(path))
+
+
+KINDS = {
+    "string_type": "text",
+    "dict_type": "a section of `key: value` lines",
+    "model_type": "a section of `key: value` lines",
+    "list_type": "a list",
+    "int_type": "a number",
+    "float_type": "a number",
+    "bool_type": "true or false",
+}
+
+
+def _kind_hint(given: object) -> str | None:
+    if isinstance(given, bool):
+        return "YAML reads yes, no, on, off, true and false as truth values: put it in double quotes"
+    if isinstance(given, int | float):
+        return "put it in double quotes"
+    return "it has no value: write one after the colon" if given is None else None
 
 
 def _pattern_hint(error: Any) -> str:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-import difflib
+import unicodedata
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
+
+WIDTH = 160  # of a line that is shown whole
 
 
 @dataclass(frozen=True)
@@ -16,8 +19,12 @@ class Source:
 
     def line(self, number: int) -> str:
         """The line with that 1-based number, without its newline; empty past the end."""
-        lines = self.text.splitlines()
-        return lines[number - 1] if 0 < number <= len(lines) else ""
+        return self.lines[number - 1] if 0 < number <= len(self.lines) else ""
+
+    @cached_property
+    def lines(self) -> list[str]:
+        """All lines, without their newlines."""
+        return self.text.splitlines()
 
 
 @dataclass(frozen=True)
@@ -50,17 +57,39 @@ class UserError(Exception):
         where = f"{self.span}: " if self.span else ""
         lines = [f"{where}error: {self.message}"]
         if self.span:
-            text = self.span.source.line(self.span.line)
-            # Tabs stay tabs, so that the caret stands under its character in any terminal.
-            indent = "".join("\t" if c == "\t" else " " for c in text[: self.span.column - 1])
-            lines += [f"  {text}", f"  {indent}^{'~' * (min(self.span.length, len(text)) - 1)}"]
+            lines += _pointed_at(self.span)
         if self.hint:
             lines.append(f"  hint: {self.hint}")
-        return "\n".join(lines)
+        return "\n".join(printable(line) for line in "\n".join(lines).split("\n"))
+
+
+def printable(text: str) -> str:
+    """The text with a mark for every character that a terminal would not show but obey, like an escape."""
+    return "".join(c if c == "\t" or c == " " or c.isprintable() else "\ufffd" for c in text)
+
+
+def _pointed_at(span: Span) -> list[str]:
+    """The line of a span, or the part of a long one that is near, with a caret below."""
+    text, column = span.source.line(span.line), span.column - 1
+    start = max(column - WIDTH // 2, 0) if len(text) > WIDTH else 0
+    shown = text[start : start + WIDTH]
+    before = ("... " if start else "") + shown[: column - start]
+    marked = shown[column - start : column - start + span.length]
+    after = shown[len(marked) + column - start :] + (" ..." if start + WIDTH < len(text) else "")
+    # Tabs stay tabs, so that the caret stands under its character in any terminal.
+    indent = "".join("\t" if c == "\t" else " " * _cells(c) for c in before)
+    return [f"  {before}{marked}{after}", f"  {indent}^{'~' * (sum(map(_cells, marked)) - 1)}"]
+
+
+def _cells(character: str) -> int:
+    """How many cells of a terminal a character takes."""
+    return 2 if unicodedata.east_asian_width(character) in "WF" else 1
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str | None:
     """A hint that names the closest of the known names, or lists them when none is close."""
+    import difflib  # not needed by who makes no mistake
+
     names = sorted(known)
     close = difflib.get_close_matches(name, names, n=1)
     if close:

@@ -11,22 +11,40 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, BinaryIO
 
-from platformdirs import user_cache_path
-
-from rsrm_gen.errors import UserError
+from rsrm_gen.errors import UserError, did_you_mean
 
 PACKAGE = Path(__file__).parent
 
 
 def cache_folder() -> Path:
     """Where compiled code and reference solutions are kept; `RSRM_GEN_CACHE` overrides the platform's place."""
-    return Path(os.environ.get("RSRM_GEN_CACHE") or user_cache_path("rsrm-gen", appauthor=False))
+    chosen = os.environ.get("RSRM_GEN_CACHE")
+    if chosen:
+        return Path(chosen)
+    from platformdirs import user_cache_path
+
+    return user_cache_path("rsrm-gen", appauthor=False)
 
 
 def bundled(kind: str) -> Path:
     """The folder of bundled `manifolds` or `generated` code: in the installed package, or in the checkout."""
     inside = PACKAGE / "bundled" / kind
     return inside if inside.is_dir() else PACKAGE.parent / kind
+
+
+def manifold_file(manifold: str | Path) -> Path:
+    """The file of a bundled manifold (by name), or the path that was given; raises `UserError` for an unknown name."""
+    path = Path(manifold)
+    if path.suffix in (".yaml", ".yml") or len(path.parts) > 1 or path.is_file():
+        return path
+    folder = bundled("manifolds")
+    names = sorted(p.stem for p in folder.glob("*.yaml"))
+    if str(manifold) not in names:
+        raise UserError(
+            f"there is no bundled manifold `{manifold}`",
+            hint=f"{did_you_mean(str(manifold), names)}; or give the path of a manifold file, ending in .yaml",
+        )
+    return folder / f"{manifold}.yaml"
 
 
 def write_whole(path: Path, write: Callable[[BinaryIO], Any]) -> None:

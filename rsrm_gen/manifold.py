@@ -7,9 +7,10 @@ components in it (T = d). Lengths are in the units of the metric, angles in radi
 
 from __future__ import annotations
 
-from typing import Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
-from torch import Generator, Tensor
+if TYPE_CHECKING:
+    from torch import Generator, Tensor
 
 
 @runtime_checkable

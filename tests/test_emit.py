@@ -263,7 +263,7 @@ def test_torch_modules_need_torch_alone(name: str) -> None:
             modules |= {alias.name.split(".")[0] for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
             modules.add(str(node.module).split(".")[0])
-    assert modules <= {"__future__", "math", "torch", "collections", "typing"}
+    assert modules <= {"__future__", "math", "torch", "collections", "typing", "itertools"}
 
 
 @pytest.mark.parametrize("name", NAMES)

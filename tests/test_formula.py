@@ -10,6 +10,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from rsrm_gen.compiler.spec import formula as f
+from rsrm_gen.compiler.spec.unparse import written
 from rsrm_gen.errors import Source, Span, UserError
 
 
@@ -213,3 +214,12 @@ def joined(inner: st.SearchStrategy[str]) -> st.SearchStrategy[str]:
 def test_a_formula_with_all_its_parentheses_means_the_same(text: str) -> None:
     tree = parse(text)
     assert shown(parse(shown(tree))) == shown(tree)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["a - (b - c)", "a / (b / c)", "-(a + b)^2", "(-a)^2", "(a^b)^c", "2 * -a", "-a * b", "(a * b)^-2", "x[1:]", "x[:n - 1]",
+     "(a + b)[0]", "where(a < b + 1, 0.125, 1 / 3)", "[[a, -b], [0, 2.5]]", "[a, x[2:4]]", "1 / (2 * a)", "a * (b / c)"],
+)  # fmt: skip
+def test_a_tree_is_written_as_it_was_read(text: str) -> None:
+    assert written(parse(text)) == text

@@ -22,13 +22,17 @@ MAY_IMPORT = {
     "files": {"errors"},
     "version": set(),
     "manifold": set(),
-    "native": INPUT,
-    "driver": {*INPUT, "version", "native", *STAGES},
+    "budget": {"errors"},
+    "native": {*INPUT, "budget"},
+    "driver": {*INPUT, "version", "budget", "native", *STAGES},
+    "cli": {*INPUT, "version", "budget", "driver", "native", *STAGES},
     "kernels": {*INPUT, "manifold", "native"},
     "load": {*INPUT, "version", "manifold", "spec", "driver", "native", "kernels"},
-    "trainer": {*INPUT, "version", "manifold", "load", "package"},
+    "trainer": {*INPUT, "version", "manifold", "load", "package", "bench"},
+    "bench": {*INPUT, "version", "manifold", "load", "native", "driver", *STAGES},
+    "testing": {*INPUT, "driver", "cli", "spec", "audit"},
     "package": {"errors", "version", "manifold", "load"},
-    **{stage: {*INPUT, "version", *STAGES[:i]} for i, stage in enumerate(STAGES)},
+    **{stage: {*INPUT, "version", "budget", *STAGES[:i]} for i, stage in enumerate(STAGES)},
 }
 MAY_IMPORT["audit"] |= {"native"}  # the audit runs the C code
 MANIFOLDS = sorted(yaml.safe_load(path.read_text())["manifold"] for path in (ROOT / "manifolds").glob("*.yaml"))
@@ -48,8 +52,10 @@ def room(module: str) -> str:
             return "package"
         case [_, "compiler", stage, *_] if stage in STAGES:
             return stage
-        case [_, "compiler", "native"]:
-            return "native"
+        case [_, "compiler", "budget" | "native" as name]:
+            return name
+        case [_, "compiler", "cli", *_]:
+            return "cli"
         case [_, "compiler", *_]:
             return "driver"
         case [_, name, *_]:

@@ -116,6 +116,14 @@ print(sorted({"sympy", "casadi", "mpmath", "matplotlib", "scipy"} & set(sys.modu
 """
 
 
+def test_to_import_the_package_takes_no_time() -> None:
+    script = "import sys, rsrm_gen; print(sorted({'torch', 'numpy', 'sympy', 'pydantic', 'yaml'} & set(sys.modules)))"
+    root = str(Path(rsrm_gen.__file__).parent.parent)
+    environment = {**os.environ, "PYTHONPATH": root}
+    ran = subprocess.run([sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=True)
+    assert ran.stdout == "[]\n"
+
+
 def test_what_is_compiled_needs_no_compiler_of_formulas() -> None:
     root = str(Path(rsrm_gen.__file__).parent.parent)
     ran = subprocess.run(

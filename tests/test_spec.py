@@ -129,7 +129,7 @@ MISTAKES = {
         "sphere", "  project: p", "  @projct: p", "unknown key `projct`", "`project`"
     ),
     "a misspelt let": Mistake("sphere", "log:\n  let:", "log:\n  @lets:", "unknown key `lets`", "`let`"),
-    "a let without a value": Mistake("euclidean", EXP, "exp: @{let: {a: p + v}}\n", "`exp.value` is missing"),
+    "a let without a value": Mistake("euclidean", EXP, "@exp: {let: {a: p + v}}\n", "`exp.value` is missing"),
     "a list as a formula": Mistake("euclidean", EXP, "exp: @[p, v]\n", "`exp`"),
     "an empty formula": Mistake("euclidean", EXP, 'exp: "@"\n', "`exp`"),
     "a key without a value": Mistake("euclidean", EXP, "@exp:\n", "exp"),
@@ -150,7 +150,9 @@ MISTAKES = {
     "half a declared value": Mistake("torus", "policy: tie", "log: wrap(q - p)", "give both or neither"),
     "a cut locus that is a number": Mistake("sphere", "norm(q + p) <= 4 * eps", "@norm(q + p)", "must be a comparison"),
     # what later versions will read
-    "maps of another kind": Mistake("euclidean", METRIC, METRIC + "maps: @cubic\n", "'geodesic' or 'retraction'"),
+    "maps of another kind": Mistake(
+        "euclidean", METRIC, METRIC + "maps: @cubic\n", "`maps` cannot be `cubic`", "`retraction`"
+    ),
     "a negative scale": Mistake("euclidean", METRIC, METRIC + "scale: @-2\n", "`scale` must be positive"),
     "a symbol that is not there": Mistake("euclidean", METRIC, METRIC + "symbols: {@z: height}\n", "no symbol `z`"),
     "a constant of a point": Mistake("euclidean", METRIC, METRIC + "let: {a: @p}\n", "unknown symbol `p`"),

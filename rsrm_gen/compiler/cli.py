@@ -14,6 +14,7 @@ from rich.console import Console
 from rich.status import Status
 from rich.table import Table
 
+from rsrm_gen.compiler.budget import SECONDS
 from rsrm_gen.compiler.driver import STAGES, Compiled, compile_manifold
 from rsrm_gen.compiler.native import compiler
 from rsrm_gen.compiler.output import contents, staleness, write
@@ -74,6 +75,12 @@ def compile_command(
     check: Annotated[
         bool, typer.Option("--check", help="Write nothing; say whether the generated files are stale or were edited.")
     ] = False,
+    budget: Annotated[
+        float,
+        typer.Option(
+            "--budget", metavar="SECONDS", min=1, help="What each stage may take of the processor.", show_default=True
+        ),
+    ] = SECONDS,
     timings: Annotated[bool, typer.Option("--timings", help="Show the seconds of every stage.")] = False,
     version: Annotated[
         bool, typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version.")
@@ -84,7 +91,7 @@ def compile_command(
     if check:
         _check(files, parameters, output)
     else:
-        _compile(files, parameters, output, timings)
+        _compile(files, parameters, output, timings, budget)
 
 
 def _assignment(text: str) -> tuple[str, str]:
@@ -109,14 +116,14 @@ def _check(files: list[Path], parameters: dict[str, str], output: Path) -> None:
         )
 
 
-def _compile(files: list[Path], parameters: dict[str, str], output: Path, timings: bool) -> None:
+def _compile(files: list[Path], parameters: dict[str, str], output: Path, timings: bool, budget: float) -> None:
     if compiler() is None:
         err.print("no C compiler found: the C code is written, but its numbers are not audited", soft_wrap=True)
     done: list[Compiled] = []
     try:
         for file in files:
             with _progress(file) as progress:
-                compiled = compile_manifold(file, parameters, progress)
+                compiled = compile_manifold(file, parameters, progress, budget)
             if any(compiled.program.name == other.program.name for other in done):
                 raise UserError(f"{file} describes a second `{compiled.program.name}`", hint="give each its own name")
             write(contents(compiled), output / compiled.program.name)

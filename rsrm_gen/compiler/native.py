@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from rsrm_gen.compiler.budget import HINT, seconds_left
 from rsrm_gen.errors import UserError
 from rsrm_gen.files import cache_folder
 
@@ -81,7 +82,12 @@ def _compile(cc: tuple[str, ...], files: Mapping[str, str], source: str, flags: 
             (Path(folder) / file).write_text(text, encoding="utf-8")
         (Path(folder) / "rsrm_vector_math.h").write_text(VECTOR_MATH, encoding="utf-8")
         command = [*cc, *COMMON, *flags, source, "-o", "library.so", "-lm"]
-        result = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+        try:
+            result = subprocess.run(
+                command, cwd=folder, capture_output=True, text=True, check=False, timeout=seconds_left()
+            )
+        except subprocess.TimeoutExpired:
+            raise UserError(f"the C compiler takes too long over the generated {source}", hint=HINT) from None
         if result.returncode:
             raise UserError(f"the C compiler refuses the generated {source}:\n{result.stderr}")
         os.replace(Path(folder) / "library.so", path)  # whole or not at all, also when two processes do it at once

@@ -15,6 +15,7 @@ from rich.console import Console
 from rich.table import Table
 
 import rsrm_gen
+from rsrm_gen.bench.cli import app as bench
 from rsrm_gen.errors import UserError
 from rsrm_gen.trainer.plan import Paths, plan
 from rsrm_gen.trainer.progress import show_progress
@@ -37,6 +38,8 @@ app = typer.Typer(
     "  rsrm eval runs/scene                  errors against a reference solution\n"
     "  rsrm plan runs/scene --from 1.0,2.0   a path to the goal and its true cost",
 )
+
+app.add_typer(bench, name="bench")
 
 RunArgument = Annotated[Path, typer.Argument(metavar="RUN", help="A folder that `rsrm train` made.")]
 

@@ -9,9 +9,11 @@ from typing import Any
 import mpmath as mp
 import torch
 
-from rsrm_gen.compiler.audit.laws import Laws, Worst, _at, _difference, _relative
+from rsrm_gen.compiler.audit.laws import Laws
 from rsrm_gen.compiler.audit.numbers import torch_manifold
 from rsrm_gen.compiler.audit.report import Check
+from rsrm_gen.compiler.audit.whole import pairs_on_the_cut
+from rsrm_gen.compiler.audit.worst import Worst, at, difference, relative
 from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.derive.numeric import largest, run, value
 from rsrm_gen.compiler.emit import emit
@@ -30,7 +32,7 @@ def transport_checks(laws: Laws) -> list[Check]:
     if "transport" not in laws.geometry:
         return []
     worst = Worst()
-    for p, q in laws.pairs:
+    for p, q in [*laws.pairs, *pairs_on_the_cut(laws)]:
         u, v = (laws.sampler.direction(laws.rng, p) for _ in range(2))
         moved = [laws.call("transport", p, q, w) for w in (u, v)]
         kept = laws.call("inner", q, *moved)[0] - laws.call("inner", p, u, v)[0]
@@ -40,11 +42,11 @@ def transport_checks(laws: Laws) -> list[Check]:
         stopped = laws.call("transport", middle, q, laws.call("transport", p, middle, v))
         errors = [
             kept,
-            _relative(along, back),
-            _relative(_difference(stopped, moved[1]), moved[1]),
+            relative(along, back),
+            relative(difference(stopped, moved[1]), moved[1]),
             _ladder(laws, p, v),
         ]
-        worst = worst.with_error(largest(errors), _at("p", p, "q", q))
+        worst = worst.with_error(largest(errors), at("p", p, "q", q))
     promise = "`transport` carries v in parallel along the geodesic from p to q"
     return [laws.check("transport", promise, worst, spec.transport)]
 
@@ -62,7 +64,7 @@ def _ladder(laws: Laws, p: list[Any], v: list[Any]) -> Any:
     tip = laws.sampler.along(p, v, RUNG)
     reflected = run(exp, middle, [-c for c in run(log, middle, tip)[0]])[0]
     carried = [-c / RUNG for c in run(log, q, reflected)[0]]
-    return _relative(_difference(carried, laws.call("transport", p, q, v)), v) / RUNG
+    return relative(difference(carried, laws.call("transport", p, q, v)), v) / RUNG
 
 
 def sample_checks(geometry: Geometry, program: Program, files: Mapping[str, str]) -> list[Check]:
@@ -86,7 +88,7 @@ def sample_checks(geometry: Geometry, program: Program, files: Mapping[str, str]
     promise = "`sample` is uniform in volume: mean Laplacians vanish (in standard deviations)"
     spec = geometry.spec
     span = spec.sample.value.span if isinstance(spec, ManifoldSpec) and spec.sample else None
-    return [Check("sample", promise, worst, DEVIATIONS, count, "", span)]
+    return [Check("sample", promise, worst, DEVIATIONS, count, "", span, unit=None)]
 
 
 def _sample_checks_of_factor(name: str, factor: Geometry) -> list[Check]:

@@ -13,6 +13,7 @@ from typing import Any
 import mpmath as mp
 import numpy as np
 
+from rsrm_gen.compiler.audit.blame import span_of
 from rsrm_gen.compiler.audit.numbers import PRECISIONS, Batch, Rows, native_batch, sample_rows, torch_batch
 from rsrm_gen.compiler.audit.report import Check
 from rsrm_gen.compiler.derive import Geometry
@@ -44,16 +45,17 @@ def check_kernels(geometry: Geometry, program: Program, files: Mapping[str, str]
 def _functions_check(
     geometry: Geometry, program: Program, backend: str, batch: Batch, precision: str, rows: Rows
 ) -> Check:
-    worst, culprit = 0.0, ""
+    worst, culprit = 0.0, "exp"
     for routine in public(program):
         inputs = _inputs(routine, rows, precision)
         exact = [interpret(routine, *row)[0] for row in _as_floats(inputs)]
         error = _relative(batch(routine.name, inputs, precision), exact)
         if not error <= worst:
-            worst, culprit = error, f"(in {routine.name})"
+            worst, culprit = error, routine.name
     promise = f"every function of the {backend} code in {precision} computes what its formula says"
     name = f"functions {backend} {precision}"
-    return Check(name, promise, worst, TOLERANCE[precision], len(rows.p), culprit, geometry.spec.metric.value.span)
+    span = span_of(geometry.spec, culprit)
+    return Check(name, promise, worst, TOLERANCE[precision], len(rows.p), f"(in {culprit})", span)
 
 
 def _sums_check(geometry: Geometry, program: Program, files: Mapping[str, str], precision: str, rows: Rows) -> Check:
@@ -77,9 +79,8 @@ def _sums_check(geometry: Geometry, program: Program, files: Mapping[str, str], 
         errors += [_relative(a, b) for a, b in zip(found, exact, strict=True)]
     promise = f"the C sums of splats in {precision}, forward and backward, are sums of exact splats"
     worst = float(largest(map(mp.mpf, errors)))
-    return Check(
-        f"sums C {precision}", promise, worst, TOLERANCE[precision], POINTS * SPLATS, "", geometry.spec.log.value.span
-    )
+    span = span_of(geometry.spec, "splat")
+    return Check(f"sums C {precision}", promise, worst, TOLERANCE[precision], POINTS * SPLATS, "", span)
 
 
 def _call(

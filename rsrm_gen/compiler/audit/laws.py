@@ -1,22 +1,24 @@
 """What geometry demands of the formulas, tried in 50 digits at random places.
 
-Derivatives are central differences with a step of 1e-16: their error is of the order 1e-32, far below the tolerances.
+Derivatives are central differences with a step of 1e-20: their error is of the order 1e-30, far below the tolerances.
 """
 
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Callable, Iterator, Sequence
+from functools import cached_property, partial
 from typing import Any
 
 import mpmath as mp
 
+from rsrm_gen.compiler.audit import geodesics, whole
+from rsrm_gen.compiler.audit.blame import blamed
 from rsrm_gen.compiler.audit.report import Check
+from rsrm_gen.compiler.audit.worst import Worst, at, difference, ratio, relative
 from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.derive.geometry import Function, argument
-from rsrm_gen.compiler.derive.numeric import largest, run, value
+from rsrm_gen.compiler.derive.numeric import determinant, largest, run, value
 from rsrm_gen.compiler.derive.sampling import Sampler, sampler_of
 from rsrm_gen.compiler.derive.scalarise import scalarised
 from rsrm_gen.compiler.lower import Program, interpret
@@ -24,10 +26,10 @@ from rsrm_gen.compiler.spec import ManifoldSpec, Map
 from rsrm_gen.errors import Span
 
 DIGITS = 50
-STEP = mp.mpf(10) ** -16
+STEP = mp.mpf(10) ** -20
 EXACT = 1e-12  # series are exact to 1e-17 and derivatives to 1e-32, but conditions and cancellation cost some
-PAIRS = 16
-DIRECTIONS = 4  # at each of them, in which the splat is differentiated
+PAIRS, STRAYS = 16, 4
+DIRECTIONS = 4  # at each pair, in which the splat is differentiated
 FAR = (
     3,
     6,
@@ -38,23 +40,12 @@ FAR = (
 Numbers = list[Any]
 
 
-@dataclass(frozen=True)
-class Worst:
-    """The largest error so far and where it was."""
-
-    error: float = 0.0
-    where: str = ""
-
-    def with_error(self, error: Any, where: str) -> Worst:
-        """This, or the new error if it is larger or not a number."""
-        number = float(error) if mp.isfinite(error) else float("inf")
-        return Worst(number, where) if number > self.error else self
-
-
 class Laws:
     """All checks of one manifold; each method is one law."""
 
-    def __init__(self, geometry: Geometry, program: Program) -> None:
+    def __init__(self, geometry: Geometry, program: Program, as_written: bool = False) -> None:
+        """`as_written`: the geometry has no determinant, and asks for none."""
+        self.as_written = as_written
         self.geometry = geometry
         self.program = program
         self.spec: ManifoldSpec = geometry.spec  # type: ignore[assignment]  # of a product, only what it has is asked for
@@ -64,50 +55,123 @@ class Laws:
         with mp.workdps(DIGITS):
             self.pairs = [self.sampler.pair(rng, reach) for reach in self.reaches()]
 
+    @cached_property
+    def strays(self) -> list[tuple[Numbers, Numbers]]:
+        """Pairs that may be farther apart than the injectivity radius; none where Exp is only a retraction, or a product's."""
+        near = not self.geometry.injectivity_radius.is_finite or self.geometry.spec.maps == "retraction"
+        if near or self.geometry.factors:
+            return []
+        return [(whole.anywhere(self), whole.anywhere(self)) for _ in range(STRAYS)]
+
+    @cached_property
+    def curves(self) -> list[tuple[geodesics.Curve, Any]]:
+        """Curves of Exp, each with a time; their points are computed once for all laws of geodesics."""
+        return geodesics.curves(self)
+
     def reaches(self) -> list[Any]:
         """Distances of the pairs tried: from close by to almost the injectivity radius, or to far away."""
-        whole = self.sampler.reach * 2
+        across = self.sampler.reach * 2
         last = (
-            [whole * mp.mpf("0.99")]
+            [across * mp.mpf("0.99")]
             if self.geometry.injectivity_radius.is_finite
             else [self.sampler.reach * r for r in FAR]
         )
         steps = PAIRS - len(last)
-        return [whole * mp.mpf(k + 1) / (steps + 2) for k in range(steps)] + last
+        return [across * mp.mpf(k + 1) / (steps + 2) for k in range(steps)] + last
 
     def checks(self) -> list[Check]:
-        """Every law, in the order in which a failure explains the later ones."""
-        with mp.workdps(DIGITS):
-            laws: list[Callable[[], Check | None]] = [
-                self.norm_is_the_length,
-                self.metric_is_an_inner_product, self.projection_lands_on_the_manifold, self.frame_is_tangent,
-                self.exp_stays_on_the_manifold, self.log_is_tangent, self.exp_inverts_log, self.log_inverts_exp,
-                self.equivalent_points_are_one,
-                self.periods_do_not_matter,
-                self.cut_locus_is_reached,
- self.distance_is_the_length_of_log, self.distance_is_symmetric,
-                self.distance_has_gradient_one, self.log_is_the_gradient_of_half_squared_distance,
-                self.diameter_is_not_exceeded,
-                self.log_det_is_the_determinant, self.splat_gradient_is_its_derivative,
-            ]  # fmt: skip
-            if self.spec.maps == "retraction":  # right to first order; it promises no more
-                of_geodesics: list[Callable[[], Check | None]] = [
-                    self.distance_is_symmetric, self.distance_has_gradient_one,
-                    self.log_is_the_gradient_of_half_squared_distance, self.diameter_is_not_exceeded,
-                ]  # fmt: skip
-                laws = [law for law in laws if law not in of_geodesics] + [self.maps_are_right_to_first_order]
-            return [check for check in (law() for law in laws) if check is not None]
+        """Every law, in the order in which a failure explains the later ones; the first failure names its culprit."""
+        return blamed(list(self.each()), self.spec, partial(geodesics.continues_itself, self))
 
-    def call(self, name: str, *arguments: Sequence[Any]) -> Numbers:
+    def each(self) -> Iterator[Check]:
+        """The laws one by one, so that a caller may stop at the first that is broken."""
+        retraction = self.spec.maps == "retraction"
+        unbroken = True
+        for law in self.laws_of_a_retraction() if retraction else self.laws_of_geodesics():
+            check = self.tried(law)
+            if check is not None:
+                unbroken = unbroken and check.passed
+                yield check
+        if (
+            unbroken and not self.as_written
+        ):  # it is made of the others, and says nothing new where one of them is broken
+            check = self.tried(self.splat_gradient_is_its_derivative)
+            assert check is not None
+            yield check
+
+    def tried(self, law: Callable[[], Check | None]) -> Check | None:
+        """The check of a law; a failed one where its formulas have no value at all."""
+        try:
+            with mp.workdps(DIGITS):
+                return law()
+        except (ZeroDivisionError, OverflowError, ValueError):
+            function = getattr(law, "func", law)
+            promise = str(function.__doc__).splitlines()[0].rstrip(".")
+            return Check(function.__name__, promise, float("inf"), EXACT, PAIRS, "", self.spec.log.value.span)
+
+    def laws_of_geodesics(self) -> list[Callable[[], Check | None]]:
+        """What geometry demands where Exp is geodesic and Log its inverse."""
+        return [
+            *self.laws_of_storage(),
+            partial(geodesics.speed, self), partial(geodesics.acceleration, self),
+            self.log_is_tangent, self.exp_inverts_log, self.log_inverts_exp,
+            partial(whole.log_reaches_every_point, self),
+            partial(whole.equivalent_points_are_one, self), partial(whole.periods_do_not_matter, self),
+            partial(whole.cut_locus_is_reached, self), partial(whole.cut_locus_is_where_it_is_declared, self),
+            self.distance_is_the_length_of_log, self.distance_is_symmetric, self.distance_has_gradient_one,
+            self.log_is_the_gradient_of_half_squared_distance,
+            partial(whole.triangles_close, self), partial(whole.diameter_is_the_largest_distance, self),
+            *self.laws_of_the_determinant(),
+        ]  # fmt: skip
+
+    def laws_of_a_retraction(self) -> list[Callable[[], Check | None]]:
+        """What a retraction and its inverse promise: first order at p, and to undo one another; no geodesics."""
+        return [
+            *self.laws_of_storage(),
+            self.log_is_tangent, self.exp_inverts_log, self.log_inverts_exp,
+            partial(whole.equivalent_points_are_one, self), partial(whole.periods_do_not_matter, self),
+            self.distance_is_the_length_of_log,
+            *self.laws_of_the_determinant(),
+        ]  # fmt: skip
+
+    def laws_of_the_determinant(self) -> list[Callable[[], Check | None]]:
+        """log |det D Log|, and what is declared of it."""
+        if self.as_written:
+            return []
+        return [self.log_det_is_the_determinant, partial(whole.log_det_continues_onto_the_cut, self)]
+
+    def laws_of_storage(self) -> list[Callable[[], Check | None]]:
+        """How points and tangent vectors are stored and measured, and that Exp starts as it should."""
+        return [
+            self.norm_is_the_length, self.metric_is_an_inner_product, self.projection_lands_on_the_manifold,
+            self.frame_is_tangent, self.exp_stays_on_the_manifold, partial(geodesics.first_order, self),
+        ]  # fmt: skip
+
+    def call(self, name: str, *arguments: Sequence[Any], digits: int = DIGITS) -> Numbers:
         """A routine of the program, in high precision."""
-        return interpret(self.program[name], *arguments, digits=DIGITS)[0]
+        return interpret(self.program[name], *arguments, digits=digits)[0]
 
     def check(
-        self, name: str, promise: str, worst: Worst, blamed: Map | None, tolerance: float = EXACT, points: int = PAIRS
+        self,
+        name: str,
+        promise: str,
+        worst: Worst,
+        suspect: Map | None,
+        tolerance: float = EXACT,
+        hint: str | None = None,
     ) -> Check:
-        """A check that blames a formula of the file."""
-        span: Span | None = blamed.value.span if blamed else None
-        return Check(name, promise, worst.error, tolerance, points, worst.where, span)
+        """A check that points to a formula of the file."""
+        span: Span | None = suspect.value.span if suspect else None
+        return Check(name, promise, worst.error, tolerance, worst.points, worst.where, span, hint)
+
+    def exactly(self, name: str, promise: str, suspect: Map) -> Check:
+        """A promise that was seen to hold everywhere, by symbols and not by numbers."""
+        return Check(name, promise, 0.0, EXACT, 0, "", suspect.value.span, exact=True)
+
+    def stored(self, p: Sequence[Any], x: Sequence[Any], scale: Any = 1) -> Numbers:
+        """The tangent vector x / scale at p as the manifold stores it: as it is, or by its components in the frame."""
+        vector = [c / scale for c in x]
+        return self.call("to_tangent", p, vector, digits=geodesics.DIGITS) if self.spec.frame is not None else vector
 
     def metric_is_an_inner_product(self) -> Check:
         """<u, v> = u^T G v is linear in both, symmetric, and positive on tangent vectors."""
@@ -120,7 +184,7 @@ class Laws:
             linear = self.call("inner", p, mixed, v)[0] - _dot(expected, v)
             symmetric = self.call("inner", p, u, v)[0] - self.call("inner", p, v, u)[0]
             positive = self.call("inner", p, u, u)[0] - 1  # directions are normalised
-            worst = worst.with_error(largest((linear, symmetric, positive)), _at("p", p))
+            worst = worst.with_error(largest((linear, symmetric, positive)), at("p", p))
         return self.check(
             "metric", "<u, v>_p is bilinear, symmetric and positive on tangent vectors", worst, self.spec.metric
         )
@@ -133,8 +197,10 @@ class Laws:
         for p, _ in self.pairs:
             v = self.call("to_tangent", p, self.sampler.gaussian(self.rng, self.spec.point_size))
             length = mp.sqrt(self.call("inner", p, v, v)[0])
-            worst = worst.with_error(abs(self.call("norm", p, v)[0] / length - 1), _at("p", p, "v", v))
-        return self.check("norm", "`norm` is the length of v in the metric", worst, self.spec.norm)
+            found = ratio(self.call("norm", p, v)[0], length)
+            worst = worst.with_error(abs(found - 1), at("p", p, "v", v), found)
+        hint = worst.same_ratio("it is {} times sqrt(<v, v>_p)")
+        return self.check("norm", "`norm` is the length of v in the metric", worst, self.spec.norm, hint=hint)
 
     def projection_lands_on_the_manifold(self) -> Check | None:
         """c(project(x)) = 0, and project(p) = p."""
@@ -144,8 +210,8 @@ class Laws:
         for p, _ in self.pairs:
             off = mp.mpf("0.05") * largest(p)
             x = [c + off * e for c, e in zip(p, self.sampler.gaussian(self.rng, len(p)), strict=True)]
-            moved = _relative(_difference(self.call("project", p), p), p)
-            worst = worst.with_error(largest([self.off_manifold(self.call("project", x)), moved]), _at("x", x))
+            moved = relative(difference(self.call("project", p), p), p)
+            worst = worst.with_error(largest([self.off_manifold(self.call("project", x)), moved]), at("x", x))
         return self.check(
             "projection", "`project` maps onto the manifold and leaves its points alone", worst, self.spec.project
         )
@@ -154,15 +220,14 @@ class Laws:
         """The vectors of a frame are tangent to the constraint."""
         if self.spec.frame is None:
             return None
-        frame = scalarised(
-            self.spec, "frame", self.spec.frame, (argument("p", self.spec.point_size),), self.spec.frame.value.shape
-        )
+        size = self.spec.tangent_size
+        arguments = argument("p", self.spec.point_size), argument("v", size)
+        frame = scalarised(self.spec, "frame", self.spec.frame, arguments, self.spec.point_shape)
         worst = Worst()
         for p, _ in self.pairs:
-            entries = run(frame, p)[0]
-            for i in range(self.spec.tangent_size):
-                e = entries[i * len(p) : (i + 1) * len(p)]
-                worst = worst.with_error(self.off_tangent(p, e), _at("p", p))
+            for i in range(size):
+                e = run(frame, p, [mp.mpf(int(i == j)) for j in range(size)])[0]
+                worst = worst.with_error(self.off_tangent(p, e), at("p", p))
         return self.check("frame", "the vectors of `frame` are tangent to the manifold", worst, self.spec.frame)
 
     def exp_stays_on_the_manifold(self) -> Check | None:
@@ -173,7 +238,7 @@ class Laws:
         for p, _ in self.pairs:
             length = self.sampler.reach * mp.mpf("1.3")
             q = self.call("exp", p, [length * c for c in self.sampler.direction(self.rng, p)])
-            worst = worst.with_error(self.off_manifold(q), _at("p", p))
+            worst = worst.with_error(self.off_manifold(q), at("p", p))
         return self.check("exp on manifold", "Exp_p(v) satisfies the constraint", worst, self.spec.exp)
 
     def log_is_tangent(self) -> Check | None:
@@ -183,14 +248,14 @@ class Laws:
         worst = Worst()
         for p, q in self.pairs:
             v = self.call("log", p, q)
-            worst = worst.with_error(self.off_tangent(p, v), _at("p", p, "q", q))
+            worst = worst.with_error(self.off_tangent(p, v), at("p", p, "q", q))
         return self.check("log tangent", "Log_p(q) is tangent to the manifold at p", worst, self.spec.log)
 
     def exp_inverts_log(self) -> Check:
         """Exp_p(Log_p(q)) = q, or another name of q."""
         worst = Worst()
         for p, q in self.pairs:
-            worst = worst.with_error(self.apart(self.call("exp", p, self.call("log", p, q)), q), _at("p", p, "q", q))
+            worst = worst.with_error(self.apart(self.call("exp", p, self.call("log", p, q)), q), at("p", p, "q", q))
         return self.check("exp(log)", "Exp_p(Log_p(q)) = q", worst, self.spec.exp)
 
     def log_inverts_exp(self) -> Check:
@@ -199,130 +264,57 @@ class Laws:
         for (p, _), r in zip(self.pairs, self.reaches(), strict=True):
             v = [r * c for c in self.sampler.direction(self.rng, p)]
             back = self.call("log", p, self.call("exp", p, v))
-            worst = worst.with_error(_relative(_difference(back, v), v), _at("p", p, "v", v))
+            worst = worst.with_error(relative(difference(back, v), v), at("p", p, "v", v))
         return self.check("log(exp)", "Log_p(Exp_p(v)) = v inside the injectivity radius", worst, self.spec.log)
-
-    def maps_are_right_to_first_order(self) -> Check:
-        """Exp_p(0) = p and D Exp_p(0) = identity."""
-        worst = Worst()
-        for p, _ in self.pairs:
-            v = self.sampler.direction(self.rng, p)
-            velocity = self.call("to_tangent", p, self.along(lambda x: x, p, v))
-            stays = self.apart(self.call("exp", p, [mp.mpf(0)] * len(v)), p)
-            worst = worst.with_error(largest([stays, _relative(_difference(velocity, v), v)]), _at("p", p, "v", v))
-        return self.check("first order", "Exp_p(0) = p, and d/dt Exp_p(t v) = v at t = 0", worst, self.spec.exp)
-
-    def equivalent_points_are_one(self) -> Check | None:
-        """Log does not see which name a point has."""
-        other = self.spec.equivalent
-        if other is None:
-            return None
-        worst = Worst()
-        for p, q in self.pairs:
-            named = self.other_name(q)
-            v = self.call("log", p, q)
-            difference = _relative(_difference(self.call("log", p, named), v), v)
-            worst = worst.with_error(largest([difference, self.off_manifold(named)]), _at("p", p, "q", q))
-        return self.check("quotient", "Log_p(q) is the same for every name of q", worst, other)
-
-    def periods_do_not_matter(self) -> Check | None:
-        """Log does not see a coordinate's full turn."""
-        if self.geometry.periods is None:
-            return None
-        worst, blamed = Worst(), None
-        for i, period in enumerate(self.geometry.periods):
-            if period is None:
-                continue
-            assert self.spec.periods is not None
-            blamed = blamed or self.spec.periods[i]
-            for p, q in self.pairs:
-                turned = [c + (value(period, {}) if k == i else 0) for k, c in enumerate(q)]
-                v = self.call("log", p, q)
-                worst = worst.with_error(_relative(_difference(self.call("log", p, turned), v), v), _at("p", p, "q", q))
-        return self.check(
-            "period", "Log_p(q) is the same when a coordinate of q goes through its period", worst, blamed
-        )
-
-    def diameter_is_not_exceeded(self) -> Check | None:
-        """No two points are farther apart than the diameter."""
-        if self.spec.diameter is None:
-            return None
-        worst, count = Worst(), 8 * PAIRS
-        diameter = value(self.geometry.diameter, {})
-        for _ in range(count):
-            p, q = self.anywhere(), self.anywhere()
-            excess = self.call("distance", p, q)[0] / diameter - 1
-            worst = worst.with_error(max(excess, mp.mpf(0)), _at("p", p, "q", q))
-        return self.check(
-            "diameter", "no distance is larger than the diameter", worst, self.spec.diameter, points=count
-        )
-
-    def anywhere(self) -> Numbers:
-        """A point that can be anywhere: in a period, or around the manifold."""
-        p = self.sampler.point(self.rng)
-        periods = self.geometry.periods or (None,) * len(p)
-        turns = [value(period, {}) * mp.mpf(self.rng.random()) if period is not None else 0 for period in periods]
-        return [c + turn for c, turn in zip(p, turns, strict=True)]
-
-    def cut_locus_is_reached(self) -> Check | None:
-        """Where the author declares Log: Exp of it is the point, and it is as long as the injectivity radius."""
-        cut = self.spec.cut_locus
-        if cut is None or cut.log is None or self.spec.injectivity_radius is None:
-            return None
-        worst, radius = Worst(), value(self.geometry.injectivity_radius, {})
-        for p, _ in self.pairs:
-            q = self.sampler.along(p, self.sampler.direction(self.rng, p), radius)
-            v = self.call("log", p, q)
-            errors = [self.apart(self.call("exp", p, v), q), self.call("norm", p, v)[0] / radius - 1]
-            worst = worst.with_error(largest(errors), _at("p", p, "q", q))
-        return self.check("cut locus", "Log on the cut locus leads there, over the injectivity radius", worst, cut.log)
 
     def distance_is_the_length_of_log(self) -> Check:
         """distance(p, q) = |Log_p(q)|_p."""
         worst = Worst()
-        for p, q in self.pairs:
+        for p, q in [*self.pairs, *self.strays]:
             length = self.call("norm", p, self.call("log", p, q))[0]
-            worst = worst.with_error(abs(self.call("distance", p, q)[0] / length - 1), _at("p", p, "q", q))
-        return self.check(
-            "distance", "the distance is the length of Log", worst, self.spec.distance or self.spec.metric
-        )
+            found = ratio(self.call("distance", p, q)[0], length)
+            worst = worst.with_error(abs(found - 1), at("p", p, "q", q), found)
+        suspect, hint = self.spec.distance or self.spec.log, worst.same_ratio("the distance is {} times |Log_p(q)|_p")
+        return self.check("distance", "the distance is the length of Log", worst, suspect, hint=hint)
 
     def distance_is_symmetric(self) -> Check:
         """distance(p, q) = distance(q, p)."""
         worst = Worst()
         for p, q in self.pairs:
             there, back = self.call("distance", p, q)[0], self.call("distance", q, p)[0]
-            worst = worst.with_error(abs(there / back - 1), _at("p", p, "q", q))
+            worst = worst.with_error(abs(ratio(there, back) - 1), at("p", p, "q", q))
         return self.check("symmetry", "distance(p, q) = distance(q, p)", worst, self.spec.distance or self.spec.log)
 
     def distance_has_gradient_one(self) -> Check:
         """|grad_q distance(p, q)| = 1: the Eikonal equation, which holds only if Exp runs along geodesics of the metric."""
         worst = Worst()
-        for p, q in self.pairs:
+        for p, q in [*self.pairs, *self.strays]:
             partials = self.partials(lambda x, p=p: self.call("distance", p, x), q)  # type: ignore[misc]
-            worst = worst.with_error(abs(self.call("gradient_norm", q, partials)[0] - 1), _at("p", p, "q", q))
-        return self.check("eikonal", "|grad distance| = 1 in the metric", worst, self.spec.metric)
+            found = self.call("gradient_norm", q, partials)[0]
+            worst = worst.with_error(abs(found - 1), at("p", p, "q", q), found)
+        hint = worst.same_ratio("it is {}")
+        return self.check("eikonal", "|grad distance| = 1 in the metric", worst, self.spec.metric, hint=hint)
 
     def log_is_the_gradient_of_half_squared_distance(self) -> Check:
         """grad_q distance(p, q)^2 / 2 = -Log_q(p) (Gauss's lemma)."""
         worst = Worst()
-        for p, q in self.pairs:
+        for p, q in [*self.pairs, *self.strays]:
             partials = self.partials(lambda x, p=p: [self.call("distance", p, x)[0] ** 2 / 2], q)  # type: ignore[misc]
             gradient = self.call("riemannian_gradient", q, partials)
             back = self.call("log", q, p)
             total = [g + v for g, v in zip(gradient, back, strict=True)]
-            worst = worst.with_error(_relative(total, back), _at("p", p, "q", q))
+            worst = worst.with_error(relative(total, back), at("p", p, "q", q))
         return self.check("gauss", "the gradient of distance(p, q)^2 / 2 in q is -Log_q(p)", worst, self.spec.log)
 
     def log_det_is_the_determinant(self) -> Check:
         """log |det D Log_p(q)| against differences of Log along geodesics out of q."""
         worst = Worst()
-        for p, q in self.pairs:
+        for p, q in [*self.pairs, *self.strays]:
             basis = self.basis(q)
             image = [self.along(lambda x, p=p: self.call("log", p, x), q, e) for e in basis]  # type: ignore[misc]
             volumes = [self.gram(p, image), self.gram(q, basis)]
-            expected = mp.log(abs(volumes[0] / volumes[1])) / 2
-            worst = worst.with_error(abs(self.call("log_abs_det", p, q)[0] - expected), _at("p", p, "q", q))
+            expected = mp.log(abs(ratio(*volumes))) / 2 if volumes[0] else mp.ninf
+            worst = worst.with_error(abs(self.call("log_abs_det", p, q)[0] - expected), at("p", p, "q", q))
         return self.check(
             "log det",
             "log |det D Log| is the determinant of the differences of Log",
@@ -344,7 +336,7 @@ class Laws:
             for e in self.basis(q)[:DIRECTIONS]:
                 slope = self.along(lambda x: splat(x)[0], q, e)[0]
                 worst = worst.with_error(
-                    abs(self.call("inner", q, gradient, e)[0] - slope) * distance / scale, _at("x", q, "mu", p)
+                    abs(self.call("inner", q, gradient, e)[0] - slope) * distance / scale, at("x", q, "mu", p)
                 )
         return self.check(
             "splat gradient", "the gradient of the splat is the derivative of its value", worst, self.spec.metric
@@ -375,16 +367,22 @@ class Laws:
     def apart(self, x: Sequence[Any], q: Sequence[Any]) -> Any:
         """How far x is from q, or from another name of q, as a part of the largest entry."""
         names = [list(q)] + ([self.other_name(q)] if self.spec.equivalent else [])
-        return min(_relative(self.modulo_periods(_difference(x, name)), q) for name in names)
+        return min(relative(self.modulo_periods(difference(x, name)), q) for name in names)
 
     def off_manifold(self, p: Sequence[Any]) -> Any:
-        """How far the constraint is from zero, beside how much it changes when p is stretched."""
-        return _relative(self.constraint(p), self.directional(self.constraint, p, p))
+        """How far the constraint is from zero, beside how much it changes along a vector as long as p."""
+        return relative(self.constraint(p), self.steepness(p, largest(p)))
 
     def off_tangent(self, p: Sequence[Any], v: Sequence[Any]) -> Any:
-        """How much the constraint changes along v, beside how much along a vector as long as v that stretches p."""
-        stretch = [c * largest(v) / largest(p) for c in p]
-        return _relative(self.directional(self.constraint, p, v), self.directional(self.constraint, p, stretch))
+        """How much the constraint changes along v, beside how much along a vector as long as v."""
+        return relative(self.directional(self.constraint, p, v), self.steepness(p, largest(v)))
+
+    def steepness(self, p: Sequence[Any], size: Any) -> Numbers:
+        """The change of the constraint along a vector of a size: one that stretches p, or any where that stays on it."""
+        stretched = self.directional(self.constraint, p, [c * size / largest(p) for c in p])
+        if largest(stretched) > 0:
+            return stretched
+        return self.directional(self.constraint, p, [size * mp.mpf((7 * k + 3) % 11 - 5) / 5 for k in range(len(p))])
 
     def modulo_periods(self, difference: Numbers) -> Numbers:
         """A difference of coordinates, the nearest multiple of each period taken away."""
@@ -401,7 +399,7 @@ class Laws:
     def gram(self, at: Sequence[Any], vectors: Sequence[Numbers]) -> Any:
         """The determinant of the inner products."""
         lowered = [self.call("flat", at, v) for v in vectors]
-        return mp.det(mp.matrix([[_dot(covector, v) for v in vectors] for covector in lowered]))
+        return determinant(mp.matrix([[_dot(covector, v) for v in vectors] for covector in lowered]))
 
     def along(self, function: Callable[[Numbers], Numbers], q: Sequence[Any], e: Sequence[Any]) -> Numbers:
         """The derivative along the geodesic out of q in the direction e."""
@@ -419,20 +417,5 @@ class Laws:
         return [self.directional(function, q, e)[0] for e in unit]
 
 
-def _difference(x: Sequence[Any], y: Sequence[Any]) -> Numbers:
-    return [a - b for a, b in zip(x, y, strict=True)]
-
-
-def _relative(errors: Sequence[Any], scale: Sequence[Any]) -> Any:
-    """The largest error as a part of the largest of some numbers of the same unit."""
-    return largest(errors) / largest(scale)
-
-
 def _dot(x: Sequence[Any], y: Sequence[Any]) -> Any:
     return mp.fsum(a * b for a, b in zip(x, y, strict=True))
-
-
-def _at(*named: Any) -> str:
-    """Places in words: `at p = (0.1, 0.2)`."""
-    pairs = zip(named[::2], named[1::2], strict=True)
-    return "at " + ", ".join(f"{name} = ({', '.join(mp.nstr(c, 4) for c in x)})" for name, x in pairs)

@@ -18,6 +18,8 @@ import mpmath as mp
 import numpy as np
 import torch
 
+from rsrm_gen.compiler.audit.blame import span_of
+from rsrm_gen.compiler.audit.digits import NEAR_CUT, UNITS, digits_lost, distances
 from rsrm_gen.compiler.audit.report import Check
 from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.derive.geometry import Function
@@ -26,10 +28,9 @@ from rsrm_gen.compiler.derive.sampling import Sampler, sampler_of
 from rsrm_gen.compiler.emit import Measurement
 from rsrm_gen.compiler.lower import Program, Routine, interpret
 from rsrm_gen.compiler.native import EXACT, compiled, compiler, pointer
+from rsrm_gen.compiler.spec import ManifoldSpec, Spec
 from rsrm_gen.files import imported
 
-UNITS = 64.0
-NEAR_CUT = "near the cut locus"
 ROUTINES = ("exp", "log", "distance", "log_abs_det")
 PRECISIONS: dict[str, tuple[Any, torch.dtype, float]] = {
     "float64": (np.float64, torch.float64, 2.0**-53),
@@ -60,28 +61,32 @@ def check_numbers(
     for precision in PRECISIONS:
         rows = sample_rows(geometry, precision)
         for name in ROUTINES:
-            truth, unit = truths(geometry[name], program[name], rows, precision)
+            truth, unit = truths(geometry[name], program[name], rows, precision, matrices(geometry.spec))
             errors = {
                 backend: _errors(batch(name, _inputs(name, rows), precision), truth, unit)
                 for backend, batch in backends.items()
             }
-            checks += [_check(geometry, name, backend, precision, e, rows) for backend, e in errors.items()]
+            checks += [_check(geometry, program, name, backend, precision, e, rows) for backend, e in errors.items()]
             worst = max(float(e.max()) for e in errors.values())
             measured.append(Measurement(name, precision, _power_of_two(worst), len(rows.kinds)))
     return checks, tuple(measured)
 
 
-def _check(geometry: Geometry, name: str, backend: str, precision: str, errors: Any, rows: Rows) -> Check:
+def _check(
+    geometry: Geometry, program: Program, name: str, backend: str, precision: str, errors: Any, rows: Rows
+) -> Check:
     worst = int(np.argmax(errors))
     kind = rows.kinds[worst]
     promise = f"{name} of the {backend} code in {precision} is as exact as its inputs allow"
     hint = None
     if kind == NEAR_CUT and geometry.spec.cut_locus is not None and not np.isfinite(errors[worst]):
         hint = "say under `cut_locus:` what `log:` and `log_det:` are there, as manifolds/sphere.yaml does"
-    span = geometry.spec.log.value.span
-    return Check(
-        f"{name} {backend} {precision}", promise, float(errors[worst]), UNITS, len(errors), f"({kind})", span, hint
-    )
+    span, unit = span_of(geometry.spec, name), PRECISIONS[precision][2]
+    title, error = f"{name} {backend} {precision}", float(errors[worst])
+    lost = digits_lost(geometry, name, program[name]) if not error <= UNITS else None
+    if lost is not None:
+        span, hint = lost.span, lost.advice
+    return Check(title, promise, error, UNITS, len(errors), f"({kind})", span, hint, unit)
 
 
 def torch_manifold(program: Program, files: Mapping[str, str]) -> Any:
@@ -128,56 +133,79 @@ def sample_rows(geometry: Geometry, precision: str) -> Rows:
     """Close by (1e-12 .. 1e-2), in the middle, and near the cut locus or far away; rounded to the precision."""
     sampler: Sampler = sampler_of(geometry)
     rng = random.Random(11)
-    whole = sampler.reach * 2
-    finite = geometry.injectivity_radius.is_finite
-    near = [("near", whole * mp.mpf(10) ** -k) for k in range(2, 13)]
-    middle = [("middle", whole * mp.mpf(k) / 17) for k in range(1, 17)]
-    last = (
-        [(NEAR_CUT, whole * (1 - mp.mpf(10) ** -k)) for k in range(1, 10)]
-        if finite
-        else [("far", sampler.reach * k) for k in (3, 6, 10, 15, 20, 30)]
-    )
     kinds, rows = [], []
-    for kind, r in near + middle + last:
+    for kind, r in distances(geometry):
         p = sampler.point(rng)
         v = [r * c for c in sampler.direction(rng, p)]
         row = [_rounded(x, precision) for x in (p, sampler.along(p, v, mp.mpf(1)), v)]
-        if all(_stays_inside(sampler, x, precision) for x in row[:2]):  # far points may round out of a chart
+        if all(_well_inside(sampler, x, precision) for x in row[:2]):  # far points may round out of the domain
             kinds.append(kind)
             rows.append(row)
     stacked = [np.stack(column) for column in zip(*rows, strict=True)]
     return Rows(stacked[0], stacked[1], stacked[2], tuple(kinds))
 
 
-def _stays_inside(sampler: Sampler, x: Any, precision: str) -> bool:
-    """Whether a point is in the domain, and not so close to its boundary that a few roundings lead out of it."""
-    margin = 8 * PRECISIONS[precision][2]
-    return all(sampler.inside([mp.mpf(float(c)) * factor for c in x]) for factor in (1 - margin, 1, 1 + margin))
+def _well_inside(sampler: Sampler, x: Sequence[Any], precision: str) -> bool:
+    """Whether a point satisfies the condition of the domain, and does so when shaken by as much as an error may be."""
+    if sampler.domain is None:
+        return True
+    rng, eps = random.Random(17), UNITS * PRECISIONS[precision][2]
+    with mp.workdps(DIGITS):
+        point = [mp.mpf(float(c)) for c in x]
+        shaken = [[c * (1 + eps * rng.choice((-1, 1))) for c in point] for _ in range(4)]
+    return all(sampler.inside(y) for y in (point, *shaken))
 
 
 def _rounded(x: Sequence[Any], precision: str) -> Any:
     return np.array([float(c) for c in x]).astype(PRECISIONS[precision][0])
 
 
-def truths(function: Function, routine: Routine, rows: Rows, precision: str) -> tuple[list[list[Any]], Any]:
-    """The exact results at the rounded inputs (N, entries), and the unavoidable error of each row (N,)."""
+def matrices(spec: Spec, start: int = 0) -> list[slice]:
+    """Which entries of a point are a matrix."""
+    if isinstance(spec, ManifoldSpec):
+        return [slice(start, start + spec.point_size)] if len(spec.point_shape) == 2 else []
+    found = []
+    for factor in spec.factors:
+        found += matrices(factor.spec, start)
+        start += factor.spec.point_size
+    return found
+
+
+def truths(
+    function: Function, routine: Routine, rows: Rows, precision: str, whole: Sequence[slice] = ()
+) -> tuple[list[list[Any]], Any]:
+    """The exact results at the rounded inputs (N, entries), and the unavoidable error of each row (N,).
+
+    The entries of a point in `whole` are a matrix, and rounded as one: to parts of its largest entry.
+    """
     eps = PRECISIONS[precision][2]
     rng = random.Random(13)
+    names = [argument.name for argument in function.arguments]
     results, units = [], []
     for inputs in zip(*_inputs(function.name, rows), strict=True):
         given = [[mp.mpf(float(c)) for c in x] for x in inputs]
         exact = _exact(function, routine, given, eps)
         moved = 0.0
+        grain = [_grain(x, whole if name != "v" else ()) for name, x in zip(names, given, strict=True)]
         for shake in ((1, 1), (1, 1), (1, 0), (0, 1)):  # both, and each alone: close points may move together
             with mp.workdps(DIGITS):
                 shaken = [
-                    [c * (1 + s * eps * rng.choice((-1, 1))) for c in x] for x, s in zip(given, shake, strict=True)
+                    [c + s * eps * size * rng.choice((-1, 1)) for c, size in zip(x, sizes, strict=True)]
+                    for x, sizes, s in zip(given, grain, shake, strict=True)
                 ]
             there = _exact(function, routine, shaken, eps)
             moved = max(moved, _largest(a - b for a, b in zip(there, exact, strict=True)))
         results.append(exact)
         units.append(moved + 2 * eps * _largest(exact) + np.finfo(PRECISIONS[precision][0]).tiny)
     return results, np.array(units)
+
+
+def _grain(x: Sequence[Any], whole: Sequence[slice]) -> list[Any]:
+    """The size of what every entry is a part of: itself, or a matrix."""
+    sizes = [abs(c) for c in x]
+    for part in whole:
+        sizes[part] = [largest(x[part])] * len(x[part])
+    return sizes
 
 
 def _inputs(name: str, rows: Rows) -> tuple[Any, Any]:

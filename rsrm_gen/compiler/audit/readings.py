@@ -2,20 +2,30 @@
 
 from __future__ import annotations
 
+import itertools
 import random
 from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
+from rsrm_gen.compiler.audit.blame import span_of
 from rsrm_gen.compiler.audit.report import Check
 from rsrm_gen.compiler.audit.second_reading import read_again
+from rsrm_gen.compiler.audit.worst import Worst, at
 from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.derive.sampling import sampler_of
 from rsrm_gen.compiler.lower import Program, interpret
 
 PAIRS = 12
 TOLERANCE = 1e-9  # CasADi's reading is double precision and does not mend singularities: middling distances only
+NAMES = {
+    "exp": ("p", "v"),
+    "log": ("p", "q"),
+    "distance": ("p", "q"),
+    "log_abs_det": ("p", "q"),
+    "riemannian_gradient": ("p", "df"),
+}
 
 
 def check_readings(geometry: Geometry, program: Program) -> list[Check]:
@@ -42,11 +52,12 @@ def check_readings(geometry: Geometry, program: Program) -> list[Check]:
 def _compare(
     name: str, theirs: Callable[..., Any], inputs: list[Sequence[Any]], geometry: Geometry, program: Program
 ) -> Check:
-    worst = 0.0
+    worst = Worst()
     for arguments in inputs:
         ours = np.array([float(x) for x in interpret(program[name], *arguments, digits=30)[0]])
         other = np.asarray(theirs(*arguments), dtype=float).ravel()
         error = float(np.max(np.abs(ours - other)) / (1 + np.max(np.abs(ours))))
-        worst = max(worst, error if np.isfinite(error) else np.inf)
+        worst = worst.with_error(error, at(*itertools.chain(*zip(NAMES[name], arguments, strict=True))))
     promise = f"{name} is the same in both readings of the file, by sympy and by CasADi"
-    return Check(f"{name} second reading", promise, worst, TOLERANCE, len(inputs), "", geometry.spec.log.value.span)
+    span = span_of(geometry.spec, name)
+    return Check(f"{name} second reading", promise, worst.error, TOLERANCE, worst.points, worst.where, span)

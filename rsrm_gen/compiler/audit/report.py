@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import dataclass, field
 
 from rsrm_gen.compiler.emit import Measurement
@@ -11,7 +12,12 @@ from rsrm_gen.errors import Span, UserError
 
 @dataclass(frozen=True)
 class Check:
-    """One promise, tried at `points` places: kept if the worst error is at most the tolerance."""
+    """One promise, tried at `points` places: kept if the worst error is at most the tolerance.
+
+    Errors are relative, counted in `unit`s: of 1, or where code is judged, of the rounding of its numbers; what is no error
+    of numbers, but a count or a statistic, has no unit. A promise that is `exact` was seen to hold everywhere by symbols,
+    and tried nowhere.
+    """
 
     name: str
     promise: str
@@ -21,6 +27,16 @@ class Check:
     where: str = ""  # the worst place, in words
     span: Span | None = field(default=None, compare=False)  # the formula to blame first
     hint: str | None = None  # what to write instead, where that is known
+    unit: float | None = 1.0
+    exact: bool = False
+
+    @property
+    def digits(self) -> int | None:
+        """Decimal digits that agree at the worst place, at most the 15 of a double; None where there is no unit."""
+        if self.unit is None:
+            return None
+        bound = _power_of_ten(self.worst * self.unit)
+        return max(0, round(-math.log10(bound)))
 
     @property
     def passed(self) -> bool:
@@ -61,9 +77,12 @@ class AuditReport:
                 "check": c.name,
                 "promise": c.promise,
                 "points": c.points,
+                "exactly": c.exact,
                 "error_below": _power_of_ten(c.worst),
+                "digits": c.digits,
                 "tolerance": c.tolerance,
                 "passed": c.passed,
+                **({} if c.passed else {"worst": c.where}),  # of a promise that is kept it is noise, and differs
             }
             for c in self.checks
         ]

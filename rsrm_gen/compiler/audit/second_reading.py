@@ -13,7 +13,7 @@ import numpy as np
 
 from rsrm_gen.compiler.spec import ManifoldSpec, Map, ProductSpec, Spec
 from rsrm_gen.compiler.spec import formula as f
-from rsrm_gen.compiler.spec.shapes import bounds, constant
+from rsrm_gen.compiler.spec.shapes import bounds, constant, unit_size
 
 EPS = 2.0**-52
 
@@ -35,7 +35,7 @@ class SecondReading:
         log = self.read(spec.log, p=p, q=q)
         distance = self.read(spec.distance, p=p, q=q) if spec.distance else ca.sqrt(self.metric(p, log, log))
         constraint = self.read(spec.constraint, p=p) if spec.constraint else ca.SX.zeros(0, 1)
-        frame = self.read(spec.frame, p=p) if spec.frame else ca.SX.eye(D)
+        frame = ca.jacobian(self.read(spec.frame, p=p, v=v), v).T if spec.frame else ca.SX.eye(D)
         self.exp = ca.Function("exp", [p, v], [self.read(spec.exp, p=p, v=v)])
         self.log = ca.Function("log", [p, q], [log])
         self.distance = ca.Function("distance", [p, q], [length * distance])
@@ -74,7 +74,7 @@ class SecondReading:
         return self.read(self.spec.metric, p=p, u=u, v=v)
 
     def read(self, chart_map: Map | None, **arguments: Any) -> Any:
-        """The expression of a map."""
+        """The expression of a map, a column; a matrix row by row."""
         assert chart_map is not None
         return _read(self.spec, chart_map, **arguments)
 
@@ -120,8 +120,19 @@ class ProductReading:
 
 
 def _read(spec: Spec, chart_map: Map, **arguments: Any) -> Any:
+    """A scalar, or a column; a matrix, but for that of a metric, row by row."""
+    scope = {name: _shaped(x, spec.argument_shapes[name]) for name, x in arguments.items()}
     trees = {name: formula.tree for name, formula in chart_map.lets}
-    return _Evaluator(dict(spec.parameters), arguments, trees).value(chart_map.value.tree)
+    evaluator = _Evaluator(dict(spec.parameters), scope, trees)
+    for name in trees:  # in their order: each may stand on hundreds of others
+        evaluator.name(name)
+    value = evaluator.value(chart_map.value.tree)
+    return ca.vec(value.T) if len(chart_map.value.shape) == 2 and chart_map is not spec.metric else value
+
+
+def _shaped(x: Any, shape: tuple[int, ...]) -> Any:
+    """A column as a matrix, filled row by row."""
+    return ca.reshape(x, shape[1], shape[0]).T if len(shape) == 2 else x
 
 
 def _constant(spec: Spec, chart_map: Map | None) -> float:
@@ -163,6 +174,8 @@ class _Evaluator:
                 start, stop = bounds(tree, base.shape[0], self.parameters)
                 rows = base[start:stop, :]
                 return rows.T if base.shape[1] > 1 and not tree.slice else rows
+            case f.Call() if tree.function == "eye":
+                return ca.SX.eye(unit_size(tree, self.parameters))
             case f.Call():
                 return WORDS[tree.function](*(self.value(a) for a in tree.arguments))
 
@@ -178,7 +191,7 @@ class _Evaluator:
         if tree.operator == "^":
             return left ** float(constant(tree.right, self.parameters))
         right = self.value(tree.right)
-        if tree.operator == "*" and left.shape[1] > 1:
+        if tree.operator == "*" and left.shape[1] > 1 and not right.is_scalar():
             return left @ right
         return {
             "+": lambda: left + right,
@@ -210,12 +223,103 @@ def _cardinal(function: Callable[[Any], Any]) -> Callable[[Any], Any]:
     )
 
 
+def _above(A: Any, diagonal: int) -> Any:
+    n = A.shape[0]
+    return ca.vertcat(*(A[i, j] for i in range(n) for j in range(i + diagonal, n)))
+
+
+def _svec(A: Any) -> Any:
+    n = A.shape[0]
+    return ca.vertcat(*(A[i, j] * (1 if i == j else np.sqrt(2)) for i in range(n) for j in range(i, n)))
+
+
+def _smat(a: Any) -> Any:
+    n = int((np.sqrt(8 * a.shape[0] + 1) - 1) / 2)
+    A = ca.SX.zeros(n, n)
+    places = [(i, j) for i in range(n) for j in range(i, n)]
+    for entry, (i, j) in zip(ca.vertsplit(a), places, strict=True):
+        A[i, j] = A[j, i] = entry / (1 if i == j else np.sqrt(2))
+    return A
+
+
+def _rotation(q: Any) -> Any:
+    return (q[0] ** 2 - ca.dot(q[1:], q[1:])) * ca.SX.eye(3) + 2 * q[1:] @ q[1:].T + 2 * q[0] * ca.skew(q[1:])
+
+
+def _quaternion(R: Any) -> Any:
+    """From the largest of the four entries, each with its own formula."""
+    twist = ca.vertcat(R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1])
+    squares = [1 + ca.trace(R)] + [1 - ca.trace(R) + 2 * R[i, i] for i in range(3)]
+    found = [ca.vertcat(squares[0], twist) / ca.sqrt(squares[0]) / 2]
+    for i in range(3):
+        vector = R[:, i] + R[i, :].T
+        vector[i] = squares[i + 1]
+        found.append(ca.vertcat(twist[i], vector) / ca.sqrt(squares[i + 1]) / 2)
+    best, most = found[0], squares[0]
+    for candidate, square in zip(found[1:], squares[1:], strict=True):
+        best = ca.if_else(square > most, candidate, best)
+        most = ca.fmax(square, most)
+    return best
+
+
+def _jacobi(A: Any) -> tuple[Any, Any]:
+    """Eigenvalues and eigenvectors by Jacobi's rotations, written out; not differentiable where two eigenvalues meet."""
+    n, A, V = A.shape[0], (A + A.T) / 2, ca.SX.eye(A.shape[0])
+    for _ in range(1 if n == 2 else n + 2):
+        for p in range(n):
+            for q in range(p + 1, n):
+                angle = ca.atan2(2 * A[p, q], A[q, q] - A[p, p]) / 2
+                J = ca.SX.eye(n)
+                J[p, p] = J[q, q] = ca.cos(angle)
+                J[p, q], J[q, p] = ca.sin(angle), -ca.sin(angle)
+                A, V = J.T @ A @ J, V @ J
+    return ca.diag(A), V
+
+
+def _of_symmetric(function: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    def applied(A: Any) -> Any:
+        values, V = _jacobi(A)
+        return V @ ca.diag(function(values)) @ V.T
+
+    return applied
+
+
+def _eigenvalues(A: Any) -> Any:
+    """Ascending, by exchanges."""
+    values = ca.vertsplit(_jacobi(A)[0])
+    for end in range(len(values), 1, -1):
+        for i in range(end - 1):
+            values[i], values[i + 1] = ca.fmin(values[i], values[i + 1]), ca.fmax(values[i], values[i + 1])
+    return ca.vertcat(*values)
+
+
+def _ad_squared(A: Any) -> Any:
+    """[A, [A, X]] of each skew-symmetric unit, its entries above the diagonal."""
+    n, columns = A.shape[0], []
+    for i in range(n):
+        for j in range(i + 1, n):
+            X = ca.SX.zeros(n, n)
+            X[i, j], X[j, i] = 1, -1
+            inner = A @ X - X @ A
+            columns.append(_above(A @ inner - inner @ A, 1))
+    return ca.horzcat(*columns)
+
+
+def _log_sinhc_sqrt(x: Any) -> Any:
+    root = ca.sqrt(ca.fmax(x, 1e-300))
+    return ca.log(ca.sinh(root) / root)
+
+
 WORDS: dict[str, Callable[..., Any]] = {
-    "dot": ca.dot, "norm": ca.norm_2, "sum": ca.sum1, "max": ca.mmax,
+    "dot": ca.dot, "norm": ca.norm_fro, "sum": ca.sum1, "max": ca.mmax,
     "min": ca.mmin, "cross": ca.cross, "outer": lambda a, b: a @ b.T,
     "qmul": _quaternion_product, "conj": lambda a: ca.vertcat(a[0], -a[1:]), "transpose": lambda A: A.T, "det": ca.det,
     "inv": ca.inv, "orthogonal": _orthogonal, "where": ca.if_else, "wrap": _wrap, "atan2": ca.atan2, "sqrt": ca.sqrt,
     "exp": ca.exp, "log": ca.log, "sin": ca.sin, "cos": ca.cos, "tan": ca.tan, "sinh": ca.sinh, "cosh": ca.cosh,
     "tanh": ca.tanh, "asinh": ca.asinh, "acos": ca.acos, "acosh": ca.acosh, "atanh": ca.atanh, "abs": ca.fabs,
+    "trace": ca.trace, "above": lambda A: _above(A, 1), "upper": lambda A: _above(A, 0), "svec": _svec, "smat": _smat,
+    "hat": ca.skew, "vee": ca.inv_skew, "rotation": _rotation, "quaternion": _quaternion, "expm": _of_symmetric(ca.exp),
+    "logm": _of_symmetric(ca.log), "sqrtm": _of_symmetric(ca.sqrt), "invsqrtm": _of_symmetric(lambda x: 1 / ca.sqrt(x)),
+    "log_sinhc_sqrtm": _of_symmetric(_log_sinhc_sqrt), "eigh": _eigenvalues, "ad_squared": _ad_squared,
     "sign": lambda x: ca.if_else(x < 0, -1, 1), "sinc": _cardinal(ca.sin), "sinhc": _cardinal(ca.sinh),
 }  # fmt: skip

@@ -12,6 +12,7 @@ from typing import Any
 import mpmath as mp
 import sympy as sp
 
+from rsrm_gen.compiler.budget import blamed
 from rsrm_gen.compiler.derive.closed_form import closed_form
 from rsrm_gen.compiler.derive.determinant import StagedJacobian, staged_jacobian, staged_log_det
 from rsrm_gen.compiler.derive.geometry import (
@@ -24,16 +25,18 @@ from rsrm_gen.compiler.derive.geometry import (
     argument,
     renamed,
 )
-from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, Values, run, value
+from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, Values, is_positive_definite, largest, run, value
 from rsrm_gen.compiler.derive.operators import Operators
 from rsrm_gen.compiler.derive.product import product, scaled
-from rsrm_gen.compiler.derive.sampling import Sampler, reach_of, truth
-from rsrm_gen.compiler.derive.scalarise import Reading, Trace, Truth, number, scalarised
+from rsrm_gen.compiler.derive.sampling import Sampler, is_free, reach_of, truth
+from rsrm_gen.compiler.derive.scalarise import Reading, number, scalarised
 from rsrm_gen.compiler.derive.singularities import Ray, exp_ray, guarded, log_ray, remove, smooth_squares
+from rsrm_gen.compiler.derive.trace import Trace
+from rsrm_gen.compiler.derive.values import Truth
 from rsrm_gen.compiler.spec import ManifoldSpec, Map, Spec
 from rsrm_gen.errors import UserError
 
-__all__ = ["Geometry", "derive"]
+__all__ = ["Geometry", "derive", "derive_as_written"]
 
 
 def derive(spec: Spec) -> Geometry:
@@ -43,6 +46,12 @@ def derive(spec: Spec) -> Geometry:
             geometry = _Derivation(spec).geometry()
     else:
         geometry = product(spec, {factor.spec.content_hash: derive(factor.spec) for factor in spec.distinct()})
+    return scaled(geometry, number(spec, spec.scale)) if spec.scale else geometry
+
+
+def derive_as_written(spec: ManifoldSpec) -> Geometry:
+    """The formulas of a spec as they stand, no 0/0 removed and log |det D Log| left at 0: for finding what is wrong in them."""
+    geometry = _AsWritten(spec).geometry()
     return scaled(geometry, number(spec, spec.scale)) if spec.scale else geometry
 
 
@@ -58,22 +67,34 @@ class _Derivation:
     def geometry(self) -> Geometry:
         """Everything, under the names of the `Manifold` protocol."""
         spec, operators = self.spec, self.operators
-        exp = self.exp  # first: what is wrong with it is not to be blamed on Log
-        log_det, origin = self.log_abs_det
+        with blamed(spec.exp.value.span):
+            exp = self.exp  # first: what is wrong with it is not to be blamed on Log
+            self.check_symmetric(*self.plain_exp, self.v)
+        with blamed(spec.log.value.span):
+            self.check_symmetric(*self.plain_log, self.q)
+            log_det, origin = self.log_abs_det
         functions = (
             self.project, operators.to_tangent(), operators.inner(), operators.norm(), operators.flat(), exp, self.log,
             self.distance, log_det, operators.riemannian_gradient(), operators.gradient_norm(), *self.given,
         )  # fmt: skip
-        periods = spec.periods and tuple(number(spec, period) if period else None for period in spec.periods)
+        periods = spec.periods and tuple(self.length(p, "period") if p else None for p in spec.periods)
         return Geometry(
             spec,
             functions,
             origin,
-            number(spec, spec.injectivity_radius),
-            number(spec, spec.diameter),
+            self.length(spec.injectivity_radius, "injectivity_radius"),
+            self.length(spec.diameter, "diameter"),
             periods if periods and any(periods) else None,
             self.domain,
         )
+
+    def length(self, formula: Map | None, name: str) -> sp.Expr:
+        """The value of a formula of nothing that says a length; infinity where there is none."""
+        length = number(self.spec, formula)
+        if formula is not None and not value(length, {}) > TINY:
+            shown = mp.nstr(value(length, {}), 5)
+            raise UserError(f"`{name}` must be positive, this is {shown}", formula.value.span)
+        return length
 
     @cached_property
     def project(self) -> Function:
@@ -110,12 +131,39 @@ class _Derivation:
         constraint = scalarised(spec, "constraint", spec.constraint, (self.p,), ())
         errors = [abs(c) for p in points for c in run(constraint, p)[0]]
         if not all(e < TINY for e in errors):
-            span = spec.project.value.span
-            raise UserError("`project` does not map onto the manifold: its points do not satisfy `constraint`", span)
+            message = "`project` does not map onto the manifold: its points do not satisfy `constraint`"
+            if self.maps_agree(points):
+                hint = "look at `constraint`: on the points of `project`, Exp undoes Log"
+                raise UserError(message, spec.constraint.value.span, hint)
+            raise UserError(message, spec.project.value.span)
+
+    def maps_agree(self, points: Sequence[Sequence[Any]]) -> bool:
+        """Whether Exp, Log and `project` fit one another: Exp_p(Log_p(q)) = q between some points."""
+        exp = scalarised(self.spec, "exp", self.spec.exp, (self.p, self.v), (self.spec.point_size,))
+        log = scalarised(self.spec, "log", self.spec.log, (self.p, self.q), (self.spec.tangent_size,))
+        pairs = itertools.pairwise(points)
+        return all(
+            abs(x - c) < TINY for p, q in pairs for x, c in zip(run(exp, p, run(log, p, q)[0])[0], q, strict=True)
+        )
 
     def is_valid(self, p: Sequence[Any]) -> bool:
         """Whether the domain of the spec, if it has one, holds at p."""
         return self.domain is None or bool(value(self.domain, dict(zip(self.p.symbols, p, strict=True))) == 1)
+
+    def check_symmetric(self, function: Function, trace: Trace, second: Argument) -> None:
+        """Refuse a function of symmetric matrices of a matrix that is not symmetric."""
+        if not trace.symmetries:
+            return
+        p, q = self.sampler.pair(self.rng)
+        other = q if second is self.q else self.sampler.direction(self.rng, p)
+        values = run(function, p, other)[1]
+        for symmetry in trace.symmetries:
+            entries = [[value(e, values) for e in pair] for pair in symmetry.pairs]
+            if not largest(a - b for a, b in entries) <= TINY * largest(a for a, _ in entries):
+                hint = "the symmetric part of A is (A + transpose(A)) / 2"
+                raise UserError(
+                    "this is a function of symmetric matrices; here the matrix is none", symmetry.span, hint
+                )
 
     @cached_property
     def domain(self) -> sp.Expr | None:
@@ -125,17 +173,19 @@ class _Derivation:
         trace = Trace([self.p])
         comparison = Reading(self.spec, trace).read(self.spec.domain)
         assert isinstance(comparison, Truth)
-        return truth(comparison.kind, trace.unfolded(comparison.a), trace.unfolded(comparison.b))
+        a, b = (trace.unfolded(side, self.spec.domain.value.span) for side in (comparison.a, comparison.b))
+        return truth(comparison.kind, a, b)
 
     @cached_property
     def sampler(self) -> Sampler:
         """Where points come from while formulas are looked at."""
         spec = self.spec
-        reach = reach_of(number(spec, spec.injectivity_radius))
+        reach = reach_of(self.length(spec.injectivity_radius, "injectivity_radius"))
         project = self.project if spec.embedded else None
         to_tangent, norm = self.operators.to_tangent(), self.operators.norm()
+        exp, free = self.plain_exp[0], is_free(spec)
         bounded = spec.injectivity_radius is not None
-        sampler = Sampler(project, self.domain, to_tangent, norm, self.plain_exp[0], spec.point_size, reach, bounded)
+        sampler = Sampler(project, self.domain, to_tangent, norm, exp, spec.point_size, reach, free, bounded)
         self.check_positive(sampler)
         return sampler
 
@@ -148,10 +198,11 @@ class _Derivation:
             basis = [run(sampler.to_tangent, p, sampler.gaussian(self.rng, self.spec.point_size))[0] for _ in size]
             with mp.workdps(DIGITS):
                 gram = mp.matrix([[run(inner, p, u, v)[0][0] for v in basis] for u in basis])
-                positive = all(mp.isfinite(x) for x in gram) and min(mp.eigsy(gram, eigvals_only=True)) > TINY**2
-            if not positive:
+            if not is_positive_definite(gram):
                 span = self.spec.metric.value.span
                 raise UserError("the metric is not positive: <v, v> <= 0 for a tangent vector v", span)
+            if self.spec.norm is not None and not run(sampler.norm, p, basis[0])[0][0] > 0:
+                raise UserError("`norm` is not positive for a tangent vector v", self.spec.norm.value.span)
 
     @cached_property
     def plain_exp(self) -> tuple[Function, Trace]:
@@ -165,6 +216,7 @@ class _Derivation:
     def exp(self) -> Function:
         """Exp with its 0/0 at the zero vector removed."""
         function, trace = self.plain_exp
+        self.check_finite(function, self.spec.exp)
         return self.mended(function, trace, exp_ray(function, self.sampler), spec_map=self.spec.exp).pruned()
 
     @cached_property
@@ -183,7 +235,16 @@ class _Derivation:
     def mended_log(self) -> Function:
         """Log with its 0/0 at coincident points removed, before the cut locus is looked at."""
         function, trace = self.plain_log
+        self.check_finite(function, self.spec.log)
         return self.mended(function, trace, self.ray, spec_map=self.spec.log)
+
+    def check_finite(self, function: Function, spec_map: Map) -> None:
+        """Refuse an Exp or a Log that has no value where it is asked for one."""
+        p, q = self.sampler.pair(random.Random(4))
+        where = q if function.name == "log" else self.sampler.direction(random.Random(4), p)
+        if not mp.isfinite(largest(run(function, p, where)[0])):
+            name = "Log_p(q)" if function.name == "log" else "Exp_p(v)"
+            raise UserError(f"{name} is no finite real vector at some points", spec_map.value.span)
 
     @cached_property
     def log(self) -> Function:
@@ -332,6 +393,7 @@ class _Derivation:
             return function
         result, failed = guarded(function, trace.quotients, trace.probe or {}, ray, self.reach())
         if failed:
+            self.check_radius(function, trace, ray)
             place = "Exp at the zero vector" if function.name == "exp" else "Log at coincident points"
             raise UserError(
                 f"{place} is 0/0 in `{failed[0]}`, and no smooth quantity under a square root mends it",
@@ -340,6 +402,17 @@ class _Derivation:
             )
         return result
 
+    def check_radius(self, function: Function, trace: Trace, ray: Ray) -> None:
+        """Blame the injectivity radius for a 0/0 that can be removed when no more than a part of it is looked at."""
+        if self.spec.injectivity_radius is None:
+            return
+        nearer: Ray = lambda rng: (lambda at: lambda r: at(r / 4))(ray(rng))  # noqa: E731
+        if not guarded(function, trace.quotients, trace.probe or {}, nearer, self.reach())[1]:
+            raise UserError(
+                "`injectivity_radius` is too large: Log has a second singularity within it",
+                self.spec.injectivity_radius.value.span,
+            )
+
     def reach(self) -> mp.mpf:
         """How far a polynomial near a singular place is asked to reach, at first."""
         return self.sampler.reach * 2 / 3
@@ -347,3 +420,14 @@ class _Derivation:
     def probe(self, *pairs: tuple[Argument, Sequence[mp.mpf]]) -> Values:
         """Values for the arguments of a trace."""
         return {s: x for a, values in pairs for s, x in zip(a.symbols, values, strict=True)}
+
+
+class _AsWritten(_Derivation):
+    """A derivation that mends nothing."""
+
+    def mended(self, function: Function, trace: Trace, ray: Ray, spec_map: Map) -> Function:
+        return function
+
+    @cached_property
+    def regular_log_abs_det(self) -> tuple[Function, str]:
+        return Function("log_abs_det", (self.p, self.q), (), (sp.Integer(0),), (), "0"), "staged"

@@ -19,6 +19,7 @@ import mpmath as mp
 import numpy as np
 import sympy as sp
 
+from rsrm_gen.compiler.budget import spend
 from rsrm_gen.compiler.derive.determinant import StagedJacobian, Volumes, metric_determinant
 from rsrm_gen.compiler.derive.geometry import Choose, Function
 from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, run, tape_of
@@ -237,6 +238,7 @@ def _products(samples: Samples) -> list[tuple[int, ...]]:
     hits: list[tuple[int, ...]] = []
 
     def extend(chosen: tuple[int, ...], rest: Any, others: Any, spanned: set[int]) -> None:
+        spend()
         norms = np.linalg.norm(others, axis=0)
         usable = norms > 1e-5
         directions = others / np.where(usable, norms, 1)

@@ -16,6 +16,8 @@ import mpmath as mp
 import sympy as sp
 from sympy.utilities.iterables import strongly_connected_components
 
+from rsrm_gen.compiler.budget import spend
+from rsrm_gen.compiler.derive.bounds import Sizes
 from rsrm_gen.compiler.derive.geometry import Assignment, Function
 from rsrm_gen.compiler.derive.numeric import DIGITS, run
 from rsrm_gen.compiler.derive.operators import Operators
@@ -41,7 +43,10 @@ def staged_jacobian(log: Function) -> StagedJacobian:
     assignments: list[Assignment] = []
     derivative: list[dict[sp.Symbol, sp.Expr]] = [{s: sp.Integer(int(s == c)) for s in log.symbols()} for c in q]
 
+    sizes = Sizes()
+
     def chain(expression: sp.Expr, j: int) -> sp.Expr:
+        spend(sizes.of(expression).operations)
         parts = ((s, derivative[j][s]) for s in sorted(expression.free_symbols & derivative[j].keys(), key=str))
         return sp.Add(*(sp.diff(expression, s) * ds for s, ds in parts if ds != 0))
 

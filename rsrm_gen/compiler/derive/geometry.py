@@ -39,6 +39,11 @@ class Wrap(sp.Function):  # type: ignore[misc]
 
     nargs = 2
 
+    @classmethod
+    def eval(cls, x: sp.Expr, period: sp.Expr) -> sp.Expr | None:
+        """Of numbers, a number."""
+        return x - period * sp.floor(x / period + sp.Rational(1, 2)) if x.is_number and period.is_number else None
+
     def fdiff(self, argindex: int = 1) -> sp.Expr:
         """1 in x: the jumps lie on the cut locus."""
         return sp.Integer(1 if argindex == 1 else 0)

@@ -10,7 +10,9 @@ import mpmath as mp
 import sympy as sp
 from mpmath import libmp
 
+from rsrm_gen.compiler.budget import spend
 from rsrm_gen.compiler.derive.geometry import EPS, Choose, Function, Polynomial, Wrap
+from rsrm_gen.compiler.derive.matrix_functions import Eigenvalue, MatrixFunction
 from rsrm_gen.compiler.derive.tape import Tape, number, raw
 
 DIGITS = 60  # of every value computed here
@@ -39,6 +41,7 @@ def value(expression: sp.Expr, values: Mapping[sp.Symbol, Any]) -> Any:
 
 def run(function: Function, *arguments: Sequence[Any], eps: float = 2.0**-52) -> tuple[list[Any], Values]:
     """The results of a staged function, unguarded, and the values of all its symbols."""
+    spend()
     tape, symbols, results = tape_of(function)
     flat = [x for declared, given in zip(function.arguments, arguments, strict=True) for x in _entries(declared, given)]
     slots = tape.run([raw(eps), *map(raw, flat)], PRECISION)
@@ -92,6 +95,8 @@ class Writer:
             return tape.constant(expression)
         if expression.is_Pow:
             return self.power(self.slot(expression.base), expression.exp)
+        if isinstance(expression, MatrixFunction | Eigenvalue):
+            return self.of_matrix(expression)
         if isinstance(expression, Choose):
             kind, a, b, x, y = expression.args
             condition = tape.write(CONDITIONS[int(kind)], self.slot(a), self.slot(b))
@@ -110,6 +115,13 @@ class Writer:
             return tape.write("sign", *arguments, function=mp.sign)
         return tape.write(ELEMENTARY[expression.func], *arguments)
 
+    def of_matrix(self, expression: Any) -> int:
+        """A quantity of a symmetric matrix, of all of whose entries it is a function."""
+        head = 3 if isinstance(expression, MatrixFunction) else 2
+        entries = [self.slot(e) for e in expression.args[head:]]
+        name = f"{expression.func.__name__}{expression.args[:head]}"
+        return self.tape.write(name, *entries, function=lambda *values: expression.value(values))
+
     def power(self, base: int, exponent: sp.Expr) -> int:
         tape = self.tape
         if exponent == HALF:
@@ -123,7 +135,27 @@ class Writer:
         return tape.write("power", base, self.slot(exponent))
 
 
+def is_positive_definite(matrix: Any) -> bool:
+    """Whether a symmetric matrix of numbers has a Cholesky decomposition."""
+    try:
+        with mp.workdps(DIGITS):
+            factor = mp.cholesky(matrix, tol=TINY**2)
+    except (ValueError, ZeroDivisionError):
+        return False
+    return all(mp.isfinite(x) for x in factor)
+
+
 def largest(numbers: Iterable[Any]) -> Any:
     """The largest absolute value; infinite when one of the numbers is not finite, which max() would pass over."""
     sizes = [abs(x) if mp.isfinite(x) else mp.inf for x in numbers]
     return max(sizes, default=mp.mpf(0))
+
+
+def determinant(matrix: Any) -> Any:
+    """The determinant of a matrix of numbers; NaN where one is not finite, zero where elimination finds no pivot."""
+    if not all(mp.isfinite(x) for x in matrix):
+        return mp.nan
+    try:
+        return mp.det(matrix)
+    except TypeError:  # mpmath's own stumbles over a column of zeros
+        return mp.mpf(0)

@@ -8,16 +8,19 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 from typing import Any
 
 import mpmath as mp
 import sympy as sp
 
+from rsrm_gen.compiler.derive.bounds import Sizes, inverse, may_be_expanded
 from rsrm_gen.compiler.derive.geometry import Argument, Function, argument
-from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, value
-from rsrm_gen.compiler.derive.scalarise import Reading, Trace, scalarised
+from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, determinant, run, value
+from rsrm_gen.compiler.derive.scalarise import Reading, scalarised
+from rsrm_gen.compiler.derive.trace import Trace
 from rsrm_gen.compiler.spec import ManifoldSpec
-from rsrm_gen.errors import UserError
+from rsrm_gen.errors import Span, UserError
 
 
 class Operators:
@@ -30,16 +33,18 @@ class Operators:
         self.points = [dict(zip(self.p.symbols, point, strict=True)) for point in points]
         self.metric = self.read_metric()
         self.frame = self.read_frame()  # rows: the vectors that tangent components multiply
+        self.check_frame()
         self.constraint_jacobian = self.read_constraint_jacobian()  # (constraints, D)
         self.check_metric()
-        self.metric_inverse = _inverse(self.metric)
+        self.check_normals_and_frame()
+        self.metric_inverse = _inverse(self.metric, spec.metric.value.span)
 
     def read_metric(self) -> sp.Matrix:
         spec, size = self.spec, self.spec.tangent_size
         if spec.metric.value.shape:
             trace = Trace([self.p])
             entries = Reading(spec, trace).entries(spec.metric)
-            return sp.Matrix(size, size, [trace.unfolded(e) for e in entries])
+            return sp.Matrix(size, size, [trace.unfolded(e, spec.metric.value.span) for e in entries])
         unit = sp.eye(size)
         return sp.Matrix(size, size, lambda i, j: self.metric_of(unit.row(i), unit.row(j)))
 
@@ -52,12 +57,33 @@ class Operators:
             with mp.workdps(DIGITS):
                 u, v = (mp.matrix([mp.mpf(rng.gauss(0, 1)) for _ in range(size)]) for _ in range(2))
                 G = mp.matrix([[value(self.metric[i, j], point) for j in range(size)] for i in range(size)])
-                if not all(mp.isfinite(x) for x in G) or abs(mp.det(G)) < TINY:
-                    raise UserError("the metric has no inverse", span)
+                if not all(mp.isfinite(x) for x in G):
+                    raise UserError("the metric is no finite real number at some points", span)
+                if not abs(determinant(G)) > TINY:
+                    raise UserError(
+                        "the metric has no inverse", span, "<u, v> must not vanish for all v, except at u = 0"
+                    )
                 if mp.norm(G - G.T) > TINY:
                     raise UserError("the metric is not symmetric: <u, v> and <v, u> differ", span)
                 if not spec.metric.value.shape and abs(self.inner_value(point, u, v) - (u.T * G * v)[0]) > TINY:
                     raise UserError("the metric is not linear in u and in v", span)
+
+    def check_normals_and_frame(self) -> None:
+        """Refuse constraints and frames whose rows are not of full rank."""
+        spec = self.spec
+        for matrix, chart_map, complaint in (
+            (
+                self.constraint_jacobian,
+                spec.constraint,
+                "the derivatives of `constraint` vanish, or depend on one another",
+            ),
+            (self.frame, spec.frame, "the vectors of `frame` depend on one another"),
+        ):
+            for point in self.points if chart_map is not None else ():
+                with mp.workdps(DIGITS):
+                    rows = mp.matrix([[value(x, point) for x in matrix.row(i)] for i in range(matrix.rows)])
+                    if chart_map is not None and not abs(determinant(rows * rows.T)) > TINY:
+                        raise UserError(f"{complaint} at points of the manifold", chart_map.value.span)
 
     def inner_value(self, point: Mapping[sp.Symbol, Any], u: Sequence[Any], v: Sequence[Any]) -> Any:
         """The author's <u, v>_p in high precision."""
@@ -71,31 +97,71 @@ class Operators:
         """<u, v>_p from the author's formula."""
         size = self.spec.tangent_size
         trace = Trace([self.p, Argument("u", (size,), tuple(u)), Argument("v", (size,), tuple(v))])
-        return trace.unfolded(Reading(self.spec, trace).entries(self.spec.metric)[0])
+        return trace.unfolded(Reading(self.spec, trace).entries(self.spec.metric)[0], self.spec.metric.value.span)
 
     def read_frame(self) -> sp.Matrix:
         spec = self.spec
         if spec.frame is None:
             return sp.eye(spec.point_size)
         trace = Trace([self.p])
-        entries = Reading(spec, trace).entries(spec.frame)
-        return sp.Matrix(spec.tangent_size, spec.point_size, [trace.unfolded(e) for e in entries])
+        span = spec.frame.value.span
+        return self.frame_vectors(trace).applyfunc(lambda e: trace.unfolded(e, span))
+
+    def frame_vectors(self, trace: Trace) -> sp.Matrix:
+        """The vectors of the frame as rows, in the assignments of a trace: what the author's formula is for unit vectors."""
+        spec, size = self.spec, self.spec.tangent_size
+        assert spec.frame is not None
+        rows = []
+        for i in range(size):
+            trace.arguments["v"] = Argument("v", (size,), tuple(sp.eye(size).row(i)))
+            rows.append(Reading(spec, trace).entries(spec.frame))
+        del trace.arguments["v"]
+        return sp.Matrix(size, spec.point_size, [e for row in rows for e in row])
+
+    def check_frame(self) -> None:
+        """Refuse a formula that is not linear in v, or vectors that are not independent."""
+        spec, rng = self.spec, random.Random(4)
+        if spec.frame is None:
+            return
+        formula = scalarised(spec, "frame", spec.frame, (self.p, argument("v", spec.tangent_size)), spec.point_shape)
+        with mp.workdps(DIGITS):
+            for point, vectors in zip(self.points, self.frame_values, strict=True):
+                v = [mp.mpf(rng.gauss(0, 1)) for _ in range(spec.tangent_size)]
+                found = mp.matrix(run(formula, list(point.values()), v)[0])
+                if not all(mp.isfinite(x) for x in (*found, *vectors)):
+                    raise UserError("`frame` has no value at a point of the manifold", spec.frame.value.span)
+                if mp.norm(found - vectors.T * mp.matrix(v)) > TINY * mp.norm(vectors):
+                    raise UserError("`frame` is not linear in v", spec.frame.value.span)
+                if abs(determinant(vectors * vectors.T)) < TINY:
+                    raise UserError("the vectors of `frame` are not independent", spec.frame.value.span)
+
+    @cached_property
+    def frame_values(self) -> list[Any]:
+        """The frame at every one of the points, in high precision."""
+        frame = self.frame
+        with mp.workdps(DIGITS):
+            return [
+                mp.matrix([[value(frame[i, j], point) for j in range(frame.cols)] for i in range(frame.rows)])
+                for point in self.points
+            ]
 
     def read_constraint_jacobian(self) -> sp.Matrix:
         if self.spec.constraint is None:
             return sp.zeros(0, self.spec.point_size)
-        trace = Trace([self.p])
+        trace, span = Trace([self.p]), self.spec.constraint.value.span
         entries = Reading(self.spec, trace).entries(self.spec.constraint)
-        jacobian = sp.Matrix([trace.unfolded(e) for e in entries]).jacobian(self.p.symbols)
+        jacobian = sp.Matrix([trace.unfolded(e, span) for e in entries]).jacobian(self.p.symbols)
         # A constraint and its half have the same normals: 2 p and p on the sphere.
         contents = [sp.gcd_list([e.as_coeff_Mul()[0] for e in jacobian.row(i) if e != 0]) for i in range(jacobian.rows)]
-        return sp.Matrix(*jacobian.shape, lambda i, j: jacobian[i, j] / contents[i])
+        return sp.Matrix(*jacobian.shape, lambda i, j: jacobian[i, j] / (contents[i] or 1))
 
     def on_manifold(self, matrix: sp.Matrix) -> sp.Matrix:
         """The matrix with those entries as numbers that are constant on the manifold, like p . p on the sphere."""
 
         def constant(entry: sp.Expr) -> sp.Expr:
             values = [value(entry, point) for point in self.points] if entry.free_symbols else []
+            if values and all(abs(x) < TINY for x in values):
+                return sp.Integer(0)
             rational = sp.nsimplify(str(mp.nstr(values[0], 20)), rational=True) if values else entry
             small = values and rational.q <= 64 and all(abs(x - mp.mpf(rational.p) / rational.q) < TINY for x in values)
             return rational if small else entry
@@ -109,7 +175,9 @@ class Operators:
     def tangential(self, x: sp.Matrix, trace: Trace) -> sp.Matrix:
         """The tangential part of an ambient vector (ambient tangents only)."""
         normals, jacobian = self.normals(), self.constraint_jacobian
-        parts = _inverse(self.on_manifold(jacobian * normals)) * (jacobian * x)
+        assert self.spec.constraint is not None
+        span = self.spec.constraint.value.span
+        parts = _inverse(self.on_manifold(jacobian * normals), span) * (jacobian * x)
         return x - normals * sp.Matrix(
             [trace.define(f"normal_part{i if len(parts) > 1 else ''}", e) for i, e in enumerate(parts)]
         )
@@ -119,10 +187,7 @@ class Operators:
         x = argument("x", self.spec.point_size)
         vector, trace = sp.Matrix(x.symbols), Trace((self.p, x))
         if self.spec.frame is not None:
-            result, formula = (
-                _inverse(self.on_manifold(self.frame * self.frame.T)) * (self.frame * vector),
-                "(E E^T)^-1 E x",
-            )
+            result, formula = self.components(x.symbols, trace), "(E E^T)^-1 E x"
         elif self.spec.embedded:
             result, formula = self.tangential(vector, trace), "x - N (dc N)^-1 dc x"
         else:
@@ -130,6 +195,17 @@ class Operators:
         return Function(
             "to_tangent", (self.p, x), tuple(trace.assignments), tuple(result), (self.spec.tangent_size,), formula
         )
+
+    def components(self, x: Sequence[sp.Expr], trace: Trace) -> sp.Matrix:
+        """The components in the frame of the tangent vector that is nearest to an ambient vector."""
+        with mp.workdps(DIGITS):
+            grams = [vectors * vectors.T for vectors in self.frame_values]
+            constant = all(mp.norm(gram - grams[0]) < TINY for gram in grams)
+        frame = self.frame_vectors(trace)
+        if constant:
+            assert self.spec.frame is not None
+            return _inverse(self.on_manifold(frame * frame.T), self.spec.frame.value.span) * (frame * sp.Matrix(x))
+        return _least_squares([list(frame.row(i)) for i in range(frame.rows)], list(x), trace)
 
     def inner(self) -> Function:
         """<u, v>_p as the author wrote it."""
@@ -194,7 +270,8 @@ class Operators:
         partials = sp.Matrix(df.symbols)
         if self.spec.ambient_tangents:
             return self.tangential(self.metric_inverse * partials, trace)
-        return self.metric_inverse * (self.frame * partials)
+        frame = self.frame_vectors(trace) if self.spec.frame is not None else self.frame
+        return self.metric_inverse * (frame * partials)
 
     def gradient_formula(self) -> str:
         """How the gradient is made, for the generated documentation."""
@@ -210,8 +287,36 @@ class Operators:
         return Function(name, arguments, (), tuple(entries), shape, formula)
 
 
-def _inverse(matrix: sp.Matrix) -> sp.Matrix:
+def _least_squares(vectors: list[list[sp.Expr]], x: list[sp.Expr], trace: Trace) -> sp.Matrix:
+    """The components v with sum v_k e_k nearest to x, by Gram and Schmidt, which lose fewer digits than (E E^T)^-1."""
+
+    def dot(a: Sequence[sp.Expr], b: Sequence[sp.Expr]) -> sp.Expr:
+        return sp.Add(*(s * t for s, t in zip(a, b, strict=True)))
+
+    def less(name: str, a: list[sp.Expr], part: sp.Expr, b: list[sp.Expr]) -> list[sp.Expr]:
+        return [trace.define(f"{name}_{i}", s - part * t) for i, (s, t) in enumerate(zip(a, b, strict=True))]
+
+    parts: list[sp.Expr] = []
+    upper: dict[tuple[int, int], sp.Expr] = {}
+    left = [[trace.define(f"e{k}_{i}", c) for i, c in enumerate(e)] for k, e in enumerate(vectors)]
+    for k, e in enumerate(left):
+        square = trace.define(f"e{k}_squared", dot(e, e))
+        parts.append(trace.define(f"part{k}", dot(e, x) / square))
+        x = less("rest", x, parts[k], e)
+        for j in range(k + 1, len(left)):
+            upper[k, j] = trace.define(f"shear{k}_{j}", dot(e, left[j]) / square)
+            left[j] = less(f"e{j}", left[j], upper[k, j], e)
+    for k in reversed(range(len(left))):
+        others = (upper[k, j] * parts[j] for j in range(k + 1, len(left)))
+        parts[k] = trace.define(f"component{k}", sp.Add(parts[k], *(-other for other in others)))
+    return sp.Matrix(parts)
+
+
+def _inverse(matrix: sp.Matrix, span: Span) -> sp.Matrix:
+    """The inverse, written out; simplified where that takes no time."""
     if matrix.is_diagonal():
         return sp.diag(*(1 / matrix[i, i] for i in range(matrix.rows)))
-    inverse = matrix.inv(method="ADJ")
-    return inverse.applyfunc(sp.cancel) if matrix.rows <= 4 else inverse
+    written_out = inverse(matrix, span)
+    Sizes().check(written_out, span)
+    simplify = matrix.rows <= 4 and all(map(may_be_expanded, written_out))
+    return written_out.applyfunc(sp.cancel) if simplify else written_out

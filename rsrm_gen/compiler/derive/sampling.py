@@ -13,6 +13,7 @@ from mpmath import libmp
 
 from rsrm_gen.compiler.derive.geometry import Choose, Function, Geometry
 from rsrm_gen.compiler.derive.numeric import DIGITS, PRECISION, run, value
+from rsrm_gen.compiler.spec import ManifoldSpec, Spec
 from rsrm_gen.errors import UserError
 
 Numbers = list[Any]
@@ -32,6 +33,7 @@ class Sampler:
     exp: Function
     point_size: int
     reach: Any
+    free: bool = False  # whether any numbers are a tangent vector, as components in a chart or a frame are
     bounded: bool = False  # whether there is a finite injectivity radius, twice the reach
 
     def gaussian(self, rng: random.Random, size: int) -> Numbers:
@@ -58,7 +60,10 @@ class Sampler:
     def direction(self, rng: random.Random, p: Sequence[Any]) -> Numbers:
         """A tangent vector at p of length 1 in the metric."""
         with mp.workdps(DIGITS):
-            v = run(self.to_tangent, p, self.gaussian(rng, self.point_size))[0]
+            if self.free:
+                v = self.gaussian(rng, len(self.to_tangent.results))
+            else:
+                v = run(self.to_tangent, p, self.gaussian(rng, self.point_size))[0]
             length = run(self.norm, p, v)[0][0]
             return [c / length for c in v]
 
@@ -93,7 +98,12 @@ def sampler_of(geometry: Geometry) -> Sampler:
     reach = reach_of(geometry.injectivity_radius, geometry.unit)
     functions = geometry["to_tangent"], geometry["norm"], geometry["exp"]
     bounded = geometry.injectivity_radius != sp.oo
-    return Sampler(project, geometry.domain, *functions, spec.point_size, reach, bounded)
+    return Sampler(project, geometry.domain, *functions, spec.point_size, reach, is_free(spec), bounded)
+
+
+def is_free(spec: Spec) -> bool:
+    """Whether tangent vectors are components that obey no condition; of a product it is not asked."""
+    return isinstance(spec, ManifoldSpec) and not spec.ambient_tangents
 
 
 def truth(kind: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:

@@ -1,4 +1,4 @@
-"""From formulas in vectors to assignments in scalars.
+"""From formulas in vectors and matrices to assignments in scalars.
 
 A scalar factor or divisor of a vector is kept beside it until the vector's entries are needed, so that `t * w / norm(w)`
 meets its 0/0 as one scalar, t / norm(w), which can be looked at and removed.
@@ -6,154 +6,92 @@ meets its 0/0 as one scalar, t / norm(w), which can be looked at and removed.
 
 from __future__ import annotations
 
-import re
-from collections.abc import Sequence
-from copy import copy
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence, Set
+from dataclasses import replace
 from functools import reduce
 from typing import Any, TypeAlias
 
 import mpmath as mp
 import sympy as sp
 
+from rsrm_gen.compiler.budget import blamed, spend
+from rsrm_gen.compiler.derive.bounds import determinant, exponential, inverse, require_real
 from rsrm_gen.compiler.derive.geometry import (
     EPS,
     EQUAL,
     LESS,
     LESS_EQUAL,
     Argument,
-    Assignment,
     Choose,
     Function,
     Guard,
     Wrap,
 )
-from rsrm_gen.compiler.derive.numeric import TINY, Values, value
+from rsrm_gen.compiler.derive.matrix_functions import Eigenvalue
+from rsrm_gen.compiler.derive.matrix_words import SYMMETRIC, MatrixWords
+from rsrm_gen.compiler.derive.naming import call_name, symbol_name, tree_name
+from rsrm_gen.compiler.derive.numeric import value
 from rsrm_gen.compiler.derive.series import even_series
+from rsrm_gen.compiler.derive.trace import Trace
+from rsrm_gen.compiler.derive.values import Truth, Vector, choose
 from rsrm_gen.compiler.spec import Map, Spec
 from rsrm_gen.compiler.spec import formula as f
-from rsrm_gen.compiler.spec.shapes import bounds, constant
+from rsrm_gen.compiler.spec.shapes import bounds, constant, unit_size
 from rsrm_gen.compiler.spec.vocabulary import Shape
-from rsrm_gen.errors import UserError
+from rsrm_gen.errors import Span, UserError
 
-
-@dataclass(frozen=True)
-class Vector:
-    """entries * product(factors) / product(divisors), not multiplied out."""
-
-    entries: tuple[sp.Expr, ...]
-    factors: tuple[sp.Expr, ...] = ()
-    divisors: tuple[sp.Expr, ...] = ()
-
-
-@dataclass(frozen=True)
-class Truth:
-    """A comparison: a < b, a <= b or a == b by kind."""
-
-    kind: sp.Integer
-    a: sp.Expr
-    b: sp.Expr
-
-
-Value: TypeAlias = Any  # a scalar (sympy expression), a `Vector`, a sympy matrix or a `Truth`; sympy has no types
+Value: TypeAlias = Any  # a scalar (sympy expression), a `Vector` or a `Truth`; sympy has no types
 
 FUNCTIONS = {
-    "sqrt": sp.sqrt, "exp": sp.exp, "log": sp.log, "sin": sp.sin, "cos": sp.cos, "tan": sp.tan, "sinh": sp.sinh,
+    "sqrt": sp.sqrt, "exp": exponential, "log": sp.log, "sin": sp.sin, "cos": sp.cos, "tan": sp.tan, "sinh": sp.sinh,
     "cosh": sp.cosh, "tanh": sp.tanh, "asinh": sp.asinh, "acos": sp.acos, "acosh": sp.acosh, "atanh": sp.atanh, "abs": sp.Abs,
 }  # fmt: skip
 
 
-class Trace:
-    """The assignments written down while formulas are read.
-
-    `probe` holds the values of the arguments where the author's formulas may be 0/0 (coincident points, a zero
-    vector); a quotient of two quantities that vanish there is recorded in `quotients`, to be removed.
-    """
-
-    def __init__(self, arguments: Sequence[Argument], probe: Values | None = None) -> None:
-        self.arguments = {a.name: a for a in arguments}
-        self.assignments: list[Assignment] = []
-        self.quotients: list[sp.Symbol] = []
-        self.scalars: list[sp.Symbol] = []  # quantities of the author's: candidates for closed forms
-        self.probe = dict(probe) if probe else None
-        self.known: dict[sp.Expr, sp.Symbol] = {}
-        self.taken = {str(s) for a in arguments for s in a.symbols} | {a.name for a in arguments}
-
-    def define(self, hint: str, expression: sp.Expr, guard: Guard | None = None) -> sp.Expr:
-        """A symbol for an expression; numbers and symbols stand for themselves, and nothing is defined twice."""
-        if expression.is_number or expression.is_Symbol:
-            return expression
-        if expression not in self.known:
-            symbol = sp.Symbol(self.fresh(hint), real=True)
-            self.known[expression] = symbol
-            self.assignments.append(Assignment(symbol, expression, guard))
-            if self.probe is not None:
-                self.probe[symbol] = value(guard.near if guard else expression, self.probe)
-        return self.known[expression]
-
-    def extended(self, *arguments: Argument) -> Trace:
-        """This trace itself, or a copy that knows further arguments."""
-        if not arguments:
-            return self
-        trace = copy(self)
-        trace.arguments = self.arguments | {a.name: a for a in arguments}
-        trace.assignments, trace.quotients = list(self.assignments), list(self.quotients)
-        trace.scalars, trace.known = list(self.scalars), dict(self.known)
-        trace.taken = self.taken | {str(s) for a in arguments for s in a.symbols} | {a.name for a in arguments}
-        trace.probe = self.probe and {**self.probe, **{s: mp.mpf(1) for a in arguments for s in a.symbols}}
-        return trace
-
-    def fresh(self, hint: str) -> str:
-        """An unused name that begins with the hint."""
-        name, count = hint, 1
-        while name in self.taken:
-            count += 1
-            name = f"{hint}_{count}"
-        self.taken.add(name)
-        return name
-
-    def vanishes(self, expression: sp.Expr) -> bool:
-        """Whether the expression is zero at the probe."""
-        return self.probe is not None and not expression.is_number and abs(value(expression, self.probe)) < TINY
-
-    def unfolded(self, expression: sp.Expr) -> sp.Expr:
-        """An expression in the arguments alone."""
-        for assignment in reversed(self.assignments):
-            expression = expression.xreplace({assignment.symbol: assignment.expression})
-        return expression
-
-    def definition(self, symbol: sp.Expr) -> sp.Expr | None:
-        """The expression that a symbol was defined as."""
-        return next((a.expression for a in self.assignments if a.symbol == symbol), None)
+MAX_OPEN_LETS = 8
+MAX_PERIOD = mp.mpf(10) ** 30
 
 
-class Reading:
+class Reading(MatrixWords):
     """Reads the maps of a spec into a trace; names are looked up in `let`s only when they are used."""
 
     def __init__(self, spec: Spec, trace: Trace) -> None:
         self.parameters = dict(spec.parameters)
+        self.shapes = spec.argument_shapes
         self.trace = trace
         self.lets: dict[str, tuple[f.Tree, Value | None]] = {}
+        self.open_lets = 0
 
     def read(self, chart_map: Map) -> Value:
         """The value of a map whose arguments are those of the trace."""
         for name, formula in chart_map.lets:
             self.lets.setdefault(name, (formula.tree, None))
-        return self.value(chart_map.value.tree)
+        with blamed(chart_map.value.span):
+            result = self.value(chart_map.value.tree)
+        if isinstance(result, Truth):
+            return result
+        rough: set[sp.Symbol] = set()
+        for a in self.trace.assignments:
+            rough |= {a.symbol} if _is_rough(a.expression, rough) else set()
+        if any(_is_rough(e, rough) for e in _parts(result) if isinstance(e, sp.Expr)):
+            raise UserError(
+                "eigenvalues are only compared: where two of them meet they have no derivative",
+                chart_map.value.span,
+                "a smooth function of all of them is trace(logm(A)), det(A), norm(A) and the like",
+            )
+        return result
 
     def entries(self, chart_map: Map) -> tuple[sp.Expr, ...]:
         """The entries of a map's value in row-major order; a scalar has one."""
         result = self.read(chart_map)
-        if isinstance(result, Vector):
-            return self.materialise(result)
-        return tuple(result) if isinstance(result, sp.MatrixBase) else (result,)
+        return self.materialise(result) if isinstance(result, Vector) else (result,)
 
     def value(self, tree: f.Tree) -> Value:
         """The value of a formula; a `UserError` where it is no finite real number whatever the arguments are."""
         result = self.plain_value(tree)
-        parts = result.entries if isinstance(result, Vector) else (result,)
-        if any(isinstance(e, sp.Expr) and not _may_be_real(e) for e in parts):
-            raise UserError("this is no finite real number", tree.span)
+        parts = _parts(result)
+        self.trace.sizes.check(parts, tree.span)
+        require_real(parts, tree.span)
         return result
 
     def plain_value(self, tree: f.Tree) -> Value:
@@ -171,7 +109,8 @@ class Reading:
             case f.Stack():
                 return self.stack(tree)
             case f.Rows():
-                return sp.Matrix([list(self.materialise(self.value(item))) for item in tree.items])
+                rows = [self.materialise(self.value(item)) for item in tree.items]
+                return Vector(tuple(e for row in rows for e in row), columns=len(rows[0]))
             case f.Index():
                 return self.index(tree)
             case f.Call():
@@ -179,7 +118,8 @@ class Reading:
 
     def name(self, name: str) -> Value:
         if name in self.trace.arguments:
-            return Vector(self.trace.arguments[name].symbols)
+            shape = self.shapes.get(name, ())
+            return Vector(self.trace.arguments[name].symbols, columns=shape[1] if len(shape) == 2 else None)
         if name in self.lets:
             return self.let(name)
         if name in self.parameters:
@@ -188,16 +128,35 @@ class Reading:
         return {"pi": sp.pi, "eps": EPS}[name]
 
     def let(self, name: str) -> Value:
+        if self.lets[name][1] is None:
+            self.open_lets += 1
+            for needed in self.foundations(name) if self.open_lets > MAX_OPEN_LETS else (name,):
+                self.define_let(needed)
+            self.open_lets -= 1
+        return self.lets[name][1]
+
+    def foundations(self, name: str) -> Iterator[str]:
+        """A `let` after those on which it stands: hundreds, perhaps, too many to be open at once."""
+        waiting = [name]
+        while waiting:
+            names = (n for n in f.names(self.lets[waiting[-1]][0]) if n in self.lets)
+            missing = next((n for n in names if self.lets[n][1] is None), None)
+            if missing is None:
+                yield waiting.pop()
+            else:
+                waiting.append(missing)
+
+    def define_let(self, name: str) -> None:
+        """The value of a `let` whose parts are known, its entries under names."""
         tree, result = self.lets[name]
         if result is None:
             result = self.call(tree, name) if isinstance(tree, f.Call) else self.value(tree)
             if isinstance(result, Vector):
-                entries = (self.trace.define(f"{name}{i}", e) for i, e in enumerate(result.entries))
+                entries = (self.trace.define(f"{name}{result.suffix(i)}", e) for i, e in enumerate(result.entries))
                 result = replace(result, entries=tuple(entries))
             elif isinstance(result, sp.Expr):
                 result = self.quantity(name, result)
             self.lets[name] = tree, result
-        return result
 
     def quantity(self, hint: str, expression: sp.Expr) -> sp.Expr:
         """A scalar of the author's, under a name."""
@@ -220,7 +179,7 @@ class Reading:
     def plus(self, x: Value, y: Value) -> Value:
         if isinstance(x, Vector) and isinstance(y, Vector):
             pairs = zip(self.materialise(x), self.materialise(y), strict=True)
-            return Vector(tuple(a + b for a, b in pairs))
+            return Vector(tuple(a + b for a, b in pairs), columns=x.columns)
         return x + y
 
     def times(self, x: Value, y: Value) -> Value:
@@ -232,9 +191,18 @@ class Reading:
                 if y.is_number
                 else replace(x, factors=(*x.factors, y))
             )
-        if isinstance(x, sp.MatrixBase) and isinstance(y, Vector):
-            return Vector(tuple(x * sp.Matrix(self.materialise(y))))
+        if isinstance(x, Vector):
+            return self.matrix_product(x, y)
         return x * y
+
+    def matrix_product(self, x: Vector, y: Vector) -> Vector:
+        """A matrix times a matrix or a vector; factors and divisors stay beside the entries."""
+        assert x.columns is not None
+        spend(x.rows * x.columns * (y.columns or 1))
+        rows = [x.entries[i * x.columns : (i + 1) * x.columns] for i in range(x.rows)]
+        columns = [y.entries[j :: y.columns or 1] for j in range(y.columns or 1)]
+        entries = tuple(sp.Add(*(a * b for a, b in zip(r, c, strict=True))) for r in rows for c in columns)
+        return Vector(entries, x.factors + y.factors, x.divisors + y.divisors, y.columns)
 
     def over(self, x: Value, y: Value) -> Value:
         assert isinstance(y, sp.Expr)
@@ -244,7 +212,7 @@ class Reading:
                 if y.is_number
                 else replace(x, divisors=(*x.divisors, y))
             )
-        return self.ratio(x, y) if isinstance(x, sp.Expr) else x / y
+        return self.ratio(x, y)
 
     def materialise(self, vector: Vector) -> tuple[sp.Expr, ...]:
         """The entries, multiplied out; what is 0/0 among the scalars becomes one quotient."""
@@ -264,7 +232,7 @@ class Reading:
 
     def quotient(self, numerators: tuple[sp.Expr, ...], denominators: tuple[sp.Expr, ...]) -> sp.Expr:
         """A named quotient that is 0/0 at the probe."""
-        names = ["_".join(_slug(e) for e in es) for es in (numerators, denominators)]
+        names = ["_".join(symbol_name(e) for e in es) for es in (numerators, denominators)]
         hint = "_over_".join(names) if all(names) else "quotient"
         symbol = self.quantity(hint, sp.Mul(*numerators) / sp.Mul(*denominators))
         if symbol.is_Symbol and symbol not in self.trace.quotients:
@@ -285,21 +253,33 @@ class Reading:
 
     def index(self, tree: f.Index) -> Value:
         base = self.value(tree.base)
-        length = base.rows if isinstance(base, sp.MatrixBase) else len(base.entries)
-        start, stop = bounds(tree, length, self.parameters)
-        if isinstance(base, sp.MatrixBase):
-            return base[start:stop, :] if tree.slice else Vector(tuple(base[start, :]))
         assert isinstance(base, Vector)
-        return replace(base, entries=base.entries[start:stop]) if tree.slice else self.materialise(base)[start]
+        start, stop = bounds(tree, base.rows, self.parameters)
+        if base.columns is None and not tree.slice:
+            return self.materialise(base)[start]
+        width = base.columns or 1
+        part = replace(base, entries=base.entries[start * width : stop * width])
+        return part if tree.slice else replace(part, columns=None)
 
     def call(self, tree: f.Call, name: str = "") -> Value:
         """The value of a call; a scalar becomes a named quantity."""
+        if tree.function == "eye":
+            return self.unit_matrix(unit_size(tree, self.parameters))
         arguments = [self.value(argument) for argument in tree.arguments]
-        name = name or _hint(tree)
+        name = name or call_name(tree)
         method = getattr(self, f"call_{tree.function}", None)
         if tree.function in ("dot", "norm"):
             result: Value = self.product(tree, arguments, name)
+        elif tree.function == "det":
+            result = determinant(self.named_matrix(arguments[0]), tree.span)
+        elif tree.function == "inv":
+            entries = inverse(self.named_matrix(arguments[0]), tree.span)
+            result = Vector(tuple(entries), columns=arguments[0].columns)
+        elif tree.function in SYMMETRIC:
+            result = self.of_symmetric(tree, arguments[0], name)
         elif method is not None:
+            if tree.function == "wrap" and len(arguments) == 2:
+                self.check_period(arguments[1], tree.arguments[1].span)
             result = method(*arguments)
         elif isinstance(arguments[0], Vector):
             entries = (FUNCTIONS[tree.function](e) for e in self.materialise(arguments[0]))
@@ -319,7 +299,7 @@ class Reading:
         return sp.sqrt(self.trace.define(f"{name}_squared", total)) if tree.function == "norm" else total
 
     def named_entries(self, tree: f.Tree, entries: tuple[sp.Expr, ...]) -> tuple[sp.Expr, ...]:
-        slug = _tree_slug(tree)
+        slug = tree_name(tree)
         hint = slug if len(slug) <= 20 and slug.isidentifier() else "part"
         return tuple(self.trace.define(f"{hint}{i}", e) for i, e in enumerate(entries))
 
@@ -327,17 +307,28 @@ class Reading:
         return sp.Add(*self.materialise(x))
 
     def call_max(self, x: Vector) -> sp.Expr:
-        return reduce(lambda a, b: choose(Truth(LESS, a, b), b, a), self.materialise(x))
+        def larger(a: sp.Expr, b: sp.Expr) -> sp.Expr:
+            return choose(Truth(LESS, a, b), b, a)
+
+        return reduce(lambda a, b: larger(self.so_far("largest", a), b), self.materialise(x))
 
     def call_min(self, x: Vector) -> sp.Expr:
-        return reduce(lambda a, b: choose(Truth(LESS, a, b), a, b), self.materialise(x))
+        def smaller(a: sp.Expr, b: sp.Expr) -> sp.Expr:
+            return choose(Truth(LESS, a, b), a, b)
+
+        return reduce(lambda a, b: smaller(self.so_far("smallest", a), b), self.materialise(x))
+
+    def so_far(self, name: str, chosen: sp.Expr) -> sp.Expr:
+        """A choice that will be read twice, under a name: written out, it would double with every entry."""
+        return self.trace.define(name, chosen) if isinstance(chosen, Choose) else chosen
 
     def call_cross(self, x: Vector, y: Vector) -> Vector:
         (a, b, c), (d, e, g) = self.materialise(x), self.materialise(y)
         return Vector((b * g - c * e, c * d - a * g, a * e - b * d))
 
-    def call_outer(self, x: Vector, y: Vector) -> sp.MatrixBase:
-        return sp.Matrix([[a * b for b in self.materialise(y)] for a in self.materialise(x)])
+    def call_outer(self, x: Vector, y: Vector) -> Vector:
+        rows, columns = self.materialise(x), self.materialise(y)
+        return Vector(tuple(a * b for a in rows for b in columns), columns=len(columns))
 
     def call_qmul(self, x: Vector, y: Vector) -> Vector:
         (a, b, c, d), (w, i, j, k) = self.materialise(x), self.materialise(y)
@@ -350,15 +341,6 @@ class Reading:
 
     def call_conj(self, x: Vector) -> Vector:
         return Vector((x.entries[0], *(-e for e in x.entries[1:])), x.factors, x.divisors)
-
-    def call_transpose(self, x: sp.MatrixBase) -> sp.MatrixBase:
-        return x.T
-
-    def call_det(self, x: sp.MatrixBase) -> sp.Expr:
-        return x.det(method="berkowitz")
-
-    def call_inv(self, x: sp.MatrixBase) -> sp.MatrixBase:
-        return x.inv(method="ADJ")
 
     def call_orthogonal(self, x: Vector) -> Vector:
         # Of the first two axes, one is at 45 degrees or more to a unit vector: its part at right angles to the vector
@@ -376,15 +358,19 @@ class Reading:
     def call_where(self, condition: Truth, x: Value, y: Value) -> Value:
         if isinstance(x, Vector) and isinstance(y, Vector):
             pairs = zip(self.materialise(x), self.materialise(y), strict=True)
-            return Vector(tuple(choose(condition, a, b) for a, b in pairs))
-        if isinstance(x, sp.MatrixBase):
-            return sp.Matrix(*x.shape, [choose(condition, a, b) for a, b in zip(x, y, strict=True)])
+            return Vector(tuple(choose(condition, a, b) for a, b in pairs), columns=x.columns)
         return choose(condition, x, y)
 
     def call_wrap(self, x: Value, period: sp.Expr = 2 * sp.pi) -> Value:
         if isinstance(x, Vector):
             return Vector(tuple(Wrap(e, period) for e in self.materialise(x)))
         return Wrap(x, period)
+
+    def check_period(self, period: sp.Expr, span: Span) -> None:
+        """Refuse a period that is no positive number: turns are counted in it."""
+        if not period.is_number or not 1 / MAX_PERIOD < value(period, {}) < MAX_PERIOD:
+            hint = "make it of numbers, parameters and pi, like wrap(x, 2 * pi)"
+            raise UserError("the period of `wrap` must be a positive number", span, hint)
 
     def call_sign(self, x: Value) -> Value:
         if isinstance(x, Vector):
@@ -421,7 +407,7 @@ class Reading:
         """An even function of x, near 0 by its polynomial in x^2."""
         series, square = even_series(name), self.square(x)
         guard = Guard(square, series.threshold, series(square), series.error)
-        return self.trace.define(f"{name}_{_slug(x)}", expression, guard)
+        return self.trace.define(f"{name}_{symbol_name(x)}", expression, guard)
 
     def is_root(self, x: sp.Expr) -> bool:
         """Whether x is a norm or a multiple of one: not smooth where it vanishes, though its square is."""
@@ -438,16 +424,6 @@ class Reading:
         return root.base if root is not None else x**2
 
 
-def choose(condition: Truth, x: sp.Expr, y: sp.Expr) -> sp.Expr:
-    """x where the condition holds, else y; decided here when it compares numbers."""
-    a, b = condition.a, condition.b
-    if not (a - b).is_number or (a - b).has(EPS):
-        return Choose(condition.kind, a, b, x, y)
-    difference = value(a - b, {})
-    holds = {LESS: difference < 0, LESS_EQUAL: difference <= 0, EQUAL: difference == 0}[condition.kind]
-    return x if holds else y
-
-
 def scalarised(spec: Spec, name: str, chart_map: Map, arguments: Sequence[Argument], shape: Shape) -> Function:
     """A map of the spec as a staged function, without looking for singularities."""
     trace = Trace(arguments)
@@ -460,37 +436,16 @@ def number(spec: Spec, chart_map: Map | None) -> sp.Expr:
     return sp.oo if chart_map is None else Reading(spec, Trace(())).entries(chart_map)[0]
 
 
-def _may_be_real(expression: sp.Expr) -> bool:
-    """Whether an expression can be a finite real number."""
-    if expression.has(sp.zoo, sp.nan, sp.oo, sp.I):
-        return False
-    return not expression.is_number or expression.has(EPS) or expression.is_extended_real is not False
+def _parts(result: Value) -> tuple[sp.Expr, ...]:
+    """The expressions of which a value is made."""
+    if isinstance(result, Vector):
+        return result.entries + result.factors + result.divisors
+    if isinstance(result, Truth):
+        return result.a, result.b
+    return (result,)
 
 
-def _hint(tree: f.Call) -> str:
-    """A name for a call that a reader recognises: norm_w, dot_p_d, sinh_r."""
-    words = _tree_slug(tree)
-    return words if len(words) <= 20 and words.isidentifier() else f"{tree.function}_value"
-
-
-def _tree_slug(tree: f.Tree) -> str:
-    match tree:
-        case f.Name():
-            return tree.name
-        case f.Number():
-            return str(tree.value).replace("/", "_over_")
-        case f.Negate():
-            return "minus_" + _tree_slug(tree.operand)
-        case f.Binary():
-            word = {"+": "plus", "-": "minus", "*": "times", "/": "over", "^": "to"}[tree.operator]
-            return f"{_tree_slug(tree.left)}_{word}_{_tree_slug(tree.right)}"
-        case f.Index():
-            return _tree_slug(tree.base) + ("s" if tree.slice else f"{_tree_slug(tree.start)}" if tree.start else "")
-        case f.Call():
-            return "_".join([tree.function, *(_tree_slug(argument) for argument in tree.arguments)])
-    return "of"
-
-
-def _slug(expression: sp.Expr) -> str:
-    text = str(expression) if expression.is_Symbol or expression.is_number else ""
-    return text if re.fullmatch(r"\w{1,12}", text) else ""
+def _is_rough(expression: sp.Expr, rough: Set[sp.Symbol]) -> bool:
+    """Whether an eigenvalue, or a symbol that is `rough`, stands outside of a comparison."""
+    parts = expression.args[3:] if isinstance(expression, Choose) else expression.args
+    return expression in rough or isinstance(expression, Eigenvalue) or any(_is_rough(e, rough) for e in parts)

@@ -69,7 +69,7 @@ def _of_lowest_degree(curve: Curve, reach: Any, order: int, best: Fit) -> Fit:
 def _fit_to(curve: Curve, reach: Any, order: int, degree: int) -> Fit | None:
     nodes = [reach * mp.sqrt((1 + mp.cos(mp.pi * (k + mp.mpf(1) / 2) / (degree + 1))) / 2) for k in range(degree + 1)]
     points = [curve(r) for r in nodes]
-    if not all(mp.isfinite(x) and mp.isfinite(y) and x > 0 for x, y in points):
+    if not all(mp.isfinite(x) and mp.isfinite(y) and x > 0 for x, y in points) or len({x for x, _ in points}) <= degree:
         return None
     coefficients = _interpolate([x for x, _ in points], [y / x**order for x, y in points])
     tests = [curve(reach * mp.sqrt(mp.mpf(k) / TESTS)) for k in range(1, TESTS + 1)]

@@ -16,6 +16,8 @@ import numpy as np
 import sympy as sp
 from mpmath import libmp
 
+from rsrm_gen.compiler.derive import magnitudes
+
 Raw = Any  # mpmath's (sign, mantissa, exponent, bits); a truth value for a comparison
 
 NEAREST = "n"
@@ -23,9 +25,9 @@ REFUSED = (ZeroDivisionError, ValueError, TypeError, OverflowError)  # what mpma
 
 # Each of (arguments..., precision, rounding), or of (arguments...) for a comparison.
 UNARY: dict[str, Callable[..., Raw]] = {
-    "neg": libmp.mpf_neg, "sqrt": libmp.mpf_sqrt, "root": libmp.mpf_sqrt, "exp": libmp.mpf_exp, "log": libmp.mpf_log,
-    "sin": libmp.mpf_sin, "cos": libmp.mpf_cos, "tan": libmp.mpf_tan, "sinh": libmp.mpf_sinh, "cosh": libmp.mpf_cosh,
-    "tanh": libmp.mpf_tanh, "asinh": libmp.mpf_asinh, "acosh": libmp.mpf_acosh, "acos": libmp.mpf_acos,
+    "neg": libmp.mpf_neg, "sqrt": libmp.mpf_sqrt, "root": libmp.mpf_sqrt, "exp": magnitudes.exp, "log": libmp.mpf_log,
+    "sin": magnitudes.sin, "cos": magnitudes.cos, "tan": magnitudes.tan, "sinh": magnitudes.sinh, "cosh": magnitudes.cosh,
+    "tanh": magnitudes.tanh, "asinh": libmp.mpf_asinh, "acosh": libmp.mpf_acosh, "acos": libmp.mpf_acos,
     "atanh": libmp.mpf_atanh, "abs": libmp.mpf_abs, "round": libmp.mpf_nint,
 }  # fmt: skip
 BINARY: dict[str, Callable[..., Raw]] = {
@@ -80,6 +82,7 @@ class Tape:
         self.size = inputs
         self.operations: list[tuple[str, tuple[int, ...]]] = []  # a constant is ("constant", (its number,))
         self.constants: list[Any] = []
+        self.functions: dict[str, Callable[..., Any]] = {}  # of mpmath's numbers: operations not in the tables here
         self.known: dict[Any, int] = {}
         self.instructions: list[Instruction] = []
         self.constants_at: dict[int, list[Raw]] = {}
@@ -98,6 +101,8 @@ class Tape:
         key = (operation, slots)
         if key not in self.known:
             self.known[key] = self.size
+            if function is not None:
+                self.functions[operation] = function
             self.append(operation, slots, _instruction(operation, slots, function))
         return self.known[key]
 
@@ -143,7 +148,8 @@ class Tape:
                 if operation == "constant":
                     slots.append(libmp.to_float(self.rounded(100)[arguments[0]]))
                 else:
-                    slots.append(IN_DOUBLE[operation](*(slots[a] for a in arguments)))
+                    function = IN_DOUBLE.get(operation) or _each(self.functions[operation])
+                    slots.append(function(*(slots[a] for a in arguments)))
         return slots
 
 
@@ -163,14 +169,26 @@ def _instruction(operation: str, slots: tuple[int, ...], function: Callable[...,
 
 
 def _wrapped(function: Callable[..., Any]) -> Callable[..., Raw]:
-    """A function of mpmath numbers as one of raw numbers."""
+    """A function of mpmath's numbers as one of raw numbers; several numbers, of or from a function, are a list."""
 
-    def raw(precision: int, *arguments: Raw) -> Raw:
+    def raw_function(precision: int, *arguments: Raw) -> Raw:
         with mp.workprec(precision):
-            result = function(*(number(a) for a in arguments))
-            return result if isinstance(result, bool) else mp.mpf(result)._mpf_
+            result = function(*(tuple(a) if isinstance(a, list) else number(a) for a in arguments))
+            return list(result) if isinstance(result, tuple) else raw(result)
 
-    return raw
+    return raw_function
+
+
+def _each(function: Callable[..., Any]) -> Callable[..., Any]:
+    """A function of mpmath's numbers as one of arrays of doubles."""
+
+    def value(*numbers: float) -> float:
+        try:
+            return float(function(*map(mp.mpf, numbers)))
+        except REFUSED:
+            return float("nan")
+
+    return np.vectorize(value, otypes=[float])
 
 
 def _raw_constant(exact: Any, precision: int) -> Raw:

@@ -1,7 +1,7 @@
 """The C back end: a header and a source in dependency-free C99, every function in double and in float.
 
 Scalar functions for users (`so3_log`), batches of rows (`so3_log_batch`); no allocation, no global state, no branches but
-selects, so that compilers can vectorise the batches.
+selects, so that compilers can vectorise the batches; only functions of matrices are loops.
 """
 
 from __future__ import annotations
@@ -12,11 +12,10 @@ from dataclasses import replace
 import sympy as sp
 
 from rsrm_gen.compiler.derive import Geometry
+from rsrm_gen.compiler.emit import c_matrix
 from rsrm_gen.compiler.emit import c_splats as splats
 from rsrm_gen.compiler.emit.c_language import (
-    PRECISIONS,
     WIDTH,
-    Precision,
     comment,
     restrict,
     series_function,
@@ -24,6 +23,7 @@ from rsrm_gen.compiler.emit.c_language import (
     spelling,
     statements,
 )
+from rsrm_gen.compiler.emit.c_precision import PRECISIONS, Precision
 from rsrm_gen.compiler.emit.expression import Printer
 from rsrm_gen.compiler.emit.promises import promise, public
 from rsrm_gen.compiler.emit.series import Coefficients, tables
@@ -67,6 +67,7 @@ def source(geometry: Geometry, program: Program, heading: list[str]) -> str:
     ]
     for precision in PRECISIONS:
         parts += [series_function(name, coefficients, precision) for coefficients, name in series.items()]
+        parts += c_matrix.support(public(program), precision)
         parts += [_function(program, routine, series, precision) for routine in public(program)]
         parts.append(_frame(geometry, program, precision))
     return "\n\n".join(parts) + "\n"

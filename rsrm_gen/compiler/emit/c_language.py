@@ -3,30 +3,16 @@
 from __future__ import annotations
 
 import textwrap
-from dataclasses import dataclass
 
+from rsrm_gen.compiler.emit import c_matrix
+from rsrm_gen.compiler.emit.c_precision import FLOAT, Precision
 from rsrm_gen.compiler.emit.expression import UNARY, Printer, Spelling
 from rsrm_gen.compiler.emit.series import Coefficients, described, in_double, in_single, spelled
 from rsrm_gen.compiler.lower import Program, Routine
-from rsrm_gen.compiler.lower.ir import FUNCTIONS
+from rsrm_gen.compiler.lower.ir import FUNCTIONS, SEVERAL
 
 WIDTH = 110
 NAMES = {"root": "sqrt", "abs": "fabs", "round": "rint"}  # the others are called in C what they are called here
-
-
-@dataclass(frozen=True)
-class Precision:
-    """One of the two instances of every function."""
-
-    type: str
-    suffix: str  # of C function names and literals
-    tag: str  # of our function names
-    eps: str
-
-
-DOUBLE = Precision("double", "", "", "DBL_EPSILON")
-FLOAT = Precision("float", "f", "_f", "FLT_EPSILON")
-PRECISIONS = (DOUBLE, FLOAT)
 
 
 def comment(lines: list[str]) -> str:
@@ -49,6 +35,8 @@ def spelling(precision: Precision) -> Spelling:
         select="({condition} ? {x} : {y})",
         pick="({condition} ? {x} : {y})",
         polynomial="{coefficients}({x})",
+        entry="{whole}[{index}]",
+        eigenvalue="{whole}[{index}]",
         eps=precision.eps,
         suffix=precision.suffix,
         compare_binds=UNARY,
@@ -84,6 +72,11 @@ def statements(routine: Routine, printer: Printer, precision: Precision) -> list
     """The body of a routine; the printer learns its names."""
     lines = []
     for name, node in routine.body:
+        if node.op in SEVERAL:
+            arguments = [printer.text(a) for a in node.arguments]
+            lines += c_matrix.call(name, node, arguments, precision).splitlines()
+            printer.names[node] = name
+            continue
         condition = node.op in ("less", "less_equal", "equal")
         text = f"const {'int' if condition else precision.type} {name} = {printer.definition(node)[0]};"
         lines.append(

@@ -9,9 +9,8 @@ from __future__ import annotations
 
 import textwrap
 
+from rsrm_gen.compiler.emit import c_matrix
 from rsrm_gen.compiler.emit.c_language import (
-    PRECISIONS,
-    Precision,
     comment,
     restrict,
     series_function,
@@ -19,6 +18,7 @@ from rsrm_gen.compiler.emit.c_language import (
     spelling,
     statements,
 )
+from rsrm_gen.compiler.emit.c_precision import PRECISIONS, Precision
 from rsrm_gen.compiler.emit.expression import Printer
 from rsrm_gen.compiler.emit.series import Coefficients, tables
 from rsrm_gen.compiler.lower import Parameter, Program, Routine
@@ -63,6 +63,7 @@ def source(program: Program, heading: list[str]) -> str:
     parts = [top, f'#include "{program.name}.h"\n\n#include <float.h>\n\n#define LANES {LANES}', FLUSH]
     for precision in PRECISIONS:
         parts += [series_function(name, coefficients, precision) for coefficients, name in series.items()]
+        parts += c_matrix.support(kernels, precision)
         parts += [_forward(program, series, precision), _backward(program, series, precision)]
     return "\n\n".join(parts) + "\n"
 

@@ -23,6 +23,8 @@ class Spelling:
     select: str  # {condition}, {x}, {y}
     pick: str  # the same for two numbers; {like} is a quantity of the precision in use
     polynomial: str  # {x}, {coefficients}
+    entry: str  # {whole}, {index}: one value of a function of a matrix
+    eigenvalue: str  # {whole}, {index}
     eps: str
     suffix: str  # of floating-point literals
     compare_binds: int  # how tightly a comparison binds where a select reads it
@@ -73,6 +75,10 @@ class Printer:
                 return self.spelling.polynomial.format(
                     x=self.text(a[0]), coefficients=self.coefficients[node.value]
                 ), ATOM
+            case "entry":
+                of_eigh = a[0].op == "eigh"
+                template = self.spelling.eigenvalue if of_eigh else self.spelling.entry
+                return template.format(whole=self.names[a[0]], index=node.value), ATOM
         return self.spelling.function[node.op].format(*(self.text(x) for x in a)), ATOM
 
     def operand(self, node: Node) -> str:

@@ -7,6 +7,7 @@ import textwrap
 import sympy as sp
 
 from rsrm_gen.compiler.derive import Geometry
+from rsrm_gen.compiler.emit import torch_matrix
 from rsrm_gen.compiler.emit.expression import SUM, Printer, Spelling
 from rsrm_gen.compiler.emit.promises import promise, public
 from rsrm_gen.compiler.emit.series import Coefficients, described, in_double, in_single, spelled, tables
@@ -21,8 +22,9 @@ from rsrm_gen.compiler.emit.torch_runtime import (
     SPLATS,
     TRANSPORT_NONE,
 )
-from rsrm_gen.compiler.lower import Parameter, Program, Routine
-from rsrm_gen.compiler.spec import ProductSpec
+from rsrm_gen.compiler.lower import Node, Parameter, Program, Routine
+from rsrm_gen.compiler.lower.ir import SEVERAL
+from rsrm_gen.compiler.spec import ManifoldSpec, ProductSpec
 
 WIDTH = 120
 
@@ -36,6 +38,8 @@ SPELLING = Spelling(
     select="torch.where({condition}, {x}, {y})",
     pick="_pick({condition}, {x}, {y}, {like})",
     polynomial="_polynomial({x}, {coefficients})",
+    entry="{whole}[..., {index}]",
+    eigenvalue="{whole}.values[..., {index}]",
     eps="eps",
     suffix="",
     compare_binds=SUM,
@@ -47,14 +51,25 @@ def module(geometry: Geometry, program: Program, heading: list[str]) -> str:
     program = public(program)  # the adjoint of the splat is autograd's here
     series = tables(program)
     fixed = [textwrap.indent(text.strip("\n"), "    ") for text in _fixed(geometry)]
+    matrices = torch_matrix.runtime(program)
+    imports = ["import math", "from collections.abc import Callable, Sequence"]
+    if matrices:
+        imports = ["import itertools", *imports, "from typing import Any, NamedTuple"]
     top = [
         f'"""{_python_text(heading)}\n"""',
-        "from __future__ import annotations\n\nimport math\nfrom collections.abc import Callable, Sequence\n\nimport torch\n"
-        "from torch import Generator, Tensor",
+        "from __future__ import annotations\n\n"
+        + "\n".join(imports)
+        + "\n\nimport torch\nfrom torch import Generator, Tensor",
         *(_table(name, coefficients) for coefficients, name in series.items()),
     ]
     methods = [_class_head(geometry, program), *(_method(geometry, routine, series) for routine in program), *fixed]
-    parts = ["\n\n".join(top), HELPERS.strip("\n"), "\n\n".join(methods), f"manifold = {class_name(program)}()"]
+    parts = [
+        "\n\n".join(top),
+        HELPERS.strip("\n"),
+        *matrices,
+        "\n\n".join(methods),
+        f"manifold = {class_name(program)}()",
+    ]
     return "\n\n\n".join(parts) + "\n"
 
 
@@ -185,9 +200,19 @@ def _body(routine: Routine, series: dict[Coefficients, str]) -> tuple[list[str],
         read = next(str(n.value) for p in routine.parameters for n in p.nodes if str(n.value) in routine.inputs)
         lines.append(f"eps = torch.full_like({read}, torch.finfo({read}.dtype).eps)")
     for name, node in routine.body:
-        lines.append(_assignment(name, printer.definition(node)[0]))
+        text = _matrix_call(printer, node) if node.op in SEVERAL else printer.definition(node)[0]
+        lines.append(_assignment(name, text))
         names[node] = name
     return lines, [printer.text(node) for result in routine.results for node in result.nodes]
+
+
+def _matrix_call(printer: Printer, node: Node) -> str:
+    """The call of a helper for functions of matrices."""
+    if node.op == "eigh":
+        return f"_eigh({', '.join(printer.text(a) for a in node.arguments)})"
+    name = node.function[0]
+    directions = ["(" + "".join(f"{printer.text(e)}, " for e in packed).strip() + ")" for packed in node.directions]
+    return f'_spectral("{name}", {", ".join([printer.text(node.arguments[0]), *directions])})'
 
 
 def _assignment(name: str, text: str) -> str:
@@ -228,6 +253,15 @@ def _listed(head: str, texts: list[str], tail: str) -> str:
     return f"{head}\n{inner}{tail}"
 
 
+def _start(geometry: Geometry) -> str:
+    """Numbers that `project` is sure to take: the first axis, or the unit matrix."""
+    spec = geometry.spec
+    options = "dtype=None if like is None else like.dtype, device=None if like is None else like.device"
+    if isinstance(spec, ManifoldSpec) and len(spec.point_shape) == 2:
+        return f"torch.eye({spec.point_shape[0]}, {spec.point_shape[1]}, {options}).flatten()"
+    return f"torch.eye({spec.point_size}, {options})[0]"
+
+
 def _sample(geometry: Geometry) -> str:
     spec = geometry.spec
     if "sample" in geometry:
@@ -235,5 +269,5 @@ def _sample(geometry: Geometry) -> str:
     if geometry.periods and all(geometry.periods):
         return SAMPLE_BOX
     if geometry.diameter != sp.oo and geometry.diameter == geometry.injectivity_radius:
-        return SAMPLE_WHOLE.format(size=spec.point_size)
+        return SAMPLE_WHOLE.format(size=spec.point_size, start=_start(geometry))
     return SAMPLE_NONE

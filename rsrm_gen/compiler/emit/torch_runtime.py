@@ -106,8 +106,8 @@ def sample_ball(self, center: Tensor, radius: float, count: int, generator: Gene
 SAMPLE_WHOLE = '''
 def sample(self, count: int, generator: Generator | None = None, like: Tensor | None = None) -> Tensor:
     """Points uniform in volume on the whole manifold: (count, {size}), with the dtype and device of `like`."""
-    axis = torch.eye({size}, dtype=None if like is None else like.dtype, device=None if like is None else like.device)[0]
-    return self.sample_ball(self.project(axis), self.diameter, count, generator)
+    start = {start}
+    return self.sample_ball(self.project(start), self.diameter, count, generator)
 '''
 
 SAMPLE_BOX = '''

@@ -2,29 +2,81 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
-from rsrm_gen.compiler.lower.ir import Graph, Node, reachable
+import sympy as sp
+
+from rsrm_gen.compiler.derive.matrix_numeric import places
+from rsrm_gen.compiler.lower.ir import Graph, Node, Packed, reachable
 
 Rule = Callable[[Graph, Node, Node], tuple[Node | None, ...]]  # (graph, node, adjoint) -> adjoints of its arguments
 
 
 def gradient(graph: Graph, output: Node, inputs: Sequence[Node]) -> tuple[Node, ...]:
     """The partial derivatives of a node with respect to some others."""
-    dependent = _dependents(output, inputs)
-    adjoints: dict[Node, Node] = {output: graph.constant(1)}
-    for node in sorted(dependent, key=lambda n: -n.number):
-        if node not in adjoints or node.op not in RULES:
-            continue
-        if node in graph.names:
-            graph.named(f"by_{graph.names[node]}", adjoints[node])
-        contributions = RULES[node.op](graph, node, adjoints[node])
-        for argument, contribution in zip(node.arguments, contributions, strict=True):
-            if contribution is not None and argument in dependent:
-                adjoints[argument] = (
-                    graph.add(adjoints[argument], contribution) if argument in adjoints else contribution
-                )
-    return tuple(adjoints.get(x, graph.constant(0)) for x in inputs)
+    sweep = _Sweep(graph, _dependents(output, inputs))
+    sweep.adjoints[output] = graph.constant(1)
+    for node in sorted(sweep.dependent, key=lambda n: -n.number):
+        sweep.visit(node)
+    return tuple(sweep.adjoints.get(x, graph.constant(0)) for x in inputs)
+
+
+class _Sweep:
+    """The adjoints found so far, of scalars and of matrices.
+
+    The adjoints of all entries of a function of a matrix are gathered before they go on, as one symmetric matrix B: the
+    function's derivative is symmetric in its directions, so that <B, D^(m+1) f(A)[..., dA]> = <D^(m+1) f(A)[..., B], dA>.
+    """
+
+    def __init__(self, graph: Graph, dependent: set[Node]) -> None:
+        self.graph = graph
+        self.dependent = dependent
+        self.adjoints: dict[Node, Node] = {}
+        self.of_entries: dict[Node, dict[int, Node]] = {}  # of a spectral
+        self.of_matrix: dict[Node, list[Node]] = {}  # of the packed entries that an eigh decomposes
+
+    def visit(self, node: Node) -> None:
+        """Pass the adjoint of a node, complete by now, on to its arguments."""
+        if node.op == "spectral" and node in self.of_entries:
+            self.visit_spectral(node, self.of_entries[node])
+        elif node.op == "eigh" and node in self.of_matrix:
+            self.give(node.arguments, self.of_matrix[node])
+        elif node.op == "entry" and node in self.adjoints:
+            assert node.arguments[0].op == "spectral"  # eigenvalues are only compared
+            self.of_entries.setdefault(node.arguments[0], {})[node.index] = self.adjoints[node]
+        elif node in self.adjoints and node.op in RULES:
+            if node in self.graph.names:
+                self.graph.named(f"by_{self.graph.names[node]}", self.adjoints[node])
+            self.give(node.arguments, RULES[node.op](self.graph, node, self.adjoints[node]))
+
+    def give(self, arguments: Sequence[Node], contributions: Sequence[Node | None]) -> None:
+        """Add to the adjoints of some nodes."""
+        for argument, contribution in zip(arguments, contributions, strict=True):
+            if contribution is not None and argument in self.dependent:
+                known = self.adjoints.get(argument)
+                self.adjoints[argument] = contribution if known is None else self.graph.add(known, contribution)
+
+    def visit_spectral(self, node: Node, entries: Mapping[int, Node]) -> None:
+        """From the entries of D^m f(A)[E1, ..., Em] to A and the E."""
+        graph, eigh, directions = self.graph, node.arguments[0], node.directions
+        name = node.function[0]
+        zero, half, two = graph.constant(0), graph.constant(sp.Rational(1, 2)), graph.constant(2)
+        diagonal = [i == j for i, j in places(node.rows)]  # an entry off it stands for two of the matrix
+        adjoint = tuple(
+            entries.get(k, zero) if on else graph.mul(half, entries.get(k, zero)) for k, on in enumerate(diagonal)
+        )
+
+        def by(*others: Packed) -> list[Node]:
+            derivative = graph.spectral(name, eigh, others)
+            return [x if on else graph.mul(two, x) for x, on in zip(derivative, diagonal, strict=True)]
+
+        if eigh in self.dependent:
+            parts = by(*directions, adjoint)
+            known = self.of_matrix.get(eigh)
+            self.of_matrix[eigh] = parts if known is None else list(map(graph.add, known, parts))
+        for k, direction in enumerate(directions):
+            if any(e in self.dependent for e in direction):
+                self.give(direction, by(*directions[:k], *directions[k + 1 :], adjoint))
 
 
 def _dependents(output: Node, inputs: Sequence[Node]) -> set[Node]:

@@ -8,6 +8,7 @@ from typing import Any
 import sympy as sp
 
 from rsrm_gen.compiler.derive.geometry import EPS, Assignment, Choose, ChooseSafe, Function, Polynomial, Wrap
+from rsrm_gen.compiler.derive.matrix_functions import Eigenvalue, MatrixFunction
 from rsrm_gen.compiler.derive.numeric import DIGITS, TINY
 from rsrm_gen.compiler.lower.interpret import values_at
 from rsrm_gen.compiler.lower.ir import CONDITIONS, Graph, Node, reachable
@@ -88,6 +89,11 @@ class Builder:
             return self.wrap(self.node(expression.args[0]), expression.args[1])
         if isinstance(expression, Polynomial):
             return graph.polynomial(self.node(expression.args[0]), expression.args[1:])
+        if isinstance(expression, MatrixFunction):
+            matrix, *directions = (tuple(self.node(e) for e in packed) for packed in expression.matrices)
+            return graph.spectral(expression.name_of_function, graph.eigh(matrix), directions)[expression.index]
+        if isinstance(expression, Eigenvalue):
+            return graph.eigenvalue(tuple(self.node(e) for e in expression.args[2:]), int(expression.args[1]))
         if isinstance(expression, sp.sign):
             x = self.node(expression.args[0])
             return graph.select(graph.node("less", x, graph.constant(0)), graph.constant(-1), graph.constant(1))

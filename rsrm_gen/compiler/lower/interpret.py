@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
 import mpmath as mp
 from mpmath import libmp
 
+from rsrm_gen.compiler.budget import spend
+from rsrm_gen.compiler.derive.matrix_numeric import derivative, eigenvalues
 from rsrm_gen.compiler.derive.tape import Tape, number, raw
-from rsrm_gen.compiler.lower.ir import Node, Routine
+from rsrm_gen.compiler.lower.ir import SEVERAL, Node, Routine
 
 EPS = 2.0**-52
-
-OPERATIONS: dict[str, Callable[..., Any]] = {}  # of mpmath numbers: what is not an operation of tapes already
 
 
 def interpret(routine: Routine, *arguments: Sequence[Any], digits: int = 60) -> list[list[Any]]:
     """The entries of every result for flat arguments; NaN where an operation has no value."""
+    spend()
     tape, inputs, results = _tape_of(routine)
     given = {
         node: raw(x)
@@ -59,6 +60,24 @@ def _written(tape: Tape, nodes: Sequence[Node], slots: dict[Node, int]) -> dict[
         elif node.op == "polynomial":
             coefficients = [tape.constant(c) for c in node.value]  # type: ignore[attr-defined]
             slots[node] = tape.write("polynomial", *arguments, *coefficients)
+        elif node.op in SEVERAL or node.op == "entry":
+            name = f"{node.op} {node.number}"
+            slots[node] = tape.write(
+                name, *arguments, function=lambda *values, node=node: _matrix_operation(node, values)
+            )
         else:
-            slots[node] = tape.write(node.op, *arguments, function=OPERATIONS.get(node.op))
+            slots[node] = tape.write(node.op, *arguments)
     return slots
+
+
+def _matrix_operation(node: Node, arguments: Sequence[Any]) -> Any:
+    """The value of an eigh is its matrix, decomposed only when something is picked from it."""
+    if node.op == "eigh":
+        return tuple(arguments)
+    if node.op == "spectral":
+        matrix, *entries = arguments
+        size = len(matrix)
+        directions = tuple(tuple(entries[k : k + size]) for k in range(0, len(entries), size))
+        return derivative(node.function[0], matrix, directions)
+    values = eigenvalues(arguments[0]) if node.arguments[0].op == "eigh" else arguments[0]
+    return values[node.index]

@@ -10,17 +10,26 @@ of
     polynomial c0 + c1 x + ..., exact coefficients     select     (condition, x, y)
     less, less_equal, equal   conditions, only as the first argument of a select
 
+and, for functions of symmetric matrices, two nodes of several values and one that picks from them:
+
+    eigh       of the entries on and above the diagonal, row by row ("packed"): eigenvalues, ascending, and eigenvectors
+    spectral   (function, order m) of an eigh and the packed entries of m matrices E: D^m f(A)[E1, ..., Em], packed
+    entry      one value: of a spectral, a packed entry; of an eigh, an eigenvalue
+
 What it does not have: loops, arrays, assignments. Those belong to the back ends.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 
 import sympy as sp
 
+from rsrm_gen.compiler.budget import spend
+from rsrm_gen.compiler.derive.matrix_numeric import size_of
 from rsrm_gen.compiler.spec.vocabulary import Shape
 
 FUNCTIONS = (
@@ -43,6 +52,9 @@ FUNCTIONS = (
     "round",
 )
 CONDITIONS = ("less", "less_equal", "equal")
+SEVERAL = ("eigh", "spectral")  # the operations of more than one value
+
+Packed = tuple["Node", ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +63,8 @@ class Node:
 
     op: str
     arguments: tuple[Node, ...] = ()
-    value: object = None  # input: its name; constant: a sympy number; polynomial: its coefficients
+    # input: its name; constant: a sympy number; polynomial: its coefficients; spectral: function and order; entry: which
+    value: object = None
     number: int = field(default=0, compare=False)  # the order of creation: arguments come before their users
 
     @property
@@ -62,6 +75,28 @@ class Node:
     def is_number(self, x: int) -> bool:
         """Whether this is that number."""
         return self.op == "constant" and bool(self.value == x)
+
+    @property
+    def rows(self) -> int:
+        """The rows of the matrix of an eigh or a spectral."""
+        return size_of(len(self.arguments)) if self.op == "eigh" else self.arguments[0].rows
+
+    @property
+    def function(self) -> tuple[str, int]:
+        """Which function of a matrix a spectral is, and its order."""
+        use: tuple[str, int] = self.value  # type: ignore[assignment]
+        return use
+
+    @property
+    def index(self) -> int:
+        """Which value an entry picks."""
+        return int(self.value)  # type: ignore[call-overload,no-any-return]
+
+    @property
+    def directions(self) -> list[Packed]:
+        """The matrices E of a spectral."""
+        size = len(self.arguments[0].arguments)
+        return [self.arguments[k : k + size] for k in range(1, len(self.arguments), size)]
 
 
 class Graph:
@@ -75,6 +110,7 @@ class Graph:
         """The node of an operation, without simplification."""
         key = (op, arguments, value)
         if key not in self.nodes:
+            spend(1)
             self.nodes[key] = Node(op, arguments, value, len(self.nodes))
         return self.nodes[key]
 
@@ -178,6 +214,20 @@ class Graph:
         """x where the condition holds, else y."""
         return x if x is y else self.node("select", condition, x, y)
 
+    def eigh(self, matrix: Packed) -> Node:
+        """The eigenvalues and eigenvectors of a symmetric matrix."""
+        return self.node("eigh", *matrix)
+
+    def eigenvalue(self, matrix: Packed, index: int) -> Node:
+        """One eigenvalue, the smallest first."""
+        return self.node("entry", self.eigh(matrix), value=index)
+
+    def spectral(self, name: str, eigh: Node, directions: Iterable[Packed] = ()) -> Packed:
+        """The entries of D^m f(A)[E1, ..., Em], whose order does not matter."""
+        ordered = sorted(directions, key=lambda e: [node.number for node in e])
+        whole = self.node("spectral", eigh, *(node for e in ordered for node in e), value=(name, len(ordered)))
+        return tuple(self.node("entry", whole, value=i) for i in range(len(eigh.arguments)))
+
     @staticmethod
     def ordered(x: Node, y: Node) -> tuple[Node, Node]:
         """The operands of a commutative operation in one order: constants first, then the older."""
@@ -264,6 +314,12 @@ def reachable(roots: Iterable[Node]) -> list[Node]:
 
 
 def _cost(node: Node) -> int:
-    if node.op in ("input", "constant", "eps"):
+    if node.op in ("input", "constant", "eps", "entry"):
         return 0
+    if node.op == "eigh":
+        return 40 * node.rows**3  # about what the sweeps of Jacobi's method take
+    if node.op == "spectral":  # the directions into the eigenbasis, the sum over all paths, and out again
+        n, m = node.rows, len(node.directions)
+        paths: int = n ** (m + 1)
+        return 4 * (m + 1) * n**3 + 2 * (m + 1) * math.factorial(m) * paths
     return 2 * (len(node.value) - 1) if node.op == "polynomial" else 1  # type: ignore[arg-type]

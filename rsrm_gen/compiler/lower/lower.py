@@ -27,12 +27,13 @@ RESULT_NAMES = {
 
 def lower(geometry: Geometry) -> Program:
     """The program of a manifold: the functions of the `Manifold` protocol, one routine each."""
-    routines = [_routine(function) for function in geometry]
+    routines = [routine_of(function) for function in geometry]
     splat = _Splat(geometry)
     return Program(geometry.spec.identifier, (*routines, splat.routine(), splat.vjp()))
 
 
-def _routine(function: Function) -> Routine:
+def routine_of(function: Function) -> Routine:
+    """One function of a geometry as a routine."""
     graph = Graph()
     parameters = tuple(_parameter(graph, a.name, a.shape, tuple(map(str, a.symbols))) for a in function.arguments)
     nodes = inline(graph, function, *(p.nodes for p in parameters))

@@ -6,8 +6,9 @@ singular or overflow are replaced, not their results.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Container, Iterator, Sequence
 
+from rsrm_gen.compiler.derive.matrix_numeric import places
 from rsrm_gen.compiler.lower.ir import Graph, Node
 
 # By which argument, and what it is replaced by: a value at which the operation and its derivatives are finite.
@@ -39,35 +40,41 @@ def protect(
     and no root vanishes in the rest. Other conditions part anything.
     """
     done: dict[Node, Node] = {}
+    positive = Positivity(condition, when)
 
-    def visit(node: Node) -> Node:
-        if node not in done:
-            done[node] = rebuilt(node)
-        return done[node]
+    def needed(node: Node) -> tuple[Node, ...]:
+        if node.op != "select":
+            return node.arguments
+        if node.arguments[0] is condition:  # where the branch is taken, the condition is known
+            return (node.arguments[2 if when else 1],)
+        return node.arguments[1:]
 
     def rebuilt(node: Node) -> Node:
+        parts = tuple(done[a] for a in needed(node))
         if node.op == "select":
             if node.arguments[0] is condition:
-                return visit(node.arguments[2 if when else 1])  # where the branch is taken, the condition is known
-            arguments = (node.arguments[0], *(visit(a) for a in node.arguments[1:]))
-        else:
-            arguments = tuple(visit(a) for a in node.arguments)
-        if is_endangered(node.op, arguments):
+                return parts[0]
+            parts = (node.arguments[0], *parts)
+        if node.op == "eigh" and singular is None:  # its logarithm or root may not exist: of a unit matrix, it does
+            unit = [graph.constant(int(i == j)) for i, j in places(node.rows)]
+            pairs = list(zip(unit, parts, strict=True))
+            parts = tuple(graph.select(condition, *((e, x) if when else (x, e))) for e, x in pairs)
+        if is_endangered(node.op, parts):
             index, safe = (SINGULAR | OVERFLOWING)[node.op]
-            x, harmless = arguments[index], graph.constant(safe)
+            x, harmless = parts[index], graph.constant(safe)
             x = graph.select(condition, harmless, x) if when else graph.select(condition, x, harmless)
-            arguments = (*arguments[:index], x, *arguments[index + 1 :])
-        return node if arguments == node.arguments else copied(node, arguments)
+            parts = (*parts[:index], x, *parts[index + 1 :])
+        return node if parts == node.arguments else copied(node, parts)
 
     def is_endangered(op: str, arguments: tuple[Node, ...]) -> bool:
         if op in OVERFLOWING:
-            return not guard and not cannot_overflow(op, arguments[0])
+            return not guard and not cannot_overflow(op, arguments[0], positive)
         if op not in SINGULAR:
             return False
         x = arguments[SINGULAR[op][0]]
         if op in ("acos", "acosh", "atanh"):  # singular at +-1
             return singular is None or singular(graph.sub(graph.mul(x, x), graph.constant(1)))
-        return not is_positive(x, condition, when) and (singular is None or singular(x))
+        return not positive.holds(x) and (singular is None or singular(x))
 
     def copied(node: Node, arguments: tuple[Node, ...]) -> Node:
         # A root of what cannot vanish is a plain square root.
@@ -77,48 +84,76 @@ def protect(
             graph.named(graph.names[node], copy)
         return copy
 
-    return visit(root)
+    for node in arguments_first(root, needed, done):
+        done[node] = rebuilt(node)
+    return done[root]
 
 
-def cannot_overflow(op: str, x: Node) -> bool:
+def arguments_first(root: Node, needed: Callable[[Node], Sequence[Node]], done: Container[Node]) -> Iterator[Node]:
+    """The root and all that it needs and that is not done, each after what it needs; as deep as it may be."""
+    waiting = [root]
+    while waiting:
+        node = waiting[-1]
+        missing = next((a for a in needed(node) if a not in done), None) if node not in done else None
+        if missing is not None:
+            waiting.append(missing)
+            continue
+        waiting.pop()
+        if node not in done:
+            yield node
+
+
+def cannot_overflow(op: str, x: Node, signs: Positivity) -> bool:
     """Whether an exponential is bounded by its form: of a number, or e to minus something that is not negative."""
-    return x.is_constant or (op == "exp" and x.op == "neg" and is_nonnegative(x.arguments[0]))
+    return x.is_constant or (op == "exp" and x.op == "neg" and signs.is_not_negative(x.arguments[0]))
 
 
-def is_positive(node: Node, condition: Node | None = None, when: bool = True) -> bool:
-    """Whether a node is above zero whatever its inputs are, as 1 + x x and its root are.
+class Positivity:
+    """What is known of the signs of nodes by their form; with a condition, where the condition is `when`."""
 
-    With a condition: whether it is so where the condition is `when`.
-    """
-    a = node.arguments
+    def __init__(self, condition: Node | None = None, when: bool = True) -> None:
+        self.condition = condition
+        self.when = when
+        self.known: dict[Node, tuple[bool, bool]] = {}  # above zero, never below zero
 
-    def positive(argument: Node) -> bool:
-        return is_positive(argument, condition, when)
+    def holds(self, node: Node) -> bool:
+        """Whether a node is above zero whatever its inputs are, as 1 + x x and its root are."""
+        for part in arguments_first(node, lambda n: n.arguments, self.known):
+            positive = self.is_positive(part)
+            self.known[part] = positive, positive or self.is_nonnegative(part)
+        return self.known[node][0]
 
-    match node.op:
-        case "constant":
-            return bool(node.value > 0)  # type: ignore[operator]
-        case "exp" | "cosh":
-            return True
-        case "add":
-            return all(map(is_nonnegative, a)) and any(map(positive, a))
-        case "sqrt" | "root" | "mul" | "div":
-            return all(map(positive, a))
-        case "select" if a[0] is condition:
-            return positive(a[1] if when else a[2])
-        case "select":
-            return positive(a[1]) and positive(a[2])
-    return False
+    def is_not_negative(self, node: Node) -> bool:
+        """Whether a node is never below zero."""
+        return self.holds(node) or self.known[node][1]
 
+    def is_positive(self, node: Node) -> bool:
+        """The same as `holds`, for a node whose arguments are known."""
+        a = node.arguments
+        positive = [self.known[x][0] for x in a]
+        match node.op:
+            case "constant":
+                return bool(node.value > 0)  # type: ignore[operator]
+            case "exp" | "cosh":
+                return True
+            case "add":
+                return all(self.known[x][1] for x in a) and any(positive)
+            case "sqrt" | "root" | "mul" | "div":
+                return all(positive)
+            case "select" if a[0] is self.condition:
+                return positive[1 if self.when else 2]
+            case "select":
+                return positive[1] and positive[2]
+        return False
 
-def is_nonnegative(node: Node) -> bool:
-    """Whether a node is never below zero, as a square is."""
-    a = node.arguments
-    match node.op:
-        case "abs" | "sqrt" | "root":
-            return True
-        case "mul":
-            return a[0] is a[1] or all(map(is_nonnegative, a))
-        case "add":
-            return all(map(is_nonnegative, a))
-    return is_positive(node)
+    def is_nonnegative(self, node: Node) -> bool:
+        """Whether a node is never below zero, as a square is, for a node whose arguments are known."""
+        a = node.arguments
+        match node.op:
+            case "abs" | "sqrt" | "root":
+                return True
+            case "mul":
+                return a[0] is a[1] or all(self.known[x][1] for x in a)
+            case "add":
+                return all(self.known[x][1] for x in a)
+        return False

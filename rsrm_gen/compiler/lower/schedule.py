@@ -5,7 +5,17 @@ from __future__ import annotations
 import keyword
 from collections import Counter
 
-from rsrm_gen.compiler.lower.ir import CONDITIONS, FUNCTIONS, Graph, Node, Parameter, Result, Routine, reachable
+from rsrm_gen.compiler.lower.ir import (
+    CONDITIONS,
+    FUNCTIONS,
+    SEVERAL,
+    Graph,
+    Node,
+    Parameter,
+    Result,
+    Routine,
+    reachable,
+)
 
 INLINE_DEPTH = 4  # deeper expressions are broken up, for people
 
@@ -17,7 +27,7 @@ RESERVED = {
     "start", "weight", "mode", "rest", "amplitude_k", "x_block", "value_bar_block", "gradient_bar_block",
     "auto", "case", "char", "const", "default", "do", "double", "enum", "extern", "float", "goto", "inline", "int", "long",
     "register", "restrict", "short", "signed", "sizeof", "static", "struct", "switch", "typedef", "union", "unsigned", "void",
-    "volatile",
+    "volatile", *(f"in_{k}" for k in range(9)), "itertools", "Tensor",
 }  # fmt: skip
 
 
@@ -37,8 +47,12 @@ def schedule(
     depth: dict[Node, int] = {}
     body: list[tuple[str, Node]] = []
     for node in nodes:
+        if node.op == "entry" and node not in graph.names:  # reads as well as a name of its own
+            depth[node] = 0
+            continue
         nested = 1 + max((depth[a] for a in node.arguments), default=-1)
-        worth_a_name = bool(node.arguments) and (uses[node] > 1 or node in graph.names or nested > INLINE_DEPTH)
+        chosen = uses[node] > 1 or node in graph.names or nested > INLINE_DEPTH or node.op in SEVERAL
+        worth_a_name = bool(node.arguments) and chosen
         if worth_a_name:
             body.append((names.of(graph, node), node))
         depth[node] = 0 if worth_a_name else nested
@@ -58,6 +72,9 @@ class _Names:
     def describe(self, graph: Graph, node: Node) -> str:
         if node.op in CONDITIONS:
             return "is_small" if node.arguments[1].is_constant else "is_" + node.op
+        if node.op == "spectral":
+            name, order = node.function
+            return f"{name}m" + ("_slope", f"_derivative{order}")[min(order - 1, 1)] * (order > 0)
         inner = next((graph.names[a] for a in node.arguments if a in graph.names), "")
         words = {
             "mul": "product",

@@ -15,18 +15,24 @@ A formula is data: it is parsed by these rules and never handed to Python or sym
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+import unicodedata
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
+from rsrm_gen.compiler.spec.characters import ONE_COMPARISON, advice
 from rsrm_gen.errors import Span, UserError
 
 MAX_CHARACTERS = 4000
 MAX_DEPTH = 40
 MAX_TERMS = 40
+MAX_HEIGHT = 120
+BLANK = " \t\r\n"
+LET = "name its parts with `let`"
 
 TOKEN = re.compile(
-    r"\s*(?:(?P<number>[0-9]+\.?[0-9]*(?:[eE][+-]?[0-9]+)?)|(?P<name>[A-Za-z_][A-Za-z_0-9]*)|(?P<op>\*\*|[<>=]=|[-+*/^()\[\],:<>=]))"
+    r"[ \t\r\n]*(?:(?P<number>[0-9]+\.?[0-9]*(?:[eE][+-]?[0-9]+)?)|(?P<name>[A-Za-z_][A-Za-z_0-9]*)"
+    r"|(?P<op>\*\*|[<>=]=|[-+*/^()\[\],:<>=]))"
 )
 COMPARISONS = ("=", "==", "<", "<=", ">", ">=")
 
@@ -121,7 +127,41 @@ def parse(text: str, span: Span) -> Tree:
     parser = _Parser(_tokens(text, span), span.inner(len(text)))
     tree = parser.formula()
     parser.end()
+    _require_height(tree)
     return tree
+
+
+def children(tree: Tree) -> tuple[Tree, ...]:
+    """The formulas of which a formula is made, from left to right."""
+    match tree:
+        case Call():
+            return tree.arguments
+        case Negate():
+            return (tree.operand,)
+        case Binary() | Compare():
+            return tree.left, tree.right
+        case Stack() | Rows():
+            return tree.items
+        case Index():
+            return tuple(part for part in (tree.base, tree.start, tree.stop) if part is not None)
+    return ()
+
+
+def names(tree: Tree) -> Iterator[str]:
+    """The names in a formula, from left to right."""
+    if isinstance(tree, Name):
+        yield tree.name
+    for child in children(tree):
+        yield from names(child)
+
+
+def _require_height(tree: Tree) -> None:
+    """Refuse what is too deep to be walked: long chains inside long chains, though neither is too long by itself."""
+    level, height = [tree], 1
+    while level:
+        if height > MAX_HEIGHT:
+            raise UserError("a formula with too many operations inside one another", level[0].span, LET)
+        level, height = [child for parent in level for child in children(parent)], height + 1
 
 
 @dataclass(frozen=True)
@@ -133,27 +173,20 @@ class _Token:
 
 def _tokens(text: str, span: Span) -> list[_Token]:
     tokens, at = [], 0
-    while text[at:].strip():
+    while text[at:].strip(BLANK):
         match = TOKEN.match(text, at)
         if match is None:
-            at += len(text[at:]) - len(text[at:].lstrip())
-            raise UserError(
-                f"the character {text[at]!r} has no meaning in a formula", span.inner(at), _advice(text[at])
-            )
+            at += len(text[at:]) - len(text[at:].lstrip(BLANK))
+            raise UserError(_complaint(text[at]), span.inner(at), advice(text[at]))
         kind = str(match.lastgroup)
         tokens.append(_Token(kind, match[kind], span.inner(match.start(kind), len(match[kind]))))
         at = match.end()
     return tokens
 
 
-def _advice(character: str) -> str | None:
-    known = {
-        "{": "vectors are written with square brackets: [a, b]",
-        "|": "write norm(v) for |v|",
-        ".": "start a number with a digit: 0.5",
-    }
-    ascii_only = None if character.isascii() else "formulas are written in plain ASCII letters"
-    return known.get(character, ascii_only)
+def _complaint(character: str) -> str:
+    name = "" if character.isascii() else f" ({unicodedata.name(character, 'without a name').lower()})"
+    return f"the character {character!r}{name} has no meaning in a formula"
 
 
 class _Parser:
@@ -188,7 +221,7 @@ class _Parser:
             token = self.take()
             left, terms = Binary(token.text, left, operand(), token.span), terms + 1
             if terms > MAX_TERMS:
-                raise UserError(f"more than {MAX_TERMS} terms in a row", token.span, "name its parts with `let`")
+                raise UserError(f"more than {MAX_TERMS} terms in a row", token.span, LET)
         return left
 
     def unary(self) -> Tree:
@@ -215,7 +248,7 @@ class _Parser:
         """Count one level of nesting."""
         self.depth += 1
         if self.depth > MAX_DEPTH:
-            raise UserError(f"a formula nested deeper than {MAX_DEPTH} levels", token.span, "name its parts with `let`")
+            raise UserError(f"a formula nested deeper than {MAX_DEPTH} levels", token.span, LET)
         return token
 
     def item(self) -> Tree:
@@ -269,13 +302,21 @@ class _Parser:
     def end(self) -> None:
         if self.position < len(self.tokens):
             token = self.tokens[self.position]
-            hint = "write `*` between two factors" if token.kind != "op" or token.text in "([" else None
-            raise UserError(f"`{token.text}` is not expected here", token.span, hint)
+            raise UserError(f"`{token.text}` is not expected here", token.span, self.advice())
+
+    def advice(self) -> str | None:
+        """What to write instead of the token that is not expected."""
+        token = self.tokens[self.position] if self.position < len(self.tokens) else None
+        if token is None:
+            return "close every bracket that is opened"
+        if token.text in (*COMPARISONS, "and", "or", "not"):
+            return ONE_COMPARISON
+        return "write `*` between two factors" if token.kind != "op" or token.text in "([" else None
 
     def expect(self, text: str) -> None:
         if self.peek() != text:
             found = f"`{self.peek()}`" if self.peek() else "the end of the formula"
-            raise UserError(f"expected `{text}`, found {found}", self.span)
+            raise UserError(f"expected `{text}`, found {found}", self.span, self.advice())
         self.take()
 
     def peek(self) -> str:
@@ -294,4 +335,7 @@ def _exact(token: _Token) -> Fraction:
     exponent = re.search(r"[eE]([+-]?\d+)$", token.text)
     if exponent and abs(int(exponent[1])) > 300:
         raise UserError("a number out of the range of floating point", token.span)
-    return Fraction(token.text)
+    value = Fraction(token.text)
+    if abs(value) >= 2**1024 or 0 < value < Fraction(1, 2**1074):
+        raise UserError("a number out of the range of floating point", token.span)
+    return value

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import hashlib
 import re
+import textwrap
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
+from rsrm_gen.compiler.budget import spend
 from rsrm_gen.compiler.spec import formula as f
 from rsrm_gen.compiler.spec.model import Formula, Map
 from rsrm_gen.compiler.spec.schema import Heading
@@ -66,15 +68,16 @@ class FormulaReader:
 
     def number(self, value: int | float | str, name: str, given: bool = False) -> Fraction:
         """A parameter's value, written in the file or `given` by the user of the file."""
-        text = str(value)
-        exponent = re.search(r"[eE]([+-]?[0-9]+)$", text)
         try:
+            text = str(value)
+            exponent = re.search(r"[eE]([+-]?[0-9]+)$", text)
             if len(text) > 40 or (exponent and abs(int(exponent[1])) > 300):
                 raise ValueError
             return Fraction(text)  # the decimal as it is written, not its binary neighbour
         except (ValueError, ZeroDivisionError):
             span = None if given else self.document.span(("parameters", name))
-            raise UserError(f"parameter `{name}` must be a number, this is {value!r}", span) from None
+            hint = "write an integer, a decimal or a fraction, like 2, 0.5 or 1/3"
+            raise UserError(f"parameter `{name}` must be a number, this is {_shown(value)}", span, hint) from None
 
     def length(self, section: object, path: Path_) -> Map | None:
         """A positive number; None for infinity."""
@@ -122,6 +125,7 @@ class FormulaReader:
             raise UserError(f"`{name}` is defined already", self.document.key_span(path), "choose another name")
 
     def formula(self, text: str, path: Path_, scope: Scope, shape: Shape | None) -> Formula:
+        spend()
         span = self.document.span(path)
         if "\n" in span.source.line(span.line)[span.column - 1 :] or text not in span.source.line(span.line):
             span = span.inner(0)  # a folded or block scalar: point at its start
@@ -140,3 +144,9 @@ class FormulaReader:
         values = ",".join(f"{name}={value}" for name, value in self.parameters.items())
         text = "\0".join([self.document.source.text.replace("\r\n", "\n"), values, *parts])
         return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _shown(value: int | float | str) -> str:
+    """A value as a message quotes it; a number of thousands of digits cannot even be written."""
+    large = isinstance(value, int) and value.bit_length() > 400
+    return "a number of more than 100 digits" if large else textwrap.shorten(repr(value), 60, placeholder="...'")

@@ -5,7 +5,7 @@ The letters are the geometer's: p a base point, q another point, u and v tangent
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TypeAlias
@@ -61,6 +61,11 @@ class Heading:
     content_hash: str
 
     @property
+    def argument_shapes(self) -> Mapping[str, Shape]:
+        """The shapes of p, q, u, v and what else formulas are functions of."""
+        return {}
+
+    @property
     def identifier(self) -> str:
         """The name in file and C names: `sphere`, or `sphere_n5` when a parameter differs from the file's value."""
         values = dict(self.parameters)
@@ -77,6 +82,7 @@ class ManifoldSpec(Heading):
     """
 
     maps: str
+    point_shape: Shape  # (D,), or (n, n) for points that are matrices, stored row by row
     point_size: int
     tangent_size: int
     dim: int
@@ -85,7 +91,7 @@ class ManifoldSpec(Heading):
     domain: Map | None  # a comparison in p
     equivalent: Map | None  # of p, shape (D,): the other name of the same point
     periods: tuple[Map | None, ...] | None  # of nothing; None for an embedded manifold
-    frame: Map | None  # of p, shape (d, D): the vectors that tangent components multiply
+    frame: Map | None  # of p, v, the shape of a point, linear in v: the ambient vector that components mean
     metric: Map  # of p, u, v, a scalar; or of p alone, a (T, T) matrix
     exp: Map  # of p, v, shape (D,)
     log: Map  # of p, q, shape (T,)
@@ -102,6 +108,17 @@ class ManifoldSpec(Heading):
     def embedded(self) -> bool:
         """Whether points are ambient vectors under constraints, not coordinates of a chart."""
         return self.constraint is not None
+
+    @property
+    def tangent_shape(self) -> Shape:
+        """What a tangent vector is in a formula: like a point, or a vector of components in the frame."""
+        return self.point_shape if self.frame is None else (self.tangent_size,)
+
+    @property
+    def argument_shapes(self) -> Mapping[str, Shape]:
+        """Those of points, tangent vectors, and of the random numbers of `sample`."""
+        points, tangents = self.point_shape, self.tangent_shape
+        return {"p": points, "q": points, "u": tangents, "v": tangents, "normal": points, "uniform": points}
 
     @property
     def ambient_tangents(self) -> bool:

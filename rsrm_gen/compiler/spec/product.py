@@ -43,6 +43,8 @@ class ProductReader(FormulaReader):
     def spec(self) -> ProductSpec:
         """The product with all its factors."""
         schema, span = self.schema, self.document.key_span(("product",))
+        if len(schema.product) > MAX_FACTORS:
+            raise UserError(f"a product of {len(schema.product)} factors; at most {MAX_FACTORS} are compiled", span)
         factors = [factor for name in schema.product for factor in self.factors(name)]
         spec = ProductSpec(
             name=schema.manifold,

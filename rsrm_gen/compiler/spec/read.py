@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
+from fractions import Fraction
 from pathlib import Path
 
 from rsrm_gen.compiler.spec import formula as f
@@ -12,7 +14,7 @@ from rsrm_gen.compiler.spec.model import CutLocus, Formula, ManifoldSpec, Map, S
 from rsrm_gen.compiler.spec.product import ProductReader
 from rsrm_gen.compiler.spec.schema import ManifoldFile, ProductFile
 from rsrm_gen.compiler.spec.shapes import describe, integer
-from rsrm_gen.compiler.spec.vocabulary import TRUTH
+from rsrm_gen.compiler.spec.vocabulary import TRUTH, Shape
 from rsrm_gen.document import Document, Path_, read_document, validate
 from rsrm_gen.errors import UserError
 
@@ -57,19 +59,20 @@ class _Reader(FormulaReader):
         space = schema.embedded or schema.chart
         assert space is not None
         self.kind = "embedded" if schema.embedded else "chart"
-        self.point_size = self.space_size(space.space, (self.kind, "space"))
+        self.point_shape = self.space_shape(space.space, (self.kind, "space"))
+        self.point_size = math.prod(self.point_shape)
+        self.sizes = dict.fromkeys(("p", "q", "normal", "uniform"), self.point_shape)
+        self.set_tangents(self.point_shape)  # unless there is a frame
+        self.constraint = self.read_constraint()
         self.frame = self.read_frame()
-        self.tangent_size = len(schema.frame) if schema.frame else self.point_size
-        points, tangents = (self.point_size,), (self.tangent_size,)
-        self.sizes = {"p": points, "q": points, "u": tangents, "v": tangents, "normal": points, "uniform": points}
+        self.tangent_size = math.prod(self.sizes["v"])
 
     def spec(self) -> ManifoldSpec:
         """The whole, in the order in which a reader of the file meets it."""
         schema = self.schema
-        constraint = self.read_constraint()
         embedded = schema.embedded
         chart = schema.chart
-        point, tangent = self.sizes["p"], self.sizes["v"]
+        point, tangent, dim = self.point_shape, self.sizes["v"], self.read_dim()
         exp = self.map(schema.exp, ("exp",), ("p", "v"), point)
         log = self.map(schema.log, ("log",), ("p", "q"), tangent)
         return ManifoldSpec(
@@ -80,10 +83,11 @@ class _Reader(FormulaReader):
             overridden=self.overridden,
             scale=self.length(schema.scale, ("scale",)),
             maps=schema.maps,
+            point_shape=point,
             point_size=self.point_size,
             tangent_size=self.tangent_size,
-            dim=self.read_dim(constraint),
-            constraint=constraint,
+            dim=dim,
+            constraint=self.constraint,
             project=self.map(embedded.project, ("embedded", "project"), ("p",), point) if embedded else None,
             domain=self.optional((embedded or chart).domain, (self.kind, "domain"), ("p",), TRUTH),  # type: ignore[union-attr]
             equivalent=self.optional(embedded.equivalent, ("embedded", "equivalent"), ("p",), point)
@@ -106,24 +110,41 @@ class _Reader(FormulaReader):
             content_hash=self.content_hash(),
         )
 
-    def space_size(self, text: str, path: Path_) -> int:
+    def set_tangents(self, shape: Shape) -> None:
+        """What tangent vectors are in formulas."""
+        self.sizes |= {"u": shape, "v": shape}
+
+    def space_shape(self, text: str, path: Path_) -> Shape:
         span = self.document.span(path)
-        match = re.fullmatch(r"\s*R\s*\^\s*(.+?)\s*", text)
+        match = re.fullmatch(r"\s*R\s*\^\s*(?:\((.+)\sx\s(.+)\)|(.+?))\s*", text)
         if not match:
-            raise UserError(f"`{text}` is not a space", span, "write R^3, R^n or R^(n+1)")
-        size = integer(f.parse(match[1], span.inner(match.start(1))), self.parameters)
-        if not 1 <= size <= 4 * MAX_DIM:
+            raise UserError(f"`{text}` is not a space", span, "write R^3, R^n or R^(n+1); R^(n x n) for matrices")
+        groups = [i for i in (1, 2, 3) if match[i]]
+        shape = tuple(integer(f.parse(match[i], span.inner(match.start(i))), self.parameters) for i in groups)
+        size = math.prod(shape)
+        if not all(1 <= n <= 4 * MAX_DIM for n in (*shape, size)):
             raise UserError(f"a space of {size} dimensions; 1 to {4 * MAX_DIM} are compiled", span)
-        return size
+        if len(shape) == 2 and self.schema.embedded is None:
+            raise UserError("the coordinates of a chart are a vector, not a matrix", span, f"write R^{size}")
+        return shape
 
     def read_constraint(self) -> Map | None:
         if self.schema.embedded is None:
             return None
-        return self.map(self.schema.embedded.constraint, ("embedded", "constraint"), ("p",), None)
+        constraint = self.map(self.schema.embedded.constraint, ("embedded", "constraint"), ("p",), None)
+        if len(constraint.value.shape) > 1:
+            hint = "the independent entries are above(A), or upper(A) with the diagonal"
+            raise UserError("a constraint is a scalar or a vector of them, not a matrix", constraint.value.span, hint)
+        return constraint
 
-    def read_dim(self, constraint: Map | None) -> int:
-        constraints = 0 if constraint is None else (constraint.value.shape or (1,))[0]
-        dim = self.point_size - constraints
+    @property
+    def free(self) -> int:
+        """Entries of a point less constraints: the dimension."""
+        constraints = 0 if self.constraint is None else (self.constraint.value.shape or (1,))[0]
+        return self.point_size - constraints
+
+    def read_dim(self) -> int:
+        dim = self.free
         if not 1 <= dim <= MAX_DIM:
             raise UserError(
                 f"a manifold of {dim} dimensions; 1 to {MAX_DIM} are compiled", self.document.span((self.kind, "space"))
@@ -143,18 +164,14 @@ class _Reader(FormulaReader):
             raise UserError(
                 "a chart needs no frame: its tangent vectors are components already", self.document.key_span(("frame",))
             )
-        formulas = [
-            self.formula(
-                text,
-                ("frame", i),
-                {"p": (self.point_size,), **{name: c.shape for name, c in self.constants}},
-                (self.point_size,),
-            )
-            for i, text in enumerate(rows)
-        ]
-        tree = f.Rows(tuple(row.tree for row in formulas), formulas[0].span)
-        value = Formula("; ".join(rows), tree, (len(rows), self.point_size), formulas[0].span)
-        return Map(("p",), self.constants, value)
+        if not isinstance(rows, list):
+            self.set_tangents((max(self.free, 1),))
+            return self.map(rows, ("frame",), ("p", "v"), self.point_shape)
+        self.set_tangents((len(rows),))
+        scope = {"p": self.point_shape, **{name: c.shape for name, c in self.constants}}
+        formulas = [self.formula(text, ("frame", i), scope, self.point_shape) for i, text in enumerate(rows)]
+        value = Formula("; ".join(rows), _combination(formulas), self.point_shape, formulas[0].span)
+        return Map(("p", "v"), self.constants, value)
 
     def read_periods(self) -> tuple[Map | None, ...] | None:
         if self.schema.chart is None:
@@ -184,7 +201,11 @@ class _Reader(FormulaReader):
                 metric.value.span,
             )
         if metric.value.shape:  # a matrix is a function of the point alone
-            return self.map(self.schema.metric, ("metric",), ("p",), metric.value.shape)
+            try:
+                return self.map(self.schema.metric, ("metric",), ("p",), metric.value.shape)
+            except UserError as error:
+                said = f"a metric that is a matrix is a formula in p alone: {error.message}"
+                raise UserError(said, error.span, "or write <u, v>_p as a scalar, like dot(u, v)") from None
         return metric
 
     def read_cut_locus(self, log: Map) -> CutLocus | None:
@@ -192,6 +213,19 @@ class _Reader(FormulaReader):
         if section is None:
             return None
         where = self.map(section.where, ("cut_locus", "where"), ("p", "q"), TRUTH, log)
-        value = self.optional(section.log, ("cut_locus", "log"), ("p", "q"), (self.tangent_size,), log)
+        value = self.optional(section.log, ("cut_locus", "log"), ("p", "q"), self.sizes["v"], log)
         log_det = self.optional(section.log_det, ("cut_locus", "log_det"), ("p", "q"), (), log)
         return CutLocus(where, value, log_det)
+
+
+def _combination(vectors: list[Formula]) -> f.Tree:
+    """v[0] * e_0 + v[1] * e_1 + ..., the ambient vector of components in a list of vectors."""
+
+    def term(i: int, vector: Formula) -> f.Tree:
+        component = f.Index(f.Name("v", vector.span), f.Number(Fraction(i), vector.span), None, False, vector.span)
+        return f.Binary("*", component, vector.tree, vector.span)
+
+    total = term(0, vectors[0])
+    for i, vector in enumerate(vectors[1:], start=1):
+        total = f.Binary("+", total, term(i, vector), vector.span)
+    return total

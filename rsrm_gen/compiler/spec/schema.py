@@ -2,19 +2,37 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, model_validator
 
 
 def _as_text(value: object) -> object:
     """A bare number is a formula too, and so is a YAML list of formulas: [[1, 0], [0, 1]]."""
-    if isinstance(value, list):
+    if isinstance(value, list) and all(isinstance(item, str | int | float | list) for item in _leaves(value)):
         return "[" + ", ".join(str(_as_text(item)) for item in value) + "]"
     return str(value) if isinstance(value, int | float) and not isinstance(value, bool) else value
 
 
-FormulaText = Annotated[str, BeforeValidator(_as_text), Field(min_length=1)]
+def _leaves(value: object) -> Iterator[object]:
+    """What stands in a list of lists; a truth value counts as none of a formula's parts."""
+    if isinstance(value, list):
+        for item in value:
+            yield from _leaves(item)
+    else:
+        yield None if isinstance(value, bool) else value
+
+
+def _no_truth(value: object) -> object:
+    if isinstance(value, bool):
+        raise ValueError("this is a truth value to YAML; a parameter is a number")
+    return value
+
+
+Number = Annotated[int | float | str, BeforeValidator(_no_truth)]
+FORMULA = {"type": "string", "format": "formula"}  # what `editors.py` knows a formula by
+FormulaText = Annotated[str, BeforeValidator(_as_text), Field(min_length=1), WithJsonSchema(FORMULA)]
 Identifier = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=40)]
 
 
@@ -27,8 +45,8 @@ class Section(BaseModel):
 class LetSection(Section):
     """A formula that names its parts first."""
 
-    let: dict[Identifier, FormulaText] = {}
-    value: FormulaText
+    let: dict[Identifier, FormulaText] = Field({}, description="names for parts; each may use those before it")
+    value: FormulaText = Field(description="the formula, in those names")
 
 
 MapText = FormulaText | LetSection
@@ -37,7 +55,7 @@ MapText = FormulaText | LetSection
 class EmbeddedSection(Section):
     """Points are vectors of R^D under constraints."""
 
-    space: FormulaText = Field(description="R^D, the ambient space")
+    space: FormulaText = Field(description="R^D, the ambient space; R^(n x n) for points that are matrices")
     constraint: MapText = Field(description="a formula in p that vanishes on the manifold, or a vector of them")
     project: MapText = Field(description="a formula in p that maps nearby vectors onto the manifold")
     domain: FormulaText | None = Field(None, description="a comparison in p that chooses a sheet, like p[0] > 0")
@@ -81,7 +99,7 @@ class Heading(Section):
     symbols: dict[Identifier, Annotated[str, Field(min_length=1)]] = Field(
         {}, description="what p, q, v, a parameter or a name of a `let` stands for, with its unit"
     )
-    parameters: dict[Identifier, int | float | str] = Field({}, description="numbers with their default values")
+    parameters: dict[Identifier, Number] = Field({}, description="numbers with their default values")
     scale: FormulaText | None = Field(None, description="a number: all lengths are multiplied by it")
 
 
@@ -91,7 +109,11 @@ class ManifoldFile(Heading):
     let: dict[Identifier, FormulaText] = Field({}, description="constants made of the parameters, for all formulas")
     embedded: EmbeddedSection | None = None
     chart: ChartSection | None = None
-    frame: list[FormulaText] | None = Field(None, description="vectors in p; tangent vectors are components in it")
+    frame: Annotated[list[FormulaText], Field(min_length=1)] | MapText | None = Field(
+        None,
+        union_mode="left_to_right",
+        description="vectors in p; tangent vectors are components in it. Or the ambient vector, a formula in p and v",
+    )
     metric: MapText = Field(description="<u, v>_p, a scalar formula in p, u, v; or a matrix formula in p")
     maps: Literal["geodesic", "retraction"] = Field(
         "geodesic", description="whether exp and log are those of the metric, or a retraction and its inverse"

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from fractions import Fraction
 
 from rsrm_gen.compiler.spec import formula as f
-from rsrm_gen.compiler.spec.vocabulary import TRUTH, WORDS, Shape
+from rsrm_gen.compiler.spec.vocabulary import MAX_MATRIX, TRUTH, WORDS, Shape
 from rsrm_gen.errors import Span, UserError, did_you_mean
 
 MAX_EXPONENT = 64
@@ -73,7 +73,9 @@ def bounds(tree: f.Index, length: int, parameters: Parameters) -> tuple[int, int
         start = integer(tree.start, parameters) if tree.start else 0
         stop = integer(tree.stop, parameters) if tree.stop else length
     if not 0 <= start < stop <= length:
-        raise UserError(f"there is no such entry: the vector has entries 0 to {length - 1}", tree.span)
+        hint = "count from the start, like p[0]" if start < 0 else None
+        hint = "a[i:j] are the entries i to j - 1" if tree.slice else hint
+        raise UserError(f"there is no such entry: the vector has entries 0 to {length - 1}", tree.span, hint)
     return start, stop
 
 
@@ -113,11 +115,13 @@ def _binary(tree: f.Binary, scope: Scope, parameters: Parameters) -> Shape:
     left, right = (shape_of(side, scope, parameters) for side in (tree.left, tree.right))
     shape = _binary_shape(tree.operator, left, right)
     if shape is None:
-        hint = (
-            "a product of vectors is dot(a, b), cross(a, b) or outer(a, b)"
-            if tree.operator == "*" and len(left) == len(right) == 1
-            else None
-        )
+        hint = None
+        if tree.operator == "*" and len(left) == len(right) == 1:
+            hint = "a product of vectors is dot(a, b), cross(a, b) or outer(a, b)"
+        elif tree.operator == "/" and len(right) == 1:
+            hint = "divide by its length norm(a) or by an entry a[0]"
+        elif tree.operator == "^" and len(left) == 1:
+            hint = "the square of its length is dot(a, a)"
         raise UserError(f"`{tree.operator}` of {describe(left)} and {describe(right)}", tree.span, hint)
     if tree.operator == "^":
         _check_exponent(tree, parameters)
@@ -187,9 +191,29 @@ def _call(tree: f.Call, scope: Scope, parameters: Parameters) -> Shape:
         raise UserError(f"unknown function `{tree.function}`", tree.span, did_you_mean(tree.function, WORDS))
     if len(tree.arguments) not in word.arity:
         raise UserError(f"`{tree.function}` is written {word.signature}", tree.span, word.meaning)
+    if tree.function == "eye":
+        return (unit_size(tree, parameters),) * 2
     shapes = [shape_of(argument, scope, parameters) for argument in tree.arguments]
     shape = word.shape(*shapes)
     if shape is None:
         given = ", ".join(describe(s) for s in shapes)
-        raise UserError(f"{word.signature} does not take {given}", tree.span, word.meaning)
+        raise UserError(f"{word.signature} does not take {given}", tree.span, _advice(tree.function, shapes))
     return shape
+
+
+def unit_size(tree: f.Call, parameters: Parameters) -> int:
+    """The rows of eye(n)."""
+    n = integer(tree.arguments[0], parameters)
+    if not 1 <= n <= MAX_MATRIX:
+        raise UserError(f"a unit matrix of {n} rows; 1 to {MAX_MATRIX} are compiled", tree.span)
+    return n
+
+
+def _advice(function: str, shapes: list[Shape]) -> str:
+    """What the function is, or which function of matrices was meant."""
+    matrix = len(shapes) == 1 and len(shapes[0]) == 2
+    if matrix and f"{function}m" in WORDS:
+        return f"the function of a symmetric matrix is {function}m(A)"
+    if matrix and shapes[0][0] == shapes[0][1] and shapes[0][0] > MAX_MATRIX:
+        return f"functions of matrices are compiled for at most {MAX_MATRIX} rows"
+    return WORDS[function].meaning

@@ -6,11 +6,13 @@ in `derive/scalarise.py` for sympy and in `audit/second_reading.py` for CasADi.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
 Shape = tuple[int, ...]
 TRUTH: Shape = (-1,)  # the "shape" of a comparison
+MAX_MATRIX = 8  # rows of a matrix of which functions are taken
 
 CONSTANTS = {
     "pi": "the circle constant",
@@ -37,16 +39,53 @@ def _scalars(*shapes: Shape) -> Shape | None:
     return () if all(s == () for s in shapes) else None
 
 
-def _same_vectors(x: Shape, y: Shape) -> Shape | None:
-    return () if len(x) == 1 and x == y else None
+def _alike(x: Shape, y: Shape) -> Shape | None:
+    return () if _entries(x) and x == y else None
+
+
+def _to_scalar(x: Shape) -> Shape | None:
+    return () if _entries(x) else None
+
+
+def _entries(x: Shape) -> bool:
+    return len(x) in (1, 2) and x != TRUTH
 
 
 def _vector_to_scalar(x: Shape) -> Shape | None:
-    return () if len(x) == 1 else None
+    return () if len(x) == 1 and x != TRUTH else None
 
 
 def _square(x: Shape) -> Shape | None:
     return x if len(x) == 2 and x[0] == x[1] else None
+
+
+def _symmetric(x: Shape) -> Shape | None:
+    return x if _square(x) and x[0] <= MAX_MATRIX else None
+
+
+def _triangle(diagonal: bool) -> Callable[[Shape], Shape | None]:
+    """A square matrix to the vector of its entries above the diagonal, or on and above it."""
+
+    def rule(x: Shape) -> Shape | None:
+        if not _square(x) or (x[0] == 1 and not diagonal):
+            return None
+        return (x[0] * (x[0] + (1 if diagonal else -1)) // 2,)
+
+    return rule
+
+
+def _smat(x: Shape) -> Shape | None:
+    n = (math.isqrt(8 * x[0] + 1) - 1) // 2 if len(x) == 1 and x != TRUTH else 0
+    return (n, n) if n and n * (n + 1) // 2 == x[0] else None
+
+
+def _ad_squared(x: Shape) -> Shape | None:
+    pairs = _triangle(False)(x) if _symmetric(x) else None
+    return pairs and pairs * 2
+
+
+def _fixed(x: Shape, y: Shape) -> Callable[[Shape], Shape | None]:
+    return lambda given: y if given == x else None
 
 
 def _where(condition: Shape, x: Shape, y: Shape) -> Shape | None:
@@ -61,9 +100,13 @@ def _scalar_function(name: str, meaning: str) -> Word:
     return Word(f"{name}(x)", f"{meaning}; of a vector, of each of its entries", (1,), _elementwise)
 
 
+def _matrix_function(name: str, meaning: str) -> Word:
+    return Word(f"{name}(A)", f"{meaning} of a symmetric matrix", (1,), _symmetric)
+
+
 WORDS: dict[str, Word] = {
-    "dot": Word("dot(a, b)", "the sum of the products of entries", (2,), _same_vectors),
-    "norm": Word("norm(a)", "sqrt(dot(a, a))", (1,), _vector_to_scalar),
+    "dot": Word("dot(a, b)", "the sum of the products of entries", (2,), _alike),
+    "norm": Word("norm(a)", "sqrt(dot(a, a))", (1,), _to_scalar),
     "sum": Word("sum(a)", "the sum of the entries", (1,), _vector_to_scalar),
     "max": Word("max(a)", "the largest entry", (1,), _vector_to_scalar),
     "min": Word("min(a)", "the smallest entry", (1,), _vector_to_scalar),
@@ -76,6 +119,38 @@ WORDS: dict[str, Word] = {
     "transpose": Word("transpose(A)", "the transposed matrix", (1,), lambda x: x[::-1] if len(x) == 2 else None),
     "det": Word("det(A)", "the determinant", (1,), lambda x: () if _square(x) else None),
     "inv": Word("inv(A)", "the inverse matrix", (1,), _square),
+    "trace": Word("trace(A)", "the sum of the entries on the diagonal", (1,), lambda x: () if _square(x) else None),
+    "eye": Word("eye(n)", "the n x n unit matrix, n a constant", (1,), lambda x: None),  # its shape is in its value
+    "above": Word("above(A)", "the entries above the diagonal of a square matrix, row by row", (1,), _triangle(False)),
+    "upper": Word("upper(A)", "the entries on and above the diagonal of a square matrix", (1,), _triangle(True)),
+    "svec": Word(
+        "svec(A)",
+        "the entries of upper(A), those off the diagonal times sqrt(2): |svec(A)| = |A|",
+        (1,),
+        _triangle(True),
+    ),
+    "smat": Word("smat(a)", "the symmetric matrix A with svec(A) = a, of n (n + 1) / 2 entries", (1,), _smat),
+    "hat": Word("hat(a)", "the matrix of b -> cross(a, b)", (1,), _fixed((3,), (3, 3))),
+    "vee": Word("vee(A)", "the vector a with hat(a) = A, A skew-symmetric", (1,), _fixed((3, 3), (3,))),
+    "rotation": Word("rotation(q)", "the rotation matrix of a unit quaternion", (1,), _fixed((4,), (3, 3))),
+    "quaternion": Word("quaternion(R)", "a unit quaternion of a rotation matrix", (1,), _fixed((3, 3), (4,))),
+    "expm": _matrix_function("expm", "the exponential"),
+    "logm": _matrix_function("logm", "the logarithm"),
+    "sqrtm": _matrix_function("sqrtm", "the square root"),
+    "invsqrtm": _matrix_function("invsqrtm", "the inverse of the square root"),
+    "log_sinhc_sqrtm": _matrix_function("log_sinhc_sqrtm", "log(sinh(sqrt x) / sqrt x)"),
+    "eigh": Word(
+        "eigh(A)",
+        "the eigenvalues of a symmetric matrix, ascending; only to be compared",
+        (1,),
+        lambda x: x[:1] if _symmetric(x) else None,
+    ),
+    "ad_squared": Word(
+        "ad_squared(A)",
+        "the matrix of X -> [A, [A, X]] on the entries above(X) of skew-symmetric X; A is symmetric",
+        (1,),
+        _ad_squared,
+    ),
     "orthogonal": Word(
         "orthogonal(a)",
         "a unit vector at right angles to the unit vector a",

@@ -1,0 +1,210 @@
+"""Functions of symmetric matrices and their derivatives in high precision.
+
+f(A) = V f(lambda) V^T, and by Daleckii and Krein the m-th derivative in the directions E_1, ..., E_m is
+
+    V (sum over orders of the E and over i, ..., j of f[lambda_i, ..., lambda_j] E_ik ... E_lj) V^T,    E = V^T E V,
+
+with the divided differences f[...], which stay finite where eigenvalues meet. Here they are computed by their definition,
+from eigenvalues that are split by far less than the precision and with the digits that this costs in addition.
+
+A symmetric matrix is a tuple of its entries on and above the diagonal, row by row ("packed").
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import mpmath as mp
+from mpmath.libmp import from_man_exp, to_fixed
+
+GUARD = 140  # bits beyond the working precision: eigenvalues 1e-40 of the largest one keep all their digits
+MAX_SWEEPS = 60
+
+Packed = tuple[Any, ...]
+Square = list[list[int]]  # of fixed-point numbers
+
+
+def _log_sinhc_sqrt(x: Any) -> Any:
+    """log(sinh(sqrt x) / sqrt x), which is x / 6 near 0 and log(sin / .) for x < 0."""
+    if x == 0:
+        return mp.mpf(0)
+    lost = max(0, -2 * mp.mag(x))  # the bits that 1 + x / 6 loses of x
+    with mp.workprec(mp.mp.prec + lost + 20):
+        root = mp.sqrt(abs(x))
+        return mp.log((mp.sinh(root) if x > 0 else mp.sin(root)) / root)
+
+
+FUNCTIONS: dict[str, Callable[[Any], Any]] = {
+    "exp": mp.exp,
+    "log": mp.log,
+    "sqrt": mp.sqrt,
+    "invsqrt": lambda x: 1 / mp.sqrt(x),
+    "log_sinhc_sqrt": _log_sinhc_sqrt,
+}
+NAMES = tuple(FUNCTIONS)
+
+
+def size_of(count: int) -> int:
+    """n, from the number n (n + 1) / 2 of packed entries."""
+    return (math.isqrt(8 * count + 1) - 1) // 2
+
+
+def places(n: int) -> list[tuple[int, int]]:
+    """Row and column of every packed entry."""
+    return [(i, j) for i in range(n) for j in range(i, n)]
+
+
+@dataclass(frozen=True)
+class Eigen:
+    """Eigenvalues, ascending, and orthonormal eigenvectors as the columns of a matrix of fixed-point numbers."""
+
+    values: tuple[Any, ...]
+    vectors: tuple[tuple[int, ...], ...]
+    bits: int
+
+
+def eigenvalues(matrix: Packed) -> tuple[Any, ...]:
+    """The eigenvalues, ascending, in the working precision; NaN for a matrix with entries that are not finite."""
+    eigen = _eigen(matrix, mp.mp.prec)
+    return eigen.values if eigen else (mp.nan,) * size_of(len(matrix))
+
+
+def derivative(name: str, matrix: Packed, directions: tuple[Packed, ...] = ()) -> Packed:
+    """D^m f(A)[E_1, ..., E_m], packed, in the working precision; f(A) itself without directions; NaN where it is not real."""
+    return _derivative(name, matrix, directions, mp.mp.prec)
+
+
+@lru_cache(maxsize=4096)
+def _derivative(name: str, matrix: Packed, directions: tuple[Packed, ...], prec: int) -> Packed:
+    undefined = (mp.nan,) * len(matrix)
+    eigen = _eigen(matrix, prec)
+    if eigen is None or not all(mp.isfinite(x) for direction in directions for x in direction):
+        return undefined
+    try:
+        differences = _divided_differences(name, eigen.values, len(directions), prec)
+    except (ValueError, ZeroDivisionError, TypeError):
+        return undefined
+    return _contracted(eigen, differences, directions, prec)
+
+
+@lru_cache(maxsize=4096)
+def _eigen(matrix: Packed, prec: int) -> Eigen | None:
+    """Cyclic Jacobi in fixed-point numbers, which Python multiplies much faster than mpmath's."""
+    if not all(mp.isfinite(x) for x in matrix):
+        return None
+    n, bits = size_of(len(matrix)), prec + GUARD
+    fixed, exponent = _to_fixed(matrix, bits)
+    a = _unpacked(fixed, n)
+    v = [[(1 << bits) if i == j else 0 for j in range(n)] for i in range(n)]
+    for _ in range(MAX_SWEEPS):
+        pairs = [(p, q) for p in range(n) for q in range(p + 1, n) if abs(a[p][q]) > 2]
+        if not pairs:
+            break
+        for p, q in pairs:
+            _rotate(a, v, p, q, bits)
+    order = sorted(range(n), key=lambda i: a[i][i])
+    values = tuple(_to_float(a[i][i], exponent - bits, prec + GUARD) for i in order)
+    return Eigen(values, tuple(tuple(row[i] for i in order) for row in v), bits)
+
+
+def _rotate(a: Square, v: Square, p: int, q: int, bits: int) -> None:
+    """The rotation in the plane of two axes that makes a[p][q] zero."""
+    gap, twice = a[q][q] - a[p][p], 2 * a[p][q]
+    length = math.isqrt(gap * gap + twice * twice)
+    t = (twice << bits) // (gap + length if gap >= 0 else gap - length)
+    c = (1 << (2 * bits)) // math.isqrt((1 << (2 * bits)) + t * t)
+    s = (t * c) >> bits
+    for row in (*a, *v):
+        row[p], row[q] = (c * row[p] - s * row[q]) >> bits, (s * row[p] + c * row[q]) >> bits
+    a[p], a[q] = (
+        [(c * x - s * y) >> bits for x, y in zip(a[p], a[q], strict=True)],
+        [(s * x + c * y) >> bits for x, y in zip(a[p], a[q], strict=True)],
+    )
+
+
+def _divided_differences(name: str, eigenvalues: Sequence[Any], order: int, prec: int) -> dict[tuple[int, ...], Any]:
+    """f[lambda_i, ..., lambda_j] for all ascending indices i <= ... <= j."""
+    n, count = len(eigenvalues), order + 1
+    largest = max(map(abs, eigenvalues)) or mp.mpf(1)
+    with mp.workprec(prec + GUARD + order * (prec + 60)):
+        step = largest * mp.mpf(2) ** -(prec + 40) if order else mp.mpf(0)
+        # The r-th repetition of the i-th eigenvalue: all different, and in ascending order.
+        points = [[x + (count * i + r) * step for r in range(count)] for i, x in enumerate(eigenvalues)]
+        known: dict[tuple[tuple[int, int], ...], Any] = {}
+
+        def difference(nodes: tuple[tuple[int, int], ...]) -> Any:
+            if nodes not in known:
+                (i, r), (j, k) = nodes[0], nodes[-1]
+                if len(nodes) == 1:
+                    known[nodes] = _real(FUNCTIONS[name](points[i][r]))
+                else:
+                    rise = difference(nodes[1:]) - difference(nodes[:-1])
+                    known[nodes] = rise / (points[j][k] - points[i][r])
+            return known[nodes]
+
+        ascending = itertools.combinations_with_replacement(range(n), count)
+        return {
+            indices: difference(tuple((i, indices[:at].count(i)) for at, i in enumerate(indices)))
+            for indices in ascending
+        }
+
+
+def _contracted(
+    eigen: Eigen, differences: dict[tuple[int, ...], Any], directions: tuple[Packed, ...], prec: int
+) -> Packed:
+    """The sum of the divided differences times the entries of the directions, back out of the eigenbasis."""
+    n, bits = len(eigen.values), eigen.bits
+    fixed, exponent = _to_fixed(tuple(differences.values()), bits)
+    weight = dict(zip(differences, fixed, strict=True))
+    v = [list(row) for row in eigen.vectors]
+    turned = []
+    for direction in directions:
+        entries, size = _to_fixed(direction, bits)
+        exponent += size
+        turned.append(_product(_product(_transposed(v), _unpacked(entries, n), bits), v, bits))
+    total = [[0] * n for _ in range(n)]
+    for ordered in itertools.permutations(turned):
+        for path in itertools.product(range(n), repeat=len(turned) + 1):
+            term = weight[tuple(sorted(path))]
+            for e, (i, j) in zip(ordered, itertools.pairwise(path), strict=True):
+                term = (term * e[i][j]) >> bits
+            total[path[0]][path[-1]] += term
+    result = _product(_product(v, total, bits), _transposed(v), bits)
+    return tuple(_to_float(result[i][j], exponent - bits, prec) for i, j in places(n))
+
+
+def _real(x: Any) -> Any:
+    if isinstance(x, mp.mpc) or not mp.isfinite(x):
+        raise ValueError("not a finite real number")
+    return x
+
+
+def _to_fixed(numbers: Sequence[Any], bits: int) -> tuple[list[int], int]:
+    """Integers k with numbers = k 2^(exponent - bits), the largest of them of about that many bits."""
+    exponent = max((mp.mag(x) for x in numbers if x != 0), default=0)
+    return [to_fixed(mp.mpf(x)._mpf_, bits - exponent) for x in numbers], exponent
+
+
+def _to_float(k: int, exponent: int, prec: int) -> Any:
+    return mp.make_mpf(from_man_exp(k, exponent, prec, "n"))
+
+
+def _unpacked(entries: Sequence[int], n: int) -> Square:
+    square = [[0] * n for _ in range(n)]
+    for (i, j), x in zip(places(n), entries, strict=True):
+        square[i][j] = square[j][i] = x
+    return square
+
+
+def _transposed(a: Square) -> Square:
+    return [list(column) for column in zip(*a, strict=True)]
+
+
+def _product(a: Square, b: Square, bits: int) -> Square:
+    columns = _transposed(b)
+    return [[sum(x * y for x, y in zip(row, column, strict=True)) >> bits for column in columns] for row in a]
