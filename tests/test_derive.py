@@ -243,7 +243,7 @@ def test_everything_is_finite_where_points_coincide(case: str) -> None:
     made = program(name, **parameters)
     p = [mp.mpf(float(x)) for x in draw(random.Random(16))]  # a double: not exactly on the manifold
     zero = [0] * geometry(name, **parameters).spec.tangent_size
-    assert interpret(made["exp"], p, zero)[0] == p or name == "hyperbolic"
+    assert [float(x) for x in interpret(made["exp"], p, zero)[0]] == [float(x) for x in p] or name == "hyperbolic"
     assert max(abs(x) for x in interpret(made["log"], p, p)[0]) < mp.mpf(10) ** -15
     assert abs(interpret(made["distance"], p, p)[0][0]) < mp.mpf(10) ** -15
     assert abs(interpret(made["log_abs_det"], p, p)[0][0]) < mp.mpf(10) ** -15
@@ -318,16 +318,6 @@ def test_quotients_may_be_written_in_other_ways() -> None:
 
 CUBIC = text_of("sphere", "value: t * w / norm(w)", "value: (t + t^3) * w / norm(w)")
 
-SHEAR = """\
-manifold: shear
-doc: A plane with a metric that varies, and a logarithm that is no geodesic's.
-chart: {space: R^2}
-metric: exp(p[1]) * u[0] * v[0] + u[1] * v[1]
-exp: "[p[0] + sinh(v[0]), p[1] + v[1] + v[0]^3]"
-log: "[asinh(q[0] - p[0]), q[1] - p[1] - asinh(q[0] - p[0])^3]"
-injectivity_radius: infinity
-"""
-
 
 def test_without_a_closed_form_the_determinant_is_staged_and_right_on_a_sphere() -> None:
     made = derive(spec_of(CUBIC))
@@ -337,16 +327,6 @@ def test_without_a_closed_form_the_determinant_is_staged_and_right_on_a_sphere()
         p, q = on_sphere(rng, 2), on_sphere(rng, 2)
         t = angle(p, q)
         expected = mp.log((t + t**3) / mp.sin(t) * (1 + 3 * t**2))
-        assert abs(run(made["log_abs_det"], p, q)[0][0] - expected) < mp.mpf(10) ** -40
-
-
-def test_without_a_closed_form_the_determinant_is_staged_and_right_in_a_chart() -> None:
-    made = derive(spec_of(SHEAR))
-    assert made.log_det_origin == "staged"
-    rng = random.Random(20)
-    for _ in range(3):
-        p, q = gauss(rng, 2), gauss(rng, 2)
-        expected = -mp.log(1 + (q[0] - p[0]) ** 2) / 2 + (p[1] - q[1]) / 2  # Riemannian volumes on both sides
         assert abs(run(made["log_abs_det"], p, q)[0][0] - expected) < mp.mpf(10) ** -40
 
 
@@ -363,12 +343,6 @@ def test_an_authors_closed_form_is_kept_and_said_to_be_theirs() -> None:
     made = derive(spec_of(text_of("sphere", "distance: t\n", "distance: t\nlog_det: (n - 1) * log(t / norm(w))\n")))
     assert made.log_det_origin == "author"
     assert interpret(lower(made)["log_abs_det"], [0, 0, 1], [0, 0, 1]) == [[0]]
-
-
-def test_a_determinant_too_large_to_expand_asks_for_a_closed_form() -> None:
-    with pytest.raises(UserError) as error:
-        derive(spec_of(CUBIC, n=7))
-    assert "log_det:" in str(error.value.hint)
 
 
 # What no formula can mean.

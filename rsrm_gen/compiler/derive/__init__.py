@@ -13,7 +13,8 @@ import mpmath as mp
 import sympy as sp
 
 from rsrm_gen.compiler.budget import blamed
-from rsrm_gen.compiler.derive.determinant import StagedJacobian, closed_form, staged_jacobian, staged_log_det
+from rsrm_gen.compiler.derive.closed_form import closed_form
+from rsrm_gen.compiler.derive.determinant import StagedJacobian, staged_jacobian, staged_log_det
 from rsrm_gen.compiler.derive.geometry import (
     Argument,
     Assignment,
@@ -183,7 +184,8 @@ class _Derivation:
         project = self.project if spec.embedded else None
         to_tangent, norm = self.operators.to_tangent(), self.operators.norm()
         exp, free = self.plain_exp[0], is_free(spec)
-        sampler = Sampler(project, self.domain, to_tangent, norm, exp, spec.point_size, reach, free)
+        bounded = spec.injectivity_radius is not None
+        sampler = Sampler(project, self.domain, to_tangent, norm, exp, spec.point_size, reach, free, bounded)
         self.check_positive(sampler)
         return sampler
 
@@ -333,7 +335,11 @@ class _Derivation:
             function = self.with_log_names("log_abs_det", spec.log_det)
             return self.smooth_log_det(function, function.results[0]), "author"
         _, trace = self.plain_log
-        found = closed_form(self.jacobian, trace.scalars, self.operators, self.sampler)
+        named = {name for name, _ in spec.log.lets}
+        scalars = sorted(
+            trace.scalars, key=lambda s: str(s) not in named
+        )  # the author's own names first: people read them
+        found = closed_form(self.jacobian, self.mended_log, scalars, self.operators, self.sampler)
         if found is None:
             return staged_log_det(self.jacobian, self.operators).pruned(), "staged"
         expression = found.log()
@@ -346,11 +352,14 @@ class _Derivation:
         """A closed form that is log(0/0) at coincident points, mended there: it vanishes like the distance squared."""
         point = self.sampler.point(self.rng)
         at_zero = run(function, point, point)[1]
-        if mp.isfinite(value(expression, at_zero)):
+        there = value(expression, at_zero)
+        if expression.is_number or (mp.isfinite(there) and abs(there) > TINY):
             return function.pruned()
         place = {s: at_zero[s] for s in function.symbols()}
         ray = log_ray(function, self.sampler)
         guard = remove(expression, smooth_squares(function, at_zero), ray, self.reach(), place, order=1)
+        if guard is None and mp.isfinite(there):
+            return function.pruned()
         if guard is None:
             raise UserError(
                 "log |det D Log| is not finite where the points coincide, and no smooth quantity mends it",

@@ -1,35 +1,32 @@
 """log |det D Log_p(q)| between tangent spaces, with the Riemannian volumes on both sides.
 
-The determinant is staged: the Jacobian of Log by the chain rule over its assignments, entry by entry, then the determinant
-of a matrix of symbols. Then a closed form is looked for: on many manifolds the determinant is a product of powers of
-quantities that Log has computed already, (t / |w|)^(n-1) on the sphere. Exponents are found from values in 60 digits
-and believed only when they hold to 40 digits at pairs of points that were not used to find them.
+The Jacobian of Log is staged: by the chain rule over its assignments, entry by entry. From its values follow those of the
+determinant in 60 digits (`Volumes`), by which `closed_form.py` knows a closed form. Where none is found, the
+determinant of a matrix of symbols is emitted: block by block of its nonzero pattern, small blocks expanded, larger ones
+orthogonalised. Orthogonalising needs no pivots and is defined wherever the determinant is not zero.
 """
 
 from __future__ import annotations
 
-import itertools
-import random
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from typing import Any
 
 import mpmath as mp
-import numpy as np
 import sympy as sp
+from sympy.utilities.iterables import strongly_connected_components
 
 from rsrm_gen.compiler.budget import spend
 from rsrm_gen.compiler.derive.bounds import Sizes
 from rsrm_gen.compiler.derive.geometry import Assignment, Function
-from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, Values, determinant, run, value
+from rsrm_gen.compiler.derive.numeric import DIGITS, run
 from rsrm_gen.compiler.derive.operators import Operators
-from rsrm_gen.compiler.derive.sampling import Sampler
 from rsrm_gen.errors import UserError
 
-MAX_STAGED = 6  # the determinant of a matrix of symbols has factorially many terms
-MAX_TRIED = 10_000  # choices of one, of two and of three scalars
-PAIRS = 12  # pairs of points at which exponents are found and tried
+EXPANDED = 3  # blocks up to this size are expanded; a determinant has factorially many terms
+MAX_STAGED = 8  # beyond, the derivatives of the splat are more code than a C compiler likes
+
+Matrix = list[list[Any]]
 
 
 @dataclass(frozen=True)
@@ -38,28 +35,6 @@ class StagedJacobian:
 
     function: Function
     entries: tuple[tuple[sp.Expr, ...], ...]
-
-
-@dataclass(frozen=True)
-class ClosedForm:
-    """|det D Log| = constant * product of symbol^exponent."""
-
-    constant: Fraction
-    exponents: tuple[tuple[sp.Symbol, Fraction], ...]
-
-    def log(self) -> sp.Expr:
-        """Its logarithm: one logarithm of a quotient for each size of exponent."""
-        sizes = sorted({abs(k) for _, k in self.exponents})
-        constant = sp.Rational(self.constant.numerator, self.constant.denominator)
-        terms = []
-        for size in sizes:
-            power = sp.Rational(size.numerator, size.denominator)
-            quotient = sp.Mul(*(s ** (1 if k > 0 else -1) for s, k in self.exponents if abs(k) == size))
-            root = constant ** (1 / power)
-            if root.is_Rational:  # log(t / (2 |s|)) is more exact than log(t / |s|) - log(2)
-                quotient, constant = root * quotient, sp.Integer(1)
-            terms.append(power * sp.log(quotient))
-        return sp.Add(*terms) + sp.log(constant)
 
 
 def staged_jacobian(log: Function) -> StagedJacobian:
@@ -93,185 +68,222 @@ def staged_jacobian(log: Function) -> StagedJacobian:
     return StagedJacobian(function, entries)
 
 
-def closed_form(
-    jacobian: StagedJacobian, scalars: Sequence[sp.Symbol], operators: Operators, sampler: Sampler
-) -> ClosedForm | None:
-    """The determinant as a product of powers of at most three of the scalars, if it is one."""
-    rng = random.Random(2)
-    samples = [_sample(jacobian, operators, sampler, rng) for _ in range(PAIRS)]
-    target = [log_det for log_det, _ in samples]
-    if not all(mp.isfinite(x) for x in target):
-        raise UserError("D Log_p(q) is singular: Log does not tell points apart", operators.spec.log.value.span)
-    if all(abs(x) < TINY for x in target):
-        return ClosedForm(Fraction(1), ())
-    logs = {s: _logs(s, [values for _, values in samples]) for s in scalars}
-    usable = [s for s in scalars if logs[s] is not None]
-    for count in (1, 2, 3):
-        for chosen in itertools.islice(itertools.combinations(usable, count), MAX_TRIED):
-            spend()
-            found = _exponents(target, [logs[s] for s in chosen])
-            if found is not None:
-                constant, exponents = found
-                return ClosedForm(constant, tuple(zip(chosen, exponents, strict=True)))
-    return None
-
-
-def _sample(jacobian: StagedJacobian, operators: Operators, sampler: Sampler, rng: random.Random) -> tuple[Any, Values]:
-    p, q = sampler.pair(rng)
-    entries, values = run(jacobian.function, p, q)
-    return log_det_value(operators, p, q, entries), values
-
-
-def log_det_value(operators: Operators, p: Sequence[Any], q: Sequence[Any], jacobian_entries: Sequence[Any]) -> Any:
-    """log |det| from the entries of the Jacobian: volumes of an image basis at p over those of the basis at q.
+class Volumes:
+    """Determinants of D Log in 60 digits: volumes of an image basis at p over those of the basis at q.
 
     For a basis b_j of T_q M: sqrt(det <D Log b_i, D Log b_j>_p / det <b_i, b_j>_q).
     """
-    with mp.workdps(DIGITS):
-        jacobian = mp.matrix(operators.spec.tangent_size, operators.spec.point_size)
-        for k, entry in enumerate(jacobian_entries):
-            jacobian[k // operators.spec.point_size, k % operators.spec.point_size] = entry
-        ambient, stored = tangent_basis(operators, q)
-        image = jacobian * ambient
-        volumes = [_gram(operators, at, basis) for at, basis in ((p, image), (q, stored))]
-        return mp.log(abs(volumes[0] / volumes[1])) / 2 if volumes[1] else mp.nan
+
+    def __init__(self, operators: Operators) -> None:
+        self.spec = operators.spec
+        self.p = operators.p
+        self.metric = self.function("metric", operators.metric)
+        self.frame = self.function("frame", operators.frame)
+        self.normals = self.function("normals", operators.constraint_jacobian)
+
+    def function(self, name: str, matrix: sp.Matrix) -> Function:
+        """A matrix in the symbols of p as a function."""
+        return Function(name, (self.p,), (), tuple(matrix), matrix.shape, "")
+
+    def log_det(self, p: Sequence[Any], q: Sequence[Any], jacobian_entries: Sequence[Any]) -> Any:
+        """log |det| from the entries of the Jacobian; NaN where it is singular."""
+        size = self.spec.point_size
+        jacobian = [list(jacobian_entries[i : i + size]) for i in range(0, len(jacobian_entries), size)]
+        with mp.workdps(DIGITS):
+            ambient, stored = self.bases(q)
+            image = [[mp.fdot(row, b) for row in jacobian] for b in ambient]
+            logs = [self.log_gram(at, basis) for at, basis in ((p, image), (q, stored))]
+            return (logs[0] - logs[1]) / 2
+
+    def bases(self, q: Sequence[Any]) -> tuple[Matrix, Matrix]:
+        """d vectors that span T_q M: as ambient vectors, and as the manifold stores tangent vectors."""
+        unit = [[mp.mpf(int(i == j)) for j in range(self.spec.dim)] for i in range(self.spec.dim)]
+        if self.spec.frame is not None:
+            return _at(self.frame, q), unit
+        if not self.spec.embedded:
+            return unit, unit
+        basis = _null_space(_at(self.normals, q))
+        return basis, basis
+
+    def log_gram(self, at: Sequence[Any], basis: Matrix) -> Any:
+        """log of the determinant of the inner products, by elimination: it is positive, and so is every pivot."""
+        metric = _at(self.metric, at)
+        lowered = [[mp.fdot(row, b) for row in metric] for b in basis]
+        gram = [[mp.fdot(x, b) for b in basis] for x in lowered]
+        total = mp.mpf(0)
+        for k, row in enumerate(gram):
+            if not row[k] > 0:
+                return mp.nan
+            total += mp.log(row[k])
+            for other in gram[k + 1 :]:
+                factor = other[k] / row[k]
+                for j in range(k + 1, len(row)):
+                    other[j] -= factor * row[j]
+        return total
 
 
-def tangent_basis(operators: Operators, q: Sequence[Any]) -> tuple[Any, Any]:
-    """A basis of T_q M as columns: as ambient vectors (D, d), and as the manifold stores tangent vectors (T, d)."""
-    spec = operators.spec
-    if spec.frame is not None:
-        return _at(operators, operators.frame.T, q), mp.eye(spec.dim)
-    if not spec.embedded:
-        return mp.eye(spec.dim), mp.eye(spec.dim)
-    basis = _null_space(_at(operators, operators.constraint_jacobian, q))
-    return basis, basis
+def _at(function: Function, point: Sequence[Any]) -> Matrix:
+    entries = run(function, point)[0]
+    columns = function.shape[1]
+    return [entries[i : i + columns] for i in range(0, len(entries), columns)]
 
 
-def _gram(operators: Operators, at: Sequence[Any], basis: Any) -> Any:
-    return determinant(basis.T * _at(operators, operators.metric, at) * basis)
-
-
-def _at(operators: Operators, matrix: sp.Matrix, point: Sequence[Any]) -> Any:
-    values = dict(zip(operators.p.symbols, point, strict=True))
-    return mp.matrix([[value(matrix[i, j], values) for j in range(matrix.cols)] for i in range(matrix.rows)])
-
-
-def _null_space(rows: Any) -> Any:
-    """Columns that span the null space of a matrix of full rank with few rows, by elimination with column pivots."""
-    with mp.workdps(DIGITS):
-        a = rows.copy()
-        pivots: list[int] = []
-        for i in range(a.rows):
-            pivot = max((j for j in range(a.cols) if j not in pivots), key=lambda j, i=i: abs(a[i, j]))  # type: ignore[misc]
-            pivots.append(pivot)
-            a[i, :] = a[i, :] / a[i, pivot]
-            for k in range(a.rows):
-                if k != i:
-                    a[k, :] = a[k, :] - a[i, :] * a[k, pivot]
-        free = [j for j in range(a.cols) if j not in pivots]
-        basis = mp.matrix(a.cols, len(free))
-        for column, j in enumerate(free):
-            basis[j, column] = 1
-            for i, pivot in enumerate(pivots):
-                basis[pivot, column] = -a[i, j]
-        return basis
-
-
-def _logs(symbol: sp.Symbol, samples: Sequence[Values]) -> list[Any] | None:
-    """log of a symbol at the samples; None when it is constant, or not positive somewhere."""
-    values = [samples_value[symbol] for samples_value in samples]
-    if not all(mp.isfinite(x) and x > TINY for x in values) or all(abs(x - values[0]) < TINY for x in values):
-        return None
-    with mp.workdps(DIGITS):
-        return [mp.log(x) for x in values]
-
-
-def _exponents(target: Sequence[Any], logs: Sequence[Any]) -> tuple[Fraction, list[Fraction]] | None:
-    """Rational exponents and a rational constant with target = log constant + sum of exponent * log, at all samples."""
-    size = len(logs) + 1
-    rough = np.array([[1.0, *(float(x[i]) for x in logs)] for i in range(PAIRS)])
-    _, residual, rank, _ = np.linalg.lstsq(rough, np.array([float(t) for t in target]), rcond=None)
-    if rank < size or residual.size == 0 or residual[0] > 1e-18:
-        return None
-    with mp.workdps(DIGITS):
-        matrix = mp.matrix([[1, *(x[i] for x in logs)] for i in range(size)])
-        solution = mp.lu_solve(matrix, mp.matrix(list(target[:size])))
-        rationals = [_rational(solution[k]) for k in range(1, size)]
-        constant = _rational(mp.exp(solution[0]))
-        if constant is None or any(k is None or k == 0 for k in rationals):
-            return None
-        exponents = [k for k in rationals if k is not None]
-        for i in range(PAIRS):
-            sum_of_logs = mp.fsum(
-                mp.mpf(k.numerator) / k.denominator * x[i] for k, x in zip(exponents, logs, strict=True)
-            )
-            if abs(sum_of_logs + mp.log(mp.mpf(constant.numerator) / constant.denominator) - target[i]) > TINY:
-                return None
-    return constant, exponents
-
-
-def _rational(x: Any) -> Fraction | None:
-    """The simple fraction that x is to 30 digits, or None."""
-    for denominator in (1, 2, 3, 4, 6, 8, 9, 16, 27, 32, 64):
-        nearest = mp.nint(x * denominator)
-        if abs(x * denominator - nearest) < mp.mpf(10) ** -30 and abs(nearest) < 10**6:
-            return Fraction(int(nearest), denominator)
-    return None
+def _null_space(rows: Matrix) -> Matrix:
+    """Vectors that span the null space of a matrix of full rank with few rows, by elimination with column pivots."""
+    a = [list(row) for row in rows]
+    columns = range(len(a[0]))
+    pivots: list[int] = []
+    for i, row in enumerate(a):
+        pivot = max((j for j in columns if j not in pivots), key=lambda j, row=row: abs(row[j]))  # type: ignore[misc]
+        pivots.append(pivot)
+        a[i] = row = [x / row[pivot] for x in row]
+        for k, other in enumerate(a):
+            if k != i:
+                a[k] = [x - other[pivot] * y for x, y in zip(other, row, strict=True)]
+    basis = []
+    for free in (j for j in columns if j not in pivots):
+        vector = [mp.mpf(int(j == free)) for j in columns]
+        for i, pivot in enumerate(pivots):
+            vector[pivot] = -a[i][free]
+        basis.append(vector)
+    return basis
 
 
 def staged_log_det(jacobian: StagedJacobian, operators: Operators) -> Function:
-    """log |det| as a determinant of a matrix of symbols, for manifolds of few dimensions."""
-    spec = operators.spec
-    size = spec.point_size if spec.ambient_tangents else spec.dim
-    if size > MAX_STAGED:
-        raise UserError(
-            f"the determinant of D Log is {size} x {size}; beyond {MAX_STAGED} x {MAX_STAGED} it is not expanded",
-            spec.log.value.span,
-            "give its closed form as `log_det:`; the audit will check it",
-        )
-    assignments = list(jacobian.function.assignments)
-
-    def staged(name: str, matrix: sp.Matrix) -> sp.Matrix:
-        def entry(i: int, j: int) -> sp.Expr:
-            if matrix[i, j].is_number or matrix[i, j].is_Symbol:
-                return matrix[i, j]
-            symbol = sp.Symbol(f"{name}{i}_{j}", real=True)
-            assignments.append(Assignment(symbol, matrix[i, j]))
-            return symbol
-
-        return sp.Matrix(*matrix.shape, entry)
-
-    entries = staged("J", sp.Matrix(jacobian.entries))
-    matrix, volume_ratio = _square_form(entries, operators, jacobian.function)
-    written_out = staged("M", matrix).det(method="berkowitz")
-    result = sp.log(sp.Abs(written_out)) + sp.log(volume_ratio) / 2
-    return Function(
-        "log_abs_det", jacobian.function.arguments, tuple(assignments), (result,), (), "log |det D Log_p(q)|, staged"
-    )
+    """log |det| of a matrix of symbols."""
+    return _Staging(jacobian, operators).function()
 
 
-def _square_form(jacobian: sp.Matrix, operators: Operators, function: Function) -> tuple[sp.Matrix, sp.Expr]:
-    """A square matrix and a factor: |det D Log| = |det matrix| * sqrt(factor).
+class _Staging:
+    """Writes the determinant down as assignments after those of the Jacobian."""
 
-    With frames or in charts, D Log in components. With ambient tangents, the ambient matrix that agrees with D Log
-    on T_q M and takes the normals at q to the normals at p.
+    def __init__(self, jacobian: StagedJacobian, operators: Operators) -> None:
+        self.jacobian = jacobian
+        self.operators = operators
+        self.assignments = list(jacobian.function.assignments)
+        self.taken = {str(a.symbol) for a in self.assignments} | {str(s) for s in jacobian.function.symbols()}
+
+    def function(self) -> Function:
+        """The whole: a sum of logarithms, one a block, and the volumes of the metric and of the normals."""
+        operators, function = self.operators, self.jacobian.function
+        p, q = (argument.symbols for argument in function.arguments)
+        to_q = dict(zip(p, q, strict=True))
+        terms = [self.log_abs_det(self.named("J", self.bordered(to_q)))]
+        terms += [self.log_abs_det(operators.metric) / 2, -self.log_abs_det(operators.metric.xreplace(to_q)) / 2]
+        if operators.spec.ambient_tangents:
+            gram = operators.on_manifold(operators.constraint_jacobian * operators.normals())
+            terms += [-self.log_abs_det(gram) / 2, -self.log_abs_det(gram.xreplace(to_q)) / 2]
+        text = "log |det D Log_p(q)|, staged"
+        return Function("log_abs_det", function.arguments, tuple(self.assignments), (sp.Add(*terms),), (), text)
+
+    def bordered(self, to_q: dict[sp.Symbol, sp.Symbol]) -> sp.Matrix:
+        """A square matrix: D Log in components; with ambient tangents, bordered by the normals.
+
+        [[D Log, N_p], [dc_q, 0]] with N = G^-1 dc^T, whose determinant is that of D Log between the tangent spaces times
+        sqrt(det(dc N)_p det(dc N)_q det G_q / det G_p).
+        """
+        jacobian, operators = sp.Matrix(self.jacobian.entries), self.operators
+        if not operators.spec.ambient_tangents:
+            return jacobian * operators.frame.xreplace(to_q).T
+        normals, constraint = operators.normals(), operators.constraint_jacobian.xreplace(to_q)
+        return sp.Matrix([[jacobian, normals], [constraint, sp.zeros(constraint.rows, normals.cols)]])
+
+    def log_abs_det(self, matrix: sp.Matrix) -> sp.Expr:
+        """log |det matrix|, block by block."""
+        blocks = _blocks(matrix)
+        span = self.operators.spec.log.value.span
+        if blocks is None:
+            raise UserError("D Log_p(q) is singular: Log does not tell points apart", span)
+        largest = max(block.rows for block in blocks)
+        if largest > MAX_STAGED:
+            raise UserError(
+                f"no closed form of the determinant of D Log is found, and it is {largest} x {largest}; "
+                f"beyond {MAX_STAGED} x {MAX_STAGED} it is not eliminated",
+                span,
+                "give its closed form as `log_det:`; the audit will check it",
+            )
+        return sp.Add(*(self.log_of(block) for block in blocks))
+
+    def define(self, hint: str, expression: sp.Expr) -> sp.Expr:
+        """A name for an expression."""
+        if expression.is_number or expression.is_Symbol:
+            return expression
+        name, count = hint, 1
+        while name in self.taken:
+            count += 1
+            name = f"{hint}_{count}"
+        self.taken.add(name)
+        symbol = sp.Symbol(name, real=True)
+        self.assignments.append(Assignment(symbol, expression))
+        return symbol
+
+    def named(self, name: str, matrix: sp.Matrix) -> sp.Matrix:
+        """The matrix with a name for every entry."""
+        return sp.Matrix(*matrix.shape, lambda i, j: self.define(f"{name}{i}_{j}", matrix[i, j]))
+
+    def log_of(self, block: sp.Matrix) -> sp.Expr:
+        """log |det block|: of one expanded, or a sum, for the product of many lengths may leave the range of numbers."""
+        if block.rows > EXPANDED:
+            return sp.Add(*(sp.log(square) for square in self.orthogonalised(block))) / 2
+        determinant = block.det(method="berkowitz")
+        return sp.log(sp.Abs(determinant)) if determinant != 1 else sp.Integer(0)
+
+    def orthogonalised(self, block: sp.Matrix) -> list[sp.Expr]:
+        """The squared lengths of the rows, each made orthogonal to those before it (modified Gram-Schmidt)."""
+        rows = [list(block.row(i)) for i in range(block.rows)]
+        squares = []
+        for i, row in enumerate(rows):
+            square = self.define(f"row{i}_squared", sp.Add(*(x**2 for x in row)))
+            squares.append(square)
+            for k in range(i + 1, len(rows)):
+                part = self.define(
+                    f"row{k}_along_row{i}", sp.Add(*(x * y for x, y in zip(rows[k], row, strict=True))) / square
+                )
+                rows[k] = [
+                    self.define(f"R{k}_{j}", y - part * x) for j, (x, y) in enumerate(zip(row, rows[k], strict=True))
+                ]
+        return squares
+
+
+def _blocks(matrix: sp.Matrix) -> list[sp.Matrix] | None:
+    """The diagonal blocks of the finest block-triangular form: rows are matched with columns, then grouped by need.
+
+    None when no matching exists: then the determinant is zero by its pattern.
     """
-    p, q = (argument.symbols for argument in function.arguments)
-    to_q = dict(zip(p, q, strict=True))
-    metric_p, metric_q = operators.metric, operators.metric.xreplace(to_q)
-    volume_ratio = _determinant(metric_p) / _determinant(metric_q)
-    if not operators.spec.ambient_tangents:
-        return jacobian * operators.frame.xreplace(to_q).T, volume_ratio
-    constraint_q = operators.constraint_jacobian.xreplace(to_q)
-    normals_p = operators.normals()
-    normals_q = normals_p.xreplace(to_q)
-    gram_p, gram_q = operators.constraint_jacobian * normals_p, constraint_q * normals_q
-    lower = gram_q.inv(method="ADJ") * constraint_q
-    matrix = jacobian * (sp.eye(operators.spec.point_size) - normals_q * lower) + normals_p * lower
-    return matrix, volume_ratio * gram_q.det() / gram_p.det()
+    size = range(matrix.rows)
+    columns = [[j for j in size if matrix[i, j] != 0] for i in size]
+    column_of = _matching(columns)
+    if column_of is None:
+        return None
+    row_of = {j: i for i, j in enumerate(column_of)}
+    edges = [(i, row_of[j]) for i in size for j in columns[i]]
+    groups = strongly_connected_components((list(size), edges))
+    return [matrix.extract(sorted(group), sorted(column_of[i] for i in group)) for group in groups]
 
 
-def _determinant(matrix: sp.Matrix) -> sp.Expr:
-    """Of a metric: the product of the diagonal where that is all there is, for it reads and rounds better."""
-    return sp.Mul(*matrix.diagonal()) if matrix.is_diagonal() else matrix.det(method="berkowitz")
+def _matching(columns: Sequence[Sequence[int]]) -> list[int] | None:
+    """A column for every row, each once, by augmenting paths; the diagonal where it can be."""
+    row_of: dict[int, int] = {i: i for i, found in enumerate(columns) if i in found}
+
+    def place(i: int, seen: set[int]) -> bool:
+        for j in columns[i]:
+            if j not in seen:
+                seen.add(j)
+                if j not in row_of or place(row_of[j], seen):
+                    row_of[j] = i
+                    return True
+        return False
+
+    if not all(row_of.get(i) == i or place(i, set()) for i in range(len(columns))):
+        return None
+    column_of = {i: j for j, i in row_of.items()}
+    return [column_of[i] for i in range(len(columns))]
+
+
+def metric_determinant(metric: sp.Matrix) -> sp.Expr | None:
+    """Of a metric whose blocks are small; None of another. A diagonal one's is the product, which reads and rounds best."""
+    if metric.is_diagonal():
+        return sp.Mul(*metric.diagonal())
+    blocks = _blocks(metric)
+    small = blocks is not None and all(block.rows <= EXPANDED for block in blocks)
+    return sp.Mul(*(block.det(method="berkowitz") for block in blocks)) if blocks and small else None

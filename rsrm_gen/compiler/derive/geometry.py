@@ -111,9 +111,12 @@ def argument(name: str, *shape: int) -> Argument:
     return Argument(name, shape, tuple(sp.Symbol(name + "_".join(map(str, index)), real=True) for index in indices))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Function:
-    """A function as staged assignments; `results` are its entries in row-major order, `formula` says it to a reader."""
+    """A function as staged assignments; `results` are its entries in row-major order, `formula` says it to a reader.
+
+    Identity is equality: what is made from a function once is remembered for it.
+    """
 
     name: str
     arguments: tuple[Argument, ...]

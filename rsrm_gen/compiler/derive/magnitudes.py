@@ -1,4 +1,4 @@
-"""Functions in high precision that stay quick at any argument.
+"""Functions of mpmath's raw numbers that stay quick at any argument.
 
 exp(exp(exp(50))) has more digits than a machine has memory, and the sine of a number of a million digits needs all of
 them. Such numbers are beyond every floating-point format: they count as infinite here, and have no sine.
@@ -9,39 +9,31 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-import mpmath as mp
+from mpmath import libmp
 
 EXPONENTIAL_BITS = 64  # exp of 2^64 has an exponent beyond every format
 PERIODIC_BITS = 4096  # the precision that a sine takes to bring its argument into a period
 
-Function = Callable[[Any], Any]
+Raw = Any  # mpmath's (sign, mantissa, exponent, bits)
+Function = Callable[[Raw, int, str], Raw]  # of a number, a precision and a rounding
 
 
-def _bounded(function: Function, bits: int, beyond: Function) -> Function:
-    """The function; where its argument is 2^bits or more, `beyond` of it."""
+def _bounded(function: Function, bits: int, above: Raw, below: Raw) -> Function:
+    """The function; of an argument of 2^bits or more, the value `above`, and `below` of its negative."""
 
-    def bounded(x: Any) -> Any:
-        if isinstance(x, mp.mpc) and max(_bits(x.real), _bits(x.imag)) > bits:
-            return mp.nan
-        return beyond(x) if isinstance(x, mp.mpf) and _bits(x) > bits else function(x)
+    def bounded(x: Raw, precision: int, rounding: str) -> Raw:
+        sign, mantissa, exponent, length = x
+        if mantissa and exponent + length > bits:
+            return below if sign else above
+        return function(x, precision, rounding)
 
     return bounded
 
 
-def _bits(x: Any) -> int:
-    """The number b with 2^(b-1) <= |x| < 2^b; small for zero and for what is not finite."""
-    _, mantissa, exponent, length = x._mpf_
-    return int(exponent + length) if mantissa else 0
-
-
-def _nowhere(x: Any) -> Any:
-    return mp.nan
-
-
-exp = _bounded(mp.exp, EXPONENTIAL_BITS, lambda x: mp.inf if x > 0 else mp.mpf(0))
-sinh = _bounded(mp.sinh, EXPONENTIAL_BITS, lambda x: mp.inf * mp.sign(x))
-cosh = _bounded(mp.cosh, EXPONENTIAL_BITS, lambda x: mp.inf)
-tanh = _bounded(mp.tanh, EXPONENTIAL_BITS, mp.sign)
-sin = _bounded(mp.sin, PERIODIC_BITS, _nowhere)
-cos = _bounded(mp.cos, PERIODIC_BITS, _nowhere)
-tan = _bounded(mp.tan, PERIODIC_BITS, _nowhere)
+exp = _bounded(libmp.mpf_exp, EXPONENTIAL_BITS, libmp.finf, libmp.fzero)
+sinh = _bounded(libmp.mpf_sinh, EXPONENTIAL_BITS, libmp.finf, libmp.fninf)
+cosh = _bounded(libmp.mpf_cosh, EXPONENTIAL_BITS, libmp.finf, libmp.finf)
+tanh = _bounded(libmp.mpf_tanh, EXPONENTIAL_BITS, libmp.fone, libmp.fnone)
+sin = _bounded(libmp.mpf_sin, PERIODIC_BITS, libmp.fnan, libmp.fnan)
+cos = _bounded(libmp.mpf_cos, PERIODIC_BITS, libmp.fnan, libmp.fnan)
+tan = _bounded(libmp.mpf_tan, PERIODIC_BITS, libmp.fnan, libmp.fnan)

@@ -2,94 +2,137 @@
 
 from __future__ import annotations
 
-import operator
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import lru_cache, reduce
+from collections.abc import Iterable, Mapping, Sequence
+from functools import lru_cache
 from typing import Any
 
 import mpmath as mp
 import sympy as sp
+from mpmath import libmp
 
 from rsrm_gen.compiler.budget import spend
-from rsrm_gen.compiler.derive import magnitudes
 from rsrm_gen.compiler.derive.geometry import EPS, Choose, Function, Polynomial, Wrap
 from rsrm_gen.compiler.derive.matrix_functions import Eigenvalue, MatrixFunction
+from rsrm_gen.compiler.derive.tape import Tape, number, raw
 
 DIGITS = 60  # of every value computed here
+PRECISION = libmp.dps_to_prec(DIGITS)
 TINY = mp.mpf(10) ** -40  # what counts as zero among numbers of size 1 with so many digits
+HALF = sp.Rational(1, 2)
 
 Values = dict[sp.Symbol, Any]
-Evaluation = Callable[[Mapping[sp.Symbol, Any]], Any]
 
 ELEMENTARY = {
-    sp.exp: magnitudes.exp, sp.log: mp.log, sp.sin: magnitudes.sin, sp.cos: magnitudes.cos, sp.tan: magnitudes.tan,
-    sp.sinh: magnitudes.sinh, sp.cosh: magnitudes.cosh, sp.tanh: magnitudes.tanh, sp.asinh: mp.asinh, sp.acosh: mp.acosh,
-    sp.acos: mp.acos, sp.atanh: mp.atanh, sp.Abs: abs, sp.atan2: mp.atan2, sp.sign: mp.sign,
+    sp.exp: "exp", sp.log: "log", sp.sin: "sin", sp.cos: "cos", sp.tan: "tan", sp.sinh: "sinh", sp.cosh: "cosh",
+    sp.tanh: "tanh", sp.asinh: "asinh", sp.acosh: "acosh", sp.acos: "acos", sp.atanh: "atanh", sp.Abs: "abs",
+    sp.atan2: "atan2",
 }  # fmt: skip
+CONDITIONS = ("less", "less_equal", "equal")  # by the kind of a `Choose`
 
 
 def value(expression: sp.Expr, values: Mapping[sp.Symbol, Any]) -> Any:
     """The value of an expression; NaN where it is singular."""
-    with mp.workdps(DIGITS):
-        return _value(expression, values)
-
-
-def _value(expression: sp.Expr, values: Mapping[sp.Symbol, Any]) -> Any:
-    try:
-        result = _compiled(expression)(values)
-    except (ZeroDivisionError, ValueError, TypeError, OverflowError):  # TypeError: complex numbers are not ordered
-        return mp.nan
-    return mp.nan if isinstance(result, mp.mpc) else result
-
-
-@lru_cache(maxsize=2**16)
-def _compiled(expression: sp.Expr) -> Evaluation:
-    """The expression as nested functions of the values of its symbols: several times faster than walking the tree."""
-    if expression == EPS:
-        return lambda values: values.get(EPS, mp.mpf(2) ** -52)
     if expression.is_Symbol:
-        return lambda values: values[expression]
-    if not expression.args:
-        number = lru_cache(lambda prec: mp.mpf(expression._to_mpmath(prec + 10)))
-        return lambda values: number(mp.mp.prec)
-    if isinstance(expression, Choose):
-        return _choice(expression)
-    parts = [_compiled(a) for a in expression.args]
-    if isinstance(expression, MatrixFunction):
-        return lambda values: expression.value([part(values) for part in parts[3:]])
-    if isinstance(expression, Eigenvalue):
-        return lambda values: expression.value(tuple(part(values) for part in parts[2:]))
-    if expression.is_Add:
-        return lambda values: sum((part(values) for part in parts[1:]), parts[0](values))
-    if expression.is_Mul:
-        return lambda values: reduce(operator.mul, (part(values) for part in parts))
-    if expression.is_Pow:
-        return _power(parts[0], expression.exp, parts[1])
-    if isinstance(expression, Wrap):
-        return lambda values: _wrapped(parts[0](values), parts[1](values))
-    if isinstance(expression, Polynomial):
-        return lambda values: mp.polyval([part(values) for part in parts[:0:-1]], parts[0](values))
-    function = ELEMENTARY[expression.func]
-    return lambda values: function(*(part(values) for part in parts))
+        return values.get(EPS, mp.mpf(2) ** -52) if expression == EPS else values[expression]
+    tape, symbols, slot = _tape_of_expression(expression)
+    given = [raw(values.get(EPS, mp.mpf(2) ** -52) if s == EPS else values[s]) for s in symbols]
+    return number(tape.run(given, PRECISION)[slot])
 
 
-def _choice(expression: Choose) -> Evaluation:
-    kind = int(expression.args[0])
-    a, b, x, y = (_compiled(part) for part in expression.args[1:])
-    holds = (operator.lt, operator.le, operator.eq)[kind]
-    return lambda values: (x if holds(a(values), b(values)) else y)(values)
+def run(function: Function, *arguments: Sequence[Any], eps: float = 2.0**-52) -> tuple[list[Any], Values]:
+    """The results of a staged function, unguarded, and the values of all its symbols."""
+    spend()
+    tape, symbols, results = tape_of(function)
+    flat = [x for declared, given in zip(function.arguments, arguments, strict=True) for x in _entries(declared, given)]
+    slots = tape.run([raw(eps), *map(raw, flat)], PRECISION)
+    values = {symbol: number(slots[slot]) for symbol, slot in symbols.items()}
+    return [number(slots[slot]) for slot in results], values
 
 
-def _power(base: Evaluation, exponent: sp.Expr, power: Evaluation) -> Evaluation:
-    if exponent.is_Integer:
-        return lambda values: base(values) ** int(exponent)
-    if exponent == sp.Rational(1, 2):
-        return lambda values: mp.sqrt(base(values))
-    return lambda values: mp.power(base(values), power(values))
+def _entries(declared: Any, given: Sequence[Any]) -> Sequence[Any]:
+    if len(given) != len(declared.symbols):
+        raise ValueError(f"`{declared.name}` has {len(declared.symbols)} entries, not {len(given)}")
+    return given
 
 
-def _wrapped(x: Any, period: Any) -> Any:
-    return x - period * mp.nint(x / period)
+@lru_cache(maxsize=4096)
+def _tape_of_expression(expression: sp.Expr) -> tuple[Tape, tuple[sp.Symbol, ...], int]:
+    symbols = tuple(sorted(expression.free_symbols, key=str))
+    tape = Tape(len(symbols))
+    slot = Writer(tape, {s: i for i, s in enumerate(symbols)}).slot(expression)
+    return tape, symbols, slot
+
+
+@lru_cache(maxsize=128)
+def tape_of(function: Function) -> tuple[Tape, dict[sp.Symbol, int], tuple[int, ...]]:
+    """A staged function as a tape, the slots of its symbols, and those of its results; the first input is EPS."""
+    arguments = function.symbols()
+    tape = Tape(1 + len(arguments))
+    writer = Writer(tape, {EPS: 0} | {s: i + 1 for i, s in enumerate(arguments)})
+    for assignment in function.assignments:
+        writer.slots[assignment.symbol] = writer.slot(assignment.expression)
+    results = tuple(writer.slot(result) for result in function.results)
+    symbols = {a.symbol for a in function.assignments} | {EPS, *arguments}
+    return tape, {s: slot for s, slot in writer.slots.items() if s in symbols}, results
+
+
+class Writer:
+    """Writes sympy expressions on a tape; `slots` knows the symbols, and what was written already."""
+
+    def __init__(self, tape: Tape, slots: dict[sp.Expr, int]) -> None:
+        self.tape = tape
+        self.slots = slots
+
+    def slot(self, expression: sp.Expr) -> int:
+        """The slot of an expression."""
+        if expression not in self.slots:
+            self.slots[expression] = self.written(expression)
+        return self.slots[expression]
+
+    def written(self, expression: sp.Expr) -> int:
+        tape = self.tape
+        if not expression.args:
+            return tape.constant(expression)
+        if expression.is_Pow:
+            return self.power(self.slot(expression.base), expression.exp)
+        if isinstance(expression, MatrixFunction | Eigenvalue):
+            return self.of_matrix(expression)
+        if isinstance(expression, Choose):
+            kind, a, b, x, y = expression.args
+            condition = tape.write(CONDITIONS[int(kind)], self.slot(a), self.slot(b))
+            return tape.write("select", condition, self.slot(x), self.slot(y))
+        arguments = [self.slot(a) for a in expression.args]
+        if expression.is_Add or expression.is_Mul:
+            pair = "add" if expression.is_Add else "mul"
+            return tape.write(pair if len(arguments) == 2 else "sum" if expression.is_Add else "product", *arguments)
+        if isinstance(expression, Wrap):
+            x, period = arguments
+            turns = tape.write("round", tape.write("div", x, period))
+            return tape.write("sub", x, tape.write("mul", period, turns))
+        if isinstance(expression, Polynomial):
+            return tape.write("polynomial", *arguments)
+        if isinstance(expression, sp.sign):
+            return tape.write("sign", *arguments, function=mp.sign)
+        return tape.write(ELEMENTARY[expression.func], *arguments)
+
+    def of_matrix(self, expression: Any) -> int:
+        """A quantity of a symmetric matrix, of all of whose entries it is a function."""
+        head = 3 if isinstance(expression, MatrixFunction) else 2
+        entries = [self.slot(e) for e in expression.args[head:]]
+        name = f"{expression.func.__name__}{expression.args[:head]}"
+        return self.tape.write(name, *entries, function=lambda *values: expression.value(values))
+
+    def power(self, base: int, exponent: sp.Expr) -> int:
+        tape = self.tape
+        if exponent == HALF:
+            return tape.write("sqrt", base)
+        if exponent.is_number and exponent.is_negative:
+            return tape.write("div", tape.constant(sp.Integer(1)), self.power(base, -exponent))
+        if exponent == 1:
+            return base
+        if exponent == 2:
+            return tape.write("mul", base, base)
+        return tape.write("power", base, self.slot(exponent))
 
 
 def is_positive_definite(matrix: Any) -> bool:
@@ -116,15 +159,3 @@ def determinant(matrix: Any) -> Any:
         return mp.det(matrix)
     except TypeError:  # mpmath's own stumbles over a column of zeros
         return mp.mpf(0)
-
-
-def run(function: Function, *arguments: Sequence[Any], eps: float = 2.0**-52) -> tuple[list[Any], Values]:
-    """The results of a staged function, unguarded, and the values of all its symbols."""
-    spend()
-    values: Values = {EPS: mp.mpf(eps)}
-    for declared, given in zip(function.arguments, arguments, strict=True):
-        values.update(zip(declared.symbols, given, strict=True))
-    with mp.workdps(DIGITS):
-        for assignment in function.assignments:
-            values[assignment.symbol] = _value(assignment.expression, values)
-        return [_value(result, values) for result in function.results], values

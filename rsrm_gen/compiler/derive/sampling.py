@@ -9,9 +9,10 @@ from typing import Any
 
 import mpmath as mp
 import sympy as sp
+from mpmath import libmp
 
 from rsrm_gen.compiler.derive.geometry import Choose, Function, Geometry
-from rsrm_gen.compiler.derive.numeric import DIGITS, run, value
+from rsrm_gen.compiler.derive.numeric import DIGITS, PRECISION, run, value
 from rsrm_gen.compiler.spec import ManifoldSpec, Spec
 from rsrm_gen.errors import UserError
 
@@ -33,21 +34,17 @@ class Sampler:
     point_size: int
     reach: Any
     free: bool = False  # whether any numbers are a tangent vector, as components in a chart or a frame are
+    bounded: bool = False  # whether there is a finite injectivity radius, twice the reach
 
     def gaussian(self, rng: random.Random, size: int) -> Numbers:
         """`size` numbers, each of three doubles' worth of random digits."""
-        with mp.workdps(DIGITS):
-            return [
-                mp.mpf(rng.gauss(0, 1))
-                + mp.mpf(rng.random()) * mp.mpf(2) ** -50
-                + mp.mpf(rng.random()) * mp.mpf(2) ** -100
-                for _ in range(size)
-            ]
+        return [_long_number(rng) for _ in range(size)]
 
     def point(self, rng: random.Random) -> Numbers:
         """A point of the manifold."""
-        for _ in range(1000):
-            x = self.gaussian(rng, self.point_size)
+        for attempt in range(1000):
+            scale = mp.mpf(2) ** -(attempt // 50)  # a small domain is found by smaller vectors
+            x = [scale * c for c in self.gaussian(rng, self.point_size)]
             p = run(self.project, x)[0] if self.project else x
             if all(mp.isfinite(c) for c in p) and self.inside(p):
                 return p
@@ -82,6 +79,13 @@ class Sampler:
         return p, self.along(p, self.direction(rng, p), r)
 
 
+def _long_number(rng: random.Random) -> Any:
+    """A normal variate, then 100 more random bits."""
+    parts = libmp.from_float(rng.gauss(0, 1)), libmp.from_float(rng.random()), libmp.from_float(rng.random())
+    tail = libmp.mpf_add(libmp.mpf_shift(parts[1], -50), libmp.mpf_shift(parts[2], -100))
+    return mp.make_mpf(libmp.mpf_add(parts[0], tail, PRECISION, "n"))
+
+
 def reach_of(injectivity_radius: sp.Expr, unit: sp.Expr = sp.S.One) -> Any:
     """Half the injectivity radius, or a natural unit of length where there is none."""
     return value(unit, {}) if injectivity_radius == sp.oo else value(injectivity_radius, {}) / 2
@@ -93,7 +97,8 @@ def sampler_of(geometry: Geometry) -> Sampler:
     project = geometry["project"] if spec.embedded else None
     reach = reach_of(geometry.injectivity_radius, geometry.unit)
     functions = geometry["to_tangent"], geometry["norm"], geometry["exp"]
-    return Sampler(project, geometry.domain, *functions, spec.point_size, reach, is_free(spec))
+    bounded = geometry.injectivity_radius != sp.oo
+    return Sampler(project, geometry.domain, *functions, spec.point_size, reach, is_free(spec), bounded)
 
 
 def is_free(spec: Spec) -> bool:

@@ -31,7 +31,7 @@ from rsrm_gen.compiler.derive.matrix_functions import Eigenvalue
 from rsrm_gen.compiler.derive.matrix_words import SYMMETRIC, MatrixWords
 from rsrm_gen.compiler.derive.naming import call_name, symbol_name, tree_name
 from rsrm_gen.compiler.derive.numeric import value
-from rsrm_gen.compiler.derive.series import cardinal_series
+from rsrm_gen.compiler.derive.series import even_series
 from rsrm_gen.compiler.derive.trace import Trace
 from rsrm_gen.compiler.derive.values import Truth, Vector, choose
 from rsrm_gen.compiler.spec import Map, Spec
@@ -377,6 +377,18 @@ class Reading(MatrixWords):
             return Vector(tuple(self.call_sign(e) for e in self.materialise(x)))
         return choose(Truth(LESS, x, sp.Integer(0)), sp.Integer(-1), sp.Integer(1))
 
+    def call_cos(self, x: Value) -> Value:
+        return self.even("cos", sp.cos, x)
+
+    def call_cosh(self, x: Value) -> Value:
+        return self.even("cosh", sp.cosh, x)
+
+    def even(self, name: str, function: Any, x: Value) -> Value:
+        """cos(r) or cosh(r) is smooth in r^2: of a norm that may vanish, whose own derivatives would be lost there."""
+        if isinstance(x, Vector):
+            return Vector(tuple(self.even(name, function, e) for e in self.materialise(x)))
+        return self.guarded(name, function(x), x) if self.trace.vanishes(x) and self.is_root(x) else function(x)
+
     def call_sinc(self, x: Value) -> Value:
         return self.cardinal("sinc", sp.sin, x)
 
@@ -389,10 +401,17 @@ class Reading(MatrixWords):
             return Vector(tuple(self.cardinal(name, function, e) for e in self.materialise(x)))
         if x.is_number:
             return function(x) / x if x != 0 else sp.Integer(1)
-        series = cardinal_series(name)
-        square = self.square(x)
+        return self.guarded(name, function(x) / x, x)
+
+    def guarded(self, name: str, expression: sp.Expr, x: sp.Expr) -> sp.Expr:
+        """An even function of x, near 0 by its polynomial in x^2."""
+        series, square = even_series(name), self.square(x)
         guard = Guard(square, series.threshold, series(square), series.error)
-        return self.trace.define(f"{name}_{symbol_name(x)}", function(x) / x, guard)
+        return self.trace.define(f"{name}_{symbol_name(x)}", expression, guard)
+
+    def is_root(self, x: sp.Expr) -> bool:
+        """Whether x is a norm or a multiple of one: not smooth where it vanishes, though its square is."""
+        return bool(self.square(x) != sp.expand(x**2))
 
     def square(self, x: sp.Expr) -> sp.Expr:
         """x^2 without the root, where x is a norm or a multiple of one."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache
 from typing import Any
 
 import mpmath as mp
@@ -44,6 +44,7 @@ def fit(curve: Curve, reach: Any, order: int) -> Fit | None:
     `reach` is the r to begin with. Interpolates y / x^order in Chebyshev points (in r^2, so nearly in x) with 60 digits,
     by a polynomial of the lowest degree that is exact enough.
     """
+    curve = cache(curve)  # polynomials of several degrees are tried against the same points
     with mp.workdps(DIGITS):
         for _ in range(24):
             found = _fit_to(curve, reach, order, MAX_DEGREE)
@@ -95,10 +96,18 @@ def _interpolate(x: list[Any], y: list[Any]) -> list[Any]:
     return coefficients
 
 
-@lru_cache
-def cardinal_series(name: str) -> Fit:
-    """sinc or sinhc as a polynomial in x^2."""
-    evaluate = {"sinc": mp.sin, "sinhc": mp.sinh}[name]
-    found = fit(lambda r: (r**2, evaluate(r) / r), mp.mpf(1), 0)
-    assert found is not None  # both are entire functions
+EVEN: dict[str, Callable[[Any], Any]] = {
+    "sinc": lambda r: mp.sin(r) / r,
+    "sinhc": lambda r: mp.sinh(r) / r,
+    "cos": mp.cos,
+    "cosh": mp.cosh,
+}
+
+
+@cache
+def even_series(name: str) -> Fit:
+    """An even function of r as a polynomial in r^2."""
+    evaluate = EVEN[name]
+    found = fit(lambda r: (r**2, evaluate(r)), mp.mpf(1), 0)
+    assert found is not None  # all are entire functions
     return found

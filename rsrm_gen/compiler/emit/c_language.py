@@ -5,9 +5,9 @@ from __future__ import annotations
 import textwrap
 
 from rsrm_gen.compiler.emit import c_matrix
-from rsrm_gen.compiler.emit.c_precision import Precision
+from rsrm_gen.compiler.emit.c_precision import FLOAT, Precision
 from rsrm_gen.compiler.emit.expression import UNARY, Printer, Spelling
-from rsrm_gen.compiler.emit.series import Coefficients, spelled
+from rsrm_gen.compiler.emit.series import Coefficients, described, in_double, in_single, spelled
 from rsrm_gen.compiler.lower import Program, Routine
 from rsrm_gen.compiler.lower.ir import FUNCTIONS, SEVERAL
 
@@ -49,8 +49,14 @@ def series_name(table: str, precision: Precision) -> str:
 
 
 def series_function(name: str, coefficients: Coefficients, precision: Precision) -> str:
-    """A polynomial by Horner's rule, as an inline function."""
-    *rest, last = spelled(coefficients, precision.suffix)
+    """A polynomial by Horner's rule, as an inline function, with its degree and what that costs."""
+    numbers, title = in_double(coefficients), described(name, coefficients)
+    if precision is FLOAT:
+        single = in_single(coefficients)
+        if single.degree < len(numbers) - 1:
+            title = f"of degree {single.degree}, within {single.bits} of that of double precision"
+        numbers = single.coefficients
+    *rest, last = spelled(numbers, precision.suffix)
     text = last
     for coefficient in reversed(rest):
         text = f"{coefficient} + x * ({text})" if text != last else f"{coefficient} + x * {text}"
@@ -58,7 +64,8 @@ def series_function(name: str, coefficients: Coefficients, precision: Precision)
         f"return {text};", WIDTH - 4, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False
     )
     t = precision.type
-    return f"static inline {t} {series_name(name, precision)}({t} x) {{\n{textwrap.indent(body, '    ')}\n}}"
+    function = f"static inline {t} {series_name(name, precision)}({t} x)"
+    return f"/* {title[0].upper()}{title[1:]}. */\n{function} {{\n{textwrap.indent(body, '    ')}\n}}"
 
 
 def statements(routine: Routine, printer: Printer, precision: Precision) -> list[str]:

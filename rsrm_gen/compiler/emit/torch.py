@@ -10,7 +10,7 @@ from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.emit import torch_matrix
 from rsrm_gen.compiler.emit.expression import SUM, Printer, Spelling
 from rsrm_gen.compiler.emit.promises import promise, public
-from rsrm_gen.compiler.emit.series import Coefficients, spelled, tables
+from rsrm_gen.compiler.emit.series import Coefficients, described, in_double, in_single, spelled, tables
 from rsrm_gen.compiler.emit.torch_runtime import (
     FRAME,
     HELPERS,
@@ -92,8 +92,14 @@ def class_name(program: Program) -> str:
 
 
 def _table(name: str, coefficients: Coefficients) -> str:
-    rows = textwrap.wrap(", ".join(spelled(coefficients)) + ",", WIDTH - 4)
-    return f"_{name} = (\n" + textwrap.indent("\n".join(rows), "    ") + "\n)"
+    """The coefficients for double precision, then the fewer for single."""
+    numbers, single = in_double(coefficients), in_single(coefficients)
+    note = described(name, coefficients)
+    if single.degree < len(numbers) - 1:
+        note += f"; for float32 of degree {single.degree}, within {single.bits} of that"
+    rows = [textwrap.fill(", ".join(spelled(c)) + ",", WIDTH - 8) for c in (numbers, single.coefficients)]
+    tuples = "".join(f"    (\n{textwrap.indent(row, ' ' * 8)}\n    ),\n" for row in rows)
+    return f"# {note[0].upper()}{note[1:]}.\n_{name} = (\n{tuples})"
 
 
 def _class_head(geometry: Geometry, program: Program) -> str:

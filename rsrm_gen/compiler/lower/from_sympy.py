@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-import mpmath as mp
 import sympy as sp
 
 from rsrm_gen.compiler.derive.geometry import EPS, Assignment, Choose, ChooseSafe, Function, Polynomial, Wrap
 from rsrm_gen.compiler.derive.matrix_functions import Eigenvalue, MatrixFunction
 from rsrm_gen.compiler.derive.numeric import DIGITS, TINY
-from rsrm_gen.compiler.lower.interpret import operate
+from rsrm_gen.compiler.lower.interpret import values_at
 from rsrm_gen.compiler.lower.ir import CONDITIONS, Graph, Node, reachable
 from rsrm_gen.compiler.lower.protect import protect
 
@@ -56,14 +55,10 @@ def _guarded(builder: Builder, assignment: Assignment, far: Node, given: Mapping
 
 def _vanishing_at(place: Mapping[Node, Any]) -> Callable[[Node], bool]:
     """Whether a node is zero (or has no value) where its inputs have some given values."""
-    values: dict[Node, Any] = dict(place)
 
     def vanishes(node: Node) -> bool:
-        with mp.workdps(DIGITS):
-            for needed in reachable([node]):
-                if needed not in values:
-                    values[needed] = operate(needed, [values.get(a, mp.nan) for a in needed.arguments])
-            return not abs(values[node]) > TINY
+        (x,) = values_at(reachable([node]), place, DIGITS)[-1:]
+        return not abs(x) > TINY
 
     return vanishes
 
@@ -150,8 +145,8 @@ class Builder:
         if isinstance(expression, ChooseSafe):
             self.graph.named("on_cut_locus", condition)
             return self.graph.select(condition, self.node(x), self.node(y))
-        taken = protect(self.graph, self.node(x), condition, False)
-        return self.graph.select(condition, taken, protect(self.graph, self.node(y), condition, True))
+        taken = protect(self.graph, self.node(x), condition, False, guard=False)
+        return self.graph.select(condition, taken, protect(self.graph, self.node(y), condition, True, guard=False))
 
     def wrap(self, x: Node, period: sp.Expr) -> Node:
         """x - k L with L split into parts of few digits, so that k times the leading parts is exact."""

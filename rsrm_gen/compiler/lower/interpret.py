@@ -2,67 +2,75 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from typing import Any
 
 import mpmath as mp
+from mpmath import libmp
 
 from rsrm_gen.compiler.budget import spend
-from rsrm_gen.compiler.derive import magnitudes
 from rsrm_gen.compiler.derive.matrix_numeric import derivative, eigenvalues
+from rsrm_gen.compiler.derive.tape import Tape, number, raw
 from rsrm_gen.compiler.lower.ir import SEVERAL, Node, Routine
 
 EPS = 2.0**-52
-
-OPERATIONS: dict[str, Callable[..., Any]] = {
-    "neg": lambda x: -x,
-    "add": lambda x, y: x + y,
-    "sub": lambda x, y: x - y,
-    "mul": lambda x, y: x * y,
-    "div": lambda x, y: x / y,
-    "sqrt": mp.sqrt, "root": mp.sqrt, "exp": magnitudes.exp, "log": mp.log, "sin": magnitudes.sin,
-    "cos": magnitudes.cos, "tan": magnitudes.tan, "sinh": magnitudes.sinh, "cosh": magnitudes.cosh,
-    "tanh": magnitudes.tanh, "asinh": mp.asinh, "acosh": mp.acosh, "acos": mp.acos, "atanh": mp.atanh, "atan2": mp.atan2,
-    "abs": abs, "round": mp.nint,
-    "less": lambda x, y: x < y,
-    "less_equal": lambda x, y: x <= y,
-    "equal": lambda x, y: x == y,
-    "select": lambda condition, x, y: x if condition else y,
-}  # fmt: skip
 
 
 def interpret(routine: Routine, *arguments: Sequence[Any], digits: int = 60) -> list[list[Any]]:
     """The entries of every result for flat arguments; NaN where an operation has no value."""
     spend()
-    with mp.workdps(digits):
-        values: dict[Node, Any] = {}
-        for parameter, given in zip(routine.parameters, arguments, strict=True):
-            values.update(zip(parameter.nodes, map(mp.mpf, given), strict=True))
-        for node in routine.nodes:
-            if node not in values:
-                values[node] = operate(node, [values[a] for a in node.arguments])
-        return [[values[n] for n in result.nodes] for result in routine.results]
+    tape, inputs, results = _tape_of(routine)
+    given = {
+        node: raw(x)
+        for parameter, entries in zip(routine.parameters, arguments, strict=True)
+        for node, x in zip(parameter.nodes, entries, strict=True)
+    }
+    slots = tape.run([given[node] for node in inputs], libmp.dps_to_prec(digits))
+    return [[number(slots[slot]) for slot in result] for result in results]
 
 
-def operate(node: Node, arguments: list[Any]) -> Any:
-    """The value of one operation in the working precision."""
-    if node.op == "constant":
-        return mp.mpf(node.value._to_mpmath(mp.mp.prec + 10))  # type: ignore[attr-defined]
-    if node.op == "eps":
-        return mp.mpf(EPS)
-    if node.op == "polynomial":
-        coefficients = [mp.mpf(str(c)) for c in node.value]  # type: ignore[attr-defined]
-        return mp.polyval(coefficients[::-1], arguments[0])
-    if node.op in SEVERAL or node.op == "entry":
-        return _matrix_operation(node, arguments)
-    try:
-        result = OPERATIONS[node.op](*arguments)
-    except (ZeroDivisionError, ValueError, TypeError, OverflowError):
-        return mp.nan
-    return mp.nan if isinstance(result, mp.mpc) else result
+def values_at(nodes: Sequence[Node], place: Mapping[Node, Any], digits: int = 60) -> list[Any]:
+    """The values of some nodes where the inputs have given ones; NaN where they have none."""
+    inputs = tuple(place)
+    tape = Tape(len(inputs))
+    slots = _written(tape, nodes, {node: i for i, node in enumerate(inputs)})
+    values = tape.run([raw(place[node]) for node in inputs], libmp.dps_to_prec(digits))
+    return [number(values[slots[node]]) for node in nodes]
 
 
-def _matrix_operation(node: Node, arguments: list[Any]) -> Any:
+@lru_cache(maxsize=64)
+def _tape_of(routine: Routine) -> tuple[Tape, tuple[Node, ...], list[list[int]]]:
+    inputs = tuple(node for parameter in routine.parameters for node in parameter.nodes)
+    tape = Tape(len(inputs))
+    slots = _written(tape, routine.nodes, {node: i for i, node in enumerate(inputs)})
+    return tape, inputs, [[slots[node] for node in result.nodes] for result in routine.results]
+
+
+def _written(tape: Tape, nodes: Sequence[Node], slots: dict[Node, int]) -> dict[Node, int]:
+    """The slots of some nodes, arguments before users; an input that is not given is NaN."""
+    for node in nodes:
+        if node in slots:
+            continue
+        arguments = [slots[a] for a in node.arguments]
+        if node.op == "constant":
+            slots[node] = tape.constant(node.value)
+        elif node.op in ("eps", "input"):
+            slots[node] = tape.constant(mp.mpf(EPS) if node.op == "eps" else mp.nan)
+        elif node.op == "polynomial":
+            coefficients = [tape.constant(c) for c in node.value]  # type: ignore[attr-defined]
+            slots[node] = tape.write("polynomial", *arguments, *coefficients)
+        elif node.op in SEVERAL or node.op == "entry":
+            name = f"{node.op} {node.number}"
+            slots[node] = tape.write(
+                name, *arguments, function=lambda *values, node=node: _matrix_operation(node, values)
+            )
+        else:
+            slots[node] = tape.write(node.op, *arguments)
+    return slots
+
+
+def _matrix_operation(node: Node, arguments: Sequence[Any]) -> Any:
     """The value of an eigh is its matrix, decomposed only when something is picked from it."""
     if node.op == "eigh":
         return tuple(arguments)

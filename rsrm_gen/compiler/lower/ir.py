@@ -253,11 +253,11 @@ class Result:
     nodes: tuple[Node, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Routine:
     """A function as a schedule: nodes worth a name, in the order in which they are computed, and the results.
 
-    Every node that is not in `body` is written inside the expression of the one that uses it.
+    Every node that is not in `body` is written inside the expression of the one that uses it. Identity is equality.
     """
 
     name: str
@@ -271,12 +271,12 @@ class Routine:
         """All nodes that the results need, arguments before users."""
         return reachable(n for result in self.results for n in result.nodes)
 
-    @property
+    @cached_property
     def operations(self) -> int:
         """How many arithmetic operations one call takes: every node but inputs and numbers; a polynomial counts its steps."""
         return sum(_cost(node) for node in self.nodes)
 
-    @property
+    @cached_property
     def inputs(self) -> set[str]:
         """The names of the scalars that are read."""
         return {str(node.value) for node in self.nodes if node.op == "input"}

@@ -1,7 +1,7 @@
-"""Safe branches: what a branch divides by, or takes a root or logarithm of, is 1 while the branch is not taken.
+"""Safe branches: what a branch divides by, or takes a root, logarithm or exponential of, is harmless while it is not taken.
 
-A select computes both of its branches, and in a derivative 0 * inf is NaN. So the *inputs* of singular operations are
-replaced, not their results.
+A select computes both of its branches, and in a derivative 0 * inf is NaN. So the *inputs* of operations that may be
+singular or overflow are replaced, not their results.
 """
 
 from __future__ import annotations
@@ -11,17 +11,33 @@ from collections.abc import Callable, Container, Iterator, Sequence
 from rsrm_gen.compiler.derive.matrix_numeric import places
 from rsrm_gen.compiler.lower.ir import Graph, Node
 
-ENDANGERED = {"div": 1, "sqrt": 0, "root": 0, "log": 0, "polynomial": 0, "atanh": 0, "acosh": 0}  # by which argument
-SAFE = {"polynomial": 0, "atanh": 0}  # what it is replaced by; 1 elsewhere
+# By which argument, and what it is replaced by: a value at which the operation and its derivatives are finite.
+SINGULAR = {
+    "div": (1, 1),
+    "sqrt": (0, 1),
+    "root": (0, 1),
+    "log": (0, 1),
+    "polynomial": (0, 0),
+    "atanh": (0, 0),
+    "acosh": (0, 2),
+    "acos": (0, 0),
+}
+OVERFLOWING = {"exp": (0, 0), "cosh": (0, 0), "sinh": (0, 0)}
 
 
 def protect(
-    graph: Graph, root: Node, condition: Node, when: bool, singular: Callable[[Node], bool] | None = None
+    graph: Graph,
+    root: Node,
+    condition: Node,
+    when: bool,
+    singular: Callable[[Node], bool] | None = None,
+    guard: bool = True,
 ) -> Node:
     """The same branch, harmless where `condition` is `when`: where it is not taken.
 
     `singular` says of a node whether it vanishes somewhere there; without it, every input in danger is replaced that is
-    not positive by its form.
+    not harmless by its form. A `guard` parts what is close to a singular place from the rest: nothing overflows close by,
+    and no root vanishes in the rest. Other conditions part anything.
     """
     done: dict[Node, Node] = {}
     positive = Positivity(condition, when)
@@ -43,18 +59,27 @@ def protect(
             unit = [graph.constant(int(i == j)) for i, j in places(node.rows)]
             pairs = list(zip(unit, parts, strict=True))
             parts = tuple(graph.select(condition, *((e, x) if when else (x, e))) for e, x in pairs)
-        if node.op in ENDANGERED:
-            x = parts[ENDANGERED[node.op]]
-            if not positive.holds(x) and (singular is None or singular(x)):
-                safe = graph.constant(SAFE.get(node.op, 1))
-                x = graph.select(condition, safe, x) if when else graph.select(condition, x, safe)
-                index = ENDANGERED[node.op]
-                parts = (*parts[:index], x, *parts[index + 1 :])
+        if is_endangered(node.op, parts):
+            index, safe = (SINGULAR | OVERFLOWING)[node.op]
+            x, harmless = parts[index], graph.constant(safe)
+            x = graph.select(condition, harmless, x) if when else graph.select(condition, x, harmless)
+            parts = (*parts[:index], x, *parts[index + 1 :])
         return node if parts == node.arguments else copied(node, parts)
+
+    def is_endangered(op: str, arguments: tuple[Node, ...]) -> bool:
+        if op in OVERFLOWING:
+            return not guard and not cannot_overflow(op, arguments[0], positive)
+        if op not in SINGULAR:
+            return False
+        x = arguments[SINGULAR[op][0]]
+        if op in ("acos", "acosh", "atanh"):  # singular at +-1
+            return singular is None or singular(graph.sub(graph.mul(x, x), graph.constant(1)))
+        return not positive.holds(x) and (singular is None or singular(x))
 
     def copied(node: Node, arguments: tuple[Node, ...]) -> Node:
         # A root of what cannot vanish is a plain square root.
-        copy = graph.node("sqrt" if node.op == "root" else node.op, *arguments, value=node.value)
+        op = "sqrt" if node.op == "root" and guard else node.op
+        copy = graph.node(op, *arguments, value=node.value)
         if node in graph.names:
             graph.named(graph.names[node], copy)
         return copy
@@ -78,6 +103,11 @@ def arguments_first(root: Node, needed: Callable[[Node], Sequence[Node]], done: 
             yield node
 
 
+def cannot_overflow(op: str, x: Node, signs: Positivity) -> bool:
+    """Whether an exponential is bounded by its form: of a number, or e to minus something that is not negative."""
+    return x.is_constant or (op == "exp" and x.op == "neg" and signs.is_not_negative(x.arguments[0]))
+
+
 class Positivity:
     """What is known of the signs of nodes by their form; with a condition, where the condition is `when`."""
 
@@ -93,8 +123,12 @@ class Positivity:
             self.known[part] = positive, positive or self.is_nonnegative(part)
         return self.known[node][0]
 
+    def is_not_negative(self, node: Node) -> bool:
+        """Whether a node is never below zero."""
+        return self.holds(node) or self.known[node][1]
+
     def is_positive(self, node: Node) -> bool:
-        """The same, for a node whose arguments are known."""
+        """The same as `holds`, for a node whose arguments are known."""
         a = node.arguments
         positive = [self.known[x][0] for x in a]
         match node.op:
