@@ -15,10 +15,10 @@
  * inner                         11
  * norm                          12
  * flat                           0
- * exp                           69      <= 1     <= 1
- * log                           78      <= 2     <= 1
- * distance                      48      <= 2     <= 1
- * log_abs_det                   73      <= 2     <= 2
+ * exp                           82      <= 1     <= 1
+ * log                           78      <= 1     <= 1
+ * distance                      48      <= 1     <= 1
+ * log_abs_det                   73      <= 1     <= 1
  * riemannian_gradient           25
  * gradient_norm                 37
  * transport                     87

@@ -12,10 +12,10 @@
  * inner                          5
  * norm                           6
  * flat                           0
- * exp                           66      <= 1     <= 1
- * log                           75      <= 2     <= 1
+ * exp                           79      <= 1     <= 1
+ * log                           75      <= 1     <= 1
  * distance                      37      <= 2     <= 1
- * log_abs_det                   73      <= 1     <= 2
+ * log_abs_det                   73      <= 2     <= 2
  * riemannian_gradient           25
  * gradient_norm                 31
  * other_name                     4

@@ -11,16 +11,16 @@
  * inner                          5
  * norm                           6
  * flat                           0
- * exp                           38      <= 2     <= 1
- * log                          120      <= 2     <= 1
+ * exp                           52      <= 2     <= 1
+ * log                          120      <= 1     <= 1
  * distance                      20      <= 1     <= 1
- * log_abs_det                   91      <= 8     <= 2
+ * log_abs_det                   91      <= 1     <= 2
  * riemannian_gradient           11
  * gradient_norm                 17
  * transport                     67
  * sample                        10
  * splat                        332
- * splat_vjp                    725
+ * splat_vjp                    731
  *
  * Errors are the worst of 36 points against 60 digits, in units of the error that rounding the
  * inputs and the output to the precision alone would cause.

@@ -24,6 +24,7 @@ static unsigned flush_denormals(void) { return 0; }
 static void restore_denormals(unsigned mode) { (void)mode; }
 #endif
 
+/* Of degree 14 on [0, 1], its relative error below 2^-56. */
 static inline double polynomial_t_over_norm_w_near(double x) {
     return 1.0 + x * (0.1662524999999975 + x * (0.033167872507672114 + x * (0.0070897393547985224 + x *
         (0.0015715825913113733 + x * (0.00035628967365586723 + x * (8.201983320917496e-05 + x *
@@ -32,6 +33,7 @@ static inline double polynomial_t_over_norm_w_near(double x) {
         (-2.320706538769562e-08 + x * 6.513842453315236e-09)))))))))))));
 }
 
+/* Of degree 14 on [0, 1], its relative error below 2^-56. */
 static inline double polynomial_log_det_series(double x) {
     return 0.16666666666666666 + x * (0.01939612499999991 + x * (0.0031149721534882713 + x *
         (0.0005700237971008779 + x * (0.00011198187163070022 + x * (2.3002110017289655e-05 + x *
@@ -40,6 +42,7 @@ static inline double polynomial_log_det_series(double x) {
         (2.9042189576467986e-09 + x * (-8.192556206837465e-10 + x * 2.390653866184623e-10)))))))))))));
 }
 
+/* Of degree 13 on [0, 1], the derivative of a polynomial. */
 static inline double polynomial_log_det_series_slope(double x) {
     return 0.01939612499999991 + x * (0.0062299443069765426 + x * (0.0017100713913026338 + x *
         (0.00044792748652280087 + x * (0.00011501055008644827 + x * (2.9231014016066968e-05 + x *
@@ -48,6 +51,7 @@ static inline double polynomial_log_det_series_slope(double x) {
         (-1.0650323068888705e-08 + x * 3.346915412658472e-09))))))))))));
 }
 
+/* Of degree 13 on [0, 1], the derivative of a polynomial. */
 static inline double polynomial_t_over_norm_w_near_slope(double x) {
     return 0.1662524999999975 + x * (0.06633574501534423 + x * (0.021269218064395565 + x *
         (0.006286330365245493 + x * (0.0017814483682793362 + x * (0.0004921189992550497 + x *
@@ -56,6 +60,7 @@ static inline double polynomial_t_over_norm_w_near_slope(double x) {
         (-3.016918500400431e-07 + x * 9.119379434641331e-08))))))))))));
 }
 
+/* Of degree 12 on [0, 1], the derivative of a polynomial. */
 static inline double polynomial_t_over_norm_w_near_slope_slope(double x) {
     return 0.06633574501534423 + x * (0.04253843612879113 + x * (0.01885899109573648 + x *
         (0.007125793473117345 + x * (0.0024605949962752485 + x * (0.000801221638505051 + x *
@@ -64,6 +69,7 @@ static inline double polynomial_t_over_norm_w_near_slope_slope(double x) {
         1.185519326503373e-06)))))))))));
 }
 
+/* Of degree 12 on [0, 1], the derivative of a polynomial. */
 static inline double polynomial_log_det_series_slope_slope(double x) {
     return 0.0062299443069765426 + x * (0.0034201427826052676 + x * (0.0013437824595684026 + x *
         (0.0004600422003457931 + x * (0.00014615507008033484 + x * (4.429380489494613e-05 + x *
@@ -302,10 +308,12 @@ void sphere_splats_vjp(
                 const double t_ratio = t / norm_w;
                 const double t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
                 const int is_small = squared < 0.5;
-                const double sine_to_axis0 = sqrt((is_small ? gap : 1.0));
+                const double chosen = (is_small ? gap : 1.0);
+                const double sine_to_axis0 = sqrt(chosen);
                 const double ratio = gap / sine_to_axis0;
                 const double product = mu0 * mu1;
-                const double sine_to_axis1 = sqrt((is_small ? 1.0 : gap_2));
+                const double chosen_2 = (is_small ? 1.0 : gap_2);
+                const double sine_to_axis1 = sqrt(chosen_2);
                 const double ratio_2 = product / sine_to_axis1;
                 const double v0 = (on_cut_locus ? 3.141592653589793 * (is_small ? ratio : -ratio_2) : w0 * t_over_norm_w);
                 const double ratio_3 = product / sine_to_axis0;
@@ -332,10 +340,10 @@ void sphere_splats_vjp(
                 const double ratio_7 = (near ? 0.0 : by_log_det) / t_ratio;
                 const double by_log_det_series = norm_d_squared * by_log_det_near;
                 const double log_det_series_slope = polynomial_log_det_series_slope(near_chosen);
-                const double chosen = (on_cut_locus ? 0.0 : by_v2);
-                const double chosen_2 = (on_cut_locus ? 0.0 : by_v1);
-                const double chosen_3 = (on_cut_locus ? 0.0 : by_v0);
-                const double by_t_over_norm_w = w2 * chosen + w1 * chosen_2 + w0 * chosen_3;
+                const double chosen_3 = (on_cut_locus ? 0.0 : by_v2);
+                const double chosen_4 = (on_cut_locus ? 0.0 : by_v1);
+                const double chosen_5 = (on_cut_locus ? 0.0 : by_v0);
+                const double by_t_over_norm_w = w2 * chosen_3 + w1 * chosen_4 + w0 * chosen_5;
                 const double by_t_over_norm_w_near = (near ? by_t_over_norm_w : 0.0);
                 const double by_t = (ratio_7 + (near ? 0.0 : by_t_over_norm_w)) / norm_w;
                 const double norm_w_product = 2.0 * norm_w;
@@ -352,9 +360,9 @@ void sphere_splats_vjp(
                     1.0024911906086624 * (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near *
                     t_over_norm_w_near_slope : 0.0);
                 const double product_2 = 2.0 * by_norm_w_squared;
-                const double by_w2 = t_over_norm_w * chosen + w2 * product_2;
-                const double by_w1 = t_over_norm_w * chosen_2 + w1 * product_2;
-                const double by_w0 = t_over_norm_w * chosen_3 + w0 * product_2;
+                const double by_w2 = t_over_norm_w * chosen_3 + w2 * product_2;
+                const double by_w1 = t_over_norm_w * chosen_4 + w1 * product_2;
+                const double by_w0 = t_over_norm_w * chosen_5 + w0 * product_2;
                 const double by_dot_p_d = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
                 const int is_small_2 = norm_q_plus_p_squared_2 == 0.0;
                 const double product_3 = 2.0 * (is_small_2 ? 1.0 : norm_q_plus_p_2);
@@ -424,24 +432,30 @@ void sphere_splats_vjp(
                 const double by_log_det_near_2 = (near ? by_log_det_2 : 0.0);
                 const double by_log_det_series_2 = by_log_det_near * by_by_norm_d_squared + norm_d_squared *
                     by_log_det_near_2;
-                const double chosen_4 = (on_cut_locus ? 0.0 : by_v2_2);
+                const double chosen_6 = (on_cut_locus ? 0.0 : by_v2_2);
                 const double product_8 = 3.141592653589793 * (on_cut_locus ? by_v2_2 : 0.0);
                 const double ratio_13 = (is_small ? 0.0 : product_8) / sine_to_axis1;
                 const double ratio_14 = (is_small ? product_8 : 0.0) / sine_to_axis0;
-                const double chosen_5 = (on_cut_locus ? 0.0 : by_v1_2);
-                const double total_4 = chosen_3 * by_by_w0 + chosen_2 * by_by_w1 + chosen * by_by_w2 + w2 * chosen_4 + w1
-                    * chosen_5;
+                const double chosen_7 = (on_cut_locus ? 0.0 : by_v1_2);
+                const double total_4 = chosen_5 * by_by_w0 + chosen_4 * by_by_w1 + chosen_3 * by_by_w2 + w2 * chosen_6 +
+                    w1 * chosen_7;
                 const double product_9 = 3.141592653589793 * (on_cut_locus ? by_v1_2 : 0.0);
                 const double ratio_15 = (is_small ? 0.0 : product_9) / sine_to_axis1;
                 const double ratio_16 = (is_small ? product_9 : 0.0) / sine_to_axis0;
-                const double chosen_6 = (on_cut_locus ? 0.0 : by_v0_2);
-                const double by_t_over_norm_w_2 = total_4 + w0 * chosen_6;
+                const double chosen_8 = (on_cut_locus ? 0.0 : by_v0_2);
+                const double by_t_over_norm_w_2 = total_4 + w0 * chosen_8;
                 const double product_10 = 3.141592653589793 * (on_cut_locus ? by_v0_2 : 0.0);
                 const double ratio_17 = (is_small ? 0.0 : product_10) / sine_to_axis1;
                 const double gap_3 = -ratio_16 - ratio_17;
                 const double by_sine_to_axis1 = ratio_6 * ratio_13 - ratio_4 * ratio_15 + ratio_2 * ratio_17;
+                const int is_small_3 = chosen_2 == 0.0;
+                const double chosen_9 = (is_small ? 0.0 : (is_small_3 ? 0.0 : by_sine_to_axis1 / (2.0 * (is_small_3 ? 1.0
+                    : sine_to_axis1))));
                 const double ratio_18 = (is_small ? product_10 : 0.0) / sine_to_axis0;
                 const double by_sine_to_axis0 = ratio_5 * ratio_14 + ratio_3 * ratio_16 - ratio * ratio_18;
+                const int is_small_4 = chosen == 0.0;
+                const double chosen_10 = (is_small ? (is_small_4 ? 0.0 : by_sine_to_axis0 / (2.0 * (is_small_4 ? 1.0 :
+                    sine_to_axis0))) : 0.0);
                 const double by_t_over_norm_w_near_2 = (near ? by_t_over_norm_w_2 : 0.0);
                 const double total_5 = -(by_t * ratio_12) - ratio_7 * (by_by_t_ratio / t_ratio) + (near ? 0.0 :
                     by_log_det_2) / t_ratio + (near ? 0.0 : by_t_over_norm_w_2);
@@ -461,11 +475,11 @@ void sphere_splats_vjp(
                     by_log_det_near_2 + (near ? 0.0 : by_norm_d_2 / norm_d_product - product_6) + 1.0024911906086624 *
                     near_chosen_4;
                 const double product_11 = 2.0 * by_norm_w_squared_2;
-                const double by_w2_2 = product_2 * by_by_w2 + chosen * by_by_t_over_norm_w + t_over_norm_w * chosen_4 + w2
-                    * product_11;
-                const double by_w1_2 = product_2 * by_by_w1 + chosen_2 * by_by_t_over_norm_w + t_over_norm_w * chosen_5 +
+                const double by_w2_2 = product_2 * by_by_w2 + chosen_3 * by_by_t_over_norm_w + t_over_norm_w * chosen_6 +
+                    w2 * product_11;
+                const double by_w1_2 = product_2 * by_by_w1 + chosen_4 * by_by_t_over_norm_w + t_over_norm_w * chosen_7 +
                     w1 * product_11;
-                const double by_w0_2 = product_2 * by_by_w0 + chosen_3 * by_by_t_over_norm_w + t_over_norm_w * chosen_6 +
+                const double by_w0_2 = product_2 * by_by_w0 + chosen_5 * by_by_t_over_norm_w + t_over_norm_w * chosen_8 +
                     w0 * product_11;
                 const double gap_4 = by_dot_p_d * by_by_q2_off_cut - by_w2 * by_by_dot_p_d - mu1 * ratio_13 - mu0 *
                     ratio_14 - dot_p_d * by_w2_2;
@@ -493,10 +507,8 @@ void sphere_splats_vjp(
                     by_q1_off_cut_2 : 0.0);
                 const double total_8 = gap_6 + d0 * by_dot_p_d_2 + by_q_plus_p0_2_2 - by_d0_2 + (on_cut_locus ?
                     by_q0_off_cut_2 : 0.0);
-                const double product_14 = 2.0 * (ratio_15 + (is_small ? 0.0 : by_sine_to_axis1 / (2.0 * sine_to_axis1)));
-                const double product_15 = 2.0 * (ratio_18 + (is_small ? by_sine_to_axis0 / (2.0 * sine_to_axis0) : 0.0));
-                sum[0][lane] += total_8 - mu0 * product_15;
-                sum[1][lane] += total_7 - mu1 * product_14;
+                sum[0][lane] += total_8 - mu0 * (2.0 * (ratio_18 + chosen_10));
+                sum[1][lane] += total_7 - mu1 * (2.0 * (ratio_15 + chosen_9));
                 sum[2][lane] += total_6;
                 sum[3][lane] += v0 * by_z0 - z0 * by_by_v0;
                 sum[4][lane] += v1 * by_z0 - z0 * by_by_v1;
@@ -523,52 +535,46 @@ void sphere_splats_vjp(
     restore_denormals(mode);
 }
 
+/* Of degree 6, within 2^-27 of that of double precision. */
 static inline float polynomial_t_over_norm_w_near_f(float x) {
-    return 1.0f + x * (0.1662524999999975f + x * (0.033167872507672114f + x * (0.0070897393547985224f + x *
-        (0.0015715825913113733f + x * (0.00035628967365586723f + x * (8.201983320917496e-05f + x *
-        (1.907670567869169e-05f + x * (4.515955030924914e-06f + x * (9.891104407795466e-07f + x *
-        (3.4857725787739116e-07f + x * (-3.572738831505148e-08f + x * (7.823058427560213e-08f + x *
-        (-2.320706538769562e-08f + x * 6.513842453315236e-09f)))))))))))));
+    return 1.00000000619894f + x * (0.16625190413032676f + x * (0.03317716716973815f + x *
+        (0.007035890983780297f + x * (0.0017176917798953461f + x * (0.00015939746442501272f + x *
+        0.00020289529759782475f)))));
 }
 
+/* Of degree 6, within 2^-28 of that of double precision. */
 static inline float polynomial_log_det_series_f(float x) {
-    return 0.16666666666666666f + x * (0.01939612499999991f + x * (0.0031149721534882713f + x *
-        (0.0005700237971008779f + x * (0.00011198187163070022f + x * (2.3002110017289655e-05f + x *
-        (4.8718356693444944e-06f + x * (1.054614402260622e-06f + x * (2.3367541929114962e-07f + x *
-        (4.9403202372983336e-08f + x * (1.5182298751247572e-08f + x * (-7.6195098574637e-10f + x *
-        (2.9042189576467986e-09f + x * (-8.192556206837465e-10f + x * 2.390653866184623e-10f)))))))))))));
+    return 0.16666666698842558f + x * (0.01939609403553286f + x * (0.003115455875791959f + x *
+        (0.0005672156396303965f + x * (0.00011962406701481749f + x * (1.265383663821544e-05f + x *
+        1.1287063796917841e-05f)))));
 }
 
+/* Of degree 7, within 2^-28 of that of double precision. */
 static inline float polynomial_log_det_series_slope_f(float x) {
-    return 0.01939612499999991f + x * (0.0062299443069765426f + x * (0.0017100713913026338f + x *
-        (0.00044792748652280087f + x * (0.00011501055008644827f + x * (2.9231014016066968e-05f + x *
-        (7.382300815824355e-06f + x * (1.869403354329197e-06f + x * (4.4462882135685005e-07f + x *
-        (1.5182298751247571e-07f + x * (-8.38146084321007e-09f + x * (3.485062749176158e-08f + x *
-        (-1.0650323068888705e-08f + x * 3.346915412658472e-09f))))))))))));
+    return 0.019396124953314112f + x * (0.006229950177086295f + x * (0.0017099508786384825f + x *
+        (0.0004488633398675725f + x * (0.00011148142766242262f + x * (3.631933110632547e-05f + x *
+        (-2.054050626290468e-07f + x * 5.692314108989995e-06f))))));
 }
 
+/* Of degree 7, within 2^-27 of that of double precision. */
 static inline float polynomial_t_over_norm_w_near_slope_f(float x) {
-    return 0.1662524999999975f + x * (0.06633574501534423f + x * (0.021269218064395565f + x *
-        (0.006286330365245493f + x * (0.0017814483682793362f + x * (0.0004921189992550497f + x *
-        (0.00013353693975084183f + x * (3.6127640247399315e-05f + x * (8.901993967015918e-06f + x *
-        (3.485772578773912e-06f + x * (-3.930012714655663e-07f + x * (9.387670113072255e-07f + x *
-        (-3.016918500400431e-07f + x * 9.119379434641331e-08f))))))))))));
+    return 0.166252498983116f + x * (0.06633587276024193f + x * (0.02126659841817475f + x *
+        (0.006306643891312201f + x * (0.0017049970358088175f + x * (0.0006452315929490522f + x *
+        (-2.9591250849232477e-05f + x * 0.0001174958124774389f))))));
 }
 
+/* Of degree 8, within 2^-27 of that of double precision. */
 static inline float polynomial_t_over_norm_w_near_slope_slope_f(float x) {
-    return 0.06633574501534423f + x * (0.04253843612879113f + x * (0.01885899109573648f + x *
-        (0.007125793473117345f + x * (0.0024605949962752485f + x * (0.000801221638505051f + x *
-        (0.0002528934817317952f + x * (7.121595173612734e-05f + x * (3.1371953208965205e-05f + x *
-        (-3.9300127146556635e-06f + x * (1.0326437124379481e-05f + x * (-3.620302200480517e-06f + x *
-        1.185519326503373e-06f)))))))))));
+    return 0.06633574524735136f + x * (0.04253839921568694f + x * (0.018859953714945116f + x *
+        (0.007116187388862165f + x * (0.0025081773727685867f + x * (0.0006707717309135404f + x *
+        (0.00045739113274665544f + x * (-0.00010480883009425309f + x * 9.840812906558691e-05f)))))));
 }
 
+/* Of degree 8, within 2^-29 of that of double precision. */
 static inline float polynomial_log_det_series_slope_slope_f(float x) {
-    return 0.0062299443069765426f + x * (0.0034201427826052676f + x * (0.0013437824595684026f + x *
-        (0.0004600422003457931f + x * (0.00014615507008033484f + x * (4.429380489494613e-05f + x *
-        (1.3085823480304379e-05f + x * (3.5570305708548004e-06f + x * (1.3664068876122816e-06f + x *
-        (-8.38146084321007e-08f + x * (3.833569024093774e-07f + x * (-1.2780387682666445e-07f + x *
-        4.350990036456014e-08f)))))))))));
+    return 0.006229944316617849f + x * (0.0034201412475210677f + x * (0.0013438225275634516f + x *
+        (0.0004596418976622537f + x * (0.00014814095627058545f + x * (3.883739899285821e-05f + x *
+        (2.1669920296332757e-05f + x * (-3.885466858431985e-06f + x * 4.272324365863415e-06f)))))));
 }
 
 void sphere_splats_f(
@@ -799,10 +805,12 @@ void sphere_splats_vjp_f(
                 const float t_ratio = t / norm_w;
                 const float t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
                 const int is_small = squared < 0.5f;
-                const float sine_to_axis0 = sqrtf((is_small ? gap : 1.0f));
+                const float chosen = (is_small ? gap : 1.0f);
+                const float sine_to_axis0 = sqrtf(chosen);
                 const float ratio = gap / sine_to_axis0;
                 const float product = mu0 * mu1;
-                const float sine_to_axis1 = sqrtf((is_small ? 1.0f : gap_2));
+                const float chosen_2 = (is_small ? 1.0f : gap_2);
+                const float sine_to_axis1 = sqrtf(chosen_2);
                 const float ratio_2 = product / sine_to_axis1;
                 const float v0 = (on_cut_locus ? 3.141592653589793f * (is_small ? ratio : -ratio_2) : w0 * t_over_norm_w);
                 const float ratio_3 = product / sine_to_axis0;
@@ -829,10 +837,10 @@ void sphere_splats_vjp_f(
                 const float ratio_7 = (near ? 0.0f : by_log_det) / t_ratio;
                 const float by_log_det_series = norm_d_squared * by_log_det_near;
                 const float log_det_series_slope = polynomial_log_det_series_slope_f(near_chosen);
-                const float chosen = (on_cut_locus ? 0.0f : by_v2);
-                const float chosen_2 = (on_cut_locus ? 0.0f : by_v1);
-                const float chosen_3 = (on_cut_locus ? 0.0f : by_v0);
-                const float by_t_over_norm_w = w2 * chosen + w1 * chosen_2 + w0 * chosen_3;
+                const float chosen_3 = (on_cut_locus ? 0.0f : by_v2);
+                const float chosen_4 = (on_cut_locus ? 0.0f : by_v1);
+                const float chosen_5 = (on_cut_locus ? 0.0f : by_v0);
+                const float by_t_over_norm_w = w2 * chosen_3 + w1 * chosen_4 + w0 * chosen_5;
                 const float by_t_over_norm_w_near = (near ? by_t_over_norm_w : 0.0f);
                 const float by_t = (ratio_7 + (near ? 0.0f : by_t_over_norm_w)) / norm_w;
                 const float norm_w_product = 2.0f * norm_w;
@@ -849,9 +857,9 @@ void sphere_splats_vjp_f(
                     1.0024911906086624f * (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near *
                     t_over_norm_w_near_slope : 0.0f);
                 const float product_2 = 2.0f * by_norm_w_squared;
-                const float by_w2 = t_over_norm_w * chosen + w2 * product_2;
-                const float by_w1 = t_over_norm_w * chosen_2 + w1 * product_2;
-                const float by_w0 = t_over_norm_w * chosen_3 + w0 * product_2;
+                const float by_w2 = t_over_norm_w * chosen_3 + w2 * product_2;
+                const float by_w1 = t_over_norm_w * chosen_4 + w1 * product_2;
+                const float by_w0 = t_over_norm_w * chosen_5 + w0 * product_2;
                 const float by_dot_p_d = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
                 const int is_small_2 = norm_q_plus_p_squared_2 == 0.0f;
                 const float product_3 = 2.0f * (is_small_2 ? 1.0f : norm_q_plus_p_2);
@@ -922,24 +930,30 @@ void sphere_splats_vjp_f(
                 const float by_log_det_near_2 = (near ? by_log_det_2 : 0.0f);
                 const float by_log_det_series_2 = by_log_det_near * by_by_norm_d_squared + norm_d_squared *
                     by_log_det_near_2;
-                const float chosen_4 = (on_cut_locus ? 0.0f : by_v2_2);
+                const float chosen_6 = (on_cut_locus ? 0.0f : by_v2_2);
                 const float product_8 = 3.141592653589793f * (on_cut_locus ? by_v2_2 : 0.0f);
                 const float ratio_13 = (is_small ? 0.0f : product_8) / sine_to_axis1;
                 const float ratio_14 = (is_small ? product_8 : 0.0f) / sine_to_axis0;
-                const float chosen_5 = (on_cut_locus ? 0.0f : by_v1_2);
-                const float total_4 = chosen_3 * by_by_w0 + chosen_2 * by_by_w1 + chosen * by_by_w2 + w2 * chosen_4 + w1 *
-                    chosen_5;
+                const float chosen_7 = (on_cut_locus ? 0.0f : by_v1_2);
+                const float total_4 = chosen_5 * by_by_w0 + chosen_4 * by_by_w1 + chosen_3 * by_by_w2 + w2 * chosen_6 + w1
+                    * chosen_7;
                 const float product_9 = 3.141592653589793f * (on_cut_locus ? by_v1_2 : 0.0f);
                 const float ratio_15 = (is_small ? 0.0f : product_9) / sine_to_axis1;
                 const float ratio_16 = (is_small ? product_9 : 0.0f) / sine_to_axis0;
-                const float chosen_6 = (on_cut_locus ? 0.0f : by_v0_2);
-                const float by_t_over_norm_w_2 = total_4 + w0 * chosen_6;
+                const float chosen_8 = (on_cut_locus ? 0.0f : by_v0_2);
+                const float by_t_over_norm_w_2 = total_4 + w0 * chosen_8;
                 const float product_10 = 3.141592653589793f * (on_cut_locus ? by_v0_2 : 0.0f);
                 const float ratio_17 = (is_small ? 0.0f : product_10) / sine_to_axis1;
                 const float gap_3 = -ratio_16 - ratio_17;
                 const float by_sine_to_axis1 = ratio_6 * ratio_13 - ratio_4 * ratio_15 + ratio_2 * ratio_17;
+                const int is_small_3 = chosen_2 == 0.0f;
+                const float chosen_9 = (is_small ? 0.0f : (is_small_3 ? 0.0f : by_sine_to_axis1 / (2.0f * (is_small_3 ?
+                    1.0f : sine_to_axis1))));
                 const float ratio_18 = (is_small ? product_10 : 0.0f) / sine_to_axis0;
                 const float by_sine_to_axis0 = ratio_5 * ratio_14 + ratio_3 * ratio_16 - ratio * ratio_18;
+                const int is_small_4 = chosen == 0.0f;
+                const float chosen_10 = (is_small ? (is_small_4 ? 0.0f : by_sine_to_axis0 / (2.0f * (is_small_4 ? 1.0f :
+                    sine_to_axis0))) : 0.0f);
                 const float by_t_over_norm_w_near_2 = (near ? by_t_over_norm_w_2 : 0.0f);
                 const float total_5 = -(by_t * ratio_12) - ratio_7 * (by_by_t_ratio / t_ratio) + (near ? 0.0f :
                     by_log_det_2) / t_ratio + (near ? 0.0f : by_t_over_norm_w_2);
@@ -959,11 +973,11 @@ void sphere_splats_vjp_f(
                     by_log_det_near_2 + (near ? 0.0f : by_norm_d_2 / norm_d_product - product_6) + 1.0024911906086624f *
                     near_chosen_4;
                 const float product_11 = 2.0f * by_norm_w_squared_2;
-                const float by_w2_2 = product_2 * by_by_w2 + chosen * by_by_t_over_norm_w + t_over_norm_w * chosen_4 + w2
-                    * product_11;
-                const float by_w1_2 = product_2 * by_by_w1 + chosen_2 * by_by_t_over_norm_w + t_over_norm_w * chosen_5 +
+                const float by_w2_2 = product_2 * by_by_w2 + chosen_3 * by_by_t_over_norm_w + t_over_norm_w * chosen_6 +
+                    w2 * product_11;
+                const float by_w1_2 = product_2 * by_by_w1 + chosen_4 * by_by_t_over_norm_w + t_over_norm_w * chosen_7 +
                     w1 * product_11;
-                const float by_w0_2 = product_2 * by_by_w0 + chosen_3 * by_by_t_over_norm_w + t_over_norm_w * chosen_6 +
+                const float by_w0_2 = product_2 * by_by_w0 + chosen_5 * by_by_t_over_norm_w + t_over_norm_w * chosen_8 +
                     w0 * product_11;
                 const float gap_4 = by_dot_p_d * by_by_q2_off_cut - by_w2 * by_by_dot_p_d - mu1 * ratio_13 - mu0 *
                     ratio_14 - dot_p_d * by_w2_2;
@@ -991,12 +1005,8 @@ void sphere_splats_vjp_f(
                     by_q1_off_cut_2 : 0.0f);
                 const float total_8 = gap_6 + d0 * by_dot_p_d_2 + by_q_plus_p0_2_2 - by_d0_2 + (on_cut_locus ?
                     by_q0_off_cut_2 : 0.0f);
-                const float product_14 = 2.0f * (ratio_15 + (is_small ? 0.0f : by_sine_to_axis1 / (2.0f *
-                    sine_to_axis1)));
-                const float product_15 = 2.0f * (ratio_18 + (is_small ? by_sine_to_axis0 / (2.0f * sine_to_axis0) :
-                    0.0f));
-                sum[0][lane] += total_8 - mu0 * product_15;
-                sum[1][lane] += total_7 - mu1 * product_14;
+                sum[0][lane] += total_8 - mu0 * (2.0f * (ratio_18 + chosen_10));
+                sum[1][lane] += total_7 - mu1 * (2.0f * (ratio_15 + chosen_9));
                 sum[2][lane] += total_6;
                 sum[3][lane] += v0 * by_z0 - z0 * by_by_v0;
                 sum[4][lane] += v1 * by_z0 - z0 * by_by_v1;

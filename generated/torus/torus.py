@@ -11,8 +11,8 @@ inner                          3
 norm                           4
 flat                           0
 exp                           18      <= 1     <= 1
-log                           18      <= 1     <= 1
-distance                      22      <= 1     <= 1
+log                           18      <= 2     <= 2
+distance                      22      <= 2     <= 2
 log_abs_det                    0      <= 1     <= 1
 riemannian_gradient            0
 gradient_norm                  4
@@ -40,8 +40,9 @@ def _root(x: Tensor) -> Tensor:
     return torch.where(zero, 0.0, torch.sqrt(torch.where(zero, 1.0, x)))
 
 
-def _polynomial(x: Tensor, coefficients: tuple[float, ...]) -> Tensor:
-    """c0 + c1 x + c2 x^2 + ... by Horner's rule."""
+def _polynomial(x: Tensor, table: tuple[tuple[float, ...], tuple[float, ...]]) -> Tensor:
+    """c0 + c1 x + c2 x^2 + ... by Horner's rule; `table` has coefficients for float64, then for lower precisions."""
+    coefficients = table[0] if x.dtype == torch.float64 else table[1]
     result = x * coefficients[-1] + coefficients[-2]
     for coefficient in coefficients[-3::-1]:
         result = result * x + coefficient

@@ -31,6 +31,7 @@ from rsrm_gen.compiler.native import EXACT, compiled, compiler, pointer
 from rsrm_gen.compiler.spec import ManifoldSpec, Spec
 from rsrm_gen.files import imported
 
+SHAKES = ((1, 1), (1, 1), (1, 0), (0, 1))  # which inputs are rounded: both, or one, for close points may move together
 ROUTINES = ("exp", "log", "distance", "log_abs_det")
 PRECISIONS: dict[str, tuple[Any, torch.dtype, float]] = {
     "float64": (np.float64, torch.float64, 2.0**-53),
@@ -182,12 +183,12 @@ def truths(
     rng = random.Random(13)
     names = [argument.name for argument in function.arguments]
     results, units = [], []
-    for inputs in zip(*_inputs(function.name, rows), strict=True):
+    for kind, *inputs in zip(rows.kinds, *_inputs(function.name, rows), strict=True):
         given = [[mp.mpf(float(c)) for c in x] for x in inputs]
         exact = _exact(function, routine, given, eps)
         moved = 0.0
         grain = [_grain(x, whole if name != "v" else ()) for name, x in zip(names, given, strict=True)]
-        for shake in ((1, 1), (1, 1), (1, 0), (0, 1)):  # both, and each alone: close points may move together
+        for shake in SHAKES * (4 if kind == NEAR_CUT else 1):  # the cut locus may run between a row and its neighbours
             with mp.workdps(DIGITS):
                 shaken = [
                     [c + s * eps * size * rng.choice((-1, 1)) for c, size in zip(x, sizes, strict=True)]
