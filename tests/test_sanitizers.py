@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 from compiled import NAMES, files, program
 
-from rsrm_gen.compiler.emit.c_language import PRECISIONS, Precision
+from rsrm_gen.compiler.emit.c_precision import PRECISIONS, Precision
 from rsrm_gen.compiler.emit.promises import public
 from rsrm_gen.compiler.lower import Program, Routine
 

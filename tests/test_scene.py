@@ -97,7 +97,7 @@ MISTAKES = {
     "unknown key": ("goal:", "gaol: 1\ngoal:", "scene.yaml:3:1", "did you mean `goal`?"),
     "no goal": ("goal: [0, 0, 1]", "", "scene.yaml", "`goal` is missing"),
     "manifold is a number": ("manifold: round", "manifold: 3", "scene.yaml:2:11", "`manifold`"),
-    "unknown residual": ("steps: 9", "objective: {residual: cubed}", "scene.yaml:6:34", "'ratio' or 'squared'"),
+    "unknown residual": ("steps: 9", "objective: {residual: cubed}", "scene.yaml:6:34", "`ratio` or `squared`"),
     "unknown setting": ("steps: 9", "stepz: 9", "scene.yaml:6:12", "did you mean `steps`?"),
     "nested unknown": ("steps: 9", "splats: {inital: 9}", "scene.yaml:6:21", "did you mean `initial`?"),
     "zero steps": ("steps: 9", "steps: 0", "scene.yaml:6:19", "greater than or equal to 1"),
