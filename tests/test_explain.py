@@ -55,7 +55,7 @@ def test_the_author_s_formulas_are_told_as_written(run: Command) -> None:
     for line in (
         "Exp_p(v) = cos(norm(v)) * p + sinc(norm(v)) * v",
         "Log_p(q) = t * w / norm(w)",
-        "where w = d - dot(p, d) * p",
+        "where w = e - dot(p, e) * p",
         "0 = dot(p, p) - 1",
         "log |det D Log_p(q)| = log(t_over_norm_w)",
         "where t_over_norm_w = t/norm_w",

@@ -159,7 +159,7 @@ MUTANTS = {
     # Log
     "Log of the other side": Mutant("so3", (("qmul(conj(p), q)", "qmul(conj(q), p)"),), INVERSE, SPHERE_LOG[:0] + "value: sign"),
     "Log in another tangent space": Mutant(
-        "sphere", (("d - dot(p, d) * p", "d - dot(q, d) * q"),), "tangent to the manifold at p", SPHERE_LOG
+        "sphere", (("e - dot(p, e) * p", "e - dot(q, e) * q"),), "tangent to the manifold at p", SPHERE_LOG
     ),
     "Log of twice the length": Mutant("sphere", ((SPHERE_LOG, "value: 2 * t * w / norm(w)"),), INVERSE, "value: 2"),
     "Log that takes the long way": Mutant(

@@ -50,7 +50,7 @@ MISTAKES = {
     # names
     "a misspelt function": Mistake("sphere", "norm(w)\n", "@nrom(w)\n", "unknown function `nrom`", "`norm`"),
     "a misspelt symbol": Mistake("sphere", "w / norm(w)", "w / norm(@ww)", "unknown symbol `ww`", "`w`"),
-    "a name used before it is defined": Mistake("sphere", "dot(p, d) * p", "dot(p, @t) * p", "unknown symbol `t`"),
+    "a name used before it is defined": Mistake("sphere", "dot(p, e) * p", "dot(p, @t) * p", "unknown symbol `t`"),
     "q in exp": Mistake("euclidean", EXP, "exp: p + @q\n", "unknown symbol `q`", "known here"),
     "q in the metric": Mistake("euclidean", METRIC, "metric: dot(u, @q)\n", "unknown symbol `q`"),
     "p in a period": Mistake("torus", "period: 2 * pi", "period: @p", "unknown symbol `p`"),

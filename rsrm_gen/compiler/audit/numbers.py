@@ -62,7 +62,7 @@ def check_numbers(
     for precision in PRECISIONS:
         rows = sample_rows(geometry, precision)
         for name in ROUTINES:
-            truth, unit = truths(geometry[name], program[name], rows, precision, matrices(geometry.spec))
+            truth, unit = truths(geometry, program, name, rows, precision)
             errors = {
                 backend: _errors(batch(name, _inputs(name, rows), precision), truth, unit)
                 for backend, batch in backends.items()
@@ -172,20 +172,21 @@ def matrices(spec: Spec, start: int = 0) -> list[slice]:
     return found
 
 
-def truths(
-    function: Function, routine: Routine, rows: Rows, precision: str, whole: Sequence[slice] = ()
-) -> tuple[list[list[Any]], Any]:
-    """The exact results at the rounded inputs (N, entries), and the unavoidable error of each row (N,).
+def truths(geometry: Geometry, program: Program, name: str, rows: Rows, precision: str) -> tuple[list[list[Any]], Any]:
+    """The exact results at the points that the rounded inputs stand for (N, entries), and each row's unavoidable error (N,).
 
-    The entries of a point in `whole` are a matrix, and rounded as one: to parts of its largest entry.
+    Rounding moves a point off the manifold; what it stands for is its projection. A matrix is rounded as one: to parts of
+    its largest entry.
     """
-    eps = PRECISIONS[precision][2]
+    eps, whole = PRECISIONS[precision][2], matrices(geometry.spec)
+    function, routine = geometry[name], program[name]
+    project = geometry["project"] if geometry.spec.embedded else None
     rng = random.Random(13)
     names = [argument.name for argument in function.arguments]
     results, units = [], []
     for kind, *inputs in zip(rows.kinds, *_inputs(function.name, rows), strict=True):
         given = [[mp.mpf(float(c)) for c in x] for x in inputs]
-        exact = _exact(function, routine, given, eps)
+        exact = _exact(function, routine, _meant(project, names, given), eps)
         moved = 0.0
         grain = [_grain(x, whole if name != "v" else ()) for name, x in zip(names, given, strict=True)]
         for shake in SHAKES * (4 if kind == NEAR_CUT else 1):  # the cut locus may run between a row and its neighbours
@@ -194,11 +195,18 @@ def truths(
                     [c + s * eps * size * rng.choice((-1, 1)) for c, size in zip(x, sizes, strict=True)]
                     for x, sizes, s in zip(given, grain, shake, strict=True)
                 ]
-            there = _exact(function, routine, shaken, eps)
+            there = _exact(function, routine, _meant(project, names, shaken), eps)
             moved = max(moved, _largest(a - b for a, b in zip(there, exact, strict=True)))
         results.append(exact)
         units.append(moved + 2 * eps * _largest(exact) + np.finfo(PRECISIONS[precision][0]).tiny)
     return results, np.array(units)
+
+
+def _meant(project: Function | None, names: Sequence[str], inputs: Sequence[Sequence[Any]]) -> Sequence[Sequence[Any]]:
+    """The same inputs with their points on the manifold."""
+    if project is None:
+        return inputs
+    return [x if name == "v" else run(project, x)[0] for name, x in zip(names, inputs, strict=True)]
 
 
 def _grain(x: Sequence[Any], whole: Sequence[slice]) -> list[Any]:
