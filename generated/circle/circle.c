@@ -196,6 +196,49 @@ void circle_gradient_norm_batch(
     for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = circle_gradient_norm(p + 2 * i, df + 2 * i);
 }
 
+/* v */
+void circle_transport(
+    const double *CIRCLE_RESTRICT p,
+    const double *CIRCLE_RESTRICT q,
+    const double *CIRCLE_RESTRICT v,
+    double *CIRCLE_RESTRICT w_out) {
+    (void)p;
+    (void)q;
+    w_out[0] = v[0];
+}
+
+void circle_transport_batch(
+    size_t count,
+    const double *CIRCLE_RESTRICT p,
+    const double *CIRCLE_RESTRICT q,
+    const double *CIRCLE_RESTRICT v,
+    double *CIRCLE_RESTRICT w_out) {
+    for (size_t i = 0; i < count; ++i) circle_transport(p + 2 * i, q + 2 * i, v + 1 * i, w_out + 1 * i);
+}
+
+/* normal / norm(normal) */
+void circle_sample(
+    const double *CIRCLE_RESTRICT normal,
+    const double *CIRCLE_RESTRICT uniform,
+    double *CIRCLE_RESTRICT p_out) {
+    (void)uniform;
+    const double norm_normal_squared = normal[0] * normal[0] + normal[1] * normal[1];
+    const double norm_normal = sqrt(norm_normal_squared);
+    const double scale = 1.0 / norm_normal;
+    const double p0 = normal[0] * scale;
+    const double p1 = normal[1] * scale;
+    p_out[0] = p0;
+    p_out[1] = p1;
+}
+
+void circle_sample_batch(
+    size_t count,
+    const double *CIRCLE_RESTRICT normal,
+    const double *CIRCLE_RESTRICT uniform,
+    double *CIRCLE_RESTRICT p_out) {
+    for (size_t i = 0; i < count; ++i) circle_sample(normal + 2 * i, uniform + 2 * i, p_out + 2 * i);
+}
+
 /* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */
 void circle_splat(
     const double *CIRCLE_RESTRICT x,
@@ -444,6 +487,49 @@ void circle_gradient_norm_batch_f(
     const float *CIRCLE_RESTRICT df,
     float *CIRCLE_RESTRICT gradient_norm_out) {
     for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = circle_gradient_norm_f(p + 2 * i, df + 2 * i);
+}
+
+/* v */
+void circle_transport_f(
+    const float *CIRCLE_RESTRICT p,
+    const float *CIRCLE_RESTRICT q,
+    const float *CIRCLE_RESTRICT v,
+    float *CIRCLE_RESTRICT w_out) {
+    (void)p;
+    (void)q;
+    w_out[0] = v[0];
+}
+
+void circle_transport_batch_f(
+    size_t count,
+    const float *CIRCLE_RESTRICT p,
+    const float *CIRCLE_RESTRICT q,
+    const float *CIRCLE_RESTRICT v,
+    float *CIRCLE_RESTRICT w_out) {
+    for (size_t i = 0; i < count; ++i) circle_transport_f(p + 2 * i, q + 2 * i, v + 1 * i, w_out + 1 * i);
+}
+
+/* normal / norm(normal) */
+void circle_sample_f(
+    const float *CIRCLE_RESTRICT normal,
+    const float *CIRCLE_RESTRICT uniform,
+    float *CIRCLE_RESTRICT p_out) {
+    (void)uniform;
+    const float norm_normal_squared = normal[0] * normal[0] + normal[1] * normal[1];
+    const float norm_normal = sqrtf(norm_normal_squared);
+    const float scale = 1.0f / norm_normal;
+    const float p0 = normal[0] * scale;
+    const float p1 = normal[1] * scale;
+    p_out[0] = p0;
+    p_out[1] = p1;
+}
+
+void circle_sample_batch_f(
+    size_t count,
+    const float *CIRCLE_RESTRICT normal,
+    const float *CIRCLE_RESTRICT uniform,
+    float *CIRCLE_RESTRICT p_out) {
+    for (size_t i = 0; i < count; ++i) circle_sample_f(normal + 2 * i, uniform + 2 * i, p_out + 2 * i);
 }
 
 /* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */

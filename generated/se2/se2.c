@@ -192,6 +192,28 @@ void se2_gradient_norm_batch(
     for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = se2_gradient_norm(p + 3 * i, df + 3 * i);
 }
 
+/* position: v, heading: v */
+void se2_transport(
+    const double *SE2_RESTRICT p,
+    const double *SE2_RESTRICT q,
+    const double *SE2_RESTRICT v,
+    double *SE2_RESTRICT w_out) {
+    (void)p;
+    (void)q;
+    w_out[0] = v[0];
+    w_out[1] = v[1];
+    w_out[2] = v[2];
+}
+
+void se2_transport_batch(
+    size_t count,
+    const double *SE2_RESTRICT p,
+    const double *SE2_RESTRICT q,
+    const double *SE2_RESTRICT v,
+    double *SE2_RESTRICT w_out) {
+    for (size_t i = 0; i < count; ++i) se2_transport(p + 3 * i, q + 3 * i, v + 3 * i, w_out + 3 * i);
+}
+
 /* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */
 void se2_splat(
     const double *SE2_RESTRICT x,
@@ -439,6 +461,28 @@ void se2_gradient_norm_batch_f(
     const float *SE2_RESTRICT df,
     float *SE2_RESTRICT gradient_norm_out) {
     for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = se2_gradient_norm_f(p + 3 * i, df + 3 * i);
+}
+
+/* position: v, heading: v */
+void se2_transport_f(
+    const float *SE2_RESTRICT p,
+    const float *SE2_RESTRICT q,
+    const float *SE2_RESTRICT v,
+    float *SE2_RESTRICT w_out) {
+    (void)p;
+    (void)q;
+    w_out[0] = v[0];
+    w_out[1] = v[1];
+    w_out[2] = v[2];
+}
+
+void se2_transport_batch_f(
+    size_t count,
+    const float *SE2_RESTRICT p,
+    const float *SE2_RESTRICT q,
+    const float *SE2_RESTRICT v,
+    float *SE2_RESTRICT w_out) {
+    for (size_t i = 0; i < count; ++i) se2_transport_f(p + 3 * i, q + 3 * i, v + 3 * i, w_out + 3 * i);
 }
 
 /* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */

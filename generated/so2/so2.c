@@ -174,6 +174,46 @@ void so2_gradient_norm_batch(
     for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = so2_gradient_norm(p + 1 * i, df + 1 * i);
 }
 
+/* v */
+void so2_transport(
+    const double *SO2_RESTRICT p,
+    const double *SO2_RESTRICT q,
+    const double *SO2_RESTRICT v,
+    double *SO2_RESTRICT w_out) {
+    (void)p;
+    (void)q;
+    w_out[0] = v[0];
+}
+
+void so2_transport_batch(
+    size_t count,
+    const double *SO2_RESTRICT p,
+    const double *SO2_RESTRICT q,
+    const double *SO2_RESTRICT v,
+    double *SO2_RESTRICT w_out) {
+    for (size_t i = 0; i < count; ++i) so2_transport(p + 1 * i, q + 1 * i, v + 1 * i, w_out + 1 * i);
+}
+
+/* wrap(2 * pi * uniform) */
+void so2_sample(
+    const double *SO2_RESTRICT normal,
+    const double *SO2_RESTRICT uniform,
+    double *SO2_RESTRICT p_out) {
+    (void)normal;
+    const double round_2 = rint(uniform[0]);
+    const double p0 = 6.283185307179586 * uniform[0] - 6.28125 * round_2 - 0.0019350051879882812 * round_2 -
+        3.019915981956753e-07 * round_2;
+    p_out[0] = p0;
+}
+
+void so2_sample_batch(
+    size_t count,
+    const double *SO2_RESTRICT normal,
+    const double *SO2_RESTRICT uniform,
+    double *SO2_RESTRICT p_out) {
+    for (size_t i = 0; i < count; ++i) so2_sample(normal + 1 * i, uniform + 1 * i, p_out + 1 * i);
+}
+
 /* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */
 void so2_splat(
     const double *SO2_RESTRICT x,
@@ -391,6 +431,46 @@ void so2_gradient_norm_batch_f(
     const float *SO2_RESTRICT df,
     float *SO2_RESTRICT gradient_norm_out) {
     for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = so2_gradient_norm_f(p + 1 * i, df + 1 * i);
+}
+
+/* v */
+void so2_transport_f(
+    const float *SO2_RESTRICT p,
+    const float *SO2_RESTRICT q,
+    const float *SO2_RESTRICT v,
+    float *SO2_RESTRICT w_out) {
+    (void)p;
+    (void)q;
+    w_out[0] = v[0];
+}
+
+void so2_transport_batch_f(
+    size_t count,
+    const float *SO2_RESTRICT p,
+    const float *SO2_RESTRICT q,
+    const float *SO2_RESTRICT v,
+    float *SO2_RESTRICT w_out) {
+    for (size_t i = 0; i < count; ++i) so2_transport_f(p + 1 * i, q + 1 * i, v + 1 * i, w_out + 1 * i);
+}
+
+/* wrap(2 * pi * uniform) */
+void so2_sample_f(
+    const float *SO2_RESTRICT normal,
+    const float *SO2_RESTRICT uniform,
+    float *SO2_RESTRICT p_out) {
+    (void)normal;
+    const float round_2 = rintf(uniform[0]);
+    const float p0 = 6.283185307179586f * uniform[0] - 6.28125f * round_2 - 0.0019350051879882812f * round_2 -
+        3.019915981956753e-07f * round_2;
+    p_out[0] = p0;
+}
+
+void so2_sample_batch_f(
+    size_t count,
+    const float *SO2_RESTRICT normal,
+    const float *SO2_RESTRICT uniform,
+    float *SO2_RESTRICT p_out) {
+    for (size_t i = 0; i < count; ++i) so2_sample_f(normal + 1 * i, uniform + 1 * i, p_out + 1 * i);
 }
 
 /* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */

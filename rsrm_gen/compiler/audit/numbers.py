@@ -32,7 +32,8 @@ from rsrm_gen.compiler.spec import ManifoldSpec, Spec
 from rsrm_gen.files import imported
 
 SHAKES = ((1, 1), (1, 1), (1, 0), (0, 1))  # which inputs are rounded: both, or one, for close points may move together
-ROUTINES = ("exp", "log", "distance", "log_abs_det")
+ARGUMENTS = {"exp": ("p", "v"), "log": ("p", "q"), "distance": ("p", "q"), "log_abs_det": ("p", "q")}
+ROUTINES = tuple(ARGUMENTS)
 PRECISIONS: dict[str, tuple[Any, torch.dtype, float]] = {
     "float64": (np.float64, torch.float64, 2.0**-53),
     "float32": (np.float32, torch.float32, 2.0**-24),
@@ -61,10 +62,13 @@ def check_numbers(
     checks, measured = [], []
     for precision in PRECISIONS:
         rows = sample_rows(geometry, precision)
+        where = {names: places(geometry, names, rows, precision) for names in set(ARGUMENTS.values())}
         for name in ROUTINES:
-            truth, unit = truths(geometry, program, name, rows, precision)
+            truth, unit = truths(geometry[name], program[name], where[ARGUMENTS[name]], precision)
             errors = {
-                backend: _errors(batch(name, _inputs(name, rows), precision), truth, unit)
+                backend: _errors(
+                    batch(name, [getattr(rows, argument) for argument in ARGUMENTS[name]], precision), truth, unit
+                )
                 for backend, batch in backends.items()
             }
             checks += [_check(geometry, program, name, backend, precision, e, rows) for backend, e in errors.items()]
@@ -172,33 +176,49 @@ def matrices(spec: Spec, start: int = 0) -> list[slice]:
     return found
 
 
-def truths(geometry: Geometry, program: Program, name: str, rows: Rows, precision: str) -> tuple[list[list[Any]], Any]:
-    """The exact results at the points that the rounded inputs stand for (N, entries), and each row's unavoidable error (N,).
+@dataclass(frozen=True)
+class Place:
+    """The inputs that a row's rounded numbers stand for, in high precision, and those of its neighbours."""
+
+    inputs: Sequence[Sequence[Any]]
+    neighbours: Sequence[Sequence[Sequence[Any]]]
+
+
+def places(geometry: Geometry, names: Sequence[str], rows: Rows, precision: str) -> list[Place]:
+    """What the rows stand for, as arguments of these names ("p", "q" or "v"), and what they would if rounded otherwise.
 
     Rounding moves a point off the manifold; what it stands for is its projection. A matrix is rounded as one: to parts of
     its largest entry.
     """
     eps, whole = PRECISIONS[precision][2], matrices(geometry.spec)
-    function, routine = geometry[name], program[name]
     project = geometry["project"] if geometry.spec.embedded else None
     rng = random.Random(13)
-    names = [argument.name for argument in function.arguments]
-    results, units = [], []
-    for kind, *inputs in zip(rows.kinds, *_inputs(function.name, rows), strict=True):
+    found = []
+    for kind, *inputs in zip(rows.kinds, *(getattr(rows, name) for name in names), strict=True):
         given = [[mp.mpf(float(c)) for c in x] for x in inputs]
-        exact = _exact(function, routine, _meant(project, names, given), eps)
-        moved = 0.0
         grain = [_grain(x, whole if name != "v" else ()) for name, x in zip(names, given, strict=True)]
+        neighbours = []
         for shake in SHAKES * (4 if kind == NEAR_CUT else 1):  # the cut locus may run between a row and its neighbours
             with mp.workdps(DIGITS):
                 shaken = [
                     [c + s * eps * size * rng.choice((-1, 1)) for c, size in zip(x, sizes, strict=True)]
                     for x, sizes, s in zip(given, grain, shake, strict=True)
                 ]
-            there = _exact(function, routine, _meant(project, names, shaken), eps)
-            moved = max(moved, _largest(a - b for a, b in zip(there, exact, strict=True)))
+            neighbours.append(_meant(project, names, shaken))
+        found.append(Place(_meant(project, names, given), neighbours))
+    return found
+
+
+def truths(function: Function, routine: Routine, where: Sequence[Place], precision: str) -> tuple[list[list[Any]], Any]:
+    """The exact results (N, entries), and the unavoidable error of each row (N,)."""
+    eps, tiny = PRECISIONS[precision][2], np.finfo(PRECISIONS[precision][0]).tiny
+    results, units = [], []
+    for place in where:
+        exact = _exact(function, routine, place.inputs, eps)
+        there = [_exact(function, routine, inputs, eps) for inputs in place.neighbours]
+        moved = max(_largest(a - b for a, b in zip(result, exact, strict=True)) for result in there)
         results.append(exact)
-        units.append(moved + 2 * eps * _largest(exact) + np.finfo(PRECISIONS[precision][0]).tiny)
+        units.append(moved + 2 * eps * _largest(exact) + tiny)
     return results, np.array(units)
 
 
@@ -215,10 +235,6 @@ def _grain(x: Sequence[Any], whole: Sequence[slice]) -> list[Any]:
     for part in whole:
         sizes[part] = [largest(x[part])] * len(x[part])
     return sizes
-
-
-def _inputs(name: str, rows: Rows) -> tuple[Any, Any]:
-    return (rows.p, rows.v) if name == "exp" else (rows.p, rows.q)
 
 
 def _exact(function: Function, routine: Routine, inputs: Sequence[Sequence[Any]], eps: float) -> list[Any]:
