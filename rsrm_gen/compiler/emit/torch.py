@@ -216,22 +216,26 @@ def _matrix_call(printer: Printer, node: Node) -> str:
 
 
 def _assignment(name: str, text: str) -> str:
-    """A statement, over several lines where it is long."""
+    """A statement; a long one with what stands in its brackets on lines of its own."""
     line = f"{name} = {text}"
     if len(line) <= WIDTH - 8:
         return line
-    return (
-        f"{name} = (\n"
-        + textwrap.fill(
-            text,
-            WIDTH - 12,
-            initial_indent="    ",
-            subsequent_indent="    ",
-            break_long_words=False,
-            break_on_hyphens=False,
-        )
-        + "\n)"
-    )
+    head, inner = _call(text)
+    lines = textwrap.wrap(inner, WIDTH - 12, break_long_words=False, break_on_hyphens=False)
+    body = textwrap.indent("\n".join(lines), "    ")
+    return f"{name} = {head}(\n{body}\n)"
+
+
+def _call(text: str) -> tuple[str, str]:
+    """A call as what is called and its arguments; any other expression as nothing called and itself."""
+    head, _, rest = text.partition("(")
+    depth = 1
+    for at, character in enumerate(rest):
+        depth += {"(": 1, ")": -1}.get(character, 0)
+        if depth == 0:
+            is_call = at == len(rest) - 1 and head.replace(".", "").isidentifier()
+            return (head, rest[:-1]) if is_call else ("", text)
+    return "", text
 
 
 def _unpacked(parameter: Parameter, used: set[str]) -> list[str]:
