@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from rsrm_gen.compiler.audit.digits import digits_lost
 from rsrm_gen.compiler.audit.given import sample_checks
+from rsrm_gen.compiler.audit.interface import check_interface
 from rsrm_gen.compiler.audit.kernels import check_kernels
 from rsrm_gen.compiler.audit.laws import Laws
 from rsrm_gen.compiler.audit.numbers import check_numbers
@@ -24,7 +25,11 @@ def audit(geometry: Geometry, program: Program, files: Mapping[str, str]) -> Aud
     if not all(check.passed for check in formulas):  # numbers of wrong formulas say nothing
         return AuditReport(program.name, geometry.spec.content_hash, tuple(formulas), ())
     numbers, measured = check_numbers(geometry, program, files)
-    kernels = [*check_kernels(geometry, program, files), *sample_checks(geometry, program, files)]
+    kernels = [
+        *check_kernels(geometry, program, files),
+        *check_interface(geometry, program, files),
+        *sample_checks(geometry, program, files),
+    ]
     return AuditReport(program.name, geometry.spec.content_hash, (*formulas, *numbers, *kernels), measured)
 
 

@@ -14,7 +14,7 @@ import mpmath as mp
 import numpy as np
 
 from rsrm_gen.compiler.audit.blame import span_of
-from rsrm_gen.compiler.audit.numbers import PRECISIONS, Batch, Rows, native_batch, sample_rows, torch_batch
+from rsrm_gen.compiler.audit.numbers import PRECISIONS, Batch, Rows, middling, native_batch, sample_rows, torch_batch
 from rsrm_gen.compiler.audit.report import Check
 from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.derive.numeric import largest
@@ -31,7 +31,7 @@ def check_kernels(geometry: Geometry, program: Program, files: Mapping[str, str]
     backends: dict[str, Batch] = {"torch": torch_batch(program, files)}
     if compiler() is not None:
         backends["C"] = native_batch(program, files)
-    rows = {precision: _middling(sample_rows(geometry, precision)) for precision in PRECISIONS}
+    rows = {precision: middling(sample_rows(geometry, precision)) for precision in PRECISIONS}
     checks = [
         _functions_check(geometry, program, backend, batch, precision, rows[precision])
         for precision in PRECISIONS
@@ -48,7 +48,7 @@ def _functions_check(
     worst, culprit = 0.0, "exp"
     for routine in public(program):
         inputs = _inputs(routine, rows, precision)
-        exact = [interpret(routine, *row)[0] for row in _as_floats(inputs)]
+        exact = [[entry for result in interpret(routine, *row) for entry in result] for row in _as_floats(inputs)]
         error = _relative(batch(routine.name, inputs, precision), exact)
         if not error <= worst:
             worst, culprit = error, routine.name
@@ -107,11 +107,6 @@ def _exact_sums(
         for result, total in enumerate(totals):
             total.append([mp.fsum(entries) for entries in zip(*(part[result] for part in parts), strict=True)])
     return totals
-
-
-def _middling(rows: Rows) -> Rows:
-    keep = [i for i, kind in enumerate(rows.kinds) if kind == "middle"][: 2 * POINTS]
-    return Rows(rows.p[keep], rows.q[keep], rows.v[keep], tuple(rows.kinds[i] for i in keep))
 
 
 def _inputs(routine: Routine, rows: Rows, precision: str) -> list[Any]:
