@@ -40,7 +40,7 @@ def protect(
     and no root vanishes in the rest. Other conditions part anything.
     """
     done: dict[Node, Node] = {}
-    positive = Positivity(condition, when)
+    positive = Positivity(condition, when, underflow=not guard)
 
     def needed(node: Node) -> tuple[Node, ...]:
         if node.op != "select":
@@ -109,11 +109,15 @@ def cannot_overflow(op: str, x: Node, signs: Positivity) -> bool:
 
 
 class Positivity:
-    """What is known of the signs of nodes by their form; with a condition, where the condition is `when`."""
+    """What is known of the signs of nodes by their form, where the condition is `when`.
 
-    def __init__(self, condition: Node | None = None, when: bool = True) -> None:
+    With `underflow`, an exponential may be zero: there its argument may be anything.
+    """
+
+    def __init__(self, condition: Node, when: bool, underflow: bool) -> None:
         self.condition = condition
         self.when = when
+        self.underflow = underflow
         self.known: dict[Node, tuple[bool, bool]] = {}  # above zero, never below zero
 
     def holds(self, node: Node) -> bool:
@@ -134,7 +138,9 @@ class Positivity:
         match node.op:
             case "constant":
                 return bool(node.value > 0)  # type: ignore[operator]
-            case "exp" | "cosh":
+            case "exp":
+                return not self.underflow
+            case "cosh":
                 return True
             case "add":
                 return all(self.known[x][1] for x in a) and any(positive)
@@ -150,7 +156,7 @@ class Positivity:
         """Whether a node is never below zero, as a square is, for a node whose arguments are known."""
         a = node.arguments
         match node.op:
-            case "abs" | "sqrt" | "root":
+            case "abs" | "sqrt" | "root" | "exp":
                 return True
             case "mul":
                 return a[0] is a[1] or all(self.known[x][1] for x in a)
