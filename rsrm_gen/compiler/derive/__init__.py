@@ -51,7 +51,8 @@ def derive(spec: Spec) -> Geometry:
 
 def derive_as_written(spec: ManifoldSpec) -> Geometry:
     """The formulas of a spec as they stand, no 0/0 removed and log |det D Log| left at 0: for finding what is wrong in them."""
-    geometry = _AsWritten(spec).geometry()
+    with mp.workdps(DIGITS):
+        geometry = _AsWritten(spec).geometry()
     return scaled(geometry, number(spec, spec.scale)) if spec.scale else geometry
 
 
