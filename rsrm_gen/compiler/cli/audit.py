@@ -12,7 +12,7 @@ from rsrm_gen.compiler.budget import SECONDS
 from rsrm_gen.compiler.cli.compile import progress
 from rsrm_gen.compiler.cli.options import GENERATED, BudgetOption, OutputOption, ParameterOption, assignments
 from rsrm_gen.compiler.cli.report import accuracy_table, check_table, complaint, summary, summary_table
-from rsrm_gen.compiler.cli.screen import out
+from rsrm_gen.compiler.cli.screen import err, out
 from rsrm_gen.compiler.cli.targets import targets
 
 if TYPE_CHECKING:
@@ -43,8 +43,11 @@ def audit_command(
     Reruns every check against that code and shows what was found. Exits with 1 when a check fails.
     """
     found = targets(what, assignments(parameter), output, spec)
+    from rsrm_gen.compiler.native import compiler
     from rsrm_gen.compiler.reaudit import audit_folder
 
+    if compiler() is None:
+        err().print("no C compiler found: the C code is not audited", soft_wrap=True)
     verdicts = []
     with progress("audit") as tell:
         for target in found:
