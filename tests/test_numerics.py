@@ -335,6 +335,27 @@ def test_what_is_not_taken_does_not_poison_derivatives(large: str, folder: Any) 
     assert float(slope) == 1
 
 
+ANGLE = """\
+manifold: angle
+doc: A plane whose formulas take the angle of a vector that vanishes in the branch that is not taken.
+chart: {space: R^2}
+metric: dot(u, v)
+exp: p + v
+log:
+  let: {a: "atan2(q[0], q[1])"}
+  value: "(q - p) * where(dot(q, q) < 1e-4, 1, cos(a)^2 + sin(a)^2)"
+injectivity_radius: infinity
+"""
+
+
+def test_an_angle_that_is_not_taken_does_not_poison_the_gradient_of_a_splat(folder: Any) -> None:
+    made = derive(spec_of(ANGLE))
+    manifold = torch_module(emit(made, lower(made)), "angle", folder).manifold
+    x, mu, one = torch.zeros(1, 2), torch.ones(1, 2), torch.ones(1)
+    value, gradient = manifold.splats(x, mu, torch.eye(2)[None], one)
+    torch.testing.assert_close(gradient, value[:, None] * (mu - x))
+
+
 # Polynomials for single precision.
 
 

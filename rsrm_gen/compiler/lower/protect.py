@@ -21,6 +21,7 @@ SINGULAR = {
     "atanh": (0, 0),
     "acosh": (0, 2),
     "acos": (0, 0),
+    "atan2": (1, 1),
 }
 OVERFLOWING = {"exp": (0, 0), "cosh": (0, 0), "sinh": (0, 0)}
 
@@ -74,6 +75,9 @@ def protect(
         x = arguments[SINGULAR[op][0]]
         if op in ("acos", "acosh", "atanh"):  # singular at +-1
             return singular is None or singular(graph.sub(graph.mul(x, x), graph.constant(1)))
+        if op == "atan2":  # singular where both are zero
+            vanish = singular is None or all(map(singular, arguments))
+            return vanish and not any(map(positive.holds, arguments))
         return not positive.holds(x) and (singular is None or singular(x))
 
     def copied(node: Node, arguments: tuple[Node, ...]) -> Node:
