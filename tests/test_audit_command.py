@@ -108,7 +108,7 @@ def audited_folders(monkeypatch: pytest.MonkeyPatch) -> list:
     """Which folders are audited against which specs, without doing it."""
     seen: list = []
 
-    def audit_folder(folder: Path, spec: object) -> object:
+    def audit_folder(folder: Path, spec: object, seconds_allowed: float) -> object:
         seen.append((folder, spec))
         return Nothing(folder)
 

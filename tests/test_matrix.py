@@ -459,6 +459,21 @@ def test_a_function_of_a_matrix_that_is_not_symmetric_is_refused() -> None:
     assert "symmetric" in caught.value.message
 
 
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("distance: norm(L)", "distance: norm(logm(q * r * r))"),
+        ("ad_squared(L) / 4", "ad_squared(r * q) / 4"),
+        ("invsqrtm(q) * sqrtm(p) * expm(L / 2)", "sqrtm(q * p) * expm(L / 2)"),
+    ],
+    ids=["distance", "log_det", "transport"],
+)
+def test_it_is_refused_in_formulas_on_top_of_log_too(old: str, new: str) -> None:
+    assert old in spd_text()
+    with pytest.raises(UserError, match="here the matrix is none"):
+        derive(spec_of(spd_text().replace(old, new)))
+
+
 def test_a_domain_that_no_matrix_satisfies_is_refused() -> None:
     with pytest.raises(UserError, match="no point"):
         derive(spec_of(spd_text().replace("domain: eigh(p)[0] > 0", "domain: eigh(p)[0] > eigh(p)[1]")))

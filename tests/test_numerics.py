@@ -314,14 +314,18 @@ chart: {{space: R^1}}
 metric: dot(u, v)
 exp: p + v
 log: q - p
-distance: norm(q - p) + 0 * where(q[0] < 5, 1, {large}) + where(q[0] < 5, {large}, 0) * 0
+distance:
+  let: {{w: 'exp(-q[0]^2)'}}
+  value: 'norm(q - p) * where(q[0] < 5, {large}, 1)'
 injectivity_radius: infinity
 """
 
 
-@pytest.mark.parametrize("large", ["exp(q[0]^2)", "cosh(9 * q[0])", "sinh(q[0]^3)", "acos(q[0])", "acosh(q[0])"])
+@pytest.mark.parametrize(
+    "large", ["exp(q[0]^2)", "cosh(9 * q[0])", "sinh(q[0]^3)", "acos(q[0])", "acosh(q[0])", "1 / w"]
+)
 def test_what_is_not_taken_does_not_poison_derivatives(large: str, folder: Any) -> None:
-    made = derive(spec_of(STEEP.format(large=f"where(q[0] > 700, 1, {large})")))
+    made = derive(spec_of(STEEP.format(large=large)))
     texts = emit(made, lower(made))
     manifold = torch_module(texts, "steep", folder).manifold
     p, q = torch.zeros(1, 1, dtype=torch.float64), torch.tensor([[900.0]], dtype=torch.float64, requires_grad=True)
@@ -329,6 +333,27 @@ def test_what_is_not_taken_does_not_poison_derivatives(large: str, folder: Any) 
     (slope,) = torch.autograd.grad(distance.sum(), q)
     assert float(distance.detach()) == 900
     assert float(slope) == 1
+
+
+ANGLE = """\
+manifold: angle
+doc: A plane whose formulas take the angle of a vector that vanishes in the branch that is not taken.
+chart: {space: R^2}
+metric: dot(u, v)
+exp: p + v
+log:
+  let: {a: "atan2(q[0], q[1])"}
+  value: "(q - p) * where(dot(q, q) < 1e-4, 1, cos(a)^2 + sin(a)^2)"
+injectivity_radius: infinity
+"""
+
+
+def test_an_angle_that_is_not_taken_does_not_poison_the_gradient_of_a_splat(folder: Any) -> None:
+    made = derive(spec_of(ANGLE))
+    manifold = torch_module(emit(made, lower(made)), "angle", folder).manifold
+    x, mu, one = torch.zeros(1, 2), torch.ones(1, 2), torch.ones(1)
+    value, gradient = manifold.splats(x, mu, torch.eye(2)[None], one)
+    torch.testing.assert_close(gradient, value[:, None] * (mu - x))
 
 
 # Polynomials for single precision.

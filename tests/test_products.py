@@ -16,6 +16,7 @@ from compiled import MANIFOLDS, bundled_spec, files, geometry, program, torch_mo
 from torch import Tensor
 
 import rsrm_gen
+from rsrm_gen.compiler.derive import derive
 from rsrm_gen.compiler.driver import compile_manifold
 from rsrm_gen.compiler.lower import interpret
 from rsrm_gen.compiler.spec import ProductSpec, read_spec
@@ -83,6 +84,16 @@ def test_products_nest_and_powers_have_numbered_names() -> None:
     squares += [w**2 * turn**2 for w, turn in zip([0.5] + [0.25] * 6, turns, strict=True)]
     (distance,) = interpret(program("mobile_manipulator")["distance"], p, q)[0]
     assert abs(distance - mp.sqrt(mp.fsum(squares))) < 1e-14
+
+
+@pytest.mark.parametrize("factors", ["{a: so3, b: euclidean}", "{a: euclidean, b: so3}"])
+def test_a_product_has_what_all_factors_have_in_any_order(factors: str, tmp_path: Path) -> None:
+    product = derive(read_spec(written(tmp_path, f"manifold: both\ndoc: A test.\nproduct: {factors}\n")))
+    assert "transport" in product
+    assert "sample" not in product
+    assert "other_name" not in product
+    with pytest.raises(KeyError):
+        product["other_name"]
 
 
 def test_names_in_the_code_of_a_product_begin_with_the_factor() -> None:

@@ -10,8 +10,8 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from rsrm_gen.errors import UserError, did_you_mean
-from rsrm_gen.files import bundled
+from rsrm_gen.errors import UserError
+from rsrm_gen.files import bundled, manifold_file
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -66,7 +66,7 @@ def accuracy_command(
 
     given: Parameters = dict(_assignment(text) for text in parameter or ())
     chosen = [(name, given) for name in manifolds] if manifolds else [(name, {**p, **given}) for name, p in CASES]
-    cases = [(_file(name), parameters) for name, parameters in chosen]
+    cases = [(manifold_file(name), parameters) for name, parameters in chosen]
     with _progress() as say:
         result = accuracy(cases, QUICK_ROWS if quick else rows, say=say)
     console = _console()
@@ -102,7 +102,9 @@ def generation_command(
     given: Parameters = dict(_assignment(text) for text in parameter or ())
     chosen = [(name, given) for name in manifolds] if manifolds else [*((n, given) for n in _names()), *LARGE]
     with _progress() as say:
-        results = generation([(_file(name), parameters) for name, parameters in chosen], 1 if quick else runs, say)
+        results = generation(
+            [(manifold_file(name), parameters) for name, parameters in chosen], 1 if quick else runs, say
+        )
     console = _console()
     for table in tables(results):
         console.print(table.rich())
@@ -116,15 +118,6 @@ def generation_command(
 def _names() -> list[str]:
     """The bundled manifolds."""
     return sorted(path.stem for path in bundled("manifolds").glob("*.yaml"))
-
-
-def _file(manifold: str) -> Path:
-    path = Path(manifold)
-    if path.suffix in (".yaml", ".yml"):
-        return path
-    if manifold not in _names():
-        raise UserError(f"there is no bundled manifold `{manifold}`", hint=did_you_mean(manifold, _names()))
-    return bundled("manifolds") / f"{manifold}.yaml"
 
 
 def _assignment(text: str) -> tuple[str, str]:

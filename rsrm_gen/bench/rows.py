@@ -126,14 +126,14 @@ class _Exact:
 
 
 def _distances(geometry: Geometry, whole: float, precision: str, count: int) -> dict[str, list[float]]:
-    """How far apart the points of every band are; `whole` is the injectivity radius, or 2 where there is none."""
+    """How far apart the points of every band are; `whole` is the injectivity radius, or two units where there is none."""
     steps = [k / max(count - 1, 1) for k in range(count)]
     # Nearer to the injectivity radius than this, rounding alone would carry a point across the cut locus.
     closest = 9.0 if precision == "float64" else 4.0
     last = (
         {NEAR_RADIUS: [whole * (1 - 10.0 ** -(1 + (closest - 1) * s)) for s in steps]}
         if geometry.injectivity_radius.is_finite
-        else {FAR: [3 + 27 * s for s in steps]}
+        else {FAR: [whole / 2 * (3 + 27 * s) for s in steps]}
     )
     return {
         COINCIDENT: [0.0] * max(count // FEWER, 1),

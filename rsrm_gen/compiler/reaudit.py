@@ -12,9 +12,11 @@ from pathlib import Path
 
 from rsrm_gen.compiler.audit import AuditReport, Check, audit
 from rsrm_gen.compiler.audit.product import check_formulas
+from rsrm_gen.compiler.budget import SECONDS, limited, spend
+from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.driver import derived
 from rsrm_gen.compiler.emit import emit
-from rsrm_gen.compiler.lower import lower
+from rsrm_gen.compiler.lower import Program, lower
 from rsrm_gen.compiler.output import Overrides, staleness
 from rsrm_gen.compiler.spec import Spec, read_spec
 from rsrm_gen.errors import UserError
@@ -32,12 +34,14 @@ class Verdict:
     stale: str | None
 
 
-def audit_file(file: Path, parameters: Overrides | None = None) -> AuditReport:
+def audit_file(file: Path, parameters: Overrides | None = None, seconds_allowed: float = SECONDS) -> AuditReport:
     """The audit of the code that a manifold file gives today; nothing is written. Raises `UserError` for a wrong file."""
-    return _audit(read_spec(file, parameters), None)
+    with limited("read", seconds_allowed):
+        spec = read_spec(file, parameters)
+    return _audit(spec, None, seconds_allowed)
 
 
-def audit_folder(folder: Path, spec: Spec) -> Verdict:
+def audit_folder(folder: Path, spec: Spec, seconds_allowed: float = SECONDS) -> Verdict:
     """The audit of the code in a folder against a spec; raises `UserError` where there is no code."""
     try:
         files = {path.name: path.read_text(encoding="utf-8") for path in folder.iterdir() if path.suffix in CODE}
@@ -45,23 +49,31 @@ def audit_folder(folder: Path, spec: Spec) -> Verdict:
         raise UserError(f"cannot read the code in {folder}: {error}") from None
     if not files:
         raise UserError(f"there is no generated code in {folder}", hint=f"generate it: rsrm-gen {spec.source.name}")
-    return Verdict(folder, spec, _audit(spec, files), staleness(spec, folder))
+    return Verdict(folder, spec, _audit(spec, files, seconds_allowed), staleness(spec, folder))
 
 
-def _audit(spec: Spec, files: Mapping[str, str] | None) -> AuditReport:
-    geometry = derived(spec)
-    program = lower(geometry)
-    fresh = emit(geometry, program)
-    if files is None:
-        return audit(geometry, program, fresh)
+def _audit(spec: Spec, files: Mapping[str, str] | None, seconds: float) -> AuditReport:
+    with limited("derive", seconds):
+        geometry = derived(spec)
+    with limited("lower", seconds):
+        program = lower(geometry)
+    with limited("emit", seconds):
+        fresh = emit(geometry, program)
+    with limited("audit", seconds):
+        return audit(geometry, program, fresh) if files is None else _audited(geometry, program, fresh, files)
+
+
+def _audited(geometry: Geometry, program: Program, fresh: Mapping[str, str], files: Mapping[str, str]) -> AuditReport:
+    """The audit of files that should be the fresh ones."""
     missing = sorted(fresh.keys() - files.keys())
     try:
         if missing:
             raise UserError(f"there is no {missing[0]}")
         return audit(geometry, program, {name: files[name] for name in fresh})
     except Exception as error:  # whatever code that anybody may have edited raises, and the C compiler's complaints
+        spend()  # but where the budget is used up, that is no fault of the code
         formulas = check_formulas(geometry, program)
-        return AuditReport(program.name, spec.content_hash, (*formulas, _does_not_run(error)), ())
+        return AuditReport(program.name, geometry.spec.content_hash, (*formulas, _does_not_run(error)), ())
 
 
 def _does_not_run(error: Exception) -> Check:

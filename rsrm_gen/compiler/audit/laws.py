@@ -30,12 +30,8 @@ STEP = mp.mpf(10) ** -20
 EXACT = 1e-12  # series are exact to 1e-17 and derivatives to 1e-32, but conditions and cancellation cost some
 PAIRS, STRAYS = 16, 4
 DIRECTIONS = 4  # at each pair, in which the splat is differentiated
-FAR = (
-    3,
-    6,
-    10,
-    20,
-)  # where there is no injectivity radius to end at; beyond, 50 digits begin to run out on some manifolds
+# Where there is no injectivity radius to end at; beyond, 50 digits begin to run out on some manifolds.
+FAR = (3, 6, 10, 20)
 
 Numbers = list[Any]
 

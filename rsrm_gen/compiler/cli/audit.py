@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from rsrm_gen.compiler.budget import SECONDS
 from rsrm_gen.compiler.cli.compile import progress
-from rsrm_gen.compiler.cli.options import GENERATED, OutputOption, ParameterOption, assignments
+from rsrm_gen.compiler.cli.options import GENERATED, BudgetOption, OutputOption, ParameterOption, assignments
 from rsrm_gen.compiler.cli.report import accuracy_table, check_table, complaint, summary, summary_table
-from rsrm_gen.compiler.cli.screen import out
+from rsrm_gen.compiler.cli.screen import err, out
 from rsrm_gen.compiler.cli.targets import targets
 
 if TYPE_CHECKING:
@@ -34,6 +35,7 @@ def audit_command(
     spec: Annotated[
         Path | None, typer.Option("--spec", metavar="FILE", help="The manifold file that the code in DIR is of.")
     ] = None,
+    budget: BudgetOption = SECONDS,
     as_json: Annotated[bool, typer.Option("--json", help="Print the reports as JSON.")] = False,
 ) -> None:
     """Audit generated code as it is on disk, edited or not.
@@ -41,13 +43,16 @@ def audit_command(
     Reruns every check against that code and shows what was found. Exits with 1 when a check fails.
     """
     found = targets(what, assignments(parameter), output, spec)
+    from rsrm_gen.compiler.native import compiler
     from rsrm_gen.compiler.reaudit import audit_folder
 
+    if compiler() is None:
+        err().print("no C compiler found: the C code is not audited", soft_wrap=True)
     verdicts = []
     with progress("audit") as tell:
         for target in found:
             tell(target.folder.name)
-            verdicts.append(audit_folder(target.folder, target.spec))
+            verdicts.append(audit_folder(target.folder, target.spec, budget))
     passed = all(verdict.report.passed for verdict in verdicts)
     if as_json:
         print(json.dumps({"passed": passed, "reports": [_document(verdict) for verdict in verdicts]}, indent=2))

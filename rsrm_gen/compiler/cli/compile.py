@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rsrm_gen.compiler.budget import SECONDS
-from rsrm_gen.compiler.cli.options import GENERATED, OutputOption, ParameterOption, assignments
+from rsrm_gen.compiler.cli.options import GENERATED, BudgetOption, OutputOption, ParameterOption, assignments
 from rsrm_gen.compiler.cli.screen import err, out, table
 from rsrm_gen.compiler.output import staleness, unchanged, write
 from rsrm_gen.errors import UserError
@@ -41,12 +41,7 @@ def compile_command(
         bool, typer.Option("--check", help="Write nothing; say whether the generated files are stale or were edited.")
     ] = False,
     force: Annotated[bool, typer.Option("--force", help="Compile also what did not change.")] = False,
-    budget: Annotated[
-        float,
-        typer.Option(
-            "--budget", metavar="SECONDS", min=1, help="What each stage may take of the processor.", show_default=True
-        ),
-    ] = SECONDS,
+    budget: BudgetOption = SECONDS,
     timings: Annotated[bool, typer.Option("--timings", help="Show the seconds of every stage.")] = False,
 ) -> None:
     """Compile, or check, manifold files."""

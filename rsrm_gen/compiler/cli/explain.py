@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from rsrm_gen.compiler.cli.options import ParameterOption, assignments
+from rsrm_gen.compiler.budget import SECONDS, limited
+from rsrm_gen.compiler.cli.options import BudgetOption, ParameterOption, assignments
 from rsrm_gen.files import manifold_file
 
 if TYPE_CHECKING:
@@ -29,6 +30,7 @@ def explain_command(
     parameter: ParameterOption = [],  # noqa: B006
     plain: Annotated[bool, typer.Option("--plain", help="In plain text: what you get by default.")] = False,
     latex: Annotated[bool, typer.Option("--latex", help="As a LaTeX document; with --plain, both.")] = False,
+    budget: BudgetOption = SECONDS,
     steps: Annotated[bool, typer.Option("--steps", help="Every scalar step of every derived function too.")] = False,
 ) -> None:
     """Explain what is derived from a manifold file.
@@ -41,7 +43,9 @@ def explain_command(
     from rsrm_gen.compiler.spec import read_spec
 
     read = read_spec(manifold_file(spec), assignments(parameter))
-    chapters = account(derive(read), steps)
+    with limited("derive", budget):
+        geometry = derive(read)
+    chapters = account(geometry, steps)
     if plain or not latex:
         print(_plain(read, chapters))
     if latex:

@@ -16,6 +16,9 @@ ParameterOption = Annotated[
 OutputOption = Annotated[
     Path, typer.Option("-o", "--output", metavar="DIR", help="The folder of the folders of generated code.")
 ]
+BudgetOption = Annotated[
+    float, typer.Option("--budget", metavar="SECONDS", min=1, help="What each stage may take of the processor.")
+]
 GENERATED = Path("generated")
 
 

@@ -51,7 +51,8 @@ def derive(spec: Spec) -> Geometry:
 
 def derive_as_written(spec: ManifoldSpec) -> Geometry:
     """The formulas of a spec as they stand, no 0/0 removed and log |det D Log| left at 0: for finding what is wrong in them."""
-    geometry = _AsWritten(spec).geometry()
+    with mp.workdps(DIGITS):
+        geometry = _AsWritten(spec).geometry()
     return scaled(geometry, number(spec, spec.scale)) if spec.scale else geometry
 
 
@@ -69,9 +70,9 @@ class _Derivation:
         spec, operators = self.spec, self.operators
         with blamed(spec.exp.value.span):
             exp = self.exp  # first: what is wrong with it is not to be blamed on Log
-            self.check_symmetric(*self.plain_exp, self.v)
+            self.check_symmetric(*self.plain_exp)
         with blamed(spec.log.value.span):
-            self.check_symmetric(*self.plain_log, self.q)
+            self.check_symmetric(*self.plain_log)
             log_det, origin = self.log_abs_det
         functions = (
             self.project, operators.to_tangent(), operators.inner(), operators.norm(), operators.flat(), exp, self.log,
@@ -150,13 +151,14 @@ class _Derivation:
         """Whether the domain of the spec, if it has one, holds at p."""
         return self.domain is None or bool(value(self.domain, dict(zip(self.p.symbols, p, strict=True))) == 1)
 
-    def check_symmetric(self, function: Function, trace: Trace, second: Argument) -> None:
+    def check_symmetric(self, function: Function, trace: Trace) -> None:
         """Refuse a function of symmetric matrices of a matrix that is not symmetric."""
         if not trace.symmetries:
             return
-        p, q = self.sampler.pair(self.rng)
-        other = q if second is self.q else self.sampler.direction(self.rng, p)
-        values = run(function, p, other)[1]
+        rng = random.Random(6)
+        p, q = self.sampler.pair(rng)
+        given = {"p": p, "q": q, "v": self.sampler.direction(rng, p)}
+        values = run(function, *(given[a.name] for a in function.arguments))[1]
         for symmetry in trace.symmetries:
             entries = [[value(e, values) for e in pair] for pair in symmetry.pairs]
             if not largest(a - b for a, b in entries) <= TINY * largest(a for a, _ in entries):
@@ -374,10 +376,11 @@ class _Derivation:
         """A formula that may use the names of Log, on top of the mended assignments of Log."""
         trace = self.plain_log[1].extended(*more)
         result = Reading(self.spec, trace).entries(chart_map)
+        arguments, shape, text = (self.p, self.q, *more), chart_map.value.shape, chart_map.value.text
+        self.check_symmetric(Function(name, arguments, tuple(trace.assignments), result, shape, text), trace)
         mended = {a.symbol: a for a in self.mended_log.assignments}
         assignments = tuple(mended.get(a.symbol, a) for a in trace.assignments)
-        shape = chart_map.value.shape
-        return Function(name, (self.p, self.q, *more), assignments, result, shape, chart_map.value.text).pruned()
+        return Function(name, arguments, assignments, result, shape, text).pruned()
 
     def traced(
         self, name: str, chart_map: Map, arguments: Sequence[Argument], probe: Values, shape: tuple[int, ...]

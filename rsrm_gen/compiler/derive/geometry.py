@@ -180,7 +180,10 @@ class Geometry:
     unit: sp.Expr = sp.S.One  # a length natural to the manifold, where the injectivity radius is infinite
 
     def __getitem__(self, name: str) -> Function:
-        return next(function for function in self.functions if function.name == name)
+        found = next((function for function in self.functions if function.name == name), None)
+        if found is None:
+            raise KeyError(name)  # and not StopIteration, which would end whatever loop asks
+        return found
 
     def __iter__(self) -> Iterator[Function]:
         return iter(self.functions)

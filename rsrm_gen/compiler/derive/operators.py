@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping, Sequence
+from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
@@ -160,11 +161,12 @@ class Operators:
 
         def constant(entry: sp.Expr) -> sp.Expr:
             values = [value(entry, point) for point in self.points] if entry.free_symbols else []
-            if values and all(abs(x) < TINY for x in values):
-                return sp.Integer(0)
-            rational = sp.nsimplify(str(mp.nstr(values[0], 20)), rational=True) if values else entry
-            small = values and rational.q <= 64 and all(abs(x - mp.mpf(rational.p) / rational.q) < TINY for x in values)
-            return rational if small else entry
+            if not values or not mp.isfinite(values[0]):
+                return entry
+            simple = Fraction(mp.nstr(values[0], 20)).limit_denominator(64)
+            with mp.workdps(DIGITS):
+                same = all(abs(x - mp.mpf(simple.numerator) / simple.denominator) < TINY for x in values)
+            return sp.Rational(simple.numerator, simple.denominator) if same else entry
 
         return matrix.applyfunc(constant)
 

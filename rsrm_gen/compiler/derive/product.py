@@ -21,7 +21,7 @@ from rsrm_gen.compiler.spec import ProductSpec
 POWERS = {"inner": 2, "flat": 2, "norm": 1, "distance": 1, "riemannian_gradient": -2, "gradient_norm": -1}
 SQUARED_LENGTHS = ("norm", "distance", "gradient_norm")  # sqrt of the sum of squares
 SUMS = ("inner", "log_abs_det")
-OPTIONAL = ("transport", "sample")  # a product has them if every factor has
+NOT_OF_PRODUCTS = ("other_name",)  # a point of a product with such a factor has more names than one other
 
 
 def scaled(geometry: Geometry, length: sp.Expr) -> Geometry:
@@ -52,8 +52,8 @@ def product(spec: ProductSpec, geometries: Mapping[str, Geometry]) -> Geometry:
         for factor in spec.factors
     }
     parts = _Parts(spec, weighted)
-    names = [f.name for f in next(iter(weighted.values())) if f.name not in OPTIONAL]
-    names += [name for name in OPTIONAL if all(name in g for g in weighted.values())]
+    first = next(iter(weighted.values()))
+    names = [f.name for f in first if f.name not in NOT_OF_PRODUCTS and all(f.name in g for g in weighted.values())]
     periods = tuple(p for g in weighted.values() for p in g.periods or (None,) * g.spec.point_size)
     distinct = tuple((factor.name, factors[factor.name]) for factor in spec.distinct())
     return Geometry(

@@ -295,7 +295,10 @@ class Program:
     routines: tuple[Routine, ...]
 
     def __getitem__(self, name: str) -> Routine:
-        return next(routine for routine in self.routines if routine.name == name)
+        found = next((routine for routine in self.routines if routine.name == name), None)
+        if found is None:
+            raise KeyError(name)  # and not StopIteration, which would end whatever loop asks
+        return found
 
     def __iter__(self) -> Iterator[Routine]:
         return iter(self.routines)

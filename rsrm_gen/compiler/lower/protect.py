@@ -21,6 +21,7 @@ SINGULAR = {
     "atanh": (0, 0),
     "acosh": (0, 2),
     "acos": (0, 0),
+    "atan2": (1, 1),
 }
 OVERFLOWING = {"exp": (0, 0), "cosh": (0, 0), "sinh": (0, 0)}
 
@@ -40,7 +41,7 @@ def protect(
     and no root vanishes in the rest. Other conditions part anything.
     """
     done: dict[Node, Node] = {}
-    positive = Positivity(condition, when)
+    positive = Positivity(condition, when, underflow=not guard)
 
     def needed(node: Node) -> tuple[Node, ...]:
         if node.op != "select":
@@ -74,6 +75,9 @@ def protect(
         x = arguments[SINGULAR[op][0]]
         if op in ("acos", "acosh", "atanh"):  # singular at +-1
             return singular is None or singular(graph.sub(graph.mul(x, x), graph.constant(1)))
+        if op == "atan2":  # singular where both are zero
+            vanish = singular is None or all(map(singular, arguments))
+            return vanish and not any(map(positive.holds, arguments))
         return not positive.holds(x) and (singular is None or singular(x))
 
     def copied(node: Node, arguments: tuple[Node, ...]) -> Node:
@@ -109,11 +113,15 @@ def cannot_overflow(op: str, x: Node, signs: Positivity) -> bool:
 
 
 class Positivity:
-    """What is known of the signs of nodes by their form; with a condition, where the condition is `when`."""
+    """What is known of the signs of nodes by their form, where the condition is `when`.
 
-    def __init__(self, condition: Node | None = None, when: bool = True) -> None:
+    With `underflow`, an exponential may be zero: there its argument may be anything.
+    """
+
+    def __init__(self, condition: Node, when: bool, underflow: bool) -> None:
         self.condition = condition
         self.when = when
+        self.underflow = underflow
         self.known: dict[Node, tuple[bool, bool]] = {}  # above zero, never below zero
 
     def holds(self, node: Node) -> bool:
@@ -134,7 +142,9 @@ class Positivity:
         match node.op:
             case "constant":
                 return bool(node.value > 0)  # type: ignore[operator]
-            case "exp" | "cosh":
+            case "exp":
+                return not self.underflow
+            case "cosh":
                 return True
             case "add":
                 return all(self.known[x][1] for x in a) and any(positive)
@@ -150,7 +160,7 @@ class Positivity:
         """Whether a node is never below zero, as a square is, for a node whose arguments are known."""
         a = node.arguments
         match node.op:
-            case "abs" | "sqrt" | "root":
+            case "abs" | "sqrt" | "root" | "exp":
                 return True
             case "mul":
                 return a[0] is a[1] or all(self.known[x][1] for x in a)
