@@ -121,7 +121,8 @@ def _exp_or_metric(
         return _least_vouched_for(suspects, failed, passed, spec)
     if is_flow():
         text = "look at `metric`: Exp continues itself, so its curves are geodesics, but not of this metric"
-        return Verdict("metric", text)
+        meant = "" if spec.embedded else "; if a retraction is meant, say so: `maps: retraction`"
+        return Verdict("metric", text + meant)
     text = (
         "look at `exp`: a geodesic continues itself, out of any later point with its velocity there, and this does not; "
         "if a retraction is meant, say so: `maps: retraction`"

@@ -139,7 +139,7 @@ def curves(laws: Laws) -> list[tuple[Curve, Any]]:
     """
     finite = laws.geometry.injectivity_radius.is_finite
     found = []
-    for k, ((p, _), r) in enumerate(zip(laws.pairs, laws.reaches(), strict=True)):
+    for k, ((p, _), r) in enumerate(zip(laws.pairs, laws.reaches, strict=True)):
         length = BEYOND * r if finite and k % 4 == 3 else r
         v = [length * c for c in laws.sampler.direction(laws.rng, p)]
         found.append((Curve(laws, p, v), mp.mpf(2 * k + 1) / (2 * len(laws.pairs))))

@@ -16,6 +16,7 @@ from rsrm_gen.compiler.audit.whole import pairs_on_the_cut
 from rsrm_gen.compiler.audit.worst import Worst, at, difference, relative
 from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.derive.numeric import largest, run, value
+from rsrm_gen.compiler.derive.sampling import sampler_of
 from rsrm_gen.compiler.emit import emit
 from rsrm_gen.compiler.lower import Program, lower
 from rsrm_gen.compiler.spec import ManifoldSpec
@@ -24,6 +25,7 @@ RUNG = mp.mpf(10) ** -14  # of the ladder: its error is of the order of its squa
 SAMPLES, WAVES = 20_000, 12
 STEP = 1e-3  # of second differences
 DEVIATIONS = 5.0
+PLACES, ROUNDED = 32, 1e-12  # samples whose place is looked at, and how exact they are in double precision
 
 
 def transport_checks(laws: Laws) -> list[Check]:
@@ -68,7 +70,7 @@ def _ladder(laws: Laws, p: list[Any], v: list[Any]) -> Any:
 
 
 def sample_checks(geometry: Geometry, program: Program, files: Mapping[str, str]) -> list[Check]:
-    """`sample` is uniform: the Laplacian of every smooth function has the mean zero on a closed manifold."""
+    """`sample` draws points of the manifold, uniformly: on a closed one, mean Laplacians of smooth functions vanish."""
     if geometry.factors:
         return [check for name, factor in geometry.factors for check in _sample_checks_of_factor(name, factor)]
     if "sample" not in geometry:
@@ -77,6 +79,9 @@ def sample_checks(geometry: Geometry, program: Program, files: Mapping[str, str]
     generator = torch.Generator().manual_seed(31)
     count = SAMPLES if geometry.spec.dim <= 4 else SAMPLES // 4  # frames cost the cube of the dimension
     points = manifold.sample(count, generator, torch.zeros((), dtype=torch.float64))
+    place = _sample_place(geometry, points[:PLACES].tolist())
+    if not place.passed:
+        return [place]
     waves = _Waves(geometry, generator, getattr(manifold, "other_name", None))
     laplacian = torch.zeros(count, WAVES, dtype=torch.float64)
     frame = manifold.frame(points)
@@ -88,7 +93,18 @@ def sample_checks(geometry: Geometry, program: Program, files: Mapping[str, str]
     promise = "`sample` is uniform in volume: mean Laplacians vanish (in standard deviations)"
     spec = geometry.spec
     span = spec.sample.value.span if isinstance(spec, ManifoldSpec) and spec.sample else None
-    return [Check("sample", promise, worst, DEVIATIONS, count, "", span, unit=None)]
+    return [place, Check("sample", promise, worst, DEVIATIONS, count, "", span, unit=None)]
+
+
+def _sample_place(geometry: Geometry, points: list[list[float]]) -> Check:
+    """Whether sampled points are those of the manifold: in its domain, and left alone by `project`."""
+    spec, sampler, worst = geometry.spec, sampler_of(geometry), Worst()
+    for p in points:
+        moved = difference(run(sampler.project, p)[0], p) if sampler.project else [0]
+        worst = worst.with_error(relative(moved, p) if sampler.inside(p) else mp.inf, at("p", p))
+    promise = "`sample` draws points of the manifold, inside its `domain`"
+    span = spec.sample.value.span if isinstance(spec, ManifoldSpec) and spec.sample else None
+    return Check("sample place", promise, worst.error, ROUNDED, worst.points, worst.where, span)
 
 
 def _sample_checks_of_factor(name: str, factor: Geometry) -> list[Check]:

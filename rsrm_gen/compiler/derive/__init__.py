@@ -365,7 +365,7 @@ class _Derivation:
         if guard is None:
             raise UserError(
                 "log |det D Log| is not finite where the points coincide, and no smooth quantity mends it",
-                self.spec.log.value.span,
+                (self.spec.log_det or self.spec.log).value.span,
             )
         symbol = sp.Symbol("log_det", real=True)
         return replace(
