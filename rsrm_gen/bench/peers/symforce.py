@@ -32,7 +32,7 @@ Formula = Callable[[Any, Any], Any]  # two column vectors of symbols -> a matrix
 
 
 def functions(spec: Spec, precision: str) -> Mapping[str, Evaluate]:
-    """Exp, Log, the distance and the determinant of spheres, hyperbolic spaces, tori and SO(3)."""
+    """Exp, Log, the distance and the determinant of spheres, hyperbolic spaces in two models, tori and SO(3)."""
     manifold = bundled_name(spec)
     if manifold not in FORMULAS:
         return {}
@@ -126,6 +126,33 @@ def _hyperbolic() -> dict[str, Formula]:
     return {"exp": exp, "log": log, "distance": distance, "log_abs_det": chart_jacobian}
 
 
+def _poincare() -> dict[str, Formula]:
+    def exp(p: Any, v: Any) -> Any:
+        a = 1 - p.squared_norm()
+        w = v / a
+        r = w.norm()
+        s = p + sf.tanh(r) / r * w
+        ss = s.squared_norm()
+        return (ss * p + a * s) / (ss + a / sf.cosh(r) ** 2)
+
+    def angle(p: Any, q: Any) -> tuple[Any, Any, Any, Any]:
+        a, b, d = 1 - p.squared_norm(), 1 - q.squared_norm(), q - p
+        return (d / sf.sqrt(a * b)).norm(), a, b, d
+
+    def distance(p: Any, q: Any) -> Any:
+        return sf.Matrix([2 * sf.asinh(angle(p, q)[0])])
+
+    def log(p: Any, q: Any) -> Any:
+        h, a, b, d = angle(p, q)
+        return 2 * sf.asinh(h) / (2 * h * sf.sqrt(1 + h**2)) / b * (a * d - d.squared_norm() * p)
+
+    def jacobian(p: Any, q: Any) -> Any:
+        _, a, b, _ = angle(p, q)
+        return b / a * log(p, q).jacobian(q)  # the lengths of the metric at p and q
+
+    return {"exp": exp, "log": log, "distance": distance, "log_abs_det": jacobian}
+
+
 def _torus() -> dict[str, Formula]:
     def wrapped(x: Any) -> Any:
         return sf.Matrix([e - 2 * sf.pi * sf.floor(e / (2 * sf.pi) + sf.S(1) / 2) for e in x])
@@ -176,6 +203,7 @@ def _stacked(first: Any, rest: Any) -> Any:
 FORMULAS: dict[str, dict[str, Formula]] = {
     "sphere": _sphere(),
     "hyperbolic": _hyperbolic(),
+    "poincare": _poincare(),
     "torus": _torus(),
     "so3": _rotations(),
 }
