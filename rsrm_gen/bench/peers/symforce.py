@@ -79,8 +79,8 @@ def _sphere() -> dict[str, Formula]:
         return sf.Matrix([2 * sf.atan2((q - p).norm(), (q + p).norm())])
 
     def log(p: Any, q: Any) -> Any:
-        d = q - p
-        w = d - p.dot(d) * p
+        e = q + (2 * sf.less(p.dot(q), 0) - 1) * p
+        w = e - p.dot(e) * p
         return distance(p, q)[0] * w.normalized()
 
     def completed_jacobian(p: Any, q: Any) -> Any:

@@ -80,8 +80,8 @@ def _sphere() -> dict[str, Formula]:
         return sym.vector(2 * sym.atan2((q - p).norm(), (q + p).norm()))
 
     def log(p: Any, q: Any) -> Any:
-        d = q - p
-        w = d - p * _dot(p, d)
+        e = q + sym.where(_dot(p, q) < 0, 1, -1) * p
+        w = e - p * _dot(p, e)
         return _unless_zero(w.norm(), distance(p, q)[0] / w.norm(), 1) * w
 
     def completed_jacobian(p: Any, q: Any) -> Any:
