@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 import json
+import random
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import mpmath as mp
 import numpy as np
 import pytest
 from compiled import MANIFOLDS, geometry, needs_compiler, program
 
 from rsrm_gen.bench import rows as places
 from rsrm_gen.bench.accuracy import OURS, Accuracy, accuracy
+from rsrm_gen.bench.ambient import PositiveDefinite, Rotations
 from rsrm_gen.bench.cli import app
 from rsrm_gen.bench.measure import DETERMINANT, FUNCTIONS, LOST, Score, measure
 from rsrm_gen.bench.peers import PEERS, Evaluate, Peer, bundled_name
 from rsrm_gen.bench.rows import Band, Truth, band, bands
-from rsrm_gen.compiler.audit.numbers import PRECISIONS, ROUTINES
+from rsrm_gen.compiler.audit.numbers import PRECISIONS, ROUTINES, grain, shaken
 from rsrm_gen.compiler.lower import interpret
 from rsrm_gen.compiler.spec import Spec, read_spec
 from rsrm_gen.errors import UserError
@@ -167,7 +170,7 @@ def test_the_truth_and_its_unit_are_those_of_the_oracle(key: str, name: str) -> 
         assert (np.array(off) <= unit).all(), function
         curved = unit > 0  # the determinant of flat space has nothing to round
         assert curved.all() or (function == "log_abs_det" and name in ("torus", "euclidean"))
-        assert (np.abs(np.log(truth.units[curved] / unit[curved])) < np.log(8)).all(), function
+        assert (np.abs(np.log(truth.units[curved] / unit[curved])) < np.log(10)).all(), function
 
 
 @needs_compiler
@@ -179,7 +182,7 @@ def test_both_of_our_codes_hold_their_promise_on_these_pairs() -> None:
 
 
 @pytest.mark.parametrize("precision", PRECISIONS)
-@pytest.mark.parametrize("name", ["sphere", "hyperbolic", "so3", "torus"])
+@pytest.mark.parametrize("name", ["sphere", "hyperbolic", "so3", "so3_matrix", "torus"])
 def test_pairs_are_as_far_apart_as_they_say(name: str, precision: str) -> None:
     chosen = list(bands(geometry(name), program(name), precision, 6))
     found = {b.name: [float(d[0]) for d in b.truths["distance"].values] for b in chosen}
@@ -193,10 +196,53 @@ def test_pairs_are_as_far_apart_as_they_say(name: str, precision: str) -> None:
         assert 29 < max(found[places.FAR]) < 31
     else:
         assert np.pi - 1e-3 < max(found[places.NEAR_RADIUS]) < np.pi
-    if name == "so3":
+    if name in ("so3", "so3_matrix"):
         assert np.allclose(found[places.AT_RADIUS], np.pi, atol=rounding)
+    if name == "so3":
         (opposite,) = (b for b in chosen if b.name == places.AT_RADIUS)
         assert (np.sum(opposite.p * opposite.q, axis=1) == 0).all()  # exactly where cos(angle / 2) = 0
+
+
+def test_inputs_are_rounded_up_as_well_as_down() -> None:
+    rng, x = random.Random(3), [mp.mpf(1), mp.mpf(-2)]
+    with mp.workdps(60):  # in doubles 1 + 2^-53 would be 1
+        near = [shaken(x, grain(x, ()), PRECISIONS["float64"][2], rng) for _ in range(20)]
+    assert {float((a - b) / b * 2**53) for y in near for a, b in zip(y, x, strict=True)} == {-1.0, 1.0}
+
+
+def test_pairs_at_the_border_of_the_domain_are_left_out_and_counted() -> None:
+    ball = geometry("poincare"), program("poincare")
+    far = next(b for b in bands(*ball, "float32", 8) if b.name == places.FAR)
+    assert len(far.p) + far.left_out == 8
+    assert far.left_out > 0
+    assert (np.sum(np.float64(far.q) ** 2, axis=1) < 1 - 32 * np.finfo("float32").eps).all()
+    assert all(np.isfinite(truth.units).all() for truth in far.truths.values())
+    assert [b.left_out for b in bands(*ball, "float64", 3)] == [0, 0, 0, 0]
+
+
+def test_pairs_that_were_left_out_are_said_in_the_tables() -> None:
+    (table,) = (t for t in measured(manifold="poincare", count=8).bands() if t.title == "poincare, float32")
+    assert {row[1] for row in table.rows if "left out" in row[1]} == {"far away, 3..30 (4 left out)"}
+
+
+def test_components_are_the_ambient_matrices_of_the_same_length() -> None:
+    rng = np.random.default_rng(5)
+    A, v = rng.normal(size=(4, 3, 3)), rng.normal(size=(4, 6))
+    P = A @ A.transpose(0, 2, 1) + np.eye(3)
+    V = PositiveDefinite.ambient(P.reshape(4, 9), v).astype(float)
+    S = np.linalg.solve(P, V)
+    assert np.allclose(np.trace(S @ S, axis1=1, axis2=2), np.sum(v**2, axis=1))
+    assert np.allclose(PositiveDefinite.components(P.reshape(4, 9), V), v)
+    R, w = np.linalg.qr(A)[0], v[:, :3]
+    W = Rotations.ambient(R.reshape(4, 9), w).astype(float)
+    assert np.allclose(W @ np.array([1, 0, 0]), R @ np.cross(w, [1, 0, 0])[:, :, None] @ np.ones(1))
+    assert np.allclose(Rotations.components(R.reshape(4, 9), W), w)
+
+
+def test_casadi_is_not_credited_with_an_eigen_decomposition_that_is_ours() -> None:
+    (casadi,) = (p for p in PEERS if p.name == "CasADi")
+    assert casadi.functions(read_spec(MANIFOLDS / "spd.yaml"), "float64") == {}
+    assert set(casadi.functions(read_spec(MANIFOLDS / "so3_matrix.yaml"), "float64")) == set(ROUTINES)
 
 
 def test_a_peer_knows_only_the_manifolds_that_come_with_this_project(tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ from rsrm_gen.compiler.audit.interface import check_interface
 from rsrm_gen.compiler.audit.kernels import check_kernels
 
 EDITS = {
-    "the gradient of a splat in torch": ("py", r"(    def _splat.*)gradient1 = df1 - ", r"\1gradient1 = df1 + ", "functions torch"),
+    "the gradient of a splat in torch": ("py", r"gradient1 = df1 - (?=x1)", "gradient1 = df1 + ", "functions torch"),
     "a mean for a sum": ("py", r"return value\.sum\(-1\), _stack", "return value.mean(-1), _stack", "sums torch"),
     "a frame of any length": ("py", r"row = row / self\.norm\(base, row\)\.unsqueeze\(-1\)", "row = 2 * row", "frame torch"),
     "points crowded at the centre": ("py", r"\*\* \(1 / self\.dim\)", "** 1.5", "sample ball"),
@@ -21,7 +21,7 @@ EDITS = {
     "another dimension in C": ("h", r"SPHERE_DIM 2", "SPHERE_DIM 3", "constants"),
 }  # fmt: skip
 C_EDITS = {
-    "the gradient of a splat in C": ("c", r"(sphere_splat\(.*?)gradient1 = df1 - ", r"\1gradient1 = df1 + ", "functions C"),
+    "the gradient of a splat in C": ("c", r"gradient1 = df1 - (?=x\[1\])", "gradient1 = df1 + ", "functions C"),
     "a frame twice as long in C": ("c", r"e\[j\] = left\[longest\]\[j\]", "e[j] = 2 * left[longest][j]", "frame C"),
 }  # fmt: skip
 

@@ -37,9 +37,10 @@ WORDS = {
 LEGEND = (
     "Median / worst error, in units of what rounding the inputs and the output alone costs; (n) rows of a band are worse "
     "than 2^20 units, not finite, or raise; NaN: a result that is not finite; †: one row makes the whole batch raise, and "
-    "the others were measured one by one; -: there is no such function. The unit of log|det D Log| is relative to the "
-    "logarithm, which vanishes where points are close; that of |det D Log| is relative to the determinant, and fair to a "
-    "code that computes the determinant first."
+    "the others were measured one by one; -: there is no such function; left out: pairs, for every code, of which a point "
+    "is within 64 roundings of the border of the domain. The unit of log|det D Log| is relative to the logarithm, which "
+    "vanishes where points are close; that of |det D Log| is relative to the determinant, and fair to a code that computes "
+    "the determinant first."
 )
 
 
@@ -53,6 +54,7 @@ class Entry:
     band: str
     code: str
     score: Score | None
+    left_out: int = 0  # pairs of the band, for every code
 
 
 @dataclass(frozen=True)
@@ -114,10 +116,14 @@ class Accuracy:
 
     def _bands(self, manifold: str, precision: str) -> Table:
         chosen = [e for e in self.entries if (e.manifold, e.precision) == (manifold, precision)]
-        keys = dict.fromkeys((f, e.band) for f in FUNCTIONS for e in chosen if e.function == f)
+        keys = dict.fromkeys((f, e.band, e.left_out) for f in FUNCTIONS for e in chosen if e.function == f)
         rows = [
-            (WORDS[f], band, *(_cell(score) for c in self.codes for score in _of(chosen, c, manifold, f, band)))
-            for f, band in keys
+            (
+                WORDS[f],
+                band + (f" ({left_out} left out)" if left_out else ""),
+                *(_cell(score) for c in self.codes for score in _of(chosen, c, manifold, f, band)),
+            )
+            for f, band, left_out in keys
         ]
         return Table(f"{manifold}, {precision}", ("function", "pairs", *self.codes), tuple(rows), 2)
 
@@ -187,7 +193,7 @@ def _entries(
 ) -> Iterator[Entry]:
     for band in places:
         for function, score in measure(functions, band).items():
-            yield Entry(manifold, precision, function, band.name, code, score)
+            yield Entry(manifold, precision, function, band.name, code, score, band.left_out)
 
 
 def _of(

@@ -22,13 +22,18 @@ app = typer.Typer(
 
 Parameters = Mapping[str, int | float | str]
 
-# Spheres, hyperbolic spaces, rotations and tori are what other tools have too.
+# What other tools have too.
 CASES: tuple[tuple[str, Parameters], ...] = (
     ("sphere", {}),
     ("hyperbolic", {}),
     ("so3", {}),
     ("torus", {}),
     ("sphere", {"n": 5}),
+    ("poincare", {}),
+    ("half_space", {}),
+    ("so3_matrix", {}),
+    ("spd", {}),
+    ("spd", {"n": 3}),
 )
 LARGE: tuple[tuple[str, Parameters], ...] = (("sphere", {"n": 16}),)
 ROWS, QUICK_ROWS = 48, 8
@@ -55,7 +60,7 @@ def accuracy_command(
     """The worst and median error of the generated code, beside other tools on the same points.
 
     \b
-    rsrm bench accuracy                          S^2, H^2, SO(3), T^2 and S^5
+    rsrm bench accuracy                          S^2, H^2 in three models, SO(3) in two, T^2, S^5, SPD(2), SPD(3)
     rsrm bench accuracy sphere -p n=7 --quick
     rsrm bench accuracy --markdown accuracy.md --json accuracy.json
 

@@ -32,7 +32,7 @@ Formula = Callable[[Any, Any], Any]  # two column vectors of symbols -> a matrix
 
 
 def functions(spec: Spec, precision: str) -> Mapping[str, Evaluate]:
-    """Exp, Log, the distance and the determinant of spheres, hyperbolic spaces, tori and SO(3)."""
+    """Exp, Log, the distance and the determinant of spheres, hyperbolic spaces in two models, tori and SO(3)."""
     manifold = bundled_name(spec)
     if manifold not in FORMULAS:
         return {}
@@ -79,8 +79,8 @@ def _sphere() -> dict[str, Formula]:
         return sf.Matrix([2 * sf.atan2((q - p).norm(), (q + p).norm())])
 
     def log(p: Any, q: Any) -> Any:
-        d = q - p
-        w = d - p.dot(d) * p
+        e = q + (2 * sf.less(p.dot(q), 0) - 1) * p
+        w = e - p.dot(e) * p
         return distance(p, q)[0] * w.normalized()
 
     def completed_jacobian(p: Any, q: Any) -> Any:
@@ -124,6 +124,33 @@ def _hyperbolic() -> dict[str, Formula]:
         return sf.Matrix.diag([time[1] / time[0], *[1] * (J.rows - 1)]) * J
 
     return {"exp": exp, "log": log, "distance": distance, "log_abs_det": chart_jacobian}
+
+
+def _poincare() -> dict[str, Formula]:
+    def exp(p: Any, v: Any) -> Any:
+        a = 1 - p.squared_norm()
+        w = v / a
+        r = w.norm()
+        s = p + sf.tanh(r) / r * w
+        ss = s.squared_norm()
+        return (ss * p + a * s) / (ss + a / sf.cosh(r) ** 2)
+
+    def angle(p: Any, q: Any) -> tuple[Any, Any, Any, Any]:
+        a, b, d = 1 - p.squared_norm(), 1 - q.squared_norm(), q - p
+        return (d / sf.sqrt(a * b)).norm(), a, b, d
+
+    def distance(p: Any, q: Any) -> Any:
+        return sf.Matrix([2 * sf.asinh(angle(p, q)[0])])
+
+    def log(p: Any, q: Any) -> Any:
+        h, a, b, d = angle(p, q)
+        return 2 * sf.asinh(h) / (2 * h * sf.sqrt(1 + h**2)) / b * (a * d - d.squared_norm() * p)
+
+    def jacobian(p: Any, q: Any) -> Any:
+        _, a, b, _ = angle(p, q)
+        return b / a * log(p, q).jacobian(q)  # the lengths of the metric at p and q
+
+    return {"exp": exp, "log": log, "distance": distance, "log_abs_det": jacobian}
 
 
 def _torus() -> dict[str, Formula]:
@@ -176,6 +203,7 @@ def _stacked(first: Any, rest: Any) -> Any:
 FORMULAS: dict[str, dict[str, Formula]] = {
     "sphere": _sphere(),
     "hyperbolic": _hyperbolic(),
+    "poincare": _poincare(),
     "torus": _torus(),
     "so3": _rotations(),
 }

@@ -33,7 +33,7 @@ Formula = Callable[[Any, Any], Any]  # two column vectors of symbols -> a matrix
 
 
 def functions(spec: Spec, precision: str) -> Mapping[str, Evaluate]:
-    """Exp, Log, the distance and the determinant of spheres, hyperbolic spaces, tori and SO(3)."""
+    """Exp, Log, the distance and the determinant of spheres, hyperbolic spaces in two models, tori and SO(3)."""
     manifold = bundled_name(spec)
     if manifold not in FORMULAS:
         return {}
@@ -80,8 +80,8 @@ def _sphere() -> dict[str, Formula]:
         return sym.vector(2 * sym.atan2((q - p).norm(), (q + p).norm()))
 
     def log(p: Any, q: Any) -> Any:
-        d = q - p
-        w = d - p * _dot(p, d)
+        e = q + sym.where(_dot(p, q) < 0, 1, -1) * p
+        w = e - p * _dot(p, e)
         return _unless_zero(w.norm(), distance(p, q)[0] / w.norm(), 1) * w
 
     def completed_jacobian(p: Any, q: Any) -> Any:
@@ -128,6 +128,33 @@ def _hyperbolic() -> dict[str, Formula]:
         return sym.diag([time[1] / time[0], *[1] * (J.shape[0] - 1)]) * J
 
     return {"exp": exp, "log": log, "distance": distance, "log_abs_det": chart_jacobian}
+
+
+def _poincare() -> dict[str, Formula]:
+    def exp(p: Any, v: Any) -> Any:
+        a = 1 - _dot(p, p)
+        w = v / a
+        r = w.norm()
+        s = p + _unless_zero(r, sym.tanh(r) / r, 1) * w
+        ss = _dot(s, s)
+        return (ss * p + a * s) / (ss + a / sym.cosh(r) ** 2)
+
+    def angle(p: Any, q: Any) -> tuple[Any, Any, Any, Any]:
+        a, b, d = 1 - _dot(p, p), 1 - _dot(q, q), q - p
+        return (d / sym.sqrt(a * b)).norm(), a, b, d
+
+    def distance(p: Any, q: Any) -> Any:
+        return sym.vector(2 * sym.asinh(angle(p, q)[0]))
+
+    def log(p: Any, q: Any) -> Any:
+        h, a, b, d = angle(p, q)
+        return _unless_zero(h, sym.asinh(h) / (h * sym.sqrt(1 + h**2)), 1) / b * (a * d - _dot(d, d) * p)
+
+    def jacobian(p: Any, q: Any) -> Any:
+        _, a, b, _ = angle(p, q)
+        return log(p, q).jacobian(q) * (b / a)  # the lengths of the metric at p and q
+
+    return {"exp": exp, "log": log, "distance": distance, "log_abs_det": jacobian}
 
 
 def _torus() -> dict[str, Formula]:
@@ -184,6 +211,7 @@ def _stacked(first: Any, rest: Any) -> Any:
 FORMULAS: dict[str, dict[str, Formula]] = {
     "sphere": _sphere(),
     "hyperbolic": _hyperbolic(),
+    "poincare": _poincare(),
     "torus": _torus(),
     "so3": _rotations(),
 }

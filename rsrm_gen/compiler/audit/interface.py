@@ -33,7 +33,10 @@ def check_interface(geometry: Geometry, program: Program, files: Mapping[str, st
         checks += [
             _frames(program, "C", p, rows[p], _native_frames(geometry, program, files, rows[p], p)) for p in PRECISIONS
         ]
-    return [*checks, _torch_sums(manifold, rows["float64"]), _ball(geometry, manifold, rows["float64"])]
+    checks.append(_torch_sums(manifold, rows["float64"]))
+    if all(check.passed for check in checks):  # thinning by a wrong frame could take for ever
+        checks.append(_ball(geometry, manifold, rows["float64"]))
+    return checks
 
 
 def _constants(geometry: Geometry, program: Program, files: Mapping[str, str], manifold: Any) -> Check:

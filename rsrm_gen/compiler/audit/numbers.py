@@ -143,7 +143,7 @@ def sample_rows(geometry: Geometry, precision: str) -> Rows:
         p = sampler.point(rng)
         v = [r * c for c in sampler.direction(rng, p)]
         row = [_rounded(x, precision) for x in (p, sampler.along(p, v, mp.mpf(1)), v)]
-        if all(_well_inside(sampler, x, precision) for x in row[:2]):  # far points may round out of the domain
+        if all(well_inside(sampler, x, precision) for x in row[:2]):  # far points may round out of the domain
             kinds.append(kind)
             rows.append(row)
     stacked = [np.stack(column) for column in zip(*rows, strict=True)]
@@ -159,15 +159,23 @@ def middling(rows: Rows) -> Rows:
     return Rows(rows.p[keep], rows.q[keep], rows.v[keep], tuple(rows.kinds[i] for i in keep))
 
 
-def _well_inside(sampler: Sampler, x: Sequence[Any], precision: str) -> bool:
-    """Whether a point satisfies the condition of the domain, and does so when shaken by as much as an error may be."""
+def well_inside(sampler: Sampler, x: Sequence[Any], precision: str, whole: Sequence[slice] = ()) -> bool:
+    """Whether a point satisfies the condition of the domain, and does so when shaken by as much as an error may be.
+
+    The entries in `whole` are a matrix, and shaken as one: by parts of its largest entry.
+    """
     if sampler.domain is None:
         return True
     rng, eps = random.Random(17), UNITS * PRECISIONS[precision][2]
     with mp.workdps(DIGITS):
         point = [mp.mpf(float(c)) for c in x]
-        shaken = [[c * (1 + eps * rng.choice((-1, 1))) for c in point] for _ in range(4)]
-    return all(sampler.inside(y) for y in (point, *shaken))
+        neighbours = [shaken(point, grain(point, whole), eps, rng) for _ in range(4)]
+    return all(sampler.inside(y) for y in (point, *neighbours))
+
+
+def shaken(x: Sequence[Any], sizes: Sequence[Any], eps: float, rng: random.Random) -> list[Any]:
+    """Numbers that are larger or smaller than those of x by eps of some sizes."""
+    return [c + (size if c >= 0 else -size) * eps * rng.choice((-1, 1)) for c, size in zip(x, sizes, strict=True)]
 
 
 def _rounded(x: Sequence[Any], precision: str) -> Any:
@@ -205,15 +213,15 @@ def places(geometry: Geometry, names: Sequence[str], rows: Rows, precision: str)
     found = []
     for kind, *inputs in zip(rows.kinds, *(getattr(rows, name) for name in names), strict=True):
         given = [[mp.mpf(float(c)) for c in x] for x in inputs]
-        grain = [_grain(x, whole if name != "v" else ()) for name, x in zip(names, given, strict=True)]
+        entries = [grain(x, whole if name != "v" else ()) for name, x in zip(names, given, strict=True)]
         neighbours = []
         for shake in SHAKES * (4 if kind == NEAR_CUT else 1):  # the cut locus may run between a row and its neighbours
             with mp.workdps(DIGITS):
-                shaken = [
+                near = [
                     [c + s * eps * size * rng.choice((-1, 1)) for c, size in zip(x, sizes, strict=True)]
-                    for x, sizes, s in zip(given, grain, shake, strict=True)
+                    for x, sizes, s in zip(given, entries, shake, strict=True)
                 ]
-            neighbours.append(_meant(project, names, shaken))
+            neighbours.append(_meant(project, names, near))
         found.append(Place(_meant(project, names, given), neighbours))
     return found
 
@@ -238,7 +246,7 @@ def _meant(project: Function | None, names: Sequence[str], inputs: Sequence[Sequ
     return [x if name == "v" else run(project, x)[0] for name, x in zip(names, inputs, strict=True)]
 
 
-def _grain(x: Sequence[Any], whole: Sequence[slice]) -> list[Any]:
+def grain(x: Sequence[Any], whole: Sequence[slice]) -> list[Any]:
     """The size of what every entry is a part of: itself, or a matrix."""
     sizes = [abs(c) for c in x]
     for part in whole:
