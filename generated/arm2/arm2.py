@@ -233,8 +233,8 @@ class Arm2:
         cos_2 = torch.cos(p1)
         total_2 = 0.3333333333333333 + 0.5 * cos_2
         total_3 = (
-            log0 * (log0 * (1.6666666666666667 + cos_2) + log1 * total_2) + log1 * (0.3333333333333333 * log1 + log0
-            * total_2)
+            log0 * (log0 * (1.6666666666666667 + cos_2) + log1 * total_2) + log1 * (0.3333333333333333 * log1 + log0 *
+            total_2)
         )
         return _root(total_3)
 

@@ -342,8 +342,8 @@ class DualArm:
         round_15 = torch.round(0.15915494309189535 * gap_14)
         arm2_log6 = gap_14 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 - 3.019915981956753e-07 * round_15
         total_2 = (
-            arm1_log0 * arm1_log0 + arm1_log1 * arm1_log1 + arm1_log2 * arm1_log2 + arm1_log3 * arm1_log3 +
-            arm1_log4 * arm1_log4
+            arm1_log0 * arm1_log0 + arm1_log1 * arm1_log1 + arm1_log2 * arm1_log2 + arm1_log3 * arm1_log3 + arm1_log4 *
+            arm1_log4
         )
         total_3 = (
             total_2 + arm1_log5 * arm1_log5 + arm1_log6 * arm1_log6 + arm2_log0 * arm2_log0 + arm2_log1 * arm2_log1
@@ -400,53 +400,53 @@ class DualArm:
         uniform0, uniform1, uniform2, uniform3, uniform4, uniform5, uniform6, uniform7, uniform8, uniform9, uniform10, uniform11, uniform12, uniform13 = uniform.unbind(-1)
         round_2 = torch.round(uniform0)
         p0 = (
-            6.283185307179586 * uniform0 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 -
-            3.019915981956753e-07 * round_2
+            6.283185307179586 * uniform0 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
+            round_2
         )
         round_3 = torch.round(uniform1)
         p1 = (
-            6.283185307179586 * uniform1 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 -
-            3.019915981956753e-07 * round_3
+            6.283185307179586 * uniform1 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
+            round_3
         )
         round_4 = torch.round(uniform2)
         p2 = (
-            6.283185307179586 * uniform2 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 -
-            3.019915981956753e-07 * round_4
+            6.283185307179586 * uniform2 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
+            round_4
         )
         round_5 = torch.round(uniform3)
         p3 = (
-            6.283185307179586 * uniform3 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 -
-            3.019915981956753e-07 * round_5
+            6.283185307179586 * uniform3 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
+            round_5
         )
         round_6 = torch.round(uniform4)
         p4 = (
-            6.283185307179586 * uniform4 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 -
-            3.019915981956753e-07 * round_6
+            6.283185307179586 * uniform4 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
+            round_6
         )
         round_7 = torch.round(uniform5)
         p5 = (
-            6.283185307179586 * uniform5 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 -
-            3.019915981956753e-07 * round_7
+            6.283185307179586 * uniform5 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
+            round_7
         )
         round_8 = torch.round(uniform6)
         p6 = (
-            6.283185307179586 * uniform6 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 -
-            3.019915981956753e-07 * round_8
+            6.283185307179586 * uniform6 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
+            round_8
         )
         round_9 = torch.round(uniform7)
         p7 = (
-            6.283185307179586 * uniform7 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 -
-            3.019915981956753e-07 * round_9
+            6.283185307179586 * uniform7 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 *
+            round_9
         )
         round_10 = torch.round(uniform8)
         p8 = (
-            6.283185307179586 * uniform8 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 -
-            3.019915981956753e-07 * round_10
+            6.283185307179586 * uniform8 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07
+            * round_10
         )
         round_11 = torch.round(uniform9)
         p9 = (
-            6.283185307179586 * uniform9 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 -
-            3.019915981956753e-07 * round_11
+            6.283185307179586 * uniform9 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07
+            * round_11
         )
         round_12 = torch.round(uniform10)
         p10 = (

@@ -276,9 +276,8 @@ class HalfSpace:
         r_squared_5 = v_over_y0_5 * v_over_y0_5 + v_over_y1_5 * v_over_y1_5
         r_3 = _root(torch.where(is_small, 1.0, r_squared_5))
         exp_minus_r = torch.exp(-r_3)
-        sinhc_r_near_3 = (
-            _polynomial(torch.where(is_small, 0.0, torch.where(near, 1.0097001897226656 * r_squared_5, 0.0)),
-            _SINHC_R_NEAR)
+        sinhc_r_near_3 = _polynomial(
+            torch.where(is_small, 0.0, torch.where(near, 1.0097001897226656 * r_squared_5, 0.0)), _SINHC_R_NEAR
         )
         scale_6 = 1.0 / torch.where(is_small, 1.0, near_chosen)
         v_over_y0_6 = v0 * scale_6
@@ -289,9 +288,8 @@ class HalfSpace:
         h0 = v0 / chosen
         dot_h_h = h0 * h0
         c = r_3 + k_3
-        z = (
-            torch.where(is_small, cosh_r - sinhc_r_2 * k_4, exp_minus_r + sinhc_r_3 * dot_h_h /
-            torch.where(is_small, 1.0, c))
+        z = torch.where(
+            is_small, cosh_r - sinhc_r_2 * k_4, exp_minus_r + sinhc_r_3 * dot_h_h / torch.where(is_small, 1.0, c)
         )
         q0 = p0 + v0 * sinhc_r / z
         q1 = p1 / z
@@ -470,9 +468,8 @@ class HalfSpace:
             t_over_sinh_t_near_slope, 0.0)
         )
         is_small = h_squared_total == 0.0
-        chosen = (
-            torch.where(is_small, 0.0, -(h_product * by_t_product / (2.0 * torch.where(is_small, 1.0,
-            sqrt_1_plus_h_to_2))))
+        chosen = torch.where(
+            is_small, 0.0, -(h_product * by_t_product / (2.0 * torch.where(is_small, 1.0, sqrt_1_plus_h_to_2)))
         )
         by_h_squared = total_3 + chosen
         product_2 = 2.0 * by_h_squared

@@ -228,9 +228,9 @@ class Hyperbolic:
         rest0 = v1 - p1 * dot_s_h_ratio
         rest1 = v2 - p2 * dot_s_h_ratio
         dot_rest_rest = rest0 * rest0 + rest1 * rest1
-        vv = (
-            torch.where(is_small, dot_h_h - dot_s_h * dot_s_h / dot_s_s_total, dot_rest_rest + dot_s_h *
-            dot_s_h_ratio / dot_s_s_total)
+        vv = torch.where(
+            is_small, dot_h_h - dot_s_h * dot_s_h / dot_s_s_total, dot_rest_rest + dot_s_h * dot_s_h_ratio /
+            dot_s_s_total
         )
         r = _root(vv)
         return r
@@ -432,9 +432,9 @@ class Hyperbolic:
         rest0 = gradient1 - p1 * dot_s_h_ratio
         rest1 = gradient2 - p2 * dot_s_h_ratio
         dot_rest_rest = rest0 * rest0 + rest1 * rest1
-        vv = (
-            torch.where(is_small, dot_h_h - dot_s_h * dot_s_h / dot_s_s_total, dot_rest_rest + dot_s_h *
-            dot_s_h_ratio / dot_s_s_total)
+        vv = torch.where(
+            is_small, dot_h_h - dot_s_h * dot_s_h / dot_s_s_total, dot_rest_rest + dot_s_h * dot_s_h_ratio /
+            dot_s_s_total
         )
         r = _root(vv)
         return r
@@ -522,9 +522,9 @@ class Hyperbolic:
         by_sqrt_ww = 0.5 * (by_asinh_sqrt_ww_over_2 / torch.sqrt(1.0 + sqrt_ww_product * sqrt_ww_product))
         r_over_sinh_r_near_slope = _polynomial(near_chosen, _R_OVER_SINH_R_NEAR_SLOPE)
         total_3 = (
-            log_det_series * by_log_det_near + 0.5 * by_scale + torch.where(near, 0.0, by_sqrt_ww / (2.0 * sqrt_ww))
-            + 2.1799885768598575 * torch.where(near, by_log_det_series * log_det_series_slope +
-            by_r_over_sinh_r_near * r_over_sinh_r_near_slope, 0.0)
+            log_det_series * by_log_det_near + 0.5 * by_scale + torch.where(near, 0.0, by_sqrt_ww / (2.0 * sqrt_ww)) +
+            2.1799885768598575 * torch.where(near, by_log_det_series * log_det_series_slope + by_r_over_sinh_r_near *
+            r_over_sinh_r_near_slope, 0.0)
         )
         by_ww = total_3 + total_2 * near_chosen_2 + 0.25 * (ww * near_chosen_2)
         by_dot_D_D = torch.where(is_small, by_ww, 0.0)

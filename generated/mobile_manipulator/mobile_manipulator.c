@@ -374,6 +374,34 @@ void mobile_manipulator_gradient_norm_batch(
     for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = mobile_manipulator_gradient_norm(p + 9 * i, df + 9 * i);
 }
 
+/* base: position: v, heading: v, arm: v */
+void mobile_manipulator_transport(
+    const double *MOBILE_MANIPULATOR_RESTRICT p,
+    const double *MOBILE_MANIPULATOR_RESTRICT q,
+    const double *MOBILE_MANIPULATOR_RESTRICT v,
+    double *MOBILE_MANIPULATOR_RESTRICT w_out) {
+    (void)p;
+    (void)q;
+    w_out[0] = v[0];
+    w_out[1] = v[1];
+    w_out[2] = v[2];
+    w_out[3] = v[3];
+    w_out[4] = v[4];
+    w_out[5] = v[5];
+    w_out[6] = v[6];
+    w_out[7] = v[7];
+    w_out[8] = v[8];
+}
+
+void mobile_manipulator_transport_batch(
+    size_t count,
+    const double *MOBILE_MANIPULATOR_RESTRICT p,
+    const double *MOBILE_MANIPULATOR_RESTRICT q,
+    const double *MOBILE_MANIPULATOR_RESTRICT v,
+    double *MOBILE_MANIPULATOR_RESTRICT w_out) {
+    for (size_t i = 0; i < count; ++i) mobile_manipulator_transport(p + 9 * i, q + 9 * i, v + 9 * i, w_out + 9 * i);
+}
+
 /* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */
 void mobile_manipulator_splat(
     const double *MOBILE_MANIPULATOR_RESTRICT x,
@@ -889,6 +917,34 @@ void mobile_manipulator_gradient_norm_batch_f(
     const float *MOBILE_MANIPULATOR_RESTRICT df,
     float *MOBILE_MANIPULATOR_RESTRICT gradient_norm_out) {
     for (size_t i = 0; i < count; ++i) gradient_norm_out[i] = mobile_manipulator_gradient_norm_f(p + 9 * i, df + 9 * i);
+}
+
+/* base: position: v, heading: v, arm: v */
+void mobile_manipulator_transport_f(
+    const float *MOBILE_MANIPULATOR_RESTRICT p,
+    const float *MOBILE_MANIPULATOR_RESTRICT q,
+    const float *MOBILE_MANIPULATOR_RESTRICT v,
+    float *MOBILE_MANIPULATOR_RESTRICT w_out) {
+    (void)p;
+    (void)q;
+    w_out[0] = v[0];
+    w_out[1] = v[1];
+    w_out[2] = v[2];
+    w_out[3] = v[3];
+    w_out[4] = v[4];
+    w_out[5] = v[5];
+    w_out[6] = v[6];
+    w_out[7] = v[7];
+    w_out[8] = v[8];
+}
+
+void mobile_manipulator_transport_batch_f(
+    size_t count,
+    const float *MOBILE_MANIPULATOR_RESTRICT p,
+    const float *MOBILE_MANIPULATOR_RESTRICT q,
+    const float *MOBILE_MANIPULATOR_RESTRICT v,
+    float *MOBILE_MANIPULATOR_RESTRICT w_out) {
+    for (size_t i = 0; i < count; ++i) mobile_manipulator_transport_f(p + 9 * i, q + 9 * i, v + 9 * i, w_out + 9 * i);
 }
 
 /* amplitude * exp(-|W Log_mu(x)|^2 / 2) * |det D Log_mu(x)| */

@@ -462,9 +462,8 @@ class Poincare:
             t_over_sinh_t_near_slope, 0.0)
         )
         is_small = h_squared_total == 0.0
-        chosen = (
-            torch.where(is_small, 0.0, -(h_product * by_t_product / (2.0 * torch.where(is_small, 1.0,
-            sqrt_1_plus_h_to_2))))
+        chosen = torch.where(
+            is_small, 0.0, -(h_product * by_t_product / (2.0 * torch.where(is_small, 1.0, sqrt_1_plus_h_to_2)))
         )
         by_h_squared = total_2 + chosen
         product = 2.0 * by_h_squared
@@ -474,9 +473,9 @@ class Poincare:
         by_d0 = a * scale_2_product_2 + d0 * by_dd_product + scale * by_part0
         by_scale = d1 * by_part1 + d0 * by_part0
         is_small_2 = a_product == 0.0
-        chosen_2 = (
-            torch.where(is_small_2, 0.0, -(scale * (by_scale / sqrt_a_times_b) / (2.0 * torch.where(is_small_2, 1.0,
-            sqrt_a_times_b))))
+        chosen_2 = torch.where(
+            is_small_2, 0.0, -(scale * (by_scale / sqrt_a_times_b) / (2.0 * torch.where(is_small_2, 1.0,
+            sqrt_a_times_b)))
         )
         by_dot_q_q = scale_2 * by_t_over_sinh_t - a * chosen_2
         by_dot_q_q_product = 2.0 * by_dot_q_q

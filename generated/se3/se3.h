@@ -18,7 +18,7 @@
  * exp                           82      <= 1     <= 1
  * log                           78      <= 1     <= 1
  * distance                      48      <= 1     <= 1
- * log_abs_det                   73      <= 1     <= 1
+ * log_abs_det                   73      <= 4     <= 4
  * riemannian_gradient           25
  * gradient_norm                 37
  * transport                     87

@@ -17,7 +17,7 @@ flat                           0
 exp                           82      <= 1     <= 1
 log                           78      <= 1     <= 1
 distance                      48      <= 1     <= 1
-log_abs_det                   73      <= 1     <= 1
+log_abs_det                   73      <= 4     <= 4
 riemannian_gradient           25
 gradient_norm                 37
 transport                     87
@@ -297,9 +297,8 @@ class Se3:
         rotation_norm_s_squared = rotation_g1 * rotation_g1 + rotation_g2 * rotation_g2 + rotation_g3 * rotation_g3
         rotation_abs_g0 = torch.abs(rotation_g0)
         near = rotation_norm_s_squared < 0.249287
-        rotation_t_over_norm_s_near = (
-            _polynomial(torch.where(near, 4.011440628672975 * rotation_norm_s_squared, 0.0),
-            _ROTATION_T_OVER_NORM_S_NEAR)
+        rotation_t_over_norm_s_near = _polynomial(
+            torch.where(near, 4.011440628672975 * rotation_norm_s_squared, 0.0), _ROTATION_T_OVER_NORM_S_NEAR
         )
         rotation_norm_s = torch.sqrt(torch.where(near, 1.0, rotation_norm_s_squared))
         rotation_atan2_norm_s_abs_g0 = torch.atan2(rotation_norm_s, rotation_abs_g0)
@@ -334,9 +333,9 @@ class Se3:
         rotation_abs_g0 = torch.abs(rotation_g0)
         rotation_atan2_norm_s_abs_g0 = torch.atan2(rotation_norm_s, rotation_abs_g0)
         rotation_t = 2.0 * rotation_atan2_norm_s_abs_g0
-        length = (
-            _root(position_log0 * position_log0 + position_log1 * position_log1 + position_log2 * position_log2 +
-            rotation_t * rotation_t)
+        length = _root(
+            position_log0 * position_log0 + position_log1 * position_log1 + position_log2 * position_log2 + rotation_t *
+            rotation_t
         )
         return length
 
@@ -358,13 +357,12 @@ class Se3:
         rotation_norm_s = torch.sqrt(torch.where(near, 1.0, rotation_norm_s_squared))
         rotation_atan2_norm_s_abs_g0 = torch.atan2(rotation_norm_s, rotation_abs_g0)
         rotation_t = 2.0 * rotation_atan2_norm_s_abs_g0
-        rotation_log_det_series = (
-            _polynomial(torch.where(near, 4.011440628672975 * rotation_norm_s_squared, 0.0),
-            _ROTATION_LOG_DET_SERIES)
+        rotation_log_det_series = _polynomial(
+            torch.where(near, 4.011440628672975 * rotation_norm_s_squared, 0.0), _ROTATION_LOG_DET_SERIES
         )
         rotation_log_det_near = rotation_norm_s_squared * rotation_log_det_series
-        rotation_log_det = (
-            torch.where(near, rotation_log_det_near, 2.0 * torch.log(0.5 * (rotation_t / rotation_norm_s)))
+        rotation_log_det = torch.where(
+            near, rotation_log_det_near, 2.0 * torch.log(0.5 * (rotation_t / rotation_norm_s))
         )
         return rotation_log_det
 
@@ -435,16 +433,16 @@ class Se3:
         total_4 = v3 * rotation_g1_product + v4 * rotation_g2_product + v5 * rotation_g3_product
         total_5 = v4 * rotation_h0 - v3 * rotation_g3_product + v5 * rotation_g1_product
         w3 = (
-            rotation_scale_3 * (rotation_h0 * total_2 - rotation_g2_product * total_3 + rotation_g1_product *
-            total_4 + rotation_g3_product * total_5)
+            rotation_scale_3 * (rotation_h0 * total_2 - rotation_g2_product * total_3 + rotation_g1_product * total_4 +
+            rotation_g3_product * total_5)
         )
         w4 = (
-            rotation_scale_3 * (rotation_h0 * total_5 - rotation_g3_product * total_2 + rotation_g1_product *
-            total_3 + rotation_g2_product * total_4)
+            rotation_scale_3 * (rotation_h0 * total_5 - rotation_g3_product * total_2 + rotation_g1_product * total_3 +
+            rotation_g2_product * total_4)
         )
         w5 = (
-            rotation_scale_3 * (rotation_h0 * total_3 - rotation_g1_product * total_5 + rotation_g2_product *
-            total_2 + rotation_g3_product * total_4)
+            rotation_scale_3 * (rotation_h0 * total_3 - rotation_g1_product * total_5 + rotation_g2_product * total_2 +
+            rotation_g3_product * total_4)
         )
         return _stack((v0, v1, v2, w3, w4, w5))
 

@@ -234,8 +234,8 @@ class So2:
         uniform0, = uniform.unbind(-1)
         round_2 = torch.round(uniform0)
         p0 = (
-            6.283185307179586 * uniform0 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 -
-            3.019915981956753e-07 * round_2
+            6.283185307179586 * uniform0 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
+            round_2
         )
         return _stack((_rows(p0, normal, uniform),))
 

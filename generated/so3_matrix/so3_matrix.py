@@ -571,8 +571,8 @@ class So3Matrix:
         norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3
         abs_g0 = torch.abs(g0)
         near = norm_s_squared < 0.249287
-        t_over_norm_s_near = (
-            _polynomial(torch.where(near, 4.011440628672975 * norm_s_squared, 0.0), _T_OVER_NORM_S_NEAR)
+        t_over_norm_s_near = _polynomial(
+            torch.where(near, 4.011440628672975 * norm_s_squared, 0.0), _T_OVER_NORM_S_NEAR
         )
         norm_s = torch.sqrt(torch.where(near, 1.0, norm_s_squared))
         atan2_norm_s_abs_g0 = torch.atan2(norm_s, abs_g0)
@@ -953,8 +953,8 @@ class So3Matrix:
         by_norm_s = abs_g0 * ratio - t_ratio * by_t
         t_over_norm_s_near_slope = _polynomial(near_chosen, _T_OVER_NORM_S_NEAR_SLOPE)
         by_norm_s_squared = (
-            log_det_series * by_log_det_near + torch.where(near, 0.0, by_norm_s / (2.0 * norm_s)) +
-            4.011440628672975 * torch.where(near, by_log_det_series * log_det_series_slope + by_t_over_norm_s_near *
+            log_det_series * by_log_det_near + torch.where(near, 0.0, by_norm_s / (2.0 * norm_s)) + 4.011440628672975 *
+            torch.where(near, by_log_det_series * log_det_series_slope + by_t_over_norm_s_near *
             t_over_norm_s_near_slope, 0.0)
         )
         by_g0 = torch.where(is_small, norm_s_product, by_abs_g0)

@@ -384,9 +384,9 @@ class Spd:
         S_times_S_1_1 = S0_1_squared + x3 * x3
         S0_1_eigh = _eigh(x0, S0_1, x3)
         is_less = 0.0 < S0_1_eigh.values[..., 0]
-        eigh = (
-            _eigh(torch.where(is_less, 1.0, S_times_S_0_0), torch.where(is_less, 0.0, S_times_S_0_1),
-            torch.where(is_less, 1.0, S_times_S_1_1))
+        eigh = _eigh(
+            torch.where(is_less, 1.0, S_times_S_0_0), torch.where(is_less, 0.0, S_times_S_0_1), torch.where(is_less,
+            1.0, S_times_S_1_1)
         )
         sqrtm = _spectral("sqrt", eigh)
         sqrtm_S_times_S0_0 = sqrtm[..., 0]
@@ -622,17 +622,17 @@ class Spd:
         sqrtm_p1_1 = sqrtm[..., 2]
         sqrtm_p0_1_squared = sqrtm_p0_1 * sqrtm_p0_1
         gradient0 = (
-            df0 * (sqrtm_p0_0 * sqrtm_p0_0) + df3 * sqrtm_p0_1_squared + sqrtm_p0_1 * (df1 * sqrtm_p0_0) +
-            sqrtm_p0_1 * (df2 * sqrtm_p0_0)
+            df0 * (sqrtm_p0_0 * sqrtm_p0_0) + df3 * sqrtm_p0_1_squared + sqrtm_p0_1 * (df1 * sqrtm_p0_0) + sqrtm_p0_1 *
+            (df2 * sqrtm_p0_0)
         )
         total_2 = 0.7071067811865476 * sqrtm_p0_1_squared + 1.4142135623730951 * (sqrtm_p1_1 * (0.5 * sqrtm_p0_0))
         gradient1 = (
-            df1 * total_2 + df2 * total_2 + 1.4142135623730951 * (sqrtm_p0_1 * (df0 * sqrtm_p0_0)) +
-            1.4142135623730951 * (sqrtm_p1_1 * (df3 * sqrtm_p0_1))
+            df1 * total_2 + df2 * total_2 + 1.4142135623730951 * (sqrtm_p0_1 * (df0 * sqrtm_p0_0)) + 1.4142135623730951
+            * (sqrtm_p1_1 * (df3 * sqrtm_p0_1))
         )
         gradient2 = (
-            df0 * sqrtm_p0_1_squared + df3 * (sqrtm_p1_1 * sqrtm_p1_1) + sqrtm_p1_1 * (df1 * sqrtm_p0_1) +
-            sqrtm_p1_1 * (df2 * sqrtm_p0_1)
+            df0 * sqrtm_p0_1_squared + df3 * (sqrtm_p1_1 * sqrtm_p1_1) + sqrtm_p1_1 * (df1 * sqrtm_p0_1) + sqrtm_p1_1 *
+            (df2 * sqrtm_p0_1)
         )
         return _stack((gradient0, gradient1, gradient2))
 
@@ -652,17 +652,17 @@ class Spd:
         sqrtm_p1_1 = sqrtm[..., 2]
         sqrtm_p0_1_squared = sqrtm_p0_1 * sqrtm_p0_1
         gradient0 = (
-            df0 * (sqrtm_p0_0 * sqrtm_p0_0) + df3 * sqrtm_p0_1_squared + sqrtm_p0_1 * (df1 * sqrtm_p0_0) +
-            sqrtm_p0_1 * (df2 * sqrtm_p0_0)
+            df0 * (sqrtm_p0_0 * sqrtm_p0_0) + df3 * sqrtm_p0_1_squared + sqrtm_p0_1 * (df1 * sqrtm_p0_0) + sqrtm_p0_1 *
+            (df2 * sqrtm_p0_0)
         )
         total_2 = 0.7071067811865476 * sqrtm_p0_1_squared + 1.4142135623730951 * (sqrtm_p1_1 * (0.5 * sqrtm_p0_0))
         gradient1 = (
-            df1 * total_2 + df2 * total_2 + 1.4142135623730951 * (sqrtm_p0_1 * (df0 * sqrtm_p0_0)) +
-            1.4142135623730951 * (sqrtm_p1_1 * (df3 * sqrtm_p0_1))
+            df1 * total_2 + df2 * total_2 + 1.4142135623730951 * (sqrtm_p0_1 * (df0 * sqrtm_p0_0)) + 1.4142135623730951
+            * (sqrtm_p1_1 * (df3 * sqrtm_p0_1))
         )
         gradient2 = (
-            df0 * sqrtm_p0_1_squared + df3 * (sqrtm_p1_1 * sqrtm_p1_1) + sqrtm_p1_1 * (df1 * sqrtm_p0_1) +
-            sqrtm_p1_1 * (df2 * sqrtm_p0_1)
+            df0 * sqrtm_p0_1_squared + df3 * (sqrtm_p1_1 * sqrtm_p1_1) + sqrtm_p1_1 * (df1 * sqrtm_p0_1) + sqrtm_p1_1 *
+            (df2 * sqrtm_p0_1)
         )
         return _root(gradient0 * gradient0 + gradient1 * gradient1 + gradient2 * gradient2)
 
@@ -782,9 +782,8 @@ class Spd:
         product = L0_0_gap * (0.5 * by_entry_0_0_2)
         total_6 = -(W2_0 * z2) - W1_0 * z1 - W0_0 * z0 + product
         gap_2 = -(W2_2 * z2) - W1_2 * z1 - W0_2 * z0 - product
-        logm_slope = (
-            _spectral("log", entry_0_0_eigh, (total_6, 0.5 * (L0_1 * (2.0 * by_entry_0_0_2) + 1.4142135623730951 *
-            by_v1), gap_2,))
+        logm_slope = _spectral(
+            "log", entry_0_0_eigh, (total_6, 0.5 * (L0_1 * (2.0 * by_entry_0_0_2) + 1.4142135623730951 * by_v1), gap_2,)
         )
         by_entry_0_0 = logm_slope[..., 0]
         by_entry_1_1 = logm_slope[..., 2]
@@ -810,8 +809,8 @@ class Spd:
         sqrtm_p1_1 = sqrtm[..., 2]
         sqrtm_p0_1_squared = sqrtm_p0_1 * sqrtm_p0_1
         gradient0 = (
-            df0 * (sqrtm_p0_0 * sqrtm_p0_0) + df3 * sqrtm_p0_1_squared + sqrtm_p0_1 * (df1 * sqrtm_p0_0) +
-            sqrtm_p0_1 * (df2 * sqrtm_p0_0)
+            df0 * (sqrtm_p0_0 * sqrtm_p0_0) + df3 * sqrtm_p0_1_squared + sqrtm_p0_1 * (df1 * sqrtm_p0_0) + sqrtm_p0_1 *
+            (df2 * sqrtm_p0_0)
         )
         total_11 = 0.7071067811865476 * sqrtm_p0_1_squared + 1.4142135623730951 * (sqrtm_p1_1 * (0.5 * sqrtm_p0_0))
         gradient1 = (
@@ -819,8 +818,8 @@ class Spd:
             1.4142135623730951 * (sqrtm_p1_1 * (df3 * sqrtm_p0_1))
         )
         gradient2 = (
-            df0 * sqrtm_p0_1_squared + df3 * (sqrtm_p1_1 * sqrtm_p1_1) + sqrtm_p1_1 * (df1 * sqrtm_p0_1) +
-            sqrtm_p1_1 * (df2 * sqrtm_p0_1)
+            df0 * sqrtm_p0_1_squared + df3 * (sqrtm_p1_1 * sqrtm_p1_1) + sqrtm_p1_1 * (df1 * sqrtm_p0_1) + sqrtm_p1_1 *
+            (df2 * sqrtm_p0_1)
         )
         return (phi, gradient0, gradient1, gradient2)
 

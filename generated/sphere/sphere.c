@@ -205,10 +205,15 @@ void sphere_log(
     const double norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
         * q_plus_p2_2;
     const double norm_q_plus_p_2 = sqrt(norm_q_plus_p_squared_2);
-    const double dot_p_d = p[0] * d0 + p[1] * d1 + p[2] * d2;
-    const double w0 = d0 - p[0] * dot_p_d;
-    const double w1 = d1 - p[1] * dot_p_d;
-    const double w2 = d2 - p[2] * dot_p_d;
+    const double dot_p_q = p[0] * q0_off_cut + p[1] * q1_off_cut + p[2] * q2_off_cut;
+    const int is_small = dot_p_q < 0.0;
+    const double e0 = (is_small ? q_plus_p0_2 : d0);
+    const double e1 = (is_small ? q_plus_p1_2 : d1);
+    const double e2 = (is_small ? q_plus_p2_2 : d2);
+    const double dot_p_e = p[0] * e0 + p[1] * e1 + p[2] * e2;
+    const double w0 = e0 - p[0] * dot_p_e;
+    const double w1 = e1 - p[1] * dot_p_e;
+    const double w2 = e2 - p[2] * dot_p_e;
     const double norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
     const int near = norm_d_squared < 0.997515;
     const double t_over_norm_w_near = polynomial_t_over_norm_w_near((near ? 1.0024911906086624 *
@@ -218,16 +223,16 @@ void sphere_log(
     const double t = 2.0 * atan2_value;
     const double norm_w = sqrt((near ? 1.0 : norm_w_squared));
     const double t_over_norm_w = (near ? t_over_norm_w_near : t / norm_w);
-    const int is_small = squared < 0.5;
-    const double sine_to_axis0 = sqrt((is_small ? gap : 1.0));
+    const int is_small_2 = squared < 0.5;
+    const double sine_to_axis0 = sqrt((is_small_2 ? gap : 1.0));
     const double product = p[0] * p[1];
-    const double sine_to_axis1 = sqrt((is_small ? 1.0 : gap_2));
-    const double v0 = (on_cut_locus ? 3.141592653589793 * (is_small ? gap / sine_to_axis0 : -(product /
+    const double sine_to_axis1 = sqrt((is_small_2 ? 1.0 : gap_2));
+    const double v0 = (on_cut_locus ? 3.141592653589793 * (is_small_2 ? gap / sine_to_axis0 : -(product /
         sine_to_axis1)) : w0 * t_over_norm_w);
-    const double v1 = (on_cut_locus ? 3.141592653589793 * (is_small ? -(product / sine_to_axis0) : gap_2 /
+    const double v1 = (on_cut_locus ? 3.141592653589793 * (is_small_2 ? -(product / sine_to_axis0) : gap_2 /
         sine_to_axis1) : w1 * t_over_norm_w);
-    const double product_2 = 3.141592653589793 * (is_small ? -(p[0] * p[2] / sine_to_axis0) : -(p[1] * p[2] /
-        sine_to_axis1));
+    const double product_2 = 3.141592653589793 * (is_small_2 ? -(p[0] * p[2] / sine_to_axis0) : -(p[1] * p[2]
+        / sine_to_axis1));
     const double v2 = (on_cut_locus ? product_2 : w2 * t_over_norm_w);
     v_out[0] = v0;
     v_out[1] = v1;
@@ -291,10 +296,15 @@ double sphere_log_abs_det(const double *SPHERE_RESTRICT p, const double *SPHERE_
     const double norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
         * q_plus_p2_2;
     const double norm_q_plus_p_2 = sqrt(norm_q_plus_p_squared_2);
-    const double dot_p_d = p[0] * d0 + p[1] * d1 + p[2] * d2;
-    const double w0 = d0 - p[0] * dot_p_d;
-    const double w1 = d1 - p[1] * dot_p_d;
-    const double w2 = d2 - p[2] * dot_p_d;
+    const double dot_p_q = p[0] * q0_off_cut + p[1] * q1_off_cut + p[2] * q2_off_cut;
+    const int is_small = dot_p_q < 0.0;
+    const double e0 = (is_small ? q_plus_p0_2 : d0);
+    const double e1 = (is_small ? q_plus_p1_2 : d1);
+    const double e2 = (is_small ? q_plus_p2_2 : d2);
+    const double dot_p_e = p[0] * e0 + p[1] * e1 + p[2] * e2;
+    const double w0 = e0 - p[0] * dot_p_e;
+    const double w1 = e1 - p[1] * dot_p_e;
+    const double w2 = e2 - p[2] * dot_p_e;
     const double norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
     const int near = norm_d_squared < 0.997515;
     const double norm_d = sqrt((near ? 1.0 : norm_d_squared));
@@ -455,10 +465,15 @@ void sphere_splat(
     const double norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
         * q_plus_p2_2;
     const double norm_q_plus_p_2 = sqrt(norm_q_plus_p_squared_2);
-    const double dot_p_d = mu[0] * d0 + mu[1] * d1 + mu[2] * d2;
-    const double w0 = d0 - mu[0] * dot_p_d;
-    const double w1 = d1 - mu[1] * dot_p_d;
-    const double w2 = d2 - mu[2] * dot_p_d;
+    const double dot_p_q = mu[0] * q0_off_cut + mu[1] * q1_off_cut + mu[2] * q2_off_cut;
+    const int is_small = dot_p_q < 0.0;
+    const double e0 = (is_small ? q_plus_p0_2 : d0);
+    const double e1 = (is_small ? q_plus_p1_2 : d1);
+    const double e2 = (is_small ? q_plus_p2_2 : d2);
+    const double dot_p_e = mu[0] * e0 + mu[1] * e1 + mu[2] * e2;
+    const double w0 = e0 - mu[0] * dot_p_e;
+    const double w1 = e1 - mu[1] * dot_p_e;
+    const double w2 = e2 - mu[2] * dot_p_e;
     const double norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
     const int near = norm_d_squared < 0.997515;
     const double near_chosen = (near ? 1.0024911906086624 * norm_d_squared : 0.0);
@@ -470,15 +485,15 @@ void sphere_splat(
     const double norm_w = sqrt((near ? 1.0 : norm_w_squared));
     const double t_ratio = t / norm_w;
     const double t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
-    const int is_small = squared < 0.5;
-    const double sine_to_axis0 = sqrt((is_small ? gap : 1.0));
+    const int is_small_2 = squared < 0.5;
+    const double sine_to_axis0 = sqrt((is_small_2 ? gap : 1.0));
     const double product = mu[0] * mu[1];
-    const double sine_to_axis1 = sqrt((is_small ? 1.0 : gap_2));
-    const double v0 = (on_cut_locus ? 3.141592653589793 * (is_small ? gap / sine_to_axis0 : -(product /
+    const double sine_to_axis1 = sqrt((is_small_2 ? 1.0 : gap_2));
+    const double v0 = (on_cut_locus ? 3.141592653589793 * (is_small_2 ? gap / sine_to_axis0 : -(product /
         sine_to_axis1)) : w0 * t_over_norm_w);
-    const double v1 = (on_cut_locus ? 3.141592653589793 * (is_small ? -(product / sine_to_axis0) : gap_2 /
+    const double v1 = (on_cut_locus ? 3.141592653589793 * (is_small_2 ? -(product / sine_to_axis0) : gap_2 /
         sine_to_axis1) : w1 * t_over_norm_w);
-    const double product_2 = 3.141592653589793 * (is_small ? -(mu[0] * mu[2] / sine_to_axis0) : -(mu[1] *
+    const double product_2 = 3.141592653589793 * (is_small_2 ? -(mu[0] * mu[2] / sine_to_axis0) : -(mu[1] *
         mu[2] / sine_to_axis1));
     const double v2 = (on_cut_locus ? product_2 : w2 * t_over_norm_w);
     const double log_value = log(0.7853981633974483 / DBL_EPSILON);
@@ -514,18 +529,21 @@ void sphere_splat(
     const double by_w2 = t_over_norm_w * chosen + w2 * product_3;
     const double by_w1 = t_over_norm_w * chosen_2 + w1 * product_3;
     const double by_w0 = t_over_norm_w * chosen_3 + w0 * product_3;
-    const double by_dot_p_d = -(mu[2] * by_w2) - mu[1] * by_w1 - mu[0] * by_w0;
-    const int is_small_2 = norm_q_plus_p_squared_2 == 0.0;
-    const double by_norm_q_plus_p_squared_2 = (is_small_2 ? 0.0 : -(norm_d * ratio / (2.0 * (is_small_2 ? 1.0
+    const double by_dot_p_e = -(mu[2] * by_w2) - mu[1] * by_w1 - mu[0] * by_w0;
+    const double by_e2 = by_w2 + mu[2] * by_dot_p_e;
+    const double by_e1 = by_w1 + mu[1] * by_dot_p_e;
+    const double by_e0 = by_w0 + mu[0] * by_dot_p_e;
+    const int is_small_3 = norm_q_plus_p_squared_2 == 0.0;
+    const double by_norm_q_plus_p_squared_2 = (is_small_3 ? 0.0 : -(norm_d * ratio / (2.0 * (is_small_3 ? 1.0
         : norm_q_plus_p_2))));
     const double product_4 = 2.0 * by_norm_q_plus_p_squared_2;
-    const double by_q_plus_p2_2 = q_plus_p2_2 * product_4;
-    const double by_q_plus_p1_2 = q_plus_p1_2 * product_4;
-    const double by_q_plus_p0_2 = q_plus_p0_2 * product_4;
+    const double by_q_plus_p2_2 = (is_small ? by_e2 : 0.0) + q_plus_p2_2 * product_4;
+    const double by_q_plus_p1_2 = (is_small ? by_e1 : 0.0) + q_plus_p1_2 * product_4;
+    const double by_q_plus_p0_2 = (is_small ? by_e0 : 0.0) + q_plus_p0_2 * product_4;
     const double product_5 = 2.0 * by_norm_d_squared;
-    const double by_d2 = by_w2 + mu[2] * by_dot_p_d + d2 * product_5;
-    const double by_d1 = by_w1 + mu[1] * by_dot_p_d + d1 * product_5;
-    const double by_d0 = by_w0 + mu[0] * by_dot_p_d + d0 * product_5;
+    const double by_d2 = (is_small ? 0.0 : by_e2) + d2 * product_5;
+    const double by_d1 = (is_small ? 0.0 : by_e1) + d1 * product_5;
+    const double by_d0 = (is_small ? 0.0 : by_e0) + d0 * product_5;
     const double by_q2_off_cut = by_q_plus_p2_2 + by_d2;
     const double by_q1_off_cut = by_q_plus_p1_2 + by_d1;
     const double by_q0_off_cut = by_q_plus_p0_2 + by_d0;
@@ -765,10 +783,15 @@ void sphere_log_f(
     const float norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
         * q_plus_p2_2;
     const float norm_q_plus_p_2 = sqrtf(norm_q_plus_p_squared_2);
-    const float dot_p_d = p[0] * d0 + p[1] * d1 + p[2] * d2;
-    const float w0 = d0 - p[0] * dot_p_d;
-    const float w1 = d1 - p[1] * dot_p_d;
-    const float w2 = d2 - p[2] * dot_p_d;
+    const float dot_p_q = p[0] * q0_off_cut + p[1] * q1_off_cut + p[2] * q2_off_cut;
+    const int is_small = dot_p_q < 0.0f;
+    const float e0 = (is_small ? q_plus_p0_2 : d0);
+    const float e1 = (is_small ? q_plus_p1_2 : d1);
+    const float e2 = (is_small ? q_plus_p2_2 : d2);
+    const float dot_p_e = p[0] * e0 + p[1] * e1 + p[2] * e2;
+    const float w0 = e0 - p[0] * dot_p_e;
+    const float w1 = e1 - p[1] * dot_p_e;
+    const float w2 = e2 - p[2] * dot_p_e;
     const float norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
     const int near = norm_d_squared < 0.997515f;
     const float t_over_norm_w_near = polynomial_t_over_norm_w_near_f((near ? 1.0024911906086624f *
@@ -778,16 +801,16 @@ void sphere_log_f(
     const float t = 2.0f * atan2_value;
     const float norm_w = sqrtf((near ? 1.0f : norm_w_squared));
     const float t_over_norm_w = (near ? t_over_norm_w_near : t / norm_w);
-    const int is_small = squared < 0.5f;
-    const float sine_to_axis0 = sqrtf((is_small ? gap : 1.0f));
+    const int is_small_2 = squared < 0.5f;
+    const float sine_to_axis0 = sqrtf((is_small_2 ? gap : 1.0f));
     const float product = p[0] * p[1];
-    const float sine_to_axis1 = sqrtf((is_small ? 1.0f : gap_2));
-    const float v0 = (on_cut_locus ? 3.141592653589793f * (is_small ? gap / sine_to_axis0 : -(product /
+    const float sine_to_axis1 = sqrtf((is_small_2 ? 1.0f : gap_2));
+    const float v0 = (on_cut_locus ? 3.141592653589793f * (is_small_2 ? gap / sine_to_axis0 : -(product /
         sine_to_axis1)) : w0 * t_over_norm_w);
-    const float v1 = (on_cut_locus ? 3.141592653589793f * (is_small ? -(product / sine_to_axis0) : gap_2 /
+    const float v1 = (on_cut_locus ? 3.141592653589793f * (is_small_2 ? -(product / sine_to_axis0) : gap_2 /
         sine_to_axis1) : w1 * t_over_norm_w);
-    const float product_2 = 3.141592653589793f * (is_small ? -(p[0] * p[2] / sine_to_axis0) : -(p[1] * p[2] /
-        sine_to_axis1));
+    const float product_2 = 3.141592653589793f * (is_small_2 ? -(p[0] * p[2] / sine_to_axis0) : -(p[1] * p[2]
+        / sine_to_axis1));
     const float v2 = (on_cut_locus ? product_2 : w2 * t_over_norm_w);
     v_out[0] = v0;
     v_out[1] = v1;
@@ -849,10 +872,15 @@ float sphere_log_abs_det_f(const float *SPHERE_RESTRICT p, const float *SPHERE_R
     const float norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
         * q_plus_p2_2;
     const float norm_q_plus_p_2 = sqrtf(norm_q_plus_p_squared_2);
-    const float dot_p_d = p[0] * d0 + p[1] * d1 + p[2] * d2;
-    const float w0 = d0 - p[0] * dot_p_d;
-    const float w1 = d1 - p[1] * dot_p_d;
-    const float w2 = d2 - p[2] * dot_p_d;
+    const float dot_p_q = p[0] * q0_off_cut + p[1] * q1_off_cut + p[2] * q2_off_cut;
+    const int is_small = dot_p_q < 0.0f;
+    const float e0 = (is_small ? q_plus_p0_2 : d0);
+    const float e1 = (is_small ? q_plus_p1_2 : d1);
+    const float e2 = (is_small ? q_plus_p2_2 : d2);
+    const float dot_p_e = p[0] * e0 + p[1] * e1 + p[2] * e2;
+    const float w0 = e0 - p[0] * dot_p_e;
+    const float w1 = e1 - p[1] * dot_p_e;
+    const float w2 = e2 - p[2] * dot_p_e;
     const float norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
     const int near = norm_d_squared < 0.997515f;
     const float norm_d = sqrtf((near ? 1.0f : norm_d_squared));
@@ -1011,10 +1039,15 @@ void sphere_splat_f(
     const float norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
         * q_plus_p2_2;
     const float norm_q_plus_p_2 = sqrtf(norm_q_plus_p_squared_2);
-    const float dot_p_d = mu[0] * d0 + mu[1] * d1 + mu[2] * d2;
-    const float w0 = d0 - mu[0] * dot_p_d;
-    const float w1 = d1 - mu[1] * dot_p_d;
-    const float w2 = d2 - mu[2] * dot_p_d;
+    const float dot_p_q = mu[0] * q0_off_cut + mu[1] * q1_off_cut + mu[2] * q2_off_cut;
+    const int is_small = dot_p_q < 0.0f;
+    const float e0 = (is_small ? q_plus_p0_2 : d0);
+    const float e1 = (is_small ? q_plus_p1_2 : d1);
+    const float e2 = (is_small ? q_plus_p2_2 : d2);
+    const float dot_p_e = mu[0] * e0 + mu[1] * e1 + mu[2] * e2;
+    const float w0 = e0 - mu[0] * dot_p_e;
+    const float w1 = e1 - mu[1] * dot_p_e;
+    const float w2 = e2 - mu[2] * dot_p_e;
     const float norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
     const int near = norm_d_squared < 0.997515f;
     const float near_chosen = (near ? 1.0024911906086624f * norm_d_squared : 0.0f);
@@ -1026,15 +1059,15 @@ void sphere_splat_f(
     const float norm_w = sqrtf((near ? 1.0f : norm_w_squared));
     const float t_ratio = t / norm_w;
     const float t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
-    const int is_small = squared < 0.5f;
-    const float sine_to_axis0 = sqrtf((is_small ? gap : 1.0f));
+    const int is_small_2 = squared < 0.5f;
+    const float sine_to_axis0 = sqrtf((is_small_2 ? gap : 1.0f));
     const float product = mu[0] * mu[1];
-    const float sine_to_axis1 = sqrtf((is_small ? 1.0f : gap_2));
-    const float v0 = (on_cut_locus ? 3.141592653589793f * (is_small ? gap / sine_to_axis0 : -(product /
+    const float sine_to_axis1 = sqrtf((is_small_2 ? 1.0f : gap_2));
+    const float v0 = (on_cut_locus ? 3.141592653589793f * (is_small_2 ? gap / sine_to_axis0 : -(product /
         sine_to_axis1)) : w0 * t_over_norm_w);
-    const float v1 = (on_cut_locus ? 3.141592653589793f * (is_small ? -(product / sine_to_axis0) : gap_2 /
+    const float v1 = (on_cut_locus ? 3.141592653589793f * (is_small_2 ? -(product / sine_to_axis0) : gap_2 /
         sine_to_axis1) : w1 * t_over_norm_w);
-    const float product_2 = 3.141592653589793f * (is_small ? -(mu[0] * mu[2] / sine_to_axis0) : -(mu[1] *
+    const float product_2 = 3.141592653589793f * (is_small_2 ? -(mu[0] * mu[2] / sine_to_axis0) : -(mu[1] *
         mu[2] / sine_to_axis1));
     const float v2 = (on_cut_locus ? product_2 : w2 * t_over_norm_w);
     const float log_value = logf(0.7853981633974483f / FLT_EPSILON);
@@ -1070,18 +1103,21 @@ void sphere_splat_f(
     const float by_w2 = t_over_norm_w * chosen + w2 * product_3;
     const float by_w1 = t_over_norm_w * chosen_2 + w1 * product_3;
     const float by_w0 = t_over_norm_w * chosen_3 + w0 * product_3;
-    const float by_dot_p_d = -(mu[2] * by_w2) - mu[1] * by_w1 - mu[0] * by_w0;
-    const int is_small_2 = norm_q_plus_p_squared_2 == 0.0f;
-    const float by_norm_q_plus_p_squared_2 = (is_small_2 ? 0.0f : -(norm_d * ratio / (2.0f * (is_small_2 ?
+    const float by_dot_p_e = -(mu[2] * by_w2) - mu[1] * by_w1 - mu[0] * by_w0;
+    const float by_e2 = by_w2 + mu[2] * by_dot_p_e;
+    const float by_e1 = by_w1 + mu[1] * by_dot_p_e;
+    const float by_e0 = by_w0 + mu[0] * by_dot_p_e;
+    const int is_small_3 = norm_q_plus_p_squared_2 == 0.0f;
+    const float by_norm_q_plus_p_squared_2 = (is_small_3 ? 0.0f : -(norm_d * ratio / (2.0f * (is_small_3 ?
         1.0f : norm_q_plus_p_2))));
     const float product_4 = 2.0f * by_norm_q_plus_p_squared_2;
-    const float by_q_plus_p2_2 = q_plus_p2_2 * product_4;
-    const float by_q_plus_p1_2 = q_plus_p1_2 * product_4;
-    const float by_q_plus_p0_2 = q_plus_p0_2 * product_4;
+    const float by_q_plus_p2_2 = (is_small ? by_e2 : 0.0f) + q_plus_p2_2 * product_4;
+    const float by_q_plus_p1_2 = (is_small ? by_e1 : 0.0f) + q_plus_p1_2 * product_4;
+    const float by_q_plus_p0_2 = (is_small ? by_e0 : 0.0f) + q_plus_p0_2 * product_4;
     const float product_5 = 2.0f * by_norm_d_squared;
-    const float by_d2 = by_w2 + mu[2] * by_dot_p_d + d2 * product_5;
-    const float by_d1 = by_w1 + mu[1] * by_dot_p_d + d1 * product_5;
-    const float by_d0 = by_w0 + mu[0] * by_dot_p_d + d0 * product_5;
+    const float by_d2 = (is_small ? 0.0f : by_e2) + d2 * product_5;
+    const float by_d1 = (is_small ? 0.0f : by_e1) + d1 * product_5;
+    const float by_d0 = (is_small ? 0.0f : by_e0) + d0 * product_5;
     const float by_q2_off_cut = by_q_plus_p2_2 + by_d2;
     const float by_q1_off_cut = by_q_plus_p1_2 + by_d1;
     const float by_q0_off_cut = by_q_plus_p0_2 + by_d0;

@@ -130,10 +130,15 @@ void sphere_splats(
                 const double norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
                     * q_plus_p2_2;
                 const double norm_q_plus_p_2 = sqrt(norm_q_plus_p_squared_2);
-                const double dot_p_d = mu0 * d0 + mu1 * d1 + mu2 * d2;
-                const double w0 = d0 - mu0 * dot_p_d;
-                const double w1 = d1 - mu1 * dot_p_d;
-                const double w2 = d2 - mu2 * dot_p_d;
+                const double dot_p_q = mu0 * q0_off_cut + mu1 * q1_off_cut + mu2 * q2_off_cut;
+                const int is_small = dot_p_q < 0.0;
+                const double e0 = (is_small ? q_plus_p0_2 : d0);
+                const double e1 = (is_small ? q_plus_p1_2 : d1);
+                const double e2 = (is_small ? q_plus_p2_2 : d2);
+                const double dot_p_e = mu0 * e0 + mu1 * e1 + mu2 * e2;
+                const double w0 = e0 - mu0 * dot_p_e;
+                const double w1 = e1 - mu1 * dot_p_e;
+                const double w2 = e2 - mu2 * dot_p_e;
                 const double norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
                 const int near = norm_d_squared < 0.997515;
                 const double near_chosen = (near ? 1.0024911906086624 * norm_d_squared : 0.0);
@@ -145,15 +150,15 @@ void sphere_splats(
                 const double norm_w = sqrt((near ? 1.0 : norm_w_squared));
                 const double t_ratio = t / norm_w;
                 const double t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
-                const int is_small = squared < 0.5;
-                const double sine_to_axis0 = sqrt((is_small ? gap : 1.0));
+                const int is_small_2 = squared < 0.5;
+                const double sine_to_axis0 = sqrt((is_small_2 ? gap : 1.0));
                 const double product = mu0 * mu1;
-                const double sine_to_axis1 = sqrt((is_small ? 1.0 : gap_2));
-                const double v0 = (on_cut_locus ? 3.141592653589793 * (is_small ? gap / sine_to_axis0 : -(product /
+                const double sine_to_axis1 = sqrt((is_small_2 ? 1.0 : gap_2));
+                const double v0 = (on_cut_locus ? 3.141592653589793 * (is_small_2 ? gap / sine_to_axis0 : -(product /
                     sine_to_axis1)) : w0 * t_over_norm_w);
-                const double v1 = (on_cut_locus ? 3.141592653589793 * (is_small ? -(product / sine_to_axis0) : gap_2 /
+                const double v1 = (on_cut_locus ? 3.141592653589793 * (is_small_2 ? -(product / sine_to_axis0) : gap_2 /
                     sine_to_axis1) : w1 * t_over_norm_w);
-                const double product_2 = 3.141592653589793 * (is_small ? -(mu0 * mu2 / sine_to_axis0) : -(mu1 * mu2 /
+                const double product_2 = 3.141592653589793 * (is_small_2 ? -(mu0 * mu2 / sine_to_axis0) : -(mu1 * mu2 /
                     sine_to_axis1));
                 const double v2 = (on_cut_locus ? product_2 : w2 * t_over_norm_w);
                 const double log_value = log(0.7853981633974483 / DBL_EPSILON);
@@ -189,18 +194,21 @@ void sphere_splats(
                 const double by_w2 = t_over_norm_w * chosen + w2 * product_3;
                 const double by_w1 = t_over_norm_w * chosen_2 + w1 * product_3;
                 const double by_w0 = t_over_norm_w * chosen_3 + w0 * product_3;
-                const double by_dot_p_d = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
-                const int is_small_2 = norm_q_plus_p_squared_2 == 0.0;
-                const double by_norm_q_plus_p_squared_2 = (is_small_2 ? 0.0 : -(norm_d * ratio / (2.0 * (is_small_2 ? 1.0
+                const double by_dot_p_e = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
+                const double by_e2 = by_w2 + mu2 * by_dot_p_e;
+                const double by_e1 = by_w1 + mu1 * by_dot_p_e;
+                const double by_e0 = by_w0 + mu0 * by_dot_p_e;
+                const int is_small_3 = norm_q_plus_p_squared_2 == 0.0;
+                const double by_norm_q_plus_p_squared_2 = (is_small_3 ? 0.0 : -(norm_d * ratio / (2.0 * (is_small_3 ? 1.0
                     : norm_q_plus_p_2))));
                 const double product_4 = 2.0 * by_norm_q_plus_p_squared_2;
-                const double by_q_plus_p2_2 = q_plus_p2_2 * product_4;
-                const double by_q_plus_p1_2 = q_plus_p1_2 * product_4;
-                const double by_q_plus_p0_2 = q_plus_p0_2 * product_4;
+                const double by_q_plus_p2_2 = (is_small ? by_e2 : 0.0) + q_plus_p2_2 * product_4;
+                const double by_q_plus_p1_2 = (is_small ? by_e1 : 0.0) + q_plus_p1_2 * product_4;
+                const double by_q_plus_p0_2 = (is_small ? by_e0 : 0.0) + q_plus_p0_2 * product_4;
                 const double product_5 = 2.0 * by_norm_d_squared;
-                const double by_d2 = by_w2 + mu2 * by_dot_p_d + d2 * product_5;
-                const double by_d1 = by_w1 + mu1 * by_dot_p_d + d1 * product_5;
-                const double by_d0 = by_w0 + mu0 * by_dot_p_d + d0 * product_5;
+                const double by_d2 = (is_small ? 0.0 : by_e2) + d2 * product_5;
+                const double by_d1 = (is_small ? 0.0 : by_e1) + d1 * product_5;
+                const double by_d0 = (is_small ? 0.0 : by_e0) + d0 * product_5;
                 const double by_q2_off_cut = by_q_plus_p2_2 + by_d2;
                 const double by_q1_off_cut = by_q_plus_p1_2 + by_d1;
                 const double by_q0_off_cut = by_q_plus_p0_2 + by_d0;
@@ -292,10 +300,15 @@ void sphere_splats_vjp(
                 const double norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
                     * q_plus_p2_2;
                 const double norm_q_plus_p_2 = sqrt(norm_q_plus_p_squared_2);
-                const double dot_p_d = mu0 * d0 + mu1 * d1 + mu2 * d2;
-                const double w0 = d0 - mu0 * dot_p_d;
-                const double w1 = d1 - mu1 * dot_p_d;
-                const double w2 = d2 - mu2 * dot_p_d;
+                const double dot_p_q = mu0 * q0_off_cut + mu1 * q1_off_cut + mu2 * q2_off_cut;
+                const int is_small = dot_p_q < 0.0;
+                const double e0 = (is_small ? q_plus_p0_2 : d0);
+                const double e1 = (is_small ? q_plus_p1_2 : d1);
+                const double e2 = (is_small ? q_plus_p2_2 : d2);
+                const double dot_p_e = mu0 * e0 + mu1 * e1 + mu2 * e2;
+                const double w0 = e0 - mu0 * dot_p_e;
+                const double w1 = e1 - mu1 * dot_p_e;
+                const double w2 = e2 - mu2 * dot_p_e;
                 const double norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
                 const int near = norm_d_squared < 0.997515;
                 const double near_chosen = (near ? 1.0024911906086624 * norm_d_squared : 0.0);
@@ -307,22 +320,23 @@ void sphere_splats_vjp(
                 const double norm_w = sqrt((near ? 1.0 : norm_w_squared));
                 const double t_ratio = t / norm_w;
                 const double t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
-                const int is_small = squared < 0.5;
-                const double chosen = (is_small ? gap : 1.0);
+                const int is_small_2 = squared < 0.5;
+                const double chosen = (is_small_2 ? gap : 1.0);
                 const double sine_to_axis0 = sqrt(chosen);
                 const double ratio = gap / sine_to_axis0;
                 const double product = mu0 * mu1;
-                const double chosen_2 = (is_small ? 1.0 : gap_2);
+                const double chosen_2 = (is_small_2 ? 1.0 : gap_2);
                 const double sine_to_axis1 = sqrt(chosen_2);
                 const double ratio_2 = product / sine_to_axis1;
-                const double v0 = (on_cut_locus ? 3.141592653589793 * (is_small ? ratio : -ratio_2) : w0 * t_over_norm_w);
+                const double v0 = (on_cut_locus ? 3.141592653589793 * (is_small_2 ? ratio : -ratio_2) : w0 *
+                    t_over_norm_w);
                 const double ratio_3 = product / sine_to_axis0;
                 const double ratio_4 = gap_2 / sine_to_axis1;
-                const double v1 = (on_cut_locus ? 3.141592653589793 * (is_small ? -ratio_3 : ratio_4) : w1 *
+                const double v1 = (on_cut_locus ? 3.141592653589793 * (is_small_2 ? -ratio_3 : ratio_4) : w1 *
                     t_over_norm_w);
                 const double ratio_5 = mu0 * mu2 / sine_to_axis0;
                 const double ratio_6 = mu1 * mu2 / sine_to_axis1;
-                const double v2 = (on_cut_locus ? 3.141592653589793 * (is_small ? -ratio_5 : -ratio_6) : w2 *
+                const double v2 = (on_cut_locus ? 3.141592653589793 * (is_small_2 ? -ratio_5 : -ratio_6) : w2 *
                     t_over_norm_w);
                 const double log_value = log(0.7853981633974483 / DBL_EPSILON);
                 const double log_det_series = polynomial_log_det_series(near_chosen);
@@ -363,19 +377,22 @@ void sphere_splats_vjp(
                 const double by_w2 = t_over_norm_w * chosen_3 + w2 * product_2;
                 const double by_w1 = t_over_norm_w * chosen_4 + w1 * product_2;
                 const double by_w0 = t_over_norm_w * chosen_5 + w0 * product_2;
-                const double by_dot_p_d = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
-                const int is_small_2 = norm_q_plus_p_squared_2 == 0.0;
-                const double product_3 = 2.0 * (is_small_2 ? 1.0 : norm_q_plus_p_2);
+                const double by_dot_p_e = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
+                const double by_e2 = by_w2 + mu2 * by_dot_p_e;
+                const double by_e1 = by_w1 + mu1 * by_dot_p_e;
+                const double by_e0 = by_w0 + mu0 * by_dot_p_e;
+                const int is_small_3 = norm_q_plus_p_squared_2 == 0.0;
+                const double product_3 = 2.0 * (is_small_3 ? 1.0 : norm_q_plus_p_2);
                 const double ratio_10 = norm_d * ratio_9 / product_3;
-                const double by_norm_q_plus_p_squared_2 = (is_small_2 ? 0.0 : -ratio_10);
+                const double by_norm_q_plus_p_squared_2 = (is_small_3 ? 0.0 : -ratio_10);
                 const double product_4 = 2.0 * by_norm_q_plus_p_squared_2;
-                const double by_q_plus_p2_2 = q_plus_p2_2 * product_4;
-                const double by_q_plus_p1_2 = q_plus_p1_2 * product_4;
-                const double by_q_plus_p0_2 = q_plus_p0_2 * product_4;
+                const double by_q_plus_p2_2 = (is_small ? by_e2 : 0.0) + q_plus_p2_2 * product_4;
+                const double by_q_plus_p1_2 = (is_small ? by_e1 : 0.0) + q_plus_p1_2 * product_4;
+                const double by_q_plus_p0_2 = (is_small ? by_e0 : 0.0) + q_plus_p0_2 * product_4;
                 const double product_5 = 2.0 * by_norm_d_squared;
-                const double by_d2 = by_w2 + mu2 * by_dot_p_d + d2 * product_5;
-                const double by_d1 = by_w1 + mu1 * by_dot_p_d + d1 * product_5;
-                const double by_d0 = by_w0 + mu0 * by_dot_p_d + d0 * product_5;
+                const double by_d2 = (is_small ? 0.0 : by_e2) + d2 * product_5;
+                const double by_d1 = (is_small ? 0.0 : by_e1) + d1 * product_5;
+                const double by_d0 = (is_small ? 0.0 : by_e0) + d0 * product_5;
                 const double by_q2_off_cut = by_q_plus_p2_2 + by_d2;
                 const double by_q1_off_cut = by_q_plus_p1_2 + by_d1;
                 const double by_q0_off_cut = by_q_plus_p0_2 + by_d0;
@@ -399,11 +416,14 @@ void sphere_splats_vjp(
                 const double by_by_norm_d_squared = 2.0 * total_3;
                 const double by_by_norm_q_plus_p_squared_2 = 2.0 * (q_plus_p0_2 * by_by_q0_off_cut + q_plus_p1_2 *
                     by_by_q1_off_cut + q_plus_p2_2 * by_by_q2_off_cut);
-                const double ratio_11 = (is_small_2 ? 0.0 : by_by_norm_q_plus_p_squared_2) / product_3;
-                const double by_by_dot_p_d = mu0 * by_by_q0_off_cut + mu1 * by_by_q1_off_cut + mu2 * by_by_q2_off_cut;
-                const double by_by_w0 = by_by_q0_off_cut - mu0 * by_by_dot_p_d;
-                const double by_by_w1 = by_by_q1_off_cut - mu1 * by_by_dot_p_d;
-                const double by_by_w2 = by_by_q2_off_cut - mu2 * by_by_dot_p_d;
+                const double ratio_11 = (is_small_3 ? 0.0 : by_by_norm_q_plus_p_squared_2) / product_3;
+                const double by_by_e0 = (is_small ? by_by_q0_off_cut : 0.0) + (is_small ? 0.0 : by_by_q0_off_cut);
+                const double by_by_e1 = (is_small ? by_by_q1_off_cut : 0.0) + (is_small ? 0.0 : by_by_q1_off_cut);
+                const double by_by_e2 = (is_small ? by_by_q2_off_cut : 0.0) + (is_small ? 0.0 : by_by_q2_off_cut);
+                const double by_by_dot_p_e = mu0 * by_by_e0 + mu1 * by_by_e1 + mu2 * by_by_e2;
+                const double by_by_w0 = by_by_e0 - mu0 * by_by_dot_p_e;
+                const double by_by_w1 = by_by_e1 - mu1 * by_by_dot_p_e;
+                const double by_by_w2 = by_by_e2 - mu2 * by_by_dot_p_e;
                 const double by_by_norm_w_squared = 2.0 * (w0 * by_by_w0 + w1 * by_by_w1 + w2 * by_by_w2);
                 const double near_chosen_3 = (near ? 2.004982381217325 * total_3 : 0.0);
                 const double by_by_t_over_norm_w_near = t_over_norm_w_near_slope * near_chosen_3;
@@ -434,27 +454,27 @@ void sphere_splats_vjp(
                     by_log_det_near_2;
                 const double chosen_6 = (on_cut_locus ? 0.0 : by_v2_2);
                 const double product_8 = 3.141592653589793 * (on_cut_locus ? by_v2_2 : 0.0);
-                const double ratio_13 = (is_small ? 0.0 : product_8) / sine_to_axis1;
-                const double ratio_14 = (is_small ? product_8 : 0.0) / sine_to_axis0;
+                const double ratio_13 = (is_small_2 ? 0.0 : product_8) / sine_to_axis1;
+                const double ratio_14 = (is_small_2 ? product_8 : 0.0) / sine_to_axis0;
                 const double chosen_7 = (on_cut_locus ? 0.0 : by_v1_2);
                 const double total_4 = chosen_5 * by_by_w0 + chosen_4 * by_by_w1 + chosen_3 * by_by_w2 + w2 * chosen_6 +
                     w1 * chosen_7;
                 const double product_9 = 3.141592653589793 * (on_cut_locus ? by_v1_2 : 0.0);
-                const double ratio_15 = (is_small ? 0.0 : product_9) / sine_to_axis1;
-                const double ratio_16 = (is_small ? product_9 : 0.0) / sine_to_axis0;
+                const double ratio_15 = (is_small_2 ? 0.0 : product_9) / sine_to_axis1;
+                const double ratio_16 = (is_small_2 ? product_9 : 0.0) / sine_to_axis0;
                 const double chosen_8 = (on_cut_locus ? 0.0 : by_v0_2);
                 const double by_t_over_norm_w_2 = total_4 + w0 * chosen_8;
                 const double product_10 = 3.141592653589793 * (on_cut_locus ? by_v0_2 : 0.0);
-                const double ratio_17 = (is_small ? 0.0 : product_10) / sine_to_axis1;
+                const double ratio_17 = (is_small_2 ? 0.0 : product_10) / sine_to_axis1;
                 const double gap_3 = -ratio_16 - ratio_17;
                 const double by_sine_to_axis1 = ratio_6 * ratio_13 - ratio_4 * ratio_15 + ratio_2 * ratio_17;
-                const int is_small_3 = chosen_2 == 0.0;
-                const double chosen_9 = (is_small ? 0.0 : (is_small_3 ? 0.0 : by_sine_to_axis1 / (2.0 * (is_small_3 ? 1.0
-                    : sine_to_axis1))));
-                const double ratio_18 = (is_small ? product_10 : 0.0) / sine_to_axis0;
+                const int is_small_4 = chosen_2 == 0.0;
+                const double chosen_9 = (is_small_2 ? 0.0 : (is_small_4 ? 0.0 : by_sine_to_axis1 / (2.0 * (is_small_4 ?
+                    1.0 : sine_to_axis1))));
+                const double ratio_18 = (is_small_2 ? product_10 : 0.0) / sine_to_axis0;
                 const double by_sine_to_axis0 = ratio_5 * ratio_14 + ratio_3 * ratio_16 - ratio * ratio_18;
-                const int is_small_4 = chosen == 0.0;
-                const double chosen_10 = (is_small ? (is_small_4 ? 0.0 : by_sine_to_axis0 / (2.0 * (is_small_4 ? 1.0 :
+                const int is_small_5 = chosen == 0.0;
+                const double chosen_10 = (is_small_2 ? (is_small_5 ? 0.0 : by_sine_to_axis0 / (2.0 * (is_small_5 ? 1.0 :
                     sine_to_axis0))) : 0.0);
                 const double by_t_over_norm_w_near_2 = (near ? by_t_over_norm_w_2 : 0.0);
                 const double total_5 = -(by_t * ratio_12) - ratio_7 * (by_by_t_ratio / t_ratio) + (near ? 0.0 :
@@ -466,7 +486,7 @@ void sphere_splats_vjp(
                 const double ratio_19 = by_atan2_value_2 / total_2;
                 const double by_norm_d_2 = -(2.0 * (by_norm_d_ratio * by_by_norm_d)) - ratio_9 * ratio_11 +
                     norm_q_plus_p_2 * ratio_19;
-                const double by_norm_q_plus_p_2 = (is_small_2 ? 0.0 : 2.0 * (ratio_10 * ratio_11)) + ratio_9 *
+                const double by_norm_q_plus_p_2 = (is_small_3 ? 0.0 : 2.0 * (ratio_10 * ratio_11)) + ratio_9 *
                     by_by_norm_d - norm_d * ratio_19;
                 const double near_chosen_4 = (near ? by_t_over_norm_w_near_slope * t_over_norm_w_near_slope_slope +
                     by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
@@ -481,31 +501,37 @@ void sphere_splats_vjp(
                     w1 * product_11;
                 const double by_w0_2 = product_2 * by_by_w0 + chosen_5 * by_by_t_over_norm_w + t_over_norm_w * chosen_8 +
                     w0 * product_11;
-                const double gap_4 = by_dot_p_d * by_by_q2_off_cut - by_w2 * by_by_dot_p_d - mu1 * ratio_13 - mu0 *
-                    ratio_14 - dot_p_d * by_w2_2;
-                const double gap_5 = by_dot_p_d * by_by_q1_off_cut - by_w1 * by_by_dot_p_d - mu2 * ratio_13 + mu0 * gap_3
-                    - dot_p_d * by_w1_2;
-                const double gap_6 = by_dot_p_d * by_by_q0_off_cut - by_w0 * by_by_dot_p_d - mu2 * ratio_14 + mu1 * gap_3
-                    - dot_p_d * by_w0_2;
-                const double by_dot_p_d_2 = -(mu2 * by_w2_2) - mu1 * by_w1_2 - mu0 * by_w0_2;
-                const double by_norm_q_plus_p_squared_2_2 = (is_small_2 ? 0.0 : by_norm_q_plus_p_2 / product_3) -
+                const double gap_4 = by_dot_p_e * by_by_e2 - by_w2 * by_by_dot_p_e - mu1 * ratio_13 - mu0 * ratio_14 -
+                    dot_p_e * by_w2_2;
+                const double gap_5 = by_dot_p_e * by_by_e1 - by_w1 * by_by_dot_p_e - mu2 * ratio_13 + mu0 * gap_3 -
+                    dot_p_e * by_w1_2;
+                const double gap_6 = by_dot_p_e * by_by_e0 - by_w0 * by_by_dot_p_e - mu2 * ratio_14 + mu1 * gap_3 -
+                    dot_p_e * by_w0_2;
+                const double by_dot_p_e_2 = -(mu2 * by_w2_2) - mu1 * by_w1_2 - mu0 * by_w0_2;
+                const double by_e2_2 = by_w2_2 + mu2 * by_dot_p_e_2;
+                const double by_e1_2 = by_w1_2 + mu1 * by_dot_p_e_2;
+                const double by_e0_2 = by_w0_2 + mu0 * by_dot_p_e_2;
+                const double by_norm_q_plus_p_squared_2_2 = (is_small_3 ? 0.0 : by_norm_q_plus_p_2 / product_3) -
                     product_6;
                 const double product_12 = 2.0 * by_norm_q_plus_p_squared_2_2;
-                const double by_q_plus_p2_2_2 = product_4 * by_by_q2_off_cut + q_plus_p2_2 * product_12;
-                const double by_q_plus_p1_2_2 = product_4 * by_by_q1_off_cut + q_plus_p1_2 * product_12;
-                const double by_q_plus_p0_2_2 = product_4 * by_by_q0_off_cut + q_plus_p0_2 * product_12;
+                const double by_q_plus_p2_2_2 = product_4 * by_by_q2_off_cut + (is_small ? by_e2_2 : 0.0) + q_plus_p2_2 *
+                    product_12;
+                const double by_q_plus_p1_2_2 = product_4 * by_by_q1_off_cut + (is_small ? by_e1_2 : 0.0) + q_plus_p1_2 *
+                    product_12;
+                const double by_q_plus_p0_2_2 = product_4 * by_by_q0_off_cut + (is_small ? by_e0_2 : 0.0) + q_plus_p0_2 *
+                    product_12;
                 const double product_13 = 2.0 * by_norm_d_squared_2;
-                const double by_d2_2 = product_5 * by_by_q2_off_cut + by_w2_2 + mu2 * by_dot_p_d_2 + d2 * product_13;
-                const double by_d1_2 = product_5 * by_by_q1_off_cut + by_w1_2 + mu1 * by_dot_p_d_2 + d1 * product_13;
-                const double by_d0_2 = product_5 * by_by_q0_off_cut + by_w0_2 + mu0 * by_dot_p_d_2 + d0 * product_13;
+                const double by_d2_2 = product_5 * by_by_q2_off_cut + (is_small ? 0.0 : by_e2_2) + d2 * product_13;
+                const double by_d1_2 = product_5 * by_by_q1_off_cut + (is_small ? 0.0 : by_e1_2) + d1 * product_13;
+                const double by_d0_2 = product_5 * by_by_q0_off_cut + (is_small ? 0.0 : by_e0_2) + d0 * product_13;
                 const double by_q2_off_cut_2 = by_q_plus_p2_2_2 + by_d2_2;
                 const double by_q1_off_cut_2 = by_q_plus_p1_2_2 + by_d1_2;
                 const double by_q0_off_cut_2 = by_q_plus_p0_2_2 + by_d0_2;
-                const double total_6 = gap_4 + d2 * by_dot_p_d_2 + by_q_plus_p2_2_2 - by_d2_2 + (on_cut_locus ?
+                const double total_6 = gap_4 + e2 * by_dot_p_e_2 + by_q_plus_p2_2_2 - by_d2_2 + (on_cut_locus ?
                     by_q2_off_cut_2 : 0.0);
-                const double total_7 = gap_5 + d1 * by_dot_p_d_2 + by_q_plus_p1_2_2 - by_d1_2 + (on_cut_locus ?
+                const double total_7 = gap_5 + e1 * by_dot_p_e_2 + by_q_plus_p1_2_2 - by_d1_2 + (on_cut_locus ?
                     by_q1_off_cut_2 : 0.0);
-                const double total_8 = gap_6 + d0 * by_dot_p_d_2 + by_q_plus_p0_2_2 - by_d0_2 + (on_cut_locus ?
+                const double total_8 = gap_6 + e0 * by_dot_p_e_2 + by_q_plus_p0_2_2 - by_d0_2 + (on_cut_locus ?
                     by_q0_off_cut_2 : 0.0);
                 sum[0][lane] += total_8 - mu0 * (2.0 * (ratio_18 + chosen_10));
                 sum[1][lane] += total_7 - mu1 * (2.0 * (ratio_15 + chosen_9));
@@ -628,10 +654,15 @@ void sphere_splats_f(
                 const float norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
                     * q_plus_p2_2;
                 const float norm_q_plus_p_2 = sqrtf(norm_q_plus_p_squared_2);
-                const float dot_p_d = mu0 * d0 + mu1 * d1 + mu2 * d2;
-                const float w0 = d0 - mu0 * dot_p_d;
-                const float w1 = d1 - mu1 * dot_p_d;
-                const float w2 = d2 - mu2 * dot_p_d;
+                const float dot_p_q = mu0 * q0_off_cut + mu1 * q1_off_cut + mu2 * q2_off_cut;
+                const int is_small = dot_p_q < 0.0f;
+                const float e0 = (is_small ? q_plus_p0_2 : d0);
+                const float e1 = (is_small ? q_plus_p1_2 : d1);
+                const float e2 = (is_small ? q_plus_p2_2 : d2);
+                const float dot_p_e = mu0 * e0 + mu1 * e1 + mu2 * e2;
+                const float w0 = e0 - mu0 * dot_p_e;
+                const float w1 = e1 - mu1 * dot_p_e;
+                const float w2 = e2 - mu2 * dot_p_e;
                 const float norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
                 const int near = norm_d_squared < 0.997515f;
                 const float near_chosen = (near ? 1.0024911906086624f * norm_d_squared : 0.0f);
@@ -643,15 +674,15 @@ void sphere_splats_f(
                 const float norm_w = sqrtf((near ? 1.0f : norm_w_squared));
                 const float t_ratio = t / norm_w;
                 const float t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
-                const int is_small = squared < 0.5f;
-                const float sine_to_axis0 = sqrtf((is_small ? gap : 1.0f));
+                const int is_small_2 = squared < 0.5f;
+                const float sine_to_axis0 = sqrtf((is_small_2 ? gap : 1.0f));
                 const float product = mu0 * mu1;
-                const float sine_to_axis1 = sqrtf((is_small ? 1.0f : gap_2));
-                const float v0 = (on_cut_locus ? 3.141592653589793f * (is_small ? gap / sine_to_axis0 : -(product /
+                const float sine_to_axis1 = sqrtf((is_small_2 ? 1.0f : gap_2));
+                const float v0 = (on_cut_locus ? 3.141592653589793f * (is_small_2 ? gap / sine_to_axis0 : -(product /
                     sine_to_axis1)) : w0 * t_over_norm_w);
-                const float v1 = (on_cut_locus ? 3.141592653589793f * (is_small ? -(product / sine_to_axis0) : gap_2 /
+                const float v1 = (on_cut_locus ? 3.141592653589793f * (is_small_2 ? -(product / sine_to_axis0) : gap_2 /
                     sine_to_axis1) : w1 * t_over_norm_w);
-                const float product_2 = 3.141592653589793f * (is_small ? -(mu0 * mu2 / sine_to_axis0) : -(mu1 * mu2 /
+                const float product_2 = 3.141592653589793f * (is_small_2 ? -(mu0 * mu2 / sine_to_axis0) : -(mu1 * mu2 /
                     sine_to_axis1));
                 const float v2 = (on_cut_locus ? product_2 : w2 * t_over_norm_w);
                 const float log_value = logf(0.7853981633974483f / FLT_EPSILON);
@@ -687,18 +718,21 @@ void sphere_splats_f(
                 const float by_w2 = t_over_norm_w * chosen + w2 * product_3;
                 const float by_w1 = t_over_norm_w * chosen_2 + w1 * product_3;
                 const float by_w0 = t_over_norm_w * chosen_3 + w0 * product_3;
-                const float by_dot_p_d = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
-                const int is_small_2 = norm_q_plus_p_squared_2 == 0.0f;
-                const float by_norm_q_plus_p_squared_2 = (is_small_2 ? 0.0f : -(norm_d * ratio / (2.0f * (is_small_2 ?
+                const float by_dot_p_e = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
+                const float by_e2 = by_w2 + mu2 * by_dot_p_e;
+                const float by_e1 = by_w1 + mu1 * by_dot_p_e;
+                const float by_e0 = by_w0 + mu0 * by_dot_p_e;
+                const int is_small_3 = norm_q_plus_p_squared_2 == 0.0f;
+                const float by_norm_q_plus_p_squared_2 = (is_small_3 ? 0.0f : -(norm_d * ratio / (2.0f * (is_small_3 ?
                     1.0f : norm_q_plus_p_2))));
                 const float product_4 = 2.0f * by_norm_q_plus_p_squared_2;
-                const float by_q_plus_p2_2 = q_plus_p2_2 * product_4;
-                const float by_q_plus_p1_2 = q_plus_p1_2 * product_4;
-                const float by_q_plus_p0_2 = q_plus_p0_2 * product_4;
+                const float by_q_plus_p2_2 = (is_small ? by_e2 : 0.0f) + q_plus_p2_2 * product_4;
+                const float by_q_plus_p1_2 = (is_small ? by_e1 : 0.0f) + q_plus_p1_2 * product_4;
+                const float by_q_plus_p0_2 = (is_small ? by_e0 : 0.0f) + q_plus_p0_2 * product_4;
                 const float product_5 = 2.0f * by_norm_d_squared;
-                const float by_d2 = by_w2 + mu2 * by_dot_p_d + d2 * product_5;
-                const float by_d1 = by_w1 + mu1 * by_dot_p_d + d1 * product_5;
-                const float by_d0 = by_w0 + mu0 * by_dot_p_d + d0 * product_5;
+                const float by_d2 = (is_small ? 0.0f : by_e2) + d2 * product_5;
+                const float by_d1 = (is_small ? 0.0f : by_e1) + d1 * product_5;
+                const float by_d0 = (is_small ? 0.0f : by_e0) + d0 * product_5;
                 const float by_q2_off_cut = by_q_plus_p2_2 + by_d2;
                 const float by_q1_off_cut = by_q_plus_p1_2 + by_d1;
                 const float by_q0_off_cut = by_q_plus_p0_2 + by_d0;
@@ -789,10 +823,15 @@ void sphere_splats_vjp_f(
                 const float norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
                     * q_plus_p2_2;
                 const float norm_q_plus_p_2 = sqrtf(norm_q_plus_p_squared_2);
-                const float dot_p_d = mu0 * d0 + mu1 * d1 + mu2 * d2;
-                const float w0 = d0 - mu0 * dot_p_d;
-                const float w1 = d1 - mu1 * dot_p_d;
-                const float w2 = d2 - mu2 * dot_p_d;
+                const float dot_p_q = mu0 * q0_off_cut + mu1 * q1_off_cut + mu2 * q2_off_cut;
+                const int is_small = dot_p_q < 0.0f;
+                const float e0 = (is_small ? q_plus_p0_2 : d0);
+                const float e1 = (is_small ? q_plus_p1_2 : d1);
+                const float e2 = (is_small ? q_plus_p2_2 : d2);
+                const float dot_p_e = mu0 * e0 + mu1 * e1 + mu2 * e2;
+                const float w0 = e0 - mu0 * dot_p_e;
+                const float w1 = e1 - mu1 * dot_p_e;
+                const float w2 = e2 - mu2 * dot_p_e;
                 const float norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
                 const int near = norm_d_squared < 0.997515f;
                 const float near_chosen = (near ? 1.0024911906086624f * norm_d_squared : 0.0f);
@@ -804,22 +843,23 @@ void sphere_splats_vjp_f(
                 const float norm_w = sqrtf((near ? 1.0f : norm_w_squared));
                 const float t_ratio = t / norm_w;
                 const float t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
-                const int is_small = squared < 0.5f;
-                const float chosen = (is_small ? gap : 1.0f);
+                const int is_small_2 = squared < 0.5f;
+                const float chosen = (is_small_2 ? gap : 1.0f);
                 const float sine_to_axis0 = sqrtf(chosen);
                 const float ratio = gap / sine_to_axis0;
                 const float product = mu0 * mu1;
-                const float chosen_2 = (is_small ? 1.0f : gap_2);
+                const float chosen_2 = (is_small_2 ? 1.0f : gap_2);
                 const float sine_to_axis1 = sqrtf(chosen_2);
                 const float ratio_2 = product / sine_to_axis1;
-                const float v0 = (on_cut_locus ? 3.141592653589793f * (is_small ? ratio : -ratio_2) : w0 * t_over_norm_w);
+                const float v0 = (on_cut_locus ? 3.141592653589793f * (is_small_2 ? ratio : -ratio_2) : w0 *
+                    t_over_norm_w);
                 const float ratio_3 = product / sine_to_axis0;
                 const float ratio_4 = gap_2 / sine_to_axis1;
-                const float v1 = (on_cut_locus ? 3.141592653589793f * (is_small ? -ratio_3 : ratio_4) : w1 *
+                const float v1 = (on_cut_locus ? 3.141592653589793f * (is_small_2 ? -ratio_3 : ratio_4) : w1 *
                     t_over_norm_w);
                 const float ratio_5 = mu0 * mu2 / sine_to_axis0;
                 const float ratio_6 = mu1 * mu2 / sine_to_axis1;
-                const float v2 = (on_cut_locus ? 3.141592653589793f * (is_small ? -ratio_5 : -ratio_6) : w2 *
+                const float v2 = (on_cut_locus ? 3.141592653589793f * (is_small_2 ? -ratio_5 : -ratio_6) : w2 *
                     t_over_norm_w);
                 const float log_value = logf(0.7853981633974483f / FLT_EPSILON);
                 const float log_det_series = polynomial_log_det_series_f(near_chosen);
@@ -860,19 +900,22 @@ void sphere_splats_vjp_f(
                 const float by_w2 = t_over_norm_w * chosen_3 + w2 * product_2;
                 const float by_w1 = t_over_norm_w * chosen_4 + w1 * product_2;
                 const float by_w0 = t_over_norm_w * chosen_5 + w0 * product_2;
-                const float by_dot_p_d = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
-                const int is_small_2 = norm_q_plus_p_squared_2 == 0.0f;
-                const float product_3 = 2.0f * (is_small_2 ? 1.0f : norm_q_plus_p_2);
+                const float by_dot_p_e = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
+                const float by_e2 = by_w2 + mu2 * by_dot_p_e;
+                const float by_e1 = by_w1 + mu1 * by_dot_p_e;
+                const float by_e0 = by_w0 + mu0 * by_dot_p_e;
+                const int is_small_3 = norm_q_plus_p_squared_2 == 0.0f;
+                const float product_3 = 2.0f * (is_small_3 ? 1.0f : norm_q_plus_p_2);
                 const float ratio_10 = norm_d * ratio_9 / product_3;
-                const float by_norm_q_plus_p_squared_2 = (is_small_2 ? 0.0f : -ratio_10);
+                const float by_norm_q_plus_p_squared_2 = (is_small_3 ? 0.0f : -ratio_10);
                 const float product_4 = 2.0f * by_norm_q_plus_p_squared_2;
-                const float by_q_plus_p2_2 = q_plus_p2_2 * product_4;
-                const float by_q_plus_p1_2 = q_plus_p1_2 * product_4;
-                const float by_q_plus_p0_2 = q_plus_p0_2 * product_4;
+                const float by_q_plus_p2_2 = (is_small ? by_e2 : 0.0f) + q_plus_p2_2 * product_4;
+                const float by_q_plus_p1_2 = (is_small ? by_e1 : 0.0f) + q_plus_p1_2 * product_4;
+                const float by_q_plus_p0_2 = (is_small ? by_e0 : 0.0f) + q_plus_p0_2 * product_4;
                 const float product_5 = 2.0f * by_norm_d_squared;
-                const float by_d2 = by_w2 + mu2 * by_dot_p_d + d2 * product_5;
-                const float by_d1 = by_w1 + mu1 * by_dot_p_d + d1 * product_5;
-                const float by_d0 = by_w0 + mu0 * by_dot_p_d + d0 * product_5;
+                const float by_d2 = (is_small ? 0.0f : by_e2) + d2 * product_5;
+                const float by_d1 = (is_small ? 0.0f : by_e1) + d1 * product_5;
+                const float by_d0 = (is_small ? 0.0f : by_e0) + d0 * product_5;
                 const float by_q2_off_cut = by_q_plus_p2_2 + by_d2;
                 const float by_q1_off_cut = by_q_plus_p1_2 + by_d1;
                 const float by_q0_off_cut = by_q_plus_p0_2 + by_d0;
@@ -896,11 +939,14 @@ void sphere_splats_vjp_f(
                 const float by_by_norm_d_squared = 2.0f * total_3;
                 const float by_by_norm_q_plus_p_squared_2 = 2.0f * (q_plus_p0_2 * by_by_q0_off_cut + q_plus_p1_2 *
                     by_by_q1_off_cut + q_plus_p2_2 * by_by_q2_off_cut);
-                const float ratio_11 = (is_small_2 ? 0.0f : by_by_norm_q_plus_p_squared_2) / product_3;
-                const float by_by_dot_p_d = mu0 * by_by_q0_off_cut + mu1 * by_by_q1_off_cut + mu2 * by_by_q2_off_cut;
-                const float by_by_w0 = by_by_q0_off_cut - mu0 * by_by_dot_p_d;
-                const float by_by_w1 = by_by_q1_off_cut - mu1 * by_by_dot_p_d;
-                const float by_by_w2 = by_by_q2_off_cut - mu2 * by_by_dot_p_d;
+                const float ratio_11 = (is_small_3 ? 0.0f : by_by_norm_q_plus_p_squared_2) / product_3;
+                const float by_by_e0 = (is_small ? by_by_q0_off_cut : 0.0f) + (is_small ? 0.0f : by_by_q0_off_cut);
+                const float by_by_e1 = (is_small ? by_by_q1_off_cut : 0.0f) + (is_small ? 0.0f : by_by_q1_off_cut);
+                const float by_by_e2 = (is_small ? by_by_q2_off_cut : 0.0f) + (is_small ? 0.0f : by_by_q2_off_cut);
+                const float by_by_dot_p_e = mu0 * by_by_e0 + mu1 * by_by_e1 + mu2 * by_by_e2;
+                const float by_by_w0 = by_by_e0 - mu0 * by_by_dot_p_e;
+                const float by_by_w1 = by_by_e1 - mu1 * by_by_dot_p_e;
+                const float by_by_w2 = by_by_e2 - mu2 * by_by_dot_p_e;
                 const float by_by_norm_w_squared = 2.0f * (w0 * by_by_w0 + w1 * by_by_w1 + w2 * by_by_w2);
                 const float near_chosen_3 = (near ? 2.004982381217325f * total_3 : 0.0f);
                 const float by_by_t_over_norm_w_near = t_over_norm_w_near_slope * near_chosen_3;
@@ -932,27 +978,27 @@ void sphere_splats_vjp_f(
                     by_log_det_near_2;
                 const float chosen_6 = (on_cut_locus ? 0.0f : by_v2_2);
                 const float product_8 = 3.141592653589793f * (on_cut_locus ? by_v2_2 : 0.0f);
-                const float ratio_13 = (is_small ? 0.0f : product_8) / sine_to_axis1;
-                const float ratio_14 = (is_small ? product_8 : 0.0f) / sine_to_axis0;
+                const float ratio_13 = (is_small_2 ? 0.0f : product_8) / sine_to_axis1;
+                const float ratio_14 = (is_small_2 ? product_8 : 0.0f) / sine_to_axis0;
                 const float chosen_7 = (on_cut_locus ? 0.0f : by_v1_2);
                 const float total_4 = chosen_5 * by_by_w0 + chosen_4 * by_by_w1 + chosen_3 * by_by_w2 + w2 * chosen_6 + w1
                     * chosen_7;
                 const float product_9 = 3.141592653589793f * (on_cut_locus ? by_v1_2 : 0.0f);
-                const float ratio_15 = (is_small ? 0.0f : product_9) / sine_to_axis1;
-                const float ratio_16 = (is_small ? product_9 : 0.0f) / sine_to_axis0;
+                const float ratio_15 = (is_small_2 ? 0.0f : product_9) / sine_to_axis1;
+                const float ratio_16 = (is_small_2 ? product_9 : 0.0f) / sine_to_axis0;
                 const float chosen_8 = (on_cut_locus ? 0.0f : by_v0_2);
                 const float by_t_over_norm_w_2 = total_4 + w0 * chosen_8;
                 const float product_10 = 3.141592653589793f * (on_cut_locus ? by_v0_2 : 0.0f);
-                const float ratio_17 = (is_small ? 0.0f : product_10) / sine_to_axis1;
+                const float ratio_17 = (is_small_2 ? 0.0f : product_10) / sine_to_axis1;
                 const float gap_3 = -ratio_16 - ratio_17;
                 const float by_sine_to_axis1 = ratio_6 * ratio_13 - ratio_4 * ratio_15 + ratio_2 * ratio_17;
-                const int is_small_3 = chosen_2 == 0.0f;
-                const float chosen_9 = (is_small ? 0.0f : (is_small_3 ? 0.0f : by_sine_to_axis1 / (2.0f * (is_small_3 ?
+                const int is_small_4 = chosen_2 == 0.0f;
+                const float chosen_9 = (is_small_2 ? 0.0f : (is_small_4 ? 0.0f : by_sine_to_axis1 / (2.0f * (is_small_4 ?
                     1.0f : sine_to_axis1))));
-                const float ratio_18 = (is_small ? product_10 : 0.0f) / sine_to_axis0;
+                const float ratio_18 = (is_small_2 ? product_10 : 0.0f) / sine_to_axis0;
                 const float by_sine_to_axis0 = ratio_5 * ratio_14 + ratio_3 * ratio_16 - ratio * ratio_18;
-                const int is_small_4 = chosen == 0.0f;
-                const float chosen_10 = (is_small ? (is_small_4 ? 0.0f : by_sine_to_axis0 / (2.0f * (is_small_4 ? 1.0f :
+                const int is_small_5 = chosen == 0.0f;
+                const float chosen_10 = (is_small_2 ? (is_small_5 ? 0.0f : by_sine_to_axis0 / (2.0f * (is_small_5 ? 1.0f :
                     sine_to_axis0))) : 0.0f);
                 const float by_t_over_norm_w_near_2 = (near ? by_t_over_norm_w_2 : 0.0f);
                 const float total_5 = -(by_t * ratio_12) - ratio_7 * (by_by_t_ratio / t_ratio) + (near ? 0.0f :
@@ -964,7 +1010,7 @@ void sphere_splats_vjp_f(
                 const float ratio_19 = by_atan2_value_2 / total_2;
                 const float by_norm_d_2 = -(2.0f * (by_norm_d_ratio * by_by_norm_d)) - ratio_9 * ratio_11 +
                     norm_q_plus_p_2 * ratio_19;
-                const float by_norm_q_plus_p_2 = (is_small_2 ? 0.0f : 2.0f * (ratio_10 * ratio_11)) + ratio_9 *
+                const float by_norm_q_plus_p_2 = (is_small_3 ? 0.0f : 2.0f * (ratio_10 * ratio_11)) + ratio_9 *
                     by_by_norm_d - norm_d * ratio_19;
                 const float near_chosen_4 = (near ? by_t_over_norm_w_near_slope * t_over_norm_w_near_slope_slope +
                     by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
@@ -979,31 +1025,37 @@ void sphere_splats_vjp_f(
                     w1 * product_11;
                 const float by_w0_2 = product_2 * by_by_w0 + chosen_5 * by_by_t_over_norm_w + t_over_norm_w * chosen_8 +
                     w0 * product_11;
-                const float gap_4 = by_dot_p_d * by_by_q2_off_cut - by_w2 * by_by_dot_p_d - mu1 * ratio_13 - mu0 *
-                    ratio_14 - dot_p_d * by_w2_2;
-                const float gap_5 = by_dot_p_d * by_by_q1_off_cut - by_w1 * by_by_dot_p_d - mu2 * ratio_13 + mu0 * gap_3 -
-                    dot_p_d * by_w1_2;
-                const float gap_6 = by_dot_p_d * by_by_q0_off_cut - by_w0 * by_by_dot_p_d - mu2 * ratio_14 + mu1 * gap_3 -
-                    dot_p_d * by_w0_2;
-                const float by_dot_p_d_2 = -(mu2 * by_w2_2) - mu1 * by_w1_2 - mu0 * by_w0_2;
-                const float by_norm_q_plus_p_squared_2_2 = (is_small_2 ? 0.0f : by_norm_q_plus_p_2 / product_3) -
+                const float gap_4 = by_dot_p_e * by_by_e2 - by_w2 * by_by_dot_p_e - mu1 * ratio_13 - mu0 * ratio_14 -
+                    dot_p_e * by_w2_2;
+                const float gap_5 = by_dot_p_e * by_by_e1 - by_w1 * by_by_dot_p_e - mu2 * ratio_13 + mu0 * gap_3 - dot_p_e
+                    * by_w1_2;
+                const float gap_6 = by_dot_p_e * by_by_e0 - by_w0 * by_by_dot_p_e - mu2 * ratio_14 + mu1 * gap_3 - dot_p_e
+                    * by_w0_2;
+                const float by_dot_p_e_2 = -(mu2 * by_w2_2) - mu1 * by_w1_2 - mu0 * by_w0_2;
+                const float by_e2_2 = by_w2_2 + mu2 * by_dot_p_e_2;
+                const float by_e1_2 = by_w1_2 + mu1 * by_dot_p_e_2;
+                const float by_e0_2 = by_w0_2 + mu0 * by_dot_p_e_2;
+                const float by_norm_q_plus_p_squared_2_2 = (is_small_3 ? 0.0f : by_norm_q_plus_p_2 / product_3) -
                     product_6;
                 const float product_12 = 2.0f * by_norm_q_plus_p_squared_2_2;
-                const float by_q_plus_p2_2_2 = product_4 * by_by_q2_off_cut + q_plus_p2_2 * product_12;
-                const float by_q_plus_p1_2_2 = product_4 * by_by_q1_off_cut + q_plus_p1_2 * product_12;
-                const float by_q_plus_p0_2_2 = product_4 * by_by_q0_off_cut + q_plus_p0_2 * product_12;
+                const float by_q_plus_p2_2_2 = product_4 * by_by_q2_off_cut + (is_small ? by_e2_2 : 0.0f) + q_plus_p2_2 *
+                    product_12;
+                const float by_q_plus_p1_2_2 = product_4 * by_by_q1_off_cut + (is_small ? by_e1_2 : 0.0f) + q_plus_p1_2 *
+                    product_12;
+                const float by_q_plus_p0_2_2 = product_4 * by_by_q0_off_cut + (is_small ? by_e0_2 : 0.0f) + q_plus_p0_2 *
+                    product_12;
                 const float product_13 = 2.0f * by_norm_d_squared_2;
-                const float by_d2_2 = product_5 * by_by_q2_off_cut + by_w2_2 + mu2 * by_dot_p_d_2 + d2 * product_13;
-                const float by_d1_2 = product_5 * by_by_q1_off_cut + by_w1_2 + mu1 * by_dot_p_d_2 + d1 * product_13;
-                const float by_d0_2 = product_5 * by_by_q0_off_cut + by_w0_2 + mu0 * by_dot_p_d_2 + d0 * product_13;
+                const float by_d2_2 = product_5 * by_by_q2_off_cut + (is_small ? 0.0f : by_e2_2) + d2 * product_13;
+                const float by_d1_2 = product_5 * by_by_q1_off_cut + (is_small ? 0.0f : by_e1_2) + d1 * product_13;
+                const float by_d0_2 = product_5 * by_by_q0_off_cut + (is_small ? 0.0f : by_e0_2) + d0 * product_13;
                 const float by_q2_off_cut_2 = by_q_plus_p2_2_2 + by_d2_2;
                 const float by_q1_off_cut_2 = by_q_plus_p1_2_2 + by_d1_2;
                 const float by_q0_off_cut_2 = by_q_plus_p0_2_2 + by_d0_2;
-                const float total_6 = gap_4 + d2 * by_dot_p_d_2 + by_q_plus_p2_2_2 - by_d2_2 + (on_cut_locus ?
+                const float total_6 = gap_4 + e2 * by_dot_p_e_2 + by_q_plus_p2_2_2 - by_d2_2 + (on_cut_locus ?
                     by_q2_off_cut_2 : 0.0f);
-                const float total_7 = gap_5 + d1 * by_dot_p_d_2 + by_q_plus_p1_2_2 - by_d1_2 + (on_cut_locus ?
+                const float total_7 = gap_5 + e1 * by_dot_p_e_2 + by_q_plus_p1_2_2 - by_d1_2 + (on_cut_locus ?
                     by_q1_off_cut_2 : 0.0f);
-                const float total_8 = gap_6 + d0 * by_dot_p_d_2 + by_q_plus_p0_2_2 - by_d0_2 + (on_cut_locus ?
+                const float total_8 = gap_6 + e0 * by_dot_p_e_2 + by_q_plus_p0_2_2 - by_d0_2 + (on_cut_locus ?
                     by_q0_off_cut_2 : 0.0f);
                 sum[0][lane] += total_8 - mu0 * (2.0f * (ratio_18 + chosen_10));
                 sum[1][lane] += total_7 - mu1 * (2.0f * (ratio_15 + chosen_9));

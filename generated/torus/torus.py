@@ -245,13 +245,13 @@ class Torus:
         uniform0, uniform1 = uniform.unbind(-1)
         round_2 = torch.round(uniform0)
         p0 = (
-            6.283185307179586 * uniform0 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 -
-            3.019915981956753e-07 * round_2
+            6.283185307179586 * uniform0 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
+            round_2
         )
         round_3 = torch.round(uniform1)
         p1 = (
-            6.283185307179586 * uniform1 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 -
-            3.019915981956753e-07 * round_3
+            6.283185307179586 * uniform1 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
+            round_3
         )
         return _stack((_rows(p0, normal, uniform), p1))
 
