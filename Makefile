@@ -22,7 +22,7 @@ setup: $(STAMP) compiler ## a virtual environment with everything pinned in cons
 
 .PHONY: demo
 demo: setup ## compile two manifolds, train a field on a torus, judge it, plan with it, draw it
-	$(BIN)/rsrm-gen manifolds/so3.yaml manifolds/torus.yaml
+	$(BIN)/rsrm-gen manifolds/so3.yaml manifolds/torus.yaml --force
 	$(BIN)/rsrm train examples/torus.yaml -o $(RUN) --force
 	$(BIN)/rsrm eval $(RUN)
 	$(BIN)/rsrm plan $(RUN) --from 2.5,1.0 --from 0.3,0.8
