@@ -48,7 +48,7 @@ def test_the_audit_of_a_bundled_manifold_keeps_every_promise(name: str) -> None:
     for check in document["checks"]:
         assert check["passed"] is True
         assert check["points"] > 0 or check["exactly"]
-        assert check["error_below"] <= 10 * check["tolerance"]
+        assert check["error_below"] <= max(10 * check["tolerance"], 1e-15)  # no bound is given below that
     names = {check["check"] for check in document["checks"]}
     assert {"log second reading", "distance", "log det"} <= {name.split(": ")[-1] for name in names}
     assert {f"log {code} {precision}" for code in ("torch", "C") for precision in ("float64", "float32")} <= names
