@@ -1,4 +1,4 @@
-"""Files that are written whole or not at all, where what can be made again is kept, and Python files as modules."""
+"""Where the bundled files are, files written whole or not at all, what is kept in a cache, Python files as modules."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import hashlib
 import importlib.util
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from types import ModuleType
 from typing import Any, BinaryIO
@@ -45,6 +45,18 @@ def manifold_file(manifold: str | Path) -> Path:
             hint=f"{did_you_mean(str(manifold), names)}; or give the path of a manifold file, ending in .yaml",
         )
     return folder / f"{manifold}.yaml"
+
+
+def assignments(texts: Iterable[str]) -> dict[str, str]:
+    """`["n=5"]` as `{"n": "5"}`."""
+    return dict(_assignment(text) for text in texts)
+
+
+def _assignment(text: str) -> tuple[str, str]:
+    name, equals, value = text.partition("=")
+    if not equals or not name or not value:
+        raise UserError(f"`{text}` does not set a parameter", hint="write -p NAME=VALUE, like -p n=5")
+    return name.strip(), value.strip()
 
 
 def write_whole(path: Path, write: Callable[[BinaryIO], Any]) -> None:

@@ -10,6 +10,7 @@ from compiled import files, geometry, needs_compiler, program
 
 from rsrm_gen.compiler.audit.interface import check_interface
 from rsrm_gen.compiler.audit.kernels import check_kernels
+from rsrm_gen.compiler.audit.numbers import Code
 
 EDITS = {
     "the gradient of a splat in torch": ("py", r"gradient1 = df1 - (?=x1)", "gradient1 = df1 + ", "functions torch"),
@@ -32,8 +33,8 @@ def failures(suffix: str, old: str, new: str, check: Any = check_interface) -> s
     edited, count = re.subn(old, new, texts[f"sphere.{suffix}"], count=1)
     assert count == 1, "the generated code no longer looks like this"
     texts[f"sphere.{suffix}"] = edited
-    shape = geometry("sphere"), program("sphere"), texts
-    return {found.name for found in check(*shape) if not found.passed}
+    code = Code(geometry("sphere"), program("sphere"), texts)
+    return {found.name for found in check(code) if not found.passed}
 
 
 def test_code_as_it_was_generated_keeps_every_promise() -> None:

@@ -16,15 +16,13 @@ from rsrm_gen.bench.measure import DETERMINANT, FUNCTIONS, LOST, Score, measure
 from rsrm_gen.bench.peers import PEERS, Evaluate, Peer
 from rsrm_gen.bench.rows import Band, bands
 from rsrm_gen.bench.table import Table, figure, machine
-from rsrm_gen.compiler.audit.numbers import PRECISIONS, ROUTINES, Batch, native_batch, torch_batch
+from rsrm_gen.compiler.audit.numbers import PRECISIONS, ROUTINES, Batch, Code
 from rsrm_gen.compiler.derive import derive
 from rsrm_gen.compiler.emit import emit
 from rsrm_gen.compiler.lower import lower
-from rsrm_gen.compiler.native import compiler
 from rsrm_gen.compiler.spec import Spec, read_spec
 
 Case = tuple[Path, Mapping[str, int | float | str]]  # a manifold file and its parameters
-Code = Callable[[Spec, str], Mapping[str, Evaluate]]  # the functions of a manifold in a precision
 
 OURS = ("rsrm-gen torch", "rsrm-gen C")
 WORDS = {
@@ -168,9 +166,7 @@ def _of_manifold(spec: Spec, count: int, peers: Sequence[Peer], say: Callable[[s
     geometry = derive(spec)
     program = lower(geometry)
     files = emit(geometry, program)
-    ours = {OURS[0]: torch_batch(program, files)}
-    if compiler() is not None:
-        ours[OURS[1]] = native_batch(program, files)
+    ours = dict(zip(OURS, Code(geometry, program, files).backends.values(), strict=False))  # without C, torch alone
     for precision in PRECISIONS:
         say(f"{name}, {precision}: the truth in 60 digits")
         places = list(bands(geometry, program, precision, count))

@@ -10,8 +10,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from rsrm_gen.errors import UserError
-from rsrm_gen.files import bundled, manifold_file
+from rsrm_gen.files import assignments, bundled, manifold_file
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -69,7 +68,7 @@ def accuracy_command(
     from rsrm_gen.bench.accuracy import accuracy
     from rsrm_gen.bench.table import write_json, write_markdown
 
-    given: Parameters = dict(_assignment(text) for text in parameter or ())
+    given: Parameters = assignments(parameter or ())
     chosen = [(name, given) for name in manifolds] if manifolds else [(name, {**p, **given}) for name, p in CASES]
     cases = [(manifold_file(name), parameters) for name, parameters in chosen]
     with _progress() as say:
@@ -104,7 +103,7 @@ def generation_command(
     from rsrm_gen.bench.generation import document, foot, generation, tables
     from rsrm_gen.bench.table import write_json, write_markdown
 
-    given: Parameters = dict(_assignment(text) for text in parameter or ())
+    given: Parameters = assignments(parameter or ())
     chosen = [(name, given) for name in manifolds] if manifolds else [*((n, given) for n in _names()), *LARGE]
     with _progress() as say:
         results = generation(
@@ -123,13 +122,6 @@ def generation_command(
 def _names() -> list[str]:
     """The bundled manifolds."""
     return sorted(path.stem for path in bundled("manifolds").glob("*.yaml"))
-
-
-def _assignment(text: str) -> tuple[str, str]:
-    name, equals, value = text.partition("=")
-    if not equals or not name or not value:
-        raise UserError(f"`{text}` does not set a parameter", hint="write -p NAME=VALUE, like -p n=5")
-    return name.strip(), value.strip()
 
 
 def _console() -> Console:

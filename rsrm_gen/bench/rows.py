@@ -19,7 +19,7 @@ from typing import Any
 import mpmath as mp
 import numpy as np
 
-from rsrm_gen.compiler.audit.numbers import PRECISIONS, ROUTINES, grain, matrices, shaken, well_inside
+from rsrm_gen.compiler.audit.numbers import PRECISIONS, ROUTINES, grain, matrices, rounded, shaken, well_inside
 from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, largest, run, value
 from rsrm_gen.compiler.derive.sampling import Sampler, sampler_of
@@ -170,7 +170,7 @@ def _row(sampler: Sampler, rng: random.Random, r: float, precision: str, whole: 
         p = sampler.point(rng)
         v = [mp.mpf(r) * c for c in sampler.direction(rng, p)]
         q = sampler.along(p, v, mp.mpf(1)) if r else p
-        p, q, v = (_rounded(x, precision) for x in (p, q, v))
+        p, q, v = (rounded(x, precision) for x in (p, q, v))
         if all(well_inside(sampler, x, precision, whole) for x in (p, q)):
             return p, q, v
     return None
@@ -185,8 +185,4 @@ def _opposite(sampler: Sampler, rng: random.Random, radius: Any, k: int, precisi
         p = run(sampler.project, [mp.mpf(c) for c in start])[0]
         v = [radius * c for c in sampler.direction(rng, p)]
         q = [c if abs(c) > TINY else mp.mpf(0) for c in sampler.along(p, v, mp.mpf(1))]
-    return _rounded(p, precision), _rounded(q, precision), _rounded(v, precision)
-
-
-def _rounded(x: Sequence[Any], precision: str) -> Any:
-    return np.array([float(c) for c in x]).astype(PRECISIONS[precision][0])
+    return rounded(p, precision), rounded(q, precision), rounded(v, precision)

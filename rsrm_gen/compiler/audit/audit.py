@@ -9,7 +9,7 @@ from rsrm_gen.compiler.audit.given import sample_checks
 from rsrm_gen.compiler.audit.interface import check_interface
 from rsrm_gen.compiler.audit.kernels import check_kernels
 from rsrm_gen.compiler.audit.laws import Laws
-from rsrm_gen.compiler.audit.numbers import check_numbers
+from rsrm_gen.compiler.audit.numbers import Code, check_numbers
 from rsrm_gen.compiler.audit.product import check_formulas
 from rsrm_gen.compiler.audit.report import AuditReport
 from rsrm_gen.compiler.derive import Geometry, derive, derive_as_written
@@ -24,12 +24,9 @@ def audit(geometry: Geometry, program: Program, files: Mapping[str, str]) -> Aud
     formulas = check_formulas(geometry, program)
     if not all(check.passed for check in formulas):  # numbers of wrong formulas say nothing
         return AuditReport(program.name, geometry.spec.content_hash, tuple(formulas), ())
-    numbers, measured = check_numbers(geometry, program, files)
-    kernels = [
-        *check_kernels(geometry, program, files),
-        *check_interface(geometry, program, files),
-        *sample_checks(geometry, program, files),
-    ]
+    code = Code(geometry, program, files)
+    numbers, measured = check_numbers(code)
+    kernels = [*check_kernels(code), *check_interface(code), *sample_checks(code)]
     return AuditReport(program.name, geometry.spec.content_hash, (*formulas, *numbers, *kernels), measured)
 
 

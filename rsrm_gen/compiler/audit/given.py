@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -10,7 +10,7 @@ import mpmath as mp
 import torch
 
 from rsrm_gen.compiler.audit.laws import Laws
-from rsrm_gen.compiler.audit.numbers import torch_manifold
+from rsrm_gen.compiler.audit.numbers import Code
 from rsrm_gen.compiler.audit.report import Check
 from rsrm_gen.compiler.audit.whole import pairs_on_the_cut
 from rsrm_gen.compiler.audit.worst import Worst, at, difference, relative
@@ -18,7 +18,7 @@ from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.derive.numeric import largest, run, value
 from rsrm_gen.compiler.derive.sampling import sampler_of
 from rsrm_gen.compiler.emit import emit
-from rsrm_gen.compiler.lower import Program, lower
+from rsrm_gen.compiler.lower import lower
 from rsrm_gen.compiler.spec import ManifoldSpec
 
 RUNG = mp.mpf(10) ** -14  # of the ladder: its error is of the order of its square
@@ -69,13 +69,13 @@ def _ladder(laws: Laws, p: list[Any], v: list[Any]) -> Any:
     return relative(difference(carried, laws.call("transport", p, q, v)), v) / RUNG
 
 
-def sample_checks(geometry: Geometry, program: Program, files: Mapping[str, str]) -> list[Check]:
+def sample_checks(code: Code) -> list[Check]:
     """`sample` draws points of the manifold, uniformly: on a closed one, mean Laplacians of smooth functions vanish."""
+    geometry, manifold = code.geometry, code.manifold
     if geometry.factors:
         return [check for name, factor in geometry.factors for check in _sample_checks_of_factor(name, factor)]
     if "sample" not in geometry:
         return []
-    manifold = torch_manifold(program, files)
     generator = torch.Generator().manual_seed(31)
     count = SAMPLES if geometry.spec.dim <= 4 else SAMPLES // 4  # frames cost the cube of the dimension
     points = manifold.sample(count, generator, torch.zeros((), dtype=torch.float64))
@@ -109,7 +109,7 @@ def _sample_place(geometry: Geometry, points: list[list[float]]) -> Check:
 
 def _sample_checks_of_factor(name: str, factor: Geometry) -> list[Check]:
     program = lower(factor)
-    checks = sample_checks(factor, program, emit(factor, program))
+    checks = sample_checks(Code(factor, program, emit(factor, program)))
     return [replace(check, name=f"{name}: {check.name}") for check in checks]
 
 

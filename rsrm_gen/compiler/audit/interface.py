@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import torch
 
-from rsrm_gen.compiler.audit.numbers import PRECISIONS, Rows, middling, sample_rows, torch_manifold
+from rsrm_gen.compiler.audit.numbers import PRECISIONS, Code, Rows
 from rsrm_gen.compiler.audit.report import Check
 from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.derive.numeric import value
@@ -23,10 +23,9 @@ TOLERANCE = {"float64": 1e-9, "float32": 1e-2}
 BALL, DEVIATIONS = 4000, 5.0
 
 
-def check_interface(geometry: Geometry, program: Program, files: Mapping[str, str]) -> list[Check]:
+def check_interface(code: Code) -> list[Check]:
     """The parts of the code that are not made of formulas of the file."""
-    manifold = torch_manifold(program, files)
-    rows = {precision: middling(sample_rows(geometry, precision)) for precision in PRECISIONS}
+    geometry, program, files, manifold, rows = code.geometry, code.program, code.files, code.manifold, code.middling
     checks = [_constants(geometry, program, files, manifold)]
     checks += [_frames(program, "torch", p, rows[p], _torch_frames(manifold, rows[p], p)) for p in PRECISIONS]
     if compiler() is not None:

@@ -14,7 +14,7 @@ import mpmath as mp
 import numpy as np
 
 from rsrm_gen.compiler.audit.blame import span_of
-from rsrm_gen.compiler.audit.numbers import PRECISIONS, Batch, Rows, middling, native_batch, sample_rows, torch_batch
+from rsrm_gen.compiler.audit.numbers import PRECISIONS, Batch, Code, Rows
 from rsrm_gen.compiler.audit.report import Check
 from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.derive.numeric import largest
@@ -26,19 +26,16 @@ TOLERANCE = {"float64": 1e-10, "float32": 1e-2}  # relative to the largest entry
 POINTS, SPLATS = 7, 4
 
 
-def check_kernels(geometry: Geometry, program: Program, files: Mapping[str, str]) -> list[Check]:
+def check_kernels(code: Code) -> list[Check]:
     """One check a back end and precision of all functions, and one a precision of the fused sums."""
-    backends: dict[str, Batch] = {"torch": torch_batch(program, files)}
-    if compiler() is not None:
-        backends["C"] = native_batch(program, files)
-    rows = {precision: middling(sample_rows(geometry, precision)) for precision in PRECISIONS}
+    geometry, program, rows = code.geometry, code.program, code.middling
     checks = [
         _functions_check(geometry, program, backend, batch, precision, rows[precision])
         for precision in PRECISIONS
-        for backend, batch in backends.items()
+        for backend, batch in code.backends.items()
     ]
     if compiler() is not None:
-        checks += [_sums_check(geometry, program, files, precision, rows[precision]) for precision in PRECISIONS]
+        checks += [_sums_check(geometry, program, code.files, precision, rows[precision]) for precision in PRECISIONS]
     return checks
 
 

@@ -11,6 +11,7 @@ import random
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -52,16 +53,44 @@ class Rows:
     kinds: tuple[str, ...]
 
 
-def check_numbers(
-    geometry: Geometry, program: Program, files: Mapping[str, str]
-) -> tuple[list[Check], tuple[Measurement, ...]]:
+@dataclass(frozen=True)
+class Code:
+    """The generated files of a manifold, loaded once, and the rows at which they are tried."""
+
+    geometry: Geometry
+    program: Program
+    files: Mapping[str, str]
+
+    @cached_property
+    def manifold(self) -> Any:
+        """The object of the generated torch module."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / f"{self.program.name}.py"
+            path.write_text(self.files[path.name], encoding="utf-8")
+            return imported(path, keep=False).manifold
+
+    @cached_property
+    def backends(self) -> Mapping[str, Batch]:
+        """The functions in torch, and in C where there is a compiler, on arrays of rows."""
+        native = {"C": _native_batch(self.program, self.files)} if compiler() is not None else {}
+        return {"torch": _torch_batch(self.manifold, self.program), **native}
+
+    @cached_property
+    def rows(self) -> Mapping[str, Rows]:
+        """The rows of each precision."""
+        return {precision: sample_rows(self.geometry, precision) for precision in PRECISIONS}
+
+    @cached_property
+    def middling(self) -> Mapping[str, Rows]:
+        """Some of the rows that are neither close nor far, of each precision."""
+        return {precision: _middling(rows) for precision, rows in self.rows.items()}
+
+
+def check_numbers(code: Code) -> tuple[list[Check], tuple[Measurement, ...]]:
     """Checks of torch and C in both precisions; the worst of both back ends is the measurement."""
-    backends: dict[str, Batch] = {"torch": torch_batch(program, files)}
-    if compiler() is not None:
-        backends["C"] = native_batch(program, files)
+    geometry, program, backends = code.geometry, code.program, code.backends
     checks, measured = [], []
-    for precision in PRECISIONS:
-        rows = sample_rows(geometry, precision)
+    for precision, rows in code.rows.items():
         where = {names: places(geometry, names, rows, precision) for names in set(ARGUMENTS.values())}
         for name in ROUTINES:
             truth, unit = truths(geometry[name], program[name], where[ARGUMENTS[name]], precision)
@@ -94,17 +123,8 @@ def _check(
     return Check(title, promise, error, UNITS, len(errors), f"({kind})", span, hint, unit)
 
 
-def torch_manifold(program: Program, files: Mapping[str, str]) -> Any:
-    """The object of the generated torch module."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / f"{program.name}.py"
-        path.write_text(files[path.name], encoding="utf-8")
-        return imported(path, keep=False).manifold
-
-
-def torch_batch(program: Program, files: Mapping[str, str]) -> Batch:
+def _torch_batch(manifold: Any, program: Program) -> Batch:
     """The generated torch class on arrays of rows."""
-    manifold = torch_manifold(program, files)
 
     def batch(name: str, rows: Sequence[Any], precision: str) -> Any:
         shapes = [parameter.shape for parameter in program[name].parameters]
@@ -119,7 +139,7 @@ def torch_batch(program: Program, files: Mapping[str, str]) -> Batch:
     return batch
 
 
-def native_batch(program: Program, files: Mapping[str, str]) -> Batch:
+def _native_batch(program: Program, files: Mapping[str, str]) -> Batch:
     """The `_batch` functions of the generated C on arrays of rows."""
     library = compiled(files, f"{program.name}.c", EXACT)
 
@@ -142,7 +162,7 @@ def sample_rows(geometry: Geometry, precision: str) -> Rows:
     for kind, r in distances(geometry):
         p = sampler.point(rng)
         v = [r * c for c in sampler.direction(rng, p)]
-        row = [_rounded(x, precision) for x in (p, sampler.along(p, v, mp.mpf(1)), v)]
+        row = [rounded(x, precision) for x in (p, sampler.along(p, v, mp.mpf(1)), v)]
         if all(well_inside(sampler, x, precision) for x in row[:2]):  # far points may round out of the domain
             kinds.append(kind)
             rows.append(row)
@@ -153,7 +173,7 @@ def sample_rows(geometry: Geometry, precision: str) -> Rows:
 MIDDLING = 14  # rows, for what is not asked to be exact to the last bits
 
 
-def middling(rows: Rows) -> Rows:
+def _middling(rows: Rows) -> Rows:
     """Some of the rows that are neither close nor far."""
     keep = [i for i, kind in enumerate(rows.kinds) if kind == "middle"][:MIDDLING]
     return Rows(rows.p[keep], rows.q[keep], rows.v[keep], tuple(rows.kinds[i] for i in keep))
@@ -178,7 +198,8 @@ def shaken(x: Sequence[Any], sizes: Sequence[Any], eps: float, rng: random.Rando
     return [c + (size if c >= 0 else -size) * eps * rng.choice((-1, 1)) for c, size in zip(x, sizes, strict=True)]
 
 
-def _rounded(x: Sequence[Any], precision: str) -> Any:
+def rounded(x: Sequence[Any], precision: str) -> Any:
+    """Numbers in one of the two precisions."""
     return np.array([float(c) for c in x]).astype(PRECISIONS[precision][0])
 
 

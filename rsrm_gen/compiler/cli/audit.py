@@ -10,7 +10,7 @@ import typer
 
 from rsrm_gen.compiler.budget import SECONDS
 from rsrm_gen.compiler.cli.compile import progress
-from rsrm_gen.compiler.cli.options import GENERATED, BudgetOption, OutputOption, ParameterOption, assignments
+from rsrm_gen.compiler.cli.options import GENERATED, BudgetOption, OutputOption, ParameterOption
 from rsrm_gen.compiler.cli.report import accuracy_table, check_table, complaint, summary, summary_table
 from rsrm_gen.compiler.cli.screen import err, out
 from rsrm_gen.compiler.cli.targets import targets

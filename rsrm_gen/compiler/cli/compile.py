@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rsrm_gen.compiler.budget import SECONDS
-from rsrm_gen.compiler.cli.options import GENERATED, BudgetOption, OutputOption, ParameterOption, assignments
+from rsrm_gen.compiler.cli.options import GENERATED, BudgetOption, OutputOption, ParameterOption
 from rsrm_gen.compiler.cli.screen import err, out, table
 from rsrm_gen.compiler.output import staleness, unchanged, write
 from rsrm_gen.errors import UserError
-from rsrm_gen.files import manifold_file
+from rsrm_gen.files import assignments, manifold_file
 
 if TYPE_CHECKING:
     from rich.table import Table

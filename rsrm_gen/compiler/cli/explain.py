@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rsrm_gen.compiler.budget import SECONDS, limited
-from rsrm_gen.compiler.cli.options import BudgetOption, ParameterOption, assignments
-from rsrm_gen.files import manifold_file
+from rsrm_gen.compiler.cli.options import BudgetOption, ParameterOption
+from rsrm_gen.files import assignments, manifold_file
 
 if TYPE_CHECKING:
     from rsrm_gen.compiler.cli.account import Chapter, Fact

@@ -129,12 +129,6 @@ class Function:
         """The symbols of all arguments, in order."""
         return tuple(s for argument in self.arguments for s in argument.symbols)
 
-    def unfolded(self, expression: sp.Expr) -> sp.Expr:
-        """An expression in the arguments alone, without guards."""
-        for assignment in reversed(self.assignments):
-            expression = expression.xreplace({assignment.symbol: assignment.expression})
-        return expression
-
     def pruned(self) -> Function:
         """Without the assignments that no result needs."""
         needed: set[sp.Symbol] = set().union(*(r.free_symbols for r in self.results))
