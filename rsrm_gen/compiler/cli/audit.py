@@ -14,6 +14,7 @@ from rsrm_gen.compiler.cli.options import GENERATED, BudgetOption, OutputOption,
 from rsrm_gen.compiler.cli.report import accuracy_table, check_table, complaint, summary, summary_table
 from rsrm_gen.compiler.cli.screen import err, out
 from rsrm_gen.compiler.cli.targets import targets
+from rsrm_gen.files import assignments
 
 if TYPE_CHECKING:
     from rsrm_gen.compiler.reaudit import Verdict
