@@ -55,7 +55,7 @@ def declarations(program: Program) -> list[str]:
 
 def source(program: Program, heading: list[str]) -> str:
     """The text of NAME_splats.c."""
-    kernels = Program(program.name, (program["splat"], program["splat_vjp"]))
+    kernels = program["splat"], program["splat_vjp"]
     series = tables(kernels)
     top = comment(
         [heading[0], "", "Sums of splats, forward and backward. See the header for what the functions promise."]

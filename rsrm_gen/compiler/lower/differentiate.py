@@ -159,6 +159,7 @@ RULES: dict[str, Rule] = {
     "atan2": _atan2,
     "abs": _abs,
     "select": _select,
+    "declared": lambda g, node, adjoint: (None, g.mul(adjoint, node.arguments[2]), None),
     "polynomial": _polynomial,
     "sqrt": _over(lambda g, x, y: _twice(g, y)),
     "exp": _one(lambda g, x, y: y),

@@ -9,6 +9,7 @@ of
     exp log sin cos tan sinh cosh tanh asinh acosh acos atanh atan2 abs round
     polynomial c0 + c1 x + ..., exact coefficients     select     (condition, x, y)
     less, less_equal, equal   conditions, only as the first argument of a select
+    declared   (value, variable, slope): the value, whose derivative is that in the variable, and known; gone once differentiated
 
 and, for functions of symmetric matrices, two nodes of several values and one that picks from them:
 
@@ -23,7 +24,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 
 import sympy as sp
@@ -214,6 +215,10 @@ class Graph:
         """x where the condition holds, else y."""
         return x if x is y else self.node("select", condition, x, y)
 
+    def declared(self, value: Node, variable: Node, slope: Node) -> Node:
+        """A value known to be a function of a variable with a given derivative, however it is computed."""
+        return self.node("declared", value, variable, slope)
+
     def eigh(self, matrix: Packed) -> Node:
         """The eigenvalues and eigenvectors of a symmetric matrix."""
         return self.node("eigh", *matrix)
@@ -288,11 +293,29 @@ class Routine:
 
 
 @dataclass(frozen=True)
+class Pairs:
+    """A splat split by what its parts depend on: the point, the splat, or the pair of them (see `pairs.py`)."""
+
+    features: Routine
+    constants: Routine
+    value: Routine
+    forward: Routine
+    gradient: Routine
+    gradient_vjp: Routine
+    backward: Routine
+    constants_vjp: Routine
+
+    def __iter__(self) -> Iterator[Routine]:
+        return (getattr(self, field.name) for field in fields(self))
+
+
+@dataclass(frozen=True)
 class Program:
-    """All routines of a manifold."""
+    """All routines of a manifold, and its splat split for sums over many points and splats."""
 
     name: str
     routines: tuple[Routine, ...]
+    pairs: Pairs
 
     def __getitem__(self, name: str) -> Routine:
         found = next((routine for routine in self.routines if routine.name == name), None)
