@@ -9,7 +9,7 @@ of
     exp log sin cos tan sinh cosh tanh asinh acosh acos atanh atan2 abs round
     polynomial c0 + c1 x + ..., exact coefficients     select     (condition, x, y)
     less, less_equal, equal   conditions, only as the first argument of a select
-    declared   (value, variable, slope): the value, whose derivative is that in the variable, and known; gone once differentiated
+    declared   (value, variable): the value, whose derivative is one in the variable, kept by the graph; gone once differentiated
 
 and, for functions of symmetric matrices, two nodes of several values and one that picks from them:
 
@@ -106,6 +106,7 @@ class Graph:
     def __init__(self) -> None:
         self.nodes: dict[tuple[str, tuple[Node, ...], object], Node] = {}
         self.names: dict[Node, str] = {}  # what a person would call a node
+        self.slopes: dict[Node, Node] = {}  # the derivatives of declared nodes in their variables
 
     def node(self, op: str, *arguments: Node, value: object = None) -> Node:
         """The node of an operation, without simplification."""
@@ -215,9 +216,12 @@ class Graph:
         """x where the condition holds, else y."""
         return x if x is y else self.node("select", condition, x, y)
 
-    def declared(self, value: Node, variable: Node, slope: Node) -> Node:
-        """A value known to be a function of a variable with a given derivative, however it is computed."""
-        return self.node("declared", value, variable, slope)
+    def declared(self, value: Node, variable: Node) -> Node:
+        """A value known to be a function of a variable, however it is computed; `slopes` must be told its derivative.
+
+        The derivative may be made of declared nodes, this one too.
+        """
+        return self.node("declared", value, variable)
 
     def eigh(self, matrix: Packed) -> Node:
         """The eigenvalues and eigenvectors of a symmetric matrix."""
@@ -325,6 +329,14 @@ class Program:
 
     def __iter__(self) -> Iterator[Routine]:
         return iter(self.routines)
+
+
+def dot(graph: Graph, x: Iterable[Node], y: Iterable[Node]) -> Node:
+    """The sum of the products of two rows of one length."""
+    total = graph.constant(0)
+    for a, b in zip(x, y, strict=True):
+        total = graph.add(total, graph.mul(a, b))
+    return total
 
 
 def reachable(roots: Iterable[Node]) -> list[Node]:

@@ -10,6 +10,7 @@ from rsrm_gen.compiler.lower.differentiate import gradient
 from rsrm_gen.compiler.lower.from_sympy import inline
 from rsrm_gen.compiler.lower.ir import Graph, Node, Packed, Pairs, Parameter, Program, Result, Routine
 from rsrm_gen.compiler.lower.pairs import SplatNodes, pairs_of
+from rsrm_gen.compiler.lower.reduced import reduced
 from rsrm_gen.compiler.lower.schedule import schedule
 from rsrm_gen.compiler.spec.vocabulary import Shape
 
@@ -73,7 +74,8 @@ class _Splat:
 
     def pairs(self) -> Pairs:
         """The splat split for sums over many points and splats."""
-        nodes = SplatNodes(self.x, self.mu, self.W, self.amplitude, self.exponent, self.value)
+        nodes = SplatNodes(self.x, self.mu, self.W, self.amplitude, self.value, self.exponent, self.value)
+        nodes = reduced(self.geometry, nodes, self.graph) or nodes
 
         def to_gradient(graph: Graph, x: Packed, df: Packed) -> Packed:
             return inline(graph, self.geometry["riemannian_gradient"], x, df)

@@ -29,6 +29,7 @@ from rsrm_gen.compiler.lower.ir import (
     Parameter,
     Result,
     Routine,
+    dot,
     reachable,
 )
 from rsrm_gen.compiler.lower.protect import arguments_first
@@ -37,14 +38,18 @@ from rsrm_gen.compiler.lower.schedule import schedule
 
 @dataclass(frozen=True)
 class SplatNodes:
-    """A splat phi = amplitude exp(exponent) in a graph, and what it is a function of."""
+    """A splat in a graph, what it is a function of, and how it follows its exponent: d phi = by_exponent d exponent.
+
+    Of the exponent, only the derivatives count.
+    """
 
     x: Parameter
     mu: Parameter
     W: Parameter
     amplitude: Parameter
-    exponent: Node
     phi: Node
+    exponent: Node
+    by_exponent: Node
 
 
 X, S = 1, 2  # what a node depends on: the point, the splat, or both
@@ -52,7 +57,8 @@ X, S = 1, 2  # what a node depends on: the point, the splat, or both
 
 def pairs_of(graph: Graph, splat: SplatNodes, slope_to_gradient: Callable[[Graph, Packed, Packed], Packed]) -> Pairs:
     """Split a splat; `slope_to_gradient` makes the Riemannian gradient (graph, x, df) of partial derivatives."""
-    depends = _dependence([splat.phi, splat.exponent], splat)
+    roots = (splat.phi, splat.exponent, splat.by_exponent)
+    depends = _dependence(graph, roots, splat)
     X_nodes = _hoisted(depends, X)
     S_nodes = _hoisted(depends, S)
     point, own = (splat.x,), (splat.mu, splat.W, splat.amplitude)
@@ -65,8 +71,8 @@ def pairs_of(graph: Graph, splat: SplatNodes, slope_to_gradient: Callable[[Graph
     x = _parameter(pair, "X", [names.of(n) for n in X_nodes])
     s = _parameter(pair, "S", [names.of(n) for n in S_nodes])
     known = dict(zip((*X_nodes, *S_nodes), (*x.nodes, *s.nodes), strict=True))
-    phi, exponent = copied(graph, pair, (splat.phi, splat.exponent), known)
-    slopes = tuple(pair.mul(phi, by) for by in gradient(pair, exponent, x.nodes))
+    phi, exponent, by_exponent = copied(graph, pair, roots, known)
+    slopes = gradient(pair, exponent, x.nodes, by_exponent)
     for node, partial in zip(x.nodes, slopes, strict=True):
         pair.named(f"by_{node.value}", partial)
     value_bar, slope_bar = _parameter(pair, "value_bar", ["value_bar"]), _like(pair, "slope_bar", x)
@@ -79,17 +85,17 @@ def pairs_of(graph: Graph, splat: SplatNodes, slope_to_gradient: Callable[[Graph
     at = _copied_parameter(finish, splat.x)
     moved = copied(graph, finish, X_nodes, dict(zip(splat.x.nodes, at.nodes, strict=True)))
     slope = _parameter(finish, "slope", [f"slope_{n.value}" for n in x.nodes])
-    df = gradient(finish, _dot(finish, moved, slope.nodes), at.nodes)
+    df = gradient(finish, dot(finish, moved, slope.nodes), at.nodes)
     grad = slope_to_gradient(finish, at.nodes, df)
     gradient_bar = _parameter(finish, "gradient_bar", [f"gradient_bar{i}" for i in range(len(grad))])
-    back = gradient(finish, _dot(finish, grad, gradient_bar.nodes), slope.nodes)
+    back = gradient(finish, dot(finish, grad, gradient_bar.nodes), slope.nodes)
 
     splats = Graph()
     parts = tuple(_copied_parameter(splats, p) for p in own)
     inputs = {a: b for p, q in zip(own, parts, strict=True) for a, b in zip(p.nodes, q.nodes, strict=True)}
     again = copied(graph, splats, S_nodes, inputs)
     s_bar = _like(splats, "S_bar", s)
-    by = iter(gradient(splats, _dot(splats, again, s_bar.nodes), [n for p in parts for n in p.nodes]))
+    by = iter(gradient(splats, dot(splats, again, s_bar.nodes), [n for p in parts for n in p.nodes]))
     own_bars = {f"{p.name}_bar": [next(by) for _ in p.nodes] for p in parts}
 
     return Pairs(
@@ -104,11 +110,14 @@ def pairs_of(graph: Graph, splat: SplatNodes, slope_to_gradient: Callable[[Graph
     )
 
 
-def _dependence(roots: Sequence[Node], splat: SplatNodes) -> dict[Node, int]:
-    """X, S or both of every node that the roots need; 0 for numbers."""
+def _dependence(graph: Graph, roots: Sequence[Node], splat: SplatNodes) -> dict[Node, int]:
+    """X, S or both of every node that the roots and their derivatives need; 0 for numbers."""
     of_point = set(splat.x.nodes)
     depends: dict[Node, int] = {}
-    for node in reachable(roots):
+    needed = reachable(roots)
+    while len(needed) < len(needed := reachable([*needed, *(graph.slopes[n] for n in needed if n.op == "declared")])):
+        pass
+    for node in needed:
         if node.op == "input":
             depends[node] = X if node in of_point else S
         else:
@@ -136,14 +145,18 @@ def _numbers(node: Node, depends: dict[Node, int]) -> Iterator[Node]:
             yield argument
 
 
-def copied(source: Graph, target: Graph, roots: Sequence[Node], known: dict[Node, Node]) -> tuple[Node, ...]:
-    """Nodes of one graph in another, where some are known already; names go along."""
-    done = dict(known)
-    for root in roots:
-        for node in arguments_first(root, lambda n: n.arguments, done):
+def copied(source: Graph, target: Graph, roots: Sequence[Node], known: Mapping[Node, Node]) -> tuple[Node, ...]:
+    """Nodes of one graph in another, where some are known already; names and declared derivatives go along."""
+    done, declared, waiting = dict(known), [], list(roots)
+    while waiting:
+        for node in arguments_first(waiting.pop(), lambda n: n.arguments, done):
             done[node] = target.node(node.op, *(done[a] for a in node.arguments), value=node.value)
             if node in source.names:
                 target.named(source.names[node], done[node])
+            if node.op == "declared":
+                declared.append(node)
+                waiting.append(source.slopes[node])
+    target.slopes.update({done[node]: done[source.slopes[node]] for node in declared})
     return tuple(done[root] for root in roots)
 
 
@@ -182,13 +195,6 @@ def _like(graph: Graph, name: str, other: Parameter) -> Parameter:
 
 def _copied_parameter(graph: Graph, other: Parameter) -> Parameter:
     return Parameter(other.name, other.shape, tuple(graph.input(str(node.value)) for node in other.nodes))
-
-
-def _dot(graph: Graph, x: Sequence[Node], y: Sequence[Node]) -> Node:
-    total = graph.constant(0)
-    for a, b in zip(x, y, strict=True):
-        total = graph.add(total, graph.mul(a, b))
-    return total
 
 
 class _Names:
