@@ -55,6 +55,12 @@ FUNCTIONS = (
 CONDITIONS = ("less", "less_equal", "equal")
 SEVERAL = ("eigh", "spectral")  # the operations of more than one value
 
+# Beyond the one that every operation counts, where a processor computes many at once.
+VECTOR_WORK = {
+    "div": 4, "sqrt": 4, "root": 4, "exp": 14, "log": 16, "sin": 18, "cos": 18, "tan": 24, "sinh": 20, "cosh": 20, "tanh": 20,
+    "asinh": 24, "acosh": 24, "acos": 24, "atanh": 24, "atan2": 28, "abs": 0, "round": 0, "select": 1,
+}  # fmt: skip
+
 Packed = tuple["Node", ...]
 
 
@@ -311,6 +317,12 @@ class Pairs:
 
     def __iter__(self) -> Iterator[Routine]:
         return (getattr(self, field.name) for field in fields(self))
+
+    @property
+    def work(self) -> int:
+        """What a pair costs, forward and backward, in multiplications: roughly, to compare one form with another."""
+        nodes = [*self.forward.nodes, *self.backward.nodes]
+        return sum(_cost(node) + VECTOR_WORK.get(node.op, 0) for node in nodes)
 
 
 @dataclass(frozen=True)

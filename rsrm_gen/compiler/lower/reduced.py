@@ -78,7 +78,7 @@ class _Form:
             tuple[Node, Node]
         ] = []  # where a point is on the cut locus of a splat, and the splat's value there
 
-    def W(self, i: int, part: _Part) -> Packed:
+    def covector(self, i: int, part: _Part) -> Packed:
         """The entries of a row of W that belong to a part."""
         start = i * self.tangent_size + part.tangent
         return self.splat.W.nodes[start : start + part.geometry.spec.tangent_size]
@@ -93,7 +93,7 @@ class _Form:
         graph, (mu, x) = self.graph, self.points(part)
         v = inline(graph, part.geometry["log"], mu, x, prefix=part.prefix)
         (log_det,) = inline(graph, part.geometry["log_abs_det"], mu, x, prefix=part.prefix)
-        self.plain_rows.append(tuple(dot(graph, self.W(i, part), v) for i in range(self.dim)))
+        self.plain_rows.append(tuple(dot(graph, self.covector(i, part), v) for i in range(self.dim)))
         self.log_dets.append(log_det)
         self.exponents.append(log_det)
 
@@ -105,7 +105,7 @@ class _Form:
         tangent = [inline(graph, part.geometry["to_tangent"], mu, e, prefix=part.prefix) for e in unit]
         rows = []
         for i in range(self.dim):
-            row = (dot(graph, self.W(i, part), column) for column in tangent)
+            row = (dot(graph, self.covector(i, part), column) for column in tangent)
             named = tuple(graph.named(f"{part.prefix}R{i}_{j}", node) for j, node in enumerate(row))
             rows.append(graph.named(f"{part.prefix}r{i}", dot(graph, named, x)))
         shape = _Profile(graph, radial, part.prefix, mu, x)
@@ -121,7 +121,7 @@ class _Form:
         antipode = tuple(map(graph.neg, mu))
         v = inline(graph, part.geometry["log"], mu, antipode)
         (log_det,) = inline(graph, part.geometry["log_abs_det"], mu, antipode)
-        z = [dot(graph, self.W(i, part), v) for i in range(self.dim)]
+        z = [dot(graph, self.covector(i, part), v) for i in range(self.dim)]
         exponent = graph.sub(log_det, graph.mul(graph.constant(HALF), dot(graph, z, z)))
         return graph.named(f"{part.prefix}value_on_cut_locus", graph.function("exp", exponent))
 
