@@ -19,8 +19,9 @@ from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.derive.geometry import Radial
 from rsrm_gen.compiler.derive.radial import NEAR, profile
 from rsrm_gen.compiler.lower.from_sympy import inline
-from rsrm_gen.compiler.lower.ir import Graph, Node, Packed, dot
-from rsrm_gen.compiler.lower.pairs import SplatNodes
+from rsrm_gen.compiler.lower.ir import Graph, Node, Packed, Result, Routine, dot
+from rsrm_gen.compiler.lower.pairs import SplatNodes, parameter
+from rsrm_gen.compiler.lower.schedule import schedule
 from rsrm_gen.compiler.spec import ProductSpec
 
 HALF = sp.Rational(1, 2)
@@ -59,6 +60,21 @@ def reduced(geometry: Geometry, splat: SplatNodes, graph: Graph) -> SplatNodes |
         else:
             form.add_plain(part)
     return form.splat_nodes(alone=len(parts) == 1)
+
+
+def extent(geometry: Geometry) -> Routine | None:
+    """The sum of squares of the coordinates of a point on unbounded quadrics; None where there is none."""
+    graph = Graph()
+    p = parameter(graph, "p", [f"p{i}" for i in range(geometry.spec.point_size)])
+    squares = [
+        node
+        for part in _parts(geometry)
+        if part.geometry.radial and part.geometry.radial.unbounded
+        for node in p.nodes[part.point : part.point + part.geometry.spec.point_size]
+    ]
+    if not squares:
+        return None
+    return schedule(graph, "extent", (p,), (Result("extent", (), (dot(graph, squares, squares),)),), "")
 
 
 class _Form:
