@@ -135,8 +135,8 @@ Coefficients = tuple[sp.Float, ...]
 
 
 @cache
-def profile(unbounded: bool) -> tuple[Coefficients, Coefficients, Coefficients]:
-    """A, the derivative in w of its logarithm, and the derivative of that, as polynomials with an error below 2^-56.
+def profile(unbounded: bool) -> tuple[Coefficients, Coefficients]:
+    """The derivative in w of log A, and the derivative of that, as polynomials with a relative error below 2^-56.
 
     Of 1 - w on [0, 1]; for `unbounded`, of (w - 1) / (NEAR - 1) on [0, 1]: around w = 1, where no terms cancel.
     """
@@ -146,7 +146,7 @@ def profile(unbounded: bool) -> tuple[Coefficients, Coefficients, Coefficients]:
         return 1 + t * (NEAR - 1).p / (NEAR - 1).q if unbounded else 1 - t
 
     with mp.workdps(2 * DIGITS):  # for 0 / 0 close to w = 1
-        return tuple(_shortest(lambda t, f=f: f(place(t))) for f in (ratio, _slope, _slope_of_slope))  # type: ignore[return-value]
+        return _shortest(lambda t: _slope(place(t))), _shortest(lambda t: _slope_of_slope(place(t)))
 
 
 def _slope(w: Any) -> Any:
@@ -168,5 +168,8 @@ def _shortest(function: Any) -> Coefficients:
         coefficients = interpolated(function, degree)[::-1]
         return bool(largest(mp.polyval(coefficients, t) / y - 1 for t, y in zip(tests, truth, strict=True)) < ERROR)
 
-    degree = next(degree for degree in range(6, 40) if fits(degree))
-    return tuple(sp.Float(c, 30) for c in interpolated(function, degree))
+    low, high = 3, 32  # the lowest degree is in (low, high]
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (low, middle) if fits(middle) else (middle, high)
+    return tuple(sp.Float(c, 30) for c in interpolated(function, high))

@@ -265,7 +265,7 @@ class _Profile:
     def near(self, t: Node, unbounded: bool) -> tuple[Node, Node]:
         """eta and its derivative in w by their polynomials."""
         graph = self.graph
-        _, eta, slope = profile(unbounded)
+        eta, slope = profile(unbounded)
         return self.named("eta", graph.polynomial(t, eta)), self.named("eta_slope", graph.polynomial(t, slope))
 
     def of_root(self, c: Node, w: Node, over_A: Node, eta: Node, eta_slope: Node) -> None:
