@@ -154,7 +154,7 @@ def test_the_table_of_operations_is_complete() -> None:
 def test_a_declared_derivative_is_used_again_and_again() -> None:
     g, a, _ = two_inputs()
     root = g.declared(g.function("sqrt", a), a)
-    g.slopes[root] = g.div(g.constant(sp.Rational(1, 2)), root)
+    g.slopes[root] = (g.div(g.constant(sp.Rational(1, 2)), root),)
     (first,) = gradient(g, root, [a])
     (second,) = gradient(g, first, [a])
     moved, known = undeclared(g, [first, second], [a])

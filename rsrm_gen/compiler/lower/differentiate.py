@@ -159,7 +159,7 @@ RULES: dict[str, Rule] = {
     "atan2": _atan2,
     "abs": _abs,
     "select": _select,
-    "declared": lambda g, node, adjoint: (None, g.mul(adjoint, g.slopes[node])),
+    "declared": lambda g, node, adjoint: (None, *(g.mul(adjoint, slope) for slope in g.slopes[node])),
     "polynomial": _polynomial,
     "sqrt": _over(lambda g, x, y: _twice(g, y)),
     "exp": _one(lambda g, x, y: y),

@@ -9,7 +9,7 @@ of
     exp log sin cos tan sinh cosh tanh asinh acosh acos atanh atan2 abs round
     polynomial c0 + c1 x + ..., exact coefficients     select     (condition, x, y)
     less, less_equal, equal   conditions, only as the first argument of a select
-    declared   (value, variable): the value, whose derivative is one in the variable, kept by the graph; gone once differentiated
+    declared   (value, variables...): the value, with derivatives in the variables that the graph keeps; gone once differentiated
 
 and, for functions of symmetric matrices, two nodes of several values and one that picks from them:
 
@@ -112,7 +112,7 @@ class Graph:
     def __init__(self) -> None:
         self.nodes: dict[tuple[str, tuple[Node, ...], object], Node] = {}
         self.names: dict[Node, str] = {}  # what a person would call a node
-        self.slopes: dict[Node, Node] = {}  # the derivatives of declared nodes in their variables
+        self.slopes: dict[Node, tuple[Node, ...]] = {}  # the derivatives of declared nodes in their variables
 
     def node(self, op: str, *arguments: Node, value: object = None) -> Node:
         """The node of an operation, without simplification."""
@@ -222,12 +222,12 @@ class Graph:
         """x where the condition holds, else y."""
         return x if x is y else self.node("select", condition, x, y)
 
-    def declared(self, value: Node, variable: Node) -> Node:
-        """A value known to be a function of a variable, however it is computed; `slopes` must be told its derivative.
+    def declared(self, value: Node, *variables: Node) -> Node:
+        """A value known to be a function of some variables, however it is computed; `slopes` must be told its derivatives.
 
-        The derivative may be made of declared nodes, this one too.
+        The derivatives may be made of declared nodes, this one too.
         """
-        return self.node("declared", value, variable)
+        return self.node("declared", value, *variables)
 
     def eigh(self, matrix: Packed) -> Node:
         """The eigenvalues and eigenvectors of a symmetric matrix."""

@@ -115,7 +115,9 @@ def _dependence(graph: Graph, roots: Sequence[Node], splat: SplatNodes) -> dict[
     of_point = set(splat.x.nodes)
     depends: dict[Node, int] = {}
     needed = reachable(roots)
-    while len(needed) < len(needed := reachable([*needed, *(graph.slopes[n] for n in needed if n.op == "declared")])):
+    while len(needed) < len(
+        needed := reachable([*needed, *(d for n in needed if n.op == "declared" for d in graph.slopes[n])])
+    ):
         pass
     for node in needed:
         if node.op == "input":
@@ -155,8 +157,8 @@ def copied(source: Graph, target: Graph, roots: Sequence[Node], known: Mapping[N
                 target.named(source.names[node], done[node])
             if node.op == "declared":
                 declared.append(node)
-                waiting.append(source.slopes[node])
-    target.slopes.update({done[node]: done[source.slopes[node]] for node in declared})
+                waiting += source.slopes[node]
+    target.slopes.update({done[node]: tuple(done[slope] for slope in source.slopes[node]) for node in declared})
     return tuple(done[root] for root in roots)
 
 

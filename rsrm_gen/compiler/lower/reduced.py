@@ -5,12 +5,15 @@ w = sqrt((1 + c) / 2), c = <mu, x>, and eta = d log A / dw, which is one polynom
 
     1 / A = w - (1 - w^2) eta,   a = A / w,   d log a / dw = eta - 1 / w,   z = a R x,   R = W (tangent part at mu).
 
+The factors 2 of it are gone into the rows: the point counts by its half h = x / 2, the centre by M = mu / 2, so that
+w^2 = <h + M, h + M> and dw = d<M, h> / w; and r = sqrt(2) R h, so that |z|^2 / 2 = a^2 |r|^2.
+
 In a product every factor has its own form, or the author's formulas. The routines of single splats keep those.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import sympy as sp
@@ -53,13 +56,13 @@ def reduced(geometry: Geometry, splat: SplatNodes, graph: Graph) -> SplatNodes |
     parts = list(_parts(geometry))
     if not any(part.geometry.radial for part in parts):
         return None
-    form = _Form(graph, splat, geometry.spec.dim, geometry.spec.tangent_size)
+    form = _Form(graph, splat, geometry.spec.dim, geometry.spec.tangent_size, alone=len(parts) == 1)
     for part in parts:
         if part.geometry.radial:
             form.add_radial(part, part.geometry.radial)
         else:
             form.add_plain(part)
-    return form.splat_nodes(alone=len(parts) == 1)
+    return form.splat_nodes()
 
 
 def extent(geometry: Geometry) -> Routine | None:
@@ -80,19 +83,20 @@ def extent(geometry: Geometry) -> Routine | None:
 class _Form:
     """Gathers what the parts of a manifold give to z = W Log_mu(x), to log |det D Log| and to the splat."""
 
-    def __init__(self, graph: Graph, splat: SplatNodes, dim: int, tangent_size: int) -> None:
+    def __init__(self, graph: Graph, splat: SplatNodes, dim: int, tangent_size: int, alone: bool) -> None:
         self.graph = graph
         self.splat = splat
         self.dim = dim
         self.tangent_size = tangent_size
-        self.scaled_rows: list[tuple[Node, Packed]] = []  # a and R x of each radial part
-        self.plain_rows: list[Packed] = []  # W v of the others
+        self.alone = alone  # whether there is one part only
+        self.half_square: Node = graph.constant(0)  # |z|^2 / 2, of the only part
+        self.z: list[Packed] = []  # what each part adds to z, of several
         self.log_dets: list[Node] = []
-        self.factors: list[Node] = []  # powers of a, which need no exponential
-        self.exponents: list[Node] = []  # log dets of the others
+        self.factors: list[Node] = []  # the determinants of radial parts, which are powers
+        self.exponents: list[Node] = []  # the logarithms of the others
         self.at_cut: list[
             tuple[Node, Node]
-        ] = []  # where a point is on the cut locus of a splat, and the splat's value there
+        ] = []  # whether a point is on a splat's cut locus, and the splat's value there
 
     def covector(self, i: int, part: _Part) -> Packed:
         """The entries of a row of W that belong to a part."""
@@ -109,27 +113,37 @@ class _Form:
         graph, (mu, x) = self.graph, self.points(part)
         v = inline(graph, part.geometry["log"], mu, x, prefix=part.prefix)
         (log_det,) = inline(graph, part.geometry["log_abs_det"], mu, x, prefix=part.prefix)
-        self.plain_rows.append(tuple(dot(graph, self.covector(i, part), v) for i in range(self.dim)))
+        self.z.append(tuple(dot(graph, self.covector(i, part), v) for i in range(self.dim)))
         self.log_dets.append(log_det)
         self.exponents.append(log_det)
 
     def add_radial(self, part: _Part, radial: Radial) -> None:
         """A part in the radial form."""
         graph, (mu, x) = self.graph, self.points(part)
-        size = len(x)
-        unit = [tuple(graph.constant(int(i == j)) for i in range(size)) for j in range(size)]
-        tangent = [inline(graph, part.geometry["to_tangent"], mu, e, prefix=part.prefix) for e in unit]
-        rows = []
-        for i in range(self.dim):
-            row = (dot(graph, self.covector(i, part), column) for column in tangent)
-            named = tuple(graph.named(f"{part.prefix}R{i}_{j}", node) for j, node in enumerate(row))
-            rows.append(graph.named(f"{part.prefix}r{i}", dot(graph, named, x)))
-        shape = _Profile(graph, radial, part.prefix, mu, x)
-        self.scaled_rows.append((shape.a, tuple(rows)))
+        h = tuple(graph.named(f"{part.prefix}h{j}", graph.mul(graph.constant(HALF), c)) for j, c in enumerate(x))
+        shape = _Profile(graph, radial, part.prefix, mu, h)
+        rows = self.rows(part, h)
+        if self.alone:
+            self.half_square = shape.times_square(dot(graph, rows, rows))
+        else:
+            self.z.append(tuple(graph.mul(shape.a, r) for r in rows))
         self.log_dets.append(graph.mul(graph.constant(radial.power), shape.log_a))
         self.factors += [shape.a] * radial.power
         if shape.on_cut is not None:
             self.at_cut.append((shape.on_cut, self.value_at_cut(part, mu)))
+
+    def rows(self, part: _Part, h: Packed) -> Packed:
+        """R x, or R x / sqrt(2) of the only part."""
+        graph, (mu, _) = self.graph, self.points(part)
+        unit = [tuple(graph.constant(int(i == j)) for i in range(len(mu))) for j in range(len(mu))]
+        tangent = [inline(graph, part.geometry["to_tangent"], mu, e, prefix=part.prefix) for e in unit]
+        scale = graph.constant(sp.sqrt(2) if self.alone else 2)
+        products = []
+        for i in range(self.dim):
+            row = (graph.mul(scale, dot(graph, self.covector(i, part), column)) for column in tangent)
+            named = tuple(graph.named(f"{part.prefix}R{i}_{j}", node) for j, node in enumerate(row))
+            products.append(graph.named(f"{part.prefix}r{i}", dot(graph, named, h)))
+        return tuple(products)
 
     def value_at_cut(self, part: _Part, mu: Packed) -> Node:
         """exp(log det - |z|^2 / 2) at the antipode of mu, by the author's policy: the splat's own number."""
@@ -141,26 +155,21 @@ class _Form:
         exponent = graph.sub(log_det, graph.mul(graph.constant(HALF), dot(graph, z, z)))
         return graph.named(f"{part.prefix}value_on_cut_locus", graph.function("exp", exponent))
 
-    def square(self, alone: bool) -> Node:
-        """|z|^2."""
+    def half_square_of_all(self) -> Node:
+        """|z|^2 / 2, z the sum of what the parts add."""
         graph = self.graph
-        if alone and self.scaled_rows:
-            ((a, rows),) = self.scaled_rows
-            return graph.mul(graph.mul(a, a), graph.named("length_squared", dot(graph, rows, rows)))
-        terms = [[graph.mul(a, r) for r in rows] for a, rows in self.scaled_rows] + [list(r) for r in self.plain_rows]
         z = []
-        for i in range(self.dim):
-            total = terms[0][i]
-            for term in terms[1:]:
-                total = graph.add(total, term[i])
-            z.append(graph.named(f"z{i}", total))
-        return dot(graph, z, z)
+        for i, (first, *others) in enumerate(zip(*self.z, strict=True)):
+            for other in others:
+                first = graph.add(first, other)
+            z.append(graph.named(f"z{i}", first))
+        return graph.mul(graph.constant(HALF), dot(graph, z, z))
 
-    def splat_nodes(self, alone: bool) -> SplatNodes:
-        """phi, the exponent whose derivative is phi's own, and the factor between them."""
+    def splat_nodes(self) -> SplatNodes:
+        """phi, the exponent whose derivatives give phi's, and the factor between them."""
         graph = self.graph
-        half_square = graph.mul(graph.constant(HALF), self.square(alone))
-        exponent, inside = graph.neg(half_square), graph.neg(half_square)
+        half_square = graph.named("half_square", self.half_square if self.alone else self.half_square_of_all())
+        exponent = inside = graph.neg(half_square)
         for log_det in self.log_dets:
             exponent = graph.add(exponent, log_det)
         for log_det in self.exponents:
@@ -174,7 +183,7 @@ class _Form:
             slope = graph.select(on_cut, graph.constant(0), slope)
         # The derivative of both is the second: on the cut locus itself, the splat does not change.
         value, slope = graph.declared(value, exponent), graph.declared(slope, exponent)
-        graph.slopes[value] = graph.slopes[slope] = slope
+        graph.slopes[value] = graph.slopes[slope] = (slope,)
         amplitude = self.splat.amplitude.nodes[0]
         phi = graph.named("phi", graph.mul(amplitude, value))
         return replace(self.splat, phi=phi, exponent=exponent, by_exponent=graph.mul(amplitude, slope))
@@ -183,20 +192,20 @@ class _Form:
 class _Profile:
     """a and log a as functions of c = <mu, x>, and where the cut locus is; `log_a` is good for its derivatives only."""
 
-    def __init__(self, graph: Graph, radial: Radial, prefix: str, mu: Packed, x: Packed) -> None:
+    def __init__(self, graph: Graph, radial: Radial, prefix: str, mu: Packed, h: Packed) -> None:
         self.graph = graph
         self.prefix = prefix
         self.on_cut: Node | None = None
         self.form = [[graph.constant(f) for f in row] for row in radial.form]
-        columns = zip(*self.form, strict=True)
-        row = tuple(self.named(f"c{j}", dot(graph, mu, column)) for j, column in enumerate(columns))
-        c = dot(graph, row, x)
+        scale = graph.constant(2 if radial.folded else HALF)
+        M = tuple(self.named(f"M{j}", graph.mul(scale, c)) for j, c in enumerate(mu))
+        product = dot(graph, self.image(M), h)  # c / 4, or c where it is folded
         if radial.folded:
-            self.of_folded(c)
+            self.of_folded(product)
         elif radial.unbounded:
-            self.of_hyperboloid(c, self.chord(mu, x, graph.sub))
+            self.of_hyperboloid(product, self.square_norm(tuple(map(graph.sub, h, M))))
         else:
-            self.of_sphere(c, self.chord(mu, x, graph.add))
+            self.of_sphere(product, self.square_norm(tuple(map(graph.add, h, M))))
 
     def named(self, name: str, node: Node) -> Node:
         """A node under a name of the part."""
@@ -208,39 +217,40 @@ class _Profile:
     def square(self, x: Node) -> Node:
         return self.graph.mul(x, x)
 
-    def chord(self, mu: Packed, x: Packed, combined: Callable[[Node, Node], Node]) -> Node:
-        """<x + mu, x + mu> / 4 = (1 + c) / 2, or of x - mu, (1 - c) / 2: without the cancellation in 1 +- c."""
-        graph = self.graph
-        chord = tuple(combined(a, b) for a, b in zip(x, mu, strict=True))
-        image = (dot(graph, column, chord) for column in zip(*self.form, strict=True))
-        return graph.mul(self.number(sp.Rational(1, 4)), dot(graph, chord, tuple(image)))
+    def image(self, x: Packed) -> Packed:
+        """The row y with y . z = <x, z>."""
+        return tuple(dot(self.graph, x, column) for column in zip(*self.form, strict=True))
+
+    def square_norm(self, x: Packed) -> Node:
+        """<x, x>: of h + M it is (1 + c) / 2, of h - M (1 - c) / 2, without the cancellation in 1 +- c."""
+        return dot(self.graph, self.image(x), x)
 
     def of_folded(self, c: Node) -> None:
         """a = A(|c|): the sign of a changes z, not its length."""
         graph = self.graph
         w = self.named("w", graph.function("abs", c))
-        gap = graph.sub(self.number(1), w)
-        eta, eta_slope = self.near(gap, False)
-        over_A = graph.add(w, graph.mul(graph.mul(gap, graph.add(self.number(1), w)), graph.neg(eta)))
-        self.declare(w, self.named("a", graph.div(self.number(1), over_A)), eta, eta_slope, None)
+        eta, eta_slope = self.near(graph.sub(self.number(1), w), False)
+        over_A = graph.sub(w, graph.mul(graph.sub(self.number(1), self.square(w)), eta))
+        self.declare(w, graph.div(self.number(1), over_A), eta, eta_slope, None)
 
-    def of_sphere(self, c: Node, u: Node) -> None:
+    def of_sphere(self, quarter_c: Node, u: Node) -> None:
         """u = w^2 = (1 + c) / 2."""
         graph = self.graph
         smallest = graph.mul(self.number(4), self.square(graph.node("eps")))
         self.on_cut = self.named("on_cut_locus", graph.node("less_equal", u, smallest))
         u = self.named("u", graph.select(self.on_cut, self.number(1), u))
         w = self.named("w", graph.function("sqrt", u))
-        gap = graph.sub(self.number(1), w)
-        eta, eta_slope = self.near(gap, False)
+        eta, eta_slope = self.near(graph.sub(self.number(1), w), False)
         over_A = graph.sub(w, graph.mul(graph.sub(self.number(1), u), eta))
-        self.of_root(c, w, over_A, eta, eta_slope)
+        self.of_root(quarter_c, w, over_A, eta, eta_slope)
 
-    def of_hyperboloid(self, c: Node, negative_u: Node) -> None:
+    def of_hyperboloid(self, quarter_c: Node, negative_u: Node) -> None:
         """u = w^2 - 1 = (c - 1) / 2; A by its polynomial near w = 1, else by the logarithm that acosh is."""
         graph, one = self.graph, self.number(1)
         u = graph.neg(negative_u)
-        u = self.named("u", graph.select(graph.node("less", u, self.number(0)), self.number(0), u))  # -0 by rounding
+        u = self.named(
+            "u", graph.select(graph.node("less", u, self.number(0)), self.number(0), u)
+        )  # below 0 by rounding
         w = self.named("w", graph.function("sqrt", graph.add(one, u)))
         near = self.named("near", graph.node("less", w, self.number(NEAR)))
         gap = graph.select(near, graph.sub(w, one), self.number(0))
@@ -259,8 +269,8 @@ class _Profile:
         )
         eta = graph.select(near, near_eta, far_eta)
         eta_slope = graph.select(near, near_slope, far_slope)
-        over_A = graph.select(near, graph.add(w, graph.mul(u, near_eta)), graph.mul(far_u, over_angle_s))
-        self.of_root(c, w, over_A, eta, eta_slope)
+        over_A = graph.add(w, graph.mul(u, eta))  # far away too, where it is s / angle
+        self.of_root(quarter_c, w, over_A, eta, eta_slope)
 
     def near(self, t: Node, unbounded: bool) -> tuple[Node, Node]:
         """eta and its derivative in w by their polynomials."""
@@ -268,23 +278,33 @@ class _Profile:
         eta, slope = profile(unbounded)
         return self.named("eta", graph.polynomial(t, eta)), self.named("eta_slope", graph.polynomial(t, slope))
 
-    def of_root(self, c: Node, w: Node, over_A: Node, eta: Node, eta_slope: Node) -> None:
+    def of_root(self, quarter_c: Node, w: Node, over_A: Node, eta: Node, eta_slope: Node) -> None:
         """a = A / w and w = sqrt((1 + c) / 2), with one division for 1 / w and 1 / (A w)."""
         graph = self.graph
-        a = self.named("a", graph.div(self.number(1), graph.mul(w, over_A)))
+        a = graph.div(self.number(1), graph.mul(w, over_A))
         over_w = self.named("over_w", graph.mul(over_A, a))
-        w_of_c = graph.declared(w, c)
-        over_w_of_c = graph.declared(over_w, w_of_c)
-        graph.slopes[w_of_c] = graph.mul(self.number(sp.Rational(1, 4)), over_w_of_c)
-        graph.slopes[over_w_of_c] = graph.neg(self.square(over_w_of_c))
-        self.declare(w_of_c, a, eta, eta_slope, over_w_of_c)
+        w = graph.declared(w, quarter_c)
+        over_w = graph.declared(over_w, w)
+        graph.slopes[w] = (over_w,)
+        graph.slopes[over_w] = (graph.neg(self.square(over_w)),)
+        self.declare(w, a, eta, eta_slope, over_w)
 
     def declare(self, w: Node, a: Node, eta: Node, eta_slope: Node, over_w: Node | None) -> None:
-        """What the derivatives of a and of log a in w are."""
+        """What the derivatives are of log a in w, and of a and a^2 in log a."""
         graph = self.graph
-        eta_of_w = graph.declared(eta, w)
-        graph.slopes[eta_of_w] = eta_slope
-        slope = graph.sub(eta_of_w, over_w) if over_w else eta_of_w
-        self.a, self.log_a = graph.declared(a, w), graph.declared(self.number(0), w)
-        graph.slopes[self.log_a] = slope
-        graph.slopes[self.a] = graph.mul(self.a, slope)
+        eta = graph.declared(eta, w)
+        graph.slopes[eta] = (eta_slope,)
+        a = self.named("a", a)
+        self.log_a = graph.declared(self.number(0), w)
+        graph.slopes[self.log_a] = (graph.sub(eta, over_w) if over_w else eta,)
+        self.a = graph.declared(a, self.log_a)
+        graph.slopes[self.a] = (self.a,)
+        self.a_squared = graph.declared(self.named("a_squared", self.square(a)), self.log_a)
+        graph.slopes[self.a_squared] = (graph.mul(self.number(2), self.a_squared),)
+
+    def times_square(self, square: Node) -> Node:
+        """a^2 times a number that does not depend on a."""
+        graph = self.graph
+        product = graph.declared(graph.mul(self.a_squared.arguments[0], square), self.log_a, square)
+        graph.slopes[product] = (graph.mul(self.number(2), product), self.a_squared)
+        return product
