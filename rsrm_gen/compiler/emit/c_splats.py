@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from rsrm_gen.compiler.emit import c_matrix
-from rsrm_gen.compiler.emit.c_language import comment, restrict
+from rsrm_gen.compiler.emit.c_language import comment, restrict, wrapped
 from rsrm_gen.compiler.emit.c_precision import PRECISIONS, Precision
 from rsrm_gen.compiler.emit.c_splats_loops import (
     BACKWARD,
@@ -30,7 +30,7 @@ from rsrm_gen.compiler.emit.c_splats_loops import (
 )
 from rsrm_gen.compiler.emit.c_vector import BASICS, TYPES, Body, functions_of, indented, polynomial_function, spelled
 from rsrm_gen.compiler.emit.c_vector_math import functions
-from rsrm_gen.compiler.emit.products import Products, Term, products_of
+from rsrm_gen.compiler.emit.products import Products, Term, products_of, terms_of, uses_of
 from rsrm_gen.compiler.emit.series import Coefficients, tables
 from rsrm_gen.compiler.lower import Node, Program, Routine
 from rsrm_gen.compiler.lower.ir import Result, reachable
@@ -174,7 +174,7 @@ def _factored(routine: Routine, products: Products, series: dict[Coefficients, s
             offset += len(parameter.nodes)
     texts = [_routine(first, series, precision)]
     for number, group in enumerate(products.groups):
-        sums = [f"sum[{j}] += {_sum_of(products.terms[i], names)};" for j, i in enumerate(group)]
+        sums = [f"sum[{j}] = sum[{j}]{_sum_of(products.terms[i], names)};" for j, i in enumerate(group)]
         texts.append(
             f"/* Adds some of the derivatives, as products. */\nINLINE void pair_products_{number}{precision.tag}("
             f"const {v} *factor, const {v} *point, {v} *sum) {{\n    (void)factor;\n    (void)point;\n{indented(sums, 4)}\n}}"
@@ -187,12 +187,13 @@ def _needed(routine: Routine, nodes: Sequence[Node]) -> tuple[tuple[str, Node], 
     return tuple((name, node) for name, node in routine.body if node in needed)
 
 
+def _as_sums(routine: Routine) -> dict[Node, list[Term]]:
+    uses = uses_of(routine)
+    return {node: terms_of(node, uses) for result in routine.results for node in result.nodes}
+
+
 def _sum_of(terms: Sequence[Term], names: Mapping[Node, str]) -> str:
-    text = ""
-    for sign, factors in terms:
-        product = " * ".join(names[f] for f in factors)
-        text += f" {'+' if sign > 0 else '-'} {product}" if text else f"{'' if sign > 0 else '-'}{product}"
-    return text
+    return "".join(f" {'+' if sign > 0 else '-'} {' * '.join(names[f] for f in factors)}" for sign, factors in terms)
 
 
 def _routine(routine: Routine, series: dict[Coefficients, str], precision: Precision) -> str:
@@ -211,16 +212,22 @@ def _routine(routine: Routine, series: dict[Coefficients, str], precision: Preci
         vectors |= set(parameter.nodes) if is_vector else set()
         if not routine.inputs & {str(n.value) for n in parameter.nodes}:
             unread.append(f"(void){parameter.name};")
-    body = Body(routine, inputs, vectors, precision, series)
+    sums = _as_sums(routine) if adds else {}
+    read = [f for terms in sums.values() for _, factors in terms for f in factors]
+    body = Body(replace(routine, body=_needed(routine, read)) if adds else routine, inputs, vectors, precision, series)
     stores = []
     for result in routine.results:
         arguments.append(f"{v} *{result.name}")
         kept = [(i, node) for i, node in enumerate(result.nodes) if not (adds and node.is_number(0))]
-        stores += [f"{result.name}[{i}] {'+' if adds else ''}= {body.result(node)};" for i, node in kept]
+        if adds:  # term by term, so that each is one instruction that multiplies and adds
+            texts = [f"{result.name}[{i}]{body.sum_of(sums[node])}" for i, node in kept]
+        else:
+            texts = [body.result(node) for _, node in kept]
+        stores += [wrapped(f"{result.name}[{i}] = {text};").strip() for (i, _), text in zip(kept, texts, strict=True)]
         if not kept:
             unread.append(f"(void){result.name};")
     lines = indented([*unread, *body.lines, *stores], 4)
-    kind = "INLINE" if routine.operations <= INLINED else "OUTLINE"
+    kind = "INLINE" if of_pair and routine.operations <= INLINED else "OUTLINE"
     head = f"{kind} void pair_{routine.name}{precision.tag}("
     return f"/* {title} */\n{head}\n    {', '.join(arguments)}) {{\n{lines}\n}}"
 
@@ -234,6 +241,10 @@ def _loops(program: Program, precision: Precision) -> list[str]:
         "nx": z.x, "nX": z.X, "nG": z.gradient, "nmu": z.mu, "nW": z.W, "nS": z.S, "nP": z.own, "nB": z.point,
         "BLOCK": BLOCK, "CHUNK": CHUNK,
     }  # fmt: skip
+    calls = [f"pair_forward@(X[{b}], constants + {z.S} * k, value_sum[{b}], slope_sum[{b}]);" for b in range(BLOCK)]
+    parts["FORWARD$"] = indented(calls, 16).strip()
+    calls = [f"pair_value@(X[{b}], constants + {z.S} * k, value_sum[{b}]);" for b in range(BLOCK)]
+    parts["VALUE$"] = indented(calls, 16).strip()
     for name in PROMISES:
         parts[f"SIGNATURE_{name}$"] = _signature(program, name, precision)
     if products is None:

@@ -37,7 +37,7 @@ OMP = """/* Threads, where the compiler has OpenMP. */
 
 ROWS = """
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
-INLINE void vector_rows@(const T_*rows, size_t count, size_t start, size_t size, vector@ *columns) {
+OUTLINE void vector_rows@(const T_*rows, size_t count, size_t start, size_t size, vector@ *columns) {
     for (size_t i = 0; i < size; ++i) {
         T_column[LANES@];
         for (size_t lane = 0; lane < LANES@; ++lane)
@@ -47,7 +47,7 @@ INLINE void vector_rows@(const T_*rows, size_t count, size_t start, size_t size,
 }
 
 /* Back to rows that are `stride` apart; nothing past the end. */
-INLINE void vector_to_rows@(
+OUTLINE void vector_to_rows@(
     const vector@ *columns, T_*rows, size_t count, size_t start, size_t size, size_t stride) {
     const size_t lanes = start >= count ? 0 : count - start < LANES@ ? count - start : LANES@;
     for (size_t lane = 0; lane < lanes; ++lane)
@@ -55,16 +55,16 @@ INLINE void vector_to_rows@(
 }
 
 /* Zero in the lanes past the end. */
-INLINE void vector_end@(size_t count, size_t start, size_t size, vector@ *columns) {
+OUTLINE void vector_end@(size_t count, size_t start, size_t size, vector@ *columns) {
     for (size_t lane = start >= count ? 0 : count - start; lane < LANES@; ++lane)
         for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
 }"""
 
 WORK = """
-/* Scratch memory: $nB vectors for each block of points, then the constants of the splats and their adjoints. */
+/* Scratch memory: $nB vectors for each block of points, then the constants of the splats. */
 $SIGNATURE_splats_work$ {
     (void)threads;
-    return ((count + LANES@ - 1) / LANES@ * $nB + 1) * LANES@ + 2 * $nS * splat_count;
+    return ((count + LANES@ - 1) / LANES@ * $nB + 1) * LANES@ + $nS * splat_count;
 }
 
 static vector@ *work_points@(T_*work) {
@@ -78,7 +78,7 @@ static T_*work_constants@(T_*work, size_t count) {
 
 CONSTANTS = """
 /* The constants of LANES splats, as rows. */
-INLINE void splat_constants@(
+OUTLINE void splat_constants@(
     size_t splat_count, size_t start, const T_*mu, const T_*W, const T_*amplitude, T_*constants) {
     vector@ own_mu[$nmu], own_W[$nW], own_amplitude[1], S[$nS];
     vector_rows@(mu, splat_count, start, $nmu, own_mu);
@@ -96,10 +96,10 @@ $SIGNATURE_splats$ {
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
-        OMP(omp for schedule(static))
+        OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES@)
             splat_constants@(splat_count, start, mu, W, amplitude, constants);
-        OMP(omp for schedule(static))
+        OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += $BLOCK * LANES@) {
             vector@ at[$BLOCK][$nx], X[$BLOCK][$nX], grad[$nG];
             vector@ value_sum[$BLOCK][1] = {{ZERO}}, slope_sum[$BLOCK][$nX] = {{ZERO}};
@@ -107,8 +107,9 @@ $SIGNATURE_splats$ {
                 vector_rows@(x, count, start + b * LANES@, $nx, at[b]);
                 pair_features@(at[b], X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k)
-                for (size_t b = 0; b < $BLOCK; ++b) pair_forward@(X[b], constants + $nS * k, value_sum[b], slope_sum[b]);
+            for (size_t k = 0; k < splat_count; ++k) {
+                $FORWARD$
+            }
             for (size_t b = 0; b < $BLOCK; ++b) {
                 pair_gradient@(at[b], slope_sum[b], grad);
                 vector_to_rows@(value_sum[b], value, count, start + b * LANES@, 1, 1);
@@ -126,18 +127,19 @@ $SIGNATURE_splats_value$ {
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
-        OMP(omp for schedule(static))
+        OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES@)
             splat_constants@(splat_count, start, mu, W, amplitude, constants);
-        OMP(omp for schedule(static))
+        OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += $BLOCK * LANES@) {
             vector@ at[$nx], X[$BLOCK][$nX], value_sum[$BLOCK][1] = {{ZERO}};
             for (size_t b = 0; b < $BLOCK; ++b) {
                 vector_rows@(x, count, start + b * LANES@, $nx, at);
                 pair_features@(at, X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k)
-                for (size_t b = 0; b < $BLOCK; ++b) pair_value@(X[b], constants + $nS * k, value_sum[b]);
+            for (size_t k = 0; k < splat_count; ++k) {
+                $VALUE$
+            }
             for (size_t b = 0; b < $BLOCK; ++b)
                 vector_to_rows@(value_sum[b], value, count, start + b * LANES@, 1, 1);
         }
@@ -147,7 +149,7 @@ $SIGNATURE_splats_value$ {
 
 POINTS = """
 /* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
-INLINE void splat_points@(
+OUTLINE void splat_points@(
     size_t count, size_t start, const T_*x, const T_*value_bar, const T_*gradient_bar, vector@ *point) {
     vector@ at[$nx], grad_bar[$nG], slope_bar[$nX];
     vector_rows@(x, count, start, $nx, at);
@@ -161,7 +163,7 @@ INLINE void splat_points@(
 
 SUMS = """
 /* Adds to S_bar what some vectors of points add to it. */
-INLINE void splat_sums@(const vector@ *point, size_t size, const T_*S, T_*S_bar) {
+OUTLINE void splat_sums@(const vector@ *point, size_t size, const T_*S, T_*S_bar) {
     vector@ sum[$nS] = {ZERO};
     for (size_t b = 0; b < size; ++b, point += $nB) pair_backward@(point, S, point + $nX, point + $nX + 1, sum);
     $SUMS$
@@ -177,7 +179,7 @@ INLINE void pair_backward@(
 }
 
 /* Adds to S_bar what some vectors of points add to it: factors of $BUFFER vectors at a time, then their products. */
-INLINE void splat_sums@(const vector@ *point, size_t count, const T_*S, T_*S_bar) {
+OUTLINE void splat_sums@(const vector@ *point, size_t count, const T_*S, T_*S_bar) {
     vector@ factor[$BUFFER * $nF], total[$nS] = {ZERO};
     for (size_t start = 0; start < count; start += $BUFFER, point += $BUFFER * $nB) {
         const size_t size = count - start < $BUFFER ? count - start : $BUFFER;
@@ -191,42 +193,44 @@ INLINE void splat_sums@(const vector@ *point, size_t count, const T_*S, T_*S_bar
 }"""
 
 BACKWARD = """
-/* The points pass over each splat, a chunk of them at a time, while its sums stay in registers. */
+/*
+ * Some splats at a time; the points pass over each of them, a chunk at a time, while its sums stay in registers. How many
+ * splats depends on the threads, what is summed in which order does not.
+ */
 $SIGNATURE_splats_vjp$ {
-    (void)threads;
     const size_t blocks = (count + LANES@ - 1) / LANES@;
     const size_t chunk = $CHUNK / ($nB * sizeof(vector@)) + 1;
+    const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
+    const size_t share = part < LANES@ ? part : LANES@;
     vector@ *points = work_points@(work);
-    T_*constants = work_constants@(work, count), *adjoints = constants + $nS * splat_count;
+    T_*constants = work_constants@(work, count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
-        OMP(omp for schedule(static) nowait)
+        OMP(omp for schedule(dynamic) nowait)
         for (size_t start = 0; start < splat_count; start += LANES@)
             splat_constants@(splat_count, start, mu, W, amplitude, constants);
-        OMP(omp for schedule(static))
+        OMP(omp for schedule(dynamic, 8))
         for (size_t block = 0; block < blocks; ++block)
             splat_points@(count, block * LANES@, x, value_bar, gradient_bar, points + $nB * block);
-        for (size_t first = 0; first == 0 || first < blocks; first += chunk) {
-            const size_t last = first + chunk < blocks ? first + chunk : blocks;
-            OMP(omp for schedule(static) nowait) /* a splat is the same thread's in every chunk */
-            for (size_t k = 0; k < splat_count; ++k) {
-                if (first == 0) memset(adjoints + $nS * k, 0, $nS * sizeof *adjoints);
-                splat_sums@(points + $nB * first, last - first, constants + $nS * k, adjoints + $nS * k);
-            }
-        }
-        OMP(omp barrier)
-        OMP(omp for schedule(static))
-        for (size_t start = 0; start < splat_count; start += LANES@) {
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += share) {
+            const size_t end = start + share < splat_count ? start + share : splat_count;
+            T_sums[LANES@][$nS] = {{0}};
             vector@ own_mu[$nmu], own_W[$nW], own_amplitude[1], S_bar[$nS], bars[$nP];
-            vector_rows@(mu, splat_count, start, $nmu, own_mu);
-            vector_rows@(W, splat_count, start, $nW, own_W);
-            vector_rows@(amplitude, splat_count, start, 1, own_amplitude);
-            vector_rows@(adjoints, splat_count, start, $nS, S_bar);
+            for (size_t first = 0; first < blocks; first += chunk) {
+                const size_t size = first + chunk < blocks ? chunk : blocks - first;
+                for (size_t k = start; k < end; ++k)
+                    splat_sums@(points + $nB * first, size, constants + $nS * k, sums[k - start]);
+            }
+            vector_rows@(mu, end, start, $nmu, own_mu);
+            vector_rows@(W, end, start, $nW, own_W);
+            vector_rows@(amplitude, end, start, 1, own_amplitude);
+            vector_rows@(sums[0], LANES@, 0, $nS, S_bar);
             pair_constants_vjp@(own_mu, own_W, own_amplitude, S_bar, bars, bars + $nmu, bars + $nmu + $nW);
-            vector_to_rows@(bars, mu_bar, splat_count, start, $nmu, $nmu);
-            vector_to_rows@(bars + $nmu, W_bar, splat_count, start, $nW, $nW);
-            vector_to_rows@(bars + $nmu + $nW, amplitude_bar, splat_count, start, 1, 1);
+            vector_to_rows@(bars, mu_bar, end, start, $nmu, $nmu);
+            vector_to_rows@(bars + $nmu, W_bar, end, start, $nW, $nW);
+            vector_to_rows@(bars + $nmu + $nW, amplitude_bar, end, start, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -241,10 +245,10 @@ $SIGNATURE_splats_rows$ {
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
-        OMP(omp for schedule(static))
+        OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES@)
             splat_constants@(splat_count, start, mu, W, amplitude, constants);
-        OMP(omp for schedule(static))
+        OMP(omp for schedule(dynamic))
         for (size_t block = 0; block < blocks; ++block) {
             vector@ point[$nB];
             splat_points@(count, block * LANES@, x, value_bar, gradient_bar, point);

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from rsrm_gen.compiler.emit import c_matrix
 from rsrm_gen.compiler.emit.c_language import WIDTH, series_body, spelling
 from rsrm_gen.compiler.emit.c_precision import Precision
-from rsrm_gen.compiler.emit.expression import ATOM, COMPARISONS, SUM, Printer
+from rsrm_gen.compiler.emit.expression import ATOM, COMPARISONS, PRODUCT, SUM, UNARY, Printer
 from rsrm_gen.compiler.emit.series import Coefficients
 from rsrm_gen.compiler.lower import Node, Routine
 from rsrm_gen.compiler.lower.ir import CONDITIONS, FUNCTIONS, SEVERAL
@@ -133,6 +133,9 @@ class VectorPrinter(Printer):
     def definition(self, node: Node) -> tuple[str, int]:
         """The expression of a node, and how tightly it binds."""
         a = node.arguments
+        if node.op == "neg" and a[0] not in self.names and a[0].op == "mul" and a[0].arguments[0].is_constant:
+            number, rest = a[0].arguments  # compilers do not move the sign into the number
+            return f"-{self.number(number)[0]} * {self.text(rest, UNARY)}".replace("--", ""), PRODUCT
         if node.op == "polynomial":
             return f"{self.coefficients[node.value]}({self.vector(a[0])})", ATOM
         if node.op == "select":
@@ -179,6 +182,11 @@ class Body:
     def result(self, node: Node) -> str:
         """A result as a vector."""
         return self.printer.vector(node)
+
+    def sum_of(self, terms: Sequence[tuple[int, tuple[Node, ...]]]) -> str:
+        """The terms of a sum that follow another."""
+        texts = ((sign, " * ".join(self.printer.text(f, UNARY) for f in factors)) for sign, factors in terms)
+        return "".join(f" {'+' if sign > 0 else '-'} {text}" for sign, text in texts)
 
     def _depends(self, routine: Routine, vectors: set[Node]) -> set[Node]:
         found = set(vectors)

@@ -7,6 +7,7 @@ point is the factors; the products are formed where they are added up, some resu
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from rsrm_gen.compiler.lower import Node, Routine
@@ -57,10 +58,23 @@ def products_of(routine: Routine, vectors: set[Node]) -> Products:
     return Products(ordered, {i: tuple(terms) for i, terms in found.items()})
 
 
-def _terms(node: Node, sign: int = 1) -> list[Term]:
+def terms_of(node: Node, uses: Counter[Node]) -> list[Term]:
+    """A node as a sum of nodes and products, as far as nothing else reads the parts of it that then have no value."""
+    return _terms(node, 1, lambda n: uses[n] <= 1)
+
+
+def uses_of(routine: Routine) -> Counter[Node]:
+    """How often each node is read, by other nodes or as a result."""
+    roots = [node for result in routine.results for node in result.nodes]
+    return Counter(argument for node in routine.nodes for argument in node.arguments) + Counter(roots)
+
+
+def _terms(node: Node, sign: int = 1, splits: Callable[[Node], bool] = lambda node: True) -> list[Term]:
+    if not splits(node):
+        return [(sign, (node,))]
     a = node.arguments
     if node.op == "neg":
-        return _terms(a[0], -sign)
+        return _terms(a[0], -sign, splits)
     if node.op in ("add", "sub"):
-        return _terms(a[0], sign) + _terms(a[1], sign if node.op == "add" else -sign)
+        return _terms(a[0], sign, splits) + _terms(a[1], sign if node.op == "add" else -sign, splits)
     return [(sign, a if node.op == "mul" else (node,))]
