@@ -8,7 +8,6 @@ import shlex
 import subprocess
 from collections.abc import Callable
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import mpmath as mp
@@ -103,7 +102,11 @@ def test_functions_are_exact_to_a_few_units(
         least = mp.mpf(float(np.finfo(TYPE[precision]).tiny)) * 2
         units = [float(abs(mp.mpf(float(a)) - b) / (abs(b) + least)) for a, b in zip(found, exact, strict=True)]
     worst = int(np.argmax(units))
-    assert units[worst] <= UNITS * np.finfo(TYPE[precision]).eps / 2, (x[worst], [o[worst] for o in others], found[worst])
+    assert units[worst] <= UNITS * np.finfo(TYPE[precision]).eps / 2, (
+        x[worst],
+        [o[worst] for o in others],
+        found[worst],
+    )
 
 
 ENDS = {

@@ -261,14 +261,12 @@ def _loops(program: Program, precision: Precision) -> list[str]:
 def _group(products: Products, number: int, z: Sizes, over_points: bool) -> str:
     """The sums of a group of products over a buffer of points, or the products of one."""
     group, call = products.groups[number], f"pair_products_{number}@"
-    if not over_points:
-        adds = " ".join(f"S_bar[{i}] += sum[{j}];" for j, i in enumerate(group))
-        return f"{{\n    vector@ sum[{len(group)}] = {{ZERO}};\n    {call}(factor, point, sum);\n    {adds}\n}}"
-    adds = "\n    ".join(f"S_bar[{i}] += vector_sum@(sum[{j}]);" for j, i in enumerate(group))
-    loop = f"for (size_t b = 0; b < size; ++b) {call}(factor + $nF * b, point + {z.point} * b, sum);"
-    del adds
-    loads = "\n    ".join(f"total[{i}] += sum[{j}];" for j, i in enumerate(group))
-    return f"{{\n    vector@ sum[{len(group)}] = {{ZERO}};\n    {loop}\n    {loads}\n}}"
+    target = "total" if over_points else "S_bar"
+    step = f"{call}(factor, point, sum);"
+    if over_points:
+        step = f"for (size_t b = 0; b < size; ++b) {call}(factor + $nF * b, point + {z.point} * b, sum);"
+    adds = [f"{target}[{i}] += sum[{j}];" for j, i in enumerate(group)]
+    return "{\n" + indented([f"vector@ sum[{len(group)}] = {{ZERO}};", step, *adds], 4) + "\n}"
 
 
 def _kept(result: Result) -> list[int]:
