@@ -1,7 +1,7 @@
 """How the arrival time T depends on the distance d to the goal and on the field f: two forms with one interface.
 
 The partial derivatives are written out, so that grad T = dT/dd grad d + dT/df grad f needs no differentiation by the
-framework, and the loss one backward pass.
+framework; the second ones, so that the derivative of the loss needs none either.
 """
 
 from __future__ import annotations
@@ -26,6 +26,10 @@ class Link(Protocol):
         """dT/dd and dT/df: (...), (...)."""
         ...
 
+    def second_partials(self, d: Tensor, f: Tensor) -> tuple[Tensor, Tensor]:
+        """d^2T/dd df and d^2T/df^2: (...), (...)."""
+        ...
+
 
 @dataclass(frozen=True)
 class Exponential:
@@ -39,6 +43,10 @@ class Exponential:
         """dT/dd and dT/df: (...), (...)."""
         factor = torch.exp(f)
         return factor, d * factor
+
+    def second_partials(self, d: Tensor, f: Tensor) -> tuple[Tensor, Tensor]:
+        """d^2T/dd df and d^2T/df^2: (...), (...); the first derivatives again."""
+        return self.partials(d, f)
 
 
 @dataclass(frozen=True)
@@ -61,6 +69,14 @@ class Quotient:
         """dT/dd and dT/df: (...), (...)."""
         tau, slope = self._speed(f)
         return 1 / tau, -d * slope / tau**2
+
+    def second_partials(self, d: Tensor, f: Tensor) -> tuple[Tensor, Tensor]:
+        """d^2T/dd df and d^2T/df^2: (...), (...)."""
+        tau, slope = self._speed(f)
+        by_df = -slope / tau**2
+        # slope' = slope (1 - 2 sigmoid), and sigmoid = (tau - floor) / (1 - floor)
+        bend = 1 - 2 * (tau - self.floor) / (1 - self.floor)
+        return by_df, d * by_df * (bend - 2 * slope / tau)
 
 
 def make_link(choice: LinkChoice) -> Link:
