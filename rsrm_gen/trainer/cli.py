@@ -104,7 +104,7 @@ def _step(
     """Where the time of a training step goes: the median of every phase, and the share outside the sum of splats.
 
     \b
-    rsrm bench step examples/torus.yaml
+    rsrm bench step scene.yaml
     rsrm bench step scene.yaml --points 4096 --splats 128
     """
     prepared = read_scene(scene)

@@ -26,8 +26,8 @@ class Link(Protocol):
         """dT/dd and dT/df: (...), (...)."""
         ...
 
-    def second_partials(self, d: Tensor, f: Tensor) -> tuple[Tensor, Tensor]:
-        """d^2T/dd df and d^2T/df^2: (...), (...)."""
+    def derivatives(self, d: Tensor, f: Tensor) -> tuple[Tensor, Tensor, Tensor, Tensor]:
+        """dT/dd, dT/df, d^2T/dd df and d^2T/df^2, each (...)."""
         ...
 
 
@@ -44,9 +44,10 @@ class Exponential:
         factor = torch.exp(f)
         return factor, d * factor
 
-    def second_partials(self, d: Tensor, f: Tensor) -> tuple[Tensor, Tensor]:
-        """d^2T/dd df and d^2T/df^2: (...), (...); the first derivatives again."""
-        return self.partials(d, f)
+    def derivatives(self, d: Tensor, f: Tensor) -> tuple[Tensor, Tensor, Tensor, Tensor]:
+        """dT/dd, dT/df, d^2T/dd df and d^2T/df^2, each (...); the second ones are the first ones again."""
+        by_d, by_f = self.partials(d, f)
+        return by_d, by_f, by_d, by_f
 
 
 @dataclass(frozen=True)
@@ -57,9 +58,9 @@ class Quotient:
     floor: float = 0.0
 
     def _speed(self, f: Tensor) -> tuple[Tensor, Tensor]:
-        """tau and d tau / df."""
+        """tau and the sigmoid in it."""
         sigmoid = torch.sigmoid(f + self.offset)
-        return self.floor + (1 - self.floor) * sigmoid, (1 - self.floor) * sigmoid * (1 - sigmoid)
+        return self.floor + (1 - self.floor) * sigmoid, sigmoid
 
     def value(self, d: Tensor, f: Tensor) -> Tensor:
         """T: (...)."""
@@ -67,16 +68,16 @@ class Quotient:
 
     def partials(self, d: Tensor, f: Tensor) -> tuple[Tensor, Tensor]:
         """dT/dd and dT/df: (...), (...)."""
-        tau, slope = self._speed(f)
-        return 1 / tau, -d * slope / tau**2
+        return self.derivatives(d, f)[:2]
 
-    def second_partials(self, d: Tensor, f: Tensor) -> tuple[Tensor, Tensor]:
-        """d^2T/dd df and d^2T/df^2: (...), (...)."""
-        tau, slope = self._speed(f)
-        by_df = -slope / tau**2
-        # slope' = slope (1 - 2 sigmoid), and sigmoid = (tau - floor) / (1 - floor)
-        bend = 1 - 2 * (tau - self.floor) / (1 - self.floor)
-        return by_df, d * by_df * (bend - 2 * slope / tau)
+    def derivatives(self, d: Tensor, f: Tensor) -> tuple[Tensor, Tensor, Tensor, Tensor]:
+        """dT/dd, dT/df, d^2T/dd df and d^2T/df^2, each (...)."""
+        tau, sigmoid = self._speed(f)
+        slope = (tau - self.floor) * (1 - sigmoid)  # d tau / df
+        by_d = 1 / tau
+        relative = slope * by_d
+        by_df = -relative * by_d
+        return by_d, d * by_df, by_df, d * by_df * (1 - 2 * (sigmoid + relative))
 
 
 def make_link(choice: LinkChoice) -> Link:

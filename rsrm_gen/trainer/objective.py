@@ -83,13 +83,12 @@ class Eikonal:
         """The residual of each point (N,), and the derivatives of their mean in f (N,) and in grad f (N, T)."""
         d, away, link = points.distance, points.away, arrival.link
         df = df.T.contiguous()  # points last, where numbers that are treated alike lie side by side
-        by_d, by_f = link.partials(d, f)
+        by_d, by_f, by_df, by_ff = link.derivatives(d, f)
         gradient = by_d * away + by_f * df
         covector = arrival.manifold.flat(points.x, gradient.T).T.contiguous()
         slope = (covector * gradient).sum(0).clamp_min_(0).sqrt_()
         residual, by_slope = self._residual(slope, points.slowness)
         by_gradient = by_slope / (slope.clamp_min(1e-30) * len(f)) * covector
-        by_df, by_ff = link.second_partials(d, f)
         f_bar = (by_gradient * (by_df * away + by_ff * df)).sum(0)
         return residual, f_bar, (by_f * by_gradient).T
 
