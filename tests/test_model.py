@@ -112,6 +112,17 @@ def test_no_singular_value_falls_below_the_bound_and_none_above_it_moves() -> No
     assert torch.equal(field.A.detach()[2], shapes[2].double())
 
 
+@pytest.mark.parametrize("d", [1, 2, 3])
+def test_what_is_clamped_keeps_its_singular_vectors(d: int) -> None:
+    field = SplatField(Euclidean(d), 60, torch.float64)
+    field.append(torch.zeros(60, d, dtype=torch.float64), 0.3)
+    field.A.copy_(0.2 * torch.randn(60, d, d, generator=seeded(), dtype=torch.float64))
+    U, S, Vh = torch.linalg.svd(field.A)
+    assert S.min() < 0.07 < S.max()
+    field.clamp_shapes(0.07)
+    assert torch.allclose(field.A, (U * S.clamp_min(0.07)[:, None]) @ Vh, atol=1e-13)
+
+
 def test_new_splats_do_not_change_the_field_and_stop_at_the_capacity(tmp_path: Path) -> None:
     scene = small_scene(tmp_path, "S2")
     field = random_field(scene.manifold, scene.sample(6, seeded()), seeded(1))

@@ -53,6 +53,27 @@ def inverse(A: Tensor) -> tuple[Tensor, Tensor]:
     return cofactors.transpose(0, 1) / det, det
 
 
+def raise_singular_pairs(A: Tensor, least: float) -> None:
+    """Raise the singular values of A (2, 2, K) that are smaller to `least`, in place.
+
+    A is a rotation times Q plus a reflection times R, and its singular values are Q + R and |Q - R|.
+    """
+    (a, b), (c, d) = A
+    rotation, reflection = torch.stack((a + d, c - b)) / 2, torch.stack((a - d, c + b)) / 2
+    Q, R = torch.hypot(*rotation), torch.hypot(*reflection)
+    small = (Q - R).abs() < least
+    if not small.any():
+        return
+    larger = (Q + R).clamp_min(least)
+    smaller = (Q - R).abs().clamp_min(least) * torch.where(Q < R, -1.0, 1.0)
+    rotation[0] += Q == 0  # any rotation will do
+    rotation *= (larger + smaller) / 2 / torch.where(Q == 0, 1.0, Q)
+    reflection *= (larger - smaller) / 2 / torch.where(R == 0, 1.0, R)
+    (x, y), (z, w) = rotation, reflection
+    raised = torch.stack((x + z, w - y, y + w, x - z)).view(2, 2, -1)
+    A.copy_(torch.where(small, raised, A))
+
+
 def product(A: Tensor, B: Tensor) -> Tensor:
     """Matrices (i, j, K) times matrices (j, k, K): (i, k, K)."""
     return (A[:, :, None] * B[None]).sum(1)
@@ -185,13 +206,16 @@ class SplatField:
     @torch.no_grad()
     def clamp_shapes(self, min_singular: float) -> None:
         """Raise every singular value of A below the bound to it."""
+        A = self._shapes()
+        if self.manifold.dim == 2:
+            raise_singular_pairs(A, min_singular)
+            return
         # The smallest singular value is at least 1 / |A^-1|_F: most splats need no decomposition.
-        B = inverse(self._shapes())[0].flatten(0, 1)
+        B = inverse(A)[0].flatten(0, 1)
         suspect = ~((B * B).sum(0) * min_singular**2 <= 1)
         if suspect.any():
-            A = self.A[: self.count]
-            U, S, Vh = torch.linalg.svd(A[suspect])
-            A[suspect] = (U * S.clamp_min(min_singular)[:, None]) @ Vh
+            U, S, Vh = torch.linalg.svd(A[..., suspect].movedim(-1, 0))
+            A[..., suspect] = ((U * S.clamp_min(min_singular)[:, None]) @ Vh).movedim(0, -1)
 
 
 @dataclass(frozen=True)
