@@ -48,9 +48,13 @@ def foot(result: Kernels) -> str:
             + (f"Measured peak of multiply-adds, 10^9 operations in a second: {peaks}." if peaks else ""),
             *(["Not timed: " + "; ".join(notes) + "."] if notes else []),
             *([f"Left out: {'; '.join(result.missing)}."] if result.missing else []),
-            f"Measured with {versions}. {machine()}.",
+            f"Measured with {versions}. {machine()}{_load(result)}.",
         ]
     )
+
+
+def _load(result: Kernels) -> str:
+    return "" if result.load_before is None else f", a load of {result.load_before:.1f} before the run"
 
 
 def _medians(result: Kernels, precision: str, threads: int) -> Table:

@@ -8,6 +8,7 @@ multiplies and adds (`peak.py`), measured at the beginning and at the end of the
 
 from __future__ import annotations
 
+import os
 import statistics
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
@@ -94,6 +95,7 @@ class Kernels:
     contenders: tuple[Contender, ...]
     missing: tuple[str, ...]
     rounds: int
+    load_before: float | None = None  # of the machine, before the run: processes that want a core
     versions: Mapping[str, str] = field(default_factory=dict)
 
     def entry(self, what: tuple[str, str, int, Size], contender: str) -> Entry | None:
@@ -136,6 +138,7 @@ class Kernels:
         """Plain data for JSON."""
         return {
             "machine": machine(),
+            "load_before": self.load_before,
             "versions": dict(self.versions),
             "missing": list(self.missing),
             "peaks": [{"precision": p, "threads": t, "per_second": rate} for (p, t), rate in self.peaks.items()],
@@ -155,17 +158,20 @@ def kernels(plan: Plan, say: Callable[[str], None] = lambda words: None) -> Kern
     specs = [read_spec(file, parameters) for file, parameters in plan.cases]
     programs = {spec.identifier: lower(derive(spec)) for spec in specs}
     peaks = _peaks(plan)
+    load_before = _load()
     entries: list[Entry] = []
     with tempfile.TemporaryDirectory() as folder:
         scenes = [
             _Scene(spec, *case, max(plan.sizes), Path(folder)) for spec, case in zip(specs, plan.cases, strict=True)
         ]
-        for threads in plan.threads:
-            with Crew(threads) as crew:
-                for scene in scenes:
-                    for precision in plan.precisions:
-                        run = _Run(plan, crew, scene, precision, contenders, say)
-                        entries += run.entries()
+        try:
+            for threads in plan.threads:
+                with Crew(threads) as crew:
+                    for scene in scenes:
+                        for precision in plan.precisions:
+                            entries.extend(_Run(plan, crew, scene, precision, contenders, say).entries())
+        except KeyboardInterrupt:
+            missing.append("what was not measured yet when the run was interrupted")
     for key, rate in _peaks(plan).items():
         peaks[key] = max(peaks[key], rate)
     return Kernels(
@@ -177,6 +183,7 @@ def kernels(plan: Plan, say: Callable[[str], None] = lambda words: None) -> Kern
         contenders=contenders,
         missing=tuple(missing),
         rounds=plan.rounds,
+        load_before=load_before,
         versions=_versions("torch", "jax", "jaxlib", "numpy"),
     )
 
@@ -221,7 +228,7 @@ class _Scene:
         """The gradient in the centres made Riemannian: formulas differ in what is normal to the manifold."""
         import torch
 
-        at, partials = (torch.as_tensor(np.asarray(a, dtype="float64")) for a in (part.mu, mu))
+        at, partials = (torch.from_numpy(np.asarray(a, dtype="float64").copy()) for a in (part.mu, mu))
         riemannian = self.manifold.riemannian_gradient(at, partials).numpy()
         return np.asarray(loss, "float64").reshape(1), np.asarray(v, "float64"), riemannian, np.asarray(A, "float64")
 
@@ -255,7 +262,7 @@ class _Run:
 
     @property
     def _title(self) -> str:
-        return f"{self.scene.identifier}, {self.precision}, {self.crew.threads} threads"
+        return f"{self.scene.identifier}, {self.precision}, {self.crew.threads} thread{'s' * (self.crew.threads > 1)}"
 
     def _error(self, contender: Contender) -> float | None:
         if contender.needs_formulas and not self.scene.formulas:
@@ -344,6 +351,11 @@ def _peaks(plan: Plan) -> dict[tuple[str, int], float]:
     if compiler() is None:
         return {}
     return {(p, threads): fma_peak(p, threads) for p in plan.precisions for threads in plan.threads}
+
+
+def _load() -> float | None:
+    """The mean of the last minute."""
+    return os.getloadavg()[0] if hasattr(os, "getloadavg") else None
 
 
 def _versions(*packages: str) -> dict[str, str]:
