@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import subprocess
 import sys
+import time
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -22,6 +24,7 @@ from rsrm_gen.bench.kernel_tables import foot, tables
 from rsrm_gen.bench.kernels import Entry, Kernels, Plan
 from rsrm_gen.bench.operations import FUNCTION, pair_operations
 from rsrm_gen.bench.peak import fma_peak
+from rsrm_gen.bench.quiet import busy_cores
 from rsrm_gen.bench.steps import CONTENDERS, Contender, crew, in_torch, ours, plain
 from rsrm_gen.bench.steps.closed import phi_and_slope
 from rsrm_gen.bench.steps.crew import Crew, FailedError
@@ -104,7 +107,9 @@ def test_the_plain_formulas_are_those_of_the_manifolds_written_out_by_hand(name:
     x, d, away, s, v, mu, A, E = map(torch.from_numpy, (*p.points, p.v, p.mu, p.A, p.flat_frame))
     f, df = truth.splats(x, mu, *plain.splats(torch, v, A, E))
     slope = truth.norm(x, torch.exp(f)[:, None] * (away + d[:, None] * df))
-    assert float(in_torch.eager(name, p, 48)()[0]) == pytest.approx(float(((slope - s) ** 2).mean()), rel=1e-10)
+    assert float(in_torch.eager(name, p, 48)()[0]) == pytest.approx(
+        float(((slope - s) ** 2).mean().detach()), rel=1e-10
+    )
 
 
 def test_the_distance_and_its_gradient_belong_to_one_another() -> None:
@@ -275,6 +280,24 @@ def test_medians_ratios_shares_and_goals_are_what_they_say() -> None:
     assert goals[2] == ("sphere", "kernel, of the peak", "52 %", "55 %")
     assert "jax on sphere, float32: RuntimeError: no" in foot(result)
     json.dumps(result.document(), allow_nan=False)
+
+
+def test_a_run_beside_other_programs_is_called_disturbed() -> None:
+    result = known()
+    assert "DISTURBED" not in foot(result)
+    noisy = replace(result, entries=(*result.entries[:-1], replace(result.entries[-1], others=1.5)))
+    assert "other programs used 1.5 cores, at worst. DISTURBED" in foot(noisy)
+
+
+@pytest.mark.skipif(not Path("/proc/stat").exists(), reason="this system does not say")
+def test_a_program_that_runs_is_noticed() -> None:
+    busy = subprocess.Popen([sys.executable, "-c", "while True: pass"])
+    try:
+        time.sleep(0.5)
+        assert max(busy_cores() or 0.0 for _ in range(5)) > 0.3
+    finally:
+        busy.kill()
+        busy.wait()
 
 
 def test_operations_are_counted_by_the_rule() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from rsrm_gen.bench.kernels import COMPARED, TOLERANCE, Kernels, Size
+from rsrm_gen.bench.quiet import LOUD
 from rsrm_gen.bench.table import Table, machine
 
 # What is aimed at with two threads in float32, 4096 points and 512 splats: times faster than eager torch, and than JAX.
@@ -48,13 +49,17 @@ def foot(result: Kernels) -> str:
             + (f"Measured peak of multiply-adds, 10^9 operations in a second: {peaks}." if peaks else ""),
             *(["Not timed: " + "; ".join(notes) + "."] if notes else []),
             *([f"Left out: {'; '.join(result.missing)}."] if result.missing else []),
-            f"Measured with {versions}. {machine()}{_load(result)}.",
+            f"Measured with {versions}. {machine()}.{_disturbed(result)}",
         ]
     )
 
 
-def _load(result: Kernels) -> str:
-    return "" if result.load_before is None else f", a load of {result.load_before:.1f} before the run"
+def _disturbed(result: Kernels) -> str:
+    if result.others is None:
+        return ""
+    used = f" Between the rounds other programs used {result.others:.1f} cores, at worst."
+    loud = " DISTURBED: these are not the figures of a quiet machine, and ratios say little, above all with several threads."
+    return used + (loud if result.others > LOUD else "")
 
 
 def _medians(result: Kernels, precision: str, threads: int) -> Table:

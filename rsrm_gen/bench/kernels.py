@@ -8,7 +8,6 @@ multiplies and adds (`peak.py`), measured at the beginning and at the end of the
 
 from __future__ import annotations
 
-import os
 import statistics
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
@@ -22,6 +21,7 @@ import numpy as np
 from rsrm_gen.bench.operations import pair_operations
 from rsrm_gen.bench.peak import fma_peak
 from rsrm_gen.bench.peers import bundled_name
+from rsrm_gen.bench.quiet import busy_cores
 from rsrm_gen.bench.steps import CONTENDERS, FORMULAS, Contender
 from rsrm_gen.bench.steps.crew import Crew, FailedError
 from rsrm_gen.bench.steps.problem import Problem, problem, read_problem
@@ -72,6 +72,7 @@ class Entry:
     seconds: tuple[float, ...] = ()
     first: float | None = None  # seconds of the first step, compilation included
     chunk: int | None = None  # points a chunk
+    others: float | None = None  # cores that other programs used between the samples, the mean
     note: str = ""  # why it is not timed
 
     @property
@@ -95,7 +96,6 @@ class Kernels:
     contenders: tuple[Contender, ...]
     missing: tuple[str, ...]
     rounds: int
-    load_before: float | None = None  # of the machine, before the run: processes that want a core
     versions: Mapping[str, str] = field(default_factory=dict)
 
     def entry(self, what: tuple[str, str, int, Size], contender: str) -> Entry | None:
@@ -130,6 +130,11 @@ class Kernels:
         return operations * points * splats / peak if operations and peak else None
 
     @property
+    def others(self) -> float | None:
+        """Cores that other programs used, the worst of all sizes; None where nobody knows."""
+        return max((e.others for e in self.entries if e.others is not None), default=None)
+
+    @property
     def timed(self) -> list[tuple[str, str, int, Size]]:
         """What entries are compared on, in the order of the run."""
         return list(dict.fromkeys(entry.what for entry in self.entries))
@@ -138,7 +143,7 @@ class Kernels:
         """Plain data for JSON."""
         return {
             "machine": machine(),
-            "load_before": self.load_before,
+            "others": self.others,
             "versions": dict(self.versions),
             "missing": list(self.missing),
             "peaks": [{"precision": p, "threads": t, "per_second": rate} for (p, t), rate in self.peaks.items()],
@@ -158,7 +163,6 @@ def kernels(plan: Plan, say: Callable[[str], None] = lambda words: None) -> Kern
     specs = [read_spec(file, parameters) for file, parameters in plan.cases]
     programs = {spec.identifier: lower(derive(spec)) for spec in specs}
     peaks = _peaks(plan)
-    load_before = _load()
     entries: list[Entry] = []
     with tempfile.TemporaryDirectory() as folder:
         scenes = [
@@ -183,7 +187,6 @@ def kernels(plan: Plan, say: Callable[[str], None] = lambda words: None) -> Kern
         contenders=contenders,
         missing=tuple(missing),
         rounds=plan.rounds,
-        load_before=load_before,
         versions=_versions("torch", "jax", "jaxlib", "numpy"),
     )
 
@@ -289,7 +292,7 @@ class _Run:
         for contender, words in self._wrong_losses(ready):
             failures[contender.key] = words
             del ready[contender]
-        samples = self._rounds(size, ready, failures)
+        samples, others = self._rounds(size, ready, failures)
         for c in self.contenders:
             prepared = ready.get(c, {})
             yield Entry(
@@ -302,6 +305,7 @@ class _Run:
                 seconds=tuple(samples.get(c.key, ())) if c.key not in failures else (),
                 first=prepared.get("first"),
                 chunk=prepared.get("chunk") if c.chunked else None,
+                others=others,
                 note=failures.get(c.key, ""),
             )
 
@@ -327,14 +331,17 @@ class _Run:
 
     def _rounds(
         self, size: Size, ready: Mapping[Contender, Mapping[str, Any]], failures: dict[str, str]
-    ) -> dict[str, list[float]]:
-        """Samples of each contender, one after the other in every round."""
+    ) -> tuple[dict[str, list[float]], float | None]:
+        """Samples of each contender, one after the other in every round; and the cores that others used between rounds."""
+        busy: list[float] = []
         samples: dict[str, list[float]] = {c.key: [] for c in ready}
         steps = {c: max(1, round(SAMPLE / prepared["seconds"])) for c, prepared in ready.items()}
         one = sum(prepared["seconds"] * steps[c] for c, prepared in ready.items())
         rounds = min(self.plan.rounds, max(FEWEST, int(self.plan.limit / one) if one else 0))
         for number in range(rounds):
             self.say(f"{self._title}, {size[0]} x {size[1]}: round {number + 1} of {rounds}")
+            now = busy_cores()
+            busy += [] if now is None else [now]
             for contender in ready:
                 if contender.key in failures:
                     continue
@@ -343,7 +350,7 @@ class _Run:
                     samples[contender.key].append(answer["seconds"])
                 except FailedError as failure:
                     failures[contender.key] = str(failure)
-        return samples
+        return samples, statistics.mean(busy) if busy else None
 
 
 def _peaks(plan: Plan) -> dict[tuple[str, int], float]:
@@ -351,11 +358,6 @@ def _peaks(plan: Plan) -> dict[tuple[str, int], float]:
     if compiler() is None:
         return {}
     return {(p, threads): fma_peak(p, threads) for p in plan.precisions for threads in plan.threads}
-
-
-def _load() -> float | None:
-    """The mean of the last minute."""
-    return os.getloadavg()[0] if hasattr(os, "getloadavg") else None
 
 
 def _versions(*packages: str) -> dict[str, str]:

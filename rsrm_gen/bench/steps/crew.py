@@ -10,12 +10,11 @@ import subprocess
 import sys
 import threading
 from collections.abc import Mapping
-from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
-import rsrm_gen
 from rsrm_gen.bench.steps import Contender
+from rsrm_gen.files import PACKAGE
 
 COMMAND = (sys.executable, "-m", "rsrm_gen.bench.steps.worker")
 START = 120.0  # seconds that a worker may take beyond what a request may: to start, and to import its libraries
@@ -99,8 +98,7 @@ class _Process:
 
 def environment(threads: int) -> dict[str, str]:
     """The variables by which libraries are told how many threads to take; JAX counts the cores that it may use."""
-    package = str(Path(rsrm_gen.__file__).parent.parent)
-    paths = [package, *filter(None, [os.environ.get("PYTHONPATH")])]
+    paths = [str(PACKAGE.parent), *filter(None, [os.environ.get("PYTHONPATH")])]
     counts = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), str(threads))
     return {
         **os.environ,
