@@ -8,6 +8,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 import pytest
 import torch
 from compiled import NAMES, needs_compiler
@@ -15,6 +16,7 @@ from torch import Tensor
 
 import rsrm_gen
 from rsrm_gen import Manifold, load
+from rsrm_gen.kernels import SplatKernel
 
 PARAMETERS = ("mu", "W", "amplitude")
 Splats = tuple[Tensor, Tensor, Tensor, Tensor]
@@ -66,6 +68,11 @@ def with_derivatives(result: tuple[Tensor, Tensor], tensors: Splats) -> dict[str
     return {"value": value.detach(), "gradient": gradient.detach(), **dict(zip(PARAMETERS, bars, strict=True))}
 
 
+def on_manifold(m: Manifold, tensors: Splats, found: dict[str, Tensor]) -> dict[str, Tensor]:
+    """The derivatives in mu as Riemannian gradients: off the manifold, splats are what each of the two makes of them."""
+    return {**found, "mu": m.riemannian_gradient(tensors[1].detach(), found["mu"])}
+
+
 def assert_close(found: dict[str, Tensor], expected: dict[str, Tensor], tolerance: float) -> None:
     """To the tolerance, in units of each tensor's norm."""
     for name, truth in expected.items():
@@ -84,7 +91,30 @@ def test_kernel_and_torch_agree(name: str, dtype: torch.dtype, tolerance: float)
     result = m.splats(*tensors)
     assert result[0].grad_fn is not None
     assert "_Splats" in type(result[0].grad_fn).__name__  # the kernel, not the torch code it is compared with
-    assert_close(with_derivatives(result, tensors), with_derivatives(in_torch(m, *tensors), tensors), tolerance)
+    found, expected = with_derivatives(result, tensors), with_derivatives(in_torch(m, *tensors), tensors)
+    assert_close(on_manifold(m, tensors, found), on_manifold(m, tensors, expected), tolerance)
+
+
+@needs_compiler
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(("dtype", "tolerance"), [(torch.float64, 1e-12), (torch.float32, 1e-5)])
+def test_values_alone_and_rows_are_the_same_sums(name: str, dtype: torch.dtype, tolerance: float) -> None:
+    m = load(name)
+    N, K = 37, 11
+    x, mu, W, amplitude = (t.detach().numpy() for t in some_splats(m, N, K, dtype))
+    m.splats(*some_splats(m, 1, 1, dtype))
+    kernel: SplatKernel = type(m).kernel  # type: ignore[attr-defined]
+    rng = np.random.default_rng(5)
+    value_bar, gradient_bar = (rng.normal(size=s).astype(x.dtype) for s in ((N,), (N, m.tangent_size)))
+    rows = np.empty((N, K, m.point_size + m.dim * m.tangent_size + 1), x.dtype)
+    kernel.call("splats_rows", N, K, x, mu, W, amplitude, value_bar, gradient_bar, rows)
+    bars = kernel.vjp(x, mu, W, amplitude, value_bar, gradient_bar)
+    summed = np.concatenate([bar.reshape(K, -1) for bar in bars], 1)
+    np.testing.assert_allclose(rows.sum(0), summed, rtol=0, atol=tolerance * np.abs(rows).sum(0).max())
+    value = np.empty(N, x.dtype)
+    kernel.call("splats_value", N, K, x, mu, W, amplitude, value)
+    both, _ = kernel.forward(x, mu, W, amplitude)
+    np.testing.assert_allclose(value, both, rtol=0, atol=tolerance * np.abs(both).max())
 
 
 @needs_compiler
@@ -109,7 +139,8 @@ def test_any_number_of_points_and_splats_will_do(points: int, splats: int) -> No
     found = with_derivatives(m.splats(*tensors), tensors)
     assert found["value"].shape == (points,)
     assert found["gradient"].shape == (points, m.tangent_size)
-    assert_close(found, with_derivatives(in_torch(m, *tensors), tensors), 1e-10)
+    expected = with_derivatives(in_torch(m, *tensors), tensors)
+    assert_close(on_manifold(m, tensors, found), on_manifold(m, tensors, expected), 1e-10)
 
 
 @needs_compiler
@@ -122,7 +153,7 @@ def test_several_threads_give_what_one_gives(dtype: torch.dtype) -> None:
     four = with_derivatives(m.splats(*tensors), tensors)
     assert torch.equal(one["value"], four["value"])
     assert torch.equal(one["gradient"], four["gradient"])
-    assert_close(four, one, 1e-13 if dtype == torch.float64 else 1e-5)
+    assert all(torch.equal(one[name], four[name]) for name in PARAMETERS)
 
 
 @needs_compiler
