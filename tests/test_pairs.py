@@ -65,10 +65,9 @@ def other_name(g: Geometry, x: list[Any]) -> list[Any]:
     return run(g["other_name"], x)[0] if "other_name" in g else x
 
 
-def split(name: str, parameters: dict[str, Any], at: Place, careful: bool = False) -> dict[str, list[Any]]:
+def split(name: str, parameters: dict[str, Any], at: Place) -> dict[str, list[Any]]:
     """Value, gradient and derivatives by the routines of `pairs`."""
-    p = program(name, **parameters)
-    pairs = (p.careful if careful else None) or p.pairs
+    pairs = program(name, **parameters).pairs
     own = at.mu, at.W, at.amplitude
     (X,), (S,) = interpret(pairs.features, at.x), interpret(pairs.constants, *own)
     value, slope = interpret(pairs.forward, X, S)
@@ -134,16 +133,3 @@ def test_a_split_does_not_repeat_for_pairs_what_belongs_to_one_side() -> None:
 
 def _reads(node: Node, name: str) -> bool:
     return any(n.op == "input" and n.value == name for n in reachable([node]))
-
-
-def test_far_out_the_authors_formulas_remain() -> None:
-    p = program("hyperbolic")
-    assert p.careful is not None
-    assert p.extent is not None
-    at = Place(geometry("hyperbolic"), 5)
-    found, expected = split("hyperbolic", {}, at, careful=True), whole("hyperbolic", {}, at)
-    assert largest(a - b for a, b in zip(found["gradient"], expected["gradient"], strict=True)) < TOLERANCE
-    ((extent,),) = interpret(p.extent, [mp.mpf(3), mp.mpf(2), mp.mpf(-2)])
-    assert extent == 17
-    assert program("sphere").careful is None
-    assert program("se3").careful is None

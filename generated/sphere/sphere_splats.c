@@ -267,19 +267,14 @@ OUTLINE void pair_constants(
     const vector M0 = 0.5 * mu0;
     const vector M1 = 0.5 * mu1;
     const vector M2 = 0.5 * mu2;
-    const vector squared = mu0 * mu0;
-    const vector gap = 1.0 - squared;
-    const vector product = mu0 * mu1;
-    const vector product_2 = mu0 * mu2;
-    const vector R0_0 = 1.4142135623730951 * (W0_0 * gap - W0_1 * product - W0_2 * product_2);
-    const vector gap_2 = 1.0 - mu1 * mu1;
-    const vector product_3 = mu1 * mu2;
-    const vector R0_1 = 1.4142135623730951 * (W0_1 * gap_2 - W0_0 * product - W0_2 * product_3);
-    const vector gap_3 = 1.0 - mu2 * mu2;
-    const vector R0_2 = 1.4142135623730951 * (-(W0_0 * product_2) - W0_1 * product_3 + W0_2 * gap_3);
-    const vector R1_0 = 1.4142135623730951 * (W1_0 * gap - W1_1 * product - W1_2 * product_2);
-    const vector R1_1 = 1.4142135623730951 * (W1_1 * gap_2 - W1_0 * product - W1_2 * product_3);
-    const vector R1_2 = 1.4142135623730951 * (-(W1_0 * product_2) - W1_1 * product_3 + W1_2 * gap_3);
+    const vector by_normal_part = -(mu2 * W0_2) - mu1 * W0_1 - mu0 * W0_0;
+    const vector R0_0 = 1.4142135623730951 * (W0_0 + mu0 * by_normal_part);
+    const vector R0_1 = 1.4142135623730951 * (W0_1 + mu1 * by_normal_part);
+    const vector R0_2 = 1.4142135623730951 * (W0_2 + mu2 * by_normal_part);
+    const vector by_normal_part_2 = -(mu2 * W1_2) - mu1 * W1_1 - mu0 * W1_0;
+    const vector R1_0 = 1.4142135623730951 * (W1_0 + mu0 * by_normal_part_2);
+    const vector R1_1 = 1.4142135623730951 * (W1_1 + mu1 * by_normal_part_2);
+    const vector R1_2 = 1.4142135623730951 * (W1_2 + mu2 * by_normal_part_2);
     const vector norm_q_plus_p = vector_sqrt(vector_of(0.0));
     const vector_mask on_cut_locus = norm_q_plus_p <= 4.0 * DBL_EPSILON;
     const vector log_value = vector_log(vector_of(0.7853981633974483 / DBL_EPSILON));
@@ -316,8 +311,12 @@ OUTLINE void pair_constants(
     const vector norm_w = vector_sqrt(vector_select(near, vector_of(1.0), norm_w_squared));
     const vector t_ratio = t / norm_w;
     const vector log_det = vector_select(near, log_det_near, vector_log(t_ratio));
+    const vector squared = mu0 * mu0;
     const vector_mask is_small_2 = squared < 0.5;
+    const vector gap = 1.0 - squared;
     const vector sine_to_axis0 = vector_sqrt(vector_select(is_small_2, gap, vector_of(1.0)));
+    const vector product = mu0 * mu1;
+    const vector gap_2 = 1.0 - mu1 * mu1;
     const vector sine_to_axis1 = vector_sqrt(vector_select(is_small_2, vector_of(1.0), gap_2));
     const vector t_over_norm_w_near = vector_polynomial_t_over_norm_w_near(near_chosen);
     const vector t_over_norm_w = vector_select(near, t_over_norm_w_near, t_ratio);
@@ -325,8 +324,9 @@ OUTLINE void pair_constants(
         sine_to_axis0, -(product / sine_to_axis1)), w0 * t_over_norm_w);
     const vector chosen_2 = vector_select(on_cut_locus, 3.141592653589793 * vector_select(is_small_2,
         -(product / sine_to_axis0), gap_2 / sine_to_axis1), w1 * t_over_norm_w);
-    const vector chosen_3 = vector_select(on_cut_locus, 3.141592653589793 * vector_select(is_small_2,
-        -(product_2 / sine_to_axis0), -(product_3 / sine_to_axis1)), w2 * t_over_norm_w);
+    const vector product_2 = 3.141592653589793 * vector_select(is_small_2, -(mu0 * mu2 / sine_to_axis0), -(mu1
+        * mu2 / sine_to_axis1));
+    const vector chosen_3 = vector_select(on_cut_locus, product_2, w2 * t_over_norm_w);
     const vector total_2 = W0_0 * chosen + W0_1 * chosen_2 + W0_2 * chosen_3;
     const vector total_3 = W1_0 * chosen + W1_1 * chosen_2 + W1_2 * chosen_3;
     const vector value_on_cut_locus = vector_exp(vector_select(on_cut_locus, log_value, log_det) - 0.5 *
@@ -481,11 +481,18 @@ OUTLINE void pair_constants_vjp(
     const vector R1_1_bar = S_bar[8];
     const vector R1_2_bar = S_bar[9];
     const vector value_on_cut_locus_bar = S_bar[10];
+    const vector by_normal_part = -(mu2 * W0_2) - mu1 * W0_1 - mu0 * W0_0;
     const vector product = 1.4142135623730951 * R0_0_bar;
-    const vector product_2 = 1.4142135623730951 * R0_2_bar;
-    const vector product_3 = 1.4142135623730951 * R1_0_bar;
-    const vector product_4 = 1.4142135623730951 * R1_2_bar;
-    const vector gap = -(W0_2 * product) - W0_0 * product_2 - W1_2 * product_3 - W1_0 * product_4;
+    const vector product_2 = 1.4142135623730951 * R0_1_bar;
+    const vector product_3 = 1.4142135623730951 * R0_2_bar;
+    const vector by_by_normal_part = mu0 * product + mu1 * product_2 + mu2 * product_3;
+    const vector by_normal_part_2 = -(mu2 * W1_2) - mu1 * W1_1 - mu0 * W1_0;
+    const vector product_4 = 1.4142135623730951 * R1_0_bar;
+    const vector product_5 = 1.4142135623730951 * R1_1_bar;
+    const vector product_6 = 1.4142135623730951 * R1_2_bar;
+    const vector by_by_normal_part_2 = mu0 * product_4 + mu1 * product_5 + mu2 * product_6;
+    const vector gap = 0.5 * M0_bar + by_normal_part * product - W0_0 * by_by_normal_part + by_normal_part_2 *
+        product_4 - W1_0 * by_by_normal_part_2;
     const vector squared = mu0 * mu0;
     const vector_mask is_small = squared < 0.5;
     const vector norm_q_plus_p = vector_sqrt(vector_of(0.0));
@@ -494,11 +501,11 @@ OUTLINE void pair_constants_vjp(
     const vector chosen = vector_select(is_small, gap_2, vector_of(1.0));
     const vector sine_to_axis0 = vector_sqrt(chosen);
     const vector ratio = gap_2 / sine_to_axis0;
-    const vector product_5 = mu0 * mu1;
+    const vector product_7 = mu0 * mu1;
     const vector gap_3 = 1.0 - mu1 * mu1;
     const vector chosen_2 = vector_select(is_small, vector_of(1.0), gap_3);
     const vector sine_to_axis1 = vector_sqrt(chosen_2);
-    const vector ratio_2 = product_5 / sine_to_axis1;
+    const vector ratio_2 = product_7 / sine_to_axis1;
     const vector q0_off_cut = vector_select(on_cut_locus, mu0, -mu0);
     const vector q1_off_cut = vector_select(on_cut_locus, mu1, -mu1);
     const vector q2_off_cut = vector_select(on_cut_locus, mu2, -mu2);
@@ -534,14 +541,12 @@ OUTLINE void pair_constants_vjp(
     const vector t_over_norm_w = vector_select(near, t_over_norm_w_near, t_ratio);
     const vector chosen_3 = vector_select(on_cut_locus, 3.141592653589793 * vector_select(is_small, ratio,
         -ratio_2), w0 * t_over_norm_w);
-    const vector ratio_3 = product_5 / sine_to_axis0;
+    const vector ratio_3 = product_7 / sine_to_axis0;
     const vector ratio_4 = gap_3 / sine_to_axis1;
     const vector chosen_4 = vector_select(on_cut_locus, 3.141592653589793 * vector_select(is_small, -ratio_3,
         ratio_4), w1 * t_over_norm_w);
-    const vector product_6 = mu0 * mu2;
-    const vector ratio_5 = product_6 / sine_to_axis0;
-    const vector product_7 = mu1 * mu2;
-    const vector ratio_6 = product_7 / sine_to_axis1;
+    const vector ratio_5 = mu0 * mu2 / sine_to_axis0;
+    const vector ratio_6 = mu1 * mu2 / sine_to_axis1;
     const vector chosen_5 = vector_select(on_cut_locus, 3.141592653589793 * vector_select(is_small, -ratio_5,
         -ratio_6), w2 * t_over_norm_w);
     const vector total_2 = W1_0 * chosen_3 + W1_1 * chosen_4 + W1_2 * chosen_5;
@@ -558,36 +563,32 @@ OUTLINE void pair_constants_vjp(
     const vector gap_4 = -(W1_2 * product_9) - W0_2 * product_10;
     const vector product_11 = 3.141592653589793 * vector_select(on_cut_locus, gap_4, vector_of(0.0));
     const vector ratio_7 = vector_select(is_small, product_11, vector_of(0.0)) / sine_to_axis0;
-    const vector gap_5 = gap - ratio_7;
-    const vector product_12 = 1.4142135623730951 * R0_1_bar;
-    const vector product_13 = 1.4142135623730951 * R1_1_bar;
-    const vector gap_6 = -(W0_1 * product) - W0_0 * product_12 - W1_1 * product_3 - W1_0 * product_13;
-    const vector gap_7 = -(W1_1 * product_9) - W0_1 * product_10;
-    const vector product_14 = 3.141592653589793 * vector_select(on_cut_locus, gap_7, vector_of(0.0));
-    const vector ratio_8 = vector_select(is_small, product_14, vector_of(0.0)) / sine_to_axis0;
-    const vector gap_8 = -(W1_0 * product_9) - W0_0 * product_10;
-    const vector product_15 = 3.141592653589793 * vector_select(on_cut_locus, gap_8, vector_of(0.0));
-    const vector ratio_9 = vector_select(is_small, vector_of(0.0), product_15) / sine_to_axis1;
-    const vector gap_9 = gap_6 - ratio_8 - ratio_9;
-    const vector ratio_10 = vector_select(is_small, product_15, vector_of(0.0)) / sine_to_axis0;
+    const vector gap_5 = -(W1_1 * product_9) - W0_1 * product_10;
+    const vector product_12 = 3.141592653589793 * vector_select(on_cut_locus, gap_5, vector_of(0.0));
+    const vector ratio_8 = vector_select(is_small, product_12, vector_of(0.0)) / sine_to_axis0;
+    const vector gap_6 = -(W1_0 * product_9) - W0_0 * product_10;
+    const vector product_13 = 3.141592653589793 * vector_select(on_cut_locus, gap_6, vector_of(0.0));
+    const vector ratio_9 = vector_select(is_small, vector_of(0.0), product_13) / sine_to_axis1;
+    const vector gap_7 = -ratio_8 - ratio_9;
+    const vector ratio_10 = vector_select(is_small, product_13, vector_of(0.0)) / sine_to_axis0;
     const vector_mask is_small_3 = chosen == 0.0;
     const vector by_sine_to_axis0 = ratio_5 * ratio_7 + ratio_3 * ratio_8 - ratio * ratio_10;
     const vector chosen_6 = vector_select(is_small, vector_select(is_small_3, vector_of(0.0), by_sine_to_axis0
         / (2.0 * vector_select(is_small_3, vector_of(1.0), sine_to_axis0))), vector_of(0.0));
-    const vector product_16 = 2.0 * (W0_0 * product + W1_0 * product_3 + ratio_10 + chosen_6);
-    const vector chosen_7 = vector_select(on_cut_locus, vector_of(0.0), gap_8);
+    const vector chosen_7 = vector_select(on_cut_locus, vector_of(0.0), gap_6);
     const vector chosen_8 = vector_select(on_cut_locus, vector_of(0.0), gap_4);
-    const vector chosen_9 = vector_select(on_cut_locus, vector_of(0.0), gap_7);
+    const vector chosen_9 = vector_select(on_cut_locus, vector_of(0.0), gap_5);
     const vector by_t_over_norm_w = w2 * chosen_8 + w1 * chosen_9 + w0 * chosen_7;
     const vector by_log_det = vector_select(on_cut_locus, vector_of(0.0), product_8);
     const vector by_t = (vector_select(near, vector_of(0.0), by_t_over_norm_w) + vector_select(near,
         vector_of(0.0), by_log_det) / t_ratio) / norm_w;
     const vector by_norm_w_squared = vector_select(near, vector_of(0.0), -(t_ratio * by_t / (2.0 * norm_w)));
-    const vector product_17 = 2.0 * by_norm_w_squared;
-    const vector by_w0 = t_over_norm_w * chosen_7 + w0 * product_17;
-    const vector gap_10 = 0.5 * M0_bar + mu2 * gap_5 + mu1 * gap_9 - mu0 * product_16 - dot_p_e * by_w0;
-    const vector by_w2 = t_over_norm_w * chosen_8 + w2 * product_17;
-    const vector by_w1 = t_over_norm_w * chosen_9 + w1 * product_17;
+    const vector product_14 = 2.0 * by_norm_w_squared;
+    const vector by_w0 = t_over_norm_w * chosen_7 + w0 * product_14;
+    const vector gap_8 = gap - mu2 * ratio_7 + mu1 * gap_7 - mu0 * (2.0 * (ratio_10 + chosen_6)) - dot_p_e *
+        by_w0;
+    const vector by_w2 = t_over_norm_w * chosen_8 + w2 * product_14;
+    const vector by_w1 = t_over_norm_w * chosen_9 + w1 * product_14;
     const vector by_dot_p_e = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
     const vector by_e0 = by_w0 + mu0 * by_dot_p_e;
     const vector_mask is_small_4 = norm_q_plus_p_squared_2 == 0.0;
@@ -595,8 +596,8 @@ OUTLINE void pair_constants_vjp(
     const vector ratio_11 = by_atan2_value / (near_chosen_2 + norm_q_plus_p_squared_2);
     const vector by_norm_q_plus_p_squared_2 = vector_select(is_small_4, vector_of(0.0), -(norm_d * ratio_11 /
         (2.0 * vector_select(is_small_4, vector_of(1.0), norm_q_plus_p_2))));
-    const vector product_18 = 2.0 * by_norm_q_plus_p_squared_2;
-    const vector by_q_plus_p0_2 = vector_select(is_small_2, by_e0, vector_of(0.0)) + q_plus_p0_2 * product_18;
+    const vector product_15 = 2.0 * by_norm_q_plus_p_squared_2;
+    const vector by_q_plus_p0_2 = vector_select(is_small_2, by_e0, vector_of(0.0)) + q_plus_p0_2 * product_15;
     const vector by_norm_d = norm_q_plus_p_2 * ratio_11;
     const vector by_log_det_near = vector_select(near, by_log_det, vector_of(0.0));
     const vector by_t_over_norm_w_near = vector_select(near, by_t_over_norm_w, vector_of(0.0));
@@ -606,48 +607,43 @@ OUTLINE void pair_constants_vjp(
     const vector by_norm_d_squared = vector_select(near, vector_of(0.0), by_norm_d / (2.0 * norm_d)) +
         log_det_series * by_log_det_near + 1.0024911906086624 * vector_select(near, by_t_over_norm_w_near *
         t_over_norm_w_near_slope + by_log_det_series * log_det_series_slope, vector_of(0.0));
-    const vector product_19 = 2.0 * by_norm_d_squared;
-    const vector by_d0 = vector_select(is_small_2, vector_of(0.0), by_e0) + d0 * product_19;
+    const vector product_16 = 2.0 * by_norm_d_squared;
+    const vector by_d0 = vector_select(is_small_2, vector_of(0.0), by_e0) + d0 * product_16;
     const vector by_q0_off_cut = by_q_plus_p0_2 + by_d0;
-    const vector total_4 = gap_10 + e0 * by_dot_p_e + by_q_plus_p0_2 - by_d0 + vector_select(on_cut_locus,
+    const vector total_4 = gap_8 + e0 * by_dot_p_e + by_q_plus_p0_2 - by_d0 + vector_select(on_cut_locus,
         by_q0_off_cut, vector_of(0.0));
-    const vector gap_11 = -(W0_2 * product_12) - W0_1 * product_2 - W1_2 * product_13 - W1_1 * product_4;
+    const vector gap_9 = 0.5 * M1_bar + by_normal_part * product_2 - W0_1 * by_by_normal_part +
+        by_normal_part_2 * product_5 - W1_1 * by_by_normal_part_2;
     const vector ratio_12 = vector_select(is_small, vector_of(0.0), product_11) / sine_to_axis1;
-    const vector gap_12 = gap_11 - ratio_12;
-    const vector ratio_13 = vector_select(is_small, vector_of(0.0), product_14) / sine_to_axis1;
+    const vector ratio_13 = vector_select(is_small, vector_of(0.0), product_12) / sine_to_axis1;
     const vector_mask is_small_5 = chosen_2 == 0.0;
     const vector by_sine_to_axis1 = ratio_6 * ratio_12 - ratio_4 * ratio_13 + ratio_2 * ratio_9;
     const vector chosen_10 = vector_select(is_small, vector_of(0.0), vector_select(is_small_5, vector_of(0.0),
         by_sine_to_axis1 / (2.0 * vector_select(is_small_5, vector_of(1.0), sine_to_axis1))));
-    const vector product_20 = 2.0 * (W0_1 * product_12 + W1_1 * product_13 + ratio_13 + chosen_10);
-    const vector gap_13 = 0.5 * M1_bar + mu2 * gap_12 - mu1 * product_20 + mu0 * gap_9 - dot_p_e * by_w1;
+    const vector total_5 = gap_9 - mu2 * ratio_12 - mu1 * (2.0 * (ratio_13 + chosen_10)) + mu0 * gap_7;
     const vector by_e1 = by_w1 + mu1 * by_dot_p_e;
-    const vector by_q_plus_p1_2 = vector_select(is_small_2, by_e1, vector_of(0.0)) + q_plus_p1_2 * product_18;
-    const vector by_d1 = vector_select(is_small_2, vector_of(0.0), by_e1) + d1 * product_19;
+    const vector by_q_plus_p1_2 = vector_select(is_small_2, by_e1, vector_of(0.0)) + q_plus_p1_2 * product_15;
+    const vector by_d1 = vector_select(is_small_2, vector_of(0.0), by_e1) + d1 * product_16;
+    const vector by_d1_gap = total_5 - dot_p_e * by_w1 + e1 * by_dot_p_e + by_q_plus_p1_2 - by_d1;
     const vector by_q1_off_cut = by_q_plus_p1_2 + by_d1;
-    const vector total_5 = gap_13 + e1 * by_dot_p_e + by_q_plus_p1_2 - by_d1 + vector_select(on_cut_locus,
-        by_q1_off_cut, vector_of(0.0));
-    const vector gap_14 = 0.5 * M2_bar - mu2 * (2.0 * (W0_2 * product_2 + W1_2 * product_4));
-    const vector total_6 = gap_14 + mu1 * gap_12 + mu0 * gap_5 - dot_p_e * by_w2 + e2 * by_dot_p_e;
+    const vector gap_10 = 0.5 * M2_bar + by_normal_part * product_3 - W0_2 * by_by_normal_part +
+        by_normal_part_2 * product_6 - W1_2 * by_by_normal_part_2;
+    const vector total_6 = gap_10 - mu1 * ratio_12 - mu0 * ratio_7 - dot_p_e * by_w2 + e2 * by_dot_p_e;
     const vector by_e2 = by_w2 + mu2 * by_dot_p_e;
-    const vector by_q_plus_p2_2 = vector_select(is_small_2, by_e2, vector_of(0.0)) + q_plus_p2_2 * product_18;
-    const vector by_d2 = vector_select(is_small_2, vector_of(0.0), by_e2) + d2 * product_19;
+    const vector by_q_plus_p2_2 = vector_select(is_small_2, by_e2, vector_of(0.0)) + q_plus_p2_2 * product_15;
+    const vector by_d2 = vector_select(is_small_2, vector_of(0.0), by_e2) + d2 * product_16;
     const vector by_q2_off_cut = by_q_plus_p2_2 + by_d2;
-    const vector gap_15 = 1.0 - mu2 * mu2;
-    const vector gap_16 = -(product_6 * product) - product_7 * product_12 + gap_15 * product_2 - chosen_5 *
-        product_10;
-    const vector gap_17 = -(product_6 * product_3) - product_7 * product_13 + gap_15 * product_4 - chosen_5 *
-        product_9;
     mu_bar[0] = total_4 - vector_select(on_cut_locus, vector_of(0.0), by_q0_off_cut);
-    mu_bar[1] = total_5 - vector_select(on_cut_locus, vector_of(0.0), by_q1_off_cut);
+    mu_bar[1] = by_d1_gap + vector_select(on_cut_locus, by_q1_off_cut, vector_of(0.0)) -
+            vector_select(on_cut_locus, vector_of(0.0), by_q1_off_cut);
     mu_bar[2] = total_6 + by_q_plus_p2_2 - by_d2 + vector_select(on_cut_locus, by_q2_off_cut, vector_of(0.0))
             - vector_select(on_cut_locus, vector_of(0.0), by_q2_off_cut);
-    W_bar[0] = gap_2 * product - product_5 * product_12 - product_6 * product_2 - chosen_3 * product_10;
-    W_bar[1] = gap_3 * product_12 - product_5 * product - product_7 * product_2 - chosen_4 * product_10;
-    W_bar[2] = gap_16;
-    W_bar[3] = gap_2 * product_3 - product_5 * product_13 - product_6 * product_4 - chosen_3 * product_9;
-    W_bar[4] = gap_3 * product_13 - product_5 * product_3 - product_7 * product_4 - chosen_4 * product_9;
-    W_bar[5] = gap_17;
+    W_bar[0] = product - mu0 * by_by_normal_part - chosen_3 * product_10;
+    W_bar[1] = product_2 - mu1 * by_by_normal_part - chosen_4 * product_10;
+    W_bar[2] = product_3 - mu2 * by_by_normal_part - chosen_5 * product_10;
+    W_bar[3] = product_4 - mu0 * by_by_normal_part_2 - chosen_3 * product_9;
+    W_bar[4] = product_5 - mu1 * by_by_normal_part_2 - chosen_4 * product_9;
+    W_bar[5] = product_6 - mu2 * by_by_normal_part_2 - chosen_5 * product_9;
     amplitude_bar[0] = its_amplitude_bar;
 }
 
@@ -1121,19 +1117,14 @@ OUTLINE void pair_constants_f(
     const vector_f M0 = 0.5f * mu0;
     const vector_f M1 = 0.5f * mu1;
     const vector_f M2 = 0.5f * mu2;
-    const vector_f squared = mu0 * mu0;
-    const vector_f gap = 1.0f - squared;
-    const vector_f product = mu0 * mu1;
-    const vector_f product_2 = mu0 * mu2;
-    const vector_f R0_0 = 1.4142135623730951f * (W0_0 * gap - W0_1 * product - W0_2 * product_2);
-    const vector_f gap_2 = 1.0f - mu1 * mu1;
-    const vector_f product_3 = mu1 * mu2;
-    const vector_f R0_1 = 1.4142135623730951f * (W0_1 * gap_2 - W0_0 * product - W0_2 * product_3);
-    const vector_f gap_3 = 1.0f - mu2 * mu2;
-    const vector_f R0_2 = 1.4142135623730951f * (-(W0_0 * product_2) - W0_1 * product_3 + W0_2 * gap_3);
-    const vector_f R1_0 = 1.4142135623730951f * (W1_0 * gap - W1_1 * product - W1_2 * product_2);
-    const vector_f R1_1 = 1.4142135623730951f * (W1_1 * gap_2 - W1_0 * product - W1_2 * product_3);
-    const vector_f R1_2 = 1.4142135623730951f * (-(W1_0 * product_2) - W1_1 * product_3 + W1_2 * gap_3);
+    const vector_f by_normal_part = -(mu2 * W0_2) - mu1 * W0_1 - mu0 * W0_0;
+    const vector_f R0_0 = 1.4142135623730951f * (W0_0 + mu0 * by_normal_part);
+    const vector_f R0_1 = 1.4142135623730951f * (W0_1 + mu1 * by_normal_part);
+    const vector_f R0_2 = 1.4142135623730951f * (W0_2 + mu2 * by_normal_part);
+    const vector_f by_normal_part_2 = -(mu2 * W1_2) - mu1 * W1_1 - mu0 * W1_0;
+    const vector_f R1_0 = 1.4142135623730951f * (W1_0 + mu0 * by_normal_part_2);
+    const vector_f R1_1 = 1.4142135623730951f * (W1_1 + mu1 * by_normal_part_2);
+    const vector_f R1_2 = 1.4142135623730951f * (W1_2 + mu2 * by_normal_part_2);
     const vector_f norm_q_plus_p = vector_sqrt_f(vector_of_f(0.0f));
     const vector_mask_f on_cut_locus = norm_q_plus_p <= 4.0f * FLT_EPSILON;
     const vector_f log_value = vector_log_f(vector_of_f(0.7853981633974483f / FLT_EPSILON));
@@ -1171,8 +1162,12 @@ OUTLINE void pair_constants_f(
     const vector_f norm_w = vector_sqrt_f(vector_select_f(near, vector_of_f(1.0f), norm_w_squared));
     const vector_f t_ratio = t / norm_w;
     const vector_f log_det = vector_select_f(near, log_det_near, vector_log_f(t_ratio));
+    const vector_f squared = mu0 * mu0;
     const vector_mask_f is_small_2 = squared < 0.5f;
+    const vector_f gap = 1.0f - squared;
     const vector_f sine_to_axis0 = vector_sqrt_f(vector_select_f(is_small_2, gap, vector_of_f(1.0f)));
+    const vector_f product = mu0 * mu1;
+    const vector_f gap_2 = 1.0f - mu1 * mu1;
     const vector_f sine_to_axis1 = vector_sqrt_f(vector_select_f(is_small_2, vector_of_f(1.0f), gap_2));
     const vector_f t_over_norm_w_near = vector_polynomial_t_over_norm_w_near_f(near_chosen);
     const vector_f t_over_norm_w = vector_select_f(near, t_over_norm_w_near, t_ratio);
@@ -1180,8 +1175,9 @@ OUTLINE void pair_constants_f(
         / sine_to_axis0, -(product / sine_to_axis1)), w0 * t_over_norm_w);
     const vector_f chosen_2 = vector_select_f(on_cut_locus, 3.141592653589793f * vector_select_f(is_small_2,
         -(product / sine_to_axis0), gap_2 / sine_to_axis1), w1 * t_over_norm_w);
-    const vector_f chosen_3 = vector_select_f(on_cut_locus, 3.141592653589793f * vector_select_f(is_small_2,
-        -(product_2 / sine_to_axis0), -(product_3 / sine_to_axis1)), w2 * t_over_norm_w);
+    const vector_f product_2 = 3.141592653589793f * vector_select_f(is_small_2, -(mu0 * mu2 / sine_to_axis0),
+        -(mu1 * mu2 / sine_to_axis1));
+    const vector_f chosen_3 = vector_select_f(on_cut_locus, product_2, w2 * t_over_norm_w);
     const vector_f total_2 = W0_0 * chosen + W0_1 * chosen_2 + W0_2 * chosen_3;
     const vector_f total_3 = W1_0 * chosen + W1_1 * chosen_2 + W1_2 * chosen_3;
     const vector_f value_on_cut_locus = vector_exp_f(vector_select_f(on_cut_locus, log_value, log_det) - 0.5f
@@ -1337,11 +1333,18 @@ OUTLINE void pair_constants_vjp_f(
     const vector_f R1_1_bar = S_bar[8];
     const vector_f R1_2_bar = S_bar[9];
     const vector_f value_on_cut_locus_bar = S_bar[10];
+    const vector_f by_normal_part = -(mu2 * W0_2) - mu1 * W0_1 - mu0 * W0_0;
     const vector_f product = 1.4142135623730951f * R0_0_bar;
-    const vector_f product_2 = 1.4142135623730951f * R0_2_bar;
-    const vector_f product_3 = 1.4142135623730951f * R1_0_bar;
-    const vector_f product_4 = 1.4142135623730951f * R1_2_bar;
-    const vector_f gap = -(W0_2 * product) - W0_0 * product_2 - W1_2 * product_3 - W1_0 * product_4;
+    const vector_f product_2 = 1.4142135623730951f * R0_1_bar;
+    const vector_f product_3 = 1.4142135623730951f * R0_2_bar;
+    const vector_f by_by_normal_part = mu0 * product + mu1 * product_2 + mu2 * product_3;
+    const vector_f by_normal_part_2 = -(mu2 * W1_2) - mu1 * W1_1 - mu0 * W1_0;
+    const vector_f product_4 = 1.4142135623730951f * R1_0_bar;
+    const vector_f product_5 = 1.4142135623730951f * R1_1_bar;
+    const vector_f product_6 = 1.4142135623730951f * R1_2_bar;
+    const vector_f by_by_normal_part_2 = mu0 * product_4 + mu1 * product_5 + mu2 * product_6;
+    const vector_f gap = 0.5f * M0_bar + by_normal_part * product - W0_0 * by_by_normal_part +
+        by_normal_part_2 * product_4 - W1_0 * by_by_normal_part_2;
     const vector_f squared = mu0 * mu0;
     const vector_mask_f is_small = squared < 0.5f;
     const vector_f norm_q_plus_p = vector_sqrt_f(vector_of_f(0.0f));
@@ -1350,11 +1353,11 @@ OUTLINE void pair_constants_vjp_f(
     const vector_f chosen = vector_select_f(is_small, gap_2, vector_of_f(1.0f));
     const vector_f sine_to_axis0 = vector_sqrt_f(chosen);
     const vector_f ratio = gap_2 / sine_to_axis0;
-    const vector_f product_5 = mu0 * mu1;
+    const vector_f product_7 = mu0 * mu1;
     const vector_f gap_3 = 1.0f - mu1 * mu1;
     const vector_f chosen_2 = vector_select_f(is_small, vector_of_f(1.0f), gap_3);
     const vector_f sine_to_axis1 = vector_sqrt_f(chosen_2);
-    const vector_f ratio_2 = product_5 / sine_to_axis1;
+    const vector_f ratio_2 = product_7 / sine_to_axis1;
     const vector_f q0_off_cut = vector_select_f(on_cut_locus, mu0, -mu0);
     const vector_f q1_off_cut = vector_select_f(on_cut_locus, mu1, -mu1);
     const vector_f q2_off_cut = vector_select_f(on_cut_locus, mu2, -mu2);
@@ -1391,14 +1394,12 @@ OUTLINE void pair_constants_vjp_f(
     const vector_f t_over_norm_w = vector_select_f(near, t_over_norm_w_near, t_ratio);
     const vector_f chosen_3 = vector_select_f(on_cut_locus, 3.141592653589793f * vector_select_f(is_small,
         ratio, -ratio_2), w0 * t_over_norm_w);
-    const vector_f ratio_3 = product_5 / sine_to_axis0;
+    const vector_f ratio_3 = product_7 / sine_to_axis0;
     const vector_f ratio_4 = gap_3 / sine_to_axis1;
     const vector_f chosen_4 = vector_select_f(on_cut_locus, 3.141592653589793f * vector_select_f(is_small,
         -ratio_3, ratio_4), w1 * t_over_norm_w);
-    const vector_f product_6 = mu0 * mu2;
-    const vector_f ratio_5 = product_6 / sine_to_axis0;
-    const vector_f product_7 = mu1 * mu2;
-    const vector_f ratio_6 = product_7 / sine_to_axis1;
+    const vector_f ratio_5 = mu0 * mu2 / sine_to_axis0;
+    const vector_f ratio_6 = mu1 * mu2 / sine_to_axis1;
     const vector_f chosen_5 = vector_select_f(on_cut_locus, 3.141592653589793f * vector_select_f(is_small,
         -ratio_5, -ratio_6), w2 * t_over_norm_w);
     const vector_f total_2 = W1_0 * chosen_3 + W1_1 * chosen_4 + W1_2 * chosen_5;
@@ -1415,38 +1416,34 @@ OUTLINE void pair_constants_vjp_f(
     const vector_f gap_4 = -(W1_2 * product_9) - W0_2 * product_10;
     const vector_f product_11 = 3.141592653589793f * vector_select_f(on_cut_locus, gap_4, vector_of_f(0.0f));
     const vector_f ratio_7 = vector_select_f(is_small, product_11, vector_of_f(0.0f)) / sine_to_axis0;
-    const vector_f gap_5 = gap - ratio_7;
-    const vector_f product_12 = 1.4142135623730951f * R0_1_bar;
-    const vector_f product_13 = 1.4142135623730951f * R1_1_bar;
-    const vector_f gap_6 = -(W0_1 * product) - W0_0 * product_12 - W1_1 * product_3 - W1_0 * product_13;
-    const vector_f gap_7 = -(W1_1 * product_9) - W0_1 * product_10;
-    const vector_f product_14 = 3.141592653589793f * vector_select_f(on_cut_locus, gap_7, vector_of_f(0.0f));
-    const vector_f ratio_8 = vector_select_f(is_small, product_14, vector_of_f(0.0f)) / sine_to_axis0;
-    const vector_f gap_8 = -(W1_0 * product_9) - W0_0 * product_10;
-    const vector_f product_15 = 3.141592653589793f * vector_select_f(on_cut_locus, gap_8, vector_of_f(0.0f));
-    const vector_f ratio_9 = vector_select_f(is_small, vector_of_f(0.0f), product_15) / sine_to_axis1;
-    const vector_f gap_9 = gap_6 - ratio_8 - ratio_9;
-    const vector_f ratio_10 = vector_select_f(is_small, product_15, vector_of_f(0.0f)) / sine_to_axis0;
+    const vector_f gap_5 = -(W1_1 * product_9) - W0_1 * product_10;
+    const vector_f product_12 = 3.141592653589793f * vector_select_f(on_cut_locus, gap_5, vector_of_f(0.0f));
+    const vector_f ratio_8 = vector_select_f(is_small, product_12, vector_of_f(0.0f)) / sine_to_axis0;
+    const vector_f gap_6 = -(W1_0 * product_9) - W0_0 * product_10;
+    const vector_f product_13 = 3.141592653589793f * vector_select_f(on_cut_locus, gap_6, vector_of_f(0.0f));
+    const vector_f ratio_9 = vector_select_f(is_small, vector_of_f(0.0f), product_13) / sine_to_axis1;
+    const vector_f gap_7 = -ratio_8 - ratio_9;
+    const vector_f ratio_10 = vector_select_f(is_small, product_13, vector_of_f(0.0f)) / sine_to_axis0;
     const vector_mask_f is_small_3 = chosen == 0.0f;
     const vector_f by_sine_to_axis0 = ratio_5 * ratio_7 + ratio_3 * ratio_8 - ratio * ratio_10;
     const vector_f chosen_6 = vector_select_f(is_small, vector_select_f(is_small_3, vector_of_f(0.0f),
         by_sine_to_axis0 / (2.0f * vector_select_f(is_small_3, vector_of_f(1.0f), sine_to_axis0))),
         vector_of_f(0.0f));
-    const vector_f product_16 = 2.0f * (W0_0 * product + W1_0 * product_3 + ratio_10 + chosen_6);
-    const vector_f chosen_7 = vector_select_f(on_cut_locus, vector_of_f(0.0f), gap_8);
+    const vector_f chosen_7 = vector_select_f(on_cut_locus, vector_of_f(0.0f), gap_6);
     const vector_f chosen_8 = vector_select_f(on_cut_locus, vector_of_f(0.0f), gap_4);
-    const vector_f chosen_9 = vector_select_f(on_cut_locus, vector_of_f(0.0f), gap_7);
+    const vector_f chosen_9 = vector_select_f(on_cut_locus, vector_of_f(0.0f), gap_5);
     const vector_f by_t_over_norm_w = w2 * chosen_8 + w1 * chosen_9 + w0 * chosen_7;
     const vector_f by_log_det = vector_select_f(on_cut_locus, vector_of_f(0.0f), product_8);
     const vector_f by_t = (vector_select_f(near, vector_of_f(0.0f), by_t_over_norm_w) + vector_select_f(near,
         vector_of_f(0.0f), by_log_det) / t_ratio) / norm_w;
     const vector_f by_norm_w_squared = vector_select_f(near, vector_of_f(0.0f), -(t_ratio * by_t / (2.0f *
         norm_w)));
-    const vector_f product_17 = 2.0f * by_norm_w_squared;
-    const vector_f by_w0 = t_over_norm_w * chosen_7 + w0 * product_17;
-    const vector_f gap_10 = 0.5f * M0_bar + mu2 * gap_5 + mu1 * gap_9 - mu0 * product_16 - dot_p_e * by_w0;
-    const vector_f by_w2 = t_over_norm_w * chosen_8 + w2 * product_17;
-    const vector_f by_w1 = t_over_norm_w * chosen_9 + w1 * product_17;
+    const vector_f product_14 = 2.0f * by_norm_w_squared;
+    const vector_f by_w0 = t_over_norm_w * chosen_7 + w0 * product_14;
+    const vector_f gap_8 = gap - mu2 * ratio_7 + mu1 * gap_7 - mu0 * (2.0f * (ratio_10 + chosen_6)) - dot_p_e
+        * by_w0;
+    const vector_f by_w2 = t_over_norm_w * chosen_8 + w2 * product_14;
+    const vector_f by_w1 = t_over_norm_w * chosen_9 + w1 * product_14;
     const vector_f by_dot_p_e = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
     const vector_f by_e0 = by_w0 + mu0 * by_dot_p_e;
     const vector_mask_f is_small_4 = norm_q_plus_p_squared_2 == 0.0f;
@@ -1454,9 +1451,9 @@ OUTLINE void pair_constants_vjp_f(
     const vector_f ratio_11 = by_atan2_value / (near_chosen_2 + norm_q_plus_p_squared_2);
     const vector_f by_norm_q_plus_p_squared_2 = vector_select_f(is_small_4, vector_of_f(0.0f), -(norm_d *
         ratio_11 / (2.0f * vector_select_f(is_small_4, vector_of_f(1.0f), norm_q_plus_p_2))));
-    const vector_f product_18 = 2.0f * by_norm_q_plus_p_squared_2;
+    const vector_f product_15 = 2.0f * by_norm_q_plus_p_squared_2;
     const vector_f by_q_plus_p0_2 = vector_select_f(is_small_2, by_e0, vector_of_f(0.0f)) + q_plus_p0_2 *
-        product_18;
+        product_15;
     const vector_f by_norm_d = norm_q_plus_p_2 * ratio_11;
     const vector_f by_log_det_near = vector_select_f(near, by_log_det, vector_of_f(0.0f));
     const vector_f by_t_over_norm_w_near = vector_select_f(near, by_t_over_norm_w, vector_of_f(0.0f));
@@ -1466,51 +1463,46 @@ OUTLINE void pair_constants_vjp_f(
     const vector_f by_norm_d_squared = vector_select_f(near, vector_of_f(0.0f), by_norm_d / (2.0f * norm_d)) +
         log_det_series * by_log_det_near + 1.0024911906086624f * vector_select_f(near, by_t_over_norm_w_near *
         t_over_norm_w_near_slope + by_log_det_series * log_det_series_slope, vector_of_f(0.0f));
-    const vector_f product_19 = 2.0f * by_norm_d_squared;
-    const vector_f by_d0 = vector_select_f(is_small_2, vector_of_f(0.0f), by_e0) + d0 * product_19;
+    const vector_f product_16 = 2.0f * by_norm_d_squared;
+    const vector_f by_d0 = vector_select_f(is_small_2, vector_of_f(0.0f), by_e0) + d0 * product_16;
     const vector_f by_q0_off_cut = by_q_plus_p0_2 + by_d0;
-    const vector_f total_4 = gap_10 + e0 * by_dot_p_e + by_q_plus_p0_2 - by_d0 + vector_select_f(on_cut_locus,
+    const vector_f total_4 = gap_8 + e0 * by_dot_p_e + by_q_plus_p0_2 - by_d0 + vector_select_f(on_cut_locus,
         by_q0_off_cut, vector_of_f(0.0f));
-    const vector_f gap_11 = -(W0_2 * product_12) - W0_1 * product_2 - W1_2 * product_13 - W1_1 * product_4;
+    const vector_f gap_9 = 0.5f * M1_bar + by_normal_part * product_2 - W0_1 * by_by_normal_part +
+        by_normal_part_2 * product_5 - W1_1 * by_by_normal_part_2;
     const vector_f ratio_12 = vector_select_f(is_small, vector_of_f(0.0f), product_11) / sine_to_axis1;
-    const vector_f gap_12 = gap_11 - ratio_12;
-    const vector_f ratio_13 = vector_select_f(is_small, vector_of_f(0.0f), product_14) / sine_to_axis1;
+    const vector_f ratio_13 = vector_select_f(is_small, vector_of_f(0.0f), product_12) / sine_to_axis1;
     const vector_mask_f is_small_5 = chosen_2 == 0.0f;
     const vector_f by_sine_to_axis1 = ratio_6 * ratio_12 - ratio_4 * ratio_13 + ratio_2 * ratio_9;
     const vector_f chosen_10 = vector_select_f(is_small, vector_of_f(0.0f), vector_select_f(is_small_5,
         vector_of_f(0.0f), by_sine_to_axis1 / (2.0f * vector_select_f(is_small_5, vector_of_f(1.0f),
         sine_to_axis1))));
-    const vector_f product_20 = 2.0f * (W0_1 * product_12 + W1_1 * product_13 + ratio_13 + chosen_10);
-    const vector_f gap_13 = 0.5f * M1_bar + mu2 * gap_12 - mu1 * product_20 + mu0 * gap_9 - dot_p_e * by_w1;
+    const vector_f total_5 = gap_9 - mu2 * ratio_12 - mu1 * (2.0f * (ratio_13 + chosen_10)) + mu0 * gap_7;
     const vector_f by_e1 = by_w1 + mu1 * by_dot_p_e;
     const vector_f by_q_plus_p1_2 = vector_select_f(is_small_2, by_e1, vector_of_f(0.0f)) + q_plus_p1_2 *
-        product_18;
-    const vector_f by_d1 = vector_select_f(is_small_2, vector_of_f(0.0f), by_e1) + d1 * product_19;
+        product_15;
+    const vector_f by_d1 = vector_select_f(is_small_2, vector_of_f(0.0f), by_e1) + d1 * product_16;
+    const vector_f by_d1_gap = total_5 - dot_p_e * by_w1 + e1 * by_dot_p_e + by_q_plus_p1_2 - by_d1;
     const vector_f by_q1_off_cut = by_q_plus_p1_2 + by_d1;
-    const vector_f total_5 = gap_13 + e1 * by_dot_p_e + by_q_plus_p1_2 - by_d1 + vector_select_f(on_cut_locus,
-        by_q1_off_cut, vector_of_f(0.0f));
-    const vector_f gap_14 = 0.5f * M2_bar - mu2 * (2.0f * (W0_2 * product_2 + W1_2 * product_4));
-    const vector_f total_6 = gap_14 + mu1 * gap_12 + mu0 * gap_5 - dot_p_e * by_w2 + e2 * by_dot_p_e;
+    const vector_f gap_10 = 0.5f * M2_bar + by_normal_part * product_3 - W0_2 * by_by_normal_part +
+        by_normal_part_2 * product_6 - W1_2 * by_by_normal_part_2;
+    const vector_f total_6 = gap_10 - mu1 * ratio_12 - mu0 * ratio_7 - dot_p_e * by_w2 + e2 * by_dot_p_e;
     const vector_f by_e2 = by_w2 + mu2 * by_dot_p_e;
     const vector_f by_q_plus_p2_2 = vector_select_f(is_small_2, by_e2, vector_of_f(0.0f)) + q_plus_p2_2 *
-        product_18;
-    const vector_f by_d2 = vector_select_f(is_small_2, vector_of_f(0.0f), by_e2) + d2 * product_19;
+        product_15;
+    const vector_f by_d2 = vector_select_f(is_small_2, vector_of_f(0.0f), by_e2) + d2 * product_16;
     const vector_f by_q2_off_cut = by_q_plus_p2_2 + by_d2;
-    const vector_f gap_15 = 1.0f - mu2 * mu2;
-    const vector_f gap_16 = -(product_6 * product) - product_7 * product_12 + gap_15 * product_2 - chosen_5 *
-        product_10;
-    const vector_f gap_17 = -(product_6 * product_3) - product_7 * product_13 + gap_15 * product_4 - chosen_5
-        * product_9;
     mu_bar[0] = total_4 - vector_select_f(on_cut_locus, vector_of_f(0.0f), by_q0_off_cut);
-    mu_bar[1] = total_5 - vector_select_f(on_cut_locus, vector_of_f(0.0f), by_q1_off_cut);
+    mu_bar[1] = by_d1_gap + vector_select_f(on_cut_locus, by_q1_off_cut, vector_of_f(0.0f)) -
+            vector_select_f(on_cut_locus, vector_of_f(0.0f), by_q1_off_cut);
     mu_bar[2] = total_6 + by_q_plus_p2_2 - by_d2 + vector_select_f(on_cut_locus, by_q2_off_cut,
             vector_of_f(0.0f)) - vector_select_f(on_cut_locus, vector_of_f(0.0f), by_q2_off_cut);
-    W_bar[0] = gap_2 * product - product_5 * product_12 - product_6 * product_2 - chosen_3 * product_10;
-    W_bar[1] = gap_3 * product_12 - product_5 * product - product_7 * product_2 - chosen_4 * product_10;
-    W_bar[2] = gap_16;
-    W_bar[3] = gap_2 * product_3 - product_5 * product_13 - product_6 * product_4 - chosen_3 * product_9;
-    W_bar[4] = gap_3 * product_13 - product_5 * product_3 - product_7 * product_4 - chosen_4 * product_9;
-    W_bar[5] = gap_17;
+    W_bar[0] = product - mu0 * by_by_normal_part - chosen_3 * product_10;
+    W_bar[1] = product_2 - mu1 * by_by_normal_part - chosen_4 * product_10;
+    W_bar[2] = product_3 - mu2 * by_by_normal_part - chosen_5 * product_10;
+    W_bar[3] = product_4 - mu0 * by_by_normal_part_2 - chosen_3 * product_9;
+    W_bar[4] = product_5 - mu1 * by_by_normal_part_2 - chosen_4 * product_9;
+    W_bar[5] = product_6 - mu2 * by_by_normal_part_2 - chosen_5 * product_9;
     amplitude_bar[0] = its_amplitude_bar;
 }
 

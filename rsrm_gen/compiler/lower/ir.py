@@ -327,17 +327,11 @@ class Pairs:
 
 @dataclass(frozen=True)
 class Program:
-    """All routines of a manifold, and its splat split for sums over many points and splats.
-
-    On hyperboloids the form of `pairs` loses digits far out, about as many as the square root of extent(x) extent(mu) has.
-    `careful` is then the form in the author's formulas, which is slower and does not.
-    """
+    """All routines of a manifold, and its splat split for sums over many points and splats."""
 
     name: str
     routines: tuple[Routine, ...]
     pairs: Pairs
-    careful: Pairs | None = None
-    extent: Routine | None = None  # of a point: the sum of squares of the coordinates that may be large
 
     def __getitem__(self, name: str) -> Routine:
         found = next((routine for routine in self.routines if routine.name == name), None)

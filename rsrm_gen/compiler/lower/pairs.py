@@ -68,14 +68,14 @@ def pairs_of(graph: Graph, splat: SplatNodes, slope_to_gradient: Callable[[Graph
 
     pair = Graph()
     names = _Names(graph)
-    x = parameter(pair, "X", [names.of(n) for n in X_nodes])
-    s = parameter(pair, "S", [names.of(n) for n in S_nodes])
+    x = _parameter(pair, "X", [names.of(n) for n in X_nodes])
+    s = _parameter(pair, "S", [names.of(n) for n in S_nodes])
     known = dict(zip((*X_nodes, *S_nodes), (*x.nodes, *s.nodes), strict=True))
     phi, exponent, by_exponent = copied(graph, pair, roots, known)
     slopes = gradient(pair, exponent, x.nodes, by_exponent)
     for node, partial in zip(x.nodes, slopes, strict=True):
         pair.named(f"by_{node.value}", partial)
-    value_bar, slope_bar = parameter(pair, "value_bar", ["value_bar"]), _like(pair, "slope_bar", x)
+    value_bar, slope_bar = _parameter(pair, "value_bar", ["value_bar"]), _like(pair, "slope_bar", x)
     total = pair.mul(phi, value_bar.nodes[0])
     for a, b in zip(slopes, slope_bar.nodes, strict=True):
         total = pair.add(total, pair.mul(a, b))
@@ -84,10 +84,10 @@ def pairs_of(graph: Graph, splat: SplatNodes, slope_to_gradient: Callable[[Graph
     finish = Graph()
     at = _copied_parameter(finish, splat.x)
     moved = copied(graph, finish, X_nodes, dict(zip(splat.x.nodes, at.nodes, strict=True)))
-    slope = parameter(finish, "slope", [f"slope_{n.value}" for n in x.nodes])
+    slope = _parameter(finish, "slope", [f"slope_{n.value}" for n in x.nodes])
     df = gradient(finish, dot(finish, moved, slope.nodes), at.nodes)
     grad = slope_to_gradient(finish, at.nodes, df)
-    gradient_bar = parameter(finish, "gradient_bar", [f"gradient_bar{i}" for i in range(len(grad))])
+    gradient_bar = _parameter(finish, "gradient_bar", [f"gradient_bar{i}" for i in range(len(grad))])
     back = gradient(finish, dot(finish, grad, gradient_bar.nodes), slope.nodes)
 
     splats = Graph()
@@ -187,13 +187,12 @@ def _routine(
     return schedule(target, name, moved, found, "")
 
 
-def parameter(graph: Graph, name: str, entries: Sequence[str]) -> Parameter:
-    """An argument that is a row of numbers with these names."""
+def _parameter(graph: Graph, name: str, entries: Sequence[str]) -> Parameter:
     return Parameter(name, (len(entries),), tuple(graph.input(entry) for entry in entries))
 
 
 def _like(graph: Graph, name: str, other: Parameter) -> Parameter:
-    return parameter(graph, name, [f"{node.value}_bar" for node in other.nodes])
+    return _parameter(graph, name, [f"{node.value}_bar" for node in other.nodes])
 
 
 def _copied_parameter(graph: Graph, other: Parameter) -> Parameter:

@@ -21,10 +21,10 @@ import sympy as sp
 from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.derive.geometry import Radial
 from rsrm_gen.compiler.derive.radial import NEAR, profile
+from rsrm_gen.compiler.lower.differentiate import gradient
 from rsrm_gen.compiler.lower.from_sympy import inline
-from rsrm_gen.compiler.lower.ir import Graph, Node, Packed, Result, Routine, dot
-from rsrm_gen.compiler.lower.pairs import SplatNodes, parameter
-from rsrm_gen.compiler.lower.schedule import schedule
+from rsrm_gen.compiler.lower.ir import Graph, Node, Packed, dot
+from rsrm_gen.compiler.lower.pairs import SplatNodes
 from rsrm_gen.compiler.spec import ProductSpec
 
 HALF = sp.Rational(1, 2)
@@ -63,21 +63,6 @@ def reduced(geometry: Geometry, splat: SplatNodes, graph: Graph) -> SplatNodes |
         else:
             form.add_plain(part)
     return form.splat_nodes()
-
-
-def extent(geometry: Geometry) -> Routine | None:
-    """The sum of squares of the coordinates of a point on unbounded quadrics; None where there is none."""
-    graph = Graph()
-    p = parameter(graph, "p", [f"p{i}" for i in range(geometry.spec.point_size)])
-    squares = [
-        node
-        for part in _parts(geometry)
-        if part.geometry.radial and part.geometry.radial.unbounded
-        for node in p.nodes[part.point : part.point + part.geometry.spec.point_size]
-    ]
-    if not squares:
-        return None
-    return schedule(graph, "extent", (p,), (Result("extent", (), (dot(graph, squares, squares),)),), "")
 
 
 class _Form:
@@ -135,13 +120,14 @@ class _Form:
     def rows(self, part: _Part, h: Packed) -> Packed:
         """R x, or R x / sqrt(2) of the only part."""
         graph, (mu, _) = self.graph, self.points(part)
-        unit = [tuple(graph.constant(int(i == j)) for i in range(len(mu))) for j in range(len(mu))]
-        tangent = [inline(graph, part.geometry["to_tangent"], mu, e, prefix=part.prefix) for e in unit]
+        vector = tuple(graph.input(f"{part.prefix}vector{j}") for j in range(len(mu)))
+        tangent = inline(graph, part.geometry["to_tangent"], mu, vector, prefix=part.prefix)
         scale = graph.constant(sp.sqrt(2) if self.alone else 2)
         products = []
         for i in range(self.dim):
-            row = (graph.mul(scale, dot(graph, self.covector(i, part), column)) for column in tangent)
-            named = tuple(graph.named(f"{part.prefix}R{i}_{j}", node) for j, node in enumerate(row))
+            # The covector of a vector's tangent part; by the adjoint of the map, whose matrix loses digits far out.
+            row = gradient(graph, dot(graph, self.covector(i, part), tangent), vector)
+            named = tuple(graph.named(f"{part.prefix}R{i}_{j}", graph.mul(scale, e)) for j, e in enumerate(row))
             products.append(graph.named(f"{part.prefix}r{i}", dot(graph, named, h)))
         return tuple(products)
 
