@@ -20,13 +20,14 @@ from functools import lru_cache
 from typing import Any
 
 import mpmath as mp
+from gmpy2 import isqrt, mpz
 from mpmath.libmp import from_man_exp, to_fixed
 
 GUARD = 140  # bits beyond the working precision: eigenvalues 1e-40 of the largest one keep all their digits
 MAX_SWEEPS = 60
 
 Packed = tuple[Any, ...]
-Square = list[list[int]]  # of fixed-point numbers
+Square = list[list[Any]]  # of fixed-point numbers: gmpy2's integers
 
 
 def _log_sinhc_sqrt(x: Any) -> Any:
@@ -64,7 +65,7 @@ class Eigen:
     """Eigenvalues, ascending, and orthonormal eigenvectors as the columns of a matrix of fixed-point numbers."""
 
     values: tuple[Any, ...]
-    vectors: tuple[tuple[int, ...], ...]
+    vectors: tuple[tuple[Any, ...], ...]
     bits: int
 
 
@@ -94,13 +95,13 @@ def _derivative(name: str, matrix: Packed, directions: tuple[Packed, ...], prec:
 
 @lru_cache(maxsize=4096)
 def _eigen(matrix: Packed, prec: int) -> Eigen | None:
-    """Cyclic Jacobi in fixed-point numbers, which Python multiplies much faster than mpmath's."""
+    """Cyclic Jacobi in fixed-point numbers, which are multiplied much faster than mpmath's."""
     if not all(mp.isfinite(x) for x in matrix):
         return None
     n, bits = size_of(len(matrix)), prec + GUARD
     fixed, exponent = _to_fixed(matrix, bits)
     a = _unpacked(fixed, n)
-    v = [[(1 << bits) if i == j else 0 for j in range(n)] for i in range(n)]
+    v = [[mpz(i == j) << bits for j in range(n)] for i in range(n)]
     for _ in range(MAX_SWEEPS):
         pairs = [(p, q) for p in range(n) for q in range(p + 1, n) if abs(a[p][q]) > 2]
         if not pairs:
@@ -109,21 +110,27 @@ def _eigen(matrix: Packed, prec: int) -> Eigen | None:
             _rotate(a, v, p, q, bits)
     order = sorted(range(n), key=lambda i: a[i][i])
     values = tuple(_to_float(a[i][i], exponent - bits, prec + GUARD) for i in order)
-    return Eigen(values, tuple(tuple(row[i] for i in order) for row in v), bits)
+    return Eigen(values, tuple(zip(*(v[i] for i in order), strict=True)), bits)
 
 
 def _rotate(a: Square, v: Square, p: int, q: int, bits: int) -> None:
-    """The rotation in the plane of two axes that makes a[p][q] zero."""
+    """The rotation in the plane of two axes that makes a[p][q] zero; the rows of v turn with the axes."""
     gap, twice = a[q][q] - a[p][p], 2 * a[p][q]
-    length = math.isqrt(gap * gap + twice * twice)
+    length = isqrt(gap * gap + twice * twice)
     t = (twice << bits) // (gap + length if gap >= 0 else gap - length)
-    c = (1 << (2 * bits)) // math.isqrt((1 << (2 * bits)) + t * t)
+    c = (mpz(1) << (2 * bits)) // isqrt((mpz(1) << (2 * bits)) + t * t)
     s = (t * c) >> bits
-    for row in (*a, *v):
-        row[p], row[q] = (c * row[p] - s * row[q]) >> bits, (s * row[p] + c * row[q]) >> bits
-    a[p], a[q] = (
-        [(c * x - s * y) >> bits for x, y in zip(a[p], a[q], strict=True)],
-        [(s * x + c * y) >> bits for x, y in zip(a[p], a[q], strict=True)],
+    moved = (t * a[p][q]) >> bits
+    a[p][p], a[q][q] = a[p][p] - moved, a[q][q] + moved
+    a[p][q] = a[q][p] = mpz(0)
+    for r, row in enumerate(a):
+        if r not in (p, q):
+            x, y = row[p], row[q]
+            a[p][r] = row[p] = (c * x - s * y) >> bits
+            a[q][r] = row[q] = (s * x + c * y) >> bits
+    v[p], v[q] = (
+        [(c * x - s * y) >> bits for x, y in zip(v[p], v[q], strict=True)],
+        [(s * x + c * y) >> bits for x, y in zip(v[p], v[q], strict=True)],
     )
 
 
@@ -187,7 +194,7 @@ def _real(x: Any) -> Any:
 def _to_fixed(numbers: Sequence[Any], bits: int) -> tuple[list[int], int]:
     """Integers k with numbers = k 2^(exponent - bits), the largest of them of about that many bits."""
     exponent = max((mp.mag(x) for x in numbers if x != 0), default=0)
-    return [to_fixed(mp.mpf(x)._mpf_, bits - exponent) for x in numbers], exponent
+    return [mpz(to_fixed(mp.mpf(x)._mpf_, bits - exponent)) for x in numbers], exponent
 
 
 def _to_float(k: int, exponent: int, prec: int) -> Any:
