@@ -26,7 +26,8 @@ HUGE = gmpy2.exp2(PERIODIC_BITS)
 @lru_cache
 def in_precision(bits: int) -> AbstractContextManager[Any]:
     """The context of operations that round to so many bits."""
-    return gmpy2.context(precision=bits)
+    context: AbstractContextManager[Any] = gmpy2.context(precision=bits)
+    return context
 
 
 def from_mpmath(raw: Raw) -> Real:

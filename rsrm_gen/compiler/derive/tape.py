@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass
 from functools import reduce
 from typing import Any
@@ -99,7 +100,7 @@ class Tape:
         with in_precision(max(precision, reals.widest(inputs))):
             slots = [from_mpmath(x) for x in inputs]
         append = slots.append
-        with in_precision(precision):
+        with in_precision(precision), mp.workprec(precision) if self.functions else nullcontext():
             exact = self.rounded(precision)
             for kind, function, i, j, k in self.instructions:
                 try:
@@ -111,8 +112,6 @@ class Tape:
                         append(exact[i])
                     elif kind == 3:
                         append(slots[j] if slots[i] else slots[k])
-                    elif kind == 5:
-                        append(function(precision, *[slots[a] for a in i]))  # type: ignore[misc]
                     else:
                         append(function(*[slots[a] for a in i]))  # type: ignore[misc]
                 except REFUSED:
@@ -147,7 +146,7 @@ def _instruction(operation: str, slots: tuple[int, ...], function: Callable[...,
     if operation == "select":
         return 3, None, slots[0], slots[1], slots[2]
     if operation in MANY:
-        return 6, MANY[operation], slots, 0, 0
+        return 5, MANY[operation], slots, 0, 0
     assert function is not None, operation
     if isinstance(function, _Pick):
         return 1, function.of_mpmath, slots[0], 0, 0
@@ -171,10 +170,9 @@ class _Pick:
 def _wrapped(function: Callable[..., Any]) -> Callable[..., Any]:
     """A function of mpmath's numbers as one of real ones; several numbers, of or from a function, stay mpmath's."""
 
-    def real_function(precision: int, *arguments: Any) -> Any:
-        with mp.workprec(precision):
-            result = function(*map(number, arguments))
-            return result if isinstance(result, tuple) else from_mpmath(raw(result))
+    def real_function(*arguments: Any) -> Any:
+        result = function(*map(number, arguments))
+        return result if isinstance(result, tuple) else from_mpmath(raw(result))
 
     return real_function
 
@@ -199,7 +197,7 @@ def _as_doubles(values: Any) -> Any:
 
 def _raw_constant(exact: Any, precision: int) -> Raw:
     with mp.workprec(precision):
-        return mp.mpf(exact._to_mpmath(precision + 10) if isinstance(exact, sp.Basic) else exact)._mpf_
+        return raw(mp.mpf(exact._to_mpmath(precision + 10) if isinstance(exact, sp.Basic) else exact))
 
 
 def number(slot: Any) -> Any:
@@ -209,4 +207,5 @@ def number(slot: Any) -> Any:
 
 def raw(x: Any) -> Raw:
     """A number as a raw one, unrounded where it is mpmath's."""
-    return x._mpf_ if isinstance(x, mp.mpf) else mp.mpf(x)._mpf_
+    found: Raw = (x if isinstance(x, mp.mpf) else mp.mpf(x))._mpf_
+    return found
