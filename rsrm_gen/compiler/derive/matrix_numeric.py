@@ -17,6 +17,7 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from operator import mul
 from typing import Any
 
 import gmpy2
@@ -230,4 +231,4 @@ def _transposed(a: Square) -> Square:
 
 def _product(a: Square, b: Square, bits: int) -> Square:
     columns = _transposed(b)
-    return [[sum(x * y for x, y in zip(row, column, strict=True)) >> bits for column in columns] for row in a]
+    return [[sum(map(mul, row, column)) >> bits for column in columns] for row in a]
