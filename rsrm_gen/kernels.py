@@ -7,9 +7,6 @@ machines without a C compiler use the generated torch code, which gives the same
 from __future__ import annotations
 
 import ctypes
-import itertools
-import os
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -17,10 +14,8 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from rsrm_gen.compiler.native import FAST, compiled, pointer
+from rsrm_gen.compiler.native import FAST, compiled, pointer, scratch
 from rsrm_gen.manifold import Manifold
-
-SMALLEST_SHARE = 256  # points a thread is worth starting for
 
 
 def accelerated(manifold: Manifold, folder: Path) -> Manifold:
@@ -59,56 +54,34 @@ DTYPES = {torch.float64: ("", np.float64), torch.float32: ("_f", np.float32)}
 
 
 class SplatKernel:
-    """The two C functions of a manifold, called with the points shared among torch's number of threads."""
+    """The C functions of a manifold, called with as many threads as torch would take."""
 
     def __init__(self, manifold: Manifold, folder: Path) -> None:
         files = {path.name: path.read_text(encoding="utf-8") for path in folder.glob("*.[ch]")}
         self.name = folder.name
         self.tangent_size = manifold.tangent_size
         self.library = compiled(files, f"{self.name}_splats.c", FAST)
-        self.pool: ThreadPoolExecutor | None = None
-        self.pool_of = (0, 0)  # the process and the number of threads of the pool
 
     def forward(self, x: Any, mu: Any, W: Any, amplitude: Any) -> tuple[Any, Any]:
         """Values (N,) and gradients (N, T) from numpy arrays."""
         value = np.empty(len(x), x.dtype)
         gradient = np.empty((len(x), self.tangent_size), x.dtype)
-
-        def part(rows: slice) -> None:
-            self.call("splats", rows, len(mu), x[rows], mu, W, amplitude, value[rows], gradient[rows])
-
-        self.share(len(x), part)
+        self.call("splats", len(x), len(mu), x, mu, W, amplitude, value, gradient)
         return value, gradient
 
     def vjp(self, x: Any, mu: Any, W: Any, amplitude: Any, value_bar: Any, gradient_bar: Any) -> tuple[Any, Any, Any]:
-        """The derivatives in mu, W and amplitude: each thread's sum over its points, added in order."""
+        """The derivatives in mu (K, D), W (K, d, T) and amplitude (K,)."""
+        sums = np.empty_like(mu), np.empty_like(W), np.empty_like(amplitude)
+        self.call("splats_vjp", len(x), len(mu), x, mu, W, amplitude, value_bar, gradient_bar, *sums)
+        return sums
 
-        def part(rows: slice) -> tuple[Any, Any, Any]:
-            sums = np.empty_like(mu), np.empty_like(W), np.empty_like(amplitude)
-            self.call(
-                "splats_vjp", rows, len(mu), x[rows], mu, W, amplitude, value_bar[rows], gradient_bar[rows], *sums
-            )
-            return sums
-
-        parts = self.share(len(x), part)
-        return tuple(sum(arrays[1:], start=arrays[0]) for arrays in zip(*parts, strict=True))
-
-    def share(self, count: int, part: Any) -> list[Any]:
-        """Call `part` on consecutive slices of the points, one a thread."""
-        threads = max(1, min(torch.get_num_threads(), count // SMALLEST_SHARE))
-        bounds = [count * i // threads for i in range(threads + 1)]
-        slices = [slice(a, b) for a, b in itertools.pairwise(bounds)]
-        if threads == 1:
-            return [part(slices[0])]
-        if self.pool is None or self.pool_of != (os.getpid(), threads):  # threads do not survive a fork
-            self.pool, self.pool_of = ThreadPoolExecutor(threads), (os.getpid(), threads)
-        return list(self.pool.map(part, slices))
-
-    def call(self, function: str, rows: slice, splats: int, *arrays: Any) -> None:
-        """One C function on one slice."""
-        suffix = "_f" if arrays[0].dtype == np.float32 else ""
-        c_function = getattr(self.library, f"{self.name}_{function}{suffix}")
-        c_function(ctypes.c_size_t(rows.stop - rows.start), ctypes.c_size_t(splats), *map(pointer, arrays))
+    def call(self, function: str, points: int, splats: int, *arrays: Any) -> None:
+        """One C function."""
+        dtype, threads = arrays[0].dtype, torch.get_num_threads()
+        work = scratch(self.library, self.name, points, splats, threads, dtype)
+        c_function = getattr(self.library, f"{self.name}_{function}" + ("_f" if dtype == np.float32 else ""))
+        pointers = map(pointer, (*arrays, work))
+        c_function(ctypes.c_size_t(points), ctypes.c_size_t(splats), *pointers, ctypes.c_int(threads))
 
 
 class _Splats(torch.autograd.Function):

@@ -16,6 +16,7 @@ from rsrm_gen.compiler.derive import derive
 from rsrm_gen.compiler.lower import Node, Parameter, Routine, interpret, lower
 from rsrm_gen.compiler.lower.differentiate import RULES, gradient
 from rsrm_gen.compiler.lower.ir import CONDITIONS, FUNCTIONS, Graph, Result, reachable
+from rsrm_gen.compiler.lower.pairs import undeclared
 from rsrm_gen.compiler.lower.protect import protect
 from rsrm_gen.compiler.lower.schedule import schedule
 
@@ -147,7 +148,20 @@ DISTINCT = {name.split(",")[0].split(" ")[0] for name in OPERATIONS}
 
 def test_the_table_of_operations_is_complete() -> None:
     assert {"neg", "add", "sub", "mul", "div", "polynomial", "select", *FUNCTIONS} == DISTINCT
-    assert set(RULES) <= DISTINCT
+    assert set(RULES) - {"declared"} <= DISTINCT
+
+
+def test_a_declared_derivative_is_used_again_and_again() -> None:
+    g, a, _ = two_inputs()
+    root = g.declared(g.function("sqrt", a), a)
+    g.slopes[root] = (g.div(g.constant(sp.Rational(1, 2)), root),)
+    (first,) = gradient(g, root, [a])
+    (second,) = gradient(g, first, [a])
+    moved, known = undeclared(g, [first, second], [a])
+    found = values(moved, [known[first], known[second]], [known[a]], [mp.mpf(3)])
+    with mp.workdps(DIGITS):
+        assert abs(found[0] - mp.sqrt(3) / 6) < 1e-40
+        assert abs(found[1] + mp.sqrt(3) / 36) < 1e-40
 
 
 @pytest.mark.parametrize("operation", OPERATIONS.values(), ids=OPERATIONS)

@@ -58,11 +58,12 @@ static void *first(const void *memory, size_t size) {
 
 @dataclass(frozen=True)
 class Array:
-    """An argument of a C function: so many numbers for each row; `by_splat` if its rows are splats, not points."""
+    """An argument of a C function: so many numbers for each row, which is a point, or a splat, or a pair of them."""
 
     name: str
     size: int
     by_splat: bool = False
+    by_pair: bool = False
 
 
 def arrays(routine: Routine) -> list[Array]:
@@ -130,14 +131,25 @@ def _scalar(program: Program, routine: Routine, precision: Precision) -> str:
 
 def _batch(program: Program, routine: Routine, precision: Precision) -> str:
     name = f"{program.name}_{routine.name}_batch{precision.tag}"
-    return _called(name, ("counts[c]",), arrays(routine), outputs(routine), precision, False)
+    return _called(name, ("counts[c]",), arrays(routine), outputs(routine), precision)
 
 
 def _sums(program: Program, routine: Routine, precision: Precision) -> str:
-    name = f"{program.name}_{routine.name.replace('splat', 'splats', 1)}{precision.tag}"
-    by_splat = routine.name == "splat_vjp"
-    results = [Array(r.name, r.size, by_splat) for r in outputs(routine)]
-    return _called(name, ("counts[c]", "splats[k]"), arrays(routine), results, precision, True)
+    """The sums of splats, by the functions that have the inputs of a routine."""
+    results = outputs(routine)
+    if routine.name == "splat":
+        functions = {"splats": results, "splats_value": results[:1]}
+    else:
+        size = sum(r.size for r in results)
+        functions = {
+            "splats_vjp": [Array(r.name, r.size, True) for r in results],
+            "splats_rows": [Array("rows_out", size, by_pair=True)],
+        }
+    names = {f"{program.name}_{name}{precision.tag}": given for name, given in functions.items()}
+    work = f"{program.name}_splats_work{precision.tag}(counts[c], splats[k], 1)"
+    inputs = arrays(routine)
+    calls = (_called(name, ("counts[c]", "splats[k]"), inputs, r, precision, work) for name, r in names.items())
+    return "{ " + " ".join(calls) + " }"
 
 
 def _called(
@@ -146,18 +158,21 @@ def _called(
     inputs: list[Array],
     results: list[Array],
     precision: Precision,
-    of_splats: bool,
+    work: str = "",
 ) -> str:
     t = precision.type
 
     def size(a: Array) -> str:
-        return f"{'splats[k]' if of_splats and a.by_splat else 'counts[c]'} * {a.size} * sizeof({t})"
+        rows = "counts[c] * splats[k]" if a.by_pair else "splats[k]" if work and a.by_splat else "counts[c]"
+        return f"{rows} * {a.size} * sizeof({t})"
 
     lines = [f"{t} *{a.name}_part = ({t} *)first({a.name}, {size(a)});" for a in inputs]
     lines += [f"{t} *{r.name} = ({t} *)malloc({size(r)});" for r in results]
+    lines += [f"{t} *work = ({t} *)malloc({work} * sizeof({t}));"] if work else []
     given = ", ".join([*counts, *(f"{a.name}_part" for a in inputs), *(r.name for r in results)])
-    freed = [f"free({name});" for name in [*(f"{a.name}_part" for a in inputs), *(r.name for r in results)]]
-    return "{ " + " ".join([*lines, f"{name}({given});", *freed]) + " }"
+    given += ", work, 1" if work else ""
+    names = [*(f"{a.name}_part" for a in inputs), *(r.name for r in results), *(["work"] if work else [])]
+    return "{ " + " ".join([*lines, f"{name}({given});", *(f"free({name});" for name in names)]) + " }"
 
 
 def _frame(program: Program, precision: Precision) -> str:

@@ -265,51 +265,42 @@ void arm2_splat_batch_f(
 void arm2_frame(const double *ARM2_RESTRICT p, double *ARM2_RESTRICT frame);
 void arm2_frame_f(const float *ARM2_RESTRICT p, float *ARM2_RESTRICT frame);
 
+/* How many numbers of scratch memory the functions below need, for these sizes or smaller ones. */
+size_t arm2_splats_work(size_t count, size_t splat_count, int threads);
+size_t arm2_splats_work_f(size_t count, size_t splat_count, int threads);
+
 /* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
 void arm2_splats(
-    size_t count,
-    size_t splat_count,
-    const double *ARM2_RESTRICT x,
-    const double *ARM2_RESTRICT mu,
-    const double *ARM2_RESTRICT W,
-    const double *ARM2_RESTRICT amplitude,
-    double *ARM2_RESTRICT value,
-    double *ARM2_RESTRICT gradient);
+    size_t count, size_t splat_count, const double *ARM2_RESTRICT x, const double *ARM2_RESTRICT mu, const double *ARM2_RESTRICT W, const double *ARM2_RESTRICT amplitude,
+    double *ARM2_RESTRICT value, double *ARM2_RESTRICT gradient, double *ARM2_RESTRICT work, int threads);
 void arm2_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *ARM2_RESTRICT x,
-    const float *ARM2_RESTRICT mu,
-    const float *ARM2_RESTRICT W,
-    const float *ARM2_RESTRICT amplitude,
-    float *ARM2_RESTRICT value,
-    float *ARM2_RESTRICT gradient);
+    size_t count, size_t splat_count, const float *ARM2_RESTRICT x, const float *ARM2_RESTRICT mu, const float *ARM2_RESTRICT W, const float *ARM2_RESTRICT amplitude,
+    float *ARM2_RESTRICT value, float *ARM2_RESTRICT gradient, float *ARM2_RESTRICT work, int threads);
+
+/* The values of the sums alone. */
+void arm2_splats_value(
+    size_t count, size_t splat_count, const double *ARM2_RESTRICT x, const double *ARM2_RESTRICT mu, const double *ARM2_RESTRICT W, const double *ARM2_RESTRICT amplitude,
+    double *ARM2_RESTRICT value, double *ARM2_RESTRICT work, int threads);
+void arm2_splats_value_f(
+    size_t count, size_t splat_count, const float *ARM2_RESTRICT x, const float *ARM2_RESTRICT mu, const float *ARM2_RESTRICT W, const float *ARM2_RESTRICT amplitude,
+    float *ARM2_RESTRICT value, float *ARM2_RESTRICT work, int threads);
 
 /* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
 void arm2_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *ARM2_RESTRICT x,
-    const double *ARM2_RESTRICT mu,
-    const double *ARM2_RESTRICT W,
-    const double *ARM2_RESTRICT amplitude,
-    const double *ARM2_RESTRICT value_bar,
-    const double *ARM2_RESTRICT gradient_bar,
-    double *ARM2_RESTRICT mu_bar,
-    double *ARM2_RESTRICT W_bar,
-    double *ARM2_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const double *ARM2_RESTRICT x, const double *ARM2_RESTRICT mu, const double *ARM2_RESTRICT W, const double *ARM2_RESTRICT amplitude, const double *ARM2_RESTRICT value_bar, const double *ARM2_RESTRICT gradient_bar,
+    double *ARM2_RESTRICT mu_bar, double *ARM2_RESTRICT W_bar, double *ARM2_RESTRICT amplitude_bar, double *ARM2_RESTRICT work, int threads);
 void arm2_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *ARM2_RESTRICT x,
-    const float *ARM2_RESTRICT mu,
-    const float *ARM2_RESTRICT W,
-    const float *ARM2_RESTRICT amplitude,
-    const float *ARM2_RESTRICT value_bar,
-    const float *ARM2_RESTRICT gradient_bar,
-    float *ARM2_RESTRICT mu_bar,
-    float *ARM2_RESTRICT W_bar,
-    float *ARM2_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const float *ARM2_RESTRICT x, const float *ARM2_RESTRICT mu, const float *ARM2_RESTRICT W, const float *ARM2_RESTRICT amplitude, const float *ARM2_RESTRICT value_bar, const float *ARM2_RESTRICT gradient_bar,
+    float *ARM2_RESTRICT mu_bar, float *ARM2_RESTRICT W_bar, float *ARM2_RESTRICT amplitude_bar, float *ARM2_RESTRICT work, int threads);
+
+/* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +
+ * gradient_n . gradient_bar_n in its mu, W and amplitude, in this order. */
+void arm2_splats_rows(
+    size_t count, size_t splat_count, const double *ARM2_RESTRICT x, const double *ARM2_RESTRICT mu, const double *ARM2_RESTRICT W, const double *ARM2_RESTRICT amplitude, const double *ARM2_RESTRICT value_bar, const double *ARM2_RESTRICT gradient_bar,
+    double *ARM2_RESTRICT rows, double *ARM2_RESTRICT work, int threads);
+void arm2_splats_rows_f(
+    size_t count, size_t splat_count, const float *ARM2_RESTRICT x, const float *ARM2_RESTRICT mu, const float *ARM2_RESTRICT W, const float *ARM2_RESTRICT amplitude, const float *ARM2_RESTRICT value_bar, const float *ARM2_RESTRICT gradient_bar,
+    float *ARM2_RESTRICT rows, float *ARM2_RESTRICT work, int threads);
 
 #ifdef __cplusplus
 }

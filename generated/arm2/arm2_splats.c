@@ -7,427 +7,1254 @@
 #include "arm2.h"
 
 #include <float.h>
+#include <stdint.h>
+#include <string.h>
 
-#define LANES 64
+/*
+ * A vector is as wide as the machine's registers, or one number where the compiler has no vectors (or is asked for none
+ * by -DRSRM_NO_VECTORS). Comparisons of vectors are masks; `vector_select` is the ?: of vectors.
+ */
+#if defined(__GNUC__) && !defined(RSRM_NO_VECTORS)
+#if defined(__AVX512F__)
+#define VECTOR_BYTES 64
+#elif defined(__AVX__)
+#define VECTOR_BYTES 32
+#else
+#define VECTOR_BYTES 16
+#endif
+#define LANE(vector, i) (vector)[i]
+#define ZERO {0}
+#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
+typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
+typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
+typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
+typedef int32_t vector_mask_f __attribute__((vector_size(VECTOR_BYTES)));
+typedef uint64_t vector_bits __attribute__((vector_size(VECTOR_BYTES)));
+typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
+#else
+#define LANE(vector, i) (vector)
+#define ZERO 0
+#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
+typedef double vector;
+typedef float vector_f;
+typedef int64_t vector_mask;
+typedef int32_t vector_mask_f;
+typedef uint64_t vector_bits;
+typedef uint32_t vector_bits_f;
+#endif
+#if defined(__GNUC__)
+#define INLINE static inline __attribute__((always_inline, unused))
+#define OUTLINE static __attribute__((noinline))
+#else
+#define INLINE static inline
+#define OUTLINE static
+#endif
+#define LANES (sizeof(vector) / sizeof(double))
+#define LANES_f (sizeof(vector_f) / sizeof(float))
+
+/* Threads, where the compiler has OpenMP. */
+#if defined(_OPENMP)
+#define OMP(directive) _Pragma(#directive)
+#else
+#define OMP(directive)
+#endif
 
 /* Denormal numbers count as zero while the sums run: far splats are many, and slow. */
 #if defined(__SSE2__)
 #include <xmmintrin.h>
-static unsigned flush_denormals(void) {
+INLINE uint64_t flush_denormals(void) {
     const unsigned mode = _mm_getcsr();
     _mm_setcsr(mode | 0x8040u);
     return mode;
 }
-static void restore_denormals(unsigned mode) { _mm_setcsr(mode); }
+INLINE void restore_denormals(uint64_t mode) { _mm_setcsr((unsigned)mode); }
+#elif defined(__aarch64__) && defined(__GNUC__)
+INLINE uint64_t flush_denormals(void) {
+    uint64_t mode;
+    __asm__ __volatile__("mrs %0, fpcr" : "=r"(mode));
+    __asm__ __volatile__("msr fpcr, %0" : : "r"(mode | (UINT64_C(1) << 24)));
+    return mode;
+}
+INLINE void restore_denormals(uint64_t mode) { __asm__ __volatile__("msr fpcr, %0" : : "r"(mode)); }
 #else
-static unsigned flush_denormals(void) { return 0; }
-static void restore_denormals(unsigned mode) { (void)mode; }
+INLINE uint64_t flush_denormals(void) { return 0; }
+INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
 
+/* The same number in all lanes. */
+INLINE vector vector_of(double x) {
+    const vector zero = ZERO;
+    return x - zero;
+}
+
+/* x in the lanes of the mask, y in the others. */
+INLINE vector vector_select(vector_mask mask, vector x, vector y) {
+    return SELECT(vector, vector_mask, mask, x, y);
+}
+
+/* Numbers in memory to a vector, and back. */
+INLINE vector vector_load(const double *from) {
+    vector x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+INLINE void vector_store(double *to, vector x) { memcpy(to, &x, sizeof x); }
+
+/* The sum over the lanes, by halves. */
+INLINE double vector_sum(vector x) {
+    double lanes[LANES];
+    vector_store(lanes, x);
+    for (size_t half = LANES / 2; half > 0; half /= 2)
+        for (size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    return lanes[0];
+}
+
+/* The bits of a vector as integers, and back. */
+INLINE vector_bits vector_to_bits(vector x) {
+    vector_bits bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+INLINE vector vector_from_bits(vector_bits bits) {
+    vector x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* x >= 0 with the sign of another. */
+INLINE vector vector_signed(vector x, vector sign) {
+    return vector_from_bits(vector_to_bits(x) | (vector_to_bits(sign) & 0x8000000000000000));
+}
+
+/* abs of every lane; one instruction where the machine has it. */
+INLINE vector vector_abs(vector x) {
+    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
+    return x;
+}
+
+/* round of every lane; one instruction where the machine has it. */
+INLINE vector vector_round(vector x) {
+    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = rint(LANE(x, i));
+    return x;
+}
+
+/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
+INLINE vector vector_exp(vector x) {
+    const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
+    const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
+    const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
+    const vector scale = vector_from_bits((vector_to_bits(shifted) + 1022) << 52); /* 2^(k - 1) */
+    const vector y = vector_select(x > 709.782712893384, vector_of(HUGE_VAL), (scale + scale * part) * 2);
+    return vector_select(x < -707.9, vector_of(0), y);
+}
+
+/* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
+INLINE vector vector_log(vector x) {
+    const vector_bits bits = vector_to_bits(x), biased = (bits + 0x95f619980c433) >> 52; /* k + 1023 */
+    const vector k = vector_from_bits(biased + 0x4338000000000000) - 6755399441056767.0;
+    const vector f = vector_from_bits(bits - (biased << 52) + 0x3ff0000000000000) - 1, s = f / (2 + f), z = s * s;
+    const vector half = f * f * 0.5;
+    const vector rest = z * (0.6666666666666666 + z * (0.4000000000000088 + z * (0.28571428570801954 + z * (0.22222222392089008 + z * (0.18181795600060793 + z * (0.15386241881938595 + z * (0.13268714792348096 + z * 0.1308723619665962)))))));
+    const vector y = k * 0.6931471805601177 - ((half - (s * (half + rest) + k * -1.7239444525614835e-13)) - f);
+    const vector small = vector_select(x < 0, vector_of(NAN), vector_of(-HUGE_VAL));
+    const vector finite = vector_select(x > 2.2250738585072009e-308, y, small);
+    return vector_select(x <= 1.7976931348623157e308, finite, x);
+}
+
+/* log(1 + x), within 2 units in the last place. */
+INLINE vector vector_log1p(vector x) {
+    const vector u = 1 + x;
+    return vector_select(x <= 1.7976931348623157e308, vector_log(u) + (x - (u - 1)) / u, x);
+}
+
+/* atanh, within 3 units in the last place. */
+INLINE vector vector_atanh(vector x) {
+    const vector a = vector_abs(x);
+    return vector_signed(0.5 * vector_log1p(2 * a / (1 - a)), x);
+}
+
+/* sin: x = k pi/2 + r, |r| <= pi/4, within 2 units in the last place; beyond 1e5, by the library. */
+INLINE vector vector_sin(vector x) {
+    const vector shifted = x * 0.6366197723675814 + 6755399441055744.0, k = shifted - 6755399441055744.0;
+    const vector r = ((x - k * 1.5707963267923333) - k * 2.5633441515839558e-12) - k * 1.0562999066987428e-23, z = r * r;
+    const vector_bits quarter = vector_to_bits(shifted);
+    const vector sine = r + r * z * (-0.16666666666666666 + z * (0.008333333333333331 + z * (-0.00019841269841265063 + z * (2.7557319219337672e-06 + z * (-2.5052106231927857e-08 + z * (1.6058531536611833e-10 + z * -7.586692262094344e-13))))));
+    const vector cosine = 1 - (0.5 * z - z * z * (0.041666666666666664 + z * (-0.0013888888888888887 + z * (2.4801587301584645e-05 + z * (-2.7557319221401993e-07 + z * (2.087675579079147e-09 + z * (-1.1470460841811526e-11 + z * 4.7458692024108734e-14)))))));
+    const vector part = vector_select((quarter & 1) == 0, sine, cosine);
+    vector y = vector_from_bits(vector_to_bits(part) ^ ((quarter & 2) << 62));
+    int far = 0;
+    for (size_t i = 0; i < LANES; ++i) far |= fabs(LANE(x, i)) > 1e5;
+    if (far)
+        for (size_t i = 0; i < LANES; ++i) LANE(y, i) = sin(LANE(x, i));
+    return y;
+}
+
+/* cos: x = k pi/2 + r, |r| <= pi/4, within 2 units in the last place; beyond 1e5, by the library. */
+INLINE vector vector_cos(vector x) {
+    const vector shifted = x * 0.6366197723675814 + 6755399441055744.0, k = shifted - 6755399441055744.0;
+    const vector r = ((x - k * 1.5707963267923333) - k * 2.5633441515839558e-12) - k * 1.0562999066987428e-23, z = r * r;
+    const vector_bits quarter = vector_to_bits(shifted) + 1;
+    const vector sine = r + r * z * (-0.16666666666666666 + z * (0.008333333333333331 + z * (-0.00019841269841265063 + z * (2.7557319219337672e-06 + z * (-2.5052106231927857e-08 + z * (1.6058531536611833e-10 + z * -7.586692262094344e-13))))));
+    const vector cosine = 1 - (0.5 * z - z * z * (0.041666666666666664 + z * (-0.0013888888888888887 + z * (2.4801587301584645e-05 + z * (-2.7557319221401993e-07 + z * (2.087675579079147e-09 + z * (-1.1470460841811526e-11 + z * 4.7458692024108734e-14)))))));
+    const vector part = vector_select((quarter & 1) == 0, sine, cosine);
+    vector y = vector_from_bits(vector_to_bits(part) ^ ((quarter & 2) << 62));
+    int far = 0;
+    for (size_t i = 0; i < LANES; ++i) far |= fabs(LANE(x, i)) > 1e5;
+    if (far)
+        for (size_t i = 0; i < LANES; ++i) LANE(y, i) = cos(LANE(x, i));
+    return y;
+}
+
+/* What pairs read of points x. */
+OUTLINE void pair_features(
+    const vector *x, vector *X) {
+    const vector x0 = x[0];
+    const vector x1 = x[1];
+    const vector cos_q1 = vector_cos(x1);
+    X[0] = x0;
+    X[1] = x1;
+    X[2] = 0.25 * (cos_q1 * cos_q1);
+}
+
+/* What pairs read of a splat, of some splats. */
+OUTLINE void pair_constants(
+    const vector *mu, const vector *W, const vector *amplitude, vector *S) {
+    const vector mu0 = mu[0];
+    const vector mu1 = mu[1];
+    const vector W0_0 = W[0];
+    const vector W0_1 = W[1];
+    const vector W1_0 = W[2];
+    const vector W1_1 = W[3];
+    const vector its_amplitude = amplitude[0];
+    const vector cos_p1 = vector_cos(mu1);
+    S[0] = mu0;
+    S[1] = mu1;
+    S[2] = W0_0;
+    S[3] = W0_1;
+    S[4] = W1_0;
+    S[5] = W1_1;
+    S[6] = its_amplitude;
+    S[7] = 0.8888888888888888 - 0.25 * (cos_p1 * cos_p1);
+}
+
+/* Adds the values phi of a splat at some points. */
+INLINE void pair_value(
+    const vector *X, const double *S, vector *value) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const vector mul_of_one = X[2];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double W0_0 = S[2];
+    const double W0_1 = S[3];
+    const double W1_0 = S[4];
+    const double W1_1 = S[5];
+    const double amplitude = S[6];
+    const double sub_of_one = S[7];
+    const vector sin_p1_plus_q1 = vector_sin(x1 + mu1);
+    const vector sin_p1_minus_q1 = vector_sin(mu1 - x1);
+    const vector difference = sin_p1_plus_q1 * (0.25 * sin_p1_minus_q1);
+    const vector total_2 = sub_of_one - mul_of_one;
+    const vector atanh_value = vector_atanh(difference / total_2);
+    const vector gap = x0 - mu0;
+    const vector round_2 = vector_round(0.15915494309189535 * gap);
+    const vector v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
+        round_2;
+    const vector gap_2 = x1 - mu1;
+    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
+    const vector v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
+        round_3;
+    const vector z0 = W0_0 * v0 + W0_1 * v1;
+    const vector z1 = W1_0 * v0 + W1_1 * v1;
+    const vector exp_2 = vector_exp(atanh_value - 0.5 * (z0 * z0 + z1 * z1));
+    value[0] = value[0] + amplitude * exp_2;
+}
+
+/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+INLINE void pair_forward(
+    const vector *X, const double *S, vector *value, vector *slope) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const vector mul_of_one = X[2];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double W0_0 = S[2];
+    const double W0_1 = S[3];
+    const double W1_0 = S[4];
+    const double W1_1 = S[5];
+    const double amplitude = S[6];
+    const double sub_of_one = S[7];
+    const vector total_2 = x1 + mu1;
+    const vector sin_p1_plus_q1 = vector_sin(total_2);
+    const vector gap = mu1 - x1;
+    const vector sin_p1_minus_q1 = vector_sin(gap);
+    const vector product = 0.25 * sin_p1_minus_q1;
+    const vector difference = sin_p1_plus_q1 * product;
+    const vector total_3 = sub_of_one - mul_of_one;
+    const vector difference_ratio = difference / total_3;
+    const vector atanh_value = vector_atanh(difference_ratio);
+    const vector gap_2 = x0 - mu0;
+    const vector round_2 = vector_round(0.15915494309189535 * gap_2);
+    const vector v0 = gap_2 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
+        round_2;
+    const vector gap_3 = x1 - mu1;
+    const vector round_3 = vector_round(0.15915494309189535 * gap_3);
+    const vector v1 = gap_3 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
+        round_3;
+    const vector z0 = W0_0 * v0 + W0_1 * v1;
+    const vector z1 = W1_0 * v0 + W1_1 * v1;
+    const vector exp_2 = vector_exp(atanh_value - 0.5 * (z0 * z0 + z1 * z1));
+    const vector phi = amplitude * exp_2;
+    const vector z1_product = z1 * phi;
+    const vector z0_product = z0 * phi;
+    const vector by_difference = phi / (1.0 - difference_ratio * difference_ratio) / total_3;
+    const vector by_sin_p1_minus_q1 = 0.25 * (sin_p1_plus_q1 * by_difference);
+    const vector by_sin_p1_plus_q1 = product * by_difference;
+    value[0] = value[0] + phi;
+    slope[0] = slope[0] - W1_0 * z1_product - W0_0 * z0_product;
+    slope[1] = slope[1] - W1_1 * z1_product - W0_1 * z0_product - by_sin_p1_minus_q1 * vector_cos(gap) +
+            by_sin_p1_plus_q1 * vector_cos(total_2);
+    slope[2] = slope[2] + difference_ratio * by_difference;
+}
+
+/* The Riemannian gradient at some points, of the sums of slopes. */
+OUTLINE void pair_gradient(
+    const vector *x, const vector *slope, vector *gradient) {
+    const vector x1 = x[1];
+    const vector slope_x0 = slope[0];
+    const vector slope_x1 = slope[1];
+    const vector slope_mul_of_one = slope[2];
+    const vector cos_q1 = vector_cos(x1);
+    const vector by_cos_q1 = cos_q1 * (0.5 * slope_mul_of_one);
+    const vector gap = slope_x1 - by_cos_q1 * vector_sin(x1);
+    const vector total_2 = 12.0 + 18.0 * cos_q1;
+    const vector gap_2 = 9.0 * (cos_q1 * cos_q1) - 16.0;
+    const vector total_3 = slope_x0 * total_2 / gap_2 + gap * (-60.0 - 36.0 * cos_q1) / gap_2;
+    gradient[0] = gap * total_2 / gap_2 - 12.0 * slope_x0 / gap_2;
+    gradient[1] = total_3;
+}
+
+/* The adjoint of slope at some points, of that of the gradient. */
+OUTLINE void pair_gradient_vjp(
+    const vector *x, const vector *gradient_bar, vector *slope_bar) {
+    const vector x1 = x[1];
+    const vector gradient_bar0 = gradient_bar[0];
+    const vector gradient_bar1 = gradient_bar[1];
+    const vector cos_q1 = vector_cos(x1);
+    const vector total_2 = 12.0 + 18.0 * cos_q1;
+    const vector gap = 9.0 * (cos_q1 * cos_q1) - 16.0;
+    const vector ratio = gradient_bar1 / gap;
+    const vector ratio_2 = gradient_bar0 / gap;
+    const vector total_3 = (-60.0 - 36.0 * cos_q1) * ratio + total_2 * ratio_2;
+    const vector minus = -0.5 * (cos_q1 * (vector_sin(x1) * total_3));
+    slope_bar[0] = total_2 * ratio - 12.0 * ratio_2;
+    slope_bar[1] = total_3;
+    slope_bar[2] = minus;
+}
+
+/* The adjoints of some splats' parameters, of that of S. */
+OUTLINE void pair_constants_vjp(
+    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
+    (void)W;
+    (void)amplitude;
+    const vector mu1 = mu[1];
+    const vector mu0_bar = S_bar[0];
+    const vector mu1_bar = S_bar[1];
+    const vector W0_0_bar = S_bar[2];
+    const vector W0_1_bar = S_bar[3];
+    const vector W1_0_bar = S_bar[4];
+    const vector W1_1_bar = S_bar[5];
+    const vector its_amplitude_bar = S_bar[6];
+    const vector sub_of_one_bar = S_bar[7];
+    const vector cos_p1 = vector_cos(mu1);
+    mu_bar[0] = mu0_bar;
+    mu_bar[1] = mu1_bar + cos_p1 * (0.5 * sub_of_one_bar) * vector_sin(mu1);
+    W_bar[0] = W0_0_bar;
+    W_bar[1] = W0_1_bar;
+    W_bar[2] = W1_0_bar;
+    W_bar[3] = W1_1_bar;
+    amplitude_bar[0] = its_amplitude_bar;
+}
+
+/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+INLINE void pair_backward(
+    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const vector mul_of_one = X[2];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double W0_0 = S[2];
+    const double W0_1 = S[3];
+    const double W1_0 = S[4];
+    const double W1_1 = S[5];
+    const double amplitude = S[6];
+    const double sub_of_one = S[7];
+    const vector its_value_bar = value_bar[0];
+    const vector x0_bar = slope_bar[0];
+    const vector x1_bar = slope_bar[1];
+    const vector mul_of_one_bar = slope_bar[2];
+    const vector total_2 = x1 + mu1;
+    const vector sin_p1_plus_q1 = vector_sin(total_2);
+    const vector gap = mu1 - x1;
+    const vector sin_p1_minus_q1 = vector_sin(gap);
+    const vector product = 0.25 * sin_p1_minus_q1;
+    const vector difference = sin_p1_plus_q1 * product;
+    const vector total_3 = sub_of_one - mul_of_one;
+    const vector difference_ratio = difference / total_3;
+    const vector atanh_value = vector_atanh(difference_ratio);
+    const vector gap_2 = x0 - mu0;
+    const vector round_2 = vector_round(0.15915494309189535 * gap_2);
+    const vector v0 = gap_2 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
+        round_2;
+    const vector gap_3 = x1 - mu1;
+    const vector round_3 = vector_round(0.15915494309189535 * gap_3);
+    const vector v1 = gap_3 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
+        round_3;
+    const vector z0 = W0_0 * v0 + W0_1 * v1;
+    const vector z1 = W1_0 * v0 + W1_1 * v1;
+    const vector exp_2 = vector_exp(atanh_value - 0.5 * (z0 * z0 + z1 * z1));
+    const vector phi = amplitude * exp_2;
+    const vector gap_4 = -(W1_0 * x0_bar) - W1_1 * x1_bar;
+    const vector cos_2 = vector_cos(total_2);
+    const vector by_by_sin_p1_plus_q1 = cos_2 * x1_bar;
+    const vector cos_3 = vector_cos(gap);
+    const vector product_2 = 0.25 * (cos_3 * x1_bar);
+    const vector by_by_difference = product * by_by_sin_p1_plus_q1 - sin_p1_plus_q1 * product_2 +
+        difference_ratio * mul_of_one_bar;
+    const vector ratio = by_by_difference / total_3;
+    const vector gap_5 = 1.0 - difference_ratio * difference_ratio;
+    const vector ratio_2 = ratio / gap_5;
+    const vector gap_6 = -(W0_0 * x0_bar) - W0_1 * x1_bar;
+    const vector by_phi = its_value_bar + ratio_2 + z0 * gap_6 + z1 * gap_4;
+    const vector by_atanh_value = exp_2 * (amplitude * by_phi);
+    const vector by_z1 = phi * gap_4 - z1 * by_atanh_value;
+    const vector by_z0 = phi * gap_6 - z0 * by_atanh_value;
+    const vector phi_ratio = phi / gap_5;
+    const vector by_difference = phi_ratio / total_3;
+    const vector by_sin_p1_minus_q1 = 0.25 * (sin_p1_plus_q1 * by_difference);
+    const vector total_4 = by_difference * mul_of_one_bar + difference_ratio * (2.0 * (phi_ratio * ratio_2)) +
+        by_atanh_value / gap_5;
+    const vector by_difference_2 = total_4 / total_3;
+    const vector by_sin_p1_minus_q1_2 = 0.25 * (by_difference * by_by_sin_p1_plus_q1 + sin_p1_plus_q1 *
+        by_difference_2);
+    const vector by_sin_p1_plus_q1 = product * by_difference_2 - by_difference * product_2;
+    const vector by_sin_p1_plus_q1_2 = product * by_difference;
+    const vector z0_product = z0 * phi;
+    const vector z1_product = z1 * phi;
+    S_bar[0] = S_bar[0] - W1_0 * by_z1 - W0_0 * by_z0;
+    S_bar[1] = S_bar[1] + sin_p1_minus_q1 * (by_sin_p1_minus_q1 * x1_bar) + cos_3 * by_sin_p1_minus_q1_2 -
+            W1_1 * by_z1 - W0_1 * by_z0 + cos_2 * by_sin_p1_plus_q1 - sin_p1_plus_q1 * (by_sin_p1_plus_q1_2 *
+            x1_bar);
+    S_bar[2] = S_bar[2] + v0 * by_z0 - z0_product * x0_bar;
+    S_bar[3] = S_bar[3] + v1 * by_z0 - z0_product * x1_bar;
+    S_bar[4] = S_bar[4] + v0 * by_z1 - z1_product * x0_bar;
+    S_bar[5] = S_bar[5] + v1 * by_z1 - z1_product * x1_bar;
+    S_bar[6] = S_bar[6] + exp_2 * by_phi;
+    S_bar[7] = S_bar[7] - by_difference * ratio - difference_ratio * by_difference_2;
+}
+
+/* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
+OUTLINE void vector_rows(const double *rows, size_t count, size_t start, size_t size, vector *columns) {
+    for (size_t i = 0; i < size; ++i) {
+        double column[LANES];
+        for (size_t lane = 0; lane < LANES; ++lane)
+            column[lane] = rows[size * (start + lane < count ? start + lane : count - 1) + i];
+        columns[i] = vector_load(column);
+    }
+}
+
+/* Back to rows that are `stride` apart; nothing past the end. */
+OUTLINE void vector_to_rows(
+    const vector *columns, double *rows, size_t count, size_t start, size_t size, size_t stride) {
+    const size_t lanes = start >= count ? 0 : count - start < LANES ? count - start : LANES;
+    for (size_t lane = 0; lane < lanes; ++lane)
+        for (size_t i = 0; i < size; ++i) rows[stride * (start + lane) + i] = LANE(columns[i], lane);
+}
+
+/* Zero in the lanes past the end. */
+OUTLINE void vector_end(size_t count, size_t start, size_t size, vector *columns) {
+    for (size_t lane = start >= count ? 0 : count - start; lane < LANES; ++lane)
+        for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
+}
+
+/* Scratch memory: 7 vectors for each block of points, then the constants of the splats. */
+size_t arm2_splats_work(size_t count, size_t splat_count, int threads) {
+    (void)threads;
+    return ((count + LANES - 1) / LANES * 7 + 1) * LANES + 8 * splat_count;
+}
+
+static vector *work_points(double *work) {
+    const uintptr_t size = sizeof(vector), start = (uintptr_t)work;
+    return (vector *)((char *)work + ((0 - start) & (size - 1)));
+}
+
+static double *work_constants(double *work, size_t count) {
+    return (double *)(work_points(work) + (count + LANES - 1) / LANES * 7);
+}
+
+/* The constants of LANES splats, as rows. */
+OUTLINE void splat_constants(
+    size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, double *constants) {
+    vector own_mu[2], own_W[4], own_amplitude[1], S[8];
+    vector_rows(mu, splat_count, start, 2, own_mu);
+    vector_rows(W, splat_count, start, 4, own_W);
+    vector_rows(amplitude, splat_count, start, 1, own_amplitude);
+    pair_constants(own_mu, own_W, own_amplitude, S);
+    vector_to_rows(S, constants, splat_count, start, 8, 8);
+}
+
+/* 2 vectors of points at a time stay in registers while all splats pass. */
 void arm2_splats(
-    size_t count,
-    size_t splat_count,
-    const double *ARM2_RESTRICT x,
-    const double *ARM2_RESTRICT mu,
-    const double *ARM2_RESTRICT W,
-    const double *ARM2_RESTRICT amplitude,
-    double *ARM2_RESTRICT value,
-    double *ARM2_RESTRICT gradient) {
-    const unsigned mode = flush_denormals();
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        double x_block[2][LANES], sum[3][LANES] = {{0}};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            for (size_t i = 0; i < 2; ++i) x_block[i][lane] = x[2 * n + i];
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            const double mu0 = mu[2 * k + 0];
-            const double mu1 = mu[2 * k + 1];
-            const double W0_0 = W[4 * k + 0];
-            const double W0_1 = W[4 * k + 1];
-            const double W1_0 = W[4 * k + 2];
-            const double W1_1 = W[4 * k + 3];
-            const double amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const double gap = x_block[0][lane] - mu0;
-                const double round_2 = rint(0.15915494309189535 * gap);
-                const double v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-                    round_2;
-                const double gap_2 = x_block[1][lane] - mu1;
-                const double round_3 = rint(0.15915494309189535 * gap_2);
-                const double v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-                    round_3;
-                const double gap_3 = mu1 - x_block[1][lane];
-                const double sin_p1_minus_q1 = sin(gap_3);
-                const double total_2 = x_block[1][lane] + mu1;
-                const double sin_p1_plus_q1 = sin(total_2);
-                const double product = 0.25 * sin_p1_minus_q1;
-                const double difference = sin_p1_plus_q1 * product;
-                const double cos_p1 = cos(mu1);
-                const double cos_q1 = cos(x_block[1][lane]);
-                const double cos_q1_squared = cos_q1 * cos_q1;
-                const double total_3 = 0.8888888888888888 - 0.25 * (cos_p1 * cos_p1) - 0.25 * cos_q1_squared;
-                const double difference_ratio = difference / total_3;
-                const double atanh_value = atanh(difference_ratio);
-                const double z0 = W0_0 * v0 + W0_1 * v1;
-                const double z1 = W1_0 * v0 + W1_1 * v1;
-                const double exp_2 = exp(atanh_value - 0.5 * (z0 * z0 + z1 * z1));
-                const double phi = amplitude_k * exp_2;
-                const double by_v1 = -(W1_1 * z1) - W0_1 * z0;
-                const double by_v0 = -(W1_0 * z1) - W0_0 * z0;
-                const double by_difference = 1.0 / (1.0 - difference_ratio * difference_ratio) / total_3;
-                const double by_cos_q1 = cos_q1 * (0.5 * (difference_ratio * by_difference));
-                const double by_sin_p1_plus_q1 = product * by_difference;
-                const double by_sin_p1_minus_q1 = 0.25 * (sin_p1_plus_q1 * by_difference);
-                const double exponent_by_x1 = by_v1 + (by_sin_p1_plus_q1 * cos(total_2) - by_cos_q1 *
-                    sin(x_block[1][lane]) - by_sin_p1_minus_q1 * cos(gap_3));
-                const double df0 = phi * by_v0;
-                const double df1 = phi * exponent_by_x1;
-                const double gap_4 = 9.0 * cos_q1_squared - 16.0;
-                const double total_4 = 12.0 + 18.0 * cos_q1;
-                const double gradient0 = df1 * total_4 / gap_4 - 12.0 * df0 / gap_4;
-                const double gradient1 = df0 * total_4 / gap_4 + df1 * (-60.0 - 36.0 * cos_q1) / gap_4;
-                sum[0][lane] += phi;
-                sum[1][lane] += gradient0;
-                sum[2][lane] += gradient1;
+    size_t count, size_t splat_count, const double *ARM2_RESTRICT x, const double *ARM2_RESTRICT mu, const double *ARM2_RESTRICT W, const double *ARM2_RESTRICT amplitude,
+    double *ARM2_RESTRICT value, double *ARM2_RESTRICT gradient, double *ARM2_RESTRICT work, int threads) {
+    (void)threads;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES) {
+            vector at[2][2], X[2][3], grad[2];
+            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][3] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows(x, count, start + b * LANES, 2, at[b]);
+                pair_features(at[b], X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_forward(X[0], constants + 8 * k, value_sum[0], slope_sum[0]);
+                pair_forward(X[1], constants + 8 * k, value_sum[1], slope_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b) {
+                pair_gradient(at[b], slope_sum[b], grad);
+                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                vector_to_rows(grad, gradient, count, start + b * LANES, 2, 2);
             }
         }
-        for (size_t lane = 0; lane < lanes; ++lane) {
-            value[start + lane] = sum[0][lane];
-            for (size_t i = 0; i < 2; ++i) gradient[2 * (start + lane) + i] = sum[i + 1][lane];
-        }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
+void arm2_splats_value(
+    size_t count, size_t splat_count, const double *ARM2_RESTRICT x, const double *ARM2_RESTRICT mu, const double *ARM2_RESTRICT W, const double *ARM2_RESTRICT amplitude,
+    double *ARM2_RESTRICT value, double *ARM2_RESTRICT work, int threads) {
+    (void)threads;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES) {
+            vector at[2], X[2][3], value_sum[2][1] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows(x, count, start + b * LANES, 2, at);
+                pair_features(at, X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_value(X[0], constants + 8 * k, value_sum[0]);
+                pair_value(X[1], constants + 8 * k, value_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b)
+                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
+OUTLINE void splat_points(
+    size_t count, size_t start, const double *x, const double *value_bar, const double *gradient_bar, vector *point) {
+    vector at[2], grad_bar[2], slope_bar[3];
+    vector_rows(x, count, start, 2, at);
+    vector_rows(gradient_bar, count, start, 2, grad_bar);
+    vector_rows(value_bar, count, start, 1, point + 3);
+    pair_features(at, point);
+    pair_gradient_vjp(at, grad_bar, slope_bar);
+    for (int i = 0; i < 3; ++i) point[3 + 1 + i] = slope_bar[i];
+    vector_end(count, start, 3 + 1, point + 3);
+}
+
+/* Adds to S_bar what some vectors of points add to it. */
+OUTLINE void splat_sums(const vector *point, size_t size, const double *S, double *S_bar) {
+    vector sum[8] = {ZERO};
+    for (size_t b = 0; b < size; ++b, point += 7) pair_backward(point, S, point + 3, point + 3 + 1, sum);
+    S_bar[0] += vector_sum(sum[0]);
+    S_bar[1] += vector_sum(sum[1]);
+    S_bar[2] += vector_sum(sum[2]);
+    S_bar[3] += vector_sum(sum[3]);
+    S_bar[4] += vector_sum(sum[4]);
+    S_bar[5] += vector_sum(sum[5]);
+    S_bar[6] += vector_sum(sum[6]);
+    S_bar[7] += vector_sum(sum[7]);
+}
+
+/*
+ * Some splats at a time; the points pass over each of them, a chunk at a time, while its sums stay in registers. How many
+ * splats depends on the threads, what is summed in which order does not.
+ */
 void arm2_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *ARM2_RESTRICT x,
-    const double *ARM2_RESTRICT mu,
-    const double *ARM2_RESTRICT W,
-    const double *ARM2_RESTRICT amplitude,
-    const double *ARM2_RESTRICT value_bar,
-    const double *ARM2_RESTRICT gradient_bar,
-    double *ARM2_RESTRICT mu_bar,
-    double *ARM2_RESTRICT W_bar,
-    double *ARM2_RESTRICT amplitude_bar) {
-    const unsigned mode = flush_denormals();
-    for (size_t i = 0; i < 2 * splat_count; ++i) mu_bar[i] = 0;
-    for (size_t i = 0; i < 4 * splat_count; ++i) W_bar[i] = 0;
-    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        double x_block[2][LANES], value_bar_block[1][LANES], gradient_bar_block[2][LANES];
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            const double weight = lane < lanes ? 1 : 0;
-            for (size_t i = 0; i < 2; ++i) x_block[i][lane] = x[2 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
-            for (size_t i = 0; i < 2; ++i) gradient_bar_block[i][lane] = gradient_bar[2 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
-            for (size_t i = 0; i < 2; ++i) gradient_bar_block[i][lane] *= weight;
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            double sum[7][LANES] = {{0}}, total[7] = {0};
-            const double mu0 = mu[2 * k + 0];
-            const double mu1 = mu[2 * k + 1];
-            const double W0_0 = W[4 * k + 0];
-            const double W0_1 = W[4 * k + 1];
-            const double W1_0 = W[4 * k + 2];
-            const double W1_1 = W[4 * k + 3];
-            const double amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const double gap = x_block[0][lane] - mu0;
-                const double round_2 = rint(0.15915494309189535 * gap);
-                const double v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-                    round_2;
-                const double gap_2 = x_block[1][lane] - mu1;
-                const double round_3 = rint(0.15915494309189535 * gap_2);
-                const double v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-                    round_3;
-                const double gap_3 = mu1 - x_block[1][lane];
-                const double sin_p1_minus_q1 = sin(gap_3);
-                const double total_2 = x_block[1][lane] + mu1;
-                const double sin_p1_plus_q1 = sin(total_2);
-                const double product = 0.25 * sin_p1_minus_q1;
-                const double difference = sin_p1_plus_q1 * product;
-                const double cos_p1 = cos(mu1);
-                const double cos_q1 = cos(x_block[1][lane]);
-                const double cos_q1_squared = cos_q1 * cos_q1;
-                const double total_3 = 0.8888888888888888 - 0.25 * (cos_p1 * cos_p1) - 0.25 * cos_q1_squared;
-                const double difference_ratio = difference / total_3;
-                const double atanh_value = atanh(difference_ratio);
-                const double z0 = W0_0 * v0 + W0_1 * v1;
-                const double z1 = W1_0 * v0 + W1_1 * v1;
-                const double exp_2 = exp(atanh_value - 0.5 * (z0 * z0 + z1 * z1));
-                const double phi = amplitude_k * exp_2;
-                const double by_v1 = -(W1_1 * z1) - W0_1 * z0;
-                const double by_v0 = -(W1_0 * z1) - W0_0 * z0;
-                const double gap_4 = 1.0 - difference_ratio * difference_ratio;
-                const double ratio = 1.0 / gap_4;
-                const double by_difference = ratio / total_3;
-                const double by_cos_q1 = cos_q1 * (0.5 * (difference_ratio * by_difference));
-                const double sin_2 = sin(x_block[1][lane]);
-                const double by_sin_p1_plus_q1 = product * by_difference;
-                const double by_sin_p1_minus_q1 = 0.25 * (sin_p1_plus_q1 * by_difference);
-                const double cos_2 = cos(total_2);
-                const double cos_3 = cos(gap_3);
-                const double exponent_by_x1 = by_v1 + (by_sin_p1_plus_q1 * cos_2 - by_cos_q1 * sin_2 - by_sin_p1_minus_q1
-                    * cos_3);
-                const double gap_5 = 9.0 * cos_q1_squared - 16.0;
-                const double total_4 = 12.0 + 18.0 * cos_q1;
-                const double ratio_2 = gradient_bar_block[1][lane] / gap_5;
-                const double ratio_3 = gradient_bar_block[0][lane] / gap_5;
-                const double by_df0 = total_4 * ratio_2 - 12.0 * ratio_3;
-                const double by_df1 = (-60.0 - 36.0 * cos_q1) * ratio_2 + total_4 * ratio_3;
-                const double by_exponent_by_x1 = phi * by_df1;
-                const double by_by_v0 = phi * by_df0;
-                const double by_phi = value_bar_block[0][lane] + exponent_by_x1 * by_df1 + by_v0 * by_df0;
-                const double by_by_sin_p1_plus_q1 = cos_2 * by_exponent_by_x1;
-                const double product_2 = 0.25 * (cos_3 * by_exponent_by_x1);
-                const double product_3 = 0.5 * (cos_q1 * (sin_2 * by_exponent_by_x1));
-                const double by_by_difference = product * by_by_sin_p1_plus_q1 - sin_p1_plus_q1 * product_2 -
-                    difference_ratio * product_3;
-                const double ratio_4 = by_by_difference / total_3;
-                const double gap_6 = difference_ratio * (2.0 * (ratio * (ratio_4 / gap_4))) - by_difference * product_3;
-                const double by_atanh_value = exp_2 * (amplitude_k * by_phi);
-                const double by_z1 = -(W1_0 * by_by_v0) - W1_1 * by_exponent_by_x1 - z1 * by_atanh_value;
-                const double by_z0 = -(W0_0 * by_by_v0) - W0_1 * by_exponent_by_x1 - z0 * by_atanh_value;
-                const double by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0;
-                const double by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0;
-                const double by_difference_2 = (gap_6 + by_atanh_value / gap_4) / total_3;
-                const double by_cos_p1 = cos_p1 * (0.5 * (difference_ratio * by_difference_2 - -(by_difference *
-                    ratio_4)));
-                const double by_sin_p1_plus_q1_2 = product * by_difference_2 - by_difference * product_2;
-                const double by_sin_p1_minus_q1_2 = 0.25 * (by_difference * by_by_sin_p1_plus_q1 + sin_p1_plus_q1 *
-                    by_difference_2);
-                const double total_5 = cos_2 * by_sin_p1_plus_q1_2 - sin_p1_plus_q1 * (by_sin_p1_plus_q1 *
-                    by_exponent_by_x1) - by_cos_p1 * sin(mu1) + (sin_p1_minus_q1 * (by_sin_p1_minus_q1 *
-                    by_exponent_by_x1) + cos_3 * by_sin_p1_minus_q1_2);
-                sum[0][lane] += -by_v0_2;
-                sum[1][lane] += total_5 - by_v1_2;
-                sum[2][lane] += v0 * by_z0 - z0 * by_by_v0;
-                sum[3][lane] += v1 * by_z0 - z0 * by_exponent_by_x1;
-                sum[4][lane] += v0 * by_z1 - z1 * by_by_v0;
-                sum[5][lane] += v1 * by_z1 - z1 * by_exponent_by_x1;
-                sum[6][lane] += exp_2 * by_phi;
+    size_t count, size_t splat_count, const double *ARM2_RESTRICT x, const double *ARM2_RESTRICT mu, const double *ARM2_RESTRICT W, const double *ARM2_RESTRICT amplitude, const double *ARM2_RESTRICT value_bar, const double *ARM2_RESTRICT gradient_bar,
+    double *ARM2_RESTRICT mu_bar, double *ARM2_RESTRICT W_bar, double *ARM2_RESTRICT amplitude_bar, double *ARM2_RESTRICT work, int threads) {
+    const size_t blocks = (count + LANES - 1) / LANES;
+    const size_t chunk = 131072 / (7 * sizeof(vector)) + 1;
+    const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
+    const size_t share = part < LANES ? part : LANES;
+    vector *points = work_points(work);
+    double *constants = work_constants(work, count);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic) nowait)
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic, 8))
+        for (size_t block = 0; block < blocks; ++block)
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 7 * block);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += share) {
+            const size_t end = start + share < splat_count ? start + share : splat_count;
+            double sums[LANES][8] = {{0}};
+            vector own_mu[2], own_W[4], own_amplitude[1], S_bar[8], bars[7];
+            for (size_t first = 0; first < blocks; first += chunk) {
+                const size_t size = first + chunk < blocks ? chunk : blocks - first;
+                for (size_t k = start; k < end; ++k)
+                    splat_sums(points + 7 * first, size, constants + 8 * k, sums[k - start]);
             }
-            for (size_t i = 0; i < 7; ++i)
-                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
-            mu_bar[2 * k + 0] += total[0];
-            mu_bar[2 * k + 1] += total[1];
-            W_bar[4 * k + 0] += total[2];
-            W_bar[4 * k + 1] += total[3];
-            W_bar[4 * k + 2] += total[4];
-            W_bar[4 * k + 3] += total[5];
-            amplitude_bar[1 * k + 0] += total[6];
+            vector_rows(mu, end, start, 2, own_mu);
+            vector_rows(W, end, start, 4, own_W);
+            vector_rows(amplitude, end, start, 1, own_amplitude);
+            vector_rows(sums[0], LANES, 0, 8, S_bar);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+            vector_to_rows(bars, mu_bar, end, start, 2, 2);
+            vector_to_rows(bars + 2, W_bar, end, start, 4, 4);
+            vector_to_rows(bars + 2 + 4, amplitude_bar, end, start, 1, 1);
         }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
+/* Nothing is summed: the adjoints of a splat's constants go on to its parameters for every point. */
+void arm2_splats_rows(
+    size_t count, size_t splat_count, const double *ARM2_RESTRICT x, const double *ARM2_RESTRICT mu, const double *ARM2_RESTRICT W, const double *ARM2_RESTRICT amplitude, const double *ARM2_RESTRICT value_bar, const double *ARM2_RESTRICT gradient_bar,
+    double *ARM2_RESTRICT rows, double *ARM2_RESTRICT work, int threads) {
+    (void)threads;
+    const size_t blocks = (count + LANES - 1) / LANES;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t block = 0; block < blocks; ++block) {
+            vector point[7];
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
+            for (size_t k = 0; k < splat_count; ++k) {
+                vector own_mu[2], own_W[4], own_amplitude[1], S_bar[8] = {ZERO}, bars[7];
+                for (int i = 0; i < 2; ++i) own_mu[i] = vector_of(mu[2 * k + i]);
+                for (int i = 0; i < 4; ++i) own_W[i] = vector_of(W[4 * k + i]);
+                own_amplitude[0] = vector_of(amplitude[k]);
+                pair_backward(point, constants + 8 * k, point + 3, point + 3 + 1, S_bar);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+                vector_to_rows(bars, rows + 7 * k, count, block * LANES, 7, 7 * splat_count);
+            }
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* The same number in all lanes. */
+INLINE vector_f vector_of_f(float x) {
+    const vector_f zero = ZERO;
+    return x - zero;
+}
+
+/* x in the lanes of the mask, y in the others. */
+INLINE vector_f vector_select_f(vector_mask_f mask, vector_f x, vector_f y) {
+    return SELECT(vector_f, vector_mask_f, mask, x, y);
+}
+
+/* Numbers in memory to a vector, and back. */
+INLINE vector_f vector_load_f(const float *from) {
+    vector_f x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+INLINE void vector_store_f(float *to, vector_f x) { memcpy(to, &x, sizeof x); }
+
+/* The sum over the lanes, by halves. */
+INLINE float vector_sum_f(vector_f x) {
+    float lanes[LANES_f];
+    vector_store_f(lanes, x);
+    for (size_t half = LANES_f / 2; half > 0; half /= 2)
+        for (size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    return lanes[0];
+}
+
+/* The bits of a vector as integers, and back. */
+INLINE vector_bits_f vector_to_bits_f(vector_f x) {
+    vector_bits_f bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
+    vector_f x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* x >= 0 with the sign of another. */
+INLINE vector_f vector_signed_f(vector_f x, vector_f sign) {
+    return vector_from_bits_f(vector_to_bits_f(x) | (vector_to_bits_f(sign) & 0x80000000));
+}
+
+/* abs of every lane; one instruction where the machine has it. */
+INLINE vector_f vector_abs_f(vector_f x) {
+    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
+    return x;
+}
+
+/* round of every lane; one instruction where the machine has it. */
+INLINE vector_f vector_round_f(vector_f x) {
+    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = rintf(LANE(x, i));
+    return x;
+}
+
+/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
+INLINE vector_f vector_exp_f(vector_f x) {
+    const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
+    const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
+    const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
+    const vector_f scale = vector_from_bits_f((vector_to_bits_f(shifted) + 126) << 23); /* 2^(k - 1) */
+    const vector_f y = vector_select_f(x > 88.722839f, vector_of_f(HUGE_VALF), (scale + scale * part) * 2);
+    return vector_select_f(x < -86.9f, vector_of_f(0), y);
+}
+
+/* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
+INLINE vector_f vector_log_f(vector_f x) {
+    const vector_bits_f bits = vector_to_bits_f(x), biased = (bits + 0x4afb0d) >> 23; /* k + 127 */
+    const vector_f k = vector_from_bits_f(biased + 0x4b400000) - 12583039.0f;
+    const vector_f f = vector_from_bits_f(bits - (biased << 23) + 0x3f800000) - 1, s = f / (2 + f), z = s * s;
+    const vector_f half = f * f * 0.5f;
+    const vector_f rest = z * (0.6666666655430018f + z * (0.4000012200081688f + z * (0.2855080255327671f + z * 0.2333096405177204f)));
+    const vector_f y = k * 0.693145751953125f - ((half - (s * (half + rest) + k * 1.4286068203094173e-06f)) - f);
+    const vector_f small = vector_select_f(x < 0, vector_of_f(NAN), vector_of_f(-HUGE_VALF));
+    const vector_f finite = vector_select_f(x > 1.17549421e-38f, y, small);
+    return vector_select_f(x <= 3.4028234663852886e38f, finite, x);
+}
+
+/* log(1 + x), within 2 units in the last place. */
+INLINE vector_f vector_log1p_f(vector_f x) {
+    const vector_f u = 1 + x;
+    return vector_select_f(x <= 3.4028234663852886e38f, vector_log_f(u) + (x - (u - 1)) / u, x);
+}
+
+/* atanh, within 3 units in the last place. */
+INLINE vector_f vector_atanh_f(vector_f x) {
+    const vector_f a = vector_abs_f(x);
+    return vector_signed_f(0.5f * vector_log1p_f(2 * a / (1 - a)), x);
+}
+
+/* sin: x = k pi/2 + r, |r| <= pi/4, within 2 units in the last place; beyond 100.0, by the library. */
+INLINE vector_f vector_sin_f(vector_f x) {
+    const vector_f shifted = x * 0.6366197723675814f + 12582912.0f, k = shifted - 12582912.0f;
+    const vector_f r = ((x - k * 1.57080078125f) - k * -4.45445766672492e-06f) - k * 2.563344151594519e-12f, z = r * r;
+    const vector_bits_f quarter = vector_to_bits_f(shifted);
+    const vector_f sine = r + r * z * (-0.16666666663854385f + z * (0.008333331874358352f + z * (-0.0001984008654531293f + z * 2.724990115829391e-06f)));
+    const vector_f cosine = 1 - (0.5f * z - z * z * (0.04166666666432045f + z * (-0.0013888887671723142f + z * (2.4800600218521467e-05f + z * -2.730093863463587e-07f))));
+    const vector_f part = vector_select_f((quarter & 1) == 0, sine, cosine);
+    vector_f y = vector_from_bits_f(vector_to_bits_f(part) ^ ((quarter & 2) << 30));
+    int far = 0;
+    for (size_t i = 0; i < LANES_f; ++i) far |= fabsf(LANE(x, i)) > 100.0f;
+    if (far)
+        for (size_t i = 0; i < LANES_f; ++i) LANE(y, i) = sinf(LANE(x, i));
+    return y;
+}
+
+/* cos: x = k pi/2 + r, |r| <= pi/4, within 2 units in the last place; beyond 100.0, by the library. */
+INLINE vector_f vector_cos_f(vector_f x) {
+    const vector_f shifted = x * 0.6366197723675814f + 12582912.0f, k = shifted - 12582912.0f;
+    const vector_f r = ((x - k * 1.57080078125f) - k * -4.45445766672492e-06f) - k * 2.563344151594519e-12f, z = r * r;
+    const vector_bits_f quarter = vector_to_bits_f(shifted) + 1;
+    const vector_f sine = r + r * z * (-0.16666666663854385f + z * (0.008333331874358352f + z * (-0.0001984008654531293f + z * 2.724990115829391e-06f)));
+    const vector_f cosine = 1 - (0.5f * z - z * z * (0.04166666666432045f + z * (-0.0013888887671723142f + z * (2.4800600218521467e-05f + z * -2.730093863463587e-07f))));
+    const vector_f part = vector_select_f((quarter & 1) == 0, sine, cosine);
+    vector_f y = vector_from_bits_f(vector_to_bits_f(part) ^ ((quarter & 2) << 30));
+    int far = 0;
+    for (size_t i = 0; i < LANES_f; ++i) far |= fabsf(LANE(x, i)) > 100.0f;
+    if (far)
+        for (size_t i = 0; i < LANES_f; ++i) LANE(y, i) = cosf(LANE(x, i));
+    return y;
+}
+
+/* What pairs read of points x. */
+OUTLINE void pair_features_f(
+    const vector_f *x, vector_f *X) {
+    const vector_f x0 = x[0];
+    const vector_f x1 = x[1];
+    const vector_f cos_q1 = vector_cos_f(x1);
+    X[0] = x0;
+    X[1] = x1;
+    X[2] = 0.25f * (cos_q1 * cos_q1);
+}
+
+/* What pairs read of a splat, of some splats. */
+OUTLINE void pair_constants_f(
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, vector_f *S) {
+    const vector_f mu0 = mu[0];
+    const vector_f mu1 = mu[1];
+    const vector_f W0_0 = W[0];
+    const vector_f W0_1 = W[1];
+    const vector_f W1_0 = W[2];
+    const vector_f W1_1 = W[3];
+    const vector_f its_amplitude = amplitude[0];
+    const vector_f cos_p1 = vector_cos_f(mu1);
+    S[0] = mu0;
+    S[1] = mu1;
+    S[2] = W0_0;
+    S[3] = W0_1;
+    S[4] = W1_0;
+    S[5] = W1_1;
+    S[6] = its_amplitude;
+    S[7] = 0.8888888888888888f - 0.25f * (cos_p1 * cos_p1);
+}
+
+/* Adds the values phi of a splat at some points. */
+INLINE void pair_value_f(
+    const vector_f *X, const float *S, vector_f *value) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const vector_f mul_of_one = X[2];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float W0_0 = S[2];
+    const float W0_1 = S[3];
+    const float W1_0 = S[4];
+    const float W1_1 = S[5];
+    const float amplitude = S[6];
+    const float sub_of_one = S[7];
+    const vector_f sin_p1_plus_q1 = vector_sin_f(x1 + mu1);
+    const vector_f sin_p1_minus_q1 = vector_sin_f(mu1 - x1);
+    const vector_f difference = sin_p1_plus_q1 * (0.25f * sin_p1_minus_q1);
+    const vector_f total_2 = sub_of_one - mul_of_one;
+    const vector_f atanh_value = vector_atanh_f(difference / total_2);
+    const vector_f gap = x0 - mu0;
+    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
+    const vector_f v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
+        round_2;
+    const vector_f gap_2 = x1 - mu1;
+    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
+    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
+        * round_3;
+    const vector_f z0 = W0_0 * v0 + W0_1 * v1;
+    const vector_f z1 = W1_0 * v0 + W1_1 * v1;
+    const vector_f exp_2 = vector_exp_f(atanh_value - 0.5f * (z0 * z0 + z1 * z1));
+    value[0] = value[0] + amplitude * exp_2;
+}
+
+/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+INLINE void pair_forward_f(
+    const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const vector_f mul_of_one = X[2];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float W0_0 = S[2];
+    const float W0_1 = S[3];
+    const float W1_0 = S[4];
+    const float W1_1 = S[5];
+    const float amplitude = S[6];
+    const float sub_of_one = S[7];
+    const vector_f total_2 = x1 + mu1;
+    const vector_f sin_p1_plus_q1 = vector_sin_f(total_2);
+    const vector_f gap = mu1 - x1;
+    const vector_f sin_p1_minus_q1 = vector_sin_f(gap);
+    const vector_f product = 0.25f * sin_p1_minus_q1;
+    const vector_f difference = sin_p1_plus_q1 * product;
+    const vector_f total_3 = sub_of_one - mul_of_one;
+    const vector_f difference_ratio = difference / total_3;
+    const vector_f atanh_value = vector_atanh_f(difference_ratio);
+    const vector_f gap_2 = x0 - mu0;
+    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap_2);
+    const vector_f v0 = gap_2 - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f
+        * round_2;
+    const vector_f gap_3 = x1 - mu1;
+    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_3);
+    const vector_f v1 = gap_3 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
+        * round_3;
+    const vector_f z0 = W0_0 * v0 + W0_1 * v1;
+    const vector_f z1 = W1_0 * v0 + W1_1 * v1;
+    const vector_f exp_2 = vector_exp_f(atanh_value - 0.5f * (z0 * z0 + z1 * z1));
+    const vector_f phi = amplitude * exp_2;
+    const vector_f z1_product = z1 * phi;
+    const vector_f z0_product = z0 * phi;
+    const vector_f by_difference = phi / (1.0f - difference_ratio * difference_ratio) / total_3;
+    const vector_f by_sin_p1_minus_q1 = 0.25f * (sin_p1_plus_q1 * by_difference);
+    const vector_f by_sin_p1_plus_q1 = product * by_difference;
+    value[0] = value[0] + phi;
+    slope[0] = slope[0] - W1_0 * z1_product - W0_0 * z0_product;
+    slope[1] = slope[1] - W1_1 * z1_product - W0_1 * z0_product - by_sin_p1_minus_q1 * vector_cos_f(gap) +
+            by_sin_p1_plus_q1 * vector_cos_f(total_2);
+    slope[2] = slope[2] + difference_ratio * by_difference;
+}
+
+/* The Riemannian gradient at some points, of the sums of slopes. */
+OUTLINE void pair_gradient_f(
+    const vector_f *x, const vector_f *slope, vector_f *gradient) {
+    const vector_f x1 = x[1];
+    const vector_f slope_x0 = slope[0];
+    const vector_f slope_x1 = slope[1];
+    const vector_f slope_mul_of_one = slope[2];
+    const vector_f cos_q1 = vector_cos_f(x1);
+    const vector_f by_cos_q1 = cos_q1 * (0.5f * slope_mul_of_one);
+    const vector_f gap = slope_x1 - by_cos_q1 * vector_sin_f(x1);
+    const vector_f total_2 = 12.0f + 18.0f * cos_q1;
+    const vector_f gap_2 = 9.0f * (cos_q1 * cos_q1) - 16.0f;
+    const vector_f total_3 = slope_x0 * total_2 / gap_2 + gap * (-60.0f - 36.0f * cos_q1) / gap_2;
+    gradient[0] = gap * total_2 / gap_2 - 12.0f * slope_x0 / gap_2;
+    gradient[1] = total_3;
+}
+
+/* The adjoint of slope at some points, of that of the gradient. */
+OUTLINE void pair_gradient_vjp_f(
+    const vector_f *x, const vector_f *gradient_bar, vector_f *slope_bar) {
+    const vector_f x1 = x[1];
+    const vector_f gradient_bar0 = gradient_bar[0];
+    const vector_f gradient_bar1 = gradient_bar[1];
+    const vector_f cos_q1 = vector_cos_f(x1);
+    const vector_f total_2 = 12.0f + 18.0f * cos_q1;
+    const vector_f gap = 9.0f * (cos_q1 * cos_q1) - 16.0f;
+    const vector_f ratio = gradient_bar1 / gap;
+    const vector_f ratio_2 = gradient_bar0 / gap;
+    const vector_f total_3 = (-60.0f - 36.0f * cos_q1) * ratio + total_2 * ratio_2;
+    const vector_f minus = -0.5f * (cos_q1 * (vector_sin_f(x1) * total_3));
+    slope_bar[0] = total_2 * ratio - 12.0f * ratio_2;
+    slope_bar[1] = total_3;
+    slope_bar[2] = minus;
+}
+
+/* The adjoints of some splats' parameters, of that of S. */
+OUTLINE void pair_constants_vjp_f(
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
+    (void)W;
+    (void)amplitude;
+    const vector_f mu1 = mu[1];
+    const vector_f mu0_bar = S_bar[0];
+    const vector_f mu1_bar = S_bar[1];
+    const vector_f W0_0_bar = S_bar[2];
+    const vector_f W0_1_bar = S_bar[3];
+    const vector_f W1_0_bar = S_bar[4];
+    const vector_f W1_1_bar = S_bar[5];
+    const vector_f its_amplitude_bar = S_bar[6];
+    const vector_f sub_of_one_bar = S_bar[7];
+    const vector_f cos_p1 = vector_cos_f(mu1);
+    mu_bar[0] = mu0_bar;
+    mu_bar[1] = mu1_bar + cos_p1 * (0.5f * sub_of_one_bar) * vector_sin_f(mu1);
+    W_bar[0] = W0_0_bar;
+    W_bar[1] = W0_1_bar;
+    W_bar[2] = W1_0_bar;
+    W_bar[3] = W1_1_bar;
+    amplitude_bar[0] = its_amplitude_bar;
+}
+
+/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+INLINE void pair_backward_f(
+    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const vector_f mul_of_one = X[2];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float W0_0 = S[2];
+    const float W0_1 = S[3];
+    const float W1_0 = S[4];
+    const float W1_1 = S[5];
+    const float amplitude = S[6];
+    const float sub_of_one = S[7];
+    const vector_f its_value_bar = value_bar[0];
+    const vector_f x0_bar = slope_bar[0];
+    const vector_f x1_bar = slope_bar[1];
+    const vector_f mul_of_one_bar = slope_bar[2];
+    const vector_f total_2 = x1 + mu1;
+    const vector_f sin_p1_plus_q1 = vector_sin_f(total_2);
+    const vector_f gap = mu1 - x1;
+    const vector_f sin_p1_minus_q1 = vector_sin_f(gap);
+    const vector_f product = 0.25f * sin_p1_minus_q1;
+    const vector_f difference = sin_p1_plus_q1 * product;
+    const vector_f total_3 = sub_of_one - mul_of_one;
+    const vector_f difference_ratio = difference / total_3;
+    const vector_f atanh_value = vector_atanh_f(difference_ratio);
+    const vector_f gap_2 = x0 - mu0;
+    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap_2);
+    const vector_f v0 = gap_2 - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f
+        * round_2;
+    const vector_f gap_3 = x1 - mu1;
+    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_3);
+    const vector_f v1 = gap_3 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
+        * round_3;
+    const vector_f z0 = W0_0 * v0 + W0_1 * v1;
+    const vector_f z1 = W1_0 * v0 + W1_1 * v1;
+    const vector_f exp_2 = vector_exp_f(atanh_value - 0.5f * (z0 * z0 + z1 * z1));
+    const vector_f phi = amplitude * exp_2;
+    const vector_f gap_4 = -(W1_0 * x0_bar) - W1_1 * x1_bar;
+    const vector_f cos_2 = vector_cos_f(total_2);
+    const vector_f by_by_sin_p1_plus_q1 = cos_2 * x1_bar;
+    const vector_f cos_3 = vector_cos_f(gap);
+    const vector_f product_2 = 0.25f * (cos_3 * x1_bar);
+    const vector_f by_by_difference = product * by_by_sin_p1_plus_q1 - sin_p1_plus_q1 * product_2 +
+        difference_ratio * mul_of_one_bar;
+    const vector_f ratio = by_by_difference / total_3;
+    const vector_f gap_5 = 1.0f - difference_ratio * difference_ratio;
+    const vector_f ratio_2 = ratio / gap_5;
+    const vector_f gap_6 = -(W0_0 * x0_bar) - W0_1 * x1_bar;
+    const vector_f by_phi = its_value_bar + ratio_2 + z0 * gap_6 + z1 * gap_4;
+    const vector_f by_atanh_value = exp_2 * (amplitude * by_phi);
+    const vector_f by_z1 = phi * gap_4 - z1 * by_atanh_value;
+    const vector_f by_z0 = phi * gap_6 - z0 * by_atanh_value;
+    const vector_f phi_ratio = phi / gap_5;
+    const vector_f by_difference = phi_ratio / total_3;
+    const vector_f by_sin_p1_minus_q1 = 0.25f * (sin_p1_plus_q1 * by_difference);
+    const vector_f total_4 = by_difference * mul_of_one_bar + difference_ratio * (2.0f * (phi_ratio *
+        ratio_2)) + by_atanh_value / gap_5;
+    const vector_f by_difference_2 = total_4 / total_3;
+    const vector_f by_sin_p1_minus_q1_2 = 0.25f * (by_difference * by_by_sin_p1_plus_q1 + sin_p1_plus_q1 *
+        by_difference_2);
+    const vector_f by_sin_p1_plus_q1 = product * by_difference_2 - by_difference * product_2;
+    const vector_f by_sin_p1_plus_q1_2 = product * by_difference;
+    const vector_f z0_product = z0 * phi;
+    const vector_f z1_product = z1 * phi;
+    S_bar[0] = S_bar[0] - W1_0 * by_z1 - W0_0 * by_z0;
+    S_bar[1] = S_bar[1] + sin_p1_minus_q1 * (by_sin_p1_minus_q1 * x1_bar) + cos_3 * by_sin_p1_minus_q1_2 -
+            W1_1 * by_z1 - W0_1 * by_z0 + cos_2 * by_sin_p1_plus_q1 - sin_p1_plus_q1 * (by_sin_p1_plus_q1_2 *
+            x1_bar);
+    S_bar[2] = S_bar[2] + v0 * by_z0 - z0_product * x0_bar;
+    S_bar[3] = S_bar[3] + v1 * by_z0 - z0_product * x1_bar;
+    S_bar[4] = S_bar[4] + v0 * by_z1 - z1_product * x0_bar;
+    S_bar[5] = S_bar[5] + v1 * by_z1 - z1_product * x1_bar;
+    S_bar[6] = S_bar[6] + exp_2 * by_phi;
+    S_bar[7] = S_bar[7] - by_difference * ratio - difference_ratio * by_difference_2;
+}
+
+/* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
+OUTLINE void vector_rows_f(const float *rows, size_t count, size_t start, size_t size, vector_f *columns) {
+    for (size_t i = 0; i < size; ++i) {
+        float column[LANES_f];
+        for (size_t lane = 0; lane < LANES_f; ++lane)
+            column[lane] = rows[size * (start + lane < count ? start + lane : count - 1) + i];
+        columns[i] = vector_load_f(column);
+    }
+}
+
+/* Back to rows that are `stride` apart; nothing past the end. */
+OUTLINE void vector_to_rows_f(
+    const vector_f *columns, float *rows, size_t count, size_t start, size_t size, size_t stride) {
+    const size_t lanes = start >= count ? 0 : count - start < LANES_f ? count - start : LANES_f;
+    for (size_t lane = 0; lane < lanes; ++lane)
+        for (size_t i = 0; i < size; ++i) rows[stride * (start + lane) + i] = LANE(columns[i], lane);
+}
+
+/* Zero in the lanes past the end. */
+OUTLINE void vector_end_f(size_t count, size_t start, size_t size, vector_f *columns) {
+    for (size_t lane = start >= count ? 0 : count - start; lane < LANES_f; ++lane)
+        for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
+}
+
+/* Scratch memory: 7 vectors for each block of points, then the constants of the splats. */
+size_t arm2_splats_work_f(size_t count, size_t splat_count, int threads) {
+    (void)threads;
+    return ((count + LANES_f - 1) / LANES_f * 7 + 1) * LANES_f + 8 * splat_count;
+}
+
+static vector_f *work_points_f(float *work) {
+    const uintptr_t size = sizeof(vector_f), start = (uintptr_t)work;
+    return (vector_f *)((char *)work + ((0 - start) & (size - 1)));
+}
+
+static float *work_constants_f(float *work, size_t count) {
+    return (float *)(work_points_f(work) + (count + LANES_f - 1) / LANES_f * 7);
+}
+
+/* The constants of LANES splats, as rows. */
+OUTLINE void splat_constants_f(
+    size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, float *constants) {
+    vector_f own_mu[2], own_W[4], own_amplitude[1], S[8];
+    vector_rows_f(mu, splat_count, start, 2, own_mu);
+    vector_rows_f(W, splat_count, start, 4, own_W);
+    vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
+    pair_constants_f(own_mu, own_W, own_amplitude, S);
+    vector_to_rows_f(S, constants, splat_count, start, 8, 8);
+}
+
+/* 2 vectors of points at a time stay in registers while all splats pass. */
 void arm2_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *ARM2_RESTRICT x,
-    const float *ARM2_RESTRICT mu,
-    const float *ARM2_RESTRICT W,
-    const float *ARM2_RESTRICT amplitude,
-    float *ARM2_RESTRICT value,
-    float *ARM2_RESTRICT gradient) {
-    const unsigned mode = flush_denormals();
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        float x_block[2][LANES], sum[3][LANES] = {{0}};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            for (size_t i = 0; i < 2; ++i) x_block[i][lane] = x[2 * n + i];
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            const float mu0 = mu[2 * k + 0];
-            const float mu1 = mu[2 * k + 1];
-            const float W0_0 = W[4 * k + 0];
-            const float W0_1 = W[4 * k + 1];
-            const float W1_0 = W[4 * k + 2];
-            const float W1_1 = W[4 * k + 3];
-            const float amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const float gap = x_block[0][lane] - mu0;
-                const float round_2 = rintf(0.15915494309189535f * gap);
-                const float v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-                    round_2;
-                const float gap_2 = x_block[1][lane] - mu1;
-                const float round_3 = rintf(0.15915494309189535f * gap_2);
-                const float v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f *
-                    round_3;
-                const float gap_3 = mu1 - x_block[1][lane];
-                const float sin_p1_minus_q1 = sinf(gap_3);
-                const float total_2 = x_block[1][lane] + mu1;
-                const float sin_p1_plus_q1 = sinf(total_2);
-                const float product = 0.25f * sin_p1_minus_q1;
-                const float difference = sin_p1_plus_q1 * product;
-                const float cos_p1 = cosf(mu1);
-                const float cos_q1 = cosf(x_block[1][lane]);
-                const float cos_q1_squared = cos_q1 * cos_q1;
-                const float total_3 = 0.8888888888888888f - 0.25f * (cos_p1 * cos_p1) - 0.25f * cos_q1_squared;
-                const float difference_ratio = difference / total_3;
-                const float atanh_value = atanhf(difference_ratio);
-                const float z0 = W0_0 * v0 + W0_1 * v1;
-                const float z1 = W1_0 * v0 + W1_1 * v1;
-                const float exp_2 = expf(atanh_value - 0.5f * (z0 * z0 + z1 * z1));
-                const float phi = amplitude_k * exp_2;
-                const float by_v1 = -(W1_1 * z1) - W0_1 * z0;
-                const float by_v0 = -(W1_0 * z1) - W0_0 * z0;
-                const float by_difference = 1.0f / (1.0f - difference_ratio * difference_ratio) / total_3;
-                const float by_cos_q1 = cos_q1 * (0.5f * (difference_ratio * by_difference));
-                const float by_sin_p1_plus_q1 = product * by_difference;
-                const float by_sin_p1_minus_q1 = 0.25f * (sin_p1_plus_q1 * by_difference);
-                const float exponent_by_x1 = by_v1 + (by_sin_p1_plus_q1 * cosf(total_2) - by_cos_q1 *
-                    sinf(x_block[1][lane]) - by_sin_p1_minus_q1 * cosf(gap_3));
-                const float df0 = phi * by_v0;
-                const float df1 = phi * exponent_by_x1;
-                const float gap_4 = 9.0f * cos_q1_squared - 16.0f;
-                const float total_4 = 12.0f + 18.0f * cos_q1;
-                const float gradient0 = df1 * total_4 / gap_4 - 12.0f * df0 / gap_4;
-                const float gradient1 = df0 * total_4 / gap_4 + df1 * (-60.0f - 36.0f * cos_q1) / gap_4;
-                sum[0][lane] += phi;
-                sum[1][lane] += gradient0;
-                sum[2][lane] += gradient1;
+    size_t count, size_t splat_count, const float *ARM2_RESTRICT x, const float *ARM2_RESTRICT mu, const float *ARM2_RESTRICT W, const float *ARM2_RESTRICT amplitude,
+    float *ARM2_RESTRICT value, float *ARM2_RESTRICT gradient, float *ARM2_RESTRICT work, int threads) {
+    (void)threads;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES_f) {
+            vector_f at[2][2], X[2][3], grad[2];
+            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][3] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows_f(x, count, start + b * LANES_f, 2, at[b]);
+                pair_features_f(at[b], X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_forward_f(X[0], constants + 8 * k, value_sum[0], slope_sum[0]);
+                pair_forward_f(X[1], constants + 8 * k, value_sum[1], slope_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b) {
+                pair_gradient_f(at[b], slope_sum[b], grad);
+                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                vector_to_rows_f(grad, gradient, count, start + b * LANES_f, 2, 2);
             }
         }
-        for (size_t lane = 0; lane < lanes; ++lane) {
-            value[start + lane] = sum[0][lane];
-            for (size_t i = 0; i < 2; ++i) gradient[2 * (start + lane) + i] = sum[i + 1][lane];
-        }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
-void arm2_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *ARM2_RESTRICT x,
-    const float *ARM2_RESTRICT mu,
-    const float *ARM2_RESTRICT W,
-    const float *ARM2_RESTRICT amplitude,
-    const float *ARM2_RESTRICT value_bar,
-    const float *ARM2_RESTRICT gradient_bar,
-    float *ARM2_RESTRICT mu_bar,
-    float *ARM2_RESTRICT W_bar,
-    float *ARM2_RESTRICT amplitude_bar) {
-    const unsigned mode = flush_denormals();
-    for (size_t i = 0; i < 2 * splat_count; ++i) mu_bar[i] = 0;
-    for (size_t i = 0; i < 4 * splat_count; ++i) W_bar[i] = 0;
-    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        float x_block[2][LANES], value_bar_block[1][LANES], gradient_bar_block[2][LANES];
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            const float weight = lane < lanes ? 1 : 0;
-            for (size_t i = 0; i < 2; ++i) x_block[i][lane] = x[2 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
-            for (size_t i = 0; i < 2; ++i) gradient_bar_block[i][lane] = gradient_bar[2 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
-            for (size_t i = 0; i < 2; ++i) gradient_bar_block[i][lane] *= weight;
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            float sum[7][LANES] = {{0}}, total[7] = {0};
-            const float mu0 = mu[2 * k + 0];
-            const float mu1 = mu[2 * k + 1];
-            const float W0_0 = W[4 * k + 0];
-            const float W0_1 = W[4 * k + 1];
-            const float W1_0 = W[4 * k + 2];
-            const float W1_1 = W[4 * k + 3];
-            const float amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const float gap = x_block[0][lane] - mu0;
-                const float round_2 = rintf(0.15915494309189535f * gap);
-                const float v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-                    round_2;
-                const float gap_2 = x_block[1][lane] - mu1;
-                const float round_3 = rintf(0.15915494309189535f * gap_2);
-                const float v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f *
-                    round_3;
-                const float gap_3 = mu1 - x_block[1][lane];
-                const float sin_p1_minus_q1 = sinf(gap_3);
-                const float total_2 = x_block[1][lane] + mu1;
-                const float sin_p1_plus_q1 = sinf(total_2);
-                const float product = 0.25f * sin_p1_minus_q1;
-                const float difference = sin_p1_plus_q1 * product;
-                const float cos_p1 = cosf(mu1);
-                const float cos_q1 = cosf(x_block[1][lane]);
-                const float cos_q1_squared = cos_q1 * cos_q1;
-                const float total_3 = 0.8888888888888888f - 0.25f * (cos_p1 * cos_p1) - 0.25f * cos_q1_squared;
-                const float difference_ratio = difference / total_3;
-                const float atanh_value = atanhf(difference_ratio);
-                const float z0 = W0_0 * v0 + W0_1 * v1;
-                const float z1 = W1_0 * v0 + W1_1 * v1;
-                const float exp_2 = expf(atanh_value - 0.5f * (z0 * z0 + z1 * z1));
-                const float phi = amplitude_k * exp_2;
-                const float by_v1 = -(W1_1 * z1) - W0_1 * z0;
-                const float by_v0 = -(W1_0 * z1) - W0_0 * z0;
-                const float gap_4 = 1.0f - difference_ratio * difference_ratio;
-                const float ratio = 1.0f / gap_4;
-                const float by_difference = ratio / total_3;
-                const float by_cos_q1 = cos_q1 * (0.5f * (difference_ratio * by_difference));
-                const float sin_2 = sinf(x_block[1][lane]);
-                const float by_sin_p1_plus_q1 = product * by_difference;
-                const float by_sin_p1_minus_q1 = 0.25f * (sin_p1_plus_q1 * by_difference);
-                const float cos_2 = cosf(total_2);
-                const float cos_3 = cosf(gap_3);
-                const float exponent_by_x1 = by_v1 + (by_sin_p1_plus_q1 * cos_2 - by_cos_q1 * sin_2 - by_sin_p1_minus_q1 *
-                    cos_3);
-                const float gap_5 = 9.0f * cos_q1_squared - 16.0f;
-                const float total_4 = 12.0f + 18.0f * cos_q1;
-                const float ratio_2 = gradient_bar_block[1][lane] / gap_5;
-                const float ratio_3 = gradient_bar_block[0][lane] / gap_5;
-                const float by_df0 = total_4 * ratio_2 - 12.0f * ratio_3;
-                const float by_df1 = (-60.0f - 36.0f * cos_q1) * ratio_2 + total_4 * ratio_3;
-                const float by_exponent_by_x1 = phi * by_df1;
-                const float by_by_v0 = phi * by_df0;
-                const float by_phi = value_bar_block[0][lane] + exponent_by_x1 * by_df1 + by_v0 * by_df0;
-                const float by_by_sin_p1_plus_q1 = cos_2 * by_exponent_by_x1;
-                const float product_2 = 0.25f * (cos_3 * by_exponent_by_x1);
-                const float product_3 = 0.5f * (cos_q1 * (sin_2 * by_exponent_by_x1));
-                const float by_by_difference = product * by_by_sin_p1_plus_q1 - sin_p1_plus_q1 * product_2 -
-                    difference_ratio * product_3;
-                const float ratio_4 = by_by_difference / total_3;
-                const float gap_6 = difference_ratio * (2.0f * (ratio * (ratio_4 / gap_4))) - by_difference * product_3;
-                const float by_atanh_value = exp_2 * (amplitude_k * by_phi);
-                const float by_z1 = -(W1_0 * by_by_v0) - W1_1 * by_exponent_by_x1 - z1 * by_atanh_value;
-                const float by_z0 = -(W0_0 * by_by_v0) - W0_1 * by_exponent_by_x1 - z0 * by_atanh_value;
-                const float by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0;
-                const float by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0;
-                const float by_difference_2 = (gap_6 + by_atanh_value / gap_4) / total_3;
-                const float by_cos_p1 = cos_p1 * (0.5f * (difference_ratio * by_difference_2 - -(by_difference *
-                    ratio_4)));
-                const float by_sin_p1_plus_q1_2 = product * by_difference_2 - by_difference * product_2;
-                const float by_sin_p1_minus_q1_2 = 0.25f * (by_difference * by_by_sin_p1_plus_q1 + sin_p1_plus_q1 *
-                    by_difference_2);
-                const float total_5 = cos_2 * by_sin_p1_plus_q1_2 - sin_p1_plus_q1 * (by_sin_p1_plus_q1 *
-                    by_exponent_by_x1) - by_cos_p1 * sinf(mu1) + (sin_p1_minus_q1 * (by_sin_p1_minus_q1 *
-                    by_exponent_by_x1) + cos_3 * by_sin_p1_minus_q1_2);
-                sum[0][lane] += -by_v0_2;
-                sum[1][lane] += total_5 - by_v1_2;
-                sum[2][lane] += v0 * by_z0 - z0 * by_by_v0;
-                sum[3][lane] += v1 * by_z0 - z0 * by_exponent_by_x1;
-                sum[4][lane] += v0 * by_z1 - z1 * by_by_v0;
-                sum[5][lane] += v1 * by_z1 - z1 * by_exponent_by_x1;
-                sum[6][lane] += exp_2 * by_phi;
+void arm2_splats_value_f(
+    size_t count, size_t splat_count, const float *ARM2_RESTRICT x, const float *ARM2_RESTRICT mu, const float *ARM2_RESTRICT W, const float *ARM2_RESTRICT amplitude,
+    float *ARM2_RESTRICT value, float *ARM2_RESTRICT work, int threads) {
+    (void)threads;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES_f) {
+            vector_f at[2], X[2][3], value_sum[2][1] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows_f(x, count, start + b * LANES_f, 2, at);
+                pair_features_f(at, X[b]);
             }
-            for (size_t i = 0; i < 7; ++i)
-                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
-            mu_bar[2 * k + 0] += total[0];
-            mu_bar[2 * k + 1] += total[1];
-            W_bar[4 * k + 0] += total[2];
-            W_bar[4 * k + 1] += total[3];
-            W_bar[4 * k + 2] += total[4];
-            W_bar[4 * k + 3] += total[5];
-            amplitude_bar[1 * k + 0] += total[6];
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_value_f(X[0], constants + 8 * k, value_sum[0]);
+                pair_value_f(X[1], constants + 8 * k, value_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b)
+                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
         }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
+}
+
+/* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
+OUTLINE void splat_points_f(
+    size_t count, size_t start, const float *x, const float *value_bar, const float *gradient_bar, vector_f *point) {
+    vector_f at[2], grad_bar[2], slope_bar[3];
+    vector_rows_f(x, count, start, 2, at);
+    vector_rows_f(gradient_bar, count, start, 2, grad_bar);
+    vector_rows_f(value_bar, count, start, 1, point + 3);
+    pair_features_f(at, point);
+    pair_gradient_vjp_f(at, grad_bar, slope_bar);
+    for (int i = 0; i < 3; ++i) point[3 + 1 + i] = slope_bar[i];
+    vector_end_f(count, start, 3 + 1, point + 3);
+}
+
+/* Adds to S_bar what some vectors of points add to it. */
+OUTLINE void splat_sums_f(const vector_f *point, size_t size, const float *S, float *S_bar) {
+    vector_f sum[8] = {ZERO};
+    for (size_t b = 0; b < size; ++b, point += 7) pair_backward_f(point, S, point + 3, point + 3 + 1, sum);
+    S_bar[0] += vector_sum_f(sum[0]);
+    S_bar[1] += vector_sum_f(sum[1]);
+    S_bar[2] += vector_sum_f(sum[2]);
+    S_bar[3] += vector_sum_f(sum[3]);
+    S_bar[4] += vector_sum_f(sum[4]);
+    S_bar[5] += vector_sum_f(sum[5]);
+    S_bar[6] += vector_sum_f(sum[6]);
+    S_bar[7] += vector_sum_f(sum[7]);
+}
+
+/*
+ * Some splats at a time; the points pass over each of them, a chunk at a time, while its sums stay in registers. How many
+ * splats depends on the threads, what is summed in which order does not.
+ */
+void arm2_splats_vjp_f(
+    size_t count, size_t splat_count, const float *ARM2_RESTRICT x, const float *ARM2_RESTRICT mu, const float *ARM2_RESTRICT W, const float *ARM2_RESTRICT amplitude, const float *ARM2_RESTRICT value_bar, const float *ARM2_RESTRICT gradient_bar,
+    float *ARM2_RESTRICT mu_bar, float *ARM2_RESTRICT W_bar, float *ARM2_RESTRICT amplitude_bar, float *ARM2_RESTRICT work, int threads) {
+    const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    const size_t chunk = 131072 / (7 * sizeof(vector_f)) + 1;
+    const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
+    const size_t share = part < LANES_f ? part : LANES_f;
+    vector_f *points = work_points_f(work);
+    float *constants = work_constants_f(work, count);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic) nowait)
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic, 8))
+        for (size_t block = 0; block < blocks; ++block)
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 7 * block);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += share) {
+            const size_t end = start + share < splat_count ? start + share : splat_count;
+            float sums[LANES_f][8] = {{0}};
+            vector_f own_mu[2], own_W[4], own_amplitude[1], S_bar[8], bars[7];
+            for (size_t first = 0; first < blocks; first += chunk) {
+                const size_t size = first + chunk < blocks ? chunk : blocks - first;
+                for (size_t k = start; k < end; ++k)
+                    splat_sums_f(points + 7 * first, size, constants + 8 * k, sums[k - start]);
+            }
+            vector_rows_f(mu, end, start, 2, own_mu);
+            vector_rows_f(W, end, start, 4, own_W);
+            vector_rows_f(amplitude, end, start, 1, own_amplitude);
+            vector_rows_f(sums[0], LANES_f, 0, 8, S_bar);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+            vector_to_rows_f(bars, mu_bar, end, start, 2, 2);
+            vector_to_rows_f(bars + 2, W_bar, end, start, 4, 4);
+            vector_to_rows_f(bars + 2 + 4, amplitude_bar, end, start, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* Nothing is summed: the adjoints of a splat's constants go on to its parameters for every point. */
+void arm2_splats_rows_f(
+    size_t count, size_t splat_count, const float *ARM2_RESTRICT x, const float *ARM2_RESTRICT mu, const float *ARM2_RESTRICT W, const float *ARM2_RESTRICT amplitude, const float *ARM2_RESTRICT value_bar, const float *ARM2_RESTRICT gradient_bar,
+    float *ARM2_RESTRICT rows, float *ARM2_RESTRICT work, int threads) {
+    (void)threads;
+    const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t block = 0; block < blocks; ++block) {
+            vector_f point[7];
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
+            for (size_t k = 0; k < splat_count; ++k) {
+                vector_f own_mu[2], own_W[4], own_amplitude[1], S_bar[8] = {ZERO}, bars[7];
+                for (int i = 0; i < 2; ++i) own_mu[i] = vector_of_f(mu[2 * k + i]);
+                for (int i = 0; i < 4; ++i) own_W[i] = vector_of_f(W[4 * k + i]);
+                own_amplitude[0] = vector_of_f(amplitude[k]);
+                pair_backward_f(point, constants + 8 * k, point + 3, point + 3 + 1, S_bar);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+                vector_to_rows_f(bars, rows + 7 * k, count, block * LANES_f, 7, 7 * splat_count);
+            }
+        }
+        restore_denormals(mode);
+    }
 }

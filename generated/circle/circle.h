@@ -327,51 +327,42 @@ void circle_splat_batch_f(
 void circle_frame(const double *CIRCLE_RESTRICT p, double *CIRCLE_RESTRICT frame);
 void circle_frame_f(const float *CIRCLE_RESTRICT p, float *CIRCLE_RESTRICT frame);
 
+/* How many numbers of scratch memory the functions below need, for these sizes or smaller ones. */
+size_t circle_splats_work(size_t count, size_t splat_count, int threads);
+size_t circle_splats_work_f(size_t count, size_t splat_count, int threads);
+
 /* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
 void circle_splats(
-    size_t count,
-    size_t splat_count,
-    const double *CIRCLE_RESTRICT x,
-    const double *CIRCLE_RESTRICT mu,
-    const double *CIRCLE_RESTRICT W,
-    const double *CIRCLE_RESTRICT amplitude,
-    double *CIRCLE_RESTRICT value,
-    double *CIRCLE_RESTRICT gradient);
+    size_t count, size_t splat_count, const double *CIRCLE_RESTRICT x, const double *CIRCLE_RESTRICT mu, const double *CIRCLE_RESTRICT W, const double *CIRCLE_RESTRICT amplitude,
+    double *CIRCLE_RESTRICT value, double *CIRCLE_RESTRICT gradient, double *CIRCLE_RESTRICT work, int threads);
 void circle_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *CIRCLE_RESTRICT x,
-    const float *CIRCLE_RESTRICT mu,
-    const float *CIRCLE_RESTRICT W,
-    const float *CIRCLE_RESTRICT amplitude,
-    float *CIRCLE_RESTRICT value,
-    float *CIRCLE_RESTRICT gradient);
+    size_t count, size_t splat_count, const float *CIRCLE_RESTRICT x, const float *CIRCLE_RESTRICT mu, const float *CIRCLE_RESTRICT W, const float *CIRCLE_RESTRICT amplitude,
+    float *CIRCLE_RESTRICT value, float *CIRCLE_RESTRICT gradient, float *CIRCLE_RESTRICT work, int threads);
+
+/* The values of the sums alone. */
+void circle_splats_value(
+    size_t count, size_t splat_count, const double *CIRCLE_RESTRICT x, const double *CIRCLE_RESTRICT mu, const double *CIRCLE_RESTRICT W, const double *CIRCLE_RESTRICT amplitude,
+    double *CIRCLE_RESTRICT value, double *CIRCLE_RESTRICT work, int threads);
+void circle_splats_value_f(
+    size_t count, size_t splat_count, const float *CIRCLE_RESTRICT x, const float *CIRCLE_RESTRICT mu, const float *CIRCLE_RESTRICT W, const float *CIRCLE_RESTRICT amplitude,
+    float *CIRCLE_RESTRICT value, float *CIRCLE_RESTRICT work, int threads);
 
 /* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
 void circle_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *CIRCLE_RESTRICT x,
-    const double *CIRCLE_RESTRICT mu,
-    const double *CIRCLE_RESTRICT W,
-    const double *CIRCLE_RESTRICT amplitude,
-    const double *CIRCLE_RESTRICT value_bar,
-    const double *CIRCLE_RESTRICT gradient_bar,
-    double *CIRCLE_RESTRICT mu_bar,
-    double *CIRCLE_RESTRICT W_bar,
-    double *CIRCLE_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const double *CIRCLE_RESTRICT x, const double *CIRCLE_RESTRICT mu, const double *CIRCLE_RESTRICT W, const double *CIRCLE_RESTRICT amplitude, const double *CIRCLE_RESTRICT value_bar, const double *CIRCLE_RESTRICT gradient_bar,
+    double *CIRCLE_RESTRICT mu_bar, double *CIRCLE_RESTRICT W_bar, double *CIRCLE_RESTRICT amplitude_bar, double *CIRCLE_RESTRICT work, int threads);
 void circle_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *CIRCLE_RESTRICT x,
-    const float *CIRCLE_RESTRICT mu,
-    const float *CIRCLE_RESTRICT W,
-    const float *CIRCLE_RESTRICT amplitude,
-    const float *CIRCLE_RESTRICT value_bar,
-    const float *CIRCLE_RESTRICT gradient_bar,
-    float *CIRCLE_RESTRICT mu_bar,
-    float *CIRCLE_RESTRICT W_bar,
-    float *CIRCLE_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const float *CIRCLE_RESTRICT x, const float *CIRCLE_RESTRICT mu, const float *CIRCLE_RESTRICT W, const float *CIRCLE_RESTRICT amplitude, const float *CIRCLE_RESTRICT value_bar, const float *CIRCLE_RESTRICT gradient_bar,
+    float *CIRCLE_RESTRICT mu_bar, float *CIRCLE_RESTRICT W_bar, float *CIRCLE_RESTRICT amplitude_bar, float *CIRCLE_RESTRICT work, int threads);
+
+/* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +
+ * gradient_n . gradient_bar_n in its mu, W and amplitude, in this order. */
+void circle_splats_rows(
+    size_t count, size_t splat_count, const double *CIRCLE_RESTRICT x, const double *CIRCLE_RESTRICT mu, const double *CIRCLE_RESTRICT W, const double *CIRCLE_RESTRICT amplitude, const double *CIRCLE_RESTRICT value_bar, const double *CIRCLE_RESTRICT gradient_bar,
+    double *CIRCLE_RESTRICT rows, double *CIRCLE_RESTRICT work, int threads);
+void circle_splats_rows_f(
+    size_t count, size_t splat_count, const float *CIRCLE_RESTRICT x, const float *CIRCLE_RESTRICT mu, const float *CIRCLE_RESTRICT W, const float *CIRCLE_RESTRICT amplitude, const float *CIRCLE_RESTRICT value_bar, const float *CIRCLE_RESTRICT gradient_bar,
+    float *CIRCLE_RESTRICT rows, float *CIRCLE_RESTRICT work, int threads);
 
 #ifdef __cplusplus
 }

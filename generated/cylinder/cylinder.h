@@ -280,51 +280,42 @@ void cylinder_splat_batch_f(
 void cylinder_frame(const double *CYLINDER_RESTRICT p, double *CYLINDER_RESTRICT frame);
 void cylinder_frame_f(const float *CYLINDER_RESTRICT p, float *CYLINDER_RESTRICT frame);
 
+/* How many numbers of scratch memory the functions below need, for these sizes or smaller ones. */
+size_t cylinder_splats_work(size_t count, size_t splat_count, int threads);
+size_t cylinder_splats_work_f(size_t count, size_t splat_count, int threads);
+
 /* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
 void cylinder_splats(
-    size_t count,
-    size_t splat_count,
-    const double *CYLINDER_RESTRICT x,
-    const double *CYLINDER_RESTRICT mu,
-    const double *CYLINDER_RESTRICT W,
-    const double *CYLINDER_RESTRICT amplitude,
-    double *CYLINDER_RESTRICT value,
-    double *CYLINDER_RESTRICT gradient);
+    size_t count, size_t splat_count, const double *CYLINDER_RESTRICT x, const double *CYLINDER_RESTRICT mu, const double *CYLINDER_RESTRICT W, const double *CYLINDER_RESTRICT amplitude,
+    double *CYLINDER_RESTRICT value, double *CYLINDER_RESTRICT gradient, double *CYLINDER_RESTRICT work, int threads);
 void cylinder_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *CYLINDER_RESTRICT x,
-    const float *CYLINDER_RESTRICT mu,
-    const float *CYLINDER_RESTRICT W,
-    const float *CYLINDER_RESTRICT amplitude,
-    float *CYLINDER_RESTRICT value,
-    float *CYLINDER_RESTRICT gradient);
+    size_t count, size_t splat_count, const float *CYLINDER_RESTRICT x, const float *CYLINDER_RESTRICT mu, const float *CYLINDER_RESTRICT W, const float *CYLINDER_RESTRICT amplitude,
+    float *CYLINDER_RESTRICT value, float *CYLINDER_RESTRICT gradient, float *CYLINDER_RESTRICT work, int threads);
+
+/* The values of the sums alone. */
+void cylinder_splats_value(
+    size_t count, size_t splat_count, const double *CYLINDER_RESTRICT x, const double *CYLINDER_RESTRICT mu, const double *CYLINDER_RESTRICT W, const double *CYLINDER_RESTRICT amplitude,
+    double *CYLINDER_RESTRICT value, double *CYLINDER_RESTRICT work, int threads);
+void cylinder_splats_value_f(
+    size_t count, size_t splat_count, const float *CYLINDER_RESTRICT x, const float *CYLINDER_RESTRICT mu, const float *CYLINDER_RESTRICT W, const float *CYLINDER_RESTRICT amplitude,
+    float *CYLINDER_RESTRICT value, float *CYLINDER_RESTRICT work, int threads);
 
 /* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
 void cylinder_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *CYLINDER_RESTRICT x,
-    const double *CYLINDER_RESTRICT mu,
-    const double *CYLINDER_RESTRICT W,
-    const double *CYLINDER_RESTRICT amplitude,
-    const double *CYLINDER_RESTRICT value_bar,
-    const double *CYLINDER_RESTRICT gradient_bar,
-    double *CYLINDER_RESTRICT mu_bar,
-    double *CYLINDER_RESTRICT W_bar,
-    double *CYLINDER_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const double *CYLINDER_RESTRICT x, const double *CYLINDER_RESTRICT mu, const double *CYLINDER_RESTRICT W, const double *CYLINDER_RESTRICT amplitude, const double *CYLINDER_RESTRICT value_bar, const double *CYLINDER_RESTRICT gradient_bar,
+    double *CYLINDER_RESTRICT mu_bar, double *CYLINDER_RESTRICT W_bar, double *CYLINDER_RESTRICT amplitude_bar, double *CYLINDER_RESTRICT work, int threads);
 void cylinder_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *CYLINDER_RESTRICT x,
-    const float *CYLINDER_RESTRICT mu,
-    const float *CYLINDER_RESTRICT W,
-    const float *CYLINDER_RESTRICT amplitude,
-    const float *CYLINDER_RESTRICT value_bar,
-    const float *CYLINDER_RESTRICT gradient_bar,
-    float *CYLINDER_RESTRICT mu_bar,
-    float *CYLINDER_RESTRICT W_bar,
-    float *CYLINDER_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const float *CYLINDER_RESTRICT x, const float *CYLINDER_RESTRICT mu, const float *CYLINDER_RESTRICT W, const float *CYLINDER_RESTRICT amplitude, const float *CYLINDER_RESTRICT value_bar, const float *CYLINDER_RESTRICT gradient_bar,
+    float *CYLINDER_RESTRICT mu_bar, float *CYLINDER_RESTRICT W_bar, float *CYLINDER_RESTRICT amplitude_bar, float *CYLINDER_RESTRICT work, int threads);
+
+/* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +
+ * gradient_n . gradient_bar_n in its mu, W and amplitude, in this order. */
+void cylinder_splats_rows(
+    size_t count, size_t splat_count, const double *CYLINDER_RESTRICT x, const double *CYLINDER_RESTRICT mu, const double *CYLINDER_RESTRICT W, const double *CYLINDER_RESTRICT amplitude, const double *CYLINDER_RESTRICT value_bar, const double *CYLINDER_RESTRICT gradient_bar,
+    double *CYLINDER_RESTRICT rows, double *CYLINDER_RESTRICT work, int threads);
+void cylinder_splats_rows_f(
+    size_t count, size_t splat_count, const float *CYLINDER_RESTRICT x, const float *CYLINDER_RESTRICT mu, const float *CYLINDER_RESTRICT W, const float *CYLINDER_RESTRICT amplitude, const float *CYLINDER_RESTRICT value_bar, const float *CYLINDER_RESTRICT gradient_bar,
+    float *CYLINDER_RESTRICT rows, float *CYLINDER_RESTRICT work, int threads);
 
 #ifdef __cplusplus
 }

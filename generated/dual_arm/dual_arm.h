@@ -328,51 +328,42 @@ void dual_arm_splat_batch_f(
 void dual_arm_frame(const double *DUAL_ARM_RESTRICT p, double *DUAL_ARM_RESTRICT frame);
 void dual_arm_frame_f(const float *DUAL_ARM_RESTRICT p, float *DUAL_ARM_RESTRICT frame);
 
+/* How many numbers of scratch memory the functions below need, for these sizes or smaller ones. */
+size_t dual_arm_splats_work(size_t count, size_t splat_count, int threads);
+size_t dual_arm_splats_work_f(size_t count, size_t splat_count, int threads);
+
 /* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
 void dual_arm_splats(
-    size_t count,
-    size_t splat_count,
-    const double *DUAL_ARM_RESTRICT x,
-    const double *DUAL_ARM_RESTRICT mu,
-    const double *DUAL_ARM_RESTRICT W,
-    const double *DUAL_ARM_RESTRICT amplitude,
-    double *DUAL_ARM_RESTRICT value,
-    double *DUAL_ARM_RESTRICT gradient);
+    size_t count, size_t splat_count, const double *DUAL_ARM_RESTRICT x, const double *DUAL_ARM_RESTRICT mu, const double *DUAL_ARM_RESTRICT W, const double *DUAL_ARM_RESTRICT amplitude,
+    double *DUAL_ARM_RESTRICT value, double *DUAL_ARM_RESTRICT gradient, double *DUAL_ARM_RESTRICT work, int threads);
 void dual_arm_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *DUAL_ARM_RESTRICT x,
-    const float *DUAL_ARM_RESTRICT mu,
-    const float *DUAL_ARM_RESTRICT W,
-    const float *DUAL_ARM_RESTRICT amplitude,
-    float *DUAL_ARM_RESTRICT value,
-    float *DUAL_ARM_RESTRICT gradient);
+    size_t count, size_t splat_count, const float *DUAL_ARM_RESTRICT x, const float *DUAL_ARM_RESTRICT mu, const float *DUAL_ARM_RESTRICT W, const float *DUAL_ARM_RESTRICT amplitude,
+    float *DUAL_ARM_RESTRICT value, float *DUAL_ARM_RESTRICT gradient, float *DUAL_ARM_RESTRICT work, int threads);
+
+/* The values of the sums alone. */
+void dual_arm_splats_value(
+    size_t count, size_t splat_count, const double *DUAL_ARM_RESTRICT x, const double *DUAL_ARM_RESTRICT mu, const double *DUAL_ARM_RESTRICT W, const double *DUAL_ARM_RESTRICT amplitude,
+    double *DUAL_ARM_RESTRICT value, double *DUAL_ARM_RESTRICT work, int threads);
+void dual_arm_splats_value_f(
+    size_t count, size_t splat_count, const float *DUAL_ARM_RESTRICT x, const float *DUAL_ARM_RESTRICT mu, const float *DUAL_ARM_RESTRICT W, const float *DUAL_ARM_RESTRICT amplitude,
+    float *DUAL_ARM_RESTRICT value, float *DUAL_ARM_RESTRICT work, int threads);
 
 /* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
 void dual_arm_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *DUAL_ARM_RESTRICT x,
-    const double *DUAL_ARM_RESTRICT mu,
-    const double *DUAL_ARM_RESTRICT W,
-    const double *DUAL_ARM_RESTRICT amplitude,
-    const double *DUAL_ARM_RESTRICT value_bar,
-    const double *DUAL_ARM_RESTRICT gradient_bar,
-    double *DUAL_ARM_RESTRICT mu_bar,
-    double *DUAL_ARM_RESTRICT W_bar,
-    double *DUAL_ARM_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const double *DUAL_ARM_RESTRICT x, const double *DUAL_ARM_RESTRICT mu, const double *DUAL_ARM_RESTRICT W, const double *DUAL_ARM_RESTRICT amplitude, const double *DUAL_ARM_RESTRICT value_bar, const double *DUAL_ARM_RESTRICT gradient_bar,
+    double *DUAL_ARM_RESTRICT mu_bar, double *DUAL_ARM_RESTRICT W_bar, double *DUAL_ARM_RESTRICT amplitude_bar, double *DUAL_ARM_RESTRICT work, int threads);
 void dual_arm_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *DUAL_ARM_RESTRICT x,
-    const float *DUAL_ARM_RESTRICT mu,
-    const float *DUAL_ARM_RESTRICT W,
-    const float *DUAL_ARM_RESTRICT amplitude,
-    const float *DUAL_ARM_RESTRICT value_bar,
-    const float *DUAL_ARM_RESTRICT gradient_bar,
-    float *DUAL_ARM_RESTRICT mu_bar,
-    float *DUAL_ARM_RESTRICT W_bar,
-    float *DUAL_ARM_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const float *DUAL_ARM_RESTRICT x, const float *DUAL_ARM_RESTRICT mu, const float *DUAL_ARM_RESTRICT W, const float *DUAL_ARM_RESTRICT amplitude, const float *DUAL_ARM_RESTRICT value_bar, const float *DUAL_ARM_RESTRICT gradient_bar,
+    float *DUAL_ARM_RESTRICT mu_bar, float *DUAL_ARM_RESTRICT W_bar, float *DUAL_ARM_RESTRICT amplitude_bar, float *DUAL_ARM_RESTRICT work, int threads);
+
+/* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +
+ * gradient_n . gradient_bar_n in its mu, W and amplitude, in this order. */
+void dual_arm_splats_rows(
+    size_t count, size_t splat_count, const double *DUAL_ARM_RESTRICT x, const double *DUAL_ARM_RESTRICT mu, const double *DUAL_ARM_RESTRICT W, const double *DUAL_ARM_RESTRICT amplitude, const double *DUAL_ARM_RESTRICT value_bar, const double *DUAL_ARM_RESTRICT gradient_bar,
+    double *DUAL_ARM_RESTRICT rows, double *DUAL_ARM_RESTRICT work, int threads);
+void dual_arm_splats_rows_f(
+    size_t count, size_t splat_count, const float *DUAL_ARM_RESTRICT x, const float *DUAL_ARM_RESTRICT mu, const float *DUAL_ARM_RESTRICT W, const float *DUAL_ARM_RESTRICT amplitude, const float *DUAL_ARM_RESTRICT value_bar, const float *DUAL_ARM_RESTRICT gradient_bar,
+    float *DUAL_ARM_RESTRICT rows, float *DUAL_ARM_RESTRICT work, int threads);
 
 #ifdef __cplusplus
 }

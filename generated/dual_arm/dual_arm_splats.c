@@ -7,2884 +7,6994 @@
 #include "dual_arm.h"
 
 #include <float.h>
+#include <stdint.h>
+#include <string.h>
 
-#define LANES 64
+/*
+ * A vector is as wide as the machine's registers, or one number where the compiler has no vectors (or is asked for none
+ * by -DRSRM_NO_VECTORS). Comparisons of vectors are masks; `vector_select` is the ?: of vectors.
+ */
+#if defined(__GNUC__) && !defined(RSRM_NO_VECTORS)
+#if defined(__AVX512F__)
+#define VECTOR_BYTES 64
+#elif defined(__AVX__)
+#define VECTOR_BYTES 32
+#else
+#define VECTOR_BYTES 16
+#endif
+#define LANE(vector, i) (vector)[i]
+#define ZERO {0}
+#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
+typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
+typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
+typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
+typedef int32_t vector_mask_f __attribute__((vector_size(VECTOR_BYTES)));
+typedef uint64_t vector_bits __attribute__((vector_size(VECTOR_BYTES)));
+typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
+#else
+#define LANE(vector, i) (vector)
+#define ZERO 0
+#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
+typedef double vector;
+typedef float vector_f;
+typedef int64_t vector_mask;
+typedef int32_t vector_mask_f;
+typedef uint64_t vector_bits;
+typedef uint32_t vector_bits_f;
+#endif
+#if defined(__GNUC__)
+#define INLINE static inline __attribute__((always_inline, unused))
+#define OUTLINE static __attribute__((noinline))
+#else
+#define INLINE static inline
+#define OUTLINE static
+#endif
+#define LANES (sizeof(vector) / sizeof(double))
+#define LANES_f (sizeof(vector_f) / sizeof(float))
+
+/* Threads, where the compiler has OpenMP. */
+#if defined(_OPENMP)
+#define OMP(directive) _Pragma(#directive)
+#else
+#define OMP(directive)
+#endif
 
 /* Denormal numbers count as zero while the sums run: far splats are many, and slow. */
 #if defined(__SSE2__)
 #include <xmmintrin.h>
-static unsigned flush_denormals(void) {
+INLINE uint64_t flush_denormals(void) {
     const unsigned mode = _mm_getcsr();
     _mm_setcsr(mode | 0x8040u);
     return mode;
 }
-static void restore_denormals(unsigned mode) { _mm_setcsr(mode); }
+INLINE void restore_denormals(uint64_t mode) { _mm_setcsr((unsigned)mode); }
+#elif defined(__aarch64__) && defined(__GNUC__)
+INLINE uint64_t flush_denormals(void) {
+    uint64_t mode;
+    __asm__ __volatile__("mrs %0, fpcr" : "=r"(mode));
+    __asm__ __volatile__("msr fpcr, %0" : : "r"(mode | (UINT64_C(1) << 24)));
+    return mode;
+}
+INLINE void restore_denormals(uint64_t mode) { __asm__ __volatile__("msr fpcr, %0" : : "r"(mode)); }
 #else
-static unsigned flush_denormals(void) { return 0; }
-static void restore_denormals(unsigned mode) { (void)mode; }
+INLINE uint64_t flush_denormals(void) { return 0; }
+INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
 
+/* The same number in all lanes. */
+INLINE vector vector_of(double x) {
+    const vector zero = ZERO;
+    return x - zero;
+}
+
+/* x in the lanes of the mask, y in the others. */
+INLINE vector vector_select(vector_mask mask, vector x, vector y) {
+    return SELECT(vector, vector_mask, mask, x, y);
+}
+
+/* Numbers in memory to a vector, and back. */
+INLINE vector vector_load(const double *from) {
+    vector x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+INLINE void vector_store(double *to, vector x) { memcpy(to, &x, sizeof x); }
+
+/* The sum over the lanes, by halves. */
+INLINE double vector_sum(vector x) {
+    double lanes[LANES];
+    vector_store(lanes, x);
+    for (size_t half = LANES / 2; half > 0; half /= 2)
+        for (size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    return lanes[0];
+}
+
+/* The bits of a vector as integers, and back. */
+INLINE vector_bits vector_to_bits(vector x) {
+    vector_bits bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+INLINE vector vector_from_bits(vector_bits bits) {
+    vector x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* round of every lane; one instruction where the machine has it. */
+INLINE vector vector_round(vector x) {
+    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = rint(LANE(x, i));
+    return x;
+}
+
+/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
+INLINE vector vector_exp(vector x) {
+    const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
+    const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
+    const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
+    const vector scale = vector_from_bits((vector_to_bits(shifted) + 1022) << 52); /* 2^(k - 1) */
+    const vector y = vector_select(x > 709.782712893384, vector_of(HUGE_VAL), (scale + scale * part) * 2);
+    return vector_select(x < -707.9, vector_of(0), y);
+}
+
+/* What pairs read of points x. */
+OUTLINE void pair_features(
+    const vector *x, vector *X) {
+    const vector x0 = x[0];
+    const vector x1 = x[1];
+    const vector x2 = x[2];
+    const vector x3 = x[3];
+    const vector x4 = x[4];
+    const vector x5 = x[5];
+    const vector x6 = x[6];
+    const vector x7 = x[7];
+    const vector x8 = x[8];
+    const vector x9 = x[9];
+    const vector x10 = x[10];
+    const vector x11 = x[11];
+    const vector x12 = x[12];
+    const vector x13 = x[13];
+    X[0] = x0;
+    X[1] = x1;
+    X[2] = x2;
+    X[3] = x3;
+    X[4] = x4;
+    X[5] = x5;
+    X[6] = x6;
+    X[7] = x7;
+    X[8] = x8;
+    X[9] = x9;
+    X[10] = x10;
+    X[11] = x11;
+    X[12] = x12;
+    X[13] = x13;
+}
+
+/* What pairs read of a splat, of some splats. */
+OUTLINE void pair_constants(
+    const vector *mu, const vector *W, const vector *amplitude, vector *S) {
+    const vector mu0 = mu[0];
+    const vector mu1 = mu[1];
+    const vector mu2 = mu[2];
+    const vector mu3 = mu[3];
+    const vector mu4 = mu[4];
+    const vector mu5 = mu[5];
+    const vector mu6 = mu[6];
+    const vector mu7 = mu[7];
+    const vector mu8 = mu[8];
+    const vector mu9 = mu[9];
+    const vector mu10 = mu[10];
+    const vector mu11 = mu[11];
+    const vector mu12 = mu[12];
+    const vector mu13 = mu[13];
+    const vector W0_0 = W[0];
+    const vector W0_1 = W[1];
+    const vector W0_2 = W[2];
+    const vector W0_3 = W[3];
+    const vector W0_4 = W[4];
+    const vector W0_5 = W[5];
+    const vector W0_6 = W[6];
+    const vector W0_7 = W[7];
+    const vector W0_8 = W[8];
+    const vector W0_9 = W[9];
+    const vector W0_10 = W[10];
+    const vector W0_11 = W[11];
+    const vector W0_12 = W[12];
+    const vector W0_13 = W[13];
+    const vector W1_0 = W[14];
+    const vector W1_1 = W[15];
+    const vector W1_2 = W[16];
+    const vector W1_3 = W[17];
+    const vector W1_4 = W[18];
+    const vector W1_5 = W[19];
+    const vector W1_6 = W[20];
+    const vector W1_7 = W[21];
+    const vector W1_8 = W[22];
+    const vector W1_9 = W[23];
+    const vector W1_10 = W[24];
+    const vector W1_11 = W[25];
+    const vector W1_12 = W[26];
+    const vector W1_13 = W[27];
+    const vector W2_0 = W[28];
+    const vector W2_1 = W[29];
+    const vector W2_2 = W[30];
+    const vector W2_3 = W[31];
+    const vector W2_4 = W[32];
+    const vector W2_5 = W[33];
+    const vector W2_6 = W[34];
+    const vector W2_7 = W[35];
+    const vector W2_8 = W[36];
+    const vector W2_9 = W[37];
+    const vector W2_10 = W[38];
+    const vector W2_11 = W[39];
+    const vector W2_12 = W[40];
+    const vector W2_13 = W[41];
+    const vector W3_0 = W[42];
+    const vector W3_1 = W[43];
+    const vector W3_2 = W[44];
+    const vector W3_3 = W[45];
+    const vector W3_4 = W[46];
+    const vector W3_5 = W[47];
+    const vector W3_6 = W[48];
+    const vector W3_7 = W[49];
+    const vector W3_8 = W[50];
+    const vector W3_9 = W[51];
+    const vector W3_10 = W[52];
+    const vector W3_11 = W[53];
+    const vector W3_12 = W[54];
+    const vector W3_13 = W[55];
+    const vector W4_0 = W[56];
+    const vector W4_1 = W[57];
+    const vector W4_2 = W[58];
+    const vector W4_3 = W[59];
+    const vector W4_4 = W[60];
+    const vector W4_5 = W[61];
+    const vector W4_6 = W[62];
+    const vector W4_7 = W[63];
+    const vector W4_8 = W[64];
+    const vector W4_9 = W[65];
+    const vector W4_10 = W[66];
+    const vector W4_11 = W[67];
+    const vector W4_12 = W[68];
+    const vector W4_13 = W[69];
+    const vector W5_0 = W[70];
+    const vector W5_1 = W[71];
+    const vector W5_2 = W[72];
+    const vector W5_3 = W[73];
+    const vector W5_4 = W[74];
+    const vector W5_5 = W[75];
+    const vector W5_6 = W[76];
+    const vector W5_7 = W[77];
+    const vector W5_8 = W[78];
+    const vector W5_9 = W[79];
+    const vector W5_10 = W[80];
+    const vector W5_11 = W[81];
+    const vector W5_12 = W[82];
+    const vector W5_13 = W[83];
+    const vector W6_0 = W[84];
+    const vector W6_1 = W[85];
+    const vector W6_2 = W[86];
+    const vector W6_3 = W[87];
+    const vector W6_4 = W[88];
+    const vector W6_5 = W[89];
+    const vector W6_6 = W[90];
+    const vector W6_7 = W[91];
+    const vector W6_8 = W[92];
+    const vector W6_9 = W[93];
+    const vector W6_10 = W[94];
+    const vector W6_11 = W[95];
+    const vector W6_12 = W[96];
+    const vector W6_13 = W[97];
+    const vector W7_0 = W[98];
+    const vector W7_1 = W[99];
+    const vector W7_2 = W[100];
+    const vector W7_3 = W[101];
+    const vector W7_4 = W[102];
+    const vector W7_5 = W[103];
+    const vector W7_6 = W[104];
+    const vector W7_7 = W[105];
+    const vector W7_8 = W[106];
+    const vector W7_9 = W[107];
+    const vector W7_10 = W[108];
+    const vector W7_11 = W[109];
+    const vector W7_12 = W[110];
+    const vector W7_13 = W[111];
+    const vector W8_0 = W[112];
+    const vector W8_1 = W[113];
+    const vector W8_2 = W[114];
+    const vector W8_3 = W[115];
+    const vector W8_4 = W[116];
+    const vector W8_5 = W[117];
+    const vector W8_6 = W[118];
+    const vector W8_7 = W[119];
+    const vector W8_8 = W[120];
+    const vector W8_9 = W[121];
+    const vector W8_10 = W[122];
+    const vector W8_11 = W[123];
+    const vector W8_12 = W[124];
+    const vector W8_13 = W[125];
+    const vector W9_0 = W[126];
+    const vector W9_1 = W[127];
+    const vector W9_2 = W[128];
+    const vector W9_3 = W[129];
+    const vector W9_4 = W[130];
+    const vector W9_5 = W[131];
+    const vector W9_6 = W[132];
+    const vector W9_7 = W[133];
+    const vector W9_8 = W[134];
+    const vector W9_9 = W[135];
+    const vector W9_10 = W[136];
+    const vector W9_11 = W[137];
+    const vector W9_12 = W[138];
+    const vector W9_13 = W[139];
+    const vector W10_0 = W[140];
+    const vector W10_1 = W[141];
+    const vector W10_2 = W[142];
+    const vector W10_3 = W[143];
+    const vector W10_4 = W[144];
+    const vector W10_5 = W[145];
+    const vector W10_6 = W[146];
+    const vector W10_7 = W[147];
+    const vector W10_8 = W[148];
+    const vector W10_9 = W[149];
+    const vector W10_10 = W[150];
+    const vector W10_11 = W[151];
+    const vector W10_12 = W[152];
+    const vector W10_13 = W[153];
+    const vector W11_0 = W[154];
+    const vector W11_1 = W[155];
+    const vector W11_2 = W[156];
+    const vector W11_3 = W[157];
+    const vector W11_4 = W[158];
+    const vector W11_5 = W[159];
+    const vector W11_6 = W[160];
+    const vector W11_7 = W[161];
+    const vector W11_8 = W[162];
+    const vector W11_9 = W[163];
+    const vector W11_10 = W[164];
+    const vector W11_11 = W[165];
+    const vector W11_12 = W[166];
+    const vector W11_13 = W[167];
+    const vector W12_0 = W[168];
+    const vector W12_1 = W[169];
+    const vector W12_2 = W[170];
+    const vector W12_3 = W[171];
+    const vector W12_4 = W[172];
+    const vector W12_5 = W[173];
+    const vector W12_6 = W[174];
+    const vector W12_7 = W[175];
+    const vector W12_8 = W[176];
+    const vector W12_9 = W[177];
+    const vector W12_10 = W[178];
+    const vector W12_11 = W[179];
+    const vector W12_12 = W[180];
+    const vector W12_13 = W[181];
+    const vector W13_0 = W[182];
+    const vector W13_1 = W[183];
+    const vector W13_2 = W[184];
+    const vector W13_3 = W[185];
+    const vector W13_4 = W[186];
+    const vector W13_5 = W[187];
+    const vector W13_6 = W[188];
+    const vector W13_7 = W[189];
+    const vector W13_8 = W[190];
+    const vector W13_9 = W[191];
+    const vector W13_10 = W[192];
+    const vector W13_11 = W[193];
+    const vector W13_12 = W[194];
+    const vector W13_13 = W[195];
+    const vector its_amplitude = amplitude[0];
+    S[0] = mu0;
+    S[1] = mu1;
+    S[2] = mu2;
+    S[3] = mu3;
+    S[4] = mu4;
+    S[5] = mu5;
+    S[6] = mu6;
+    S[7] = mu7;
+    S[8] = mu8;
+    S[9] = mu9;
+    S[10] = mu10;
+    S[11] = mu11;
+    S[12] = mu12;
+    S[13] = mu13;
+    S[14] = W0_0;
+    S[15] = W0_1;
+    S[16] = W0_2;
+    S[17] = W0_3;
+    S[18] = W0_4;
+    S[19] = W0_5;
+    S[20] = W0_6;
+    S[21] = W0_7;
+    S[22] = W0_8;
+    S[23] = W0_9;
+    S[24] = W0_10;
+    S[25] = W0_11;
+    S[26] = W0_12;
+    S[27] = W0_13;
+    S[28] = W1_0;
+    S[29] = W1_1;
+    S[30] = W1_2;
+    S[31] = W1_3;
+    S[32] = W1_4;
+    S[33] = W1_5;
+    S[34] = W1_6;
+    S[35] = W1_7;
+    S[36] = W1_8;
+    S[37] = W1_9;
+    S[38] = W1_10;
+    S[39] = W1_11;
+    S[40] = W1_12;
+    S[41] = W1_13;
+    S[42] = W2_0;
+    S[43] = W2_1;
+    S[44] = W2_2;
+    S[45] = W2_3;
+    S[46] = W2_4;
+    S[47] = W2_5;
+    S[48] = W2_6;
+    S[49] = W2_7;
+    S[50] = W2_8;
+    S[51] = W2_9;
+    S[52] = W2_10;
+    S[53] = W2_11;
+    S[54] = W2_12;
+    S[55] = W2_13;
+    S[56] = W3_0;
+    S[57] = W3_1;
+    S[58] = W3_2;
+    S[59] = W3_3;
+    S[60] = W3_4;
+    S[61] = W3_5;
+    S[62] = W3_6;
+    S[63] = W3_7;
+    S[64] = W3_8;
+    S[65] = W3_9;
+    S[66] = W3_10;
+    S[67] = W3_11;
+    S[68] = W3_12;
+    S[69] = W3_13;
+    S[70] = W4_0;
+    S[71] = W4_1;
+    S[72] = W4_2;
+    S[73] = W4_3;
+    S[74] = W4_4;
+    S[75] = W4_5;
+    S[76] = W4_6;
+    S[77] = W4_7;
+    S[78] = W4_8;
+    S[79] = W4_9;
+    S[80] = W4_10;
+    S[81] = W4_11;
+    S[82] = W4_12;
+    S[83] = W4_13;
+    S[84] = W5_0;
+    S[85] = W5_1;
+    S[86] = W5_2;
+    S[87] = W5_3;
+    S[88] = W5_4;
+    S[89] = W5_5;
+    S[90] = W5_6;
+    S[91] = W5_7;
+    S[92] = W5_8;
+    S[93] = W5_9;
+    S[94] = W5_10;
+    S[95] = W5_11;
+    S[96] = W5_12;
+    S[97] = W5_13;
+    S[98] = W6_0;
+    S[99] = W6_1;
+    S[100] = W6_2;
+    S[101] = W6_3;
+    S[102] = W6_4;
+    S[103] = W6_5;
+    S[104] = W6_6;
+    S[105] = W6_7;
+    S[106] = W6_8;
+    S[107] = W6_9;
+    S[108] = W6_10;
+    S[109] = W6_11;
+    S[110] = W6_12;
+    S[111] = W6_13;
+    S[112] = W7_0;
+    S[113] = W7_1;
+    S[114] = W7_2;
+    S[115] = W7_3;
+    S[116] = W7_4;
+    S[117] = W7_5;
+    S[118] = W7_6;
+    S[119] = W7_7;
+    S[120] = W7_8;
+    S[121] = W7_9;
+    S[122] = W7_10;
+    S[123] = W7_11;
+    S[124] = W7_12;
+    S[125] = W7_13;
+    S[126] = W8_0;
+    S[127] = W8_1;
+    S[128] = W8_2;
+    S[129] = W8_3;
+    S[130] = W8_4;
+    S[131] = W8_5;
+    S[132] = W8_6;
+    S[133] = W8_7;
+    S[134] = W8_8;
+    S[135] = W8_9;
+    S[136] = W8_10;
+    S[137] = W8_11;
+    S[138] = W8_12;
+    S[139] = W8_13;
+    S[140] = W9_0;
+    S[141] = W9_1;
+    S[142] = W9_2;
+    S[143] = W9_3;
+    S[144] = W9_4;
+    S[145] = W9_5;
+    S[146] = W9_6;
+    S[147] = W9_7;
+    S[148] = W9_8;
+    S[149] = W9_9;
+    S[150] = W9_10;
+    S[151] = W9_11;
+    S[152] = W9_12;
+    S[153] = W9_13;
+    S[154] = W10_0;
+    S[155] = W10_1;
+    S[156] = W10_2;
+    S[157] = W10_3;
+    S[158] = W10_4;
+    S[159] = W10_5;
+    S[160] = W10_6;
+    S[161] = W10_7;
+    S[162] = W10_8;
+    S[163] = W10_9;
+    S[164] = W10_10;
+    S[165] = W10_11;
+    S[166] = W10_12;
+    S[167] = W10_13;
+    S[168] = W11_0;
+    S[169] = W11_1;
+    S[170] = W11_2;
+    S[171] = W11_3;
+    S[172] = W11_4;
+    S[173] = W11_5;
+    S[174] = W11_6;
+    S[175] = W11_7;
+    S[176] = W11_8;
+    S[177] = W11_9;
+    S[178] = W11_10;
+    S[179] = W11_11;
+    S[180] = W11_12;
+    S[181] = W11_13;
+    S[182] = W12_0;
+    S[183] = W12_1;
+    S[184] = W12_2;
+    S[185] = W12_3;
+    S[186] = W12_4;
+    S[187] = W12_5;
+    S[188] = W12_6;
+    S[189] = W12_7;
+    S[190] = W12_8;
+    S[191] = W12_9;
+    S[192] = W12_10;
+    S[193] = W12_11;
+    S[194] = W12_12;
+    S[195] = W12_13;
+    S[196] = W13_0;
+    S[197] = W13_1;
+    S[198] = W13_2;
+    S[199] = W13_3;
+    S[200] = W13_4;
+    S[201] = W13_5;
+    S[202] = W13_6;
+    S[203] = W13_7;
+    S[204] = W13_8;
+    S[205] = W13_9;
+    S[206] = W13_10;
+    S[207] = W13_11;
+    S[208] = W13_12;
+    S[209] = W13_13;
+    S[210] = its_amplitude;
+}
+
+/* Adds the values phi of a splat at some points. */
+OUTLINE void pair_value(
+    const vector *X, const double *S, vector *value) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const vector x2 = X[2];
+    const vector x3 = X[3];
+    const vector x4 = X[4];
+    const vector x5 = X[5];
+    const vector x6 = X[6];
+    const vector x7 = X[7];
+    const vector x8 = X[8];
+    const vector x9 = X[9];
+    const vector x10 = X[10];
+    const vector x11 = X[11];
+    const vector x12 = X[12];
+    const vector x13 = X[13];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double mu2 = S[2];
+    const double mu3 = S[3];
+    const double mu4 = S[4];
+    const double mu5 = S[5];
+    const double mu6 = S[6];
+    const double mu7 = S[7];
+    const double mu8 = S[8];
+    const double mu9 = S[9];
+    const double mu10 = S[10];
+    const double mu11 = S[11];
+    const double mu12 = S[12];
+    const double mu13 = S[13];
+    const double W0_0 = S[14];
+    const double W0_1 = S[15];
+    const double W0_2 = S[16];
+    const double W0_3 = S[17];
+    const double W0_4 = S[18];
+    const double W0_5 = S[19];
+    const double W0_6 = S[20];
+    const double W0_7 = S[21];
+    const double W0_8 = S[22];
+    const double W0_9 = S[23];
+    const double W0_10 = S[24];
+    const double W0_11 = S[25];
+    const double W0_12 = S[26];
+    const double W0_13 = S[27];
+    const double W1_0 = S[28];
+    const double W1_1 = S[29];
+    const double W1_2 = S[30];
+    const double W1_3 = S[31];
+    const double W1_4 = S[32];
+    const double W1_5 = S[33];
+    const double W1_6 = S[34];
+    const double W1_7 = S[35];
+    const double W1_8 = S[36];
+    const double W1_9 = S[37];
+    const double W1_10 = S[38];
+    const double W1_11 = S[39];
+    const double W1_12 = S[40];
+    const double W1_13 = S[41];
+    const double W2_0 = S[42];
+    const double W2_1 = S[43];
+    const double W2_2 = S[44];
+    const double W2_3 = S[45];
+    const double W2_4 = S[46];
+    const double W2_5 = S[47];
+    const double W2_6 = S[48];
+    const double W2_7 = S[49];
+    const double W2_8 = S[50];
+    const double W2_9 = S[51];
+    const double W2_10 = S[52];
+    const double W2_11 = S[53];
+    const double W2_12 = S[54];
+    const double W2_13 = S[55];
+    const double W3_0 = S[56];
+    const double W3_1 = S[57];
+    const double W3_2 = S[58];
+    const double W3_3 = S[59];
+    const double W3_4 = S[60];
+    const double W3_5 = S[61];
+    const double W3_6 = S[62];
+    const double W3_7 = S[63];
+    const double W3_8 = S[64];
+    const double W3_9 = S[65];
+    const double W3_10 = S[66];
+    const double W3_11 = S[67];
+    const double W3_12 = S[68];
+    const double W3_13 = S[69];
+    const double W4_0 = S[70];
+    const double W4_1 = S[71];
+    const double W4_2 = S[72];
+    const double W4_3 = S[73];
+    const double W4_4 = S[74];
+    const double W4_5 = S[75];
+    const double W4_6 = S[76];
+    const double W4_7 = S[77];
+    const double W4_8 = S[78];
+    const double W4_9 = S[79];
+    const double W4_10 = S[80];
+    const double W4_11 = S[81];
+    const double W4_12 = S[82];
+    const double W4_13 = S[83];
+    const double W5_0 = S[84];
+    const double W5_1 = S[85];
+    const double W5_2 = S[86];
+    const double W5_3 = S[87];
+    const double W5_4 = S[88];
+    const double W5_5 = S[89];
+    const double W5_6 = S[90];
+    const double W5_7 = S[91];
+    const double W5_8 = S[92];
+    const double W5_9 = S[93];
+    const double W5_10 = S[94];
+    const double W5_11 = S[95];
+    const double W5_12 = S[96];
+    const double W5_13 = S[97];
+    const double W6_0 = S[98];
+    const double W6_1 = S[99];
+    const double W6_2 = S[100];
+    const double W6_3 = S[101];
+    const double W6_4 = S[102];
+    const double W6_5 = S[103];
+    const double W6_6 = S[104];
+    const double W6_7 = S[105];
+    const double W6_8 = S[106];
+    const double W6_9 = S[107];
+    const double W6_10 = S[108];
+    const double W6_11 = S[109];
+    const double W6_12 = S[110];
+    const double W6_13 = S[111];
+    const double W7_0 = S[112];
+    const double W7_1 = S[113];
+    const double W7_2 = S[114];
+    const double W7_3 = S[115];
+    const double W7_4 = S[116];
+    const double W7_5 = S[117];
+    const double W7_6 = S[118];
+    const double W7_7 = S[119];
+    const double W7_8 = S[120];
+    const double W7_9 = S[121];
+    const double W7_10 = S[122];
+    const double W7_11 = S[123];
+    const double W7_12 = S[124];
+    const double W7_13 = S[125];
+    const double W8_0 = S[126];
+    const double W8_1 = S[127];
+    const double W8_2 = S[128];
+    const double W8_3 = S[129];
+    const double W8_4 = S[130];
+    const double W8_5 = S[131];
+    const double W8_6 = S[132];
+    const double W8_7 = S[133];
+    const double W8_8 = S[134];
+    const double W8_9 = S[135];
+    const double W8_10 = S[136];
+    const double W8_11 = S[137];
+    const double W8_12 = S[138];
+    const double W8_13 = S[139];
+    const double W9_0 = S[140];
+    const double W9_1 = S[141];
+    const double W9_2 = S[142];
+    const double W9_3 = S[143];
+    const double W9_4 = S[144];
+    const double W9_5 = S[145];
+    const double W9_6 = S[146];
+    const double W9_7 = S[147];
+    const double W9_8 = S[148];
+    const double W9_9 = S[149];
+    const double W9_10 = S[150];
+    const double W9_11 = S[151];
+    const double W9_12 = S[152];
+    const double W9_13 = S[153];
+    const double W10_0 = S[154];
+    const double W10_1 = S[155];
+    const double W10_2 = S[156];
+    const double W10_3 = S[157];
+    const double W10_4 = S[158];
+    const double W10_5 = S[159];
+    const double W10_6 = S[160];
+    const double W10_7 = S[161];
+    const double W10_8 = S[162];
+    const double W10_9 = S[163];
+    const double W10_10 = S[164];
+    const double W10_11 = S[165];
+    const double W10_12 = S[166];
+    const double W10_13 = S[167];
+    const double W11_0 = S[168];
+    const double W11_1 = S[169];
+    const double W11_2 = S[170];
+    const double W11_3 = S[171];
+    const double W11_4 = S[172];
+    const double W11_5 = S[173];
+    const double W11_6 = S[174];
+    const double W11_7 = S[175];
+    const double W11_8 = S[176];
+    const double W11_9 = S[177];
+    const double W11_10 = S[178];
+    const double W11_11 = S[179];
+    const double W11_12 = S[180];
+    const double W11_13 = S[181];
+    const double W12_0 = S[182];
+    const double W12_1 = S[183];
+    const double W12_2 = S[184];
+    const double W12_3 = S[185];
+    const double W12_4 = S[186];
+    const double W12_5 = S[187];
+    const double W12_6 = S[188];
+    const double W12_7 = S[189];
+    const double W12_8 = S[190];
+    const double W12_9 = S[191];
+    const double W12_10 = S[192];
+    const double W12_11 = S[193];
+    const double W12_12 = S[194];
+    const double W12_13 = S[195];
+    const double W13_0 = S[196];
+    const double W13_1 = S[197];
+    const double W13_2 = S[198];
+    const double W13_3 = S[199];
+    const double W13_4 = S[200];
+    const double W13_5 = S[201];
+    const double W13_6 = S[202];
+    const double W13_7 = S[203];
+    const double W13_8 = S[204];
+    const double W13_9 = S[205];
+    const double W13_10 = S[206];
+    const double W13_11 = S[207];
+    const double W13_12 = S[208];
+    const double W13_13 = S[209];
+    const double amplitude = S[210];
+    const vector gap = x0 - mu0;
+    const vector round_2 = vector_round(0.15915494309189535 * gap);
+    const vector v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
+        round_2;
+    const vector gap_2 = x1 - mu1;
+    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
+    const vector v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
+        round_3;
+    const vector gap_3 = x2 - mu2;
+    const vector round_4 = vector_round(0.15915494309189535 * gap_3);
+    const vector v2 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
+        round_4;
+    const vector gap_4 = x3 - mu3;
+    const vector round_5 = vector_round(0.15915494309189535 * gap_4);
+    const vector v3 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
+        round_5;
+    const vector gap_5 = x4 - mu4;
+    const vector round_6 = vector_round(0.15915494309189535 * gap_5);
+    const vector v4 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
+        round_6;
+    const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+    const vector gap_6 = x5 - mu5;
+    const vector round_7 = vector_round(0.15915494309189535 * gap_6);
+    const vector v5 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
+        round_7;
+    const vector gap_7 = x6 - mu6;
+    const vector round_8 = vector_round(0.15915494309189535 * gap_7);
+    const vector v6 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
+        round_8;
+    const vector gap_8 = x7 - mu7;
+    const vector round_9 = vector_round(0.15915494309189535 * gap_8);
+    const vector v7 = gap_8 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 *
+        round_9;
+    const vector gap_9 = x8 - mu8;
+    const vector round_10 = vector_round(0.15915494309189535 * gap_9);
+    const vector v8 = gap_9 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07 *
+        round_10;
+    const vector total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+    const vector gap_10 = x9 - mu9;
+    const vector round_11 = vector_round(0.15915494309189535 * gap_10);
+    const vector v9 = gap_10 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07 *
+        round_11;
+    const vector gap_11 = x10 - mu10;
+    const vector round_12 = vector_round(0.15915494309189535 * gap_11);
+    const vector v10 = gap_11 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 - 3.019915981956753e-07
+        * round_12;
+    const vector gap_12 = x11 - mu11;
+    const vector round_13 = vector_round(0.15915494309189535 * gap_12);
+    const vector v11 = gap_12 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 - 3.019915981956753e-07
+        * round_13;
+    const vector gap_13 = x12 - mu12;
+    const vector round_14 = vector_round(0.15915494309189535 * gap_13);
+    const vector v12 = gap_13 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 - 3.019915981956753e-07
+        * round_14;
+    const vector total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
+    const vector gap_14 = x13 - mu13;
+    const vector round_15 = vector_round(0.15915494309189535 * gap_14);
+    const vector v13 = gap_14 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 - 3.019915981956753e-07
+        * round_15;
+    const vector z0 = total_4 + W0_13 * v13;
+    const vector total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+    const vector total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+    const vector total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12;
+    const vector z1 = total_7 + W1_13 * v13;
+    const vector total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+    const vector total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+    const vector total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12;
+    const vector z2 = total_10 + W2_13 * v13;
+    const vector total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+    const vector total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+    const vector total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12;
+    const vector z3 = total_13 + W3_13 * v13;
+    const vector total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+    const vector total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+    const vector total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12;
+    const vector z4 = total_16 + W4_13 * v13;
+    const vector total_17 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+    const vector total_18 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+    const vector total_19 = total_18 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+    const vector total_20 = total_19 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12;
+    const vector z5 = total_20 + W5_13 * v13;
+    const vector total_21 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+    const vector total_22 = total_21 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+    const vector total_23 = total_22 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12;
+    const vector z6 = total_23 + W6_13 * v13;
+    const vector total_24 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+    const vector total_25 = total_24 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+    const vector total_26 = total_25 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12;
+    const vector z7 = total_26 + W7_13 * v13;
+    const vector total_27 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+    const vector total_28 = total_27 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+    const vector total_29 = total_28 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12;
+    const vector z8 = total_29 + W8_13 * v13;
+    const vector total_30 = total_17 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+    const vector total_31 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4;
+    const vector total_32 = total_31 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8;
+    const vector total_33 = total_32 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12;
+    const vector z9 = total_33 + W9_13 * v13;
+    const vector total_34 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4;
+    const vector total_35 = total_34 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8;
+    const vector total_36 = total_35 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12;
+    const vector z10 = total_36 + W10_13 * v13;
+    const vector total_37 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4;
+    const vector total_38 = total_37 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8;
+    const vector total_39 = total_38 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12;
+    const vector z11 = total_39 + W11_13 * v13;
+    const vector total_40 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4;
+    const vector total_41 = total_40 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8;
+    const vector total_42 = total_41 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12;
+    const vector z12 = total_42 + W12_13 * v13;
+    const vector total_43 = total_30 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12;
+    const vector total_44 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4;
+    const vector total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
+    const vector total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
+    const vector z13 = total_46 + W13_13 * v13;
+    const vector exp_2 = vector_exp(-0.5 * (total_43 + z13 * z13));
+    value[0] = value[0] + amplitude * exp_2;
+}
+
+/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+OUTLINE void pair_forward(
+    const vector *X, const double *S, vector *value, vector *slope) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const vector x2 = X[2];
+    const vector x3 = X[3];
+    const vector x4 = X[4];
+    const vector x5 = X[5];
+    const vector x6 = X[6];
+    const vector x7 = X[7];
+    const vector x8 = X[8];
+    const vector x9 = X[9];
+    const vector x10 = X[10];
+    const vector x11 = X[11];
+    const vector x12 = X[12];
+    const vector x13 = X[13];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double mu2 = S[2];
+    const double mu3 = S[3];
+    const double mu4 = S[4];
+    const double mu5 = S[5];
+    const double mu6 = S[6];
+    const double mu7 = S[7];
+    const double mu8 = S[8];
+    const double mu9 = S[9];
+    const double mu10 = S[10];
+    const double mu11 = S[11];
+    const double mu12 = S[12];
+    const double mu13 = S[13];
+    const double W0_0 = S[14];
+    const double W0_1 = S[15];
+    const double W0_2 = S[16];
+    const double W0_3 = S[17];
+    const double W0_4 = S[18];
+    const double W0_5 = S[19];
+    const double W0_6 = S[20];
+    const double W0_7 = S[21];
+    const double W0_8 = S[22];
+    const double W0_9 = S[23];
+    const double W0_10 = S[24];
+    const double W0_11 = S[25];
+    const double W0_12 = S[26];
+    const double W0_13 = S[27];
+    const double W1_0 = S[28];
+    const double W1_1 = S[29];
+    const double W1_2 = S[30];
+    const double W1_3 = S[31];
+    const double W1_4 = S[32];
+    const double W1_5 = S[33];
+    const double W1_6 = S[34];
+    const double W1_7 = S[35];
+    const double W1_8 = S[36];
+    const double W1_9 = S[37];
+    const double W1_10 = S[38];
+    const double W1_11 = S[39];
+    const double W1_12 = S[40];
+    const double W1_13 = S[41];
+    const double W2_0 = S[42];
+    const double W2_1 = S[43];
+    const double W2_2 = S[44];
+    const double W2_3 = S[45];
+    const double W2_4 = S[46];
+    const double W2_5 = S[47];
+    const double W2_6 = S[48];
+    const double W2_7 = S[49];
+    const double W2_8 = S[50];
+    const double W2_9 = S[51];
+    const double W2_10 = S[52];
+    const double W2_11 = S[53];
+    const double W2_12 = S[54];
+    const double W2_13 = S[55];
+    const double W3_0 = S[56];
+    const double W3_1 = S[57];
+    const double W3_2 = S[58];
+    const double W3_3 = S[59];
+    const double W3_4 = S[60];
+    const double W3_5 = S[61];
+    const double W3_6 = S[62];
+    const double W3_7 = S[63];
+    const double W3_8 = S[64];
+    const double W3_9 = S[65];
+    const double W3_10 = S[66];
+    const double W3_11 = S[67];
+    const double W3_12 = S[68];
+    const double W3_13 = S[69];
+    const double W4_0 = S[70];
+    const double W4_1 = S[71];
+    const double W4_2 = S[72];
+    const double W4_3 = S[73];
+    const double W4_4 = S[74];
+    const double W4_5 = S[75];
+    const double W4_6 = S[76];
+    const double W4_7 = S[77];
+    const double W4_8 = S[78];
+    const double W4_9 = S[79];
+    const double W4_10 = S[80];
+    const double W4_11 = S[81];
+    const double W4_12 = S[82];
+    const double W4_13 = S[83];
+    const double W5_0 = S[84];
+    const double W5_1 = S[85];
+    const double W5_2 = S[86];
+    const double W5_3 = S[87];
+    const double W5_4 = S[88];
+    const double W5_5 = S[89];
+    const double W5_6 = S[90];
+    const double W5_7 = S[91];
+    const double W5_8 = S[92];
+    const double W5_9 = S[93];
+    const double W5_10 = S[94];
+    const double W5_11 = S[95];
+    const double W5_12 = S[96];
+    const double W5_13 = S[97];
+    const double W6_0 = S[98];
+    const double W6_1 = S[99];
+    const double W6_2 = S[100];
+    const double W6_3 = S[101];
+    const double W6_4 = S[102];
+    const double W6_5 = S[103];
+    const double W6_6 = S[104];
+    const double W6_7 = S[105];
+    const double W6_8 = S[106];
+    const double W6_9 = S[107];
+    const double W6_10 = S[108];
+    const double W6_11 = S[109];
+    const double W6_12 = S[110];
+    const double W6_13 = S[111];
+    const double W7_0 = S[112];
+    const double W7_1 = S[113];
+    const double W7_2 = S[114];
+    const double W7_3 = S[115];
+    const double W7_4 = S[116];
+    const double W7_5 = S[117];
+    const double W7_6 = S[118];
+    const double W7_7 = S[119];
+    const double W7_8 = S[120];
+    const double W7_9 = S[121];
+    const double W7_10 = S[122];
+    const double W7_11 = S[123];
+    const double W7_12 = S[124];
+    const double W7_13 = S[125];
+    const double W8_0 = S[126];
+    const double W8_1 = S[127];
+    const double W8_2 = S[128];
+    const double W8_3 = S[129];
+    const double W8_4 = S[130];
+    const double W8_5 = S[131];
+    const double W8_6 = S[132];
+    const double W8_7 = S[133];
+    const double W8_8 = S[134];
+    const double W8_9 = S[135];
+    const double W8_10 = S[136];
+    const double W8_11 = S[137];
+    const double W8_12 = S[138];
+    const double W8_13 = S[139];
+    const double W9_0 = S[140];
+    const double W9_1 = S[141];
+    const double W9_2 = S[142];
+    const double W9_3 = S[143];
+    const double W9_4 = S[144];
+    const double W9_5 = S[145];
+    const double W9_6 = S[146];
+    const double W9_7 = S[147];
+    const double W9_8 = S[148];
+    const double W9_9 = S[149];
+    const double W9_10 = S[150];
+    const double W9_11 = S[151];
+    const double W9_12 = S[152];
+    const double W9_13 = S[153];
+    const double W10_0 = S[154];
+    const double W10_1 = S[155];
+    const double W10_2 = S[156];
+    const double W10_3 = S[157];
+    const double W10_4 = S[158];
+    const double W10_5 = S[159];
+    const double W10_6 = S[160];
+    const double W10_7 = S[161];
+    const double W10_8 = S[162];
+    const double W10_9 = S[163];
+    const double W10_10 = S[164];
+    const double W10_11 = S[165];
+    const double W10_12 = S[166];
+    const double W10_13 = S[167];
+    const double W11_0 = S[168];
+    const double W11_1 = S[169];
+    const double W11_2 = S[170];
+    const double W11_3 = S[171];
+    const double W11_4 = S[172];
+    const double W11_5 = S[173];
+    const double W11_6 = S[174];
+    const double W11_7 = S[175];
+    const double W11_8 = S[176];
+    const double W11_9 = S[177];
+    const double W11_10 = S[178];
+    const double W11_11 = S[179];
+    const double W11_12 = S[180];
+    const double W11_13 = S[181];
+    const double W12_0 = S[182];
+    const double W12_1 = S[183];
+    const double W12_2 = S[184];
+    const double W12_3 = S[185];
+    const double W12_4 = S[186];
+    const double W12_5 = S[187];
+    const double W12_6 = S[188];
+    const double W12_7 = S[189];
+    const double W12_8 = S[190];
+    const double W12_9 = S[191];
+    const double W12_10 = S[192];
+    const double W12_11 = S[193];
+    const double W12_12 = S[194];
+    const double W12_13 = S[195];
+    const double W13_0 = S[196];
+    const double W13_1 = S[197];
+    const double W13_2 = S[198];
+    const double W13_3 = S[199];
+    const double W13_4 = S[200];
+    const double W13_5 = S[201];
+    const double W13_6 = S[202];
+    const double W13_7 = S[203];
+    const double W13_8 = S[204];
+    const double W13_9 = S[205];
+    const double W13_10 = S[206];
+    const double W13_11 = S[207];
+    const double W13_12 = S[208];
+    const double W13_13 = S[209];
+    const double amplitude = S[210];
+    const vector gap = x0 - mu0;
+    const vector round_2 = vector_round(0.15915494309189535 * gap);
+    const vector v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
+        round_2;
+    const vector gap_2 = x1 - mu1;
+    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
+    const vector v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
+        round_3;
+    const vector gap_3 = x2 - mu2;
+    const vector round_4 = vector_round(0.15915494309189535 * gap_3);
+    const vector v2 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
+        round_4;
+    const vector gap_4 = x3 - mu3;
+    const vector round_5 = vector_round(0.15915494309189535 * gap_4);
+    const vector v3 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
+        round_5;
+    const vector gap_5 = x4 - mu4;
+    const vector round_6 = vector_round(0.15915494309189535 * gap_5);
+    const vector v4 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
+        round_6;
+    const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+    const vector gap_6 = x5 - mu5;
+    const vector round_7 = vector_round(0.15915494309189535 * gap_6);
+    const vector v5 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
+        round_7;
+    const vector gap_7 = x6 - mu6;
+    const vector round_8 = vector_round(0.15915494309189535 * gap_7);
+    const vector v6 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
+        round_8;
+    const vector gap_8 = x7 - mu7;
+    const vector round_9 = vector_round(0.15915494309189535 * gap_8);
+    const vector v7 = gap_8 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 *
+        round_9;
+    const vector gap_9 = x8 - mu8;
+    const vector round_10 = vector_round(0.15915494309189535 * gap_9);
+    const vector v8 = gap_9 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07 *
+        round_10;
+    const vector total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+    const vector gap_10 = x9 - mu9;
+    const vector round_11 = vector_round(0.15915494309189535 * gap_10);
+    const vector v9 = gap_10 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07 *
+        round_11;
+    const vector gap_11 = x10 - mu10;
+    const vector round_12 = vector_round(0.15915494309189535 * gap_11);
+    const vector v10 = gap_11 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 - 3.019915981956753e-07
+        * round_12;
+    const vector gap_12 = x11 - mu11;
+    const vector round_13 = vector_round(0.15915494309189535 * gap_12);
+    const vector v11 = gap_12 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 - 3.019915981956753e-07
+        * round_13;
+    const vector gap_13 = x12 - mu12;
+    const vector round_14 = vector_round(0.15915494309189535 * gap_13);
+    const vector v12 = gap_13 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 - 3.019915981956753e-07
+        * round_14;
+    const vector total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
+    const vector gap_14 = x13 - mu13;
+    const vector round_15 = vector_round(0.15915494309189535 * gap_14);
+    const vector v13 = gap_14 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 - 3.019915981956753e-07
+        * round_15;
+    const vector z0 = total_4 + W0_13 * v13;
+    const vector total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+    const vector total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+    const vector total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12;
+    const vector z1 = total_7 + W1_13 * v13;
+    const vector total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+    const vector total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+    const vector total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12;
+    const vector z2 = total_10 + W2_13 * v13;
+    const vector total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+    const vector total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+    const vector total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12;
+    const vector z3 = total_13 + W3_13 * v13;
+    const vector total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+    const vector total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+    const vector total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12;
+    const vector z4 = total_16 + W4_13 * v13;
+    const vector total_17 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+    const vector total_18 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+    const vector total_19 = total_18 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+    const vector total_20 = total_19 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12;
+    const vector z5 = total_20 + W5_13 * v13;
+    const vector total_21 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+    const vector total_22 = total_21 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+    const vector total_23 = total_22 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12;
+    const vector z6 = total_23 + W6_13 * v13;
+    const vector total_24 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+    const vector total_25 = total_24 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+    const vector total_26 = total_25 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12;
+    const vector z7 = total_26 + W7_13 * v13;
+    const vector total_27 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+    const vector total_28 = total_27 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+    const vector total_29 = total_28 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12;
+    const vector z8 = total_29 + W8_13 * v13;
+    const vector total_30 = total_17 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+    const vector total_31 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4;
+    const vector total_32 = total_31 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8;
+    const vector total_33 = total_32 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12;
+    const vector z9 = total_33 + W9_13 * v13;
+    const vector total_34 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4;
+    const vector total_35 = total_34 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8;
+    const vector total_36 = total_35 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12;
+    const vector z10 = total_36 + W10_13 * v13;
+    const vector total_37 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4;
+    const vector total_38 = total_37 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8;
+    const vector total_39 = total_38 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12;
+    const vector z11 = total_39 + W11_13 * v13;
+    const vector total_40 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4;
+    const vector total_41 = total_40 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8;
+    const vector total_42 = total_41 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12;
+    const vector z12 = total_42 + W12_13 * v13;
+    const vector total_43 = total_30 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12;
+    const vector total_44 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4;
+    const vector total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
+    const vector total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
+    const vector z13 = total_46 + W13_13 * v13;
+    const vector exp_2 = vector_exp(-0.5 * (total_43 + z13 * z13));
+    const vector phi = amplitude * exp_2;
+    const vector z13_product = z13 * phi;
+    const vector z12_product = z12 * phi;
+    const vector z11_product = z11 * phi;
+    const vector z10_product = z10 * phi;
+    const vector z9_product = z9 * phi;
+    const vector z8_product = z8 * phi;
+    const vector z7_product = z7 * phi;
+    const vector z6_product = z6 * phi;
+    const vector z5_product = z5 * phi;
+    const vector z4_product = z4 * phi;
+    const vector z3_product = z3 * phi;
+    const vector z2_product = z2 * phi;
+    const vector z1_product = z1 * phi;
+    const vector z0_product = z0 * phi;
+    value[0] = value[0] + phi;
+    slope[0] = slope[0] - W13_0 * z13_product - W12_0 * z12_product - W11_0 * z11_product - W10_0 *
+            z10_product - W9_0 * z9_product - W8_0 * z8_product - W7_0 * z7_product - W6_0 * z6_product - W5_0 *
+            z5_product - W4_0 * z4_product - W3_0 * z3_product - W2_0 * z2_product - W1_0 * z1_product - W0_0 *
+            z0_product;
+    slope[1] = slope[1] - W13_1 * z13_product - W12_1 * z12_product - W11_1 * z11_product - W10_1 *
+            z10_product - W9_1 * z9_product - W8_1 * z8_product - W7_1 * z7_product - W6_1 * z6_product - W5_1 *
+            z5_product - W4_1 * z4_product - W3_1 * z3_product - W2_1 * z2_product - W1_1 * z1_product - W0_1 *
+            z0_product;
+    slope[2] = slope[2] - W13_2 * z13_product - W12_2 * z12_product - W11_2 * z11_product - W10_2 *
+            z10_product - W9_2 * z9_product - W8_2 * z8_product - W7_2 * z7_product - W6_2 * z6_product - W5_2 *
+            z5_product - W4_2 * z4_product - W3_2 * z3_product - W2_2 * z2_product - W1_2 * z1_product - W0_2 *
+            z0_product;
+    slope[3] = slope[3] - W13_3 * z13_product - W12_3 * z12_product - W11_3 * z11_product - W10_3 *
+            z10_product - W9_3 * z9_product - W8_3 * z8_product - W7_3 * z7_product - W6_3 * z6_product - W5_3 *
+            z5_product - W4_3 * z4_product - W3_3 * z3_product - W2_3 * z2_product - W1_3 * z1_product - W0_3 *
+            z0_product;
+    slope[4] = slope[4] - W13_4 * z13_product - W12_4 * z12_product - W11_4 * z11_product - W10_4 *
+            z10_product - W9_4 * z9_product - W8_4 * z8_product - W7_4 * z7_product - W6_4 * z6_product - W5_4 *
+            z5_product - W4_4 * z4_product - W3_4 * z3_product - W2_4 * z2_product - W1_4 * z1_product - W0_4 *
+            z0_product;
+    slope[5] = slope[5] - W13_5 * z13_product - W12_5 * z12_product - W11_5 * z11_product - W10_5 *
+            z10_product - W9_5 * z9_product - W8_5 * z8_product - W7_5 * z7_product - W6_5 * z6_product - W5_5 *
+            z5_product - W4_5 * z4_product - W3_5 * z3_product - W2_5 * z2_product - W1_5 * z1_product - W0_5 *
+            z0_product;
+    slope[6] = slope[6] - W13_6 * z13_product - W12_6 * z12_product - W11_6 * z11_product - W10_6 *
+            z10_product - W9_6 * z9_product - W8_6 * z8_product - W7_6 * z7_product - W6_6 * z6_product - W5_6 *
+            z5_product - W4_6 * z4_product - W3_6 * z3_product - W2_6 * z2_product - W1_6 * z1_product - W0_6 *
+            z0_product;
+    slope[7] = slope[7] - W13_7 * z13_product - W12_7 * z12_product - W11_7 * z11_product - W10_7 *
+            z10_product - W9_7 * z9_product - W8_7 * z8_product - W7_7 * z7_product - W6_7 * z6_product - W5_7 *
+            z5_product - W4_7 * z4_product - W3_7 * z3_product - W2_7 * z2_product - W1_7 * z1_product - W0_7 *
+            z0_product;
+    slope[8] = slope[8] - W13_8 * z13_product - W12_8 * z12_product - W11_8 * z11_product - W10_8 *
+            z10_product - W9_8 * z9_product - W8_8 * z8_product - W7_8 * z7_product - W6_8 * z6_product - W5_8 *
+            z5_product - W4_8 * z4_product - W3_8 * z3_product - W2_8 * z2_product - W1_8 * z1_product - W0_8 *
+            z0_product;
+    slope[9] = slope[9] - W13_9 * z13_product - W12_9 * z12_product - W11_9 * z11_product - W10_9 *
+            z10_product - W9_9 * z9_product - W8_9 * z8_product - W7_9 * z7_product - W6_9 * z6_product - W5_9 *
+            z5_product - W4_9 * z4_product - W3_9 * z3_product - W2_9 * z2_product - W1_9 * z1_product - W0_9 *
+            z0_product;
+    slope[10] = slope[10] - W13_10 * z13_product - W12_10 * z12_product - W11_10 * z11_product - W10_10 *
+            z10_product - W9_10 * z9_product - W8_10 * z8_product - W7_10 * z7_product - W6_10 * z6_product -
+            W5_10 * z5_product - W4_10 * z4_product - W3_10 * z3_product - W2_10 * z2_product - W1_10 * z1_product
+            - W0_10 * z0_product;
+    slope[11] = slope[11] - W13_11 * z13_product - W12_11 * z12_product - W11_11 * z11_product - W10_11 *
+            z10_product - W9_11 * z9_product - W8_11 * z8_product - W7_11 * z7_product - W6_11 * z6_product -
+            W5_11 * z5_product - W4_11 * z4_product - W3_11 * z3_product - W2_11 * z2_product - W1_11 * z1_product
+            - W0_11 * z0_product;
+    slope[12] = slope[12] - W13_12 * z13_product - W12_12 * z12_product - W11_12 * z11_product - W10_12 *
+            z10_product - W9_12 * z9_product - W8_12 * z8_product - W7_12 * z7_product - W6_12 * z6_product -
+            W5_12 * z5_product - W4_12 * z4_product - W3_12 * z3_product - W2_12 * z2_product - W1_12 * z1_product
+            - W0_12 * z0_product;
+    slope[13] = slope[13] - W13_13 * z13_product - W12_13 * z12_product - W11_13 * z11_product - W10_13 *
+            z10_product - W9_13 * z9_product - W8_13 * z8_product - W7_13 * z7_product - W6_13 * z6_product -
+            W5_13 * z5_product - W4_13 * z4_product - W3_13 * z3_product - W2_13 * z2_product - W1_13 * z1_product
+            - W0_13 * z0_product;
+}
+
+/* The Riemannian gradient at some points, of the sums of slopes. */
+OUTLINE void pair_gradient(
+    const vector *x, const vector *slope, vector *gradient) {
+    (void)x;
+    const vector slope_x0 = slope[0];
+    const vector slope_x1 = slope[1];
+    const vector slope_x2 = slope[2];
+    const vector slope_x3 = slope[3];
+    const vector slope_x4 = slope[4];
+    const vector slope_x5 = slope[5];
+    const vector slope_x6 = slope[6];
+    const vector slope_x7 = slope[7];
+    const vector slope_x8 = slope[8];
+    const vector slope_x9 = slope[9];
+    const vector slope_x10 = slope[10];
+    const vector slope_x11 = slope[11];
+    const vector slope_x12 = slope[12];
+    const vector slope_x13 = slope[13];
+    gradient[0] = slope_x0;
+    gradient[1] = slope_x1;
+    gradient[2] = slope_x2;
+    gradient[3] = slope_x3;
+    gradient[4] = slope_x4;
+    gradient[5] = slope_x5;
+    gradient[6] = slope_x6;
+    gradient[7] = slope_x7;
+    gradient[8] = slope_x8;
+    gradient[9] = slope_x9;
+    gradient[10] = slope_x10;
+    gradient[11] = slope_x11;
+    gradient[12] = slope_x12;
+    gradient[13] = slope_x13;
+}
+
+/* The adjoint of slope at some points, of that of the gradient. */
+OUTLINE void pair_gradient_vjp(
+    const vector *x, const vector *gradient_bar, vector *slope_bar) {
+    (void)x;
+    const vector gradient_bar0 = gradient_bar[0];
+    const vector gradient_bar1 = gradient_bar[1];
+    const vector gradient_bar2 = gradient_bar[2];
+    const vector gradient_bar3 = gradient_bar[3];
+    const vector gradient_bar4 = gradient_bar[4];
+    const vector gradient_bar5 = gradient_bar[5];
+    const vector gradient_bar6 = gradient_bar[6];
+    const vector gradient_bar7 = gradient_bar[7];
+    const vector gradient_bar8 = gradient_bar[8];
+    const vector gradient_bar9 = gradient_bar[9];
+    const vector gradient_bar10 = gradient_bar[10];
+    const vector gradient_bar11 = gradient_bar[11];
+    const vector gradient_bar12 = gradient_bar[12];
+    const vector gradient_bar13 = gradient_bar[13];
+    slope_bar[0] = gradient_bar0;
+    slope_bar[1] = gradient_bar1;
+    slope_bar[2] = gradient_bar2;
+    slope_bar[3] = gradient_bar3;
+    slope_bar[4] = gradient_bar4;
+    slope_bar[5] = gradient_bar5;
+    slope_bar[6] = gradient_bar6;
+    slope_bar[7] = gradient_bar7;
+    slope_bar[8] = gradient_bar8;
+    slope_bar[9] = gradient_bar9;
+    slope_bar[10] = gradient_bar10;
+    slope_bar[11] = gradient_bar11;
+    slope_bar[12] = gradient_bar12;
+    slope_bar[13] = gradient_bar13;
+}
+
+/* The adjoints of some splats' parameters, of that of S. */
+OUTLINE void pair_constants_vjp(
+    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
+    (void)mu;
+    (void)W;
+    (void)amplitude;
+    const vector mu0_bar = S_bar[0];
+    const vector mu1_bar = S_bar[1];
+    const vector mu2_bar = S_bar[2];
+    const vector mu3_bar = S_bar[3];
+    const vector mu4_bar = S_bar[4];
+    const vector mu5_bar = S_bar[5];
+    const vector mu6_bar = S_bar[6];
+    const vector mu7_bar = S_bar[7];
+    const vector mu8_bar = S_bar[8];
+    const vector mu9_bar = S_bar[9];
+    const vector mu10_bar = S_bar[10];
+    const vector mu11_bar = S_bar[11];
+    const vector mu12_bar = S_bar[12];
+    const vector mu13_bar = S_bar[13];
+    const vector W0_0_bar = S_bar[14];
+    const vector W0_1_bar = S_bar[15];
+    const vector W0_2_bar = S_bar[16];
+    const vector W0_3_bar = S_bar[17];
+    const vector W0_4_bar = S_bar[18];
+    const vector W0_5_bar = S_bar[19];
+    const vector W0_6_bar = S_bar[20];
+    const vector W0_7_bar = S_bar[21];
+    const vector W0_8_bar = S_bar[22];
+    const vector W0_9_bar = S_bar[23];
+    const vector W0_10_bar = S_bar[24];
+    const vector W0_11_bar = S_bar[25];
+    const vector W0_12_bar = S_bar[26];
+    const vector W0_13_bar = S_bar[27];
+    const vector W1_0_bar = S_bar[28];
+    const vector W1_1_bar = S_bar[29];
+    const vector W1_2_bar = S_bar[30];
+    const vector W1_3_bar = S_bar[31];
+    const vector W1_4_bar = S_bar[32];
+    const vector W1_5_bar = S_bar[33];
+    const vector W1_6_bar = S_bar[34];
+    const vector W1_7_bar = S_bar[35];
+    const vector W1_8_bar = S_bar[36];
+    const vector W1_9_bar = S_bar[37];
+    const vector W1_10_bar = S_bar[38];
+    const vector W1_11_bar = S_bar[39];
+    const vector W1_12_bar = S_bar[40];
+    const vector W1_13_bar = S_bar[41];
+    const vector W2_0_bar = S_bar[42];
+    const vector W2_1_bar = S_bar[43];
+    const vector W2_2_bar = S_bar[44];
+    const vector W2_3_bar = S_bar[45];
+    const vector W2_4_bar = S_bar[46];
+    const vector W2_5_bar = S_bar[47];
+    const vector W2_6_bar = S_bar[48];
+    const vector W2_7_bar = S_bar[49];
+    const vector W2_8_bar = S_bar[50];
+    const vector W2_9_bar = S_bar[51];
+    const vector W2_10_bar = S_bar[52];
+    const vector W2_11_bar = S_bar[53];
+    const vector W2_12_bar = S_bar[54];
+    const vector W2_13_bar = S_bar[55];
+    const vector W3_0_bar = S_bar[56];
+    const vector W3_1_bar = S_bar[57];
+    const vector W3_2_bar = S_bar[58];
+    const vector W3_3_bar = S_bar[59];
+    const vector W3_4_bar = S_bar[60];
+    const vector W3_5_bar = S_bar[61];
+    const vector W3_6_bar = S_bar[62];
+    const vector W3_7_bar = S_bar[63];
+    const vector W3_8_bar = S_bar[64];
+    const vector W3_9_bar = S_bar[65];
+    const vector W3_10_bar = S_bar[66];
+    const vector W3_11_bar = S_bar[67];
+    const vector W3_12_bar = S_bar[68];
+    const vector W3_13_bar = S_bar[69];
+    const vector W4_0_bar = S_bar[70];
+    const vector W4_1_bar = S_bar[71];
+    const vector W4_2_bar = S_bar[72];
+    const vector W4_3_bar = S_bar[73];
+    const vector W4_4_bar = S_bar[74];
+    const vector W4_5_bar = S_bar[75];
+    const vector W4_6_bar = S_bar[76];
+    const vector W4_7_bar = S_bar[77];
+    const vector W4_8_bar = S_bar[78];
+    const vector W4_9_bar = S_bar[79];
+    const vector W4_10_bar = S_bar[80];
+    const vector W4_11_bar = S_bar[81];
+    const vector W4_12_bar = S_bar[82];
+    const vector W4_13_bar = S_bar[83];
+    const vector W5_0_bar = S_bar[84];
+    const vector W5_1_bar = S_bar[85];
+    const vector W5_2_bar = S_bar[86];
+    const vector W5_3_bar = S_bar[87];
+    const vector W5_4_bar = S_bar[88];
+    const vector W5_5_bar = S_bar[89];
+    const vector W5_6_bar = S_bar[90];
+    const vector W5_7_bar = S_bar[91];
+    const vector W5_8_bar = S_bar[92];
+    const vector W5_9_bar = S_bar[93];
+    const vector W5_10_bar = S_bar[94];
+    const vector W5_11_bar = S_bar[95];
+    const vector W5_12_bar = S_bar[96];
+    const vector W5_13_bar = S_bar[97];
+    const vector W6_0_bar = S_bar[98];
+    const vector W6_1_bar = S_bar[99];
+    const vector W6_2_bar = S_bar[100];
+    const vector W6_3_bar = S_bar[101];
+    const vector W6_4_bar = S_bar[102];
+    const vector W6_5_bar = S_bar[103];
+    const vector W6_6_bar = S_bar[104];
+    const vector W6_7_bar = S_bar[105];
+    const vector W6_8_bar = S_bar[106];
+    const vector W6_9_bar = S_bar[107];
+    const vector W6_10_bar = S_bar[108];
+    const vector W6_11_bar = S_bar[109];
+    const vector W6_12_bar = S_bar[110];
+    const vector W6_13_bar = S_bar[111];
+    const vector W7_0_bar = S_bar[112];
+    const vector W7_1_bar = S_bar[113];
+    const vector W7_2_bar = S_bar[114];
+    const vector W7_3_bar = S_bar[115];
+    const vector W7_4_bar = S_bar[116];
+    const vector W7_5_bar = S_bar[117];
+    const vector W7_6_bar = S_bar[118];
+    const vector W7_7_bar = S_bar[119];
+    const vector W7_8_bar = S_bar[120];
+    const vector W7_9_bar = S_bar[121];
+    const vector W7_10_bar = S_bar[122];
+    const vector W7_11_bar = S_bar[123];
+    const vector W7_12_bar = S_bar[124];
+    const vector W7_13_bar = S_bar[125];
+    const vector W8_0_bar = S_bar[126];
+    const vector W8_1_bar = S_bar[127];
+    const vector W8_2_bar = S_bar[128];
+    const vector W8_3_bar = S_bar[129];
+    const vector W8_4_bar = S_bar[130];
+    const vector W8_5_bar = S_bar[131];
+    const vector W8_6_bar = S_bar[132];
+    const vector W8_7_bar = S_bar[133];
+    const vector W8_8_bar = S_bar[134];
+    const vector W8_9_bar = S_bar[135];
+    const vector W8_10_bar = S_bar[136];
+    const vector W8_11_bar = S_bar[137];
+    const vector W8_12_bar = S_bar[138];
+    const vector W8_13_bar = S_bar[139];
+    const vector W9_0_bar = S_bar[140];
+    const vector W9_1_bar = S_bar[141];
+    const vector W9_2_bar = S_bar[142];
+    const vector W9_3_bar = S_bar[143];
+    const vector W9_4_bar = S_bar[144];
+    const vector W9_5_bar = S_bar[145];
+    const vector W9_6_bar = S_bar[146];
+    const vector W9_7_bar = S_bar[147];
+    const vector W9_8_bar = S_bar[148];
+    const vector W9_9_bar = S_bar[149];
+    const vector W9_10_bar = S_bar[150];
+    const vector W9_11_bar = S_bar[151];
+    const vector W9_12_bar = S_bar[152];
+    const vector W9_13_bar = S_bar[153];
+    const vector W10_0_bar = S_bar[154];
+    const vector W10_1_bar = S_bar[155];
+    const vector W10_2_bar = S_bar[156];
+    const vector W10_3_bar = S_bar[157];
+    const vector W10_4_bar = S_bar[158];
+    const vector W10_5_bar = S_bar[159];
+    const vector W10_6_bar = S_bar[160];
+    const vector W10_7_bar = S_bar[161];
+    const vector W10_8_bar = S_bar[162];
+    const vector W10_9_bar = S_bar[163];
+    const vector W10_10_bar = S_bar[164];
+    const vector W10_11_bar = S_bar[165];
+    const vector W10_12_bar = S_bar[166];
+    const vector W10_13_bar = S_bar[167];
+    const vector W11_0_bar = S_bar[168];
+    const vector W11_1_bar = S_bar[169];
+    const vector W11_2_bar = S_bar[170];
+    const vector W11_3_bar = S_bar[171];
+    const vector W11_4_bar = S_bar[172];
+    const vector W11_5_bar = S_bar[173];
+    const vector W11_6_bar = S_bar[174];
+    const vector W11_7_bar = S_bar[175];
+    const vector W11_8_bar = S_bar[176];
+    const vector W11_9_bar = S_bar[177];
+    const vector W11_10_bar = S_bar[178];
+    const vector W11_11_bar = S_bar[179];
+    const vector W11_12_bar = S_bar[180];
+    const vector W11_13_bar = S_bar[181];
+    const vector W12_0_bar = S_bar[182];
+    const vector W12_1_bar = S_bar[183];
+    const vector W12_2_bar = S_bar[184];
+    const vector W12_3_bar = S_bar[185];
+    const vector W12_4_bar = S_bar[186];
+    const vector W12_5_bar = S_bar[187];
+    const vector W12_6_bar = S_bar[188];
+    const vector W12_7_bar = S_bar[189];
+    const vector W12_8_bar = S_bar[190];
+    const vector W12_9_bar = S_bar[191];
+    const vector W12_10_bar = S_bar[192];
+    const vector W12_11_bar = S_bar[193];
+    const vector W12_12_bar = S_bar[194];
+    const vector W12_13_bar = S_bar[195];
+    const vector W13_0_bar = S_bar[196];
+    const vector W13_1_bar = S_bar[197];
+    const vector W13_2_bar = S_bar[198];
+    const vector W13_3_bar = S_bar[199];
+    const vector W13_4_bar = S_bar[200];
+    const vector W13_5_bar = S_bar[201];
+    const vector W13_6_bar = S_bar[202];
+    const vector W13_7_bar = S_bar[203];
+    const vector W13_8_bar = S_bar[204];
+    const vector W13_9_bar = S_bar[205];
+    const vector W13_10_bar = S_bar[206];
+    const vector W13_11_bar = S_bar[207];
+    const vector W13_12_bar = S_bar[208];
+    const vector W13_13_bar = S_bar[209];
+    const vector its_amplitude_bar = S_bar[210];
+    mu_bar[0] = mu0_bar;
+    mu_bar[1] = mu1_bar;
+    mu_bar[2] = mu2_bar;
+    mu_bar[3] = mu3_bar;
+    mu_bar[4] = mu4_bar;
+    mu_bar[5] = mu5_bar;
+    mu_bar[6] = mu6_bar;
+    mu_bar[7] = mu7_bar;
+    mu_bar[8] = mu8_bar;
+    mu_bar[9] = mu9_bar;
+    mu_bar[10] = mu10_bar;
+    mu_bar[11] = mu11_bar;
+    mu_bar[12] = mu12_bar;
+    mu_bar[13] = mu13_bar;
+    W_bar[0] = W0_0_bar;
+    W_bar[1] = W0_1_bar;
+    W_bar[2] = W0_2_bar;
+    W_bar[3] = W0_3_bar;
+    W_bar[4] = W0_4_bar;
+    W_bar[5] = W0_5_bar;
+    W_bar[6] = W0_6_bar;
+    W_bar[7] = W0_7_bar;
+    W_bar[8] = W0_8_bar;
+    W_bar[9] = W0_9_bar;
+    W_bar[10] = W0_10_bar;
+    W_bar[11] = W0_11_bar;
+    W_bar[12] = W0_12_bar;
+    W_bar[13] = W0_13_bar;
+    W_bar[14] = W1_0_bar;
+    W_bar[15] = W1_1_bar;
+    W_bar[16] = W1_2_bar;
+    W_bar[17] = W1_3_bar;
+    W_bar[18] = W1_4_bar;
+    W_bar[19] = W1_5_bar;
+    W_bar[20] = W1_6_bar;
+    W_bar[21] = W1_7_bar;
+    W_bar[22] = W1_8_bar;
+    W_bar[23] = W1_9_bar;
+    W_bar[24] = W1_10_bar;
+    W_bar[25] = W1_11_bar;
+    W_bar[26] = W1_12_bar;
+    W_bar[27] = W1_13_bar;
+    W_bar[28] = W2_0_bar;
+    W_bar[29] = W2_1_bar;
+    W_bar[30] = W2_2_bar;
+    W_bar[31] = W2_3_bar;
+    W_bar[32] = W2_4_bar;
+    W_bar[33] = W2_5_bar;
+    W_bar[34] = W2_6_bar;
+    W_bar[35] = W2_7_bar;
+    W_bar[36] = W2_8_bar;
+    W_bar[37] = W2_9_bar;
+    W_bar[38] = W2_10_bar;
+    W_bar[39] = W2_11_bar;
+    W_bar[40] = W2_12_bar;
+    W_bar[41] = W2_13_bar;
+    W_bar[42] = W3_0_bar;
+    W_bar[43] = W3_1_bar;
+    W_bar[44] = W3_2_bar;
+    W_bar[45] = W3_3_bar;
+    W_bar[46] = W3_4_bar;
+    W_bar[47] = W3_5_bar;
+    W_bar[48] = W3_6_bar;
+    W_bar[49] = W3_7_bar;
+    W_bar[50] = W3_8_bar;
+    W_bar[51] = W3_9_bar;
+    W_bar[52] = W3_10_bar;
+    W_bar[53] = W3_11_bar;
+    W_bar[54] = W3_12_bar;
+    W_bar[55] = W3_13_bar;
+    W_bar[56] = W4_0_bar;
+    W_bar[57] = W4_1_bar;
+    W_bar[58] = W4_2_bar;
+    W_bar[59] = W4_3_bar;
+    W_bar[60] = W4_4_bar;
+    W_bar[61] = W4_5_bar;
+    W_bar[62] = W4_6_bar;
+    W_bar[63] = W4_7_bar;
+    W_bar[64] = W4_8_bar;
+    W_bar[65] = W4_9_bar;
+    W_bar[66] = W4_10_bar;
+    W_bar[67] = W4_11_bar;
+    W_bar[68] = W4_12_bar;
+    W_bar[69] = W4_13_bar;
+    W_bar[70] = W5_0_bar;
+    W_bar[71] = W5_1_bar;
+    W_bar[72] = W5_2_bar;
+    W_bar[73] = W5_3_bar;
+    W_bar[74] = W5_4_bar;
+    W_bar[75] = W5_5_bar;
+    W_bar[76] = W5_6_bar;
+    W_bar[77] = W5_7_bar;
+    W_bar[78] = W5_8_bar;
+    W_bar[79] = W5_9_bar;
+    W_bar[80] = W5_10_bar;
+    W_bar[81] = W5_11_bar;
+    W_bar[82] = W5_12_bar;
+    W_bar[83] = W5_13_bar;
+    W_bar[84] = W6_0_bar;
+    W_bar[85] = W6_1_bar;
+    W_bar[86] = W6_2_bar;
+    W_bar[87] = W6_3_bar;
+    W_bar[88] = W6_4_bar;
+    W_bar[89] = W6_5_bar;
+    W_bar[90] = W6_6_bar;
+    W_bar[91] = W6_7_bar;
+    W_bar[92] = W6_8_bar;
+    W_bar[93] = W6_9_bar;
+    W_bar[94] = W6_10_bar;
+    W_bar[95] = W6_11_bar;
+    W_bar[96] = W6_12_bar;
+    W_bar[97] = W6_13_bar;
+    W_bar[98] = W7_0_bar;
+    W_bar[99] = W7_1_bar;
+    W_bar[100] = W7_2_bar;
+    W_bar[101] = W7_3_bar;
+    W_bar[102] = W7_4_bar;
+    W_bar[103] = W7_5_bar;
+    W_bar[104] = W7_6_bar;
+    W_bar[105] = W7_7_bar;
+    W_bar[106] = W7_8_bar;
+    W_bar[107] = W7_9_bar;
+    W_bar[108] = W7_10_bar;
+    W_bar[109] = W7_11_bar;
+    W_bar[110] = W7_12_bar;
+    W_bar[111] = W7_13_bar;
+    W_bar[112] = W8_0_bar;
+    W_bar[113] = W8_1_bar;
+    W_bar[114] = W8_2_bar;
+    W_bar[115] = W8_3_bar;
+    W_bar[116] = W8_4_bar;
+    W_bar[117] = W8_5_bar;
+    W_bar[118] = W8_6_bar;
+    W_bar[119] = W8_7_bar;
+    W_bar[120] = W8_8_bar;
+    W_bar[121] = W8_9_bar;
+    W_bar[122] = W8_10_bar;
+    W_bar[123] = W8_11_bar;
+    W_bar[124] = W8_12_bar;
+    W_bar[125] = W8_13_bar;
+    W_bar[126] = W9_0_bar;
+    W_bar[127] = W9_1_bar;
+    W_bar[128] = W9_2_bar;
+    W_bar[129] = W9_3_bar;
+    W_bar[130] = W9_4_bar;
+    W_bar[131] = W9_5_bar;
+    W_bar[132] = W9_6_bar;
+    W_bar[133] = W9_7_bar;
+    W_bar[134] = W9_8_bar;
+    W_bar[135] = W9_9_bar;
+    W_bar[136] = W9_10_bar;
+    W_bar[137] = W9_11_bar;
+    W_bar[138] = W9_12_bar;
+    W_bar[139] = W9_13_bar;
+    W_bar[140] = W10_0_bar;
+    W_bar[141] = W10_1_bar;
+    W_bar[142] = W10_2_bar;
+    W_bar[143] = W10_3_bar;
+    W_bar[144] = W10_4_bar;
+    W_bar[145] = W10_5_bar;
+    W_bar[146] = W10_6_bar;
+    W_bar[147] = W10_7_bar;
+    W_bar[148] = W10_8_bar;
+    W_bar[149] = W10_9_bar;
+    W_bar[150] = W10_10_bar;
+    W_bar[151] = W10_11_bar;
+    W_bar[152] = W10_12_bar;
+    W_bar[153] = W10_13_bar;
+    W_bar[154] = W11_0_bar;
+    W_bar[155] = W11_1_bar;
+    W_bar[156] = W11_2_bar;
+    W_bar[157] = W11_3_bar;
+    W_bar[158] = W11_4_bar;
+    W_bar[159] = W11_5_bar;
+    W_bar[160] = W11_6_bar;
+    W_bar[161] = W11_7_bar;
+    W_bar[162] = W11_8_bar;
+    W_bar[163] = W11_9_bar;
+    W_bar[164] = W11_10_bar;
+    W_bar[165] = W11_11_bar;
+    W_bar[166] = W11_12_bar;
+    W_bar[167] = W11_13_bar;
+    W_bar[168] = W12_0_bar;
+    W_bar[169] = W12_1_bar;
+    W_bar[170] = W12_2_bar;
+    W_bar[171] = W12_3_bar;
+    W_bar[172] = W12_4_bar;
+    W_bar[173] = W12_5_bar;
+    W_bar[174] = W12_6_bar;
+    W_bar[175] = W12_7_bar;
+    W_bar[176] = W12_8_bar;
+    W_bar[177] = W12_9_bar;
+    W_bar[178] = W12_10_bar;
+    W_bar[179] = W12_11_bar;
+    W_bar[180] = W12_12_bar;
+    W_bar[181] = W12_13_bar;
+    W_bar[182] = W13_0_bar;
+    W_bar[183] = W13_1_bar;
+    W_bar[184] = W13_2_bar;
+    W_bar[185] = W13_3_bar;
+    W_bar[186] = W13_4_bar;
+    W_bar[187] = W13_5_bar;
+    W_bar[188] = W13_6_bar;
+    W_bar[189] = W13_7_bar;
+    W_bar[190] = W13_8_bar;
+    W_bar[191] = W13_9_bar;
+    W_bar[192] = W13_10_bar;
+    W_bar[193] = W13_11_bar;
+    W_bar[194] = W13_12_bar;
+    W_bar[195] = W13_13_bar;
+    amplitude_bar[0] = its_amplitude_bar;
+}
+
+/* The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar. */
+OUTLINE void pair_factors(
+    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *factor) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const vector x2 = X[2];
+    const vector x3 = X[3];
+    const vector x4 = X[4];
+    const vector x5 = X[5];
+    const vector x6 = X[6];
+    const vector x7 = X[7];
+    const vector x8 = X[8];
+    const vector x9 = X[9];
+    const vector x10 = X[10];
+    const vector x11 = X[11];
+    const vector x12 = X[12];
+    const vector x13 = X[13];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double mu2 = S[2];
+    const double mu3 = S[3];
+    const double mu4 = S[4];
+    const double mu5 = S[5];
+    const double mu6 = S[6];
+    const double mu7 = S[7];
+    const double mu8 = S[8];
+    const double mu9 = S[9];
+    const double mu10 = S[10];
+    const double mu11 = S[11];
+    const double mu12 = S[12];
+    const double mu13 = S[13];
+    const double W0_0 = S[14];
+    const double W0_1 = S[15];
+    const double W0_2 = S[16];
+    const double W0_3 = S[17];
+    const double W0_4 = S[18];
+    const double W0_5 = S[19];
+    const double W0_6 = S[20];
+    const double W0_7 = S[21];
+    const double W0_8 = S[22];
+    const double W0_9 = S[23];
+    const double W0_10 = S[24];
+    const double W0_11 = S[25];
+    const double W0_12 = S[26];
+    const double W0_13 = S[27];
+    const double W1_0 = S[28];
+    const double W1_1 = S[29];
+    const double W1_2 = S[30];
+    const double W1_3 = S[31];
+    const double W1_4 = S[32];
+    const double W1_5 = S[33];
+    const double W1_6 = S[34];
+    const double W1_7 = S[35];
+    const double W1_8 = S[36];
+    const double W1_9 = S[37];
+    const double W1_10 = S[38];
+    const double W1_11 = S[39];
+    const double W1_12 = S[40];
+    const double W1_13 = S[41];
+    const double W2_0 = S[42];
+    const double W2_1 = S[43];
+    const double W2_2 = S[44];
+    const double W2_3 = S[45];
+    const double W2_4 = S[46];
+    const double W2_5 = S[47];
+    const double W2_6 = S[48];
+    const double W2_7 = S[49];
+    const double W2_8 = S[50];
+    const double W2_9 = S[51];
+    const double W2_10 = S[52];
+    const double W2_11 = S[53];
+    const double W2_12 = S[54];
+    const double W2_13 = S[55];
+    const double W3_0 = S[56];
+    const double W3_1 = S[57];
+    const double W3_2 = S[58];
+    const double W3_3 = S[59];
+    const double W3_4 = S[60];
+    const double W3_5 = S[61];
+    const double W3_6 = S[62];
+    const double W3_7 = S[63];
+    const double W3_8 = S[64];
+    const double W3_9 = S[65];
+    const double W3_10 = S[66];
+    const double W3_11 = S[67];
+    const double W3_12 = S[68];
+    const double W3_13 = S[69];
+    const double W4_0 = S[70];
+    const double W4_1 = S[71];
+    const double W4_2 = S[72];
+    const double W4_3 = S[73];
+    const double W4_4 = S[74];
+    const double W4_5 = S[75];
+    const double W4_6 = S[76];
+    const double W4_7 = S[77];
+    const double W4_8 = S[78];
+    const double W4_9 = S[79];
+    const double W4_10 = S[80];
+    const double W4_11 = S[81];
+    const double W4_12 = S[82];
+    const double W4_13 = S[83];
+    const double W5_0 = S[84];
+    const double W5_1 = S[85];
+    const double W5_2 = S[86];
+    const double W5_3 = S[87];
+    const double W5_4 = S[88];
+    const double W5_5 = S[89];
+    const double W5_6 = S[90];
+    const double W5_7 = S[91];
+    const double W5_8 = S[92];
+    const double W5_9 = S[93];
+    const double W5_10 = S[94];
+    const double W5_11 = S[95];
+    const double W5_12 = S[96];
+    const double W5_13 = S[97];
+    const double W6_0 = S[98];
+    const double W6_1 = S[99];
+    const double W6_2 = S[100];
+    const double W6_3 = S[101];
+    const double W6_4 = S[102];
+    const double W6_5 = S[103];
+    const double W6_6 = S[104];
+    const double W6_7 = S[105];
+    const double W6_8 = S[106];
+    const double W6_9 = S[107];
+    const double W6_10 = S[108];
+    const double W6_11 = S[109];
+    const double W6_12 = S[110];
+    const double W6_13 = S[111];
+    const double W7_0 = S[112];
+    const double W7_1 = S[113];
+    const double W7_2 = S[114];
+    const double W7_3 = S[115];
+    const double W7_4 = S[116];
+    const double W7_5 = S[117];
+    const double W7_6 = S[118];
+    const double W7_7 = S[119];
+    const double W7_8 = S[120];
+    const double W7_9 = S[121];
+    const double W7_10 = S[122];
+    const double W7_11 = S[123];
+    const double W7_12 = S[124];
+    const double W7_13 = S[125];
+    const double W8_0 = S[126];
+    const double W8_1 = S[127];
+    const double W8_2 = S[128];
+    const double W8_3 = S[129];
+    const double W8_4 = S[130];
+    const double W8_5 = S[131];
+    const double W8_6 = S[132];
+    const double W8_7 = S[133];
+    const double W8_8 = S[134];
+    const double W8_9 = S[135];
+    const double W8_10 = S[136];
+    const double W8_11 = S[137];
+    const double W8_12 = S[138];
+    const double W8_13 = S[139];
+    const double W9_0 = S[140];
+    const double W9_1 = S[141];
+    const double W9_2 = S[142];
+    const double W9_3 = S[143];
+    const double W9_4 = S[144];
+    const double W9_5 = S[145];
+    const double W9_6 = S[146];
+    const double W9_7 = S[147];
+    const double W9_8 = S[148];
+    const double W9_9 = S[149];
+    const double W9_10 = S[150];
+    const double W9_11 = S[151];
+    const double W9_12 = S[152];
+    const double W9_13 = S[153];
+    const double W10_0 = S[154];
+    const double W10_1 = S[155];
+    const double W10_2 = S[156];
+    const double W10_3 = S[157];
+    const double W10_4 = S[158];
+    const double W10_5 = S[159];
+    const double W10_6 = S[160];
+    const double W10_7 = S[161];
+    const double W10_8 = S[162];
+    const double W10_9 = S[163];
+    const double W10_10 = S[164];
+    const double W10_11 = S[165];
+    const double W10_12 = S[166];
+    const double W10_13 = S[167];
+    const double W11_0 = S[168];
+    const double W11_1 = S[169];
+    const double W11_2 = S[170];
+    const double W11_3 = S[171];
+    const double W11_4 = S[172];
+    const double W11_5 = S[173];
+    const double W11_6 = S[174];
+    const double W11_7 = S[175];
+    const double W11_8 = S[176];
+    const double W11_9 = S[177];
+    const double W11_10 = S[178];
+    const double W11_11 = S[179];
+    const double W11_12 = S[180];
+    const double W11_13 = S[181];
+    const double W12_0 = S[182];
+    const double W12_1 = S[183];
+    const double W12_2 = S[184];
+    const double W12_3 = S[185];
+    const double W12_4 = S[186];
+    const double W12_5 = S[187];
+    const double W12_6 = S[188];
+    const double W12_7 = S[189];
+    const double W12_8 = S[190];
+    const double W12_9 = S[191];
+    const double W12_10 = S[192];
+    const double W12_11 = S[193];
+    const double W12_12 = S[194];
+    const double W12_13 = S[195];
+    const double W13_0 = S[196];
+    const double W13_1 = S[197];
+    const double W13_2 = S[198];
+    const double W13_3 = S[199];
+    const double W13_4 = S[200];
+    const double W13_5 = S[201];
+    const double W13_6 = S[202];
+    const double W13_7 = S[203];
+    const double W13_8 = S[204];
+    const double W13_9 = S[205];
+    const double W13_10 = S[206];
+    const double W13_11 = S[207];
+    const double W13_12 = S[208];
+    const double W13_13 = S[209];
+    const double amplitude = S[210];
+    const vector its_value_bar = value_bar[0];
+    const vector x0_bar = slope_bar[0];
+    const vector x1_bar = slope_bar[1];
+    const vector x2_bar = slope_bar[2];
+    const vector x3_bar = slope_bar[3];
+    const vector x4_bar = slope_bar[4];
+    const vector x5_bar = slope_bar[5];
+    const vector x6_bar = slope_bar[6];
+    const vector x7_bar = slope_bar[7];
+    const vector x8_bar = slope_bar[8];
+    const vector x9_bar = slope_bar[9];
+    const vector x10_bar = slope_bar[10];
+    const vector x11_bar = slope_bar[11];
+    const vector x12_bar = slope_bar[12];
+    const vector x13_bar = slope_bar[13];
+    const vector gap = x0 - mu0;
+    const vector round_2 = vector_round(0.15915494309189535 * gap);
+    const vector v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
+        round_2;
+    const vector gap_2 = x1 - mu1;
+    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
+    const vector v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
+        round_3;
+    const vector gap_3 = x2 - mu2;
+    const vector round_4 = vector_round(0.15915494309189535 * gap_3);
+    const vector v2 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
+        round_4;
+    const vector gap_4 = x3 - mu3;
+    const vector round_5 = vector_round(0.15915494309189535 * gap_4);
+    const vector v3 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
+        round_5;
+    const vector gap_5 = x4 - mu4;
+    const vector round_6 = vector_round(0.15915494309189535 * gap_5);
+    const vector v4 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
+        round_6;
+    const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+    const vector gap_6 = x5 - mu5;
+    const vector round_7 = vector_round(0.15915494309189535 * gap_6);
+    const vector v5 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
+        round_7;
+    const vector gap_7 = x6 - mu6;
+    const vector round_8 = vector_round(0.15915494309189535 * gap_7);
+    const vector v6 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
+        round_8;
+    const vector gap_8 = x7 - mu7;
+    const vector round_9 = vector_round(0.15915494309189535 * gap_8);
+    const vector v7 = gap_8 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 *
+        round_9;
+    const vector gap_9 = x8 - mu8;
+    const vector round_10 = vector_round(0.15915494309189535 * gap_9);
+    const vector v8 = gap_9 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07 *
+        round_10;
+    const vector total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+    const vector gap_10 = x9 - mu9;
+    const vector round_11 = vector_round(0.15915494309189535 * gap_10);
+    const vector v9 = gap_10 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07 *
+        round_11;
+    const vector gap_11 = x10 - mu10;
+    const vector round_12 = vector_round(0.15915494309189535 * gap_11);
+    const vector v10 = gap_11 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 - 3.019915981956753e-07
+        * round_12;
+    const vector gap_12 = x11 - mu11;
+    const vector round_13 = vector_round(0.15915494309189535 * gap_12);
+    const vector v11 = gap_12 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 - 3.019915981956753e-07
+        * round_13;
+    const vector gap_13 = x12 - mu12;
+    const vector round_14 = vector_round(0.15915494309189535 * gap_13);
+    const vector v12 = gap_13 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 - 3.019915981956753e-07
+        * round_14;
+    const vector total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
+    const vector gap_14 = x13 - mu13;
+    const vector round_15 = vector_round(0.15915494309189535 * gap_14);
+    const vector v13 = gap_14 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 - 3.019915981956753e-07
+        * round_15;
+    const vector z0 = total_4 + W0_13 * v13;
+    const vector total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+    const vector total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+    const vector total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12;
+    const vector z1 = total_7 + W1_13 * v13;
+    const vector total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+    const vector total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+    const vector total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12;
+    const vector z2 = total_10 + W2_13 * v13;
+    const vector total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+    const vector total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+    const vector total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12;
+    const vector z3 = total_13 + W3_13 * v13;
+    const vector total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+    const vector total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+    const vector total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12;
+    const vector z4 = total_16 + W4_13 * v13;
+    const vector total_17 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+    const vector total_18 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+    const vector total_19 = total_18 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+    const vector total_20 = total_19 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12;
+    const vector z5 = total_20 + W5_13 * v13;
+    const vector total_21 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+    const vector total_22 = total_21 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+    const vector total_23 = total_22 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12;
+    const vector z6 = total_23 + W6_13 * v13;
+    const vector total_24 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+    const vector total_25 = total_24 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+    const vector total_26 = total_25 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12;
+    const vector z7 = total_26 + W7_13 * v13;
+    const vector total_27 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+    const vector total_28 = total_27 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+    const vector total_29 = total_28 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12;
+    const vector z8 = total_29 + W8_13 * v13;
+    const vector total_30 = total_17 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+    const vector total_31 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4;
+    const vector total_32 = total_31 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8;
+    const vector total_33 = total_32 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12;
+    const vector z9 = total_33 + W9_13 * v13;
+    const vector total_34 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4;
+    const vector total_35 = total_34 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8;
+    const vector total_36 = total_35 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12;
+    const vector z10 = total_36 + W10_13 * v13;
+    const vector total_37 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4;
+    const vector total_38 = total_37 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8;
+    const vector total_39 = total_38 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12;
+    const vector z11 = total_39 + W11_13 * v13;
+    const vector total_40 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4;
+    const vector total_41 = total_40 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8;
+    const vector total_42 = total_41 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12;
+    const vector z12 = total_42 + W12_13 * v13;
+    const vector total_43 = total_30 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12;
+    const vector total_44 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4;
+    const vector total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
+    const vector total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
+    const vector z13 = total_46 + W13_13 * v13;
+    const vector exp_2 = vector_exp(-0.5 * (total_43 + z13 * z13));
+    const vector phi = amplitude * exp_2;
+    const vector gap_15 = -(W13_0 * x0_bar) - W13_1 * x1_bar - W13_2 * x2_bar - W13_3 * x3_bar;
+    const vector gap_16 = gap_15 - W13_4 * x4_bar - W13_5 * x5_bar - W13_6 * x6_bar - W13_7 * x7_bar;
+    const vector gap_17 = gap_16 - W13_8 * x8_bar - W13_9 * x9_bar - W13_10 * x10_bar - W13_11 * x11_bar;
+    const vector gap_18 = gap_17 - W13_12 * x12_bar - W13_13 * x13_bar;
+    const vector gap_19 = -(W0_0 * x0_bar) - W0_1 * x1_bar - W0_2 * x2_bar - W0_3 * x3_bar;
+    const vector gap_20 = gap_19 - W0_4 * x4_bar - W0_5 * x5_bar - W0_6 * x6_bar - W0_7 * x7_bar;
+    const vector gap_21 = gap_20 - W0_8 * x8_bar - W0_9 * x9_bar - W0_10 * x10_bar - W0_11 * x11_bar;
+    const vector gap_22 = gap_21 - W0_12 * x12_bar - W0_13 * x13_bar;
+    const vector gap_23 = -(W1_0 * x0_bar) - W1_1 * x1_bar - W1_2 * x2_bar - W1_3 * x3_bar;
+    const vector gap_24 = gap_23 - W1_4 * x4_bar - W1_5 * x5_bar - W1_6 * x6_bar - W1_7 * x7_bar;
+    const vector gap_25 = gap_24 - W1_8 * x8_bar - W1_9 * x9_bar - W1_10 * x10_bar - W1_11 * x11_bar;
+    const vector gap_26 = gap_25 - W1_12 * x12_bar - W1_13 * x13_bar;
+    const vector gap_27 = -(W2_0 * x0_bar) - W2_1 * x1_bar - W2_2 * x2_bar - W2_3 * x3_bar;
+    const vector gap_28 = gap_27 - W2_4 * x4_bar - W2_5 * x5_bar - W2_6 * x6_bar - W2_7 * x7_bar;
+    const vector gap_29 = gap_28 - W2_8 * x8_bar - W2_9 * x9_bar - W2_10 * x10_bar - W2_11 * x11_bar;
+    const vector gap_30 = gap_29 - W2_12 * x12_bar - W2_13 * x13_bar;
+    const vector gap_31 = -(W3_0 * x0_bar) - W3_1 * x1_bar - W3_2 * x2_bar - W3_3 * x3_bar;
+    const vector gap_32 = gap_31 - W3_4 * x4_bar - W3_5 * x5_bar - W3_6 * x6_bar - W3_7 * x7_bar;
+    const vector gap_33 = gap_32 - W3_8 * x8_bar - W3_9 * x9_bar - W3_10 * x10_bar - W3_11 * x11_bar;
+    const vector gap_34 = gap_33 - W3_12 * x12_bar - W3_13 * x13_bar;
+    const vector total_47 = its_value_bar + z0 * gap_22 + z1 * gap_26 + z2 * gap_30 + z3 * gap_34;
+    const vector gap_35 = -(W4_0 * x0_bar) - W4_1 * x1_bar - W4_2 * x2_bar - W4_3 * x3_bar;
+    const vector gap_36 = gap_35 - W4_4 * x4_bar - W4_5 * x5_bar - W4_6 * x6_bar - W4_7 * x7_bar;
+    const vector gap_37 = gap_36 - W4_8 * x8_bar - W4_9 * x9_bar - W4_10 * x10_bar - W4_11 * x11_bar;
+    const vector gap_38 = gap_37 - W4_12 * x12_bar - W4_13 * x13_bar;
+    const vector gap_39 = -(W5_0 * x0_bar) - W5_1 * x1_bar - W5_2 * x2_bar - W5_3 * x3_bar;
+    const vector gap_40 = gap_39 - W5_4 * x4_bar - W5_5 * x5_bar - W5_6 * x6_bar - W5_7 * x7_bar;
+    const vector gap_41 = gap_40 - W5_8 * x8_bar - W5_9 * x9_bar - W5_10 * x10_bar - W5_11 * x11_bar;
+    const vector gap_42 = gap_41 - W5_12 * x12_bar - W5_13 * x13_bar;
+    const vector gap_43 = -(W6_0 * x0_bar) - W6_1 * x1_bar - W6_2 * x2_bar - W6_3 * x3_bar;
+    const vector gap_44 = gap_43 - W6_4 * x4_bar - W6_5 * x5_bar - W6_6 * x6_bar - W6_7 * x7_bar;
+    const vector gap_45 = gap_44 - W6_8 * x8_bar - W6_9 * x9_bar - W6_10 * x10_bar - W6_11 * x11_bar;
+    const vector gap_46 = gap_45 - W6_12 * x12_bar - W6_13 * x13_bar;
+    const vector gap_47 = -(W7_0 * x0_bar) - W7_1 * x1_bar - W7_2 * x2_bar - W7_3 * x3_bar;
+    const vector gap_48 = gap_47 - W7_4 * x4_bar - W7_5 * x5_bar - W7_6 * x6_bar - W7_7 * x7_bar;
+    const vector gap_49 = gap_48 - W7_8 * x8_bar - W7_9 * x9_bar - W7_10 * x10_bar - W7_11 * x11_bar;
+    const vector gap_50 = gap_49 - W7_12 * x12_bar - W7_13 * x13_bar;
+    const vector total_48 = total_47 + z4 * gap_38 + z5 * gap_42 + z6 * gap_46 + z7 * gap_50;
+    const vector gap_51 = -(W8_0 * x0_bar) - W8_1 * x1_bar - W8_2 * x2_bar - W8_3 * x3_bar;
+    const vector gap_52 = gap_51 - W8_4 * x4_bar - W8_5 * x5_bar - W8_6 * x6_bar - W8_7 * x7_bar;
+    const vector gap_53 = gap_52 - W8_8 * x8_bar - W8_9 * x9_bar - W8_10 * x10_bar - W8_11 * x11_bar;
+    const vector gap_54 = gap_53 - W8_12 * x12_bar - W8_13 * x13_bar;
+    const vector gap_55 = -(W9_0 * x0_bar) - W9_1 * x1_bar - W9_2 * x2_bar - W9_3 * x3_bar;
+    const vector gap_56 = gap_55 - W9_4 * x4_bar - W9_5 * x5_bar - W9_6 * x6_bar - W9_7 * x7_bar;
+    const vector gap_57 = gap_56 - W9_8 * x8_bar - W9_9 * x9_bar - W9_10 * x10_bar - W9_11 * x11_bar;
+    const vector gap_58 = gap_57 - W9_12 * x12_bar - W9_13 * x13_bar;
+    const vector gap_59 = -(W10_0 * x0_bar) - W10_1 * x1_bar - W10_2 * x2_bar - W10_3 * x3_bar;
+    const vector gap_60 = gap_59 - W10_4 * x4_bar - W10_5 * x5_bar - W10_6 * x6_bar - W10_7 * x7_bar;
+    const vector gap_61 = gap_60 - W10_8 * x8_bar - W10_9 * x9_bar - W10_10 * x10_bar - W10_11 * x11_bar;
+    const vector gap_62 = gap_61 - W10_12 * x12_bar - W10_13 * x13_bar;
+    const vector gap_63 = -(W11_0 * x0_bar) - W11_1 * x1_bar - W11_2 * x2_bar - W11_3 * x3_bar;
+    const vector gap_64 = gap_63 - W11_4 * x4_bar - W11_5 * x5_bar - W11_6 * x6_bar - W11_7 * x7_bar;
+    const vector gap_65 = gap_64 - W11_8 * x8_bar - W11_9 * x9_bar - W11_10 * x10_bar - W11_11 * x11_bar;
+    const vector gap_66 = gap_65 - W11_12 * x12_bar - W11_13 * x13_bar;
+    const vector total_49 = total_48 + z8 * gap_54 + z9 * gap_58 + z10 * gap_62 + z11 * gap_66;
+    const vector gap_67 = -(W12_0 * x0_bar) - W12_1 * x1_bar - W12_2 * x2_bar - W12_3 * x3_bar;
+    const vector gap_68 = gap_67 - W12_4 * x4_bar - W12_5 * x5_bar - W12_6 * x6_bar - W12_7 * x7_bar;
+    const vector gap_69 = gap_68 - W12_8 * x8_bar - W12_9 * x9_bar - W12_10 * x10_bar - W12_11 * x11_bar;
+    const vector gap_70 = gap_69 - W12_12 * x12_bar - W12_13 * x13_bar;
+    const vector by_phi = total_49 + z12 * gap_70 + z13 * gap_18;
+    const vector product = exp_2 * (amplitude * by_phi);
+    const vector by_z13 = phi * gap_18 - z13 * product;
+    const vector by_z12 = phi * gap_70 - z12 * product;
+    const vector by_z11 = phi * gap_66 - z11 * product;
+    const vector by_z10 = phi * gap_62 - z10 * product;
+    const vector by_z9 = phi * gap_58 - z9 * product;
+    const vector total_50 = W13_0 * by_z13 + W12_0 * by_z12 + W11_0 * by_z11 + W10_0 * by_z10 + W9_0 * by_z9;
+    const vector by_z8 = phi * gap_54 - z8 * product;
+    const vector by_z7 = phi * gap_50 - z7 * product;
+    const vector by_z6 = phi * gap_46 - z6 * product;
+    const vector by_z5 = phi * gap_42 - z5 * product;
+    const vector total_51 = total_50 + W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5;
+    const vector by_z4 = phi * gap_38 - z4 * product;
+    const vector by_z3 = phi * gap_34 - z3 * product;
+    const vector by_z2 = phi * gap_30 - z2 * product;
+    const vector by_z1 = phi * gap_26 - z1 * product;
+    const vector total_52 = total_51 + W4_0 * by_z4 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1;
+    const vector by_z0 = phi * gap_22 - z0 * product;
+    const vector by_v0 = total_52 + W0_0 * by_z0;
+    const vector total_53 = W13_1 * by_z13 + W12_1 * by_z12 + W11_1 * by_z11 + W10_1 * by_z10 + W9_1 * by_z9;
+    const vector total_54 = total_53 + W8_1 * by_z8 + W7_1 * by_z7 + W6_1 * by_z6 + W5_1 * by_z5;
+    const vector total_55 = total_54 + W4_1 * by_z4 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1;
+    const vector by_v1 = total_55 + W0_1 * by_z0;
+    const vector total_56 = W13_2 * by_z13 + W12_2 * by_z12 + W11_2 * by_z11 + W10_2 * by_z10 + W9_2 * by_z9;
+    const vector total_57 = total_56 + W8_2 * by_z8 + W7_2 * by_z7 + W6_2 * by_z6 + W5_2 * by_z5;
+    const vector total_58 = total_57 + W4_2 * by_z4 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1;
+    const vector by_v2 = total_58 + W0_2 * by_z0;
+    const vector total_59 = W13_3 * by_z13 + W12_3 * by_z12 + W11_3 * by_z11 + W10_3 * by_z10 + W9_3 * by_z9;
+    const vector total_60 = total_59 + W8_3 * by_z8 + W7_3 * by_z7 + W6_3 * by_z6 + W5_3 * by_z5;
+    const vector total_61 = total_60 + W4_3 * by_z4 + W3_3 * by_z3 + W2_3 * by_z2 + W1_3 * by_z1;
+    const vector by_v3 = total_61 + W0_3 * by_z0;
+    const vector total_62 = W13_4 * by_z13 + W12_4 * by_z12 + W11_4 * by_z11 + W10_4 * by_z10 + W9_4 * by_z9;
+    const vector total_63 = total_62 + W8_4 * by_z8 + W7_4 * by_z7 + W6_4 * by_z6 + W5_4 * by_z5;
+    const vector total_64 = total_63 + W4_4 * by_z4 + W3_4 * by_z3 + W2_4 * by_z2 + W1_4 * by_z1;
+    const vector by_v4 = total_64 + W0_4 * by_z0;
+    const vector total_65 = W13_5 * by_z13 + W12_5 * by_z12 + W11_5 * by_z11 + W10_5 * by_z10 + W9_5 * by_z9;
+    const vector total_66 = total_65 + W8_5 * by_z8 + W7_5 * by_z7 + W6_5 * by_z6 + W5_5 * by_z5;
+    const vector total_67 = total_66 + W4_5 * by_z4 + W3_5 * by_z3 + W2_5 * by_z2 + W1_5 * by_z1;
+    const vector by_v5 = total_67 + W0_5 * by_z0;
+    const vector total_68 = W13_6 * by_z13 + W12_6 * by_z12 + W11_6 * by_z11 + W10_6 * by_z10 + W9_6 * by_z9;
+    const vector total_69 = total_68 + W8_6 * by_z8 + W7_6 * by_z7 + W6_6 * by_z6 + W5_6 * by_z5;
+    const vector total_70 = total_69 + W4_6 * by_z4 + W3_6 * by_z3 + W2_6 * by_z2 + W1_6 * by_z1;
+    const vector by_v6 = total_70 + W0_6 * by_z0;
+    const vector total_71 = W13_7 * by_z13 + W12_7 * by_z12 + W11_7 * by_z11 + W10_7 * by_z10 + W9_7 * by_z9;
+    const vector total_72 = total_71 + W8_7 * by_z8 + W7_7 * by_z7 + W6_7 * by_z6 + W5_7 * by_z5;
+    const vector total_73 = total_72 + W4_7 * by_z4 + W3_7 * by_z3 + W2_7 * by_z2 + W1_7 * by_z1;
+    const vector by_v7 = total_73 + W0_7 * by_z0;
+    const vector total_74 = W13_8 * by_z13 + W12_8 * by_z12 + W11_8 * by_z11 + W10_8 * by_z10 + W9_8 * by_z9;
+    const vector total_75 = total_74 + W8_8 * by_z8 + W7_8 * by_z7 + W6_8 * by_z6 + W5_8 * by_z5;
+    const vector total_76 = total_75 + W4_8 * by_z4 + W3_8 * by_z3 + W2_8 * by_z2 + W1_8 * by_z1;
+    const vector by_v8 = total_76 + W0_8 * by_z0;
+    const vector total_77 = W13_9 * by_z13 + W12_9 * by_z12 + W11_9 * by_z11 + W10_9 * by_z10 + W9_9 * by_z9;
+    const vector total_78 = total_77 + W8_9 * by_z8 + W7_9 * by_z7 + W6_9 * by_z6 + W5_9 * by_z5;
+    const vector total_79 = total_78 + W4_9 * by_z4 + W3_9 * by_z3 + W2_9 * by_z2 + W1_9 * by_z1;
+    const vector by_v9 = total_79 + W0_9 * by_z0;
+    const vector total_80 = W13_10 * by_z13 + W12_10 * by_z12 + W11_10 * by_z11 + W10_10 * by_z10 + W9_10 *
+        by_z9;
+    const vector total_81 = total_80 + W8_10 * by_z8 + W7_10 * by_z7 + W6_10 * by_z6 + W5_10 * by_z5;
+    const vector total_82 = total_81 + W4_10 * by_z4 + W3_10 * by_z3 + W2_10 * by_z2 + W1_10 * by_z1;
+    const vector by_v10 = total_82 + W0_10 * by_z0;
+    const vector total_83 = W13_11 * by_z13 + W12_11 * by_z12 + W11_11 * by_z11 + W10_11 * by_z10 + W9_11 *
+        by_z9;
+    const vector total_84 = total_83 + W8_11 * by_z8 + W7_11 * by_z7 + W6_11 * by_z6 + W5_11 * by_z5;
+    const vector total_85 = total_84 + W4_11 * by_z4 + W3_11 * by_z3 + W2_11 * by_z2 + W1_11 * by_z1;
+    const vector by_v11 = total_85 + W0_11 * by_z0;
+    const vector total_86 = W13_12 * by_z13 + W12_12 * by_z12 + W11_12 * by_z11 + W10_12 * by_z10 + W9_12 *
+        by_z9;
+    const vector total_87 = total_86 + W8_12 * by_z8 + W7_12 * by_z7 + W6_12 * by_z6 + W5_12 * by_z5;
+    const vector total_88 = total_87 + W4_12 * by_z4 + W3_12 * by_z3 + W2_12 * by_z2 + W1_12 * by_z1;
+    const vector by_v12 = total_88 + W0_12 * by_z0;
+    const vector total_89 = W13_13 * by_z13 + W12_13 * by_z12 + W11_13 * by_z11 + W10_13 * by_z10 + W9_13 *
+        by_z9;
+    const vector total_90 = total_89 + W8_13 * by_z8 + W7_13 * by_z7 + W6_13 * by_z6 + W5_13 * by_z5;
+    const vector total_91 = total_90 + W4_13 * by_z4 + W3_13 * by_z3 + W2_13 * by_z2 + W1_13 * by_z1;
+    const vector by_v13 = total_91 + W0_13 * by_z0;
+    const vector z0_product = z0 * phi;
+    const vector z1_product = z1 * phi;
+    const vector z2_product = z2 * phi;
+    const vector z3_product = z3 * phi;
+    const vector z4_product = z4 * phi;
+    const vector z5_product = z5 * phi;
+    const vector z6_product = z6 * phi;
+    const vector z7_product = z7 * phi;
+    const vector z8_product = z8 * phi;
+    const vector z9_product = z9 * phi;
+    const vector z10_product = z10 * phi;
+    const vector z11_product = z11 * phi;
+    const vector z12_product = z12 * phi;
+    const vector z13_product = z13 * phi;
+    factor[0] = v0;
+    factor[1] = v1;
+    factor[2] = v2;
+    factor[3] = v3;
+    factor[4] = v4;
+    factor[5] = v5;
+    factor[6] = v6;
+    factor[7] = v7;
+    factor[8] = v8;
+    factor[9] = v9;
+    factor[10] = v10;
+    factor[11] = v11;
+    factor[12] = v12;
+    factor[13] = v13;
+    factor[14] = by_z13;
+    factor[15] = by_z12;
+    factor[16] = by_z11;
+    factor[17] = by_z10;
+    factor[18] = by_z9;
+    factor[19] = by_z8;
+    factor[20] = by_z7;
+    factor[21] = by_z6;
+    factor[22] = by_z5;
+    factor[23] = by_z4;
+    factor[24] = by_z3;
+    factor[25] = by_z2;
+    factor[26] = by_z1;
+    factor[27] = by_z0;
+    factor[28] = -by_v0;
+    factor[29] = -by_v1;
+    factor[30] = -by_v2;
+    factor[31] = -by_v3;
+    factor[32] = -by_v4;
+    factor[33] = -by_v5;
+    factor[34] = -by_v6;
+    factor[35] = -by_v7;
+    factor[36] = -by_v8;
+    factor[37] = -by_v9;
+    factor[38] = -by_v10;
+    factor[39] = -by_v11;
+    factor[40] = -by_v12;
+    factor[41] = -by_v13;
+    factor[42] = z0_product;
+    factor[43] = z1_product;
+    factor[44] = z2_product;
+    factor[45] = z3_product;
+    factor[46] = z4_product;
+    factor[47] = z5_product;
+    factor[48] = z6_product;
+    factor[49] = z7_product;
+    factor[50] = z8_product;
+    factor[51] = z9_product;
+    factor[52] = z10_product;
+    factor[53] = z11_product;
+    factor[54] = z12_product;
+    factor[55] = z13_product;
+    factor[56] = exp_2 * by_phi;
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_0(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[28];
+    sum[1] = sum[1] + factor[29];
+    sum[2] = sum[2] + factor[30];
+    sum[3] = sum[3] + factor[31];
+    sum[4] = sum[4] + factor[32];
+    sum[5] = sum[5] + factor[33];
+    sum[6] = sum[6] + factor[34];
+    sum[7] = sum[7] + factor[35];
+    sum[8] = sum[8] + factor[36];
+    sum[9] = sum[9] + factor[37];
+    sum[10] = sum[10] + factor[38];
+    sum[11] = sum[11] + factor[39];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_1(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[40];
+    sum[1] = sum[1] + factor[41];
+    sum[2] = sum[2] + factor[56];
+    sum[3] = sum[3] + factor[0] * factor[27] - factor[42] * point[15];
+    sum[4] = sum[4] + factor[1] * factor[27] - factor[42] * point[16];
+    sum[5] = sum[5] + factor[2] * factor[27] - factor[42] * point[17];
+    sum[6] = sum[6] + factor[3] * factor[27] - factor[42] * point[18];
+    sum[7] = sum[7] + factor[4] * factor[27] - factor[42] * point[19];
+    sum[8] = sum[8] + factor[5] * factor[27] - factor[42] * point[20];
+    sum[9] = sum[9] + factor[6] * factor[27] - factor[42] * point[21];
+    sum[10] = sum[10] + factor[7] * factor[27] - factor[42] * point[22];
+    sum[11] = sum[11] + factor[8] * factor[27] - factor[42] * point[23];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_2(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[9] * factor[27] - factor[42] * point[24];
+    sum[1] = sum[1] + factor[10] * factor[27] - factor[42] * point[25];
+    sum[2] = sum[2] + factor[11] * factor[27] - factor[42] * point[26];
+    sum[3] = sum[3] + factor[12] * factor[27] - factor[42] * point[27];
+    sum[4] = sum[4] + factor[13] * factor[27] - factor[42] * point[28];
+    sum[5] = sum[5] + factor[9] * factor[26] - factor[43] * point[24];
+    sum[6] = sum[6] + factor[10] * factor[26] - factor[43] * point[25];
+    sum[7] = sum[7] + factor[11] * factor[26] - factor[43] * point[26];
+    sum[8] = sum[8] + factor[12] * factor[26] - factor[43] * point[27];
+    sum[9] = sum[9] + factor[13] * factor[26] - factor[43] * point[28];
+    sum[10] = sum[10] + factor[0] * factor[26] - factor[43] * point[15];
+    sum[11] = sum[11] + factor[1] * factor[26] - factor[43] * point[16];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_3(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[26] - factor[43] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[26] - factor[43] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[26] - factor[43] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[26] - factor[43] * point[20];
+    sum[4] = sum[4] + factor[6] * factor[26] - factor[43] * point[21];
+    sum[5] = sum[5] + factor[7] * factor[26] - factor[43] * point[22];
+    sum[6] = sum[6] + factor[8] * factor[26] - factor[43] * point[23];
+    sum[7] = sum[7] + factor[2] * factor[25] - factor[44] * point[17];
+    sum[8] = sum[8] + factor[3] * factor[25] - factor[44] * point[18];
+    sum[9] = sum[9] + factor[4] * factor[25] - factor[44] * point[19];
+    sum[10] = sum[10] + factor[5] * factor[25] - factor[44] * point[20];
+    sum[11] = sum[11] + factor[6] * factor[25] - factor[44] * point[21];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_4(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[25] - factor[44] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[25] - factor[44] * point[16];
+    sum[2] = sum[2] + factor[7] * factor[25] - factor[44] * point[22];
+    sum[3] = sum[3] + factor[8] * factor[25] - factor[44] * point[23];
+    sum[4] = sum[4] + factor[9] * factor[25] - factor[44] * point[24];
+    sum[5] = sum[5] + factor[10] * factor[25] - factor[44] * point[25];
+    sum[6] = sum[6] + factor[11] * factor[25] - factor[44] * point[26];
+    sum[7] = sum[7] + factor[12] * factor[25] - factor[44] * point[27];
+    sum[8] = sum[8] + factor[13] * factor[25] - factor[44] * point[28];
+    sum[9] = sum[9] + factor[0] * factor[24] - factor[45] * point[15];
+    sum[10] = sum[10] + factor[1] * factor[24] - factor[45] * point[16];
+    sum[11] = sum[11] + factor[7] * factor[24] - factor[45] * point[22];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_5(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[24] - factor[45] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[24] - factor[45] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[24] - factor[45] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[24] - factor[45] * point[20];
+    sum[4] = sum[4] + factor[6] * factor[24] - factor[45] * point[21];
+    sum[5] = sum[5] + factor[8] * factor[24] - factor[45] * point[23];
+    sum[6] = sum[6] + factor[9] * factor[24] - factor[45] * point[24];
+    sum[7] = sum[7] + factor[10] * factor[24] - factor[45] * point[25];
+    sum[8] = sum[8] + factor[11] * factor[24] - factor[45] * point[26];
+    sum[9] = sum[9] + factor[12] * factor[24] - factor[45] * point[27];
+    sum[10] = sum[10] + factor[13] * factor[24] - factor[45] * point[28];
+    sum[11] = sum[11] + factor[2] * factor[23] - factor[46] * point[17];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_6(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[23] - factor[46] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[23] - factor[46] * point[16];
+    sum[2] = sum[2] + factor[3] * factor[23] - factor[46] * point[18];
+    sum[3] = sum[3] + factor[4] * factor[23] - factor[46] * point[19];
+    sum[4] = sum[4] + factor[5] * factor[23] - factor[46] * point[20];
+    sum[5] = sum[5] + factor[6] * factor[23] - factor[46] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[23] - factor[46] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[23] - factor[46] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[23] - factor[46] * point[24];
+    sum[9] = sum[9] + factor[10] * factor[23] - factor[46] * point[25];
+    sum[10] = sum[10] + factor[11] * factor[23] - factor[46] * point[26];
+    sum[11] = sum[11] + factor[12] * factor[23] - factor[46] * point[27];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_7(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[13] * factor[23] - factor[46] * point[28];
+    sum[1] = sum[1] + factor[13] * factor[22] - factor[47] * point[28];
+    sum[2] = sum[2] + factor[0] * factor[22] - factor[47] * point[15];
+    sum[3] = sum[3] + factor[1] * factor[22] - factor[47] * point[16];
+    sum[4] = sum[4] + factor[2] * factor[22] - factor[47] * point[17];
+    sum[5] = sum[5] + factor[3] * factor[22] - factor[47] * point[18];
+    sum[6] = sum[6] + factor[4] * factor[22] - factor[47] * point[19];
+    sum[7] = sum[7] + factor[5] * factor[22] - factor[47] * point[20];
+    sum[8] = sum[8] + factor[6] * factor[22] - factor[47] * point[21];
+    sum[9] = sum[9] + factor[7] * factor[22] - factor[47] * point[22];
+    sum[10] = sum[10] + factor[8] * factor[22] - factor[47] * point[23];
+    sum[11] = sum[11] + factor[9] * factor[22] - factor[47] * point[24];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_8(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[10] * factor[22] - factor[47] * point[25];
+    sum[1] = sum[1] + factor[11] * factor[22] - factor[47] * point[26];
+    sum[2] = sum[2] + factor[12] * factor[22] - factor[47] * point[27];
+    sum[3] = sum[3] + factor[10] * factor[21] - factor[48] * point[25];
+    sum[4] = sum[4] + factor[11] * factor[21] - factor[48] * point[26];
+    sum[5] = sum[5] + factor[12] * factor[21] - factor[48] * point[27];
+    sum[6] = sum[6] + factor[0] * factor[21] - factor[48] * point[15];
+    sum[7] = sum[7] + factor[1] * factor[21] - factor[48] * point[16];
+    sum[8] = sum[8] + factor[2] * factor[21] - factor[48] * point[17];
+    sum[9] = sum[9] + factor[3] * factor[21] - factor[48] * point[18];
+    sum[10] = sum[10] + factor[4] * factor[21] - factor[48] * point[19];
+    sum[11] = sum[11] + factor[5] * factor[21] - factor[48] * point[20];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_9(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[6] * factor[21] - factor[48] * point[21];
+    sum[1] = sum[1] + factor[7] * factor[21] - factor[48] * point[22];
+    sum[2] = sum[2] + factor[8] * factor[21] - factor[48] * point[23];
+    sum[3] = sum[3] + factor[9] * factor[21] - factor[48] * point[24];
+    sum[4] = sum[4] + factor[13] * factor[21] - factor[48] * point[28];
+    sum[5] = sum[5] + factor[6] * factor[20] - factor[49] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[20] - factor[49] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[20] - factor[49] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[20] - factor[49] * point[24];
+    sum[9] = sum[9] + factor[13] * factor[20] - factor[49] * point[28];
+    sum[10] = sum[10] + factor[0] * factor[20] - factor[49] * point[15];
+    sum[11] = sum[11] + factor[1] * factor[20] - factor[49] * point[16];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_10(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[20] - factor[49] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[20] - factor[49] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[20] - factor[49] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[20] - factor[49] * point[20];
+    sum[4] = sum[4] + factor[10] * factor[20] - factor[49] * point[25];
+    sum[5] = sum[5] + factor[11] * factor[20] - factor[49] * point[26];
+    sum[6] = sum[6] + factor[12] * factor[20] - factor[49] * point[27];
+    sum[7] = sum[7] + factor[2] * factor[19] - factor[50] * point[17];
+    sum[8] = sum[8] + factor[3] * factor[19] - factor[50] * point[18];
+    sum[9] = sum[9] + factor[4] * factor[19] - factor[50] * point[19];
+    sum[10] = sum[10] + factor[5] * factor[19] - factor[50] * point[20];
+    sum[11] = sum[11] + factor[10] * factor[19] - factor[50] * point[25];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_11(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[19] - factor[50] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[19] - factor[50] * point[16];
+    sum[2] = sum[2] + factor[6] * factor[19] - factor[50] * point[21];
+    sum[3] = sum[3] + factor[7] * factor[19] - factor[50] * point[22];
+    sum[4] = sum[4] + factor[8] * factor[19] - factor[50] * point[23];
+    sum[5] = sum[5] + factor[9] * factor[19] - factor[50] * point[24];
+    sum[6] = sum[6] + factor[11] * factor[19] - factor[50] * point[26];
+    sum[7] = sum[7] + factor[12] * factor[19] - factor[50] * point[27];
+    sum[8] = sum[8] + factor[13] * factor[19] - factor[50] * point[28];
+    sum[9] = sum[9] + factor[0] * factor[18] - factor[51] * point[15];
+    sum[10] = sum[10] + factor[1] * factor[18] - factor[51] * point[16];
+    sum[11] = sum[11] + factor[6] * factor[18] - factor[51] * point[21];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_12(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[18] - factor[51] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[18] - factor[51] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[18] - factor[51] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[18] - factor[51] * point[20];
+    sum[4] = sum[4] + factor[7] * factor[18] - factor[51] * point[22];
+    sum[5] = sum[5] + factor[8] * factor[18] - factor[51] * point[23];
+    sum[6] = sum[6] + factor[9] * factor[18] - factor[51] * point[24];
+    sum[7] = sum[7] + factor[10] * factor[18] - factor[51] * point[25];
+    sum[8] = sum[8] + factor[11] * factor[18] - factor[51] * point[26];
+    sum[9] = sum[9] + factor[12] * factor[18] - factor[51] * point[27];
+    sum[10] = sum[10] + factor[13] * factor[18] - factor[51] * point[28];
+    sum[11] = sum[11] + factor[2] * factor[17] - factor[52] * point[17];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_13(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[17] - factor[52] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[17] - factor[52] * point[16];
+    sum[2] = sum[2] + factor[3] * factor[17] - factor[52] * point[18];
+    sum[3] = sum[3] + factor[4] * factor[17] - factor[52] * point[19];
+    sum[4] = sum[4] + factor[5] * factor[17] - factor[52] * point[20];
+    sum[5] = sum[5] + factor[6] * factor[17] - factor[52] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[17] - factor[52] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[17] - factor[52] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[17] - factor[52] * point[24];
+    sum[9] = sum[9] + factor[10] * factor[17] - factor[52] * point[25];
+    sum[10] = sum[10] + factor[11] * factor[17] - factor[52] * point[26];
+    sum[11] = sum[11] + factor[12] * factor[17] - factor[52] * point[27];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_14(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[13] * factor[17] - factor[52] * point[28];
+    sum[1] = sum[1] + factor[13] * factor[16] - factor[53] * point[28];
+    sum[2] = sum[2] + factor[0] * factor[16] - factor[53] * point[15];
+    sum[3] = sum[3] + factor[1] * factor[16] - factor[53] * point[16];
+    sum[4] = sum[4] + factor[2] * factor[16] - factor[53] * point[17];
+    sum[5] = sum[5] + factor[3] * factor[16] - factor[53] * point[18];
+    sum[6] = sum[6] + factor[4] * factor[16] - factor[53] * point[19];
+    sum[7] = sum[7] + factor[5] * factor[16] - factor[53] * point[20];
+    sum[8] = sum[8] + factor[6] * factor[16] - factor[53] * point[21];
+    sum[9] = sum[9] + factor[7] * factor[16] - factor[53] * point[22];
+    sum[10] = sum[10] + factor[8] * factor[16] - factor[53] * point[23];
+    sum[11] = sum[11] + factor[9] * factor[16] - factor[53] * point[24];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_15(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[10] * factor[16] - factor[53] * point[25];
+    sum[1] = sum[1] + factor[11] * factor[16] - factor[53] * point[26];
+    sum[2] = sum[2] + factor[12] * factor[16] - factor[53] * point[27];
+    sum[3] = sum[3] + factor[10] * factor[15] - factor[54] * point[25];
+    sum[4] = sum[4] + factor[11] * factor[15] - factor[54] * point[26];
+    sum[5] = sum[5] + factor[12] * factor[15] - factor[54] * point[27];
+    sum[6] = sum[6] + factor[0] * factor[15] - factor[54] * point[15];
+    sum[7] = sum[7] + factor[1] * factor[15] - factor[54] * point[16];
+    sum[8] = sum[8] + factor[2] * factor[15] - factor[54] * point[17];
+    sum[9] = sum[9] + factor[3] * factor[15] - factor[54] * point[18];
+    sum[10] = sum[10] + factor[4] * factor[15] - factor[54] * point[19];
+    sum[11] = sum[11] + factor[5] * factor[15] - factor[54] * point[20];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_16(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[6] * factor[15] - factor[54] * point[21];
+    sum[1] = sum[1] + factor[7] * factor[15] - factor[54] * point[22];
+    sum[2] = sum[2] + factor[8] * factor[15] - factor[54] * point[23];
+    sum[3] = sum[3] + factor[9] * factor[15] - factor[54] * point[24];
+    sum[4] = sum[4] + factor[13] * factor[15] - factor[54] * point[28];
+    sum[5] = sum[5] + factor[6] * factor[14] - factor[55] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[14] - factor[55] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[14] - factor[55] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[14] - factor[55] * point[24];
+    sum[9] = sum[9] + factor[13] * factor[14] - factor[55] * point[28];
+    sum[10] = sum[10] + factor[0] * factor[14] - factor[55] * point[15];
+    sum[11] = sum[11] + factor[1] * factor[14] - factor[55] * point[16];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_17(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[14] - factor[55] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[14] - factor[55] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[14] - factor[55] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[14] - factor[55] * point[20];
+    sum[4] = sum[4] + factor[10] * factor[14] - factor[55] * point[25];
+    sum[5] = sum[5] + factor[11] * factor[14] - factor[55] * point[26];
+    sum[6] = sum[6] + factor[12] * factor[14] - factor[55] * point[27];
+}
+
+/* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
+OUTLINE void vector_rows(const double *rows, size_t count, size_t start, size_t size, vector *columns) {
+    for (size_t i = 0; i < size; ++i) {
+        double column[LANES];
+        for (size_t lane = 0; lane < LANES; ++lane)
+            column[lane] = rows[size * (start + lane < count ? start + lane : count - 1) + i];
+        columns[i] = vector_load(column);
+    }
+}
+
+/* Back to rows that are `stride` apart; nothing past the end. */
+OUTLINE void vector_to_rows(
+    const vector *columns, double *rows, size_t count, size_t start, size_t size, size_t stride) {
+    const size_t lanes = start >= count ? 0 : count - start < LANES ? count - start : LANES;
+    for (size_t lane = 0; lane < lanes; ++lane)
+        for (size_t i = 0; i < size; ++i) rows[stride * (start + lane) + i] = LANE(columns[i], lane);
+}
+
+/* Zero in the lanes past the end. */
+OUTLINE void vector_end(size_t count, size_t start, size_t size, vector *columns) {
+    for (size_t lane = start >= count ? 0 : count - start; lane < LANES; ++lane)
+        for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
+}
+
+/* Scratch memory: 29 vectors for each block of points, then the constants of the splats. */
+size_t dual_arm_splats_work(size_t count, size_t splat_count, int threads) {
+    (void)threads;
+    return ((count + LANES - 1) / LANES * 29 + 1) * LANES + 211 * splat_count;
+}
+
+static vector *work_points(double *work) {
+    const uintptr_t size = sizeof(vector), start = (uintptr_t)work;
+    return (vector *)((char *)work + ((0 - start) & (size - 1)));
+}
+
+static double *work_constants(double *work, size_t count) {
+    return (double *)(work_points(work) + (count + LANES - 1) / LANES * 29);
+}
+
+/* The constants of LANES splats, as rows. */
+OUTLINE void splat_constants(
+    size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, double *constants) {
+    vector own_mu[14], own_W[196], own_amplitude[1], S[211];
+    vector_rows(mu, splat_count, start, 14, own_mu);
+    vector_rows(W, splat_count, start, 196, own_W);
+    vector_rows(amplitude, splat_count, start, 1, own_amplitude);
+    pair_constants(own_mu, own_W, own_amplitude, S);
+    vector_to_rows(S, constants, splat_count, start, 211, 211);
+}
+
+/* 2 vectors of points at a time stay in registers while all splats pass. */
 void dual_arm_splats(
-    size_t count,
-    size_t splat_count,
-    const double *DUAL_ARM_RESTRICT x,
-    const double *DUAL_ARM_RESTRICT mu,
-    const double *DUAL_ARM_RESTRICT W,
-    const double *DUAL_ARM_RESTRICT amplitude,
-    double *DUAL_ARM_RESTRICT value,
-    double *DUAL_ARM_RESTRICT gradient) {
-    const unsigned mode = flush_denormals();
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        double x_block[14][LANES], sum[15][LANES] = {{0}};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            for (size_t i = 0; i < 14; ++i) x_block[i][lane] = x[14 * n + i];
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            const double mu0 = mu[14 * k + 0];
-            const double mu1 = mu[14 * k + 1];
-            const double mu2 = mu[14 * k + 2];
-            const double mu3 = mu[14 * k + 3];
-            const double mu4 = mu[14 * k + 4];
-            const double mu5 = mu[14 * k + 5];
-            const double mu6 = mu[14 * k + 6];
-            const double mu7 = mu[14 * k + 7];
-            const double mu8 = mu[14 * k + 8];
-            const double mu9 = mu[14 * k + 9];
-            const double mu10 = mu[14 * k + 10];
-            const double mu11 = mu[14 * k + 11];
-            const double mu12 = mu[14 * k + 12];
-            const double mu13 = mu[14 * k + 13];
-            const double W0_0 = W[196 * k + 0];
-            const double W0_1 = W[196 * k + 1];
-            const double W0_2 = W[196 * k + 2];
-            const double W0_3 = W[196 * k + 3];
-            const double W0_4 = W[196 * k + 4];
-            const double W0_5 = W[196 * k + 5];
-            const double W0_6 = W[196 * k + 6];
-            const double W0_7 = W[196 * k + 7];
-            const double W0_8 = W[196 * k + 8];
-            const double W0_9 = W[196 * k + 9];
-            const double W0_10 = W[196 * k + 10];
-            const double W0_11 = W[196 * k + 11];
-            const double W0_12 = W[196 * k + 12];
-            const double W0_13 = W[196 * k + 13];
-            const double W1_0 = W[196 * k + 14];
-            const double W1_1 = W[196 * k + 15];
-            const double W1_2 = W[196 * k + 16];
-            const double W1_3 = W[196 * k + 17];
-            const double W1_4 = W[196 * k + 18];
-            const double W1_5 = W[196 * k + 19];
-            const double W1_6 = W[196 * k + 20];
-            const double W1_7 = W[196 * k + 21];
-            const double W1_8 = W[196 * k + 22];
-            const double W1_9 = W[196 * k + 23];
-            const double W1_10 = W[196 * k + 24];
-            const double W1_11 = W[196 * k + 25];
-            const double W1_12 = W[196 * k + 26];
-            const double W1_13 = W[196 * k + 27];
-            const double W2_0 = W[196 * k + 28];
-            const double W2_1 = W[196 * k + 29];
-            const double W2_2 = W[196 * k + 30];
-            const double W2_3 = W[196 * k + 31];
-            const double W2_4 = W[196 * k + 32];
-            const double W2_5 = W[196 * k + 33];
-            const double W2_6 = W[196 * k + 34];
-            const double W2_7 = W[196 * k + 35];
-            const double W2_8 = W[196 * k + 36];
-            const double W2_9 = W[196 * k + 37];
-            const double W2_10 = W[196 * k + 38];
-            const double W2_11 = W[196 * k + 39];
-            const double W2_12 = W[196 * k + 40];
-            const double W2_13 = W[196 * k + 41];
-            const double W3_0 = W[196 * k + 42];
-            const double W3_1 = W[196 * k + 43];
-            const double W3_2 = W[196 * k + 44];
-            const double W3_3 = W[196 * k + 45];
-            const double W3_4 = W[196 * k + 46];
-            const double W3_5 = W[196 * k + 47];
-            const double W3_6 = W[196 * k + 48];
-            const double W3_7 = W[196 * k + 49];
-            const double W3_8 = W[196 * k + 50];
-            const double W3_9 = W[196 * k + 51];
-            const double W3_10 = W[196 * k + 52];
-            const double W3_11 = W[196 * k + 53];
-            const double W3_12 = W[196 * k + 54];
-            const double W3_13 = W[196 * k + 55];
-            const double W4_0 = W[196 * k + 56];
-            const double W4_1 = W[196 * k + 57];
-            const double W4_2 = W[196 * k + 58];
-            const double W4_3 = W[196 * k + 59];
-            const double W4_4 = W[196 * k + 60];
-            const double W4_5 = W[196 * k + 61];
-            const double W4_6 = W[196 * k + 62];
-            const double W4_7 = W[196 * k + 63];
-            const double W4_8 = W[196 * k + 64];
-            const double W4_9 = W[196 * k + 65];
-            const double W4_10 = W[196 * k + 66];
-            const double W4_11 = W[196 * k + 67];
-            const double W4_12 = W[196 * k + 68];
-            const double W4_13 = W[196 * k + 69];
-            const double W5_0 = W[196 * k + 70];
-            const double W5_1 = W[196 * k + 71];
-            const double W5_2 = W[196 * k + 72];
-            const double W5_3 = W[196 * k + 73];
-            const double W5_4 = W[196 * k + 74];
-            const double W5_5 = W[196 * k + 75];
-            const double W5_6 = W[196 * k + 76];
-            const double W5_7 = W[196 * k + 77];
-            const double W5_8 = W[196 * k + 78];
-            const double W5_9 = W[196 * k + 79];
-            const double W5_10 = W[196 * k + 80];
-            const double W5_11 = W[196 * k + 81];
-            const double W5_12 = W[196 * k + 82];
-            const double W5_13 = W[196 * k + 83];
-            const double W6_0 = W[196 * k + 84];
-            const double W6_1 = W[196 * k + 85];
-            const double W6_2 = W[196 * k + 86];
-            const double W6_3 = W[196 * k + 87];
-            const double W6_4 = W[196 * k + 88];
-            const double W6_5 = W[196 * k + 89];
-            const double W6_6 = W[196 * k + 90];
-            const double W6_7 = W[196 * k + 91];
-            const double W6_8 = W[196 * k + 92];
-            const double W6_9 = W[196 * k + 93];
-            const double W6_10 = W[196 * k + 94];
-            const double W6_11 = W[196 * k + 95];
-            const double W6_12 = W[196 * k + 96];
-            const double W6_13 = W[196 * k + 97];
-            const double W7_0 = W[196 * k + 98];
-            const double W7_1 = W[196 * k + 99];
-            const double W7_2 = W[196 * k + 100];
-            const double W7_3 = W[196 * k + 101];
-            const double W7_4 = W[196 * k + 102];
-            const double W7_5 = W[196 * k + 103];
-            const double W7_6 = W[196 * k + 104];
-            const double W7_7 = W[196 * k + 105];
-            const double W7_8 = W[196 * k + 106];
-            const double W7_9 = W[196 * k + 107];
-            const double W7_10 = W[196 * k + 108];
-            const double W7_11 = W[196 * k + 109];
-            const double W7_12 = W[196 * k + 110];
-            const double W7_13 = W[196 * k + 111];
-            const double W8_0 = W[196 * k + 112];
-            const double W8_1 = W[196 * k + 113];
-            const double W8_2 = W[196 * k + 114];
-            const double W8_3 = W[196 * k + 115];
-            const double W8_4 = W[196 * k + 116];
-            const double W8_5 = W[196 * k + 117];
-            const double W8_6 = W[196 * k + 118];
-            const double W8_7 = W[196 * k + 119];
-            const double W8_8 = W[196 * k + 120];
-            const double W8_9 = W[196 * k + 121];
-            const double W8_10 = W[196 * k + 122];
-            const double W8_11 = W[196 * k + 123];
-            const double W8_12 = W[196 * k + 124];
-            const double W8_13 = W[196 * k + 125];
-            const double W9_0 = W[196 * k + 126];
-            const double W9_1 = W[196 * k + 127];
-            const double W9_2 = W[196 * k + 128];
-            const double W9_3 = W[196 * k + 129];
-            const double W9_4 = W[196 * k + 130];
-            const double W9_5 = W[196 * k + 131];
-            const double W9_6 = W[196 * k + 132];
-            const double W9_7 = W[196 * k + 133];
-            const double W9_8 = W[196 * k + 134];
-            const double W9_9 = W[196 * k + 135];
-            const double W9_10 = W[196 * k + 136];
-            const double W9_11 = W[196 * k + 137];
-            const double W9_12 = W[196 * k + 138];
-            const double W9_13 = W[196 * k + 139];
-            const double W10_0 = W[196 * k + 140];
-            const double W10_1 = W[196 * k + 141];
-            const double W10_2 = W[196 * k + 142];
-            const double W10_3 = W[196 * k + 143];
-            const double W10_4 = W[196 * k + 144];
-            const double W10_5 = W[196 * k + 145];
-            const double W10_6 = W[196 * k + 146];
-            const double W10_7 = W[196 * k + 147];
-            const double W10_8 = W[196 * k + 148];
-            const double W10_9 = W[196 * k + 149];
-            const double W10_10 = W[196 * k + 150];
-            const double W10_11 = W[196 * k + 151];
-            const double W10_12 = W[196 * k + 152];
-            const double W10_13 = W[196 * k + 153];
-            const double W11_0 = W[196 * k + 154];
-            const double W11_1 = W[196 * k + 155];
-            const double W11_2 = W[196 * k + 156];
-            const double W11_3 = W[196 * k + 157];
-            const double W11_4 = W[196 * k + 158];
-            const double W11_5 = W[196 * k + 159];
-            const double W11_6 = W[196 * k + 160];
-            const double W11_7 = W[196 * k + 161];
-            const double W11_8 = W[196 * k + 162];
-            const double W11_9 = W[196 * k + 163];
-            const double W11_10 = W[196 * k + 164];
-            const double W11_11 = W[196 * k + 165];
-            const double W11_12 = W[196 * k + 166];
-            const double W11_13 = W[196 * k + 167];
-            const double W12_0 = W[196 * k + 168];
-            const double W12_1 = W[196 * k + 169];
-            const double W12_2 = W[196 * k + 170];
-            const double W12_3 = W[196 * k + 171];
-            const double W12_4 = W[196 * k + 172];
-            const double W12_5 = W[196 * k + 173];
-            const double W12_6 = W[196 * k + 174];
-            const double W12_7 = W[196 * k + 175];
-            const double W12_8 = W[196 * k + 176];
-            const double W12_9 = W[196 * k + 177];
-            const double W12_10 = W[196 * k + 178];
-            const double W12_11 = W[196 * k + 179];
-            const double W12_12 = W[196 * k + 180];
-            const double W12_13 = W[196 * k + 181];
-            const double W13_0 = W[196 * k + 182];
-            const double W13_1 = W[196 * k + 183];
-            const double W13_2 = W[196 * k + 184];
-            const double W13_3 = W[196 * k + 185];
-            const double W13_4 = W[196 * k + 186];
-            const double W13_5 = W[196 * k + 187];
-            const double W13_6 = W[196 * k + 188];
-            const double W13_7 = W[196 * k + 189];
-            const double W13_8 = W[196 * k + 190];
-            const double W13_9 = W[196 * k + 191];
-            const double W13_10 = W[196 * k + 192];
-            const double W13_11 = W[196 * k + 193];
-            const double W13_12 = W[196 * k + 194];
-            const double W13_13 = W[196 * k + 195];
-            const double amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const double gap = x_block[0][lane] - mu0;
-                const double round_2 = rint(0.15915494309189535 * gap);
-                const double v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-                    round_2;
-                const double gap_2 = x_block[1][lane] - mu1;
-                const double round_3 = rint(0.15915494309189535 * gap_2);
-                const double v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-                    round_3;
-                const double gap_3 = x_block[2][lane] - mu2;
-                const double round_4 = rint(0.15915494309189535 * gap_3);
-                const double v2 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
-                    round_4;
-                const double gap_4 = x_block[3][lane] - mu3;
-                const double round_5 = rint(0.15915494309189535 * gap_4);
-                const double v3 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
-                    round_5;
-                const double gap_5 = x_block[4][lane] - mu4;
-                const double round_6 = rint(0.15915494309189535 * gap_5);
-                const double v4 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
-                    round_6;
-                const double gap_6 = x_block[5][lane] - mu5;
-                const double round_7 = rint(0.15915494309189535 * gap_6);
-                const double v5 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
-                    round_7;
-                const double gap_7 = x_block[6][lane] - mu6;
-                const double round_8 = rint(0.15915494309189535 * gap_7);
-                const double v6 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
-                    round_8;
-                const double gap_8 = x_block[7][lane] - mu7;
-                const double round_9 = rint(0.15915494309189535 * gap_8);
-                const double v7 = gap_8 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 *
-                    round_9;
-                const double gap_9 = x_block[8][lane] - mu8;
-                const double round_10 = rint(0.15915494309189535 * gap_9);
-                const double v8 = gap_9 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07 *
-                    round_10;
-                const double gap_10 = x_block[9][lane] - mu9;
-                const double round_11 = rint(0.15915494309189535 * gap_10);
-                const double v9 = gap_10 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07 *
-                    round_11;
-                const double gap_11 = x_block[10][lane] - mu10;
-                const double round_12 = rint(0.15915494309189535 * gap_11);
-                const double v10 = gap_11 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 - 3.019915981956753e-07
-                    * round_12;
-                const double gap_12 = x_block[11][lane] - mu11;
-                const double round_13 = rint(0.15915494309189535 * gap_12);
-                const double v11 = gap_12 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 - 3.019915981956753e-07
-                    * round_13;
-                const double gap_13 = x_block[12][lane] - mu12;
-                const double round_14 = rint(0.15915494309189535 * gap_13);
-                const double v12 = gap_13 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 - 3.019915981956753e-07
-                    * round_14;
-                const double gap_14 = x_block[13][lane] - mu13;
-                const double round_15 = rint(0.15915494309189535 * gap_14);
-                const double v13 = gap_14 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 - 3.019915981956753e-07
-                    * round_15;
-                const double total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-                const double total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
-                const double total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
-                const double z0 = total_4 + W0_13 * v13;
-                const double total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-                const double total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
-                const double total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12;
-                const double z1 = total_7 + W1_13 * v13;
-                const double total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-                const double total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
-                const double total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12;
-                const double z2 = total_10 + W2_13 * v13;
-                const double total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-                const double total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
-                const double total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12;
-                const double z3 = total_13 + W3_13 * v13;
-                const double total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-                const double total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
-                const double total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12;
-                const double z4 = total_16 + W4_13 * v13;
-                const double total_17 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-                const double total_18 = total_17 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
-                const double total_19 = total_18 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12;
-                const double z5 = total_19 + W5_13 * v13;
-                const double total_20 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
-                const double total_21 = total_20 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
-                const double total_22 = total_21 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12;
-                const double z6 = total_22 + W6_13 * v13;
-                const double total_23 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
-                const double total_24 = total_23 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
-                const double total_25 = total_24 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12;
-                const double z7 = total_25 + W7_13 * v13;
-                const double total_26 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
-                const double total_27 = total_26 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
-                const double total_28 = total_27 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12;
-                const double z8 = total_28 + W8_13 * v13;
-                const double total_29 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4;
-                const double total_30 = total_29 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8;
-                const double total_31 = total_30 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12;
-                const double z9 = total_31 + W9_13 * v13;
-                const double total_32 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4;
-                const double total_33 = total_32 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8;
-                const double total_34 = total_33 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12;
-                const double z10 = total_34 + W10_13 * v13;
-                const double total_35 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4;
-                const double total_36 = total_35 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8;
-                const double total_37 = total_36 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12;
-                const double z11 = total_37 + W11_13 * v13;
-                const double total_38 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4;
-                const double total_39 = total_38 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8;
-                const double total_40 = total_39 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12;
-                const double z12 = total_40 + W12_13 * v13;
-                const double total_41 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4;
-                const double total_42 = total_41 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
-                const double total_43 = total_42 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
-                const double z13 = total_43 + W13_13 * v13;
-                const double total_44 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-                const double total_45 = total_44 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-                const double total_46 = total_45 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12;
-                const double exp_2 = exp(-(0.5 * (total_46 + z13 * z13)));
-                const double phi = amplitude_k * exp_2;
-                const double gap_15 = -(W13_13 * z13) - W12_13 * z12 - W11_13 * z11 - W10_13 * z10;
-                const double gap_16 = -(W13_12 * z13) - W12_12 * z12 - W11_12 * z11 - W10_12 * z10;
-                const double gap_17 = -(W13_11 * z13) - W12_11 * z12 - W11_11 * z11 - W10_11 * z10;
-                const double gap_18 = -(W13_10 * z13) - W12_10 * z12 - W11_10 * z11 - W10_10 * z10;
-                const double gap_19 = -(W13_9 * z13) - W12_9 * z12 - W11_9 * z11 - W10_9 * z10;
-                const double gap_20 = -(W13_8 * z13) - W12_8 * z12 - W11_8 * z11 - W10_8 * z10;
-                const double gap_21 = -(W13_7 * z13) - W12_7 * z12 - W11_7 * z11 - W10_7 * z10;
-                const double gap_22 = -(W13_6 * z13) - W12_6 * z12 - W11_6 * z11 - W10_6 * z10;
-                const double gap_23 = -(W13_5 * z13) - W12_5 * z12 - W11_5 * z11 - W10_5 * z10;
-                const double gap_24 = -(W13_4 * z13) - W12_4 * z12 - W11_4 * z11 - W10_4 * z10;
-                const double gap_25 = -(W13_3 * z13) - W12_3 * z12 - W11_3 * z11 - W10_3 * z10;
-                const double gap_26 = -(W13_2 * z13) - W12_2 * z12 - W11_2 * z11 - W10_2 * z10;
-                const double gap_27 = -(W13_1 * z13) - W12_1 * z12 - W11_1 * z11 - W10_1 * z10;
-                const double gap_28 = -(W13_0 * z13) - W12_0 * z12 - W11_0 * z11 - W10_0 * z10;
-                const double gap_29 = gap_15 - W9_13 * z9 - W8_13 * z8 - W7_13 * z7 - W6_13 * z6;
-                const double gap_30 = gap_16 - W9_12 * z9 - W8_12 * z8 - W7_12 * z7 - W6_12 * z6;
-                const double gap_31 = gap_17 - W9_11 * z9 - W8_11 * z8 - W7_11 * z7 - W6_11 * z6;
-                const double gap_32 = gap_18 - W9_10 * z9 - W8_10 * z8 - W7_10 * z7 - W6_10 * z6;
-                const double gap_33 = gap_19 - W9_9 * z9 - W8_9 * z8 - W7_9 * z7 - W6_9 * z6;
-                const double gap_34 = gap_20 - W9_8 * z9 - W8_8 * z8 - W7_8 * z7 - W6_8 * z6;
-                const double gap_35 = gap_21 - W9_7 * z9 - W8_7 * z8 - W7_7 * z7 - W6_7 * z6;
-                const double gap_36 = gap_22 - W9_6 * z9 - W8_6 * z8 - W7_6 * z7 - W6_6 * z6;
-                const double gap_37 = gap_23 - W9_5 * z9 - W8_5 * z8 - W7_5 * z7 - W6_5 * z6;
-                const double gap_38 = gap_24 - W9_4 * z9 - W8_4 * z8 - W7_4 * z7 - W6_4 * z6;
-                const double gap_39 = gap_25 - W9_3 * z9 - W8_3 * z8 - W7_3 * z7 - W6_3 * z6;
-                const double gap_40 = gap_26 - W9_2 * z9 - W8_2 * z8 - W7_2 * z7 - W6_2 * z6;
-                const double gap_41 = gap_27 - W9_1 * z9 - W8_1 * z8 - W7_1 * z7 - W6_1 * z6;
-                const double gap_42 = gap_28 - W9_0 * z9 - W8_0 * z8 - W7_0 * z7 - W6_0 * z6;
-                const double gap_43 = gap_29 - W5_13 * z5 - W4_13 * z4 - W3_13 * z3 - W2_13 * z2;
-                const double gap_44 = gap_30 - W5_12 * z5 - W4_12 * z4 - W3_12 * z3 - W2_12 * z2;
-                const double gap_45 = gap_31 - W5_11 * z5 - W4_11 * z4 - W3_11 * z3 - W2_11 * z2;
-                const double gap_46 = gap_32 - W5_10 * z5 - W4_10 * z4 - W3_10 * z3 - W2_10 * z2;
-                const double gap_47 = gap_33 - W5_9 * z5 - W4_9 * z4 - W3_9 * z3 - W2_9 * z2;
-                const double gap_48 = gap_34 - W5_8 * z5 - W4_8 * z4 - W3_8 * z3 - W2_8 * z2;
-                const double gap_49 = gap_35 - W5_7 * z5 - W4_7 * z4 - W3_7 * z3 - W2_7 * z2;
-                const double gap_50 = gap_36 - W5_6 * z5 - W4_6 * z4 - W3_6 * z3 - W2_6 * z2;
-                const double gap_51 = gap_37 - W5_5 * z5 - W4_5 * z4 - W3_5 * z3 - W2_5 * z2;
-                const double gap_52 = gap_38 - W5_4 * z5 - W4_4 * z4 - W3_4 * z3 - W2_4 * z2;
-                const double gap_53 = gap_39 - W5_3 * z5 - W4_3 * z4 - W3_3 * z3 - W2_3 * z2;
-                const double gap_54 = gap_40 - W5_2 * z5 - W4_2 * z4 - W3_2 * z3 - W2_2 * z2;
-                const double gap_55 = gap_41 - W5_1 * z5 - W4_1 * z4 - W3_1 * z3 - W2_1 * z2;
-                const double gap_56 = gap_42 - W5_0 * z5 - W4_0 * z4 - W3_0 * z3 - W2_0 * z2;
-                const double by_v13 = gap_43 - W1_13 * z1 - W0_13 * z0;
-                const double by_v12 = gap_44 - W1_12 * z1 - W0_12 * z0;
-                const double by_v11 = gap_45 - W1_11 * z1 - W0_11 * z0;
-                const double by_v10 = gap_46 - W1_10 * z1 - W0_10 * z0;
-                const double by_v9 = gap_47 - W1_9 * z1 - W0_9 * z0;
-                const double by_v8 = gap_48 - W1_8 * z1 - W0_8 * z0;
-                const double by_v7 = gap_49 - W1_7 * z1 - W0_7 * z0;
-                const double by_v6 = gap_50 - W1_6 * z1 - W0_6 * z0;
-                const double by_v5 = gap_51 - W1_5 * z1 - W0_5 * z0;
-                const double by_v4 = gap_52 - W1_4 * z1 - W0_4 * z0;
-                const double by_v3 = gap_53 - W1_3 * z1 - W0_3 * z0;
-                const double by_v2 = gap_54 - W1_2 * z1 - W0_2 * z0;
-                const double by_v1 = gap_55 - W1_1 * z1 - W0_1 * z0;
-                const double by_v0 = gap_56 - W1_0 * z1 - W0_0 * z0;
-                const double df0 = phi * by_v0;
-                const double df1 = phi * by_v1;
-                const double df2 = phi * by_v2;
-                const double df3 = phi * by_v3;
-                const double df4 = phi * by_v4;
-                const double df5 = phi * by_v5;
-                const double df6 = phi * by_v6;
-                const double df7 = phi * by_v7;
-                const double df8 = phi * by_v8;
-                const double df9 = phi * by_v9;
-                const double df10 = phi * by_v10;
-                const double df11 = phi * by_v11;
-                const double df12 = phi * by_v12;
-                const double df13 = phi * by_v13;
-                sum[0][lane] += phi;
-                sum[1][lane] += df0;
-                sum[2][lane] += df1;
-                sum[3][lane] += df2;
-                sum[4][lane] += df3;
-                sum[5][lane] += df4;
-                sum[6][lane] += df5;
-                sum[7][lane] += df6;
-                sum[8][lane] += df7;
-                sum[9][lane] += df8;
-                sum[10][lane] += df9;
-                sum[11][lane] += df10;
-                sum[12][lane] += df11;
-                sum[13][lane] += df12;
-                sum[14][lane] += df13;
+    size_t count, size_t splat_count, const double *DUAL_ARM_RESTRICT x, const double *DUAL_ARM_RESTRICT mu, const double *DUAL_ARM_RESTRICT W, const double *DUAL_ARM_RESTRICT amplitude,
+    double *DUAL_ARM_RESTRICT value, double *DUAL_ARM_RESTRICT gradient, double *DUAL_ARM_RESTRICT work, int threads) {
+    (void)threads;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES) {
+            vector at[2][14], X[2][14], grad[14];
+            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][14] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows(x, count, start + b * LANES, 14, at[b]);
+                pair_features(at[b], X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_forward(X[0], constants + 211 * k, value_sum[0], slope_sum[0]);
+                pair_forward(X[1], constants + 211 * k, value_sum[1], slope_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b) {
+                pair_gradient(at[b], slope_sum[b], grad);
+                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                vector_to_rows(grad, gradient, count, start + b * LANES, 14, 14);
             }
         }
-        for (size_t lane = 0; lane < lanes; ++lane) {
-            value[start + lane] = sum[0][lane];
-            for (size_t i = 0; i < 14; ++i) gradient[14 * (start + lane) + i] = sum[i + 1][lane];
-        }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
+void dual_arm_splats_value(
+    size_t count, size_t splat_count, const double *DUAL_ARM_RESTRICT x, const double *DUAL_ARM_RESTRICT mu, const double *DUAL_ARM_RESTRICT W, const double *DUAL_ARM_RESTRICT amplitude,
+    double *DUAL_ARM_RESTRICT value, double *DUAL_ARM_RESTRICT work, int threads) {
+    (void)threads;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES) {
+            vector at[14], X[2][14], value_sum[2][1] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows(x, count, start + b * LANES, 14, at);
+                pair_features(at, X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_value(X[0], constants + 211 * k, value_sum[0]);
+                pair_value(X[1], constants + 211 * k, value_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b)
+                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
+OUTLINE void splat_points(
+    size_t count, size_t start, const double *x, const double *value_bar, const double *gradient_bar, vector *point) {
+    vector at[14], grad_bar[14], slope_bar[14];
+    vector_rows(x, count, start, 14, at);
+    vector_rows(gradient_bar, count, start, 14, grad_bar);
+    vector_rows(value_bar, count, start, 1, point + 14);
+    pair_features(at, point);
+    pair_gradient_vjp(at, grad_bar, slope_bar);
+    for (int i = 0; i < 14; ++i) point[14 + 1 + i] = slope_bar[i];
+    vector_end(count, start, 14 + 1, point + 14);
+}
+
+/* Adds to S_bar what one vector of points adds to it. */
+INLINE void pair_backward(
+    const vector *point, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
+    vector factor[57];
+    pair_factors(point, S, value_bar, slope_bar, factor);
+    {
+        vector sum[12] = {ZERO};
+        pair_products_0(factor, point, sum);
+        S_bar[0] += sum[0];
+        S_bar[1] += sum[1];
+        S_bar[2] += sum[2];
+        S_bar[3] += sum[3];
+        S_bar[4] += sum[4];
+        S_bar[5] += sum[5];
+        S_bar[6] += sum[6];
+        S_bar[7] += sum[7];
+        S_bar[8] += sum[8];
+        S_bar[9] += sum[9];
+        S_bar[10] += sum[10];
+        S_bar[11] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_1(factor, point, sum);
+        S_bar[12] += sum[0];
+        S_bar[13] += sum[1];
+        S_bar[210] += sum[2];
+        S_bar[14] += sum[3];
+        S_bar[15] += sum[4];
+        S_bar[16] += sum[5];
+        S_bar[17] += sum[6];
+        S_bar[18] += sum[7];
+        S_bar[19] += sum[8];
+        S_bar[20] += sum[9];
+        S_bar[21] += sum[10];
+        S_bar[22] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_2(factor, point, sum);
+        S_bar[23] += sum[0];
+        S_bar[24] += sum[1];
+        S_bar[25] += sum[2];
+        S_bar[26] += sum[3];
+        S_bar[27] += sum[4];
+        S_bar[37] += sum[5];
+        S_bar[38] += sum[6];
+        S_bar[39] += sum[7];
+        S_bar[40] += sum[8];
+        S_bar[41] += sum[9];
+        S_bar[28] += sum[10];
+        S_bar[29] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_3(factor, point, sum);
+        S_bar[30] += sum[0];
+        S_bar[31] += sum[1];
+        S_bar[32] += sum[2];
+        S_bar[33] += sum[3];
+        S_bar[34] += sum[4];
+        S_bar[35] += sum[5];
+        S_bar[36] += sum[6];
+        S_bar[44] += sum[7];
+        S_bar[45] += sum[8];
+        S_bar[46] += sum[9];
+        S_bar[47] += sum[10];
+        S_bar[48] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_4(factor, point, sum);
+        S_bar[42] += sum[0];
+        S_bar[43] += sum[1];
+        S_bar[49] += sum[2];
+        S_bar[50] += sum[3];
+        S_bar[51] += sum[4];
+        S_bar[52] += sum[5];
+        S_bar[53] += sum[6];
+        S_bar[54] += sum[7];
+        S_bar[55] += sum[8];
+        S_bar[56] += sum[9];
+        S_bar[57] += sum[10];
+        S_bar[63] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_5(factor, point, sum);
+        S_bar[58] += sum[0];
+        S_bar[59] += sum[1];
+        S_bar[60] += sum[2];
+        S_bar[61] += sum[3];
+        S_bar[62] += sum[4];
+        S_bar[64] += sum[5];
+        S_bar[65] += sum[6];
+        S_bar[66] += sum[7];
+        S_bar[67] += sum[8];
+        S_bar[68] += sum[9];
+        S_bar[69] += sum[10];
+        S_bar[72] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_6(factor, point, sum);
+        S_bar[70] += sum[0];
+        S_bar[71] += sum[1];
+        S_bar[73] += sum[2];
+        S_bar[74] += sum[3];
+        S_bar[75] += sum[4];
+        S_bar[76] += sum[5];
+        S_bar[77] += sum[6];
+        S_bar[78] += sum[7];
+        S_bar[79] += sum[8];
+        S_bar[80] += sum[9];
+        S_bar[81] += sum[10];
+        S_bar[82] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_7(factor, point, sum);
+        S_bar[83] += sum[0];
+        S_bar[97] += sum[1];
+        S_bar[84] += sum[2];
+        S_bar[85] += sum[3];
+        S_bar[86] += sum[4];
+        S_bar[87] += sum[5];
+        S_bar[88] += sum[6];
+        S_bar[89] += sum[7];
+        S_bar[90] += sum[8];
+        S_bar[91] += sum[9];
+        S_bar[92] += sum[10];
+        S_bar[93] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_8(factor, point, sum);
+        S_bar[94] += sum[0];
+        S_bar[95] += sum[1];
+        S_bar[96] += sum[2];
+        S_bar[108] += sum[3];
+        S_bar[109] += sum[4];
+        S_bar[110] += sum[5];
+        S_bar[98] += sum[6];
+        S_bar[99] += sum[7];
+        S_bar[100] += sum[8];
+        S_bar[101] += sum[9];
+        S_bar[102] += sum[10];
+        S_bar[103] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_9(factor, point, sum);
+        S_bar[104] += sum[0];
+        S_bar[105] += sum[1];
+        S_bar[106] += sum[2];
+        S_bar[107] += sum[3];
+        S_bar[111] += sum[4];
+        S_bar[118] += sum[5];
+        S_bar[119] += sum[6];
+        S_bar[120] += sum[7];
+        S_bar[121] += sum[8];
+        S_bar[125] += sum[9];
+        S_bar[112] += sum[10];
+        S_bar[113] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_10(factor, point, sum);
+        S_bar[114] += sum[0];
+        S_bar[115] += sum[1];
+        S_bar[116] += sum[2];
+        S_bar[117] += sum[3];
+        S_bar[122] += sum[4];
+        S_bar[123] += sum[5];
+        S_bar[124] += sum[6];
+        S_bar[128] += sum[7];
+        S_bar[129] += sum[8];
+        S_bar[130] += sum[9];
+        S_bar[131] += sum[10];
+        S_bar[136] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_11(factor, point, sum);
+        S_bar[126] += sum[0];
+        S_bar[127] += sum[1];
+        S_bar[132] += sum[2];
+        S_bar[133] += sum[3];
+        S_bar[134] += sum[4];
+        S_bar[135] += sum[5];
+        S_bar[137] += sum[6];
+        S_bar[138] += sum[7];
+        S_bar[139] += sum[8];
+        S_bar[140] += sum[9];
+        S_bar[141] += sum[10];
+        S_bar[146] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_12(factor, point, sum);
+        S_bar[142] += sum[0];
+        S_bar[143] += sum[1];
+        S_bar[144] += sum[2];
+        S_bar[145] += sum[3];
+        S_bar[147] += sum[4];
+        S_bar[148] += sum[5];
+        S_bar[149] += sum[6];
+        S_bar[150] += sum[7];
+        S_bar[151] += sum[8];
+        S_bar[152] += sum[9];
+        S_bar[153] += sum[10];
+        S_bar[156] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_13(factor, point, sum);
+        S_bar[154] += sum[0];
+        S_bar[155] += sum[1];
+        S_bar[157] += sum[2];
+        S_bar[158] += sum[3];
+        S_bar[159] += sum[4];
+        S_bar[160] += sum[5];
+        S_bar[161] += sum[6];
+        S_bar[162] += sum[7];
+        S_bar[163] += sum[8];
+        S_bar[164] += sum[9];
+        S_bar[165] += sum[10];
+        S_bar[166] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_14(factor, point, sum);
+        S_bar[167] += sum[0];
+        S_bar[181] += sum[1];
+        S_bar[168] += sum[2];
+        S_bar[169] += sum[3];
+        S_bar[170] += sum[4];
+        S_bar[171] += sum[5];
+        S_bar[172] += sum[6];
+        S_bar[173] += sum[7];
+        S_bar[174] += sum[8];
+        S_bar[175] += sum[9];
+        S_bar[176] += sum[10];
+        S_bar[177] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_15(factor, point, sum);
+        S_bar[178] += sum[0];
+        S_bar[179] += sum[1];
+        S_bar[180] += sum[2];
+        S_bar[192] += sum[3];
+        S_bar[193] += sum[4];
+        S_bar[194] += sum[5];
+        S_bar[182] += sum[6];
+        S_bar[183] += sum[7];
+        S_bar[184] += sum[8];
+        S_bar[185] += sum[9];
+        S_bar[186] += sum[10];
+        S_bar[187] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_16(factor, point, sum);
+        S_bar[188] += sum[0];
+        S_bar[189] += sum[1];
+        S_bar[190] += sum[2];
+        S_bar[191] += sum[3];
+        S_bar[195] += sum[4];
+        S_bar[202] += sum[5];
+        S_bar[203] += sum[6];
+        S_bar[204] += sum[7];
+        S_bar[205] += sum[8];
+        S_bar[209] += sum[9];
+        S_bar[196] += sum[10];
+        S_bar[197] += sum[11];
+    }
+    {
+        vector sum[7] = {ZERO};
+        pair_products_17(factor, point, sum);
+        S_bar[198] += sum[0];
+        S_bar[199] += sum[1];
+        S_bar[200] += sum[2];
+        S_bar[201] += sum[3];
+        S_bar[206] += sum[4];
+        S_bar[207] += sum[5];
+        S_bar[208] += sum[6];
+    }
+}
+
+/* Adds to S_bar what some vectors of points add to it: factors of 6 vectors at a time, then their products. */
+OUTLINE void splat_sums(const vector *point, size_t count, const double *S, double *S_bar) {
+    vector factor[6 * 57], total[211] = {ZERO};
+    for (size_t start = 0; start < count; start += 6, point += 6 * 29) {
+        const size_t size = count - start < 6 ? count - start : 6;
+        for (size_t b = 0; b < size; ++b) {
+            const vector *at = point + 29 * b;
+            pair_factors(at, S, at + 14, at + 14 + 1, factor + 57 * b);
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_0(factor + 57 * b, point + 29 * b, sum);
+            total[0] += sum[0];
+            total[1] += sum[1];
+            total[2] += sum[2];
+            total[3] += sum[3];
+            total[4] += sum[4];
+            total[5] += sum[5];
+            total[6] += sum[6];
+            total[7] += sum[7];
+            total[8] += sum[8];
+            total[9] += sum[9];
+            total[10] += sum[10];
+            total[11] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_1(factor + 57 * b, point + 29 * b, sum);
+            total[12] += sum[0];
+            total[13] += sum[1];
+            total[210] += sum[2];
+            total[14] += sum[3];
+            total[15] += sum[4];
+            total[16] += sum[5];
+            total[17] += sum[6];
+            total[18] += sum[7];
+            total[19] += sum[8];
+            total[20] += sum[9];
+            total[21] += sum[10];
+            total[22] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_2(factor + 57 * b, point + 29 * b, sum);
+            total[23] += sum[0];
+            total[24] += sum[1];
+            total[25] += sum[2];
+            total[26] += sum[3];
+            total[27] += sum[4];
+            total[37] += sum[5];
+            total[38] += sum[6];
+            total[39] += sum[7];
+            total[40] += sum[8];
+            total[41] += sum[9];
+            total[28] += sum[10];
+            total[29] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_3(factor + 57 * b, point + 29 * b, sum);
+            total[30] += sum[0];
+            total[31] += sum[1];
+            total[32] += sum[2];
+            total[33] += sum[3];
+            total[34] += sum[4];
+            total[35] += sum[5];
+            total[36] += sum[6];
+            total[44] += sum[7];
+            total[45] += sum[8];
+            total[46] += sum[9];
+            total[47] += sum[10];
+            total[48] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_4(factor + 57 * b, point + 29 * b, sum);
+            total[42] += sum[0];
+            total[43] += sum[1];
+            total[49] += sum[2];
+            total[50] += sum[3];
+            total[51] += sum[4];
+            total[52] += sum[5];
+            total[53] += sum[6];
+            total[54] += sum[7];
+            total[55] += sum[8];
+            total[56] += sum[9];
+            total[57] += sum[10];
+            total[63] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_5(factor + 57 * b, point + 29 * b, sum);
+            total[58] += sum[0];
+            total[59] += sum[1];
+            total[60] += sum[2];
+            total[61] += sum[3];
+            total[62] += sum[4];
+            total[64] += sum[5];
+            total[65] += sum[6];
+            total[66] += sum[7];
+            total[67] += sum[8];
+            total[68] += sum[9];
+            total[69] += sum[10];
+            total[72] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_6(factor + 57 * b, point + 29 * b, sum);
+            total[70] += sum[0];
+            total[71] += sum[1];
+            total[73] += sum[2];
+            total[74] += sum[3];
+            total[75] += sum[4];
+            total[76] += sum[5];
+            total[77] += sum[6];
+            total[78] += sum[7];
+            total[79] += sum[8];
+            total[80] += sum[9];
+            total[81] += sum[10];
+            total[82] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_7(factor + 57 * b, point + 29 * b, sum);
+            total[83] += sum[0];
+            total[97] += sum[1];
+            total[84] += sum[2];
+            total[85] += sum[3];
+            total[86] += sum[4];
+            total[87] += sum[5];
+            total[88] += sum[6];
+            total[89] += sum[7];
+            total[90] += sum[8];
+            total[91] += sum[9];
+            total[92] += sum[10];
+            total[93] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_8(factor + 57 * b, point + 29 * b, sum);
+            total[94] += sum[0];
+            total[95] += sum[1];
+            total[96] += sum[2];
+            total[108] += sum[3];
+            total[109] += sum[4];
+            total[110] += sum[5];
+            total[98] += sum[6];
+            total[99] += sum[7];
+            total[100] += sum[8];
+            total[101] += sum[9];
+            total[102] += sum[10];
+            total[103] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_9(factor + 57 * b, point + 29 * b, sum);
+            total[104] += sum[0];
+            total[105] += sum[1];
+            total[106] += sum[2];
+            total[107] += sum[3];
+            total[111] += sum[4];
+            total[118] += sum[5];
+            total[119] += sum[6];
+            total[120] += sum[7];
+            total[121] += sum[8];
+            total[125] += sum[9];
+            total[112] += sum[10];
+            total[113] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_10(factor + 57 * b, point + 29 * b, sum);
+            total[114] += sum[0];
+            total[115] += sum[1];
+            total[116] += sum[2];
+            total[117] += sum[3];
+            total[122] += sum[4];
+            total[123] += sum[5];
+            total[124] += sum[6];
+            total[128] += sum[7];
+            total[129] += sum[8];
+            total[130] += sum[9];
+            total[131] += sum[10];
+            total[136] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_11(factor + 57 * b, point + 29 * b, sum);
+            total[126] += sum[0];
+            total[127] += sum[1];
+            total[132] += sum[2];
+            total[133] += sum[3];
+            total[134] += sum[4];
+            total[135] += sum[5];
+            total[137] += sum[6];
+            total[138] += sum[7];
+            total[139] += sum[8];
+            total[140] += sum[9];
+            total[141] += sum[10];
+            total[146] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_12(factor + 57 * b, point + 29 * b, sum);
+            total[142] += sum[0];
+            total[143] += sum[1];
+            total[144] += sum[2];
+            total[145] += sum[3];
+            total[147] += sum[4];
+            total[148] += sum[5];
+            total[149] += sum[6];
+            total[150] += sum[7];
+            total[151] += sum[8];
+            total[152] += sum[9];
+            total[153] += sum[10];
+            total[156] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_13(factor + 57 * b, point + 29 * b, sum);
+            total[154] += sum[0];
+            total[155] += sum[1];
+            total[157] += sum[2];
+            total[158] += sum[3];
+            total[159] += sum[4];
+            total[160] += sum[5];
+            total[161] += sum[6];
+            total[162] += sum[7];
+            total[163] += sum[8];
+            total[164] += sum[9];
+            total[165] += sum[10];
+            total[166] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_14(factor + 57 * b, point + 29 * b, sum);
+            total[167] += sum[0];
+            total[181] += sum[1];
+            total[168] += sum[2];
+            total[169] += sum[3];
+            total[170] += sum[4];
+            total[171] += sum[5];
+            total[172] += sum[6];
+            total[173] += sum[7];
+            total[174] += sum[8];
+            total[175] += sum[9];
+            total[176] += sum[10];
+            total[177] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_15(factor + 57 * b, point + 29 * b, sum);
+            total[178] += sum[0];
+            total[179] += sum[1];
+            total[180] += sum[2];
+            total[192] += sum[3];
+            total[193] += sum[4];
+            total[194] += sum[5];
+            total[182] += sum[6];
+            total[183] += sum[7];
+            total[184] += sum[8];
+            total[185] += sum[9];
+            total[186] += sum[10];
+            total[187] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_16(factor + 57 * b, point + 29 * b, sum);
+            total[188] += sum[0];
+            total[189] += sum[1];
+            total[190] += sum[2];
+            total[191] += sum[3];
+            total[195] += sum[4];
+            total[202] += sum[5];
+            total[203] += sum[6];
+            total[204] += sum[7];
+            total[205] += sum[8];
+            total[209] += sum[9];
+            total[196] += sum[10];
+            total[197] += sum[11];
+        }
+        {
+            vector sum[7] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_17(factor + 57 * b, point + 29 * b, sum);
+            total[198] += sum[0];
+            total[199] += sum[1];
+            total[200] += sum[2];
+            total[201] += sum[3];
+            total[206] += sum[4];
+            total[207] += sum[5];
+            total[208] += sum[6];
+        }
+    }
+    for (size_t i = 0; i < 211; ++i) S_bar[i] += vector_sum(total[i]);
+}
+
+/*
+ * Some splats at a time; the points pass over each of them, a chunk at a time, while its sums stay in registers. How many
+ * splats depends on the threads, what is summed in which order does not.
+ */
 void dual_arm_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *DUAL_ARM_RESTRICT x,
-    const double *DUAL_ARM_RESTRICT mu,
-    const double *DUAL_ARM_RESTRICT W,
-    const double *DUAL_ARM_RESTRICT amplitude,
-    const double *DUAL_ARM_RESTRICT value_bar,
-    const double *DUAL_ARM_RESTRICT gradient_bar,
-    double *DUAL_ARM_RESTRICT mu_bar,
-    double *DUAL_ARM_RESTRICT W_bar,
-    double *DUAL_ARM_RESTRICT amplitude_bar) {
-    const unsigned mode = flush_denormals();
-    for (size_t i = 0; i < 14 * splat_count; ++i) mu_bar[i] = 0;
-    for (size_t i = 0; i < 196 * splat_count; ++i) W_bar[i] = 0;
-    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        double x_block[14][LANES], value_bar_block[1][LANES], gradient_bar_block[14][LANES];
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            const double weight = lane < lanes ? 1 : 0;
-            for (size_t i = 0; i < 14; ++i) x_block[i][lane] = x[14 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
-            for (size_t i = 0; i < 14; ++i) gradient_bar_block[i][lane] = gradient_bar[14 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
-            for (size_t i = 0; i < 14; ++i) gradient_bar_block[i][lane] *= weight;
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            double sum[211][LANES] = {{0}}, total[211] = {0};
-            const double mu0 = mu[14 * k + 0];
-            const double mu1 = mu[14 * k + 1];
-            const double mu2 = mu[14 * k + 2];
-            const double mu3 = mu[14 * k + 3];
-            const double mu4 = mu[14 * k + 4];
-            const double mu5 = mu[14 * k + 5];
-            const double mu6 = mu[14 * k + 6];
-            const double mu7 = mu[14 * k + 7];
-            const double mu8 = mu[14 * k + 8];
-            const double mu9 = mu[14 * k + 9];
-            const double mu10 = mu[14 * k + 10];
-            const double mu11 = mu[14 * k + 11];
-            const double mu12 = mu[14 * k + 12];
-            const double mu13 = mu[14 * k + 13];
-            const double W0_0 = W[196 * k + 0];
-            const double W0_1 = W[196 * k + 1];
-            const double W0_2 = W[196 * k + 2];
-            const double W0_3 = W[196 * k + 3];
-            const double W0_4 = W[196 * k + 4];
-            const double W0_5 = W[196 * k + 5];
-            const double W0_6 = W[196 * k + 6];
-            const double W0_7 = W[196 * k + 7];
-            const double W0_8 = W[196 * k + 8];
-            const double W0_9 = W[196 * k + 9];
-            const double W0_10 = W[196 * k + 10];
-            const double W0_11 = W[196 * k + 11];
-            const double W0_12 = W[196 * k + 12];
-            const double W0_13 = W[196 * k + 13];
-            const double W1_0 = W[196 * k + 14];
-            const double W1_1 = W[196 * k + 15];
-            const double W1_2 = W[196 * k + 16];
-            const double W1_3 = W[196 * k + 17];
-            const double W1_4 = W[196 * k + 18];
-            const double W1_5 = W[196 * k + 19];
-            const double W1_6 = W[196 * k + 20];
-            const double W1_7 = W[196 * k + 21];
-            const double W1_8 = W[196 * k + 22];
-            const double W1_9 = W[196 * k + 23];
-            const double W1_10 = W[196 * k + 24];
-            const double W1_11 = W[196 * k + 25];
-            const double W1_12 = W[196 * k + 26];
-            const double W1_13 = W[196 * k + 27];
-            const double W2_0 = W[196 * k + 28];
-            const double W2_1 = W[196 * k + 29];
-            const double W2_2 = W[196 * k + 30];
-            const double W2_3 = W[196 * k + 31];
-            const double W2_4 = W[196 * k + 32];
-            const double W2_5 = W[196 * k + 33];
-            const double W2_6 = W[196 * k + 34];
-            const double W2_7 = W[196 * k + 35];
-            const double W2_8 = W[196 * k + 36];
-            const double W2_9 = W[196 * k + 37];
-            const double W2_10 = W[196 * k + 38];
-            const double W2_11 = W[196 * k + 39];
-            const double W2_12 = W[196 * k + 40];
-            const double W2_13 = W[196 * k + 41];
-            const double W3_0 = W[196 * k + 42];
-            const double W3_1 = W[196 * k + 43];
-            const double W3_2 = W[196 * k + 44];
-            const double W3_3 = W[196 * k + 45];
-            const double W3_4 = W[196 * k + 46];
-            const double W3_5 = W[196 * k + 47];
-            const double W3_6 = W[196 * k + 48];
-            const double W3_7 = W[196 * k + 49];
-            const double W3_8 = W[196 * k + 50];
-            const double W3_9 = W[196 * k + 51];
-            const double W3_10 = W[196 * k + 52];
-            const double W3_11 = W[196 * k + 53];
-            const double W3_12 = W[196 * k + 54];
-            const double W3_13 = W[196 * k + 55];
-            const double W4_0 = W[196 * k + 56];
-            const double W4_1 = W[196 * k + 57];
-            const double W4_2 = W[196 * k + 58];
-            const double W4_3 = W[196 * k + 59];
-            const double W4_4 = W[196 * k + 60];
-            const double W4_5 = W[196 * k + 61];
-            const double W4_6 = W[196 * k + 62];
-            const double W4_7 = W[196 * k + 63];
-            const double W4_8 = W[196 * k + 64];
-            const double W4_9 = W[196 * k + 65];
-            const double W4_10 = W[196 * k + 66];
-            const double W4_11 = W[196 * k + 67];
-            const double W4_12 = W[196 * k + 68];
-            const double W4_13 = W[196 * k + 69];
-            const double W5_0 = W[196 * k + 70];
-            const double W5_1 = W[196 * k + 71];
-            const double W5_2 = W[196 * k + 72];
-            const double W5_3 = W[196 * k + 73];
-            const double W5_4 = W[196 * k + 74];
-            const double W5_5 = W[196 * k + 75];
-            const double W5_6 = W[196 * k + 76];
-            const double W5_7 = W[196 * k + 77];
-            const double W5_8 = W[196 * k + 78];
-            const double W5_9 = W[196 * k + 79];
-            const double W5_10 = W[196 * k + 80];
-            const double W5_11 = W[196 * k + 81];
-            const double W5_12 = W[196 * k + 82];
-            const double W5_13 = W[196 * k + 83];
-            const double W6_0 = W[196 * k + 84];
-            const double W6_1 = W[196 * k + 85];
-            const double W6_2 = W[196 * k + 86];
-            const double W6_3 = W[196 * k + 87];
-            const double W6_4 = W[196 * k + 88];
-            const double W6_5 = W[196 * k + 89];
-            const double W6_6 = W[196 * k + 90];
-            const double W6_7 = W[196 * k + 91];
-            const double W6_8 = W[196 * k + 92];
-            const double W6_9 = W[196 * k + 93];
-            const double W6_10 = W[196 * k + 94];
-            const double W6_11 = W[196 * k + 95];
-            const double W6_12 = W[196 * k + 96];
-            const double W6_13 = W[196 * k + 97];
-            const double W7_0 = W[196 * k + 98];
-            const double W7_1 = W[196 * k + 99];
-            const double W7_2 = W[196 * k + 100];
-            const double W7_3 = W[196 * k + 101];
-            const double W7_4 = W[196 * k + 102];
-            const double W7_5 = W[196 * k + 103];
-            const double W7_6 = W[196 * k + 104];
-            const double W7_7 = W[196 * k + 105];
-            const double W7_8 = W[196 * k + 106];
-            const double W7_9 = W[196 * k + 107];
-            const double W7_10 = W[196 * k + 108];
-            const double W7_11 = W[196 * k + 109];
-            const double W7_12 = W[196 * k + 110];
-            const double W7_13 = W[196 * k + 111];
-            const double W8_0 = W[196 * k + 112];
-            const double W8_1 = W[196 * k + 113];
-            const double W8_2 = W[196 * k + 114];
-            const double W8_3 = W[196 * k + 115];
-            const double W8_4 = W[196 * k + 116];
-            const double W8_5 = W[196 * k + 117];
-            const double W8_6 = W[196 * k + 118];
-            const double W8_7 = W[196 * k + 119];
-            const double W8_8 = W[196 * k + 120];
-            const double W8_9 = W[196 * k + 121];
-            const double W8_10 = W[196 * k + 122];
-            const double W8_11 = W[196 * k + 123];
-            const double W8_12 = W[196 * k + 124];
-            const double W8_13 = W[196 * k + 125];
-            const double W9_0 = W[196 * k + 126];
-            const double W9_1 = W[196 * k + 127];
-            const double W9_2 = W[196 * k + 128];
-            const double W9_3 = W[196 * k + 129];
-            const double W9_4 = W[196 * k + 130];
-            const double W9_5 = W[196 * k + 131];
-            const double W9_6 = W[196 * k + 132];
-            const double W9_7 = W[196 * k + 133];
-            const double W9_8 = W[196 * k + 134];
-            const double W9_9 = W[196 * k + 135];
-            const double W9_10 = W[196 * k + 136];
-            const double W9_11 = W[196 * k + 137];
-            const double W9_12 = W[196 * k + 138];
-            const double W9_13 = W[196 * k + 139];
-            const double W10_0 = W[196 * k + 140];
-            const double W10_1 = W[196 * k + 141];
-            const double W10_2 = W[196 * k + 142];
-            const double W10_3 = W[196 * k + 143];
-            const double W10_4 = W[196 * k + 144];
-            const double W10_5 = W[196 * k + 145];
-            const double W10_6 = W[196 * k + 146];
-            const double W10_7 = W[196 * k + 147];
-            const double W10_8 = W[196 * k + 148];
-            const double W10_9 = W[196 * k + 149];
-            const double W10_10 = W[196 * k + 150];
-            const double W10_11 = W[196 * k + 151];
-            const double W10_12 = W[196 * k + 152];
-            const double W10_13 = W[196 * k + 153];
-            const double W11_0 = W[196 * k + 154];
-            const double W11_1 = W[196 * k + 155];
-            const double W11_2 = W[196 * k + 156];
-            const double W11_3 = W[196 * k + 157];
-            const double W11_4 = W[196 * k + 158];
-            const double W11_5 = W[196 * k + 159];
-            const double W11_6 = W[196 * k + 160];
-            const double W11_7 = W[196 * k + 161];
-            const double W11_8 = W[196 * k + 162];
-            const double W11_9 = W[196 * k + 163];
-            const double W11_10 = W[196 * k + 164];
-            const double W11_11 = W[196 * k + 165];
-            const double W11_12 = W[196 * k + 166];
-            const double W11_13 = W[196 * k + 167];
-            const double W12_0 = W[196 * k + 168];
-            const double W12_1 = W[196 * k + 169];
-            const double W12_2 = W[196 * k + 170];
-            const double W12_3 = W[196 * k + 171];
-            const double W12_4 = W[196 * k + 172];
-            const double W12_5 = W[196 * k + 173];
-            const double W12_6 = W[196 * k + 174];
-            const double W12_7 = W[196 * k + 175];
-            const double W12_8 = W[196 * k + 176];
-            const double W12_9 = W[196 * k + 177];
-            const double W12_10 = W[196 * k + 178];
-            const double W12_11 = W[196 * k + 179];
-            const double W12_12 = W[196 * k + 180];
-            const double W12_13 = W[196 * k + 181];
-            const double W13_0 = W[196 * k + 182];
-            const double W13_1 = W[196 * k + 183];
-            const double W13_2 = W[196 * k + 184];
-            const double W13_3 = W[196 * k + 185];
-            const double W13_4 = W[196 * k + 186];
-            const double W13_5 = W[196 * k + 187];
-            const double W13_6 = W[196 * k + 188];
-            const double W13_7 = W[196 * k + 189];
-            const double W13_8 = W[196 * k + 190];
-            const double W13_9 = W[196 * k + 191];
-            const double W13_10 = W[196 * k + 192];
-            const double W13_11 = W[196 * k + 193];
-            const double W13_12 = W[196 * k + 194];
-            const double W13_13 = W[196 * k + 195];
-            const double amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const double gap = x_block[0][lane] - mu0;
-                const double round_2 = rint(0.15915494309189535 * gap);
-                const double v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-                    round_2;
-                const double gap_2 = x_block[1][lane] - mu1;
-                const double round_3 = rint(0.15915494309189535 * gap_2);
-                const double v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-                    round_3;
-                const double gap_3 = x_block[2][lane] - mu2;
-                const double round_4 = rint(0.15915494309189535 * gap_3);
-                const double v2 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
-                    round_4;
-                const double gap_4 = x_block[3][lane] - mu3;
-                const double round_5 = rint(0.15915494309189535 * gap_4);
-                const double v3 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
-                    round_5;
-                const double gap_5 = x_block[4][lane] - mu4;
-                const double round_6 = rint(0.15915494309189535 * gap_5);
-                const double v4 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
-                    round_6;
-                const double gap_6 = x_block[5][lane] - mu5;
-                const double round_7 = rint(0.15915494309189535 * gap_6);
-                const double v5 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
-                    round_7;
-                const double gap_7 = x_block[6][lane] - mu6;
-                const double round_8 = rint(0.15915494309189535 * gap_7);
-                const double v6 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
-                    round_8;
-                const double gap_8 = x_block[7][lane] - mu7;
-                const double round_9 = rint(0.15915494309189535 * gap_8);
-                const double v7 = gap_8 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 *
-                    round_9;
-                const double gap_9 = x_block[8][lane] - mu8;
-                const double round_10 = rint(0.15915494309189535 * gap_9);
-                const double v8 = gap_9 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07 *
-                    round_10;
-                const double gap_10 = x_block[9][lane] - mu9;
-                const double round_11 = rint(0.15915494309189535 * gap_10);
-                const double v9 = gap_10 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07 *
-                    round_11;
-                const double gap_11 = x_block[10][lane] - mu10;
-                const double round_12 = rint(0.15915494309189535 * gap_11);
-                const double v10 = gap_11 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 - 3.019915981956753e-07
-                    * round_12;
-                const double gap_12 = x_block[11][lane] - mu11;
-                const double round_13 = rint(0.15915494309189535 * gap_12);
-                const double v11 = gap_12 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 - 3.019915981956753e-07
-                    * round_13;
-                const double gap_13 = x_block[12][lane] - mu12;
-                const double round_14 = rint(0.15915494309189535 * gap_13);
-                const double v12 = gap_13 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 - 3.019915981956753e-07
-                    * round_14;
-                const double gap_14 = x_block[13][lane] - mu13;
-                const double round_15 = rint(0.15915494309189535 * gap_14);
-                const double v13 = gap_14 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 - 3.019915981956753e-07
-                    * round_15;
-                const double total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-                const double total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
-                const double total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
-                const double z0 = total_4 + W0_13 * v13;
-                const double total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-                const double total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
-                const double total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12;
-                const double z1 = total_7 + W1_13 * v13;
-                const double total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-                const double total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
-                const double total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12;
-                const double z2 = total_10 + W2_13 * v13;
-                const double total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-                const double total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
-                const double total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12;
-                const double z3 = total_13 + W3_13 * v13;
-                const double total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-                const double total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
-                const double total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12;
-                const double z4 = total_16 + W4_13 * v13;
-                const double total_17 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-                const double total_18 = total_17 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
-                const double total_19 = total_18 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12;
-                const double z5 = total_19 + W5_13 * v13;
-                const double total_20 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
-                const double total_21 = total_20 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
-                const double total_22 = total_21 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12;
-                const double z6 = total_22 + W6_13 * v13;
-                const double total_23 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
-                const double total_24 = total_23 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
-                const double total_25 = total_24 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12;
-                const double z7 = total_25 + W7_13 * v13;
-                const double total_26 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
-                const double total_27 = total_26 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
-                const double total_28 = total_27 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12;
-                const double z8 = total_28 + W8_13 * v13;
-                const double total_29 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4;
-                const double total_30 = total_29 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8;
-                const double total_31 = total_30 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12;
-                const double z9 = total_31 + W9_13 * v13;
-                const double total_32 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4;
-                const double total_33 = total_32 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8;
-                const double total_34 = total_33 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12;
-                const double z10 = total_34 + W10_13 * v13;
-                const double total_35 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4;
-                const double total_36 = total_35 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8;
-                const double total_37 = total_36 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12;
-                const double z11 = total_37 + W11_13 * v13;
-                const double total_38 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4;
-                const double total_39 = total_38 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8;
-                const double total_40 = total_39 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12;
-                const double z12 = total_40 + W12_13 * v13;
-                const double total_41 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4;
-                const double total_42 = total_41 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
-                const double total_43 = total_42 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
-                const double z13 = total_43 + W13_13 * v13;
-                const double total_44 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-                const double total_45 = total_44 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-                const double total_46 = total_45 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12;
-                const double exp_2 = exp(-(0.5 * (total_46 + z13 * z13)));
-                const double phi = amplitude_k * exp_2;
-                const double gap_15 = -(W13_13 * z13) - W12_13 * z12 - W11_13 * z11 - W10_13 * z10;
-                const double gap_16 = -(W13_12 * z13) - W12_12 * z12 - W11_12 * z11 - W10_12 * z10;
-                const double gap_17 = -(W13_11 * z13) - W12_11 * z12 - W11_11 * z11 - W10_11 * z10;
-                const double gap_18 = -(W13_10 * z13) - W12_10 * z12 - W11_10 * z11 - W10_10 * z10;
-                const double gap_19 = -(W13_9 * z13) - W12_9 * z12 - W11_9 * z11 - W10_9 * z10;
-                const double gap_20 = -(W13_8 * z13) - W12_8 * z12 - W11_8 * z11 - W10_8 * z10;
-                const double gap_21 = -(W13_7 * z13) - W12_7 * z12 - W11_7 * z11 - W10_7 * z10;
-                const double gap_22 = -(W13_6 * z13) - W12_6 * z12 - W11_6 * z11 - W10_6 * z10;
-                const double gap_23 = -(W13_5 * z13) - W12_5 * z12 - W11_5 * z11 - W10_5 * z10;
-                const double gap_24 = -(W13_4 * z13) - W12_4 * z12 - W11_4 * z11 - W10_4 * z10;
-                const double gap_25 = -(W13_3 * z13) - W12_3 * z12 - W11_3 * z11 - W10_3 * z10;
-                const double gap_26 = -(W13_2 * z13) - W12_2 * z12 - W11_2 * z11 - W10_2 * z10;
-                const double gap_27 = -(W13_1 * z13) - W12_1 * z12 - W11_1 * z11 - W10_1 * z10;
-                const double gap_28 = -(W13_0 * z13) - W12_0 * z12 - W11_0 * z11 - W10_0 * z10;
-                const double gap_29 = gap_15 - W9_13 * z9 - W8_13 * z8 - W7_13 * z7 - W6_13 * z6;
-                const double gap_30 = gap_16 - W9_12 * z9 - W8_12 * z8 - W7_12 * z7 - W6_12 * z6;
-                const double gap_31 = gap_17 - W9_11 * z9 - W8_11 * z8 - W7_11 * z7 - W6_11 * z6;
-                const double gap_32 = gap_18 - W9_10 * z9 - W8_10 * z8 - W7_10 * z7 - W6_10 * z6;
-                const double gap_33 = gap_19 - W9_9 * z9 - W8_9 * z8 - W7_9 * z7 - W6_9 * z6;
-                const double gap_34 = gap_20 - W9_8 * z9 - W8_8 * z8 - W7_8 * z7 - W6_8 * z6;
-                const double gap_35 = gap_21 - W9_7 * z9 - W8_7 * z8 - W7_7 * z7 - W6_7 * z6;
-                const double gap_36 = gap_22 - W9_6 * z9 - W8_6 * z8 - W7_6 * z7 - W6_6 * z6;
-                const double gap_37 = gap_23 - W9_5 * z9 - W8_5 * z8 - W7_5 * z7 - W6_5 * z6;
-                const double gap_38 = gap_24 - W9_4 * z9 - W8_4 * z8 - W7_4 * z7 - W6_4 * z6;
-                const double gap_39 = gap_25 - W9_3 * z9 - W8_3 * z8 - W7_3 * z7 - W6_3 * z6;
-                const double gap_40 = gap_26 - W9_2 * z9 - W8_2 * z8 - W7_2 * z7 - W6_2 * z6;
-                const double gap_41 = gap_27 - W9_1 * z9 - W8_1 * z8 - W7_1 * z7 - W6_1 * z6;
-                const double gap_42 = gap_28 - W9_0 * z9 - W8_0 * z8 - W7_0 * z7 - W6_0 * z6;
-                const double gap_43 = gap_29 - W5_13 * z5 - W4_13 * z4 - W3_13 * z3 - W2_13 * z2;
-                const double gap_44 = gap_30 - W5_12 * z5 - W4_12 * z4 - W3_12 * z3 - W2_12 * z2;
-                const double gap_45 = gap_31 - W5_11 * z5 - W4_11 * z4 - W3_11 * z3 - W2_11 * z2;
-                const double gap_46 = gap_32 - W5_10 * z5 - W4_10 * z4 - W3_10 * z3 - W2_10 * z2;
-                const double gap_47 = gap_33 - W5_9 * z5 - W4_9 * z4 - W3_9 * z3 - W2_9 * z2;
-                const double gap_48 = gap_34 - W5_8 * z5 - W4_8 * z4 - W3_8 * z3 - W2_8 * z2;
-                const double gap_49 = gap_35 - W5_7 * z5 - W4_7 * z4 - W3_7 * z3 - W2_7 * z2;
-                const double gap_50 = gap_36 - W5_6 * z5 - W4_6 * z4 - W3_6 * z3 - W2_6 * z2;
-                const double gap_51 = gap_37 - W5_5 * z5 - W4_5 * z4 - W3_5 * z3 - W2_5 * z2;
-                const double gap_52 = gap_38 - W5_4 * z5 - W4_4 * z4 - W3_4 * z3 - W2_4 * z2;
-                const double gap_53 = gap_39 - W5_3 * z5 - W4_3 * z4 - W3_3 * z3 - W2_3 * z2;
-                const double gap_54 = gap_40 - W5_2 * z5 - W4_2 * z4 - W3_2 * z3 - W2_2 * z2;
-                const double gap_55 = gap_41 - W5_1 * z5 - W4_1 * z4 - W3_1 * z3 - W2_1 * z2;
-                const double gap_56 = gap_42 - W5_0 * z5 - W4_0 * z4 - W3_0 * z3 - W2_0 * z2;
-                const double by_v13 = gap_43 - W1_13 * z1 - W0_13 * z0;
-                const double by_v12 = gap_44 - W1_12 * z1 - W0_12 * z0;
-                const double by_v11 = gap_45 - W1_11 * z1 - W0_11 * z0;
-                const double by_v10 = gap_46 - W1_10 * z1 - W0_10 * z0;
-                const double by_v9 = gap_47 - W1_9 * z1 - W0_9 * z0;
-                const double by_v8 = gap_48 - W1_8 * z1 - W0_8 * z0;
-                const double by_v7 = gap_49 - W1_7 * z1 - W0_7 * z0;
-                const double by_v6 = gap_50 - W1_6 * z1 - W0_6 * z0;
-                const double by_v5 = gap_51 - W1_5 * z1 - W0_5 * z0;
-                const double by_v4 = gap_52 - W1_4 * z1 - W0_4 * z0;
-                const double by_v3 = gap_53 - W1_3 * z1 - W0_3 * z0;
-                const double by_v2 = gap_54 - W1_2 * z1 - W0_2 * z0;
-                const double by_v1 = gap_55 - W1_1 * z1 - W0_1 * z0;
-                const double by_v0 = gap_56 - W1_0 * z1 - W0_0 * z0;
-                const double by_by_v13 = phi * gradient_bar_block[13][lane];
-                const double by_by_v12 = phi * gradient_bar_block[12][lane];
-                const double by_by_v11 = phi * gradient_bar_block[11][lane];
-                const double by_by_v10 = phi * gradient_bar_block[10][lane];
-                const double total_47 = value_bar_block[0][lane] + by_v13 * gradient_bar_block[13][lane] + by_v12 *
-                    gradient_bar_block[12][lane] + by_v11 * gradient_bar_block[11][lane] + by_v10 *
-                    gradient_bar_block[10][lane];
-                const double by_by_v9 = phi * gradient_bar_block[9][lane];
-                const double by_by_v8 = phi * gradient_bar_block[8][lane];
-                const double by_by_v7 = phi * gradient_bar_block[7][lane];
-                const double by_by_v6 = phi * gradient_bar_block[6][lane];
-                const double total_48 = total_47 + by_v9 * gradient_bar_block[9][lane] + by_v8 *
-                    gradient_bar_block[8][lane] + by_v7 * gradient_bar_block[7][lane] + by_v6 *
-                    gradient_bar_block[6][lane];
-                const double by_by_v5 = phi * gradient_bar_block[5][lane];
-                const double by_by_v4 = phi * gradient_bar_block[4][lane];
-                const double by_by_v3 = phi * gradient_bar_block[3][lane];
-                const double by_by_v2 = phi * gradient_bar_block[2][lane];
-                const double total_49 = total_48 + by_v5 * gradient_bar_block[5][lane] + by_v4 *
-                    gradient_bar_block[4][lane] + by_v3 * gradient_bar_block[3][lane] + by_v2 *
-                    gradient_bar_block[2][lane];
-                const double by_by_v1 = phi * gradient_bar_block[1][lane];
-                const double by_by_v0 = phi * gradient_bar_block[0][lane];
-                const double by_phi = total_49 + by_v1 * gradient_bar_block[1][lane] + by_v0 *
-                    gradient_bar_block[0][lane];
-                const double gap_57 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2 - W0_3 * by_by_v3;
-                const double gap_58 = gap_57 - W0_4 * by_by_v4 - W0_5 * by_by_v5 - W0_6 * by_by_v6 - W0_7 * by_by_v7;
-                const double gap_59 = gap_58 - W0_8 * by_by_v8 - W0_9 * by_by_v9 - W0_10 * by_by_v10 - W0_11 * by_by_v11;
-                const double gap_60 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2 - W1_3 * by_by_v3;
-                const double gap_61 = gap_60 - W1_4 * by_by_v4 - W1_5 * by_by_v5 - W1_6 * by_by_v6 - W1_7 * by_by_v7;
-                const double gap_62 = gap_61 - W1_8 * by_by_v8 - W1_9 * by_by_v9 - W1_10 * by_by_v10 - W1_11 * by_by_v11;
-                const double gap_63 = -(W2_0 * by_by_v0) - W2_1 * by_by_v1 - W2_2 * by_by_v2 - W2_3 * by_by_v3;
-                const double gap_64 = gap_63 - W2_4 * by_by_v4 - W2_5 * by_by_v5 - W2_6 * by_by_v6 - W2_7 * by_by_v7;
-                const double gap_65 = gap_64 - W2_8 * by_by_v8 - W2_9 * by_by_v9 - W2_10 * by_by_v10 - W2_11 * by_by_v11;
-                const double gap_66 = -(W3_0 * by_by_v0) - W3_1 * by_by_v1 - W3_2 * by_by_v2 - W3_3 * by_by_v3;
-                const double gap_67 = gap_66 - W3_4 * by_by_v4 - W3_5 * by_by_v5 - W3_6 * by_by_v6 - W3_7 * by_by_v7;
-                const double gap_68 = gap_67 - W3_8 * by_by_v8 - W3_9 * by_by_v9 - W3_10 * by_by_v10 - W3_11 * by_by_v11;
-                const double gap_69 = -(W4_0 * by_by_v0) - W4_1 * by_by_v1 - W4_2 * by_by_v2 - W4_3 * by_by_v3;
-                const double gap_70 = gap_69 - W4_4 * by_by_v4 - W4_5 * by_by_v5 - W4_6 * by_by_v6 - W4_7 * by_by_v7;
-                const double gap_71 = gap_70 - W4_8 * by_by_v8 - W4_9 * by_by_v9 - W4_10 * by_by_v10 - W4_11 * by_by_v11;
-                const double gap_72 = -(W5_0 * by_by_v0) - W5_1 * by_by_v1 - W5_2 * by_by_v2 - W5_3 * by_by_v3;
-                const double gap_73 = gap_72 - W5_4 * by_by_v4 - W5_5 * by_by_v5 - W5_6 * by_by_v6 - W5_7 * by_by_v7;
-                const double gap_74 = gap_73 - W5_8 * by_by_v8 - W5_9 * by_by_v9 - W5_10 * by_by_v10 - W5_11 * by_by_v11;
-                const double gap_75 = -(W6_0 * by_by_v0) - W6_1 * by_by_v1 - W6_2 * by_by_v2 - W6_3 * by_by_v3;
-                const double gap_76 = gap_75 - W6_4 * by_by_v4 - W6_5 * by_by_v5 - W6_6 * by_by_v6 - W6_7 * by_by_v7;
-                const double gap_77 = gap_76 - W6_8 * by_by_v8 - W6_9 * by_by_v9 - W6_10 * by_by_v10 - W6_11 * by_by_v11;
-                const double gap_78 = -(W7_0 * by_by_v0) - W7_1 * by_by_v1 - W7_2 * by_by_v2 - W7_3 * by_by_v3;
-                const double gap_79 = gap_78 - W7_4 * by_by_v4 - W7_5 * by_by_v5 - W7_6 * by_by_v6 - W7_7 * by_by_v7;
-                const double gap_80 = gap_79 - W7_8 * by_by_v8 - W7_9 * by_by_v9 - W7_10 * by_by_v10 - W7_11 * by_by_v11;
-                const double gap_81 = -(W8_0 * by_by_v0) - W8_1 * by_by_v1 - W8_2 * by_by_v2 - W8_3 * by_by_v3;
-                const double gap_82 = gap_81 - W8_4 * by_by_v4 - W8_5 * by_by_v5 - W8_6 * by_by_v6 - W8_7 * by_by_v7;
-                const double gap_83 = gap_82 - W8_8 * by_by_v8 - W8_9 * by_by_v9 - W8_10 * by_by_v10 - W8_11 * by_by_v11;
-                const double gap_84 = -(W9_0 * by_by_v0) - W9_1 * by_by_v1 - W9_2 * by_by_v2 - W9_3 * by_by_v3;
-                const double gap_85 = gap_84 - W9_4 * by_by_v4 - W9_5 * by_by_v5 - W9_6 * by_by_v6 - W9_7 * by_by_v7;
-                const double gap_86 = gap_85 - W9_8 * by_by_v8 - W9_9 * by_by_v9 - W9_10 * by_by_v10 - W9_11 * by_by_v11;
-                const double gap_87 = -(W10_0 * by_by_v0) - W10_1 * by_by_v1 - W10_2 * by_by_v2 - W10_3 * by_by_v3;
-                const double gap_88 = gap_87 - W10_4 * by_by_v4 - W10_5 * by_by_v5 - W10_6 * by_by_v6 - W10_7 * by_by_v7;
-                const double gap_89 = gap_88 - W10_8 * by_by_v8 - W10_9 * by_by_v9 - W10_10 * by_by_v10 - W10_11 *
-                    by_by_v11;
-                const double gap_90 = -(W11_0 * by_by_v0) - W11_1 * by_by_v1 - W11_2 * by_by_v2 - W11_3 * by_by_v3;
-                const double gap_91 = gap_90 - W11_4 * by_by_v4 - W11_5 * by_by_v5 - W11_6 * by_by_v6 - W11_7 * by_by_v7;
-                const double gap_92 = gap_91 - W11_8 * by_by_v8 - W11_9 * by_by_v9 - W11_10 * by_by_v10 - W11_11 *
-                    by_by_v11;
-                const double gap_93 = -(W12_0 * by_by_v0) - W12_1 * by_by_v1 - W12_2 * by_by_v2 - W12_3 * by_by_v3;
-                const double gap_94 = gap_93 - W12_4 * by_by_v4 - W12_5 * by_by_v5 - W12_6 * by_by_v6 - W12_7 * by_by_v7;
-                const double gap_95 = gap_94 - W12_8 * by_by_v8 - W12_9 * by_by_v9 - W12_10 * by_by_v10 - W12_11 *
-                    by_by_v11;
-                const double gap_96 = -(W13_0 * by_by_v0) - W13_1 * by_by_v1 - W13_2 * by_by_v2 - W13_3 * by_by_v3;
-                const double gap_97 = gap_96 - W13_4 * by_by_v4 - W13_5 * by_by_v5 - W13_6 * by_by_v6 - W13_7 * by_by_v7;
-                const double gap_98 = gap_97 - W13_8 * by_by_v8 - W13_9 * by_by_v9 - W13_10 * by_by_v10 - W13_11 *
-                    by_by_v11;
-                const double product = exp_2 * (amplitude_k * by_phi);
-                const double by_z13 = gap_98 - W13_12 * by_by_v12 - W13_13 * by_by_v13 - z13 * product;
-                const double by_z12 = gap_95 - W12_12 * by_by_v12 - W12_13 * by_by_v13 - z12 * product;
-                const double by_z11 = gap_92 - W11_12 * by_by_v12 - W11_13 * by_by_v13 - z11 * product;
-                const double by_z10 = gap_89 - W10_12 * by_by_v12 - W10_13 * by_by_v13 - z10 * product;
-                const double by_z9 = gap_86 - W9_12 * by_by_v12 - W9_13 * by_by_v13 - z9 * product;
-                const double by_z8 = gap_83 - W8_12 * by_by_v12 - W8_13 * by_by_v13 - z8 * product;
-                const double by_z7 = gap_80 - W7_12 * by_by_v12 - W7_13 * by_by_v13 - z7 * product;
-                const double by_z6 = gap_77 - W6_12 * by_by_v12 - W6_13 * by_by_v13 - z6 * product;
-                const double by_z5 = gap_74 - W5_12 * by_by_v12 - W5_13 * by_by_v13 - z5 * product;
-                const double by_z4 = gap_71 - W4_12 * by_by_v12 - W4_13 * by_by_v13 - z4 * product;
-                const double by_z3 = gap_68 - W3_12 * by_by_v12 - W3_13 * by_by_v13 - z3 * product;
-                const double by_z2 = gap_65 - W2_12 * by_by_v12 - W2_13 * by_by_v13 - z2 * product;
-                const double by_z1 = gap_62 - W1_12 * by_by_v12 - W1_13 * by_by_v13 - z1 * product;
-                const double by_z0 = gap_59 - W0_12 * by_by_v12 - W0_13 * by_by_v13 - z0 * product;
-                const double total_50 = W13_13 * by_z13 + W12_13 * by_z12 + W11_13 * by_z11 + W10_13 * by_z10 + W9_13 *
-                    by_z9;
-                const double total_51 = W13_12 * by_z13 + W12_12 * by_z12 + W11_12 * by_z11 + W10_12 * by_z10 + W9_12 *
-                    by_z9;
-                const double total_52 = W13_11 * by_z13 + W12_11 * by_z12 + W11_11 * by_z11 + W10_11 * by_z10 + W9_11 *
-                    by_z9;
-                const double total_53 = W13_10 * by_z13 + W12_10 * by_z12 + W11_10 * by_z11 + W10_10 * by_z10 + W9_10 *
-                    by_z9;
-                const double total_54 = W13_9 * by_z13 + W12_9 * by_z12 + W11_9 * by_z11 + W10_9 * by_z10 + W9_9 * by_z9;
-                const double total_55 = W13_8 * by_z13 + W12_8 * by_z12 + W11_8 * by_z11 + W10_8 * by_z10 + W9_8 * by_z9;
-                const double total_56 = W13_7 * by_z13 + W12_7 * by_z12 + W11_7 * by_z11 + W10_7 * by_z10 + W9_7 * by_z9;
-                const double total_57 = W13_6 * by_z13 + W12_6 * by_z12 + W11_6 * by_z11 + W10_6 * by_z10 + W9_6 * by_z9;
-                const double total_58 = W13_5 * by_z13 + W12_5 * by_z12 + W11_5 * by_z11 + W10_5 * by_z10 + W9_5 * by_z9;
-                const double total_59 = W13_4 * by_z13 + W12_4 * by_z12 + W11_4 * by_z11 + W10_4 * by_z10 + W9_4 * by_z9;
-                const double total_60 = W13_3 * by_z13 + W12_3 * by_z12 + W11_3 * by_z11 + W10_3 * by_z10 + W9_3 * by_z9;
-                const double total_61 = W13_2 * by_z13 + W12_2 * by_z12 + W11_2 * by_z11 + W10_2 * by_z10 + W9_2 * by_z9;
-                const double total_62 = W13_1 * by_z13 + W12_1 * by_z12 + W11_1 * by_z11 + W10_1 * by_z10 + W9_1 * by_z9;
-                const double total_63 = W13_0 * by_z13 + W12_0 * by_z12 + W11_0 * by_z11 + W10_0 * by_z10 + W9_0 * by_z9;
-                const double total_64 = total_50 + W8_13 * by_z8 + W7_13 * by_z7 + W6_13 * by_z6 + W5_13 * by_z5;
-                const double total_65 = total_51 + W8_12 * by_z8 + W7_12 * by_z7 + W6_12 * by_z6 + W5_12 * by_z5;
-                const double total_66 = total_52 + W8_11 * by_z8 + W7_11 * by_z7 + W6_11 * by_z6 + W5_11 * by_z5;
-                const double total_67 = total_53 + W8_10 * by_z8 + W7_10 * by_z7 + W6_10 * by_z6 + W5_10 * by_z5;
-                const double total_68 = total_54 + W8_9 * by_z8 + W7_9 * by_z7 + W6_9 * by_z6 + W5_9 * by_z5;
-                const double total_69 = total_55 + W8_8 * by_z8 + W7_8 * by_z7 + W6_8 * by_z6 + W5_8 * by_z5;
-                const double total_70 = total_56 + W8_7 * by_z8 + W7_7 * by_z7 + W6_7 * by_z6 + W5_7 * by_z5;
-                const double total_71 = total_57 + W8_6 * by_z8 + W7_6 * by_z7 + W6_6 * by_z6 + W5_6 * by_z5;
-                const double total_72 = total_58 + W8_5 * by_z8 + W7_5 * by_z7 + W6_5 * by_z6 + W5_5 * by_z5;
-                const double total_73 = total_59 + W8_4 * by_z8 + W7_4 * by_z7 + W6_4 * by_z6 + W5_4 * by_z5;
-                const double total_74 = total_60 + W8_3 * by_z8 + W7_3 * by_z7 + W6_3 * by_z6 + W5_3 * by_z5;
-                const double total_75 = total_61 + W8_2 * by_z8 + W7_2 * by_z7 + W6_2 * by_z6 + W5_2 * by_z5;
-                const double total_76 = total_62 + W8_1 * by_z8 + W7_1 * by_z7 + W6_1 * by_z6 + W5_1 * by_z5;
-                const double total_77 = total_63 + W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5;
-                const double total_78 = total_64 + W4_13 * by_z4 + W3_13 * by_z3 + W2_13 * by_z2 + W1_13 * by_z1;
-                const double total_79 = total_65 + W4_12 * by_z4 + W3_12 * by_z3 + W2_12 * by_z2 + W1_12 * by_z1;
-                const double total_80 = total_66 + W4_11 * by_z4 + W3_11 * by_z3 + W2_11 * by_z2 + W1_11 * by_z1;
-                const double total_81 = total_67 + W4_10 * by_z4 + W3_10 * by_z3 + W2_10 * by_z2 + W1_10 * by_z1;
-                const double total_82 = total_68 + W4_9 * by_z4 + W3_9 * by_z3 + W2_9 * by_z2 + W1_9 * by_z1;
-                const double total_83 = total_69 + W4_8 * by_z4 + W3_8 * by_z3 + W2_8 * by_z2 + W1_8 * by_z1;
-                const double total_84 = total_70 + W4_7 * by_z4 + W3_7 * by_z3 + W2_7 * by_z2 + W1_7 * by_z1;
-                const double total_85 = total_71 + W4_6 * by_z4 + W3_6 * by_z3 + W2_6 * by_z2 + W1_6 * by_z1;
-                const double total_86 = total_72 + W4_5 * by_z4 + W3_5 * by_z3 + W2_5 * by_z2 + W1_5 * by_z1;
-                const double total_87 = total_73 + W4_4 * by_z4 + W3_4 * by_z3 + W2_4 * by_z2 + W1_4 * by_z1;
-                const double total_88 = total_74 + W4_3 * by_z4 + W3_3 * by_z3 + W2_3 * by_z2 + W1_3 * by_z1;
-                const double total_89 = total_75 + W4_2 * by_z4 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1;
-                const double total_90 = total_76 + W4_1 * by_z4 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1;
-                const double total_91 = total_77 + W4_0 * by_z4 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1;
-                const double by_v13_2 = total_78 + W0_13 * by_z0;
-                const double by_v12_2 = total_79 + W0_12 * by_z0;
-                const double by_v11_2 = total_80 + W0_11 * by_z0;
-                const double by_v10_2 = total_81 + W0_10 * by_z0;
-                const double by_v9_2 = total_82 + W0_9 * by_z0;
-                const double by_v8_2 = total_83 + W0_8 * by_z0;
-                const double by_v7_2 = total_84 + W0_7 * by_z0;
-                const double by_v6_2 = total_85 + W0_6 * by_z0;
-                const double by_v5_2 = total_86 + W0_5 * by_z0;
-                const double by_v4_2 = total_87 + W0_4 * by_z0;
-                const double by_v3_2 = total_88 + W0_3 * by_z0;
-                const double by_v2_2 = total_89 + W0_2 * by_z0;
-                const double by_v1_2 = total_90 + W0_1 * by_z0;
-                const double by_v0_2 = total_91 + W0_0 * by_z0;
-                sum[0][lane] += -by_v0_2;
-                sum[1][lane] += -by_v1_2;
-                sum[2][lane] += -by_v2_2;
-                sum[3][lane] += -by_v3_2;
-                sum[4][lane] += -by_v4_2;
-                sum[5][lane] += -by_v5_2;
-                sum[6][lane] += -by_v6_2;
-                sum[7][lane] += -by_v7_2;
-                sum[8][lane] += -by_v8_2;
-                sum[9][lane] += -by_v9_2;
-                sum[10][lane] += -by_v10_2;
-                sum[11][lane] += -by_v11_2;
-                sum[12][lane] += -by_v12_2;
-                sum[13][lane] += -by_v13_2;
-                sum[14][lane] += v0 * by_z0 - z0 * by_by_v0;
-                sum[15][lane] += v1 * by_z0 - z0 * by_by_v1;
-                sum[16][lane] += v2 * by_z0 - z0 * by_by_v2;
-                sum[17][lane] += v3 * by_z0 - z0 * by_by_v3;
-                sum[18][lane] += v4 * by_z0 - z0 * by_by_v4;
-                sum[19][lane] += v5 * by_z0 - z0 * by_by_v5;
-                sum[20][lane] += v6 * by_z0 - z0 * by_by_v6;
-                sum[21][lane] += v7 * by_z0 - z0 * by_by_v7;
-                sum[22][lane] += v8 * by_z0 - z0 * by_by_v8;
-                sum[23][lane] += v9 * by_z0 - z0 * by_by_v9;
-                sum[24][lane] += v10 * by_z0 - z0 * by_by_v10;
-                sum[25][lane] += v11 * by_z0 - z0 * by_by_v11;
-                sum[26][lane] += v12 * by_z0 - z0 * by_by_v12;
-                sum[27][lane] += v13 * by_z0 - z0 * by_by_v13;
-                sum[28][lane] += v0 * by_z1 - z1 * by_by_v0;
-                sum[29][lane] += v1 * by_z1 - z1 * by_by_v1;
-                sum[30][lane] += v2 * by_z1 - z1 * by_by_v2;
-                sum[31][lane] += v3 * by_z1 - z1 * by_by_v3;
-                sum[32][lane] += v4 * by_z1 - z1 * by_by_v4;
-                sum[33][lane] += v5 * by_z1 - z1 * by_by_v5;
-                sum[34][lane] += v6 * by_z1 - z1 * by_by_v6;
-                sum[35][lane] += v7 * by_z1 - z1 * by_by_v7;
-                sum[36][lane] += v8 * by_z1 - z1 * by_by_v8;
-                sum[37][lane] += v9 * by_z1 - z1 * by_by_v9;
-                sum[38][lane] += v10 * by_z1 - z1 * by_by_v10;
-                sum[39][lane] += v11 * by_z1 - z1 * by_by_v11;
-                sum[40][lane] += v12 * by_z1 - z1 * by_by_v12;
-                sum[41][lane] += v13 * by_z1 - z1 * by_by_v13;
-                sum[42][lane] += v0 * by_z2 - z2 * by_by_v0;
-                sum[43][lane] += v1 * by_z2 - z2 * by_by_v1;
-                sum[44][lane] += v2 * by_z2 - z2 * by_by_v2;
-                sum[45][lane] += v3 * by_z2 - z2 * by_by_v3;
-                sum[46][lane] += v4 * by_z2 - z2 * by_by_v4;
-                sum[47][lane] += v5 * by_z2 - z2 * by_by_v5;
-                sum[48][lane] += v6 * by_z2 - z2 * by_by_v6;
-                sum[49][lane] += v7 * by_z2 - z2 * by_by_v7;
-                sum[50][lane] += v8 * by_z2 - z2 * by_by_v8;
-                sum[51][lane] += v9 * by_z2 - z2 * by_by_v9;
-                sum[52][lane] += v10 * by_z2 - z2 * by_by_v10;
-                sum[53][lane] += v11 * by_z2 - z2 * by_by_v11;
-                sum[54][lane] += v12 * by_z2 - z2 * by_by_v12;
-                sum[55][lane] += v13 * by_z2 - z2 * by_by_v13;
-                sum[56][lane] += v0 * by_z3 - z3 * by_by_v0;
-                sum[57][lane] += v1 * by_z3 - z3 * by_by_v1;
-                sum[58][lane] += v2 * by_z3 - z3 * by_by_v2;
-                sum[59][lane] += v3 * by_z3 - z3 * by_by_v3;
-                sum[60][lane] += v4 * by_z3 - z3 * by_by_v4;
-                sum[61][lane] += v5 * by_z3 - z3 * by_by_v5;
-                sum[62][lane] += v6 * by_z3 - z3 * by_by_v6;
-                sum[63][lane] += v7 * by_z3 - z3 * by_by_v7;
-                sum[64][lane] += v8 * by_z3 - z3 * by_by_v8;
-                sum[65][lane] += v9 * by_z3 - z3 * by_by_v9;
-                sum[66][lane] += v10 * by_z3 - z3 * by_by_v10;
-                sum[67][lane] += v11 * by_z3 - z3 * by_by_v11;
-                sum[68][lane] += v12 * by_z3 - z3 * by_by_v12;
-                sum[69][lane] += v13 * by_z3 - z3 * by_by_v13;
-                sum[70][lane] += v0 * by_z4 - z4 * by_by_v0;
-                sum[71][lane] += v1 * by_z4 - z4 * by_by_v1;
-                sum[72][lane] += v2 * by_z4 - z4 * by_by_v2;
-                sum[73][lane] += v3 * by_z4 - z4 * by_by_v3;
-                sum[74][lane] += v4 * by_z4 - z4 * by_by_v4;
-                sum[75][lane] += v5 * by_z4 - z4 * by_by_v5;
-                sum[76][lane] += v6 * by_z4 - z4 * by_by_v6;
-                sum[77][lane] += v7 * by_z4 - z4 * by_by_v7;
-                sum[78][lane] += v8 * by_z4 - z4 * by_by_v8;
-                sum[79][lane] += v9 * by_z4 - z4 * by_by_v9;
-                sum[80][lane] += v10 * by_z4 - z4 * by_by_v10;
-                sum[81][lane] += v11 * by_z4 - z4 * by_by_v11;
-                sum[82][lane] += v12 * by_z4 - z4 * by_by_v12;
-                sum[83][lane] += v13 * by_z4 - z4 * by_by_v13;
-                sum[84][lane] += v0 * by_z5 - z5 * by_by_v0;
-                sum[85][lane] += v1 * by_z5 - z5 * by_by_v1;
-                sum[86][lane] += v2 * by_z5 - z5 * by_by_v2;
-                sum[87][lane] += v3 * by_z5 - z5 * by_by_v3;
-                sum[88][lane] += v4 * by_z5 - z5 * by_by_v4;
-                sum[89][lane] += v5 * by_z5 - z5 * by_by_v5;
-                sum[90][lane] += v6 * by_z5 - z5 * by_by_v6;
-                sum[91][lane] += v7 * by_z5 - z5 * by_by_v7;
-                sum[92][lane] += v8 * by_z5 - z5 * by_by_v8;
-                sum[93][lane] += v9 * by_z5 - z5 * by_by_v9;
-                sum[94][lane] += v10 * by_z5 - z5 * by_by_v10;
-                sum[95][lane] += v11 * by_z5 - z5 * by_by_v11;
-                sum[96][lane] += v12 * by_z5 - z5 * by_by_v12;
-                sum[97][lane] += v13 * by_z5 - z5 * by_by_v13;
-                sum[98][lane] += v0 * by_z6 - z6 * by_by_v0;
-                sum[99][lane] += v1 * by_z6 - z6 * by_by_v1;
-                sum[100][lane] += v2 * by_z6 - z6 * by_by_v2;
-                sum[101][lane] += v3 * by_z6 - z6 * by_by_v3;
-                sum[102][lane] += v4 * by_z6 - z6 * by_by_v4;
-                sum[103][lane] += v5 * by_z6 - z6 * by_by_v5;
-                sum[104][lane] += v6 * by_z6 - z6 * by_by_v6;
-                sum[105][lane] += v7 * by_z6 - z6 * by_by_v7;
-                sum[106][lane] += v8 * by_z6 - z6 * by_by_v8;
-                sum[107][lane] += v9 * by_z6 - z6 * by_by_v9;
-                sum[108][lane] += v10 * by_z6 - z6 * by_by_v10;
-                sum[109][lane] += v11 * by_z6 - z6 * by_by_v11;
-                sum[110][lane] += v12 * by_z6 - z6 * by_by_v12;
-                sum[111][lane] += v13 * by_z6 - z6 * by_by_v13;
-                sum[112][lane] += v0 * by_z7 - z7 * by_by_v0;
-                sum[113][lane] += v1 * by_z7 - z7 * by_by_v1;
-                sum[114][lane] += v2 * by_z7 - z7 * by_by_v2;
-                sum[115][lane] += v3 * by_z7 - z7 * by_by_v3;
-                sum[116][lane] += v4 * by_z7 - z7 * by_by_v4;
-                sum[117][lane] += v5 * by_z7 - z7 * by_by_v5;
-                sum[118][lane] += v6 * by_z7 - z7 * by_by_v6;
-                sum[119][lane] += v7 * by_z7 - z7 * by_by_v7;
-                sum[120][lane] += v8 * by_z7 - z7 * by_by_v8;
-                sum[121][lane] += v9 * by_z7 - z7 * by_by_v9;
-                sum[122][lane] += v10 * by_z7 - z7 * by_by_v10;
-                sum[123][lane] += v11 * by_z7 - z7 * by_by_v11;
-                sum[124][lane] += v12 * by_z7 - z7 * by_by_v12;
-                sum[125][lane] += v13 * by_z7 - z7 * by_by_v13;
-                sum[126][lane] += v0 * by_z8 - z8 * by_by_v0;
-                sum[127][lane] += v1 * by_z8 - z8 * by_by_v1;
-                sum[128][lane] += v2 * by_z8 - z8 * by_by_v2;
-                sum[129][lane] += v3 * by_z8 - z8 * by_by_v3;
-                sum[130][lane] += v4 * by_z8 - z8 * by_by_v4;
-                sum[131][lane] += v5 * by_z8 - z8 * by_by_v5;
-                sum[132][lane] += v6 * by_z8 - z8 * by_by_v6;
-                sum[133][lane] += v7 * by_z8 - z8 * by_by_v7;
-                sum[134][lane] += v8 * by_z8 - z8 * by_by_v8;
-                sum[135][lane] += v9 * by_z8 - z8 * by_by_v9;
-                sum[136][lane] += v10 * by_z8 - z8 * by_by_v10;
-                sum[137][lane] += v11 * by_z8 - z8 * by_by_v11;
-                sum[138][lane] += v12 * by_z8 - z8 * by_by_v12;
-                sum[139][lane] += v13 * by_z8 - z8 * by_by_v13;
-                sum[140][lane] += v0 * by_z9 - z9 * by_by_v0;
-                sum[141][lane] += v1 * by_z9 - z9 * by_by_v1;
-                sum[142][lane] += v2 * by_z9 - z9 * by_by_v2;
-                sum[143][lane] += v3 * by_z9 - z9 * by_by_v3;
-                sum[144][lane] += v4 * by_z9 - z9 * by_by_v4;
-                sum[145][lane] += v5 * by_z9 - z9 * by_by_v5;
-                sum[146][lane] += v6 * by_z9 - z9 * by_by_v6;
-                sum[147][lane] += v7 * by_z9 - z9 * by_by_v7;
-                sum[148][lane] += v8 * by_z9 - z9 * by_by_v8;
-                sum[149][lane] += v9 * by_z9 - z9 * by_by_v9;
-                sum[150][lane] += v10 * by_z9 - z9 * by_by_v10;
-                sum[151][lane] += v11 * by_z9 - z9 * by_by_v11;
-                sum[152][lane] += v12 * by_z9 - z9 * by_by_v12;
-                sum[153][lane] += v13 * by_z9 - z9 * by_by_v13;
-                sum[154][lane] += v0 * by_z10 - z10 * by_by_v0;
-                sum[155][lane] += v1 * by_z10 - z10 * by_by_v1;
-                sum[156][lane] += v2 * by_z10 - z10 * by_by_v2;
-                sum[157][lane] += v3 * by_z10 - z10 * by_by_v3;
-                sum[158][lane] += v4 * by_z10 - z10 * by_by_v4;
-                sum[159][lane] += v5 * by_z10 - z10 * by_by_v5;
-                sum[160][lane] += v6 * by_z10 - z10 * by_by_v6;
-                sum[161][lane] += v7 * by_z10 - z10 * by_by_v7;
-                sum[162][lane] += v8 * by_z10 - z10 * by_by_v8;
-                sum[163][lane] += v9 * by_z10 - z10 * by_by_v9;
-                sum[164][lane] += v10 * by_z10 - z10 * by_by_v10;
-                sum[165][lane] += v11 * by_z10 - z10 * by_by_v11;
-                sum[166][lane] += v12 * by_z10 - z10 * by_by_v12;
-                sum[167][lane] += v13 * by_z10 - z10 * by_by_v13;
-                sum[168][lane] += v0 * by_z11 - z11 * by_by_v0;
-                sum[169][lane] += v1 * by_z11 - z11 * by_by_v1;
-                sum[170][lane] += v2 * by_z11 - z11 * by_by_v2;
-                sum[171][lane] += v3 * by_z11 - z11 * by_by_v3;
-                sum[172][lane] += v4 * by_z11 - z11 * by_by_v4;
-                sum[173][lane] += v5 * by_z11 - z11 * by_by_v5;
-                sum[174][lane] += v6 * by_z11 - z11 * by_by_v6;
-                sum[175][lane] += v7 * by_z11 - z11 * by_by_v7;
-                sum[176][lane] += v8 * by_z11 - z11 * by_by_v8;
-                sum[177][lane] += v9 * by_z11 - z11 * by_by_v9;
-                sum[178][lane] += v10 * by_z11 - z11 * by_by_v10;
-                sum[179][lane] += v11 * by_z11 - z11 * by_by_v11;
-                sum[180][lane] += v12 * by_z11 - z11 * by_by_v12;
-                sum[181][lane] += v13 * by_z11 - z11 * by_by_v13;
-                sum[182][lane] += v0 * by_z12 - z12 * by_by_v0;
-                sum[183][lane] += v1 * by_z12 - z12 * by_by_v1;
-                sum[184][lane] += v2 * by_z12 - z12 * by_by_v2;
-                sum[185][lane] += v3 * by_z12 - z12 * by_by_v3;
-                sum[186][lane] += v4 * by_z12 - z12 * by_by_v4;
-                sum[187][lane] += v5 * by_z12 - z12 * by_by_v5;
-                sum[188][lane] += v6 * by_z12 - z12 * by_by_v6;
-                sum[189][lane] += v7 * by_z12 - z12 * by_by_v7;
-                sum[190][lane] += v8 * by_z12 - z12 * by_by_v8;
-                sum[191][lane] += v9 * by_z12 - z12 * by_by_v9;
-                sum[192][lane] += v10 * by_z12 - z12 * by_by_v10;
-                sum[193][lane] += v11 * by_z12 - z12 * by_by_v11;
-                sum[194][lane] += v12 * by_z12 - z12 * by_by_v12;
-                sum[195][lane] += v13 * by_z12 - z12 * by_by_v13;
-                sum[196][lane] += v0 * by_z13 - z13 * by_by_v0;
-                sum[197][lane] += v1 * by_z13 - z13 * by_by_v1;
-                sum[198][lane] += v2 * by_z13 - z13 * by_by_v2;
-                sum[199][lane] += v3 * by_z13 - z13 * by_by_v3;
-                sum[200][lane] += v4 * by_z13 - z13 * by_by_v4;
-                sum[201][lane] += v5 * by_z13 - z13 * by_by_v5;
-                sum[202][lane] += v6 * by_z13 - z13 * by_by_v6;
-                sum[203][lane] += v7 * by_z13 - z13 * by_by_v7;
-                sum[204][lane] += v8 * by_z13 - z13 * by_by_v8;
-                sum[205][lane] += v9 * by_z13 - z13 * by_by_v9;
-                sum[206][lane] += v10 * by_z13 - z13 * by_by_v10;
-                sum[207][lane] += v11 * by_z13 - z13 * by_by_v11;
-                sum[208][lane] += v12 * by_z13 - z13 * by_by_v12;
-                sum[209][lane] += v13 * by_z13 - z13 * by_by_v13;
-                sum[210][lane] += exp_2 * by_phi;
+    size_t count, size_t splat_count, const double *DUAL_ARM_RESTRICT x, const double *DUAL_ARM_RESTRICT mu, const double *DUAL_ARM_RESTRICT W, const double *DUAL_ARM_RESTRICT amplitude, const double *DUAL_ARM_RESTRICT value_bar, const double *DUAL_ARM_RESTRICT gradient_bar,
+    double *DUAL_ARM_RESTRICT mu_bar, double *DUAL_ARM_RESTRICT W_bar, double *DUAL_ARM_RESTRICT amplitude_bar, double *DUAL_ARM_RESTRICT work, int threads) {
+    const size_t blocks = (count + LANES - 1) / LANES;
+    const size_t chunk = 131072 / (29 * sizeof(vector)) + 1;
+    const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
+    const size_t share = part < LANES ? part : LANES;
+    vector *points = work_points(work);
+    double *constants = work_constants(work, count);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic) nowait)
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic, 8))
+        for (size_t block = 0; block < blocks; ++block)
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 29 * block);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += share) {
+            const size_t end = start + share < splat_count ? start + share : splat_count;
+            double sums[LANES][211] = {{0}};
+            vector own_mu[14], own_W[196], own_amplitude[1], S_bar[211], bars[211];
+            for (size_t first = 0; first < blocks; first += chunk) {
+                const size_t size = first + chunk < blocks ? chunk : blocks - first;
+                for (size_t k = start; k < end; ++k)
+                    splat_sums(points + 29 * first, size, constants + 211 * k, sums[k - start]);
             }
-            for (size_t i = 0; i < 211; ++i)
-                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
-            mu_bar[14 * k + 0] += total[0];
-            mu_bar[14 * k + 1] += total[1];
-            mu_bar[14 * k + 2] += total[2];
-            mu_bar[14 * k + 3] += total[3];
-            mu_bar[14 * k + 4] += total[4];
-            mu_bar[14 * k + 5] += total[5];
-            mu_bar[14 * k + 6] += total[6];
-            mu_bar[14 * k + 7] += total[7];
-            mu_bar[14 * k + 8] += total[8];
-            mu_bar[14 * k + 9] += total[9];
-            mu_bar[14 * k + 10] += total[10];
-            mu_bar[14 * k + 11] += total[11];
-            mu_bar[14 * k + 12] += total[12];
-            mu_bar[14 * k + 13] += total[13];
-            W_bar[196 * k + 0] += total[14];
-            W_bar[196 * k + 1] += total[15];
-            W_bar[196 * k + 2] += total[16];
-            W_bar[196 * k + 3] += total[17];
-            W_bar[196 * k + 4] += total[18];
-            W_bar[196 * k + 5] += total[19];
-            W_bar[196 * k + 6] += total[20];
-            W_bar[196 * k + 7] += total[21];
-            W_bar[196 * k + 8] += total[22];
-            W_bar[196 * k + 9] += total[23];
-            W_bar[196 * k + 10] += total[24];
-            W_bar[196 * k + 11] += total[25];
-            W_bar[196 * k + 12] += total[26];
-            W_bar[196 * k + 13] += total[27];
-            W_bar[196 * k + 14] += total[28];
-            W_bar[196 * k + 15] += total[29];
-            W_bar[196 * k + 16] += total[30];
-            W_bar[196 * k + 17] += total[31];
-            W_bar[196 * k + 18] += total[32];
-            W_bar[196 * k + 19] += total[33];
-            W_bar[196 * k + 20] += total[34];
-            W_bar[196 * k + 21] += total[35];
-            W_bar[196 * k + 22] += total[36];
-            W_bar[196 * k + 23] += total[37];
-            W_bar[196 * k + 24] += total[38];
-            W_bar[196 * k + 25] += total[39];
-            W_bar[196 * k + 26] += total[40];
-            W_bar[196 * k + 27] += total[41];
-            W_bar[196 * k + 28] += total[42];
-            W_bar[196 * k + 29] += total[43];
-            W_bar[196 * k + 30] += total[44];
-            W_bar[196 * k + 31] += total[45];
-            W_bar[196 * k + 32] += total[46];
-            W_bar[196 * k + 33] += total[47];
-            W_bar[196 * k + 34] += total[48];
-            W_bar[196 * k + 35] += total[49];
-            W_bar[196 * k + 36] += total[50];
-            W_bar[196 * k + 37] += total[51];
-            W_bar[196 * k + 38] += total[52];
-            W_bar[196 * k + 39] += total[53];
-            W_bar[196 * k + 40] += total[54];
-            W_bar[196 * k + 41] += total[55];
-            W_bar[196 * k + 42] += total[56];
-            W_bar[196 * k + 43] += total[57];
-            W_bar[196 * k + 44] += total[58];
-            W_bar[196 * k + 45] += total[59];
-            W_bar[196 * k + 46] += total[60];
-            W_bar[196 * k + 47] += total[61];
-            W_bar[196 * k + 48] += total[62];
-            W_bar[196 * k + 49] += total[63];
-            W_bar[196 * k + 50] += total[64];
-            W_bar[196 * k + 51] += total[65];
-            W_bar[196 * k + 52] += total[66];
-            W_bar[196 * k + 53] += total[67];
-            W_bar[196 * k + 54] += total[68];
-            W_bar[196 * k + 55] += total[69];
-            W_bar[196 * k + 56] += total[70];
-            W_bar[196 * k + 57] += total[71];
-            W_bar[196 * k + 58] += total[72];
-            W_bar[196 * k + 59] += total[73];
-            W_bar[196 * k + 60] += total[74];
-            W_bar[196 * k + 61] += total[75];
-            W_bar[196 * k + 62] += total[76];
-            W_bar[196 * k + 63] += total[77];
-            W_bar[196 * k + 64] += total[78];
-            W_bar[196 * k + 65] += total[79];
-            W_bar[196 * k + 66] += total[80];
-            W_bar[196 * k + 67] += total[81];
-            W_bar[196 * k + 68] += total[82];
-            W_bar[196 * k + 69] += total[83];
-            W_bar[196 * k + 70] += total[84];
-            W_bar[196 * k + 71] += total[85];
-            W_bar[196 * k + 72] += total[86];
-            W_bar[196 * k + 73] += total[87];
-            W_bar[196 * k + 74] += total[88];
-            W_bar[196 * k + 75] += total[89];
-            W_bar[196 * k + 76] += total[90];
-            W_bar[196 * k + 77] += total[91];
-            W_bar[196 * k + 78] += total[92];
-            W_bar[196 * k + 79] += total[93];
-            W_bar[196 * k + 80] += total[94];
-            W_bar[196 * k + 81] += total[95];
-            W_bar[196 * k + 82] += total[96];
-            W_bar[196 * k + 83] += total[97];
-            W_bar[196 * k + 84] += total[98];
-            W_bar[196 * k + 85] += total[99];
-            W_bar[196 * k + 86] += total[100];
-            W_bar[196 * k + 87] += total[101];
-            W_bar[196 * k + 88] += total[102];
-            W_bar[196 * k + 89] += total[103];
-            W_bar[196 * k + 90] += total[104];
-            W_bar[196 * k + 91] += total[105];
-            W_bar[196 * k + 92] += total[106];
-            W_bar[196 * k + 93] += total[107];
-            W_bar[196 * k + 94] += total[108];
-            W_bar[196 * k + 95] += total[109];
-            W_bar[196 * k + 96] += total[110];
-            W_bar[196 * k + 97] += total[111];
-            W_bar[196 * k + 98] += total[112];
-            W_bar[196 * k + 99] += total[113];
-            W_bar[196 * k + 100] += total[114];
-            W_bar[196 * k + 101] += total[115];
-            W_bar[196 * k + 102] += total[116];
-            W_bar[196 * k + 103] += total[117];
-            W_bar[196 * k + 104] += total[118];
-            W_bar[196 * k + 105] += total[119];
-            W_bar[196 * k + 106] += total[120];
-            W_bar[196 * k + 107] += total[121];
-            W_bar[196 * k + 108] += total[122];
-            W_bar[196 * k + 109] += total[123];
-            W_bar[196 * k + 110] += total[124];
-            W_bar[196 * k + 111] += total[125];
-            W_bar[196 * k + 112] += total[126];
-            W_bar[196 * k + 113] += total[127];
-            W_bar[196 * k + 114] += total[128];
-            W_bar[196 * k + 115] += total[129];
-            W_bar[196 * k + 116] += total[130];
-            W_bar[196 * k + 117] += total[131];
-            W_bar[196 * k + 118] += total[132];
-            W_bar[196 * k + 119] += total[133];
-            W_bar[196 * k + 120] += total[134];
-            W_bar[196 * k + 121] += total[135];
-            W_bar[196 * k + 122] += total[136];
-            W_bar[196 * k + 123] += total[137];
-            W_bar[196 * k + 124] += total[138];
-            W_bar[196 * k + 125] += total[139];
-            W_bar[196 * k + 126] += total[140];
-            W_bar[196 * k + 127] += total[141];
-            W_bar[196 * k + 128] += total[142];
-            W_bar[196 * k + 129] += total[143];
-            W_bar[196 * k + 130] += total[144];
-            W_bar[196 * k + 131] += total[145];
-            W_bar[196 * k + 132] += total[146];
-            W_bar[196 * k + 133] += total[147];
-            W_bar[196 * k + 134] += total[148];
-            W_bar[196 * k + 135] += total[149];
-            W_bar[196 * k + 136] += total[150];
-            W_bar[196 * k + 137] += total[151];
-            W_bar[196 * k + 138] += total[152];
-            W_bar[196 * k + 139] += total[153];
-            W_bar[196 * k + 140] += total[154];
-            W_bar[196 * k + 141] += total[155];
-            W_bar[196 * k + 142] += total[156];
-            W_bar[196 * k + 143] += total[157];
-            W_bar[196 * k + 144] += total[158];
-            W_bar[196 * k + 145] += total[159];
-            W_bar[196 * k + 146] += total[160];
-            W_bar[196 * k + 147] += total[161];
-            W_bar[196 * k + 148] += total[162];
-            W_bar[196 * k + 149] += total[163];
-            W_bar[196 * k + 150] += total[164];
-            W_bar[196 * k + 151] += total[165];
-            W_bar[196 * k + 152] += total[166];
-            W_bar[196 * k + 153] += total[167];
-            W_bar[196 * k + 154] += total[168];
-            W_bar[196 * k + 155] += total[169];
-            W_bar[196 * k + 156] += total[170];
-            W_bar[196 * k + 157] += total[171];
-            W_bar[196 * k + 158] += total[172];
-            W_bar[196 * k + 159] += total[173];
-            W_bar[196 * k + 160] += total[174];
-            W_bar[196 * k + 161] += total[175];
-            W_bar[196 * k + 162] += total[176];
-            W_bar[196 * k + 163] += total[177];
-            W_bar[196 * k + 164] += total[178];
-            W_bar[196 * k + 165] += total[179];
-            W_bar[196 * k + 166] += total[180];
-            W_bar[196 * k + 167] += total[181];
-            W_bar[196 * k + 168] += total[182];
-            W_bar[196 * k + 169] += total[183];
-            W_bar[196 * k + 170] += total[184];
-            W_bar[196 * k + 171] += total[185];
-            W_bar[196 * k + 172] += total[186];
-            W_bar[196 * k + 173] += total[187];
-            W_bar[196 * k + 174] += total[188];
-            W_bar[196 * k + 175] += total[189];
-            W_bar[196 * k + 176] += total[190];
-            W_bar[196 * k + 177] += total[191];
-            W_bar[196 * k + 178] += total[192];
-            W_bar[196 * k + 179] += total[193];
-            W_bar[196 * k + 180] += total[194];
-            W_bar[196 * k + 181] += total[195];
-            W_bar[196 * k + 182] += total[196];
-            W_bar[196 * k + 183] += total[197];
-            W_bar[196 * k + 184] += total[198];
-            W_bar[196 * k + 185] += total[199];
-            W_bar[196 * k + 186] += total[200];
-            W_bar[196 * k + 187] += total[201];
-            W_bar[196 * k + 188] += total[202];
-            W_bar[196 * k + 189] += total[203];
-            W_bar[196 * k + 190] += total[204];
-            W_bar[196 * k + 191] += total[205];
-            W_bar[196 * k + 192] += total[206];
-            W_bar[196 * k + 193] += total[207];
-            W_bar[196 * k + 194] += total[208];
-            W_bar[196 * k + 195] += total[209];
-            amplitude_bar[1 * k + 0] += total[210];
+            vector_rows(mu, end, start, 14, own_mu);
+            vector_rows(W, end, start, 196, own_W);
+            vector_rows(amplitude, end, start, 1, own_amplitude);
+            vector_rows(sums[0], LANES, 0, 211, S_bar);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 14, bars + 14 + 196);
+            vector_to_rows(bars, mu_bar, end, start, 14, 14);
+            vector_to_rows(bars + 14, W_bar, end, start, 196, 196);
+            vector_to_rows(bars + 14 + 196, amplitude_bar, end, start, 1, 1);
         }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
+/* Nothing is summed: the adjoints of a splat's constants go on to its parameters for every point. */
+void dual_arm_splats_rows(
+    size_t count, size_t splat_count, const double *DUAL_ARM_RESTRICT x, const double *DUAL_ARM_RESTRICT mu, const double *DUAL_ARM_RESTRICT W, const double *DUAL_ARM_RESTRICT amplitude, const double *DUAL_ARM_RESTRICT value_bar, const double *DUAL_ARM_RESTRICT gradient_bar,
+    double *DUAL_ARM_RESTRICT rows, double *DUAL_ARM_RESTRICT work, int threads) {
+    (void)threads;
+    const size_t blocks = (count + LANES - 1) / LANES;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t block = 0; block < blocks; ++block) {
+            vector point[29];
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
+            for (size_t k = 0; k < splat_count; ++k) {
+                vector own_mu[14], own_W[196], own_amplitude[1], S_bar[211] = {ZERO}, bars[211];
+                for (int i = 0; i < 14; ++i) own_mu[i] = vector_of(mu[14 * k + i]);
+                for (int i = 0; i < 196; ++i) own_W[i] = vector_of(W[196 * k + i]);
+                own_amplitude[0] = vector_of(amplitude[k]);
+                pair_backward(point, constants + 211 * k, point + 14, point + 14 + 1, S_bar);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 14, bars + 14 + 196);
+                vector_to_rows(bars, rows + 211 * k, count, block * LANES, 211, 211 * splat_count);
+            }
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* The same number in all lanes. */
+INLINE vector_f vector_of_f(float x) {
+    const vector_f zero = ZERO;
+    return x - zero;
+}
+
+/* x in the lanes of the mask, y in the others. */
+INLINE vector_f vector_select_f(vector_mask_f mask, vector_f x, vector_f y) {
+    return SELECT(vector_f, vector_mask_f, mask, x, y);
+}
+
+/* Numbers in memory to a vector, and back. */
+INLINE vector_f vector_load_f(const float *from) {
+    vector_f x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+INLINE void vector_store_f(float *to, vector_f x) { memcpy(to, &x, sizeof x); }
+
+/* The sum over the lanes, by halves. */
+INLINE float vector_sum_f(vector_f x) {
+    float lanes[LANES_f];
+    vector_store_f(lanes, x);
+    for (size_t half = LANES_f / 2; half > 0; half /= 2)
+        for (size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    return lanes[0];
+}
+
+/* The bits of a vector as integers, and back. */
+INLINE vector_bits_f vector_to_bits_f(vector_f x) {
+    vector_bits_f bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
+    vector_f x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* round of every lane; one instruction where the machine has it. */
+INLINE vector_f vector_round_f(vector_f x) {
+    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = rintf(LANE(x, i));
+    return x;
+}
+
+/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
+INLINE vector_f vector_exp_f(vector_f x) {
+    const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
+    const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
+    const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
+    const vector_f scale = vector_from_bits_f((vector_to_bits_f(shifted) + 126) << 23); /* 2^(k - 1) */
+    const vector_f y = vector_select_f(x > 88.722839f, vector_of_f(HUGE_VALF), (scale + scale * part) * 2);
+    return vector_select_f(x < -86.9f, vector_of_f(0), y);
+}
+
+/* What pairs read of points x. */
+OUTLINE void pair_features_f(
+    const vector_f *x, vector_f *X) {
+    const vector_f x0 = x[0];
+    const vector_f x1 = x[1];
+    const vector_f x2 = x[2];
+    const vector_f x3 = x[3];
+    const vector_f x4 = x[4];
+    const vector_f x5 = x[5];
+    const vector_f x6 = x[6];
+    const vector_f x7 = x[7];
+    const vector_f x8 = x[8];
+    const vector_f x9 = x[9];
+    const vector_f x10 = x[10];
+    const vector_f x11 = x[11];
+    const vector_f x12 = x[12];
+    const vector_f x13 = x[13];
+    X[0] = x0;
+    X[1] = x1;
+    X[2] = x2;
+    X[3] = x3;
+    X[4] = x4;
+    X[5] = x5;
+    X[6] = x6;
+    X[7] = x7;
+    X[8] = x8;
+    X[9] = x9;
+    X[10] = x10;
+    X[11] = x11;
+    X[12] = x12;
+    X[13] = x13;
+}
+
+/* What pairs read of a splat, of some splats. */
+OUTLINE void pair_constants_f(
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, vector_f *S) {
+    const vector_f mu0 = mu[0];
+    const vector_f mu1 = mu[1];
+    const vector_f mu2 = mu[2];
+    const vector_f mu3 = mu[3];
+    const vector_f mu4 = mu[4];
+    const vector_f mu5 = mu[5];
+    const vector_f mu6 = mu[6];
+    const vector_f mu7 = mu[7];
+    const vector_f mu8 = mu[8];
+    const vector_f mu9 = mu[9];
+    const vector_f mu10 = mu[10];
+    const vector_f mu11 = mu[11];
+    const vector_f mu12 = mu[12];
+    const vector_f mu13 = mu[13];
+    const vector_f W0_0 = W[0];
+    const vector_f W0_1 = W[1];
+    const vector_f W0_2 = W[2];
+    const vector_f W0_3 = W[3];
+    const vector_f W0_4 = W[4];
+    const vector_f W0_5 = W[5];
+    const vector_f W0_6 = W[6];
+    const vector_f W0_7 = W[7];
+    const vector_f W0_8 = W[8];
+    const vector_f W0_9 = W[9];
+    const vector_f W0_10 = W[10];
+    const vector_f W0_11 = W[11];
+    const vector_f W0_12 = W[12];
+    const vector_f W0_13 = W[13];
+    const vector_f W1_0 = W[14];
+    const vector_f W1_1 = W[15];
+    const vector_f W1_2 = W[16];
+    const vector_f W1_3 = W[17];
+    const vector_f W1_4 = W[18];
+    const vector_f W1_5 = W[19];
+    const vector_f W1_6 = W[20];
+    const vector_f W1_7 = W[21];
+    const vector_f W1_8 = W[22];
+    const vector_f W1_9 = W[23];
+    const vector_f W1_10 = W[24];
+    const vector_f W1_11 = W[25];
+    const vector_f W1_12 = W[26];
+    const vector_f W1_13 = W[27];
+    const vector_f W2_0 = W[28];
+    const vector_f W2_1 = W[29];
+    const vector_f W2_2 = W[30];
+    const vector_f W2_3 = W[31];
+    const vector_f W2_4 = W[32];
+    const vector_f W2_5 = W[33];
+    const vector_f W2_6 = W[34];
+    const vector_f W2_7 = W[35];
+    const vector_f W2_8 = W[36];
+    const vector_f W2_9 = W[37];
+    const vector_f W2_10 = W[38];
+    const vector_f W2_11 = W[39];
+    const vector_f W2_12 = W[40];
+    const vector_f W2_13 = W[41];
+    const vector_f W3_0 = W[42];
+    const vector_f W3_1 = W[43];
+    const vector_f W3_2 = W[44];
+    const vector_f W3_3 = W[45];
+    const vector_f W3_4 = W[46];
+    const vector_f W3_5 = W[47];
+    const vector_f W3_6 = W[48];
+    const vector_f W3_7 = W[49];
+    const vector_f W3_8 = W[50];
+    const vector_f W3_9 = W[51];
+    const vector_f W3_10 = W[52];
+    const vector_f W3_11 = W[53];
+    const vector_f W3_12 = W[54];
+    const vector_f W3_13 = W[55];
+    const vector_f W4_0 = W[56];
+    const vector_f W4_1 = W[57];
+    const vector_f W4_2 = W[58];
+    const vector_f W4_3 = W[59];
+    const vector_f W4_4 = W[60];
+    const vector_f W4_5 = W[61];
+    const vector_f W4_6 = W[62];
+    const vector_f W4_7 = W[63];
+    const vector_f W4_8 = W[64];
+    const vector_f W4_9 = W[65];
+    const vector_f W4_10 = W[66];
+    const vector_f W4_11 = W[67];
+    const vector_f W4_12 = W[68];
+    const vector_f W4_13 = W[69];
+    const vector_f W5_0 = W[70];
+    const vector_f W5_1 = W[71];
+    const vector_f W5_2 = W[72];
+    const vector_f W5_3 = W[73];
+    const vector_f W5_4 = W[74];
+    const vector_f W5_5 = W[75];
+    const vector_f W5_6 = W[76];
+    const vector_f W5_7 = W[77];
+    const vector_f W5_8 = W[78];
+    const vector_f W5_9 = W[79];
+    const vector_f W5_10 = W[80];
+    const vector_f W5_11 = W[81];
+    const vector_f W5_12 = W[82];
+    const vector_f W5_13 = W[83];
+    const vector_f W6_0 = W[84];
+    const vector_f W6_1 = W[85];
+    const vector_f W6_2 = W[86];
+    const vector_f W6_3 = W[87];
+    const vector_f W6_4 = W[88];
+    const vector_f W6_5 = W[89];
+    const vector_f W6_6 = W[90];
+    const vector_f W6_7 = W[91];
+    const vector_f W6_8 = W[92];
+    const vector_f W6_9 = W[93];
+    const vector_f W6_10 = W[94];
+    const vector_f W6_11 = W[95];
+    const vector_f W6_12 = W[96];
+    const vector_f W6_13 = W[97];
+    const vector_f W7_0 = W[98];
+    const vector_f W7_1 = W[99];
+    const vector_f W7_2 = W[100];
+    const vector_f W7_3 = W[101];
+    const vector_f W7_4 = W[102];
+    const vector_f W7_5 = W[103];
+    const vector_f W7_6 = W[104];
+    const vector_f W7_7 = W[105];
+    const vector_f W7_8 = W[106];
+    const vector_f W7_9 = W[107];
+    const vector_f W7_10 = W[108];
+    const vector_f W7_11 = W[109];
+    const vector_f W7_12 = W[110];
+    const vector_f W7_13 = W[111];
+    const vector_f W8_0 = W[112];
+    const vector_f W8_1 = W[113];
+    const vector_f W8_2 = W[114];
+    const vector_f W8_3 = W[115];
+    const vector_f W8_4 = W[116];
+    const vector_f W8_5 = W[117];
+    const vector_f W8_6 = W[118];
+    const vector_f W8_7 = W[119];
+    const vector_f W8_8 = W[120];
+    const vector_f W8_9 = W[121];
+    const vector_f W8_10 = W[122];
+    const vector_f W8_11 = W[123];
+    const vector_f W8_12 = W[124];
+    const vector_f W8_13 = W[125];
+    const vector_f W9_0 = W[126];
+    const vector_f W9_1 = W[127];
+    const vector_f W9_2 = W[128];
+    const vector_f W9_3 = W[129];
+    const vector_f W9_4 = W[130];
+    const vector_f W9_5 = W[131];
+    const vector_f W9_6 = W[132];
+    const vector_f W9_7 = W[133];
+    const vector_f W9_8 = W[134];
+    const vector_f W9_9 = W[135];
+    const vector_f W9_10 = W[136];
+    const vector_f W9_11 = W[137];
+    const vector_f W9_12 = W[138];
+    const vector_f W9_13 = W[139];
+    const vector_f W10_0 = W[140];
+    const vector_f W10_1 = W[141];
+    const vector_f W10_2 = W[142];
+    const vector_f W10_3 = W[143];
+    const vector_f W10_4 = W[144];
+    const vector_f W10_5 = W[145];
+    const vector_f W10_6 = W[146];
+    const vector_f W10_7 = W[147];
+    const vector_f W10_8 = W[148];
+    const vector_f W10_9 = W[149];
+    const vector_f W10_10 = W[150];
+    const vector_f W10_11 = W[151];
+    const vector_f W10_12 = W[152];
+    const vector_f W10_13 = W[153];
+    const vector_f W11_0 = W[154];
+    const vector_f W11_1 = W[155];
+    const vector_f W11_2 = W[156];
+    const vector_f W11_3 = W[157];
+    const vector_f W11_4 = W[158];
+    const vector_f W11_5 = W[159];
+    const vector_f W11_6 = W[160];
+    const vector_f W11_7 = W[161];
+    const vector_f W11_8 = W[162];
+    const vector_f W11_9 = W[163];
+    const vector_f W11_10 = W[164];
+    const vector_f W11_11 = W[165];
+    const vector_f W11_12 = W[166];
+    const vector_f W11_13 = W[167];
+    const vector_f W12_0 = W[168];
+    const vector_f W12_1 = W[169];
+    const vector_f W12_2 = W[170];
+    const vector_f W12_3 = W[171];
+    const vector_f W12_4 = W[172];
+    const vector_f W12_5 = W[173];
+    const vector_f W12_6 = W[174];
+    const vector_f W12_7 = W[175];
+    const vector_f W12_8 = W[176];
+    const vector_f W12_9 = W[177];
+    const vector_f W12_10 = W[178];
+    const vector_f W12_11 = W[179];
+    const vector_f W12_12 = W[180];
+    const vector_f W12_13 = W[181];
+    const vector_f W13_0 = W[182];
+    const vector_f W13_1 = W[183];
+    const vector_f W13_2 = W[184];
+    const vector_f W13_3 = W[185];
+    const vector_f W13_4 = W[186];
+    const vector_f W13_5 = W[187];
+    const vector_f W13_6 = W[188];
+    const vector_f W13_7 = W[189];
+    const vector_f W13_8 = W[190];
+    const vector_f W13_9 = W[191];
+    const vector_f W13_10 = W[192];
+    const vector_f W13_11 = W[193];
+    const vector_f W13_12 = W[194];
+    const vector_f W13_13 = W[195];
+    const vector_f its_amplitude = amplitude[0];
+    S[0] = mu0;
+    S[1] = mu1;
+    S[2] = mu2;
+    S[3] = mu3;
+    S[4] = mu4;
+    S[5] = mu5;
+    S[6] = mu6;
+    S[7] = mu7;
+    S[8] = mu8;
+    S[9] = mu9;
+    S[10] = mu10;
+    S[11] = mu11;
+    S[12] = mu12;
+    S[13] = mu13;
+    S[14] = W0_0;
+    S[15] = W0_1;
+    S[16] = W0_2;
+    S[17] = W0_3;
+    S[18] = W0_4;
+    S[19] = W0_5;
+    S[20] = W0_6;
+    S[21] = W0_7;
+    S[22] = W0_8;
+    S[23] = W0_9;
+    S[24] = W0_10;
+    S[25] = W0_11;
+    S[26] = W0_12;
+    S[27] = W0_13;
+    S[28] = W1_0;
+    S[29] = W1_1;
+    S[30] = W1_2;
+    S[31] = W1_3;
+    S[32] = W1_4;
+    S[33] = W1_5;
+    S[34] = W1_6;
+    S[35] = W1_7;
+    S[36] = W1_8;
+    S[37] = W1_9;
+    S[38] = W1_10;
+    S[39] = W1_11;
+    S[40] = W1_12;
+    S[41] = W1_13;
+    S[42] = W2_0;
+    S[43] = W2_1;
+    S[44] = W2_2;
+    S[45] = W2_3;
+    S[46] = W2_4;
+    S[47] = W2_5;
+    S[48] = W2_6;
+    S[49] = W2_7;
+    S[50] = W2_8;
+    S[51] = W2_9;
+    S[52] = W2_10;
+    S[53] = W2_11;
+    S[54] = W2_12;
+    S[55] = W2_13;
+    S[56] = W3_0;
+    S[57] = W3_1;
+    S[58] = W3_2;
+    S[59] = W3_3;
+    S[60] = W3_4;
+    S[61] = W3_5;
+    S[62] = W3_6;
+    S[63] = W3_7;
+    S[64] = W3_8;
+    S[65] = W3_9;
+    S[66] = W3_10;
+    S[67] = W3_11;
+    S[68] = W3_12;
+    S[69] = W3_13;
+    S[70] = W4_0;
+    S[71] = W4_1;
+    S[72] = W4_2;
+    S[73] = W4_3;
+    S[74] = W4_4;
+    S[75] = W4_5;
+    S[76] = W4_6;
+    S[77] = W4_7;
+    S[78] = W4_8;
+    S[79] = W4_9;
+    S[80] = W4_10;
+    S[81] = W4_11;
+    S[82] = W4_12;
+    S[83] = W4_13;
+    S[84] = W5_0;
+    S[85] = W5_1;
+    S[86] = W5_2;
+    S[87] = W5_3;
+    S[88] = W5_4;
+    S[89] = W5_5;
+    S[90] = W5_6;
+    S[91] = W5_7;
+    S[92] = W5_8;
+    S[93] = W5_9;
+    S[94] = W5_10;
+    S[95] = W5_11;
+    S[96] = W5_12;
+    S[97] = W5_13;
+    S[98] = W6_0;
+    S[99] = W6_1;
+    S[100] = W6_2;
+    S[101] = W6_3;
+    S[102] = W6_4;
+    S[103] = W6_5;
+    S[104] = W6_6;
+    S[105] = W6_7;
+    S[106] = W6_8;
+    S[107] = W6_9;
+    S[108] = W6_10;
+    S[109] = W6_11;
+    S[110] = W6_12;
+    S[111] = W6_13;
+    S[112] = W7_0;
+    S[113] = W7_1;
+    S[114] = W7_2;
+    S[115] = W7_3;
+    S[116] = W7_4;
+    S[117] = W7_5;
+    S[118] = W7_6;
+    S[119] = W7_7;
+    S[120] = W7_8;
+    S[121] = W7_9;
+    S[122] = W7_10;
+    S[123] = W7_11;
+    S[124] = W7_12;
+    S[125] = W7_13;
+    S[126] = W8_0;
+    S[127] = W8_1;
+    S[128] = W8_2;
+    S[129] = W8_3;
+    S[130] = W8_4;
+    S[131] = W8_5;
+    S[132] = W8_6;
+    S[133] = W8_7;
+    S[134] = W8_8;
+    S[135] = W8_9;
+    S[136] = W8_10;
+    S[137] = W8_11;
+    S[138] = W8_12;
+    S[139] = W8_13;
+    S[140] = W9_0;
+    S[141] = W9_1;
+    S[142] = W9_2;
+    S[143] = W9_3;
+    S[144] = W9_4;
+    S[145] = W9_5;
+    S[146] = W9_6;
+    S[147] = W9_7;
+    S[148] = W9_8;
+    S[149] = W9_9;
+    S[150] = W9_10;
+    S[151] = W9_11;
+    S[152] = W9_12;
+    S[153] = W9_13;
+    S[154] = W10_0;
+    S[155] = W10_1;
+    S[156] = W10_2;
+    S[157] = W10_3;
+    S[158] = W10_4;
+    S[159] = W10_5;
+    S[160] = W10_6;
+    S[161] = W10_7;
+    S[162] = W10_8;
+    S[163] = W10_9;
+    S[164] = W10_10;
+    S[165] = W10_11;
+    S[166] = W10_12;
+    S[167] = W10_13;
+    S[168] = W11_0;
+    S[169] = W11_1;
+    S[170] = W11_2;
+    S[171] = W11_3;
+    S[172] = W11_4;
+    S[173] = W11_5;
+    S[174] = W11_6;
+    S[175] = W11_7;
+    S[176] = W11_8;
+    S[177] = W11_9;
+    S[178] = W11_10;
+    S[179] = W11_11;
+    S[180] = W11_12;
+    S[181] = W11_13;
+    S[182] = W12_0;
+    S[183] = W12_1;
+    S[184] = W12_2;
+    S[185] = W12_3;
+    S[186] = W12_4;
+    S[187] = W12_5;
+    S[188] = W12_6;
+    S[189] = W12_7;
+    S[190] = W12_8;
+    S[191] = W12_9;
+    S[192] = W12_10;
+    S[193] = W12_11;
+    S[194] = W12_12;
+    S[195] = W12_13;
+    S[196] = W13_0;
+    S[197] = W13_1;
+    S[198] = W13_2;
+    S[199] = W13_3;
+    S[200] = W13_4;
+    S[201] = W13_5;
+    S[202] = W13_6;
+    S[203] = W13_7;
+    S[204] = W13_8;
+    S[205] = W13_9;
+    S[206] = W13_10;
+    S[207] = W13_11;
+    S[208] = W13_12;
+    S[209] = W13_13;
+    S[210] = its_amplitude;
+}
+
+/* Adds the values phi of a splat at some points. */
+OUTLINE void pair_value_f(
+    const vector_f *X, const float *S, vector_f *value) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const vector_f x2 = X[2];
+    const vector_f x3 = X[3];
+    const vector_f x4 = X[4];
+    const vector_f x5 = X[5];
+    const vector_f x6 = X[6];
+    const vector_f x7 = X[7];
+    const vector_f x8 = X[8];
+    const vector_f x9 = X[9];
+    const vector_f x10 = X[10];
+    const vector_f x11 = X[11];
+    const vector_f x12 = X[12];
+    const vector_f x13 = X[13];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float mu2 = S[2];
+    const float mu3 = S[3];
+    const float mu4 = S[4];
+    const float mu5 = S[5];
+    const float mu6 = S[6];
+    const float mu7 = S[7];
+    const float mu8 = S[8];
+    const float mu9 = S[9];
+    const float mu10 = S[10];
+    const float mu11 = S[11];
+    const float mu12 = S[12];
+    const float mu13 = S[13];
+    const float W0_0 = S[14];
+    const float W0_1 = S[15];
+    const float W0_2 = S[16];
+    const float W0_3 = S[17];
+    const float W0_4 = S[18];
+    const float W0_5 = S[19];
+    const float W0_6 = S[20];
+    const float W0_7 = S[21];
+    const float W0_8 = S[22];
+    const float W0_9 = S[23];
+    const float W0_10 = S[24];
+    const float W0_11 = S[25];
+    const float W0_12 = S[26];
+    const float W0_13 = S[27];
+    const float W1_0 = S[28];
+    const float W1_1 = S[29];
+    const float W1_2 = S[30];
+    const float W1_3 = S[31];
+    const float W1_4 = S[32];
+    const float W1_5 = S[33];
+    const float W1_6 = S[34];
+    const float W1_7 = S[35];
+    const float W1_8 = S[36];
+    const float W1_9 = S[37];
+    const float W1_10 = S[38];
+    const float W1_11 = S[39];
+    const float W1_12 = S[40];
+    const float W1_13 = S[41];
+    const float W2_0 = S[42];
+    const float W2_1 = S[43];
+    const float W2_2 = S[44];
+    const float W2_3 = S[45];
+    const float W2_4 = S[46];
+    const float W2_5 = S[47];
+    const float W2_6 = S[48];
+    const float W2_7 = S[49];
+    const float W2_8 = S[50];
+    const float W2_9 = S[51];
+    const float W2_10 = S[52];
+    const float W2_11 = S[53];
+    const float W2_12 = S[54];
+    const float W2_13 = S[55];
+    const float W3_0 = S[56];
+    const float W3_1 = S[57];
+    const float W3_2 = S[58];
+    const float W3_3 = S[59];
+    const float W3_4 = S[60];
+    const float W3_5 = S[61];
+    const float W3_6 = S[62];
+    const float W3_7 = S[63];
+    const float W3_8 = S[64];
+    const float W3_9 = S[65];
+    const float W3_10 = S[66];
+    const float W3_11 = S[67];
+    const float W3_12 = S[68];
+    const float W3_13 = S[69];
+    const float W4_0 = S[70];
+    const float W4_1 = S[71];
+    const float W4_2 = S[72];
+    const float W4_3 = S[73];
+    const float W4_4 = S[74];
+    const float W4_5 = S[75];
+    const float W4_6 = S[76];
+    const float W4_7 = S[77];
+    const float W4_8 = S[78];
+    const float W4_9 = S[79];
+    const float W4_10 = S[80];
+    const float W4_11 = S[81];
+    const float W4_12 = S[82];
+    const float W4_13 = S[83];
+    const float W5_0 = S[84];
+    const float W5_1 = S[85];
+    const float W5_2 = S[86];
+    const float W5_3 = S[87];
+    const float W5_4 = S[88];
+    const float W5_5 = S[89];
+    const float W5_6 = S[90];
+    const float W5_7 = S[91];
+    const float W5_8 = S[92];
+    const float W5_9 = S[93];
+    const float W5_10 = S[94];
+    const float W5_11 = S[95];
+    const float W5_12 = S[96];
+    const float W5_13 = S[97];
+    const float W6_0 = S[98];
+    const float W6_1 = S[99];
+    const float W6_2 = S[100];
+    const float W6_3 = S[101];
+    const float W6_4 = S[102];
+    const float W6_5 = S[103];
+    const float W6_6 = S[104];
+    const float W6_7 = S[105];
+    const float W6_8 = S[106];
+    const float W6_9 = S[107];
+    const float W6_10 = S[108];
+    const float W6_11 = S[109];
+    const float W6_12 = S[110];
+    const float W6_13 = S[111];
+    const float W7_0 = S[112];
+    const float W7_1 = S[113];
+    const float W7_2 = S[114];
+    const float W7_3 = S[115];
+    const float W7_4 = S[116];
+    const float W7_5 = S[117];
+    const float W7_6 = S[118];
+    const float W7_7 = S[119];
+    const float W7_8 = S[120];
+    const float W7_9 = S[121];
+    const float W7_10 = S[122];
+    const float W7_11 = S[123];
+    const float W7_12 = S[124];
+    const float W7_13 = S[125];
+    const float W8_0 = S[126];
+    const float W8_1 = S[127];
+    const float W8_2 = S[128];
+    const float W8_3 = S[129];
+    const float W8_4 = S[130];
+    const float W8_5 = S[131];
+    const float W8_6 = S[132];
+    const float W8_7 = S[133];
+    const float W8_8 = S[134];
+    const float W8_9 = S[135];
+    const float W8_10 = S[136];
+    const float W8_11 = S[137];
+    const float W8_12 = S[138];
+    const float W8_13 = S[139];
+    const float W9_0 = S[140];
+    const float W9_1 = S[141];
+    const float W9_2 = S[142];
+    const float W9_3 = S[143];
+    const float W9_4 = S[144];
+    const float W9_5 = S[145];
+    const float W9_6 = S[146];
+    const float W9_7 = S[147];
+    const float W9_8 = S[148];
+    const float W9_9 = S[149];
+    const float W9_10 = S[150];
+    const float W9_11 = S[151];
+    const float W9_12 = S[152];
+    const float W9_13 = S[153];
+    const float W10_0 = S[154];
+    const float W10_1 = S[155];
+    const float W10_2 = S[156];
+    const float W10_3 = S[157];
+    const float W10_4 = S[158];
+    const float W10_5 = S[159];
+    const float W10_6 = S[160];
+    const float W10_7 = S[161];
+    const float W10_8 = S[162];
+    const float W10_9 = S[163];
+    const float W10_10 = S[164];
+    const float W10_11 = S[165];
+    const float W10_12 = S[166];
+    const float W10_13 = S[167];
+    const float W11_0 = S[168];
+    const float W11_1 = S[169];
+    const float W11_2 = S[170];
+    const float W11_3 = S[171];
+    const float W11_4 = S[172];
+    const float W11_5 = S[173];
+    const float W11_6 = S[174];
+    const float W11_7 = S[175];
+    const float W11_8 = S[176];
+    const float W11_9 = S[177];
+    const float W11_10 = S[178];
+    const float W11_11 = S[179];
+    const float W11_12 = S[180];
+    const float W11_13 = S[181];
+    const float W12_0 = S[182];
+    const float W12_1 = S[183];
+    const float W12_2 = S[184];
+    const float W12_3 = S[185];
+    const float W12_4 = S[186];
+    const float W12_5 = S[187];
+    const float W12_6 = S[188];
+    const float W12_7 = S[189];
+    const float W12_8 = S[190];
+    const float W12_9 = S[191];
+    const float W12_10 = S[192];
+    const float W12_11 = S[193];
+    const float W12_12 = S[194];
+    const float W12_13 = S[195];
+    const float W13_0 = S[196];
+    const float W13_1 = S[197];
+    const float W13_2 = S[198];
+    const float W13_3 = S[199];
+    const float W13_4 = S[200];
+    const float W13_5 = S[201];
+    const float W13_6 = S[202];
+    const float W13_7 = S[203];
+    const float W13_8 = S[204];
+    const float W13_9 = S[205];
+    const float W13_10 = S[206];
+    const float W13_11 = S[207];
+    const float W13_12 = S[208];
+    const float W13_13 = S[209];
+    const float amplitude = S[210];
+    const vector_f gap = x0 - mu0;
+    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
+    const vector_f v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
+        round_2;
+    const vector_f gap_2 = x1 - mu1;
+    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
+    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
+        * round_3;
+    const vector_f gap_3 = x2 - mu2;
+    const vector_f round_4 = vector_round_f(0.15915494309189535f * gap_3);
+    const vector_f v2 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f
+        * round_4;
+    const vector_f gap_4 = x3 - mu3;
+    const vector_f round_5 = vector_round_f(0.15915494309189535f * gap_4);
+    const vector_f v3 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f
+        * round_5;
+    const vector_f gap_5 = x4 - mu4;
+    const vector_f round_6 = vector_round_f(0.15915494309189535f * gap_5);
+    const vector_f v4 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f
+        * round_6;
+    const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+    const vector_f gap_6 = x5 - mu5;
+    const vector_f round_7 = vector_round_f(0.15915494309189535f * gap_6);
+    const vector_f v5 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f
+        * round_7;
+    const vector_f gap_7 = x6 - mu6;
+    const vector_f round_8 = vector_round_f(0.15915494309189535f * gap_7);
+    const vector_f v6 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f
+        * round_8;
+    const vector_f gap_8 = x7 - mu7;
+    const vector_f round_9 = vector_round_f(0.15915494309189535f * gap_8);
+    const vector_f v7 = gap_8 - 6.28125f * round_9 - 0.0019350051879882812f * round_9 - 3.019915981956753e-07f
+        * round_9;
+    const vector_f gap_9 = x8 - mu8;
+    const vector_f round_10 = vector_round_f(0.15915494309189535f * gap_9);
+    const vector_f v8 = gap_9 - 6.28125f * round_10 - 0.0019350051879882812f * round_10 -
+        3.019915981956753e-07f * round_10;
+    const vector_f total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+    const vector_f gap_10 = x9 - mu9;
+    const vector_f round_11 = vector_round_f(0.15915494309189535f * gap_10);
+    const vector_f v9 = gap_10 - 6.28125f * round_11 - 0.0019350051879882812f * round_11 -
+        3.019915981956753e-07f * round_11;
+    const vector_f gap_11 = x10 - mu10;
+    const vector_f round_12 = vector_round_f(0.15915494309189535f * gap_11);
+    const vector_f v10 = gap_11 - 6.28125f * round_12 - 0.0019350051879882812f * round_12 -
+        3.019915981956753e-07f * round_12;
+    const vector_f gap_12 = x11 - mu11;
+    const vector_f round_13 = vector_round_f(0.15915494309189535f * gap_12);
+    const vector_f v11 = gap_12 - 6.28125f * round_13 - 0.0019350051879882812f * round_13 -
+        3.019915981956753e-07f * round_13;
+    const vector_f gap_13 = x12 - mu12;
+    const vector_f round_14 = vector_round_f(0.15915494309189535f * gap_13);
+    const vector_f v12 = gap_13 - 6.28125f * round_14 - 0.0019350051879882812f * round_14 -
+        3.019915981956753e-07f * round_14;
+    const vector_f total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
+    const vector_f gap_14 = x13 - mu13;
+    const vector_f round_15 = vector_round_f(0.15915494309189535f * gap_14);
+    const vector_f v13 = gap_14 - 6.28125f * round_15 - 0.0019350051879882812f * round_15 -
+        3.019915981956753e-07f * round_15;
+    const vector_f z0 = total_4 + W0_13 * v13;
+    const vector_f total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+    const vector_f total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+    const vector_f total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12;
+    const vector_f z1 = total_7 + W1_13 * v13;
+    const vector_f total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+    const vector_f total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+    const vector_f total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12;
+    const vector_f z2 = total_10 + W2_13 * v13;
+    const vector_f total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+    const vector_f total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+    const vector_f total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12;
+    const vector_f z3 = total_13 + W3_13 * v13;
+    const vector_f total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+    const vector_f total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+    const vector_f total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12;
+    const vector_f z4 = total_16 + W4_13 * v13;
+    const vector_f total_17 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+    const vector_f total_18 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+    const vector_f total_19 = total_18 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+    const vector_f total_20 = total_19 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12;
+    const vector_f z5 = total_20 + W5_13 * v13;
+    const vector_f total_21 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+    const vector_f total_22 = total_21 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+    const vector_f total_23 = total_22 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12;
+    const vector_f z6 = total_23 + W6_13 * v13;
+    const vector_f total_24 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+    const vector_f total_25 = total_24 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+    const vector_f total_26 = total_25 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12;
+    const vector_f z7 = total_26 + W7_13 * v13;
+    const vector_f total_27 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+    const vector_f total_28 = total_27 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+    const vector_f total_29 = total_28 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12;
+    const vector_f z8 = total_29 + W8_13 * v13;
+    const vector_f total_30 = total_17 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+    const vector_f total_31 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4;
+    const vector_f total_32 = total_31 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8;
+    const vector_f total_33 = total_32 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12;
+    const vector_f z9 = total_33 + W9_13 * v13;
+    const vector_f total_34 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4;
+    const vector_f total_35 = total_34 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8;
+    const vector_f total_36 = total_35 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12;
+    const vector_f z10 = total_36 + W10_13 * v13;
+    const vector_f total_37 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4;
+    const vector_f total_38 = total_37 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8;
+    const vector_f total_39 = total_38 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12;
+    const vector_f z11 = total_39 + W11_13 * v13;
+    const vector_f total_40 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4;
+    const vector_f total_41 = total_40 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8;
+    const vector_f total_42 = total_41 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12;
+    const vector_f z12 = total_42 + W12_13 * v13;
+    const vector_f total_43 = total_30 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12;
+    const vector_f total_44 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4;
+    const vector_f total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
+    const vector_f total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
+    const vector_f z13 = total_46 + W13_13 * v13;
+    const vector_f exp_2 = vector_exp_f(-0.5f * (total_43 + z13 * z13));
+    value[0] = value[0] + amplitude * exp_2;
+}
+
+/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+OUTLINE void pair_forward_f(
+    const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const vector_f x2 = X[2];
+    const vector_f x3 = X[3];
+    const vector_f x4 = X[4];
+    const vector_f x5 = X[5];
+    const vector_f x6 = X[6];
+    const vector_f x7 = X[7];
+    const vector_f x8 = X[8];
+    const vector_f x9 = X[9];
+    const vector_f x10 = X[10];
+    const vector_f x11 = X[11];
+    const vector_f x12 = X[12];
+    const vector_f x13 = X[13];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float mu2 = S[2];
+    const float mu3 = S[3];
+    const float mu4 = S[4];
+    const float mu5 = S[5];
+    const float mu6 = S[6];
+    const float mu7 = S[7];
+    const float mu8 = S[8];
+    const float mu9 = S[9];
+    const float mu10 = S[10];
+    const float mu11 = S[11];
+    const float mu12 = S[12];
+    const float mu13 = S[13];
+    const float W0_0 = S[14];
+    const float W0_1 = S[15];
+    const float W0_2 = S[16];
+    const float W0_3 = S[17];
+    const float W0_4 = S[18];
+    const float W0_5 = S[19];
+    const float W0_6 = S[20];
+    const float W0_7 = S[21];
+    const float W0_8 = S[22];
+    const float W0_9 = S[23];
+    const float W0_10 = S[24];
+    const float W0_11 = S[25];
+    const float W0_12 = S[26];
+    const float W0_13 = S[27];
+    const float W1_0 = S[28];
+    const float W1_1 = S[29];
+    const float W1_2 = S[30];
+    const float W1_3 = S[31];
+    const float W1_4 = S[32];
+    const float W1_5 = S[33];
+    const float W1_6 = S[34];
+    const float W1_7 = S[35];
+    const float W1_8 = S[36];
+    const float W1_9 = S[37];
+    const float W1_10 = S[38];
+    const float W1_11 = S[39];
+    const float W1_12 = S[40];
+    const float W1_13 = S[41];
+    const float W2_0 = S[42];
+    const float W2_1 = S[43];
+    const float W2_2 = S[44];
+    const float W2_3 = S[45];
+    const float W2_4 = S[46];
+    const float W2_5 = S[47];
+    const float W2_6 = S[48];
+    const float W2_7 = S[49];
+    const float W2_8 = S[50];
+    const float W2_9 = S[51];
+    const float W2_10 = S[52];
+    const float W2_11 = S[53];
+    const float W2_12 = S[54];
+    const float W2_13 = S[55];
+    const float W3_0 = S[56];
+    const float W3_1 = S[57];
+    const float W3_2 = S[58];
+    const float W3_3 = S[59];
+    const float W3_4 = S[60];
+    const float W3_5 = S[61];
+    const float W3_6 = S[62];
+    const float W3_7 = S[63];
+    const float W3_8 = S[64];
+    const float W3_9 = S[65];
+    const float W3_10 = S[66];
+    const float W3_11 = S[67];
+    const float W3_12 = S[68];
+    const float W3_13 = S[69];
+    const float W4_0 = S[70];
+    const float W4_1 = S[71];
+    const float W4_2 = S[72];
+    const float W4_3 = S[73];
+    const float W4_4 = S[74];
+    const float W4_5 = S[75];
+    const float W4_6 = S[76];
+    const float W4_7 = S[77];
+    const float W4_8 = S[78];
+    const float W4_9 = S[79];
+    const float W4_10 = S[80];
+    const float W4_11 = S[81];
+    const float W4_12 = S[82];
+    const float W4_13 = S[83];
+    const float W5_0 = S[84];
+    const float W5_1 = S[85];
+    const float W5_2 = S[86];
+    const float W5_3 = S[87];
+    const float W5_4 = S[88];
+    const float W5_5 = S[89];
+    const float W5_6 = S[90];
+    const float W5_7 = S[91];
+    const float W5_8 = S[92];
+    const float W5_9 = S[93];
+    const float W5_10 = S[94];
+    const float W5_11 = S[95];
+    const float W5_12 = S[96];
+    const float W5_13 = S[97];
+    const float W6_0 = S[98];
+    const float W6_1 = S[99];
+    const float W6_2 = S[100];
+    const float W6_3 = S[101];
+    const float W6_4 = S[102];
+    const float W6_5 = S[103];
+    const float W6_6 = S[104];
+    const float W6_7 = S[105];
+    const float W6_8 = S[106];
+    const float W6_9 = S[107];
+    const float W6_10 = S[108];
+    const float W6_11 = S[109];
+    const float W6_12 = S[110];
+    const float W6_13 = S[111];
+    const float W7_0 = S[112];
+    const float W7_1 = S[113];
+    const float W7_2 = S[114];
+    const float W7_3 = S[115];
+    const float W7_4 = S[116];
+    const float W7_5 = S[117];
+    const float W7_6 = S[118];
+    const float W7_7 = S[119];
+    const float W7_8 = S[120];
+    const float W7_9 = S[121];
+    const float W7_10 = S[122];
+    const float W7_11 = S[123];
+    const float W7_12 = S[124];
+    const float W7_13 = S[125];
+    const float W8_0 = S[126];
+    const float W8_1 = S[127];
+    const float W8_2 = S[128];
+    const float W8_3 = S[129];
+    const float W8_4 = S[130];
+    const float W8_5 = S[131];
+    const float W8_6 = S[132];
+    const float W8_7 = S[133];
+    const float W8_8 = S[134];
+    const float W8_9 = S[135];
+    const float W8_10 = S[136];
+    const float W8_11 = S[137];
+    const float W8_12 = S[138];
+    const float W8_13 = S[139];
+    const float W9_0 = S[140];
+    const float W9_1 = S[141];
+    const float W9_2 = S[142];
+    const float W9_3 = S[143];
+    const float W9_4 = S[144];
+    const float W9_5 = S[145];
+    const float W9_6 = S[146];
+    const float W9_7 = S[147];
+    const float W9_8 = S[148];
+    const float W9_9 = S[149];
+    const float W9_10 = S[150];
+    const float W9_11 = S[151];
+    const float W9_12 = S[152];
+    const float W9_13 = S[153];
+    const float W10_0 = S[154];
+    const float W10_1 = S[155];
+    const float W10_2 = S[156];
+    const float W10_3 = S[157];
+    const float W10_4 = S[158];
+    const float W10_5 = S[159];
+    const float W10_6 = S[160];
+    const float W10_7 = S[161];
+    const float W10_8 = S[162];
+    const float W10_9 = S[163];
+    const float W10_10 = S[164];
+    const float W10_11 = S[165];
+    const float W10_12 = S[166];
+    const float W10_13 = S[167];
+    const float W11_0 = S[168];
+    const float W11_1 = S[169];
+    const float W11_2 = S[170];
+    const float W11_3 = S[171];
+    const float W11_4 = S[172];
+    const float W11_5 = S[173];
+    const float W11_6 = S[174];
+    const float W11_7 = S[175];
+    const float W11_8 = S[176];
+    const float W11_9 = S[177];
+    const float W11_10 = S[178];
+    const float W11_11 = S[179];
+    const float W11_12 = S[180];
+    const float W11_13 = S[181];
+    const float W12_0 = S[182];
+    const float W12_1 = S[183];
+    const float W12_2 = S[184];
+    const float W12_3 = S[185];
+    const float W12_4 = S[186];
+    const float W12_5 = S[187];
+    const float W12_6 = S[188];
+    const float W12_7 = S[189];
+    const float W12_8 = S[190];
+    const float W12_9 = S[191];
+    const float W12_10 = S[192];
+    const float W12_11 = S[193];
+    const float W12_12 = S[194];
+    const float W12_13 = S[195];
+    const float W13_0 = S[196];
+    const float W13_1 = S[197];
+    const float W13_2 = S[198];
+    const float W13_3 = S[199];
+    const float W13_4 = S[200];
+    const float W13_5 = S[201];
+    const float W13_6 = S[202];
+    const float W13_7 = S[203];
+    const float W13_8 = S[204];
+    const float W13_9 = S[205];
+    const float W13_10 = S[206];
+    const float W13_11 = S[207];
+    const float W13_12 = S[208];
+    const float W13_13 = S[209];
+    const float amplitude = S[210];
+    const vector_f gap = x0 - mu0;
+    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
+    const vector_f v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
+        round_2;
+    const vector_f gap_2 = x1 - mu1;
+    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
+    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
+        * round_3;
+    const vector_f gap_3 = x2 - mu2;
+    const vector_f round_4 = vector_round_f(0.15915494309189535f * gap_3);
+    const vector_f v2 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f
+        * round_4;
+    const vector_f gap_4 = x3 - mu3;
+    const vector_f round_5 = vector_round_f(0.15915494309189535f * gap_4);
+    const vector_f v3 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f
+        * round_5;
+    const vector_f gap_5 = x4 - mu4;
+    const vector_f round_6 = vector_round_f(0.15915494309189535f * gap_5);
+    const vector_f v4 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f
+        * round_6;
+    const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+    const vector_f gap_6 = x5 - mu5;
+    const vector_f round_7 = vector_round_f(0.15915494309189535f * gap_6);
+    const vector_f v5 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f
+        * round_7;
+    const vector_f gap_7 = x6 - mu6;
+    const vector_f round_8 = vector_round_f(0.15915494309189535f * gap_7);
+    const vector_f v6 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f
+        * round_8;
+    const vector_f gap_8 = x7 - mu7;
+    const vector_f round_9 = vector_round_f(0.15915494309189535f * gap_8);
+    const vector_f v7 = gap_8 - 6.28125f * round_9 - 0.0019350051879882812f * round_9 - 3.019915981956753e-07f
+        * round_9;
+    const vector_f gap_9 = x8 - mu8;
+    const vector_f round_10 = vector_round_f(0.15915494309189535f * gap_9);
+    const vector_f v8 = gap_9 - 6.28125f * round_10 - 0.0019350051879882812f * round_10 -
+        3.019915981956753e-07f * round_10;
+    const vector_f total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+    const vector_f gap_10 = x9 - mu9;
+    const vector_f round_11 = vector_round_f(0.15915494309189535f * gap_10);
+    const vector_f v9 = gap_10 - 6.28125f * round_11 - 0.0019350051879882812f * round_11 -
+        3.019915981956753e-07f * round_11;
+    const vector_f gap_11 = x10 - mu10;
+    const vector_f round_12 = vector_round_f(0.15915494309189535f * gap_11);
+    const vector_f v10 = gap_11 - 6.28125f * round_12 - 0.0019350051879882812f * round_12 -
+        3.019915981956753e-07f * round_12;
+    const vector_f gap_12 = x11 - mu11;
+    const vector_f round_13 = vector_round_f(0.15915494309189535f * gap_12);
+    const vector_f v11 = gap_12 - 6.28125f * round_13 - 0.0019350051879882812f * round_13 -
+        3.019915981956753e-07f * round_13;
+    const vector_f gap_13 = x12 - mu12;
+    const vector_f round_14 = vector_round_f(0.15915494309189535f * gap_13);
+    const vector_f v12 = gap_13 - 6.28125f * round_14 - 0.0019350051879882812f * round_14 -
+        3.019915981956753e-07f * round_14;
+    const vector_f total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
+    const vector_f gap_14 = x13 - mu13;
+    const vector_f round_15 = vector_round_f(0.15915494309189535f * gap_14);
+    const vector_f v13 = gap_14 - 6.28125f * round_15 - 0.0019350051879882812f * round_15 -
+        3.019915981956753e-07f * round_15;
+    const vector_f z0 = total_4 + W0_13 * v13;
+    const vector_f total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+    const vector_f total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+    const vector_f total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12;
+    const vector_f z1 = total_7 + W1_13 * v13;
+    const vector_f total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+    const vector_f total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+    const vector_f total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12;
+    const vector_f z2 = total_10 + W2_13 * v13;
+    const vector_f total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+    const vector_f total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+    const vector_f total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12;
+    const vector_f z3 = total_13 + W3_13 * v13;
+    const vector_f total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+    const vector_f total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+    const vector_f total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12;
+    const vector_f z4 = total_16 + W4_13 * v13;
+    const vector_f total_17 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+    const vector_f total_18 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+    const vector_f total_19 = total_18 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+    const vector_f total_20 = total_19 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12;
+    const vector_f z5 = total_20 + W5_13 * v13;
+    const vector_f total_21 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+    const vector_f total_22 = total_21 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+    const vector_f total_23 = total_22 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12;
+    const vector_f z6 = total_23 + W6_13 * v13;
+    const vector_f total_24 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+    const vector_f total_25 = total_24 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+    const vector_f total_26 = total_25 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12;
+    const vector_f z7 = total_26 + W7_13 * v13;
+    const vector_f total_27 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+    const vector_f total_28 = total_27 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+    const vector_f total_29 = total_28 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12;
+    const vector_f z8 = total_29 + W8_13 * v13;
+    const vector_f total_30 = total_17 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+    const vector_f total_31 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4;
+    const vector_f total_32 = total_31 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8;
+    const vector_f total_33 = total_32 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12;
+    const vector_f z9 = total_33 + W9_13 * v13;
+    const vector_f total_34 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4;
+    const vector_f total_35 = total_34 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8;
+    const vector_f total_36 = total_35 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12;
+    const vector_f z10 = total_36 + W10_13 * v13;
+    const vector_f total_37 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4;
+    const vector_f total_38 = total_37 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8;
+    const vector_f total_39 = total_38 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12;
+    const vector_f z11 = total_39 + W11_13 * v13;
+    const vector_f total_40 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4;
+    const vector_f total_41 = total_40 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8;
+    const vector_f total_42 = total_41 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12;
+    const vector_f z12 = total_42 + W12_13 * v13;
+    const vector_f total_43 = total_30 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12;
+    const vector_f total_44 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4;
+    const vector_f total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
+    const vector_f total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
+    const vector_f z13 = total_46 + W13_13 * v13;
+    const vector_f exp_2 = vector_exp_f(-0.5f * (total_43 + z13 * z13));
+    const vector_f phi = amplitude * exp_2;
+    const vector_f z13_product = z13 * phi;
+    const vector_f z12_product = z12 * phi;
+    const vector_f z11_product = z11 * phi;
+    const vector_f z10_product = z10 * phi;
+    const vector_f z9_product = z9 * phi;
+    const vector_f z8_product = z8 * phi;
+    const vector_f z7_product = z7 * phi;
+    const vector_f z6_product = z6 * phi;
+    const vector_f z5_product = z5 * phi;
+    const vector_f z4_product = z4 * phi;
+    const vector_f z3_product = z3 * phi;
+    const vector_f z2_product = z2 * phi;
+    const vector_f z1_product = z1 * phi;
+    const vector_f z0_product = z0 * phi;
+    value[0] = value[0] + phi;
+    slope[0] = slope[0] - W13_0 * z13_product - W12_0 * z12_product - W11_0 * z11_product - W10_0 *
+            z10_product - W9_0 * z9_product - W8_0 * z8_product - W7_0 * z7_product - W6_0 * z6_product - W5_0 *
+            z5_product - W4_0 * z4_product - W3_0 * z3_product - W2_0 * z2_product - W1_0 * z1_product - W0_0 *
+            z0_product;
+    slope[1] = slope[1] - W13_1 * z13_product - W12_1 * z12_product - W11_1 * z11_product - W10_1 *
+            z10_product - W9_1 * z9_product - W8_1 * z8_product - W7_1 * z7_product - W6_1 * z6_product - W5_1 *
+            z5_product - W4_1 * z4_product - W3_1 * z3_product - W2_1 * z2_product - W1_1 * z1_product - W0_1 *
+            z0_product;
+    slope[2] = slope[2] - W13_2 * z13_product - W12_2 * z12_product - W11_2 * z11_product - W10_2 *
+            z10_product - W9_2 * z9_product - W8_2 * z8_product - W7_2 * z7_product - W6_2 * z6_product - W5_2 *
+            z5_product - W4_2 * z4_product - W3_2 * z3_product - W2_2 * z2_product - W1_2 * z1_product - W0_2 *
+            z0_product;
+    slope[3] = slope[3] - W13_3 * z13_product - W12_3 * z12_product - W11_3 * z11_product - W10_3 *
+            z10_product - W9_3 * z9_product - W8_3 * z8_product - W7_3 * z7_product - W6_3 * z6_product - W5_3 *
+            z5_product - W4_3 * z4_product - W3_3 * z3_product - W2_3 * z2_product - W1_3 * z1_product - W0_3 *
+            z0_product;
+    slope[4] = slope[4] - W13_4 * z13_product - W12_4 * z12_product - W11_4 * z11_product - W10_4 *
+            z10_product - W9_4 * z9_product - W8_4 * z8_product - W7_4 * z7_product - W6_4 * z6_product - W5_4 *
+            z5_product - W4_4 * z4_product - W3_4 * z3_product - W2_4 * z2_product - W1_4 * z1_product - W0_4 *
+            z0_product;
+    slope[5] = slope[5] - W13_5 * z13_product - W12_5 * z12_product - W11_5 * z11_product - W10_5 *
+            z10_product - W9_5 * z9_product - W8_5 * z8_product - W7_5 * z7_product - W6_5 * z6_product - W5_5 *
+            z5_product - W4_5 * z4_product - W3_5 * z3_product - W2_5 * z2_product - W1_5 * z1_product - W0_5 *
+            z0_product;
+    slope[6] = slope[6] - W13_6 * z13_product - W12_6 * z12_product - W11_6 * z11_product - W10_6 *
+            z10_product - W9_6 * z9_product - W8_6 * z8_product - W7_6 * z7_product - W6_6 * z6_product - W5_6 *
+            z5_product - W4_6 * z4_product - W3_6 * z3_product - W2_6 * z2_product - W1_6 * z1_product - W0_6 *
+            z0_product;
+    slope[7] = slope[7] - W13_7 * z13_product - W12_7 * z12_product - W11_7 * z11_product - W10_7 *
+            z10_product - W9_7 * z9_product - W8_7 * z8_product - W7_7 * z7_product - W6_7 * z6_product - W5_7 *
+            z5_product - W4_7 * z4_product - W3_7 * z3_product - W2_7 * z2_product - W1_7 * z1_product - W0_7 *
+            z0_product;
+    slope[8] = slope[8] - W13_8 * z13_product - W12_8 * z12_product - W11_8 * z11_product - W10_8 *
+            z10_product - W9_8 * z9_product - W8_8 * z8_product - W7_8 * z7_product - W6_8 * z6_product - W5_8 *
+            z5_product - W4_8 * z4_product - W3_8 * z3_product - W2_8 * z2_product - W1_8 * z1_product - W0_8 *
+            z0_product;
+    slope[9] = slope[9] - W13_9 * z13_product - W12_9 * z12_product - W11_9 * z11_product - W10_9 *
+            z10_product - W9_9 * z9_product - W8_9 * z8_product - W7_9 * z7_product - W6_9 * z6_product - W5_9 *
+            z5_product - W4_9 * z4_product - W3_9 * z3_product - W2_9 * z2_product - W1_9 * z1_product - W0_9 *
+            z0_product;
+    slope[10] = slope[10] - W13_10 * z13_product - W12_10 * z12_product - W11_10 * z11_product - W10_10 *
+            z10_product - W9_10 * z9_product - W8_10 * z8_product - W7_10 * z7_product - W6_10 * z6_product -
+            W5_10 * z5_product - W4_10 * z4_product - W3_10 * z3_product - W2_10 * z2_product - W1_10 * z1_product
+            - W0_10 * z0_product;
+    slope[11] = slope[11] - W13_11 * z13_product - W12_11 * z12_product - W11_11 * z11_product - W10_11 *
+            z10_product - W9_11 * z9_product - W8_11 * z8_product - W7_11 * z7_product - W6_11 * z6_product -
+            W5_11 * z5_product - W4_11 * z4_product - W3_11 * z3_product - W2_11 * z2_product - W1_11 * z1_product
+            - W0_11 * z0_product;
+    slope[12] = slope[12] - W13_12 * z13_product - W12_12 * z12_product - W11_12 * z11_product - W10_12 *
+            z10_product - W9_12 * z9_product - W8_12 * z8_product - W7_12 * z7_product - W6_12 * z6_product -
+            W5_12 * z5_product - W4_12 * z4_product - W3_12 * z3_product - W2_12 * z2_product - W1_12 * z1_product
+            - W0_12 * z0_product;
+    slope[13] = slope[13] - W13_13 * z13_product - W12_13 * z12_product - W11_13 * z11_product - W10_13 *
+            z10_product - W9_13 * z9_product - W8_13 * z8_product - W7_13 * z7_product - W6_13 * z6_product -
+            W5_13 * z5_product - W4_13 * z4_product - W3_13 * z3_product - W2_13 * z2_product - W1_13 * z1_product
+            - W0_13 * z0_product;
+}
+
+/* The Riemannian gradient at some points, of the sums of slopes. */
+OUTLINE void pair_gradient_f(
+    const vector_f *x, const vector_f *slope, vector_f *gradient) {
+    (void)x;
+    const vector_f slope_x0 = slope[0];
+    const vector_f slope_x1 = slope[1];
+    const vector_f slope_x2 = slope[2];
+    const vector_f slope_x3 = slope[3];
+    const vector_f slope_x4 = slope[4];
+    const vector_f slope_x5 = slope[5];
+    const vector_f slope_x6 = slope[6];
+    const vector_f slope_x7 = slope[7];
+    const vector_f slope_x8 = slope[8];
+    const vector_f slope_x9 = slope[9];
+    const vector_f slope_x10 = slope[10];
+    const vector_f slope_x11 = slope[11];
+    const vector_f slope_x12 = slope[12];
+    const vector_f slope_x13 = slope[13];
+    gradient[0] = slope_x0;
+    gradient[1] = slope_x1;
+    gradient[2] = slope_x2;
+    gradient[3] = slope_x3;
+    gradient[4] = slope_x4;
+    gradient[5] = slope_x5;
+    gradient[6] = slope_x6;
+    gradient[7] = slope_x7;
+    gradient[8] = slope_x8;
+    gradient[9] = slope_x9;
+    gradient[10] = slope_x10;
+    gradient[11] = slope_x11;
+    gradient[12] = slope_x12;
+    gradient[13] = slope_x13;
+}
+
+/* The adjoint of slope at some points, of that of the gradient. */
+OUTLINE void pair_gradient_vjp_f(
+    const vector_f *x, const vector_f *gradient_bar, vector_f *slope_bar) {
+    (void)x;
+    const vector_f gradient_bar0 = gradient_bar[0];
+    const vector_f gradient_bar1 = gradient_bar[1];
+    const vector_f gradient_bar2 = gradient_bar[2];
+    const vector_f gradient_bar3 = gradient_bar[3];
+    const vector_f gradient_bar4 = gradient_bar[4];
+    const vector_f gradient_bar5 = gradient_bar[5];
+    const vector_f gradient_bar6 = gradient_bar[6];
+    const vector_f gradient_bar7 = gradient_bar[7];
+    const vector_f gradient_bar8 = gradient_bar[8];
+    const vector_f gradient_bar9 = gradient_bar[9];
+    const vector_f gradient_bar10 = gradient_bar[10];
+    const vector_f gradient_bar11 = gradient_bar[11];
+    const vector_f gradient_bar12 = gradient_bar[12];
+    const vector_f gradient_bar13 = gradient_bar[13];
+    slope_bar[0] = gradient_bar0;
+    slope_bar[1] = gradient_bar1;
+    slope_bar[2] = gradient_bar2;
+    slope_bar[3] = gradient_bar3;
+    slope_bar[4] = gradient_bar4;
+    slope_bar[5] = gradient_bar5;
+    slope_bar[6] = gradient_bar6;
+    slope_bar[7] = gradient_bar7;
+    slope_bar[8] = gradient_bar8;
+    slope_bar[9] = gradient_bar9;
+    slope_bar[10] = gradient_bar10;
+    slope_bar[11] = gradient_bar11;
+    slope_bar[12] = gradient_bar12;
+    slope_bar[13] = gradient_bar13;
+}
+
+/* The adjoints of some splats' parameters, of that of S. */
+OUTLINE void pair_constants_vjp_f(
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
+    (void)mu;
+    (void)W;
+    (void)amplitude;
+    const vector_f mu0_bar = S_bar[0];
+    const vector_f mu1_bar = S_bar[1];
+    const vector_f mu2_bar = S_bar[2];
+    const vector_f mu3_bar = S_bar[3];
+    const vector_f mu4_bar = S_bar[4];
+    const vector_f mu5_bar = S_bar[5];
+    const vector_f mu6_bar = S_bar[6];
+    const vector_f mu7_bar = S_bar[7];
+    const vector_f mu8_bar = S_bar[8];
+    const vector_f mu9_bar = S_bar[9];
+    const vector_f mu10_bar = S_bar[10];
+    const vector_f mu11_bar = S_bar[11];
+    const vector_f mu12_bar = S_bar[12];
+    const vector_f mu13_bar = S_bar[13];
+    const vector_f W0_0_bar = S_bar[14];
+    const vector_f W0_1_bar = S_bar[15];
+    const vector_f W0_2_bar = S_bar[16];
+    const vector_f W0_3_bar = S_bar[17];
+    const vector_f W0_4_bar = S_bar[18];
+    const vector_f W0_5_bar = S_bar[19];
+    const vector_f W0_6_bar = S_bar[20];
+    const vector_f W0_7_bar = S_bar[21];
+    const vector_f W0_8_bar = S_bar[22];
+    const vector_f W0_9_bar = S_bar[23];
+    const vector_f W0_10_bar = S_bar[24];
+    const vector_f W0_11_bar = S_bar[25];
+    const vector_f W0_12_bar = S_bar[26];
+    const vector_f W0_13_bar = S_bar[27];
+    const vector_f W1_0_bar = S_bar[28];
+    const vector_f W1_1_bar = S_bar[29];
+    const vector_f W1_2_bar = S_bar[30];
+    const vector_f W1_3_bar = S_bar[31];
+    const vector_f W1_4_bar = S_bar[32];
+    const vector_f W1_5_bar = S_bar[33];
+    const vector_f W1_6_bar = S_bar[34];
+    const vector_f W1_7_bar = S_bar[35];
+    const vector_f W1_8_bar = S_bar[36];
+    const vector_f W1_9_bar = S_bar[37];
+    const vector_f W1_10_bar = S_bar[38];
+    const vector_f W1_11_bar = S_bar[39];
+    const vector_f W1_12_bar = S_bar[40];
+    const vector_f W1_13_bar = S_bar[41];
+    const vector_f W2_0_bar = S_bar[42];
+    const vector_f W2_1_bar = S_bar[43];
+    const vector_f W2_2_bar = S_bar[44];
+    const vector_f W2_3_bar = S_bar[45];
+    const vector_f W2_4_bar = S_bar[46];
+    const vector_f W2_5_bar = S_bar[47];
+    const vector_f W2_6_bar = S_bar[48];
+    const vector_f W2_7_bar = S_bar[49];
+    const vector_f W2_8_bar = S_bar[50];
+    const vector_f W2_9_bar = S_bar[51];
+    const vector_f W2_10_bar = S_bar[52];
+    const vector_f W2_11_bar = S_bar[53];
+    const vector_f W2_12_bar = S_bar[54];
+    const vector_f W2_13_bar = S_bar[55];
+    const vector_f W3_0_bar = S_bar[56];
+    const vector_f W3_1_bar = S_bar[57];
+    const vector_f W3_2_bar = S_bar[58];
+    const vector_f W3_3_bar = S_bar[59];
+    const vector_f W3_4_bar = S_bar[60];
+    const vector_f W3_5_bar = S_bar[61];
+    const vector_f W3_6_bar = S_bar[62];
+    const vector_f W3_7_bar = S_bar[63];
+    const vector_f W3_8_bar = S_bar[64];
+    const vector_f W3_9_bar = S_bar[65];
+    const vector_f W3_10_bar = S_bar[66];
+    const vector_f W3_11_bar = S_bar[67];
+    const vector_f W3_12_bar = S_bar[68];
+    const vector_f W3_13_bar = S_bar[69];
+    const vector_f W4_0_bar = S_bar[70];
+    const vector_f W4_1_bar = S_bar[71];
+    const vector_f W4_2_bar = S_bar[72];
+    const vector_f W4_3_bar = S_bar[73];
+    const vector_f W4_4_bar = S_bar[74];
+    const vector_f W4_5_bar = S_bar[75];
+    const vector_f W4_6_bar = S_bar[76];
+    const vector_f W4_7_bar = S_bar[77];
+    const vector_f W4_8_bar = S_bar[78];
+    const vector_f W4_9_bar = S_bar[79];
+    const vector_f W4_10_bar = S_bar[80];
+    const vector_f W4_11_bar = S_bar[81];
+    const vector_f W4_12_bar = S_bar[82];
+    const vector_f W4_13_bar = S_bar[83];
+    const vector_f W5_0_bar = S_bar[84];
+    const vector_f W5_1_bar = S_bar[85];
+    const vector_f W5_2_bar = S_bar[86];
+    const vector_f W5_3_bar = S_bar[87];
+    const vector_f W5_4_bar = S_bar[88];
+    const vector_f W5_5_bar = S_bar[89];
+    const vector_f W5_6_bar = S_bar[90];
+    const vector_f W5_7_bar = S_bar[91];
+    const vector_f W5_8_bar = S_bar[92];
+    const vector_f W5_9_bar = S_bar[93];
+    const vector_f W5_10_bar = S_bar[94];
+    const vector_f W5_11_bar = S_bar[95];
+    const vector_f W5_12_bar = S_bar[96];
+    const vector_f W5_13_bar = S_bar[97];
+    const vector_f W6_0_bar = S_bar[98];
+    const vector_f W6_1_bar = S_bar[99];
+    const vector_f W6_2_bar = S_bar[100];
+    const vector_f W6_3_bar = S_bar[101];
+    const vector_f W6_4_bar = S_bar[102];
+    const vector_f W6_5_bar = S_bar[103];
+    const vector_f W6_6_bar = S_bar[104];
+    const vector_f W6_7_bar = S_bar[105];
+    const vector_f W6_8_bar = S_bar[106];
+    const vector_f W6_9_bar = S_bar[107];
+    const vector_f W6_10_bar = S_bar[108];
+    const vector_f W6_11_bar = S_bar[109];
+    const vector_f W6_12_bar = S_bar[110];
+    const vector_f W6_13_bar = S_bar[111];
+    const vector_f W7_0_bar = S_bar[112];
+    const vector_f W7_1_bar = S_bar[113];
+    const vector_f W7_2_bar = S_bar[114];
+    const vector_f W7_3_bar = S_bar[115];
+    const vector_f W7_4_bar = S_bar[116];
+    const vector_f W7_5_bar = S_bar[117];
+    const vector_f W7_6_bar = S_bar[118];
+    const vector_f W7_7_bar = S_bar[119];
+    const vector_f W7_8_bar = S_bar[120];
+    const vector_f W7_9_bar = S_bar[121];
+    const vector_f W7_10_bar = S_bar[122];
+    const vector_f W7_11_bar = S_bar[123];
+    const vector_f W7_12_bar = S_bar[124];
+    const vector_f W7_13_bar = S_bar[125];
+    const vector_f W8_0_bar = S_bar[126];
+    const vector_f W8_1_bar = S_bar[127];
+    const vector_f W8_2_bar = S_bar[128];
+    const vector_f W8_3_bar = S_bar[129];
+    const vector_f W8_4_bar = S_bar[130];
+    const vector_f W8_5_bar = S_bar[131];
+    const vector_f W8_6_bar = S_bar[132];
+    const vector_f W8_7_bar = S_bar[133];
+    const vector_f W8_8_bar = S_bar[134];
+    const vector_f W8_9_bar = S_bar[135];
+    const vector_f W8_10_bar = S_bar[136];
+    const vector_f W8_11_bar = S_bar[137];
+    const vector_f W8_12_bar = S_bar[138];
+    const vector_f W8_13_bar = S_bar[139];
+    const vector_f W9_0_bar = S_bar[140];
+    const vector_f W9_1_bar = S_bar[141];
+    const vector_f W9_2_bar = S_bar[142];
+    const vector_f W9_3_bar = S_bar[143];
+    const vector_f W9_4_bar = S_bar[144];
+    const vector_f W9_5_bar = S_bar[145];
+    const vector_f W9_6_bar = S_bar[146];
+    const vector_f W9_7_bar = S_bar[147];
+    const vector_f W9_8_bar = S_bar[148];
+    const vector_f W9_9_bar = S_bar[149];
+    const vector_f W9_10_bar = S_bar[150];
+    const vector_f W9_11_bar = S_bar[151];
+    const vector_f W9_12_bar = S_bar[152];
+    const vector_f W9_13_bar = S_bar[153];
+    const vector_f W10_0_bar = S_bar[154];
+    const vector_f W10_1_bar = S_bar[155];
+    const vector_f W10_2_bar = S_bar[156];
+    const vector_f W10_3_bar = S_bar[157];
+    const vector_f W10_4_bar = S_bar[158];
+    const vector_f W10_5_bar = S_bar[159];
+    const vector_f W10_6_bar = S_bar[160];
+    const vector_f W10_7_bar = S_bar[161];
+    const vector_f W10_8_bar = S_bar[162];
+    const vector_f W10_9_bar = S_bar[163];
+    const vector_f W10_10_bar = S_bar[164];
+    const vector_f W10_11_bar = S_bar[165];
+    const vector_f W10_12_bar = S_bar[166];
+    const vector_f W10_13_bar = S_bar[167];
+    const vector_f W11_0_bar = S_bar[168];
+    const vector_f W11_1_bar = S_bar[169];
+    const vector_f W11_2_bar = S_bar[170];
+    const vector_f W11_3_bar = S_bar[171];
+    const vector_f W11_4_bar = S_bar[172];
+    const vector_f W11_5_bar = S_bar[173];
+    const vector_f W11_6_bar = S_bar[174];
+    const vector_f W11_7_bar = S_bar[175];
+    const vector_f W11_8_bar = S_bar[176];
+    const vector_f W11_9_bar = S_bar[177];
+    const vector_f W11_10_bar = S_bar[178];
+    const vector_f W11_11_bar = S_bar[179];
+    const vector_f W11_12_bar = S_bar[180];
+    const vector_f W11_13_bar = S_bar[181];
+    const vector_f W12_0_bar = S_bar[182];
+    const vector_f W12_1_bar = S_bar[183];
+    const vector_f W12_2_bar = S_bar[184];
+    const vector_f W12_3_bar = S_bar[185];
+    const vector_f W12_4_bar = S_bar[186];
+    const vector_f W12_5_bar = S_bar[187];
+    const vector_f W12_6_bar = S_bar[188];
+    const vector_f W12_7_bar = S_bar[189];
+    const vector_f W12_8_bar = S_bar[190];
+    const vector_f W12_9_bar = S_bar[191];
+    const vector_f W12_10_bar = S_bar[192];
+    const vector_f W12_11_bar = S_bar[193];
+    const vector_f W12_12_bar = S_bar[194];
+    const vector_f W12_13_bar = S_bar[195];
+    const vector_f W13_0_bar = S_bar[196];
+    const vector_f W13_1_bar = S_bar[197];
+    const vector_f W13_2_bar = S_bar[198];
+    const vector_f W13_3_bar = S_bar[199];
+    const vector_f W13_4_bar = S_bar[200];
+    const vector_f W13_5_bar = S_bar[201];
+    const vector_f W13_6_bar = S_bar[202];
+    const vector_f W13_7_bar = S_bar[203];
+    const vector_f W13_8_bar = S_bar[204];
+    const vector_f W13_9_bar = S_bar[205];
+    const vector_f W13_10_bar = S_bar[206];
+    const vector_f W13_11_bar = S_bar[207];
+    const vector_f W13_12_bar = S_bar[208];
+    const vector_f W13_13_bar = S_bar[209];
+    const vector_f its_amplitude_bar = S_bar[210];
+    mu_bar[0] = mu0_bar;
+    mu_bar[1] = mu1_bar;
+    mu_bar[2] = mu2_bar;
+    mu_bar[3] = mu3_bar;
+    mu_bar[4] = mu4_bar;
+    mu_bar[5] = mu5_bar;
+    mu_bar[6] = mu6_bar;
+    mu_bar[7] = mu7_bar;
+    mu_bar[8] = mu8_bar;
+    mu_bar[9] = mu9_bar;
+    mu_bar[10] = mu10_bar;
+    mu_bar[11] = mu11_bar;
+    mu_bar[12] = mu12_bar;
+    mu_bar[13] = mu13_bar;
+    W_bar[0] = W0_0_bar;
+    W_bar[1] = W0_1_bar;
+    W_bar[2] = W0_2_bar;
+    W_bar[3] = W0_3_bar;
+    W_bar[4] = W0_4_bar;
+    W_bar[5] = W0_5_bar;
+    W_bar[6] = W0_6_bar;
+    W_bar[7] = W0_7_bar;
+    W_bar[8] = W0_8_bar;
+    W_bar[9] = W0_9_bar;
+    W_bar[10] = W0_10_bar;
+    W_bar[11] = W0_11_bar;
+    W_bar[12] = W0_12_bar;
+    W_bar[13] = W0_13_bar;
+    W_bar[14] = W1_0_bar;
+    W_bar[15] = W1_1_bar;
+    W_bar[16] = W1_2_bar;
+    W_bar[17] = W1_3_bar;
+    W_bar[18] = W1_4_bar;
+    W_bar[19] = W1_5_bar;
+    W_bar[20] = W1_6_bar;
+    W_bar[21] = W1_7_bar;
+    W_bar[22] = W1_8_bar;
+    W_bar[23] = W1_9_bar;
+    W_bar[24] = W1_10_bar;
+    W_bar[25] = W1_11_bar;
+    W_bar[26] = W1_12_bar;
+    W_bar[27] = W1_13_bar;
+    W_bar[28] = W2_0_bar;
+    W_bar[29] = W2_1_bar;
+    W_bar[30] = W2_2_bar;
+    W_bar[31] = W2_3_bar;
+    W_bar[32] = W2_4_bar;
+    W_bar[33] = W2_5_bar;
+    W_bar[34] = W2_6_bar;
+    W_bar[35] = W2_7_bar;
+    W_bar[36] = W2_8_bar;
+    W_bar[37] = W2_9_bar;
+    W_bar[38] = W2_10_bar;
+    W_bar[39] = W2_11_bar;
+    W_bar[40] = W2_12_bar;
+    W_bar[41] = W2_13_bar;
+    W_bar[42] = W3_0_bar;
+    W_bar[43] = W3_1_bar;
+    W_bar[44] = W3_2_bar;
+    W_bar[45] = W3_3_bar;
+    W_bar[46] = W3_4_bar;
+    W_bar[47] = W3_5_bar;
+    W_bar[48] = W3_6_bar;
+    W_bar[49] = W3_7_bar;
+    W_bar[50] = W3_8_bar;
+    W_bar[51] = W3_9_bar;
+    W_bar[52] = W3_10_bar;
+    W_bar[53] = W3_11_bar;
+    W_bar[54] = W3_12_bar;
+    W_bar[55] = W3_13_bar;
+    W_bar[56] = W4_0_bar;
+    W_bar[57] = W4_1_bar;
+    W_bar[58] = W4_2_bar;
+    W_bar[59] = W4_3_bar;
+    W_bar[60] = W4_4_bar;
+    W_bar[61] = W4_5_bar;
+    W_bar[62] = W4_6_bar;
+    W_bar[63] = W4_7_bar;
+    W_bar[64] = W4_8_bar;
+    W_bar[65] = W4_9_bar;
+    W_bar[66] = W4_10_bar;
+    W_bar[67] = W4_11_bar;
+    W_bar[68] = W4_12_bar;
+    W_bar[69] = W4_13_bar;
+    W_bar[70] = W5_0_bar;
+    W_bar[71] = W5_1_bar;
+    W_bar[72] = W5_2_bar;
+    W_bar[73] = W5_3_bar;
+    W_bar[74] = W5_4_bar;
+    W_bar[75] = W5_5_bar;
+    W_bar[76] = W5_6_bar;
+    W_bar[77] = W5_7_bar;
+    W_bar[78] = W5_8_bar;
+    W_bar[79] = W5_9_bar;
+    W_bar[80] = W5_10_bar;
+    W_bar[81] = W5_11_bar;
+    W_bar[82] = W5_12_bar;
+    W_bar[83] = W5_13_bar;
+    W_bar[84] = W6_0_bar;
+    W_bar[85] = W6_1_bar;
+    W_bar[86] = W6_2_bar;
+    W_bar[87] = W6_3_bar;
+    W_bar[88] = W6_4_bar;
+    W_bar[89] = W6_5_bar;
+    W_bar[90] = W6_6_bar;
+    W_bar[91] = W6_7_bar;
+    W_bar[92] = W6_8_bar;
+    W_bar[93] = W6_9_bar;
+    W_bar[94] = W6_10_bar;
+    W_bar[95] = W6_11_bar;
+    W_bar[96] = W6_12_bar;
+    W_bar[97] = W6_13_bar;
+    W_bar[98] = W7_0_bar;
+    W_bar[99] = W7_1_bar;
+    W_bar[100] = W7_2_bar;
+    W_bar[101] = W7_3_bar;
+    W_bar[102] = W7_4_bar;
+    W_bar[103] = W7_5_bar;
+    W_bar[104] = W7_6_bar;
+    W_bar[105] = W7_7_bar;
+    W_bar[106] = W7_8_bar;
+    W_bar[107] = W7_9_bar;
+    W_bar[108] = W7_10_bar;
+    W_bar[109] = W7_11_bar;
+    W_bar[110] = W7_12_bar;
+    W_bar[111] = W7_13_bar;
+    W_bar[112] = W8_0_bar;
+    W_bar[113] = W8_1_bar;
+    W_bar[114] = W8_2_bar;
+    W_bar[115] = W8_3_bar;
+    W_bar[116] = W8_4_bar;
+    W_bar[117] = W8_5_bar;
+    W_bar[118] = W8_6_bar;
+    W_bar[119] = W8_7_bar;
+    W_bar[120] = W8_8_bar;
+    W_bar[121] = W8_9_bar;
+    W_bar[122] = W8_10_bar;
+    W_bar[123] = W8_11_bar;
+    W_bar[124] = W8_12_bar;
+    W_bar[125] = W8_13_bar;
+    W_bar[126] = W9_0_bar;
+    W_bar[127] = W9_1_bar;
+    W_bar[128] = W9_2_bar;
+    W_bar[129] = W9_3_bar;
+    W_bar[130] = W9_4_bar;
+    W_bar[131] = W9_5_bar;
+    W_bar[132] = W9_6_bar;
+    W_bar[133] = W9_7_bar;
+    W_bar[134] = W9_8_bar;
+    W_bar[135] = W9_9_bar;
+    W_bar[136] = W9_10_bar;
+    W_bar[137] = W9_11_bar;
+    W_bar[138] = W9_12_bar;
+    W_bar[139] = W9_13_bar;
+    W_bar[140] = W10_0_bar;
+    W_bar[141] = W10_1_bar;
+    W_bar[142] = W10_2_bar;
+    W_bar[143] = W10_3_bar;
+    W_bar[144] = W10_4_bar;
+    W_bar[145] = W10_5_bar;
+    W_bar[146] = W10_6_bar;
+    W_bar[147] = W10_7_bar;
+    W_bar[148] = W10_8_bar;
+    W_bar[149] = W10_9_bar;
+    W_bar[150] = W10_10_bar;
+    W_bar[151] = W10_11_bar;
+    W_bar[152] = W10_12_bar;
+    W_bar[153] = W10_13_bar;
+    W_bar[154] = W11_0_bar;
+    W_bar[155] = W11_1_bar;
+    W_bar[156] = W11_2_bar;
+    W_bar[157] = W11_3_bar;
+    W_bar[158] = W11_4_bar;
+    W_bar[159] = W11_5_bar;
+    W_bar[160] = W11_6_bar;
+    W_bar[161] = W11_7_bar;
+    W_bar[162] = W11_8_bar;
+    W_bar[163] = W11_9_bar;
+    W_bar[164] = W11_10_bar;
+    W_bar[165] = W11_11_bar;
+    W_bar[166] = W11_12_bar;
+    W_bar[167] = W11_13_bar;
+    W_bar[168] = W12_0_bar;
+    W_bar[169] = W12_1_bar;
+    W_bar[170] = W12_2_bar;
+    W_bar[171] = W12_3_bar;
+    W_bar[172] = W12_4_bar;
+    W_bar[173] = W12_5_bar;
+    W_bar[174] = W12_6_bar;
+    W_bar[175] = W12_7_bar;
+    W_bar[176] = W12_8_bar;
+    W_bar[177] = W12_9_bar;
+    W_bar[178] = W12_10_bar;
+    W_bar[179] = W12_11_bar;
+    W_bar[180] = W12_12_bar;
+    W_bar[181] = W12_13_bar;
+    W_bar[182] = W13_0_bar;
+    W_bar[183] = W13_1_bar;
+    W_bar[184] = W13_2_bar;
+    W_bar[185] = W13_3_bar;
+    W_bar[186] = W13_4_bar;
+    W_bar[187] = W13_5_bar;
+    W_bar[188] = W13_6_bar;
+    W_bar[189] = W13_7_bar;
+    W_bar[190] = W13_8_bar;
+    W_bar[191] = W13_9_bar;
+    W_bar[192] = W13_10_bar;
+    W_bar[193] = W13_11_bar;
+    W_bar[194] = W13_12_bar;
+    W_bar[195] = W13_13_bar;
+    amplitude_bar[0] = its_amplitude_bar;
+}
+
+/* The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar. */
+OUTLINE void pair_factors_f(
+    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *factor) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const vector_f x2 = X[2];
+    const vector_f x3 = X[3];
+    const vector_f x4 = X[4];
+    const vector_f x5 = X[5];
+    const vector_f x6 = X[6];
+    const vector_f x7 = X[7];
+    const vector_f x8 = X[8];
+    const vector_f x9 = X[9];
+    const vector_f x10 = X[10];
+    const vector_f x11 = X[11];
+    const vector_f x12 = X[12];
+    const vector_f x13 = X[13];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float mu2 = S[2];
+    const float mu3 = S[3];
+    const float mu4 = S[4];
+    const float mu5 = S[5];
+    const float mu6 = S[6];
+    const float mu7 = S[7];
+    const float mu8 = S[8];
+    const float mu9 = S[9];
+    const float mu10 = S[10];
+    const float mu11 = S[11];
+    const float mu12 = S[12];
+    const float mu13 = S[13];
+    const float W0_0 = S[14];
+    const float W0_1 = S[15];
+    const float W0_2 = S[16];
+    const float W0_3 = S[17];
+    const float W0_4 = S[18];
+    const float W0_5 = S[19];
+    const float W0_6 = S[20];
+    const float W0_7 = S[21];
+    const float W0_8 = S[22];
+    const float W0_9 = S[23];
+    const float W0_10 = S[24];
+    const float W0_11 = S[25];
+    const float W0_12 = S[26];
+    const float W0_13 = S[27];
+    const float W1_0 = S[28];
+    const float W1_1 = S[29];
+    const float W1_2 = S[30];
+    const float W1_3 = S[31];
+    const float W1_4 = S[32];
+    const float W1_5 = S[33];
+    const float W1_6 = S[34];
+    const float W1_7 = S[35];
+    const float W1_8 = S[36];
+    const float W1_9 = S[37];
+    const float W1_10 = S[38];
+    const float W1_11 = S[39];
+    const float W1_12 = S[40];
+    const float W1_13 = S[41];
+    const float W2_0 = S[42];
+    const float W2_1 = S[43];
+    const float W2_2 = S[44];
+    const float W2_3 = S[45];
+    const float W2_4 = S[46];
+    const float W2_5 = S[47];
+    const float W2_6 = S[48];
+    const float W2_7 = S[49];
+    const float W2_8 = S[50];
+    const float W2_9 = S[51];
+    const float W2_10 = S[52];
+    const float W2_11 = S[53];
+    const float W2_12 = S[54];
+    const float W2_13 = S[55];
+    const float W3_0 = S[56];
+    const float W3_1 = S[57];
+    const float W3_2 = S[58];
+    const float W3_3 = S[59];
+    const float W3_4 = S[60];
+    const float W3_5 = S[61];
+    const float W3_6 = S[62];
+    const float W3_7 = S[63];
+    const float W3_8 = S[64];
+    const float W3_9 = S[65];
+    const float W3_10 = S[66];
+    const float W3_11 = S[67];
+    const float W3_12 = S[68];
+    const float W3_13 = S[69];
+    const float W4_0 = S[70];
+    const float W4_1 = S[71];
+    const float W4_2 = S[72];
+    const float W4_3 = S[73];
+    const float W4_4 = S[74];
+    const float W4_5 = S[75];
+    const float W4_6 = S[76];
+    const float W4_7 = S[77];
+    const float W4_8 = S[78];
+    const float W4_9 = S[79];
+    const float W4_10 = S[80];
+    const float W4_11 = S[81];
+    const float W4_12 = S[82];
+    const float W4_13 = S[83];
+    const float W5_0 = S[84];
+    const float W5_1 = S[85];
+    const float W5_2 = S[86];
+    const float W5_3 = S[87];
+    const float W5_4 = S[88];
+    const float W5_5 = S[89];
+    const float W5_6 = S[90];
+    const float W5_7 = S[91];
+    const float W5_8 = S[92];
+    const float W5_9 = S[93];
+    const float W5_10 = S[94];
+    const float W5_11 = S[95];
+    const float W5_12 = S[96];
+    const float W5_13 = S[97];
+    const float W6_0 = S[98];
+    const float W6_1 = S[99];
+    const float W6_2 = S[100];
+    const float W6_3 = S[101];
+    const float W6_4 = S[102];
+    const float W6_5 = S[103];
+    const float W6_6 = S[104];
+    const float W6_7 = S[105];
+    const float W6_8 = S[106];
+    const float W6_9 = S[107];
+    const float W6_10 = S[108];
+    const float W6_11 = S[109];
+    const float W6_12 = S[110];
+    const float W6_13 = S[111];
+    const float W7_0 = S[112];
+    const float W7_1 = S[113];
+    const float W7_2 = S[114];
+    const float W7_3 = S[115];
+    const float W7_4 = S[116];
+    const float W7_5 = S[117];
+    const float W7_6 = S[118];
+    const float W7_7 = S[119];
+    const float W7_8 = S[120];
+    const float W7_9 = S[121];
+    const float W7_10 = S[122];
+    const float W7_11 = S[123];
+    const float W7_12 = S[124];
+    const float W7_13 = S[125];
+    const float W8_0 = S[126];
+    const float W8_1 = S[127];
+    const float W8_2 = S[128];
+    const float W8_3 = S[129];
+    const float W8_4 = S[130];
+    const float W8_5 = S[131];
+    const float W8_6 = S[132];
+    const float W8_7 = S[133];
+    const float W8_8 = S[134];
+    const float W8_9 = S[135];
+    const float W8_10 = S[136];
+    const float W8_11 = S[137];
+    const float W8_12 = S[138];
+    const float W8_13 = S[139];
+    const float W9_0 = S[140];
+    const float W9_1 = S[141];
+    const float W9_2 = S[142];
+    const float W9_3 = S[143];
+    const float W9_4 = S[144];
+    const float W9_5 = S[145];
+    const float W9_6 = S[146];
+    const float W9_7 = S[147];
+    const float W9_8 = S[148];
+    const float W9_9 = S[149];
+    const float W9_10 = S[150];
+    const float W9_11 = S[151];
+    const float W9_12 = S[152];
+    const float W9_13 = S[153];
+    const float W10_0 = S[154];
+    const float W10_1 = S[155];
+    const float W10_2 = S[156];
+    const float W10_3 = S[157];
+    const float W10_4 = S[158];
+    const float W10_5 = S[159];
+    const float W10_6 = S[160];
+    const float W10_7 = S[161];
+    const float W10_8 = S[162];
+    const float W10_9 = S[163];
+    const float W10_10 = S[164];
+    const float W10_11 = S[165];
+    const float W10_12 = S[166];
+    const float W10_13 = S[167];
+    const float W11_0 = S[168];
+    const float W11_1 = S[169];
+    const float W11_2 = S[170];
+    const float W11_3 = S[171];
+    const float W11_4 = S[172];
+    const float W11_5 = S[173];
+    const float W11_6 = S[174];
+    const float W11_7 = S[175];
+    const float W11_8 = S[176];
+    const float W11_9 = S[177];
+    const float W11_10 = S[178];
+    const float W11_11 = S[179];
+    const float W11_12 = S[180];
+    const float W11_13 = S[181];
+    const float W12_0 = S[182];
+    const float W12_1 = S[183];
+    const float W12_2 = S[184];
+    const float W12_3 = S[185];
+    const float W12_4 = S[186];
+    const float W12_5 = S[187];
+    const float W12_6 = S[188];
+    const float W12_7 = S[189];
+    const float W12_8 = S[190];
+    const float W12_9 = S[191];
+    const float W12_10 = S[192];
+    const float W12_11 = S[193];
+    const float W12_12 = S[194];
+    const float W12_13 = S[195];
+    const float W13_0 = S[196];
+    const float W13_1 = S[197];
+    const float W13_2 = S[198];
+    const float W13_3 = S[199];
+    const float W13_4 = S[200];
+    const float W13_5 = S[201];
+    const float W13_6 = S[202];
+    const float W13_7 = S[203];
+    const float W13_8 = S[204];
+    const float W13_9 = S[205];
+    const float W13_10 = S[206];
+    const float W13_11 = S[207];
+    const float W13_12 = S[208];
+    const float W13_13 = S[209];
+    const float amplitude = S[210];
+    const vector_f its_value_bar = value_bar[0];
+    const vector_f x0_bar = slope_bar[0];
+    const vector_f x1_bar = slope_bar[1];
+    const vector_f x2_bar = slope_bar[2];
+    const vector_f x3_bar = slope_bar[3];
+    const vector_f x4_bar = slope_bar[4];
+    const vector_f x5_bar = slope_bar[5];
+    const vector_f x6_bar = slope_bar[6];
+    const vector_f x7_bar = slope_bar[7];
+    const vector_f x8_bar = slope_bar[8];
+    const vector_f x9_bar = slope_bar[9];
+    const vector_f x10_bar = slope_bar[10];
+    const vector_f x11_bar = slope_bar[11];
+    const vector_f x12_bar = slope_bar[12];
+    const vector_f x13_bar = slope_bar[13];
+    const vector_f gap = x0 - mu0;
+    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
+    const vector_f v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
+        round_2;
+    const vector_f gap_2 = x1 - mu1;
+    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
+    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
+        * round_3;
+    const vector_f gap_3 = x2 - mu2;
+    const vector_f round_4 = vector_round_f(0.15915494309189535f * gap_3);
+    const vector_f v2 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f
+        * round_4;
+    const vector_f gap_4 = x3 - mu3;
+    const vector_f round_5 = vector_round_f(0.15915494309189535f * gap_4);
+    const vector_f v3 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f
+        * round_5;
+    const vector_f gap_5 = x4 - mu4;
+    const vector_f round_6 = vector_round_f(0.15915494309189535f * gap_5);
+    const vector_f v4 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f
+        * round_6;
+    const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+    const vector_f gap_6 = x5 - mu5;
+    const vector_f round_7 = vector_round_f(0.15915494309189535f * gap_6);
+    const vector_f v5 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f
+        * round_7;
+    const vector_f gap_7 = x6 - mu6;
+    const vector_f round_8 = vector_round_f(0.15915494309189535f * gap_7);
+    const vector_f v6 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f
+        * round_8;
+    const vector_f gap_8 = x7 - mu7;
+    const vector_f round_9 = vector_round_f(0.15915494309189535f * gap_8);
+    const vector_f v7 = gap_8 - 6.28125f * round_9 - 0.0019350051879882812f * round_9 - 3.019915981956753e-07f
+        * round_9;
+    const vector_f gap_9 = x8 - mu8;
+    const vector_f round_10 = vector_round_f(0.15915494309189535f * gap_9);
+    const vector_f v8 = gap_9 - 6.28125f * round_10 - 0.0019350051879882812f * round_10 -
+        3.019915981956753e-07f * round_10;
+    const vector_f total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+    const vector_f gap_10 = x9 - mu9;
+    const vector_f round_11 = vector_round_f(0.15915494309189535f * gap_10);
+    const vector_f v9 = gap_10 - 6.28125f * round_11 - 0.0019350051879882812f * round_11 -
+        3.019915981956753e-07f * round_11;
+    const vector_f gap_11 = x10 - mu10;
+    const vector_f round_12 = vector_round_f(0.15915494309189535f * gap_11);
+    const vector_f v10 = gap_11 - 6.28125f * round_12 - 0.0019350051879882812f * round_12 -
+        3.019915981956753e-07f * round_12;
+    const vector_f gap_12 = x11 - mu11;
+    const vector_f round_13 = vector_round_f(0.15915494309189535f * gap_12);
+    const vector_f v11 = gap_12 - 6.28125f * round_13 - 0.0019350051879882812f * round_13 -
+        3.019915981956753e-07f * round_13;
+    const vector_f gap_13 = x12 - mu12;
+    const vector_f round_14 = vector_round_f(0.15915494309189535f * gap_13);
+    const vector_f v12 = gap_13 - 6.28125f * round_14 - 0.0019350051879882812f * round_14 -
+        3.019915981956753e-07f * round_14;
+    const vector_f total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
+    const vector_f gap_14 = x13 - mu13;
+    const vector_f round_15 = vector_round_f(0.15915494309189535f * gap_14);
+    const vector_f v13 = gap_14 - 6.28125f * round_15 - 0.0019350051879882812f * round_15 -
+        3.019915981956753e-07f * round_15;
+    const vector_f z0 = total_4 + W0_13 * v13;
+    const vector_f total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+    const vector_f total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+    const vector_f total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12;
+    const vector_f z1 = total_7 + W1_13 * v13;
+    const vector_f total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+    const vector_f total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+    const vector_f total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12;
+    const vector_f z2 = total_10 + W2_13 * v13;
+    const vector_f total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+    const vector_f total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+    const vector_f total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12;
+    const vector_f z3 = total_13 + W3_13 * v13;
+    const vector_f total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+    const vector_f total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+    const vector_f total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12;
+    const vector_f z4 = total_16 + W4_13 * v13;
+    const vector_f total_17 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+    const vector_f total_18 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+    const vector_f total_19 = total_18 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+    const vector_f total_20 = total_19 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12;
+    const vector_f z5 = total_20 + W5_13 * v13;
+    const vector_f total_21 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+    const vector_f total_22 = total_21 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+    const vector_f total_23 = total_22 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12;
+    const vector_f z6 = total_23 + W6_13 * v13;
+    const vector_f total_24 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+    const vector_f total_25 = total_24 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+    const vector_f total_26 = total_25 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12;
+    const vector_f z7 = total_26 + W7_13 * v13;
+    const vector_f total_27 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+    const vector_f total_28 = total_27 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+    const vector_f total_29 = total_28 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12;
+    const vector_f z8 = total_29 + W8_13 * v13;
+    const vector_f total_30 = total_17 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+    const vector_f total_31 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4;
+    const vector_f total_32 = total_31 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8;
+    const vector_f total_33 = total_32 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12;
+    const vector_f z9 = total_33 + W9_13 * v13;
+    const vector_f total_34 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4;
+    const vector_f total_35 = total_34 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8;
+    const vector_f total_36 = total_35 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12;
+    const vector_f z10 = total_36 + W10_13 * v13;
+    const vector_f total_37 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4;
+    const vector_f total_38 = total_37 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8;
+    const vector_f total_39 = total_38 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12;
+    const vector_f z11 = total_39 + W11_13 * v13;
+    const vector_f total_40 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4;
+    const vector_f total_41 = total_40 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8;
+    const vector_f total_42 = total_41 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12;
+    const vector_f z12 = total_42 + W12_13 * v13;
+    const vector_f total_43 = total_30 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12;
+    const vector_f total_44 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4;
+    const vector_f total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
+    const vector_f total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
+    const vector_f z13 = total_46 + W13_13 * v13;
+    const vector_f exp_2 = vector_exp_f(-0.5f * (total_43 + z13 * z13));
+    const vector_f phi = amplitude * exp_2;
+    const vector_f gap_15 = -(W13_0 * x0_bar) - W13_1 * x1_bar - W13_2 * x2_bar - W13_3 * x3_bar;
+    const vector_f gap_16 = gap_15 - W13_4 * x4_bar - W13_5 * x5_bar - W13_6 * x6_bar - W13_7 * x7_bar;
+    const vector_f gap_17 = gap_16 - W13_8 * x8_bar - W13_9 * x9_bar - W13_10 * x10_bar - W13_11 * x11_bar;
+    const vector_f gap_18 = gap_17 - W13_12 * x12_bar - W13_13 * x13_bar;
+    const vector_f gap_19 = -(W0_0 * x0_bar) - W0_1 * x1_bar - W0_2 * x2_bar - W0_3 * x3_bar;
+    const vector_f gap_20 = gap_19 - W0_4 * x4_bar - W0_5 * x5_bar - W0_6 * x6_bar - W0_7 * x7_bar;
+    const vector_f gap_21 = gap_20 - W0_8 * x8_bar - W0_9 * x9_bar - W0_10 * x10_bar - W0_11 * x11_bar;
+    const vector_f gap_22 = gap_21 - W0_12 * x12_bar - W0_13 * x13_bar;
+    const vector_f gap_23 = -(W1_0 * x0_bar) - W1_1 * x1_bar - W1_2 * x2_bar - W1_3 * x3_bar;
+    const vector_f gap_24 = gap_23 - W1_4 * x4_bar - W1_5 * x5_bar - W1_6 * x6_bar - W1_7 * x7_bar;
+    const vector_f gap_25 = gap_24 - W1_8 * x8_bar - W1_9 * x9_bar - W1_10 * x10_bar - W1_11 * x11_bar;
+    const vector_f gap_26 = gap_25 - W1_12 * x12_bar - W1_13 * x13_bar;
+    const vector_f gap_27 = -(W2_0 * x0_bar) - W2_1 * x1_bar - W2_2 * x2_bar - W2_3 * x3_bar;
+    const vector_f gap_28 = gap_27 - W2_4 * x4_bar - W2_5 * x5_bar - W2_6 * x6_bar - W2_7 * x7_bar;
+    const vector_f gap_29 = gap_28 - W2_8 * x8_bar - W2_9 * x9_bar - W2_10 * x10_bar - W2_11 * x11_bar;
+    const vector_f gap_30 = gap_29 - W2_12 * x12_bar - W2_13 * x13_bar;
+    const vector_f gap_31 = -(W3_0 * x0_bar) - W3_1 * x1_bar - W3_2 * x2_bar - W3_3 * x3_bar;
+    const vector_f gap_32 = gap_31 - W3_4 * x4_bar - W3_5 * x5_bar - W3_6 * x6_bar - W3_7 * x7_bar;
+    const vector_f gap_33 = gap_32 - W3_8 * x8_bar - W3_9 * x9_bar - W3_10 * x10_bar - W3_11 * x11_bar;
+    const vector_f gap_34 = gap_33 - W3_12 * x12_bar - W3_13 * x13_bar;
+    const vector_f total_47 = its_value_bar + z0 * gap_22 + z1 * gap_26 + z2 * gap_30 + z3 * gap_34;
+    const vector_f gap_35 = -(W4_0 * x0_bar) - W4_1 * x1_bar - W4_2 * x2_bar - W4_3 * x3_bar;
+    const vector_f gap_36 = gap_35 - W4_4 * x4_bar - W4_5 * x5_bar - W4_6 * x6_bar - W4_7 * x7_bar;
+    const vector_f gap_37 = gap_36 - W4_8 * x8_bar - W4_9 * x9_bar - W4_10 * x10_bar - W4_11 * x11_bar;
+    const vector_f gap_38 = gap_37 - W4_12 * x12_bar - W4_13 * x13_bar;
+    const vector_f gap_39 = -(W5_0 * x0_bar) - W5_1 * x1_bar - W5_2 * x2_bar - W5_3 * x3_bar;
+    const vector_f gap_40 = gap_39 - W5_4 * x4_bar - W5_5 * x5_bar - W5_6 * x6_bar - W5_7 * x7_bar;
+    const vector_f gap_41 = gap_40 - W5_8 * x8_bar - W5_9 * x9_bar - W5_10 * x10_bar - W5_11 * x11_bar;
+    const vector_f gap_42 = gap_41 - W5_12 * x12_bar - W5_13 * x13_bar;
+    const vector_f gap_43 = -(W6_0 * x0_bar) - W6_1 * x1_bar - W6_2 * x2_bar - W6_3 * x3_bar;
+    const vector_f gap_44 = gap_43 - W6_4 * x4_bar - W6_5 * x5_bar - W6_6 * x6_bar - W6_7 * x7_bar;
+    const vector_f gap_45 = gap_44 - W6_8 * x8_bar - W6_9 * x9_bar - W6_10 * x10_bar - W6_11 * x11_bar;
+    const vector_f gap_46 = gap_45 - W6_12 * x12_bar - W6_13 * x13_bar;
+    const vector_f gap_47 = -(W7_0 * x0_bar) - W7_1 * x1_bar - W7_2 * x2_bar - W7_3 * x3_bar;
+    const vector_f gap_48 = gap_47 - W7_4 * x4_bar - W7_5 * x5_bar - W7_6 * x6_bar - W7_7 * x7_bar;
+    const vector_f gap_49 = gap_48 - W7_8 * x8_bar - W7_9 * x9_bar - W7_10 * x10_bar - W7_11 * x11_bar;
+    const vector_f gap_50 = gap_49 - W7_12 * x12_bar - W7_13 * x13_bar;
+    const vector_f total_48 = total_47 + z4 * gap_38 + z5 * gap_42 + z6 * gap_46 + z7 * gap_50;
+    const vector_f gap_51 = -(W8_0 * x0_bar) - W8_1 * x1_bar - W8_2 * x2_bar - W8_3 * x3_bar;
+    const vector_f gap_52 = gap_51 - W8_4 * x4_bar - W8_5 * x5_bar - W8_6 * x6_bar - W8_7 * x7_bar;
+    const vector_f gap_53 = gap_52 - W8_8 * x8_bar - W8_9 * x9_bar - W8_10 * x10_bar - W8_11 * x11_bar;
+    const vector_f gap_54 = gap_53 - W8_12 * x12_bar - W8_13 * x13_bar;
+    const vector_f gap_55 = -(W9_0 * x0_bar) - W9_1 * x1_bar - W9_2 * x2_bar - W9_3 * x3_bar;
+    const vector_f gap_56 = gap_55 - W9_4 * x4_bar - W9_5 * x5_bar - W9_6 * x6_bar - W9_7 * x7_bar;
+    const vector_f gap_57 = gap_56 - W9_8 * x8_bar - W9_9 * x9_bar - W9_10 * x10_bar - W9_11 * x11_bar;
+    const vector_f gap_58 = gap_57 - W9_12 * x12_bar - W9_13 * x13_bar;
+    const vector_f gap_59 = -(W10_0 * x0_bar) - W10_1 * x1_bar - W10_2 * x2_bar - W10_3 * x3_bar;
+    const vector_f gap_60 = gap_59 - W10_4 * x4_bar - W10_5 * x5_bar - W10_6 * x6_bar - W10_7 * x7_bar;
+    const vector_f gap_61 = gap_60 - W10_8 * x8_bar - W10_9 * x9_bar - W10_10 * x10_bar - W10_11 * x11_bar;
+    const vector_f gap_62 = gap_61 - W10_12 * x12_bar - W10_13 * x13_bar;
+    const vector_f gap_63 = -(W11_0 * x0_bar) - W11_1 * x1_bar - W11_2 * x2_bar - W11_3 * x3_bar;
+    const vector_f gap_64 = gap_63 - W11_4 * x4_bar - W11_5 * x5_bar - W11_6 * x6_bar - W11_7 * x7_bar;
+    const vector_f gap_65 = gap_64 - W11_8 * x8_bar - W11_9 * x9_bar - W11_10 * x10_bar - W11_11 * x11_bar;
+    const vector_f gap_66 = gap_65 - W11_12 * x12_bar - W11_13 * x13_bar;
+    const vector_f total_49 = total_48 + z8 * gap_54 + z9 * gap_58 + z10 * gap_62 + z11 * gap_66;
+    const vector_f gap_67 = -(W12_0 * x0_bar) - W12_1 * x1_bar - W12_2 * x2_bar - W12_3 * x3_bar;
+    const vector_f gap_68 = gap_67 - W12_4 * x4_bar - W12_5 * x5_bar - W12_6 * x6_bar - W12_7 * x7_bar;
+    const vector_f gap_69 = gap_68 - W12_8 * x8_bar - W12_9 * x9_bar - W12_10 * x10_bar - W12_11 * x11_bar;
+    const vector_f gap_70 = gap_69 - W12_12 * x12_bar - W12_13 * x13_bar;
+    const vector_f by_phi = total_49 + z12 * gap_70 + z13 * gap_18;
+    const vector_f product = exp_2 * (amplitude * by_phi);
+    const vector_f by_z13 = phi * gap_18 - z13 * product;
+    const vector_f by_z12 = phi * gap_70 - z12 * product;
+    const vector_f by_z11 = phi * gap_66 - z11 * product;
+    const vector_f by_z10 = phi * gap_62 - z10 * product;
+    const vector_f by_z9 = phi * gap_58 - z9 * product;
+    const vector_f total_50 = W13_0 * by_z13 + W12_0 * by_z12 + W11_0 * by_z11 + W10_0 * by_z10 + W9_0 *
+        by_z9;
+    const vector_f by_z8 = phi * gap_54 - z8 * product;
+    const vector_f by_z7 = phi * gap_50 - z7 * product;
+    const vector_f by_z6 = phi * gap_46 - z6 * product;
+    const vector_f by_z5 = phi * gap_42 - z5 * product;
+    const vector_f total_51 = total_50 + W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5;
+    const vector_f by_z4 = phi * gap_38 - z4 * product;
+    const vector_f by_z3 = phi * gap_34 - z3 * product;
+    const vector_f by_z2 = phi * gap_30 - z2 * product;
+    const vector_f by_z1 = phi * gap_26 - z1 * product;
+    const vector_f total_52 = total_51 + W4_0 * by_z4 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1;
+    const vector_f by_z0 = phi * gap_22 - z0 * product;
+    const vector_f by_v0 = total_52 + W0_0 * by_z0;
+    const vector_f total_53 = W13_1 * by_z13 + W12_1 * by_z12 + W11_1 * by_z11 + W10_1 * by_z10 + W9_1 *
+        by_z9;
+    const vector_f total_54 = total_53 + W8_1 * by_z8 + W7_1 * by_z7 + W6_1 * by_z6 + W5_1 * by_z5;
+    const vector_f total_55 = total_54 + W4_1 * by_z4 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1;
+    const vector_f by_v1 = total_55 + W0_1 * by_z0;
+    const vector_f total_56 = W13_2 * by_z13 + W12_2 * by_z12 + W11_2 * by_z11 + W10_2 * by_z10 + W9_2 *
+        by_z9;
+    const vector_f total_57 = total_56 + W8_2 * by_z8 + W7_2 * by_z7 + W6_2 * by_z6 + W5_2 * by_z5;
+    const vector_f total_58 = total_57 + W4_2 * by_z4 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1;
+    const vector_f by_v2 = total_58 + W0_2 * by_z0;
+    const vector_f total_59 = W13_3 * by_z13 + W12_3 * by_z12 + W11_3 * by_z11 + W10_3 * by_z10 + W9_3 *
+        by_z9;
+    const vector_f total_60 = total_59 + W8_3 * by_z8 + W7_3 * by_z7 + W6_3 * by_z6 + W5_3 * by_z5;
+    const vector_f total_61 = total_60 + W4_3 * by_z4 + W3_3 * by_z3 + W2_3 * by_z2 + W1_3 * by_z1;
+    const vector_f by_v3 = total_61 + W0_3 * by_z0;
+    const vector_f total_62 = W13_4 * by_z13 + W12_4 * by_z12 + W11_4 * by_z11 + W10_4 * by_z10 + W9_4 *
+        by_z9;
+    const vector_f total_63 = total_62 + W8_4 * by_z8 + W7_4 * by_z7 + W6_4 * by_z6 + W5_4 * by_z5;
+    const vector_f total_64 = total_63 + W4_4 * by_z4 + W3_4 * by_z3 + W2_4 * by_z2 + W1_4 * by_z1;
+    const vector_f by_v4 = total_64 + W0_4 * by_z0;
+    const vector_f total_65 = W13_5 * by_z13 + W12_5 * by_z12 + W11_5 * by_z11 + W10_5 * by_z10 + W9_5 *
+        by_z9;
+    const vector_f total_66 = total_65 + W8_5 * by_z8 + W7_5 * by_z7 + W6_5 * by_z6 + W5_5 * by_z5;
+    const vector_f total_67 = total_66 + W4_5 * by_z4 + W3_5 * by_z3 + W2_5 * by_z2 + W1_5 * by_z1;
+    const vector_f by_v5 = total_67 + W0_5 * by_z0;
+    const vector_f total_68 = W13_6 * by_z13 + W12_6 * by_z12 + W11_6 * by_z11 + W10_6 * by_z10 + W9_6 *
+        by_z9;
+    const vector_f total_69 = total_68 + W8_6 * by_z8 + W7_6 * by_z7 + W6_6 * by_z6 + W5_6 * by_z5;
+    const vector_f total_70 = total_69 + W4_6 * by_z4 + W3_6 * by_z3 + W2_6 * by_z2 + W1_6 * by_z1;
+    const vector_f by_v6 = total_70 + W0_6 * by_z0;
+    const vector_f total_71 = W13_7 * by_z13 + W12_7 * by_z12 + W11_7 * by_z11 + W10_7 * by_z10 + W9_7 *
+        by_z9;
+    const vector_f total_72 = total_71 + W8_7 * by_z8 + W7_7 * by_z7 + W6_7 * by_z6 + W5_7 * by_z5;
+    const vector_f total_73 = total_72 + W4_7 * by_z4 + W3_7 * by_z3 + W2_7 * by_z2 + W1_7 * by_z1;
+    const vector_f by_v7 = total_73 + W0_7 * by_z0;
+    const vector_f total_74 = W13_8 * by_z13 + W12_8 * by_z12 + W11_8 * by_z11 + W10_8 * by_z10 + W9_8 *
+        by_z9;
+    const vector_f total_75 = total_74 + W8_8 * by_z8 + W7_8 * by_z7 + W6_8 * by_z6 + W5_8 * by_z5;
+    const vector_f total_76 = total_75 + W4_8 * by_z4 + W3_8 * by_z3 + W2_8 * by_z2 + W1_8 * by_z1;
+    const vector_f by_v8 = total_76 + W0_8 * by_z0;
+    const vector_f total_77 = W13_9 * by_z13 + W12_9 * by_z12 + W11_9 * by_z11 + W10_9 * by_z10 + W9_9 *
+        by_z9;
+    const vector_f total_78 = total_77 + W8_9 * by_z8 + W7_9 * by_z7 + W6_9 * by_z6 + W5_9 * by_z5;
+    const vector_f total_79 = total_78 + W4_9 * by_z4 + W3_9 * by_z3 + W2_9 * by_z2 + W1_9 * by_z1;
+    const vector_f by_v9 = total_79 + W0_9 * by_z0;
+    const vector_f total_80 = W13_10 * by_z13 + W12_10 * by_z12 + W11_10 * by_z11 + W10_10 * by_z10 + W9_10 *
+        by_z9;
+    const vector_f total_81 = total_80 + W8_10 * by_z8 + W7_10 * by_z7 + W6_10 * by_z6 + W5_10 * by_z5;
+    const vector_f total_82 = total_81 + W4_10 * by_z4 + W3_10 * by_z3 + W2_10 * by_z2 + W1_10 * by_z1;
+    const vector_f by_v10 = total_82 + W0_10 * by_z0;
+    const vector_f total_83 = W13_11 * by_z13 + W12_11 * by_z12 + W11_11 * by_z11 + W10_11 * by_z10 + W9_11 *
+        by_z9;
+    const vector_f total_84 = total_83 + W8_11 * by_z8 + W7_11 * by_z7 + W6_11 * by_z6 + W5_11 * by_z5;
+    const vector_f total_85 = total_84 + W4_11 * by_z4 + W3_11 * by_z3 + W2_11 * by_z2 + W1_11 * by_z1;
+    const vector_f by_v11 = total_85 + W0_11 * by_z0;
+    const vector_f total_86 = W13_12 * by_z13 + W12_12 * by_z12 + W11_12 * by_z11 + W10_12 * by_z10 + W9_12 *
+        by_z9;
+    const vector_f total_87 = total_86 + W8_12 * by_z8 + W7_12 * by_z7 + W6_12 * by_z6 + W5_12 * by_z5;
+    const vector_f total_88 = total_87 + W4_12 * by_z4 + W3_12 * by_z3 + W2_12 * by_z2 + W1_12 * by_z1;
+    const vector_f by_v12 = total_88 + W0_12 * by_z0;
+    const vector_f total_89 = W13_13 * by_z13 + W12_13 * by_z12 + W11_13 * by_z11 + W10_13 * by_z10 + W9_13 *
+        by_z9;
+    const vector_f total_90 = total_89 + W8_13 * by_z8 + W7_13 * by_z7 + W6_13 * by_z6 + W5_13 * by_z5;
+    const vector_f total_91 = total_90 + W4_13 * by_z4 + W3_13 * by_z3 + W2_13 * by_z2 + W1_13 * by_z1;
+    const vector_f by_v13 = total_91 + W0_13 * by_z0;
+    const vector_f z0_product = z0 * phi;
+    const vector_f z1_product = z1 * phi;
+    const vector_f z2_product = z2 * phi;
+    const vector_f z3_product = z3 * phi;
+    const vector_f z4_product = z4 * phi;
+    const vector_f z5_product = z5 * phi;
+    const vector_f z6_product = z6 * phi;
+    const vector_f z7_product = z7 * phi;
+    const vector_f z8_product = z8 * phi;
+    const vector_f z9_product = z9 * phi;
+    const vector_f z10_product = z10 * phi;
+    const vector_f z11_product = z11 * phi;
+    const vector_f z12_product = z12 * phi;
+    const vector_f z13_product = z13 * phi;
+    factor[0] = v0;
+    factor[1] = v1;
+    factor[2] = v2;
+    factor[3] = v3;
+    factor[4] = v4;
+    factor[5] = v5;
+    factor[6] = v6;
+    factor[7] = v7;
+    factor[8] = v8;
+    factor[9] = v9;
+    factor[10] = v10;
+    factor[11] = v11;
+    factor[12] = v12;
+    factor[13] = v13;
+    factor[14] = by_z13;
+    factor[15] = by_z12;
+    factor[16] = by_z11;
+    factor[17] = by_z10;
+    factor[18] = by_z9;
+    factor[19] = by_z8;
+    factor[20] = by_z7;
+    factor[21] = by_z6;
+    factor[22] = by_z5;
+    factor[23] = by_z4;
+    factor[24] = by_z3;
+    factor[25] = by_z2;
+    factor[26] = by_z1;
+    factor[27] = by_z0;
+    factor[28] = -by_v0;
+    factor[29] = -by_v1;
+    factor[30] = -by_v2;
+    factor[31] = -by_v3;
+    factor[32] = -by_v4;
+    factor[33] = -by_v5;
+    factor[34] = -by_v6;
+    factor[35] = -by_v7;
+    factor[36] = -by_v8;
+    factor[37] = -by_v9;
+    factor[38] = -by_v10;
+    factor[39] = -by_v11;
+    factor[40] = -by_v12;
+    factor[41] = -by_v13;
+    factor[42] = z0_product;
+    factor[43] = z1_product;
+    factor[44] = z2_product;
+    factor[45] = z3_product;
+    factor[46] = z4_product;
+    factor[47] = z5_product;
+    factor[48] = z6_product;
+    factor[49] = z7_product;
+    factor[50] = z8_product;
+    factor[51] = z9_product;
+    factor[52] = z10_product;
+    factor[53] = z11_product;
+    factor[54] = z12_product;
+    factor[55] = z13_product;
+    factor[56] = exp_2 * by_phi;
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_0_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[28];
+    sum[1] = sum[1] + factor[29];
+    sum[2] = sum[2] + factor[30];
+    sum[3] = sum[3] + factor[31];
+    sum[4] = sum[4] + factor[32];
+    sum[5] = sum[5] + factor[33];
+    sum[6] = sum[6] + factor[34];
+    sum[7] = sum[7] + factor[35];
+    sum[8] = sum[8] + factor[36];
+    sum[9] = sum[9] + factor[37];
+    sum[10] = sum[10] + factor[38];
+    sum[11] = sum[11] + factor[39];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_1_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[40];
+    sum[1] = sum[1] + factor[41];
+    sum[2] = sum[2] + factor[56];
+    sum[3] = sum[3] + factor[0] * factor[27] - factor[42] * point[15];
+    sum[4] = sum[4] + factor[1] * factor[27] - factor[42] * point[16];
+    sum[5] = sum[5] + factor[2] * factor[27] - factor[42] * point[17];
+    sum[6] = sum[6] + factor[3] * factor[27] - factor[42] * point[18];
+    sum[7] = sum[7] + factor[4] * factor[27] - factor[42] * point[19];
+    sum[8] = sum[8] + factor[5] * factor[27] - factor[42] * point[20];
+    sum[9] = sum[9] + factor[6] * factor[27] - factor[42] * point[21];
+    sum[10] = sum[10] + factor[7] * factor[27] - factor[42] * point[22];
+    sum[11] = sum[11] + factor[8] * factor[27] - factor[42] * point[23];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_2_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[9] * factor[27] - factor[42] * point[24];
+    sum[1] = sum[1] + factor[10] * factor[27] - factor[42] * point[25];
+    sum[2] = sum[2] + factor[11] * factor[27] - factor[42] * point[26];
+    sum[3] = sum[3] + factor[12] * factor[27] - factor[42] * point[27];
+    sum[4] = sum[4] + factor[13] * factor[27] - factor[42] * point[28];
+    sum[5] = sum[5] + factor[9] * factor[26] - factor[43] * point[24];
+    sum[6] = sum[6] + factor[10] * factor[26] - factor[43] * point[25];
+    sum[7] = sum[7] + factor[11] * factor[26] - factor[43] * point[26];
+    sum[8] = sum[8] + factor[12] * factor[26] - factor[43] * point[27];
+    sum[9] = sum[9] + factor[13] * factor[26] - factor[43] * point[28];
+    sum[10] = sum[10] + factor[0] * factor[26] - factor[43] * point[15];
+    sum[11] = sum[11] + factor[1] * factor[26] - factor[43] * point[16];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_3_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[26] - factor[43] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[26] - factor[43] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[26] - factor[43] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[26] - factor[43] * point[20];
+    sum[4] = sum[4] + factor[6] * factor[26] - factor[43] * point[21];
+    sum[5] = sum[5] + factor[7] * factor[26] - factor[43] * point[22];
+    sum[6] = sum[6] + factor[8] * factor[26] - factor[43] * point[23];
+    sum[7] = sum[7] + factor[2] * factor[25] - factor[44] * point[17];
+    sum[8] = sum[8] + factor[3] * factor[25] - factor[44] * point[18];
+    sum[9] = sum[9] + factor[4] * factor[25] - factor[44] * point[19];
+    sum[10] = sum[10] + factor[5] * factor[25] - factor[44] * point[20];
+    sum[11] = sum[11] + factor[6] * factor[25] - factor[44] * point[21];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_4_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[25] - factor[44] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[25] - factor[44] * point[16];
+    sum[2] = sum[2] + factor[7] * factor[25] - factor[44] * point[22];
+    sum[3] = sum[3] + factor[8] * factor[25] - factor[44] * point[23];
+    sum[4] = sum[4] + factor[9] * factor[25] - factor[44] * point[24];
+    sum[5] = sum[5] + factor[10] * factor[25] - factor[44] * point[25];
+    sum[6] = sum[6] + factor[11] * factor[25] - factor[44] * point[26];
+    sum[7] = sum[7] + factor[12] * factor[25] - factor[44] * point[27];
+    sum[8] = sum[8] + factor[13] * factor[25] - factor[44] * point[28];
+    sum[9] = sum[9] + factor[0] * factor[24] - factor[45] * point[15];
+    sum[10] = sum[10] + factor[1] * factor[24] - factor[45] * point[16];
+    sum[11] = sum[11] + factor[7] * factor[24] - factor[45] * point[22];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_5_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[24] - factor[45] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[24] - factor[45] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[24] - factor[45] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[24] - factor[45] * point[20];
+    sum[4] = sum[4] + factor[6] * factor[24] - factor[45] * point[21];
+    sum[5] = sum[5] + factor[8] * factor[24] - factor[45] * point[23];
+    sum[6] = sum[6] + factor[9] * factor[24] - factor[45] * point[24];
+    sum[7] = sum[7] + factor[10] * factor[24] - factor[45] * point[25];
+    sum[8] = sum[8] + factor[11] * factor[24] - factor[45] * point[26];
+    sum[9] = sum[9] + factor[12] * factor[24] - factor[45] * point[27];
+    sum[10] = sum[10] + factor[13] * factor[24] - factor[45] * point[28];
+    sum[11] = sum[11] + factor[2] * factor[23] - factor[46] * point[17];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_6_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[23] - factor[46] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[23] - factor[46] * point[16];
+    sum[2] = sum[2] + factor[3] * factor[23] - factor[46] * point[18];
+    sum[3] = sum[3] + factor[4] * factor[23] - factor[46] * point[19];
+    sum[4] = sum[4] + factor[5] * factor[23] - factor[46] * point[20];
+    sum[5] = sum[5] + factor[6] * factor[23] - factor[46] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[23] - factor[46] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[23] - factor[46] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[23] - factor[46] * point[24];
+    sum[9] = sum[9] + factor[10] * factor[23] - factor[46] * point[25];
+    sum[10] = sum[10] + factor[11] * factor[23] - factor[46] * point[26];
+    sum[11] = sum[11] + factor[12] * factor[23] - factor[46] * point[27];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_7_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[13] * factor[23] - factor[46] * point[28];
+    sum[1] = sum[1] + factor[13] * factor[22] - factor[47] * point[28];
+    sum[2] = sum[2] + factor[0] * factor[22] - factor[47] * point[15];
+    sum[3] = sum[3] + factor[1] * factor[22] - factor[47] * point[16];
+    sum[4] = sum[4] + factor[2] * factor[22] - factor[47] * point[17];
+    sum[5] = sum[5] + factor[3] * factor[22] - factor[47] * point[18];
+    sum[6] = sum[6] + factor[4] * factor[22] - factor[47] * point[19];
+    sum[7] = sum[7] + factor[5] * factor[22] - factor[47] * point[20];
+    sum[8] = sum[8] + factor[6] * factor[22] - factor[47] * point[21];
+    sum[9] = sum[9] + factor[7] * factor[22] - factor[47] * point[22];
+    sum[10] = sum[10] + factor[8] * factor[22] - factor[47] * point[23];
+    sum[11] = sum[11] + factor[9] * factor[22] - factor[47] * point[24];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_8_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[10] * factor[22] - factor[47] * point[25];
+    sum[1] = sum[1] + factor[11] * factor[22] - factor[47] * point[26];
+    sum[2] = sum[2] + factor[12] * factor[22] - factor[47] * point[27];
+    sum[3] = sum[3] + factor[10] * factor[21] - factor[48] * point[25];
+    sum[4] = sum[4] + factor[11] * factor[21] - factor[48] * point[26];
+    sum[5] = sum[5] + factor[12] * factor[21] - factor[48] * point[27];
+    sum[6] = sum[6] + factor[0] * factor[21] - factor[48] * point[15];
+    sum[7] = sum[7] + factor[1] * factor[21] - factor[48] * point[16];
+    sum[8] = sum[8] + factor[2] * factor[21] - factor[48] * point[17];
+    sum[9] = sum[9] + factor[3] * factor[21] - factor[48] * point[18];
+    sum[10] = sum[10] + factor[4] * factor[21] - factor[48] * point[19];
+    sum[11] = sum[11] + factor[5] * factor[21] - factor[48] * point[20];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_9_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[6] * factor[21] - factor[48] * point[21];
+    sum[1] = sum[1] + factor[7] * factor[21] - factor[48] * point[22];
+    sum[2] = sum[2] + factor[8] * factor[21] - factor[48] * point[23];
+    sum[3] = sum[3] + factor[9] * factor[21] - factor[48] * point[24];
+    sum[4] = sum[4] + factor[13] * factor[21] - factor[48] * point[28];
+    sum[5] = sum[5] + factor[6] * factor[20] - factor[49] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[20] - factor[49] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[20] - factor[49] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[20] - factor[49] * point[24];
+    sum[9] = sum[9] + factor[13] * factor[20] - factor[49] * point[28];
+    sum[10] = sum[10] + factor[0] * factor[20] - factor[49] * point[15];
+    sum[11] = sum[11] + factor[1] * factor[20] - factor[49] * point[16];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_10_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[20] - factor[49] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[20] - factor[49] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[20] - factor[49] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[20] - factor[49] * point[20];
+    sum[4] = sum[4] + factor[10] * factor[20] - factor[49] * point[25];
+    sum[5] = sum[5] + factor[11] * factor[20] - factor[49] * point[26];
+    sum[6] = sum[6] + factor[12] * factor[20] - factor[49] * point[27];
+    sum[7] = sum[7] + factor[2] * factor[19] - factor[50] * point[17];
+    sum[8] = sum[8] + factor[3] * factor[19] - factor[50] * point[18];
+    sum[9] = sum[9] + factor[4] * factor[19] - factor[50] * point[19];
+    sum[10] = sum[10] + factor[5] * factor[19] - factor[50] * point[20];
+    sum[11] = sum[11] + factor[10] * factor[19] - factor[50] * point[25];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_11_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[19] - factor[50] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[19] - factor[50] * point[16];
+    sum[2] = sum[2] + factor[6] * factor[19] - factor[50] * point[21];
+    sum[3] = sum[3] + factor[7] * factor[19] - factor[50] * point[22];
+    sum[4] = sum[4] + factor[8] * factor[19] - factor[50] * point[23];
+    sum[5] = sum[5] + factor[9] * factor[19] - factor[50] * point[24];
+    sum[6] = sum[6] + factor[11] * factor[19] - factor[50] * point[26];
+    sum[7] = sum[7] + factor[12] * factor[19] - factor[50] * point[27];
+    sum[8] = sum[8] + factor[13] * factor[19] - factor[50] * point[28];
+    sum[9] = sum[9] + factor[0] * factor[18] - factor[51] * point[15];
+    sum[10] = sum[10] + factor[1] * factor[18] - factor[51] * point[16];
+    sum[11] = sum[11] + factor[6] * factor[18] - factor[51] * point[21];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_12_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[18] - factor[51] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[18] - factor[51] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[18] - factor[51] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[18] - factor[51] * point[20];
+    sum[4] = sum[4] + factor[7] * factor[18] - factor[51] * point[22];
+    sum[5] = sum[5] + factor[8] * factor[18] - factor[51] * point[23];
+    sum[6] = sum[6] + factor[9] * factor[18] - factor[51] * point[24];
+    sum[7] = sum[7] + factor[10] * factor[18] - factor[51] * point[25];
+    sum[8] = sum[8] + factor[11] * factor[18] - factor[51] * point[26];
+    sum[9] = sum[9] + factor[12] * factor[18] - factor[51] * point[27];
+    sum[10] = sum[10] + factor[13] * factor[18] - factor[51] * point[28];
+    sum[11] = sum[11] + factor[2] * factor[17] - factor[52] * point[17];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_13_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[17] - factor[52] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[17] - factor[52] * point[16];
+    sum[2] = sum[2] + factor[3] * factor[17] - factor[52] * point[18];
+    sum[3] = sum[3] + factor[4] * factor[17] - factor[52] * point[19];
+    sum[4] = sum[4] + factor[5] * factor[17] - factor[52] * point[20];
+    sum[5] = sum[5] + factor[6] * factor[17] - factor[52] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[17] - factor[52] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[17] - factor[52] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[17] - factor[52] * point[24];
+    sum[9] = sum[9] + factor[10] * factor[17] - factor[52] * point[25];
+    sum[10] = sum[10] + factor[11] * factor[17] - factor[52] * point[26];
+    sum[11] = sum[11] + factor[12] * factor[17] - factor[52] * point[27];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_14_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[13] * factor[17] - factor[52] * point[28];
+    sum[1] = sum[1] + factor[13] * factor[16] - factor[53] * point[28];
+    sum[2] = sum[2] + factor[0] * factor[16] - factor[53] * point[15];
+    sum[3] = sum[3] + factor[1] * factor[16] - factor[53] * point[16];
+    sum[4] = sum[4] + factor[2] * factor[16] - factor[53] * point[17];
+    sum[5] = sum[5] + factor[3] * factor[16] - factor[53] * point[18];
+    sum[6] = sum[6] + factor[4] * factor[16] - factor[53] * point[19];
+    sum[7] = sum[7] + factor[5] * factor[16] - factor[53] * point[20];
+    sum[8] = sum[8] + factor[6] * factor[16] - factor[53] * point[21];
+    sum[9] = sum[9] + factor[7] * factor[16] - factor[53] * point[22];
+    sum[10] = sum[10] + factor[8] * factor[16] - factor[53] * point[23];
+    sum[11] = sum[11] + factor[9] * factor[16] - factor[53] * point[24];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_15_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[10] * factor[16] - factor[53] * point[25];
+    sum[1] = sum[1] + factor[11] * factor[16] - factor[53] * point[26];
+    sum[2] = sum[2] + factor[12] * factor[16] - factor[53] * point[27];
+    sum[3] = sum[3] + factor[10] * factor[15] - factor[54] * point[25];
+    sum[4] = sum[4] + factor[11] * factor[15] - factor[54] * point[26];
+    sum[5] = sum[5] + factor[12] * factor[15] - factor[54] * point[27];
+    sum[6] = sum[6] + factor[0] * factor[15] - factor[54] * point[15];
+    sum[7] = sum[7] + factor[1] * factor[15] - factor[54] * point[16];
+    sum[8] = sum[8] + factor[2] * factor[15] - factor[54] * point[17];
+    sum[9] = sum[9] + factor[3] * factor[15] - factor[54] * point[18];
+    sum[10] = sum[10] + factor[4] * factor[15] - factor[54] * point[19];
+    sum[11] = sum[11] + factor[5] * factor[15] - factor[54] * point[20];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_16_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[6] * factor[15] - factor[54] * point[21];
+    sum[1] = sum[1] + factor[7] * factor[15] - factor[54] * point[22];
+    sum[2] = sum[2] + factor[8] * factor[15] - factor[54] * point[23];
+    sum[3] = sum[3] + factor[9] * factor[15] - factor[54] * point[24];
+    sum[4] = sum[4] + factor[13] * factor[15] - factor[54] * point[28];
+    sum[5] = sum[5] + factor[6] * factor[14] - factor[55] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[14] - factor[55] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[14] - factor[55] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[14] - factor[55] * point[24];
+    sum[9] = sum[9] + factor[13] * factor[14] - factor[55] * point[28];
+    sum[10] = sum[10] + factor[0] * factor[14] - factor[55] * point[15];
+    sum[11] = sum[11] + factor[1] * factor[14] - factor[55] * point[16];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_17_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[14] - factor[55] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[14] - factor[55] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[14] - factor[55] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[14] - factor[55] * point[20];
+    sum[4] = sum[4] + factor[10] * factor[14] - factor[55] * point[25];
+    sum[5] = sum[5] + factor[11] * factor[14] - factor[55] * point[26];
+    sum[6] = sum[6] + factor[12] * factor[14] - factor[55] * point[27];
+}
+
+/* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
+OUTLINE void vector_rows_f(const float *rows, size_t count, size_t start, size_t size, vector_f *columns) {
+    for (size_t i = 0; i < size; ++i) {
+        float column[LANES_f];
+        for (size_t lane = 0; lane < LANES_f; ++lane)
+            column[lane] = rows[size * (start + lane < count ? start + lane : count - 1) + i];
+        columns[i] = vector_load_f(column);
+    }
+}
+
+/* Back to rows that are `stride` apart; nothing past the end. */
+OUTLINE void vector_to_rows_f(
+    const vector_f *columns, float *rows, size_t count, size_t start, size_t size, size_t stride) {
+    const size_t lanes = start >= count ? 0 : count - start < LANES_f ? count - start : LANES_f;
+    for (size_t lane = 0; lane < lanes; ++lane)
+        for (size_t i = 0; i < size; ++i) rows[stride * (start + lane) + i] = LANE(columns[i], lane);
+}
+
+/* Zero in the lanes past the end. */
+OUTLINE void vector_end_f(size_t count, size_t start, size_t size, vector_f *columns) {
+    for (size_t lane = start >= count ? 0 : count - start; lane < LANES_f; ++lane)
+        for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
+}
+
+/* Scratch memory: 29 vectors for each block of points, then the constants of the splats. */
+size_t dual_arm_splats_work_f(size_t count, size_t splat_count, int threads) {
+    (void)threads;
+    return ((count + LANES_f - 1) / LANES_f * 29 + 1) * LANES_f + 211 * splat_count;
+}
+
+static vector_f *work_points_f(float *work) {
+    const uintptr_t size = sizeof(vector_f), start = (uintptr_t)work;
+    return (vector_f *)((char *)work + ((0 - start) & (size - 1)));
+}
+
+static float *work_constants_f(float *work, size_t count) {
+    return (float *)(work_points_f(work) + (count + LANES_f - 1) / LANES_f * 29);
+}
+
+/* The constants of LANES splats, as rows. */
+OUTLINE void splat_constants_f(
+    size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, float *constants) {
+    vector_f own_mu[14], own_W[196], own_amplitude[1], S[211];
+    vector_rows_f(mu, splat_count, start, 14, own_mu);
+    vector_rows_f(W, splat_count, start, 196, own_W);
+    vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
+    pair_constants_f(own_mu, own_W, own_amplitude, S);
+    vector_to_rows_f(S, constants, splat_count, start, 211, 211);
+}
+
+/* 2 vectors of points at a time stay in registers while all splats pass. */
 void dual_arm_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *DUAL_ARM_RESTRICT x,
-    const float *DUAL_ARM_RESTRICT mu,
-    const float *DUAL_ARM_RESTRICT W,
-    const float *DUAL_ARM_RESTRICT amplitude,
-    float *DUAL_ARM_RESTRICT value,
-    float *DUAL_ARM_RESTRICT gradient) {
-    const unsigned mode = flush_denormals();
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        float x_block[14][LANES], sum[15][LANES] = {{0}};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            for (size_t i = 0; i < 14; ++i) x_block[i][lane] = x[14 * n + i];
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            const float mu0 = mu[14 * k + 0];
-            const float mu1 = mu[14 * k + 1];
-            const float mu2 = mu[14 * k + 2];
-            const float mu3 = mu[14 * k + 3];
-            const float mu4 = mu[14 * k + 4];
-            const float mu5 = mu[14 * k + 5];
-            const float mu6 = mu[14 * k + 6];
-            const float mu7 = mu[14 * k + 7];
-            const float mu8 = mu[14 * k + 8];
-            const float mu9 = mu[14 * k + 9];
-            const float mu10 = mu[14 * k + 10];
-            const float mu11 = mu[14 * k + 11];
-            const float mu12 = mu[14 * k + 12];
-            const float mu13 = mu[14 * k + 13];
-            const float W0_0 = W[196 * k + 0];
-            const float W0_1 = W[196 * k + 1];
-            const float W0_2 = W[196 * k + 2];
-            const float W0_3 = W[196 * k + 3];
-            const float W0_4 = W[196 * k + 4];
-            const float W0_5 = W[196 * k + 5];
-            const float W0_6 = W[196 * k + 6];
-            const float W0_7 = W[196 * k + 7];
-            const float W0_8 = W[196 * k + 8];
-            const float W0_9 = W[196 * k + 9];
-            const float W0_10 = W[196 * k + 10];
-            const float W0_11 = W[196 * k + 11];
-            const float W0_12 = W[196 * k + 12];
-            const float W0_13 = W[196 * k + 13];
-            const float W1_0 = W[196 * k + 14];
-            const float W1_1 = W[196 * k + 15];
-            const float W1_2 = W[196 * k + 16];
-            const float W1_3 = W[196 * k + 17];
-            const float W1_4 = W[196 * k + 18];
-            const float W1_5 = W[196 * k + 19];
-            const float W1_6 = W[196 * k + 20];
-            const float W1_7 = W[196 * k + 21];
-            const float W1_8 = W[196 * k + 22];
-            const float W1_9 = W[196 * k + 23];
-            const float W1_10 = W[196 * k + 24];
-            const float W1_11 = W[196 * k + 25];
-            const float W1_12 = W[196 * k + 26];
-            const float W1_13 = W[196 * k + 27];
-            const float W2_0 = W[196 * k + 28];
-            const float W2_1 = W[196 * k + 29];
-            const float W2_2 = W[196 * k + 30];
-            const float W2_3 = W[196 * k + 31];
-            const float W2_4 = W[196 * k + 32];
-            const float W2_5 = W[196 * k + 33];
-            const float W2_6 = W[196 * k + 34];
-            const float W2_7 = W[196 * k + 35];
-            const float W2_8 = W[196 * k + 36];
-            const float W2_9 = W[196 * k + 37];
-            const float W2_10 = W[196 * k + 38];
-            const float W2_11 = W[196 * k + 39];
-            const float W2_12 = W[196 * k + 40];
-            const float W2_13 = W[196 * k + 41];
-            const float W3_0 = W[196 * k + 42];
-            const float W3_1 = W[196 * k + 43];
-            const float W3_2 = W[196 * k + 44];
-            const float W3_3 = W[196 * k + 45];
-            const float W3_4 = W[196 * k + 46];
-            const float W3_5 = W[196 * k + 47];
-            const float W3_6 = W[196 * k + 48];
-            const float W3_7 = W[196 * k + 49];
-            const float W3_8 = W[196 * k + 50];
-            const float W3_9 = W[196 * k + 51];
-            const float W3_10 = W[196 * k + 52];
-            const float W3_11 = W[196 * k + 53];
-            const float W3_12 = W[196 * k + 54];
-            const float W3_13 = W[196 * k + 55];
-            const float W4_0 = W[196 * k + 56];
-            const float W4_1 = W[196 * k + 57];
-            const float W4_2 = W[196 * k + 58];
-            const float W4_3 = W[196 * k + 59];
-            const float W4_4 = W[196 * k + 60];
-            const float W4_5 = W[196 * k + 61];
-            const float W4_6 = W[196 * k + 62];
-            const float W4_7 = W[196 * k + 63];
-            const float W4_8 = W[196 * k + 64];
-            const float W4_9 = W[196 * k + 65];
-            const float W4_10 = W[196 * k + 66];
-            const float W4_11 = W[196 * k + 67];
-            const float W4_12 = W[196 * k + 68];
-            const float W4_13 = W[196 * k + 69];
-            const float W5_0 = W[196 * k + 70];
-            const float W5_1 = W[196 * k + 71];
-            const float W5_2 = W[196 * k + 72];
-            const float W5_3 = W[196 * k + 73];
-            const float W5_4 = W[196 * k + 74];
-            const float W5_5 = W[196 * k + 75];
-            const float W5_6 = W[196 * k + 76];
-            const float W5_7 = W[196 * k + 77];
-            const float W5_8 = W[196 * k + 78];
-            const float W5_9 = W[196 * k + 79];
-            const float W5_10 = W[196 * k + 80];
-            const float W5_11 = W[196 * k + 81];
-            const float W5_12 = W[196 * k + 82];
-            const float W5_13 = W[196 * k + 83];
-            const float W6_0 = W[196 * k + 84];
-            const float W6_1 = W[196 * k + 85];
-            const float W6_2 = W[196 * k + 86];
-            const float W6_3 = W[196 * k + 87];
-            const float W6_4 = W[196 * k + 88];
-            const float W6_5 = W[196 * k + 89];
-            const float W6_6 = W[196 * k + 90];
-            const float W6_7 = W[196 * k + 91];
-            const float W6_8 = W[196 * k + 92];
-            const float W6_9 = W[196 * k + 93];
-            const float W6_10 = W[196 * k + 94];
-            const float W6_11 = W[196 * k + 95];
-            const float W6_12 = W[196 * k + 96];
-            const float W6_13 = W[196 * k + 97];
-            const float W7_0 = W[196 * k + 98];
-            const float W7_1 = W[196 * k + 99];
-            const float W7_2 = W[196 * k + 100];
-            const float W7_3 = W[196 * k + 101];
-            const float W7_4 = W[196 * k + 102];
-            const float W7_5 = W[196 * k + 103];
-            const float W7_6 = W[196 * k + 104];
-            const float W7_7 = W[196 * k + 105];
-            const float W7_8 = W[196 * k + 106];
-            const float W7_9 = W[196 * k + 107];
-            const float W7_10 = W[196 * k + 108];
-            const float W7_11 = W[196 * k + 109];
-            const float W7_12 = W[196 * k + 110];
-            const float W7_13 = W[196 * k + 111];
-            const float W8_0 = W[196 * k + 112];
-            const float W8_1 = W[196 * k + 113];
-            const float W8_2 = W[196 * k + 114];
-            const float W8_3 = W[196 * k + 115];
-            const float W8_4 = W[196 * k + 116];
-            const float W8_5 = W[196 * k + 117];
-            const float W8_6 = W[196 * k + 118];
-            const float W8_7 = W[196 * k + 119];
-            const float W8_8 = W[196 * k + 120];
-            const float W8_9 = W[196 * k + 121];
-            const float W8_10 = W[196 * k + 122];
-            const float W8_11 = W[196 * k + 123];
-            const float W8_12 = W[196 * k + 124];
-            const float W8_13 = W[196 * k + 125];
-            const float W9_0 = W[196 * k + 126];
-            const float W9_1 = W[196 * k + 127];
-            const float W9_2 = W[196 * k + 128];
-            const float W9_3 = W[196 * k + 129];
-            const float W9_4 = W[196 * k + 130];
-            const float W9_5 = W[196 * k + 131];
-            const float W9_6 = W[196 * k + 132];
-            const float W9_7 = W[196 * k + 133];
-            const float W9_8 = W[196 * k + 134];
-            const float W9_9 = W[196 * k + 135];
-            const float W9_10 = W[196 * k + 136];
-            const float W9_11 = W[196 * k + 137];
-            const float W9_12 = W[196 * k + 138];
-            const float W9_13 = W[196 * k + 139];
-            const float W10_0 = W[196 * k + 140];
-            const float W10_1 = W[196 * k + 141];
-            const float W10_2 = W[196 * k + 142];
-            const float W10_3 = W[196 * k + 143];
-            const float W10_4 = W[196 * k + 144];
-            const float W10_5 = W[196 * k + 145];
-            const float W10_6 = W[196 * k + 146];
-            const float W10_7 = W[196 * k + 147];
-            const float W10_8 = W[196 * k + 148];
-            const float W10_9 = W[196 * k + 149];
-            const float W10_10 = W[196 * k + 150];
-            const float W10_11 = W[196 * k + 151];
-            const float W10_12 = W[196 * k + 152];
-            const float W10_13 = W[196 * k + 153];
-            const float W11_0 = W[196 * k + 154];
-            const float W11_1 = W[196 * k + 155];
-            const float W11_2 = W[196 * k + 156];
-            const float W11_3 = W[196 * k + 157];
-            const float W11_4 = W[196 * k + 158];
-            const float W11_5 = W[196 * k + 159];
-            const float W11_6 = W[196 * k + 160];
-            const float W11_7 = W[196 * k + 161];
-            const float W11_8 = W[196 * k + 162];
-            const float W11_9 = W[196 * k + 163];
-            const float W11_10 = W[196 * k + 164];
-            const float W11_11 = W[196 * k + 165];
-            const float W11_12 = W[196 * k + 166];
-            const float W11_13 = W[196 * k + 167];
-            const float W12_0 = W[196 * k + 168];
-            const float W12_1 = W[196 * k + 169];
-            const float W12_2 = W[196 * k + 170];
-            const float W12_3 = W[196 * k + 171];
-            const float W12_4 = W[196 * k + 172];
-            const float W12_5 = W[196 * k + 173];
-            const float W12_6 = W[196 * k + 174];
-            const float W12_7 = W[196 * k + 175];
-            const float W12_8 = W[196 * k + 176];
-            const float W12_9 = W[196 * k + 177];
-            const float W12_10 = W[196 * k + 178];
-            const float W12_11 = W[196 * k + 179];
-            const float W12_12 = W[196 * k + 180];
-            const float W12_13 = W[196 * k + 181];
-            const float W13_0 = W[196 * k + 182];
-            const float W13_1 = W[196 * k + 183];
-            const float W13_2 = W[196 * k + 184];
-            const float W13_3 = W[196 * k + 185];
-            const float W13_4 = W[196 * k + 186];
-            const float W13_5 = W[196 * k + 187];
-            const float W13_6 = W[196 * k + 188];
-            const float W13_7 = W[196 * k + 189];
-            const float W13_8 = W[196 * k + 190];
-            const float W13_9 = W[196 * k + 191];
-            const float W13_10 = W[196 * k + 192];
-            const float W13_11 = W[196 * k + 193];
-            const float W13_12 = W[196 * k + 194];
-            const float W13_13 = W[196 * k + 195];
-            const float amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const float gap = x_block[0][lane] - mu0;
-                const float round_2 = rintf(0.15915494309189535f * gap);
-                const float v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-                    round_2;
-                const float gap_2 = x_block[1][lane] - mu1;
-                const float round_3 = rintf(0.15915494309189535f * gap_2);
-                const float v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f *
-                    round_3;
-                const float gap_3 = x_block[2][lane] - mu2;
-                const float round_4 = rintf(0.15915494309189535f * gap_3);
-                const float v2 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f *
-                    round_4;
-                const float gap_4 = x_block[3][lane] - mu3;
-                const float round_5 = rintf(0.15915494309189535f * gap_4);
-                const float v3 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f *
-                    round_5;
-                const float gap_5 = x_block[4][lane] - mu4;
-                const float round_6 = rintf(0.15915494309189535f * gap_5);
-                const float v4 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f *
-                    round_6;
-                const float gap_6 = x_block[5][lane] - mu5;
-                const float round_7 = rintf(0.15915494309189535f * gap_6);
-                const float v5 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f *
-                    round_7;
-                const float gap_7 = x_block[6][lane] - mu6;
-                const float round_8 = rintf(0.15915494309189535f * gap_7);
-                const float v6 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f *
-                    round_8;
-                const float gap_8 = x_block[7][lane] - mu7;
-                const float round_9 = rintf(0.15915494309189535f * gap_8);
-                const float v7 = gap_8 - 6.28125f * round_9 - 0.0019350051879882812f * round_9 - 3.019915981956753e-07f *
-                    round_9;
-                const float gap_9 = x_block[8][lane] - mu8;
-                const float round_10 = rintf(0.15915494309189535f * gap_9);
-                const float v8 = gap_9 - 6.28125f * round_10 - 0.0019350051879882812f * round_10 - 3.019915981956753e-07f
-                    * round_10;
-                const float gap_10 = x_block[9][lane] - mu9;
-                const float round_11 = rintf(0.15915494309189535f * gap_10);
-                const float v9 = gap_10 - 6.28125f * round_11 - 0.0019350051879882812f * round_11 - 3.019915981956753e-07f
-                    * round_11;
-                const float gap_11 = x_block[10][lane] - mu10;
-                const float round_12 = rintf(0.15915494309189535f * gap_11);
-                const float v10 = gap_11 - 6.28125f * round_12 - 0.0019350051879882812f * round_12 -
-                    3.019915981956753e-07f * round_12;
-                const float gap_12 = x_block[11][lane] - mu11;
-                const float round_13 = rintf(0.15915494309189535f * gap_12);
-                const float v11 = gap_12 - 6.28125f * round_13 - 0.0019350051879882812f * round_13 -
-                    3.019915981956753e-07f * round_13;
-                const float gap_13 = x_block[12][lane] - mu12;
-                const float round_14 = rintf(0.15915494309189535f * gap_13);
-                const float v12 = gap_13 - 6.28125f * round_14 - 0.0019350051879882812f * round_14 -
-                    3.019915981956753e-07f * round_14;
-                const float gap_14 = x_block[13][lane] - mu13;
-                const float round_15 = rintf(0.15915494309189535f * gap_14);
-                const float v13 = gap_14 - 6.28125f * round_15 - 0.0019350051879882812f * round_15 -
-                    3.019915981956753e-07f * round_15;
-                const float total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-                const float total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
-                const float total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
-                const float z0 = total_4 + W0_13 * v13;
-                const float total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-                const float total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
-                const float total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12;
-                const float z1 = total_7 + W1_13 * v13;
-                const float total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-                const float total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
-                const float total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12;
-                const float z2 = total_10 + W2_13 * v13;
-                const float total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-                const float total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
-                const float total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12;
-                const float z3 = total_13 + W3_13 * v13;
-                const float total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-                const float total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
-                const float total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12;
-                const float z4 = total_16 + W4_13 * v13;
-                const float total_17 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-                const float total_18 = total_17 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
-                const float total_19 = total_18 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12;
-                const float z5 = total_19 + W5_13 * v13;
-                const float total_20 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
-                const float total_21 = total_20 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
-                const float total_22 = total_21 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12;
-                const float z6 = total_22 + W6_13 * v13;
-                const float total_23 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
-                const float total_24 = total_23 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
-                const float total_25 = total_24 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12;
-                const float z7 = total_25 + W7_13 * v13;
-                const float total_26 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
-                const float total_27 = total_26 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
-                const float total_28 = total_27 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12;
-                const float z8 = total_28 + W8_13 * v13;
-                const float total_29 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4;
-                const float total_30 = total_29 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8;
-                const float total_31 = total_30 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12;
-                const float z9 = total_31 + W9_13 * v13;
-                const float total_32 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4;
-                const float total_33 = total_32 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8;
-                const float total_34 = total_33 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12;
-                const float z10 = total_34 + W10_13 * v13;
-                const float total_35 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4;
-                const float total_36 = total_35 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8;
-                const float total_37 = total_36 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12;
-                const float z11 = total_37 + W11_13 * v13;
-                const float total_38 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4;
-                const float total_39 = total_38 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8;
-                const float total_40 = total_39 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12;
-                const float z12 = total_40 + W12_13 * v13;
-                const float total_41 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4;
-                const float total_42 = total_41 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
-                const float total_43 = total_42 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
-                const float z13 = total_43 + W13_13 * v13;
-                const float total_44 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-                const float total_45 = total_44 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-                const float total_46 = total_45 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12;
-                const float exp_2 = expf(-(0.5f * (total_46 + z13 * z13)));
-                const float phi = amplitude_k * exp_2;
-                const float gap_15 = -(W13_13 * z13) - W12_13 * z12 - W11_13 * z11 - W10_13 * z10;
-                const float gap_16 = -(W13_12 * z13) - W12_12 * z12 - W11_12 * z11 - W10_12 * z10;
-                const float gap_17 = -(W13_11 * z13) - W12_11 * z12 - W11_11 * z11 - W10_11 * z10;
-                const float gap_18 = -(W13_10 * z13) - W12_10 * z12 - W11_10 * z11 - W10_10 * z10;
-                const float gap_19 = -(W13_9 * z13) - W12_9 * z12 - W11_9 * z11 - W10_9 * z10;
-                const float gap_20 = -(W13_8 * z13) - W12_8 * z12 - W11_8 * z11 - W10_8 * z10;
-                const float gap_21 = -(W13_7 * z13) - W12_7 * z12 - W11_7 * z11 - W10_7 * z10;
-                const float gap_22 = -(W13_6 * z13) - W12_6 * z12 - W11_6 * z11 - W10_6 * z10;
-                const float gap_23 = -(W13_5 * z13) - W12_5 * z12 - W11_5 * z11 - W10_5 * z10;
-                const float gap_24 = -(W13_4 * z13) - W12_4 * z12 - W11_4 * z11 - W10_4 * z10;
-                const float gap_25 = -(W13_3 * z13) - W12_3 * z12 - W11_3 * z11 - W10_3 * z10;
-                const float gap_26 = -(W13_2 * z13) - W12_2 * z12 - W11_2 * z11 - W10_2 * z10;
-                const float gap_27 = -(W13_1 * z13) - W12_1 * z12 - W11_1 * z11 - W10_1 * z10;
-                const float gap_28 = -(W13_0 * z13) - W12_0 * z12 - W11_0 * z11 - W10_0 * z10;
-                const float gap_29 = gap_15 - W9_13 * z9 - W8_13 * z8 - W7_13 * z7 - W6_13 * z6;
-                const float gap_30 = gap_16 - W9_12 * z9 - W8_12 * z8 - W7_12 * z7 - W6_12 * z6;
-                const float gap_31 = gap_17 - W9_11 * z9 - W8_11 * z8 - W7_11 * z7 - W6_11 * z6;
-                const float gap_32 = gap_18 - W9_10 * z9 - W8_10 * z8 - W7_10 * z7 - W6_10 * z6;
-                const float gap_33 = gap_19 - W9_9 * z9 - W8_9 * z8 - W7_9 * z7 - W6_9 * z6;
-                const float gap_34 = gap_20 - W9_8 * z9 - W8_8 * z8 - W7_8 * z7 - W6_8 * z6;
-                const float gap_35 = gap_21 - W9_7 * z9 - W8_7 * z8 - W7_7 * z7 - W6_7 * z6;
-                const float gap_36 = gap_22 - W9_6 * z9 - W8_6 * z8 - W7_6 * z7 - W6_6 * z6;
-                const float gap_37 = gap_23 - W9_5 * z9 - W8_5 * z8 - W7_5 * z7 - W6_5 * z6;
-                const float gap_38 = gap_24 - W9_4 * z9 - W8_4 * z8 - W7_4 * z7 - W6_4 * z6;
-                const float gap_39 = gap_25 - W9_3 * z9 - W8_3 * z8 - W7_3 * z7 - W6_3 * z6;
-                const float gap_40 = gap_26 - W9_2 * z9 - W8_2 * z8 - W7_2 * z7 - W6_2 * z6;
-                const float gap_41 = gap_27 - W9_1 * z9 - W8_1 * z8 - W7_1 * z7 - W6_1 * z6;
-                const float gap_42 = gap_28 - W9_0 * z9 - W8_0 * z8 - W7_0 * z7 - W6_0 * z6;
-                const float gap_43 = gap_29 - W5_13 * z5 - W4_13 * z4 - W3_13 * z3 - W2_13 * z2;
-                const float gap_44 = gap_30 - W5_12 * z5 - W4_12 * z4 - W3_12 * z3 - W2_12 * z2;
-                const float gap_45 = gap_31 - W5_11 * z5 - W4_11 * z4 - W3_11 * z3 - W2_11 * z2;
-                const float gap_46 = gap_32 - W5_10 * z5 - W4_10 * z4 - W3_10 * z3 - W2_10 * z2;
-                const float gap_47 = gap_33 - W5_9 * z5 - W4_9 * z4 - W3_9 * z3 - W2_9 * z2;
-                const float gap_48 = gap_34 - W5_8 * z5 - W4_8 * z4 - W3_8 * z3 - W2_8 * z2;
-                const float gap_49 = gap_35 - W5_7 * z5 - W4_7 * z4 - W3_7 * z3 - W2_7 * z2;
-                const float gap_50 = gap_36 - W5_6 * z5 - W4_6 * z4 - W3_6 * z3 - W2_6 * z2;
-                const float gap_51 = gap_37 - W5_5 * z5 - W4_5 * z4 - W3_5 * z3 - W2_5 * z2;
-                const float gap_52 = gap_38 - W5_4 * z5 - W4_4 * z4 - W3_4 * z3 - W2_4 * z2;
-                const float gap_53 = gap_39 - W5_3 * z5 - W4_3 * z4 - W3_3 * z3 - W2_3 * z2;
-                const float gap_54 = gap_40 - W5_2 * z5 - W4_2 * z4 - W3_2 * z3 - W2_2 * z2;
-                const float gap_55 = gap_41 - W5_1 * z5 - W4_1 * z4 - W3_1 * z3 - W2_1 * z2;
-                const float gap_56 = gap_42 - W5_0 * z5 - W4_0 * z4 - W3_0 * z3 - W2_0 * z2;
-                const float by_v13 = gap_43 - W1_13 * z1 - W0_13 * z0;
-                const float by_v12 = gap_44 - W1_12 * z1 - W0_12 * z0;
-                const float by_v11 = gap_45 - W1_11 * z1 - W0_11 * z0;
-                const float by_v10 = gap_46 - W1_10 * z1 - W0_10 * z0;
-                const float by_v9 = gap_47 - W1_9 * z1 - W0_9 * z0;
-                const float by_v8 = gap_48 - W1_8 * z1 - W0_8 * z0;
-                const float by_v7 = gap_49 - W1_7 * z1 - W0_7 * z0;
-                const float by_v6 = gap_50 - W1_6 * z1 - W0_6 * z0;
-                const float by_v5 = gap_51 - W1_5 * z1 - W0_5 * z0;
-                const float by_v4 = gap_52 - W1_4 * z1 - W0_4 * z0;
-                const float by_v3 = gap_53 - W1_3 * z1 - W0_3 * z0;
-                const float by_v2 = gap_54 - W1_2 * z1 - W0_2 * z0;
-                const float by_v1 = gap_55 - W1_1 * z1 - W0_1 * z0;
-                const float by_v0 = gap_56 - W1_0 * z1 - W0_0 * z0;
-                const float df0 = phi * by_v0;
-                const float df1 = phi * by_v1;
-                const float df2 = phi * by_v2;
-                const float df3 = phi * by_v3;
-                const float df4 = phi * by_v4;
-                const float df5 = phi * by_v5;
-                const float df6 = phi * by_v6;
-                const float df7 = phi * by_v7;
-                const float df8 = phi * by_v8;
-                const float df9 = phi * by_v9;
-                const float df10 = phi * by_v10;
-                const float df11 = phi * by_v11;
-                const float df12 = phi * by_v12;
-                const float df13 = phi * by_v13;
-                sum[0][lane] += phi;
-                sum[1][lane] += df0;
-                sum[2][lane] += df1;
-                sum[3][lane] += df2;
-                sum[4][lane] += df3;
-                sum[5][lane] += df4;
-                sum[6][lane] += df5;
-                sum[7][lane] += df6;
-                sum[8][lane] += df7;
-                sum[9][lane] += df8;
-                sum[10][lane] += df9;
-                sum[11][lane] += df10;
-                sum[12][lane] += df11;
-                sum[13][lane] += df12;
-                sum[14][lane] += df13;
+    size_t count, size_t splat_count, const float *DUAL_ARM_RESTRICT x, const float *DUAL_ARM_RESTRICT mu, const float *DUAL_ARM_RESTRICT W, const float *DUAL_ARM_RESTRICT amplitude,
+    float *DUAL_ARM_RESTRICT value, float *DUAL_ARM_RESTRICT gradient, float *DUAL_ARM_RESTRICT work, int threads) {
+    (void)threads;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES_f) {
+            vector_f at[2][14], X[2][14], grad[14];
+            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][14] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows_f(x, count, start + b * LANES_f, 14, at[b]);
+                pair_features_f(at[b], X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_forward_f(X[0], constants + 211 * k, value_sum[0], slope_sum[0]);
+                pair_forward_f(X[1], constants + 211 * k, value_sum[1], slope_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b) {
+                pair_gradient_f(at[b], slope_sum[b], grad);
+                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                vector_to_rows_f(grad, gradient, count, start + b * LANES_f, 14, 14);
             }
         }
-        for (size_t lane = 0; lane < lanes; ++lane) {
-            value[start + lane] = sum[0][lane];
-            for (size_t i = 0; i < 14; ++i) gradient[14 * (start + lane) + i] = sum[i + 1][lane];
-        }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
-void dual_arm_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *DUAL_ARM_RESTRICT x,
-    const float *DUAL_ARM_RESTRICT mu,
-    const float *DUAL_ARM_RESTRICT W,
-    const float *DUAL_ARM_RESTRICT amplitude,
-    const float *DUAL_ARM_RESTRICT value_bar,
-    const float *DUAL_ARM_RESTRICT gradient_bar,
-    float *DUAL_ARM_RESTRICT mu_bar,
-    float *DUAL_ARM_RESTRICT W_bar,
-    float *DUAL_ARM_RESTRICT amplitude_bar) {
-    const unsigned mode = flush_denormals();
-    for (size_t i = 0; i < 14 * splat_count; ++i) mu_bar[i] = 0;
-    for (size_t i = 0; i < 196 * splat_count; ++i) W_bar[i] = 0;
-    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        float x_block[14][LANES], value_bar_block[1][LANES], gradient_bar_block[14][LANES];
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            const float weight = lane < lanes ? 1 : 0;
-            for (size_t i = 0; i < 14; ++i) x_block[i][lane] = x[14 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
-            for (size_t i = 0; i < 14; ++i) gradient_bar_block[i][lane] = gradient_bar[14 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
-            for (size_t i = 0; i < 14; ++i) gradient_bar_block[i][lane] *= weight;
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            float sum[211][LANES] = {{0}}, total[211] = {0};
-            const float mu0 = mu[14 * k + 0];
-            const float mu1 = mu[14 * k + 1];
-            const float mu2 = mu[14 * k + 2];
-            const float mu3 = mu[14 * k + 3];
-            const float mu4 = mu[14 * k + 4];
-            const float mu5 = mu[14 * k + 5];
-            const float mu6 = mu[14 * k + 6];
-            const float mu7 = mu[14 * k + 7];
-            const float mu8 = mu[14 * k + 8];
-            const float mu9 = mu[14 * k + 9];
-            const float mu10 = mu[14 * k + 10];
-            const float mu11 = mu[14 * k + 11];
-            const float mu12 = mu[14 * k + 12];
-            const float mu13 = mu[14 * k + 13];
-            const float W0_0 = W[196 * k + 0];
-            const float W0_1 = W[196 * k + 1];
-            const float W0_2 = W[196 * k + 2];
-            const float W0_3 = W[196 * k + 3];
-            const float W0_4 = W[196 * k + 4];
-            const float W0_5 = W[196 * k + 5];
-            const float W0_6 = W[196 * k + 6];
-            const float W0_7 = W[196 * k + 7];
-            const float W0_8 = W[196 * k + 8];
-            const float W0_9 = W[196 * k + 9];
-            const float W0_10 = W[196 * k + 10];
-            const float W0_11 = W[196 * k + 11];
-            const float W0_12 = W[196 * k + 12];
-            const float W0_13 = W[196 * k + 13];
-            const float W1_0 = W[196 * k + 14];
-            const float W1_1 = W[196 * k + 15];
-            const float W1_2 = W[196 * k + 16];
-            const float W1_3 = W[196 * k + 17];
-            const float W1_4 = W[196 * k + 18];
-            const float W1_5 = W[196 * k + 19];
-            const float W1_6 = W[196 * k + 20];
-            const float W1_7 = W[196 * k + 21];
-            const float W1_8 = W[196 * k + 22];
-            const float W1_9 = W[196 * k + 23];
-            const float W1_10 = W[196 * k + 24];
-            const float W1_11 = W[196 * k + 25];
-            const float W1_12 = W[196 * k + 26];
-            const float W1_13 = W[196 * k + 27];
-            const float W2_0 = W[196 * k + 28];
-            const float W2_1 = W[196 * k + 29];
-            const float W2_2 = W[196 * k + 30];
-            const float W2_3 = W[196 * k + 31];
-            const float W2_4 = W[196 * k + 32];
-            const float W2_5 = W[196 * k + 33];
-            const float W2_6 = W[196 * k + 34];
-            const float W2_7 = W[196 * k + 35];
-            const float W2_8 = W[196 * k + 36];
-            const float W2_9 = W[196 * k + 37];
-            const float W2_10 = W[196 * k + 38];
-            const float W2_11 = W[196 * k + 39];
-            const float W2_12 = W[196 * k + 40];
-            const float W2_13 = W[196 * k + 41];
-            const float W3_0 = W[196 * k + 42];
-            const float W3_1 = W[196 * k + 43];
-            const float W3_2 = W[196 * k + 44];
-            const float W3_3 = W[196 * k + 45];
-            const float W3_4 = W[196 * k + 46];
-            const float W3_5 = W[196 * k + 47];
-            const float W3_6 = W[196 * k + 48];
-            const float W3_7 = W[196 * k + 49];
-            const float W3_8 = W[196 * k + 50];
-            const float W3_9 = W[196 * k + 51];
-            const float W3_10 = W[196 * k + 52];
-            const float W3_11 = W[196 * k + 53];
-            const float W3_12 = W[196 * k + 54];
-            const float W3_13 = W[196 * k + 55];
-            const float W4_0 = W[196 * k + 56];
-            const float W4_1 = W[196 * k + 57];
-            const float W4_2 = W[196 * k + 58];
-            const float W4_3 = W[196 * k + 59];
-            const float W4_4 = W[196 * k + 60];
-            const float W4_5 = W[196 * k + 61];
-            const float W4_6 = W[196 * k + 62];
-            const float W4_7 = W[196 * k + 63];
-            const float W4_8 = W[196 * k + 64];
-            const float W4_9 = W[196 * k + 65];
-            const float W4_10 = W[196 * k + 66];
-            const float W4_11 = W[196 * k + 67];
-            const float W4_12 = W[196 * k + 68];
-            const float W4_13 = W[196 * k + 69];
-            const float W5_0 = W[196 * k + 70];
-            const float W5_1 = W[196 * k + 71];
-            const float W5_2 = W[196 * k + 72];
-            const float W5_3 = W[196 * k + 73];
-            const float W5_4 = W[196 * k + 74];
-            const float W5_5 = W[196 * k + 75];
-            const float W5_6 = W[196 * k + 76];
-            const float W5_7 = W[196 * k + 77];
-            const float W5_8 = W[196 * k + 78];
-            const float W5_9 = W[196 * k + 79];
-            const float W5_10 = W[196 * k + 80];
-            const float W5_11 = W[196 * k + 81];
-            const float W5_12 = W[196 * k + 82];
-            const float W5_13 = W[196 * k + 83];
-            const float W6_0 = W[196 * k + 84];
-            const float W6_1 = W[196 * k + 85];
-            const float W6_2 = W[196 * k + 86];
-            const float W6_3 = W[196 * k + 87];
-            const float W6_4 = W[196 * k + 88];
-            const float W6_5 = W[196 * k + 89];
-            const float W6_6 = W[196 * k + 90];
-            const float W6_7 = W[196 * k + 91];
-            const float W6_8 = W[196 * k + 92];
-            const float W6_9 = W[196 * k + 93];
-            const float W6_10 = W[196 * k + 94];
-            const float W6_11 = W[196 * k + 95];
-            const float W6_12 = W[196 * k + 96];
-            const float W6_13 = W[196 * k + 97];
-            const float W7_0 = W[196 * k + 98];
-            const float W7_1 = W[196 * k + 99];
-            const float W7_2 = W[196 * k + 100];
-            const float W7_3 = W[196 * k + 101];
-            const float W7_4 = W[196 * k + 102];
-            const float W7_5 = W[196 * k + 103];
-            const float W7_6 = W[196 * k + 104];
-            const float W7_7 = W[196 * k + 105];
-            const float W7_8 = W[196 * k + 106];
-            const float W7_9 = W[196 * k + 107];
-            const float W7_10 = W[196 * k + 108];
-            const float W7_11 = W[196 * k + 109];
-            const float W7_12 = W[196 * k + 110];
-            const float W7_13 = W[196 * k + 111];
-            const float W8_0 = W[196 * k + 112];
-            const float W8_1 = W[196 * k + 113];
-            const float W8_2 = W[196 * k + 114];
-            const float W8_3 = W[196 * k + 115];
-            const float W8_4 = W[196 * k + 116];
-            const float W8_5 = W[196 * k + 117];
-            const float W8_6 = W[196 * k + 118];
-            const float W8_7 = W[196 * k + 119];
-            const float W8_8 = W[196 * k + 120];
-            const float W8_9 = W[196 * k + 121];
-            const float W8_10 = W[196 * k + 122];
-            const float W8_11 = W[196 * k + 123];
-            const float W8_12 = W[196 * k + 124];
-            const float W8_13 = W[196 * k + 125];
-            const float W9_0 = W[196 * k + 126];
-            const float W9_1 = W[196 * k + 127];
-            const float W9_2 = W[196 * k + 128];
-            const float W9_3 = W[196 * k + 129];
-            const float W9_4 = W[196 * k + 130];
-            const float W9_5 = W[196 * k + 131];
-            const float W9_6 = W[196 * k + 132];
-            const float W9_7 = W[196 * k + 133];
-            const float W9_8 = W[196 * k + 134];
-            const float W9_9 = W[196 * k + 135];
-            const float W9_10 = W[196 * k + 136];
-            const float W9_11 = W[196 * k + 137];
-            const float W9_12 = W[196 * k + 138];
-            const float W9_13 = W[196 * k + 139];
-            const float W10_0 = W[196 * k + 140];
-            const float W10_1 = W[196 * k + 141];
-            const float W10_2 = W[196 * k + 142];
-            const float W10_3 = W[196 * k + 143];
-            const float W10_4 = W[196 * k + 144];
-            const float W10_5 = W[196 * k + 145];
-            const float W10_6 = W[196 * k + 146];
-            const float W10_7 = W[196 * k + 147];
-            const float W10_8 = W[196 * k + 148];
-            const float W10_9 = W[196 * k + 149];
-            const float W10_10 = W[196 * k + 150];
-            const float W10_11 = W[196 * k + 151];
-            const float W10_12 = W[196 * k + 152];
-            const float W10_13 = W[196 * k + 153];
-            const float W11_0 = W[196 * k + 154];
-            const float W11_1 = W[196 * k + 155];
-            const float W11_2 = W[196 * k + 156];
-            const float W11_3 = W[196 * k + 157];
-            const float W11_4 = W[196 * k + 158];
-            const float W11_5 = W[196 * k + 159];
-            const float W11_6 = W[196 * k + 160];
-            const float W11_7 = W[196 * k + 161];
-            const float W11_8 = W[196 * k + 162];
-            const float W11_9 = W[196 * k + 163];
-            const float W11_10 = W[196 * k + 164];
-            const float W11_11 = W[196 * k + 165];
-            const float W11_12 = W[196 * k + 166];
-            const float W11_13 = W[196 * k + 167];
-            const float W12_0 = W[196 * k + 168];
-            const float W12_1 = W[196 * k + 169];
-            const float W12_2 = W[196 * k + 170];
-            const float W12_3 = W[196 * k + 171];
-            const float W12_4 = W[196 * k + 172];
-            const float W12_5 = W[196 * k + 173];
-            const float W12_6 = W[196 * k + 174];
-            const float W12_7 = W[196 * k + 175];
-            const float W12_8 = W[196 * k + 176];
-            const float W12_9 = W[196 * k + 177];
-            const float W12_10 = W[196 * k + 178];
-            const float W12_11 = W[196 * k + 179];
-            const float W12_12 = W[196 * k + 180];
-            const float W12_13 = W[196 * k + 181];
-            const float W13_0 = W[196 * k + 182];
-            const float W13_1 = W[196 * k + 183];
-            const float W13_2 = W[196 * k + 184];
-            const float W13_3 = W[196 * k + 185];
-            const float W13_4 = W[196 * k + 186];
-            const float W13_5 = W[196 * k + 187];
-            const float W13_6 = W[196 * k + 188];
-            const float W13_7 = W[196 * k + 189];
-            const float W13_8 = W[196 * k + 190];
-            const float W13_9 = W[196 * k + 191];
-            const float W13_10 = W[196 * k + 192];
-            const float W13_11 = W[196 * k + 193];
-            const float W13_12 = W[196 * k + 194];
-            const float W13_13 = W[196 * k + 195];
-            const float amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const float gap = x_block[0][lane] - mu0;
-                const float round_2 = rintf(0.15915494309189535f * gap);
-                const float v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-                    round_2;
-                const float gap_2 = x_block[1][lane] - mu1;
-                const float round_3 = rintf(0.15915494309189535f * gap_2);
-                const float v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f *
-                    round_3;
-                const float gap_3 = x_block[2][lane] - mu2;
-                const float round_4 = rintf(0.15915494309189535f * gap_3);
-                const float v2 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f *
-                    round_4;
-                const float gap_4 = x_block[3][lane] - mu3;
-                const float round_5 = rintf(0.15915494309189535f * gap_4);
-                const float v3 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f *
-                    round_5;
-                const float gap_5 = x_block[4][lane] - mu4;
-                const float round_6 = rintf(0.15915494309189535f * gap_5);
-                const float v4 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f *
-                    round_6;
-                const float gap_6 = x_block[5][lane] - mu5;
-                const float round_7 = rintf(0.15915494309189535f * gap_6);
-                const float v5 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f *
-                    round_7;
-                const float gap_7 = x_block[6][lane] - mu6;
-                const float round_8 = rintf(0.15915494309189535f * gap_7);
-                const float v6 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f *
-                    round_8;
-                const float gap_8 = x_block[7][lane] - mu7;
-                const float round_9 = rintf(0.15915494309189535f * gap_8);
-                const float v7 = gap_8 - 6.28125f * round_9 - 0.0019350051879882812f * round_9 - 3.019915981956753e-07f *
-                    round_9;
-                const float gap_9 = x_block[8][lane] - mu8;
-                const float round_10 = rintf(0.15915494309189535f * gap_9);
-                const float v8 = gap_9 - 6.28125f * round_10 - 0.0019350051879882812f * round_10 - 3.019915981956753e-07f
-                    * round_10;
-                const float gap_10 = x_block[9][lane] - mu9;
-                const float round_11 = rintf(0.15915494309189535f * gap_10);
-                const float v9 = gap_10 - 6.28125f * round_11 - 0.0019350051879882812f * round_11 - 3.019915981956753e-07f
-                    * round_11;
-                const float gap_11 = x_block[10][lane] - mu10;
-                const float round_12 = rintf(0.15915494309189535f * gap_11);
-                const float v10 = gap_11 - 6.28125f * round_12 - 0.0019350051879882812f * round_12 -
-                    3.019915981956753e-07f * round_12;
-                const float gap_12 = x_block[11][lane] - mu11;
-                const float round_13 = rintf(0.15915494309189535f * gap_12);
-                const float v11 = gap_12 - 6.28125f * round_13 - 0.0019350051879882812f * round_13 -
-                    3.019915981956753e-07f * round_13;
-                const float gap_13 = x_block[12][lane] - mu12;
-                const float round_14 = rintf(0.15915494309189535f * gap_13);
-                const float v12 = gap_13 - 6.28125f * round_14 - 0.0019350051879882812f * round_14 -
-                    3.019915981956753e-07f * round_14;
-                const float gap_14 = x_block[13][lane] - mu13;
-                const float round_15 = rintf(0.15915494309189535f * gap_14);
-                const float v13 = gap_14 - 6.28125f * round_15 - 0.0019350051879882812f * round_15 -
-                    3.019915981956753e-07f * round_15;
-                const float total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-                const float total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
-                const float total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
-                const float z0 = total_4 + W0_13 * v13;
-                const float total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-                const float total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
-                const float total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12;
-                const float z1 = total_7 + W1_13 * v13;
-                const float total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-                const float total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
-                const float total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12;
-                const float z2 = total_10 + W2_13 * v13;
-                const float total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-                const float total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
-                const float total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12;
-                const float z3 = total_13 + W3_13 * v13;
-                const float total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-                const float total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
-                const float total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12;
-                const float z4 = total_16 + W4_13 * v13;
-                const float total_17 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-                const float total_18 = total_17 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
-                const float total_19 = total_18 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12;
-                const float z5 = total_19 + W5_13 * v13;
-                const float total_20 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
-                const float total_21 = total_20 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
-                const float total_22 = total_21 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12;
-                const float z6 = total_22 + W6_13 * v13;
-                const float total_23 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
-                const float total_24 = total_23 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
-                const float total_25 = total_24 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12;
-                const float z7 = total_25 + W7_13 * v13;
-                const float total_26 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
-                const float total_27 = total_26 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
-                const float total_28 = total_27 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12;
-                const float z8 = total_28 + W8_13 * v13;
-                const float total_29 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4;
-                const float total_30 = total_29 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8;
-                const float total_31 = total_30 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12;
-                const float z9 = total_31 + W9_13 * v13;
-                const float total_32 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4;
-                const float total_33 = total_32 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8;
-                const float total_34 = total_33 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12;
-                const float z10 = total_34 + W10_13 * v13;
-                const float total_35 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4;
-                const float total_36 = total_35 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8;
-                const float total_37 = total_36 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12;
-                const float z11 = total_37 + W11_13 * v13;
-                const float total_38 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4;
-                const float total_39 = total_38 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8;
-                const float total_40 = total_39 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12;
-                const float z12 = total_40 + W12_13 * v13;
-                const float total_41 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4;
-                const float total_42 = total_41 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
-                const float total_43 = total_42 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
-                const float z13 = total_43 + W13_13 * v13;
-                const float total_44 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-                const float total_45 = total_44 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-                const float total_46 = total_45 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12;
-                const float exp_2 = expf(-(0.5f * (total_46 + z13 * z13)));
-                const float phi = amplitude_k * exp_2;
-                const float gap_15 = -(W13_13 * z13) - W12_13 * z12 - W11_13 * z11 - W10_13 * z10;
-                const float gap_16 = -(W13_12 * z13) - W12_12 * z12 - W11_12 * z11 - W10_12 * z10;
-                const float gap_17 = -(W13_11 * z13) - W12_11 * z12 - W11_11 * z11 - W10_11 * z10;
-                const float gap_18 = -(W13_10 * z13) - W12_10 * z12 - W11_10 * z11 - W10_10 * z10;
-                const float gap_19 = -(W13_9 * z13) - W12_9 * z12 - W11_9 * z11 - W10_9 * z10;
-                const float gap_20 = -(W13_8 * z13) - W12_8 * z12 - W11_8 * z11 - W10_8 * z10;
-                const float gap_21 = -(W13_7 * z13) - W12_7 * z12 - W11_7 * z11 - W10_7 * z10;
-                const float gap_22 = -(W13_6 * z13) - W12_6 * z12 - W11_6 * z11 - W10_6 * z10;
-                const float gap_23 = -(W13_5 * z13) - W12_5 * z12 - W11_5 * z11 - W10_5 * z10;
-                const float gap_24 = -(W13_4 * z13) - W12_4 * z12 - W11_4 * z11 - W10_4 * z10;
-                const float gap_25 = -(W13_3 * z13) - W12_3 * z12 - W11_3 * z11 - W10_3 * z10;
-                const float gap_26 = -(W13_2 * z13) - W12_2 * z12 - W11_2 * z11 - W10_2 * z10;
-                const float gap_27 = -(W13_1 * z13) - W12_1 * z12 - W11_1 * z11 - W10_1 * z10;
-                const float gap_28 = -(W13_0 * z13) - W12_0 * z12 - W11_0 * z11 - W10_0 * z10;
-                const float gap_29 = gap_15 - W9_13 * z9 - W8_13 * z8 - W7_13 * z7 - W6_13 * z6;
-                const float gap_30 = gap_16 - W9_12 * z9 - W8_12 * z8 - W7_12 * z7 - W6_12 * z6;
-                const float gap_31 = gap_17 - W9_11 * z9 - W8_11 * z8 - W7_11 * z7 - W6_11 * z6;
-                const float gap_32 = gap_18 - W9_10 * z9 - W8_10 * z8 - W7_10 * z7 - W6_10 * z6;
-                const float gap_33 = gap_19 - W9_9 * z9 - W8_9 * z8 - W7_9 * z7 - W6_9 * z6;
-                const float gap_34 = gap_20 - W9_8 * z9 - W8_8 * z8 - W7_8 * z7 - W6_8 * z6;
-                const float gap_35 = gap_21 - W9_7 * z9 - W8_7 * z8 - W7_7 * z7 - W6_7 * z6;
-                const float gap_36 = gap_22 - W9_6 * z9 - W8_6 * z8 - W7_6 * z7 - W6_6 * z6;
-                const float gap_37 = gap_23 - W9_5 * z9 - W8_5 * z8 - W7_5 * z7 - W6_5 * z6;
-                const float gap_38 = gap_24 - W9_4 * z9 - W8_4 * z8 - W7_4 * z7 - W6_4 * z6;
-                const float gap_39 = gap_25 - W9_3 * z9 - W8_3 * z8 - W7_3 * z7 - W6_3 * z6;
-                const float gap_40 = gap_26 - W9_2 * z9 - W8_2 * z8 - W7_2 * z7 - W6_2 * z6;
-                const float gap_41 = gap_27 - W9_1 * z9 - W8_1 * z8 - W7_1 * z7 - W6_1 * z6;
-                const float gap_42 = gap_28 - W9_0 * z9 - W8_0 * z8 - W7_0 * z7 - W6_0 * z6;
-                const float gap_43 = gap_29 - W5_13 * z5 - W4_13 * z4 - W3_13 * z3 - W2_13 * z2;
-                const float gap_44 = gap_30 - W5_12 * z5 - W4_12 * z4 - W3_12 * z3 - W2_12 * z2;
-                const float gap_45 = gap_31 - W5_11 * z5 - W4_11 * z4 - W3_11 * z3 - W2_11 * z2;
-                const float gap_46 = gap_32 - W5_10 * z5 - W4_10 * z4 - W3_10 * z3 - W2_10 * z2;
-                const float gap_47 = gap_33 - W5_9 * z5 - W4_9 * z4 - W3_9 * z3 - W2_9 * z2;
-                const float gap_48 = gap_34 - W5_8 * z5 - W4_8 * z4 - W3_8 * z3 - W2_8 * z2;
-                const float gap_49 = gap_35 - W5_7 * z5 - W4_7 * z4 - W3_7 * z3 - W2_7 * z2;
-                const float gap_50 = gap_36 - W5_6 * z5 - W4_6 * z4 - W3_6 * z3 - W2_6 * z2;
-                const float gap_51 = gap_37 - W5_5 * z5 - W4_5 * z4 - W3_5 * z3 - W2_5 * z2;
-                const float gap_52 = gap_38 - W5_4 * z5 - W4_4 * z4 - W3_4 * z3 - W2_4 * z2;
-                const float gap_53 = gap_39 - W5_3 * z5 - W4_3 * z4 - W3_3 * z3 - W2_3 * z2;
-                const float gap_54 = gap_40 - W5_2 * z5 - W4_2 * z4 - W3_2 * z3 - W2_2 * z2;
-                const float gap_55 = gap_41 - W5_1 * z5 - W4_1 * z4 - W3_1 * z3 - W2_1 * z2;
-                const float gap_56 = gap_42 - W5_0 * z5 - W4_0 * z4 - W3_0 * z3 - W2_0 * z2;
-                const float by_v13 = gap_43 - W1_13 * z1 - W0_13 * z0;
-                const float by_v12 = gap_44 - W1_12 * z1 - W0_12 * z0;
-                const float by_v11 = gap_45 - W1_11 * z1 - W0_11 * z0;
-                const float by_v10 = gap_46 - W1_10 * z1 - W0_10 * z0;
-                const float by_v9 = gap_47 - W1_9 * z1 - W0_9 * z0;
-                const float by_v8 = gap_48 - W1_8 * z1 - W0_8 * z0;
-                const float by_v7 = gap_49 - W1_7 * z1 - W0_7 * z0;
-                const float by_v6 = gap_50 - W1_6 * z1 - W0_6 * z0;
-                const float by_v5 = gap_51 - W1_5 * z1 - W0_5 * z0;
-                const float by_v4 = gap_52 - W1_4 * z1 - W0_4 * z0;
-                const float by_v3 = gap_53 - W1_3 * z1 - W0_3 * z0;
-                const float by_v2 = gap_54 - W1_2 * z1 - W0_2 * z0;
-                const float by_v1 = gap_55 - W1_1 * z1 - W0_1 * z0;
-                const float by_v0 = gap_56 - W1_0 * z1 - W0_0 * z0;
-                const float by_by_v13 = phi * gradient_bar_block[13][lane];
-                const float by_by_v12 = phi * gradient_bar_block[12][lane];
-                const float by_by_v11 = phi * gradient_bar_block[11][lane];
-                const float by_by_v10 = phi * gradient_bar_block[10][lane];
-                const float total_47 = value_bar_block[0][lane] + by_v13 * gradient_bar_block[13][lane] + by_v12 *
-                    gradient_bar_block[12][lane] + by_v11 * gradient_bar_block[11][lane] + by_v10 *
-                    gradient_bar_block[10][lane];
-                const float by_by_v9 = phi * gradient_bar_block[9][lane];
-                const float by_by_v8 = phi * gradient_bar_block[8][lane];
-                const float by_by_v7 = phi * gradient_bar_block[7][lane];
-                const float by_by_v6 = phi * gradient_bar_block[6][lane];
-                const float total_48 = total_47 + by_v9 * gradient_bar_block[9][lane] + by_v8 *
-                    gradient_bar_block[8][lane] + by_v7 * gradient_bar_block[7][lane] + by_v6 *
-                    gradient_bar_block[6][lane];
-                const float by_by_v5 = phi * gradient_bar_block[5][lane];
-                const float by_by_v4 = phi * gradient_bar_block[4][lane];
-                const float by_by_v3 = phi * gradient_bar_block[3][lane];
-                const float by_by_v2 = phi * gradient_bar_block[2][lane];
-                const float total_49 = total_48 + by_v5 * gradient_bar_block[5][lane] + by_v4 *
-                    gradient_bar_block[4][lane] + by_v3 * gradient_bar_block[3][lane] + by_v2 *
-                    gradient_bar_block[2][lane];
-                const float by_by_v1 = phi * gradient_bar_block[1][lane];
-                const float by_by_v0 = phi * gradient_bar_block[0][lane];
-                const float by_phi = total_49 + by_v1 * gradient_bar_block[1][lane] + by_v0 * gradient_bar_block[0][lane];
-                const float gap_57 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2 - W0_3 * by_by_v3;
-                const float gap_58 = gap_57 - W0_4 * by_by_v4 - W0_5 * by_by_v5 - W0_6 * by_by_v6 - W0_7 * by_by_v7;
-                const float gap_59 = gap_58 - W0_8 * by_by_v8 - W0_9 * by_by_v9 - W0_10 * by_by_v10 - W0_11 * by_by_v11;
-                const float gap_60 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2 - W1_3 * by_by_v3;
-                const float gap_61 = gap_60 - W1_4 * by_by_v4 - W1_5 * by_by_v5 - W1_6 * by_by_v6 - W1_7 * by_by_v7;
-                const float gap_62 = gap_61 - W1_8 * by_by_v8 - W1_9 * by_by_v9 - W1_10 * by_by_v10 - W1_11 * by_by_v11;
-                const float gap_63 = -(W2_0 * by_by_v0) - W2_1 * by_by_v1 - W2_2 * by_by_v2 - W2_3 * by_by_v3;
-                const float gap_64 = gap_63 - W2_4 * by_by_v4 - W2_5 * by_by_v5 - W2_6 * by_by_v6 - W2_7 * by_by_v7;
-                const float gap_65 = gap_64 - W2_8 * by_by_v8 - W2_9 * by_by_v9 - W2_10 * by_by_v10 - W2_11 * by_by_v11;
-                const float gap_66 = -(W3_0 * by_by_v0) - W3_1 * by_by_v1 - W3_2 * by_by_v2 - W3_3 * by_by_v3;
-                const float gap_67 = gap_66 - W3_4 * by_by_v4 - W3_5 * by_by_v5 - W3_6 * by_by_v6 - W3_7 * by_by_v7;
-                const float gap_68 = gap_67 - W3_8 * by_by_v8 - W3_9 * by_by_v9 - W3_10 * by_by_v10 - W3_11 * by_by_v11;
-                const float gap_69 = -(W4_0 * by_by_v0) - W4_1 * by_by_v1 - W4_2 * by_by_v2 - W4_3 * by_by_v3;
-                const float gap_70 = gap_69 - W4_4 * by_by_v4 - W4_5 * by_by_v5 - W4_6 * by_by_v6 - W4_7 * by_by_v7;
-                const float gap_71 = gap_70 - W4_8 * by_by_v8 - W4_9 * by_by_v9 - W4_10 * by_by_v10 - W4_11 * by_by_v11;
-                const float gap_72 = -(W5_0 * by_by_v0) - W5_1 * by_by_v1 - W5_2 * by_by_v2 - W5_3 * by_by_v3;
-                const float gap_73 = gap_72 - W5_4 * by_by_v4 - W5_5 * by_by_v5 - W5_6 * by_by_v6 - W5_7 * by_by_v7;
-                const float gap_74 = gap_73 - W5_8 * by_by_v8 - W5_9 * by_by_v9 - W5_10 * by_by_v10 - W5_11 * by_by_v11;
-                const float gap_75 = -(W6_0 * by_by_v0) - W6_1 * by_by_v1 - W6_2 * by_by_v2 - W6_3 * by_by_v3;
-                const float gap_76 = gap_75 - W6_4 * by_by_v4 - W6_5 * by_by_v5 - W6_6 * by_by_v6 - W6_7 * by_by_v7;
-                const float gap_77 = gap_76 - W6_8 * by_by_v8 - W6_9 * by_by_v9 - W6_10 * by_by_v10 - W6_11 * by_by_v11;
-                const float gap_78 = -(W7_0 * by_by_v0) - W7_1 * by_by_v1 - W7_2 * by_by_v2 - W7_3 * by_by_v3;
-                const float gap_79 = gap_78 - W7_4 * by_by_v4 - W7_5 * by_by_v5 - W7_6 * by_by_v6 - W7_7 * by_by_v7;
-                const float gap_80 = gap_79 - W7_8 * by_by_v8 - W7_9 * by_by_v9 - W7_10 * by_by_v10 - W7_11 * by_by_v11;
-                const float gap_81 = -(W8_0 * by_by_v0) - W8_1 * by_by_v1 - W8_2 * by_by_v2 - W8_3 * by_by_v3;
-                const float gap_82 = gap_81 - W8_4 * by_by_v4 - W8_5 * by_by_v5 - W8_6 * by_by_v6 - W8_7 * by_by_v7;
-                const float gap_83 = gap_82 - W8_8 * by_by_v8 - W8_9 * by_by_v9 - W8_10 * by_by_v10 - W8_11 * by_by_v11;
-                const float gap_84 = -(W9_0 * by_by_v0) - W9_1 * by_by_v1 - W9_2 * by_by_v2 - W9_3 * by_by_v3;
-                const float gap_85 = gap_84 - W9_4 * by_by_v4 - W9_5 * by_by_v5 - W9_6 * by_by_v6 - W9_7 * by_by_v7;
-                const float gap_86 = gap_85 - W9_8 * by_by_v8 - W9_9 * by_by_v9 - W9_10 * by_by_v10 - W9_11 * by_by_v11;
-                const float gap_87 = -(W10_0 * by_by_v0) - W10_1 * by_by_v1 - W10_2 * by_by_v2 - W10_3 * by_by_v3;
-                const float gap_88 = gap_87 - W10_4 * by_by_v4 - W10_5 * by_by_v5 - W10_6 * by_by_v6 - W10_7 * by_by_v7;
-                const float gap_89 = gap_88 - W10_8 * by_by_v8 - W10_9 * by_by_v9 - W10_10 * by_by_v10 - W10_11 *
-                    by_by_v11;
-                const float gap_90 = -(W11_0 * by_by_v0) - W11_1 * by_by_v1 - W11_2 * by_by_v2 - W11_3 * by_by_v3;
-                const float gap_91 = gap_90 - W11_4 * by_by_v4 - W11_5 * by_by_v5 - W11_6 * by_by_v6 - W11_7 * by_by_v7;
-                const float gap_92 = gap_91 - W11_8 * by_by_v8 - W11_9 * by_by_v9 - W11_10 * by_by_v10 - W11_11 *
-                    by_by_v11;
-                const float gap_93 = -(W12_0 * by_by_v0) - W12_1 * by_by_v1 - W12_2 * by_by_v2 - W12_3 * by_by_v3;
-                const float gap_94 = gap_93 - W12_4 * by_by_v4 - W12_5 * by_by_v5 - W12_6 * by_by_v6 - W12_7 * by_by_v7;
-                const float gap_95 = gap_94 - W12_8 * by_by_v8 - W12_9 * by_by_v9 - W12_10 * by_by_v10 - W12_11 *
-                    by_by_v11;
-                const float gap_96 = -(W13_0 * by_by_v0) - W13_1 * by_by_v1 - W13_2 * by_by_v2 - W13_3 * by_by_v3;
-                const float gap_97 = gap_96 - W13_4 * by_by_v4 - W13_5 * by_by_v5 - W13_6 * by_by_v6 - W13_7 * by_by_v7;
-                const float gap_98 = gap_97 - W13_8 * by_by_v8 - W13_9 * by_by_v9 - W13_10 * by_by_v10 - W13_11 *
-                    by_by_v11;
-                const float product = exp_2 * (amplitude_k * by_phi);
-                const float by_z13 = gap_98 - W13_12 * by_by_v12 - W13_13 * by_by_v13 - z13 * product;
-                const float by_z12 = gap_95 - W12_12 * by_by_v12 - W12_13 * by_by_v13 - z12 * product;
-                const float by_z11 = gap_92 - W11_12 * by_by_v12 - W11_13 * by_by_v13 - z11 * product;
-                const float by_z10 = gap_89 - W10_12 * by_by_v12 - W10_13 * by_by_v13 - z10 * product;
-                const float by_z9 = gap_86 - W9_12 * by_by_v12 - W9_13 * by_by_v13 - z9 * product;
-                const float by_z8 = gap_83 - W8_12 * by_by_v12 - W8_13 * by_by_v13 - z8 * product;
-                const float by_z7 = gap_80 - W7_12 * by_by_v12 - W7_13 * by_by_v13 - z7 * product;
-                const float by_z6 = gap_77 - W6_12 * by_by_v12 - W6_13 * by_by_v13 - z6 * product;
-                const float by_z5 = gap_74 - W5_12 * by_by_v12 - W5_13 * by_by_v13 - z5 * product;
-                const float by_z4 = gap_71 - W4_12 * by_by_v12 - W4_13 * by_by_v13 - z4 * product;
-                const float by_z3 = gap_68 - W3_12 * by_by_v12 - W3_13 * by_by_v13 - z3 * product;
-                const float by_z2 = gap_65 - W2_12 * by_by_v12 - W2_13 * by_by_v13 - z2 * product;
-                const float by_z1 = gap_62 - W1_12 * by_by_v12 - W1_13 * by_by_v13 - z1 * product;
-                const float by_z0 = gap_59 - W0_12 * by_by_v12 - W0_13 * by_by_v13 - z0 * product;
-                const float total_50 = W13_13 * by_z13 + W12_13 * by_z12 + W11_13 * by_z11 + W10_13 * by_z10 + W9_13 *
-                    by_z9;
-                const float total_51 = W13_12 * by_z13 + W12_12 * by_z12 + W11_12 * by_z11 + W10_12 * by_z10 + W9_12 *
-                    by_z9;
-                const float total_52 = W13_11 * by_z13 + W12_11 * by_z12 + W11_11 * by_z11 + W10_11 * by_z10 + W9_11 *
-                    by_z9;
-                const float total_53 = W13_10 * by_z13 + W12_10 * by_z12 + W11_10 * by_z11 + W10_10 * by_z10 + W9_10 *
-                    by_z9;
-                const float total_54 = W13_9 * by_z13 + W12_9 * by_z12 + W11_9 * by_z11 + W10_9 * by_z10 + W9_9 * by_z9;
-                const float total_55 = W13_8 * by_z13 + W12_8 * by_z12 + W11_8 * by_z11 + W10_8 * by_z10 + W9_8 * by_z9;
-                const float total_56 = W13_7 * by_z13 + W12_7 * by_z12 + W11_7 * by_z11 + W10_7 * by_z10 + W9_7 * by_z9;
-                const float total_57 = W13_6 * by_z13 + W12_6 * by_z12 + W11_6 * by_z11 + W10_6 * by_z10 + W9_6 * by_z9;
-                const float total_58 = W13_5 * by_z13 + W12_5 * by_z12 + W11_5 * by_z11 + W10_5 * by_z10 + W9_5 * by_z9;
-                const float total_59 = W13_4 * by_z13 + W12_4 * by_z12 + W11_4 * by_z11 + W10_4 * by_z10 + W9_4 * by_z9;
-                const float total_60 = W13_3 * by_z13 + W12_3 * by_z12 + W11_3 * by_z11 + W10_3 * by_z10 + W9_3 * by_z9;
-                const float total_61 = W13_2 * by_z13 + W12_2 * by_z12 + W11_2 * by_z11 + W10_2 * by_z10 + W9_2 * by_z9;
-                const float total_62 = W13_1 * by_z13 + W12_1 * by_z12 + W11_1 * by_z11 + W10_1 * by_z10 + W9_1 * by_z9;
-                const float total_63 = W13_0 * by_z13 + W12_0 * by_z12 + W11_0 * by_z11 + W10_0 * by_z10 + W9_0 * by_z9;
-                const float total_64 = total_50 + W8_13 * by_z8 + W7_13 * by_z7 + W6_13 * by_z6 + W5_13 * by_z5;
-                const float total_65 = total_51 + W8_12 * by_z8 + W7_12 * by_z7 + W6_12 * by_z6 + W5_12 * by_z5;
-                const float total_66 = total_52 + W8_11 * by_z8 + W7_11 * by_z7 + W6_11 * by_z6 + W5_11 * by_z5;
-                const float total_67 = total_53 + W8_10 * by_z8 + W7_10 * by_z7 + W6_10 * by_z6 + W5_10 * by_z5;
-                const float total_68 = total_54 + W8_9 * by_z8 + W7_9 * by_z7 + W6_9 * by_z6 + W5_9 * by_z5;
-                const float total_69 = total_55 + W8_8 * by_z8 + W7_8 * by_z7 + W6_8 * by_z6 + W5_8 * by_z5;
-                const float total_70 = total_56 + W8_7 * by_z8 + W7_7 * by_z7 + W6_7 * by_z6 + W5_7 * by_z5;
-                const float total_71 = total_57 + W8_6 * by_z8 + W7_6 * by_z7 + W6_6 * by_z6 + W5_6 * by_z5;
-                const float total_72 = total_58 + W8_5 * by_z8 + W7_5 * by_z7 + W6_5 * by_z6 + W5_5 * by_z5;
-                const float total_73 = total_59 + W8_4 * by_z8 + W7_4 * by_z7 + W6_4 * by_z6 + W5_4 * by_z5;
-                const float total_74 = total_60 + W8_3 * by_z8 + W7_3 * by_z7 + W6_3 * by_z6 + W5_3 * by_z5;
-                const float total_75 = total_61 + W8_2 * by_z8 + W7_2 * by_z7 + W6_2 * by_z6 + W5_2 * by_z5;
-                const float total_76 = total_62 + W8_1 * by_z8 + W7_1 * by_z7 + W6_1 * by_z6 + W5_1 * by_z5;
-                const float total_77 = total_63 + W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5;
-                const float total_78 = total_64 + W4_13 * by_z4 + W3_13 * by_z3 + W2_13 * by_z2 + W1_13 * by_z1;
-                const float total_79 = total_65 + W4_12 * by_z4 + W3_12 * by_z3 + W2_12 * by_z2 + W1_12 * by_z1;
-                const float total_80 = total_66 + W4_11 * by_z4 + W3_11 * by_z3 + W2_11 * by_z2 + W1_11 * by_z1;
-                const float total_81 = total_67 + W4_10 * by_z4 + W3_10 * by_z3 + W2_10 * by_z2 + W1_10 * by_z1;
-                const float total_82 = total_68 + W4_9 * by_z4 + W3_9 * by_z3 + W2_9 * by_z2 + W1_9 * by_z1;
-                const float total_83 = total_69 + W4_8 * by_z4 + W3_8 * by_z3 + W2_8 * by_z2 + W1_8 * by_z1;
-                const float total_84 = total_70 + W4_7 * by_z4 + W3_7 * by_z3 + W2_7 * by_z2 + W1_7 * by_z1;
-                const float total_85 = total_71 + W4_6 * by_z4 + W3_6 * by_z3 + W2_6 * by_z2 + W1_6 * by_z1;
-                const float total_86 = total_72 + W4_5 * by_z4 + W3_5 * by_z3 + W2_5 * by_z2 + W1_5 * by_z1;
-                const float total_87 = total_73 + W4_4 * by_z4 + W3_4 * by_z3 + W2_4 * by_z2 + W1_4 * by_z1;
-                const float total_88 = total_74 + W4_3 * by_z4 + W3_3 * by_z3 + W2_3 * by_z2 + W1_3 * by_z1;
-                const float total_89 = total_75 + W4_2 * by_z4 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1;
-                const float total_90 = total_76 + W4_1 * by_z4 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1;
-                const float total_91 = total_77 + W4_0 * by_z4 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1;
-                const float by_v13_2 = total_78 + W0_13 * by_z0;
-                const float by_v12_2 = total_79 + W0_12 * by_z0;
-                const float by_v11_2 = total_80 + W0_11 * by_z0;
-                const float by_v10_2 = total_81 + W0_10 * by_z0;
-                const float by_v9_2 = total_82 + W0_9 * by_z0;
-                const float by_v8_2 = total_83 + W0_8 * by_z0;
-                const float by_v7_2 = total_84 + W0_7 * by_z0;
-                const float by_v6_2 = total_85 + W0_6 * by_z0;
-                const float by_v5_2 = total_86 + W0_5 * by_z0;
-                const float by_v4_2 = total_87 + W0_4 * by_z0;
-                const float by_v3_2 = total_88 + W0_3 * by_z0;
-                const float by_v2_2 = total_89 + W0_2 * by_z0;
-                const float by_v1_2 = total_90 + W0_1 * by_z0;
-                const float by_v0_2 = total_91 + W0_0 * by_z0;
-                sum[0][lane] += -by_v0_2;
-                sum[1][lane] += -by_v1_2;
-                sum[2][lane] += -by_v2_2;
-                sum[3][lane] += -by_v3_2;
-                sum[4][lane] += -by_v4_2;
-                sum[5][lane] += -by_v5_2;
-                sum[6][lane] += -by_v6_2;
-                sum[7][lane] += -by_v7_2;
-                sum[8][lane] += -by_v8_2;
-                sum[9][lane] += -by_v9_2;
-                sum[10][lane] += -by_v10_2;
-                sum[11][lane] += -by_v11_2;
-                sum[12][lane] += -by_v12_2;
-                sum[13][lane] += -by_v13_2;
-                sum[14][lane] += v0 * by_z0 - z0 * by_by_v0;
-                sum[15][lane] += v1 * by_z0 - z0 * by_by_v1;
-                sum[16][lane] += v2 * by_z0 - z0 * by_by_v2;
-                sum[17][lane] += v3 * by_z0 - z0 * by_by_v3;
-                sum[18][lane] += v4 * by_z0 - z0 * by_by_v4;
-                sum[19][lane] += v5 * by_z0 - z0 * by_by_v5;
-                sum[20][lane] += v6 * by_z0 - z0 * by_by_v6;
-                sum[21][lane] += v7 * by_z0 - z0 * by_by_v7;
-                sum[22][lane] += v8 * by_z0 - z0 * by_by_v8;
-                sum[23][lane] += v9 * by_z0 - z0 * by_by_v9;
-                sum[24][lane] += v10 * by_z0 - z0 * by_by_v10;
-                sum[25][lane] += v11 * by_z0 - z0 * by_by_v11;
-                sum[26][lane] += v12 * by_z0 - z0 * by_by_v12;
-                sum[27][lane] += v13 * by_z0 - z0 * by_by_v13;
-                sum[28][lane] += v0 * by_z1 - z1 * by_by_v0;
-                sum[29][lane] += v1 * by_z1 - z1 * by_by_v1;
-                sum[30][lane] += v2 * by_z1 - z1 * by_by_v2;
-                sum[31][lane] += v3 * by_z1 - z1 * by_by_v3;
-                sum[32][lane] += v4 * by_z1 - z1 * by_by_v4;
-                sum[33][lane] += v5 * by_z1 - z1 * by_by_v5;
-                sum[34][lane] += v6 * by_z1 - z1 * by_by_v6;
-                sum[35][lane] += v7 * by_z1 - z1 * by_by_v7;
-                sum[36][lane] += v8 * by_z1 - z1 * by_by_v8;
-                sum[37][lane] += v9 * by_z1 - z1 * by_by_v9;
-                sum[38][lane] += v10 * by_z1 - z1 * by_by_v10;
-                sum[39][lane] += v11 * by_z1 - z1 * by_by_v11;
-                sum[40][lane] += v12 * by_z1 - z1 * by_by_v12;
-                sum[41][lane] += v13 * by_z1 - z1 * by_by_v13;
-                sum[42][lane] += v0 * by_z2 - z2 * by_by_v0;
-                sum[43][lane] += v1 * by_z2 - z2 * by_by_v1;
-                sum[44][lane] += v2 * by_z2 - z2 * by_by_v2;
-                sum[45][lane] += v3 * by_z2 - z2 * by_by_v3;
-                sum[46][lane] += v4 * by_z2 - z2 * by_by_v4;
-                sum[47][lane] += v5 * by_z2 - z2 * by_by_v5;
-                sum[48][lane] += v6 * by_z2 - z2 * by_by_v6;
-                sum[49][lane] += v7 * by_z2 - z2 * by_by_v7;
-                sum[50][lane] += v8 * by_z2 - z2 * by_by_v8;
-                sum[51][lane] += v9 * by_z2 - z2 * by_by_v9;
-                sum[52][lane] += v10 * by_z2 - z2 * by_by_v10;
-                sum[53][lane] += v11 * by_z2 - z2 * by_by_v11;
-                sum[54][lane] += v12 * by_z2 - z2 * by_by_v12;
-                sum[55][lane] += v13 * by_z2 - z2 * by_by_v13;
-                sum[56][lane] += v0 * by_z3 - z3 * by_by_v0;
-                sum[57][lane] += v1 * by_z3 - z3 * by_by_v1;
-                sum[58][lane] += v2 * by_z3 - z3 * by_by_v2;
-                sum[59][lane] += v3 * by_z3 - z3 * by_by_v3;
-                sum[60][lane] += v4 * by_z3 - z3 * by_by_v4;
-                sum[61][lane] += v5 * by_z3 - z3 * by_by_v5;
-                sum[62][lane] += v6 * by_z3 - z3 * by_by_v6;
-                sum[63][lane] += v7 * by_z3 - z3 * by_by_v7;
-                sum[64][lane] += v8 * by_z3 - z3 * by_by_v8;
-                sum[65][lane] += v9 * by_z3 - z3 * by_by_v9;
-                sum[66][lane] += v10 * by_z3 - z3 * by_by_v10;
-                sum[67][lane] += v11 * by_z3 - z3 * by_by_v11;
-                sum[68][lane] += v12 * by_z3 - z3 * by_by_v12;
-                sum[69][lane] += v13 * by_z3 - z3 * by_by_v13;
-                sum[70][lane] += v0 * by_z4 - z4 * by_by_v0;
-                sum[71][lane] += v1 * by_z4 - z4 * by_by_v1;
-                sum[72][lane] += v2 * by_z4 - z4 * by_by_v2;
-                sum[73][lane] += v3 * by_z4 - z4 * by_by_v3;
-                sum[74][lane] += v4 * by_z4 - z4 * by_by_v4;
-                sum[75][lane] += v5 * by_z4 - z4 * by_by_v5;
-                sum[76][lane] += v6 * by_z4 - z4 * by_by_v6;
-                sum[77][lane] += v7 * by_z4 - z4 * by_by_v7;
-                sum[78][lane] += v8 * by_z4 - z4 * by_by_v8;
-                sum[79][lane] += v9 * by_z4 - z4 * by_by_v9;
-                sum[80][lane] += v10 * by_z4 - z4 * by_by_v10;
-                sum[81][lane] += v11 * by_z4 - z4 * by_by_v11;
-                sum[82][lane] += v12 * by_z4 - z4 * by_by_v12;
-                sum[83][lane] += v13 * by_z4 - z4 * by_by_v13;
-                sum[84][lane] += v0 * by_z5 - z5 * by_by_v0;
-                sum[85][lane] += v1 * by_z5 - z5 * by_by_v1;
-                sum[86][lane] += v2 * by_z5 - z5 * by_by_v2;
-                sum[87][lane] += v3 * by_z5 - z5 * by_by_v3;
-                sum[88][lane] += v4 * by_z5 - z5 * by_by_v4;
-                sum[89][lane] += v5 * by_z5 - z5 * by_by_v5;
-                sum[90][lane] += v6 * by_z5 - z5 * by_by_v6;
-                sum[91][lane] += v7 * by_z5 - z5 * by_by_v7;
-                sum[92][lane] += v8 * by_z5 - z5 * by_by_v8;
-                sum[93][lane] += v9 * by_z5 - z5 * by_by_v9;
-                sum[94][lane] += v10 * by_z5 - z5 * by_by_v10;
-                sum[95][lane] += v11 * by_z5 - z5 * by_by_v11;
-                sum[96][lane] += v12 * by_z5 - z5 * by_by_v12;
-                sum[97][lane] += v13 * by_z5 - z5 * by_by_v13;
-                sum[98][lane] += v0 * by_z6 - z6 * by_by_v0;
-                sum[99][lane] += v1 * by_z6 - z6 * by_by_v1;
-                sum[100][lane] += v2 * by_z6 - z6 * by_by_v2;
-                sum[101][lane] += v3 * by_z6 - z6 * by_by_v3;
-                sum[102][lane] += v4 * by_z6 - z6 * by_by_v4;
-                sum[103][lane] += v5 * by_z6 - z6 * by_by_v5;
-                sum[104][lane] += v6 * by_z6 - z6 * by_by_v6;
-                sum[105][lane] += v7 * by_z6 - z6 * by_by_v7;
-                sum[106][lane] += v8 * by_z6 - z6 * by_by_v8;
-                sum[107][lane] += v9 * by_z6 - z6 * by_by_v9;
-                sum[108][lane] += v10 * by_z6 - z6 * by_by_v10;
-                sum[109][lane] += v11 * by_z6 - z6 * by_by_v11;
-                sum[110][lane] += v12 * by_z6 - z6 * by_by_v12;
-                sum[111][lane] += v13 * by_z6 - z6 * by_by_v13;
-                sum[112][lane] += v0 * by_z7 - z7 * by_by_v0;
-                sum[113][lane] += v1 * by_z7 - z7 * by_by_v1;
-                sum[114][lane] += v2 * by_z7 - z7 * by_by_v2;
-                sum[115][lane] += v3 * by_z7 - z7 * by_by_v3;
-                sum[116][lane] += v4 * by_z7 - z7 * by_by_v4;
-                sum[117][lane] += v5 * by_z7 - z7 * by_by_v5;
-                sum[118][lane] += v6 * by_z7 - z7 * by_by_v6;
-                sum[119][lane] += v7 * by_z7 - z7 * by_by_v7;
-                sum[120][lane] += v8 * by_z7 - z7 * by_by_v8;
-                sum[121][lane] += v9 * by_z7 - z7 * by_by_v9;
-                sum[122][lane] += v10 * by_z7 - z7 * by_by_v10;
-                sum[123][lane] += v11 * by_z7 - z7 * by_by_v11;
-                sum[124][lane] += v12 * by_z7 - z7 * by_by_v12;
-                sum[125][lane] += v13 * by_z7 - z7 * by_by_v13;
-                sum[126][lane] += v0 * by_z8 - z8 * by_by_v0;
-                sum[127][lane] += v1 * by_z8 - z8 * by_by_v1;
-                sum[128][lane] += v2 * by_z8 - z8 * by_by_v2;
-                sum[129][lane] += v3 * by_z8 - z8 * by_by_v3;
-                sum[130][lane] += v4 * by_z8 - z8 * by_by_v4;
-                sum[131][lane] += v5 * by_z8 - z8 * by_by_v5;
-                sum[132][lane] += v6 * by_z8 - z8 * by_by_v6;
-                sum[133][lane] += v7 * by_z8 - z8 * by_by_v7;
-                sum[134][lane] += v8 * by_z8 - z8 * by_by_v8;
-                sum[135][lane] += v9 * by_z8 - z8 * by_by_v9;
-                sum[136][lane] += v10 * by_z8 - z8 * by_by_v10;
-                sum[137][lane] += v11 * by_z8 - z8 * by_by_v11;
-                sum[138][lane] += v12 * by_z8 - z8 * by_by_v12;
-                sum[139][lane] += v13 * by_z8 - z8 * by_by_v13;
-                sum[140][lane] += v0 * by_z9 - z9 * by_by_v0;
-                sum[141][lane] += v1 * by_z9 - z9 * by_by_v1;
-                sum[142][lane] += v2 * by_z9 - z9 * by_by_v2;
-                sum[143][lane] += v3 * by_z9 - z9 * by_by_v3;
-                sum[144][lane] += v4 * by_z9 - z9 * by_by_v4;
-                sum[145][lane] += v5 * by_z9 - z9 * by_by_v5;
-                sum[146][lane] += v6 * by_z9 - z9 * by_by_v6;
-                sum[147][lane] += v7 * by_z9 - z9 * by_by_v7;
-                sum[148][lane] += v8 * by_z9 - z9 * by_by_v8;
-                sum[149][lane] += v9 * by_z9 - z9 * by_by_v9;
-                sum[150][lane] += v10 * by_z9 - z9 * by_by_v10;
-                sum[151][lane] += v11 * by_z9 - z9 * by_by_v11;
-                sum[152][lane] += v12 * by_z9 - z9 * by_by_v12;
-                sum[153][lane] += v13 * by_z9 - z9 * by_by_v13;
-                sum[154][lane] += v0 * by_z10 - z10 * by_by_v0;
-                sum[155][lane] += v1 * by_z10 - z10 * by_by_v1;
-                sum[156][lane] += v2 * by_z10 - z10 * by_by_v2;
-                sum[157][lane] += v3 * by_z10 - z10 * by_by_v3;
-                sum[158][lane] += v4 * by_z10 - z10 * by_by_v4;
-                sum[159][lane] += v5 * by_z10 - z10 * by_by_v5;
-                sum[160][lane] += v6 * by_z10 - z10 * by_by_v6;
-                sum[161][lane] += v7 * by_z10 - z10 * by_by_v7;
-                sum[162][lane] += v8 * by_z10 - z10 * by_by_v8;
-                sum[163][lane] += v9 * by_z10 - z10 * by_by_v9;
-                sum[164][lane] += v10 * by_z10 - z10 * by_by_v10;
-                sum[165][lane] += v11 * by_z10 - z10 * by_by_v11;
-                sum[166][lane] += v12 * by_z10 - z10 * by_by_v12;
-                sum[167][lane] += v13 * by_z10 - z10 * by_by_v13;
-                sum[168][lane] += v0 * by_z11 - z11 * by_by_v0;
-                sum[169][lane] += v1 * by_z11 - z11 * by_by_v1;
-                sum[170][lane] += v2 * by_z11 - z11 * by_by_v2;
-                sum[171][lane] += v3 * by_z11 - z11 * by_by_v3;
-                sum[172][lane] += v4 * by_z11 - z11 * by_by_v4;
-                sum[173][lane] += v5 * by_z11 - z11 * by_by_v5;
-                sum[174][lane] += v6 * by_z11 - z11 * by_by_v6;
-                sum[175][lane] += v7 * by_z11 - z11 * by_by_v7;
-                sum[176][lane] += v8 * by_z11 - z11 * by_by_v8;
-                sum[177][lane] += v9 * by_z11 - z11 * by_by_v9;
-                sum[178][lane] += v10 * by_z11 - z11 * by_by_v10;
-                sum[179][lane] += v11 * by_z11 - z11 * by_by_v11;
-                sum[180][lane] += v12 * by_z11 - z11 * by_by_v12;
-                sum[181][lane] += v13 * by_z11 - z11 * by_by_v13;
-                sum[182][lane] += v0 * by_z12 - z12 * by_by_v0;
-                sum[183][lane] += v1 * by_z12 - z12 * by_by_v1;
-                sum[184][lane] += v2 * by_z12 - z12 * by_by_v2;
-                sum[185][lane] += v3 * by_z12 - z12 * by_by_v3;
-                sum[186][lane] += v4 * by_z12 - z12 * by_by_v4;
-                sum[187][lane] += v5 * by_z12 - z12 * by_by_v5;
-                sum[188][lane] += v6 * by_z12 - z12 * by_by_v6;
-                sum[189][lane] += v7 * by_z12 - z12 * by_by_v7;
-                sum[190][lane] += v8 * by_z12 - z12 * by_by_v8;
-                sum[191][lane] += v9 * by_z12 - z12 * by_by_v9;
-                sum[192][lane] += v10 * by_z12 - z12 * by_by_v10;
-                sum[193][lane] += v11 * by_z12 - z12 * by_by_v11;
-                sum[194][lane] += v12 * by_z12 - z12 * by_by_v12;
-                sum[195][lane] += v13 * by_z12 - z12 * by_by_v13;
-                sum[196][lane] += v0 * by_z13 - z13 * by_by_v0;
-                sum[197][lane] += v1 * by_z13 - z13 * by_by_v1;
-                sum[198][lane] += v2 * by_z13 - z13 * by_by_v2;
-                sum[199][lane] += v3 * by_z13 - z13 * by_by_v3;
-                sum[200][lane] += v4 * by_z13 - z13 * by_by_v4;
-                sum[201][lane] += v5 * by_z13 - z13 * by_by_v5;
-                sum[202][lane] += v6 * by_z13 - z13 * by_by_v6;
-                sum[203][lane] += v7 * by_z13 - z13 * by_by_v7;
-                sum[204][lane] += v8 * by_z13 - z13 * by_by_v8;
-                sum[205][lane] += v9 * by_z13 - z13 * by_by_v9;
-                sum[206][lane] += v10 * by_z13 - z13 * by_by_v10;
-                sum[207][lane] += v11 * by_z13 - z13 * by_by_v11;
-                sum[208][lane] += v12 * by_z13 - z13 * by_by_v12;
-                sum[209][lane] += v13 * by_z13 - z13 * by_by_v13;
-                sum[210][lane] += exp_2 * by_phi;
+void dual_arm_splats_value_f(
+    size_t count, size_t splat_count, const float *DUAL_ARM_RESTRICT x, const float *DUAL_ARM_RESTRICT mu, const float *DUAL_ARM_RESTRICT W, const float *DUAL_ARM_RESTRICT amplitude,
+    float *DUAL_ARM_RESTRICT value, float *DUAL_ARM_RESTRICT work, int threads) {
+    (void)threads;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES_f) {
+            vector_f at[14], X[2][14], value_sum[2][1] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows_f(x, count, start + b * LANES_f, 14, at);
+                pair_features_f(at, X[b]);
             }
-            for (size_t i = 0; i < 211; ++i)
-                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
-            mu_bar[14 * k + 0] += total[0];
-            mu_bar[14 * k + 1] += total[1];
-            mu_bar[14 * k + 2] += total[2];
-            mu_bar[14 * k + 3] += total[3];
-            mu_bar[14 * k + 4] += total[4];
-            mu_bar[14 * k + 5] += total[5];
-            mu_bar[14 * k + 6] += total[6];
-            mu_bar[14 * k + 7] += total[7];
-            mu_bar[14 * k + 8] += total[8];
-            mu_bar[14 * k + 9] += total[9];
-            mu_bar[14 * k + 10] += total[10];
-            mu_bar[14 * k + 11] += total[11];
-            mu_bar[14 * k + 12] += total[12];
-            mu_bar[14 * k + 13] += total[13];
-            W_bar[196 * k + 0] += total[14];
-            W_bar[196 * k + 1] += total[15];
-            W_bar[196 * k + 2] += total[16];
-            W_bar[196 * k + 3] += total[17];
-            W_bar[196 * k + 4] += total[18];
-            W_bar[196 * k + 5] += total[19];
-            W_bar[196 * k + 6] += total[20];
-            W_bar[196 * k + 7] += total[21];
-            W_bar[196 * k + 8] += total[22];
-            W_bar[196 * k + 9] += total[23];
-            W_bar[196 * k + 10] += total[24];
-            W_bar[196 * k + 11] += total[25];
-            W_bar[196 * k + 12] += total[26];
-            W_bar[196 * k + 13] += total[27];
-            W_bar[196 * k + 14] += total[28];
-            W_bar[196 * k + 15] += total[29];
-            W_bar[196 * k + 16] += total[30];
-            W_bar[196 * k + 17] += total[31];
-            W_bar[196 * k + 18] += total[32];
-            W_bar[196 * k + 19] += total[33];
-            W_bar[196 * k + 20] += total[34];
-            W_bar[196 * k + 21] += total[35];
-            W_bar[196 * k + 22] += total[36];
-            W_bar[196 * k + 23] += total[37];
-            W_bar[196 * k + 24] += total[38];
-            W_bar[196 * k + 25] += total[39];
-            W_bar[196 * k + 26] += total[40];
-            W_bar[196 * k + 27] += total[41];
-            W_bar[196 * k + 28] += total[42];
-            W_bar[196 * k + 29] += total[43];
-            W_bar[196 * k + 30] += total[44];
-            W_bar[196 * k + 31] += total[45];
-            W_bar[196 * k + 32] += total[46];
-            W_bar[196 * k + 33] += total[47];
-            W_bar[196 * k + 34] += total[48];
-            W_bar[196 * k + 35] += total[49];
-            W_bar[196 * k + 36] += total[50];
-            W_bar[196 * k + 37] += total[51];
-            W_bar[196 * k + 38] += total[52];
-            W_bar[196 * k + 39] += total[53];
-            W_bar[196 * k + 40] += total[54];
-            W_bar[196 * k + 41] += total[55];
-            W_bar[196 * k + 42] += total[56];
-            W_bar[196 * k + 43] += total[57];
-            W_bar[196 * k + 44] += total[58];
-            W_bar[196 * k + 45] += total[59];
-            W_bar[196 * k + 46] += total[60];
-            W_bar[196 * k + 47] += total[61];
-            W_bar[196 * k + 48] += total[62];
-            W_bar[196 * k + 49] += total[63];
-            W_bar[196 * k + 50] += total[64];
-            W_bar[196 * k + 51] += total[65];
-            W_bar[196 * k + 52] += total[66];
-            W_bar[196 * k + 53] += total[67];
-            W_bar[196 * k + 54] += total[68];
-            W_bar[196 * k + 55] += total[69];
-            W_bar[196 * k + 56] += total[70];
-            W_bar[196 * k + 57] += total[71];
-            W_bar[196 * k + 58] += total[72];
-            W_bar[196 * k + 59] += total[73];
-            W_bar[196 * k + 60] += total[74];
-            W_bar[196 * k + 61] += total[75];
-            W_bar[196 * k + 62] += total[76];
-            W_bar[196 * k + 63] += total[77];
-            W_bar[196 * k + 64] += total[78];
-            W_bar[196 * k + 65] += total[79];
-            W_bar[196 * k + 66] += total[80];
-            W_bar[196 * k + 67] += total[81];
-            W_bar[196 * k + 68] += total[82];
-            W_bar[196 * k + 69] += total[83];
-            W_bar[196 * k + 70] += total[84];
-            W_bar[196 * k + 71] += total[85];
-            W_bar[196 * k + 72] += total[86];
-            W_bar[196 * k + 73] += total[87];
-            W_bar[196 * k + 74] += total[88];
-            W_bar[196 * k + 75] += total[89];
-            W_bar[196 * k + 76] += total[90];
-            W_bar[196 * k + 77] += total[91];
-            W_bar[196 * k + 78] += total[92];
-            W_bar[196 * k + 79] += total[93];
-            W_bar[196 * k + 80] += total[94];
-            W_bar[196 * k + 81] += total[95];
-            W_bar[196 * k + 82] += total[96];
-            W_bar[196 * k + 83] += total[97];
-            W_bar[196 * k + 84] += total[98];
-            W_bar[196 * k + 85] += total[99];
-            W_bar[196 * k + 86] += total[100];
-            W_bar[196 * k + 87] += total[101];
-            W_bar[196 * k + 88] += total[102];
-            W_bar[196 * k + 89] += total[103];
-            W_bar[196 * k + 90] += total[104];
-            W_bar[196 * k + 91] += total[105];
-            W_bar[196 * k + 92] += total[106];
-            W_bar[196 * k + 93] += total[107];
-            W_bar[196 * k + 94] += total[108];
-            W_bar[196 * k + 95] += total[109];
-            W_bar[196 * k + 96] += total[110];
-            W_bar[196 * k + 97] += total[111];
-            W_bar[196 * k + 98] += total[112];
-            W_bar[196 * k + 99] += total[113];
-            W_bar[196 * k + 100] += total[114];
-            W_bar[196 * k + 101] += total[115];
-            W_bar[196 * k + 102] += total[116];
-            W_bar[196 * k + 103] += total[117];
-            W_bar[196 * k + 104] += total[118];
-            W_bar[196 * k + 105] += total[119];
-            W_bar[196 * k + 106] += total[120];
-            W_bar[196 * k + 107] += total[121];
-            W_bar[196 * k + 108] += total[122];
-            W_bar[196 * k + 109] += total[123];
-            W_bar[196 * k + 110] += total[124];
-            W_bar[196 * k + 111] += total[125];
-            W_bar[196 * k + 112] += total[126];
-            W_bar[196 * k + 113] += total[127];
-            W_bar[196 * k + 114] += total[128];
-            W_bar[196 * k + 115] += total[129];
-            W_bar[196 * k + 116] += total[130];
-            W_bar[196 * k + 117] += total[131];
-            W_bar[196 * k + 118] += total[132];
-            W_bar[196 * k + 119] += total[133];
-            W_bar[196 * k + 120] += total[134];
-            W_bar[196 * k + 121] += total[135];
-            W_bar[196 * k + 122] += total[136];
-            W_bar[196 * k + 123] += total[137];
-            W_bar[196 * k + 124] += total[138];
-            W_bar[196 * k + 125] += total[139];
-            W_bar[196 * k + 126] += total[140];
-            W_bar[196 * k + 127] += total[141];
-            W_bar[196 * k + 128] += total[142];
-            W_bar[196 * k + 129] += total[143];
-            W_bar[196 * k + 130] += total[144];
-            W_bar[196 * k + 131] += total[145];
-            W_bar[196 * k + 132] += total[146];
-            W_bar[196 * k + 133] += total[147];
-            W_bar[196 * k + 134] += total[148];
-            W_bar[196 * k + 135] += total[149];
-            W_bar[196 * k + 136] += total[150];
-            W_bar[196 * k + 137] += total[151];
-            W_bar[196 * k + 138] += total[152];
-            W_bar[196 * k + 139] += total[153];
-            W_bar[196 * k + 140] += total[154];
-            W_bar[196 * k + 141] += total[155];
-            W_bar[196 * k + 142] += total[156];
-            W_bar[196 * k + 143] += total[157];
-            W_bar[196 * k + 144] += total[158];
-            W_bar[196 * k + 145] += total[159];
-            W_bar[196 * k + 146] += total[160];
-            W_bar[196 * k + 147] += total[161];
-            W_bar[196 * k + 148] += total[162];
-            W_bar[196 * k + 149] += total[163];
-            W_bar[196 * k + 150] += total[164];
-            W_bar[196 * k + 151] += total[165];
-            W_bar[196 * k + 152] += total[166];
-            W_bar[196 * k + 153] += total[167];
-            W_bar[196 * k + 154] += total[168];
-            W_bar[196 * k + 155] += total[169];
-            W_bar[196 * k + 156] += total[170];
-            W_bar[196 * k + 157] += total[171];
-            W_bar[196 * k + 158] += total[172];
-            W_bar[196 * k + 159] += total[173];
-            W_bar[196 * k + 160] += total[174];
-            W_bar[196 * k + 161] += total[175];
-            W_bar[196 * k + 162] += total[176];
-            W_bar[196 * k + 163] += total[177];
-            W_bar[196 * k + 164] += total[178];
-            W_bar[196 * k + 165] += total[179];
-            W_bar[196 * k + 166] += total[180];
-            W_bar[196 * k + 167] += total[181];
-            W_bar[196 * k + 168] += total[182];
-            W_bar[196 * k + 169] += total[183];
-            W_bar[196 * k + 170] += total[184];
-            W_bar[196 * k + 171] += total[185];
-            W_bar[196 * k + 172] += total[186];
-            W_bar[196 * k + 173] += total[187];
-            W_bar[196 * k + 174] += total[188];
-            W_bar[196 * k + 175] += total[189];
-            W_bar[196 * k + 176] += total[190];
-            W_bar[196 * k + 177] += total[191];
-            W_bar[196 * k + 178] += total[192];
-            W_bar[196 * k + 179] += total[193];
-            W_bar[196 * k + 180] += total[194];
-            W_bar[196 * k + 181] += total[195];
-            W_bar[196 * k + 182] += total[196];
-            W_bar[196 * k + 183] += total[197];
-            W_bar[196 * k + 184] += total[198];
-            W_bar[196 * k + 185] += total[199];
-            W_bar[196 * k + 186] += total[200];
-            W_bar[196 * k + 187] += total[201];
-            W_bar[196 * k + 188] += total[202];
-            W_bar[196 * k + 189] += total[203];
-            W_bar[196 * k + 190] += total[204];
-            W_bar[196 * k + 191] += total[205];
-            W_bar[196 * k + 192] += total[206];
-            W_bar[196 * k + 193] += total[207];
-            W_bar[196 * k + 194] += total[208];
-            W_bar[196 * k + 195] += total[209];
-            amplitude_bar[1 * k + 0] += total[210];
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_value_f(X[0], constants + 211 * k, value_sum[0]);
+                pair_value_f(X[1], constants + 211 * k, value_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b)
+                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
+OUTLINE void splat_points_f(
+    size_t count, size_t start, const float *x, const float *value_bar, const float *gradient_bar, vector_f *point) {
+    vector_f at[14], grad_bar[14], slope_bar[14];
+    vector_rows_f(x, count, start, 14, at);
+    vector_rows_f(gradient_bar, count, start, 14, grad_bar);
+    vector_rows_f(value_bar, count, start, 1, point + 14);
+    pair_features_f(at, point);
+    pair_gradient_vjp_f(at, grad_bar, slope_bar);
+    for (int i = 0; i < 14; ++i) point[14 + 1 + i] = slope_bar[i];
+    vector_end_f(count, start, 14 + 1, point + 14);
+}
+
+/* Adds to S_bar what one vector of points adds to it. */
+INLINE void pair_backward_f(
+    const vector_f *point, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
+    vector_f factor[57];
+    pair_factors_f(point, S, value_bar, slope_bar, factor);
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_0_f(factor, point, sum);
+        S_bar[0] += sum[0];
+        S_bar[1] += sum[1];
+        S_bar[2] += sum[2];
+        S_bar[3] += sum[3];
+        S_bar[4] += sum[4];
+        S_bar[5] += sum[5];
+        S_bar[6] += sum[6];
+        S_bar[7] += sum[7];
+        S_bar[8] += sum[8];
+        S_bar[9] += sum[9];
+        S_bar[10] += sum[10];
+        S_bar[11] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_1_f(factor, point, sum);
+        S_bar[12] += sum[0];
+        S_bar[13] += sum[1];
+        S_bar[210] += sum[2];
+        S_bar[14] += sum[3];
+        S_bar[15] += sum[4];
+        S_bar[16] += sum[5];
+        S_bar[17] += sum[6];
+        S_bar[18] += sum[7];
+        S_bar[19] += sum[8];
+        S_bar[20] += sum[9];
+        S_bar[21] += sum[10];
+        S_bar[22] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_2_f(factor, point, sum);
+        S_bar[23] += sum[0];
+        S_bar[24] += sum[1];
+        S_bar[25] += sum[2];
+        S_bar[26] += sum[3];
+        S_bar[27] += sum[4];
+        S_bar[37] += sum[5];
+        S_bar[38] += sum[6];
+        S_bar[39] += sum[7];
+        S_bar[40] += sum[8];
+        S_bar[41] += sum[9];
+        S_bar[28] += sum[10];
+        S_bar[29] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_3_f(factor, point, sum);
+        S_bar[30] += sum[0];
+        S_bar[31] += sum[1];
+        S_bar[32] += sum[2];
+        S_bar[33] += sum[3];
+        S_bar[34] += sum[4];
+        S_bar[35] += sum[5];
+        S_bar[36] += sum[6];
+        S_bar[44] += sum[7];
+        S_bar[45] += sum[8];
+        S_bar[46] += sum[9];
+        S_bar[47] += sum[10];
+        S_bar[48] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_4_f(factor, point, sum);
+        S_bar[42] += sum[0];
+        S_bar[43] += sum[1];
+        S_bar[49] += sum[2];
+        S_bar[50] += sum[3];
+        S_bar[51] += sum[4];
+        S_bar[52] += sum[5];
+        S_bar[53] += sum[6];
+        S_bar[54] += sum[7];
+        S_bar[55] += sum[8];
+        S_bar[56] += sum[9];
+        S_bar[57] += sum[10];
+        S_bar[63] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_5_f(factor, point, sum);
+        S_bar[58] += sum[0];
+        S_bar[59] += sum[1];
+        S_bar[60] += sum[2];
+        S_bar[61] += sum[3];
+        S_bar[62] += sum[4];
+        S_bar[64] += sum[5];
+        S_bar[65] += sum[6];
+        S_bar[66] += sum[7];
+        S_bar[67] += sum[8];
+        S_bar[68] += sum[9];
+        S_bar[69] += sum[10];
+        S_bar[72] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_6_f(factor, point, sum);
+        S_bar[70] += sum[0];
+        S_bar[71] += sum[1];
+        S_bar[73] += sum[2];
+        S_bar[74] += sum[3];
+        S_bar[75] += sum[4];
+        S_bar[76] += sum[5];
+        S_bar[77] += sum[6];
+        S_bar[78] += sum[7];
+        S_bar[79] += sum[8];
+        S_bar[80] += sum[9];
+        S_bar[81] += sum[10];
+        S_bar[82] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_7_f(factor, point, sum);
+        S_bar[83] += sum[0];
+        S_bar[97] += sum[1];
+        S_bar[84] += sum[2];
+        S_bar[85] += sum[3];
+        S_bar[86] += sum[4];
+        S_bar[87] += sum[5];
+        S_bar[88] += sum[6];
+        S_bar[89] += sum[7];
+        S_bar[90] += sum[8];
+        S_bar[91] += sum[9];
+        S_bar[92] += sum[10];
+        S_bar[93] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_8_f(factor, point, sum);
+        S_bar[94] += sum[0];
+        S_bar[95] += sum[1];
+        S_bar[96] += sum[2];
+        S_bar[108] += sum[3];
+        S_bar[109] += sum[4];
+        S_bar[110] += sum[5];
+        S_bar[98] += sum[6];
+        S_bar[99] += sum[7];
+        S_bar[100] += sum[8];
+        S_bar[101] += sum[9];
+        S_bar[102] += sum[10];
+        S_bar[103] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_9_f(factor, point, sum);
+        S_bar[104] += sum[0];
+        S_bar[105] += sum[1];
+        S_bar[106] += sum[2];
+        S_bar[107] += sum[3];
+        S_bar[111] += sum[4];
+        S_bar[118] += sum[5];
+        S_bar[119] += sum[6];
+        S_bar[120] += sum[7];
+        S_bar[121] += sum[8];
+        S_bar[125] += sum[9];
+        S_bar[112] += sum[10];
+        S_bar[113] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_10_f(factor, point, sum);
+        S_bar[114] += sum[0];
+        S_bar[115] += sum[1];
+        S_bar[116] += sum[2];
+        S_bar[117] += sum[3];
+        S_bar[122] += sum[4];
+        S_bar[123] += sum[5];
+        S_bar[124] += sum[6];
+        S_bar[128] += sum[7];
+        S_bar[129] += sum[8];
+        S_bar[130] += sum[9];
+        S_bar[131] += sum[10];
+        S_bar[136] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_11_f(factor, point, sum);
+        S_bar[126] += sum[0];
+        S_bar[127] += sum[1];
+        S_bar[132] += sum[2];
+        S_bar[133] += sum[3];
+        S_bar[134] += sum[4];
+        S_bar[135] += sum[5];
+        S_bar[137] += sum[6];
+        S_bar[138] += sum[7];
+        S_bar[139] += sum[8];
+        S_bar[140] += sum[9];
+        S_bar[141] += sum[10];
+        S_bar[146] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_12_f(factor, point, sum);
+        S_bar[142] += sum[0];
+        S_bar[143] += sum[1];
+        S_bar[144] += sum[2];
+        S_bar[145] += sum[3];
+        S_bar[147] += sum[4];
+        S_bar[148] += sum[5];
+        S_bar[149] += sum[6];
+        S_bar[150] += sum[7];
+        S_bar[151] += sum[8];
+        S_bar[152] += sum[9];
+        S_bar[153] += sum[10];
+        S_bar[156] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_13_f(factor, point, sum);
+        S_bar[154] += sum[0];
+        S_bar[155] += sum[1];
+        S_bar[157] += sum[2];
+        S_bar[158] += sum[3];
+        S_bar[159] += sum[4];
+        S_bar[160] += sum[5];
+        S_bar[161] += sum[6];
+        S_bar[162] += sum[7];
+        S_bar[163] += sum[8];
+        S_bar[164] += sum[9];
+        S_bar[165] += sum[10];
+        S_bar[166] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_14_f(factor, point, sum);
+        S_bar[167] += sum[0];
+        S_bar[181] += sum[1];
+        S_bar[168] += sum[2];
+        S_bar[169] += sum[3];
+        S_bar[170] += sum[4];
+        S_bar[171] += sum[5];
+        S_bar[172] += sum[6];
+        S_bar[173] += sum[7];
+        S_bar[174] += sum[8];
+        S_bar[175] += sum[9];
+        S_bar[176] += sum[10];
+        S_bar[177] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_15_f(factor, point, sum);
+        S_bar[178] += sum[0];
+        S_bar[179] += sum[1];
+        S_bar[180] += sum[2];
+        S_bar[192] += sum[3];
+        S_bar[193] += sum[4];
+        S_bar[194] += sum[5];
+        S_bar[182] += sum[6];
+        S_bar[183] += sum[7];
+        S_bar[184] += sum[8];
+        S_bar[185] += sum[9];
+        S_bar[186] += sum[10];
+        S_bar[187] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_16_f(factor, point, sum);
+        S_bar[188] += sum[0];
+        S_bar[189] += sum[1];
+        S_bar[190] += sum[2];
+        S_bar[191] += sum[3];
+        S_bar[195] += sum[4];
+        S_bar[202] += sum[5];
+        S_bar[203] += sum[6];
+        S_bar[204] += sum[7];
+        S_bar[205] += sum[8];
+        S_bar[209] += sum[9];
+        S_bar[196] += sum[10];
+        S_bar[197] += sum[11];
+    }
+    {
+        vector_f sum[7] = {ZERO};
+        pair_products_17_f(factor, point, sum);
+        S_bar[198] += sum[0];
+        S_bar[199] += sum[1];
+        S_bar[200] += sum[2];
+        S_bar[201] += sum[3];
+        S_bar[206] += sum[4];
+        S_bar[207] += sum[5];
+        S_bar[208] += sum[6];
+    }
+}
+
+/* Adds to S_bar what some vectors of points add to it: factors of 6 vectors at a time, then their products. */
+OUTLINE void splat_sums_f(const vector_f *point, size_t count, const float *S, float *S_bar) {
+    vector_f factor[6 * 57], total[211] = {ZERO};
+    for (size_t start = 0; start < count; start += 6, point += 6 * 29) {
+        const size_t size = count - start < 6 ? count - start : 6;
+        for (size_t b = 0; b < size; ++b) {
+            const vector_f *at = point + 29 * b;
+            pair_factors_f(at, S, at + 14, at + 14 + 1, factor + 57 * b);
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_0_f(factor + 57 * b, point + 29 * b, sum);
+            total[0] += sum[0];
+            total[1] += sum[1];
+            total[2] += sum[2];
+            total[3] += sum[3];
+            total[4] += sum[4];
+            total[5] += sum[5];
+            total[6] += sum[6];
+            total[7] += sum[7];
+            total[8] += sum[8];
+            total[9] += sum[9];
+            total[10] += sum[10];
+            total[11] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_1_f(factor + 57 * b, point + 29 * b, sum);
+            total[12] += sum[0];
+            total[13] += sum[1];
+            total[210] += sum[2];
+            total[14] += sum[3];
+            total[15] += sum[4];
+            total[16] += sum[5];
+            total[17] += sum[6];
+            total[18] += sum[7];
+            total[19] += sum[8];
+            total[20] += sum[9];
+            total[21] += sum[10];
+            total[22] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_2_f(factor + 57 * b, point + 29 * b, sum);
+            total[23] += sum[0];
+            total[24] += sum[1];
+            total[25] += sum[2];
+            total[26] += sum[3];
+            total[27] += sum[4];
+            total[37] += sum[5];
+            total[38] += sum[6];
+            total[39] += sum[7];
+            total[40] += sum[8];
+            total[41] += sum[9];
+            total[28] += sum[10];
+            total[29] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_3_f(factor + 57 * b, point + 29 * b, sum);
+            total[30] += sum[0];
+            total[31] += sum[1];
+            total[32] += sum[2];
+            total[33] += sum[3];
+            total[34] += sum[4];
+            total[35] += sum[5];
+            total[36] += sum[6];
+            total[44] += sum[7];
+            total[45] += sum[8];
+            total[46] += sum[9];
+            total[47] += sum[10];
+            total[48] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_4_f(factor + 57 * b, point + 29 * b, sum);
+            total[42] += sum[0];
+            total[43] += sum[1];
+            total[49] += sum[2];
+            total[50] += sum[3];
+            total[51] += sum[4];
+            total[52] += sum[5];
+            total[53] += sum[6];
+            total[54] += sum[7];
+            total[55] += sum[8];
+            total[56] += sum[9];
+            total[57] += sum[10];
+            total[63] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_5_f(factor + 57 * b, point + 29 * b, sum);
+            total[58] += sum[0];
+            total[59] += sum[1];
+            total[60] += sum[2];
+            total[61] += sum[3];
+            total[62] += sum[4];
+            total[64] += sum[5];
+            total[65] += sum[6];
+            total[66] += sum[7];
+            total[67] += sum[8];
+            total[68] += sum[9];
+            total[69] += sum[10];
+            total[72] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_6_f(factor + 57 * b, point + 29 * b, sum);
+            total[70] += sum[0];
+            total[71] += sum[1];
+            total[73] += sum[2];
+            total[74] += sum[3];
+            total[75] += sum[4];
+            total[76] += sum[5];
+            total[77] += sum[6];
+            total[78] += sum[7];
+            total[79] += sum[8];
+            total[80] += sum[9];
+            total[81] += sum[10];
+            total[82] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_7_f(factor + 57 * b, point + 29 * b, sum);
+            total[83] += sum[0];
+            total[97] += sum[1];
+            total[84] += sum[2];
+            total[85] += sum[3];
+            total[86] += sum[4];
+            total[87] += sum[5];
+            total[88] += sum[6];
+            total[89] += sum[7];
+            total[90] += sum[8];
+            total[91] += sum[9];
+            total[92] += sum[10];
+            total[93] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_8_f(factor + 57 * b, point + 29 * b, sum);
+            total[94] += sum[0];
+            total[95] += sum[1];
+            total[96] += sum[2];
+            total[108] += sum[3];
+            total[109] += sum[4];
+            total[110] += sum[5];
+            total[98] += sum[6];
+            total[99] += sum[7];
+            total[100] += sum[8];
+            total[101] += sum[9];
+            total[102] += sum[10];
+            total[103] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_9_f(factor + 57 * b, point + 29 * b, sum);
+            total[104] += sum[0];
+            total[105] += sum[1];
+            total[106] += sum[2];
+            total[107] += sum[3];
+            total[111] += sum[4];
+            total[118] += sum[5];
+            total[119] += sum[6];
+            total[120] += sum[7];
+            total[121] += sum[8];
+            total[125] += sum[9];
+            total[112] += sum[10];
+            total[113] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_10_f(factor + 57 * b, point + 29 * b, sum);
+            total[114] += sum[0];
+            total[115] += sum[1];
+            total[116] += sum[2];
+            total[117] += sum[3];
+            total[122] += sum[4];
+            total[123] += sum[5];
+            total[124] += sum[6];
+            total[128] += sum[7];
+            total[129] += sum[8];
+            total[130] += sum[9];
+            total[131] += sum[10];
+            total[136] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_11_f(factor + 57 * b, point + 29 * b, sum);
+            total[126] += sum[0];
+            total[127] += sum[1];
+            total[132] += sum[2];
+            total[133] += sum[3];
+            total[134] += sum[4];
+            total[135] += sum[5];
+            total[137] += sum[6];
+            total[138] += sum[7];
+            total[139] += sum[8];
+            total[140] += sum[9];
+            total[141] += sum[10];
+            total[146] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_12_f(factor + 57 * b, point + 29 * b, sum);
+            total[142] += sum[0];
+            total[143] += sum[1];
+            total[144] += sum[2];
+            total[145] += sum[3];
+            total[147] += sum[4];
+            total[148] += sum[5];
+            total[149] += sum[6];
+            total[150] += sum[7];
+            total[151] += sum[8];
+            total[152] += sum[9];
+            total[153] += sum[10];
+            total[156] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_13_f(factor + 57 * b, point + 29 * b, sum);
+            total[154] += sum[0];
+            total[155] += sum[1];
+            total[157] += sum[2];
+            total[158] += sum[3];
+            total[159] += sum[4];
+            total[160] += sum[5];
+            total[161] += sum[6];
+            total[162] += sum[7];
+            total[163] += sum[8];
+            total[164] += sum[9];
+            total[165] += sum[10];
+            total[166] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_14_f(factor + 57 * b, point + 29 * b, sum);
+            total[167] += sum[0];
+            total[181] += sum[1];
+            total[168] += sum[2];
+            total[169] += sum[3];
+            total[170] += sum[4];
+            total[171] += sum[5];
+            total[172] += sum[6];
+            total[173] += sum[7];
+            total[174] += sum[8];
+            total[175] += sum[9];
+            total[176] += sum[10];
+            total[177] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_15_f(factor + 57 * b, point + 29 * b, sum);
+            total[178] += sum[0];
+            total[179] += sum[1];
+            total[180] += sum[2];
+            total[192] += sum[3];
+            total[193] += sum[4];
+            total[194] += sum[5];
+            total[182] += sum[6];
+            total[183] += sum[7];
+            total[184] += sum[8];
+            total[185] += sum[9];
+            total[186] += sum[10];
+            total[187] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_16_f(factor + 57 * b, point + 29 * b, sum);
+            total[188] += sum[0];
+            total[189] += sum[1];
+            total[190] += sum[2];
+            total[191] += sum[3];
+            total[195] += sum[4];
+            total[202] += sum[5];
+            total[203] += sum[6];
+            total[204] += sum[7];
+            total[205] += sum[8];
+            total[209] += sum[9];
+            total[196] += sum[10];
+            total[197] += sum[11];
+        }
+        {
+            vector_f sum[7] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_17_f(factor + 57 * b, point + 29 * b, sum);
+            total[198] += sum[0];
+            total[199] += sum[1];
+            total[200] += sum[2];
+            total[201] += sum[3];
+            total[206] += sum[4];
+            total[207] += sum[5];
+            total[208] += sum[6];
         }
     }
-    restore_denormals(mode);
+    for (size_t i = 0; i < 211; ++i) S_bar[i] += vector_sum_f(total[i]);
+}
+
+/*
+ * Some splats at a time; the points pass over each of them, a chunk at a time, while its sums stay in registers. How many
+ * splats depends on the threads, what is summed in which order does not.
+ */
+void dual_arm_splats_vjp_f(
+    size_t count, size_t splat_count, const float *DUAL_ARM_RESTRICT x, const float *DUAL_ARM_RESTRICT mu, const float *DUAL_ARM_RESTRICT W, const float *DUAL_ARM_RESTRICT amplitude, const float *DUAL_ARM_RESTRICT value_bar, const float *DUAL_ARM_RESTRICT gradient_bar,
+    float *DUAL_ARM_RESTRICT mu_bar, float *DUAL_ARM_RESTRICT W_bar, float *DUAL_ARM_RESTRICT amplitude_bar, float *DUAL_ARM_RESTRICT work, int threads) {
+    const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    const size_t chunk = 131072 / (29 * sizeof(vector_f)) + 1;
+    const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
+    const size_t share = part < LANES_f ? part : LANES_f;
+    vector_f *points = work_points_f(work);
+    float *constants = work_constants_f(work, count);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic) nowait)
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic, 8))
+        for (size_t block = 0; block < blocks; ++block)
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 29 * block);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += share) {
+            const size_t end = start + share < splat_count ? start + share : splat_count;
+            float sums[LANES_f][211] = {{0}};
+            vector_f own_mu[14], own_W[196], own_amplitude[1], S_bar[211], bars[211];
+            for (size_t first = 0; first < blocks; first += chunk) {
+                const size_t size = first + chunk < blocks ? chunk : blocks - first;
+                for (size_t k = start; k < end; ++k)
+                    splat_sums_f(points + 29 * first, size, constants + 211 * k, sums[k - start]);
+            }
+            vector_rows_f(mu, end, start, 14, own_mu);
+            vector_rows_f(W, end, start, 196, own_W);
+            vector_rows_f(amplitude, end, start, 1, own_amplitude);
+            vector_rows_f(sums[0], LANES_f, 0, 211, S_bar);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 14, bars + 14 + 196);
+            vector_to_rows_f(bars, mu_bar, end, start, 14, 14);
+            vector_to_rows_f(bars + 14, W_bar, end, start, 196, 196);
+            vector_to_rows_f(bars + 14 + 196, amplitude_bar, end, start, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* Nothing is summed: the adjoints of a splat's constants go on to its parameters for every point. */
+void dual_arm_splats_rows_f(
+    size_t count, size_t splat_count, const float *DUAL_ARM_RESTRICT x, const float *DUAL_ARM_RESTRICT mu, const float *DUAL_ARM_RESTRICT W, const float *DUAL_ARM_RESTRICT amplitude, const float *DUAL_ARM_RESTRICT value_bar, const float *DUAL_ARM_RESTRICT gradient_bar,
+    float *DUAL_ARM_RESTRICT rows, float *DUAL_ARM_RESTRICT work, int threads) {
+    (void)threads;
+    const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t block = 0; block < blocks; ++block) {
+            vector_f point[29];
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
+            for (size_t k = 0; k < splat_count; ++k) {
+                vector_f own_mu[14], own_W[196], own_amplitude[1], S_bar[211] = {ZERO}, bars[211];
+                for (int i = 0; i < 14; ++i) own_mu[i] = vector_of_f(mu[14 * k + i]);
+                for (int i = 0; i < 196; ++i) own_W[i] = vector_of_f(W[196 * k + i]);
+                own_amplitude[0] = vector_of_f(amplitude[k]);
+                pair_backward_f(point, constants + 211 * k, point + 14, point + 14 + 1, S_bar);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 14, bars + 14 + 196);
+                vector_to_rows_f(bars, rows + 211 * k, count, block * LANES_f, 211, 211 * splat_count);
+            }
+        }
+        restore_denormals(mode);
+    }
 }

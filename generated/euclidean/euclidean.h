@@ -311,51 +311,42 @@ void euclidean_splat_batch_f(
 void euclidean_frame(const double *EUCLIDEAN_RESTRICT p, double *EUCLIDEAN_RESTRICT frame);
 void euclidean_frame_f(const float *EUCLIDEAN_RESTRICT p, float *EUCLIDEAN_RESTRICT frame);
 
+/* How many numbers of scratch memory the functions below need, for these sizes or smaller ones. */
+size_t euclidean_splats_work(size_t count, size_t splat_count, int threads);
+size_t euclidean_splats_work_f(size_t count, size_t splat_count, int threads);
+
 /* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
 void euclidean_splats(
-    size_t count,
-    size_t splat_count,
-    const double *EUCLIDEAN_RESTRICT x,
-    const double *EUCLIDEAN_RESTRICT mu,
-    const double *EUCLIDEAN_RESTRICT W,
-    const double *EUCLIDEAN_RESTRICT amplitude,
-    double *EUCLIDEAN_RESTRICT value,
-    double *EUCLIDEAN_RESTRICT gradient);
+    size_t count, size_t splat_count, const double *EUCLIDEAN_RESTRICT x, const double *EUCLIDEAN_RESTRICT mu, const double *EUCLIDEAN_RESTRICT W, const double *EUCLIDEAN_RESTRICT amplitude,
+    double *EUCLIDEAN_RESTRICT value, double *EUCLIDEAN_RESTRICT gradient, double *EUCLIDEAN_RESTRICT work, int threads);
 void euclidean_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *EUCLIDEAN_RESTRICT x,
-    const float *EUCLIDEAN_RESTRICT mu,
-    const float *EUCLIDEAN_RESTRICT W,
-    const float *EUCLIDEAN_RESTRICT amplitude,
-    float *EUCLIDEAN_RESTRICT value,
-    float *EUCLIDEAN_RESTRICT gradient);
+    size_t count, size_t splat_count, const float *EUCLIDEAN_RESTRICT x, const float *EUCLIDEAN_RESTRICT mu, const float *EUCLIDEAN_RESTRICT W, const float *EUCLIDEAN_RESTRICT amplitude,
+    float *EUCLIDEAN_RESTRICT value, float *EUCLIDEAN_RESTRICT gradient, float *EUCLIDEAN_RESTRICT work, int threads);
+
+/* The values of the sums alone. */
+void euclidean_splats_value(
+    size_t count, size_t splat_count, const double *EUCLIDEAN_RESTRICT x, const double *EUCLIDEAN_RESTRICT mu, const double *EUCLIDEAN_RESTRICT W, const double *EUCLIDEAN_RESTRICT amplitude,
+    double *EUCLIDEAN_RESTRICT value, double *EUCLIDEAN_RESTRICT work, int threads);
+void euclidean_splats_value_f(
+    size_t count, size_t splat_count, const float *EUCLIDEAN_RESTRICT x, const float *EUCLIDEAN_RESTRICT mu, const float *EUCLIDEAN_RESTRICT W, const float *EUCLIDEAN_RESTRICT amplitude,
+    float *EUCLIDEAN_RESTRICT value, float *EUCLIDEAN_RESTRICT work, int threads);
 
 /* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
 void euclidean_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *EUCLIDEAN_RESTRICT x,
-    const double *EUCLIDEAN_RESTRICT mu,
-    const double *EUCLIDEAN_RESTRICT W,
-    const double *EUCLIDEAN_RESTRICT amplitude,
-    const double *EUCLIDEAN_RESTRICT value_bar,
-    const double *EUCLIDEAN_RESTRICT gradient_bar,
-    double *EUCLIDEAN_RESTRICT mu_bar,
-    double *EUCLIDEAN_RESTRICT W_bar,
-    double *EUCLIDEAN_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const double *EUCLIDEAN_RESTRICT x, const double *EUCLIDEAN_RESTRICT mu, const double *EUCLIDEAN_RESTRICT W, const double *EUCLIDEAN_RESTRICT amplitude, const double *EUCLIDEAN_RESTRICT value_bar, const double *EUCLIDEAN_RESTRICT gradient_bar,
+    double *EUCLIDEAN_RESTRICT mu_bar, double *EUCLIDEAN_RESTRICT W_bar, double *EUCLIDEAN_RESTRICT amplitude_bar, double *EUCLIDEAN_RESTRICT work, int threads);
 void euclidean_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *EUCLIDEAN_RESTRICT x,
-    const float *EUCLIDEAN_RESTRICT mu,
-    const float *EUCLIDEAN_RESTRICT W,
-    const float *EUCLIDEAN_RESTRICT amplitude,
-    const float *EUCLIDEAN_RESTRICT value_bar,
-    const float *EUCLIDEAN_RESTRICT gradient_bar,
-    float *EUCLIDEAN_RESTRICT mu_bar,
-    float *EUCLIDEAN_RESTRICT W_bar,
-    float *EUCLIDEAN_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const float *EUCLIDEAN_RESTRICT x, const float *EUCLIDEAN_RESTRICT mu, const float *EUCLIDEAN_RESTRICT W, const float *EUCLIDEAN_RESTRICT amplitude, const float *EUCLIDEAN_RESTRICT value_bar, const float *EUCLIDEAN_RESTRICT gradient_bar,
+    float *EUCLIDEAN_RESTRICT mu_bar, float *EUCLIDEAN_RESTRICT W_bar, float *EUCLIDEAN_RESTRICT amplitude_bar, float *EUCLIDEAN_RESTRICT work, int threads);
+
+/* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +
+ * gradient_n . gradient_bar_n in its mu, W and amplitude, in this order. */
+void euclidean_splats_rows(
+    size_t count, size_t splat_count, const double *EUCLIDEAN_RESTRICT x, const double *EUCLIDEAN_RESTRICT mu, const double *EUCLIDEAN_RESTRICT W, const double *EUCLIDEAN_RESTRICT amplitude, const double *EUCLIDEAN_RESTRICT value_bar, const double *EUCLIDEAN_RESTRICT gradient_bar,
+    double *EUCLIDEAN_RESTRICT rows, double *EUCLIDEAN_RESTRICT work, int threads);
+void euclidean_splats_rows_f(
+    size_t count, size_t splat_count, const float *EUCLIDEAN_RESTRICT x, const float *EUCLIDEAN_RESTRICT mu, const float *EUCLIDEAN_RESTRICT W, const float *EUCLIDEAN_RESTRICT amplitude, const float *EUCLIDEAN_RESTRICT value_bar, const float *EUCLIDEAN_RESTRICT gradient_bar,
+    float *EUCLIDEAN_RESTRICT rows, float *EUCLIDEAN_RESTRICT work, int threads);
 
 #ifdef __cplusplus
 }

@@ -286,51 +286,42 @@ void half_space_splat_batch_f(
 void half_space_frame(const double *HALF_SPACE_RESTRICT p, double *HALF_SPACE_RESTRICT frame);
 void half_space_frame_f(const float *HALF_SPACE_RESTRICT p, float *HALF_SPACE_RESTRICT frame);
 
+/* How many numbers of scratch memory the functions below need, for these sizes or smaller ones. */
+size_t half_space_splats_work(size_t count, size_t splat_count, int threads);
+size_t half_space_splats_work_f(size_t count, size_t splat_count, int threads);
+
 /* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
 void half_space_splats(
-    size_t count,
-    size_t splat_count,
-    const double *HALF_SPACE_RESTRICT x,
-    const double *HALF_SPACE_RESTRICT mu,
-    const double *HALF_SPACE_RESTRICT W,
-    const double *HALF_SPACE_RESTRICT amplitude,
-    double *HALF_SPACE_RESTRICT value,
-    double *HALF_SPACE_RESTRICT gradient);
+    size_t count, size_t splat_count, const double *HALF_SPACE_RESTRICT x, const double *HALF_SPACE_RESTRICT mu, const double *HALF_SPACE_RESTRICT W, const double *HALF_SPACE_RESTRICT amplitude,
+    double *HALF_SPACE_RESTRICT value, double *HALF_SPACE_RESTRICT gradient, double *HALF_SPACE_RESTRICT work, int threads);
 void half_space_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *HALF_SPACE_RESTRICT x,
-    const float *HALF_SPACE_RESTRICT mu,
-    const float *HALF_SPACE_RESTRICT W,
-    const float *HALF_SPACE_RESTRICT amplitude,
-    float *HALF_SPACE_RESTRICT value,
-    float *HALF_SPACE_RESTRICT gradient);
+    size_t count, size_t splat_count, const float *HALF_SPACE_RESTRICT x, const float *HALF_SPACE_RESTRICT mu, const float *HALF_SPACE_RESTRICT W, const float *HALF_SPACE_RESTRICT amplitude,
+    float *HALF_SPACE_RESTRICT value, float *HALF_SPACE_RESTRICT gradient, float *HALF_SPACE_RESTRICT work, int threads);
+
+/* The values of the sums alone. */
+void half_space_splats_value(
+    size_t count, size_t splat_count, const double *HALF_SPACE_RESTRICT x, const double *HALF_SPACE_RESTRICT mu, const double *HALF_SPACE_RESTRICT W, const double *HALF_SPACE_RESTRICT amplitude,
+    double *HALF_SPACE_RESTRICT value, double *HALF_SPACE_RESTRICT work, int threads);
+void half_space_splats_value_f(
+    size_t count, size_t splat_count, const float *HALF_SPACE_RESTRICT x, const float *HALF_SPACE_RESTRICT mu, const float *HALF_SPACE_RESTRICT W, const float *HALF_SPACE_RESTRICT amplitude,
+    float *HALF_SPACE_RESTRICT value, float *HALF_SPACE_RESTRICT work, int threads);
 
 /* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
 void half_space_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *HALF_SPACE_RESTRICT x,
-    const double *HALF_SPACE_RESTRICT mu,
-    const double *HALF_SPACE_RESTRICT W,
-    const double *HALF_SPACE_RESTRICT amplitude,
-    const double *HALF_SPACE_RESTRICT value_bar,
-    const double *HALF_SPACE_RESTRICT gradient_bar,
-    double *HALF_SPACE_RESTRICT mu_bar,
-    double *HALF_SPACE_RESTRICT W_bar,
-    double *HALF_SPACE_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const double *HALF_SPACE_RESTRICT x, const double *HALF_SPACE_RESTRICT mu, const double *HALF_SPACE_RESTRICT W, const double *HALF_SPACE_RESTRICT amplitude, const double *HALF_SPACE_RESTRICT value_bar, const double *HALF_SPACE_RESTRICT gradient_bar,
+    double *HALF_SPACE_RESTRICT mu_bar, double *HALF_SPACE_RESTRICT W_bar, double *HALF_SPACE_RESTRICT amplitude_bar, double *HALF_SPACE_RESTRICT work, int threads);
 void half_space_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *HALF_SPACE_RESTRICT x,
-    const float *HALF_SPACE_RESTRICT mu,
-    const float *HALF_SPACE_RESTRICT W,
-    const float *HALF_SPACE_RESTRICT amplitude,
-    const float *HALF_SPACE_RESTRICT value_bar,
-    const float *HALF_SPACE_RESTRICT gradient_bar,
-    float *HALF_SPACE_RESTRICT mu_bar,
-    float *HALF_SPACE_RESTRICT W_bar,
-    float *HALF_SPACE_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const float *HALF_SPACE_RESTRICT x, const float *HALF_SPACE_RESTRICT mu, const float *HALF_SPACE_RESTRICT W, const float *HALF_SPACE_RESTRICT amplitude, const float *HALF_SPACE_RESTRICT value_bar, const float *HALF_SPACE_RESTRICT gradient_bar,
+    float *HALF_SPACE_RESTRICT mu_bar, float *HALF_SPACE_RESTRICT W_bar, float *HALF_SPACE_RESTRICT amplitude_bar, float *HALF_SPACE_RESTRICT work, int threads);
+
+/* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +
+ * gradient_n . gradient_bar_n in its mu, W and amplitude, in this order. */
+void half_space_splats_rows(
+    size_t count, size_t splat_count, const double *HALF_SPACE_RESTRICT x, const double *HALF_SPACE_RESTRICT mu, const double *HALF_SPACE_RESTRICT W, const double *HALF_SPACE_RESTRICT amplitude, const double *HALF_SPACE_RESTRICT value_bar, const double *HALF_SPACE_RESTRICT gradient_bar,
+    double *HALF_SPACE_RESTRICT rows, double *HALF_SPACE_RESTRICT work, int threads);
+void half_space_splats_rows_f(
+    size_t count, size_t splat_count, const float *HALF_SPACE_RESTRICT x, const float *HALF_SPACE_RESTRICT mu, const float *HALF_SPACE_RESTRICT W, const float *HALF_SPACE_RESTRICT amplitude, const float *HALF_SPACE_RESTRICT value_bar, const float *HALF_SPACE_RESTRICT gradient_bar,
+    float *HALF_SPACE_RESTRICT rows, float *HALF_SPACE_RESTRICT work, int threads);
 
 #ifdef __cplusplus
 }

@@ -7,754 +7,1526 @@
 #include "half_space.h"
 
 #include <float.h>
+#include <stdint.h>
+#include <string.h>
 
-#define LANES 64
+/*
+ * A vector is as wide as the machine's registers, or one number where the compiler has no vectors (or is asked for none
+ * by -DRSRM_NO_VECTORS). Comparisons of vectors are masks; `vector_select` is the ?: of vectors.
+ */
+#if defined(__GNUC__) && !defined(RSRM_NO_VECTORS)
+#if defined(__AVX512F__)
+#define VECTOR_BYTES 64
+#elif defined(__AVX__)
+#define VECTOR_BYTES 32
+#else
+#define VECTOR_BYTES 16
+#endif
+#define LANE(vector, i) (vector)[i]
+#define ZERO {0}
+#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
+typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
+typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
+typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
+typedef int32_t vector_mask_f __attribute__((vector_size(VECTOR_BYTES)));
+typedef uint64_t vector_bits __attribute__((vector_size(VECTOR_BYTES)));
+typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
+#else
+#define LANE(vector, i) (vector)
+#define ZERO 0
+#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
+typedef double vector;
+typedef float vector_f;
+typedef int64_t vector_mask;
+typedef int32_t vector_mask_f;
+typedef uint64_t vector_bits;
+typedef uint32_t vector_bits_f;
+#endif
+#if defined(__GNUC__)
+#define INLINE static inline __attribute__((always_inline, unused))
+#define OUTLINE static __attribute__((noinline))
+#else
+#define INLINE static inline
+#define OUTLINE static
+#endif
+#define LANES (sizeof(vector) / sizeof(double))
+#define LANES_f (sizeof(vector_f) / sizeof(float))
+
+/* Threads, where the compiler has OpenMP. */
+#if defined(_OPENMP)
+#define OMP(directive) _Pragma(#directive)
+#else
+#define OMP(directive)
+#endif
 
 /* Denormal numbers count as zero while the sums run: far splats are many, and slow. */
 #if defined(__SSE2__)
 #include <xmmintrin.h>
-static unsigned flush_denormals(void) {
+INLINE uint64_t flush_denormals(void) {
     const unsigned mode = _mm_getcsr();
     _mm_setcsr(mode | 0x8040u);
     return mode;
 }
-static void restore_denormals(unsigned mode) { _mm_setcsr(mode); }
+INLINE void restore_denormals(uint64_t mode) { _mm_setcsr((unsigned)mode); }
+#elif defined(__aarch64__) && defined(__GNUC__)
+INLINE uint64_t flush_denormals(void) {
+    uint64_t mode;
+    __asm__ __volatile__("mrs %0, fpcr" : "=r"(mode));
+    __asm__ __volatile__("msr fpcr, %0" : : "r"(mode | (UINT64_C(1) << 24)));
+    return mode;
+}
+INLINE void restore_denormals(uint64_t mode) { __asm__ __volatile__("msr fpcr, %0" : : "r"(mode)); }
 #else
-static unsigned flush_denormals(void) { return 0; }
-static void restore_denormals(unsigned mode) { (void)mode; }
+INLINE uint64_t flush_denormals(void) { return 0; }
+INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
 
-/* Of degree 10 on [0, 1], its relative error below 2^-56. */
-static inline double polynomial_t_over_sinh_t_near(double x) {
-    return 1.0 + x * (-0.07645333333333267 + x * (0.0070141346133057005 + x * (-0.0006894693916646029 + x *
-        (7.028297406461528e-05 + x * (-7.327302641804558e-06 + x * (7.756073566036173e-07 + x *
-        (-8.292331503302048e-08 + x * (8.837138970409671e-09 + x * (-8.75303059047528e-10 + x *
-        5.971582399354532e-11)))))))));
+/* The same number in all lanes. */
+INLINE vector vector_of(double x) {
+    const vector zero = ZERO;
+    return x - zero;
+}
+
+/* x in the lanes of the mask, y in the others. */
+INLINE vector vector_select(vector_mask mask, vector x, vector y) {
+    return SELECT(vector, vector_mask, mask, x, y);
+}
+
+/* Numbers in memory to a vector, and back. */
+INLINE vector vector_load(const double *from) {
+    vector x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+INLINE void vector_store(double *to, vector x) { memcpy(to, &x, sizeof x); }
+
+/* The sum over the lanes, by halves. */
+INLINE double vector_sum(vector x) {
+    double lanes[LANES];
+    vector_store(lanes, x);
+    for (size_t half = LANES / 2; half > 0; half /= 2)
+        for (size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    return lanes[0];
+}
+
+/* The bits of a vector as integers, and back. */
+INLINE vector_bits vector_to_bits(vector x) {
+    vector_bits bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+INLINE vector vector_from_bits(vector_bits bits) {
+    vector x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* x >= 0 with the sign of another. */
+INLINE vector vector_signed(vector x, vector sign) {
+    return vector_from_bits(vector_to_bits(x) | (vector_to_bits(sign) & 0x8000000000000000));
+}
+
+/* abs of every lane; one instruction where the machine has it. */
+INLINE vector vector_abs(vector x) {
+    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
+    return x;
+}
+
+/* sqrt of every lane; one instruction where the machine has it. */
+INLINE vector vector_sqrt(vector x) {
+    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
+    return x;
+}
+
+/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
+INLINE vector vector_exp(vector x) {
+    const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
+    const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
+    const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
+    const vector scale = vector_from_bits((vector_to_bits(shifted) + 1022) << 52); /* 2^(k - 1) */
+    const vector y = vector_select(x > 709.782712893384, vector_of(HUGE_VAL), (scale + scale * part) * 2);
+    return vector_select(x < -707.9, vector_of(0), y);
+}
+
+/* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
+INLINE vector vector_log(vector x) {
+    const vector_bits bits = vector_to_bits(x), biased = (bits + 0x95f619980c433) >> 52; /* k + 1023 */
+    const vector k = vector_from_bits(biased + 0x4338000000000000) - 6755399441056767.0;
+    const vector f = vector_from_bits(bits - (biased << 52) + 0x3ff0000000000000) - 1, s = f / (2 + f), z = s * s;
+    const vector half = f * f * 0.5;
+    const vector rest = z * (0.6666666666666666 + z * (0.4000000000000088 + z * (0.28571428570801954 + z * (0.22222222392089008 + z * (0.18181795600060793 + z * (0.15386241881938595 + z * (0.13268714792348096 + z * 0.1308723619665962)))))));
+    const vector y = k * 0.6931471805601177 - ((half - (s * (half + rest) + k * -1.7239444525614835e-13)) - f);
+    const vector small = vector_select(x < 0, vector_of(NAN), vector_of(-HUGE_VAL));
+    const vector finite = vector_select(x > 2.2250738585072009e-308, y, small);
+    return vector_select(x <= 1.7976931348623157e308, finite, x);
+}
+
+/* log(1 + x), within 2 units in the last place. */
+INLINE vector vector_log1p(vector x) {
+    const vector u = 1 + x;
+    return vector_select(x <= 1.7976931348623157e308, vector_log(u) + (x - (u - 1)) / u, x);
+}
+
+/* asinh, within 3 units in the last place. */
+INLINE vector vector_asinh(vector x) {
+    const vector a = vector_abs(x), square = a * a;
+    const vector near = vector_log1p(a + square / (1 + vector_sqrt(1 + square)));
+    return vector_signed(vector_select(a > 134217728.0, vector_log(a) + 0.6931471805599453, near), x);
 }
 
 /* Of degree 10 on [0, 1], its relative error below 2^-56. */
-static inline double polynomial_log_det_series(double x) {
+INLINE vector vector_polynomial_log_det_series(vector x) {
     return -0.6666666666666666 + x * (0.0356782222222221 + x * (-0.0026349394579138403 + x *
         (0.0002217367612080702 + x * (-2.003183119568235e-05 + x * (1.8922065620668275e-06 + x *
         (-1.8428477801605567e-07 + x * (1.833644732727326e-08 + x * (-1.8368152828879524e-09 + x *
         (1.7309695344511901e-10 + x * -1.1415832478190767e-11)))))))));
 }
 
-/* Of degree 9 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_log_det_series_slope(double x) {
-    return 0.0356782222222221 + x * (-0.005269878915827681 + x * (0.0006652102836242106 + x *
-        (-8.01273247827294e-05 + x * (9.461032810334137e-06 + x * (-1.1057086680963339e-06 + x *
-        (1.2835513129091284e-07 + x * (-1.4694522263103619e-08 + x * (1.5578725810060713e-09 + x *
-        -1.1415832478190767e-10))))))));
+/* Of degree 10 on [0, 1], its relative error below 2^-56. */
+INLINE vector vector_polynomial_t_over_sinh_t_near(vector x) {
+    return 1.0 + x * (-0.07645333333333267 + x * (0.0070141346133057005 + x * (-0.0006894693916646029 + x *
+        (7.028297406461528e-05 + x * (-7.327302641804558e-06 + x * (7.756073566036173e-07 + x *
+        (-8.292331503302048e-08 + x * (8.837138970409671e-09 + x * (-8.75303059047528e-10 + x *
+        5.971582399354532e-11)))))))));
 }
 
 /* Of degree 9 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_t_over_sinh_t_near_slope(double x) {
+INLINE vector vector_polynomial_t_over_sinh_t_near_slope(vector x) {
     return -0.07645333333333267 + x * (0.014028269226611401 + x * (-0.002068408174993809 + x *
         (0.0002811318962584611 + x * (-3.663651320902279e-05 + x * (4.653644139621704e-06 + x *
         (-5.804632052311434e-07 + x * (7.069711176327737e-08 + x * (-7.877727531427753e-09 + x *
         5.971582399354532e-10))))))));
 }
 
-/* Of degree 8 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_t_over_sinh_t_near_slope_slope(double x) {
-    return 0.014028269226611401 + x * (-0.004136816349987618 + x * (0.0008433956887753833 + x *
-        (-0.00014654605283609116 + x * (2.326822069810852e-05 + x * (-3.4827792313868604e-06 + x *
-        (4.948797823429416e-07 + x * (-6.302182025142203e-08 + x * 5.3744241594190786e-09)))))));
+/* Of degree 9 on [0, 1], the derivative of a polynomial. */
+INLINE vector vector_polynomial_log_det_series_slope(vector x) {
+    return 0.0356782222222221 + x * (-0.005269878915827681 + x * (0.0006652102836242106 + x *
+        (-8.01273247827294e-05 + x * (9.461032810334137e-06 + x * (-1.1057086680963339e-06 + x *
+        (1.2835513129091284e-07 + x * (-1.4694522263103619e-08 + x * (1.5578725810060713e-09 + x *
+        -1.1415832478190767e-10))))))));
 }
 
 /* Of degree 8 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_log_det_series_slope_slope(double x) {
+INLINE vector vector_polynomial_log_det_series_slope_slope(vector x) {
     return -0.005269878915827681 + x * (0.001330420567248421 + x * (-0.00024038197434818817 + x *
         (3.784413124133655e-05 + x * (-5.528543340481669e-06 + x * (7.70130787745477e-07 + x *
         (-1.0286165584172534e-07 + x * (1.246298064804857e-08 + x * -1.0274249230371691e-09)))))));
 }
 
+/* Of degree 8 on [0, 1], the derivative of a polynomial. */
+INLINE vector vector_polynomial_t_over_sinh_t_near_slope_slope(vector x) {
+    return 0.014028269226611401 + x * (-0.004136816349987618 + x * (0.0008433956887753833 + x *
+        (-0.00014654605283609116 + x * (2.326822069810852e-05 + x * (-3.4827792313868604e-06 + x *
+        (4.948797823429416e-07 + x * (-6.302182025142203e-08 + x * 5.3744241594190786e-09)))))));
+}
+
+/* What pairs read of points x. */
+OUTLINE void pair_features(
+    const vector *x, vector *X) {
+    const vector x0 = x[0];
+    const vector x1 = x[1];
+    X[0] = x0;
+    X[1] = x1;
+}
+
+/* What pairs read of a splat, of some splats. */
+OUTLINE void pair_constants(
+    const vector *mu, const vector *W, const vector *amplitude, vector *S) {
+    const vector mu0 = mu[0];
+    const vector mu1 = mu[1];
+    const vector W0_0 = W[0];
+    const vector W0_1 = W[1];
+    const vector W1_0 = W[2];
+    const vector W1_1 = W[3];
+    const vector its_amplitude = amplitude[0];
+    S[0] = mu0;
+    S[1] = mu1;
+    S[2] = W0_0;
+    S[3] = W0_1;
+    S[4] = W1_0;
+    S[5] = W1_1;
+    S[6] = its_amplitude;
+}
+
+/* Adds the values phi of a splat at some points. */
+INLINE void pair_value(
+    const vector *X, const double *S, vector *value) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double W0_0 = S[2];
+    const double W0_1 = S[3];
+    const double W1_0 = S[4];
+    const double W1_1 = S[5];
+    const double amplitude = S[6];
+    const vector d0 = x0 - mu0;
+    const vector sqrt_value = 2.0 * vector_sqrt(x1 * mu1);
+    const vector scale = 1.0 / sqrt_value;
+    const vector part0 = d0 * scale;
+    const vector d1 = x1 - mu1;
+    const vector part1 = d1 * scale;
+    const vector h_squared = part0 * part0 + part1 * part1;
+    const vector_mask near = h_squared < 0.11468;
+    const vector near_chosen = vector_select(near, 8.719916288803628 * h_squared, vector_of(0.0));
+    const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
+    const vector log_det_near = h_squared * log_det_series;
+    const vector h = vector_sqrt(vector_select(near, vector_of(1.0), h_squared));
+    const vector asinh_h = vector_asinh(h);
+    const vector t = 2.0 * asinh_h;
+    const vector sqrt_1_plus_h_to_2 = vector_sqrt(1.0 + h_squared);
+    const vector sinh_t = sqrt_1_plus_h_to_2 * (2.0 * h);
+    const vector t_ratio = t / sinh_t;
+    const vector log_det = vector_select(near, log_det_near, vector_log(t_ratio));
+    const vector t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near(near_chosen);
+    const vector t_over_sinh_t = vector_select(near, t_over_sinh_t_near, t_ratio);
+    const vector scale_2 = t_over_sinh_t / x1;
+    const vector v0 = scale_2 * (mu1 * d0);
+    const vector dot_ds_ds = d0 * d0;
+    const vector up = 0.5 * dot_ds_ds + 0.5 * d1 * (x1 + mu1);
+    const vector v1 = up * scale_2;
+    const vector z0 = W0_0 * v0 + W0_1 * v1;
+    const vector z1 = W1_0 * v0 + W1_1 * v1;
+    const vector exp_2 = vector_exp(log_det - 0.5 * (z0 * z0 + z1 * z1));
+    value[0] = value[0] + amplitude * exp_2;
+}
+
+/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+INLINE void pair_forward(
+    const vector *X, const double *S, vector *value, vector *slope) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double W0_0 = S[2];
+    const double W0_1 = S[3];
+    const double W1_0 = S[4];
+    const double W1_1 = S[5];
+    const double amplitude = S[6];
+    const vector d0 = x0 - mu0;
+    const vector product = x1 * mu1;
+    const vector length = vector_sqrt(product);
+    const vector sqrt_value = 2.0 * length;
+    const vector scale = 1.0 / sqrt_value;
+    const vector part0 = d0 * scale;
+    const vector d1 = x1 - mu1;
+    const vector part1 = d1 * scale;
+    const vector h_squared = part0 * part0 + part1 * part1;
+    const vector_mask near = h_squared < 0.11468;
+    const vector near_chosen = vector_select(near, 8.719916288803628 * h_squared, vector_of(0.0));
+    const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
+    const vector log_det_near = h_squared * log_det_series;
+    const vector near_chosen_2 = vector_select(near, vector_of(1.0), h_squared);
+    const vector h = vector_sqrt(near_chosen_2);
+    const vector asinh_h = vector_asinh(h);
+    const vector t = 2.0 * asinh_h;
+    const vector h_squared_total = 1.0 + h_squared;
+    const vector sqrt_1_plus_h_to_2 = vector_sqrt(h_squared_total);
+    const vector h_product = 2.0 * h;
+    const vector sinh_t = sqrt_1_plus_h_to_2 * h_product;
+    const vector t_ratio = t / sinh_t;
+    const vector log_det = vector_select(near, log_det_near, vector_log(t_ratio));
+    const vector t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near(near_chosen);
+    const vector t_over_sinh_t = vector_select(near, t_over_sinh_t_near, t_ratio);
+    const vector scale_2 = t_over_sinh_t / x1;
+    const vector d0_product = mu1 * d0;
+    const vector v0 = scale_2 * d0_product;
+    const vector dot_ds_ds = d0 * d0;
+    const vector d1_product = 0.5 * d1;
+    const vector total_2 = x1 + mu1;
+    const vector up = 0.5 * dot_ds_ds + d1_product * total_2;
+    const vector v1 = up * scale_2;
+    const vector z0 = W0_0 * v0 + W0_1 * v1;
+    const vector z1 = W1_0 * v0 + W1_1 * v1;
+    const vector exp_2 = vector_exp(log_det - 0.5 * (z0 * z0 + z1 * z1));
+    const vector phi = amplitude * exp_2;
+    const vector z1_product = z1 * phi;
+    const vector z0_product = z0 * phi;
+    const vector by_v1 = -(W1_1 * z1_product) - W0_1 * z0_product;
+    const vector by_up = scale_2 * by_v1;
+    const vector by_v0 = -(W1_0 * z1_product) - W0_0 * z0_product;
+    const vector_mask is_small = h_squared_total == 0.0;
+    const vector by_scale_2 = up * by_v1 + d0_product * by_v0;
+    const vector by_t_over_sinh_t = by_scale_2 / x1;
+    const vector by_t = (vector_select(near, vector_of(0.0), by_t_over_sinh_t) + vector_select(near,
+        vector_of(0.0), phi) / t_ratio) / sinh_t;
+    const vector by_t_product = t_ratio * by_t;
+    const vector chosen = vector_select(is_small, vector_of(0.0), -(h_product * by_t_product / (2.0 *
+        vector_select(is_small, vector_of(1.0), sqrt_1_plus_h_to_2))));
+    const vector by_asinh_h = 2.0 * by_t;
+    const vector by_h = by_asinh_h / vector_sqrt(1.0 + near_chosen_2) - 2.0 * (sqrt_1_plus_h_to_2 *
+        by_t_product);
+    const vector by_log_det_near = vector_select(near, phi, vector_of(0.0));
+    const vector by_t_over_sinh_t_near = vector_select(near, by_t_over_sinh_t, vector_of(0.0));
+    const vector t_over_sinh_t_near_slope = vector_polynomial_t_over_sinh_t_near_slope(near_chosen);
+    const vector by_log_det_series = h_squared * by_log_det_near;
+    const vector log_det_series_slope = vector_polynomial_log_det_series_slope(near_chosen);
+    const vector by_h_squared = chosen + vector_select(near, vector_of(0.0), by_h / h_product) +
+        log_det_series * by_log_det_near + 8.719916288803628 * vector_select(near, by_t_over_sinh_t_near *
+        t_over_sinh_t_near_slope + by_log_det_series * log_det_series_slope, vector_of(0.0));
+    const vector product_2 = 2.0 * by_h_squared;
+    const vector by_part0 = part0 * product_2;
+    const vector by_part1 = part1 * product_2;
+    const vector_mask is_small_2 = product == 0.0;
+    const vector by_scale = d1 * by_part1 + d0 * by_part0;
+    const vector minus = -(2.0 * (scale * (by_scale / sqrt_value)) / (2.0 * vector_select(is_small_2,
+        vector_of(1.0), length)));
+    value[0] = value[0] + phi;
+    slope[0] = slope[0] + d0 * by_up + mu1 * (scale_2 * by_v0) + scale * by_part0;
+    slope[1] = slope[1] + d1_product * by_up - scale_2 * by_t_over_sinh_t + 0.5 * (total_2 * by_up) + scale *
+            by_part1 + mu1 * vector_select(is_small_2, vector_of(0.0), minus);
+}
+
+/* The Riemannian gradient at some points, of the sums of slopes. */
+OUTLINE void pair_gradient(
+    const vector *x, const vector *slope, vector *gradient) {
+    const vector x1 = x[1];
+    const vector slope_x0 = slope[0];
+    const vector slope_x1 = slope[1];
+    const vector squared = x1 * x1;
+    gradient[0] = slope_x0 * squared;
+    gradient[1] = slope_x1 * squared;
+}
+
+/* The adjoint of slope at some points, of that of the gradient. */
+OUTLINE void pair_gradient_vjp(
+    const vector *x, const vector *gradient_bar, vector *slope_bar) {
+    const vector x1 = x[1];
+    const vector gradient_bar0 = gradient_bar[0];
+    const vector gradient_bar1 = gradient_bar[1];
+    const vector squared = x1 * x1;
+    slope_bar[0] = squared * gradient_bar0;
+    slope_bar[1] = squared * gradient_bar1;
+}
+
+/* The adjoints of some splats' parameters, of that of S. */
+OUTLINE void pair_constants_vjp(
+    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
+    (void)mu;
+    (void)W;
+    (void)amplitude;
+    const vector mu0_bar = S_bar[0];
+    const vector mu1_bar = S_bar[1];
+    const vector W0_0_bar = S_bar[2];
+    const vector W0_1_bar = S_bar[3];
+    const vector W1_0_bar = S_bar[4];
+    const vector W1_1_bar = S_bar[5];
+    const vector its_amplitude_bar = S_bar[6];
+    mu_bar[0] = mu0_bar;
+    mu_bar[1] = mu1_bar;
+    W_bar[0] = W0_0_bar;
+    W_bar[1] = W0_1_bar;
+    W_bar[2] = W1_0_bar;
+    W_bar[3] = W1_1_bar;
+    amplitude_bar[0] = its_amplitude_bar;
+}
+
+/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+OUTLINE void pair_backward(
+    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double W0_0 = S[2];
+    const double W0_1 = S[3];
+    const double W1_0 = S[4];
+    const double W1_1 = S[5];
+    const double amplitude = S[6];
+    const vector its_value_bar = value_bar[0];
+    const vector x0_bar = slope_bar[0];
+    const vector x1_bar = slope_bar[1];
+    const vector d0 = x0 - mu0;
+    const vector product = x1 * mu1;
+    const vector length = vector_sqrt(product);
+    const vector sqrt_value = 2.0 * length;
+    const vector scale = 1.0 / sqrt_value;
+    const vector part0 = d0 * scale;
+    const vector d1 = x1 - mu1;
+    const vector part1 = d1 * scale;
+    const vector h_squared = part0 * part0 + part1 * part1;
+    const vector_mask near = h_squared < 0.11468;
+    const vector near_chosen = vector_select(near, 8.719916288803628 * h_squared, vector_of(0.0));
+    const vector t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near(near_chosen);
+    const vector near_chosen_2 = vector_select(near, vector_of(1.0), h_squared);
+    const vector h = vector_sqrt(near_chosen_2);
+    const vector asinh_h = vector_asinh(h);
+    const vector t = 2.0 * asinh_h;
+    const vector h_squared_total = 1.0 + h_squared;
+    const vector sqrt_1_plus_h_to_2 = vector_sqrt(h_squared_total);
+    const vector h_product = 2.0 * h;
+    const vector sinh_t = sqrt_1_plus_h_to_2 * h_product;
+    const vector t_ratio = t / sinh_t;
+    const vector t_over_sinh_t = vector_select(near, t_over_sinh_t_near, t_ratio);
+    const vector scale_2 = t_over_sinh_t / x1;
+    const vector d0_product = mu1 * d0;
+    const vector v0 = scale_2 * d0_product;
+    const vector dot_ds_ds = d0 * d0;
+    const vector d1_product = 0.5 * d1;
+    const vector total_2 = x1 + mu1;
+    const vector up = 0.5 * dot_ds_ds + d1_product * total_2;
+    const vector v1 = up * scale_2;
+    const vector z1 = W1_0 * v0 + W1_1 * v1;
+    const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
+    const vector log_det_near = h_squared * log_det_series;
+    const vector log_det = vector_select(near, log_det_near, vector_log(t_ratio));
+    const vector z0 = W0_0 * v0 + W0_1 * v1;
+    const vector exp_2 = vector_exp(log_det - 0.5 * (z0 * z0 + z1 * z1));
+    const vector phi = amplitude * exp_2;
+    const vector z1_product = z1 * phi;
+    const vector z0_product = z0 * phi;
+    const vector by_v1 = -(W1_1 * z1_product) - W0_1 * z0_product;
+    const vector by_up = scale_2 * by_v1;
+    const vector_mask is_small = h_squared_total == 0.0;
+    const vector by_v0 = -(W1_0 * z1_product) - W0_0 * z0_product;
+    const vector by_scale_2 = up * by_v1 + d0_product * by_v0;
+    const vector by_t_over_sinh_t = by_scale_2 / x1;
+    const vector ratio = vector_select(near, vector_of(0.0), phi) / t_ratio;
+    const vector by_t = (vector_select(near, vector_of(0.0), by_t_over_sinh_t) + ratio) / sinh_t;
+    const vector by_t_product = t_ratio * by_t;
+    const vector product_2 = 2.0 * vector_select(is_small, vector_of(1.0), sqrt_1_plus_h_to_2);
+    const vector ratio_2 = h_product * by_t_product / product_2;
+    const vector by_asinh_h = 2.0 * by_t;
+    const vector sqrt_2 = vector_sqrt(1.0 + near_chosen_2);
+    const vector by_asinh_h_ratio = by_asinh_h / sqrt_2;
+    const vector by_h = by_asinh_h_ratio - 2.0 * (sqrt_1_plus_h_to_2 * by_t_product);
+    const vector by_h_ratio = by_h / h_product;
+    const vector by_log_det_near = vector_select(near, phi, vector_of(0.0));
+    const vector by_t_over_sinh_t_near = vector_select(near, by_t_over_sinh_t, vector_of(0.0));
+    const vector t_over_sinh_t_near_slope = vector_polynomial_t_over_sinh_t_near_slope(near_chosen);
+    const vector by_log_det_series = h_squared * by_log_det_near;
+    const vector log_det_series_slope = vector_polynomial_log_det_series_slope(near_chosen);
+    const vector by_h_squared = vector_select(is_small, vector_of(0.0), -ratio_2) + vector_select(near,
+        vector_of(0.0), by_h_ratio) + log_det_series * by_log_det_near + 8.719916288803628 *
+        vector_select(near, by_t_over_sinh_t_near * t_over_sinh_t_near_slope + by_log_det_series *
+        log_det_series_slope, vector_of(0.0));
+    const vector product_3 = 2.0 * by_h_squared;
+    const vector by_part0 = part0 * product_3;
+    const vector_mask is_small_2 = product == 0.0;
+    const vector product_4 = 2.0 * vector_select(is_small_2, vector_of(1.0), length);
+    const vector ratio_3 = vector_select(is_small_2, vector_of(0.0), mu1 * x1_bar) / product_4;
+    const vector product_5 = 2.0 * ratio_3;
+    const vector sqrt_value_ratio = scale * product_5 / sqrt_value;
+    const vector by_by_part0 = scale * x0_bar - d0 * sqrt_value_ratio;
+    const vector by_by_part1 = scale * x1_bar - d1 * sqrt_value_ratio;
+    const vector total_3 = part0 * by_by_part0 + part1 * by_by_part1;
+    const vector by_by_h_squared = 2.0 * total_3;
+    const vector by_by_h = vector_select(near, vector_of(0.0), by_by_h_squared) / h_product;
+    const vector by_by_asinh_h = by_by_h / sqrt_2;
+    const vector by_by_h_product = 2.0 * by_by_h;
+    const vector ratio_4 = vector_select(is_small, vector_of(0.0), by_by_h_squared) / product_2;
+    const vector gap = -(sqrt_1_plus_h_to_2 * by_by_h_product) - h_product * ratio_4;
+    const vector by_by_t = 2.0 * by_by_asinh_h + t_ratio * gap;
+    const vector by_by_t_ratio = by_by_t / sinh_t;
+    const vector near_chosen_3 = vector_select(near, 17.439832577607255 * total_3, vector_of(0.0));
+    const vector by_by_t_over_sinh_t_near = t_over_sinh_t_near_slope * near_chosen_3;
+    const vector by_by_t_over_sinh_t = vector_select(near, vector_of(0.0), by_by_t_ratio) +
+        vector_select(near, by_by_t_over_sinh_t_near, vector_of(0.0)) - scale_2 * x1_bar;
+    const vector by_by_scale_2 = by_by_t_over_sinh_t / x1;
+    const vector product_6 = mu1 * x0_bar;
+    const vector by_by_v0 = scale_2 * product_6 + d0_product * by_by_scale_2;
+    const vector product_7 = 0.5 * x1_bar;
+    const vector by_by_up = d0 * x0_bar + d1_product * x1_bar + total_2 * product_7;
+    const vector by_by_v1 = up * by_by_scale_2 + scale_2 * by_by_up;
+    const vector gap_2 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1;
+    const vector ratio_5 = by_by_t_ratio / t_ratio;
+    const vector by_by_log_det_series = log_det_series_slope * near_chosen_3;
+    const vector by_by_log_det_near = h_squared * by_by_log_det_series + log_det_series * by_by_h_squared;
+    const vector gap_3 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1;
+    const vector by_phi = its_value_bar + vector_select(near, vector_of(0.0), ratio_5) + vector_select(near,
+        by_by_log_det_near, vector_of(0.0)) + z0 * gap_3 + z1 * gap_2;
+    const vector by_log_det = exp_2 * (amplitude * by_phi);
+    const vector by_z1 = phi * gap_2 - z1 * by_log_det;
+    const vector by_z0 = phi * gap_3 - z0 * by_log_det;
+    const vector by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0;
+    const vector by_up_2 = by_v1 * by_by_scale_2 + scale_2 * by_v1_2;
+    const vector by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0;
+    const vector total_4 = by_v0 * by_by_scale_2 + scale_2 * by_v0_2;
+    const vector by_scale_2_2 = by_v0 * product_6 - by_t_over_sinh_t * x1_bar + by_v1 * by_by_up + up *
+        by_v1_2 + d0_product * by_v0_2;
+    const vector by_t_over_sinh_t_2 = by_scale_2_2 / x1;
+    const vector by_t_2 = (by_t * gap - ratio * ratio_5 + vector_select(near, vector_of(0.0),
+        by_t_over_sinh_t_2) + vector_select(near, vector_of(0.0), by_log_det) / t_ratio) / sinh_t;
+    const vector by_sinh_t = -(by_t * by_by_t_ratio) - t_ratio * by_t_2;
+    const vector by_sqrt_1_plus_h_to_2 = vector_select(is_small, vector_of(0.0), 2.0 * (ratio_2 * ratio_4)) -
+        by_t_product * by_by_h_product + h_product * by_sinh_t;
+    const vector product_8 = 2.0 * (-(by_h_ratio * by_by_h) - by_t_product * ratio_4 + sqrt_1_plus_h_to_2 *
+        by_sinh_t);
+    const vector by_asinh_h_2 = 2.0 * by_t_2;
+    const vector by_h_2 = product_8 + by_asinh_h_2 / sqrt_2;
+    const vector total_5 = by_log_det_near * by_by_log_det_series + vector_select(is_small, vector_of(0.0),
+        by_sqrt_1_plus_h_to_2 / product_2) + vector_select(near, vector_of(0.0), by_h_2 / h_product -
+        by_asinh_h_ratio * by_by_asinh_h / (2.0 * sqrt_2));
+    const vector by_log_det_near_2 = vector_select(near, by_log_det, vector_of(0.0));
+    const vector by_log_det_series_slope = by_log_det_series * near_chosen_3;
+    const vector log_det_series_slope_slope = vector_polynomial_log_det_series_slope_slope(near_chosen);
+    const vector by_t_over_sinh_t_near_slope = by_t_over_sinh_t_near * near_chosen_3;
+    const vector t_over_sinh_t_near_slope_slope =
+        vector_polynomial_t_over_sinh_t_near_slope_slope(near_chosen);
+    const vector by_t_over_sinh_t_near_2 = vector_select(near, by_t_over_sinh_t_2, vector_of(0.0));
+    const vector by_log_det_series_2 = by_log_det_near * by_by_h_squared + h_squared * by_log_det_near_2;
+    const vector near_chosen_4 = vector_select(near, by_log_det_series_slope * log_det_series_slope_slope +
+        by_t_over_sinh_t_near_slope * t_over_sinh_t_near_slope_slope + t_over_sinh_t_near_slope *
+        by_t_over_sinh_t_near_2 + log_det_series_slope * by_log_det_series_2, vector_of(0.0));
+    const vector by_h_squared_2 = total_5 + log_det_series * by_log_det_near_2 + 8.719916288803628 *
+        near_chosen_4;
+    const vector product_9 = 2.0 * by_h_squared_2;
+    const vector by_part0_2 = product_3 * by_by_part0 + part0 * product_9;
+    const vector by_part1 = part1 * product_3;
+    const vector by_scale = d1 * by_part1 + d0 * by_part0;
+    const vector by_scale_ratio = by_scale / sqrt_value;
+    const vector ratio_6 = 2.0 * (scale * by_scale_ratio) / product_4;
+    const vector by_part1_2 = product_3 * by_by_part1 + part1 * product_9;
+    const vector by_scale_3 = by_part0 * x0_bar - by_scale_ratio * product_5 + by_part1 * x1_bar + d1 *
+        by_part1_2 + d0 * by_part0_2;
+    const vector by_sqrt_value = by_scale_ratio * sqrt_value_ratio - scale * (by_scale_3 / sqrt_value);
+    const vector ratio_7 = (vector_select(is_small_2, vector_of(0.0), 2.0 * (ratio_6 * ratio_3)) + 2.0 *
+        by_sqrt_value) / product_4;
+    S_bar[0] = S_bar[0] - by_up * x0_bar + by_part0 * sqrt_value_ratio - d0 * by_up_2 - mu1 * total_4 - scale
+            * by_part0_2;
+    S_bar[1] = S_bar[1] + vector_select(is_small_2, vector_of(0.0), -ratio_6) * x1_bar + (scale_2 * by_v0) *
+            x0_bar + by_up * product_7 + d1_product * by_up_2 + d0 * total_4 - 0.5 * (by_up * x1_bar + total_2 *
+            by_up_2) + by_part1 * sqrt_value_ratio - scale * by_part1_2 + x1 * vector_select(is_small_2,
+            vector_of(0.0), ratio_7);
+    S_bar[2] = S_bar[2] + v0 * by_z0 - z0_product * by_by_v0;
+    S_bar[3] = S_bar[3] + v1 * by_z0 - z0_product * by_by_v1;
+    S_bar[4] = S_bar[4] + v0 * by_z1 - z1_product * by_by_v0;
+    S_bar[5] = S_bar[5] + v1 * by_z1 - z1_product * by_by_v1;
+    S_bar[6] = S_bar[6] + exp_2 * by_phi;
+}
+
+/* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
+OUTLINE void vector_rows(const double *rows, size_t count, size_t start, size_t size, vector *columns) {
+    for (size_t i = 0; i < size; ++i) {
+        double column[LANES];
+        for (size_t lane = 0; lane < LANES; ++lane)
+            column[lane] = rows[size * (start + lane < count ? start + lane : count - 1) + i];
+        columns[i] = vector_load(column);
+    }
+}
+
+/* Back to rows that are `stride` apart; nothing past the end. */
+OUTLINE void vector_to_rows(
+    const vector *columns, double *rows, size_t count, size_t start, size_t size, size_t stride) {
+    const size_t lanes = start >= count ? 0 : count - start < LANES ? count - start : LANES;
+    for (size_t lane = 0; lane < lanes; ++lane)
+        for (size_t i = 0; i < size; ++i) rows[stride * (start + lane) + i] = LANE(columns[i], lane);
+}
+
+/* Zero in the lanes past the end. */
+OUTLINE void vector_end(size_t count, size_t start, size_t size, vector *columns) {
+    for (size_t lane = start >= count ? 0 : count - start; lane < LANES; ++lane)
+        for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
+}
+
+/* Scratch memory: 5 vectors for each block of points, then the constants of the splats. */
+size_t half_space_splats_work(size_t count, size_t splat_count, int threads) {
+    (void)threads;
+    return ((count + LANES - 1) / LANES * 5 + 1) * LANES + 7 * splat_count;
+}
+
+static vector *work_points(double *work) {
+    const uintptr_t size = sizeof(vector), start = (uintptr_t)work;
+    return (vector *)((char *)work + ((0 - start) & (size - 1)));
+}
+
+static double *work_constants(double *work, size_t count) {
+    return (double *)(work_points(work) + (count + LANES - 1) / LANES * 5);
+}
+
+/* The constants of LANES splats, as rows. */
+OUTLINE void splat_constants(
+    size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, double *constants) {
+    vector own_mu[2], own_W[4], own_amplitude[1], S[7];
+    vector_rows(mu, splat_count, start, 2, own_mu);
+    vector_rows(W, splat_count, start, 4, own_W);
+    vector_rows(amplitude, splat_count, start, 1, own_amplitude);
+    pair_constants(own_mu, own_W, own_amplitude, S);
+    vector_to_rows(S, constants, splat_count, start, 7, 7);
+}
+
+/* 2 vectors of points at a time stay in registers while all splats pass. */
 void half_space_splats(
-    size_t count,
-    size_t splat_count,
-    const double *HALF_SPACE_RESTRICT x,
-    const double *HALF_SPACE_RESTRICT mu,
-    const double *HALF_SPACE_RESTRICT W,
-    const double *HALF_SPACE_RESTRICT amplitude,
-    double *HALF_SPACE_RESTRICT value,
-    double *HALF_SPACE_RESTRICT gradient) {
-    const unsigned mode = flush_denormals();
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        double x_block[2][LANES], sum[3][LANES] = {{0}};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            for (size_t i = 0; i < 2; ++i) x_block[i][lane] = x[2 * n + i];
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            const double mu0 = mu[2 * k + 0];
-            const double mu1 = mu[2 * k + 1];
-            const double W0_0 = W[4 * k + 0];
-            const double W0_1 = W[4 * k + 1];
-            const double W1_0 = W[4 * k + 2];
-            const double W1_1 = W[4 * k + 3];
-            const double amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const double d0 = x_block[0][lane] - mu0;
-                const double d1 = x_block[1][lane] - mu1;
-                const double product = x_block[1][lane] * mu1;
-                const double length = sqrt(product);
-                const double sqrt_value = 2.0 * length;
-                const double scale = 1.0 / sqrt_value;
-                const double part0 = d0 * scale;
-                const double part1 = d1 * scale;
-                const double h_squared = part0 * part0 + part1 * part1;
-                const double h_squared_total = 1.0 + h_squared;
-                const double sqrt_1_plus_h_to_2 = sqrt(h_squared_total);
-                const int near = h_squared < 0.11468;
-                const double near_chosen = (near ? 8.719916288803628 * h_squared : 0.0);
-                const double t_over_sinh_t_near = polynomial_t_over_sinh_t_near(near_chosen);
-                const double near_chosen_2 = (near ? 1.0 : h_squared);
-                const double h = sqrt(near_chosen_2);
-                const double asinh_h = asinh(h);
-                const double t = 2.0 * asinh_h;
-                const double h_product = 2.0 * h;
-                const double sinh_t = sqrt_1_plus_h_to_2 * h_product;
-                const double t_ratio = t / sinh_t;
-                const double t_over_sinh_t = (near ? t_over_sinh_t_near : t_ratio);
-                const double dot_ds_ds = d0 * d0;
-                const double d1_product = 0.5 * d1;
-                const double total_2 = x_block[1][lane] + mu1;
-                const double up = 0.5 * dot_ds_ds + d1_product * total_2;
-                const double scale_2 = t_over_sinh_t / x_block[1][lane];
-                const double d0_product = mu1 * d0;
-                const double v0 = scale_2 * d0_product;
-                const double v1 = up * scale_2;
-                const double log_det_series = polynomial_log_det_series(near_chosen);
-                const double log_det_near = h_squared * log_det_series;
-                const double log_det = (near ? log_det_near : log(t_ratio));
-                const double z0 = W0_0 * v0 + W0_1 * v1;
-                const double z1 = W1_0 * v0 + W1_1 * v1;
-                const double exp_2 = exp(log_det - 0.5 * (z0 * z0 + z1 * z1));
-                const double phi = amplitude_k * exp_2;
-                const double by_v1 = -(W1_1 * z1) - W0_1 * z0;
-                const double by_v0 = -(W1_0 * z1) - W0_0 * z0;
-                const double by_log_det_near = (near ? 1.0 : 0.0);
-                const double by_log_det_series = h_squared * by_log_det_near;
-                const double log_det_series_slope = polynomial_log_det_series_slope(near_chosen);
-                const double by_up = scale_2 * by_v1;
-                const double by_scale_2 = up * by_v1 + d0_product * by_v0;
-                const double by_t_over_sinh_t = by_scale_2 / x_block[1][lane];
-                const double by_t_over_sinh_t_near = (near ? by_t_over_sinh_t : 0.0);
-                const double by_t = ((near ? 0.0 : 1.0) / t_ratio + (near ? 0.0 : by_t_over_sinh_t)) / sinh_t;
-                const double by_t_product = t_ratio * by_t;
-                const double by_asinh_h = 2.0 * by_t;
-                const double by_h = by_asinh_h / sqrt(1.0 + near_chosen_2) - 2.0 * (sqrt_1_plus_h_to_2 * by_t_product);
-                const double t_over_sinh_t_near_slope = polynomial_t_over_sinh_t_near_slope(near_chosen);
-                const double total_3 = log_det_series * by_log_det_near + (near ? 0.0 : by_h / h_product) +
-                    8.719916288803628 * (near ? by_log_det_series * log_det_series_slope + by_t_over_sinh_t_near *
-                    t_over_sinh_t_near_slope : 0.0);
-                const int is_small = h_squared_total == 0.0;
-                const double chosen = (is_small ? 0.0 : -(h_product * by_t_product / (2.0 * (is_small ? 1.0 :
-                    sqrt_1_plus_h_to_2))));
-                const double by_h_squared = total_3 + chosen;
-                const double product_2 = 2.0 * by_h_squared;
-                const double by_part1 = part1 * product_2;
-                const double by_part0 = part0 * product_2;
-                const double by_d1 = 0.5 * (total_2 * by_up) + scale * by_part1;
-                const double by_d0 = mu1 * (scale_2 * by_v0) + d0 * by_up + scale * by_part0;
-                const double by_scale = d1 * by_part1 + d0 * by_part0;
-                const int is_small_2 = product == 0.0;
-                const double minus = -(2.0 * (scale * (by_scale / sqrt_value)) / (2.0 * (is_small_2 ? 1.0 : length)));
-                const double exponent_by_x1 = by_d1 + (d1_product * by_up - scale_2 * by_t_over_sinh_t + mu1 * (is_small_2
-                    ? 0.0 : minus));
-                const double df0 = phi * by_d0;
-                const double df1 = phi * exponent_by_x1;
-                const double squared = x_block[1][lane] * x_block[1][lane];
-                const double gradient0 = df0 * squared;
-                const double gradient1 = df1 * squared;
-                sum[0][lane] += phi;
-                sum[1][lane] += gradient0;
-                sum[2][lane] += gradient1;
+    size_t count, size_t splat_count, const double *HALF_SPACE_RESTRICT x, const double *HALF_SPACE_RESTRICT mu, const double *HALF_SPACE_RESTRICT W, const double *HALF_SPACE_RESTRICT amplitude,
+    double *HALF_SPACE_RESTRICT value, double *HALF_SPACE_RESTRICT gradient, double *HALF_SPACE_RESTRICT work, int threads) {
+    (void)threads;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES) {
+            vector at[2][2], X[2][2], grad[2];
+            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][2] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows(x, count, start + b * LANES, 2, at[b]);
+                pair_features(at[b], X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_forward(X[0], constants + 7 * k, value_sum[0], slope_sum[0]);
+                pair_forward(X[1], constants + 7 * k, value_sum[1], slope_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b) {
+                pair_gradient(at[b], slope_sum[b], grad);
+                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                vector_to_rows(grad, gradient, count, start + b * LANES, 2, 2);
             }
         }
-        for (size_t lane = 0; lane < lanes; ++lane) {
-            value[start + lane] = sum[0][lane];
-            for (size_t i = 0; i < 2; ++i) gradient[2 * (start + lane) + i] = sum[i + 1][lane];
-        }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
+void half_space_splats_value(
+    size_t count, size_t splat_count, const double *HALF_SPACE_RESTRICT x, const double *HALF_SPACE_RESTRICT mu, const double *HALF_SPACE_RESTRICT W, const double *HALF_SPACE_RESTRICT amplitude,
+    double *HALF_SPACE_RESTRICT value, double *HALF_SPACE_RESTRICT work, int threads) {
+    (void)threads;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES) {
+            vector at[2], X[2][2], value_sum[2][1] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows(x, count, start + b * LANES, 2, at);
+                pair_features(at, X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_value(X[0], constants + 7 * k, value_sum[0]);
+                pair_value(X[1], constants + 7 * k, value_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b)
+                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
+OUTLINE void splat_points(
+    size_t count, size_t start, const double *x, const double *value_bar, const double *gradient_bar, vector *point) {
+    vector at[2], grad_bar[2], slope_bar[2];
+    vector_rows(x, count, start, 2, at);
+    vector_rows(gradient_bar, count, start, 2, grad_bar);
+    vector_rows(value_bar, count, start, 1, point + 2);
+    pair_features(at, point);
+    pair_gradient_vjp(at, grad_bar, slope_bar);
+    for (int i = 0; i < 2; ++i) point[2 + 1 + i] = slope_bar[i];
+    vector_end(count, start, 2 + 1, point + 2);
+}
+
+/* Adds to S_bar what some vectors of points add to it. */
+OUTLINE void splat_sums(const vector *point, size_t size, const double *S, double *S_bar) {
+    vector sum[7] = {ZERO};
+    for (size_t b = 0; b < size; ++b, point += 5) pair_backward(point, S, point + 2, point + 2 + 1, sum);
+    S_bar[0] += vector_sum(sum[0]);
+    S_bar[1] += vector_sum(sum[1]);
+    S_bar[2] += vector_sum(sum[2]);
+    S_bar[3] += vector_sum(sum[3]);
+    S_bar[4] += vector_sum(sum[4]);
+    S_bar[5] += vector_sum(sum[5]);
+    S_bar[6] += vector_sum(sum[6]);
+}
+
+/*
+ * Some splats at a time; the points pass over each of them, a chunk at a time, while its sums stay in registers. How many
+ * splats depends on the threads, what is summed in which order does not.
+ */
 void half_space_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *HALF_SPACE_RESTRICT x,
-    const double *HALF_SPACE_RESTRICT mu,
-    const double *HALF_SPACE_RESTRICT W,
-    const double *HALF_SPACE_RESTRICT amplitude,
-    const double *HALF_SPACE_RESTRICT value_bar,
-    const double *HALF_SPACE_RESTRICT gradient_bar,
-    double *HALF_SPACE_RESTRICT mu_bar,
-    double *HALF_SPACE_RESTRICT W_bar,
-    double *HALF_SPACE_RESTRICT amplitude_bar) {
-    const unsigned mode = flush_denormals();
-    for (size_t i = 0; i < 2 * splat_count; ++i) mu_bar[i] = 0;
-    for (size_t i = 0; i < 4 * splat_count; ++i) W_bar[i] = 0;
-    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        double x_block[2][LANES], value_bar_block[1][LANES], gradient_bar_block[2][LANES];
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            const double weight = lane < lanes ? 1 : 0;
-            for (size_t i = 0; i < 2; ++i) x_block[i][lane] = x[2 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
-            for (size_t i = 0; i < 2; ++i) gradient_bar_block[i][lane] = gradient_bar[2 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
-            for (size_t i = 0; i < 2; ++i) gradient_bar_block[i][lane] *= weight;
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            double sum[7][LANES] = {{0}}, total[7] = {0};
-            const double mu0 = mu[2 * k + 0];
-            const double mu1 = mu[2 * k + 1];
-            const double W0_0 = W[4 * k + 0];
-            const double W0_1 = W[4 * k + 1];
-            const double W1_0 = W[4 * k + 2];
-            const double W1_1 = W[4 * k + 3];
-            const double amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const double d0 = x_block[0][lane] - mu0;
-                const double d1 = x_block[1][lane] - mu1;
-                const double product = x_block[1][lane] * mu1;
-                const double length = sqrt(product);
-                const double sqrt_value = 2.0 * length;
-                const double scale = 1.0 / sqrt_value;
-                const double part0 = d0 * scale;
-                const double part1 = d1 * scale;
-                const double h_squared = part0 * part0 + part1 * part1;
-                const double h_squared_total = 1.0 + h_squared;
-                const double sqrt_1_plus_h_to_2 = sqrt(h_squared_total);
-                const int near = h_squared < 0.11468;
-                const double near_chosen = (near ? 8.719916288803628 * h_squared : 0.0);
-                const double t_over_sinh_t_near = polynomial_t_over_sinh_t_near(near_chosen);
-                const double near_chosen_2 = (near ? 1.0 : h_squared);
-                const double h = sqrt(near_chosen_2);
-                const double asinh_h = asinh(h);
-                const double t = 2.0 * asinh_h;
-                const double h_product = 2.0 * h;
-                const double sinh_t = sqrt_1_plus_h_to_2 * h_product;
-                const double t_ratio = t / sinh_t;
-                const double t_over_sinh_t = (near ? t_over_sinh_t_near : t_ratio);
-                const double dot_ds_ds = d0 * d0;
-                const double d1_product = 0.5 * d1;
-                const double total_2 = x_block[1][lane] + mu1;
-                const double up = 0.5 * dot_ds_ds + d1_product * total_2;
-                const double scale_2 = t_over_sinh_t / x_block[1][lane];
-                const double d0_product = mu1 * d0;
-                const double v0 = scale_2 * d0_product;
-                const double v1 = up * scale_2;
-                const double log_det_series = polynomial_log_det_series(near_chosen);
-                const double log_det_near = h_squared * log_det_series;
-                const double log_det = (near ? log_det_near : log(t_ratio));
-                const double z0 = W0_0 * v0 + W0_1 * v1;
-                const double z1 = W1_0 * v0 + W1_1 * v1;
-                const double exp_2 = exp(log_det - 0.5 * (z0 * z0 + z1 * z1));
-                const double phi = amplitude_k * exp_2;
-                const double by_v1 = -(W1_1 * z1) - W0_1 * z0;
-                const double by_v0 = -(W1_0 * z1) - W0_0 * z0;
-                const double by_log_det_near = (near ? 1.0 : 0.0);
-                const double ratio = (near ? 0.0 : 1.0) / t_ratio;
-                const double by_log_det_series = h_squared * by_log_det_near;
-                const double log_det_series_slope = polynomial_log_det_series_slope(near_chosen);
-                const double by_up = scale_2 * by_v1;
-                const double scale_2_product = scale_2 * by_v0;
-                const double by_scale_2 = up * by_v1 + d0_product * by_v0;
-                const double by_t_over_sinh_t = by_scale_2 / x_block[1][lane];
-                const double by_t_over_sinh_t_near = (near ? by_t_over_sinh_t : 0.0);
-                const double by_t = (ratio + (near ? 0.0 : by_t_over_sinh_t)) / sinh_t;
-                const double by_t_product = t_ratio * by_t;
-                const double by_asinh_h = 2.0 * by_t;
-                const double sqrt_2 = sqrt(1.0 + near_chosen_2);
-                const double by_asinh_h_ratio = by_asinh_h / sqrt_2;
-                const double by_h = by_asinh_h_ratio - 2.0 * (sqrt_1_plus_h_to_2 * by_t_product);
-                const double by_h_ratio = by_h / h_product;
-                const double t_over_sinh_t_near_slope = polynomial_t_over_sinh_t_near_slope(near_chosen);
-                const double total_3 = log_det_series * by_log_det_near + (near ? 0.0 : by_h_ratio) + 8.719916288803628 *
-                    (near ? by_log_det_series * log_det_series_slope + by_t_over_sinh_t_near * t_over_sinh_t_near_slope :
-                    0.0);
-                const int is_small = h_squared_total == 0.0;
-                const double product_2 = 2.0 * (is_small ? 1.0 : sqrt_1_plus_h_to_2);
-                const double ratio_2 = h_product * by_t_product / product_2;
-                const double by_h_squared = total_3 + (is_small ? 0.0 : -ratio_2);
-                const double product_3 = 2.0 * by_h_squared;
-                const double by_part1 = part1 * product_3;
-                const double by_part0 = part0 * product_3;
-                const double by_d1 = 0.5 * (total_2 * by_up) + scale * by_part1;
-                const double by_d0 = mu1 * scale_2_product + d0 * by_up + scale * by_part0;
-                const double by_scale = d1 * by_part1 + d0 * by_part0;
-                const double by_scale_ratio = by_scale / sqrt_value;
-                const int is_small_2 = product == 0.0;
-                const double product_4 = 2.0 * (is_small_2 ? 1.0 : length);
-                const double ratio_3 = 2.0 * (scale * by_scale_ratio) / product_4;
-                const double chosen = (is_small_2 ? 0.0 : -ratio_3);
-                const double exponent_by_x1 = by_d1 + (d1_product * by_up - scale_2 * by_t_over_sinh_t + mu1 * chosen);
-                const double squared = x_block[1][lane] * x_block[1][lane];
-                const double by_df1 = squared * gradient_bar_block[1][lane];
-                const double by_df0 = squared * gradient_bar_block[0][lane];
-                const double by_exponent_by_x1 = phi * by_df1;
-                const double by_by_d0 = phi * by_df0;
-                const double by_phi = value_bar_block[0][lane] + exponent_by_x1 * by_df1 + by_d0 * by_df0;
-                const double ratio_4 = (is_small_2 ? 0.0 : mu1 * by_exponent_by_x1) / product_4;
-                const double product_5 = 2.0 * ratio_4;
-                const double sqrt_value_ratio = scale * product_5 / sqrt_value;
-                const double by_by_part0 = scale * by_by_d0 - d0 * sqrt_value_ratio;
-                const double by_by_part1 = scale * by_exponent_by_x1 - d1 * sqrt_value_ratio;
-                const double total_4 = part0 * by_by_part0 + part1 * by_by_part1;
-                const double by_by_h_squared = 2.0 * total_4;
-                const double ratio_5 = (is_small ? 0.0 : by_by_h_squared) / product_2;
-                const double near_chosen_3 = (near ? 17.439832577607255 * total_4 : 0.0);
-                const double by_by_t_over_sinh_t_near = t_over_sinh_t_near_slope * near_chosen_3;
-                const double by_t_over_sinh_t_near_slope = by_t_over_sinh_t_near * near_chosen_3;
-                const double t_over_sinh_t_near_slope_slope = polynomial_t_over_sinh_t_near_slope_slope(near_chosen);
-                const double by_by_h = (near ? 0.0 : by_by_h_squared) / h_product;
-                const double by_by_asinh_h = by_by_h / sqrt_2;
-                const double by_by_h_product = 2.0 * by_by_h;
-                const double gap = -(sqrt_1_plus_h_to_2 * by_by_h_product) - h_product * ratio_5;
-                const double by_by_t = 2.0 * by_by_asinh_h + t_ratio * gap;
-                const double by_by_t_ratio = by_by_t / sinh_t;
-                const double product_6 = 0.5 * by_exponent_by_x1;
-                const double by_by_up = d0 * by_by_d0 + d1_product * by_exponent_by_x1 + total_2 * product_6;
-                const double by_by_t_over_sinh_t = (near ? 0.0 : by_by_t_ratio) + (near ? by_by_t_over_sinh_t_near : 0.0)
-                    - scale_2 * by_exponent_by_x1;
-                const double by_by_scale_2 = by_by_t_over_sinh_t / x_block[1][lane];
-                const double by_by_d0_product = mu1 * by_by_d0;
-                const double by_by_v0 = scale_2 * by_by_d0_product + d0_product * by_by_scale_2;
-                const double by_by_v1 = up * by_by_scale_2 + scale_2 * by_by_up;
-                const double by_by_log_det_series = log_det_series_slope * near_chosen_3;
-                const double by_log_det_series_slope = by_log_det_series * near_chosen_3;
-                const double log_det_series_slope_slope = polynomial_log_det_series_slope_slope(near_chosen);
-                const double by_log_det = exp_2 * (amplitude_k * by_phi);
-                const double by_z1 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - z1 * by_log_det;
-                const double by_z0 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - z0 * by_log_det;
-                const double by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0;
-                const double by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0;
-                const double by_log_det_near_2 = (near ? by_log_det : 0.0);
-                const double by_log_det_series_2 = by_log_det_near * by_by_h_squared + h_squared * by_log_det_near_2;
-                const double by_up_2 = by_v1 * by_by_scale_2 + scale_2 * by_v1_2;
-                const double by_scale_2_2 = by_v0 * by_by_d0_product - by_t_over_sinh_t * by_exponent_by_x1 + by_v1 *
-                    by_by_up + up * by_v1_2 + d0_product * by_v0_2;
-                const double total_5 = by_v0 * by_by_scale_2 + scale_2 * by_v0_2;
-                const double by_t_over_sinh_t_2 = by_scale_2_2 / x_block[1][lane];
-                const double by_t_over_sinh_t_near_2 = (near ? by_t_over_sinh_t_2 : 0.0);
-                const double total_6 = by_t * gap - ratio * (by_by_t_ratio / t_ratio) + (near ? 0.0 : by_log_det) /
-                    t_ratio + (near ? 0.0 : by_t_over_sinh_t_2);
-                const double by_t_2 = total_6 / sinh_t;
-                const double by_sinh_t = -(by_t * by_by_t_ratio) - t_ratio * by_t_2;
-                const double by_sqrt_1_plus_h_to_2 = (is_small ? 0.0 : 2.0 * (ratio_2 * ratio_5)) - by_t_product *
-                    by_by_h_product + h_product * by_sinh_t;
-                const double product_7 = 2.0 * (-(by_h_ratio * by_by_h) - by_t_product * ratio_5 + sqrt_1_plus_h_to_2 *
-                    by_sinh_t);
-                const double by_asinh_h_2 = 2.0 * by_t_2;
-                const double by_h_2 = product_7 + by_asinh_h_2 / sqrt_2;
-                const double total_7 = by_log_det_near * by_by_log_det_series + log_det_series * by_log_det_near_2 + (near
-                    ? 0.0 : by_h_2 / h_product - by_asinh_h_ratio * by_by_asinh_h / (2.0 * sqrt_2));
-                const double near_chosen_4 = (near ? by_t_over_sinh_t_near_slope * t_over_sinh_t_near_slope_slope +
-                    by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
-                    t_over_sinh_t_near_slope * by_t_over_sinh_t_near_2 : 0.0);
-                const double by_h_squared_2 = total_7 + 8.719916288803628 * near_chosen_4 + (is_small ? 0.0 :
-                    by_sqrt_1_plus_h_to_2 / product_2);
-                const double product_8 = 2.0 * by_h_squared_2;
-                const double by_part1_2 = product_3 * by_by_part1 + part1 * product_8;
-                const double by_part0_2 = product_3 * by_by_part0 + part0 * product_8;
-                const double by_d1_2 = 0.5 * (by_up * by_exponent_by_x1 + total_2 * by_up_2) - by_part1 * sqrt_value_ratio
-                    + scale * by_part1_2;
-                const double by_d0_2 = by_up * by_by_d0 - by_part0 * sqrt_value_ratio + mu1 * total_5 + d0 * by_up_2 +
-                    scale * by_part0_2;
-                const double by_scale_3 = by_part0 * by_by_d0 - by_scale_ratio * product_5 + by_part1 * by_exponent_by_x1
-                    + d1 * by_part1_2 + d0 * by_part0_2;
-                const double by_sqrt_value = by_scale_ratio * sqrt_value_ratio - scale * (by_scale_3 / sqrt_value);
-                const double ratio_6 = ((is_small_2 ? 0.0 : 2.0 * (ratio_3 * ratio_4)) + 2.0 * by_sqrt_value) / product_4;
-                const double total_8 = chosen * by_exponent_by_x1 + scale_2_product * by_by_d0 + d0 * total_5 + (by_up *
-                    product_6 + d1_product * by_up_2) + x_block[1][lane] * (is_small_2 ? 0.0 : ratio_6);
-                sum[0][lane] += -by_d0_2;
-                sum[1][lane] += total_8 - by_d1_2;
-                sum[2][lane] += v0 * by_z0 - z0 * by_by_v0;
-                sum[3][lane] += v1 * by_z0 - z0 * by_by_v1;
-                sum[4][lane] += v0 * by_z1 - z1 * by_by_v0;
-                sum[5][lane] += v1 * by_z1 - z1 * by_by_v1;
-                sum[6][lane] += exp_2 * by_phi;
+    size_t count, size_t splat_count, const double *HALF_SPACE_RESTRICT x, const double *HALF_SPACE_RESTRICT mu, const double *HALF_SPACE_RESTRICT W, const double *HALF_SPACE_RESTRICT amplitude, const double *HALF_SPACE_RESTRICT value_bar, const double *HALF_SPACE_RESTRICT gradient_bar,
+    double *HALF_SPACE_RESTRICT mu_bar, double *HALF_SPACE_RESTRICT W_bar, double *HALF_SPACE_RESTRICT amplitude_bar, double *HALF_SPACE_RESTRICT work, int threads) {
+    const size_t blocks = (count + LANES - 1) / LANES;
+    const size_t chunk = 131072 / (5 * sizeof(vector)) + 1;
+    const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
+    const size_t share = part < LANES ? part : LANES;
+    vector *points = work_points(work);
+    double *constants = work_constants(work, count);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic) nowait)
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic, 8))
+        for (size_t block = 0; block < blocks; ++block)
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 5 * block);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += share) {
+            const size_t end = start + share < splat_count ? start + share : splat_count;
+            double sums[LANES][7] = {{0}};
+            vector own_mu[2], own_W[4], own_amplitude[1], S_bar[7], bars[7];
+            for (size_t first = 0; first < blocks; first += chunk) {
+                const size_t size = first + chunk < blocks ? chunk : blocks - first;
+                for (size_t k = start; k < end; ++k)
+                    splat_sums(points + 5 * first, size, constants + 7 * k, sums[k - start]);
             }
-            for (size_t i = 0; i < 7; ++i)
-                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
-            mu_bar[2 * k + 0] += total[0];
-            mu_bar[2 * k + 1] += total[1];
-            W_bar[4 * k + 0] += total[2];
-            W_bar[4 * k + 1] += total[3];
-            W_bar[4 * k + 2] += total[4];
-            W_bar[4 * k + 3] += total[5];
-            amplitude_bar[1 * k + 0] += total[6];
+            vector_rows(mu, end, start, 2, own_mu);
+            vector_rows(W, end, start, 4, own_W);
+            vector_rows(amplitude, end, start, 1, own_amplitude);
+            vector_rows(sums[0], LANES, 0, 7, S_bar);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+            vector_to_rows(bars, mu_bar, end, start, 2, 2);
+            vector_to_rows(bars + 2, W_bar, end, start, 4, 4);
+            vector_to_rows(bars + 2 + 4, amplitude_bar, end, start, 1, 1);
         }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
-/* Of degree 5, within 2^-31 of that of double precision. */
-static inline float polynomial_t_over_sinh_t_near_f(float x) {
-    return 0.9999999997286599f + x * (-0.07645331361267481f + x * (0.007013901478354614f + x *
-        (-0.0006884546368422935f + x * (6.82593903267903e-05f + x * -5.404340432232951e-06f))));
+/* Nothing is summed: the adjoints of a splat's constants go on to its parameters for every point. */
+void half_space_splats_rows(
+    size_t count, size_t splat_count, const double *HALF_SPACE_RESTRICT x, const double *HALF_SPACE_RESTRICT mu, const double *HALF_SPACE_RESTRICT W, const double *HALF_SPACE_RESTRICT amplitude, const double *HALF_SPACE_RESTRICT value_bar, const double *HALF_SPACE_RESTRICT gradient_bar,
+    double *HALF_SPACE_RESTRICT rows, double *HALF_SPACE_RESTRICT work, int threads) {
+    (void)threads;
+    const size_t blocks = (count + LANES - 1) / LANES;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t block = 0; block < blocks; ++block) {
+            vector point[5];
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
+            for (size_t k = 0; k < splat_count; ++k) {
+                vector own_mu[2], own_W[4], own_amplitude[1], S_bar[7] = {ZERO}, bars[7];
+                for (int i = 0; i < 2; ++i) own_mu[i] = vector_of(mu[2 * k + i]);
+                for (int i = 0; i < 4; ++i) own_W[i] = vector_of(W[4 * k + i]);
+                own_amplitude[0] = vector_of(amplitude[k]);
+                pair_backward(point, constants + 7 * k, point + 2, point + 2 + 1, S_bar);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+                vector_to_rows(bars, rows + 7 * k, count, block * LANES, 7, 7 * splat_count);
+            }
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* The same number in all lanes. */
+INLINE vector_f vector_of_f(float x) {
+    const vector_f zero = ZERO;
+    return x - zero;
+}
+
+/* x in the lanes of the mask, y in the others. */
+INLINE vector_f vector_select_f(vector_mask_f mask, vector_f x, vector_f y) {
+    return SELECT(vector_f, vector_mask_f, mask, x, y);
+}
+
+/* Numbers in memory to a vector, and back. */
+INLINE vector_f vector_load_f(const float *from) {
+    vector_f x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+INLINE void vector_store_f(float *to, vector_f x) { memcpy(to, &x, sizeof x); }
+
+/* The sum over the lanes, by halves. */
+INLINE float vector_sum_f(vector_f x) {
+    float lanes[LANES_f];
+    vector_store_f(lanes, x);
+    for (size_t half = LANES_f / 2; half > 0; half /= 2)
+        for (size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    return lanes[0];
+}
+
+/* The bits of a vector as integers, and back. */
+INLINE vector_bits_f vector_to_bits_f(vector_f x) {
+    vector_bits_f bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
+    vector_f x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* x >= 0 with the sign of another. */
+INLINE vector_f vector_signed_f(vector_f x, vector_f sign) {
+    return vector_from_bits_f(vector_to_bits_f(x) | (vector_to_bits_f(sign) & 0x80000000));
+}
+
+/* abs of every lane; one instruction where the machine has it. */
+INLINE vector_f vector_abs_f(vector_f x) {
+    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
+    return x;
+}
+
+/* sqrt of every lane; one instruction where the machine has it. */
+INLINE vector_f vector_sqrt_f(vector_f x) {
+    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
+    return x;
+}
+
+/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
+INLINE vector_f vector_exp_f(vector_f x) {
+    const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
+    const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
+    const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
+    const vector_f scale = vector_from_bits_f((vector_to_bits_f(shifted) + 126) << 23); /* 2^(k - 1) */
+    const vector_f y = vector_select_f(x > 88.722839f, vector_of_f(HUGE_VALF), (scale + scale * part) * 2);
+    return vector_select_f(x < -86.9f, vector_of_f(0), y);
+}
+
+/* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
+INLINE vector_f vector_log_f(vector_f x) {
+    const vector_bits_f bits = vector_to_bits_f(x), biased = (bits + 0x4afb0d) >> 23; /* k + 127 */
+    const vector_f k = vector_from_bits_f(biased + 0x4b400000) - 12583039.0f;
+    const vector_f f = vector_from_bits_f(bits - (biased << 23) + 0x3f800000) - 1, s = f / (2 + f), z = s * s;
+    const vector_f half = f * f * 0.5f;
+    const vector_f rest = z * (0.6666666655430018f + z * (0.4000012200081688f + z * (0.2855080255327671f + z * 0.2333096405177204f)));
+    const vector_f y = k * 0.693145751953125f - ((half - (s * (half + rest) + k * 1.4286068203094173e-06f)) - f);
+    const vector_f small = vector_select_f(x < 0, vector_of_f(NAN), vector_of_f(-HUGE_VALF));
+    const vector_f finite = vector_select_f(x > 1.17549421e-38f, y, small);
+    return vector_select_f(x <= 3.4028234663852886e38f, finite, x);
+}
+
+/* log(1 + x), within 2 units in the last place. */
+INLINE vector_f vector_log1p_f(vector_f x) {
+    const vector_f u = 1 + x;
+    return vector_select_f(x <= 3.4028234663852886e38f, vector_log_f(u) + (x - (u - 1)) / u, x);
+}
+
+/* asinh, within 3 units in the last place. */
+INLINE vector_f vector_asinh_f(vector_f x) {
+    const vector_f a = vector_abs_f(x), square = a * a;
+    const vector_f near = vector_log1p_f(a + square / (1 + vector_sqrt_f(1 + square)));
+    return vector_signed_f(vector_select_f(a > 4096.0f, vector_log_f(a) + 0.6931471805599453f, near), x);
 }
 
 /* Of degree 4, within 2^-27 of that of double precision. */
-static inline float polynomial_log_det_series_f(float x) {
+INLINE vector_f vector_polynomial_log_det_series_f(vector_f x) {
     return -0.6666666638087865f + x * (0.0356780778355629f + x * (-0.0026337661088458894f + x *
         (0.00021836388307107678f + x * -1.5968919256418406e-05f)));
 }
 
-/* Of degree 5, within 2^-29 of that of double precision. */
-static inline float polynomial_log_det_series_slope_f(float x) {
-    return 0.03567822217846793f + x * (-0.005269875733339704f + x * (0.0006651726191066225f + x *
-        (-7.996311053059585e-05f + x * (9.132650110662127e-06f + x * -7.919515332371028e-07f))));
+/* Of degree 5, within 2^-31 of that of double precision. */
+INLINE vector_f vector_polynomial_t_over_sinh_t_near_f(vector_f x) {
+    return 0.9999999997286599f + x * (-0.07645331361267481f + x * (0.007013901478354614f + x *
+        (-0.0006884546368422935f + x * (6.82593903267903e-05f + x * -5.404340432232951e-06f))));
 }
 
 /* Of degree 5, within 2^-28 of that of double precision. */
-static inline float polynomial_t_over_sinh_t_near_slope_f(float x) {
+INLINE vector_f vector_polynomial_t_over_sinh_t_near_slope_f(vector_f x) {
     return -0.07645333313994869f + x * (0.014028255151191082f + x * (-0.0020682414340485013f + x *
         (0.0002804038651811389f + x * (-3.5177113288273015e-05f + x * 3.25255213826865e-06f))));
 }
 
-/* Of degree 6, within 2^-30 of that of double precision. */
-static inline float polynomial_t_over_sinh_t_near_slope_slope_f(float x) {
-    return 0.014028269221378524f + x * (-0.004136815832245224f + x * (0.0008433872999278661f + x *
-        (-0.00014649483800952389f + x * (2.3118113730214914e-05f + x * (-3.253385053618904e-06f + x *
-        3.1461159265860754e-07f)))));
+/* Of degree 5, within 2^-29 of that of double precision. */
+INLINE vector_f vector_polynomial_log_det_series_slope_f(vector_f x) {
+    return 0.03567822217846793f + x * (-0.005269875733339704f + x * (0.0006651726191066225f + x *
+        (-7.996311053059585e-05f + x * (9.132650110662127e-06f + x * -7.919515332371028e-07f))));
 }
 
 /* Of degree 6, within 2^-31 of that of double precision. */
-static inline float polynomial_log_det_series_slope_slope_f(float x) {
+INLINE vector_f vector_polynomial_log_det_series_slope_slope_f(vector_f x) {
     return -0.0052698789147766385f + x * (0.0013304204633056561f + x * (-0.00024038029119705448f + x *
         (3.783386377263302e-05f + x * (-5.498485307465418e-06f + x * (7.242797860685044e-07f + x *
         -6.694691049633411e-08f)))));
 }
 
-void half_space_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *HALF_SPACE_RESTRICT x,
-    const float *HALF_SPACE_RESTRICT mu,
-    const float *HALF_SPACE_RESTRICT W,
-    const float *HALF_SPACE_RESTRICT amplitude,
-    float *HALF_SPACE_RESTRICT value,
-    float *HALF_SPACE_RESTRICT gradient) {
-    const unsigned mode = flush_denormals();
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        float x_block[2][LANES], sum[3][LANES] = {{0}};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            for (size_t i = 0; i < 2; ++i) x_block[i][lane] = x[2 * n + i];
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            const float mu0 = mu[2 * k + 0];
-            const float mu1 = mu[2 * k + 1];
-            const float W0_0 = W[4 * k + 0];
-            const float W0_1 = W[4 * k + 1];
-            const float W1_0 = W[4 * k + 2];
-            const float W1_1 = W[4 * k + 3];
-            const float amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const float d0 = x_block[0][lane] - mu0;
-                const float d1 = x_block[1][lane] - mu1;
-                const float product = x_block[1][lane] * mu1;
-                const float length = sqrtf(product);
-                const float sqrt_value = 2.0f * length;
-                const float scale = 1.0f / sqrt_value;
-                const float part0 = d0 * scale;
-                const float part1 = d1 * scale;
-                const float h_squared = part0 * part0 + part1 * part1;
-                const float h_squared_total = 1.0f + h_squared;
-                const float sqrt_1_plus_h_to_2 = sqrtf(h_squared_total);
-                const int near = h_squared < 0.11468f;
-                const float near_chosen = (near ? 8.719916288803628f * h_squared : 0.0f);
-                const float t_over_sinh_t_near = polynomial_t_over_sinh_t_near_f(near_chosen);
-                const float near_chosen_2 = (near ? 1.0f : h_squared);
-                const float h = sqrtf(near_chosen_2);
-                const float asinh_h = asinhf(h);
-                const float t = 2.0f * asinh_h;
-                const float h_product = 2.0f * h;
-                const float sinh_t = sqrt_1_plus_h_to_2 * h_product;
-                const float t_ratio = t / sinh_t;
-                const float t_over_sinh_t = (near ? t_over_sinh_t_near : t_ratio);
-                const float dot_ds_ds = d0 * d0;
-                const float d1_product = 0.5f * d1;
-                const float total_2 = x_block[1][lane] + mu1;
-                const float up = 0.5f * dot_ds_ds + d1_product * total_2;
-                const float scale_2 = t_over_sinh_t / x_block[1][lane];
-                const float d0_product = mu1 * d0;
-                const float v0 = scale_2 * d0_product;
-                const float v1 = up * scale_2;
-                const float log_det_series = polynomial_log_det_series_f(near_chosen);
-                const float log_det_near = h_squared * log_det_series;
-                const float log_det = (near ? log_det_near : logf(t_ratio));
-                const float z0 = W0_0 * v0 + W0_1 * v1;
-                const float z1 = W1_0 * v0 + W1_1 * v1;
-                const float exp_2 = expf(log_det - 0.5f * (z0 * z0 + z1 * z1));
-                const float phi = amplitude_k * exp_2;
-                const float by_v1 = -(W1_1 * z1) - W0_1 * z0;
-                const float by_v0 = -(W1_0 * z1) - W0_0 * z0;
-                const float by_log_det_near = (near ? 1.0f : 0.0f);
-                const float by_log_det_series = h_squared * by_log_det_near;
-                const float log_det_series_slope = polynomial_log_det_series_slope_f(near_chosen);
-                const float by_up = scale_2 * by_v1;
-                const float by_scale_2 = up * by_v1 + d0_product * by_v0;
-                const float by_t_over_sinh_t = by_scale_2 / x_block[1][lane];
-                const float by_t_over_sinh_t_near = (near ? by_t_over_sinh_t : 0.0f);
-                const float by_t = ((near ? 0.0f : 1.0f) / t_ratio + (near ? 0.0f : by_t_over_sinh_t)) / sinh_t;
-                const float by_t_product = t_ratio * by_t;
-                const float by_asinh_h = 2.0f * by_t;
-                const float by_h = by_asinh_h / sqrtf(1.0f + near_chosen_2) - 2.0f * (sqrt_1_plus_h_to_2 * by_t_product);
-                const float t_over_sinh_t_near_slope = polynomial_t_over_sinh_t_near_slope_f(near_chosen);
-                const float total_3 = log_det_series * by_log_det_near + (near ? 0.0f : by_h / h_product) +
-                    8.719916288803628f * (near ? by_log_det_series * log_det_series_slope + by_t_over_sinh_t_near *
-                    t_over_sinh_t_near_slope : 0.0f);
-                const int is_small = h_squared_total == 0.0f;
-                const float chosen = (is_small ? 0.0f : -(h_product * by_t_product / (2.0f * (is_small ? 1.0f :
-                    sqrt_1_plus_h_to_2))));
-                const float by_h_squared = total_3 + chosen;
-                const float product_2 = 2.0f * by_h_squared;
-                const float by_part1 = part1 * product_2;
-                const float by_part0 = part0 * product_2;
-                const float by_d1 = 0.5f * (total_2 * by_up) + scale * by_part1;
-                const float by_d0 = mu1 * (scale_2 * by_v0) + d0 * by_up + scale * by_part0;
-                const float by_scale = d1 * by_part1 + d0 * by_part0;
-                const int is_small_2 = product == 0.0f;
-                const float minus = -(2.0f * (scale * (by_scale / sqrt_value)) / (2.0f * (is_small_2 ? 1.0f : length)));
-                const float exponent_by_x1 = by_d1 + (d1_product * by_up - scale_2 * by_t_over_sinh_t + mu1 * (is_small_2
-                    ? 0.0f : minus));
-                const float df0 = phi * by_d0;
-                const float df1 = phi * exponent_by_x1;
-                const float squared = x_block[1][lane] * x_block[1][lane];
-                const float gradient0 = df0 * squared;
-                const float gradient1 = df1 * squared;
-                sum[0][lane] += phi;
-                sum[1][lane] += gradient0;
-                sum[2][lane] += gradient1;
-            }
-        }
-        for (size_t lane = 0; lane < lanes; ++lane) {
-            value[start + lane] = sum[0][lane];
-            for (size_t i = 0; i < 2; ++i) gradient[2 * (start + lane) + i] = sum[i + 1][lane];
-        }
-    }
-    restore_denormals(mode);
+/* Of degree 6, within 2^-30 of that of double precision. */
+INLINE vector_f vector_polynomial_t_over_sinh_t_near_slope_slope_f(vector_f x) {
+    return 0.014028269221378524f + x * (-0.004136815832245224f + x * (0.0008433872999278661f + x *
+        (-0.00014649483800952389f + x * (2.3118113730214914e-05f + x * (-3.253385053618904e-06f + x *
+        3.1461159265860754e-07f)))));
 }
 
-void half_space_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *HALF_SPACE_RESTRICT x,
-    const float *HALF_SPACE_RESTRICT mu,
-    const float *HALF_SPACE_RESTRICT W,
-    const float *HALF_SPACE_RESTRICT amplitude,
-    const float *HALF_SPACE_RESTRICT value_bar,
-    const float *HALF_SPACE_RESTRICT gradient_bar,
-    float *HALF_SPACE_RESTRICT mu_bar,
-    float *HALF_SPACE_RESTRICT W_bar,
-    float *HALF_SPACE_RESTRICT amplitude_bar) {
-    const unsigned mode = flush_denormals();
-    for (size_t i = 0; i < 2 * splat_count; ++i) mu_bar[i] = 0;
-    for (size_t i = 0; i < 4 * splat_count; ++i) W_bar[i] = 0;
-    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        float x_block[2][LANES], value_bar_block[1][LANES], gradient_bar_block[2][LANES];
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            const float weight = lane < lanes ? 1 : 0;
-            for (size_t i = 0; i < 2; ++i) x_block[i][lane] = x[2 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
-            for (size_t i = 0; i < 2; ++i) gradient_bar_block[i][lane] = gradient_bar[2 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
-            for (size_t i = 0; i < 2; ++i) gradient_bar_block[i][lane] *= weight;
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            float sum[7][LANES] = {{0}}, total[7] = {0};
-            const float mu0 = mu[2 * k + 0];
-            const float mu1 = mu[2 * k + 1];
-            const float W0_0 = W[4 * k + 0];
-            const float W0_1 = W[4 * k + 1];
-            const float W1_0 = W[4 * k + 2];
-            const float W1_1 = W[4 * k + 3];
-            const float amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const float d0 = x_block[0][lane] - mu0;
-                const float d1 = x_block[1][lane] - mu1;
-                const float product = x_block[1][lane] * mu1;
-                const float length = sqrtf(product);
-                const float sqrt_value = 2.0f * length;
-                const float scale = 1.0f / sqrt_value;
-                const float part0 = d0 * scale;
-                const float part1 = d1 * scale;
-                const float h_squared = part0 * part0 + part1 * part1;
-                const float h_squared_total = 1.0f + h_squared;
-                const float sqrt_1_plus_h_to_2 = sqrtf(h_squared_total);
-                const int near = h_squared < 0.11468f;
-                const float near_chosen = (near ? 8.719916288803628f * h_squared : 0.0f);
-                const float t_over_sinh_t_near = polynomial_t_over_sinh_t_near_f(near_chosen);
-                const float near_chosen_2 = (near ? 1.0f : h_squared);
-                const float h = sqrtf(near_chosen_2);
-                const float asinh_h = asinhf(h);
-                const float t = 2.0f * asinh_h;
-                const float h_product = 2.0f * h;
-                const float sinh_t = sqrt_1_plus_h_to_2 * h_product;
-                const float t_ratio = t / sinh_t;
-                const float t_over_sinh_t = (near ? t_over_sinh_t_near : t_ratio);
-                const float dot_ds_ds = d0 * d0;
-                const float d1_product = 0.5f * d1;
-                const float total_2 = x_block[1][lane] + mu1;
-                const float up = 0.5f * dot_ds_ds + d1_product * total_2;
-                const float scale_2 = t_over_sinh_t / x_block[1][lane];
-                const float d0_product = mu1 * d0;
-                const float v0 = scale_2 * d0_product;
-                const float v1 = up * scale_2;
-                const float log_det_series = polynomial_log_det_series_f(near_chosen);
-                const float log_det_near = h_squared * log_det_series;
-                const float log_det = (near ? log_det_near : logf(t_ratio));
-                const float z0 = W0_0 * v0 + W0_1 * v1;
-                const float z1 = W1_0 * v0 + W1_1 * v1;
-                const float exp_2 = expf(log_det - 0.5f * (z0 * z0 + z1 * z1));
-                const float phi = amplitude_k * exp_2;
-                const float by_v1 = -(W1_1 * z1) - W0_1 * z0;
-                const float by_v0 = -(W1_0 * z1) - W0_0 * z0;
-                const float by_log_det_near = (near ? 1.0f : 0.0f);
-                const float ratio = (near ? 0.0f : 1.0f) / t_ratio;
-                const float by_log_det_series = h_squared * by_log_det_near;
-                const float log_det_series_slope = polynomial_log_det_series_slope_f(near_chosen);
-                const float by_up = scale_2 * by_v1;
-                const float scale_2_product = scale_2 * by_v0;
-                const float by_scale_2 = up * by_v1 + d0_product * by_v0;
-                const float by_t_over_sinh_t = by_scale_2 / x_block[1][lane];
-                const float by_t_over_sinh_t_near = (near ? by_t_over_sinh_t : 0.0f);
-                const float by_t = (ratio + (near ? 0.0f : by_t_over_sinh_t)) / sinh_t;
-                const float by_t_product = t_ratio * by_t;
-                const float by_asinh_h = 2.0f * by_t;
-                const float sqrt_2 = sqrtf(1.0f + near_chosen_2);
-                const float by_asinh_h_ratio = by_asinh_h / sqrt_2;
-                const float by_h = by_asinh_h_ratio - 2.0f * (sqrt_1_plus_h_to_2 * by_t_product);
-                const float by_h_ratio = by_h / h_product;
-                const float t_over_sinh_t_near_slope = polynomial_t_over_sinh_t_near_slope_f(near_chosen);
-                const float total_3 = log_det_series * by_log_det_near + (near ? 0.0f : by_h_ratio) + 8.719916288803628f *
-                    (near ? by_log_det_series * log_det_series_slope + by_t_over_sinh_t_near * t_over_sinh_t_near_slope :
-                    0.0f);
-                const int is_small = h_squared_total == 0.0f;
-                const float product_2 = 2.0f * (is_small ? 1.0f : sqrt_1_plus_h_to_2);
-                const float ratio_2 = h_product * by_t_product / product_2;
-                const float by_h_squared = total_3 + (is_small ? 0.0f : -ratio_2);
-                const float product_3 = 2.0f * by_h_squared;
-                const float by_part1 = part1 * product_3;
-                const float by_part0 = part0 * product_3;
-                const float by_d1 = 0.5f * (total_2 * by_up) + scale * by_part1;
-                const float by_d0 = mu1 * scale_2_product + d0 * by_up + scale * by_part0;
-                const float by_scale = d1 * by_part1 + d0 * by_part0;
-                const float by_scale_ratio = by_scale / sqrt_value;
-                const int is_small_2 = product == 0.0f;
-                const float product_4 = 2.0f * (is_small_2 ? 1.0f : length);
-                const float ratio_3 = 2.0f * (scale * by_scale_ratio) / product_4;
-                const float chosen = (is_small_2 ? 0.0f : -ratio_3);
-                const float exponent_by_x1 = by_d1 + (d1_product * by_up - scale_2 * by_t_over_sinh_t + mu1 * chosen);
-                const float squared = x_block[1][lane] * x_block[1][lane];
-                const float by_df1 = squared * gradient_bar_block[1][lane];
-                const float by_df0 = squared * gradient_bar_block[0][lane];
-                const float by_exponent_by_x1 = phi * by_df1;
-                const float by_by_d0 = phi * by_df0;
-                const float by_phi = value_bar_block[0][lane] + exponent_by_x1 * by_df1 + by_d0 * by_df0;
-                const float ratio_4 = (is_small_2 ? 0.0f : mu1 * by_exponent_by_x1) / product_4;
-                const float product_5 = 2.0f * ratio_4;
-                const float sqrt_value_ratio = scale * product_5 / sqrt_value;
-                const float by_by_part0 = scale * by_by_d0 - d0 * sqrt_value_ratio;
-                const float by_by_part1 = scale * by_exponent_by_x1 - d1 * sqrt_value_ratio;
-                const float total_4 = part0 * by_by_part0 + part1 * by_by_part1;
-                const float by_by_h_squared = 2.0f * total_4;
-                const float ratio_5 = (is_small ? 0.0f : by_by_h_squared) / product_2;
-                const float near_chosen_3 = (near ? 17.439832577607255f * total_4 : 0.0f);
-                const float by_by_t_over_sinh_t_near = t_over_sinh_t_near_slope * near_chosen_3;
-                const float by_t_over_sinh_t_near_slope = by_t_over_sinh_t_near * near_chosen_3;
-                const float t_over_sinh_t_near_slope_slope = polynomial_t_over_sinh_t_near_slope_slope_f(near_chosen);
-                const float by_by_h = (near ? 0.0f : by_by_h_squared) / h_product;
-                const float by_by_asinh_h = by_by_h / sqrt_2;
-                const float by_by_h_product = 2.0f * by_by_h;
-                const float gap = -(sqrt_1_plus_h_to_2 * by_by_h_product) - h_product * ratio_5;
-                const float by_by_t = 2.0f * by_by_asinh_h + t_ratio * gap;
-                const float by_by_t_ratio = by_by_t / sinh_t;
-                const float product_6 = 0.5f * by_exponent_by_x1;
-                const float by_by_up = d0 * by_by_d0 + d1_product * by_exponent_by_x1 + total_2 * product_6;
-                const float by_by_t_over_sinh_t = (near ? 0.0f : by_by_t_ratio) + (near ? by_by_t_over_sinh_t_near : 0.0f)
-                    - scale_2 * by_exponent_by_x1;
-                const float by_by_scale_2 = by_by_t_over_sinh_t / x_block[1][lane];
-                const float by_by_d0_product = mu1 * by_by_d0;
-                const float by_by_v0 = scale_2 * by_by_d0_product + d0_product * by_by_scale_2;
-                const float by_by_v1 = up * by_by_scale_2 + scale_2 * by_by_up;
-                const float by_by_log_det_series = log_det_series_slope * near_chosen_3;
-                const float by_log_det_series_slope = by_log_det_series * near_chosen_3;
-                const float log_det_series_slope_slope = polynomial_log_det_series_slope_slope_f(near_chosen);
-                const float by_log_det = exp_2 * (amplitude_k * by_phi);
-                const float by_z1 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - z1 * by_log_det;
-                const float by_z0 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - z0 * by_log_det;
-                const float by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0;
-                const float by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0;
-                const float by_log_det_near_2 = (near ? by_log_det : 0.0f);
-                const float by_log_det_series_2 = by_log_det_near * by_by_h_squared + h_squared * by_log_det_near_2;
-                const float by_up_2 = by_v1 * by_by_scale_2 + scale_2 * by_v1_2;
-                const float by_scale_2_2 = by_v0 * by_by_d0_product - by_t_over_sinh_t * by_exponent_by_x1 + by_v1 *
-                    by_by_up + up * by_v1_2 + d0_product * by_v0_2;
-                const float total_5 = by_v0 * by_by_scale_2 + scale_2 * by_v0_2;
-                const float by_t_over_sinh_t_2 = by_scale_2_2 / x_block[1][lane];
-                const float by_t_over_sinh_t_near_2 = (near ? by_t_over_sinh_t_2 : 0.0f);
-                const float total_6 = by_t * gap - ratio * (by_by_t_ratio / t_ratio) + (near ? 0.0f : by_log_det) /
-                    t_ratio + (near ? 0.0f : by_t_over_sinh_t_2);
-                const float by_t_2 = total_6 / sinh_t;
-                const float by_sinh_t = -(by_t * by_by_t_ratio) - t_ratio * by_t_2;
-                const float by_sqrt_1_plus_h_to_2 = (is_small ? 0.0f : 2.0f * (ratio_2 * ratio_5)) - by_t_product *
-                    by_by_h_product + h_product * by_sinh_t;
-                const float product_7 = 2.0f * (-(by_h_ratio * by_by_h) - by_t_product * ratio_5 + sqrt_1_plus_h_to_2 *
-                    by_sinh_t);
-                const float by_asinh_h_2 = 2.0f * by_t_2;
-                const float by_h_2 = product_7 + by_asinh_h_2 / sqrt_2;
-                const float total_7 = by_log_det_near * by_by_log_det_series + log_det_series * by_log_det_near_2 + (near
-                    ? 0.0f : by_h_2 / h_product - by_asinh_h_ratio * by_by_asinh_h / (2.0f * sqrt_2));
-                const float near_chosen_4 = (near ? by_t_over_sinh_t_near_slope * t_over_sinh_t_near_slope_slope +
-                    by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
-                    t_over_sinh_t_near_slope * by_t_over_sinh_t_near_2 : 0.0f);
-                const float by_h_squared_2 = total_7 + 8.719916288803628f * near_chosen_4 + (is_small ? 0.0f :
-                    by_sqrt_1_plus_h_to_2 / product_2);
-                const float product_8 = 2.0f * by_h_squared_2;
-                const float by_part1_2 = product_3 * by_by_part1 + part1 * product_8;
-                const float by_part0_2 = product_3 * by_by_part0 + part0 * product_8;
-                const float by_d1_2 = 0.5f * (by_up * by_exponent_by_x1 + total_2 * by_up_2) - by_part1 * sqrt_value_ratio
-                    + scale * by_part1_2;
-                const float by_d0_2 = by_up * by_by_d0 - by_part0 * sqrt_value_ratio + mu1 * total_5 + d0 * by_up_2 +
-                    scale * by_part0_2;
-                const float by_scale_3 = by_part0 * by_by_d0 - by_scale_ratio * product_5 + by_part1 * by_exponent_by_x1 +
-                    d1 * by_part1_2 + d0 * by_part0_2;
-                const float by_sqrt_value = by_scale_ratio * sqrt_value_ratio - scale * (by_scale_3 / sqrt_value);
-                const float ratio_6 = ((is_small_2 ? 0.0f : 2.0f * (ratio_3 * ratio_4)) + 2.0f * by_sqrt_value) /
-                    product_4;
-                const float total_8 = chosen * by_exponent_by_x1 + scale_2_product * by_by_d0 + d0 * total_5 + (by_up *
-                    product_6 + d1_product * by_up_2) + x_block[1][lane] * (is_small_2 ? 0.0f : ratio_6);
-                sum[0][lane] += -by_d0_2;
-                sum[1][lane] += total_8 - by_d1_2;
-                sum[2][lane] += v0 * by_z0 - z0 * by_by_v0;
-                sum[3][lane] += v1 * by_z0 - z0 * by_by_v1;
-                sum[4][lane] += v0 * by_z1 - z1 * by_by_v0;
-                sum[5][lane] += v1 * by_z1 - z1 * by_by_v1;
-                sum[6][lane] += exp_2 * by_phi;
-            }
-            for (size_t i = 0; i < 7; ++i)
-                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
-            mu_bar[2 * k + 0] += total[0];
-            mu_bar[2 * k + 1] += total[1];
-            W_bar[4 * k + 0] += total[2];
-            W_bar[4 * k + 1] += total[3];
-            W_bar[4 * k + 2] += total[4];
-            W_bar[4 * k + 3] += total[5];
-            amplitude_bar[1 * k + 0] += total[6];
-        }
+/* What pairs read of points x. */
+OUTLINE void pair_features_f(
+    const vector_f *x, vector_f *X) {
+    const vector_f x0 = x[0];
+    const vector_f x1 = x[1];
+    X[0] = x0;
+    X[1] = x1;
+}
+
+/* What pairs read of a splat, of some splats. */
+OUTLINE void pair_constants_f(
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, vector_f *S) {
+    const vector_f mu0 = mu[0];
+    const vector_f mu1 = mu[1];
+    const vector_f W0_0 = W[0];
+    const vector_f W0_1 = W[1];
+    const vector_f W1_0 = W[2];
+    const vector_f W1_1 = W[3];
+    const vector_f its_amplitude = amplitude[0];
+    S[0] = mu0;
+    S[1] = mu1;
+    S[2] = W0_0;
+    S[3] = W0_1;
+    S[4] = W1_0;
+    S[5] = W1_1;
+    S[6] = its_amplitude;
+}
+
+/* Adds the values phi of a splat at some points. */
+INLINE void pair_value_f(
+    const vector_f *X, const float *S, vector_f *value) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float W0_0 = S[2];
+    const float W0_1 = S[3];
+    const float W1_0 = S[4];
+    const float W1_1 = S[5];
+    const float amplitude = S[6];
+    const vector_f d0 = x0 - mu0;
+    const vector_f sqrt_value = 2.0f * vector_sqrt_f(x1 * mu1);
+    const vector_f scale = 1.0f / sqrt_value;
+    const vector_f part0 = d0 * scale;
+    const vector_f d1 = x1 - mu1;
+    const vector_f part1 = d1 * scale;
+    const vector_f h_squared = part0 * part0 + part1 * part1;
+    const vector_mask_f near = h_squared < 0.11468f;
+    const vector_f near_chosen = vector_select_f(near, 8.719916288803628f * h_squared, vector_of_f(0.0f));
+    const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
+    const vector_f log_det_near = h_squared * log_det_series;
+    const vector_f h = vector_sqrt_f(vector_select_f(near, vector_of_f(1.0f), h_squared));
+    const vector_f asinh_h = vector_asinh_f(h);
+    const vector_f t = 2.0f * asinh_h;
+    const vector_f sqrt_1_plus_h_to_2 = vector_sqrt_f(1.0f + h_squared);
+    const vector_f sinh_t = sqrt_1_plus_h_to_2 * (2.0f * h);
+    const vector_f t_ratio = t / sinh_t;
+    const vector_f log_det = vector_select_f(near, log_det_near, vector_log_f(t_ratio));
+    const vector_f t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near_f(near_chosen);
+    const vector_f t_over_sinh_t = vector_select_f(near, t_over_sinh_t_near, t_ratio);
+    const vector_f scale_2 = t_over_sinh_t / x1;
+    const vector_f v0 = scale_2 * (mu1 * d0);
+    const vector_f dot_ds_ds = d0 * d0;
+    const vector_f up = 0.5f * dot_ds_ds + 0.5f * d1 * (x1 + mu1);
+    const vector_f v1 = up * scale_2;
+    const vector_f z0 = W0_0 * v0 + W0_1 * v1;
+    const vector_f z1 = W1_0 * v0 + W1_1 * v1;
+    const vector_f exp_2 = vector_exp_f(log_det - 0.5f * (z0 * z0 + z1 * z1));
+    value[0] = value[0] + amplitude * exp_2;
+}
+
+/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+INLINE void pair_forward_f(
+    const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float W0_0 = S[2];
+    const float W0_1 = S[3];
+    const float W1_0 = S[4];
+    const float W1_1 = S[5];
+    const float amplitude = S[6];
+    const vector_f d0 = x0 - mu0;
+    const vector_f product = x1 * mu1;
+    const vector_f length = vector_sqrt_f(product);
+    const vector_f sqrt_value = 2.0f * length;
+    const vector_f scale = 1.0f / sqrt_value;
+    const vector_f part0 = d0 * scale;
+    const vector_f d1 = x1 - mu1;
+    const vector_f part1 = d1 * scale;
+    const vector_f h_squared = part0 * part0 + part1 * part1;
+    const vector_mask_f near = h_squared < 0.11468f;
+    const vector_f near_chosen = vector_select_f(near, 8.719916288803628f * h_squared, vector_of_f(0.0f));
+    const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
+    const vector_f log_det_near = h_squared * log_det_series;
+    const vector_f near_chosen_2 = vector_select_f(near, vector_of_f(1.0f), h_squared);
+    const vector_f h = vector_sqrt_f(near_chosen_2);
+    const vector_f asinh_h = vector_asinh_f(h);
+    const vector_f t = 2.0f * asinh_h;
+    const vector_f h_squared_total = 1.0f + h_squared;
+    const vector_f sqrt_1_plus_h_to_2 = vector_sqrt_f(h_squared_total);
+    const vector_f h_product = 2.0f * h;
+    const vector_f sinh_t = sqrt_1_plus_h_to_2 * h_product;
+    const vector_f t_ratio = t / sinh_t;
+    const vector_f log_det = vector_select_f(near, log_det_near, vector_log_f(t_ratio));
+    const vector_f t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near_f(near_chosen);
+    const vector_f t_over_sinh_t = vector_select_f(near, t_over_sinh_t_near, t_ratio);
+    const vector_f scale_2 = t_over_sinh_t / x1;
+    const vector_f d0_product = mu1 * d0;
+    const vector_f v0 = scale_2 * d0_product;
+    const vector_f dot_ds_ds = d0 * d0;
+    const vector_f d1_product = 0.5f * d1;
+    const vector_f total_2 = x1 + mu1;
+    const vector_f up = 0.5f * dot_ds_ds + d1_product * total_2;
+    const vector_f v1 = up * scale_2;
+    const vector_f z0 = W0_0 * v0 + W0_1 * v1;
+    const vector_f z1 = W1_0 * v0 + W1_1 * v1;
+    const vector_f exp_2 = vector_exp_f(log_det - 0.5f * (z0 * z0 + z1 * z1));
+    const vector_f phi = amplitude * exp_2;
+    const vector_f z1_product = z1 * phi;
+    const vector_f z0_product = z0 * phi;
+    const vector_f by_v1 = -(W1_1 * z1_product) - W0_1 * z0_product;
+    const vector_f by_up = scale_2 * by_v1;
+    const vector_f by_v0 = -(W1_0 * z1_product) - W0_0 * z0_product;
+    const vector_mask_f is_small = h_squared_total == 0.0f;
+    const vector_f by_scale_2 = up * by_v1 + d0_product * by_v0;
+    const vector_f by_t_over_sinh_t = by_scale_2 / x1;
+    const vector_f by_t = (vector_select_f(near, vector_of_f(0.0f), by_t_over_sinh_t) + vector_select_f(near,
+        vector_of_f(0.0f), phi) / t_ratio) / sinh_t;
+    const vector_f by_t_product = t_ratio * by_t;
+    const vector_f chosen = vector_select_f(is_small, vector_of_f(0.0f), -(h_product * by_t_product / (2.0f *
+        vector_select_f(is_small, vector_of_f(1.0f), sqrt_1_plus_h_to_2))));
+    const vector_f by_asinh_h = 2.0f * by_t;
+    const vector_f by_h = by_asinh_h / vector_sqrt_f(1.0f + near_chosen_2) - 2.0f * (sqrt_1_plus_h_to_2 *
+        by_t_product);
+    const vector_f by_log_det_near = vector_select_f(near, phi, vector_of_f(0.0f));
+    const vector_f by_t_over_sinh_t_near = vector_select_f(near, by_t_over_sinh_t, vector_of_f(0.0f));
+    const vector_f t_over_sinh_t_near_slope = vector_polynomial_t_over_sinh_t_near_slope_f(near_chosen);
+    const vector_f by_log_det_series = h_squared * by_log_det_near;
+    const vector_f log_det_series_slope = vector_polynomial_log_det_series_slope_f(near_chosen);
+    const vector_f by_h_squared = chosen + vector_select_f(near, vector_of_f(0.0f), by_h / h_product) +
+        log_det_series * by_log_det_near + 8.719916288803628f * vector_select_f(near, by_t_over_sinh_t_near *
+        t_over_sinh_t_near_slope + by_log_det_series * log_det_series_slope, vector_of_f(0.0f));
+    const vector_f product_2 = 2.0f * by_h_squared;
+    const vector_f by_part0 = part0 * product_2;
+    const vector_f by_part1 = part1 * product_2;
+    const vector_mask_f is_small_2 = product == 0.0f;
+    const vector_f by_scale = d1 * by_part1 + d0 * by_part0;
+    const vector_f minus = -(2.0f * (scale * (by_scale / sqrt_value)) / (2.0f * vector_select_f(is_small_2,
+        vector_of_f(1.0f), length)));
+    value[0] = value[0] + phi;
+    slope[0] = slope[0] + d0 * by_up + mu1 * (scale_2 * by_v0) + scale * by_part0;
+    slope[1] = slope[1] + d1_product * by_up - scale_2 * by_t_over_sinh_t + 0.5f * (total_2 * by_up) + scale *
+            by_part1 + mu1 * vector_select_f(is_small_2, vector_of_f(0.0f), minus);
+}
+
+/* The Riemannian gradient at some points, of the sums of slopes. */
+OUTLINE void pair_gradient_f(
+    const vector_f *x, const vector_f *slope, vector_f *gradient) {
+    const vector_f x1 = x[1];
+    const vector_f slope_x0 = slope[0];
+    const vector_f slope_x1 = slope[1];
+    const vector_f squared = x1 * x1;
+    gradient[0] = slope_x0 * squared;
+    gradient[1] = slope_x1 * squared;
+}
+
+/* The adjoint of slope at some points, of that of the gradient. */
+OUTLINE void pair_gradient_vjp_f(
+    const vector_f *x, const vector_f *gradient_bar, vector_f *slope_bar) {
+    const vector_f x1 = x[1];
+    const vector_f gradient_bar0 = gradient_bar[0];
+    const vector_f gradient_bar1 = gradient_bar[1];
+    const vector_f squared = x1 * x1;
+    slope_bar[0] = squared * gradient_bar0;
+    slope_bar[1] = squared * gradient_bar1;
+}
+
+/* The adjoints of some splats' parameters, of that of S. */
+OUTLINE void pair_constants_vjp_f(
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
+    (void)mu;
+    (void)W;
+    (void)amplitude;
+    const vector_f mu0_bar = S_bar[0];
+    const vector_f mu1_bar = S_bar[1];
+    const vector_f W0_0_bar = S_bar[2];
+    const vector_f W0_1_bar = S_bar[3];
+    const vector_f W1_0_bar = S_bar[4];
+    const vector_f W1_1_bar = S_bar[5];
+    const vector_f its_amplitude_bar = S_bar[6];
+    mu_bar[0] = mu0_bar;
+    mu_bar[1] = mu1_bar;
+    W_bar[0] = W0_0_bar;
+    W_bar[1] = W0_1_bar;
+    W_bar[2] = W1_0_bar;
+    W_bar[3] = W1_1_bar;
+    amplitude_bar[0] = its_amplitude_bar;
+}
+
+/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+OUTLINE void pair_backward_f(
+    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float W0_0 = S[2];
+    const float W0_1 = S[3];
+    const float W1_0 = S[4];
+    const float W1_1 = S[5];
+    const float amplitude = S[6];
+    const vector_f its_value_bar = value_bar[0];
+    const vector_f x0_bar = slope_bar[0];
+    const vector_f x1_bar = slope_bar[1];
+    const vector_f d0 = x0 - mu0;
+    const vector_f product = x1 * mu1;
+    const vector_f length = vector_sqrt_f(product);
+    const vector_f sqrt_value = 2.0f * length;
+    const vector_f scale = 1.0f / sqrt_value;
+    const vector_f part0 = d0 * scale;
+    const vector_f d1 = x1 - mu1;
+    const vector_f part1 = d1 * scale;
+    const vector_f h_squared = part0 * part0 + part1 * part1;
+    const vector_mask_f near = h_squared < 0.11468f;
+    const vector_f near_chosen = vector_select_f(near, 8.719916288803628f * h_squared, vector_of_f(0.0f));
+    const vector_f t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near_f(near_chosen);
+    const vector_f near_chosen_2 = vector_select_f(near, vector_of_f(1.0f), h_squared);
+    const vector_f h = vector_sqrt_f(near_chosen_2);
+    const vector_f asinh_h = vector_asinh_f(h);
+    const vector_f t = 2.0f * asinh_h;
+    const vector_f h_squared_total = 1.0f + h_squared;
+    const vector_f sqrt_1_plus_h_to_2 = vector_sqrt_f(h_squared_total);
+    const vector_f h_product = 2.0f * h;
+    const vector_f sinh_t = sqrt_1_plus_h_to_2 * h_product;
+    const vector_f t_ratio = t / sinh_t;
+    const vector_f t_over_sinh_t = vector_select_f(near, t_over_sinh_t_near, t_ratio);
+    const vector_f scale_2 = t_over_sinh_t / x1;
+    const vector_f d0_product = mu1 * d0;
+    const vector_f v0 = scale_2 * d0_product;
+    const vector_f dot_ds_ds = d0 * d0;
+    const vector_f d1_product = 0.5f * d1;
+    const vector_f total_2 = x1 + mu1;
+    const vector_f up = 0.5f * dot_ds_ds + d1_product * total_2;
+    const vector_f v1 = up * scale_2;
+    const vector_f z1 = W1_0 * v0 + W1_1 * v1;
+    const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
+    const vector_f log_det_near = h_squared * log_det_series;
+    const vector_f log_det = vector_select_f(near, log_det_near, vector_log_f(t_ratio));
+    const vector_f z0 = W0_0 * v0 + W0_1 * v1;
+    const vector_f exp_2 = vector_exp_f(log_det - 0.5f * (z0 * z0 + z1 * z1));
+    const vector_f phi = amplitude * exp_2;
+    const vector_f z1_product = z1 * phi;
+    const vector_f z0_product = z0 * phi;
+    const vector_f by_v1 = -(W1_1 * z1_product) - W0_1 * z0_product;
+    const vector_f by_up = scale_2 * by_v1;
+    const vector_mask_f is_small = h_squared_total == 0.0f;
+    const vector_f by_v0 = -(W1_0 * z1_product) - W0_0 * z0_product;
+    const vector_f by_scale_2 = up * by_v1 + d0_product * by_v0;
+    const vector_f by_t_over_sinh_t = by_scale_2 / x1;
+    const vector_f ratio = vector_select_f(near, vector_of_f(0.0f), phi) / t_ratio;
+    const vector_f by_t = (vector_select_f(near, vector_of_f(0.0f), by_t_over_sinh_t) + ratio) / sinh_t;
+    const vector_f by_t_product = t_ratio * by_t;
+    const vector_f product_2 = 2.0f * vector_select_f(is_small, vector_of_f(1.0f), sqrt_1_plus_h_to_2);
+    const vector_f ratio_2 = h_product * by_t_product / product_2;
+    const vector_f by_asinh_h = 2.0f * by_t;
+    const vector_f sqrt_2 = vector_sqrt_f(1.0f + near_chosen_2);
+    const vector_f by_asinh_h_ratio = by_asinh_h / sqrt_2;
+    const vector_f by_h = by_asinh_h_ratio - 2.0f * (sqrt_1_plus_h_to_2 * by_t_product);
+    const vector_f by_h_ratio = by_h / h_product;
+    const vector_f by_log_det_near = vector_select_f(near, phi, vector_of_f(0.0f));
+    const vector_f by_t_over_sinh_t_near = vector_select_f(near, by_t_over_sinh_t, vector_of_f(0.0f));
+    const vector_f t_over_sinh_t_near_slope = vector_polynomial_t_over_sinh_t_near_slope_f(near_chosen);
+    const vector_f by_log_det_series = h_squared * by_log_det_near;
+    const vector_f log_det_series_slope = vector_polynomial_log_det_series_slope_f(near_chosen);
+    const vector_f by_h_squared = vector_select_f(is_small, vector_of_f(0.0f), -ratio_2) +
+        vector_select_f(near, vector_of_f(0.0f), by_h_ratio) + log_det_series * by_log_det_near +
+        8.719916288803628f * vector_select_f(near, by_t_over_sinh_t_near * t_over_sinh_t_near_slope +
+        by_log_det_series * log_det_series_slope, vector_of_f(0.0f));
+    const vector_f product_3 = 2.0f * by_h_squared;
+    const vector_f by_part0 = part0 * product_3;
+    const vector_mask_f is_small_2 = product == 0.0f;
+    const vector_f product_4 = 2.0f * vector_select_f(is_small_2, vector_of_f(1.0f), length);
+    const vector_f ratio_3 = vector_select_f(is_small_2, vector_of_f(0.0f), mu1 * x1_bar) / product_4;
+    const vector_f product_5 = 2.0f * ratio_3;
+    const vector_f sqrt_value_ratio = scale * product_5 / sqrt_value;
+    const vector_f by_by_part0 = scale * x0_bar - d0 * sqrt_value_ratio;
+    const vector_f by_by_part1 = scale * x1_bar - d1 * sqrt_value_ratio;
+    const vector_f total_3 = part0 * by_by_part0 + part1 * by_by_part1;
+    const vector_f by_by_h_squared = 2.0f * total_3;
+    const vector_f by_by_h = vector_select_f(near, vector_of_f(0.0f), by_by_h_squared) / h_product;
+    const vector_f by_by_asinh_h = by_by_h / sqrt_2;
+    const vector_f by_by_h_product = 2.0f * by_by_h;
+    const vector_f ratio_4 = vector_select_f(is_small, vector_of_f(0.0f), by_by_h_squared) / product_2;
+    const vector_f gap = -(sqrt_1_plus_h_to_2 * by_by_h_product) - h_product * ratio_4;
+    const vector_f by_by_t = 2.0f * by_by_asinh_h + t_ratio * gap;
+    const vector_f by_by_t_ratio = by_by_t / sinh_t;
+    const vector_f near_chosen_3 = vector_select_f(near, 17.439832577607255f * total_3, vector_of_f(0.0f));
+    const vector_f by_by_t_over_sinh_t_near = t_over_sinh_t_near_slope * near_chosen_3;
+    const vector_f by_by_t_over_sinh_t = vector_select_f(near, vector_of_f(0.0f), by_by_t_ratio) +
+        vector_select_f(near, by_by_t_over_sinh_t_near, vector_of_f(0.0f)) - scale_2 * x1_bar;
+    const vector_f by_by_scale_2 = by_by_t_over_sinh_t / x1;
+    const vector_f product_6 = mu1 * x0_bar;
+    const vector_f by_by_v0 = scale_2 * product_6 + d0_product * by_by_scale_2;
+    const vector_f product_7 = 0.5f * x1_bar;
+    const vector_f by_by_up = d0 * x0_bar + d1_product * x1_bar + total_2 * product_7;
+    const vector_f by_by_v1 = up * by_by_scale_2 + scale_2 * by_by_up;
+    const vector_f gap_2 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1;
+    const vector_f ratio_5 = by_by_t_ratio / t_ratio;
+    const vector_f by_by_log_det_series = log_det_series_slope * near_chosen_3;
+    const vector_f by_by_log_det_near = h_squared * by_by_log_det_series + log_det_series * by_by_h_squared;
+    const vector_f gap_3 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1;
+    const vector_f by_phi = its_value_bar + vector_select_f(near, vector_of_f(0.0f), ratio_5) +
+        vector_select_f(near, by_by_log_det_near, vector_of_f(0.0f)) + z0 * gap_3 + z1 * gap_2;
+    const vector_f by_log_det = exp_2 * (amplitude * by_phi);
+    const vector_f by_z1 = phi * gap_2 - z1 * by_log_det;
+    const vector_f by_z0 = phi * gap_3 - z0 * by_log_det;
+    const vector_f by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0;
+    const vector_f by_up_2 = by_v1 * by_by_scale_2 + scale_2 * by_v1_2;
+    const vector_f by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0;
+    const vector_f total_4 = by_v0 * by_by_scale_2 + scale_2 * by_v0_2;
+    const vector_f by_scale_2_2 = by_v0 * product_6 - by_t_over_sinh_t * x1_bar + by_v1 * by_by_up + up *
+        by_v1_2 + d0_product * by_v0_2;
+    const vector_f by_t_over_sinh_t_2 = by_scale_2_2 / x1;
+    const vector_f by_t_2 = (by_t * gap - ratio * ratio_5 + vector_select_f(near, vector_of_f(0.0f),
+        by_t_over_sinh_t_2) + vector_select_f(near, vector_of_f(0.0f), by_log_det) / t_ratio) / sinh_t;
+    const vector_f by_sinh_t = -(by_t * by_by_t_ratio) - t_ratio * by_t_2;
+    const vector_f by_sqrt_1_plus_h_to_2 = vector_select_f(is_small, vector_of_f(0.0f), 2.0f * (ratio_2 *
+        ratio_4)) - by_t_product * by_by_h_product + h_product * by_sinh_t;
+    const vector_f product_8 = 2.0f * (-(by_h_ratio * by_by_h) - by_t_product * ratio_4 + sqrt_1_plus_h_to_2 *
+        by_sinh_t);
+    const vector_f by_asinh_h_2 = 2.0f * by_t_2;
+    const vector_f by_h_2 = product_8 + by_asinh_h_2 / sqrt_2;
+    const vector_f total_5 = by_log_det_near * by_by_log_det_series + vector_select_f(is_small,
+        vector_of_f(0.0f), by_sqrt_1_plus_h_to_2 / product_2) + vector_select_f(near, vector_of_f(0.0f),
+        by_h_2 / h_product - by_asinh_h_ratio * by_by_asinh_h / (2.0f * sqrt_2));
+    const vector_f by_log_det_near_2 = vector_select_f(near, by_log_det, vector_of_f(0.0f));
+    const vector_f by_log_det_series_slope = by_log_det_series * near_chosen_3;
+    const vector_f log_det_series_slope_slope = vector_polynomial_log_det_series_slope_slope_f(near_chosen);
+    const vector_f by_t_over_sinh_t_near_slope = by_t_over_sinh_t_near * near_chosen_3;
+    const vector_f t_over_sinh_t_near_slope_slope =
+        vector_polynomial_t_over_sinh_t_near_slope_slope_f(near_chosen);
+    const vector_f by_t_over_sinh_t_near_2 = vector_select_f(near, by_t_over_sinh_t_2, vector_of_f(0.0f));
+    const vector_f by_log_det_series_2 = by_log_det_near * by_by_h_squared + h_squared * by_log_det_near_2;
+    const vector_f near_chosen_4 = vector_select_f(near, by_log_det_series_slope * log_det_series_slope_slope
+        + by_t_over_sinh_t_near_slope * t_over_sinh_t_near_slope_slope + t_over_sinh_t_near_slope *
+        by_t_over_sinh_t_near_2 + log_det_series_slope * by_log_det_series_2, vector_of_f(0.0f));
+    const vector_f by_h_squared_2 = total_5 + log_det_series * by_log_det_near_2 + 8.719916288803628f *
+        near_chosen_4;
+    const vector_f product_9 = 2.0f * by_h_squared_2;
+    const vector_f by_part0_2 = product_3 * by_by_part0 + part0 * product_9;
+    const vector_f by_part1 = part1 * product_3;
+    const vector_f by_scale = d1 * by_part1 + d0 * by_part0;
+    const vector_f by_scale_ratio = by_scale / sqrt_value;
+    const vector_f ratio_6 = 2.0f * (scale * by_scale_ratio) / product_4;
+    const vector_f by_part1_2 = product_3 * by_by_part1 + part1 * product_9;
+    const vector_f by_scale_3 = by_part0 * x0_bar - by_scale_ratio * product_5 + by_part1 * x1_bar + d1 *
+        by_part1_2 + d0 * by_part0_2;
+    const vector_f by_sqrt_value = by_scale_ratio * sqrt_value_ratio - scale * (by_scale_3 / sqrt_value);
+    const vector_f ratio_7 = (vector_select_f(is_small_2, vector_of_f(0.0f), 2.0f * (ratio_6 * ratio_3)) +
+        2.0f * by_sqrt_value) / product_4;
+    S_bar[0] = S_bar[0] - by_up * x0_bar + by_part0 * sqrt_value_ratio - d0 * by_up_2 - mu1 * total_4 - scale
+            * by_part0_2;
+    S_bar[1] = S_bar[1] + vector_select_f(is_small_2, vector_of_f(0.0f), -ratio_6) * x1_bar + (scale_2 *
+            by_v0) * x0_bar + by_up * product_7 + d1_product * by_up_2 + d0 * total_4 - 0.5f * (by_up * x1_bar +
+            total_2 * by_up_2) + by_part1 * sqrt_value_ratio - scale * by_part1_2 + x1 *
+            vector_select_f(is_small_2, vector_of_f(0.0f), ratio_7);
+    S_bar[2] = S_bar[2] + v0 * by_z0 - z0_product * by_by_v0;
+    S_bar[3] = S_bar[3] + v1 * by_z0 - z0_product * by_by_v1;
+    S_bar[4] = S_bar[4] + v0 * by_z1 - z1_product * by_by_v0;
+    S_bar[5] = S_bar[5] + v1 * by_z1 - z1_product * by_by_v1;
+    S_bar[6] = S_bar[6] + exp_2 * by_phi;
+}
+
+/* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
+OUTLINE void vector_rows_f(const float *rows, size_t count, size_t start, size_t size, vector_f *columns) {
+    for (size_t i = 0; i < size; ++i) {
+        float column[LANES_f];
+        for (size_t lane = 0; lane < LANES_f; ++lane)
+            column[lane] = rows[size * (start + lane < count ? start + lane : count - 1) + i];
+        columns[i] = vector_load_f(column);
     }
-    restore_denormals(mode);
+}
+
+/* Back to rows that are `stride` apart; nothing past the end. */
+OUTLINE void vector_to_rows_f(
+    const vector_f *columns, float *rows, size_t count, size_t start, size_t size, size_t stride) {
+    const size_t lanes = start >= count ? 0 : count - start < LANES_f ? count - start : LANES_f;
+    for (size_t lane = 0; lane < lanes; ++lane)
+        for (size_t i = 0; i < size; ++i) rows[stride * (start + lane) + i] = LANE(columns[i], lane);
+}
+
+/* Zero in the lanes past the end. */
+OUTLINE void vector_end_f(size_t count, size_t start, size_t size, vector_f *columns) {
+    for (size_t lane = start >= count ? 0 : count - start; lane < LANES_f; ++lane)
+        for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
+}
+
+/* Scratch memory: 5 vectors for each block of points, then the constants of the splats. */
+size_t half_space_splats_work_f(size_t count, size_t splat_count, int threads) {
+    (void)threads;
+    return ((count + LANES_f - 1) / LANES_f * 5 + 1) * LANES_f + 7 * splat_count;
+}
+
+static vector_f *work_points_f(float *work) {
+    const uintptr_t size = sizeof(vector_f), start = (uintptr_t)work;
+    return (vector_f *)((char *)work + ((0 - start) & (size - 1)));
+}
+
+static float *work_constants_f(float *work, size_t count) {
+    return (float *)(work_points_f(work) + (count + LANES_f - 1) / LANES_f * 5);
+}
+
+/* The constants of LANES splats, as rows. */
+OUTLINE void splat_constants_f(
+    size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, float *constants) {
+    vector_f own_mu[2], own_W[4], own_amplitude[1], S[7];
+    vector_rows_f(mu, splat_count, start, 2, own_mu);
+    vector_rows_f(W, splat_count, start, 4, own_W);
+    vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
+    pair_constants_f(own_mu, own_W, own_amplitude, S);
+    vector_to_rows_f(S, constants, splat_count, start, 7, 7);
+}
+
+/* 2 vectors of points at a time stay in registers while all splats pass. */
+void half_space_splats_f(
+    size_t count, size_t splat_count, const float *HALF_SPACE_RESTRICT x, const float *HALF_SPACE_RESTRICT mu, const float *HALF_SPACE_RESTRICT W, const float *HALF_SPACE_RESTRICT amplitude,
+    float *HALF_SPACE_RESTRICT value, float *HALF_SPACE_RESTRICT gradient, float *HALF_SPACE_RESTRICT work, int threads) {
+    (void)threads;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES_f) {
+            vector_f at[2][2], X[2][2], grad[2];
+            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][2] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows_f(x, count, start + b * LANES_f, 2, at[b]);
+                pair_features_f(at[b], X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_forward_f(X[0], constants + 7 * k, value_sum[0], slope_sum[0]);
+                pair_forward_f(X[1], constants + 7 * k, value_sum[1], slope_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b) {
+                pair_gradient_f(at[b], slope_sum[b], grad);
+                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                vector_to_rows_f(grad, gradient, count, start + b * LANES_f, 2, 2);
+            }
+        }
+        restore_denormals(mode);
+    }
+}
+
+void half_space_splats_value_f(
+    size_t count, size_t splat_count, const float *HALF_SPACE_RESTRICT x, const float *HALF_SPACE_RESTRICT mu, const float *HALF_SPACE_RESTRICT W, const float *HALF_SPACE_RESTRICT amplitude,
+    float *HALF_SPACE_RESTRICT value, float *HALF_SPACE_RESTRICT work, int threads) {
+    (void)threads;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES_f) {
+            vector_f at[2], X[2][2], value_sum[2][1] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows_f(x, count, start + b * LANES_f, 2, at);
+                pair_features_f(at, X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_value_f(X[0], constants + 7 * k, value_sum[0]);
+                pair_value_f(X[1], constants + 7 * k, value_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b)
+                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
+OUTLINE void splat_points_f(
+    size_t count, size_t start, const float *x, const float *value_bar, const float *gradient_bar, vector_f *point) {
+    vector_f at[2], grad_bar[2], slope_bar[2];
+    vector_rows_f(x, count, start, 2, at);
+    vector_rows_f(gradient_bar, count, start, 2, grad_bar);
+    vector_rows_f(value_bar, count, start, 1, point + 2);
+    pair_features_f(at, point);
+    pair_gradient_vjp_f(at, grad_bar, slope_bar);
+    for (int i = 0; i < 2; ++i) point[2 + 1 + i] = slope_bar[i];
+    vector_end_f(count, start, 2 + 1, point + 2);
+}
+
+/* Adds to S_bar what some vectors of points add to it. */
+OUTLINE void splat_sums_f(const vector_f *point, size_t size, const float *S, float *S_bar) {
+    vector_f sum[7] = {ZERO};
+    for (size_t b = 0; b < size; ++b, point += 5) pair_backward_f(point, S, point + 2, point + 2 + 1, sum);
+    S_bar[0] += vector_sum_f(sum[0]);
+    S_bar[1] += vector_sum_f(sum[1]);
+    S_bar[2] += vector_sum_f(sum[2]);
+    S_bar[3] += vector_sum_f(sum[3]);
+    S_bar[4] += vector_sum_f(sum[4]);
+    S_bar[5] += vector_sum_f(sum[5]);
+    S_bar[6] += vector_sum_f(sum[6]);
+}
+
+/*
+ * Some splats at a time; the points pass over each of them, a chunk at a time, while its sums stay in registers. How many
+ * splats depends on the threads, what is summed in which order does not.
+ */
+void half_space_splats_vjp_f(
+    size_t count, size_t splat_count, const float *HALF_SPACE_RESTRICT x, const float *HALF_SPACE_RESTRICT mu, const float *HALF_SPACE_RESTRICT W, const float *HALF_SPACE_RESTRICT amplitude, const float *HALF_SPACE_RESTRICT value_bar, const float *HALF_SPACE_RESTRICT gradient_bar,
+    float *HALF_SPACE_RESTRICT mu_bar, float *HALF_SPACE_RESTRICT W_bar, float *HALF_SPACE_RESTRICT amplitude_bar, float *HALF_SPACE_RESTRICT work, int threads) {
+    const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    const size_t chunk = 131072 / (5 * sizeof(vector_f)) + 1;
+    const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
+    const size_t share = part < LANES_f ? part : LANES_f;
+    vector_f *points = work_points_f(work);
+    float *constants = work_constants_f(work, count);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic) nowait)
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic, 8))
+        for (size_t block = 0; block < blocks; ++block)
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 5 * block);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += share) {
+            const size_t end = start + share < splat_count ? start + share : splat_count;
+            float sums[LANES_f][7] = {{0}};
+            vector_f own_mu[2], own_W[4], own_amplitude[1], S_bar[7], bars[7];
+            for (size_t first = 0; first < blocks; first += chunk) {
+                const size_t size = first + chunk < blocks ? chunk : blocks - first;
+                for (size_t k = start; k < end; ++k)
+                    splat_sums_f(points + 5 * first, size, constants + 7 * k, sums[k - start]);
+            }
+            vector_rows_f(mu, end, start, 2, own_mu);
+            vector_rows_f(W, end, start, 4, own_W);
+            vector_rows_f(amplitude, end, start, 1, own_amplitude);
+            vector_rows_f(sums[0], LANES_f, 0, 7, S_bar);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+            vector_to_rows_f(bars, mu_bar, end, start, 2, 2);
+            vector_to_rows_f(bars + 2, W_bar, end, start, 4, 4);
+            vector_to_rows_f(bars + 2 + 4, amplitude_bar, end, start, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* Nothing is summed: the adjoints of a splat's constants go on to its parameters for every point. */
+void half_space_splats_rows_f(
+    size_t count, size_t splat_count, const float *HALF_SPACE_RESTRICT x, const float *HALF_SPACE_RESTRICT mu, const float *HALF_SPACE_RESTRICT W, const float *HALF_SPACE_RESTRICT amplitude, const float *HALF_SPACE_RESTRICT value_bar, const float *HALF_SPACE_RESTRICT gradient_bar,
+    float *HALF_SPACE_RESTRICT rows, float *HALF_SPACE_RESTRICT work, int threads) {
+    (void)threads;
+    const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t block = 0; block < blocks; ++block) {
+            vector_f point[5];
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
+            for (size_t k = 0; k < splat_count; ++k) {
+                vector_f own_mu[2], own_W[4], own_amplitude[1], S_bar[7] = {ZERO}, bars[7];
+                for (int i = 0; i < 2; ++i) own_mu[i] = vector_of_f(mu[2 * k + i]);
+                for (int i = 0; i < 4; ++i) own_W[i] = vector_of_f(W[4 * k + i]);
+                own_amplitude[0] = vector_of_f(amplitude[k]);
+                pair_backward_f(point, constants + 7 * k, point + 2, point + 2 + 1, S_bar);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+                vector_to_rows_f(bars, rows + 7 * k, count, block * LANES_f, 7, 7 * splat_count);
+            }
+        }
+        restore_denormals(mode);
+    }
 }

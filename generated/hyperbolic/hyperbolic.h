@@ -286,51 +286,42 @@ void hyperbolic_splat_batch_f(
 void hyperbolic_frame(const double *HYPERBOLIC_RESTRICT p, double *HYPERBOLIC_RESTRICT frame);
 void hyperbolic_frame_f(const float *HYPERBOLIC_RESTRICT p, float *HYPERBOLIC_RESTRICT frame);
 
+/* How many numbers of scratch memory the functions below need, for these sizes or smaller ones. */
+size_t hyperbolic_splats_work(size_t count, size_t splat_count, int threads);
+size_t hyperbolic_splats_work_f(size_t count, size_t splat_count, int threads);
+
 /* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
 void hyperbolic_splats(
-    size_t count,
-    size_t splat_count,
-    const double *HYPERBOLIC_RESTRICT x,
-    const double *HYPERBOLIC_RESTRICT mu,
-    const double *HYPERBOLIC_RESTRICT W,
-    const double *HYPERBOLIC_RESTRICT amplitude,
-    double *HYPERBOLIC_RESTRICT value,
-    double *HYPERBOLIC_RESTRICT gradient);
+    size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT W, const double *HYPERBOLIC_RESTRICT amplitude,
+    double *HYPERBOLIC_RESTRICT value, double *HYPERBOLIC_RESTRICT gradient, double *HYPERBOLIC_RESTRICT work, int threads);
 void hyperbolic_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *HYPERBOLIC_RESTRICT x,
-    const float *HYPERBOLIC_RESTRICT mu,
-    const float *HYPERBOLIC_RESTRICT W,
-    const float *HYPERBOLIC_RESTRICT amplitude,
-    float *HYPERBOLIC_RESTRICT value,
-    float *HYPERBOLIC_RESTRICT gradient);
+    size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT W, const float *HYPERBOLIC_RESTRICT amplitude,
+    float *HYPERBOLIC_RESTRICT value, float *HYPERBOLIC_RESTRICT gradient, float *HYPERBOLIC_RESTRICT work, int threads);
+
+/* The values of the sums alone. */
+void hyperbolic_splats_value(
+    size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT W, const double *HYPERBOLIC_RESTRICT amplitude,
+    double *HYPERBOLIC_RESTRICT value, double *HYPERBOLIC_RESTRICT work, int threads);
+void hyperbolic_splats_value_f(
+    size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT W, const float *HYPERBOLIC_RESTRICT amplitude,
+    float *HYPERBOLIC_RESTRICT value, float *HYPERBOLIC_RESTRICT work, int threads);
 
 /* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
 void hyperbolic_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *HYPERBOLIC_RESTRICT x,
-    const double *HYPERBOLIC_RESTRICT mu,
-    const double *HYPERBOLIC_RESTRICT W,
-    const double *HYPERBOLIC_RESTRICT amplitude,
-    const double *HYPERBOLIC_RESTRICT value_bar,
-    const double *HYPERBOLIC_RESTRICT gradient_bar,
-    double *HYPERBOLIC_RESTRICT mu_bar,
-    double *HYPERBOLIC_RESTRICT W_bar,
-    double *HYPERBOLIC_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT W, const double *HYPERBOLIC_RESTRICT amplitude, const double *HYPERBOLIC_RESTRICT value_bar, const double *HYPERBOLIC_RESTRICT gradient_bar,
+    double *HYPERBOLIC_RESTRICT mu_bar, double *HYPERBOLIC_RESTRICT W_bar, double *HYPERBOLIC_RESTRICT amplitude_bar, double *HYPERBOLIC_RESTRICT work, int threads);
 void hyperbolic_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *HYPERBOLIC_RESTRICT x,
-    const float *HYPERBOLIC_RESTRICT mu,
-    const float *HYPERBOLIC_RESTRICT W,
-    const float *HYPERBOLIC_RESTRICT amplitude,
-    const float *HYPERBOLIC_RESTRICT value_bar,
-    const float *HYPERBOLIC_RESTRICT gradient_bar,
-    float *HYPERBOLIC_RESTRICT mu_bar,
-    float *HYPERBOLIC_RESTRICT W_bar,
-    float *HYPERBOLIC_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT W, const float *HYPERBOLIC_RESTRICT amplitude, const float *HYPERBOLIC_RESTRICT value_bar, const float *HYPERBOLIC_RESTRICT gradient_bar,
+    float *HYPERBOLIC_RESTRICT mu_bar, float *HYPERBOLIC_RESTRICT W_bar, float *HYPERBOLIC_RESTRICT amplitude_bar, float *HYPERBOLIC_RESTRICT work, int threads);
+
+/* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +
+ * gradient_n . gradient_bar_n in its mu, W and amplitude, in this order. */
+void hyperbolic_splats_rows(
+    size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT W, const double *HYPERBOLIC_RESTRICT amplitude, const double *HYPERBOLIC_RESTRICT value_bar, const double *HYPERBOLIC_RESTRICT gradient_bar,
+    double *HYPERBOLIC_RESTRICT rows, double *HYPERBOLIC_RESTRICT work, int threads);
+void hyperbolic_splats_rows_f(
+    size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT W, const float *HYPERBOLIC_RESTRICT amplitude, const float *HYPERBOLIC_RESTRICT value_bar, const float *HYPERBOLIC_RESTRICT gradient_bar,
+    float *HYPERBOLIC_RESTRICT rows, float *HYPERBOLIC_RESTRICT work, int threads);
 
 #ifdef __cplusplus
 }

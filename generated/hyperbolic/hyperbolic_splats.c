@@ -7,1010 +7,1304 @@
 #include "hyperbolic.h"
 
 #include <float.h>
+#include <stdint.h>
+#include <string.h>
 
-#define LANES 64
+/*
+ * A vector is as wide as the machine's registers, or one number where the compiler has no vectors (or is asked for none
+ * by -DRSRM_NO_VECTORS). Comparisons of vectors are masks; `vector_select` is the ?: of vectors.
+ */
+#if defined(__GNUC__) && !defined(RSRM_NO_VECTORS)
+#if defined(__AVX512F__)
+#define VECTOR_BYTES 64
+#elif defined(__AVX__)
+#define VECTOR_BYTES 32
+#else
+#define VECTOR_BYTES 16
+#endif
+#define LANE(vector, i) (vector)[i]
+#define ZERO {0}
+#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
+typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
+typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
+typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
+typedef int32_t vector_mask_f __attribute__((vector_size(VECTOR_BYTES)));
+typedef uint64_t vector_bits __attribute__((vector_size(VECTOR_BYTES)));
+typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
+#else
+#define LANE(vector, i) (vector)
+#define ZERO 0
+#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
+typedef double vector;
+typedef float vector_f;
+typedef int64_t vector_mask;
+typedef int32_t vector_mask_f;
+typedef uint64_t vector_bits;
+typedef uint32_t vector_bits_f;
+#endif
+#if defined(__GNUC__)
+#define INLINE static inline __attribute__((always_inline, unused))
+#define OUTLINE static __attribute__((noinline))
+#else
+#define INLINE static inline
+#define OUTLINE static
+#endif
+#define LANES (sizeof(vector) / sizeof(double))
+#define LANES_f (sizeof(vector_f) / sizeof(float))
+
+/* Threads, where the compiler has OpenMP. */
+#if defined(_OPENMP)
+#define OMP(directive) _Pragma(#directive)
+#else
+#define OMP(directive)
+#endif
 
 /* Denormal numbers count as zero while the sums run: far splats are many, and slow. */
 #if defined(__SSE2__)
 #include <xmmintrin.h>
-static unsigned flush_denormals(void) {
+INLINE uint64_t flush_denormals(void) {
     const unsigned mode = _mm_getcsr();
     _mm_setcsr(mode | 0x8040u);
     return mode;
 }
-static void restore_denormals(unsigned mode) { _mm_setcsr(mode); }
+INLINE void restore_denormals(uint64_t mode) { _mm_setcsr((unsigned)mode); }
+#elif defined(__aarch64__) && defined(__GNUC__)
+INLINE uint64_t flush_denormals(void) {
+    uint64_t mode;
+    __asm__ __volatile__("mrs %0, fpcr" : "=r"(mode));
+    __asm__ __volatile__("msr fpcr, %0" : : "r"(mode | (UINT64_C(1) << 24)));
+    return mode;
+}
+INLINE void restore_denormals(uint64_t mode) { __asm__ __volatile__("msr fpcr, %0" : : "r"(mode)); }
 #else
-static unsigned flush_denormals(void) { return 0; }
-static void restore_denormals(unsigned mode) { (void)mode; }
+INLINE uint64_t flush_denormals(void) { return 0; }
+INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
 
-/* Of degree 10 on [0, 1], its relative error below 2^-56. */
-static inline double polynomial_r_over_sinh_r_near(double x) {
-    return 1.0 + x * (-0.07645299999999933 + x * (0.007014073450772367 + x * (-0.0006894603735308533 + x *
-        (7.028174834933066e-05 + x * (-7.3271429095332685e-06 + x * (7.755870671311039e-07 + x *
-        (-8.292078427084355e-08 + x * (8.836830738665055e-09 + x * (-8.752687130842103e-10 + x *
-        5.971322045969486e-11)))))))));
+/* The same number in all lanes. */
+INLINE vector vector_of(double x) {
+    const vector zero = ZERO;
+    return x - zero;
 }
 
-/* Of degree 10 on [0, 1], its relative error below 2^-56. */
-static inline double polynomial_log_det_series(double x) {
-    return -0.16666666666666666 + x * (0.008919516666666636 + x * (-0.0006587291203781074 + x *
-        (5.5433465232930376e-05 + x * (-5.007870461546201e-06 + x * (4.73041328179866e-07 + x *
-        (-4.606998930627231e-08 + x * (4.58397192789824e-09 + x * (-4.5918780409089634e-10 + x *
-        (4.3272540326081547e-11 + x * -2.8538336906095128e-12)))))))));
+/* x in the lanes of the mask, y in the others. */
+INLINE vector vector_select(vector_mask mask, vector x, vector y) {
+    return SELECT(vector, vector_mask, mask, x, y);
 }
 
-/* Of degree 9 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_log_det_series_slope(double x) {
-    return 0.008919516666666636 + x * (-0.0013174582407562147 + x * (0.00016630039569879112 + x *
-        (-2.0031481846184804e-05 + x * (2.36520664089933e-06 + x * (-2.7641993583763386e-07 + x *
-        (3.208780349528768e-08 + x * (-3.6735024327271707e-09 + x * (3.8945286293473394e-10 + x *
-        -2.8538336906095128e-11))))))));
+/* Numbers in memory to a vector, and back. */
+INLINE vector vector_load(const double *from) {
+    vector x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+INLINE void vector_store(double *to, vector x) { memcpy(to, &x, sizeof x); }
+
+/* The sum over the lanes, by halves. */
+INLINE double vector_sum(vector x) {
+    double lanes[LANES];
+    vector_store(lanes, x);
+    for (size_t half = LANES / 2; half > 0; half /= 2)
+        for (size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    return lanes[0];
 }
 
-/* Of degree 9 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_r_over_sinh_r_near_slope(double x) {
-    return -0.07645299999999933 + x * (0.014028146901544735 + x * (-0.00206838112059256 + x *
-        (0.00028112699339732266 + x * (-3.663571454766634e-05 + x * (4.6535224027866236e-06 + x *
-        (-5.804454898959049e-07 + x * (7.069464590932044e-08 + x * (-7.877418417757893e-09 + x *
-        5.971322045969487e-10))))))));
+/* The bits of a vector as integers, and back. */
+INLINE vector_bits vector_to_bits(vector x) {
+    vector_bits bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+INLINE vector vector_from_bits(vector_bits bits) {
+    vector x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
 }
 
-/* Of degree 8 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_r_over_sinh_r_near_slope_slope(double x) {
-    return 0.014028146901544735 + x * (-0.00413676224118512 + x * (0.000843380980191968 + x *
-        (-0.00014654285819066536 + x * (2.3267612013933116e-05 + x * (-3.482672939375429e-06 + x *
-        (4.948625213652431e-07 + x * (-6.301934734206314e-08 + x * 5.3741898413725385e-09)))))));
+/* sqrt of every lane; one instruction where the machine has it. */
+INLINE vector vector_sqrt(vector x) {
+    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
+    return x;
 }
 
-/* Of degree 8 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_log_det_series_slope_slope(double x) {
-    return -0.0013174582407562147 + x * (0.00033260079139758224 + x * (-6.009444553855441e-05 + x *
-        (9.46082656359732e-06 + x * (-1.3820996791881693e-06 + x * (1.925268209717261e-07 + x *
-        (-2.5714517029090196e-08 + x * (3.1156229034778715e-09 + x * -2.5684503215485614e-10)))))));
+/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
+INLINE vector vector_exp(vector x) {
+    const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
+    const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
+    const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
+    const vector scale = vector_from_bits((vector_to_bits(shifted) + 1022) << 52); /* 2^(k - 1) */
+    const vector y = vector_select(x > 709.782712893384, vector_of(HUGE_VAL), (scale + scale * part) * 2);
+    return vector_select(x < -707.9, vector_of(0), y);
 }
 
+/* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
+INLINE vector vector_log(vector x) {
+    const vector_bits bits = vector_to_bits(x), biased = (bits + 0x95f619980c433) >> 52; /* k + 1023 */
+    const vector k = vector_from_bits(biased + 0x4338000000000000) - 6755399441056767.0;
+    const vector f = vector_from_bits(bits - (biased << 52) + 0x3ff0000000000000) - 1, s = f / (2 + f), z = s * s;
+    const vector half = f * f * 0.5;
+    const vector rest = z * (0.6666666666666666 + z * (0.4000000000000088 + z * (0.28571428570801954 + z * (0.22222222392089008 + z * (0.18181795600060793 + z * (0.15386241881938595 + z * (0.13268714792348096 + z * 0.1308723619665962)))))));
+    const vector y = k * 0.6931471805601177 - ((half - (s * (half + rest) + k * -1.7239444525614835e-13)) - f);
+    const vector small = vector_select(x < 0, vector_of(NAN), vector_of(-HUGE_VAL));
+    const vector finite = vector_select(x > 2.2250738585072009e-308, y, small);
+    return vector_select(x <= 1.7976931348623157e308, finite, x);
+}
+
+/* Of degree 11 on [0, 1], its relative error below 2^-56. */
+INLINE vector vector_polynomial_eta(vector x) {
+    return -0.3333333333333333 + x * (0.03888888888888882 + x * (-0.004695767195763986 + x *
+        (0.0005742945325677045 + x * (-7.068869857715428e-05 + x * (8.73377493462523e-06 + x *
+        (-1.081704433585778e-06 + x * (1.3417193242135835e-07 + x * (-1.6621793563008396e-08 + x *
+        (2.0201168790031167e-09 + x * (-2.2052156012759445e-10 + x * 1.571171820836068e-11))))))))));
+}
+
+/* Of degree 11 on [0, 1], the derivative of a polynomial. */
+INLINE vector vector_polynomial_eta_slope(vector x) {
+    return 0.15555555555555556 + x * (-0.03756613756613715 + x * (0.00689153439151469 + x *
+        (-0.0011310191862053624 + x * (0.00017467556212788076 + x * (-2.5961179550403887e-05 + x *
+        (3.7575671816986786e-06 + x * (-5.332547379314519e-07 + x * (7.431542814507216e-08 + x *
+        (-9.989583870693198e-09 + x * (1.1796388215400893e-09 + x * -8.854985513574796e-11))))))))));
+}
+
+/* What pairs read of points x. */
+OUTLINE void pair_features(
+    const vector *x, vector *X) {
+    const vector x0 = x[0];
+    const vector x1 = x[1];
+    const vector x2 = x[2];
+    const vector h0 = 0.5 * x0;
+    const vector h1 = 0.5 * x1;
+    const vector h2 = 0.5 * x2;
+    X[0] = h0;
+    X[1] = h1;
+    X[2] = h2;
+}
+
+/* What pairs read of a splat, of some splats. */
+OUTLINE void pair_constants(
+    const vector *mu, const vector *W, const vector *amplitude, vector *S) {
+    const vector mu0 = mu[0];
+    const vector mu1 = mu[1];
+    const vector mu2 = mu[2];
+    const vector W0_0 = W[0];
+    const vector W0_1 = W[1];
+    const vector W0_2 = W[2];
+    const vector W1_0 = W[3];
+    const vector W1_1 = W[4];
+    const vector W1_2 = W[5];
+    const vector its_amplitude = amplitude[0];
+    const vector M0 = 0.5 * mu0;
+    const vector M1 = 0.5 * mu1;
+    const vector M2 = 0.5 * mu2;
+    const vector gap = 1.0 - mu0 * mu0;
+    const vector product = mu0 * mu1;
+    const vector product_2 = mu0 * mu2;
+    const vector R0_0 = 1.4142135623730951 * (W0_0 * gap - W0_1 * product - W0_2 * product_2);
+    const vector total_2 = 1.0 + mu1 * mu1;
+    const vector product_3 = mu1 * mu2;
+    const vector R0_1 = 1.4142135623730951 * (W0_0 * product + W0_1 * total_2 + W0_2 * product_3);
+    const vector total_3 = 1.0 + mu2 * mu2;
+    const vector R0_2 = 1.4142135623730951 * (W0_0 * product_2 + W0_1 * product_3 + W0_2 * total_3);
+    const vector R1_0 = 1.4142135623730951 * (W1_0 * gap - W1_1 * product - W1_2 * product_2);
+    const vector R1_1 = 1.4142135623730951 * (W1_0 * product + W1_1 * total_2 + W1_2 * product_3);
+    const vector R1_2 = 1.4142135623730951 * (W1_0 * product_2 + W1_1 * product_3 + W1_2 * total_3);
+    S[0] = its_amplitude;
+    S[1] = M0;
+    S[2] = M1;
+    S[3] = M2;
+    S[4] = R0_0;
+    S[5] = R0_1;
+    S[6] = R0_2;
+    S[7] = R1_0;
+    S[8] = R1_1;
+    S[9] = R1_2;
+}
+
+/* Adds the values phi of a splat at some points. */
+INLINE void pair_value(
+    const vector *X, const double *S, vector *value) {
+    const vector h0 = X[0];
+    const vector h1 = X[1];
+    const vector h2 = X[2];
+    const double amplitude = S[0];
+    const double M0 = S[1];
+    const double M1 = S[2];
+    const double M2 = S[3];
+    const double R0_0 = S[4];
+    const double R0_1 = S[5];
+    const double R0_2 = S[6];
+    const double R1_0 = S[7];
+    const double R1_1 = S[8];
+    const double R1_2 = S[9];
+    const vector gap = h0 - M0;
+    const vector minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
+    const vector u = vector_select(minus < 0.0, vector_of(0.0), minus);
+    const vector w = vector_sqrt(1.0 + u);
+    const vector_mask near = w < 1.25;
+    const vector eta = vector_polynomial_eta(4.0 * vector_select(near, w - 1.0, vector_of(0.0)));
+    const vector near_chosen = vector_select(near, vector_of(1.0), u);
+    const vector sqrt_2 = vector_sqrt(near_chosen);
+    const vector half_angle = vector_log(w + sqrt_2);
+    const vector half_angle_product = sqrt_2 * half_angle;
+    const vector ratio = 1.0 / (near_chosen * half_angle_product);
+    const vector u_product = u * vector_select(near, eta, near_chosen * ratio - w * (half_angle_product *
+        ratio));
+    const vector a = 1.0 / (w * (w + u_product));
+    const vector a_squared = a * a;
+    const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
+    const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
+    const vector half_square = a_squared * (r0 * r0 + r1 * r1);
+    const vector gaussian = vector_exp(-half_square);
+    value[0] = value[0] + amplitude * (a * gaussian);
+}
+
+/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+INLINE void pair_forward(
+    const vector *X, const double *S, vector *value, vector *slope) {
+    const vector h0 = X[0];
+    const vector h1 = X[1];
+    const vector h2 = X[2];
+    const double amplitude = S[0];
+    const double M0 = S[1];
+    const double M1 = S[2];
+    const double M2 = S[3];
+    const double R0_0 = S[4];
+    const double R0_1 = S[5];
+    const double R0_2 = S[6];
+    const double R1_0 = S[7];
+    const double R1_1 = S[8];
+    const double R1_2 = S[9];
+    const vector gap = h0 - M0;
+    const vector minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
+    const vector u = vector_select(minus < 0.0, vector_of(0.0), minus);
+    const vector w = vector_sqrt(1.0 + u);
+    const vector_mask near = w < 1.25;
+    const vector eta = vector_polynomial_eta(4.0 * vector_select(near, w - 1.0, vector_of(0.0)));
+    const vector near_chosen = vector_select(near, vector_of(1.0), u);
+    const vector sqrt_2 = vector_sqrt(near_chosen);
+    const vector half_angle = vector_log(w + sqrt_2);
+    const vector half_angle_product = sqrt_2 * half_angle;
+    const vector ratio = 1.0 / (near_chosen * half_angle_product);
+    const vector near_chosen_2 = vector_select(near, eta, near_chosen * ratio - w * (half_angle_product *
+        ratio));
+    const vector w_total = w + u * near_chosen_2;
+    const vector a = 1.0 / (w * w_total);
+    const vector a_squared = a * a;
+    const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
+    const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
+    const vector half_square = a_squared * (r0 * r0 + r1 * r1);
+    const vector gaussian = vector_exp(-half_square);
+    const vector phi = amplitude * (a * gaussian);
+    const vector product = 2.0 * (phi * a_squared);
+    const vector r1_product = r1 * product;
+    const vector r0_product = r0 * product;
+    const vector over_w = w_total * a;
+    const vector over_w_product = over_w * ((near_chosen_2 - over_w) * (phi - phi * (2.0 * half_square)));
+    value[0] = value[0] + phi;
+    slope[0] = slope[0] - R1_0 * r1_product - R0_0 * r0_product + M0 * over_w_product;
+    slope[1] = slope[1] - R1_1 * r1_product - R0_1 * r0_product - M1 * over_w_product;
+    slope[2] = slope[2] - R1_2 * r1_product - R0_2 * r0_product - M2 * over_w_product;
+}
+
+/* The Riemannian gradient at some points, of the sums of slopes. */
+OUTLINE void pair_gradient(
+    const vector *x, const vector *slope, vector *gradient) {
+    const vector x0 = x[0];
+    const vector x1 = x[1];
+    const vector x2 = x[2];
+    const vector slope_h0 = slope[0];
+    const vector slope_h1 = slope[1];
+    const vector slope_h2 = slope[2];
+    const vector product = 0.5 * slope_h0;
+    const vector product_2 = 0.5 * slope_h1;
+    const vector product_3 = 0.5 * slope_h2;
+    const vector normal_part = x0 * product + x1 * product_2 + x2 * product_3;
+    gradient[0] = x0 * normal_part - product;
+    gradient[1] = product_2 + x1 * normal_part;
+    gradient[2] = product_3 + x2 * normal_part;
+}
+
+/* The adjoint of slope at some points, of that of the gradient. */
+OUTLINE void pair_gradient_vjp(
+    const vector *x, const vector *gradient_bar, vector *slope_bar) {
+    const vector x0 = x[0];
+    const vector x1 = x[1];
+    const vector x2 = x[2];
+    const vector gradient_bar0 = gradient_bar[0];
+    const vector gradient_bar1 = gradient_bar[1];
+    const vector gradient_bar2 = gradient_bar[2];
+    const vector by_normal_part = x2 * gradient_bar2 + x1 * gradient_bar1 + x0 * gradient_bar0;
+    slope_bar[0] = 0.5 * (x0 * by_normal_part - gradient_bar0);
+    slope_bar[1] = 0.5 * (gradient_bar1 + x1 * by_normal_part);
+    slope_bar[2] = 0.5 * (gradient_bar2 + x2 * by_normal_part);
+}
+
+/* The adjoints of some splats' parameters, of that of S. */
+OUTLINE void pair_constants_vjp(
+    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
+    (void)amplitude;
+    const vector mu0 = mu[0];
+    const vector mu1 = mu[1];
+    const vector mu2 = mu[2];
+    const vector W0_0 = W[0];
+    const vector W0_1 = W[1];
+    const vector W0_2 = W[2];
+    const vector W1_0 = W[3];
+    const vector W1_1 = W[4];
+    const vector W1_2 = W[5];
+    const vector its_amplitude_bar = S_bar[0];
+    const vector M0_bar = S_bar[1];
+    const vector M1_bar = S_bar[2];
+    const vector M2_bar = S_bar[3];
+    const vector R0_0_bar = S_bar[4];
+    const vector R0_1_bar = S_bar[5];
+    const vector R0_2_bar = S_bar[6];
+    const vector R1_0_bar = S_bar[7];
+    const vector R1_1_bar = S_bar[8];
+    const vector R1_2_bar = S_bar[9];
+    const vector product = 1.4142135623730951 * R0_0_bar;
+    const vector product_2 = 1.4142135623730951 * R1_0_bar;
+    const vector gap = 0.5 * M0_bar - mu0 * (2.0 * (W0_0 * product + W1_0 * product_2));
+    const vector product_3 = 1.4142135623730951 * R0_1_bar;
+    const vector product_4 = 1.4142135623730951 * R1_1_bar;
+    const vector total_2 = W0_0 * product_3 - W0_1 * product - W1_1 * product_2 + W1_0 * product_4;
+    const vector product_5 = 1.4142135623730951 * R0_2_bar;
+    const vector product_6 = 1.4142135623730951 * R1_2_bar;
+    const vector total_3 = W0_0 * product_5 - W0_2 * product - W1_2 * product_2 + W1_0 * product_6;
+    const vector total_4 = 0.5 * M1_bar + mu1 * (2.0 * (W0_1 * product_3 + W1_1 * product_4));
+    const vector total_5 = W0_2 * product_3 + W0_1 * product_5 + W1_2 * product_4 + W1_1 * product_6;
+    const vector total_6 = 0.5 * M2_bar + mu2 * (2.0 * (W0_2 * product_5 + W1_2 * product_6));
+    const vector gap_2 = 1.0 - mu0 * mu0;
+    const vector product_7 = mu0 * mu1;
+    const vector product_8 = mu0 * mu2;
+    const vector total_7 = 1.0 + mu1 * mu1;
+    const vector product_9 = mu1 * mu2;
+    const vector total_8 = 1.0 + mu2 * mu2;
+    mu_bar[0] = gap + mu1 * total_2 + mu2 * total_3;
+    mu_bar[1] = total_4 + mu0 * total_2 + mu2 * total_5;
+    mu_bar[2] = total_6 + mu1 * total_5 + mu0 * total_3;
+    W_bar[0] = gap_2 * product + product_7 * product_3 + product_8 * product_5;
+    W_bar[1] = total_7 * product_3 - product_7 * product + product_9 * product_5;
+    W_bar[2] = product_9 * product_3 - product_8 * product + total_8 * product_5;
+    W_bar[3] = gap_2 * product_2 + product_7 * product_4 + product_8 * product_6;
+    W_bar[4] = total_7 * product_4 - product_7 * product_2 + product_9 * product_6;
+    W_bar[5] = product_9 * product_4 - product_8 * product_2 + total_8 * product_6;
+    amplitude_bar[0] = its_amplitude_bar;
+}
+
+/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+INLINE void pair_backward(
+    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
+    const vector h0 = X[0];
+    const vector h1 = X[1];
+    const vector h2 = X[2];
+    const double amplitude = S[0];
+    const double M0 = S[1];
+    const double M1 = S[2];
+    const double M2 = S[3];
+    const double R0_0 = S[4];
+    const double R0_1 = S[5];
+    const double R0_2 = S[6];
+    const double R1_0 = S[7];
+    const double R1_1 = S[8];
+    const double R1_2 = S[9];
+    const vector its_value_bar = value_bar[0];
+    const vector h0_bar = slope_bar[0];
+    const vector h1_bar = slope_bar[1];
+    const vector h2_bar = slope_bar[2];
+    const vector gap = h0 - M0;
+    const vector minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
+    const vector u = vector_select(minus < 0.0, vector_of(0.0), minus);
+    const vector w = vector_sqrt(1.0 + u);
+    const vector_mask near = w < 1.25;
+    const vector product = 4.0 * vector_select(near, w - 1.0, vector_of(0.0));
+    const vector eta = vector_polynomial_eta(product);
+    const vector near_chosen = vector_select(near, vector_of(1.0), u);
+    const vector sqrt_2 = vector_sqrt(near_chosen);
+    const vector half_angle = vector_log(w + sqrt_2);
+    const vector half_angle_product = sqrt_2 * half_angle;
+    const vector ratio = 1.0 / (near_chosen * half_angle_product);
+    const vector product_2 = near_chosen * ratio;
+    const vector product_3 = half_angle_product * ratio;
+    const vector w_product = w * product_3;
+    const vector near_chosen_2 = vector_select(near, eta, product_2 - w_product);
+    const vector w_total = w + u * near_chosen_2;
+    const vector a = 1.0 / (w * w_total);
+    const vector a_squared = a * a;
+    const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
+    const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
+    const vector half_square = a_squared * (r0 * r0 + r1 * r1);
+    const vector gaussian = vector_exp(-half_square);
+    const vector a_product = a * gaussian;
+    const vector over_w = w_total * a;
+    const vector over_w_gap = near_chosen_2 - over_w;
+    const vector gap_2 = M0 * h0_bar - M1 * h1_bar - M2 * h2_bar;
+    const vector over_w_product = over_w * gap_2;
+    const vector product_4 = over_w_gap * over_w_product;
+    const vector gap_3 = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar;
+    const vector gap_4 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar;
+    const vector product_5 = 2.0 * (r0 * gap_3 + r1 * gap_4);
+    const vector half_square_product = 2.0 * half_square;
+    const vector by_phi = its_value_bar + product_4 + a_squared * product_5 - half_square_product * product_4;
+    const vector phi = amplitude * a_product;
+    const vector phi_gap = phi - phi * half_square_product;
+    const vector product_6 = over_w_gap * phi_gap;
+    const vector over_w_product_2 = over_w * product_6;
+    const vector eta_slope = vector_polynomial_eta_slope(product);
+    const vector product_7 = phi_gap * over_w_product;
+    const vector product_8 = vector_select(near, eta_slope, (2.0 + near_chosen) * (product_3 * product_3) -
+        product_2 * (product_2 + w_product)) * product_7;
+    const vector product_9 = a_product * (amplitude * by_phi);
+    const vector by_half_square = -2.0 * (phi * product_4) - product_9;
+    const vector product_10 = over_w_gap * (2.0 * a_squared * (phi * product_5) + product_9 +
+        half_square_product * by_half_square);
+    const vector total_2 = product_8 - over_w * over_w * (product_6 * gap_2 - product_7) + product_10;
+    const vector over_w_product_3 = over_w * total_2;
+    const vector product_11 = 2.0 * (phi * a_squared);
+    const vector product_12 = 2.0 * (a_squared * by_half_square);
+    const vector by_r0 = product_11 * gap_3 + r0 * product_12;
+    const vector r0_product = r0 * product_11;
+    const vector by_r1 = product_11 * gap_4 + r1 * product_12;
+    const vector r1_product = r1 * product_11;
+    S_bar[0] = S_bar[0] + a_product * by_phi;
+    S_bar[1] = S_bar[1] + over_w_product_2 * h0_bar + h0 * over_w_product_3;
+    S_bar[2] = S_bar[2] - over_w_product_2 * h1_bar - h1 * over_w_product_3;
+    S_bar[3] = S_bar[3] - over_w_product_2 * h2_bar - h2 * over_w_product_3;
+    S_bar[4] = S_bar[4] + h0 * by_r0 - r0_product * h0_bar;
+    S_bar[5] = S_bar[5] + h1 * by_r0 - r0_product * h1_bar;
+    S_bar[6] = S_bar[6] + h2 * by_r0 - r0_product * h2_bar;
+    S_bar[7] = S_bar[7] + h0 * by_r1 - r1_product * h0_bar;
+    S_bar[8] = S_bar[8] + h1 * by_r1 - r1_product * h1_bar;
+    S_bar[9] = S_bar[9] + h2 * by_r1 - r1_product * h2_bar;
+}
+
+/* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
+OUTLINE void vector_rows(const double *rows, size_t count, size_t start, size_t size, vector *columns) {
+    for (size_t i = 0; i < size; ++i) {
+        double column[LANES];
+        for (size_t lane = 0; lane < LANES; ++lane)
+            column[lane] = rows[size * (start + lane < count ? start + lane : count - 1) + i];
+        columns[i] = vector_load(column);
+    }
+}
+
+/* Back to rows that are `stride` apart; nothing past the end. */
+OUTLINE void vector_to_rows(
+    const vector *columns, double *rows, size_t count, size_t start, size_t size, size_t stride) {
+    const size_t lanes = start >= count ? 0 : count - start < LANES ? count - start : LANES;
+    for (size_t lane = 0; lane < lanes; ++lane)
+        for (size_t i = 0; i < size; ++i) rows[stride * (start + lane) + i] = LANE(columns[i], lane);
+}
+
+/* Zero in the lanes past the end. */
+OUTLINE void vector_end(size_t count, size_t start, size_t size, vector *columns) {
+    for (size_t lane = start >= count ? 0 : count - start; lane < LANES; ++lane)
+        for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
+}
+
+/* Scratch memory: 7 vectors for each block of points, then the constants of the splats. */
+size_t hyperbolic_splats_work(size_t count, size_t splat_count, int threads) {
+    (void)threads;
+    return ((count + LANES - 1) / LANES * 7 + 1) * LANES + 10 * splat_count;
+}
+
+static vector *work_points(double *work) {
+    const uintptr_t size = sizeof(vector), start = (uintptr_t)work;
+    return (vector *)((char *)work + ((0 - start) & (size - 1)));
+}
+
+static double *work_constants(double *work, size_t count) {
+    return (double *)(work_points(work) + (count + LANES - 1) / LANES * 7);
+}
+
+/* The constants of LANES splats, as rows. */
+OUTLINE void splat_constants(
+    size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, double *constants) {
+    vector own_mu[3], own_W[6], own_amplitude[1], S[10];
+    vector_rows(mu, splat_count, start, 3, own_mu);
+    vector_rows(W, splat_count, start, 6, own_W);
+    vector_rows(amplitude, splat_count, start, 1, own_amplitude);
+    pair_constants(own_mu, own_W, own_amplitude, S);
+    vector_to_rows(S, constants, splat_count, start, 10, 10);
+}
+
+/* 2 vectors of points at a time stay in registers while all splats pass. */
 void hyperbolic_splats(
-    size_t count,
-    size_t splat_count,
-    const double *HYPERBOLIC_RESTRICT x,
-    const double *HYPERBOLIC_RESTRICT mu,
-    const double *HYPERBOLIC_RESTRICT W,
-    const double *HYPERBOLIC_RESTRICT amplitude,
-    double *HYPERBOLIC_RESTRICT value,
-    double *HYPERBOLIC_RESTRICT gradient) {
-    const unsigned mode = flush_denormals();
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        double x_block[3][LANES], sum[4][LANES] = {{0}};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            for (size_t i = 0; i < 3; ++i) x_block[i][lane] = x[3 * n + i];
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            const double mu1 = mu[3 * k + 1];
-            const double mu2 = mu[3 * k + 2];
-            const double W0_0 = W[6 * k + 0];
-            const double W0_1 = W[6 * k + 1];
-            const double W0_2 = W[6 * k + 2];
-            const double W1_0 = W[6 * k + 3];
-            const double W1_1 = W[6 * k + 4];
-            const double W1_2 = W[6 * k + 5];
-            const double amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const double S0 = x_block[1][lane] + mu1;
-                const double S1 = x_block[2][lane] + mu2;
-                const double dot_S_S = S0 * S0 + S1 * S1;
-                const double D0 = x_block[1][lane] - mu1;
-                const double D1 = x_block[2][lane] - mu2;
-                const double dot_D_D = D0 * D0 + D1 * D1;
-                const double dot_D_S = S0 * D0 + S1 * D1;
-                const double dot_ps_ps = mu1 * mu1 + mu2 * mu2;
-                const double a = sqrt(1.0 + dot_ps_ps);
-                const double dot_qs_qs = x_block[1][lane] * x_block[1][lane] + x_block[2][lane] * x_block[2][lane];
-                const double dot_qs_qs_total = 1.0 + dot_qs_qs;
-                const double b = sqrt(dot_qs_qs_total);
-                const double a_total = a + b;
-                const double e = dot_D_S / a_total;
-                const int is_small = dot_S_S < 1.0;
-                const double dot_S_S_chosen = (is_small ? 1.0 : dot_S_S);
-                const double dot_D_S_ratio = dot_D_S / dot_S_S_chosen;
-                const double dot_ps_qs = x_block[1][lane] * mu1 + x_block[2][lane] * mu2;
-                const double squared = a_total * a_total;
-                const double a_product = 2.0 * a;
-                const double c = (2.0 + b * a_product - 2.0 * dot_ps_qs) / squared;
-                const double dot_D_S_product = dot_D_S * c;
-                const double rest0 = D0 - S0 * dot_D_S_ratio;
-                const double rest1 = D1 - S1 * dot_D_S_ratio;
-                const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
-                const double ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * dot_D_S_product);
-                const double total_2 = 1.0 + 0.25 * ww;
-                const int near = ww < 0.458718;
-                const double near_chosen = (near ? 2.1799885768598575 * ww : 0.0);
-                const double r_over_sinh_r_near = polynomial_r_over_sinh_r_near(near_chosen);
-                const double sqrt_ww = sqrt((near ? 1.0 : ww));
-                const double sqrt_ww_product = 0.5 * sqrt_ww;
-                const double asinh_sqrt_ww_over_2 = asinh(sqrt_ww_product);
-                const double r = 2.0 * asinh_sqrt_ww_over_2;
-                const double sinh_r = sqrt((near ? 1.0 : ww * total_2));
-                const double r_ratio = r / sinh_r;
-                const double r_over_sinh_r = (near ? r_over_sinh_r_near : r_ratio);
-                const double scale = 0.5 * ww;
-                const double e_gap = e - a * scale;
-                const double v0 = r_over_sinh_r * e_gap;
-                const double D0_gap = D0 - mu1 * scale;
-                const double v1 = r_over_sinh_r * D0_gap;
-                const double D1_gap = D1 - mu2 * scale;
-                const double v2 = r_over_sinh_r * D1_gap;
-                const double log_det_series = polynomial_log_det_series(near_chosen);
-                const double log_det_near = ww * log_det_series;
-                const double log_det = (near ? log_det_near : log(r_ratio));
-                const double z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-                const double z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-                const double exp_2 = exp(log_det - 0.5 * (z0 * z0 + z1 * z1));
-                const double phi = amplitude_k * exp_2;
-                const double by_v2 = -(W1_2 * z1) - W0_2 * z0;
-                const double by_v1 = -(W1_1 * z1) - W0_1 * z0;
-                const double by_v0 = -(W1_0 * z1) - W0_0 * z0;
-                const double by_log_det_near = (near ? 1.0 : 0.0);
-                const double by_log_det_series = ww * by_log_det_near;
-                const double log_det_series_slope = polynomial_log_det_series_slope(near_chosen);
-                const double product = r_over_sinh_r * by_v2;
-                const double product_2 = r_over_sinh_r * by_v1;
-                const double product_3 = r_over_sinh_r * by_v0;
-                const double by_r_over_sinh_r = D1_gap * by_v2 + D0_gap * by_v1 + e_gap * by_v0;
-                const double by_scale = -(mu2 * product) - mu1 * product_2 - a * product_3;
-                const double by_r_over_sinh_r_near = (near ? by_r_over_sinh_r : 0.0);
-                const double by_r = ((near ? 0.0 : 1.0) / r_ratio + (near ? 0.0 : by_r_over_sinh_r)) / sinh_r;
-                const double near_chosen_2 = (near ? 0.0 : -(r_ratio * by_r / (2.0 * sinh_r)));
-                const double by_asinh_sqrt_ww_over_2 = 2.0 * by_r;
-                const double by_sqrt_ww = 0.5 * (by_asinh_sqrt_ww_over_2 / sqrt(1.0 + sqrt_ww_product * sqrt_ww_product));
-                const double r_over_sinh_r_near_slope = polynomial_r_over_sinh_r_near_slope(near_chosen);
-                const double total_3 = log_det_series * by_log_det_near + 0.5 * by_scale + (near ? 0.0 : by_sqrt_ww / (2.0
-                    * sqrt_ww)) + 2.1799885768598575 * (near ? by_log_det_series * log_det_series_slope +
-                    by_r_over_sinh_r_near * r_over_sinh_r_near_slope : 0.0);
-                const double by_ww = total_3 + total_2 * near_chosen_2 + 0.25 * (ww * near_chosen_2);
-                const double by_dot_D_D = (is_small ? by_ww : 0.0);
-                const double by_dot_rest_rest = (is_small ? 0.0 : by_ww);
-                const double product_4 = dot_D_S_ratio * by_dot_rest_rest;
-                const double product_5 = 2.0 * by_dot_rest_rest;
-                const double by_rest1 = rest1 * product_5;
-                const double by_rest0 = rest0 * product_5;
-                const double by_c = dot_D_S * product_4;
-                const double by_dot_D_D_product = 2.0 * by_dot_D_D;
-                const double by_e = product_3 - e * by_dot_D_D_product;
-                const double by_c_ratio = by_c / squared;
-                const double product_6 = 2.0 * by_c_ratio;
-                const double ratio = (dot_D_S_product * by_dot_rest_rest - S1 * by_rest1 - S0 * by_rest0) /
-                    dot_S_S_chosen;
-                const double by_dot_S_S = (is_small ? 0.0 : -(dot_D_S_ratio * ratio));
-                const double by_e_ratio = by_e / a_total;
-                const double by_dot_D_S = c * product_4 + ratio + by_e_ratio;
-                const double gap = -(a_total * (2.0 * (c * by_c_ratio))) - e * by_e_ratio;
-                const double by_b = a_product * by_c_ratio + gap;
-                const int is_small_2 = dot_qs_qs_total == 0.0;
-                const double by_dot_qs_qs = (is_small_2 ? 0.0 : by_b / (2.0 * (is_small_2 ? 1.0 : b)));
-                const double product_7 = 2.0 * by_dot_qs_qs;
-                const double by_D1 = product + by_rest1 + S1 * by_dot_D_S + D1 * by_dot_D_D_product;
-                const double by_D0 = product_2 + by_rest0 + S0 * by_dot_D_S + D0 * by_dot_D_D_product;
-                const double by_dot_S_S_product = 2.0 * by_dot_S_S;
-                const double by_S1 = D1 * by_dot_D_S - dot_D_S_ratio * by_rest1 + S1 * by_dot_S_S_product;
-                const double by_S0 = D0 * by_dot_D_S - dot_D_S_ratio * by_rest0 + S0 * by_dot_S_S_product;
-                const double exponent_by_x2 = x_block[2][lane] * product_7 - mu2 * product_6 + by_D1 + by_S1;
-                const double exponent_by_x1 = x_block[1][lane] * product_7 - mu1 * product_6 + by_D0 + by_S0;
-                const double df1 = phi * exponent_by_x1;
-                const double df2 = phi * exponent_by_x2;
-                const double normal_part = x_block[1][lane] * df1 + x_block[2][lane] * df2;
-                const double gradient0 = x_block[0][lane] * normal_part;
-                const double gradient1 = df1 + x_block[1][lane] * normal_part;
-                const double gradient2 = df2 + x_block[2][lane] * normal_part;
-                sum[0][lane] += phi;
-                sum[1][lane] += gradient0;
-                sum[2][lane] += gradient1;
-                sum[3][lane] += gradient2;
+    size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT W, const double *HYPERBOLIC_RESTRICT amplitude,
+    double *HYPERBOLIC_RESTRICT value, double *HYPERBOLIC_RESTRICT gradient, double *HYPERBOLIC_RESTRICT work, int threads) {
+    (void)threads;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES) {
+            vector at[2][3], X[2][3], grad[3];
+            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][3] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows(x, count, start + b * LANES, 3, at[b]);
+                pair_features(at[b], X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_forward(X[0], constants + 10 * k, value_sum[0], slope_sum[0]);
+                pair_forward(X[1], constants + 10 * k, value_sum[1], slope_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b) {
+                pair_gradient(at[b], slope_sum[b], grad);
+                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                vector_to_rows(grad, gradient, count, start + b * LANES, 3, 3);
             }
         }
-        for (size_t lane = 0; lane < lanes; ++lane) {
-            value[start + lane] = sum[0][lane];
-            for (size_t i = 0; i < 3; ++i) gradient[3 * (start + lane) + i] = sum[i + 1][lane];
-        }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
+void hyperbolic_splats_value(
+    size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT W, const double *HYPERBOLIC_RESTRICT amplitude,
+    double *HYPERBOLIC_RESTRICT value, double *HYPERBOLIC_RESTRICT work, int threads) {
+    (void)threads;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES) {
+            vector at[3], X[2][3], value_sum[2][1] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows(x, count, start + b * LANES, 3, at);
+                pair_features(at, X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_value(X[0], constants + 10 * k, value_sum[0]);
+                pair_value(X[1], constants + 10 * k, value_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b)
+                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
+OUTLINE void splat_points(
+    size_t count, size_t start, const double *x, const double *value_bar, const double *gradient_bar, vector *point) {
+    vector at[3], grad_bar[3], slope_bar[3];
+    vector_rows(x, count, start, 3, at);
+    vector_rows(gradient_bar, count, start, 3, grad_bar);
+    vector_rows(value_bar, count, start, 1, point + 3);
+    pair_features(at, point);
+    pair_gradient_vjp(at, grad_bar, slope_bar);
+    for (int i = 0; i < 3; ++i) point[3 + 1 + i] = slope_bar[i];
+    vector_end(count, start, 3 + 1, point + 3);
+}
+
+/* Adds to S_bar what some vectors of points add to it. */
+OUTLINE void splat_sums(const vector *point, size_t size, const double *S, double *S_bar) {
+    vector sum[10] = {ZERO};
+    for (size_t b = 0; b < size; ++b, point += 7) pair_backward(point, S, point + 3, point + 3 + 1, sum);
+    S_bar[0] += vector_sum(sum[0]);
+    S_bar[1] += vector_sum(sum[1]);
+    S_bar[2] += vector_sum(sum[2]);
+    S_bar[3] += vector_sum(sum[3]);
+    S_bar[4] += vector_sum(sum[4]);
+    S_bar[5] += vector_sum(sum[5]);
+    S_bar[6] += vector_sum(sum[6]);
+    S_bar[7] += vector_sum(sum[7]);
+    S_bar[8] += vector_sum(sum[8]);
+    S_bar[9] += vector_sum(sum[9]);
+}
+
+/*
+ * Some splats at a time; the points pass over each of them, a chunk at a time, while its sums stay in registers. How many
+ * splats depends on the threads, what is summed in which order does not.
+ */
 void hyperbolic_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *HYPERBOLIC_RESTRICT x,
-    const double *HYPERBOLIC_RESTRICT mu,
-    const double *HYPERBOLIC_RESTRICT W,
-    const double *HYPERBOLIC_RESTRICT amplitude,
-    const double *HYPERBOLIC_RESTRICT value_bar,
-    const double *HYPERBOLIC_RESTRICT gradient_bar,
-    double *HYPERBOLIC_RESTRICT mu_bar,
-    double *HYPERBOLIC_RESTRICT W_bar,
-    double *HYPERBOLIC_RESTRICT amplitude_bar) {
-    const unsigned mode = flush_denormals();
-    for (size_t i = 0; i < 3 * splat_count; ++i) mu_bar[i] = 0;
-    for (size_t i = 0; i < 6 * splat_count; ++i) W_bar[i] = 0;
-    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        double x_block[3][LANES], value_bar_block[1][LANES], gradient_bar_block[3][LANES];
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            const double weight = lane < lanes ? 1 : 0;
-            for (size_t i = 0; i < 3; ++i) x_block[i][lane] = x[3 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
-            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] = gradient_bar[3 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
-            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] *= weight;
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            double sum[10][LANES] = {{0}}, total[10] = {0};
-            const double mu1 = mu[3 * k + 1];
-            const double mu2 = mu[3 * k + 2];
-            const double W0_0 = W[6 * k + 0];
-            const double W0_1 = W[6 * k + 1];
-            const double W0_2 = W[6 * k + 2];
-            const double W1_0 = W[6 * k + 3];
-            const double W1_1 = W[6 * k + 4];
-            const double W1_2 = W[6 * k + 5];
-            const double amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const double S0 = x_block[1][lane] + mu1;
-                const double S1 = x_block[2][lane] + mu2;
-                const double dot_S_S = S0 * S0 + S1 * S1;
-                const double D0 = x_block[1][lane] - mu1;
-                const double D1 = x_block[2][lane] - mu2;
-                const double dot_D_D = D0 * D0 + D1 * D1;
-                const double dot_D_S = S0 * D0 + S1 * D1;
-                const double dot_ps_ps = mu1 * mu1 + mu2 * mu2;
-                const double dot_ps_ps_total = 1.0 + dot_ps_ps;
-                const double a = sqrt(dot_ps_ps_total);
-                const double dot_qs_qs = x_block[1][lane] * x_block[1][lane] + x_block[2][lane] * x_block[2][lane];
-                const double dot_qs_qs_total = 1.0 + dot_qs_qs;
-                const double b = sqrt(dot_qs_qs_total);
-                const double a_total = a + b;
-                const double e = dot_D_S / a_total;
-                const int is_small = dot_S_S < 1.0;
-                const double dot_S_S_chosen = (is_small ? 1.0 : dot_S_S);
-                const double dot_D_S_ratio = dot_D_S / dot_S_S_chosen;
-                const double dot_ps_qs = x_block[1][lane] * mu1 + x_block[2][lane] * mu2;
-                const double squared = a_total * a_total;
-                const double a_product = 2.0 * a;
-                const double c = (2.0 + b * a_product - 2.0 * dot_ps_qs) / squared;
-                const double dot_D_S_product = dot_D_S * c;
-                const double rest0 = D0 - S0 * dot_D_S_ratio;
-                const double rest1 = D1 - S1 * dot_D_S_ratio;
-                const double dot_rest_rest = rest0 * rest0 + rest1 * rest1;
-                const double ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * dot_D_S_product);
-                const double total_2 = 1.0 + 0.25 * ww;
-                const int near = ww < 0.458718;
-                const double near_chosen = (near ? 2.1799885768598575 * ww : 0.0);
-                const double r_over_sinh_r_near = polynomial_r_over_sinh_r_near(near_chosen);
-                const double sqrt_ww = sqrt((near ? 1.0 : ww));
-                const double sqrt_ww_product = 0.5 * sqrt_ww;
-                const double asinh_sqrt_ww_over_2 = asinh(sqrt_ww_product);
-                const double r = 2.0 * asinh_sqrt_ww_over_2;
-                const double sinh_r = sqrt((near ? 1.0 : ww * total_2));
-                const double r_ratio = r / sinh_r;
-                const double r_over_sinh_r = (near ? r_over_sinh_r_near : r_ratio);
-                const double scale = 0.5 * ww;
-                const double e_gap = e - a * scale;
-                const double v0 = r_over_sinh_r * e_gap;
-                const double D0_gap = D0 - mu1 * scale;
-                const double v1 = r_over_sinh_r * D0_gap;
-                const double D1_gap = D1 - mu2 * scale;
-                const double v2 = r_over_sinh_r * D1_gap;
-                const double log_det_series = polynomial_log_det_series(near_chosen);
-                const double log_det_near = ww * log_det_series;
-                const double log_det = (near ? log_det_near : log(r_ratio));
-                const double z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-                const double z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-                const double exp_2 = exp(log_det - 0.5 * (z0 * z0 + z1 * z1));
-                const double phi = amplitude_k * exp_2;
-                const double by_v2 = -(W1_2 * z1) - W0_2 * z0;
-                const double by_v1 = -(W1_1 * z1) - W0_1 * z0;
-                const double by_v0 = -(W1_0 * z1) - W0_0 * z0;
-                const double by_log_det_near = (near ? 1.0 : 0.0);
-                const double ratio = (near ? 0.0 : 1.0) / r_ratio;
-                const double by_log_det_series = ww * by_log_det_near;
-                const double log_det_series_slope = polynomial_log_det_series_slope(near_chosen);
-                const double product = r_over_sinh_r * by_v2;
-                const double product_2 = r_over_sinh_r * by_v1;
-                const double product_3 = r_over_sinh_r * by_v0;
-                const double by_r_over_sinh_r = D1_gap * by_v2 + D0_gap * by_v1 + e_gap * by_v0;
-                const double by_scale = -(mu2 * product) - mu1 * product_2 - a * product_3;
-                const double by_r_over_sinh_r_near = (near ? by_r_over_sinh_r : 0.0);
-                const double by_r = (ratio + (near ? 0.0 : by_r_over_sinh_r)) / sinh_r;
-                const double sinh_r_product = 2.0 * sinh_r;
-                const double ratio_2 = r_ratio * by_r / sinh_r_product;
-                const double near_chosen_2 = (near ? 0.0 : -ratio_2);
-                const double by_asinh_sqrt_ww_over_2 = 2.0 * by_r;
-                const double sqrt_2 = sqrt(1.0 + sqrt_ww_product * sqrt_ww_product);
-                const double ratio_3 = by_asinh_sqrt_ww_over_2 / sqrt_2;
-                const double by_sqrt_ww = 0.5 * ratio_3;
-                const double sqrt_ww_product_2 = 2.0 * sqrt_ww;
-                const double by_sqrt_ww_ratio = by_sqrt_ww / sqrt_ww_product_2;
-                const double r_over_sinh_r_near_slope = polynomial_r_over_sinh_r_near_slope(near_chosen);
-                const double total_3 = log_det_series * by_log_det_near + 0.5 * by_scale + (near ? 0.0 : by_sqrt_ww_ratio)
-                    + 2.1799885768598575 * (near ? by_log_det_series * log_det_series_slope + by_r_over_sinh_r_near *
-                    r_over_sinh_r_near_slope : 0.0);
-                const double by_ww = total_3 + total_2 * near_chosen_2 + 0.25 * (ww * near_chosen_2);
-                const double by_dot_D_D = (is_small ? by_ww : 0.0);
-                const double by_dot_rest_rest = (is_small ? 0.0 : by_ww);
-                const double product_4 = dot_D_S_ratio * by_dot_rest_rest;
-                const double product_5 = 2.0 * by_dot_rest_rest;
-                const double by_rest1 = rest1 * product_5;
-                const double by_rest0 = rest0 * product_5;
-                const double by_c = dot_D_S * product_4;
-                const double by_dot_D_D_product = 2.0 * by_dot_D_D;
-                const double by_e = product_3 - e * by_dot_D_D_product;
-                const double by_c_ratio = by_c / squared;
-                const double product_6 = 2.0 * by_c_ratio;
-                const double product_7 = 2.0 * (c * by_c_ratio);
-                const double ratio_4 = (dot_D_S_product * by_dot_rest_rest - S1 * by_rest1 - S0 * by_rest0) /
-                    dot_S_S_chosen;
-                const double by_dot_S_S = (is_small ? 0.0 : -(dot_D_S_ratio * ratio_4));
-                const double by_e_ratio = by_e / a_total;
-                const double by_dot_D_S = c * product_4 + ratio_4 + by_e_ratio;
-                const double by_b = a_product * by_c_ratio + (-(a_total * product_7) - e * by_e_ratio);
-                const int is_small_2 = dot_qs_qs_total == 0.0;
-                const double product_8 = 2.0 * (is_small_2 ? 1.0 : b);
-                const double by_dot_qs_qs = (is_small_2 ? 0.0 : by_b / product_8);
-                const double product_9 = 2.0 * by_dot_qs_qs;
-                const double by_D1 = product + by_rest1 + S1 * by_dot_D_S + D1 * by_dot_D_D_product;
-                const double by_D0 = product_2 + by_rest0 + S0 * by_dot_D_S + D0 * by_dot_D_D_product;
-                const double by_dot_S_S_product = 2.0 * by_dot_S_S;
-                const double by_S1 = D1 * by_dot_D_S - dot_D_S_ratio * by_rest1 + S1 * by_dot_S_S_product;
-                const double by_S0 = D0 * by_dot_D_S - dot_D_S_ratio * by_rest0 + S0 * by_dot_S_S_product;
-                const double exponent_by_x2 = x_block[2][lane] * product_9 - mu2 * product_6 + by_D1 + by_S1;
-                const double exponent_by_x1 = x_block[1][lane] * product_9 - mu1 * product_6 + by_D0 + by_S0;
-                const double by_normal_part = x_block[2][lane] * gradient_bar_block[2][lane] + x_block[1][lane] *
-                    gradient_bar_block[1][lane] + x_block[0][lane] * gradient_bar_block[0][lane];
-                const double by_df2 = gradient_bar_block[2][lane] + x_block[2][lane] * by_normal_part;
-                const double by_df1 = gradient_bar_block[1][lane] + x_block[1][lane] * by_normal_part;
-                const double by_exponent_by_x2 = phi * by_df2;
-                const double by_exponent_by_x1 = phi * by_df1;
-                const double by_phi = value_bar_block[0][lane] + exponent_by_x2 * by_df2 + exponent_by_x1 * by_df1;
-                const double S0_product = S0 * by_exponent_by_x1;
-                const double S1_product = S1 * by_exponent_by_x2;
-                const double by_by_dot_S_S = 2.0 * (S0_product + S1_product);
-                const double D0_product = D0 * by_exponent_by_x1;
-                const double D1_product = D1 * by_exponent_by_x2;
-                const double by_dot_D_S_product = by_dot_D_S * by_exponent_by_x1;
-                const double by_dot_D_S_product_2 = by_dot_D_S * by_exponent_by_x2;
-                const double by_by_dot_D_S = D1_product + (S1_product + (S0_product + D0_product));
-                const double by_by_dot_qs_qs = 2.0 * (x_block[1][lane] * by_exponent_by_x1 + x_block[2][lane] *
-                    by_exponent_by_x2);
-                const double by_by_b = (is_small_2 ? 0.0 : by_by_dot_qs_qs) / product_8;
-                const double by_by_e = (by_by_dot_D_S - e * by_by_b) / a_total;
-                const double chosen = (is_small ? 0.0 : by_by_dot_S_S);
-                const double ratio_5 = (by_by_dot_D_S - dot_D_S_ratio * chosen) / dot_S_S_chosen;
-                const double product_10 = 2.0 * (a_total * by_by_b);
-                const double total_4 = a_product * by_by_b + 2.0 * (-(mu1 * by_exponent_by_x1) - mu2 * by_exponent_by_x2);
-                const double by_by_c = (total_4 - c * product_10) / squared;
-                const double by_by_dot_D_D = 2.0 * (D0_product + D1_product - e * by_by_e);
-                const double total_5 = dot_D_S * by_by_c + c * by_by_dot_D_S;
-                const double by_by_rest0 = by_exponent_by_x1 + (-(S0 * ratio_5) - dot_D_S_ratio * by_exponent_by_x1);
-                const double by_by_rest1 = by_exponent_by_x2 + (-(S1 * ratio_5) - dot_D_S_ratio * by_exponent_by_x2);
-                const double total_6 = -(ratio_4 * chosen) - by_rest0 * by_exponent_by_x1 - by_rest1 * by_exponent_by_x2 +
-                    by_dot_rest_rest * total_5;
-                const double by_by_dot_rest_rest = 2.0 * (rest0 * by_by_rest0 + rest1 * by_by_rest1) + dot_D_S_ratio *
-                    total_5 + dot_D_S_product * ratio_5;
-                const double by_by_ww = (is_small ? 0.0 : by_by_dot_rest_rest) + (is_small ? by_by_dot_D_D : 0.0);
-                const double by_by_ww_product = 0.25 * by_by_ww;
-                const double near_chosen_3 = (near ? 2.1799885768598575 * by_by_ww : 0.0);
-                const double by_by_r_over_sinh_r_near = r_over_sinh_r_near_slope * near_chosen_3;
-                const double by_r_over_sinh_r_near_slope = by_r_over_sinh_r_near * near_chosen_3;
-                const double r_over_sinh_r_near_slope_slope = polynomial_r_over_sinh_r_near_slope_slope(near_chosen);
-                const double by_by_sqrt_ww = (near ? 0.0 : by_by_ww) / sqrt_ww_product_2;
-                const double by_by_asinh_sqrt_ww_over_2 = 0.5 * by_by_sqrt_ww / sqrt_2;
-                const double ratio_6 = (near ? 0.0 : ww * by_by_ww_product + total_2 * by_by_ww) / sinh_r_product;
-                const double by_by_r = 2.0 * by_by_asinh_sqrt_ww_over_2 - r_ratio * ratio_6;
-                const double by_by_r_ratio = by_by_r / sinh_r;
-                const double by_by_r_over_sinh_r = (near ? 0.0 : by_by_r_ratio) + (near ? by_by_r_over_sinh_r_near : 0.0);
-                const double by_by_scale = 0.5 * by_by_ww;
-                const double by_by_e_gap = by_by_e - a * by_by_scale;
-                const double by_by_v0 = r_over_sinh_r * by_by_e_gap + e_gap * by_by_r_over_sinh_r;
-                const double gap = by_exponent_by_x1 - mu1 * by_by_scale;
-                const double by_by_v1 = r_over_sinh_r * gap + D0_gap * by_by_r_over_sinh_r;
-                const double gap_2 = by_exponent_by_x2 - mu2 * by_by_scale;
-                const double by_by_v2 = r_over_sinh_r * gap_2 + D1_gap * by_by_r_over_sinh_r;
-                const double by_by_log_det_series = log_det_series_slope * near_chosen_3;
-                const double by_log_det_series_slope = by_log_det_series * near_chosen_3;
-                const double log_det_series_slope_slope = polynomial_log_det_series_slope_slope(near_chosen);
-                const double by_log_det = exp_2 * (amplitude_k * by_phi);
-                const double by_z1 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2 - z1 * by_log_det;
-                const double by_z0 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2 - z0 * by_log_det;
-                const double by_v2_2 = W1_2 * by_z1 + W0_2 * by_z0;
-                const double by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0;
-                const double by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0;
-                const double by_log_det_near_2 = (near ? by_log_det : 0.0);
-                const double by_log_det_series_2 = by_log_det_near * by_by_ww + ww * by_log_det_near_2;
-                const double total_7 = by_v2 * by_by_r_over_sinh_r + r_over_sinh_r * by_v2_2;
-                const double total_8 = by_v0 * by_by_e_gap + by_v1 * gap + by_v2 * gap_2 + D1_gap * by_v2_2 + D0_gap *
-                    by_v1_2;
-                const double total_9 = by_v1 * by_by_r_over_sinh_r + r_over_sinh_r * by_v1_2;
-                const double by_r_over_sinh_r_2 = total_8 + e_gap * by_v0_2;
-                const double total_10 = by_v0 * by_by_r_over_sinh_r + r_over_sinh_r * by_v0_2;
-                const double by_scale_2 = -(mu2 * total_7) - mu1 * total_9 - a * total_10;
-                const double by_r_over_sinh_r_near_2 = (near ? by_r_over_sinh_r_2 : 0.0);
-                const double total_11 = -(by_r * ratio_6) - ratio * (by_by_r_ratio / r_ratio) + (near ? 0.0 : by_log_det)
-                    / r_ratio + (near ? 0.0 : by_r_over_sinh_r_2);
-                const double by_r_2 = total_11 / sinh_r;
-                const double by_sinh_r = 2.0 * (ratio_2 * ratio_6) - by_r * by_by_r_ratio - r_ratio * by_r_2;
-                const double near_chosen_4 = (near ? 0.0 : by_sinh_r / sinh_r_product);
-                const double by_asinh_sqrt_ww_over_2_2 = 2.0 * by_r_2;
-                const double gap_3 = by_asinh_sqrt_ww_over_2_2 / sqrt_2 - sqrt_ww_product * (2.0 * (ratio_3 *
-                    by_by_asinh_sqrt_ww_over_2 / (2.0 * sqrt_2)));
-                const double by_sqrt_ww_2 = 0.5 * gap_3 - 2.0 * (by_sqrt_ww_ratio * by_by_sqrt_ww);
-                const double total_12 = near_chosen_2 * by_by_ww_product + by_log_det_near * by_by_log_det_series +
-                    log_det_series * by_log_det_near_2 + 0.5 * by_scale_2 + (near ? 0.0 : by_sqrt_ww_2 /
-                    sqrt_ww_product_2);
-                const double near_chosen_5 = (near ? by_r_over_sinh_r_near_slope * r_over_sinh_r_near_slope_slope +
-                    by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
-                    r_over_sinh_r_near_slope * by_r_over_sinh_r_near_2 : 0.0);
-                const double by_ww_2 = total_12 + 2.1799885768598575 * near_chosen_5 + total_2 * near_chosen_4 + 0.25 *
-                    (near_chosen_2 * by_by_ww + ww * near_chosen_4);
-                const double by_dot_D_D_2 = (is_small ? by_ww_2 : 0.0);
-                const double by_dot_rest_rest_2 = (is_small ? 0.0 : by_ww_2);
-                const double total_13 = by_dot_rest_rest * ratio_5 + dot_D_S_ratio * by_dot_rest_rest_2;
-                const double product_11 = 2.0 * by_dot_rest_rest_2;
-                const double by_rest1_2 = product_5 * by_by_rest1 + rest1 * product_11;
-                const double by_rest0_2 = product_5 * by_by_rest0 + rest0 * product_11;
-                const double by_c_2 = product_4 * by_by_dot_D_S - by_c_ratio * product_10 + dot_D_S * total_13;
-                const double by_dot_D_D_product_2 = 2.0 * by_dot_D_D_2;
-                const double by_e_2 = -(by_e_ratio * by_by_b) - by_dot_D_D_product * by_by_e + total_10 - e *
-                    by_dot_D_D_product_2;
-                const double by_c_ratio_2 = by_c_2 / squared;
-                const double product_12 = 2.0 * by_c_ratio_2;
-                const double product_13 = a_total * (2.0 * (-(by_c_ratio * by_by_c) - c * by_c_ratio_2));
-                const double gap_4 = -(product_6 * by_exponent_by_x2) - product * by_by_scale - scale * total_7 -
-                    x_block[2][lane] * product_12;
-                const double gap_5 = -(product_6 * by_exponent_by_x1) - product_2 * by_by_scale - scale * total_9 -
-                    x_block[1][lane] * product_12;
-                const double ratio_7 = (total_6 + dot_D_S_product * by_dot_rest_rest_2 - S1 * by_rest1_2 - S0 *
-                    by_rest0_2) / dot_S_S_chosen;
-                const double by_dot_S_S_2 = (is_small ? 0.0 : -(ratio_4 * ratio_5) - dot_D_S_ratio * ratio_7);
-                const double by_e_ratio_2 = by_e_2 / a_total;
-                const double by_dot_D_S_2 = product_4 * by_by_c + c * total_13 + ratio_7 + by_e_ratio_2;
-                const double gap_6 = -(by_e_ratio * by_by_e) - product_7 * by_by_b + product_13 - e * by_e_ratio_2;
-                const double by_a = -(product_3 * by_by_scale) - scale * total_10 + 2.0 * (by_c_ratio * by_by_b + b *
-                    by_c_ratio_2) + gap_6;
-                const int is_small_3 = dot_ps_ps_total == 0.0;
-                const double by_dot_ps_ps = (is_small_3 ? 0.0 : by_a / (2.0 * (is_small_3 ? 1.0 : a)));
-                const double product_14 = 2.0 * by_dot_ps_ps;
-                const double total_14 = by_dot_S_S_product * by_exponent_by_x2 + by_dot_D_S_product_2 - by_rest1 * ratio_5
-                    - dot_D_S_ratio * by_rest1_2 + D1 * by_dot_D_S_2;
-                const double total_15 = by_dot_D_D_product * by_exponent_by_x2 + by_dot_D_S_product_2 + total_7 +
-                    by_rest1_2 + S1 * by_dot_D_S_2;
-                const double total_16 = by_dot_S_S_product * by_exponent_by_x1 + by_dot_D_S_product - by_rest0 * ratio_5 -
-                    dot_D_S_ratio * by_rest0_2 + D0 * by_dot_D_S_2;
-                const double total_17 = by_dot_D_D_product * by_exponent_by_x1 + by_dot_D_S_product + total_9 + by_rest0_2
-                    + S0 * by_dot_D_S_2;
-                const double by_D1_2 = total_15 + D1 * by_dot_D_D_product_2;
-                const double by_D0_2 = total_17 + D0 * by_dot_D_D_product_2;
-                const double by_dot_S_S_product_2 = 2.0 * by_dot_S_S_2;
-                const double by_S1_2 = total_14 + S1 * by_dot_S_S_product_2;
-                const double by_S0_2 = total_16 + S0 * by_dot_S_S_product_2;
-                sum[0][lane] += 0.0;
-                sum[1][lane] += gap_5 + mu1 * product_14 - by_D0_2 + by_S0_2;
-                sum[2][lane] += gap_4 + mu2 * product_14 - by_D1_2 + by_S1_2;
-                sum[3][lane] += v0 * by_z0 - z0 * by_by_v0;
-                sum[4][lane] += v1 * by_z0 - z0 * by_by_v1;
-                sum[5][lane] += v2 * by_z0 - z0 * by_by_v2;
-                sum[6][lane] += v0 * by_z1 - z1 * by_by_v0;
-                sum[7][lane] += v1 * by_z1 - z1 * by_by_v1;
-                sum[8][lane] += v2 * by_z1 - z1 * by_by_v2;
-                sum[9][lane] += exp_2 * by_phi;
+    size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT W, const double *HYPERBOLIC_RESTRICT amplitude, const double *HYPERBOLIC_RESTRICT value_bar, const double *HYPERBOLIC_RESTRICT gradient_bar,
+    double *HYPERBOLIC_RESTRICT mu_bar, double *HYPERBOLIC_RESTRICT W_bar, double *HYPERBOLIC_RESTRICT amplitude_bar, double *HYPERBOLIC_RESTRICT work, int threads) {
+    const size_t blocks = (count + LANES - 1) / LANES;
+    const size_t chunk = 131072 / (7 * sizeof(vector)) + 1;
+    const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
+    const size_t share = part < LANES ? part : LANES;
+    vector *points = work_points(work);
+    double *constants = work_constants(work, count);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic) nowait)
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic, 8))
+        for (size_t block = 0; block < blocks; ++block)
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 7 * block);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += share) {
+            const size_t end = start + share < splat_count ? start + share : splat_count;
+            double sums[LANES][10] = {{0}};
+            vector own_mu[3], own_W[6], own_amplitude[1], S_bar[10], bars[10];
+            for (size_t first = 0; first < blocks; first += chunk) {
+                const size_t size = first + chunk < blocks ? chunk : blocks - first;
+                for (size_t k = start; k < end; ++k)
+                    splat_sums(points + 7 * first, size, constants + 10 * k, sums[k - start]);
             }
-            for (size_t i = 0; i < 10; ++i)
-                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
-            mu_bar[3 * k + 0] += total[0];
-            mu_bar[3 * k + 1] += total[1];
-            mu_bar[3 * k + 2] += total[2];
-            W_bar[6 * k + 0] += total[3];
-            W_bar[6 * k + 1] += total[4];
-            W_bar[6 * k + 2] += total[5];
-            W_bar[6 * k + 3] += total[6];
-            W_bar[6 * k + 4] += total[7];
-            W_bar[6 * k + 5] += total[8];
-            amplitude_bar[1 * k + 0] += total[9];
+            vector_rows(mu, end, start, 3, own_mu);
+            vector_rows(W, end, start, 6, own_W);
+            vector_rows(amplitude, end, start, 1, own_amplitude);
+            vector_rows(sums[0], LANES, 0, 10, S_bar);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 3, bars + 3 + 6);
+            vector_to_rows(bars, mu_bar, end, start, 3, 3);
+            vector_to_rows(bars + 3, W_bar, end, start, 6, 6);
+            vector_to_rows(bars + 3 + 6, amplitude_bar, end, start, 1, 1);
         }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
-/* Of degree 5, within 2^-31 of that of double precision. */
-static inline float polynomial_r_over_sinh_r_near_f(float x) {
-    return 0.9999999997286667f + x * (-0.07645298027983063f + x * (0.007013840321617159f + x *
-        (-0.0006884456440228125f + x * (6.825821538408094e-05f + x * -5.404229500574623e-06f))));
+/* Nothing is summed: the adjoints of a splat's constants go on to its parameters for every point. */
+void hyperbolic_splats_rows(
+    size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT W, const double *HYPERBOLIC_RESTRICT amplitude, const double *HYPERBOLIC_RESTRICT value_bar, const double *HYPERBOLIC_RESTRICT gradient_bar,
+    double *HYPERBOLIC_RESTRICT rows, double *HYPERBOLIC_RESTRICT work, int threads) {
+    (void)threads;
+    const size_t blocks = (count + LANES - 1) / LANES;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t block = 0; block < blocks; ++block) {
+            vector point[7];
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
+            for (size_t k = 0; k < splat_count; ++k) {
+                vector own_mu[3], own_W[6], own_amplitude[1], S_bar[10] = {ZERO}, bars[10];
+                for (int i = 0; i < 3; ++i) own_mu[i] = vector_of(mu[3 * k + i]);
+                for (int i = 0; i < 6; ++i) own_W[i] = vector_of(W[6 * k + i]);
+                own_amplitude[0] = vector_of(amplitude[k]);
+                pair_backward(point, constants + 10 * k, point + 3, point + 3 + 1, S_bar);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 3, bars + 3 + 6);
+                vector_to_rows(bars, rows + 10 * k, count, block * LANES, 10, 10 * splat_count);
+            }
+        }
+        restore_denormals(mode);
+    }
 }
 
-/* Of degree 4, within 2^-27 of that of double precision. */
-static inline float polynomial_log_det_series_f(float x) {
-    return -0.16666666595221144f + x * (0.008919480570751447f + x * (-0.0006584357892223718f + x *
-        (5.459026336080359e-05f + x * -3.992163980997263e-06f)));
+/* The same number in all lanes. */
+INLINE vector_f vector_of_f(float x) {
+    const vector_f zero = ZERO;
+    return x - zero;
+}
+
+/* x in the lanes of the mask, y in the others. */
+INLINE vector_f vector_select_f(vector_mask_f mask, vector_f x, vector_f y) {
+    return SELECT(vector_f, vector_mask_f, mask, x, y);
+}
+
+/* Numbers in memory to a vector, and back. */
+INLINE vector_f vector_load_f(const float *from) {
+    vector_f x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+INLINE void vector_store_f(float *to, vector_f x) { memcpy(to, &x, sizeof x); }
+
+/* The sum over the lanes, by halves. */
+INLINE float vector_sum_f(vector_f x) {
+    float lanes[LANES_f];
+    vector_store_f(lanes, x);
+    for (size_t half = LANES_f / 2; half > 0; half /= 2)
+        for (size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    return lanes[0];
+}
+
+/* The bits of a vector as integers, and back. */
+INLINE vector_bits_f vector_to_bits_f(vector_f x) {
+    vector_bits_f bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
+    vector_f x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* sqrt of every lane; one instruction where the machine has it. */
+INLINE vector_f vector_sqrt_f(vector_f x) {
+    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
+    return x;
+}
+
+/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
+INLINE vector_f vector_exp_f(vector_f x) {
+    const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
+    const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
+    const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
+    const vector_f scale = vector_from_bits_f((vector_to_bits_f(shifted) + 126) << 23); /* 2^(k - 1) */
+    const vector_f y = vector_select_f(x > 88.722839f, vector_of_f(HUGE_VALF), (scale + scale * part) * 2);
+    return vector_select_f(x < -86.9f, vector_of_f(0), y);
+}
+
+/* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
+INLINE vector_f vector_log_f(vector_f x) {
+    const vector_bits_f bits = vector_to_bits_f(x), biased = (bits + 0x4afb0d) >> 23; /* k + 127 */
+    const vector_f k = vector_from_bits_f(biased + 0x4b400000) - 12583039.0f;
+    const vector_f f = vector_from_bits_f(bits - (biased << 23) + 0x3f800000) - 1, s = f / (2 + f), z = s * s;
+    const vector_f half = f * f * 0.5f;
+    const vector_f rest = z * (0.6666666655430018f + z * (0.4000012200081688f + z * (0.2855080255327671f + z * 0.2333096405177204f)));
+    const vector_f y = k * 0.693145751953125f - ((half - (s * (half + rest) + k * 1.4286068203094173e-06f)) - f);
+    const vector_f small = vector_select_f(x < 0, vector_of_f(NAN), vector_of_f(-HUGE_VALF));
+    const vector_f finite = vector_select_f(x > 1.17549421e-38f, y, small);
+    return vector_select_f(x <= 3.4028234663852886e38f, finite, x);
 }
 
 /* Of degree 5, within 2^-29 of that of double precision. */
-static inline float polynomial_log_det_series_slope_f(float x) {
-    return 0.00891951665572841f + x * (-0.0013174574451573387f + x * (0.00016629097984357212f + x *
-        (-1.9990429482366592e-05f + x * (2.2831133769576623e-06f + x * -1.9798298019555835e-07f))));
-}
-
-/* Of degree 5, within 2^-28 of that of double precision. */
-static inline float polynomial_r_over_sinh_r_near_slope_f(float x) {
-    return -0.07645299980662094f + x * (0.014028132826532107f + x * (-0.0020682143844877664f + x *
-        (0.0002803989835272717f + x * (-3.5176357383446374e-05f + x * 3.2524719164358603e-06f))));
-}
-
-/* Of degree 6, within 2^-30 of that of double precision. */
-static inline float polynomial_r_over_sinh_r_near_slope_slope_f(float x) {
-    return 0.014028146896312052f + x * (-0.004136761723462013f + x * (0.0008433725916576027f + x *
-        (-0.00014649164528145262f + x * (2.3117510688950196e-05f + x * (-3.2532874406106227e-06f + x *
-        3.146012294783161e-07f)))));
+INLINE vector_f vector_polynomial_eta_f(vector_f x) {
+    return -0.3333333329738172f + x * (0.038888862721119646f + x * (-0.004695457196731528f + x *
+        (0.0005729409253513102f + x * (-6.797492497278703e-05f + x * 6.127417886832629e-06f))));
 }
 
 /* Of degree 6, within 2^-31 of that of double precision. */
-static inline float polynomial_log_det_series_slope_slope_f(float x) {
-    return -0.001317458240493464f + x * (0.0003326007654128614f + x * (-6.009402476651674e-05f + x *
-        (9.458259792733216e-06f + x * (-1.3745854539846409e-06f + x * (1.8106450494086812e-07f + x *
-        -1.6736174608079068e-08f)))));
+INLINE vector_f vector_polynomial_eta_slope_f(vector_f x) {
+    return 0.15555555551604225f + x * (-0.037566133653313336f + x * (0.006891470905338728f + x *
+        (-0.0011306306849031013f + x * (0.00017353196911450256f + x * (-2.4197931086547884e-05f + x *
+        2.3412224833279386e-06f)))));
 }
 
+/* What pairs read of points x. */
+OUTLINE void pair_features_f(
+    const vector_f *x, vector_f *X) {
+    const vector_f x0 = x[0];
+    const vector_f x1 = x[1];
+    const vector_f x2 = x[2];
+    const vector_f h0 = 0.5f * x0;
+    const vector_f h1 = 0.5f * x1;
+    const vector_f h2 = 0.5f * x2;
+    X[0] = h0;
+    X[1] = h1;
+    X[2] = h2;
+}
+
+/* What pairs read of a splat, of some splats. */
+OUTLINE void pair_constants_f(
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, vector_f *S) {
+    const vector_f mu0 = mu[0];
+    const vector_f mu1 = mu[1];
+    const vector_f mu2 = mu[2];
+    const vector_f W0_0 = W[0];
+    const vector_f W0_1 = W[1];
+    const vector_f W0_2 = W[2];
+    const vector_f W1_0 = W[3];
+    const vector_f W1_1 = W[4];
+    const vector_f W1_2 = W[5];
+    const vector_f its_amplitude = amplitude[0];
+    const vector_f M0 = 0.5f * mu0;
+    const vector_f M1 = 0.5f * mu1;
+    const vector_f M2 = 0.5f * mu2;
+    const vector_f gap = 1.0f - mu0 * mu0;
+    const vector_f product = mu0 * mu1;
+    const vector_f product_2 = mu0 * mu2;
+    const vector_f R0_0 = 1.4142135623730951f * (W0_0 * gap - W0_1 * product - W0_2 * product_2);
+    const vector_f total_2 = 1.0f + mu1 * mu1;
+    const vector_f product_3 = mu1 * mu2;
+    const vector_f R0_1 = 1.4142135623730951f * (W0_0 * product + W0_1 * total_2 + W0_2 * product_3);
+    const vector_f total_3 = 1.0f + mu2 * mu2;
+    const vector_f R0_2 = 1.4142135623730951f * (W0_0 * product_2 + W0_1 * product_3 + W0_2 * total_3);
+    const vector_f R1_0 = 1.4142135623730951f * (W1_0 * gap - W1_1 * product - W1_2 * product_2);
+    const vector_f R1_1 = 1.4142135623730951f * (W1_0 * product + W1_1 * total_2 + W1_2 * product_3);
+    const vector_f R1_2 = 1.4142135623730951f * (W1_0 * product_2 + W1_1 * product_3 + W1_2 * total_3);
+    S[0] = its_amplitude;
+    S[1] = M0;
+    S[2] = M1;
+    S[3] = M2;
+    S[4] = R0_0;
+    S[5] = R0_1;
+    S[6] = R0_2;
+    S[7] = R1_0;
+    S[8] = R1_1;
+    S[9] = R1_2;
+}
+
+/* Adds the values phi of a splat at some points. */
+INLINE void pair_value_f(
+    const vector_f *X, const float *S, vector_f *value) {
+    const vector_f h0 = X[0];
+    const vector_f h1 = X[1];
+    const vector_f h2 = X[2];
+    const float amplitude = S[0];
+    const float M0 = S[1];
+    const float M1 = S[2];
+    const float M2 = S[3];
+    const float R0_0 = S[4];
+    const float R0_1 = S[5];
+    const float R0_2 = S[6];
+    const float R1_0 = S[7];
+    const float R1_1 = S[8];
+    const float R1_2 = S[9];
+    const vector_f gap = h0 - M0;
+    const vector_f minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
+    const vector_f u = vector_select_f(minus < 0.0f, vector_of_f(0.0f), minus);
+    const vector_f w = vector_sqrt_f(1.0f + u);
+    const vector_mask_f near = w < 1.25f;
+    const vector_f eta = vector_polynomial_eta_f(4.0f * vector_select_f(near, w - 1.0f, vector_of_f(0.0f)));
+    const vector_f near_chosen = vector_select_f(near, vector_of_f(1.0f), u);
+    const vector_f sqrt_2 = vector_sqrt_f(near_chosen);
+    const vector_f half_angle = vector_log_f(w + sqrt_2);
+    const vector_f half_angle_product = sqrt_2 * half_angle;
+    const vector_f ratio = 1.0f / (near_chosen * half_angle_product);
+    const vector_f u_product = u * vector_select_f(near, eta, near_chosen * ratio - w * (half_angle_product *
+        ratio));
+    const vector_f a = 1.0f / (w * (w + u_product));
+    const vector_f a_squared = a * a;
+    const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
+    const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
+    const vector_f half_square = a_squared * (r0 * r0 + r1 * r1);
+    const vector_f gaussian = vector_exp_f(-half_square);
+    value[0] = value[0] + amplitude * (a * gaussian);
+}
+
+/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+INLINE void pair_forward_f(
+    const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
+    const vector_f h0 = X[0];
+    const vector_f h1 = X[1];
+    const vector_f h2 = X[2];
+    const float amplitude = S[0];
+    const float M0 = S[1];
+    const float M1 = S[2];
+    const float M2 = S[3];
+    const float R0_0 = S[4];
+    const float R0_1 = S[5];
+    const float R0_2 = S[6];
+    const float R1_0 = S[7];
+    const float R1_1 = S[8];
+    const float R1_2 = S[9];
+    const vector_f gap = h0 - M0;
+    const vector_f minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
+    const vector_f u = vector_select_f(minus < 0.0f, vector_of_f(0.0f), minus);
+    const vector_f w = vector_sqrt_f(1.0f + u);
+    const vector_mask_f near = w < 1.25f;
+    const vector_f eta = vector_polynomial_eta_f(4.0f * vector_select_f(near, w - 1.0f, vector_of_f(0.0f)));
+    const vector_f near_chosen = vector_select_f(near, vector_of_f(1.0f), u);
+    const vector_f sqrt_2 = vector_sqrt_f(near_chosen);
+    const vector_f half_angle = vector_log_f(w + sqrt_2);
+    const vector_f half_angle_product = sqrt_2 * half_angle;
+    const vector_f ratio = 1.0f / (near_chosen * half_angle_product);
+    const vector_f near_chosen_2 = vector_select_f(near, eta, near_chosen * ratio - w * (half_angle_product *
+        ratio));
+    const vector_f w_total = w + u * near_chosen_2;
+    const vector_f a = 1.0f / (w * w_total);
+    const vector_f a_squared = a * a;
+    const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
+    const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
+    const vector_f half_square = a_squared * (r0 * r0 + r1 * r1);
+    const vector_f gaussian = vector_exp_f(-half_square);
+    const vector_f phi = amplitude * (a * gaussian);
+    const vector_f product = 2.0f * (phi * a_squared);
+    const vector_f r1_product = r1 * product;
+    const vector_f r0_product = r0 * product;
+    const vector_f over_w = w_total * a;
+    const vector_f over_w_product = over_w * ((near_chosen_2 - over_w) * (phi - phi * (2.0f * half_square)));
+    value[0] = value[0] + phi;
+    slope[0] = slope[0] - R1_0 * r1_product - R0_0 * r0_product + M0 * over_w_product;
+    slope[1] = slope[1] - R1_1 * r1_product - R0_1 * r0_product - M1 * over_w_product;
+    slope[2] = slope[2] - R1_2 * r1_product - R0_2 * r0_product - M2 * over_w_product;
+}
+
+/* The Riemannian gradient at some points, of the sums of slopes. */
+OUTLINE void pair_gradient_f(
+    const vector_f *x, const vector_f *slope, vector_f *gradient) {
+    const vector_f x0 = x[0];
+    const vector_f x1 = x[1];
+    const vector_f x2 = x[2];
+    const vector_f slope_h0 = slope[0];
+    const vector_f slope_h1 = slope[1];
+    const vector_f slope_h2 = slope[2];
+    const vector_f product = 0.5f * slope_h0;
+    const vector_f product_2 = 0.5f * slope_h1;
+    const vector_f product_3 = 0.5f * slope_h2;
+    const vector_f normal_part = x0 * product + x1 * product_2 + x2 * product_3;
+    gradient[0] = x0 * normal_part - product;
+    gradient[1] = product_2 + x1 * normal_part;
+    gradient[2] = product_3 + x2 * normal_part;
+}
+
+/* The adjoint of slope at some points, of that of the gradient. */
+OUTLINE void pair_gradient_vjp_f(
+    const vector_f *x, const vector_f *gradient_bar, vector_f *slope_bar) {
+    const vector_f x0 = x[0];
+    const vector_f x1 = x[1];
+    const vector_f x2 = x[2];
+    const vector_f gradient_bar0 = gradient_bar[0];
+    const vector_f gradient_bar1 = gradient_bar[1];
+    const vector_f gradient_bar2 = gradient_bar[2];
+    const vector_f by_normal_part = x2 * gradient_bar2 + x1 * gradient_bar1 + x0 * gradient_bar0;
+    slope_bar[0] = 0.5f * (x0 * by_normal_part - gradient_bar0);
+    slope_bar[1] = 0.5f * (gradient_bar1 + x1 * by_normal_part);
+    slope_bar[2] = 0.5f * (gradient_bar2 + x2 * by_normal_part);
+}
+
+/* The adjoints of some splats' parameters, of that of S. */
+OUTLINE void pair_constants_vjp_f(
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
+    (void)amplitude;
+    const vector_f mu0 = mu[0];
+    const vector_f mu1 = mu[1];
+    const vector_f mu2 = mu[2];
+    const vector_f W0_0 = W[0];
+    const vector_f W0_1 = W[1];
+    const vector_f W0_2 = W[2];
+    const vector_f W1_0 = W[3];
+    const vector_f W1_1 = W[4];
+    const vector_f W1_2 = W[5];
+    const vector_f its_amplitude_bar = S_bar[0];
+    const vector_f M0_bar = S_bar[1];
+    const vector_f M1_bar = S_bar[2];
+    const vector_f M2_bar = S_bar[3];
+    const vector_f R0_0_bar = S_bar[4];
+    const vector_f R0_1_bar = S_bar[5];
+    const vector_f R0_2_bar = S_bar[6];
+    const vector_f R1_0_bar = S_bar[7];
+    const vector_f R1_1_bar = S_bar[8];
+    const vector_f R1_2_bar = S_bar[9];
+    const vector_f product = 1.4142135623730951f * R0_0_bar;
+    const vector_f product_2 = 1.4142135623730951f * R1_0_bar;
+    const vector_f gap = 0.5f * M0_bar - mu0 * (2.0f * (W0_0 * product + W1_0 * product_2));
+    const vector_f product_3 = 1.4142135623730951f * R0_1_bar;
+    const vector_f product_4 = 1.4142135623730951f * R1_1_bar;
+    const vector_f total_2 = W0_0 * product_3 - W0_1 * product - W1_1 * product_2 + W1_0 * product_4;
+    const vector_f product_5 = 1.4142135623730951f * R0_2_bar;
+    const vector_f product_6 = 1.4142135623730951f * R1_2_bar;
+    const vector_f total_3 = W0_0 * product_5 - W0_2 * product - W1_2 * product_2 + W1_0 * product_6;
+    const vector_f total_4 = 0.5f * M1_bar + mu1 * (2.0f * (W0_1 * product_3 + W1_1 * product_4));
+    const vector_f total_5 = W0_2 * product_3 + W0_1 * product_5 + W1_2 * product_4 + W1_1 * product_6;
+    const vector_f total_6 = 0.5f * M2_bar + mu2 * (2.0f * (W0_2 * product_5 + W1_2 * product_6));
+    const vector_f gap_2 = 1.0f - mu0 * mu0;
+    const vector_f product_7 = mu0 * mu1;
+    const vector_f product_8 = mu0 * mu2;
+    const vector_f total_7 = 1.0f + mu1 * mu1;
+    const vector_f product_9 = mu1 * mu2;
+    const vector_f total_8 = 1.0f + mu2 * mu2;
+    mu_bar[0] = gap + mu1 * total_2 + mu2 * total_3;
+    mu_bar[1] = total_4 + mu0 * total_2 + mu2 * total_5;
+    mu_bar[2] = total_6 + mu1 * total_5 + mu0 * total_3;
+    W_bar[0] = gap_2 * product + product_7 * product_3 + product_8 * product_5;
+    W_bar[1] = total_7 * product_3 - product_7 * product + product_9 * product_5;
+    W_bar[2] = product_9 * product_3 - product_8 * product + total_8 * product_5;
+    W_bar[3] = gap_2 * product_2 + product_7 * product_4 + product_8 * product_6;
+    W_bar[4] = total_7 * product_4 - product_7 * product_2 + product_9 * product_6;
+    W_bar[5] = product_9 * product_4 - product_8 * product_2 + total_8 * product_6;
+    amplitude_bar[0] = its_amplitude_bar;
+}
+
+/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+INLINE void pair_backward_f(
+    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
+    const vector_f h0 = X[0];
+    const vector_f h1 = X[1];
+    const vector_f h2 = X[2];
+    const float amplitude = S[0];
+    const float M0 = S[1];
+    const float M1 = S[2];
+    const float M2 = S[3];
+    const float R0_0 = S[4];
+    const float R0_1 = S[5];
+    const float R0_2 = S[6];
+    const float R1_0 = S[7];
+    const float R1_1 = S[8];
+    const float R1_2 = S[9];
+    const vector_f its_value_bar = value_bar[0];
+    const vector_f h0_bar = slope_bar[0];
+    const vector_f h1_bar = slope_bar[1];
+    const vector_f h2_bar = slope_bar[2];
+    const vector_f gap = h0 - M0;
+    const vector_f minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
+    const vector_f u = vector_select_f(minus < 0.0f, vector_of_f(0.0f), minus);
+    const vector_f w = vector_sqrt_f(1.0f + u);
+    const vector_mask_f near = w < 1.25f;
+    const vector_f product = 4.0f * vector_select_f(near, w - 1.0f, vector_of_f(0.0f));
+    const vector_f eta = vector_polynomial_eta_f(product);
+    const vector_f near_chosen = vector_select_f(near, vector_of_f(1.0f), u);
+    const vector_f sqrt_2 = vector_sqrt_f(near_chosen);
+    const vector_f half_angle = vector_log_f(w + sqrt_2);
+    const vector_f half_angle_product = sqrt_2 * half_angle;
+    const vector_f ratio = 1.0f / (near_chosen * half_angle_product);
+    const vector_f product_2 = near_chosen * ratio;
+    const vector_f product_3 = half_angle_product * ratio;
+    const vector_f w_product = w * product_3;
+    const vector_f near_chosen_2 = vector_select_f(near, eta, product_2 - w_product);
+    const vector_f w_total = w + u * near_chosen_2;
+    const vector_f a = 1.0f / (w * w_total);
+    const vector_f a_squared = a * a;
+    const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
+    const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
+    const vector_f half_square = a_squared * (r0 * r0 + r1 * r1);
+    const vector_f gaussian = vector_exp_f(-half_square);
+    const vector_f a_product = a * gaussian;
+    const vector_f over_w = w_total * a;
+    const vector_f over_w_gap = near_chosen_2 - over_w;
+    const vector_f gap_2 = M0 * h0_bar - M1 * h1_bar - M2 * h2_bar;
+    const vector_f over_w_product = over_w * gap_2;
+    const vector_f product_4 = over_w_gap * over_w_product;
+    const vector_f gap_3 = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar;
+    const vector_f gap_4 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar;
+    const vector_f product_5 = 2.0f * (r0 * gap_3 + r1 * gap_4);
+    const vector_f half_square_product = 2.0f * half_square;
+    const vector_f by_phi = its_value_bar + product_4 + a_squared * product_5 - half_square_product *
+        product_4;
+    const vector_f phi = amplitude * a_product;
+    const vector_f phi_gap = phi - phi * half_square_product;
+    const vector_f product_6 = over_w_gap * phi_gap;
+    const vector_f over_w_product_2 = over_w * product_6;
+    const vector_f eta_slope = vector_polynomial_eta_slope_f(product);
+    const vector_f product_7 = phi_gap * over_w_product;
+    const vector_f product_8 = vector_select_f(near, eta_slope, (2.0f + near_chosen) * (product_3 * product_3)
+        - product_2 * (product_2 + w_product)) * product_7;
+    const vector_f product_9 = a_product * (amplitude * by_phi);
+    const vector_f by_half_square = -2.0f * (phi * product_4) - product_9;
+    const vector_f product_10 = over_w_gap * (2.0f * a_squared * (phi * product_5) + product_9 +
+        half_square_product * by_half_square);
+    const vector_f total_2 = product_8 - over_w * over_w * (product_6 * gap_2 - product_7) + product_10;
+    const vector_f over_w_product_3 = over_w * total_2;
+    const vector_f product_11 = 2.0f * (phi * a_squared);
+    const vector_f product_12 = 2.0f * (a_squared * by_half_square);
+    const vector_f by_r0 = product_11 * gap_3 + r0 * product_12;
+    const vector_f r0_product = r0 * product_11;
+    const vector_f by_r1 = product_11 * gap_4 + r1 * product_12;
+    const vector_f r1_product = r1 * product_11;
+    S_bar[0] = S_bar[0] + a_product * by_phi;
+    S_bar[1] = S_bar[1] + over_w_product_2 * h0_bar + h0 * over_w_product_3;
+    S_bar[2] = S_bar[2] - over_w_product_2 * h1_bar - h1 * over_w_product_3;
+    S_bar[3] = S_bar[3] - over_w_product_2 * h2_bar - h2 * over_w_product_3;
+    S_bar[4] = S_bar[4] + h0 * by_r0 - r0_product * h0_bar;
+    S_bar[5] = S_bar[5] + h1 * by_r0 - r0_product * h1_bar;
+    S_bar[6] = S_bar[6] + h2 * by_r0 - r0_product * h2_bar;
+    S_bar[7] = S_bar[7] + h0 * by_r1 - r1_product * h0_bar;
+    S_bar[8] = S_bar[8] + h1 * by_r1 - r1_product * h1_bar;
+    S_bar[9] = S_bar[9] + h2 * by_r1 - r1_product * h2_bar;
+}
+
+/* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
+OUTLINE void vector_rows_f(const float *rows, size_t count, size_t start, size_t size, vector_f *columns) {
+    for (size_t i = 0; i < size; ++i) {
+        float column[LANES_f];
+        for (size_t lane = 0; lane < LANES_f; ++lane)
+            column[lane] = rows[size * (start + lane < count ? start + lane : count - 1) + i];
+        columns[i] = vector_load_f(column);
+    }
+}
+
+/* Back to rows that are `stride` apart; nothing past the end. */
+OUTLINE void vector_to_rows_f(
+    const vector_f *columns, float *rows, size_t count, size_t start, size_t size, size_t stride) {
+    const size_t lanes = start >= count ? 0 : count - start < LANES_f ? count - start : LANES_f;
+    for (size_t lane = 0; lane < lanes; ++lane)
+        for (size_t i = 0; i < size; ++i) rows[stride * (start + lane) + i] = LANE(columns[i], lane);
+}
+
+/* Zero in the lanes past the end. */
+OUTLINE void vector_end_f(size_t count, size_t start, size_t size, vector_f *columns) {
+    for (size_t lane = start >= count ? 0 : count - start; lane < LANES_f; ++lane)
+        for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
+}
+
+/* Scratch memory: 7 vectors for each block of points, then the constants of the splats. */
+size_t hyperbolic_splats_work_f(size_t count, size_t splat_count, int threads) {
+    (void)threads;
+    return ((count + LANES_f - 1) / LANES_f * 7 + 1) * LANES_f + 10 * splat_count;
+}
+
+static vector_f *work_points_f(float *work) {
+    const uintptr_t size = sizeof(vector_f), start = (uintptr_t)work;
+    return (vector_f *)((char *)work + ((0 - start) & (size - 1)));
+}
+
+static float *work_constants_f(float *work, size_t count) {
+    return (float *)(work_points_f(work) + (count + LANES_f - 1) / LANES_f * 7);
+}
+
+/* The constants of LANES splats, as rows. */
+OUTLINE void splat_constants_f(
+    size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, float *constants) {
+    vector_f own_mu[3], own_W[6], own_amplitude[1], S[10];
+    vector_rows_f(mu, splat_count, start, 3, own_mu);
+    vector_rows_f(W, splat_count, start, 6, own_W);
+    vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
+    pair_constants_f(own_mu, own_W, own_amplitude, S);
+    vector_to_rows_f(S, constants, splat_count, start, 10, 10);
+}
+
+/* 2 vectors of points at a time stay in registers while all splats pass. */
 void hyperbolic_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *HYPERBOLIC_RESTRICT x,
-    const float *HYPERBOLIC_RESTRICT mu,
-    const float *HYPERBOLIC_RESTRICT W,
-    const float *HYPERBOLIC_RESTRICT amplitude,
-    float *HYPERBOLIC_RESTRICT value,
-    float *HYPERBOLIC_RESTRICT gradient) {
-    const unsigned mode = flush_denormals();
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        float x_block[3][LANES], sum[4][LANES] = {{0}};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            for (size_t i = 0; i < 3; ++i) x_block[i][lane] = x[3 * n + i];
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            const float mu1 = mu[3 * k + 1];
-            const float mu2 = mu[3 * k + 2];
-            const float W0_0 = W[6 * k + 0];
-            const float W0_1 = W[6 * k + 1];
-            const float W0_2 = W[6 * k + 2];
-            const float W1_0 = W[6 * k + 3];
-            const float W1_1 = W[6 * k + 4];
-            const float W1_2 = W[6 * k + 5];
-            const float amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const float S0 = x_block[1][lane] + mu1;
-                const float S1 = x_block[2][lane] + mu2;
-                const float dot_S_S = S0 * S0 + S1 * S1;
-                const float D0 = x_block[1][lane] - mu1;
-                const float D1 = x_block[2][lane] - mu2;
-                const float dot_D_D = D0 * D0 + D1 * D1;
-                const float dot_D_S = S0 * D0 + S1 * D1;
-                const float dot_ps_ps = mu1 * mu1 + mu2 * mu2;
-                const float a = sqrtf(1.0f + dot_ps_ps);
-                const float dot_qs_qs = x_block[1][lane] * x_block[1][lane] + x_block[2][lane] * x_block[2][lane];
-                const float dot_qs_qs_total = 1.0f + dot_qs_qs;
-                const float b = sqrtf(dot_qs_qs_total);
-                const float a_total = a + b;
-                const float e = dot_D_S / a_total;
-                const int is_small = dot_S_S < 1.0f;
-                const float dot_S_S_chosen = (is_small ? 1.0f : dot_S_S);
-                const float dot_D_S_ratio = dot_D_S / dot_S_S_chosen;
-                const float dot_ps_qs = x_block[1][lane] * mu1 + x_block[2][lane] * mu2;
-                const float squared = a_total * a_total;
-                const float a_product = 2.0f * a;
-                const float c = (2.0f + b * a_product - 2.0f * dot_ps_qs) / squared;
-                const float dot_D_S_product = dot_D_S * c;
-                const float rest0 = D0 - S0 * dot_D_S_ratio;
-                const float rest1 = D1 - S1 * dot_D_S_ratio;
-                const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
-                const float ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * dot_D_S_product);
-                const float total_2 = 1.0f + 0.25f * ww;
-                const int near = ww < 0.458718f;
-                const float near_chosen = (near ? 2.1799885768598575f * ww : 0.0f);
-                const float r_over_sinh_r_near = polynomial_r_over_sinh_r_near_f(near_chosen);
-                const float sqrt_ww = sqrtf((near ? 1.0f : ww));
-                const float sqrt_ww_product = 0.5f * sqrt_ww;
-                const float asinh_sqrt_ww_over_2 = asinhf(sqrt_ww_product);
-                const float r = 2.0f * asinh_sqrt_ww_over_2;
-                const float sinh_r = sqrtf((near ? 1.0f : ww * total_2));
-                const float r_ratio = r / sinh_r;
-                const float r_over_sinh_r = (near ? r_over_sinh_r_near : r_ratio);
-                const float scale = 0.5f * ww;
-                const float e_gap = e - a * scale;
-                const float v0 = r_over_sinh_r * e_gap;
-                const float D0_gap = D0 - mu1 * scale;
-                const float v1 = r_over_sinh_r * D0_gap;
-                const float D1_gap = D1 - mu2 * scale;
-                const float v2 = r_over_sinh_r * D1_gap;
-                const float log_det_series = polynomial_log_det_series_f(near_chosen);
-                const float log_det_near = ww * log_det_series;
-                const float log_det = (near ? log_det_near : logf(r_ratio));
-                const float z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-                const float z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-                const float exp_2 = expf(log_det - 0.5f * (z0 * z0 + z1 * z1));
-                const float phi = amplitude_k * exp_2;
-                const float by_v2 = -(W1_2 * z1) - W0_2 * z0;
-                const float by_v1 = -(W1_1 * z1) - W0_1 * z0;
-                const float by_v0 = -(W1_0 * z1) - W0_0 * z0;
-                const float by_log_det_near = (near ? 1.0f : 0.0f);
-                const float by_log_det_series = ww * by_log_det_near;
-                const float log_det_series_slope = polynomial_log_det_series_slope_f(near_chosen);
-                const float product = r_over_sinh_r * by_v2;
-                const float product_2 = r_over_sinh_r * by_v1;
-                const float product_3 = r_over_sinh_r * by_v0;
-                const float by_r_over_sinh_r = D1_gap * by_v2 + D0_gap * by_v1 + e_gap * by_v0;
-                const float by_scale = -(mu2 * product) - mu1 * product_2 - a * product_3;
-                const float by_r_over_sinh_r_near = (near ? by_r_over_sinh_r : 0.0f);
-                const float by_r = ((near ? 0.0f : 1.0f) / r_ratio + (near ? 0.0f : by_r_over_sinh_r)) / sinh_r;
-                const float near_chosen_2 = (near ? 0.0f : -(r_ratio * by_r / (2.0f * sinh_r)));
-                const float by_asinh_sqrt_ww_over_2 = 2.0f * by_r;
-                const float by_sqrt_ww = 0.5f * (by_asinh_sqrt_ww_over_2 / sqrtf(1.0f + sqrt_ww_product *
-                    sqrt_ww_product));
-                const float r_over_sinh_r_near_slope = polynomial_r_over_sinh_r_near_slope_f(near_chosen);
-                const float total_3 = log_det_series * by_log_det_near + 0.5f * by_scale + (near ? 0.0f : by_sqrt_ww /
-                    (2.0f * sqrt_ww)) + 2.1799885768598575f * (near ? by_log_det_series * log_det_series_slope +
-                    by_r_over_sinh_r_near * r_over_sinh_r_near_slope : 0.0f);
-                const float by_ww = total_3 + total_2 * near_chosen_2 + 0.25f * (ww * near_chosen_2);
-                const float by_dot_D_D = (is_small ? by_ww : 0.0f);
-                const float by_dot_rest_rest = (is_small ? 0.0f : by_ww);
-                const float product_4 = dot_D_S_ratio * by_dot_rest_rest;
-                const float product_5 = 2.0f * by_dot_rest_rest;
-                const float by_rest1 = rest1 * product_5;
-                const float by_rest0 = rest0 * product_5;
-                const float by_c = dot_D_S * product_4;
-                const float by_dot_D_D_product = 2.0f * by_dot_D_D;
-                const float by_e = product_3 - e * by_dot_D_D_product;
-                const float by_c_ratio = by_c / squared;
-                const float product_6 = 2.0f * by_c_ratio;
-                const float ratio = (dot_D_S_product * by_dot_rest_rest - S1 * by_rest1 - S0 * by_rest0) / dot_S_S_chosen;
-                const float by_dot_S_S = (is_small ? 0.0f : -(dot_D_S_ratio * ratio));
-                const float by_e_ratio = by_e / a_total;
-                const float by_dot_D_S = c * product_4 + ratio + by_e_ratio;
-                const float gap = -(a_total * (2.0f * (c * by_c_ratio))) - e * by_e_ratio;
-                const float by_b = a_product * by_c_ratio + gap;
-                const int is_small_2 = dot_qs_qs_total == 0.0f;
-                const float by_dot_qs_qs = (is_small_2 ? 0.0f : by_b / (2.0f * (is_small_2 ? 1.0f : b)));
-                const float product_7 = 2.0f * by_dot_qs_qs;
-                const float by_D1 = product + by_rest1 + S1 * by_dot_D_S + D1 * by_dot_D_D_product;
-                const float by_D0 = product_2 + by_rest0 + S0 * by_dot_D_S + D0 * by_dot_D_D_product;
-                const float by_dot_S_S_product = 2.0f * by_dot_S_S;
-                const float by_S1 = D1 * by_dot_D_S - dot_D_S_ratio * by_rest1 + S1 * by_dot_S_S_product;
-                const float by_S0 = D0 * by_dot_D_S - dot_D_S_ratio * by_rest0 + S0 * by_dot_S_S_product;
-                const float exponent_by_x2 = x_block[2][lane] * product_7 - mu2 * product_6 + by_D1 + by_S1;
-                const float exponent_by_x1 = x_block[1][lane] * product_7 - mu1 * product_6 + by_D0 + by_S0;
-                const float df1 = phi * exponent_by_x1;
-                const float df2 = phi * exponent_by_x2;
-                const float normal_part = x_block[1][lane] * df1 + x_block[2][lane] * df2;
-                const float gradient0 = x_block[0][lane] * normal_part;
-                const float gradient1 = df1 + x_block[1][lane] * normal_part;
-                const float gradient2 = df2 + x_block[2][lane] * normal_part;
-                sum[0][lane] += phi;
-                sum[1][lane] += gradient0;
-                sum[2][lane] += gradient1;
-                sum[3][lane] += gradient2;
+    size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT W, const float *HYPERBOLIC_RESTRICT amplitude,
+    float *HYPERBOLIC_RESTRICT value, float *HYPERBOLIC_RESTRICT gradient, float *HYPERBOLIC_RESTRICT work, int threads) {
+    (void)threads;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES_f) {
+            vector_f at[2][3], X[2][3], grad[3];
+            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][3] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows_f(x, count, start + b * LANES_f, 3, at[b]);
+                pair_features_f(at[b], X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_forward_f(X[0], constants + 10 * k, value_sum[0], slope_sum[0]);
+                pair_forward_f(X[1], constants + 10 * k, value_sum[1], slope_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b) {
+                pair_gradient_f(at[b], slope_sum[b], grad);
+                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                vector_to_rows_f(grad, gradient, count, start + b * LANES_f, 3, 3);
             }
         }
-        for (size_t lane = 0; lane < lanes; ++lane) {
-            value[start + lane] = sum[0][lane];
-            for (size_t i = 0; i < 3; ++i) gradient[3 * (start + lane) + i] = sum[i + 1][lane];
-        }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
-void hyperbolic_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *HYPERBOLIC_RESTRICT x,
-    const float *HYPERBOLIC_RESTRICT mu,
-    const float *HYPERBOLIC_RESTRICT W,
-    const float *HYPERBOLIC_RESTRICT amplitude,
-    const float *HYPERBOLIC_RESTRICT value_bar,
-    const float *HYPERBOLIC_RESTRICT gradient_bar,
-    float *HYPERBOLIC_RESTRICT mu_bar,
-    float *HYPERBOLIC_RESTRICT W_bar,
-    float *HYPERBOLIC_RESTRICT amplitude_bar) {
-    const unsigned mode = flush_denormals();
-    for (size_t i = 0; i < 3 * splat_count; ++i) mu_bar[i] = 0;
-    for (size_t i = 0; i < 6 * splat_count; ++i) W_bar[i] = 0;
-    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        float x_block[3][LANES], value_bar_block[1][LANES], gradient_bar_block[3][LANES];
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            const float weight = lane < lanes ? 1 : 0;
-            for (size_t i = 0; i < 3; ++i) x_block[i][lane] = x[3 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
-            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] = gradient_bar[3 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
-            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] *= weight;
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            float sum[10][LANES] = {{0}}, total[10] = {0};
-            const float mu1 = mu[3 * k + 1];
-            const float mu2 = mu[3 * k + 2];
-            const float W0_0 = W[6 * k + 0];
-            const float W0_1 = W[6 * k + 1];
-            const float W0_2 = W[6 * k + 2];
-            const float W1_0 = W[6 * k + 3];
-            const float W1_1 = W[6 * k + 4];
-            const float W1_2 = W[6 * k + 5];
-            const float amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const float S0 = x_block[1][lane] + mu1;
-                const float S1 = x_block[2][lane] + mu2;
-                const float dot_S_S = S0 * S0 + S1 * S1;
-                const float D0 = x_block[1][lane] - mu1;
-                const float D1 = x_block[2][lane] - mu2;
-                const float dot_D_D = D0 * D0 + D1 * D1;
-                const float dot_D_S = S0 * D0 + S1 * D1;
-                const float dot_ps_ps = mu1 * mu1 + mu2 * mu2;
-                const float dot_ps_ps_total = 1.0f + dot_ps_ps;
-                const float a = sqrtf(dot_ps_ps_total);
-                const float dot_qs_qs = x_block[1][lane] * x_block[1][lane] + x_block[2][lane] * x_block[2][lane];
-                const float dot_qs_qs_total = 1.0f + dot_qs_qs;
-                const float b = sqrtf(dot_qs_qs_total);
-                const float a_total = a + b;
-                const float e = dot_D_S / a_total;
-                const int is_small = dot_S_S < 1.0f;
-                const float dot_S_S_chosen = (is_small ? 1.0f : dot_S_S);
-                const float dot_D_S_ratio = dot_D_S / dot_S_S_chosen;
-                const float dot_ps_qs = x_block[1][lane] * mu1 + x_block[2][lane] * mu2;
-                const float squared = a_total * a_total;
-                const float a_product = 2.0f * a;
-                const float c = (2.0f + b * a_product - 2.0f * dot_ps_qs) / squared;
-                const float dot_D_S_product = dot_D_S * c;
-                const float rest0 = D0 - S0 * dot_D_S_ratio;
-                const float rest1 = D1 - S1 * dot_D_S_ratio;
-                const float dot_rest_rest = rest0 * rest0 + rest1 * rest1;
-                const float ww = (is_small ? dot_D_D - e * e : dot_rest_rest + dot_D_S_ratio * dot_D_S_product);
-                const float total_2 = 1.0f + 0.25f * ww;
-                const int near = ww < 0.458718f;
-                const float near_chosen = (near ? 2.1799885768598575f * ww : 0.0f);
-                const float r_over_sinh_r_near = polynomial_r_over_sinh_r_near_f(near_chosen);
-                const float sqrt_ww = sqrtf((near ? 1.0f : ww));
-                const float sqrt_ww_product = 0.5f * sqrt_ww;
-                const float asinh_sqrt_ww_over_2 = asinhf(sqrt_ww_product);
-                const float r = 2.0f * asinh_sqrt_ww_over_2;
-                const float sinh_r = sqrtf((near ? 1.0f : ww * total_2));
-                const float r_ratio = r / sinh_r;
-                const float r_over_sinh_r = (near ? r_over_sinh_r_near : r_ratio);
-                const float scale = 0.5f * ww;
-                const float e_gap = e - a * scale;
-                const float v0 = r_over_sinh_r * e_gap;
-                const float D0_gap = D0 - mu1 * scale;
-                const float v1 = r_over_sinh_r * D0_gap;
-                const float D1_gap = D1 - mu2 * scale;
-                const float v2 = r_over_sinh_r * D1_gap;
-                const float log_det_series = polynomial_log_det_series_f(near_chosen);
-                const float log_det_near = ww * log_det_series;
-                const float log_det = (near ? log_det_near : logf(r_ratio));
-                const float z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-                const float z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-                const float exp_2 = expf(log_det - 0.5f * (z0 * z0 + z1 * z1));
-                const float phi = amplitude_k * exp_2;
-                const float by_v2 = -(W1_2 * z1) - W0_2 * z0;
-                const float by_v1 = -(W1_1 * z1) - W0_1 * z0;
-                const float by_v0 = -(W1_0 * z1) - W0_0 * z0;
-                const float by_log_det_near = (near ? 1.0f : 0.0f);
-                const float ratio = (near ? 0.0f : 1.0f) / r_ratio;
-                const float by_log_det_series = ww * by_log_det_near;
-                const float log_det_series_slope = polynomial_log_det_series_slope_f(near_chosen);
-                const float product = r_over_sinh_r * by_v2;
-                const float product_2 = r_over_sinh_r * by_v1;
-                const float product_3 = r_over_sinh_r * by_v0;
-                const float by_r_over_sinh_r = D1_gap * by_v2 + D0_gap * by_v1 + e_gap * by_v0;
-                const float by_scale = -(mu2 * product) - mu1 * product_2 - a * product_3;
-                const float by_r_over_sinh_r_near = (near ? by_r_over_sinh_r : 0.0f);
-                const float by_r = (ratio + (near ? 0.0f : by_r_over_sinh_r)) / sinh_r;
-                const float sinh_r_product = 2.0f * sinh_r;
-                const float ratio_2 = r_ratio * by_r / sinh_r_product;
-                const float near_chosen_2 = (near ? 0.0f : -ratio_2);
-                const float by_asinh_sqrt_ww_over_2 = 2.0f * by_r;
-                const float sqrt_2 = sqrtf(1.0f + sqrt_ww_product * sqrt_ww_product);
-                const float ratio_3 = by_asinh_sqrt_ww_over_2 / sqrt_2;
-                const float by_sqrt_ww = 0.5f * ratio_3;
-                const float sqrt_ww_product_2 = 2.0f * sqrt_ww;
-                const float by_sqrt_ww_ratio = by_sqrt_ww / sqrt_ww_product_2;
-                const float r_over_sinh_r_near_slope = polynomial_r_over_sinh_r_near_slope_f(near_chosen);
-                const float total_3 = log_det_series * by_log_det_near + 0.5f * by_scale + (near ? 0.0f :
-                    by_sqrt_ww_ratio) + 2.1799885768598575f * (near ? by_log_det_series * log_det_series_slope +
-                    by_r_over_sinh_r_near * r_over_sinh_r_near_slope : 0.0f);
-                const float by_ww = total_3 + total_2 * near_chosen_2 + 0.25f * (ww * near_chosen_2);
-                const float by_dot_D_D = (is_small ? by_ww : 0.0f);
-                const float by_dot_rest_rest = (is_small ? 0.0f : by_ww);
-                const float product_4 = dot_D_S_ratio * by_dot_rest_rest;
-                const float product_5 = 2.0f * by_dot_rest_rest;
-                const float by_rest1 = rest1 * product_5;
-                const float by_rest0 = rest0 * product_5;
-                const float by_c = dot_D_S * product_4;
-                const float by_dot_D_D_product = 2.0f * by_dot_D_D;
-                const float by_e = product_3 - e * by_dot_D_D_product;
-                const float by_c_ratio = by_c / squared;
-                const float product_6 = 2.0f * by_c_ratio;
-                const float product_7 = 2.0f * (c * by_c_ratio);
-                const float ratio_4 = (dot_D_S_product * by_dot_rest_rest - S1 * by_rest1 - S0 * by_rest0) /
-                    dot_S_S_chosen;
-                const float by_dot_S_S = (is_small ? 0.0f : -(dot_D_S_ratio * ratio_4));
-                const float by_e_ratio = by_e / a_total;
-                const float by_dot_D_S = c * product_4 + ratio_4 + by_e_ratio;
-                const float by_b = a_product * by_c_ratio + (-(a_total * product_7) - e * by_e_ratio);
-                const int is_small_2 = dot_qs_qs_total == 0.0f;
-                const float product_8 = 2.0f * (is_small_2 ? 1.0f : b);
-                const float by_dot_qs_qs = (is_small_2 ? 0.0f : by_b / product_8);
-                const float product_9 = 2.0f * by_dot_qs_qs;
-                const float by_D1 = product + by_rest1 + S1 * by_dot_D_S + D1 * by_dot_D_D_product;
-                const float by_D0 = product_2 + by_rest0 + S0 * by_dot_D_S + D0 * by_dot_D_D_product;
-                const float by_dot_S_S_product = 2.0f * by_dot_S_S;
-                const float by_S1 = D1 * by_dot_D_S - dot_D_S_ratio * by_rest1 + S1 * by_dot_S_S_product;
-                const float by_S0 = D0 * by_dot_D_S - dot_D_S_ratio * by_rest0 + S0 * by_dot_S_S_product;
-                const float exponent_by_x2 = x_block[2][lane] * product_9 - mu2 * product_6 + by_D1 + by_S1;
-                const float exponent_by_x1 = x_block[1][lane] * product_9 - mu1 * product_6 + by_D0 + by_S0;
-                const float by_normal_part = x_block[2][lane] * gradient_bar_block[2][lane] + x_block[1][lane] *
-                    gradient_bar_block[1][lane] + x_block[0][lane] * gradient_bar_block[0][lane];
-                const float by_df2 = gradient_bar_block[2][lane] + x_block[2][lane] * by_normal_part;
-                const float by_df1 = gradient_bar_block[1][lane] + x_block[1][lane] * by_normal_part;
-                const float by_exponent_by_x2 = phi * by_df2;
-                const float by_exponent_by_x1 = phi * by_df1;
-                const float by_phi = value_bar_block[0][lane] + exponent_by_x2 * by_df2 + exponent_by_x1 * by_df1;
-                const float S0_product = S0 * by_exponent_by_x1;
-                const float S1_product = S1 * by_exponent_by_x2;
-                const float by_by_dot_S_S = 2.0f * (S0_product + S1_product);
-                const float D0_product = D0 * by_exponent_by_x1;
-                const float D1_product = D1 * by_exponent_by_x2;
-                const float by_dot_D_S_product = by_dot_D_S * by_exponent_by_x1;
-                const float by_dot_D_S_product_2 = by_dot_D_S * by_exponent_by_x2;
-                const float by_by_dot_D_S = D1_product + (S1_product + (S0_product + D0_product));
-                const float by_by_dot_qs_qs = 2.0f * (x_block[1][lane] * by_exponent_by_x1 + x_block[2][lane] *
-                    by_exponent_by_x2);
-                const float by_by_b = (is_small_2 ? 0.0f : by_by_dot_qs_qs) / product_8;
-                const float by_by_e = (by_by_dot_D_S - e * by_by_b) / a_total;
-                const float chosen = (is_small ? 0.0f : by_by_dot_S_S);
-                const float ratio_5 = (by_by_dot_D_S - dot_D_S_ratio * chosen) / dot_S_S_chosen;
-                const float product_10 = 2.0f * (a_total * by_by_b);
-                const float total_4 = a_product * by_by_b + 2.0f * (-(mu1 * by_exponent_by_x1) - mu2 * by_exponent_by_x2);
-                const float by_by_c = (total_4 - c * product_10) / squared;
-                const float by_by_dot_D_D = 2.0f * (D0_product + D1_product - e * by_by_e);
-                const float total_5 = dot_D_S * by_by_c + c * by_by_dot_D_S;
-                const float by_by_rest0 = by_exponent_by_x1 + (-(S0 * ratio_5) - dot_D_S_ratio * by_exponent_by_x1);
-                const float by_by_rest1 = by_exponent_by_x2 + (-(S1 * ratio_5) - dot_D_S_ratio * by_exponent_by_x2);
-                const float total_6 = -(ratio_4 * chosen) - by_rest0 * by_exponent_by_x1 - by_rest1 * by_exponent_by_x2 +
-                    by_dot_rest_rest * total_5;
-                const float by_by_dot_rest_rest = 2.0f * (rest0 * by_by_rest0 + rest1 * by_by_rest1) + dot_D_S_ratio *
-                    total_5 + dot_D_S_product * ratio_5;
-                const float by_by_ww = (is_small ? 0.0f : by_by_dot_rest_rest) + (is_small ? by_by_dot_D_D : 0.0f);
-                const float by_by_ww_product = 0.25f * by_by_ww;
-                const float near_chosen_3 = (near ? 2.1799885768598575f * by_by_ww : 0.0f);
-                const float by_by_r_over_sinh_r_near = r_over_sinh_r_near_slope * near_chosen_3;
-                const float by_r_over_sinh_r_near_slope = by_r_over_sinh_r_near * near_chosen_3;
-                const float r_over_sinh_r_near_slope_slope = polynomial_r_over_sinh_r_near_slope_slope_f(near_chosen);
-                const float by_by_sqrt_ww = (near ? 0.0f : by_by_ww) / sqrt_ww_product_2;
-                const float by_by_asinh_sqrt_ww_over_2 = 0.5f * by_by_sqrt_ww / sqrt_2;
-                const float ratio_6 = (near ? 0.0f : ww * by_by_ww_product + total_2 * by_by_ww) / sinh_r_product;
-                const float by_by_r = 2.0f * by_by_asinh_sqrt_ww_over_2 - r_ratio * ratio_6;
-                const float by_by_r_ratio = by_by_r / sinh_r;
-                const float by_by_r_over_sinh_r = (near ? 0.0f : by_by_r_ratio) + (near ? by_by_r_over_sinh_r_near :
-                    0.0f);
-                const float by_by_scale = 0.5f * by_by_ww;
-                const float by_by_e_gap = by_by_e - a * by_by_scale;
-                const float by_by_v0 = r_over_sinh_r * by_by_e_gap + e_gap * by_by_r_over_sinh_r;
-                const float gap = by_exponent_by_x1 - mu1 * by_by_scale;
-                const float by_by_v1 = r_over_sinh_r * gap + D0_gap * by_by_r_over_sinh_r;
-                const float gap_2 = by_exponent_by_x2 - mu2 * by_by_scale;
-                const float by_by_v2 = r_over_sinh_r * gap_2 + D1_gap * by_by_r_over_sinh_r;
-                const float by_by_log_det_series = log_det_series_slope * near_chosen_3;
-                const float by_log_det_series_slope = by_log_det_series * near_chosen_3;
-                const float log_det_series_slope_slope = polynomial_log_det_series_slope_slope_f(near_chosen);
-                const float by_log_det = exp_2 * (amplitude_k * by_phi);
-                const float by_z1 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2 - z1 * by_log_det;
-                const float by_z0 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2 - z0 * by_log_det;
-                const float by_v2_2 = W1_2 * by_z1 + W0_2 * by_z0;
-                const float by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0;
-                const float by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0;
-                const float by_log_det_near_2 = (near ? by_log_det : 0.0f);
-                const float by_log_det_series_2 = by_log_det_near * by_by_ww + ww * by_log_det_near_2;
-                const float total_7 = by_v2 * by_by_r_over_sinh_r + r_over_sinh_r * by_v2_2;
-                const float total_8 = by_v0 * by_by_e_gap + by_v1 * gap + by_v2 * gap_2 + D1_gap * by_v2_2 + D0_gap *
-                    by_v1_2;
-                const float total_9 = by_v1 * by_by_r_over_sinh_r + r_over_sinh_r * by_v1_2;
-                const float by_r_over_sinh_r_2 = total_8 + e_gap * by_v0_2;
-                const float total_10 = by_v0 * by_by_r_over_sinh_r + r_over_sinh_r * by_v0_2;
-                const float by_scale_2 = -(mu2 * total_7) - mu1 * total_9 - a * total_10;
-                const float by_r_over_sinh_r_near_2 = (near ? by_r_over_sinh_r_2 : 0.0f);
-                const float total_11 = -(by_r * ratio_6) - ratio * (by_by_r_ratio / r_ratio) + (near ? 0.0f : by_log_det)
-                    / r_ratio + (near ? 0.0f : by_r_over_sinh_r_2);
-                const float by_r_2 = total_11 / sinh_r;
-                const float by_sinh_r = 2.0f * (ratio_2 * ratio_6) - by_r * by_by_r_ratio - r_ratio * by_r_2;
-                const float near_chosen_4 = (near ? 0.0f : by_sinh_r / sinh_r_product);
-                const float by_asinh_sqrt_ww_over_2_2 = 2.0f * by_r_2;
-                const float gap_3 = by_asinh_sqrt_ww_over_2_2 / sqrt_2 - sqrt_ww_product * (2.0f * (ratio_3 *
-                    by_by_asinh_sqrt_ww_over_2 / (2.0f * sqrt_2)));
-                const float by_sqrt_ww_2 = 0.5f * gap_3 - 2.0f * (by_sqrt_ww_ratio * by_by_sqrt_ww);
-                const float total_12 = near_chosen_2 * by_by_ww_product + by_log_det_near * by_by_log_det_series +
-                    log_det_series * by_log_det_near_2 + 0.5f * by_scale_2 + (near ? 0.0f : by_sqrt_ww_2 /
-                    sqrt_ww_product_2);
-                const float near_chosen_5 = (near ? by_r_over_sinh_r_near_slope * r_over_sinh_r_near_slope_slope +
-                    by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
-                    r_over_sinh_r_near_slope * by_r_over_sinh_r_near_2 : 0.0f);
-                const float by_ww_2 = total_12 + 2.1799885768598575f * near_chosen_5 + total_2 * near_chosen_4 + 0.25f *
-                    (near_chosen_2 * by_by_ww + ww * near_chosen_4);
-                const float by_dot_D_D_2 = (is_small ? by_ww_2 : 0.0f);
-                const float by_dot_rest_rest_2 = (is_small ? 0.0f : by_ww_2);
-                const float total_13 = by_dot_rest_rest * ratio_5 + dot_D_S_ratio * by_dot_rest_rest_2;
-                const float product_11 = 2.0f * by_dot_rest_rest_2;
-                const float by_rest1_2 = product_5 * by_by_rest1 + rest1 * product_11;
-                const float by_rest0_2 = product_5 * by_by_rest0 + rest0 * product_11;
-                const float by_c_2 = product_4 * by_by_dot_D_S - by_c_ratio * product_10 + dot_D_S * total_13;
-                const float by_dot_D_D_product_2 = 2.0f * by_dot_D_D_2;
-                const float by_e_2 = -(by_e_ratio * by_by_b) - by_dot_D_D_product * by_by_e + total_10 - e *
-                    by_dot_D_D_product_2;
-                const float by_c_ratio_2 = by_c_2 / squared;
-                const float product_12 = 2.0f * by_c_ratio_2;
-                const float product_13 = a_total * (2.0f * (-(by_c_ratio * by_by_c) - c * by_c_ratio_2));
-                const float gap_4 = -(product_6 * by_exponent_by_x2) - product * by_by_scale - scale * total_7 -
-                    x_block[2][lane] * product_12;
-                const float gap_5 = -(product_6 * by_exponent_by_x1) - product_2 * by_by_scale - scale * total_9 -
-                    x_block[1][lane] * product_12;
-                const float ratio_7 = (total_6 + dot_D_S_product * by_dot_rest_rest_2 - S1 * by_rest1_2 - S0 * by_rest0_2)
-                    / dot_S_S_chosen;
-                const float by_dot_S_S_2 = (is_small ? 0.0f : -(ratio_4 * ratio_5) - dot_D_S_ratio * ratio_7);
-                const float by_e_ratio_2 = by_e_2 / a_total;
-                const float by_dot_D_S_2 = product_4 * by_by_c + c * total_13 + ratio_7 + by_e_ratio_2;
-                const float gap_6 = -(by_e_ratio * by_by_e) - product_7 * by_by_b + product_13 - e * by_e_ratio_2;
-                const float by_a = -(product_3 * by_by_scale) - scale * total_10 + 2.0f * (by_c_ratio * by_by_b + b *
-                    by_c_ratio_2) + gap_6;
-                const int is_small_3 = dot_ps_ps_total == 0.0f;
-                const float by_dot_ps_ps = (is_small_3 ? 0.0f : by_a / (2.0f * (is_small_3 ? 1.0f : a)));
-                const float product_14 = 2.0f * by_dot_ps_ps;
-                const float total_14 = by_dot_S_S_product * by_exponent_by_x2 + by_dot_D_S_product_2 - by_rest1 * ratio_5
-                    - dot_D_S_ratio * by_rest1_2 + D1 * by_dot_D_S_2;
-                const float total_15 = by_dot_D_D_product * by_exponent_by_x2 + by_dot_D_S_product_2 + total_7 +
-                    by_rest1_2 + S1 * by_dot_D_S_2;
-                const float total_16 = by_dot_S_S_product * by_exponent_by_x1 + by_dot_D_S_product - by_rest0 * ratio_5 -
-                    dot_D_S_ratio * by_rest0_2 + D0 * by_dot_D_S_2;
-                const float total_17 = by_dot_D_D_product * by_exponent_by_x1 + by_dot_D_S_product + total_9 + by_rest0_2
-                    + S0 * by_dot_D_S_2;
-                const float by_D1_2 = total_15 + D1 * by_dot_D_D_product_2;
-                const float by_D0_2 = total_17 + D0 * by_dot_D_D_product_2;
-                const float by_dot_S_S_product_2 = 2.0f * by_dot_S_S_2;
-                const float by_S1_2 = total_14 + S1 * by_dot_S_S_product_2;
-                const float by_S0_2 = total_16 + S0 * by_dot_S_S_product_2;
-                sum[0][lane] += 0.0f;
-                sum[1][lane] += gap_5 + mu1 * product_14 - by_D0_2 + by_S0_2;
-                sum[2][lane] += gap_4 + mu2 * product_14 - by_D1_2 + by_S1_2;
-                sum[3][lane] += v0 * by_z0 - z0 * by_by_v0;
-                sum[4][lane] += v1 * by_z0 - z0 * by_by_v1;
-                sum[5][lane] += v2 * by_z0 - z0 * by_by_v2;
-                sum[6][lane] += v0 * by_z1 - z1 * by_by_v0;
-                sum[7][lane] += v1 * by_z1 - z1 * by_by_v1;
-                sum[8][lane] += v2 * by_z1 - z1 * by_by_v2;
-                sum[9][lane] += exp_2 * by_phi;
+void hyperbolic_splats_value_f(
+    size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT W, const float *HYPERBOLIC_RESTRICT amplitude,
+    float *HYPERBOLIC_RESTRICT value, float *HYPERBOLIC_RESTRICT work, int threads) {
+    (void)threads;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES_f) {
+            vector_f at[3], X[2][3], value_sum[2][1] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows_f(x, count, start + b * LANES_f, 3, at);
+                pair_features_f(at, X[b]);
             }
-            for (size_t i = 0; i < 10; ++i)
-                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
-            mu_bar[3 * k + 0] += total[0];
-            mu_bar[3 * k + 1] += total[1];
-            mu_bar[3 * k + 2] += total[2];
-            W_bar[6 * k + 0] += total[3];
-            W_bar[6 * k + 1] += total[4];
-            W_bar[6 * k + 2] += total[5];
-            W_bar[6 * k + 3] += total[6];
-            W_bar[6 * k + 4] += total[7];
-            W_bar[6 * k + 5] += total[8];
-            amplitude_bar[1 * k + 0] += total[9];
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_value_f(X[0], constants + 10 * k, value_sum[0]);
+                pair_value_f(X[1], constants + 10 * k, value_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b)
+                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
         }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
+}
+
+/* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
+OUTLINE void splat_points_f(
+    size_t count, size_t start, const float *x, const float *value_bar, const float *gradient_bar, vector_f *point) {
+    vector_f at[3], grad_bar[3], slope_bar[3];
+    vector_rows_f(x, count, start, 3, at);
+    vector_rows_f(gradient_bar, count, start, 3, grad_bar);
+    vector_rows_f(value_bar, count, start, 1, point + 3);
+    pair_features_f(at, point);
+    pair_gradient_vjp_f(at, grad_bar, slope_bar);
+    for (int i = 0; i < 3; ++i) point[3 + 1 + i] = slope_bar[i];
+    vector_end_f(count, start, 3 + 1, point + 3);
+}
+
+/* Adds to S_bar what some vectors of points add to it. */
+OUTLINE void splat_sums_f(const vector_f *point, size_t size, const float *S, float *S_bar) {
+    vector_f sum[10] = {ZERO};
+    for (size_t b = 0; b < size; ++b, point += 7) pair_backward_f(point, S, point + 3, point + 3 + 1, sum);
+    S_bar[0] += vector_sum_f(sum[0]);
+    S_bar[1] += vector_sum_f(sum[1]);
+    S_bar[2] += vector_sum_f(sum[2]);
+    S_bar[3] += vector_sum_f(sum[3]);
+    S_bar[4] += vector_sum_f(sum[4]);
+    S_bar[5] += vector_sum_f(sum[5]);
+    S_bar[6] += vector_sum_f(sum[6]);
+    S_bar[7] += vector_sum_f(sum[7]);
+    S_bar[8] += vector_sum_f(sum[8]);
+    S_bar[9] += vector_sum_f(sum[9]);
+}
+
+/*
+ * Some splats at a time; the points pass over each of them, a chunk at a time, while its sums stay in registers. How many
+ * splats depends on the threads, what is summed in which order does not.
+ */
+void hyperbolic_splats_vjp_f(
+    size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT W, const float *HYPERBOLIC_RESTRICT amplitude, const float *HYPERBOLIC_RESTRICT value_bar, const float *HYPERBOLIC_RESTRICT gradient_bar,
+    float *HYPERBOLIC_RESTRICT mu_bar, float *HYPERBOLIC_RESTRICT W_bar, float *HYPERBOLIC_RESTRICT amplitude_bar, float *HYPERBOLIC_RESTRICT work, int threads) {
+    const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    const size_t chunk = 131072 / (7 * sizeof(vector_f)) + 1;
+    const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
+    const size_t share = part < LANES_f ? part : LANES_f;
+    vector_f *points = work_points_f(work);
+    float *constants = work_constants_f(work, count);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic) nowait)
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic, 8))
+        for (size_t block = 0; block < blocks; ++block)
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 7 * block);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += share) {
+            const size_t end = start + share < splat_count ? start + share : splat_count;
+            float sums[LANES_f][10] = {{0}};
+            vector_f own_mu[3], own_W[6], own_amplitude[1], S_bar[10], bars[10];
+            for (size_t first = 0; first < blocks; first += chunk) {
+                const size_t size = first + chunk < blocks ? chunk : blocks - first;
+                for (size_t k = start; k < end; ++k)
+                    splat_sums_f(points + 7 * first, size, constants + 10 * k, sums[k - start]);
+            }
+            vector_rows_f(mu, end, start, 3, own_mu);
+            vector_rows_f(W, end, start, 6, own_W);
+            vector_rows_f(amplitude, end, start, 1, own_amplitude);
+            vector_rows_f(sums[0], LANES_f, 0, 10, S_bar);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 3, bars + 3 + 6);
+            vector_to_rows_f(bars, mu_bar, end, start, 3, 3);
+            vector_to_rows_f(bars + 3, W_bar, end, start, 6, 6);
+            vector_to_rows_f(bars + 3 + 6, amplitude_bar, end, start, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* Nothing is summed: the adjoints of a splat's constants go on to its parameters for every point. */
+void hyperbolic_splats_rows_f(
+    size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT W, const float *HYPERBOLIC_RESTRICT amplitude, const float *HYPERBOLIC_RESTRICT value_bar, const float *HYPERBOLIC_RESTRICT gradient_bar,
+    float *HYPERBOLIC_RESTRICT rows, float *HYPERBOLIC_RESTRICT work, int threads) {
+    (void)threads;
+    const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t block = 0; block < blocks; ++block) {
+            vector_f point[7];
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
+            for (size_t k = 0; k < splat_count; ++k) {
+                vector_f own_mu[3], own_W[6], own_amplitude[1], S_bar[10] = {ZERO}, bars[10];
+                for (int i = 0; i < 3; ++i) own_mu[i] = vector_of_f(mu[3 * k + i]);
+                for (int i = 0; i < 6; ++i) own_W[i] = vector_of_f(W[6 * k + i]);
+                own_amplitude[0] = vector_of_f(amplitude[k]);
+                pair_backward_f(point, constants + 10 * k, point + 3, point + 3 + 1, S_bar);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 3, bars + 3 + 6);
+                vector_to_rows_f(bars, rows + 10 * k, count, block * LANES_f, 10, 10 * splat_count);
+            }
+        }
+        restore_denormals(mode);
+    }
 }

@@ -334,51 +334,42 @@ void mobile_manipulator_splat_batch_f(
 void mobile_manipulator_frame(const double *MOBILE_MANIPULATOR_RESTRICT p, double *MOBILE_MANIPULATOR_RESTRICT frame);
 void mobile_manipulator_frame_f(const float *MOBILE_MANIPULATOR_RESTRICT p, float *MOBILE_MANIPULATOR_RESTRICT frame);
 
+/* How many numbers of scratch memory the functions below need, for these sizes or smaller ones. */
+size_t mobile_manipulator_splats_work(size_t count, size_t splat_count, int threads);
+size_t mobile_manipulator_splats_work_f(size_t count, size_t splat_count, int threads);
+
 /* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
 void mobile_manipulator_splats(
-    size_t count,
-    size_t splat_count,
-    const double *MOBILE_MANIPULATOR_RESTRICT x,
-    const double *MOBILE_MANIPULATOR_RESTRICT mu,
-    const double *MOBILE_MANIPULATOR_RESTRICT W,
-    const double *MOBILE_MANIPULATOR_RESTRICT amplitude,
-    double *MOBILE_MANIPULATOR_RESTRICT value,
-    double *MOBILE_MANIPULATOR_RESTRICT gradient);
+    size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT W, const double *MOBILE_MANIPULATOR_RESTRICT amplitude,
+    double *MOBILE_MANIPULATOR_RESTRICT value, double *MOBILE_MANIPULATOR_RESTRICT gradient, double *MOBILE_MANIPULATOR_RESTRICT work, int threads);
 void mobile_manipulator_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *MOBILE_MANIPULATOR_RESTRICT x,
-    const float *MOBILE_MANIPULATOR_RESTRICT mu,
-    const float *MOBILE_MANIPULATOR_RESTRICT W,
-    const float *MOBILE_MANIPULATOR_RESTRICT amplitude,
-    float *MOBILE_MANIPULATOR_RESTRICT value,
-    float *MOBILE_MANIPULATOR_RESTRICT gradient);
+    size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT W, const float *MOBILE_MANIPULATOR_RESTRICT amplitude,
+    float *MOBILE_MANIPULATOR_RESTRICT value, float *MOBILE_MANIPULATOR_RESTRICT gradient, float *MOBILE_MANIPULATOR_RESTRICT work, int threads);
+
+/* The values of the sums alone. */
+void mobile_manipulator_splats_value(
+    size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT W, const double *MOBILE_MANIPULATOR_RESTRICT amplitude,
+    double *MOBILE_MANIPULATOR_RESTRICT value, double *MOBILE_MANIPULATOR_RESTRICT work, int threads);
+void mobile_manipulator_splats_value_f(
+    size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT W, const float *MOBILE_MANIPULATOR_RESTRICT amplitude,
+    float *MOBILE_MANIPULATOR_RESTRICT value, float *MOBILE_MANIPULATOR_RESTRICT work, int threads);
 
 /* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
 void mobile_manipulator_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *MOBILE_MANIPULATOR_RESTRICT x,
-    const double *MOBILE_MANIPULATOR_RESTRICT mu,
-    const double *MOBILE_MANIPULATOR_RESTRICT W,
-    const double *MOBILE_MANIPULATOR_RESTRICT amplitude,
-    const double *MOBILE_MANIPULATOR_RESTRICT value_bar,
-    const double *MOBILE_MANIPULATOR_RESTRICT gradient_bar,
-    double *MOBILE_MANIPULATOR_RESTRICT mu_bar,
-    double *MOBILE_MANIPULATOR_RESTRICT W_bar,
-    double *MOBILE_MANIPULATOR_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT W, const double *MOBILE_MANIPULATOR_RESTRICT amplitude, const double *MOBILE_MANIPULATOR_RESTRICT value_bar, const double *MOBILE_MANIPULATOR_RESTRICT gradient_bar,
+    double *MOBILE_MANIPULATOR_RESTRICT mu_bar, double *MOBILE_MANIPULATOR_RESTRICT W_bar, double *MOBILE_MANIPULATOR_RESTRICT amplitude_bar, double *MOBILE_MANIPULATOR_RESTRICT work, int threads);
 void mobile_manipulator_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *MOBILE_MANIPULATOR_RESTRICT x,
-    const float *MOBILE_MANIPULATOR_RESTRICT mu,
-    const float *MOBILE_MANIPULATOR_RESTRICT W,
-    const float *MOBILE_MANIPULATOR_RESTRICT amplitude,
-    const float *MOBILE_MANIPULATOR_RESTRICT value_bar,
-    const float *MOBILE_MANIPULATOR_RESTRICT gradient_bar,
-    float *MOBILE_MANIPULATOR_RESTRICT mu_bar,
-    float *MOBILE_MANIPULATOR_RESTRICT W_bar,
-    float *MOBILE_MANIPULATOR_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT W, const float *MOBILE_MANIPULATOR_RESTRICT amplitude, const float *MOBILE_MANIPULATOR_RESTRICT value_bar, const float *MOBILE_MANIPULATOR_RESTRICT gradient_bar,
+    float *MOBILE_MANIPULATOR_RESTRICT mu_bar, float *MOBILE_MANIPULATOR_RESTRICT W_bar, float *MOBILE_MANIPULATOR_RESTRICT amplitude_bar, float *MOBILE_MANIPULATOR_RESTRICT work, int threads);
+
+/* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +
+ * gradient_n . gradient_bar_n in its mu, W and amplitude, in this order. */
+void mobile_manipulator_splats_rows(
+    size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT W, const double *MOBILE_MANIPULATOR_RESTRICT amplitude, const double *MOBILE_MANIPULATOR_RESTRICT value_bar, const double *MOBILE_MANIPULATOR_RESTRICT gradient_bar,
+    double *MOBILE_MANIPULATOR_RESTRICT rows, double *MOBILE_MANIPULATOR_RESTRICT work, int threads);
+void mobile_manipulator_splats_rows_f(
+    size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT W, const float *MOBILE_MANIPULATOR_RESTRICT amplitude, const float *MOBILE_MANIPULATOR_RESTRICT value_bar, const float *MOBILE_MANIPULATOR_RESTRICT gradient_bar,
+    float *MOBILE_MANIPULATOR_RESTRICT rows, float *MOBILE_MANIPULATOR_RESTRICT work, int threads);
 
 #ifdef __cplusplus
 }

@@ -7,1383 +7,3520 @@
 #include "mobile_manipulator.h"
 
 #include <float.h>
+#include <stdint.h>
+#include <string.h>
 
-#define LANES 64
+/*
+ * A vector is as wide as the machine's registers, or one number where the compiler has no vectors (or is asked for none
+ * by -DRSRM_NO_VECTORS). Comparisons of vectors are masks; `vector_select` is the ?: of vectors.
+ */
+#if defined(__GNUC__) && !defined(RSRM_NO_VECTORS)
+#if defined(__AVX512F__)
+#define VECTOR_BYTES 64
+#elif defined(__AVX__)
+#define VECTOR_BYTES 32
+#else
+#define VECTOR_BYTES 16
+#endif
+#define LANE(vector, i) (vector)[i]
+#define ZERO {0}
+#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
+typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
+typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
+typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
+typedef int32_t vector_mask_f __attribute__((vector_size(VECTOR_BYTES)));
+typedef uint64_t vector_bits __attribute__((vector_size(VECTOR_BYTES)));
+typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
+#else
+#define LANE(vector, i) (vector)
+#define ZERO 0
+#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
+typedef double vector;
+typedef float vector_f;
+typedef int64_t vector_mask;
+typedef int32_t vector_mask_f;
+typedef uint64_t vector_bits;
+typedef uint32_t vector_bits_f;
+#endif
+#if defined(__GNUC__)
+#define INLINE static inline __attribute__((always_inline, unused))
+#define OUTLINE static __attribute__((noinline))
+#else
+#define INLINE static inline
+#define OUTLINE static
+#endif
+#define LANES (sizeof(vector) / sizeof(double))
+#define LANES_f (sizeof(vector_f) / sizeof(float))
+
+/* Threads, where the compiler has OpenMP. */
+#if defined(_OPENMP)
+#define OMP(directive) _Pragma(#directive)
+#else
+#define OMP(directive)
+#endif
 
 /* Denormal numbers count as zero while the sums run: far splats are many, and slow. */
 #if defined(__SSE2__)
 #include <xmmintrin.h>
-static unsigned flush_denormals(void) {
+INLINE uint64_t flush_denormals(void) {
     const unsigned mode = _mm_getcsr();
     _mm_setcsr(mode | 0x8040u);
     return mode;
 }
-static void restore_denormals(unsigned mode) { _mm_setcsr(mode); }
+INLINE void restore_denormals(uint64_t mode) { _mm_setcsr((unsigned)mode); }
+#elif defined(__aarch64__) && defined(__GNUC__)
+INLINE uint64_t flush_denormals(void) {
+    uint64_t mode;
+    __asm__ __volatile__("mrs %0, fpcr" : "=r"(mode));
+    __asm__ __volatile__("msr fpcr, %0" : : "r"(mode | (UINT64_C(1) << 24)));
+    return mode;
+}
+INLINE void restore_denormals(uint64_t mode) { __asm__ __volatile__("msr fpcr, %0" : : "r"(mode)); }
 #else
-static unsigned flush_denormals(void) { return 0; }
-static void restore_denormals(unsigned mode) { (void)mode; }
+INLINE uint64_t flush_denormals(void) { return 0; }
+INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
 
+/* The same number in all lanes. */
+INLINE vector vector_of(double x) {
+    const vector zero = ZERO;
+    return x - zero;
+}
+
+/* x in the lanes of the mask, y in the others. */
+INLINE vector vector_select(vector_mask mask, vector x, vector y) {
+    return SELECT(vector, vector_mask, mask, x, y);
+}
+
+/* Numbers in memory to a vector, and back. */
+INLINE vector vector_load(const double *from) {
+    vector x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+INLINE void vector_store(double *to, vector x) { memcpy(to, &x, sizeof x); }
+
+/* The sum over the lanes, by halves. */
+INLINE double vector_sum(vector x) {
+    double lanes[LANES];
+    vector_store(lanes, x);
+    for (size_t half = LANES / 2; half > 0; half /= 2)
+        for (size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    return lanes[0];
+}
+
+/* The bits of a vector as integers, and back. */
+INLINE vector_bits vector_to_bits(vector x) {
+    vector_bits bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+INLINE vector vector_from_bits(vector_bits bits) {
+    vector x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* round of every lane; one instruction where the machine has it. */
+INLINE vector vector_round(vector x) {
+    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = rint(LANE(x, i));
+    return x;
+}
+
+/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
+INLINE vector vector_exp(vector x) {
+    const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
+    const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
+    const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
+    const vector scale = vector_from_bits((vector_to_bits(shifted) + 1022) << 52); /* 2^(k - 1) */
+    const vector y = vector_select(x > 709.782712893384, vector_of(HUGE_VAL), (scale + scale * part) * 2);
+    return vector_select(x < -707.9, vector_of(0), y);
+}
+
+/* What pairs read of points x. */
+OUTLINE void pair_features(
+    const vector *x, vector *X) {
+    const vector x0 = x[0];
+    const vector x1 = x[1];
+    const vector x2 = x[2];
+    const vector x3 = x[3];
+    const vector x4 = x[4];
+    const vector x5 = x[5];
+    const vector x6 = x[6];
+    const vector x7 = x[7];
+    const vector x8 = x[8];
+    X[0] = x0;
+    X[1] = x1;
+    X[2] = x2;
+    X[3] = x3;
+    X[4] = x4;
+    X[5] = x5;
+    X[6] = x6;
+    X[7] = x7;
+    X[8] = x8;
+}
+
+/* What pairs read of a splat, of some splats. */
+OUTLINE void pair_constants(
+    const vector *mu, const vector *W, const vector *amplitude, vector *S) {
+    const vector mu0 = mu[0];
+    const vector mu1 = mu[1];
+    const vector mu2 = mu[2];
+    const vector mu3 = mu[3];
+    const vector mu4 = mu[4];
+    const vector mu5 = mu[5];
+    const vector mu6 = mu[6];
+    const vector mu7 = mu[7];
+    const vector mu8 = mu[8];
+    const vector W0_0 = W[0];
+    const vector W0_1 = W[1];
+    const vector W0_2 = W[2];
+    const vector W0_3 = W[3];
+    const vector W0_4 = W[4];
+    const vector W0_5 = W[5];
+    const vector W0_6 = W[6];
+    const vector W0_7 = W[7];
+    const vector W0_8 = W[8];
+    const vector W1_0 = W[9];
+    const vector W1_1 = W[10];
+    const vector W1_2 = W[11];
+    const vector W1_3 = W[12];
+    const vector W1_4 = W[13];
+    const vector W1_5 = W[14];
+    const vector W1_6 = W[15];
+    const vector W1_7 = W[16];
+    const vector W1_8 = W[17];
+    const vector W2_0 = W[18];
+    const vector W2_1 = W[19];
+    const vector W2_2 = W[20];
+    const vector W2_3 = W[21];
+    const vector W2_4 = W[22];
+    const vector W2_5 = W[23];
+    const vector W2_6 = W[24];
+    const vector W2_7 = W[25];
+    const vector W2_8 = W[26];
+    const vector W3_0 = W[27];
+    const vector W3_1 = W[28];
+    const vector W3_2 = W[29];
+    const vector W3_3 = W[30];
+    const vector W3_4 = W[31];
+    const vector W3_5 = W[32];
+    const vector W3_6 = W[33];
+    const vector W3_7 = W[34];
+    const vector W3_8 = W[35];
+    const vector W4_0 = W[36];
+    const vector W4_1 = W[37];
+    const vector W4_2 = W[38];
+    const vector W4_3 = W[39];
+    const vector W4_4 = W[40];
+    const vector W4_5 = W[41];
+    const vector W4_6 = W[42];
+    const vector W4_7 = W[43];
+    const vector W4_8 = W[44];
+    const vector W5_0 = W[45];
+    const vector W5_1 = W[46];
+    const vector W5_2 = W[47];
+    const vector W5_3 = W[48];
+    const vector W5_4 = W[49];
+    const vector W5_5 = W[50];
+    const vector W5_6 = W[51];
+    const vector W5_7 = W[52];
+    const vector W5_8 = W[53];
+    const vector W6_0 = W[54];
+    const vector W6_1 = W[55];
+    const vector W6_2 = W[56];
+    const vector W6_3 = W[57];
+    const vector W6_4 = W[58];
+    const vector W6_5 = W[59];
+    const vector W6_6 = W[60];
+    const vector W6_7 = W[61];
+    const vector W6_8 = W[62];
+    const vector W7_0 = W[63];
+    const vector W7_1 = W[64];
+    const vector W7_2 = W[65];
+    const vector W7_3 = W[66];
+    const vector W7_4 = W[67];
+    const vector W7_5 = W[68];
+    const vector W7_6 = W[69];
+    const vector W7_7 = W[70];
+    const vector W7_8 = W[71];
+    const vector W8_0 = W[72];
+    const vector W8_1 = W[73];
+    const vector W8_2 = W[74];
+    const vector W8_3 = W[75];
+    const vector W8_4 = W[76];
+    const vector W8_5 = W[77];
+    const vector W8_6 = W[78];
+    const vector W8_7 = W[79];
+    const vector W8_8 = W[80];
+    const vector its_amplitude = amplitude[0];
+    S[0] = mu0;
+    S[1] = mu1;
+    S[2] = mu2;
+    S[3] = mu3;
+    S[4] = mu4;
+    S[5] = mu5;
+    S[6] = mu6;
+    S[7] = mu7;
+    S[8] = mu8;
+    S[9] = W0_0;
+    S[10] = W0_1;
+    S[11] = W0_2;
+    S[12] = W0_3;
+    S[13] = W0_4;
+    S[14] = W0_5;
+    S[15] = W0_6;
+    S[16] = W0_7;
+    S[17] = W0_8;
+    S[18] = W1_0;
+    S[19] = W1_1;
+    S[20] = W1_2;
+    S[21] = W1_3;
+    S[22] = W1_4;
+    S[23] = W1_5;
+    S[24] = W1_6;
+    S[25] = W1_7;
+    S[26] = W1_8;
+    S[27] = W2_0;
+    S[28] = W2_1;
+    S[29] = W2_2;
+    S[30] = W2_3;
+    S[31] = W2_4;
+    S[32] = W2_5;
+    S[33] = W2_6;
+    S[34] = W2_7;
+    S[35] = W2_8;
+    S[36] = W3_0;
+    S[37] = W3_1;
+    S[38] = W3_2;
+    S[39] = W3_3;
+    S[40] = W3_4;
+    S[41] = W3_5;
+    S[42] = W3_6;
+    S[43] = W3_7;
+    S[44] = W3_8;
+    S[45] = W4_0;
+    S[46] = W4_1;
+    S[47] = W4_2;
+    S[48] = W4_3;
+    S[49] = W4_4;
+    S[50] = W4_5;
+    S[51] = W4_6;
+    S[52] = W4_7;
+    S[53] = W4_8;
+    S[54] = W5_0;
+    S[55] = W5_1;
+    S[56] = W5_2;
+    S[57] = W5_3;
+    S[58] = W5_4;
+    S[59] = W5_5;
+    S[60] = W5_6;
+    S[61] = W5_7;
+    S[62] = W5_8;
+    S[63] = W6_0;
+    S[64] = W6_1;
+    S[65] = W6_2;
+    S[66] = W6_3;
+    S[67] = W6_4;
+    S[68] = W6_5;
+    S[69] = W6_6;
+    S[70] = W6_7;
+    S[71] = W6_8;
+    S[72] = W7_0;
+    S[73] = W7_1;
+    S[74] = W7_2;
+    S[75] = W7_3;
+    S[76] = W7_4;
+    S[77] = W7_5;
+    S[78] = W7_6;
+    S[79] = W7_7;
+    S[80] = W7_8;
+    S[81] = W8_0;
+    S[82] = W8_1;
+    S[83] = W8_2;
+    S[84] = W8_3;
+    S[85] = W8_4;
+    S[86] = W8_5;
+    S[87] = W8_6;
+    S[88] = W8_7;
+    S[89] = W8_8;
+    S[90] = its_amplitude;
+}
+
+/* Adds the values phi of a splat at some points. */
+INLINE void pair_value(
+    const vector *X, const double *S, vector *value) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const vector x2 = X[2];
+    const vector x3 = X[3];
+    const vector x4 = X[4];
+    const vector x5 = X[5];
+    const vector x6 = X[6];
+    const vector x7 = X[7];
+    const vector x8 = X[8];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double mu2 = S[2];
+    const double mu3 = S[3];
+    const double mu4 = S[4];
+    const double mu5 = S[5];
+    const double mu6 = S[6];
+    const double mu7 = S[7];
+    const double mu8 = S[8];
+    const double W0_0 = S[9];
+    const double W0_1 = S[10];
+    const double W0_2 = S[11];
+    const double W0_3 = S[12];
+    const double W0_4 = S[13];
+    const double W0_5 = S[14];
+    const double W0_6 = S[15];
+    const double W0_7 = S[16];
+    const double W0_8 = S[17];
+    const double W1_0 = S[18];
+    const double W1_1 = S[19];
+    const double W1_2 = S[20];
+    const double W1_3 = S[21];
+    const double W1_4 = S[22];
+    const double W1_5 = S[23];
+    const double W1_6 = S[24];
+    const double W1_7 = S[25];
+    const double W1_8 = S[26];
+    const double W2_0 = S[27];
+    const double W2_1 = S[28];
+    const double W2_2 = S[29];
+    const double W2_3 = S[30];
+    const double W2_4 = S[31];
+    const double W2_5 = S[32];
+    const double W2_6 = S[33];
+    const double W2_7 = S[34];
+    const double W2_8 = S[35];
+    const double W3_0 = S[36];
+    const double W3_1 = S[37];
+    const double W3_2 = S[38];
+    const double W3_3 = S[39];
+    const double W3_4 = S[40];
+    const double W3_5 = S[41];
+    const double W3_6 = S[42];
+    const double W3_7 = S[43];
+    const double W3_8 = S[44];
+    const double W4_0 = S[45];
+    const double W4_1 = S[46];
+    const double W4_2 = S[47];
+    const double W4_3 = S[48];
+    const double W4_4 = S[49];
+    const double W4_5 = S[50];
+    const double W4_6 = S[51];
+    const double W4_7 = S[52];
+    const double W4_8 = S[53];
+    const double W5_0 = S[54];
+    const double W5_1 = S[55];
+    const double W5_2 = S[56];
+    const double W5_3 = S[57];
+    const double W5_4 = S[58];
+    const double W5_5 = S[59];
+    const double W5_6 = S[60];
+    const double W5_7 = S[61];
+    const double W5_8 = S[62];
+    const double W6_0 = S[63];
+    const double W6_1 = S[64];
+    const double W6_2 = S[65];
+    const double W6_3 = S[66];
+    const double W6_4 = S[67];
+    const double W6_5 = S[68];
+    const double W6_6 = S[69];
+    const double W6_7 = S[70];
+    const double W6_8 = S[71];
+    const double W7_0 = S[72];
+    const double W7_1 = S[73];
+    const double W7_2 = S[74];
+    const double W7_3 = S[75];
+    const double W7_4 = S[76];
+    const double W7_5 = S[77];
+    const double W7_6 = S[78];
+    const double W7_7 = S[79];
+    const double W7_8 = S[80];
+    const double W8_0 = S[81];
+    const double W8_1 = S[82];
+    const double W8_2 = S[83];
+    const double W8_3 = S[84];
+    const double W8_4 = S[85];
+    const double W8_5 = S[86];
+    const double W8_6 = S[87];
+    const double W8_7 = S[88];
+    const double W8_8 = S[89];
+    const double amplitude = S[90];
+    const vector v0 = x0 - mu0;
+    const vector v1 = x1 - mu1;
+    const vector gap = x2 - mu2;
+    const vector round_2 = vector_round(0.15915494309189535 * gap);
+    const vector v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
+        round_2;
+    const vector gap_2 = x3 - mu3;
+    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
+    const vector v3 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
+        round_3;
+    const vector gap_3 = x4 - mu4;
+    const vector round_4 = vector_round(0.15915494309189535 * gap_3);
+    const vector v4 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
+        round_4;
+    const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+    const vector gap_4 = x5 - mu5;
+    const vector round_5 = vector_round(0.15915494309189535 * gap_4);
+    const vector v5 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
+        round_5;
+    const vector gap_5 = x6 - mu6;
+    const vector round_6 = vector_round(0.15915494309189535 * gap_5);
+    const vector v6 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
+        round_6;
+    const vector gap_6 = x7 - mu7;
+    const vector round_7 = vector_round(0.15915494309189535 * gap_6);
+    const vector v7 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
+        round_7;
+    const vector gap_7 = x8 - mu8;
+    const vector round_8 = vector_round(0.15915494309189535 * gap_7);
+    const vector v8 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
+        round_8;
+    const vector z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+    const vector total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+    const vector z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+    const vector total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+    const vector z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+    const vector total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+    const vector z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+    const vector total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+    const vector z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+    const vector total_7 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+    const vector total_8 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+    const vector z5 = total_8 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+    const vector total_9 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+    const vector z6 = total_9 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+    const vector total_10 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+    const vector z7 = total_10 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+    const vector total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+    const vector z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+    const vector total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+    value[0] = value[0] + amplitude * vector_exp(-0.5 * total_12);
+}
+
+/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+OUTLINE void pair_forward(
+    const vector *X, const double *S, vector *value, vector *slope) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const vector x2 = X[2];
+    const vector x3 = X[3];
+    const vector x4 = X[4];
+    const vector x5 = X[5];
+    const vector x6 = X[6];
+    const vector x7 = X[7];
+    const vector x8 = X[8];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double mu2 = S[2];
+    const double mu3 = S[3];
+    const double mu4 = S[4];
+    const double mu5 = S[5];
+    const double mu6 = S[6];
+    const double mu7 = S[7];
+    const double mu8 = S[8];
+    const double W0_0 = S[9];
+    const double W0_1 = S[10];
+    const double W0_2 = S[11];
+    const double W0_3 = S[12];
+    const double W0_4 = S[13];
+    const double W0_5 = S[14];
+    const double W0_6 = S[15];
+    const double W0_7 = S[16];
+    const double W0_8 = S[17];
+    const double W1_0 = S[18];
+    const double W1_1 = S[19];
+    const double W1_2 = S[20];
+    const double W1_3 = S[21];
+    const double W1_4 = S[22];
+    const double W1_5 = S[23];
+    const double W1_6 = S[24];
+    const double W1_7 = S[25];
+    const double W1_8 = S[26];
+    const double W2_0 = S[27];
+    const double W2_1 = S[28];
+    const double W2_2 = S[29];
+    const double W2_3 = S[30];
+    const double W2_4 = S[31];
+    const double W2_5 = S[32];
+    const double W2_6 = S[33];
+    const double W2_7 = S[34];
+    const double W2_8 = S[35];
+    const double W3_0 = S[36];
+    const double W3_1 = S[37];
+    const double W3_2 = S[38];
+    const double W3_3 = S[39];
+    const double W3_4 = S[40];
+    const double W3_5 = S[41];
+    const double W3_6 = S[42];
+    const double W3_7 = S[43];
+    const double W3_8 = S[44];
+    const double W4_0 = S[45];
+    const double W4_1 = S[46];
+    const double W4_2 = S[47];
+    const double W4_3 = S[48];
+    const double W4_4 = S[49];
+    const double W4_5 = S[50];
+    const double W4_6 = S[51];
+    const double W4_7 = S[52];
+    const double W4_8 = S[53];
+    const double W5_0 = S[54];
+    const double W5_1 = S[55];
+    const double W5_2 = S[56];
+    const double W5_3 = S[57];
+    const double W5_4 = S[58];
+    const double W5_5 = S[59];
+    const double W5_6 = S[60];
+    const double W5_7 = S[61];
+    const double W5_8 = S[62];
+    const double W6_0 = S[63];
+    const double W6_1 = S[64];
+    const double W6_2 = S[65];
+    const double W6_3 = S[66];
+    const double W6_4 = S[67];
+    const double W6_5 = S[68];
+    const double W6_6 = S[69];
+    const double W6_7 = S[70];
+    const double W6_8 = S[71];
+    const double W7_0 = S[72];
+    const double W7_1 = S[73];
+    const double W7_2 = S[74];
+    const double W7_3 = S[75];
+    const double W7_4 = S[76];
+    const double W7_5 = S[77];
+    const double W7_6 = S[78];
+    const double W7_7 = S[79];
+    const double W7_8 = S[80];
+    const double W8_0 = S[81];
+    const double W8_1 = S[82];
+    const double W8_2 = S[83];
+    const double W8_3 = S[84];
+    const double W8_4 = S[85];
+    const double W8_5 = S[86];
+    const double W8_6 = S[87];
+    const double W8_7 = S[88];
+    const double W8_8 = S[89];
+    const double amplitude = S[90];
+    const vector v0 = x0 - mu0;
+    const vector v1 = x1 - mu1;
+    const vector gap = x2 - mu2;
+    const vector round_2 = vector_round(0.15915494309189535 * gap);
+    const vector v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
+        round_2;
+    const vector gap_2 = x3 - mu3;
+    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
+    const vector v3 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
+        round_3;
+    const vector gap_3 = x4 - mu4;
+    const vector round_4 = vector_round(0.15915494309189535 * gap_3);
+    const vector v4 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
+        round_4;
+    const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+    const vector gap_4 = x5 - mu5;
+    const vector round_5 = vector_round(0.15915494309189535 * gap_4);
+    const vector v5 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
+        round_5;
+    const vector gap_5 = x6 - mu6;
+    const vector round_6 = vector_round(0.15915494309189535 * gap_5);
+    const vector v6 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
+        round_6;
+    const vector gap_6 = x7 - mu7;
+    const vector round_7 = vector_round(0.15915494309189535 * gap_6);
+    const vector v7 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
+        round_7;
+    const vector gap_7 = x8 - mu8;
+    const vector round_8 = vector_round(0.15915494309189535 * gap_7);
+    const vector v8 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
+        round_8;
+    const vector z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+    const vector total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+    const vector z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+    const vector total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+    const vector z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+    const vector total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+    const vector z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+    const vector total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+    const vector z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+    const vector total_7 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+    const vector total_8 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+    const vector z5 = total_8 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+    const vector total_9 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+    const vector z6 = total_9 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+    const vector total_10 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+    const vector z7 = total_10 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+    const vector total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+    const vector z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+    const vector total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+    const vector phi = amplitude * vector_exp(-0.5 * total_12);
+    const vector z8_product = z8 * phi;
+    const vector z7_product = z7 * phi;
+    const vector z6_product = z6 * phi;
+    const vector z5_product = z5 * phi;
+    const vector z4_product = z4 * phi;
+    const vector z3_product = z3 * phi;
+    const vector z2_product = z2 * phi;
+    const vector z1_product = z1 * phi;
+    const vector z0_product = z0 * phi;
+    value[0] = value[0] + phi;
+    slope[0] = slope[0] - W8_0 * z8_product - W7_0 * z7_product - W6_0 * z6_product - W5_0 * z5_product - W4_0
+            * z4_product - W3_0 * z3_product - W2_0 * z2_product - W1_0 * z1_product - W0_0 * z0_product;
+    slope[1] = slope[1] - W8_1 * z8_product - W7_1 * z7_product - W6_1 * z6_product - W5_1 * z5_product - W4_1
+            * z4_product - W3_1 * z3_product - W2_1 * z2_product - W1_1 * z1_product - W0_1 * z0_product;
+    slope[2] = slope[2] - W8_2 * z8_product - W7_2 * z7_product - W6_2 * z6_product - W5_2 * z5_product - W4_2
+            * z4_product - W3_2 * z3_product - W2_2 * z2_product - W1_2 * z1_product - W0_2 * z0_product;
+    slope[3] = slope[3] - W8_3 * z8_product - W7_3 * z7_product - W6_3 * z6_product - W5_3 * z5_product - W4_3
+            * z4_product - W3_3 * z3_product - W2_3 * z2_product - W1_3 * z1_product - W0_3 * z0_product;
+    slope[4] = slope[4] - W8_4 * z8_product - W7_4 * z7_product - W6_4 * z6_product - W5_4 * z5_product - W4_4
+            * z4_product - W3_4 * z3_product - W2_4 * z2_product - W1_4 * z1_product - W0_4 * z0_product;
+    slope[5] = slope[5] - W8_5 * z8_product - W7_5 * z7_product - W6_5 * z6_product - W5_5 * z5_product - W4_5
+            * z4_product - W3_5 * z3_product - W2_5 * z2_product - W1_5 * z1_product - W0_5 * z0_product;
+    slope[6] = slope[6] - W8_6 * z8_product - W7_6 * z7_product - W6_6 * z6_product - W5_6 * z5_product - W4_6
+            * z4_product - W3_6 * z3_product - W2_6 * z2_product - W1_6 * z1_product - W0_6 * z0_product;
+    slope[7] = slope[7] - W8_7 * z8_product - W7_7 * z7_product - W6_7 * z6_product - W5_7 * z5_product - W4_7
+            * z4_product - W3_7 * z3_product - W2_7 * z2_product - W1_7 * z1_product - W0_7 * z0_product;
+    slope[8] = slope[8] - W8_8 * z8_product - W7_8 * z7_product - W6_8 * z6_product - W5_8 * z5_product - W4_8
+            * z4_product - W3_8 * z3_product - W2_8 * z2_product - W1_8 * z1_product - W0_8 * z0_product;
+}
+
+/* The Riemannian gradient at some points, of the sums of slopes. */
+OUTLINE void pair_gradient(
+    const vector *x, const vector *slope, vector *gradient) {
+    (void)x;
+    const vector slope_x0 = slope[0];
+    const vector slope_x1 = slope[1];
+    const vector slope_x2 = slope[2];
+    const vector slope_x3 = slope[3];
+    const vector slope_x4 = slope[4];
+    const vector slope_x5 = slope[5];
+    const vector slope_x6 = slope[6];
+    const vector slope_x7 = slope[7];
+    const vector slope_x8 = slope[8];
+    gradient[0] = slope_x0;
+    gradient[1] = slope_x1;
+    gradient[2] = 4.0 * slope_x2;
+    gradient[3] = 16.0 * slope_x3;
+    gradient[4] = 16.0 * slope_x4;
+    gradient[5] = 16.0 * slope_x5;
+    gradient[6] = 16.0 * slope_x6;
+    gradient[7] = 16.0 * slope_x7;
+    gradient[8] = 16.0 * slope_x8;
+}
+
+/* The adjoint of slope at some points, of that of the gradient. */
+OUTLINE void pair_gradient_vjp(
+    const vector *x, const vector *gradient_bar, vector *slope_bar) {
+    (void)x;
+    const vector gradient_bar0 = gradient_bar[0];
+    const vector gradient_bar1 = gradient_bar[1];
+    const vector gradient_bar2 = gradient_bar[2];
+    const vector gradient_bar3 = gradient_bar[3];
+    const vector gradient_bar4 = gradient_bar[4];
+    const vector gradient_bar5 = gradient_bar[5];
+    const vector gradient_bar6 = gradient_bar[6];
+    const vector gradient_bar7 = gradient_bar[7];
+    const vector gradient_bar8 = gradient_bar[8];
+    slope_bar[0] = gradient_bar0;
+    slope_bar[1] = gradient_bar1;
+    slope_bar[2] = 4.0 * gradient_bar2;
+    slope_bar[3] = 16.0 * gradient_bar3;
+    slope_bar[4] = 16.0 * gradient_bar4;
+    slope_bar[5] = 16.0 * gradient_bar5;
+    slope_bar[6] = 16.0 * gradient_bar6;
+    slope_bar[7] = 16.0 * gradient_bar7;
+    slope_bar[8] = 16.0 * gradient_bar8;
+}
+
+/* The adjoints of some splats' parameters, of that of S. */
+OUTLINE void pair_constants_vjp(
+    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
+    (void)mu;
+    (void)W;
+    (void)amplitude;
+    const vector mu0_bar = S_bar[0];
+    const vector mu1_bar = S_bar[1];
+    const vector mu2_bar = S_bar[2];
+    const vector mu3_bar = S_bar[3];
+    const vector mu4_bar = S_bar[4];
+    const vector mu5_bar = S_bar[5];
+    const vector mu6_bar = S_bar[6];
+    const vector mu7_bar = S_bar[7];
+    const vector mu8_bar = S_bar[8];
+    const vector W0_0_bar = S_bar[9];
+    const vector W0_1_bar = S_bar[10];
+    const vector W0_2_bar = S_bar[11];
+    const vector W0_3_bar = S_bar[12];
+    const vector W0_4_bar = S_bar[13];
+    const vector W0_5_bar = S_bar[14];
+    const vector W0_6_bar = S_bar[15];
+    const vector W0_7_bar = S_bar[16];
+    const vector W0_8_bar = S_bar[17];
+    const vector W1_0_bar = S_bar[18];
+    const vector W1_1_bar = S_bar[19];
+    const vector W1_2_bar = S_bar[20];
+    const vector W1_3_bar = S_bar[21];
+    const vector W1_4_bar = S_bar[22];
+    const vector W1_5_bar = S_bar[23];
+    const vector W1_6_bar = S_bar[24];
+    const vector W1_7_bar = S_bar[25];
+    const vector W1_8_bar = S_bar[26];
+    const vector W2_0_bar = S_bar[27];
+    const vector W2_1_bar = S_bar[28];
+    const vector W2_2_bar = S_bar[29];
+    const vector W2_3_bar = S_bar[30];
+    const vector W2_4_bar = S_bar[31];
+    const vector W2_5_bar = S_bar[32];
+    const vector W2_6_bar = S_bar[33];
+    const vector W2_7_bar = S_bar[34];
+    const vector W2_8_bar = S_bar[35];
+    const vector W3_0_bar = S_bar[36];
+    const vector W3_1_bar = S_bar[37];
+    const vector W3_2_bar = S_bar[38];
+    const vector W3_3_bar = S_bar[39];
+    const vector W3_4_bar = S_bar[40];
+    const vector W3_5_bar = S_bar[41];
+    const vector W3_6_bar = S_bar[42];
+    const vector W3_7_bar = S_bar[43];
+    const vector W3_8_bar = S_bar[44];
+    const vector W4_0_bar = S_bar[45];
+    const vector W4_1_bar = S_bar[46];
+    const vector W4_2_bar = S_bar[47];
+    const vector W4_3_bar = S_bar[48];
+    const vector W4_4_bar = S_bar[49];
+    const vector W4_5_bar = S_bar[50];
+    const vector W4_6_bar = S_bar[51];
+    const vector W4_7_bar = S_bar[52];
+    const vector W4_8_bar = S_bar[53];
+    const vector W5_0_bar = S_bar[54];
+    const vector W5_1_bar = S_bar[55];
+    const vector W5_2_bar = S_bar[56];
+    const vector W5_3_bar = S_bar[57];
+    const vector W5_4_bar = S_bar[58];
+    const vector W5_5_bar = S_bar[59];
+    const vector W5_6_bar = S_bar[60];
+    const vector W5_7_bar = S_bar[61];
+    const vector W5_8_bar = S_bar[62];
+    const vector W6_0_bar = S_bar[63];
+    const vector W6_1_bar = S_bar[64];
+    const vector W6_2_bar = S_bar[65];
+    const vector W6_3_bar = S_bar[66];
+    const vector W6_4_bar = S_bar[67];
+    const vector W6_5_bar = S_bar[68];
+    const vector W6_6_bar = S_bar[69];
+    const vector W6_7_bar = S_bar[70];
+    const vector W6_8_bar = S_bar[71];
+    const vector W7_0_bar = S_bar[72];
+    const vector W7_1_bar = S_bar[73];
+    const vector W7_2_bar = S_bar[74];
+    const vector W7_3_bar = S_bar[75];
+    const vector W7_4_bar = S_bar[76];
+    const vector W7_5_bar = S_bar[77];
+    const vector W7_6_bar = S_bar[78];
+    const vector W7_7_bar = S_bar[79];
+    const vector W7_8_bar = S_bar[80];
+    const vector W8_0_bar = S_bar[81];
+    const vector W8_1_bar = S_bar[82];
+    const vector W8_2_bar = S_bar[83];
+    const vector W8_3_bar = S_bar[84];
+    const vector W8_4_bar = S_bar[85];
+    const vector W8_5_bar = S_bar[86];
+    const vector W8_6_bar = S_bar[87];
+    const vector W8_7_bar = S_bar[88];
+    const vector W8_8_bar = S_bar[89];
+    const vector its_amplitude_bar = S_bar[90];
+    mu_bar[0] = mu0_bar;
+    mu_bar[1] = mu1_bar;
+    mu_bar[2] = mu2_bar;
+    mu_bar[3] = mu3_bar;
+    mu_bar[4] = mu4_bar;
+    mu_bar[5] = mu5_bar;
+    mu_bar[6] = mu6_bar;
+    mu_bar[7] = mu7_bar;
+    mu_bar[8] = mu8_bar;
+    W_bar[0] = W0_0_bar;
+    W_bar[1] = W0_1_bar;
+    W_bar[2] = W0_2_bar;
+    W_bar[3] = W0_3_bar;
+    W_bar[4] = W0_4_bar;
+    W_bar[5] = W0_5_bar;
+    W_bar[6] = W0_6_bar;
+    W_bar[7] = W0_7_bar;
+    W_bar[8] = W0_8_bar;
+    W_bar[9] = W1_0_bar;
+    W_bar[10] = W1_1_bar;
+    W_bar[11] = W1_2_bar;
+    W_bar[12] = W1_3_bar;
+    W_bar[13] = W1_4_bar;
+    W_bar[14] = W1_5_bar;
+    W_bar[15] = W1_6_bar;
+    W_bar[16] = W1_7_bar;
+    W_bar[17] = W1_8_bar;
+    W_bar[18] = W2_0_bar;
+    W_bar[19] = W2_1_bar;
+    W_bar[20] = W2_2_bar;
+    W_bar[21] = W2_3_bar;
+    W_bar[22] = W2_4_bar;
+    W_bar[23] = W2_5_bar;
+    W_bar[24] = W2_6_bar;
+    W_bar[25] = W2_7_bar;
+    W_bar[26] = W2_8_bar;
+    W_bar[27] = W3_0_bar;
+    W_bar[28] = W3_1_bar;
+    W_bar[29] = W3_2_bar;
+    W_bar[30] = W3_3_bar;
+    W_bar[31] = W3_4_bar;
+    W_bar[32] = W3_5_bar;
+    W_bar[33] = W3_6_bar;
+    W_bar[34] = W3_7_bar;
+    W_bar[35] = W3_8_bar;
+    W_bar[36] = W4_0_bar;
+    W_bar[37] = W4_1_bar;
+    W_bar[38] = W4_2_bar;
+    W_bar[39] = W4_3_bar;
+    W_bar[40] = W4_4_bar;
+    W_bar[41] = W4_5_bar;
+    W_bar[42] = W4_6_bar;
+    W_bar[43] = W4_7_bar;
+    W_bar[44] = W4_8_bar;
+    W_bar[45] = W5_0_bar;
+    W_bar[46] = W5_1_bar;
+    W_bar[47] = W5_2_bar;
+    W_bar[48] = W5_3_bar;
+    W_bar[49] = W5_4_bar;
+    W_bar[50] = W5_5_bar;
+    W_bar[51] = W5_6_bar;
+    W_bar[52] = W5_7_bar;
+    W_bar[53] = W5_8_bar;
+    W_bar[54] = W6_0_bar;
+    W_bar[55] = W6_1_bar;
+    W_bar[56] = W6_2_bar;
+    W_bar[57] = W6_3_bar;
+    W_bar[58] = W6_4_bar;
+    W_bar[59] = W6_5_bar;
+    W_bar[60] = W6_6_bar;
+    W_bar[61] = W6_7_bar;
+    W_bar[62] = W6_8_bar;
+    W_bar[63] = W7_0_bar;
+    W_bar[64] = W7_1_bar;
+    W_bar[65] = W7_2_bar;
+    W_bar[66] = W7_3_bar;
+    W_bar[67] = W7_4_bar;
+    W_bar[68] = W7_5_bar;
+    W_bar[69] = W7_6_bar;
+    W_bar[70] = W7_7_bar;
+    W_bar[71] = W7_8_bar;
+    W_bar[72] = W8_0_bar;
+    W_bar[73] = W8_1_bar;
+    W_bar[74] = W8_2_bar;
+    W_bar[75] = W8_3_bar;
+    W_bar[76] = W8_4_bar;
+    W_bar[77] = W8_5_bar;
+    W_bar[78] = W8_6_bar;
+    W_bar[79] = W8_7_bar;
+    W_bar[80] = W8_8_bar;
+    amplitude_bar[0] = its_amplitude_bar;
+}
+
+/* The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar. */
+OUTLINE void pair_factors(
+    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *factor) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const vector x2 = X[2];
+    const vector x3 = X[3];
+    const vector x4 = X[4];
+    const vector x5 = X[5];
+    const vector x6 = X[6];
+    const vector x7 = X[7];
+    const vector x8 = X[8];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double mu2 = S[2];
+    const double mu3 = S[3];
+    const double mu4 = S[4];
+    const double mu5 = S[5];
+    const double mu6 = S[6];
+    const double mu7 = S[7];
+    const double mu8 = S[8];
+    const double W0_0 = S[9];
+    const double W0_1 = S[10];
+    const double W0_2 = S[11];
+    const double W0_3 = S[12];
+    const double W0_4 = S[13];
+    const double W0_5 = S[14];
+    const double W0_6 = S[15];
+    const double W0_7 = S[16];
+    const double W0_8 = S[17];
+    const double W1_0 = S[18];
+    const double W1_1 = S[19];
+    const double W1_2 = S[20];
+    const double W1_3 = S[21];
+    const double W1_4 = S[22];
+    const double W1_5 = S[23];
+    const double W1_6 = S[24];
+    const double W1_7 = S[25];
+    const double W1_8 = S[26];
+    const double W2_0 = S[27];
+    const double W2_1 = S[28];
+    const double W2_2 = S[29];
+    const double W2_3 = S[30];
+    const double W2_4 = S[31];
+    const double W2_5 = S[32];
+    const double W2_6 = S[33];
+    const double W2_7 = S[34];
+    const double W2_8 = S[35];
+    const double W3_0 = S[36];
+    const double W3_1 = S[37];
+    const double W3_2 = S[38];
+    const double W3_3 = S[39];
+    const double W3_4 = S[40];
+    const double W3_5 = S[41];
+    const double W3_6 = S[42];
+    const double W3_7 = S[43];
+    const double W3_8 = S[44];
+    const double W4_0 = S[45];
+    const double W4_1 = S[46];
+    const double W4_2 = S[47];
+    const double W4_3 = S[48];
+    const double W4_4 = S[49];
+    const double W4_5 = S[50];
+    const double W4_6 = S[51];
+    const double W4_7 = S[52];
+    const double W4_8 = S[53];
+    const double W5_0 = S[54];
+    const double W5_1 = S[55];
+    const double W5_2 = S[56];
+    const double W5_3 = S[57];
+    const double W5_4 = S[58];
+    const double W5_5 = S[59];
+    const double W5_6 = S[60];
+    const double W5_7 = S[61];
+    const double W5_8 = S[62];
+    const double W6_0 = S[63];
+    const double W6_1 = S[64];
+    const double W6_2 = S[65];
+    const double W6_3 = S[66];
+    const double W6_4 = S[67];
+    const double W6_5 = S[68];
+    const double W6_6 = S[69];
+    const double W6_7 = S[70];
+    const double W6_8 = S[71];
+    const double W7_0 = S[72];
+    const double W7_1 = S[73];
+    const double W7_2 = S[74];
+    const double W7_3 = S[75];
+    const double W7_4 = S[76];
+    const double W7_5 = S[77];
+    const double W7_6 = S[78];
+    const double W7_7 = S[79];
+    const double W7_8 = S[80];
+    const double W8_0 = S[81];
+    const double W8_1 = S[82];
+    const double W8_2 = S[83];
+    const double W8_3 = S[84];
+    const double W8_4 = S[85];
+    const double W8_5 = S[86];
+    const double W8_6 = S[87];
+    const double W8_7 = S[88];
+    const double W8_8 = S[89];
+    const double amplitude = S[90];
+    const vector its_value_bar = value_bar[0];
+    const vector x0_bar = slope_bar[0];
+    const vector x1_bar = slope_bar[1];
+    const vector x2_bar = slope_bar[2];
+    const vector x3_bar = slope_bar[3];
+    const vector x4_bar = slope_bar[4];
+    const vector x5_bar = slope_bar[5];
+    const vector x6_bar = slope_bar[6];
+    const vector x7_bar = slope_bar[7];
+    const vector x8_bar = slope_bar[8];
+    const vector v0 = x0 - mu0;
+    const vector v1 = x1 - mu1;
+    const vector gap = x2 - mu2;
+    const vector round_2 = vector_round(0.15915494309189535 * gap);
+    const vector v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
+        round_2;
+    const vector gap_2 = x3 - mu3;
+    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
+    const vector v3 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
+        round_3;
+    const vector gap_3 = x4 - mu4;
+    const vector round_4 = vector_round(0.15915494309189535 * gap_3);
+    const vector v4 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
+        round_4;
+    const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+    const vector gap_4 = x5 - mu5;
+    const vector round_5 = vector_round(0.15915494309189535 * gap_4);
+    const vector v5 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
+        round_5;
+    const vector gap_5 = x6 - mu6;
+    const vector round_6 = vector_round(0.15915494309189535 * gap_5);
+    const vector v6 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
+        round_6;
+    const vector gap_6 = x7 - mu7;
+    const vector round_7 = vector_round(0.15915494309189535 * gap_6);
+    const vector v7 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
+        round_7;
+    const vector gap_7 = x8 - mu8;
+    const vector round_8 = vector_round(0.15915494309189535 * gap_7);
+    const vector v8 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
+        round_8;
+    const vector z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+    const vector total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+    const vector z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+    const vector total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+    const vector z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+    const vector total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+    const vector z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+    const vector total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+    const vector z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+    const vector total_7 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+    const vector total_8 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+    const vector z5 = total_8 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+    const vector total_9 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+    const vector z6 = total_9 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+    const vector total_10 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+    const vector z7 = total_10 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+    const vector total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+    const vector z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+    const vector total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+    const vector exp_2 = vector_exp(-0.5 * total_12);
+    const vector phi = amplitude * exp_2;
+    const vector gap_8 = -(W8_0 * x0_bar) - W8_1 * x1_bar - W8_2 * x2_bar - W8_3 * x3_bar;
+    const vector gap_9 = gap_8 - W8_4 * x4_bar - W8_5 * x5_bar - W8_6 * x6_bar - W8_7 * x7_bar;
+    const vector gap_10 = gap_9 - W8_8 * x8_bar;
+    const vector gap_11 = -(W0_0 * x0_bar) - W0_1 * x1_bar - W0_2 * x2_bar - W0_3 * x3_bar;
+    const vector gap_12 = gap_11 - W0_4 * x4_bar - W0_5 * x5_bar - W0_6 * x6_bar - W0_7 * x7_bar;
+    const vector gap_13 = gap_12 - W0_8 * x8_bar;
+    const vector gap_14 = -(W1_0 * x0_bar) - W1_1 * x1_bar - W1_2 * x2_bar - W1_3 * x3_bar;
+    const vector gap_15 = gap_14 - W1_4 * x4_bar - W1_5 * x5_bar - W1_6 * x6_bar - W1_7 * x7_bar;
+    const vector gap_16 = gap_15 - W1_8 * x8_bar;
+    const vector gap_17 = -(W2_0 * x0_bar) - W2_1 * x1_bar - W2_2 * x2_bar - W2_3 * x3_bar;
+    const vector gap_18 = gap_17 - W2_4 * x4_bar - W2_5 * x5_bar - W2_6 * x6_bar - W2_7 * x7_bar;
+    const vector gap_19 = gap_18 - W2_8 * x8_bar;
+    const vector gap_20 = -(W3_0 * x0_bar) - W3_1 * x1_bar - W3_2 * x2_bar - W3_3 * x3_bar;
+    const vector gap_21 = gap_20 - W3_4 * x4_bar - W3_5 * x5_bar - W3_6 * x6_bar - W3_7 * x7_bar;
+    const vector gap_22 = gap_21 - W3_8 * x8_bar;
+    const vector total_13 = its_value_bar + z0 * gap_13 + z1 * gap_16 + z2 * gap_19 + z3 * gap_22;
+    const vector gap_23 = -(W4_0 * x0_bar) - W4_1 * x1_bar - W4_2 * x2_bar - W4_3 * x3_bar;
+    const vector gap_24 = gap_23 - W4_4 * x4_bar - W4_5 * x5_bar - W4_6 * x6_bar - W4_7 * x7_bar;
+    const vector gap_25 = gap_24 - W4_8 * x8_bar;
+    const vector gap_26 = -(W5_0 * x0_bar) - W5_1 * x1_bar - W5_2 * x2_bar - W5_3 * x3_bar;
+    const vector gap_27 = gap_26 - W5_4 * x4_bar - W5_5 * x5_bar - W5_6 * x6_bar - W5_7 * x7_bar;
+    const vector gap_28 = gap_27 - W5_8 * x8_bar;
+    const vector gap_29 = -(W6_0 * x0_bar) - W6_1 * x1_bar - W6_2 * x2_bar - W6_3 * x3_bar;
+    const vector gap_30 = gap_29 - W6_4 * x4_bar - W6_5 * x5_bar - W6_6 * x6_bar - W6_7 * x7_bar;
+    const vector gap_31 = gap_30 - W6_8 * x8_bar;
+    const vector gap_32 = -(W7_0 * x0_bar) - W7_1 * x1_bar - W7_2 * x2_bar - W7_3 * x3_bar;
+    const vector gap_33 = gap_32 - W7_4 * x4_bar - W7_5 * x5_bar - W7_6 * x6_bar - W7_7 * x7_bar;
+    const vector gap_34 = gap_33 - W7_8 * x8_bar;
+    const vector total_14 = total_13 + z4 * gap_25 + z5 * gap_28 + z6 * gap_31 + z7 * gap_34;
+    const vector by_phi = total_14 + z8 * gap_10;
+    const vector product = exp_2 * (amplitude * by_phi);
+    const vector by_z8 = phi * gap_10 - z8 * product;
+    const vector by_z7 = phi * gap_34 - z7 * product;
+    const vector by_z6 = phi * gap_31 - z6 * product;
+    const vector by_z5 = phi * gap_28 - z5 * product;
+    const vector by_z4 = phi * gap_25 - z4 * product;
+    const vector total_15 = W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5 + W4_0 * by_z4;
+    const vector by_z3 = phi * gap_22 - z3 * product;
+    const vector by_z2 = phi * gap_19 - z2 * product;
+    const vector by_z1 = phi * gap_16 - z1 * product;
+    const vector by_z0 = phi * gap_13 - z0 * product;
+    const vector by_v0 = total_15 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0;
+    const vector total_16 = W8_1 * by_z8 + W7_1 * by_z7 + W6_1 * by_z6 + W5_1 * by_z5 + W4_1 * by_z4;
+    const vector by_v1 = total_16 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
+    const vector total_17 = W8_2 * by_z8 + W7_2 * by_z7 + W6_2 * by_z6 + W5_2 * by_z5 + W4_2 * by_z4;
+    const vector by_v2 = total_17 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0;
+    const vector total_18 = W8_3 * by_z8 + W7_3 * by_z7 + W6_3 * by_z6 + W5_3 * by_z5 + W4_3 * by_z4;
+    const vector by_v3 = total_18 + W3_3 * by_z3 + W2_3 * by_z2 + W1_3 * by_z1 + W0_3 * by_z0;
+    const vector total_19 = W8_4 * by_z8 + W7_4 * by_z7 + W6_4 * by_z6 + W5_4 * by_z5 + W4_4 * by_z4;
+    const vector by_v4 = total_19 + W3_4 * by_z3 + W2_4 * by_z2 + W1_4 * by_z1 + W0_4 * by_z0;
+    const vector total_20 = W8_5 * by_z8 + W7_5 * by_z7 + W6_5 * by_z6 + W5_5 * by_z5 + W4_5 * by_z4;
+    const vector by_v5 = total_20 + W3_5 * by_z3 + W2_5 * by_z2 + W1_5 * by_z1 + W0_5 * by_z0;
+    const vector total_21 = W8_6 * by_z8 + W7_6 * by_z7 + W6_6 * by_z6 + W5_6 * by_z5 + W4_6 * by_z4;
+    const vector by_v6 = total_21 + W3_6 * by_z3 + W2_6 * by_z2 + W1_6 * by_z1 + W0_6 * by_z0;
+    const vector total_22 = W8_7 * by_z8 + W7_7 * by_z7 + W6_7 * by_z6 + W5_7 * by_z5 + W4_7 * by_z4;
+    const vector by_v7 = total_22 + W3_7 * by_z3 + W2_7 * by_z2 + W1_7 * by_z1 + W0_7 * by_z0;
+    const vector total_23 = W8_8 * by_z8 + W7_8 * by_z7 + W6_8 * by_z6 + W5_8 * by_z5 + W4_8 * by_z4;
+    const vector by_v8 = total_23 + W3_8 * by_z3 + W2_8 * by_z2 + W1_8 * by_z1 + W0_8 * by_z0;
+    const vector z0_product = z0 * phi;
+    const vector z1_product = z1 * phi;
+    const vector z2_product = z2 * phi;
+    const vector z3_product = z3 * phi;
+    const vector z4_product = z4 * phi;
+    const vector z5_product = z5 * phi;
+    const vector z6_product = z6 * phi;
+    const vector z7_product = z7 * phi;
+    const vector z8_product = z8 * phi;
+    factor[0] = v0;
+    factor[1] = v1;
+    factor[2] = v2;
+    factor[3] = v3;
+    factor[4] = v4;
+    factor[5] = v5;
+    factor[6] = v6;
+    factor[7] = v7;
+    factor[8] = v8;
+    factor[9] = by_z8;
+    factor[10] = by_z7;
+    factor[11] = by_z6;
+    factor[12] = by_z5;
+    factor[13] = by_z4;
+    factor[14] = by_z3;
+    factor[15] = by_z2;
+    factor[16] = by_z1;
+    factor[17] = by_z0;
+    factor[18] = -by_v0;
+    factor[19] = -by_v1;
+    factor[20] = -by_v2;
+    factor[21] = -by_v3;
+    factor[22] = -by_v4;
+    factor[23] = -by_v5;
+    factor[24] = -by_v6;
+    factor[25] = -by_v7;
+    factor[26] = -by_v8;
+    factor[27] = z0_product;
+    factor[28] = z1_product;
+    factor[29] = z2_product;
+    factor[30] = z3_product;
+    factor[31] = z4_product;
+    factor[32] = z5_product;
+    factor[33] = z6_product;
+    factor[34] = z7_product;
+    factor[35] = z8_product;
+    factor[36] = exp_2 * by_phi;
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_0(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[18];
+    sum[1] = sum[1] + factor[19];
+    sum[2] = sum[2] + factor[20];
+    sum[3] = sum[3] + factor[21];
+    sum[4] = sum[4] + factor[22];
+    sum[5] = sum[5] + factor[23];
+    sum[6] = sum[6] + factor[24];
+    sum[7] = sum[7] + factor[25];
+    sum[8] = sum[8] + factor[26];
+    sum[9] = sum[9] + factor[36];
+    sum[10] = sum[10] + factor[0] * factor[17] - factor[27] * point[10];
+    sum[11] = sum[11] + factor[1] * factor[17] - factor[27] * point[11];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_1(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[17] - factor[27] * point[12];
+    sum[1] = sum[1] + factor[3] * factor[17] - factor[27] * point[13];
+    sum[2] = sum[2] + factor[4] * factor[17] - factor[27] * point[14];
+    sum[3] = sum[3] + factor[5] * factor[17] - factor[27] * point[15];
+    sum[4] = sum[4] + factor[6] * factor[17] - factor[27] * point[16];
+    sum[5] = sum[5] + factor[7] * factor[17] - factor[27] * point[17];
+    sum[6] = sum[6] + factor[8] * factor[17] - factor[27] * point[18];
+    sum[7] = sum[7] + factor[2] * factor[16] - factor[28] * point[12];
+    sum[8] = sum[8] + factor[3] * factor[16] - factor[28] * point[13];
+    sum[9] = sum[9] + factor[4] * factor[16] - factor[28] * point[14];
+    sum[10] = sum[10] + factor[5] * factor[16] - factor[28] * point[15];
+    sum[11] = sum[11] + factor[6] * factor[16] - factor[28] * point[16];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_2(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[16] - factor[28] * point[10];
+    sum[1] = sum[1] + factor[1] * factor[16] - factor[28] * point[11];
+    sum[2] = sum[2] + factor[7] * factor[16] - factor[28] * point[17];
+    sum[3] = sum[3] + factor[8] * factor[16] - factor[28] * point[18];
+    sum[4] = sum[4] + factor[0] * factor[15] - factor[29] * point[10];
+    sum[5] = sum[5] + factor[1] * factor[15] - factor[29] * point[11];
+    sum[6] = sum[6] + factor[7] * factor[15] - factor[29] * point[17];
+    sum[7] = sum[7] + factor[8] * factor[15] - factor[29] * point[18];
+    sum[8] = sum[8] + factor[2] * factor[15] - factor[29] * point[12];
+    sum[9] = sum[9] + factor[3] * factor[15] - factor[29] * point[13];
+    sum[10] = sum[10] + factor[4] * factor[15] - factor[29] * point[14];
+    sum[11] = sum[11] + factor[5] * factor[15] - factor[29] * point[15];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_3(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[6] * factor[15] - factor[29] * point[16];
+    sum[1] = sum[1] + factor[6] * factor[14] - factor[30] * point[16];
+    sum[2] = sum[2] + factor[0] * factor[14] - factor[30] * point[10];
+    sum[3] = sum[3] + factor[1] * factor[14] - factor[30] * point[11];
+    sum[4] = sum[4] + factor[2] * factor[14] - factor[30] * point[12];
+    sum[5] = sum[5] + factor[3] * factor[14] - factor[30] * point[13];
+    sum[6] = sum[6] + factor[4] * factor[14] - factor[30] * point[14];
+    sum[7] = sum[7] + factor[5] * factor[14] - factor[30] * point[15];
+    sum[8] = sum[8] + factor[7] * factor[14] - factor[30] * point[17];
+    sum[9] = sum[9] + factor[8] * factor[14] - factor[30] * point[18];
+    sum[10] = sum[10] + factor[0] * factor[13] - factor[31] * point[10];
+    sum[11] = sum[11] + factor[1] * factor[13] - factor[31] * point[11];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_4(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[13] - factor[31] * point[12];
+    sum[1] = sum[1] + factor[3] * factor[13] - factor[31] * point[13];
+    sum[2] = sum[2] + factor[4] * factor[13] - factor[31] * point[14];
+    sum[3] = sum[3] + factor[5] * factor[13] - factor[31] * point[15];
+    sum[4] = sum[4] + factor[6] * factor[13] - factor[31] * point[16];
+    sum[5] = sum[5] + factor[7] * factor[13] - factor[31] * point[17];
+    sum[6] = sum[6] + factor[8] * factor[13] - factor[31] * point[18];
+    sum[7] = sum[7] + factor[2] * factor[12] - factor[32] * point[12];
+    sum[8] = sum[8] + factor[3] * factor[12] - factor[32] * point[13];
+    sum[9] = sum[9] + factor[4] * factor[12] - factor[32] * point[14];
+    sum[10] = sum[10] + factor[5] * factor[12] - factor[32] * point[15];
+    sum[11] = sum[11] + factor[6] * factor[12] - factor[32] * point[16];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_5(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[12] - factor[32] * point[10];
+    sum[1] = sum[1] + factor[1] * factor[12] - factor[32] * point[11];
+    sum[2] = sum[2] + factor[7] * factor[12] - factor[32] * point[17];
+    sum[3] = sum[3] + factor[8] * factor[12] - factor[32] * point[18];
+    sum[4] = sum[4] + factor[0] * factor[11] - factor[33] * point[10];
+    sum[5] = sum[5] + factor[1] * factor[11] - factor[33] * point[11];
+    sum[6] = sum[6] + factor[7] * factor[11] - factor[33] * point[17];
+    sum[7] = sum[7] + factor[8] * factor[11] - factor[33] * point[18];
+    sum[8] = sum[8] + factor[2] * factor[11] - factor[33] * point[12];
+    sum[9] = sum[9] + factor[3] * factor[11] - factor[33] * point[13];
+    sum[10] = sum[10] + factor[4] * factor[11] - factor[33] * point[14];
+    sum[11] = sum[11] + factor[5] * factor[11] - factor[33] * point[15];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_6(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[6] * factor[11] - factor[33] * point[16];
+    sum[1] = sum[1] + factor[6] * factor[10] - factor[34] * point[16];
+    sum[2] = sum[2] + factor[0] * factor[10] - factor[34] * point[10];
+    sum[3] = sum[3] + factor[1] * factor[10] - factor[34] * point[11];
+    sum[4] = sum[4] + factor[2] * factor[10] - factor[34] * point[12];
+    sum[5] = sum[5] + factor[3] * factor[10] - factor[34] * point[13];
+    sum[6] = sum[6] + factor[4] * factor[10] - factor[34] * point[14];
+    sum[7] = sum[7] + factor[5] * factor[10] - factor[34] * point[15];
+    sum[8] = sum[8] + factor[7] * factor[10] - factor[34] * point[17];
+    sum[9] = sum[9] + factor[8] * factor[10] - factor[34] * point[18];
+    sum[10] = sum[10] + factor[0] * factor[9] - factor[35] * point[10];
+    sum[11] = sum[11] + factor[1] * factor[9] - factor[35] * point[11];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_7(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[9] - factor[35] * point[12];
+    sum[1] = sum[1] + factor[3] * factor[9] - factor[35] * point[13];
+    sum[2] = sum[2] + factor[4] * factor[9] - factor[35] * point[14];
+    sum[3] = sum[3] + factor[5] * factor[9] - factor[35] * point[15];
+    sum[4] = sum[4] + factor[6] * factor[9] - factor[35] * point[16];
+    sum[5] = sum[5] + factor[7] * factor[9] - factor[35] * point[17];
+    sum[6] = sum[6] + factor[8] * factor[9] - factor[35] * point[18];
+}
+
+/* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
+OUTLINE void vector_rows(const double *rows, size_t count, size_t start, size_t size, vector *columns) {
+    for (size_t i = 0; i < size; ++i) {
+        double column[LANES];
+        for (size_t lane = 0; lane < LANES; ++lane)
+            column[lane] = rows[size * (start + lane < count ? start + lane : count - 1) + i];
+        columns[i] = vector_load(column);
+    }
+}
+
+/* Back to rows that are `stride` apart; nothing past the end. */
+OUTLINE void vector_to_rows(
+    const vector *columns, double *rows, size_t count, size_t start, size_t size, size_t stride) {
+    const size_t lanes = start >= count ? 0 : count - start < LANES ? count - start : LANES;
+    for (size_t lane = 0; lane < lanes; ++lane)
+        for (size_t i = 0; i < size; ++i) rows[stride * (start + lane) + i] = LANE(columns[i], lane);
+}
+
+/* Zero in the lanes past the end. */
+OUTLINE void vector_end(size_t count, size_t start, size_t size, vector *columns) {
+    for (size_t lane = start >= count ? 0 : count - start; lane < LANES; ++lane)
+        for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
+}
+
+/* Scratch memory: 19 vectors for each block of points, then the constants of the splats. */
+size_t mobile_manipulator_splats_work(size_t count, size_t splat_count, int threads) {
+    (void)threads;
+    return ((count + LANES - 1) / LANES * 19 + 1) * LANES + 91 * splat_count;
+}
+
+static vector *work_points(double *work) {
+    const uintptr_t size = sizeof(vector), start = (uintptr_t)work;
+    return (vector *)((char *)work + ((0 - start) & (size - 1)));
+}
+
+static double *work_constants(double *work, size_t count) {
+    return (double *)(work_points(work) + (count + LANES - 1) / LANES * 19);
+}
+
+/* The constants of LANES splats, as rows. */
+OUTLINE void splat_constants(
+    size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, double *constants) {
+    vector own_mu[9], own_W[81], own_amplitude[1], S[91];
+    vector_rows(mu, splat_count, start, 9, own_mu);
+    vector_rows(W, splat_count, start, 81, own_W);
+    vector_rows(amplitude, splat_count, start, 1, own_amplitude);
+    pair_constants(own_mu, own_W, own_amplitude, S);
+    vector_to_rows(S, constants, splat_count, start, 91, 91);
+}
+
+/* 2 vectors of points at a time stay in registers while all splats pass. */
 void mobile_manipulator_splats(
-    size_t count,
-    size_t splat_count,
-    const double *MOBILE_MANIPULATOR_RESTRICT x,
-    const double *MOBILE_MANIPULATOR_RESTRICT mu,
-    const double *MOBILE_MANIPULATOR_RESTRICT W,
-    const double *MOBILE_MANIPULATOR_RESTRICT amplitude,
-    double *MOBILE_MANIPULATOR_RESTRICT value,
-    double *MOBILE_MANIPULATOR_RESTRICT gradient) {
-    const unsigned mode = flush_denormals();
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        double x_block[9][LANES], sum[10][LANES] = {{0}};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            for (size_t i = 0; i < 9; ++i) x_block[i][lane] = x[9 * n + i];
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            const double mu0 = mu[9 * k + 0];
-            const double mu1 = mu[9 * k + 1];
-            const double mu2 = mu[9 * k + 2];
-            const double mu3 = mu[9 * k + 3];
-            const double mu4 = mu[9 * k + 4];
-            const double mu5 = mu[9 * k + 5];
-            const double mu6 = mu[9 * k + 6];
-            const double mu7 = mu[9 * k + 7];
-            const double mu8 = mu[9 * k + 8];
-            const double W0_0 = W[81 * k + 0];
-            const double W0_1 = W[81 * k + 1];
-            const double W0_2 = W[81 * k + 2];
-            const double W0_3 = W[81 * k + 3];
-            const double W0_4 = W[81 * k + 4];
-            const double W0_5 = W[81 * k + 5];
-            const double W0_6 = W[81 * k + 6];
-            const double W0_7 = W[81 * k + 7];
-            const double W0_8 = W[81 * k + 8];
-            const double W1_0 = W[81 * k + 9];
-            const double W1_1 = W[81 * k + 10];
-            const double W1_2 = W[81 * k + 11];
-            const double W1_3 = W[81 * k + 12];
-            const double W1_4 = W[81 * k + 13];
-            const double W1_5 = W[81 * k + 14];
-            const double W1_6 = W[81 * k + 15];
-            const double W1_7 = W[81 * k + 16];
-            const double W1_8 = W[81 * k + 17];
-            const double W2_0 = W[81 * k + 18];
-            const double W2_1 = W[81 * k + 19];
-            const double W2_2 = W[81 * k + 20];
-            const double W2_3 = W[81 * k + 21];
-            const double W2_4 = W[81 * k + 22];
-            const double W2_5 = W[81 * k + 23];
-            const double W2_6 = W[81 * k + 24];
-            const double W2_7 = W[81 * k + 25];
-            const double W2_8 = W[81 * k + 26];
-            const double W3_0 = W[81 * k + 27];
-            const double W3_1 = W[81 * k + 28];
-            const double W3_2 = W[81 * k + 29];
-            const double W3_3 = W[81 * k + 30];
-            const double W3_4 = W[81 * k + 31];
-            const double W3_5 = W[81 * k + 32];
-            const double W3_6 = W[81 * k + 33];
-            const double W3_7 = W[81 * k + 34];
-            const double W3_8 = W[81 * k + 35];
-            const double W4_0 = W[81 * k + 36];
-            const double W4_1 = W[81 * k + 37];
-            const double W4_2 = W[81 * k + 38];
-            const double W4_3 = W[81 * k + 39];
-            const double W4_4 = W[81 * k + 40];
-            const double W4_5 = W[81 * k + 41];
-            const double W4_6 = W[81 * k + 42];
-            const double W4_7 = W[81 * k + 43];
-            const double W4_8 = W[81 * k + 44];
-            const double W5_0 = W[81 * k + 45];
-            const double W5_1 = W[81 * k + 46];
-            const double W5_2 = W[81 * k + 47];
-            const double W5_3 = W[81 * k + 48];
-            const double W5_4 = W[81 * k + 49];
-            const double W5_5 = W[81 * k + 50];
-            const double W5_6 = W[81 * k + 51];
-            const double W5_7 = W[81 * k + 52];
-            const double W5_8 = W[81 * k + 53];
-            const double W6_0 = W[81 * k + 54];
-            const double W6_1 = W[81 * k + 55];
-            const double W6_2 = W[81 * k + 56];
-            const double W6_3 = W[81 * k + 57];
-            const double W6_4 = W[81 * k + 58];
-            const double W6_5 = W[81 * k + 59];
-            const double W6_6 = W[81 * k + 60];
-            const double W6_7 = W[81 * k + 61];
-            const double W6_8 = W[81 * k + 62];
-            const double W7_0 = W[81 * k + 63];
-            const double W7_1 = W[81 * k + 64];
-            const double W7_2 = W[81 * k + 65];
-            const double W7_3 = W[81 * k + 66];
-            const double W7_4 = W[81 * k + 67];
-            const double W7_5 = W[81 * k + 68];
-            const double W7_6 = W[81 * k + 69];
-            const double W7_7 = W[81 * k + 70];
-            const double W7_8 = W[81 * k + 71];
-            const double W8_0 = W[81 * k + 72];
-            const double W8_1 = W[81 * k + 73];
-            const double W8_2 = W[81 * k + 74];
-            const double W8_3 = W[81 * k + 75];
-            const double W8_4 = W[81 * k + 76];
-            const double W8_5 = W[81 * k + 77];
-            const double W8_6 = W[81 * k + 78];
-            const double W8_7 = W[81 * k + 79];
-            const double W8_8 = W[81 * k + 80];
-            const double amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const double v0 = x_block[0][lane] - mu0;
-                const double v1 = x_block[1][lane] - mu1;
-                const double gap = x_block[2][lane] - mu2;
-                const double round_2 = rint(0.15915494309189535 * gap);
-                const double v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-                    round_2;
-                const double gap_2 = x_block[3][lane] - mu3;
-                const double round_3 = rint(0.15915494309189535 * gap_2);
-                const double v3 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-                    round_3;
-                const double gap_3 = x_block[4][lane] - mu4;
-                const double round_4 = rint(0.15915494309189535 * gap_3);
-                const double v4 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
-                    round_4;
-                const double gap_4 = x_block[5][lane] - mu5;
-                const double round_5 = rint(0.15915494309189535 * gap_4);
-                const double v5 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
-                    round_5;
-                const double gap_5 = x_block[6][lane] - mu6;
-                const double round_6 = rint(0.15915494309189535 * gap_5);
-                const double v6 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
-                    round_6;
-                const double gap_6 = x_block[7][lane] - mu7;
-                const double round_7 = rint(0.15915494309189535 * gap_6);
-                const double v7 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
-                    round_7;
-                const double gap_7 = x_block[8][lane] - mu8;
-                const double round_8 = rint(0.15915494309189535 * gap_7);
-                const double v8 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
-                    round_8;
-                const double total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-                const double z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
-                const double total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-                const double z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
-                const double total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-                const double z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
-                const double total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-                const double z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
-                const double total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-                const double z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
-                const double total_7 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-                const double z5 = total_7 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
-                const double total_8 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
-                const double z6 = total_8 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
-                const double total_9 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
-                const double z7 = total_9 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
-                const double total_10 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
-                const double z8 = total_10 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
-                const double total_11 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-                const double total_12 = total_11 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-                const double phi = amplitude_k * exp(-(0.5 * total_12));
-                const double gap_8 = -(W8_8 * z8) - W7_8 * z7 - W6_8 * z6 - W5_8 * z5;
-                const double gap_9 = -(W8_7 * z8) - W7_7 * z7 - W6_7 * z6 - W5_7 * z5;
-                const double gap_10 = -(W8_6 * z8) - W7_6 * z7 - W6_6 * z6 - W5_6 * z5;
-                const double gap_11 = -(W8_5 * z8) - W7_5 * z7 - W6_5 * z6 - W5_5 * z5;
-                const double gap_12 = -(W8_4 * z8) - W7_4 * z7 - W6_4 * z6 - W5_4 * z5;
-                const double gap_13 = -(W8_3 * z8) - W7_3 * z7 - W6_3 * z6 - W5_3 * z5;
-                const double gap_14 = -(W8_2 * z8) - W7_2 * z7 - W6_2 * z6 - W5_2 * z5;
-                const double gap_15 = -(W8_1 * z8) - W7_1 * z7 - W6_1 * z6 - W5_1 * z5;
-                const double gap_16 = -(W8_0 * z8) - W7_0 * z7 - W6_0 * z6 - W5_0 * z5;
-                const double gap_17 = gap_8 - W4_8 * z4 - W3_8 * z3 - W2_8 * z2 - W1_8 * z1;
-                const double gap_18 = gap_9 - W4_7 * z4 - W3_7 * z3 - W2_7 * z2 - W1_7 * z1;
-                const double gap_19 = gap_10 - W4_6 * z4 - W3_6 * z3 - W2_6 * z2 - W1_6 * z1;
-                const double gap_20 = gap_11 - W4_5 * z4 - W3_5 * z3 - W2_5 * z2 - W1_5 * z1;
-                const double gap_21 = gap_12 - W4_4 * z4 - W3_4 * z3 - W2_4 * z2 - W1_4 * z1;
-                const double gap_22 = gap_13 - W4_3 * z4 - W3_3 * z3 - W2_3 * z2 - W1_3 * z1;
-                const double gap_23 = gap_14 - W4_2 * z4 - W3_2 * z3 - W2_2 * z2 - W1_2 * z1;
-                const double gap_24 = gap_15 - W4_1 * z4 - W3_1 * z3 - W2_1 * z2 - W1_1 * z1;
-                const double gap_25 = gap_16 - W4_0 * z4 - W3_0 * z3 - W2_0 * z2 - W1_0 * z1;
-                const double by_v8 = gap_17 - W0_8 * z0;
-                const double by_v7 = gap_18 - W0_7 * z0;
-                const double by_v6 = gap_19 - W0_6 * z0;
-                const double by_v5 = gap_20 - W0_5 * z0;
-                const double by_v4 = gap_21 - W0_4 * z0;
-                const double by_v3 = gap_22 - W0_3 * z0;
-                const double by_v2 = gap_23 - W0_2 * z0;
-                const double by_v1 = gap_24 - W0_1 * z0;
-                const double by_v0 = gap_25 - W0_0 * z0;
-                const double df0 = phi * by_v0;
-                const double df1 = phi * by_v1;
-                const double df2 = phi * by_v2;
-                const double df3 = phi * by_v3;
-                const double df4 = phi * by_v4;
-                const double df5 = phi * by_v5;
-                const double df6 = phi * by_v6;
-                const double df7 = phi * by_v7;
-                const double df8 = phi * by_v8;
-                const double gradient2 = 4.0 * df2;
-                const double gradient3 = 16.0 * df3;
-                const double gradient4 = 16.0 * df4;
-                const double gradient5 = 16.0 * df5;
-                const double gradient6 = 16.0 * df6;
-                const double gradient7 = 16.0 * df7;
-                const double gradient8 = 16.0 * df8;
-                sum[0][lane] += phi;
-                sum[1][lane] += df0;
-                sum[2][lane] += df1;
-                sum[3][lane] += gradient2;
-                sum[4][lane] += gradient3;
-                sum[5][lane] += gradient4;
-                sum[6][lane] += gradient5;
-                sum[7][lane] += gradient6;
-                sum[8][lane] += gradient7;
-                sum[9][lane] += gradient8;
+    size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT W, const double *MOBILE_MANIPULATOR_RESTRICT amplitude,
+    double *MOBILE_MANIPULATOR_RESTRICT value, double *MOBILE_MANIPULATOR_RESTRICT gradient, double *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
+    (void)threads;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES) {
+            vector at[2][9], X[2][9], grad[9];
+            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][9] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows(x, count, start + b * LANES, 9, at[b]);
+                pair_features(at[b], X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_forward(X[0], constants + 91 * k, value_sum[0], slope_sum[0]);
+                pair_forward(X[1], constants + 91 * k, value_sum[1], slope_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b) {
+                pair_gradient(at[b], slope_sum[b], grad);
+                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                vector_to_rows(grad, gradient, count, start + b * LANES, 9, 9);
             }
         }
-        for (size_t lane = 0; lane < lanes; ++lane) {
-            value[start + lane] = sum[0][lane];
-            for (size_t i = 0; i < 9; ++i) gradient[9 * (start + lane) + i] = sum[i + 1][lane];
-        }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
+void mobile_manipulator_splats_value(
+    size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT W, const double *MOBILE_MANIPULATOR_RESTRICT amplitude,
+    double *MOBILE_MANIPULATOR_RESTRICT value, double *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
+    (void)threads;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES) {
+            vector at[9], X[2][9], value_sum[2][1] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows(x, count, start + b * LANES, 9, at);
+                pair_features(at, X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_value(X[0], constants + 91 * k, value_sum[0]);
+                pair_value(X[1], constants + 91 * k, value_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b)
+                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
+OUTLINE void splat_points(
+    size_t count, size_t start, const double *x, const double *value_bar, const double *gradient_bar, vector *point) {
+    vector at[9], grad_bar[9], slope_bar[9];
+    vector_rows(x, count, start, 9, at);
+    vector_rows(gradient_bar, count, start, 9, grad_bar);
+    vector_rows(value_bar, count, start, 1, point + 9);
+    pair_features(at, point);
+    pair_gradient_vjp(at, grad_bar, slope_bar);
+    for (int i = 0; i < 9; ++i) point[9 + 1 + i] = slope_bar[i];
+    vector_end(count, start, 9 + 1, point + 9);
+}
+
+/* Adds to S_bar what one vector of points adds to it. */
+INLINE void pair_backward(
+    const vector *point, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
+    vector factor[37];
+    pair_factors(point, S, value_bar, slope_bar, factor);
+    {
+        vector sum[12] = {ZERO};
+        pair_products_0(factor, point, sum);
+        S_bar[0] += sum[0];
+        S_bar[1] += sum[1];
+        S_bar[2] += sum[2];
+        S_bar[3] += sum[3];
+        S_bar[4] += sum[4];
+        S_bar[5] += sum[5];
+        S_bar[6] += sum[6];
+        S_bar[7] += sum[7];
+        S_bar[8] += sum[8];
+        S_bar[90] += sum[9];
+        S_bar[9] += sum[10];
+        S_bar[10] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_1(factor, point, sum);
+        S_bar[11] += sum[0];
+        S_bar[12] += sum[1];
+        S_bar[13] += sum[2];
+        S_bar[14] += sum[3];
+        S_bar[15] += sum[4];
+        S_bar[16] += sum[5];
+        S_bar[17] += sum[6];
+        S_bar[20] += sum[7];
+        S_bar[21] += sum[8];
+        S_bar[22] += sum[9];
+        S_bar[23] += sum[10];
+        S_bar[24] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_2(factor, point, sum);
+        S_bar[18] += sum[0];
+        S_bar[19] += sum[1];
+        S_bar[25] += sum[2];
+        S_bar[26] += sum[3];
+        S_bar[27] += sum[4];
+        S_bar[28] += sum[5];
+        S_bar[34] += sum[6];
+        S_bar[35] += sum[7];
+        S_bar[29] += sum[8];
+        S_bar[30] += sum[9];
+        S_bar[31] += sum[10];
+        S_bar[32] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_3(factor, point, sum);
+        S_bar[33] += sum[0];
+        S_bar[42] += sum[1];
+        S_bar[36] += sum[2];
+        S_bar[37] += sum[3];
+        S_bar[38] += sum[4];
+        S_bar[39] += sum[5];
+        S_bar[40] += sum[6];
+        S_bar[41] += sum[7];
+        S_bar[43] += sum[8];
+        S_bar[44] += sum[9];
+        S_bar[45] += sum[10];
+        S_bar[46] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_4(factor, point, sum);
+        S_bar[47] += sum[0];
+        S_bar[48] += sum[1];
+        S_bar[49] += sum[2];
+        S_bar[50] += sum[3];
+        S_bar[51] += sum[4];
+        S_bar[52] += sum[5];
+        S_bar[53] += sum[6];
+        S_bar[56] += sum[7];
+        S_bar[57] += sum[8];
+        S_bar[58] += sum[9];
+        S_bar[59] += sum[10];
+        S_bar[60] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_5(factor, point, sum);
+        S_bar[54] += sum[0];
+        S_bar[55] += sum[1];
+        S_bar[61] += sum[2];
+        S_bar[62] += sum[3];
+        S_bar[63] += sum[4];
+        S_bar[64] += sum[5];
+        S_bar[70] += sum[6];
+        S_bar[71] += sum[7];
+        S_bar[65] += sum[8];
+        S_bar[66] += sum[9];
+        S_bar[67] += sum[10];
+        S_bar[68] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_6(factor, point, sum);
+        S_bar[69] += sum[0];
+        S_bar[78] += sum[1];
+        S_bar[72] += sum[2];
+        S_bar[73] += sum[3];
+        S_bar[74] += sum[4];
+        S_bar[75] += sum[5];
+        S_bar[76] += sum[6];
+        S_bar[77] += sum[7];
+        S_bar[79] += sum[8];
+        S_bar[80] += sum[9];
+        S_bar[81] += sum[10];
+        S_bar[82] += sum[11];
+    }
+    {
+        vector sum[7] = {ZERO};
+        pair_products_7(factor, point, sum);
+        S_bar[83] += sum[0];
+        S_bar[84] += sum[1];
+        S_bar[85] += sum[2];
+        S_bar[86] += sum[3];
+        S_bar[87] += sum[4];
+        S_bar[88] += sum[5];
+        S_bar[89] += sum[6];
+    }
+}
+
+/* Adds to S_bar what some vectors of points add to it: factors of 10 vectors at a time, then their products. */
+OUTLINE void splat_sums(const vector *point, size_t count, const double *S, double *S_bar) {
+    vector factor[10 * 37], total[91] = {ZERO};
+    for (size_t start = 0; start < count; start += 10, point += 10 * 19) {
+        const size_t size = count - start < 10 ? count - start : 10;
+        for (size_t b = 0; b < size; ++b) {
+            const vector *at = point + 19 * b;
+            pair_factors(at, S, at + 9, at + 9 + 1, factor + 37 * b);
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_0(factor + 37 * b, point + 19 * b, sum);
+            total[0] += sum[0];
+            total[1] += sum[1];
+            total[2] += sum[2];
+            total[3] += sum[3];
+            total[4] += sum[4];
+            total[5] += sum[5];
+            total[6] += sum[6];
+            total[7] += sum[7];
+            total[8] += sum[8];
+            total[90] += sum[9];
+            total[9] += sum[10];
+            total[10] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_1(factor + 37 * b, point + 19 * b, sum);
+            total[11] += sum[0];
+            total[12] += sum[1];
+            total[13] += sum[2];
+            total[14] += sum[3];
+            total[15] += sum[4];
+            total[16] += sum[5];
+            total[17] += sum[6];
+            total[20] += sum[7];
+            total[21] += sum[8];
+            total[22] += sum[9];
+            total[23] += sum[10];
+            total[24] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_2(factor + 37 * b, point + 19 * b, sum);
+            total[18] += sum[0];
+            total[19] += sum[1];
+            total[25] += sum[2];
+            total[26] += sum[3];
+            total[27] += sum[4];
+            total[28] += sum[5];
+            total[34] += sum[6];
+            total[35] += sum[7];
+            total[29] += sum[8];
+            total[30] += sum[9];
+            total[31] += sum[10];
+            total[32] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_3(factor + 37 * b, point + 19 * b, sum);
+            total[33] += sum[0];
+            total[42] += sum[1];
+            total[36] += sum[2];
+            total[37] += sum[3];
+            total[38] += sum[4];
+            total[39] += sum[5];
+            total[40] += sum[6];
+            total[41] += sum[7];
+            total[43] += sum[8];
+            total[44] += sum[9];
+            total[45] += sum[10];
+            total[46] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_4(factor + 37 * b, point + 19 * b, sum);
+            total[47] += sum[0];
+            total[48] += sum[1];
+            total[49] += sum[2];
+            total[50] += sum[3];
+            total[51] += sum[4];
+            total[52] += sum[5];
+            total[53] += sum[6];
+            total[56] += sum[7];
+            total[57] += sum[8];
+            total[58] += sum[9];
+            total[59] += sum[10];
+            total[60] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_5(factor + 37 * b, point + 19 * b, sum);
+            total[54] += sum[0];
+            total[55] += sum[1];
+            total[61] += sum[2];
+            total[62] += sum[3];
+            total[63] += sum[4];
+            total[64] += sum[5];
+            total[70] += sum[6];
+            total[71] += sum[7];
+            total[65] += sum[8];
+            total[66] += sum[9];
+            total[67] += sum[10];
+            total[68] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_6(factor + 37 * b, point + 19 * b, sum);
+            total[69] += sum[0];
+            total[78] += sum[1];
+            total[72] += sum[2];
+            total[73] += sum[3];
+            total[74] += sum[4];
+            total[75] += sum[5];
+            total[76] += sum[6];
+            total[77] += sum[7];
+            total[79] += sum[8];
+            total[80] += sum[9];
+            total[81] += sum[10];
+            total[82] += sum[11];
+        }
+        {
+            vector sum[7] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_7(factor + 37 * b, point + 19 * b, sum);
+            total[83] += sum[0];
+            total[84] += sum[1];
+            total[85] += sum[2];
+            total[86] += sum[3];
+            total[87] += sum[4];
+            total[88] += sum[5];
+            total[89] += sum[6];
+        }
+    }
+    for (size_t i = 0; i < 91; ++i) S_bar[i] += vector_sum(total[i]);
+}
+
+/*
+ * Some splats at a time; the points pass over each of them, a chunk at a time, while its sums stay in registers. How many
+ * splats depends on the threads, what is summed in which order does not.
+ */
 void mobile_manipulator_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *MOBILE_MANIPULATOR_RESTRICT x,
-    const double *MOBILE_MANIPULATOR_RESTRICT mu,
-    const double *MOBILE_MANIPULATOR_RESTRICT W,
-    const double *MOBILE_MANIPULATOR_RESTRICT amplitude,
-    const double *MOBILE_MANIPULATOR_RESTRICT value_bar,
-    const double *MOBILE_MANIPULATOR_RESTRICT gradient_bar,
-    double *MOBILE_MANIPULATOR_RESTRICT mu_bar,
-    double *MOBILE_MANIPULATOR_RESTRICT W_bar,
-    double *MOBILE_MANIPULATOR_RESTRICT amplitude_bar) {
-    const unsigned mode = flush_denormals();
-    for (size_t i = 0; i < 9 * splat_count; ++i) mu_bar[i] = 0;
-    for (size_t i = 0; i < 81 * splat_count; ++i) W_bar[i] = 0;
-    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        double x_block[9][LANES], value_bar_block[1][LANES], gradient_bar_block[9][LANES];
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            const double weight = lane < lanes ? 1 : 0;
-            for (size_t i = 0; i < 9; ++i) x_block[i][lane] = x[9 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
-            for (size_t i = 0; i < 9; ++i) gradient_bar_block[i][lane] = gradient_bar[9 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
-            for (size_t i = 0; i < 9; ++i) gradient_bar_block[i][lane] *= weight;
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            double sum[91][LANES] = {{0}}, total[91] = {0};
-            const double mu0 = mu[9 * k + 0];
-            const double mu1 = mu[9 * k + 1];
-            const double mu2 = mu[9 * k + 2];
-            const double mu3 = mu[9 * k + 3];
-            const double mu4 = mu[9 * k + 4];
-            const double mu5 = mu[9 * k + 5];
-            const double mu6 = mu[9 * k + 6];
-            const double mu7 = mu[9 * k + 7];
-            const double mu8 = mu[9 * k + 8];
-            const double W0_0 = W[81 * k + 0];
-            const double W0_1 = W[81 * k + 1];
-            const double W0_2 = W[81 * k + 2];
-            const double W0_3 = W[81 * k + 3];
-            const double W0_4 = W[81 * k + 4];
-            const double W0_5 = W[81 * k + 5];
-            const double W0_6 = W[81 * k + 6];
-            const double W0_7 = W[81 * k + 7];
-            const double W0_8 = W[81 * k + 8];
-            const double W1_0 = W[81 * k + 9];
-            const double W1_1 = W[81 * k + 10];
-            const double W1_2 = W[81 * k + 11];
-            const double W1_3 = W[81 * k + 12];
-            const double W1_4 = W[81 * k + 13];
-            const double W1_5 = W[81 * k + 14];
-            const double W1_6 = W[81 * k + 15];
-            const double W1_7 = W[81 * k + 16];
-            const double W1_8 = W[81 * k + 17];
-            const double W2_0 = W[81 * k + 18];
-            const double W2_1 = W[81 * k + 19];
-            const double W2_2 = W[81 * k + 20];
-            const double W2_3 = W[81 * k + 21];
-            const double W2_4 = W[81 * k + 22];
-            const double W2_5 = W[81 * k + 23];
-            const double W2_6 = W[81 * k + 24];
-            const double W2_7 = W[81 * k + 25];
-            const double W2_8 = W[81 * k + 26];
-            const double W3_0 = W[81 * k + 27];
-            const double W3_1 = W[81 * k + 28];
-            const double W3_2 = W[81 * k + 29];
-            const double W3_3 = W[81 * k + 30];
-            const double W3_4 = W[81 * k + 31];
-            const double W3_5 = W[81 * k + 32];
-            const double W3_6 = W[81 * k + 33];
-            const double W3_7 = W[81 * k + 34];
-            const double W3_8 = W[81 * k + 35];
-            const double W4_0 = W[81 * k + 36];
-            const double W4_1 = W[81 * k + 37];
-            const double W4_2 = W[81 * k + 38];
-            const double W4_3 = W[81 * k + 39];
-            const double W4_4 = W[81 * k + 40];
-            const double W4_5 = W[81 * k + 41];
-            const double W4_6 = W[81 * k + 42];
-            const double W4_7 = W[81 * k + 43];
-            const double W4_8 = W[81 * k + 44];
-            const double W5_0 = W[81 * k + 45];
-            const double W5_1 = W[81 * k + 46];
-            const double W5_2 = W[81 * k + 47];
-            const double W5_3 = W[81 * k + 48];
-            const double W5_4 = W[81 * k + 49];
-            const double W5_5 = W[81 * k + 50];
-            const double W5_6 = W[81 * k + 51];
-            const double W5_7 = W[81 * k + 52];
-            const double W5_8 = W[81 * k + 53];
-            const double W6_0 = W[81 * k + 54];
-            const double W6_1 = W[81 * k + 55];
-            const double W6_2 = W[81 * k + 56];
-            const double W6_3 = W[81 * k + 57];
-            const double W6_4 = W[81 * k + 58];
-            const double W6_5 = W[81 * k + 59];
-            const double W6_6 = W[81 * k + 60];
-            const double W6_7 = W[81 * k + 61];
-            const double W6_8 = W[81 * k + 62];
-            const double W7_0 = W[81 * k + 63];
-            const double W7_1 = W[81 * k + 64];
-            const double W7_2 = W[81 * k + 65];
-            const double W7_3 = W[81 * k + 66];
-            const double W7_4 = W[81 * k + 67];
-            const double W7_5 = W[81 * k + 68];
-            const double W7_6 = W[81 * k + 69];
-            const double W7_7 = W[81 * k + 70];
-            const double W7_8 = W[81 * k + 71];
-            const double W8_0 = W[81 * k + 72];
-            const double W8_1 = W[81 * k + 73];
-            const double W8_2 = W[81 * k + 74];
-            const double W8_3 = W[81 * k + 75];
-            const double W8_4 = W[81 * k + 76];
-            const double W8_5 = W[81 * k + 77];
-            const double W8_6 = W[81 * k + 78];
-            const double W8_7 = W[81 * k + 79];
-            const double W8_8 = W[81 * k + 80];
-            const double amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const double v0 = x_block[0][lane] - mu0;
-                const double v1 = x_block[1][lane] - mu1;
-                const double gap = x_block[2][lane] - mu2;
-                const double round_2 = rint(0.15915494309189535 * gap);
-                const double v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-                    round_2;
-                const double gap_2 = x_block[3][lane] - mu3;
-                const double round_3 = rint(0.15915494309189535 * gap_2);
-                const double v3 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-                    round_3;
-                const double gap_3 = x_block[4][lane] - mu4;
-                const double round_4 = rint(0.15915494309189535 * gap_3);
-                const double v4 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
-                    round_4;
-                const double gap_4 = x_block[5][lane] - mu5;
-                const double round_5 = rint(0.15915494309189535 * gap_4);
-                const double v5 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
-                    round_5;
-                const double gap_5 = x_block[6][lane] - mu6;
-                const double round_6 = rint(0.15915494309189535 * gap_5);
-                const double v6 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
-                    round_6;
-                const double gap_6 = x_block[7][lane] - mu7;
-                const double round_7 = rint(0.15915494309189535 * gap_6);
-                const double v7 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
-                    round_7;
-                const double gap_7 = x_block[8][lane] - mu8;
-                const double round_8 = rint(0.15915494309189535 * gap_7);
-                const double v8 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
-                    round_8;
-                const double total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-                const double z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
-                const double total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-                const double z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
-                const double total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-                const double z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
-                const double total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-                const double z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
-                const double total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-                const double z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
-                const double total_7 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-                const double z5 = total_7 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
-                const double total_8 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
-                const double z6 = total_8 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
-                const double total_9 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
-                const double z7 = total_9 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
-                const double total_10 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
-                const double z8 = total_10 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
-                const double total_11 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-                const double total_12 = total_11 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-                const double exp_2 = exp(-(0.5 * total_12));
-                const double phi = amplitude_k * exp_2;
-                const double gap_8 = -(W8_8 * z8) - W7_8 * z7 - W6_8 * z6 - W5_8 * z5;
-                const double gap_9 = -(W8_7 * z8) - W7_7 * z7 - W6_7 * z6 - W5_7 * z5;
-                const double gap_10 = -(W8_6 * z8) - W7_6 * z7 - W6_6 * z6 - W5_6 * z5;
-                const double gap_11 = -(W8_5 * z8) - W7_5 * z7 - W6_5 * z6 - W5_5 * z5;
-                const double gap_12 = -(W8_4 * z8) - W7_4 * z7 - W6_4 * z6 - W5_4 * z5;
-                const double gap_13 = -(W8_3 * z8) - W7_3 * z7 - W6_3 * z6 - W5_3 * z5;
-                const double gap_14 = -(W8_2 * z8) - W7_2 * z7 - W6_2 * z6 - W5_2 * z5;
-                const double gap_15 = -(W8_1 * z8) - W7_1 * z7 - W6_1 * z6 - W5_1 * z5;
-                const double gap_16 = -(W8_0 * z8) - W7_0 * z7 - W6_0 * z6 - W5_0 * z5;
-                const double gap_17 = gap_8 - W4_8 * z4 - W3_8 * z3 - W2_8 * z2 - W1_8 * z1;
-                const double gap_18 = gap_9 - W4_7 * z4 - W3_7 * z3 - W2_7 * z2 - W1_7 * z1;
-                const double gap_19 = gap_10 - W4_6 * z4 - W3_6 * z3 - W2_6 * z2 - W1_6 * z1;
-                const double gap_20 = gap_11 - W4_5 * z4 - W3_5 * z3 - W2_5 * z2 - W1_5 * z1;
-                const double gap_21 = gap_12 - W4_4 * z4 - W3_4 * z3 - W2_4 * z2 - W1_4 * z1;
-                const double gap_22 = gap_13 - W4_3 * z4 - W3_3 * z3 - W2_3 * z2 - W1_3 * z1;
-                const double gap_23 = gap_14 - W4_2 * z4 - W3_2 * z3 - W2_2 * z2 - W1_2 * z1;
-                const double gap_24 = gap_15 - W4_1 * z4 - W3_1 * z3 - W2_1 * z2 - W1_1 * z1;
-                const double gap_25 = gap_16 - W4_0 * z4 - W3_0 * z3 - W2_0 * z2 - W1_0 * z1;
-                const double by_v8 = gap_17 - W0_8 * z0;
-                const double by_v7 = gap_18 - W0_7 * z0;
-                const double by_v6 = gap_19 - W0_6 * z0;
-                const double by_v5 = gap_20 - W0_5 * z0;
-                const double by_v4 = gap_21 - W0_4 * z0;
-                const double by_v3 = gap_22 - W0_3 * z0;
-                const double by_v2 = gap_23 - W0_2 * z0;
-                const double by_v1 = gap_24 - W0_1 * z0;
-                const double by_v0 = gap_25 - W0_0 * z0;
-                const double by_df8 = 16.0 * gradient_bar_block[8][lane];
-                const double by_df7 = 16.0 * gradient_bar_block[7][lane];
-                const double by_df6 = 16.0 * gradient_bar_block[6][lane];
-                const double by_df5 = 16.0 * gradient_bar_block[5][lane];
-                const double by_df4 = 16.0 * gradient_bar_block[4][lane];
-                const double by_df3 = 16.0 * gradient_bar_block[3][lane];
-                const double by_df2 = 4.0 * gradient_bar_block[2][lane];
-                const double by_by_v8 = phi * by_df8;
-                const double by_by_v7 = phi * by_df7;
-                const double by_by_v6 = phi * by_df6;
-                const double by_by_v5 = phi * by_df5;
-                const double total_13 = value_bar_block[0][lane] + by_v8 * by_df8 + by_v7 * by_df7 + by_v6 * by_df6 +
-                    by_v5 * by_df5;
-                const double by_by_v4 = phi * by_df4;
-                const double by_by_v3 = phi * by_df3;
-                const double by_by_v2 = phi * by_df2;
-                const double by_by_v1 = phi * gradient_bar_block[1][lane];
-                const double total_14 = total_13 + by_v4 * by_df4 + by_v3 * by_df3 + by_v2 * by_df2 + by_v1 *
-                    gradient_bar_block[1][lane];
-                const double by_by_v0 = phi * gradient_bar_block[0][lane];
-                const double by_phi = total_14 + by_v0 * gradient_bar_block[0][lane];
-                const double gap_26 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2 - W0_3 * by_by_v3;
-                const double gap_27 = gap_26 - W0_4 * by_by_v4 - W0_5 * by_by_v5 - W0_6 * by_by_v6 - W0_7 * by_by_v7;
-                const double gap_28 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2 - W1_3 * by_by_v3;
-                const double gap_29 = gap_28 - W1_4 * by_by_v4 - W1_5 * by_by_v5 - W1_6 * by_by_v6 - W1_7 * by_by_v7;
-                const double gap_30 = -(W2_0 * by_by_v0) - W2_1 * by_by_v1 - W2_2 * by_by_v2 - W2_3 * by_by_v3;
-                const double gap_31 = gap_30 - W2_4 * by_by_v4 - W2_5 * by_by_v5 - W2_6 * by_by_v6 - W2_7 * by_by_v7;
-                const double gap_32 = -(W3_0 * by_by_v0) - W3_1 * by_by_v1 - W3_2 * by_by_v2 - W3_3 * by_by_v3;
-                const double gap_33 = gap_32 - W3_4 * by_by_v4 - W3_5 * by_by_v5 - W3_6 * by_by_v6 - W3_7 * by_by_v7;
-                const double gap_34 = -(W4_0 * by_by_v0) - W4_1 * by_by_v1 - W4_2 * by_by_v2 - W4_3 * by_by_v3;
-                const double gap_35 = gap_34 - W4_4 * by_by_v4 - W4_5 * by_by_v5 - W4_6 * by_by_v6 - W4_7 * by_by_v7;
-                const double gap_36 = -(W5_0 * by_by_v0) - W5_1 * by_by_v1 - W5_2 * by_by_v2 - W5_3 * by_by_v3;
-                const double gap_37 = gap_36 - W5_4 * by_by_v4 - W5_5 * by_by_v5 - W5_6 * by_by_v6 - W5_7 * by_by_v7;
-                const double gap_38 = -(W6_0 * by_by_v0) - W6_1 * by_by_v1 - W6_2 * by_by_v2 - W6_3 * by_by_v3;
-                const double gap_39 = gap_38 - W6_4 * by_by_v4 - W6_5 * by_by_v5 - W6_6 * by_by_v6 - W6_7 * by_by_v7;
-                const double gap_40 = -(W7_0 * by_by_v0) - W7_1 * by_by_v1 - W7_2 * by_by_v2 - W7_3 * by_by_v3;
-                const double gap_41 = gap_40 - W7_4 * by_by_v4 - W7_5 * by_by_v5 - W7_6 * by_by_v6 - W7_7 * by_by_v7;
-                const double gap_42 = -(W8_0 * by_by_v0) - W8_1 * by_by_v1 - W8_2 * by_by_v2 - W8_3 * by_by_v3;
-                const double gap_43 = gap_42 - W8_4 * by_by_v4 - W8_5 * by_by_v5 - W8_6 * by_by_v6 - W8_7 * by_by_v7;
-                const double product = exp_2 * (amplitude_k * by_phi);
-                const double by_z8 = gap_43 - W8_8 * by_by_v8 - z8 * product;
-                const double by_z7 = gap_41 - W7_8 * by_by_v8 - z7 * product;
-                const double by_z6 = gap_39 - W6_8 * by_by_v8 - z6 * product;
-                const double by_z5 = gap_37 - W5_8 * by_by_v8 - z5 * product;
-                const double by_z4 = gap_35 - W4_8 * by_by_v8 - z4 * product;
-                const double by_z3 = gap_33 - W3_8 * by_by_v8 - z3 * product;
-                const double by_z2 = gap_31 - W2_8 * by_by_v8 - z2 * product;
-                const double by_z1 = gap_29 - W1_8 * by_by_v8 - z1 * product;
-                const double by_z0 = gap_27 - W0_8 * by_by_v8 - z0 * product;
-                const double total_15 = W8_8 * by_z8 + W7_8 * by_z7 + W6_8 * by_z6 + W5_8 * by_z5 + W4_8 * by_z4;
-                const double total_16 = W8_7 * by_z8 + W7_7 * by_z7 + W6_7 * by_z6 + W5_7 * by_z5 + W4_7 * by_z4;
-                const double total_17 = W8_6 * by_z8 + W7_6 * by_z7 + W6_6 * by_z6 + W5_6 * by_z5 + W4_6 * by_z4;
-                const double total_18 = W8_5 * by_z8 + W7_5 * by_z7 + W6_5 * by_z6 + W5_5 * by_z5 + W4_5 * by_z4;
-                const double total_19 = W8_4 * by_z8 + W7_4 * by_z7 + W6_4 * by_z6 + W5_4 * by_z5 + W4_4 * by_z4;
-                const double total_20 = W8_3 * by_z8 + W7_3 * by_z7 + W6_3 * by_z6 + W5_3 * by_z5 + W4_3 * by_z4;
-                const double total_21 = W8_2 * by_z8 + W7_2 * by_z7 + W6_2 * by_z6 + W5_2 * by_z5 + W4_2 * by_z4;
-                const double total_22 = W8_1 * by_z8 + W7_1 * by_z7 + W6_1 * by_z6 + W5_1 * by_z5 + W4_1 * by_z4;
-                const double total_23 = W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5 + W4_0 * by_z4;
-                const double by_v8_2 = total_15 + W3_8 * by_z3 + W2_8 * by_z2 + W1_8 * by_z1 + W0_8 * by_z0;
-                const double by_v7_2 = total_16 + W3_7 * by_z3 + W2_7 * by_z2 + W1_7 * by_z1 + W0_7 * by_z0;
-                const double by_v6_2 = total_17 + W3_6 * by_z3 + W2_6 * by_z2 + W1_6 * by_z1 + W0_6 * by_z0;
-                const double by_v5_2 = total_18 + W3_5 * by_z3 + W2_5 * by_z2 + W1_5 * by_z1 + W0_5 * by_z0;
-                const double by_v4_2 = total_19 + W3_4 * by_z3 + W2_4 * by_z2 + W1_4 * by_z1 + W0_4 * by_z0;
-                const double by_v3_2 = total_20 + W3_3 * by_z3 + W2_3 * by_z2 + W1_3 * by_z1 + W0_3 * by_z0;
-                const double by_v2_2 = total_21 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0;
-                const double by_v1_2 = total_22 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
-                const double by_v0_2 = total_23 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0;
-                sum[0][lane] += -by_v0_2;
-                sum[1][lane] += -by_v1_2;
-                sum[2][lane] += -by_v2_2;
-                sum[3][lane] += -by_v3_2;
-                sum[4][lane] += -by_v4_2;
-                sum[5][lane] += -by_v5_2;
-                sum[6][lane] += -by_v6_2;
-                sum[7][lane] += -by_v7_2;
-                sum[8][lane] += -by_v8_2;
-                sum[9][lane] += v0 * by_z0 - z0 * by_by_v0;
-                sum[10][lane] += v1 * by_z0 - z0 * by_by_v1;
-                sum[11][lane] += v2 * by_z0 - z0 * by_by_v2;
-                sum[12][lane] += v3 * by_z0 - z0 * by_by_v3;
-                sum[13][lane] += v4 * by_z0 - z0 * by_by_v4;
-                sum[14][lane] += v5 * by_z0 - z0 * by_by_v5;
-                sum[15][lane] += v6 * by_z0 - z0 * by_by_v6;
-                sum[16][lane] += v7 * by_z0 - z0 * by_by_v7;
-                sum[17][lane] += v8 * by_z0 - z0 * by_by_v8;
-                sum[18][lane] += v0 * by_z1 - z1 * by_by_v0;
-                sum[19][lane] += v1 * by_z1 - z1 * by_by_v1;
-                sum[20][lane] += v2 * by_z1 - z1 * by_by_v2;
-                sum[21][lane] += v3 * by_z1 - z1 * by_by_v3;
-                sum[22][lane] += v4 * by_z1 - z1 * by_by_v4;
-                sum[23][lane] += v5 * by_z1 - z1 * by_by_v5;
-                sum[24][lane] += v6 * by_z1 - z1 * by_by_v6;
-                sum[25][lane] += v7 * by_z1 - z1 * by_by_v7;
-                sum[26][lane] += v8 * by_z1 - z1 * by_by_v8;
-                sum[27][lane] += v0 * by_z2 - z2 * by_by_v0;
-                sum[28][lane] += v1 * by_z2 - z2 * by_by_v1;
-                sum[29][lane] += v2 * by_z2 - z2 * by_by_v2;
-                sum[30][lane] += v3 * by_z2 - z2 * by_by_v3;
-                sum[31][lane] += v4 * by_z2 - z2 * by_by_v4;
-                sum[32][lane] += v5 * by_z2 - z2 * by_by_v5;
-                sum[33][lane] += v6 * by_z2 - z2 * by_by_v6;
-                sum[34][lane] += v7 * by_z2 - z2 * by_by_v7;
-                sum[35][lane] += v8 * by_z2 - z2 * by_by_v8;
-                sum[36][lane] += v0 * by_z3 - z3 * by_by_v0;
-                sum[37][lane] += v1 * by_z3 - z3 * by_by_v1;
-                sum[38][lane] += v2 * by_z3 - z3 * by_by_v2;
-                sum[39][lane] += v3 * by_z3 - z3 * by_by_v3;
-                sum[40][lane] += v4 * by_z3 - z3 * by_by_v4;
-                sum[41][lane] += v5 * by_z3 - z3 * by_by_v5;
-                sum[42][lane] += v6 * by_z3 - z3 * by_by_v6;
-                sum[43][lane] += v7 * by_z3 - z3 * by_by_v7;
-                sum[44][lane] += v8 * by_z3 - z3 * by_by_v8;
-                sum[45][lane] += v0 * by_z4 - z4 * by_by_v0;
-                sum[46][lane] += v1 * by_z4 - z4 * by_by_v1;
-                sum[47][lane] += v2 * by_z4 - z4 * by_by_v2;
-                sum[48][lane] += v3 * by_z4 - z4 * by_by_v3;
-                sum[49][lane] += v4 * by_z4 - z4 * by_by_v4;
-                sum[50][lane] += v5 * by_z4 - z4 * by_by_v5;
-                sum[51][lane] += v6 * by_z4 - z4 * by_by_v6;
-                sum[52][lane] += v7 * by_z4 - z4 * by_by_v7;
-                sum[53][lane] += v8 * by_z4 - z4 * by_by_v8;
-                sum[54][lane] += v0 * by_z5 - z5 * by_by_v0;
-                sum[55][lane] += v1 * by_z5 - z5 * by_by_v1;
-                sum[56][lane] += v2 * by_z5 - z5 * by_by_v2;
-                sum[57][lane] += v3 * by_z5 - z5 * by_by_v3;
-                sum[58][lane] += v4 * by_z5 - z5 * by_by_v4;
-                sum[59][lane] += v5 * by_z5 - z5 * by_by_v5;
-                sum[60][lane] += v6 * by_z5 - z5 * by_by_v6;
-                sum[61][lane] += v7 * by_z5 - z5 * by_by_v7;
-                sum[62][lane] += v8 * by_z5 - z5 * by_by_v8;
-                sum[63][lane] += v0 * by_z6 - z6 * by_by_v0;
-                sum[64][lane] += v1 * by_z6 - z6 * by_by_v1;
-                sum[65][lane] += v2 * by_z6 - z6 * by_by_v2;
-                sum[66][lane] += v3 * by_z6 - z6 * by_by_v3;
-                sum[67][lane] += v4 * by_z6 - z6 * by_by_v4;
-                sum[68][lane] += v5 * by_z6 - z6 * by_by_v5;
-                sum[69][lane] += v6 * by_z6 - z6 * by_by_v6;
-                sum[70][lane] += v7 * by_z6 - z6 * by_by_v7;
-                sum[71][lane] += v8 * by_z6 - z6 * by_by_v8;
-                sum[72][lane] += v0 * by_z7 - z7 * by_by_v0;
-                sum[73][lane] += v1 * by_z7 - z7 * by_by_v1;
-                sum[74][lane] += v2 * by_z7 - z7 * by_by_v2;
-                sum[75][lane] += v3 * by_z7 - z7 * by_by_v3;
-                sum[76][lane] += v4 * by_z7 - z7 * by_by_v4;
-                sum[77][lane] += v5 * by_z7 - z7 * by_by_v5;
-                sum[78][lane] += v6 * by_z7 - z7 * by_by_v6;
-                sum[79][lane] += v7 * by_z7 - z7 * by_by_v7;
-                sum[80][lane] += v8 * by_z7 - z7 * by_by_v8;
-                sum[81][lane] += v0 * by_z8 - z8 * by_by_v0;
-                sum[82][lane] += v1 * by_z8 - z8 * by_by_v1;
-                sum[83][lane] += v2 * by_z8 - z8 * by_by_v2;
-                sum[84][lane] += v3 * by_z8 - z8 * by_by_v3;
-                sum[85][lane] += v4 * by_z8 - z8 * by_by_v4;
-                sum[86][lane] += v5 * by_z8 - z8 * by_by_v5;
-                sum[87][lane] += v6 * by_z8 - z8 * by_by_v6;
-                sum[88][lane] += v7 * by_z8 - z8 * by_by_v7;
-                sum[89][lane] += v8 * by_z8 - z8 * by_by_v8;
-                sum[90][lane] += exp_2 * by_phi;
+    size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT W, const double *MOBILE_MANIPULATOR_RESTRICT amplitude, const double *MOBILE_MANIPULATOR_RESTRICT value_bar, const double *MOBILE_MANIPULATOR_RESTRICT gradient_bar,
+    double *MOBILE_MANIPULATOR_RESTRICT mu_bar, double *MOBILE_MANIPULATOR_RESTRICT W_bar, double *MOBILE_MANIPULATOR_RESTRICT amplitude_bar, double *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
+    const size_t blocks = (count + LANES - 1) / LANES;
+    const size_t chunk = 131072 / (19 * sizeof(vector)) + 1;
+    const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
+    const size_t share = part < LANES ? part : LANES;
+    vector *points = work_points(work);
+    double *constants = work_constants(work, count);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic) nowait)
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic, 8))
+        for (size_t block = 0; block < blocks; ++block)
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 19 * block);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += share) {
+            const size_t end = start + share < splat_count ? start + share : splat_count;
+            double sums[LANES][91] = {{0}};
+            vector own_mu[9], own_W[81], own_amplitude[1], S_bar[91], bars[91];
+            for (size_t first = 0; first < blocks; first += chunk) {
+                const size_t size = first + chunk < blocks ? chunk : blocks - first;
+                for (size_t k = start; k < end; ++k)
+                    splat_sums(points + 19 * first, size, constants + 91 * k, sums[k - start]);
             }
-            for (size_t i = 0; i < 91; ++i)
-                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
-            mu_bar[9 * k + 0] += total[0];
-            mu_bar[9 * k + 1] += total[1];
-            mu_bar[9 * k + 2] += total[2];
-            mu_bar[9 * k + 3] += total[3];
-            mu_bar[9 * k + 4] += total[4];
-            mu_bar[9 * k + 5] += total[5];
-            mu_bar[9 * k + 6] += total[6];
-            mu_bar[9 * k + 7] += total[7];
-            mu_bar[9 * k + 8] += total[8];
-            W_bar[81 * k + 0] += total[9];
-            W_bar[81 * k + 1] += total[10];
-            W_bar[81 * k + 2] += total[11];
-            W_bar[81 * k + 3] += total[12];
-            W_bar[81 * k + 4] += total[13];
-            W_bar[81 * k + 5] += total[14];
-            W_bar[81 * k + 6] += total[15];
-            W_bar[81 * k + 7] += total[16];
-            W_bar[81 * k + 8] += total[17];
-            W_bar[81 * k + 9] += total[18];
-            W_bar[81 * k + 10] += total[19];
-            W_bar[81 * k + 11] += total[20];
-            W_bar[81 * k + 12] += total[21];
-            W_bar[81 * k + 13] += total[22];
-            W_bar[81 * k + 14] += total[23];
-            W_bar[81 * k + 15] += total[24];
-            W_bar[81 * k + 16] += total[25];
-            W_bar[81 * k + 17] += total[26];
-            W_bar[81 * k + 18] += total[27];
-            W_bar[81 * k + 19] += total[28];
-            W_bar[81 * k + 20] += total[29];
-            W_bar[81 * k + 21] += total[30];
-            W_bar[81 * k + 22] += total[31];
-            W_bar[81 * k + 23] += total[32];
-            W_bar[81 * k + 24] += total[33];
-            W_bar[81 * k + 25] += total[34];
-            W_bar[81 * k + 26] += total[35];
-            W_bar[81 * k + 27] += total[36];
-            W_bar[81 * k + 28] += total[37];
-            W_bar[81 * k + 29] += total[38];
-            W_bar[81 * k + 30] += total[39];
-            W_bar[81 * k + 31] += total[40];
-            W_bar[81 * k + 32] += total[41];
-            W_bar[81 * k + 33] += total[42];
-            W_bar[81 * k + 34] += total[43];
-            W_bar[81 * k + 35] += total[44];
-            W_bar[81 * k + 36] += total[45];
-            W_bar[81 * k + 37] += total[46];
-            W_bar[81 * k + 38] += total[47];
-            W_bar[81 * k + 39] += total[48];
-            W_bar[81 * k + 40] += total[49];
-            W_bar[81 * k + 41] += total[50];
-            W_bar[81 * k + 42] += total[51];
-            W_bar[81 * k + 43] += total[52];
-            W_bar[81 * k + 44] += total[53];
-            W_bar[81 * k + 45] += total[54];
-            W_bar[81 * k + 46] += total[55];
-            W_bar[81 * k + 47] += total[56];
-            W_bar[81 * k + 48] += total[57];
-            W_bar[81 * k + 49] += total[58];
-            W_bar[81 * k + 50] += total[59];
-            W_bar[81 * k + 51] += total[60];
-            W_bar[81 * k + 52] += total[61];
-            W_bar[81 * k + 53] += total[62];
-            W_bar[81 * k + 54] += total[63];
-            W_bar[81 * k + 55] += total[64];
-            W_bar[81 * k + 56] += total[65];
-            W_bar[81 * k + 57] += total[66];
-            W_bar[81 * k + 58] += total[67];
-            W_bar[81 * k + 59] += total[68];
-            W_bar[81 * k + 60] += total[69];
-            W_bar[81 * k + 61] += total[70];
-            W_bar[81 * k + 62] += total[71];
-            W_bar[81 * k + 63] += total[72];
-            W_bar[81 * k + 64] += total[73];
-            W_bar[81 * k + 65] += total[74];
-            W_bar[81 * k + 66] += total[75];
-            W_bar[81 * k + 67] += total[76];
-            W_bar[81 * k + 68] += total[77];
-            W_bar[81 * k + 69] += total[78];
-            W_bar[81 * k + 70] += total[79];
-            W_bar[81 * k + 71] += total[80];
-            W_bar[81 * k + 72] += total[81];
-            W_bar[81 * k + 73] += total[82];
-            W_bar[81 * k + 74] += total[83];
-            W_bar[81 * k + 75] += total[84];
-            W_bar[81 * k + 76] += total[85];
-            W_bar[81 * k + 77] += total[86];
-            W_bar[81 * k + 78] += total[87];
-            W_bar[81 * k + 79] += total[88];
-            W_bar[81 * k + 80] += total[89];
-            amplitude_bar[1 * k + 0] += total[90];
+            vector_rows(mu, end, start, 9, own_mu);
+            vector_rows(W, end, start, 81, own_W);
+            vector_rows(amplitude, end, start, 1, own_amplitude);
+            vector_rows(sums[0], LANES, 0, 91, S_bar);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 9, bars + 9 + 81);
+            vector_to_rows(bars, mu_bar, end, start, 9, 9);
+            vector_to_rows(bars + 9, W_bar, end, start, 81, 81);
+            vector_to_rows(bars + 9 + 81, amplitude_bar, end, start, 1, 1);
         }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
+/* Nothing is summed: the adjoints of a splat's constants go on to its parameters for every point. */
+void mobile_manipulator_splats_rows(
+    size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT W, const double *MOBILE_MANIPULATOR_RESTRICT amplitude, const double *MOBILE_MANIPULATOR_RESTRICT value_bar, const double *MOBILE_MANIPULATOR_RESTRICT gradient_bar,
+    double *MOBILE_MANIPULATOR_RESTRICT rows, double *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
+    (void)threads;
+    const size_t blocks = (count + LANES - 1) / LANES;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t block = 0; block < blocks; ++block) {
+            vector point[19];
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
+            for (size_t k = 0; k < splat_count; ++k) {
+                vector own_mu[9], own_W[81], own_amplitude[1], S_bar[91] = {ZERO}, bars[91];
+                for (int i = 0; i < 9; ++i) own_mu[i] = vector_of(mu[9 * k + i]);
+                for (int i = 0; i < 81; ++i) own_W[i] = vector_of(W[81 * k + i]);
+                own_amplitude[0] = vector_of(amplitude[k]);
+                pair_backward(point, constants + 91 * k, point + 9, point + 9 + 1, S_bar);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 9, bars + 9 + 81);
+                vector_to_rows(bars, rows + 91 * k, count, block * LANES, 91, 91 * splat_count);
+            }
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* The same number in all lanes. */
+INLINE vector_f vector_of_f(float x) {
+    const vector_f zero = ZERO;
+    return x - zero;
+}
+
+/* x in the lanes of the mask, y in the others. */
+INLINE vector_f vector_select_f(vector_mask_f mask, vector_f x, vector_f y) {
+    return SELECT(vector_f, vector_mask_f, mask, x, y);
+}
+
+/* Numbers in memory to a vector, and back. */
+INLINE vector_f vector_load_f(const float *from) {
+    vector_f x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+INLINE void vector_store_f(float *to, vector_f x) { memcpy(to, &x, sizeof x); }
+
+/* The sum over the lanes, by halves. */
+INLINE float vector_sum_f(vector_f x) {
+    float lanes[LANES_f];
+    vector_store_f(lanes, x);
+    for (size_t half = LANES_f / 2; half > 0; half /= 2)
+        for (size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    return lanes[0];
+}
+
+/* The bits of a vector as integers, and back. */
+INLINE vector_bits_f vector_to_bits_f(vector_f x) {
+    vector_bits_f bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
+    vector_f x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* round of every lane; one instruction where the machine has it. */
+INLINE vector_f vector_round_f(vector_f x) {
+    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = rintf(LANE(x, i));
+    return x;
+}
+
+/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
+INLINE vector_f vector_exp_f(vector_f x) {
+    const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
+    const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
+    const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
+    const vector_f scale = vector_from_bits_f((vector_to_bits_f(shifted) + 126) << 23); /* 2^(k - 1) */
+    const vector_f y = vector_select_f(x > 88.722839f, vector_of_f(HUGE_VALF), (scale + scale * part) * 2);
+    return vector_select_f(x < -86.9f, vector_of_f(0), y);
+}
+
+/* What pairs read of points x. */
+OUTLINE void pair_features_f(
+    const vector_f *x, vector_f *X) {
+    const vector_f x0 = x[0];
+    const vector_f x1 = x[1];
+    const vector_f x2 = x[2];
+    const vector_f x3 = x[3];
+    const vector_f x4 = x[4];
+    const vector_f x5 = x[5];
+    const vector_f x6 = x[6];
+    const vector_f x7 = x[7];
+    const vector_f x8 = x[8];
+    X[0] = x0;
+    X[1] = x1;
+    X[2] = x2;
+    X[3] = x3;
+    X[4] = x4;
+    X[5] = x5;
+    X[6] = x6;
+    X[7] = x7;
+    X[8] = x8;
+}
+
+/* What pairs read of a splat, of some splats. */
+OUTLINE void pair_constants_f(
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, vector_f *S) {
+    const vector_f mu0 = mu[0];
+    const vector_f mu1 = mu[1];
+    const vector_f mu2 = mu[2];
+    const vector_f mu3 = mu[3];
+    const vector_f mu4 = mu[4];
+    const vector_f mu5 = mu[5];
+    const vector_f mu6 = mu[6];
+    const vector_f mu7 = mu[7];
+    const vector_f mu8 = mu[8];
+    const vector_f W0_0 = W[0];
+    const vector_f W0_1 = W[1];
+    const vector_f W0_2 = W[2];
+    const vector_f W0_3 = W[3];
+    const vector_f W0_4 = W[4];
+    const vector_f W0_5 = W[5];
+    const vector_f W0_6 = W[6];
+    const vector_f W0_7 = W[7];
+    const vector_f W0_8 = W[8];
+    const vector_f W1_0 = W[9];
+    const vector_f W1_1 = W[10];
+    const vector_f W1_2 = W[11];
+    const vector_f W1_3 = W[12];
+    const vector_f W1_4 = W[13];
+    const vector_f W1_5 = W[14];
+    const vector_f W1_6 = W[15];
+    const vector_f W1_7 = W[16];
+    const vector_f W1_8 = W[17];
+    const vector_f W2_0 = W[18];
+    const vector_f W2_1 = W[19];
+    const vector_f W2_2 = W[20];
+    const vector_f W2_3 = W[21];
+    const vector_f W2_4 = W[22];
+    const vector_f W2_5 = W[23];
+    const vector_f W2_6 = W[24];
+    const vector_f W2_7 = W[25];
+    const vector_f W2_8 = W[26];
+    const vector_f W3_0 = W[27];
+    const vector_f W3_1 = W[28];
+    const vector_f W3_2 = W[29];
+    const vector_f W3_3 = W[30];
+    const vector_f W3_4 = W[31];
+    const vector_f W3_5 = W[32];
+    const vector_f W3_6 = W[33];
+    const vector_f W3_7 = W[34];
+    const vector_f W3_8 = W[35];
+    const vector_f W4_0 = W[36];
+    const vector_f W4_1 = W[37];
+    const vector_f W4_2 = W[38];
+    const vector_f W4_3 = W[39];
+    const vector_f W4_4 = W[40];
+    const vector_f W4_5 = W[41];
+    const vector_f W4_6 = W[42];
+    const vector_f W4_7 = W[43];
+    const vector_f W4_8 = W[44];
+    const vector_f W5_0 = W[45];
+    const vector_f W5_1 = W[46];
+    const vector_f W5_2 = W[47];
+    const vector_f W5_3 = W[48];
+    const vector_f W5_4 = W[49];
+    const vector_f W5_5 = W[50];
+    const vector_f W5_6 = W[51];
+    const vector_f W5_7 = W[52];
+    const vector_f W5_8 = W[53];
+    const vector_f W6_0 = W[54];
+    const vector_f W6_1 = W[55];
+    const vector_f W6_2 = W[56];
+    const vector_f W6_3 = W[57];
+    const vector_f W6_4 = W[58];
+    const vector_f W6_5 = W[59];
+    const vector_f W6_6 = W[60];
+    const vector_f W6_7 = W[61];
+    const vector_f W6_8 = W[62];
+    const vector_f W7_0 = W[63];
+    const vector_f W7_1 = W[64];
+    const vector_f W7_2 = W[65];
+    const vector_f W7_3 = W[66];
+    const vector_f W7_4 = W[67];
+    const vector_f W7_5 = W[68];
+    const vector_f W7_6 = W[69];
+    const vector_f W7_7 = W[70];
+    const vector_f W7_8 = W[71];
+    const vector_f W8_0 = W[72];
+    const vector_f W8_1 = W[73];
+    const vector_f W8_2 = W[74];
+    const vector_f W8_3 = W[75];
+    const vector_f W8_4 = W[76];
+    const vector_f W8_5 = W[77];
+    const vector_f W8_6 = W[78];
+    const vector_f W8_7 = W[79];
+    const vector_f W8_8 = W[80];
+    const vector_f its_amplitude = amplitude[0];
+    S[0] = mu0;
+    S[1] = mu1;
+    S[2] = mu2;
+    S[3] = mu3;
+    S[4] = mu4;
+    S[5] = mu5;
+    S[6] = mu6;
+    S[7] = mu7;
+    S[8] = mu8;
+    S[9] = W0_0;
+    S[10] = W0_1;
+    S[11] = W0_2;
+    S[12] = W0_3;
+    S[13] = W0_4;
+    S[14] = W0_5;
+    S[15] = W0_6;
+    S[16] = W0_7;
+    S[17] = W0_8;
+    S[18] = W1_0;
+    S[19] = W1_1;
+    S[20] = W1_2;
+    S[21] = W1_3;
+    S[22] = W1_4;
+    S[23] = W1_5;
+    S[24] = W1_6;
+    S[25] = W1_7;
+    S[26] = W1_8;
+    S[27] = W2_0;
+    S[28] = W2_1;
+    S[29] = W2_2;
+    S[30] = W2_3;
+    S[31] = W2_4;
+    S[32] = W2_5;
+    S[33] = W2_6;
+    S[34] = W2_7;
+    S[35] = W2_8;
+    S[36] = W3_0;
+    S[37] = W3_1;
+    S[38] = W3_2;
+    S[39] = W3_3;
+    S[40] = W3_4;
+    S[41] = W3_5;
+    S[42] = W3_6;
+    S[43] = W3_7;
+    S[44] = W3_8;
+    S[45] = W4_0;
+    S[46] = W4_1;
+    S[47] = W4_2;
+    S[48] = W4_3;
+    S[49] = W4_4;
+    S[50] = W4_5;
+    S[51] = W4_6;
+    S[52] = W4_7;
+    S[53] = W4_8;
+    S[54] = W5_0;
+    S[55] = W5_1;
+    S[56] = W5_2;
+    S[57] = W5_3;
+    S[58] = W5_4;
+    S[59] = W5_5;
+    S[60] = W5_6;
+    S[61] = W5_7;
+    S[62] = W5_8;
+    S[63] = W6_0;
+    S[64] = W6_1;
+    S[65] = W6_2;
+    S[66] = W6_3;
+    S[67] = W6_4;
+    S[68] = W6_5;
+    S[69] = W6_6;
+    S[70] = W6_7;
+    S[71] = W6_8;
+    S[72] = W7_0;
+    S[73] = W7_1;
+    S[74] = W7_2;
+    S[75] = W7_3;
+    S[76] = W7_4;
+    S[77] = W7_5;
+    S[78] = W7_6;
+    S[79] = W7_7;
+    S[80] = W7_8;
+    S[81] = W8_0;
+    S[82] = W8_1;
+    S[83] = W8_2;
+    S[84] = W8_3;
+    S[85] = W8_4;
+    S[86] = W8_5;
+    S[87] = W8_6;
+    S[88] = W8_7;
+    S[89] = W8_8;
+    S[90] = its_amplitude;
+}
+
+/* Adds the values phi of a splat at some points. */
+INLINE void pair_value_f(
+    const vector_f *X, const float *S, vector_f *value) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const vector_f x2 = X[2];
+    const vector_f x3 = X[3];
+    const vector_f x4 = X[4];
+    const vector_f x5 = X[5];
+    const vector_f x6 = X[6];
+    const vector_f x7 = X[7];
+    const vector_f x8 = X[8];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float mu2 = S[2];
+    const float mu3 = S[3];
+    const float mu4 = S[4];
+    const float mu5 = S[5];
+    const float mu6 = S[6];
+    const float mu7 = S[7];
+    const float mu8 = S[8];
+    const float W0_0 = S[9];
+    const float W0_1 = S[10];
+    const float W0_2 = S[11];
+    const float W0_3 = S[12];
+    const float W0_4 = S[13];
+    const float W0_5 = S[14];
+    const float W0_6 = S[15];
+    const float W0_7 = S[16];
+    const float W0_8 = S[17];
+    const float W1_0 = S[18];
+    const float W1_1 = S[19];
+    const float W1_2 = S[20];
+    const float W1_3 = S[21];
+    const float W1_4 = S[22];
+    const float W1_5 = S[23];
+    const float W1_6 = S[24];
+    const float W1_7 = S[25];
+    const float W1_8 = S[26];
+    const float W2_0 = S[27];
+    const float W2_1 = S[28];
+    const float W2_2 = S[29];
+    const float W2_3 = S[30];
+    const float W2_4 = S[31];
+    const float W2_5 = S[32];
+    const float W2_6 = S[33];
+    const float W2_7 = S[34];
+    const float W2_8 = S[35];
+    const float W3_0 = S[36];
+    const float W3_1 = S[37];
+    const float W3_2 = S[38];
+    const float W3_3 = S[39];
+    const float W3_4 = S[40];
+    const float W3_5 = S[41];
+    const float W3_6 = S[42];
+    const float W3_7 = S[43];
+    const float W3_8 = S[44];
+    const float W4_0 = S[45];
+    const float W4_1 = S[46];
+    const float W4_2 = S[47];
+    const float W4_3 = S[48];
+    const float W4_4 = S[49];
+    const float W4_5 = S[50];
+    const float W4_6 = S[51];
+    const float W4_7 = S[52];
+    const float W4_8 = S[53];
+    const float W5_0 = S[54];
+    const float W5_1 = S[55];
+    const float W5_2 = S[56];
+    const float W5_3 = S[57];
+    const float W5_4 = S[58];
+    const float W5_5 = S[59];
+    const float W5_6 = S[60];
+    const float W5_7 = S[61];
+    const float W5_8 = S[62];
+    const float W6_0 = S[63];
+    const float W6_1 = S[64];
+    const float W6_2 = S[65];
+    const float W6_3 = S[66];
+    const float W6_4 = S[67];
+    const float W6_5 = S[68];
+    const float W6_6 = S[69];
+    const float W6_7 = S[70];
+    const float W6_8 = S[71];
+    const float W7_0 = S[72];
+    const float W7_1 = S[73];
+    const float W7_2 = S[74];
+    const float W7_3 = S[75];
+    const float W7_4 = S[76];
+    const float W7_5 = S[77];
+    const float W7_6 = S[78];
+    const float W7_7 = S[79];
+    const float W7_8 = S[80];
+    const float W8_0 = S[81];
+    const float W8_1 = S[82];
+    const float W8_2 = S[83];
+    const float W8_3 = S[84];
+    const float W8_4 = S[85];
+    const float W8_5 = S[86];
+    const float W8_6 = S[87];
+    const float W8_7 = S[88];
+    const float W8_8 = S[89];
+    const float amplitude = S[90];
+    const vector_f v0 = x0 - mu0;
+    const vector_f v1 = x1 - mu1;
+    const vector_f gap = x2 - mu2;
+    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
+    const vector_f v2 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
+        round_2;
+    const vector_f gap_2 = x3 - mu3;
+    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
+    const vector_f v3 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
+        * round_3;
+    const vector_f gap_3 = x4 - mu4;
+    const vector_f round_4 = vector_round_f(0.15915494309189535f * gap_3);
+    const vector_f v4 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f
+        * round_4;
+    const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+    const vector_f gap_4 = x5 - mu5;
+    const vector_f round_5 = vector_round_f(0.15915494309189535f * gap_4);
+    const vector_f v5 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f
+        * round_5;
+    const vector_f gap_5 = x6 - mu6;
+    const vector_f round_6 = vector_round_f(0.15915494309189535f * gap_5);
+    const vector_f v6 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f
+        * round_6;
+    const vector_f gap_6 = x7 - mu7;
+    const vector_f round_7 = vector_round_f(0.15915494309189535f * gap_6);
+    const vector_f v7 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f
+        * round_7;
+    const vector_f gap_7 = x8 - mu8;
+    const vector_f round_8 = vector_round_f(0.15915494309189535f * gap_7);
+    const vector_f v8 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f
+        * round_8;
+    const vector_f z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+    const vector_f total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+    const vector_f z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+    const vector_f total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+    const vector_f z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+    const vector_f total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+    const vector_f z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+    const vector_f total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+    const vector_f z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+    const vector_f total_7 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+    const vector_f total_8 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+    const vector_f z5 = total_8 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+    const vector_f total_9 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+    const vector_f z6 = total_9 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+    const vector_f total_10 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+    const vector_f z7 = total_10 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+    const vector_f total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+    const vector_f z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+    const vector_f total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+    value[0] = value[0] + amplitude * vector_exp_f(-0.5f * total_12);
+}
+
+/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+OUTLINE void pair_forward_f(
+    const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const vector_f x2 = X[2];
+    const vector_f x3 = X[3];
+    const vector_f x4 = X[4];
+    const vector_f x5 = X[5];
+    const vector_f x6 = X[6];
+    const vector_f x7 = X[7];
+    const vector_f x8 = X[8];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float mu2 = S[2];
+    const float mu3 = S[3];
+    const float mu4 = S[4];
+    const float mu5 = S[5];
+    const float mu6 = S[6];
+    const float mu7 = S[7];
+    const float mu8 = S[8];
+    const float W0_0 = S[9];
+    const float W0_1 = S[10];
+    const float W0_2 = S[11];
+    const float W0_3 = S[12];
+    const float W0_4 = S[13];
+    const float W0_5 = S[14];
+    const float W0_6 = S[15];
+    const float W0_7 = S[16];
+    const float W0_8 = S[17];
+    const float W1_0 = S[18];
+    const float W1_1 = S[19];
+    const float W1_2 = S[20];
+    const float W1_3 = S[21];
+    const float W1_4 = S[22];
+    const float W1_5 = S[23];
+    const float W1_6 = S[24];
+    const float W1_7 = S[25];
+    const float W1_8 = S[26];
+    const float W2_0 = S[27];
+    const float W2_1 = S[28];
+    const float W2_2 = S[29];
+    const float W2_3 = S[30];
+    const float W2_4 = S[31];
+    const float W2_5 = S[32];
+    const float W2_6 = S[33];
+    const float W2_7 = S[34];
+    const float W2_8 = S[35];
+    const float W3_0 = S[36];
+    const float W3_1 = S[37];
+    const float W3_2 = S[38];
+    const float W3_3 = S[39];
+    const float W3_4 = S[40];
+    const float W3_5 = S[41];
+    const float W3_6 = S[42];
+    const float W3_7 = S[43];
+    const float W3_8 = S[44];
+    const float W4_0 = S[45];
+    const float W4_1 = S[46];
+    const float W4_2 = S[47];
+    const float W4_3 = S[48];
+    const float W4_4 = S[49];
+    const float W4_5 = S[50];
+    const float W4_6 = S[51];
+    const float W4_7 = S[52];
+    const float W4_8 = S[53];
+    const float W5_0 = S[54];
+    const float W5_1 = S[55];
+    const float W5_2 = S[56];
+    const float W5_3 = S[57];
+    const float W5_4 = S[58];
+    const float W5_5 = S[59];
+    const float W5_6 = S[60];
+    const float W5_7 = S[61];
+    const float W5_8 = S[62];
+    const float W6_0 = S[63];
+    const float W6_1 = S[64];
+    const float W6_2 = S[65];
+    const float W6_3 = S[66];
+    const float W6_4 = S[67];
+    const float W6_5 = S[68];
+    const float W6_6 = S[69];
+    const float W6_7 = S[70];
+    const float W6_8 = S[71];
+    const float W7_0 = S[72];
+    const float W7_1 = S[73];
+    const float W7_2 = S[74];
+    const float W7_3 = S[75];
+    const float W7_4 = S[76];
+    const float W7_5 = S[77];
+    const float W7_6 = S[78];
+    const float W7_7 = S[79];
+    const float W7_8 = S[80];
+    const float W8_0 = S[81];
+    const float W8_1 = S[82];
+    const float W8_2 = S[83];
+    const float W8_3 = S[84];
+    const float W8_4 = S[85];
+    const float W8_5 = S[86];
+    const float W8_6 = S[87];
+    const float W8_7 = S[88];
+    const float W8_8 = S[89];
+    const float amplitude = S[90];
+    const vector_f v0 = x0 - mu0;
+    const vector_f v1 = x1 - mu1;
+    const vector_f gap = x2 - mu2;
+    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
+    const vector_f v2 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
+        round_2;
+    const vector_f gap_2 = x3 - mu3;
+    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
+    const vector_f v3 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
+        * round_3;
+    const vector_f gap_3 = x4 - mu4;
+    const vector_f round_4 = vector_round_f(0.15915494309189535f * gap_3);
+    const vector_f v4 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f
+        * round_4;
+    const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+    const vector_f gap_4 = x5 - mu5;
+    const vector_f round_5 = vector_round_f(0.15915494309189535f * gap_4);
+    const vector_f v5 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f
+        * round_5;
+    const vector_f gap_5 = x6 - mu6;
+    const vector_f round_6 = vector_round_f(0.15915494309189535f * gap_5);
+    const vector_f v6 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f
+        * round_6;
+    const vector_f gap_6 = x7 - mu7;
+    const vector_f round_7 = vector_round_f(0.15915494309189535f * gap_6);
+    const vector_f v7 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f
+        * round_7;
+    const vector_f gap_7 = x8 - mu8;
+    const vector_f round_8 = vector_round_f(0.15915494309189535f * gap_7);
+    const vector_f v8 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f
+        * round_8;
+    const vector_f z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+    const vector_f total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+    const vector_f z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+    const vector_f total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+    const vector_f z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+    const vector_f total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+    const vector_f z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+    const vector_f total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+    const vector_f z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+    const vector_f total_7 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+    const vector_f total_8 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+    const vector_f z5 = total_8 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+    const vector_f total_9 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+    const vector_f z6 = total_9 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+    const vector_f total_10 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+    const vector_f z7 = total_10 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+    const vector_f total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+    const vector_f z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+    const vector_f total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+    const vector_f phi = amplitude * vector_exp_f(-0.5f * total_12);
+    const vector_f z8_product = z8 * phi;
+    const vector_f z7_product = z7 * phi;
+    const vector_f z6_product = z6 * phi;
+    const vector_f z5_product = z5 * phi;
+    const vector_f z4_product = z4 * phi;
+    const vector_f z3_product = z3 * phi;
+    const vector_f z2_product = z2 * phi;
+    const vector_f z1_product = z1 * phi;
+    const vector_f z0_product = z0 * phi;
+    value[0] = value[0] + phi;
+    slope[0] = slope[0] - W8_0 * z8_product - W7_0 * z7_product - W6_0 * z6_product - W5_0 * z5_product - W4_0
+            * z4_product - W3_0 * z3_product - W2_0 * z2_product - W1_0 * z1_product - W0_0 * z0_product;
+    slope[1] = slope[1] - W8_1 * z8_product - W7_1 * z7_product - W6_1 * z6_product - W5_1 * z5_product - W4_1
+            * z4_product - W3_1 * z3_product - W2_1 * z2_product - W1_1 * z1_product - W0_1 * z0_product;
+    slope[2] = slope[2] - W8_2 * z8_product - W7_2 * z7_product - W6_2 * z6_product - W5_2 * z5_product - W4_2
+            * z4_product - W3_2 * z3_product - W2_2 * z2_product - W1_2 * z1_product - W0_2 * z0_product;
+    slope[3] = slope[3] - W8_3 * z8_product - W7_3 * z7_product - W6_3 * z6_product - W5_3 * z5_product - W4_3
+            * z4_product - W3_3 * z3_product - W2_3 * z2_product - W1_3 * z1_product - W0_3 * z0_product;
+    slope[4] = slope[4] - W8_4 * z8_product - W7_4 * z7_product - W6_4 * z6_product - W5_4 * z5_product - W4_4
+            * z4_product - W3_4 * z3_product - W2_4 * z2_product - W1_4 * z1_product - W0_4 * z0_product;
+    slope[5] = slope[5] - W8_5 * z8_product - W7_5 * z7_product - W6_5 * z6_product - W5_5 * z5_product - W4_5
+            * z4_product - W3_5 * z3_product - W2_5 * z2_product - W1_5 * z1_product - W0_5 * z0_product;
+    slope[6] = slope[6] - W8_6 * z8_product - W7_6 * z7_product - W6_6 * z6_product - W5_6 * z5_product - W4_6
+            * z4_product - W3_6 * z3_product - W2_6 * z2_product - W1_6 * z1_product - W0_6 * z0_product;
+    slope[7] = slope[7] - W8_7 * z8_product - W7_7 * z7_product - W6_7 * z6_product - W5_7 * z5_product - W4_7
+            * z4_product - W3_7 * z3_product - W2_7 * z2_product - W1_7 * z1_product - W0_7 * z0_product;
+    slope[8] = slope[8] - W8_8 * z8_product - W7_8 * z7_product - W6_8 * z6_product - W5_8 * z5_product - W4_8
+            * z4_product - W3_8 * z3_product - W2_8 * z2_product - W1_8 * z1_product - W0_8 * z0_product;
+}
+
+/* The Riemannian gradient at some points, of the sums of slopes. */
+OUTLINE void pair_gradient_f(
+    const vector_f *x, const vector_f *slope, vector_f *gradient) {
+    (void)x;
+    const vector_f slope_x0 = slope[0];
+    const vector_f slope_x1 = slope[1];
+    const vector_f slope_x2 = slope[2];
+    const vector_f slope_x3 = slope[3];
+    const vector_f slope_x4 = slope[4];
+    const vector_f slope_x5 = slope[5];
+    const vector_f slope_x6 = slope[6];
+    const vector_f slope_x7 = slope[7];
+    const vector_f slope_x8 = slope[8];
+    gradient[0] = slope_x0;
+    gradient[1] = slope_x1;
+    gradient[2] = 4.0f * slope_x2;
+    gradient[3] = 16.0f * slope_x3;
+    gradient[4] = 16.0f * slope_x4;
+    gradient[5] = 16.0f * slope_x5;
+    gradient[6] = 16.0f * slope_x6;
+    gradient[7] = 16.0f * slope_x7;
+    gradient[8] = 16.0f * slope_x8;
+}
+
+/* The adjoint of slope at some points, of that of the gradient. */
+OUTLINE void pair_gradient_vjp_f(
+    const vector_f *x, const vector_f *gradient_bar, vector_f *slope_bar) {
+    (void)x;
+    const vector_f gradient_bar0 = gradient_bar[0];
+    const vector_f gradient_bar1 = gradient_bar[1];
+    const vector_f gradient_bar2 = gradient_bar[2];
+    const vector_f gradient_bar3 = gradient_bar[3];
+    const vector_f gradient_bar4 = gradient_bar[4];
+    const vector_f gradient_bar5 = gradient_bar[5];
+    const vector_f gradient_bar6 = gradient_bar[6];
+    const vector_f gradient_bar7 = gradient_bar[7];
+    const vector_f gradient_bar8 = gradient_bar[8];
+    slope_bar[0] = gradient_bar0;
+    slope_bar[1] = gradient_bar1;
+    slope_bar[2] = 4.0f * gradient_bar2;
+    slope_bar[3] = 16.0f * gradient_bar3;
+    slope_bar[4] = 16.0f * gradient_bar4;
+    slope_bar[5] = 16.0f * gradient_bar5;
+    slope_bar[6] = 16.0f * gradient_bar6;
+    slope_bar[7] = 16.0f * gradient_bar7;
+    slope_bar[8] = 16.0f * gradient_bar8;
+}
+
+/* The adjoints of some splats' parameters, of that of S. */
+OUTLINE void pair_constants_vjp_f(
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
+    (void)mu;
+    (void)W;
+    (void)amplitude;
+    const vector_f mu0_bar = S_bar[0];
+    const vector_f mu1_bar = S_bar[1];
+    const vector_f mu2_bar = S_bar[2];
+    const vector_f mu3_bar = S_bar[3];
+    const vector_f mu4_bar = S_bar[4];
+    const vector_f mu5_bar = S_bar[5];
+    const vector_f mu6_bar = S_bar[6];
+    const vector_f mu7_bar = S_bar[7];
+    const vector_f mu8_bar = S_bar[8];
+    const vector_f W0_0_bar = S_bar[9];
+    const vector_f W0_1_bar = S_bar[10];
+    const vector_f W0_2_bar = S_bar[11];
+    const vector_f W0_3_bar = S_bar[12];
+    const vector_f W0_4_bar = S_bar[13];
+    const vector_f W0_5_bar = S_bar[14];
+    const vector_f W0_6_bar = S_bar[15];
+    const vector_f W0_7_bar = S_bar[16];
+    const vector_f W0_8_bar = S_bar[17];
+    const vector_f W1_0_bar = S_bar[18];
+    const vector_f W1_1_bar = S_bar[19];
+    const vector_f W1_2_bar = S_bar[20];
+    const vector_f W1_3_bar = S_bar[21];
+    const vector_f W1_4_bar = S_bar[22];
+    const vector_f W1_5_bar = S_bar[23];
+    const vector_f W1_6_bar = S_bar[24];
+    const vector_f W1_7_bar = S_bar[25];
+    const vector_f W1_8_bar = S_bar[26];
+    const vector_f W2_0_bar = S_bar[27];
+    const vector_f W2_1_bar = S_bar[28];
+    const vector_f W2_2_bar = S_bar[29];
+    const vector_f W2_3_bar = S_bar[30];
+    const vector_f W2_4_bar = S_bar[31];
+    const vector_f W2_5_bar = S_bar[32];
+    const vector_f W2_6_bar = S_bar[33];
+    const vector_f W2_7_bar = S_bar[34];
+    const vector_f W2_8_bar = S_bar[35];
+    const vector_f W3_0_bar = S_bar[36];
+    const vector_f W3_1_bar = S_bar[37];
+    const vector_f W3_2_bar = S_bar[38];
+    const vector_f W3_3_bar = S_bar[39];
+    const vector_f W3_4_bar = S_bar[40];
+    const vector_f W3_5_bar = S_bar[41];
+    const vector_f W3_6_bar = S_bar[42];
+    const vector_f W3_7_bar = S_bar[43];
+    const vector_f W3_8_bar = S_bar[44];
+    const vector_f W4_0_bar = S_bar[45];
+    const vector_f W4_1_bar = S_bar[46];
+    const vector_f W4_2_bar = S_bar[47];
+    const vector_f W4_3_bar = S_bar[48];
+    const vector_f W4_4_bar = S_bar[49];
+    const vector_f W4_5_bar = S_bar[50];
+    const vector_f W4_6_bar = S_bar[51];
+    const vector_f W4_7_bar = S_bar[52];
+    const vector_f W4_8_bar = S_bar[53];
+    const vector_f W5_0_bar = S_bar[54];
+    const vector_f W5_1_bar = S_bar[55];
+    const vector_f W5_2_bar = S_bar[56];
+    const vector_f W5_3_bar = S_bar[57];
+    const vector_f W5_4_bar = S_bar[58];
+    const vector_f W5_5_bar = S_bar[59];
+    const vector_f W5_6_bar = S_bar[60];
+    const vector_f W5_7_bar = S_bar[61];
+    const vector_f W5_8_bar = S_bar[62];
+    const vector_f W6_0_bar = S_bar[63];
+    const vector_f W6_1_bar = S_bar[64];
+    const vector_f W6_2_bar = S_bar[65];
+    const vector_f W6_3_bar = S_bar[66];
+    const vector_f W6_4_bar = S_bar[67];
+    const vector_f W6_5_bar = S_bar[68];
+    const vector_f W6_6_bar = S_bar[69];
+    const vector_f W6_7_bar = S_bar[70];
+    const vector_f W6_8_bar = S_bar[71];
+    const vector_f W7_0_bar = S_bar[72];
+    const vector_f W7_1_bar = S_bar[73];
+    const vector_f W7_2_bar = S_bar[74];
+    const vector_f W7_3_bar = S_bar[75];
+    const vector_f W7_4_bar = S_bar[76];
+    const vector_f W7_5_bar = S_bar[77];
+    const vector_f W7_6_bar = S_bar[78];
+    const vector_f W7_7_bar = S_bar[79];
+    const vector_f W7_8_bar = S_bar[80];
+    const vector_f W8_0_bar = S_bar[81];
+    const vector_f W8_1_bar = S_bar[82];
+    const vector_f W8_2_bar = S_bar[83];
+    const vector_f W8_3_bar = S_bar[84];
+    const vector_f W8_4_bar = S_bar[85];
+    const vector_f W8_5_bar = S_bar[86];
+    const vector_f W8_6_bar = S_bar[87];
+    const vector_f W8_7_bar = S_bar[88];
+    const vector_f W8_8_bar = S_bar[89];
+    const vector_f its_amplitude_bar = S_bar[90];
+    mu_bar[0] = mu0_bar;
+    mu_bar[1] = mu1_bar;
+    mu_bar[2] = mu2_bar;
+    mu_bar[3] = mu3_bar;
+    mu_bar[4] = mu4_bar;
+    mu_bar[5] = mu5_bar;
+    mu_bar[6] = mu6_bar;
+    mu_bar[7] = mu7_bar;
+    mu_bar[8] = mu8_bar;
+    W_bar[0] = W0_0_bar;
+    W_bar[1] = W0_1_bar;
+    W_bar[2] = W0_2_bar;
+    W_bar[3] = W0_3_bar;
+    W_bar[4] = W0_4_bar;
+    W_bar[5] = W0_5_bar;
+    W_bar[6] = W0_6_bar;
+    W_bar[7] = W0_7_bar;
+    W_bar[8] = W0_8_bar;
+    W_bar[9] = W1_0_bar;
+    W_bar[10] = W1_1_bar;
+    W_bar[11] = W1_2_bar;
+    W_bar[12] = W1_3_bar;
+    W_bar[13] = W1_4_bar;
+    W_bar[14] = W1_5_bar;
+    W_bar[15] = W1_6_bar;
+    W_bar[16] = W1_7_bar;
+    W_bar[17] = W1_8_bar;
+    W_bar[18] = W2_0_bar;
+    W_bar[19] = W2_1_bar;
+    W_bar[20] = W2_2_bar;
+    W_bar[21] = W2_3_bar;
+    W_bar[22] = W2_4_bar;
+    W_bar[23] = W2_5_bar;
+    W_bar[24] = W2_6_bar;
+    W_bar[25] = W2_7_bar;
+    W_bar[26] = W2_8_bar;
+    W_bar[27] = W3_0_bar;
+    W_bar[28] = W3_1_bar;
+    W_bar[29] = W3_2_bar;
+    W_bar[30] = W3_3_bar;
+    W_bar[31] = W3_4_bar;
+    W_bar[32] = W3_5_bar;
+    W_bar[33] = W3_6_bar;
+    W_bar[34] = W3_7_bar;
+    W_bar[35] = W3_8_bar;
+    W_bar[36] = W4_0_bar;
+    W_bar[37] = W4_1_bar;
+    W_bar[38] = W4_2_bar;
+    W_bar[39] = W4_3_bar;
+    W_bar[40] = W4_4_bar;
+    W_bar[41] = W4_5_bar;
+    W_bar[42] = W4_6_bar;
+    W_bar[43] = W4_7_bar;
+    W_bar[44] = W4_8_bar;
+    W_bar[45] = W5_0_bar;
+    W_bar[46] = W5_1_bar;
+    W_bar[47] = W5_2_bar;
+    W_bar[48] = W5_3_bar;
+    W_bar[49] = W5_4_bar;
+    W_bar[50] = W5_5_bar;
+    W_bar[51] = W5_6_bar;
+    W_bar[52] = W5_7_bar;
+    W_bar[53] = W5_8_bar;
+    W_bar[54] = W6_0_bar;
+    W_bar[55] = W6_1_bar;
+    W_bar[56] = W6_2_bar;
+    W_bar[57] = W6_3_bar;
+    W_bar[58] = W6_4_bar;
+    W_bar[59] = W6_5_bar;
+    W_bar[60] = W6_6_bar;
+    W_bar[61] = W6_7_bar;
+    W_bar[62] = W6_8_bar;
+    W_bar[63] = W7_0_bar;
+    W_bar[64] = W7_1_bar;
+    W_bar[65] = W7_2_bar;
+    W_bar[66] = W7_3_bar;
+    W_bar[67] = W7_4_bar;
+    W_bar[68] = W7_5_bar;
+    W_bar[69] = W7_6_bar;
+    W_bar[70] = W7_7_bar;
+    W_bar[71] = W7_8_bar;
+    W_bar[72] = W8_0_bar;
+    W_bar[73] = W8_1_bar;
+    W_bar[74] = W8_2_bar;
+    W_bar[75] = W8_3_bar;
+    W_bar[76] = W8_4_bar;
+    W_bar[77] = W8_5_bar;
+    W_bar[78] = W8_6_bar;
+    W_bar[79] = W8_7_bar;
+    W_bar[80] = W8_8_bar;
+    amplitude_bar[0] = its_amplitude_bar;
+}
+
+/* The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar. */
+OUTLINE void pair_factors_f(
+    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *factor) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const vector_f x2 = X[2];
+    const vector_f x3 = X[3];
+    const vector_f x4 = X[4];
+    const vector_f x5 = X[5];
+    const vector_f x6 = X[6];
+    const vector_f x7 = X[7];
+    const vector_f x8 = X[8];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float mu2 = S[2];
+    const float mu3 = S[3];
+    const float mu4 = S[4];
+    const float mu5 = S[5];
+    const float mu6 = S[6];
+    const float mu7 = S[7];
+    const float mu8 = S[8];
+    const float W0_0 = S[9];
+    const float W0_1 = S[10];
+    const float W0_2 = S[11];
+    const float W0_3 = S[12];
+    const float W0_4 = S[13];
+    const float W0_5 = S[14];
+    const float W0_6 = S[15];
+    const float W0_7 = S[16];
+    const float W0_8 = S[17];
+    const float W1_0 = S[18];
+    const float W1_1 = S[19];
+    const float W1_2 = S[20];
+    const float W1_3 = S[21];
+    const float W1_4 = S[22];
+    const float W1_5 = S[23];
+    const float W1_6 = S[24];
+    const float W1_7 = S[25];
+    const float W1_8 = S[26];
+    const float W2_0 = S[27];
+    const float W2_1 = S[28];
+    const float W2_2 = S[29];
+    const float W2_3 = S[30];
+    const float W2_4 = S[31];
+    const float W2_5 = S[32];
+    const float W2_6 = S[33];
+    const float W2_7 = S[34];
+    const float W2_8 = S[35];
+    const float W3_0 = S[36];
+    const float W3_1 = S[37];
+    const float W3_2 = S[38];
+    const float W3_3 = S[39];
+    const float W3_4 = S[40];
+    const float W3_5 = S[41];
+    const float W3_6 = S[42];
+    const float W3_7 = S[43];
+    const float W3_8 = S[44];
+    const float W4_0 = S[45];
+    const float W4_1 = S[46];
+    const float W4_2 = S[47];
+    const float W4_3 = S[48];
+    const float W4_4 = S[49];
+    const float W4_5 = S[50];
+    const float W4_6 = S[51];
+    const float W4_7 = S[52];
+    const float W4_8 = S[53];
+    const float W5_0 = S[54];
+    const float W5_1 = S[55];
+    const float W5_2 = S[56];
+    const float W5_3 = S[57];
+    const float W5_4 = S[58];
+    const float W5_5 = S[59];
+    const float W5_6 = S[60];
+    const float W5_7 = S[61];
+    const float W5_8 = S[62];
+    const float W6_0 = S[63];
+    const float W6_1 = S[64];
+    const float W6_2 = S[65];
+    const float W6_3 = S[66];
+    const float W6_4 = S[67];
+    const float W6_5 = S[68];
+    const float W6_6 = S[69];
+    const float W6_7 = S[70];
+    const float W6_8 = S[71];
+    const float W7_0 = S[72];
+    const float W7_1 = S[73];
+    const float W7_2 = S[74];
+    const float W7_3 = S[75];
+    const float W7_4 = S[76];
+    const float W7_5 = S[77];
+    const float W7_6 = S[78];
+    const float W7_7 = S[79];
+    const float W7_8 = S[80];
+    const float W8_0 = S[81];
+    const float W8_1 = S[82];
+    const float W8_2 = S[83];
+    const float W8_3 = S[84];
+    const float W8_4 = S[85];
+    const float W8_5 = S[86];
+    const float W8_6 = S[87];
+    const float W8_7 = S[88];
+    const float W8_8 = S[89];
+    const float amplitude = S[90];
+    const vector_f its_value_bar = value_bar[0];
+    const vector_f x0_bar = slope_bar[0];
+    const vector_f x1_bar = slope_bar[1];
+    const vector_f x2_bar = slope_bar[2];
+    const vector_f x3_bar = slope_bar[3];
+    const vector_f x4_bar = slope_bar[4];
+    const vector_f x5_bar = slope_bar[5];
+    const vector_f x6_bar = slope_bar[6];
+    const vector_f x7_bar = slope_bar[7];
+    const vector_f x8_bar = slope_bar[8];
+    const vector_f v0 = x0 - mu0;
+    const vector_f v1 = x1 - mu1;
+    const vector_f gap = x2 - mu2;
+    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
+    const vector_f v2 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
+        round_2;
+    const vector_f gap_2 = x3 - mu3;
+    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
+    const vector_f v3 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
+        * round_3;
+    const vector_f gap_3 = x4 - mu4;
+    const vector_f round_4 = vector_round_f(0.15915494309189535f * gap_3);
+    const vector_f v4 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f
+        * round_4;
+    const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+    const vector_f gap_4 = x5 - mu5;
+    const vector_f round_5 = vector_round_f(0.15915494309189535f * gap_4);
+    const vector_f v5 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f
+        * round_5;
+    const vector_f gap_5 = x6 - mu6;
+    const vector_f round_6 = vector_round_f(0.15915494309189535f * gap_5);
+    const vector_f v6 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f
+        * round_6;
+    const vector_f gap_6 = x7 - mu7;
+    const vector_f round_7 = vector_round_f(0.15915494309189535f * gap_6);
+    const vector_f v7 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f
+        * round_7;
+    const vector_f gap_7 = x8 - mu8;
+    const vector_f round_8 = vector_round_f(0.15915494309189535f * gap_7);
+    const vector_f v8 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f
+        * round_8;
+    const vector_f z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+    const vector_f total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+    const vector_f z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+    const vector_f total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+    const vector_f z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+    const vector_f total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+    const vector_f z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+    const vector_f total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+    const vector_f z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+    const vector_f total_7 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+    const vector_f total_8 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+    const vector_f z5 = total_8 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+    const vector_f total_9 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+    const vector_f z6 = total_9 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+    const vector_f total_10 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+    const vector_f z7 = total_10 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+    const vector_f total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+    const vector_f z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+    const vector_f total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+    const vector_f exp_2 = vector_exp_f(-0.5f * total_12);
+    const vector_f phi = amplitude * exp_2;
+    const vector_f gap_8 = -(W8_0 * x0_bar) - W8_1 * x1_bar - W8_2 * x2_bar - W8_3 * x3_bar;
+    const vector_f gap_9 = gap_8 - W8_4 * x4_bar - W8_5 * x5_bar - W8_6 * x6_bar - W8_7 * x7_bar;
+    const vector_f gap_10 = gap_9 - W8_8 * x8_bar;
+    const vector_f gap_11 = -(W0_0 * x0_bar) - W0_1 * x1_bar - W0_2 * x2_bar - W0_3 * x3_bar;
+    const vector_f gap_12 = gap_11 - W0_4 * x4_bar - W0_5 * x5_bar - W0_6 * x6_bar - W0_7 * x7_bar;
+    const vector_f gap_13 = gap_12 - W0_8 * x8_bar;
+    const vector_f gap_14 = -(W1_0 * x0_bar) - W1_1 * x1_bar - W1_2 * x2_bar - W1_3 * x3_bar;
+    const vector_f gap_15 = gap_14 - W1_4 * x4_bar - W1_5 * x5_bar - W1_6 * x6_bar - W1_7 * x7_bar;
+    const vector_f gap_16 = gap_15 - W1_8 * x8_bar;
+    const vector_f gap_17 = -(W2_0 * x0_bar) - W2_1 * x1_bar - W2_2 * x2_bar - W2_3 * x3_bar;
+    const vector_f gap_18 = gap_17 - W2_4 * x4_bar - W2_5 * x5_bar - W2_6 * x6_bar - W2_7 * x7_bar;
+    const vector_f gap_19 = gap_18 - W2_8 * x8_bar;
+    const vector_f gap_20 = -(W3_0 * x0_bar) - W3_1 * x1_bar - W3_2 * x2_bar - W3_3 * x3_bar;
+    const vector_f gap_21 = gap_20 - W3_4 * x4_bar - W3_5 * x5_bar - W3_6 * x6_bar - W3_7 * x7_bar;
+    const vector_f gap_22 = gap_21 - W3_8 * x8_bar;
+    const vector_f total_13 = its_value_bar + z0 * gap_13 + z1 * gap_16 + z2 * gap_19 + z3 * gap_22;
+    const vector_f gap_23 = -(W4_0 * x0_bar) - W4_1 * x1_bar - W4_2 * x2_bar - W4_3 * x3_bar;
+    const vector_f gap_24 = gap_23 - W4_4 * x4_bar - W4_5 * x5_bar - W4_6 * x6_bar - W4_7 * x7_bar;
+    const vector_f gap_25 = gap_24 - W4_8 * x8_bar;
+    const vector_f gap_26 = -(W5_0 * x0_bar) - W5_1 * x1_bar - W5_2 * x2_bar - W5_3 * x3_bar;
+    const vector_f gap_27 = gap_26 - W5_4 * x4_bar - W5_5 * x5_bar - W5_6 * x6_bar - W5_7 * x7_bar;
+    const vector_f gap_28 = gap_27 - W5_8 * x8_bar;
+    const vector_f gap_29 = -(W6_0 * x0_bar) - W6_1 * x1_bar - W6_2 * x2_bar - W6_3 * x3_bar;
+    const vector_f gap_30 = gap_29 - W6_4 * x4_bar - W6_5 * x5_bar - W6_6 * x6_bar - W6_7 * x7_bar;
+    const vector_f gap_31 = gap_30 - W6_8 * x8_bar;
+    const vector_f gap_32 = -(W7_0 * x0_bar) - W7_1 * x1_bar - W7_2 * x2_bar - W7_3 * x3_bar;
+    const vector_f gap_33 = gap_32 - W7_4 * x4_bar - W7_5 * x5_bar - W7_6 * x6_bar - W7_7 * x7_bar;
+    const vector_f gap_34 = gap_33 - W7_8 * x8_bar;
+    const vector_f total_14 = total_13 + z4 * gap_25 + z5 * gap_28 + z6 * gap_31 + z7 * gap_34;
+    const vector_f by_phi = total_14 + z8 * gap_10;
+    const vector_f product = exp_2 * (amplitude * by_phi);
+    const vector_f by_z8 = phi * gap_10 - z8 * product;
+    const vector_f by_z7 = phi * gap_34 - z7 * product;
+    const vector_f by_z6 = phi * gap_31 - z6 * product;
+    const vector_f by_z5 = phi * gap_28 - z5 * product;
+    const vector_f by_z4 = phi * gap_25 - z4 * product;
+    const vector_f total_15 = W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5 + W4_0 * by_z4;
+    const vector_f by_z3 = phi * gap_22 - z3 * product;
+    const vector_f by_z2 = phi * gap_19 - z2 * product;
+    const vector_f by_z1 = phi * gap_16 - z1 * product;
+    const vector_f by_z0 = phi * gap_13 - z0 * product;
+    const vector_f by_v0 = total_15 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0;
+    const vector_f total_16 = W8_1 * by_z8 + W7_1 * by_z7 + W6_1 * by_z6 + W5_1 * by_z5 + W4_1 * by_z4;
+    const vector_f by_v1 = total_16 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
+    const vector_f total_17 = W8_2 * by_z8 + W7_2 * by_z7 + W6_2 * by_z6 + W5_2 * by_z5 + W4_2 * by_z4;
+    const vector_f by_v2 = total_17 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0;
+    const vector_f total_18 = W8_3 * by_z8 + W7_3 * by_z7 + W6_3 * by_z6 + W5_3 * by_z5 + W4_3 * by_z4;
+    const vector_f by_v3 = total_18 + W3_3 * by_z3 + W2_3 * by_z2 + W1_3 * by_z1 + W0_3 * by_z0;
+    const vector_f total_19 = W8_4 * by_z8 + W7_4 * by_z7 + W6_4 * by_z6 + W5_4 * by_z5 + W4_4 * by_z4;
+    const vector_f by_v4 = total_19 + W3_4 * by_z3 + W2_4 * by_z2 + W1_4 * by_z1 + W0_4 * by_z0;
+    const vector_f total_20 = W8_5 * by_z8 + W7_5 * by_z7 + W6_5 * by_z6 + W5_5 * by_z5 + W4_5 * by_z4;
+    const vector_f by_v5 = total_20 + W3_5 * by_z3 + W2_5 * by_z2 + W1_5 * by_z1 + W0_5 * by_z0;
+    const vector_f total_21 = W8_6 * by_z8 + W7_6 * by_z7 + W6_6 * by_z6 + W5_6 * by_z5 + W4_6 * by_z4;
+    const vector_f by_v6 = total_21 + W3_6 * by_z3 + W2_6 * by_z2 + W1_6 * by_z1 + W0_6 * by_z0;
+    const vector_f total_22 = W8_7 * by_z8 + W7_7 * by_z7 + W6_7 * by_z6 + W5_7 * by_z5 + W4_7 * by_z4;
+    const vector_f by_v7 = total_22 + W3_7 * by_z3 + W2_7 * by_z2 + W1_7 * by_z1 + W0_7 * by_z0;
+    const vector_f total_23 = W8_8 * by_z8 + W7_8 * by_z7 + W6_8 * by_z6 + W5_8 * by_z5 + W4_8 * by_z4;
+    const vector_f by_v8 = total_23 + W3_8 * by_z3 + W2_8 * by_z2 + W1_8 * by_z1 + W0_8 * by_z0;
+    const vector_f z0_product = z0 * phi;
+    const vector_f z1_product = z1 * phi;
+    const vector_f z2_product = z2 * phi;
+    const vector_f z3_product = z3 * phi;
+    const vector_f z4_product = z4 * phi;
+    const vector_f z5_product = z5 * phi;
+    const vector_f z6_product = z6 * phi;
+    const vector_f z7_product = z7 * phi;
+    const vector_f z8_product = z8 * phi;
+    factor[0] = v0;
+    factor[1] = v1;
+    factor[2] = v2;
+    factor[3] = v3;
+    factor[4] = v4;
+    factor[5] = v5;
+    factor[6] = v6;
+    factor[7] = v7;
+    factor[8] = v8;
+    factor[9] = by_z8;
+    factor[10] = by_z7;
+    factor[11] = by_z6;
+    factor[12] = by_z5;
+    factor[13] = by_z4;
+    factor[14] = by_z3;
+    factor[15] = by_z2;
+    factor[16] = by_z1;
+    factor[17] = by_z0;
+    factor[18] = -by_v0;
+    factor[19] = -by_v1;
+    factor[20] = -by_v2;
+    factor[21] = -by_v3;
+    factor[22] = -by_v4;
+    factor[23] = -by_v5;
+    factor[24] = -by_v6;
+    factor[25] = -by_v7;
+    factor[26] = -by_v8;
+    factor[27] = z0_product;
+    factor[28] = z1_product;
+    factor[29] = z2_product;
+    factor[30] = z3_product;
+    factor[31] = z4_product;
+    factor[32] = z5_product;
+    factor[33] = z6_product;
+    factor[34] = z7_product;
+    factor[35] = z8_product;
+    factor[36] = exp_2 * by_phi;
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_0_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[18];
+    sum[1] = sum[1] + factor[19];
+    sum[2] = sum[2] + factor[20];
+    sum[3] = sum[3] + factor[21];
+    sum[4] = sum[4] + factor[22];
+    sum[5] = sum[5] + factor[23];
+    sum[6] = sum[6] + factor[24];
+    sum[7] = sum[7] + factor[25];
+    sum[8] = sum[8] + factor[26];
+    sum[9] = sum[9] + factor[36];
+    sum[10] = sum[10] + factor[0] * factor[17] - factor[27] * point[10];
+    sum[11] = sum[11] + factor[1] * factor[17] - factor[27] * point[11];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_1_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[17] - factor[27] * point[12];
+    sum[1] = sum[1] + factor[3] * factor[17] - factor[27] * point[13];
+    sum[2] = sum[2] + factor[4] * factor[17] - factor[27] * point[14];
+    sum[3] = sum[3] + factor[5] * factor[17] - factor[27] * point[15];
+    sum[4] = sum[4] + factor[6] * factor[17] - factor[27] * point[16];
+    sum[5] = sum[5] + factor[7] * factor[17] - factor[27] * point[17];
+    sum[6] = sum[6] + factor[8] * factor[17] - factor[27] * point[18];
+    sum[7] = sum[7] + factor[2] * factor[16] - factor[28] * point[12];
+    sum[8] = sum[8] + factor[3] * factor[16] - factor[28] * point[13];
+    sum[9] = sum[9] + factor[4] * factor[16] - factor[28] * point[14];
+    sum[10] = sum[10] + factor[5] * factor[16] - factor[28] * point[15];
+    sum[11] = sum[11] + factor[6] * factor[16] - factor[28] * point[16];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_2_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[16] - factor[28] * point[10];
+    sum[1] = sum[1] + factor[1] * factor[16] - factor[28] * point[11];
+    sum[2] = sum[2] + factor[7] * factor[16] - factor[28] * point[17];
+    sum[3] = sum[3] + factor[8] * factor[16] - factor[28] * point[18];
+    sum[4] = sum[4] + factor[0] * factor[15] - factor[29] * point[10];
+    sum[5] = sum[5] + factor[1] * factor[15] - factor[29] * point[11];
+    sum[6] = sum[6] + factor[7] * factor[15] - factor[29] * point[17];
+    sum[7] = sum[7] + factor[8] * factor[15] - factor[29] * point[18];
+    sum[8] = sum[8] + factor[2] * factor[15] - factor[29] * point[12];
+    sum[9] = sum[9] + factor[3] * factor[15] - factor[29] * point[13];
+    sum[10] = sum[10] + factor[4] * factor[15] - factor[29] * point[14];
+    sum[11] = sum[11] + factor[5] * factor[15] - factor[29] * point[15];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_3_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[6] * factor[15] - factor[29] * point[16];
+    sum[1] = sum[1] + factor[6] * factor[14] - factor[30] * point[16];
+    sum[2] = sum[2] + factor[0] * factor[14] - factor[30] * point[10];
+    sum[3] = sum[3] + factor[1] * factor[14] - factor[30] * point[11];
+    sum[4] = sum[4] + factor[2] * factor[14] - factor[30] * point[12];
+    sum[5] = sum[5] + factor[3] * factor[14] - factor[30] * point[13];
+    sum[6] = sum[6] + factor[4] * factor[14] - factor[30] * point[14];
+    sum[7] = sum[7] + factor[5] * factor[14] - factor[30] * point[15];
+    sum[8] = sum[8] + factor[7] * factor[14] - factor[30] * point[17];
+    sum[9] = sum[9] + factor[8] * factor[14] - factor[30] * point[18];
+    sum[10] = sum[10] + factor[0] * factor[13] - factor[31] * point[10];
+    sum[11] = sum[11] + factor[1] * factor[13] - factor[31] * point[11];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_4_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[13] - factor[31] * point[12];
+    sum[1] = sum[1] + factor[3] * factor[13] - factor[31] * point[13];
+    sum[2] = sum[2] + factor[4] * factor[13] - factor[31] * point[14];
+    sum[3] = sum[3] + factor[5] * factor[13] - factor[31] * point[15];
+    sum[4] = sum[4] + factor[6] * factor[13] - factor[31] * point[16];
+    sum[5] = sum[5] + factor[7] * factor[13] - factor[31] * point[17];
+    sum[6] = sum[6] + factor[8] * factor[13] - factor[31] * point[18];
+    sum[7] = sum[7] + factor[2] * factor[12] - factor[32] * point[12];
+    sum[8] = sum[8] + factor[3] * factor[12] - factor[32] * point[13];
+    sum[9] = sum[9] + factor[4] * factor[12] - factor[32] * point[14];
+    sum[10] = sum[10] + factor[5] * factor[12] - factor[32] * point[15];
+    sum[11] = sum[11] + factor[6] * factor[12] - factor[32] * point[16];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_5_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[12] - factor[32] * point[10];
+    sum[1] = sum[1] + factor[1] * factor[12] - factor[32] * point[11];
+    sum[2] = sum[2] + factor[7] * factor[12] - factor[32] * point[17];
+    sum[3] = sum[3] + factor[8] * factor[12] - factor[32] * point[18];
+    sum[4] = sum[4] + factor[0] * factor[11] - factor[33] * point[10];
+    sum[5] = sum[5] + factor[1] * factor[11] - factor[33] * point[11];
+    sum[6] = sum[6] + factor[7] * factor[11] - factor[33] * point[17];
+    sum[7] = sum[7] + factor[8] * factor[11] - factor[33] * point[18];
+    sum[8] = sum[8] + factor[2] * factor[11] - factor[33] * point[12];
+    sum[9] = sum[9] + factor[3] * factor[11] - factor[33] * point[13];
+    sum[10] = sum[10] + factor[4] * factor[11] - factor[33] * point[14];
+    sum[11] = sum[11] + factor[5] * factor[11] - factor[33] * point[15];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_6_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[6] * factor[11] - factor[33] * point[16];
+    sum[1] = sum[1] + factor[6] * factor[10] - factor[34] * point[16];
+    sum[2] = sum[2] + factor[0] * factor[10] - factor[34] * point[10];
+    sum[3] = sum[3] + factor[1] * factor[10] - factor[34] * point[11];
+    sum[4] = sum[4] + factor[2] * factor[10] - factor[34] * point[12];
+    sum[5] = sum[5] + factor[3] * factor[10] - factor[34] * point[13];
+    sum[6] = sum[6] + factor[4] * factor[10] - factor[34] * point[14];
+    sum[7] = sum[7] + factor[5] * factor[10] - factor[34] * point[15];
+    sum[8] = sum[8] + factor[7] * factor[10] - factor[34] * point[17];
+    sum[9] = sum[9] + factor[8] * factor[10] - factor[34] * point[18];
+    sum[10] = sum[10] + factor[0] * factor[9] - factor[35] * point[10];
+    sum[11] = sum[11] + factor[1] * factor[9] - factor[35] * point[11];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_7_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[9] - factor[35] * point[12];
+    sum[1] = sum[1] + factor[3] * factor[9] - factor[35] * point[13];
+    sum[2] = sum[2] + factor[4] * factor[9] - factor[35] * point[14];
+    sum[3] = sum[3] + factor[5] * factor[9] - factor[35] * point[15];
+    sum[4] = sum[4] + factor[6] * factor[9] - factor[35] * point[16];
+    sum[5] = sum[5] + factor[7] * factor[9] - factor[35] * point[17];
+    sum[6] = sum[6] + factor[8] * factor[9] - factor[35] * point[18];
+}
+
+/* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
+OUTLINE void vector_rows_f(const float *rows, size_t count, size_t start, size_t size, vector_f *columns) {
+    for (size_t i = 0; i < size; ++i) {
+        float column[LANES_f];
+        for (size_t lane = 0; lane < LANES_f; ++lane)
+            column[lane] = rows[size * (start + lane < count ? start + lane : count - 1) + i];
+        columns[i] = vector_load_f(column);
+    }
+}
+
+/* Back to rows that are `stride` apart; nothing past the end. */
+OUTLINE void vector_to_rows_f(
+    const vector_f *columns, float *rows, size_t count, size_t start, size_t size, size_t stride) {
+    const size_t lanes = start >= count ? 0 : count - start < LANES_f ? count - start : LANES_f;
+    for (size_t lane = 0; lane < lanes; ++lane)
+        for (size_t i = 0; i < size; ++i) rows[stride * (start + lane) + i] = LANE(columns[i], lane);
+}
+
+/* Zero in the lanes past the end. */
+OUTLINE void vector_end_f(size_t count, size_t start, size_t size, vector_f *columns) {
+    for (size_t lane = start >= count ? 0 : count - start; lane < LANES_f; ++lane)
+        for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
+}
+
+/* Scratch memory: 19 vectors for each block of points, then the constants of the splats. */
+size_t mobile_manipulator_splats_work_f(size_t count, size_t splat_count, int threads) {
+    (void)threads;
+    return ((count + LANES_f - 1) / LANES_f * 19 + 1) * LANES_f + 91 * splat_count;
+}
+
+static vector_f *work_points_f(float *work) {
+    const uintptr_t size = sizeof(vector_f), start = (uintptr_t)work;
+    return (vector_f *)((char *)work + ((0 - start) & (size - 1)));
+}
+
+static float *work_constants_f(float *work, size_t count) {
+    return (float *)(work_points_f(work) + (count + LANES_f - 1) / LANES_f * 19);
+}
+
+/* The constants of LANES splats, as rows. */
+OUTLINE void splat_constants_f(
+    size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, float *constants) {
+    vector_f own_mu[9], own_W[81], own_amplitude[1], S[91];
+    vector_rows_f(mu, splat_count, start, 9, own_mu);
+    vector_rows_f(W, splat_count, start, 81, own_W);
+    vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
+    pair_constants_f(own_mu, own_W, own_amplitude, S);
+    vector_to_rows_f(S, constants, splat_count, start, 91, 91);
+}
+
+/* 2 vectors of points at a time stay in registers while all splats pass. */
 void mobile_manipulator_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *MOBILE_MANIPULATOR_RESTRICT x,
-    const float *MOBILE_MANIPULATOR_RESTRICT mu,
-    const float *MOBILE_MANIPULATOR_RESTRICT W,
-    const float *MOBILE_MANIPULATOR_RESTRICT amplitude,
-    float *MOBILE_MANIPULATOR_RESTRICT value,
-    float *MOBILE_MANIPULATOR_RESTRICT gradient) {
-    const unsigned mode = flush_denormals();
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        float x_block[9][LANES], sum[10][LANES] = {{0}};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            for (size_t i = 0; i < 9; ++i) x_block[i][lane] = x[9 * n + i];
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            const float mu0 = mu[9 * k + 0];
-            const float mu1 = mu[9 * k + 1];
-            const float mu2 = mu[9 * k + 2];
-            const float mu3 = mu[9 * k + 3];
-            const float mu4 = mu[9 * k + 4];
-            const float mu5 = mu[9 * k + 5];
-            const float mu6 = mu[9 * k + 6];
-            const float mu7 = mu[9 * k + 7];
-            const float mu8 = mu[9 * k + 8];
-            const float W0_0 = W[81 * k + 0];
-            const float W0_1 = W[81 * k + 1];
-            const float W0_2 = W[81 * k + 2];
-            const float W0_3 = W[81 * k + 3];
-            const float W0_4 = W[81 * k + 4];
-            const float W0_5 = W[81 * k + 5];
-            const float W0_6 = W[81 * k + 6];
-            const float W0_7 = W[81 * k + 7];
-            const float W0_8 = W[81 * k + 8];
-            const float W1_0 = W[81 * k + 9];
-            const float W1_1 = W[81 * k + 10];
-            const float W1_2 = W[81 * k + 11];
-            const float W1_3 = W[81 * k + 12];
-            const float W1_4 = W[81 * k + 13];
-            const float W1_5 = W[81 * k + 14];
-            const float W1_6 = W[81 * k + 15];
-            const float W1_7 = W[81 * k + 16];
-            const float W1_8 = W[81 * k + 17];
-            const float W2_0 = W[81 * k + 18];
-            const float W2_1 = W[81 * k + 19];
-            const float W2_2 = W[81 * k + 20];
-            const float W2_3 = W[81 * k + 21];
-            const float W2_4 = W[81 * k + 22];
-            const float W2_5 = W[81 * k + 23];
-            const float W2_6 = W[81 * k + 24];
-            const float W2_7 = W[81 * k + 25];
-            const float W2_8 = W[81 * k + 26];
-            const float W3_0 = W[81 * k + 27];
-            const float W3_1 = W[81 * k + 28];
-            const float W3_2 = W[81 * k + 29];
-            const float W3_3 = W[81 * k + 30];
-            const float W3_4 = W[81 * k + 31];
-            const float W3_5 = W[81 * k + 32];
-            const float W3_6 = W[81 * k + 33];
-            const float W3_7 = W[81 * k + 34];
-            const float W3_8 = W[81 * k + 35];
-            const float W4_0 = W[81 * k + 36];
-            const float W4_1 = W[81 * k + 37];
-            const float W4_2 = W[81 * k + 38];
-            const float W4_3 = W[81 * k + 39];
-            const float W4_4 = W[81 * k + 40];
-            const float W4_5 = W[81 * k + 41];
-            const float W4_6 = W[81 * k + 42];
-            const float W4_7 = W[81 * k + 43];
-            const float W4_8 = W[81 * k + 44];
-            const float W5_0 = W[81 * k + 45];
-            const float W5_1 = W[81 * k + 46];
-            const float W5_2 = W[81 * k + 47];
-            const float W5_3 = W[81 * k + 48];
-            const float W5_4 = W[81 * k + 49];
-            const float W5_5 = W[81 * k + 50];
-            const float W5_6 = W[81 * k + 51];
-            const float W5_7 = W[81 * k + 52];
-            const float W5_8 = W[81 * k + 53];
-            const float W6_0 = W[81 * k + 54];
-            const float W6_1 = W[81 * k + 55];
-            const float W6_2 = W[81 * k + 56];
-            const float W6_3 = W[81 * k + 57];
-            const float W6_4 = W[81 * k + 58];
-            const float W6_5 = W[81 * k + 59];
-            const float W6_6 = W[81 * k + 60];
-            const float W6_7 = W[81 * k + 61];
-            const float W6_8 = W[81 * k + 62];
-            const float W7_0 = W[81 * k + 63];
-            const float W7_1 = W[81 * k + 64];
-            const float W7_2 = W[81 * k + 65];
-            const float W7_3 = W[81 * k + 66];
-            const float W7_4 = W[81 * k + 67];
-            const float W7_5 = W[81 * k + 68];
-            const float W7_6 = W[81 * k + 69];
-            const float W7_7 = W[81 * k + 70];
-            const float W7_8 = W[81 * k + 71];
-            const float W8_0 = W[81 * k + 72];
-            const float W8_1 = W[81 * k + 73];
-            const float W8_2 = W[81 * k + 74];
-            const float W8_3 = W[81 * k + 75];
-            const float W8_4 = W[81 * k + 76];
-            const float W8_5 = W[81 * k + 77];
-            const float W8_6 = W[81 * k + 78];
-            const float W8_7 = W[81 * k + 79];
-            const float W8_8 = W[81 * k + 80];
-            const float amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const float v0 = x_block[0][lane] - mu0;
-                const float v1 = x_block[1][lane] - mu1;
-                const float gap = x_block[2][lane] - mu2;
-                const float round_2 = rintf(0.15915494309189535f * gap);
-                const float v2 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-                    round_2;
-                const float gap_2 = x_block[3][lane] - mu3;
-                const float round_3 = rintf(0.15915494309189535f * gap_2);
-                const float v3 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f *
-                    round_3;
-                const float gap_3 = x_block[4][lane] - mu4;
-                const float round_4 = rintf(0.15915494309189535f * gap_3);
-                const float v4 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f *
-                    round_4;
-                const float gap_4 = x_block[5][lane] - mu5;
-                const float round_5 = rintf(0.15915494309189535f * gap_4);
-                const float v5 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f *
-                    round_5;
-                const float gap_5 = x_block[6][lane] - mu6;
-                const float round_6 = rintf(0.15915494309189535f * gap_5);
-                const float v6 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f *
-                    round_6;
-                const float gap_6 = x_block[7][lane] - mu7;
-                const float round_7 = rintf(0.15915494309189535f * gap_6);
-                const float v7 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f *
-                    round_7;
-                const float gap_7 = x_block[8][lane] - mu8;
-                const float round_8 = rintf(0.15915494309189535f * gap_7);
-                const float v8 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f *
-                    round_8;
-                const float total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-                const float z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
-                const float total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-                const float z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
-                const float total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-                const float z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
-                const float total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-                const float z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
-                const float total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-                const float z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
-                const float total_7 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-                const float z5 = total_7 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
-                const float total_8 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
-                const float z6 = total_8 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
-                const float total_9 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
-                const float z7 = total_9 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
-                const float total_10 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
-                const float z8 = total_10 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
-                const float total_11 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-                const float total_12 = total_11 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-                const float phi = amplitude_k * expf(-(0.5f * total_12));
-                const float gap_8 = -(W8_8 * z8) - W7_8 * z7 - W6_8 * z6 - W5_8 * z5;
-                const float gap_9 = -(W8_7 * z8) - W7_7 * z7 - W6_7 * z6 - W5_7 * z5;
-                const float gap_10 = -(W8_6 * z8) - W7_6 * z7 - W6_6 * z6 - W5_6 * z5;
-                const float gap_11 = -(W8_5 * z8) - W7_5 * z7 - W6_5 * z6 - W5_5 * z5;
-                const float gap_12 = -(W8_4 * z8) - W7_4 * z7 - W6_4 * z6 - W5_4 * z5;
-                const float gap_13 = -(W8_3 * z8) - W7_3 * z7 - W6_3 * z6 - W5_3 * z5;
-                const float gap_14 = -(W8_2 * z8) - W7_2 * z7 - W6_2 * z6 - W5_2 * z5;
-                const float gap_15 = -(W8_1 * z8) - W7_1 * z7 - W6_1 * z6 - W5_1 * z5;
-                const float gap_16 = -(W8_0 * z8) - W7_0 * z7 - W6_0 * z6 - W5_0 * z5;
-                const float gap_17 = gap_8 - W4_8 * z4 - W3_8 * z3 - W2_8 * z2 - W1_8 * z1;
-                const float gap_18 = gap_9 - W4_7 * z4 - W3_7 * z3 - W2_7 * z2 - W1_7 * z1;
-                const float gap_19 = gap_10 - W4_6 * z4 - W3_6 * z3 - W2_6 * z2 - W1_6 * z1;
-                const float gap_20 = gap_11 - W4_5 * z4 - W3_5 * z3 - W2_5 * z2 - W1_5 * z1;
-                const float gap_21 = gap_12 - W4_4 * z4 - W3_4 * z3 - W2_4 * z2 - W1_4 * z1;
-                const float gap_22 = gap_13 - W4_3 * z4 - W3_3 * z3 - W2_3 * z2 - W1_3 * z1;
-                const float gap_23 = gap_14 - W4_2 * z4 - W3_2 * z3 - W2_2 * z2 - W1_2 * z1;
-                const float gap_24 = gap_15 - W4_1 * z4 - W3_1 * z3 - W2_1 * z2 - W1_1 * z1;
-                const float gap_25 = gap_16 - W4_0 * z4 - W3_0 * z3 - W2_0 * z2 - W1_0 * z1;
-                const float by_v8 = gap_17 - W0_8 * z0;
-                const float by_v7 = gap_18 - W0_7 * z0;
-                const float by_v6 = gap_19 - W0_6 * z0;
-                const float by_v5 = gap_20 - W0_5 * z0;
-                const float by_v4 = gap_21 - W0_4 * z0;
-                const float by_v3 = gap_22 - W0_3 * z0;
-                const float by_v2 = gap_23 - W0_2 * z0;
-                const float by_v1 = gap_24 - W0_1 * z0;
-                const float by_v0 = gap_25 - W0_0 * z0;
-                const float df0 = phi * by_v0;
-                const float df1 = phi * by_v1;
-                const float df2 = phi * by_v2;
-                const float df3 = phi * by_v3;
-                const float df4 = phi * by_v4;
-                const float df5 = phi * by_v5;
-                const float df6 = phi * by_v6;
-                const float df7 = phi * by_v7;
-                const float df8 = phi * by_v8;
-                const float gradient2 = 4.0f * df2;
-                const float gradient3 = 16.0f * df3;
-                const float gradient4 = 16.0f * df4;
-                const float gradient5 = 16.0f * df5;
-                const float gradient6 = 16.0f * df6;
-                const float gradient7 = 16.0f * df7;
-                const float gradient8 = 16.0f * df8;
-                sum[0][lane] += phi;
-                sum[1][lane] += df0;
-                sum[2][lane] += df1;
-                sum[3][lane] += gradient2;
-                sum[4][lane] += gradient3;
-                sum[5][lane] += gradient4;
-                sum[6][lane] += gradient5;
-                sum[7][lane] += gradient6;
-                sum[8][lane] += gradient7;
-                sum[9][lane] += gradient8;
+    size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT W, const float *MOBILE_MANIPULATOR_RESTRICT amplitude,
+    float *MOBILE_MANIPULATOR_RESTRICT value, float *MOBILE_MANIPULATOR_RESTRICT gradient, float *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
+    (void)threads;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES_f) {
+            vector_f at[2][9], X[2][9], grad[9];
+            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][9] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows_f(x, count, start + b * LANES_f, 9, at[b]);
+                pair_features_f(at[b], X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_forward_f(X[0], constants + 91 * k, value_sum[0], slope_sum[0]);
+                pair_forward_f(X[1], constants + 91 * k, value_sum[1], slope_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b) {
+                pair_gradient_f(at[b], slope_sum[b], grad);
+                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                vector_to_rows_f(grad, gradient, count, start + b * LANES_f, 9, 9);
             }
         }
-        for (size_t lane = 0; lane < lanes; ++lane) {
-            value[start + lane] = sum[0][lane];
-            for (size_t i = 0; i < 9; ++i) gradient[9 * (start + lane) + i] = sum[i + 1][lane];
-        }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
-void mobile_manipulator_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *MOBILE_MANIPULATOR_RESTRICT x,
-    const float *MOBILE_MANIPULATOR_RESTRICT mu,
-    const float *MOBILE_MANIPULATOR_RESTRICT W,
-    const float *MOBILE_MANIPULATOR_RESTRICT amplitude,
-    const float *MOBILE_MANIPULATOR_RESTRICT value_bar,
-    const float *MOBILE_MANIPULATOR_RESTRICT gradient_bar,
-    float *MOBILE_MANIPULATOR_RESTRICT mu_bar,
-    float *MOBILE_MANIPULATOR_RESTRICT W_bar,
-    float *MOBILE_MANIPULATOR_RESTRICT amplitude_bar) {
-    const unsigned mode = flush_denormals();
-    for (size_t i = 0; i < 9 * splat_count; ++i) mu_bar[i] = 0;
-    for (size_t i = 0; i < 81 * splat_count; ++i) W_bar[i] = 0;
-    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        float x_block[9][LANES], value_bar_block[1][LANES], gradient_bar_block[9][LANES];
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            const float weight = lane < lanes ? 1 : 0;
-            for (size_t i = 0; i < 9; ++i) x_block[i][lane] = x[9 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
-            for (size_t i = 0; i < 9; ++i) gradient_bar_block[i][lane] = gradient_bar[9 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
-            for (size_t i = 0; i < 9; ++i) gradient_bar_block[i][lane] *= weight;
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            float sum[91][LANES] = {{0}}, total[91] = {0};
-            const float mu0 = mu[9 * k + 0];
-            const float mu1 = mu[9 * k + 1];
-            const float mu2 = mu[9 * k + 2];
-            const float mu3 = mu[9 * k + 3];
-            const float mu4 = mu[9 * k + 4];
-            const float mu5 = mu[9 * k + 5];
-            const float mu6 = mu[9 * k + 6];
-            const float mu7 = mu[9 * k + 7];
-            const float mu8 = mu[9 * k + 8];
-            const float W0_0 = W[81 * k + 0];
-            const float W0_1 = W[81 * k + 1];
-            const float W0_2 = W[81 * k + 2];
-            const float W0_3 = W[81 * k + 3];
-            const float W0_4 = W[81 * k + 4];
-            const float W0_5 = W[81 * k + 5];
-            const float W0_6 = W[81 * k + 6];
-            const float W0_7 = W[81 * k + 7];
-            const float W0_8 = W[81 * k + 8];
-            const float W1_0 = W[81 * k + 9];
-            const float W1_1 = W[81 * k + 10];
-            const float W1_2 = W[81 * k + 11];
-            const float W1_3 = W[81 * k + 12];
-            const float W1_4 = W[81 * k + 13];
-            const float W1_5 = W[81 * k + 14];
-            const float W1_6 = W[81 * k + 15];
-            const float W1_7 = W[81 * k + 16];
-            const float W1_8 = W[81 * k + 17];
-            const float W2_0 = W[81 * k + 18];
-            const float W2_1 = W[81 * k + 19];
-            const float W2_2 = W[81 * k + 20];
-            const float W2_3 = W[81 * k + 21];
-            const float W2_4 = W[81 * k + 22];
-            const float W2_5 = W[81 * k + 23];
-            const float W2_6 = W[81 * k + 24];
-            const float W2_7 = W[81 * k + 25];
-            const float W2_8 = W[81 * k + 26];
-            const float W3_0 = W[81 * k + 27];
-            const float W3_1 = W[81 * k + 28];
-            const float W3_2 = W[81 * k + 29];
-            const float W3_3 = W[81 * k + 30];
-            const float W3_4 = W[81 * k + 31];
-            const float W3_5 = W[81 * k + 32];
-            const float W3_6 = W[81 * k + 33];
-            const float W3_7 = W[81 * k + 34];
-            const float W3_8 = W[81 * k + 35];
-            const float W4_0 = W[81 * k + 36];
-            const float W4_1 = W[81 * k + 37];
-            const float W4_2 = W[81 * k + 38];
-            const float W4_3 = W[81 * k + 39];
-            const float W4_4 = W[81 * k + 40];
-            const float W4_5 = W[81 * k + 41];
-            const float W4_6 = W[81 * k + 42];
-            const float W4_7 = W[81 * k + 43];
-            const float W4_8 = W[81 * k + 44];
-            const float W5_0 = W[81 * k + 45];
-            const float W5_1 = W[81 * k + 46];
-            const float W5_2 = W[81 * k + 47];
-            const float W5_3 = W[81 * k + 48];
-            const float W5_4 = W[81 * k + 49];
-            const float W5_5 = W[81 * k + 50];
-            const float W5_6 = W[81 * k + 51];
-            const float W5_7 = W[81 * k + 52];
-            const float W5_8 = W[81 * k + 53];
-            const float W6_0 = W[81 * k + 54];
-            const float W6_1 = W[81 * k + 55];
-            const float W6_2 = W[81 * k + 56];
-            const float W6_3 = W[81 * k + 57];
-            const float W6_4 = W[81 * k + 58];
-            const float W6_5 = W[81 * k + 59];
-            const float W6_6 = W[81 * k + 60];
-            const float W6_7 = W[81 * k + 61];
-            const float W6_8 = W[81 * k + 62];
-            const float W7_0 = W[81 * k + 63];
-            const float W7_1 = W[81 * k + 64];
-            const float W7_2 = W[81 * k + 65];
-            const float W7_3 = W[81 * k + 66];
-            const float W7_4 = W[81 * k + 67];
-            const float W7_5 = W[81 * k + 68];
-            const float W7_6 = W[81 * k + 69];
-            const float W7_7 = W[81 * k + 70];
-            const float W7_8 = W[81 * k + 71];
-            const float W8_0 = W[81 * k + 72];
-            const float W8_1 = W[81 * k + 73];
-            const float W8_2 = W[81 * k + 74];
-            const float W8_3 = W[81 * k + 75];
-            const float W8_4 = W[81 * k + 76];
-            const float W8_5 = W[81 * k + 77];
-            const float W8_6 = W[81 * k + 78];
-            const float W8_7 = W[81 * k + 79];
-            const float W8_8 = W[81 * k + 80];
-            const float amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const float v0 = x_block[0][lane] - mu0;
-                const float v1 = x_block[1][lane] - mu1;
-                const float gap = x_block[2][lane] - mu2;
-                const float round_2 = rintf(0.15915494309189535f * gap);
-                const float v2 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-                    round_2;
-                const float gap_2 = x_block[3][lane] - mu3;
-                const float round_3 = rintf(0.15915494309189535f * gap_2);
-                const float v3 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f *
-                    round_3;
-                const float gap_3 = x_block[4][lane] - mu4;
-                const float round_4 = rintf(0.15915494309189535f * gap_3);
-                const float v4 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f *
-                    round_4;
-                const float gap_4 = x_block[5][lane] - mu5;
-                const float round_5 = rintf(0.15915494309189535f * gap_4);
-                const float v5 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f *
-                    round_5;
-                const float gap_5 = x_block[6][lane] - mu6;
-                const float round_6 = rintf(0.15915494309189535f * gap_5);
-                const float v6 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f *
-                    round_6;
-                const float gap_6 = x_block[7][lane] - mu7;
-                const float round_7 = rintf(0.15915494309189535f * gap_6);
-                const float v7 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f *
-                    round_7;
-                const float gap_7 = x_block[8][lane] - mu8;
-                const float round_8 = rintf(0.15915494309189535f * gap_7);
-                const float v8 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f *
-                    round_8;
-                const float total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-                const float z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
-                const float total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-                const float z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
-                const float total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-                const float z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
-                const float total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-                const float z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
-                const float total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-                const float z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
-                const float total_7 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-                const float z5 = total_7 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
-                const float total_8 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
-                const float z6 = total_8 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
-                const float total_9 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
-                const float z7 = total_9 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
-                const float total_10 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
-                const float z8 = total_10 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
-                const float total_11 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-                const float total_12 = total_11 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-                const float exp_2 = expf(-(0.5f * total_12));
-                const float phi = amplitude_k * exp_2;
-                const float gap_8 = -(W8_8 * z8) - W7_8 * z7 - W6_8 * z6 - W5_8 * z5;
-                const float gap_9 = -(W8_7 * z8) - W7_7 * z7 - W6_7 * z6 - W5_7 * z5;
-                const float gap_10 = -(W8_6 * z8) - W7_6 * z7 - W6_6 * z6 - W5_6 * z5;
-                const float gap_11 = -(W8_5 * z8) - W7_5 * z7 - W6_5 * z6 - W5_5 * z5;
-                const float gap_12 = -(W8_4 * z8) - W7_4 * z7 - W6_4 * z6 - W5_4 * z5;
-                const float gap_13 = -(W8_3 * z8) - W7_3 * z7 - W6_3 * z6 - W5_3 * z5;
-                const float gap_14 = -(W8_2 * z8) - W7_2 * z7 - W6_2 * z6 - W5_2 * z5;
-                const float gap_15 = -(W8_1 * z8) - W7_1 * z7 - W6_1 * z6 - W5_1 * z5;
-                const float gap_16 = -(W8_0 * z8) - W7_0 * z7 - W6_0 * z6 - W5_0 * z5;
-                const float gap_17 = gap_8 - W4_8 * z4 - W3_8 * z3 - W2_8 * z2 - W1_8 * z1;
-                const float gap_18 = gap_9 - W4_7 * z4 - W3_7 * z3 - W2_7 * z2 - W1_7 * z1;
-                const float gap_19 = gap_10 - W4_6 * z4 - W3_6 * z3 - W2_6 * z2 - W1_6 * z1;
-                const float gap_20 = gap_11 - W4_5 * z4 - W3_5 * z3 - W2_5 * z2 - W1_5 * z1;
-                const float gap_21 = gap_12 - W4_4 * z4 - W3_4 * z3 - W2_4 * z2 - W1_4 * z1;
-                const float gap_22 = gap_13 - W4_3 * z4 - W3_3 * z3 - W2_3 * z2 - W1_3 * z1;
-                const float gap_23 = gap_14 - W4_2 * z4 - W3_2 * z3 - W2_2 * z2 - W1_2 * z1;
-                const float gap_24 = gap_15 - W4_1 * z4 - W3_1 * z3 - W2_1 * z2 - W1_1 * z1;
-                const float gap_25 = gap_16 - W4_0 * z4 - W3_0 * z3 - W2_0 * z2 - W1_0 * z1;
-                const float by_v8 = gap_17 - W0_8 * z0;
-                const float by_v7 = gap_18 - W0_7 * z0;
-                const float by_v6 = gap_19 - W0_6 * z0;
-                const float by_v5 = gap_20 - W0_5 * z0;
-                const float by_v4 = gap_21 - W0_4 * z0;
-                const float by_v3 = gap_22 - W0_3 * z0;
-                const float by_v2 = gap_23 - W0_2 * z0;
-                const float by_v1 = gap_24 - W0_1 * z0;
-                const float by_v0 = gap_25 - W0_0 * z0;
-                const float by_df8 = 16.0f * gradient_bar_block[8][lane];
-                const float by_df7 = 16.0f * gradient_bar_block[7][lane];
-                const float by_df6 = 16.0f * gradient_bar_block[6][lane];
-                const float by_df5 = 16.0f * gradient_bar_block[5][lane];
-                const float by_df4 = 16.0f * gradient_bar_block[4][lane];
-                const float by_df3 = 16.0f * gradient_bar_block[3][lane];
-                const float by_df2 = 4.0f * gradient_bar_block[2][lane];
-                const float by_by_v8 = phi * by_df8;
-                const float by_by_v7 = phi * by_df7;
-                const float by_by_v6 = phi * by_df6;
-                const float by_by_v5 = phi * by_df5;
-                const float total_13 = value_bar_block[0][lane] + by_v8 * by_df8 + by_v7 * by_df7 + by_v6 * by_df6 + by_v5
-                    * by_df5;
-                const float by_by_v4 = phi * by_df4;
-                const float by_by_v3 = phi * by_df3;
-                const float by_by_v2 = phi * by_df2;
-                const float by_by_v1 = phi * gradient_bar_block[1][lane];
-                const float total_14 = total_13 + by_v4 * by_df4 + by_v3 * by_df3 + by_v2 * by_df2 + by_v1 *
-                    gradient_bar_block[1][lane];
-                const float by_by_v0 = phi * gradient_bar_block[0][lane];
-                const float by_phi = total_14 + by_v0 * gradient_bar_block[0][lane];
-                const float gap_26 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2 - W0_3 * by_by_v3;
-                const float gap_27 = gap_26 - W0_4 * by_by_v4 - W0_5 * by_by_v5 - W0_6 * by_by_v6 - W0_7 * by_by_v7;
-                const float gap_28 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2 - W1_3 * by_by_v3;
-                const float gap_29 = gap_28 - W1_4 * by_by_v4 - W1_5 * by_by_v5 - W1_6 * by_by_v6 - W1_7 * by_by_v7;
-                const float gap_30 = -(W2_0 * by_by_v0) - W2_1 * by_by_v1 - W2_2 * by_by_v2 - W2_3 * by_by_v3;
-                const float gap_31 = gap_30 - W2_4 * by_by_v4 - W2_5 * by_by_v5 - W2_6 * by_by_v6 - W2_7 * by_by_v7;
-                const float gap_32 = -(W3_0 * by_by_v0) - W3_1 * by_by_v1 - W3_2 * by_by_v2 - W3_3 * by_by_v3;
-                const float gap_33 = gap_32 - W3_4 * by_by_v4 - W3_5 * by_by_v5 - W3_6 * by_by_v6 - W3_7 * by_by_v7;
-                const float gap_34 = -(W4_0 * by_by_v0) - W4_1 * by_by_v1 - W4_2 * by_by_v2 - W4_3 * by_by_v3;
-                const float gap_35 = gap_34 - W4_4 * by_by_v4 - W4_5 * by_by_v5 - W4_6 * by_by_v6 - W4_7 * by_by_v7;
-                const float gap_36 = -(W5_0 * by_by_v0) - W5_1 * by_by_v1 - W5_2 * by_by_v2 - W5_3 * by_by_v3;
-                const float gap_37 = gap_36 - W5_4 * by_by_v4 - W5_5 * by_by_v5 - W5_6 * by_by_v6 - W5_7 * by_by_v7;
-                const float gap_38 = -(W6_0 * by_by_v0) - W6_1 * by_by_v1 - W6_2 * by_by_v2 - W6_3 * by_by_v3;
-                const float gap_39 = gap_38 - W6_4 * by_by_v4 - W6_5 * by_by_v5 - W6_6 * by_by_v6 - W6_7 * by_by_v7;
-                const float gap_40 = -(W7_0 * by_by_v0) - W7_1 * by_by_v1 - W7_2 * by_by_v2 - W7_3 * by_by_v3;
-                const float gap_41 = gap_40 - W7_4 * by_by_v4 - W7_5 * by_by_v5 - W7_6 * by_by_v6 - W7_7 * by_by_v7;
-                const float gap_42 = -(W8_0 * by_by_v0) - W8_1 * by_by_v1 - W8_2 * by_by_v2 - W8_3 * by_by_v3;
-                const float gap_43 = gap_42 - W8_4 * by_by_v4 - W8_5 * by_by_v5 - W8_6 * by_by_v6 - W8_7 * by_by_v7;
-                const float product = exp_2 * (amplitude_k * by_phi);
-                const float by_z8 = gap_43 - W8_8 * by_by_v8 - z8 * product;
-                const float by_z7 = gap_41 - W7_8 * by_by_v8 - z7 * product;
-                const float by_z6 = gap_39 - W6_8 * by_by_v8 - z6 * product;
-                const float by_z5 = gap_37 - W5_8 * by_by_v8 - z5 * product;
-                const float by_z4 = gap_35 - W4_8 * by_by_v8 - z4 * product;
-                const float by_z3 = gap_33 - W3_8 * by_by_v8 - z3 * product;
-                const float by_z2 = gap_31 - W2_8 * by_by_v8 - z2 * product;
-                const float by_z1 = gap_29 - W1_8 * by_by_v8 - z1 * product;
-                const float by_z0 = gap_27 - W0_8 * by_by_v8 - z0 * product;
-                const float total_15 = W8_8 * by_z8 + W7_8 * by_z7 + W6_8 * by_z6 + W5_8 * by_z5 + W4_8 * by_z4;
-                const float total_16 = W8_7 * by_z8 + W7_7 * by_z7 + W6_7 * by_z6 + W5_7 * by_z5 + W4_7 * by_z4;
-                const float total_17 = W8_6 * by_z8 + W7_6 * by_z7 + W6_6 * by_z6 + W5_6 * by_z5 + W4_6 * by_z4;
-                const float total_18 = W8_5 * by_z8 + W7_5 * by_z7 + W6_5 * by_z6 + W5_5 * by_z5 + W4_5 * by_z4;
-                const float total_19 = W8_4 * by_z8 + W7_4 * by_z7 + W6_4 * by_z6 + W5_4 * by_z5 + W4_4 * by_z4;
-                const float total_20 = W8_3 * by_z8 + W7_3 * by_z7 + W6_3 * by_z6 + W5_3 * by_z5 + W4_3 * by_z4;
-                const float total_21 = W8_2 * by_z8 + W7_2 * by_z7 + W6_2 * by_z6 + W5_2 * by_z5 + W4_2 * by_z4;
-                const float total_22 = W8_1 * by_z8 + W7_1 * by_z7 + W6_1 * by_z6 + W5_1 * by_z5 + W4_1 * by_z4;
-                const float total_23 = W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5 + W4_0 * by_z4;
-                const float by_v8_2 = total_15 + W3_8 * by_z3 + W2_8 * by_z2 + W1_8 * by_z1 + W0_8 * by_z0;
-                const float by_v7_2 = total_16 + W3_7 * by_z3 + W2_7 * by_z2 + W1_7 * by_z1 + W0_7 * by_z0;
-                const float by_v6_2 = total_17 + W3_6 * by_z3 + W2_6 * by_z2 + W1_6 * by_z1 + W0_6 * by_z0;
-                const float by_v5_2 = total_18 + W3_5 * by_z3 + W2_5 * by_z2 + W1_5 * by_z1 + W0_5 * by_z0;
-                const float by_v4_2 = total_19 + W3_4 * by_z3 + W2_4 * by_z2 + W1_4 * by_z1 + W0_4 * by_z0;
-                const float by_v3_2 = total_20 + W3_3 * by_z3 + W2_3 * by_z2 + W1_3 * by_z1 + W0_3 * by_z0;
-                const float by_v2_2 = total_21 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0;
-                const float by_v1_2 = total_22 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
-                const float by_v0_2 = total_23 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0;
-                sum[0][lane] += -by_v0_2;
-                sum[1][lane] += -by_v1_2;
-                sum[2][lane] += -by_v2_2;
-                sum[3][lane] += -by_v3_2;
-                sum[4][lane] += -by_v4_2;
-                sum[5][lane] += -by_v5_2;
-                sum[6][lane] += -by_v6_2;
-                sum[7][lane] += -by_v7_2;
-                sum[8][lane] += -by_v8_2;
-                sum[9][lane] += v0 * by_z0 - z0 * by_by_v0;
-                sum[10][lane] += v1 * by_z0 - z0 * by_by_v1;
-                sum[11][lane] += v2 * by_z0 - z0 * by_by_v2;
-                sum[12][lane] += v3 * by_z0 - z0 * by_by_v3;
-                sum[13][lane] += v4 * by_z0 - z0 * by_by_v4;
-                sum[14][lane] += v5 * by_z0 - z0 * by_by_v5;
-                sum[15][lane] += v6 * by_z0 - z0 * by_by_v6;
-                sum[16][lane] += v7 * by_z0 - z0 * by_by_v7;
-                sum[17][lane] += v8 * by_z0 - z0 * by_by_v8;
-                sum[18][lane] += v0 * by_z1 - z1 * by_by_v0;
-                sum[19][lane] += v1 * by_z1 - z1 * by_by_v1;
-                sum[20][lane] += v2 * by_z1 - z1 * by_by_v2;
-                sum[21][lane] += v3 * by_z1 - z1 * by_by_v3;
-                sum[22][lane] += v4 * by_z1 - z1 * by_by_v4;
-                sum[23][lane] += v5 * by_z1 - z1 * by_by_v5;
-                sum[24][lane] += v6 * by_z1 - z1 * by_by_v6;
-                sum[25][lane] += v7 * by_z1 - z1 * by_by_v7;
-                sum[26][lane] += v8 * by_z1 - z1 * by_by_v8;
-                sum[27][lane] += v0 * by_z2 - z2 * by_by_v0;
-                sum[28][lane] += v1 * by_z2 - z2 * by_by_v1;
-                sum[29][lane] += v2 * by_z2 - z2 * by_by_v2;
-                sum[30][lane] += v3 * by_z2 - z2 * by_by_v3;
-                sum[31][lane] += v4 * by_z2 - z2 * by_by_v4;
-                sum[32][lane] += v5 * by_z2 - z2 * by_by_v5;
-                sum[33][lane] += v6 * by_z2 - z2 * by_by_v6;
-                sum[34][lane] += v7 * by_z2 - z2 * by_by_v7;
-                sum[35][lane] += v8 * by_z2 - z2 * by_by_v8;
-                sum[36][lane] += v0 * by_z3 - z3 * by_by_v0;
-                sum[37][lane] += v1 * by_z3 - z3 * by_by_v1;
-                sum[38][lane] += v2 * by_z3 - z3 * by_by_v2;
-                sum[39][lane] += v3 * by_z3 - z3 * by_by_v3;
-                sum[40][lane] += v4 * by_z3 - z3 * by_by_v4;
-                sum[41][lane] += v5 * by_z3 - z3 * by_by_v5;
-                sum[42][lane] += v6 * by_z3 - z3 * by_by_v6;
-                sum[43][lane] += v7 * by_z3 - z3 * by_by_v7;
-                sum[44][lane] += v8 * by_z3 - z3 * by_by_v8;
-                sum[45][lane] += v0 * by_z4 - z4 * by_by_v0;
-                sum[46][lane] += v1 * by_z4 - z4 * by_by_v1;
-                sum[47][lane] += v2 * by_z4 - z4 * by_by_v2;
-                sum[48][lane] += v3 * by_z4 - z4 * by_by_v3;
-                sum[49][lane] += v4 * by_z4 - z4 * by_by_v4;
-                sum[50][lane] += v5 * by_z4 - z4 * by_by_v5;
-                sum[51][lane] += v6 * by_z4 - z4 * by_by_v6;
-                sum[52][lane] += v7 * by_z4 - z4 * by_by_v7;
-                sum[53][lane] += v8 * by_z4 - z4 * by_by_v8;
-                sum[54][lane] += v0 * by_z5 - z5 * by_by_v0;
-                sum[55][lane] += v1 * by_z5 - z5 * by_by_v1;
-                sum[56][lane] += v2 * by_z5 - z5 * by_by_v2;
-                sum[57][lane] += v3 * by_z5 - z5 * by_by_v3;
-                sum[58][lane] += v4 * by_z5 - z5 * by_by_v4;
-                sum[59][lane] += v5 * by_z5 - z5 * by_by_v5;
-                sum[60][lane] += v6 * by_z5 - z5 * by_by_v6;
-                sum[61][lane] += v7 * by_z5 - z5 * by_by_v7;
-                sum[62][lane] += v8 * by_z5 - z5 * by_by_v8;
-                sum[63][lane] += v0 * by_z6 - z6 * by_by_v0;
-                sum[64][lane] += v1 * by_z6 - z6 * by_by_v1;
-                sum[65][lane] += v2 * by_z6 - z6 * by_by_v2;
-                sum[66][lane] += v3 * by_z6 - z6 * by_by_v3;
-                sum[67][lane] += v4 * by_z6 - z6 * by_by_v4;
-                sum[68][lane] += v5 * by_z6 - z6 * by_by_v5;
-                sum[69][lane] += v6 * by_z6 - z6 * by_by_v6;
-                sum[70][lane] += v7 * by_z6 - z6 * by_by_v7;
-                sum[71][lane] += v8 * by_z6 - z6 * by_by_v8;
-                sum[72][lane] += v0 * by_z7 - z7 * by_by_v0;
-                sum[73][lane] += v1 * by_z7 - z7 * by_by_v1;
-                sum[74][lane] += v2 * by_z7 - z7 * by_by_v2;
-                sum[75][lane] += v3 * by_z7 - z7 * by_by_v3;
-                sum[76][lane] += v4 * by_z7 - z7 * by_by_v4;
-                sum[77][lane] += v5 * by_z7 - z7 * by_by_v5;
-                sum[78][lane] += v6 * by_z7 - z7 * by_by_v6;
-                sum[79][lane] += v7 * by_z7 - z7 * by_by_v7;
-                sum[80][lane] += v8 * by_z7 - z7 * by_by_v8;
-                sum[81][lane] += v0 * by_z8 - z8 * by_by_v0;
-                sum[82][lane] += v1 * by_z8 - z8 * by_by_v1;
-                sum[83][lane] += v2 * by_z8 - z8 * by_by_v2;
-                sum[84][lane] += v3 * by_z8 - z8 * by_by_v3;
-                sum[85][lane] += v4 * by_z8 - z8 * by_by_v4;
-                sum[86][lane] += v5 * by_z8 - z8 * by_by_v5;
-                sum[87][lane] += v6 * by_z8 - z8 * by_by_v6;
-                sum[88][lane] += v7 * by_z8 - z8 * by_by_v7;
-                sum[89][lane] += v8 * by_z8 - z8 * by_by_v8;
-                sum[90][lane] += exp_2 * by_phi;
+void mobile_manipulator_splats_value_f(
+    size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT W, const float *MOBILE_MANIPULATOR_RESTRICT amplitude,
+    float *MOBILE_MANIPULATOR_RESTRICT value, float *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
+    (void)threads;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES_f) {
+            vector_f at[9], X[2][9], value_sum[2][1] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows_f(x, count, start + b * LANES_f, 9, at);
+                pair_features_f(at, X[b]);
             }
-            for (size_t i = 0; i < 91; ++i)
-                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
-            mu_bar[9 * k + 0] += total[0];
-            mu_bar[9 * k + 1] += total[1];
-            mu_bar[9 * k + 2] += total[2];
-            mu_bar[9 * k + 3] += total[3];
-            mu_bar[9 * k + 4] += total[4];
-            mu_bar[9 * k + 5] += total[5];
-            mu_bar[9 * k + 6] += total[6];
-            mu_bar[9 * k + 7] += total[7];
-            mu_bar[9 * k + 8] += total[8];
-            W_bar[81 * k + 0] += total[9];
-            W_bar[81 * k + 1] += total[10];
-            W_bar[81 * k + 2] += total[11];
-            W_bar[81 * k + 3] += total[12];
-            W_bar[81 * k + 4] += total[13];
-            W_bar[81 * k + 5] += total[14];
-            W_bar[81 * k + 6] += total[15];
-            W_bar[81 * k + 7] += total[16];
-            W_bar[81 * k + 8] += total[17];
-            W_bar[81 * k + 9] += total[18];
-            W_bar[81 * k + 10] += total[19];
-            W_bar[81 * k + 11] += total[20];
-            W_bar[81 * k + 12] += total[21];
-            W_bar[81 * k + 13] += total[22];
-            W_bar[81 * k + 14] += total[23];
-            W_bar[81 * k + 15] += total[24];
-            W_bar[81 * k + 16] += total[25];
-            W_bar[81 * k + 17] += total[26];
-            W_bar[81 * k + 18] += total[27];
-            W_bar[81 * k + 19] += total[28];
-            W_bar[81 * k + 20] += total[29];
-            W_bar[81 * k + 21] += total[30];
-            W_bar[81 * k + 22] += total[31];
-            W_bar[81 * k + 23] += total[32];
-            W_bar[81 * k + 24] += total[33];
-            W_bar[81 * k + 25] += total[34];
-            W_bar[81 * k + 26] += total[35];
-            W_bar[81 * k + 27] += total[36];
-            W_bar[81 * k + 28] += total[37];
-            W_bar[81 * k + 29] += total[38];
-            W_bar[81 * k + 30] += total[39];
-            W_bar[81 * k + 31] += total[40];
-            W_bar[81 * k + 32] += total[41];
-            W_bar[81 * k + 33] += total[42];
-            W_bar[81 * k + 34] += total[43];
-            W_bar[81 * k + 35] += total[44];
-            W_bar[81 * k + 36] += total[45];
-            W_bar[81 * k + 37] += total[46];
-            W_bar[81 * k + 38] += total[47];
-            W_bar[81 * k + 39] += total[48];
-            W_bar[81 * k + 40] += total[49];
-            W_bar[81 * k + 41] += total[50];
-            W_bar[81 * k + 42] += total[51];
-            W_bar[81 * k + 43] += total[52];
-            W_bar[81 * k + 44] += total[53];
-            W_bar[81 * k + 45] += total[54];
-            W_bar[81 * k + 46] += total[55];
-            W_bar[81 * k + 47] += total[56];
-            W_bar[81 * k + 48] += total[57];
-            W_bar[81 * k + 49] += total[58];
-            W_bar[81 * k + 50] += total[59];
-            W_bar[81 * k + 51] += total[60];
-            W_bar[81 * k + 52] += total[61];
-            W_bar[81 * k + 53] += total[62];
-            W_bar[81 * k + 54] += total[63];
-            W_bar[81 * k + 55] += total[64];
-            W_bar[81 * k + 56] += total[65];
-            W_bar[81 * k + 57] += total[66];
-            W_bar[81 * k + 58] += total[67];
-            W_bar[81 * k + 59] += total[68];
-            W_bar[81 * k + 60] += total[69];
-            W_bar[81 * k + 61] += total[70];
-            W_bar[81 * k + 62] += total[71];
-            W_bar[81 * k + 63] += total[72];
-            W_bar[81 * k + 64] += total[73];
-            W_bar[81 * k + 65] += total[74];
-            W_bar[81 * k + 66] += total[75];
-            W_bar[81 * k + 67] += total[76];
-            W_bar[81 * k + 68] += total[77];
-            W_bar[81 * k + 69] += total[78];
-            W_bar[81 * k + 70] += total[79];
-            W_bar[81 * k + 71] += total[80];
-            W_bar[81 * k + 72] += total[81];
-            W_bar[81 * k + 73] += total[82];
-            W_bar[81 * k + 74] += total[83];
-            W_bar[81 * k + 75] += total[84];
-            W_bar[81 * k + 76] += total[85];
-            W_bar[81 * k + 77] += total[86];
-            W_bar[81 * k + 78] += total[87];
-            W_bar[81 * k + 79] += total[88];
-            W_bar[81 * k + 80] += total[89];
-            amplitude_bar[1 * k + 0] += total[90];
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_value_f(X[0], constants + 91 * k, value_sum[0]);
+                pair_value_f(X[1], constants + 91 * k, value_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b)
+                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
+OUTLINE void splat_points_f(
+    size_t count, size_t start, const float *x, const float *value_bar, const float *gradient_bar, vector_f *point) {
+    vector_f at[9], grad_bar[9], slope_bar[9];
+    vector_rows_f(x, count, start, 9, at);
+    vector_rows_f(gradient_bar, count, start, 9, grad_bar);
+    vector_rows_f(value_bar, count, start, 1, point + 9);
+    pair_features_f(at, point);
+    pair_gradient_vjp_f(at, grad_bar, slope_bar);
+    for (int i = 0; i < 9; ++i) point[9 + 1 + i] = slope_bar[i];
+    vector_end_f(count, start, 9 + 1, point + 9);
+}
+
+/* Adds to S_bar what one vector of points adds to it. */
+INLINE void pair_backward_f(
+    const vector_f *point, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
+    vector_f factor[37];
+    pair_factors_f(point, S, value_bar, slope_bar, factor);
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_0_f(factor, point, sum);
+        S_bar[0] += sum[0];
+        S_bar[1] += sum[1];
+        S_bar[2] += sum[2];
+        S_bar[3] += sum[3];
+        S_bar[4] += sum[4];
+        S_bar[5] += sum[5];
+        S_bar[6] += sum[6];
+        S_bar[7] += sum[7];
+        S_bar[8] += sum[8];
+        S_bar[90] += sum[9];
+        S_bar[9] += sum[10];
+        S_bar[10] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_1_f(factor, point, sum);
+        S_bar[11] += sum[0];
+        S_bar[12] += sum[1];
+        S_bar[13] += sum[2];
+        S_bar[14] += sum[3];
+        S_bar[15] += sum[4];
+        S_bar[16] += sum[5];
+        S_bar[17] += sum[6];
+        S_bar[20] += sum[7];
+        S_bar[21] += sum[8];
+        S_bar[22] += sum[9];
+        S_bar[23] += sum[10];
+        S_bar[24] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_2_f(factor, point, sum);
+        S_bar[18] += sum[0];
+        S_bar[19] += sum[1];
+        S_bar[25] += sum[2];
+        S_bar[26] += sum[3];
+        S_bar[27] += sum[4];
+        S_bar[28] += sum[5];
+        S_bar[34] += sum[6];
+        S_bar[35] += sum[7];
+        S_bar[29] += sum[8];
+        S_bar[30] += sum[9];
+        S_bar[31] += sum[10];
+        S_bar[32] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_3_f(factor, point, sum);
+        S_bar[33] += sum[0];
+        S_bar[42] += sum[1];
+        S_bar[36] += sum[2];
+        S_bar[37] += sum[3];
+        S_bar[38] += sum[4];
+        S_bar[39] += sum[5];
+        S_bar[40] += sum[6];
+        S_bar[41] += sum[7];
+        S_bar[43] += sum[8];
+        S_bar[44] += sum[9];
+        S_bar[45] += sum[10];
+        S_bar[46] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_4_f(factor, point, sum);
+        S_bar[47] += sum[0];
+        S_bar[48] += sum[1];
+        S_bar[49] += sum[2];
+        S_bar[50] += sum[3];
+        S_bar[51] += sum[4];
+        S_bar[52] += sum[5];
+        S_bar[53] += sum[6];
+        S_bar[56] += sum[7];
+        S_bar[57] += sum[8];
+        S_bar[58] += sum[9];
+        S_bar[59] += sum[10];
+        S_bar[60] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_5_f(factor, point, sum);
+        S_bar[54] += sum[0];
+        S_bar[55] += sum[1];
+        S_bar[61] += sum[2];
+        S_bar[62] += sum[3];
+        S_bar[63] += sum[4];
+        S_bar[64] += sum[5];
+        S_bar[70] += sum[6];
+        S_bar[71] += sum[7];
+        S_bar[65] += sum[8];
+        S_bar[66] += sum[9];
+        S_bar[67] += sum[10];
+        S_bar[68] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_6_f(factor, point, sum);
+        S_bar[69] += sum[0];
+        S_bar[78] += sum[1];
+        S_bar[72] += sum[2];
+        S_bar[73] += sum[3];
+        S_bar[74] += sum[4];
+        S_bar[75] += sum[5];
+        S_bar[76] += sum[6];
+        S_bar[77] += sum[7];
+        S_bar[79] += sum[8];
+        S_bar[80] += sum[9];
+        S_bar[81] += sum[10];
+        S_bar[82] += sum[11];
+    }
+    {
+        vector_f sum[7] = {ZERO};
+        pair_products_7_f(factor, point, sum);
+        S_bar[83] += sum[0];
+        S_bar[84] += sum[1];
+        S_bar[85] += sum[2];
+        S_bar[86] += sum[3];
+        S_bar[87] += sum[4];
+        S_bar[88] += sum[5];
+        S_bar[89] += sum[6];
+    }
+}
+
+/* Adds to S_bar what some vectors of points add to it: factors of 10 vectors at a time, then their products. */
+OUTLINE void splat_sums_f(const vector_f *point, size_t count, const float *S, float *S_bar) {
+    vector_f factor[10 * 37], total[91] = {ZERO};
+    for (size_t start = 0; start < count; start += 10, point += 10 * 19) {
+        const size_t size = count - start < 10 ? count - start : 10;
+        for (size_t b = 0; b < size; ++b) {
+            const vector_f *at = point + 19 * b;
+            pair_factors_f(at, S, at + 9, at + 9 + 1, factor + 37 * b);
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_0_f(factor + 37 * b, point + 19 * b, sum);
+            total[0] += sum[0];
+            total[1] += sum[1];
+            total[2] += sum[2];
+            total[3] += sum[3];
+            total[4] += sum[4];
+            total[5] += sum[5];
+            total[6] += sum[6];
+            total[7] += sum[7];
+            total[8] += sum[8];
+            total[90] += sum[9];
+            total[9] += sum[10];
+            total[10] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_1_f(factor + 37 * b, point + 19 * b, sum);
+            total[11] += sum[0];
+            total[12] += sum[1];
+            total[13] += sum[2];
+            total[14] += sum[3];
+            total[15] += sum[4];
+            total[16] += sum[5];
+            total[17] += sum[6];
+            total[20] += sum[7];
+            total[21] += sum[8];
+            total[22] += sum[9];
+            total[23] += sum[10];
+            total[24] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_2_f(factor + 37 * b, point + 19 * b, sum);
+            total[18] += sum[0];
+            total[19] += sum[1];
+            total[25] += sum[2];
+            total[26] += sum[3];
+            total[27] += sum[4];
+            total[28] += sum[5];
+            total[34] += sum[6];
+            total[35] += sum[7];
+            total[29] += sum[8];
+            total[30] += sum[9];
+            total[31] += sum[10];
+            total[32] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_3_f(factor + 37 * b, point + 19 * b, sum);
+            total[33] += sum[0];
+            total[42] += sum[1];
+            total[36] += sum[2];
+            total[37] += sum[3];
+            total[38] += sum[4];
+            total[39] += sum[5];
+            total[40] += sum[6];
+            total[41] += sum[7];
+            total[43] += sum[8];
+            total[44] += sum[9];
+            total[45] += sum[10];
+            total[46] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_4_f(factor + 37 * b, point + 19 * b, sum);
+            total[47] += sum[0];
+            total[48] += sum[1];
+            total[49] += sum[2];
+            total[50] += sum[3];
+            total[51] += sum[4];
+            total[52] += sum[5];
+            total[53] += sum[6];
+            total[56] += sum[7];
+            total[57] += sum[8];
+            total[58] += sum[9];
+            total[59] += sum[10];
+            total[60] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_5_f(factor + 37 * b, point + 19 * b, sum);
+            total[54] += sum[0];
+            total[55] += sum[1];
+            total[61] += sum[2];
+            total[62] += sum[3];
+            total[63] += sum[4];
+            total[64] += sum[5];
+            total[70] += sum[6];
+            total[71] += sum[7];
+            total[65] += sum[8];
+            total[66] += sum[9];
+            total[67] += sum[10];
+            total[68] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_6_f(factor + 37 * b, point + 19 * b, sum);
+            total[69] += sum[0];
+            total[78] += sum[1];
+            total[72] += sum[2];
+            total[73] += sum[3];
+            total[74] += sum[4];
+            total[75] += sum[5];
+            total[76] += sum[6];
+            total[77] += sum[7];
+            total[79] += sum[8];
+            total[80] += sum[9];
+            total[81] += sum[10];
+            total[82] += sum[11];
+        }
+        {
+            vector_f sum[7] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_7_f(factor + 37 * b, point + 19 * b, sum);
+            total[83] += sum[0];
+            total[84] += sum[1];
+            total[85] += sum[2];
+            total[86] += sum[3];
+            total[87] += sum[4];
+            total[88] += sum[5];
+            total[89] += sum[6];
         }
     }
-    restore_denormals(mode);
+    for (size_t i = 0; i < 91; ++i) S_bar[i] += vector_sum_f(total[i]);
+}
+
+/*
+ * Some splats at a time; the points pass over each of them, a chunk at a time, while its sums stay in registers. How many
+ * splats depends on the threads, what is summed in which order does not.
+ */
+void mobile_manipulator_splats_vjp_f(
+    size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT W, const float *MOBILE_MANIPULATOR_RESTRICT amplitude, const float *MOBILE_MANIPULATOR_RESTRICT value_bar, const float *MOBILE_MANIPULATOR_RESTRICT gradient_bar,
+    float *MOBILE_MANIPULATOR_RESTRICT mu_bar, float *MOBILE_MANIPULATOR_RESTRICT W_bar, float *MOBILE_MANIPULATOR_RESTRICT amplitude_bar, float *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
+    const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    const size_t chunk = 131072 / (19 * sizeof(vector_f)) + 1;
+    const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
+    const size_t share = part < LANES_f ? part : LANES_f;
+    vector_f *points = work_points_f(work);
+    float *constants = work_constants_f(work, count);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic) nowait)
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic, 8))
+        for (size_t block = 0; block < blocks; ++block)
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 19 * block);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += share) {
+            const size_t end = start + share < splat_count ? start + share : splat_count;
+            float sums[LANES_f][91] = {{0}};
+            vector_f own_mu[9], own_W[81], own_amplitude[1], S_bar[91], bars[91];
+            for (size_t first = 0; first < blocks; first += chunk) {
+                const size_t size = first + chunk < blocks ? chunk : blocks - first;
+                for (size_t k = start; k < end; ++k)
+                    splat_sums_f(points + 19 * first, size, constants + 91 * k, sums[k - start]);
+            }
+            vector_rows_f(mu, end, start, 9, own_mu);
+            vector_rows_f(W, end, start, 81, own_W);
+            vector_rows_f(amplitude, end, start, 1, own_amplitude);
+            vector_rows_f(sums[0], LANES_f, 0, 91, S_bar);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 9, bars + 9 + 81);
+            vector_to_rows_f(bars, mu_bar, end, start, 9, 9);
+            vector_to_rows_f(bars + 9, W_bar, end, start, 81, 81);
+            vector_to_rows_f(bars + 9 + 81, amplitude_bar, end, start, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* Nothing is summed: the adjoints of a splat's constants go on to its parameters for every point. */
+void mobile_manipulator_splats_rows_f(
+    size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT W, const float *MOBILE_MANIPULATOR_RESTRICT amplitude, const float *MOBILE_MANIPULATOR_RESTRICT value_bar, const float *MOBILE_MANIPULATOR_RESTRICT gradient_bar,
+    float *MOBILE_MANIPULATOR_RESTRICT rows, float *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
+    (void)threads;
+    const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t block = 0; block < blocks; ++block) {
+            vector_f point[19];
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
+            for (size_t k = 0; k < splat_count; ++k) {
+                vector_f own_mu[9], own_W[81], own_amplitude[1], S_bar[91] = {ZERO}, bars[91];
+                for (int i = 0; i < 9; ++i) own_mu[i] = vector_of_f(mu[9 * k + i]);
+                for (int i = 0; i < 81; ++i) own_W[i] = vector_of_f(W[81 * k + i]);
+                own_amplitude[0] = vector_of_f(amplitude[k]);
+                pair_backward_f(point, constants + 91 * k, point + 9, point + 9 + 1, S_bar);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 9, bars + 9 + 81);
+                vector_to_rows_f(bars, rows + 91 * k, count, block * LANES_f, 91, 91 * splat_count);
+            }
+        }
+        restore_denormals(mode);
+    }
 }

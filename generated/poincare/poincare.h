@@ -280,51 +280,42 @@ void poincare_splat_batch_f(
 void poincare_frame(const double *POINCARE_RESTRICT p, double *POINCARE_RESTRICT frame);
 void poincare_frame_f(const float *POINCARE_RESTRICT p, float *POINCARE_RESTRICT frame);
 
+/* How many numbers of scratch memory the functions below need, for these sizes or smaller ones. */
+size_t poincare_splats_work(size_t count, size_t splat_count, int threads);
+size_t poincare_splats_work_f(size_t count, size_t splat_count, int threads);
+
 /* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
 void poincare_splats(
-    size_t count,
-    size_t splat_count,
-    const double *POINCARE_RESTRICT x,
-    const double *POINCARE_RESTRICT mu,
-    const double *POINCARE_RESTRICT W,
-    const double *POINCARE_RESTRICT amplitude,
-    double *POINCARE_RESTRICT value,
-    double *POINCARE_RESTRICT gradient);
+    size_t count, size_t splat_count, const double *POINCARE_RESTRICT x, const double *POINCARE_RESTRICT mu, const double *POINCARE_RESTRICT W, const double *POINCARE_RESTRICT amplitude,
+    double *POINCARE_RESTRICT value, double *POINCARE_RESTRICT gradient, double *POINCARE_RESTRICT work, int threads);
 void poincare_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *POINCARE_RESTRICT x,
-    const float *POINCARE_RESTRICT mu,
-    const float *POINCARE_RESTRICT W,
-    const float *POINCARE_RESTRICT amplitude,
-    float *POINCARE_RESTRICT value,
-    float *POINCARE_RESTRICT gradient);
+    size_t count, size_t splat_count, const float *POINCARE_RESTRICT x, const float *POINCARE_RESTRICT mu, const float *POINCARE_RESTRICT W, const float *POINCARE_RESTRICT amplitude,
+    float *POINCARE_RESTRICT value, float *POINCARE_RESTRICT gradient, float *POINCARE_RESTRICT work, int threads);
+
+/* The values of the sums alone. */
+void poincare_splats_value(
+    size_t count, size_t splat_count, const double *POINCARE_RESTRICT x, const double *POINCARE_RESTRICT mu, const double *POINCARE_RESTRICT W, const double *POINCARE_RESTRICT amplitude,
+    double *POINCARE_RESTRICT value, double *POINCARE_RESTRICT work, int threads);
+void poincare_splats_value_f(
+    size_t count, size_t splat_count, const float *POINCARE_RESTRICT x, const float *POINCARE_RESTRICT mu, const float *POINCARE_RESTRICT W, const float *POINCARE_RESTRICT amplitude,
+    float *POINCARE_RESTRICT value, float *POINCARE_RESTRICT work, int threads);
 
 /* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
 void poincare_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *POINCARE_RESTRICT x,
-    const double *POINCARE_RESTRICT mu,
-    const double *POINCARE_RESTRICT W,
-    const double *POINCARE_RESTRICT amplitude,
-    const double *POINCARE_RESTRICT value_bar,
-    const double *POINCARE_RESTRICT gradient_bar,
-    double *POINCARE_RESTRICT mu_bar,
-    double *POINCARE_RESTRICT W_bar,
-    double *POINCARE_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const double *POINCARE_RESTRICT x, const double *POINCARE_RESTRICT mu, const double *POINCARE_RESTRICT W, const double *POINCARE_RESTRICT amplitude, const double *POINCARE_RESTRICT value_bar, const double *POINCARE_RESTRICT gradient_bar,
+    double *POINCARE_RESTRICT mu_bar, double *POINCARE_RESTRICT W_bar, double *POINCARE_RESTRICT amplitude_bar, double *POINCARE_RESTRICT work, int threads);
 void poincare_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *POINCARE_RESTRICT x,
-    const float *POINCARE_RESTRICT mu,
-    const float *POINCARE_RESTRICT W,
-    const float *POINCARE_RESTRICT amplitude,
-    const float *POINCARE_RESTRICT value_bar,
-    const float *POINCARE_RESTRICT gradient_bar,
-    float *POINCARE_RESTRICT mu_bar,
-    float *POINCARE_RESTRICT W_bar,
-    float *POINCARE_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const float *POINCARE_RESTRICT x, const float *POINCARE_RESTRICT mu, const float *POINCARE_RESTRICT W, const float *POINCARE_RESTRICT amplitude, const float *POINCARE_RESTRICT value_bar, const float *POINCARE_RESTRICT gradient_bar,
+    float *POINCARE_RESTRICT mu_bar, float *POINCARE_RESTRICT W_bar, float *POINCARE_RESTRICT amplitude_bar, float *POINCARE_RESTRICT work, int threads);
+
+/* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +
+ * gradient_n . gradient_bar_n in its mu, W and amplitude, in this order. */
+void poincare_splats_rows(
+    size_t count, size_t splat_count, const double *POINCARE_RESTRICT x, const double *POINCARE_RESTRICT mu, const double *POINCARE_RESTRICT W, const double *POINCARE_RESTRICT amplitude, const double *POINCARE_RESTRICT value_bar, const double *POINCARE_RESTRICT gradient_bar,
+    double *POINCARE_RESTRICT rows, double *POINCARE_RESTRICT work, int threads);
+void poincare_splats_rows_f(
+    size_t count, size_t splat_count, const float *POINCARE_RESTRICT x, const float *POINCARE_RESTRICT mu, const float *POINCARE_RESTRICT W, const float *POINCARE_RESTRICT amplitude, const float *POINCARE_RESTRICT value_bar, const float *POINCARE_RESTRICT gradient_bar,
+    float *POINCARE_RESTRICT rows, float *POINCARE_RESTRICT work, int threads);
 
 #ifdef __cplusplus
 }

@@ -278,51 +278,42 @@ void se2_splat_batch_f(
 void se2_frame(const double *SE2_RESTRICT p, double *SE2_RESTRICT frame);
 void se2_frame_f(const float *SE2_RESTRICT p, float *SE2_RESTRICT frame);
 
+/* How many numbers of scratch memory the functions below need, for these sizes or smaller ones. */
+size_t se2_splats_work(size_t count, size_t splat_count, int threads);
+size_t se2_splats_work_f(size_t count, size_t splat_count, int threads);
+
 /* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
 void se2_splats(
-    size_t count,
-    size_t splat_count,
-    const double *SE2_RESTRICT x,
-    const double *SE2_RESTRICT mu,
-    const double *SE2_RESTRICT W,
-    const double *SE2_RESTRICT amplitude,
-    double *SE2_RESTRICT value,
-    double *SE2_RESTRICT gradient);
+    size_t count, size_t splat_count, const double *SE2_RESTRICT x, const double *SE2_RESTRICT mu, const double *SE2_RESTRICT W, const double *SE2_RESTRICT amplitude,
+    double *SE2_RESTRICT value, double *SE2_RESTRICT gradient, double *SE2_RESTRICT work, int threads);
 void se2_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *SE2_RESTRICT x,
-    const float *SE2_RESTRICT mu,
-    const float *SE2_RESTRICT W,
-    const float *SE2_RESTRICT amplitude,
-    float *SE2_RESTRICT value,
-    float *SE2_RESTRICT gradient);
+    size_t count, size_t splat_count, const float *SE2_RESTRICT x, const float *SE2_RESTRICT mu, const float *SE2_RESTRICT W, const float *SE2_RESTRICT amplitude,
+    float *SE2_RESTRICT value, float *SE2_RESTRICT gradient, float *SE2_RESTRICT work, int threads);
+
+/* The values of the sums alone. */
+void se2_splats_value(
+    size_t count, size_t splat_count, const double *SE2_RESTRICT x, const double *SE2_RESTRICT mu, const double *SE2_RESTRICT W, const double *SE2_RESTRICT amplitude,
+    double *SE2_RESTRICT value, double *SE2_RESTRICT work, int threads);
+void se2_splats_value_f(
+    size_t count, size_t splat_count, const float *SE2_RESTRICT x, const float *SE2_RESTRICT mu, const float *SE2_RESTRICT W, const float *SE2_RESTRICT amplitude,
+    float *SE2_RESTRICT value, float *SE2_RESTRICT work, int threads);
 
 /* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
 void se2_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *SE2_RESTRICT x,
-    const double *SE2_RESTRICT mu,
-    const double *SE2_RESTRICT W,
-    const double *SE2_RESTRICT amplitude,
-    const double *SE2_RESTRICT value_bar,
-    const double *SE2_RESTRICT gradient_bar,
-    double *SE2_RESTRICT mu_bar,
-    double *SE2_RESTRICT W_bar,
-    double *SE2_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const double *SE2_RESTRICT x, const double *SE2_RESTRICT mu, const double *SE2_RESTRICT W, const double *SE2_RESTRICT amplitude, const double *SE2_RESTRICT value_bar, const double *SE2_RESTRICT gradient_bar,
+    double *SE2_RESTRICT mu_bar, double *SE2_RESTRICT W_bar, double *SE2_RESTRICT amplitude_bar, double *SE2_RESTRICT work, int threads);
 void se2_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *SE2_RESTRICT x,
-    const float *SE2_RESTRICT mu,
-    const float *SE2_RESTRICT W,
-    const float *SE2_RESTRICT amplitude,
-    const float *SE2_RESTRICT value_bar,
-    const float *SE2_RESTRICT gradient_bar,
-    float *SE2_RESTRICT mu_bar,
-    float *SE2_RESTRICT W_bar,
-    float *SE2_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const float *SE2_RESTRICT x, const float *SE2_RESTRICT mu, const float *SE2_RESTRICT W, const float *SE2_RESTRICT amplitude, const float *SE2_RESTRICT value_bar, const float *SE2_RESTRICT gradient_bar,
+    float *SE2_RESTRICT mu_bar, float *SE2_RESTRICT W_bar, float *SE2_RESTRICT amplitude_bar, float *SE2_RESTRICT work, int threads);
+
+/* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +
+ * gradient_n . gradient_bar_n in its mu, W and amplitude, in this order. */
+void se2_splats_rows(
+    size_t count, size_t splat_count, const double *SE2_RESTRICT x, const double *SE2_RESTRICT mu, const double *SE2_RESTRICT W, const double *SE2_RESTRICT amplitude, const double *SE2_RESTRICT value_bar, const double *SE2_RESTRICT gradient_bar,
+    double *SE2_RESTRICT rows, double *SE2_RESTRICT work, int threads);
+void se2_splats_rows_f(
+    size_t count, size_t splat_count, const float *SE2_RESTRICT x, const float *SE2_RESTRICT mu, const float *SE2_RESTRICT W, const float *SE2_RESTRICT amplitude, const float *SE2_RESTRICT value_bar, const float *SE2_RESTRICT gradient_bar,
+    float *SE2_RESTRICT rows, float *SE2_RESTRICT work, int threads);
 
 #ifdef __cplusplus
 }

@@ -28,27 +28,10 @@ QUICK = (
     "-ffp-contract=fast",
     "-fno-math-errno",
     "-fno-trapping-math",
-    "-include",
-    "rsrm_vector_math.h",
-)  # never -ffast-math
+)  # never -ffast-math, which reorders sums and forgets NaN; and with threads, where the compiler has OpenMP
 FAST = ("-O3", *QUICK)  # what trains
-TRIED = ("-O2", *QUICK)  # the same arithmetic to the last bit for the audit, compiled in two thirds of the time
-
-# glibc has vector versions of these functions, exact to 4 units in the last place, but tells gcc of them only under
-# -ffast-math, which would also let it reorder sums and forget NaN. With them the loops over points vectorise.
-VECTOR_MATH = """
-#include <math.h>
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && defined(__GLIBC__)
-#if __GLIBC_PREREQ(2, 35)
-#define SIMD __attribute__((simd("notinbranch")))
-#define VECTOR(name) SIMD double name(double); SIMD float name##f(float);
-VECTOR(exp) VECTOR(log) VECTOR(sin) VECTOR(cos) VECTOR(tan) VECTOR(sinh) VECTOR(cosh) VECTOR(tanh)
-VECTOR(asinh) VECTOR(acosh) VECTOR(acos) VECTOR(atanh)
-SIMD double atan2(double, double);
-SIMD float atan2f(float, float);
-#endif
-#endif
-"""
+TRIED = ("-O2", *QUICK)  # the same for the audit, compiled in two thirds of the time
+OPENMP = "-fopenmp"
 
 
 @lru_cache
@@ -63,8 +46,10 @@ def compiled(files: Mapping[str, str], source: str, flags: tuple[str, ...]) -> c
     cc = compiler()
     if cc is None:
         raise UserError("no C compiler found", hint="install one, or name it in CC; torch code needs none")
+    if flags in (FAST, TRIED) and _takes(cc, OPENMP):
+        flags = (*flags, OPENMP)
     headers = [text for name, text in sorted(files.items()) if name.endswith(".h")]
-    key = "\0".join([*cc, *COMMON, *flags, VECTOR_MATH, _processor(), source, files[source], *headers])
+    key = "\0".join([*cc, *COMMON, *flags, _processor(), source, files[source], *headers])
     name = Path(source).stem + "-" + hashlib.sha256(key.encode()).hexdigest()[:32] + ".so"
     path = cache_folder() / "native" / name
     if not path.exists():
@@ -81,7 +66,6 @@ def _compile(cc: tuple[str, ...], files: Mapping[str, str], source: str, flags: 
     with tempfile.TemporaryDirectory(dir=path.parent) as folder:
         for file, text in files.items():
             (Path(folder) / file).write_text(text, encoding="utf-8")
-        (Path(folder) / "rsrm_vector_math.h").write_text(VECTOR_MATH, encoding="utf-8")
         command = [*cc, *COMMON, *flags, source, "-o", "library.so", "-lm"]
         try:
             result = subprocess.run(
@@ -95,6 +79,15 @@ def _compile(cc: tuple[str, ...], files: Mapping[str, str], source: str, flags: 
 
 
 @lru_cache
+def _takes(cc: tuple[str, ...], flag: str) -> bool:
+    """Whether the compiler makes a library with a flag: it may know OpenMP and yet lack its library."""
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "empty.c").write_text("extern int nothing;\n", encoding="utf-8")
+        command = [*cc, *COMMON, flag, "empty.c", "-o", "library.so"]
+        return not subprocess.run(command, cwd=folder, capture_output=True, check=False).returncode
+
+
+@lru_cache
 def _processor() -> str:
     """What -march=native depends on: a cache may be shared by different machines."""
     try:
@@ -102,6 +95,13 @@ def _processor() -> str:
     except OSError:
         return platform.machine() + platform.processor()
     return next((line for line in lines if line.startswith(("flags", "Features"))), platform.machine())
+
+
+def scratch(library: ctypes.CDLL, name: str, points: int, splats: int, threads: int, dtype: Any) -> Any:
+    """The scratch memory that the sums of splats of a manifold's library want."""
+    function = getattr(library, f"{name}_splats_work" + ("_f" if dtype == np.float32 else ""))
+    function.restype, function.argtypes = ctypes.c_size_t, (ctypes.c_size_t, ctypes.c_size_t, ctypes.c_int)
+    return np.empty(function(points, splats, threads), dtype)
 
 
 def pointer(array: Any) -> ctypes.c_void_p:

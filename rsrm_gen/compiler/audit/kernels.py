@@ -20,7 +20,7 @@ from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.derive.numeric import largest
 from rsrm_gen.compiler.emit.promises import public
 from rsrm_gen.compiler.lower import Program, Routine, interpret
-from rsrm_gen.compiler.native import TRIED, compiled, compiler, pointer
+from rsrm_gen.compiler.native import TRIED, compiled, compiler, pointer, scratch
 
 TOLERANCE = {"float64": 1e-10, "float32": 1e-2}  # relative to the largest entry; places and splats are middling
 POINTS, SPLATS = 7, 4
@@ -46,7 +46,7 @@ def _functions_check(
     for routine in public(program):
         inputs = _inputs(routine, rows, precision)
         exact = [[entry for result in interpret(routine, *row) for entry in result] for row in _as_floats(inputs)]
-        error = _relative(batch(routine.name, inputs, precision), exact)
+        error = _relative(_as_numbers(batch(routine.name, inputs, precision)), exact)
         if not error <= worst:
             worst, culprit = error, routine.name
     promise = f"every function of the {backend} code in {precision} computes what its formula says"
@@ -66,13 +66,22 @@ def _sums_check(geometry: Geometry, program: Program, files: Mapping[str, str], 
     value_bar = rng.normal(size=(POINTS, 1)).astype(dtype)
     gradient_bar = rng.normal(size=(POINTS, geometry.spec.tangent_size)).astype(dtype)
     library = compiled(files, f"{program.name}_splats.c", TRIED)
+    arrays = [np.ascontiguousarray(a) for a in (x, mu, W, amplitude, value_bar, gradient_bar)]
+    forward, backward = _exact_pairs(program["splat"], arrays[:4]), _exact_pairs(program["splat_vjp"], arrays)
+    expected = {
+        "splats": [_over_splats(result) for result in forward],
+        "splats_value": [_over_splats(forward[0])],
+        "splats_vjp": [_over_points(backward[name]) for name in (0, 1, 2)],
+        "splats_rows": [_each(backward[:3])],
+    }
     errors = []
-    for routine, bars in ((program["splat"], ()), (program["splat_vjp"], (value_bar, gradient_bar))):
-        by_point = routine.name == "splat"
-        sizes = [len(result.nodes) for result in routine.results]
-        found = [np.empty((POINTS if by_point else SPLATS, size), dtype=dtype) for size in sizes]
-        _call(library, program.name, routine.name, precision, (x, mu, W, amplitude, *bars), found)
-        exact = _exact_sums(routine, x, (mu, W, amplitude), bars, by_point)
+    for function, exact in expected.items():
+        inputs = arrays if function in ("splats_vjp", "splats_rows") else arrays[:4]
+        outputs = [np.empty((len(result), len(result[0])), dtype=dtype) for result in exact]
+        _call(library, program.name, function, precision, inputs, outputs)
+        found = [_as_numbers(output) for output in outputs]
+        if function in ("splats_vjp", "splats_rows"):
+            found[0], exact[0] = (_tangent(program, mu, result) for result in (found[0], exact[0]))
         errors += [_relative(a, b) for a, b in zip(found, exact, strict=True)]
     promise = f"the C sums of splats in {precision}, forward and backward, are sums of exact splats"
     worst = float(largest(map(mp.mpf, errors)))
@@ -81,29 +90,54 @@ def _sums_check(geometry: Geometry, program: Program, files: Mapping[str, str], 
 
 
 def _call(
-    library: ctypes.CDLL, name: str, routine: str, precision: str, inputs: Sequence[Any], outputs: Sequence[Any]
+    library: ctypes.CDLL, name: str, function: str, precision: str, inputs: Sequence[Any], outputs: Sequence[Any]
 ) -> None:
-    suffix = "_f" if precision == "float32" else ""
-    function = getattr(library, f"{name}_{routine.replace('splat', 'splats', 1)}{suffix}")
-    arrays = [np.ascontiguousarray(a) for a in inputs]
-    function(ctypes.c_size_t(POINTS), ctypes.c_size_t(SPLATS), *map(pointer, (*arrays, *outputs)))
+    c_function = getattr(library, f"{name}_{function}" + ("_f" if precision == "float32" else ""))
+    work = scratch(library, name, POINTS, SPLATS, 1, PRECISIONS[precision][0])
+    pointers = map(pointer, (*inputs, *outputs, work))
+    c_function(ctypes.c_size_t(POINTS), ctypes.c_size_t(SPLATS), *pointers, ctypes.c_int(1))
 
 
-def _exact_sums(
-    routine: Routine, x: Any, splats: Sequence[Any], bars: Sequence[Any], by_point: bool
-) -> list[list[list[Any]]]:
-    """Every result summed over the splats for each point, or over the points for each splat."""
-    outer, inner = (range(POINTS), range(SPLATS)) if by_point else (range(SPLATS), range(POINTS))
-    totals: list[list[list[Any]]] = [[] for _ in routine.results]
-    for i in outer:
-        parts = []
-        for j in inner:
-            n, k = (i, j) if by_point else (j, i)
-            arguments = (x[n], *(a[k] for a in splats), *(b[n] for b in bars))
-            parts.append(interpret(routine, *([float(c) for c in a] for a in arguments)))
-        for result, total in enumerate(totals):
-            total.append([mp.fsum(entries) for entries in zip(*(part[result] for part in parts), strict=True)])
-    return totals
+Pairs = list[list[list[Any]]]  # of a result: its entries, by point and by splat
+
+
+def _exact_pairs(routine: Routine, arrays: Sequence[Any]) -> list[Pairs]:
+    """Every result of a routine (x, mu, W, amplitude, and adjoints by point) for every point and splat."""
+    results: list[Pairs] = [[] for _ in routine.results]
+    for n in range(POINTS):
+        by_splat = []
+        for k in range(SPLATS):
+            arguments = (arrays[0][n], *(a[k] for a in arrays[1:4]), *(a[n] for a in arrays[4:]))
+            by_splat.append(interpret(routine, *([float(c) for c in a] for a in arguments)))
+        for i, result in enumerate(results):
+            result.append([entries[i] for entries in by_splat])
+    return results
+
+
+def _over_splats(pairs: Pairs) -> list[list[Any]]:
+    return [[mp.fsum(entries) for entries in zip(*by_splat, strict=True)] for by_splat in pairs]
+
+
+def _over_points(pairs: Pairs) -> list[list[Any]]:
+    return [[mp.fsum(entries) for entries in zip(*by_point, strict=True)] for by_point in zip(*pairs, strict=True)]
+
+
+def _tangent(program: Program, mu: Any, bars: Any) -> list[list[Any]]:
+    """The derivatives in mu that the first entries of each row are, as Riemannian gradients: what is normal is free."""
+    rows, D = [], len(mu[0])
+    for i, bar in enumerate(bars):
+        at = [float(c) for c in mu[i % len(mu)]]
+        rows.append([*interpret(program["riemannian_gradient"], at, bar[:D])[0], *bar[D:]])
+    return rows
+
+
+def _each(results: Sequence[Pairs]) -> list[list[Any]]:
+    """The entries of all results of a pair in one row, points first."""
+    return [
+        [entry for part in parts for entry in part]
+        for by_point in zip(*results, strict=True)
+        for parts in zip(*by_point, strict=True)
+    ]
 
 
 def _inputs(routine: Routine, rows: Rows, precision: str) -> list[Any]:
@@ -118,17 +152,19 @@ def _inputs(routine: Routine, rows: Rows, precision: str) -> list[Any]:
     return inputs
 
 
+def _as_numbers(array: Any) -> list[list[Any]]:
+    return [[mp.mpf(float(a)) for a in row] for row in array]
+
+
 def _as_floats(inputs: Sequence[Any]) -> list[list[list[float]]]:
     return [[[float(c) for c in x] for x in row] for row in zip(*inputs, strict=True)]
 
 
 def _relative(found: Any, exact: Sequence[Sequence[Any]]) -> float:
     """The largest error beside the largest exact entry; infinite where the code's result is not finite."""
-    if not np.all(np.isfinite(found)):
+    if not all(mp.isfinite(a) for row in found for a in row):
         return float("inf")
-    pairs = [
-        (mp.mpf(float(a)), b) for row, truth in zip(found, exact, strict=True) for a, b in zip(row, truth, strict=True)
-    ]
+    pairs = [(mp.mpf(a), b) for row, truth in zip(found, exact, strict=True) for a, b in zip(row, truth, strict=True)]
     scale = largest(b for _, b in pairs)
     error = largest(a - b for a, b in pairs)
     return float(error / scale) if scale > 0 else float(error)

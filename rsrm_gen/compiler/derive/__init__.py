@@ -28,6 +28,7 @@ from rsrm_gen.compiler.derive.geometry import (
 from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, Values, is_positive_definite, largest, run, value
 from rsrm_gen.compiler.derive.operators import Operators
 from rsrm_gen.compiler.derive.product import product, scaled
+from rsrm_gen.compiler.derive.radial import radial
 from rsrm_gen.compiler.derive.sampling import Sampler, is_free, reach_of, truth
 from rsrm_gen.compiler.derive.scalarise import Reading, number, scalarised
 from rsrm_gen.compiler.derive.singularities import Ray, exp_ray, guarded, log_ray, remove, smooth_squares
@@ -44,6 +45,7 @@ def derive(spec: Spec) -> Geometry:
     if isinstance(spec, ManifoldSpec):
         with mp.workdps(DIGITS):  # whatever precision the caller works in: the same input gives the same bytes
             geometry = _Derivation(spec).geometry()
+            geometry = replace(geometry, radial=radial(geometry))
     else:
         geometry = product(spec, {factor.spec.content_hash: derive(factor.spec) for factor in spec.distinct()})
     return scaled(geometry, number(spec, spec.scale)) if spec.scale else geometry

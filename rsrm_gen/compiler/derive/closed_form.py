@@ -271,8 +271,8 @@ def _exponents(target: Sequence[Any], logs: Sequence[Any]) -> Iterator[tuple[Fra
             solution = mp.lu_solve(matrix, mp.matrix(list(target[:size])))
         except ZeroDivisionError:
             return
-        exponents = [k for k in (_rational(solution[i]) for i in range(1, size)) if k]
-        constant = _rational(mp.exp(solution[0]))
+        exponents = [k for k in (rational(solution[i]) for i in range(1, size)) if k]
+        constant = rational(mp.exp(solution[0]))
         if len(exponents) < len(logs) or not constant:
             return
         for i, exact in enumerate(target):
@@ -282,7 +282,7 @@ def _exponents(target: Sequence[Any], logs: Sequence[Any]) -> Iterator[tuple[Fra
     yield constant, exponents
 
 
-def _rational(x: Any) -> Fraction | None:
+def rational(x: Any) -> Fraction | None:
     """The simple fraction that x is to 30 digits, or None."""
     for denominator in (1, 2, 3, 4, 6, 8, 9, 16, 27, 32, 64):
         nearest = mp.nint(x * denominator)

@@ -154,6 +154,19 @@ def renamed(function: Function, names: dict[sp.Symbol, sp.Symbol]) -> Function:
 
 
 @dataclass(frozen=True)
+class Radial:
+    """Log and its determinant on a quadric of constant curvature, as `derive.radial` finds and describes them.
+
+    <x, y> = x . form y, in D x D numbers; `folded` where x and -x are one point.
+    """
+
+    form: tuple[tuple[sp.Rational, ...], ...]
+    folded: bool
+    unbounded: bool  # w >= 1, not w <= 1
+    power: int
+
+
+@dataclass(frozen=True)
 class Geometry:
     """All that was derived from a spec.
 
@@ -171,6 +184,7 @@ class Geometry:
     periods: tuple[sp.Expr | None, ...] | None
     domain: sp.Expr | None  # 1 where a point is valid, in the symbols of p; None if there is no condition
     factors: tuple[tuple[str, Geometry], ...] = ()
+    radial: Radial | None = None  # the form in which sums of splats are computed, if it has one
     unit: sp.Expr = sp.S.One  # a length natural to the manifold, where the injectivity radius is infinite
 
     def __getitem__(self, name: str) -> Function:

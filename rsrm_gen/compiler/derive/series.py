@@ -82,6 +82,12 @@ def _fit_to(curve: Curve, reach: Any, order: int, degree: int) -> Fit | None:
     return Fit(order, scaled, threshold, float(largest(errors)))
 
 
+def interpolated(function: Callable[[Any], Any], degree: int) -> list[Any]:
+    """The polynomial on [0, 1] that agrees with a function in Chebyshev points, lowest coefficient first."""
+    nodes = [(1 + mp.cos(mp.pi * (k + mp.mpf(1) / 2) / (degree + 1))) / 2 for k in range(degree + 1)]
+    return _interpolate(nodes, list(map(function, nodes)))
+
+
 def _interpolate(x: list[Any], y: list[Any]) -> list[Any]:
     """Monomial coefficients of the polynomial through the points, lowest first (Newton's divided differences)."""
     newton = list(y)

@@ -50,22 +50,35 @@ def series_name(table: str, precision: Precision) -> str:
 
 def series_function(name: str, coefficients: Coefficients, precision: Precision) -> str:
     """A polynomial by Horner's rule, as an inline function, with its degree and what that costs."""
+    title, body = series_body(name, coefficients, precision)
+    t = precision.type
+    return f"/* {title} */\nstatic inline {t} {series_name(name, precision)}({t} x) {{\n{body}\n}}"
+
+
+def series_body(name: str, coefficients: Coefficients, precision: Precision) -> tuple[str, str]:
+    """What a polynomial's comment says, and its body by Horner's rule."""
     numbers, title = in_double(coefficients), described(name, coefficients)
     if precision is FLOAT:
         single = in_single(coefficients)
         if single.degree < len(numbers) - 1:
             title = f"of degree {single.degree}, within {single.bits} of that of double precision"
         numbers = single.coefficients
-    *rest, last = spelled(numbers, precision.suffix)
+    return f"{title[0].upper()}{title[1:]}.", wrapped(f"return {horner(spelled(numbers, precision.suffix), 'x')};")
+
+
+def horner(coefficients: list[str], x: str) -> str:
+    """c0 + x (c1 + x (c2 + ...))."""
+    *rest, last = coefficients
     text = last
     for coefficient in reversed(rest):
-        text = f"{coefficient} + x * ({text})" if text != last else f"{coefficient} + x * {text}"
-    body = textwrap.fill(
-        f"return {text};", WIDTH - 4, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False
-    )
-    t = precision.type
-    function = f"static inline {t} {series_name(name, precision)}({t} x)"
-    return f"/* {title[0].upper()}{title[1:]}. */\n{function} {{\n{textwrap.indent(body, '    ')}\n}}"
+        text = f"{coefficient} + {x} * ({text})" if text != last else f"{coefficient} + {x} * {text}"
+    return text
+
+
+def wrapped(statement: str) -> str:
+    """A statement of a function's body, in lines that are not too long."""
+    text = textwrap.fill(statement, WIDTH - 4, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False)
+    return textwrap.indent(text, "    ")
 
 
 def statements(routine: Routine, printer: Printer, precision: Precision) -> list[str]:

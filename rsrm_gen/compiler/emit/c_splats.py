@@ -1,210 +1,279 @@
 """The sums of splats in C: N points times K splats, values and gradients forward, their adjoints backward.
 
-Nothing of size N x K is stored: forward, a block of points stays in the cache while all splats pass over it; backward,
-a splat gathers its derivatives from all points in the lanes of a vector, which are added up at the end. All loops over
-points are plain loops without branches over contiguous arrays, for the compiler to vectorise.
+Every routine of `program.pairs` becomes a function of vectors. Forward, the lanes of some vectors are points, and all
+splats pass over them while the sums stay in registers. Backward, the points pass over each splat, whose sums stay in
+registers, and are added up over the lanes once a chunk. Nothing of size N x K is stored, and no sum depends on the number
+of threads: forward they share the points, backward the splats.
 """
 
 from __future__ import annotations
 
-import textwrap
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from rsrm_gen.compiler.emit import c_matrix
-from rsrm_gen.compiler.emit.c_language import (
-    comment,
-    restrict,
-    series_function,
-    series_name,
-    spelling,
-    statements,
-)
+from rsrm_gen.compiler.emit.c_language import comment, restrict, wrapped
 from rsrm_gen.compiler.emit.c_precision import PRECISIONS, Precision
-from rsrm_gen.compiler.emit.expression import Printer
+from rsrm_gen.compiler.emit.c_splats_loops import (
+    BACKWARD,
+    CONSTANTS,
+    FLUSH,
+    FORWARD,
+    OMP,
+    POINTS,
+    PRODUCTS,
+    ROWS,
+    ROWWISE,
+    SUMS,
+    VALUE,
+    WORK,
+)
+from rsrm_gen.compiler.emit.c_vector import BASICS, TYPES, Body, functions_of, indented, polynomial_function, spelled
+from rsrm_gen.compiler.emit.c_vector_math import functions
+from rsrm_gen.compiler.emit.products import Products, Term, products_of, terms_of, uses_of
 from rsrm_gen.compiler.emit.series import Coefficients, tables
-from rsrm_gen.compiler.lower import Parameter, Program, Routine
+from rsrm_gen.compiler.lower import Node, Program, Routine
+from rsrm_gen.compiler.lower.ir import Result, reachable
 
-LANES = 64  # points that pass together; a multiple of every vector length, small enough for the cache
+REGISTERS = 20  # sums that stay in registers; of more, products are added up in groups
+INLINED = 400  # operations of a routine beyond which a call costs nothing
+BUFFER = 24576  # bytes of factors that stay in the first cache
+BLOCK = 2  # vectors of points that pass together forward, so that one waits while the other computes
+CHUNK = 1 << 17  # bytes of points that pass together backward: what stays in the second cache with room to spare
 
-# Far splats are denormal numbers, on which processors are ten times slower; here they are zero.
-FLUSH = """/* Denormal numbers count as zero while the sums run: far splats are many, and slow. */
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-static unsigned flush_denormals(void) {
-    const unsigned mode = _mm_getcsr();
-    _mm_setcsr(mode | 0x8040u);
-    return mode;
+PROMISES = {
+    "splats_work": "How many numbers of scratch memory the functions below need, for these sizes or smaller ones.",
+    "splats": "The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4).",
+    "splats_value": "The values of the sums alone.",
+    "splats_vjp": "The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude.",
+    "splats_rows": "The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +\n"
+    " * gradient_n . gradient_bar_n in its mu, W and amplitude, in this order.",
 }
-static void restore_denormals(unsigned mode) { _mm_setcsr(mode); }
-#else
-static unsigned flush_denormals(void) { return 0; }
-static void restore_denormals(unsigned mode) { (void)mode; }
-#endif"""
+INPUTS = ("x", "mu", "W", "amplitude")
+BARS = ("value_bar", "gradient_bar")
+OUTPUTS = {
+    "splats": ("value", "gradient"),
+    "splats_value": ("value",),
+    "splats_vjp": ("mu_bar", "W_bar", "amplitude_bar"),
+    "splats_rows": ("rows",),
+}
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """How many numbers belong to a point (x, its features X, its gradient) and to a splat (its parameters, constants S)."""
+
+    x: int
+    X: int
+    gradient: int
+    mu: int
+    W: int
+    S: int
+
+    @property
+    def point(self) -> int:
+        """What backward reads of a point: its features, value_bar and the adjoints of its slope."""
+        return 2 * self.X + 1
+
+    @property
+    def own(self) -> int:
+        """The parameters of a splat."""
+        return self.mu + self.W + 1
 
 
 def declarations(program: Program) -> list[str]:
     """The prototypes, for the header."""
-    forward = "/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */"
-    backward = (
-        "/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */"
-    )
     return [
-        "\n".join([forward, *(_forward_signature(program, p) + ";" for p in PRECISIONS)]),
-        "\n".join([backward, *(_backward_signature(program, p) + ";" for p in PRECISIONS)]),
+        "\n".join([f"/* {promise} */", *(_signature(program, name, p) + ";" for p in PRECISIONS)])
+        for name, promise in PROMISES.items()
     ]
 
 
 def source(program: Program, heading: list[str]) -> str:
     """The text of NAME_splats.c."""
-    kernels = Program(program.name, (program["splat"], program["splat_vjp"]))
-    series = tables(kernels)
+    series = tables(program.pairs)
     top = comment(
         [heading[0], "", "Sums of splats, forward and backward. See the header for what the functions promise."]
     )
-    parts = [top, f'#include "{program.name}.h"\n\n#include <float.h>\n\n#define LANES {LANES}', FLUSH]
+    includes = f'#include "{program.name}.h"\n\n#include <float.h>\n#include <stdint.h>\n#include <string.h>'
+    parts = [top, includes, TYPES, OMP, FLUSH]
     for precision in PRECISIONS:
-        parts += [series_function(name, coefficients, precision) for coefficients, name in series.items()]
-        parts += c_matrix.support(kernels, precision)
-        parts += [_forward(program, series, precision), _backward(program, series, precision)]
+        parts += [spelled(BASICS, precision), *functions(functions_of(program.pairs), precision)]
+        parts += [polynomial_function(name, coefficients, precision) for coefficients, name in series.items()]
+        parts += c_matrix.support(program.pairs, precision)
+        parts += _routines(program, series, precision)
+        parts += _loops(program, precision)
     return "\n\n".join(parts) + "\n"
 
 
-def _pointer(name: str, program: Program, precision: Precision, const: bool = True) -> str:
-    return f"{'const ' if const else ''}{precision.type} *{restrict(program)} {name}"
+def _sizes(program: Program) -> Sizes:
+    pairs = program.pairs
+    x, (mu, W, _) = pairs.features.parameters[0], pairs.constants.parameters
+    size = [len(p.nodes) for p in (x, pairs.forward.parameters[0], pairs.gradient.results[0], mu, W)]
+    return Sizes(size[0], size[1], size[2], size[3], size[4], len(pairs.forward.parameters[1].nodes))
 
 
-def _arguments(program: Program, precision: Precision, inputs: list[str], outputs: list[str]) -> str:
-    pointers = [_pointer(n, program, precision) for n in inputs] + [
-        _pointer(n, program, precision, False) for n in outputs
-    ]
-    return ",\n    ".join(["size_t count", "size_t splat_count", *pointers])
-
-
-def _forward_signature(program: Program, precision: Precision) -> str:
-    arguments = _arguments(program, precision, ["x", "mu", "W", "amplitude"], ["value", "gradient"])
-    return f"void {program.name}_splats{precision.tag}(\n    {arguments})"
-
-
-def _backward_signature(program: Program, precision: Precision) -> str:
-    inputs = ["x", "mu", "W", "amplitude", "value_bar", "gradient_bar"]
-    arguments = _arguments(program, precision, inputs, ["mu_bar", "W_bar", "amplitude_bar"])
-    return f"void {program.name}_splats_vjp{precision.tag}(\n    {arguments})"
-
-
-def _size(parameter: Parameter) -> int:
-    return len(parameter.nodes)
-
-
-def _local(parameter: Parameter, i: int) -> str:
-    """The name of an entry of splat k; the graph gave it, so that no name of the author's is the same."""
-    return str(parameter.nodes[i].value) if parameter.shape else f"{parameter.name}_k"
-
-
-def _body(
-    routine: Routine, series: dict[Coefficients, str], precision: Precision, per_point: tuple[str, ...]
-) -> tuple[list[str], list[str]]:
-    """Statements of one pair and the expressions of its results; what belongs to the point is read from its lane."""
-    names = {}
-    for parameter in routine.parameters:
-        for i, node in enumerate(parameter.nodes):
-            names[node] = f"{parameter.name}_block[{i}][lane]" if parameter.name in per_point else _local(parameter, i)
-    printer = Printer(spelling(precision), names, {k: series_name(name, precision) for k, name in series.items()})
-    lines = statements(routine, printer, precision)
-    return lines, [printer.text(node) for result in routine.results for node in result.nodes]
-
-
-def _splat_locals(routine: Routine, precision: Precision, names: tuple[str, ...]) -> str:
-    """The numbers of splat k as constants; those that are not read, left out."""
-    lines = []
-    for parameter in routine.parameters:
-        if parameter.name in names:
-            for i, node in enumerate(parameter.nodes):
-                if str(node.value) in routine.inputs:
-                    lines.append(
-                        f"const {precision.type} {_local(parameter, i)} = {parameter.name}[{_size(parameter)} * k + {i}];"
-                    )
-    return "\n".join(lines)
-
-
-def _load(parameter: Parameter, last: str) -> str:
-    """The lanes of a block of points, transposed; lanes past the end repeat the last point."""
-    n = _size(parameter)
-    return f"for (size_t i = 0; i < {n}; ++i) {parameter.name}_block[i][lane] = {parameter.name}[{n} * {last} + i];"
-
-
-def _forward(program: Program, series: dict[Coefficients, str], precision: Precision) -> str:
-    routine, t = program["splat"], precision.type
-    x = routine.parameters[0]
-    lines, results = _body(routine, series, precision, ("x",))
-    rows = len(results)
-    sums = [f"sum[{i}][lane] += {text};" for i, text in enumerate(results)]
-    return f"""{_forward_signature(program, precision)} {{
-    const unsigned mode = flush_denormals();
-    for (size_t start = 0; start < count; start += LANES) {{
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        {t} x_block[{_size(x)}][LANES], sum[{rows}][LANES] = {{{{0}}}};
-        for (size_t lane = 0; lane < LANES; ++lane) {{
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            {_load(x, "n")}
-        }}
-        for (size_t k = 0; k < splat_count; ++k) {{
-{textwrap.indent(_splat_locals(routine, precision, ("mu", "W", "amplitude")), " " * 12)}
-            for (size_t lane = 0; lane < LANES; ++lane) {{
-{_indented(lines + sums, 16)}
-            }}
-        }}
-        for (size_t lane = 0; lane < lanes; ++lane) {{
-            value[start + lane] = sum[0][lane];
-            for (size_t i = 0; i < {rows - 1}; ++i) gradient[{rows - 1} * (start + lane) + i] = sum[i + 1][lane];
-        }}
-    }}
-    restore_denormals(mode);
-}}"""
-
-
-def _backward(program: Program, series: dict[Coefficients, str], precision: Precision) -> str:
-    routine, t = program["splat_vjp"], precision.type
-    by_name = {p.name: p for p in routine.parameters}
-    points = (by_name["x"], by_name["value_bar"], by_name["gradient_bar"])
-    lines, results = _body(routine, series, precision, tuple(p.name for p in points))
-    sums = [f"sum[{i}][lane] += {text};" for i, text in enumerate(results)]
-    blocks = ", ".join(f"{p.name}_block[{_size(p)}][LANES]" for p in points)
-    loads = "\n".join(" " * 12 + _load(p, "n") for p in points)
-    # A lane past the end has adjoints of zero, and so adds nothing.
-    mask = "\n".join(
-        f"{' ' * 12}for (size_t i = 0; i < {_size(p)}; ++i) {p.name}_block[i][lane] *= weight;" for p in points[1:]
+def _signature(program: Program, name: str, precision: Precision) -> str:
+    full = f"{program.name}_{name}{precision.tag}"
+    if name == "splats_work":
+        return f"size_t {full}(size_t count, size_t splat_count, int threads)"
+    t, r = precision.type, restrict(program)
+    inputs = INPUTS + (BARS if name in ("splats_vjp", "splats_rows") else ())
+    arguments = ["size_t count", "size_t splat_count", *(f"const {t} *{r} {n}" for n in inputs)]
+    arguments += [*(f"{t} *{r} {n}" for n in OUTPUTS[name]), f"{t} *{r} work", "int threads"]
+    return (
+        f"void {full}(\n    {', '.join(arguments[: 2 + len(inputs)])},\n    {', '.join(arguments[2 + len(inputs) :])})"
     )
-    outputs = [(f"{name}_bar", _size(by_name[name])) for name in ("mu", "W", "amplitude")]
-    clear = "\n".join(f"    for (size_t i = 0; i < {n} * splat_count; ++i) {name}[i] = 0;" for name, n in outputs)
-    offset, stores = 0, []
-    for name, n in outputs:
-        stores += [f"{name}[{n} * k + {i}] += total[{offset + i}];" for i in range(n)]
-        offset += n
-    return f"""{_backward_signature(program, precision)} {{
-    const unsigned mode = flush_denormals();
-{clear}
-    for (size_t start = 0; start < count; start += LANES) {{
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        {t} {blocks};
-        for (size_t lane = 0; lane < LANES; ++lane) {{
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            const {t} weight = lane < lanes ? 1 : 0;
-{loads}
-{mask}
-        }}
-        for (size_t k = 0; k < splat_count; ++k) {{
-            {t} sum[{len(results)}][LANES] = {{{{0}}}}, total[{len(results)}] = {{0}};
-{textwrap.indent(_splat_locals(routine, precision, ("mu", "W", "amplitude")), " " * 12)}
-            for (size_t lane = 0; lane < LANES; ++lane) {{
-{_indented(lines + sums, 16)}
-            }}
-            for (size_t i = 0; i < {len(results)}; ++i)
-                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
-{_indented(stores, 12)}
-        }}
-    }}
-    restore_denormals(mode);
-}}"""
 
 
-def _indented(lines: list[str], width: int) -> str:
-    return textwrap.indent("\n".join(lines), " " * width)
+# What each routine is for, and whether it adds to its results.
+ROUTINES = {
+    "features": ("What pairs read of points x.", False),
+    "constants": ("What pairs read of a splat, of some splats.", False),
+    "value": ("Adds the values phi of a splat at some points.", True),
+    "forward": ("Adds the values phi of a splat at some points, and slope = d phi / d X.", True),
+    "gradient": ("The Riemannian gradient at some points, of the sums of slopes.", False),
+    "factors": ("The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar.", False),
+    "gradient_vjp": ("The adjoint of slope at some points, of that of the gradient.", False),
+    "backward": ("Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.", True),
+    "constants_vjp": ("The adjoints of some splats' parameters, of that of S.", False),
+}
+
+
+def _routines(program: Program, series: dict[Coefficients, str], precision: Precision) -> list[str]:
+    pairs = program.pairs
+    texts = [_routine(routine, series, precision) for routine in pairs if routine.name != "backward"]
+    products = _products(pairs.backward)
+    if products is None:
+        return [*texts, _routine(pairs.backward, series, precision)]
+    return [*texts, *_factored(pairs.backward, products, series, precision)]
+
+
+def _products(backward: Routine) -> Products | None:
+    """The sums of backward as products, where they are more than registers hold."""
+    if len(_kept(backward.results[0])) <= REGISTERS:
+        return None
+    vectors = {n for p in backward.parameters if p.name != "S" for n in p.nodes}
+    for node in backward.nodes:
+        if any(a in vectors for a in node.arguments):
+            vectors.add(node)
+    return products_of(backward, vectors)
+
+
+def _factored(routine: Routine, products: Products, series: dict[Coefficients, str], precision: Precision) -> list[str]:
+    """Backward in two steps: the factors of a pair, then their products."""
+    v = f"vector{precision.tag}"
+    results = (Result("factor", (len(products.factors),), products.factors),)
+    # what only a result needed has no name and is written where the result was
+    first = replace(routine, name="factors", results=results, body=_needed(routine, products.factors))
+    names = {node: f"factor[{i}]" for i, node in enumerate(products.factors)}
+    offset = 0
+    for parameter in routine.parameters:
+        if parameter.name != "S":
+            names |= {node: f"point[{offset + i}]" for i, node in enumerate(parameter.nodes)}
+            offset += len(parameter.nodes)
+    texts = [_routine(first, series, precision)]
+    for number, group in enumerate(products.groups):
+        sums = [f"sum[{j}] = sum[{j}]{_sum_of(products.terms[i], names)};" for j, i in enumerate(group)]
+        texts.append(
+            f"/* Adds some of the derivatives, as products. */\nINLINE void pair_products_{number}{precision.tag}("
+            f"const {v} *factor, const {v} *point, {v} *sum) {{\n    (void)factor;\n    (void)point;\n{indented(sums, 4)}\n}}"
+        )
+    return texts
+
+
+def _needed(routine: Routine, nodes: Sequence[Node]) -> tuple[tuple[str, Node], ...]:
+    needed = set(reachable(nodes))
+    return tuple((name, node) for name, node in routine.body if node in needed)
+
+
+def _as_sums(routine: Routine) -> dict[Node, list[Term]]:
+    uses = uses_of(routine)
+    return {node: terms_of(node, uses) for result in routine.results for node in result.nodes}
+
+
+def _sum_of(terms: Sequence[Term], names: Mapping[Node, str]) -> str:
+    return "".join(f" {'+' if sign > 0 else '-'} {' * '.join(names[f] for f in factors)}" for sign, factors in terms)
+
+
+def _routine(routine: Routine, series: dict[Coefficients, str], precision: Precision) -> str:
+    """A routine on vectors; what is the same for all lanes, the constants S of a splat beside points, is numbers."""
+    title, adds = ROUTINES[routine.name]
+    v, t = f"vector{precision.tag}", precision.type
+    of_pair = routine.name in ("value", "forward", "backward", "factors")
+    arguments: list[str] = []
+    inputs: dict[Node, str] = {}
+    vectors: set[Node] = set()
+    unread: list[str] = []
+    for parameter in routine.parameters:
+        is_vector = not (of_pair and parameter.name == "S")
+        arguments.append(f"const {v if is_vector else t} *{parameter.name}")
+        inputs |= {node: f"{parameter.name}[{i}]" for i, node in enumerate(parameter.nodes)}
+        vectors |= set(parameter.nodes) if is_vector else set()
+        if not routine.inputs & {str(n.value) for n in parameter.nodes}:
+            unread.append(f"(void){parameter.name};")
+    sums = _as_sums(routine) if adds else {}
+    read = [f for terms in sums.values() for _, factors in terms for f in factors]
+    body = Body(replace(routine, body=_needed(routine, read)) if adds else routine, inputs, vectors, precision, series)
+    stores = []
+    for result in routine.results:
+        arguments.append(f"{v} *{result.name}")
+        kept = [(i, node) for i, node in enumerate(result.nodes) if not (adds and node.is_number(0))]
+        if adds:  # term by term, so that each is one instruction that multiplies and adds
+            texts = [f"{result.name}[{i}]{body.sum_of(sums[node])}" for i, node in kept]
+        else:
+            texts = [body.result(node) for _, node in kept]
+        stores += [wrapped(f"{result.name}[{i}] = {text};").strip() for (i, _), text in zip(kept, texts, strict=True)]
+        if not kept:
+            unread.append(f"(void){result.name};")
+    lines = indented([*unread, *body.lines, *stores], 4)
+    kind = "INLINE" if of_pair and routine.operations <= INLINED else "OUTLINE"
+    head = f"{kind} void pair_{routine.name}{precision.tag}("
+    return f"/* {title} */\n{head}\n    {', '.join(arguments)}) {{\n{lines}\n}}"
+
+
+def _loops(program: Program, precision: Precision) -> list[str]:
+    z, backward = _sizes(program), program.pairs.backward
+    products = _products(backward)
+    texts = [ROWS, WORK, CONSTANTS, FORWARD, VALUE, POINTS, SUMS if products is None else PRODUCTS, BACKWARD, ROWWISE]
+    parts: dict[str, object] = {
+        "NAME": program.name,
+        "nx": z.x, "nX": z.X, "nG": z.gradient, "nmu": z.mu, "nW": z.W, "nS": z.S, "nP": z.own, "nB": z.point,
+        "BLOCK": BLOCK, "CHUNK": CHUNK,
+    }  # fmt: skip
+    calls = [f"pair_forward@(X[{b}], constants + {z.S} * k, value_sum[{b}], slope_sum[{b}]);" for b in range(BLOCK)]
+    parts["FORWARD$"] = indented(calls, 16).strip()
+    calls = [f"pair_value@(X[{b}], constants + {z.S} * k, value_sum[{b}]);" for b in range(BLOCK)]
+    parts["VALUE$"] = indented(calls, 16).strip()
+    for name in PROMISES:
+        parts[f"SIGNATURE_{name}$"] = _signature(program, name, precision)
+    if products is None:
+        sums = [f"S_bar[{i}] += vector_sum@(sum[{i}]);" for i in _kept(backward.results[0])]
+        parts["SUMS$"] = indented(sums, 4).strip()
+    else:
+        size = len(products.factors)
+        parts["nF"], parts["BUFFER"] = size, max(4, min(16, BUFFER // (64 * size)))
+        parts["GROUPS$"] = indented([_group(products, g, z, True) for g in range(len(products.groups))], 8).strip()
+        parts["GROUPS1$"] = indented([_group(products, g, z, False) for g in range(len(products.groups))], 4).strip()
+    return [_filled(text, parts, precision) for text in texts]
+
+
+def _group(products: Products, number: int, z: Sizes, over_points: bool) -> str:
+    """The sums of a group of products over a buffer of points, or the products of one."""
+    group, call = products.groups[number], f"pair_products_{number}@"
+    target = "total" if over_points else "S_bar"
+    step = f"{call}(factor, point, sum);"
+    if over_points:
+        step = f"for (size_t b = 0; b < size; ++b) {call}(factor + $nF * b, point + {z.point} * b, sum);"
+    adds = [f"{target}[{i}] += sum[{j}];" for j, i in enumerate(group)]
+    return "{\n" + indented([f"vector@ sum[{len(group)}] = {{ZERO}};", step, *adds], 4) + "\n}"
+
+
+def _kept(result: Result) -> list[int]:
+    return [i for i, node in enumerate(result.nodes) if not node.is_number(0)]
+
+
+def _filled(text: str, parts: dict[str, object], precision: Precision) -> str:
+    for name in sorted(parts, key=len, reverse=True):
+        text = text.replace(f"${name}", str(parts[name]))
+    return spelled(text, precision)

@@ -7,12 +7,13 @@ still agree to an eighth of its rounding unit. All are in the scaled variable u 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 
 from rsrm_gen.compiler.derive.series import ERROR
-from rsrm_gen.compiler.lower import Program
+from rsrm_gen.compiler.lower import Routine
 
 Coefficients = tuple[object, ...]
 
@@ -42,10 +43,10 @@ def _bits(error: float) -> str:
     return f"2^{math.ceil(math.log2(error))}" if error else "0"
 
 
-def tables(program: Program) -> dict[Coefficients, str]:
+def tables(routines: Iterable[Routine]) -> dict[Coefficients, str]:
     """Coefficients of polynomials to the names of their tables, in the order of their first use."""
     found: dict[Coefficients, str] = {}
-    for routine in program:
+    for routine in routines:
         names = {node: name for name, node in routine.body}
         for node in routine.nodes:
             if node.op == "polynomial" and node.value not in found:

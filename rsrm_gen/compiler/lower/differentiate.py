@@ -12,10 +12,10 @@ from rsrm_gen.compiler.lower.ir import Graph, Node, Packed, reachable
 Rule = Callable[[Graph, Node, Node], tuple[Node | None, ...]]  # (graph, node, adjoint) -> adjoints of its arguments
 
 
-def gradient(graph: Graph, output: Node, inputs: Sequence[Node]) -> tuple[Node, ...]:
-    """The partial derivatives of a node with respect to some others."""
+def gradient(graph: Graph, output: Node, inputs: Sequence[Node], times: Node | None = None) -> tuple[Node, ...]:
+    """The partial derivatives of a node with respect to some others; `times` a factor."""
     sweep = _Sweep(graph, _dependents(output, inputs))
-    sweep.adjoints[output] = graph.constant(1)
+    sweep.adjoints[output] = times or graph.constant(1)
     for node in sorted(sweep.dependent, key=lambda n: -n.number):
         sweep.visit(node)
     return tuple(sweep.adjoints.get(x, graph.constant(0)) for x in inputs)
@@ -159,6 +159,7 @@ RULES: dict[str, Rule] = {
     "atan2": _atan2,
     "abs": _abs,
     "select": _select,
+    "declared": lambda g, node, adjoint: (None, *(g.mul(adjoint, slope) for slope in g.slopes[node])),
     "polynomial": _polynomial,
     "sqrt": _over(lambda g, x, y: _twice(g, y)),
     "exp": _one(lambda g, x, y: y),

@@ -20,8 +20,8 @@ ELEMENTARY = {
 }  # fmt: skip
 
 
-def inline(graph: Graph, function: Function, *arguments: tuple[Node, ...]) -> tuple[Node, ...]:
-    """The results of a staged function of given nodes."""
+def inline(graph: Graph, function: Function, *arguments: tuple[Node, ...], prefix: str = "") -> tuple[Node, ...]:
+    """The results of a staged function of given nodes; its own names begin with the prefix."""
     values: dict[sp.Symbol, Node] = {}
     for declared, given in zip(function.arguments, arguments, strict=True):
         values.update(zip(declared.symbols, given, strict=True))
@@ -31,7 +31,7 @@ def inline(graph: Graph, function: Function, *arguments: tuple[Node, ...]) -> tu
         node = builder.node(assignment.expression)
         if assignment.guard is not None:
             node = _guarded(builder, assignment, node, given_nodes)
-        values[assignment.symbol] = graph.named(str(assignment.symbol), node)
+        values[assignment.symbol] = graph.named(f"{prefix}{assignment.symbol}", node)
     return tuple(builder.node(result) for result in function.results)
 
 

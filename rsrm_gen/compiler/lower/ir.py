@@ -9,6 +9,7 @@ of
     exp log sin cos tan sinh cosh tanh asinh acosh acos atanh atan2 abs round
     polynomial c0 + c1 x + ..., exact coefficients     select     (condition, x, y)
     less, less_equal, equal   conditions, only as the first argument of a select
+    declared   (value, variables...): the value, with derivatives in the variables that the graph keeps; gone once differentiated
 
 and, for functions of symmetric matrices, two nodes of several values and one that picks from them:
 
@@ -23,7 +24,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 
 import sympy as sp
@@ -53,6 +54,12 @@ FUNCTIONS = (
 )
 CONDITIONS = ("less", "less_equal", "equal")
 SEVERAL = ("eigh", "spectral")  # the operations of more than one value
+
+# Beyond the one that every operation counts, where a processor computes many at once.
+VECTOR_WORK = {
+    "div": 4, "sqrt": 4, "root": 4, "exp": 14, "log": 16, "sin": 18, "cos": 18, "tan": 24, "sinh": 20, "cosh": 20, "tanh": 20,
+    "asinh": 24, "acosh": 24, "acos": 24, "atanh": 24, "atan2": 28, "abs": 0, "round": 0, "select": 1,
+}  # fmt: skip
 
 Packed = tuple["Node", ...]
 
@@ -105,6 +112,7 @@ class Graph:
     def __init__(self) -> None:
         self.nodes: dict[tuple[str, tuple[Node, ...], object], Node] = {}
         self.names: dict[Node, str] = {}  # what a person would call a node
+        self.slopes: dict[Node, tuple[Node, ...]] = {}  # the derivatives of declared nodes in their variables
 
     def node(self, op: str, *arguments: Node, value: object = None) -> Node:
         """The node of an operation, without simplification."""
@@ -214,6 +222,13 @@ class Graph:
         """x where the condition holds, else y."""
         return x if x is y else self.node("select", condition, x, y)
 
+    def declared(self, value: Node, *variables: Node) -> Node:
+        """A value known to be a function of some variables, however it is computed; `slopes` must be told its derivatives.
+
+        The derivatives may be made of declared nodes, this one too.
+        """
+        return self.node("declared", value, *variables)
+
     def eigh(self, matrix: Packed) -> Node:
         """The eigenvalues and eigenvectors of a symmetric matrix."""
         return self.node("eigh", *matrix)
@@ -288,11 +303,41 @@ class Routine:
 
 
 @dataclass(frozen=True)
+class Pairs:
+    """A splat split by what its parts depend on: the point, the splat, or the pair of them (see `pairs.py`)."""
+
+    features: Routine
+    constants: Routine
+    value: Routine
+    forward: Routine
+    gradient: Routine
+    gradient_vjp: Routine
+    backward: Routine
+    constants_vjp: Routine
+
+    def __iter__(self) -> Iterator[Routine]:
+        return (getattr(self, field.name) for field in fields(self))
+
+    @property
+    def work(self) -> int:
+        """What a pair costs, forward and backward, in multiplications: roughly, to compare one form with another."""
+        nodes = [*self.forward.nodes, *self.backward.nodes]
+        return sum(_cost(node) + VECTOR_WORK.get(node.op, 0) for node in nodes)
+
+
+@dataclass(frozen=True)
 class Program:
-    """All routines of a manifold."""
+    """All routines of a manifold, and its splat split for sums over many points and splats.
+
+    On hyperboloids the form of `pairs` loses digits far out, about as many as the square root of extent(x) extent(mu) has.
+    `careful` is then the form in the author's formulas, which is slower and does not.
+    """
 
     name: str
     routines: tuple[Routine, ...]
+    pairs: Pairs
+    careful: Pairs | None = None
+    extent: Routine | None = None  # of a point: the sum of squares of the coordinates that may be large
 
     def __getitem__(self, name: str) -> Routine:
         found = next((routine for routine in self.routines if routine.name == name), None)
@@ -302,6 +347,14 @@ class Program:
 
     def __iter__(self) -> Iterator[Routine]:
         return iter(self.routines)
+
+
+def dot(graph: Graph, x: Iterable[Node], y: Iterable[Node]) -> Node:
+    """The sum of the products of two rows of one length."""
+    total = graph.constant(0)
+    for a, b in zip(x, y, strict=True):
+        total = graph.add(total, graph.mul(a, b))
+    return total
 
 
 def reachable(roots: Iterable[Node]) -> list[Node]:

@@ -8,7 +8,9 @@ from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.derive.geometry import Function
 from rsrm_gen.compiler.lower.differentiate import gradient
 from rsrm_gen.compiler.lower.from_sympy import inline
-from rsrm_gen.compiler.lower.ir import Graph, Node, Parameter, Program, Result, Routine
+from rsrm_gen.compiler.lower.ir import Graph, Node, Packed, Pairs, Parameter, Program, Result, Routine
+from rsrm_gen.compiler.lower.pairs import SplatNodes, pairs_of
+from rsrm_gen.compiler.lower.reduced import extent, reduced
 from rsrm_gen.compiler.lower.schedule import schedule
 from rsrm_gen.compiler.spec.vocabulary import Shape
 
@@ -29,7 +31,7 @@ def lower(geometry: Geometry) -> Program:
     """The program of a manifold: the functions of the `Manifold` protocol, one routine each."""
     routines = [routine_of(function) for function in geometry]
     splat = _Splat(geometry)
-    return Program(geometry.spec.identifier, (*routines, splat.routine(), splat.vjp()))
+    return Program(geometry.spec.identifier, (*routines, splat.routine(), splat.vjp()), *splat.pairs())
 
 
 def routine_of(function: Function) -> Routine:
@@ -58,6 +60,7 @@ class _Splat:
         (log_det,) = inline(graph, geometry["log_abs_det"], self.mu.nodes, self.x.nodes)
         z = _named(graph, "z", tuple(_dot(graph, self.W.nodes[i * self.size :], log) for i in range(spec.dim)))
         exponent = graph.sub(log_det, graph.mul(graph.constant(sp.Rational(1, 2)), _dot(graph, z, z)))
+        self.exponent, self.geometry = exponent, geometry
         self.value = graph.named("phi", graph.mul(self.amplitude.nodes[0], graph.function("exp", exponent)))
         partials = _named(graph, "exponent_by_x", gradient(graph, exponent, self.x.nodes))
         df = _named(graph, "df", tuple(graph.mul(self.value, partial) for partial in partials))
@@ -68,6 +71,22 @@ class _Splat:
         """The value and the gradient."""
         results = Result("value", (), (self.value,)), Result("gradient", (self.size,), self.gradient)
         return schedule(self.graph, "splat", (self.x, self.mu, self.W, self.amplitude), results, self.formula)
+
+    def pairs(self) -> tuple[Pairs, Pairs | None, Routine | None]:
+        """The splat split for sums of many, in the author's formulas or reduced, whichever is less work; and if the latter
+        is not for everywhere, the former, and what tells where."""
+        plain = SplatNodes(self.x, self.mu, self.W, self.amplitude, self.value, self.exponent, self.value)
+        other = reduced(self.geometry, plain, self.graph)
+
+        def to_gradient(graph: Graph, x: Packed, df: Packed) -> Packed:
+            return inline(graph, self.geometry["riemannian_gradient"], x, df)
+
+        careful = pairs_of(self.graph, plain, to_gradient)
+        fast = pairs_of(self.graph, other, to_gradient) if other else careful
+        if fast.work >= careful.work:
+            return careful, None, None
+        far = extent(self.geometry)
+        return fast, careful if far else None, far
 
     def vjp(self) -> Routine:
         """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu, W and amplitude."""

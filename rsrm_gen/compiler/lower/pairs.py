@@ -1,0 +1,218 @@
+"""The splat split by what its parts depend on, so that a sum over N points and K splats pays for a pair's own work only.
+
+    features      of a point alone:   x -> X                                    N times
+    constants     of a splat alone:   (mu, W, amplitude) -> S                   K times
+    value         of a pair:          (X, S) -> phi                             N K times
+    forward       of a pair:          (X, S) -> phi, slope = d phi / d X        N K times; both are summed over the splats
+    gradient      of a point alone:   (x, sum of slopes) -> grad f              N times
+    gradient_vjp  of a point alone:   (x, gradient_bar) -> slope_bar            N times
+    backward      of a pair:          (X, S, value_bar, slope_bar) -> S_bar     N K times; summed over the points
+    constants_vjp of a splat alone:   (mu, W, amplitude, S_bar) -> mu_bar, W_bar, amplitude_bar   K times
+
+What depends on the point alone, or on the splat alone, and is read by something that depends on both, is an entry of X or
+of S. `backward` is the reverse sweep over value_bar phi + slope_bar . slope, with nothing stored for a pair.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from rsrm_gen.compiler.lower.differentiate import gradient
+from rsrm_gen.compiler.lower.ir import (
+    CONDITIONS,
+    SEVERAL,
+    Graph,
+    Node,
+    Packed,
+    Pairs,
+    Parameter,
+    Result,
+    Routine,
+    dot,
+    reachable,
+)
+from rsrm_gen.compiler.lower.protect import arguments_first
+from rsrm_gen.compiler.lower.schedule import schedule
+
+
+@dataclass(frozen=True)
+class SplatNodes:
+    """A splat in a graph, what it is a function of, and how it follows its exponent: d phi = by_exponent d exponent.
+
+    Of the exponent, only the derivatives count.
+    """
+
+    x: Parameter
+    mu: Parameter
+    W: Parameter
+    amplitude: Parameter
+    phi: Node
+    exponent: Node
+    by_exponent: Node
+
+
+X, S = 1, 2  # what a node depends on: the point, the splat, or both
+
+
+def pairs_of(graph: Graph, splat: SplatNodes, slope_to_gradient: Callable[[Graph, Packed, Packed], Packed]) -> Pairs:
+    """Split a splat; `slope_to_gradient` makes the Riemannian gradient (graph, x, df) of partial derivatives."""
+    roots = (splat.phi, splat.exponent, splat.by_exponent)
+    depends = _dependence(graph, roots, splat)
+    X_nodes = _hoisted(depends, X)
+    S_nodes = _hoisted(depends, S)
+    point, own = (splat.x,), (splat.mu, splat.W, splat.amplitude)
+
+    features = _routine(graph, "features", point, {"X": X_nodes})
+    constants = _routine(graph, "constants", own, {"S": S_nodes})
+
+    pair = Graph()
+    names = _Names(graph)
+    x = parameter(pair, "X", [names.of(n) for n in X_nodes])
+    s = parameter(pair, "S", [names.of(n) for n in S_nodes])
+    known = dict(zip((*X_nodes, *S_nodes), (*x.nodes, *s.nodes), strict=True))
+    phi, exponent, by_exponent = copied(graph, pair, roots, known)
+    slopes = gradient(pair, exponent, x.nodes, by_exponent)
+    for node, partial in zip(x.nodes, slopes, strict=True):
+        pair.named(f"by_{node.value}", partial)
+    value_bar, slope_bar = parameter(pair, "value_bar", ["value_bar"]), _like(pair, "slope_bar", x)
+    total = pair.mul(phi, value_bar.nodes[0])
+    for a, b in zip(slopes, slope_bar.nodes, strict=True):
+        total = pair.add(total, pair.mul(a, b))
+    bars = gradient(pair, total, s.nodes)
+
+    finish = Graph()
+    at = _copied_parameter(finish, splat.x)
+    moved = copied(graph, finish, X_nodes, dict(zip(splat.x.nodes, at.nodes, strict=True)))
+    slope = parameter(finish, "slope", [f"slope_{n.value}" for n in x.nodes])
+    df = gradient(finish, dot(finish, moved, slope.nodes), at.nodes)
+    grad = slope_to_gradient(finish, at.nodes, df)
+    gradient_bar = parameter(finish, "gradient_bar", [f"gradient_bar{i}" for i in range(len(grad))])
+    back = gradient(finish, dot(finish, grad, gradient_bar.nodes), slope.nodes)
+
+    splats = Graph()
+    parts = tuple(_copied_parameter(splats, p) for p in own)
+    inputs = {a: b for p, q in zip(own, parts, strict=True) for a, b in zip(p.nodes, q.nodes, strict=True)}
+    again = copied(graph, splats, S_nodes, inputs)
+    s_bar = _like(splats, "S_bar", s)
+    by = iter(gradient(splats, dot(splats, again, s_bar.nodes), [n for p in parts for n in p.nodes]))
+    own_bars = {f"{p.name}_bar": [next(by) for _ in p.nodes] for p in parts}
+
+    return Pairs(
+        features,
+        constants,
+        _routine(pair, "value", (x, s), {"value": [phi]}),
+        _routine(pair, "forward", (x, s), {"value": [phi], "slope": slopes}),
+        _routine(finish, "gradient", (at, slope), {"gradient": grad}),
+        _routine(finish, "gradient_vjp", (at, gradient_bar), {"slope_bar": back}),
+        _routine(pair, "backward", (x, s, value_bar, slope_bar), {"S_bar": bars}),
+        _routine(splats, "constants_vjp", (*parts, s_bar), own_bars),
+    )
+
+
+def _dependence(graph: Graph, roots: Sequence[Node], splat: SplatNodes) -> dict[Node, int]:
+    """X, S or both of every node that the roots and their derivatives need; 0 for numbers."""
+    of_point = set(splat.x.nodes)
+    depends: dict[Node, int] = {}
+    needed = reachable(roots)
+    while len(needed) < len(
+        needed := reachable([*needed, *(d for n in needed if n.op == "declared" for d in graph.slopes[n])])
+    ):
+        pass
+    for node in needed:
+        if node.op == "input":
+            depends[node] = X if node in of_point else S
+        else:
+            depends[node] = 0
+            for argument in node.arguments:
+                depends[node] |= depends[argument]
+    for root in roots:
+        depends[root] = X | S  # a constant splat is a pair's own all the same
+    return depends
+
+
+def _hoisted(depends: dict[Node, int], side: int) -> tuple[Node, ...]:
+    """The numbers of one side that something of both sides reads."""
+    users = (node for node, on in depends.items() if on == X | S)
+    read = {a for node in users for a in _numbers(node, depends)}
+    return tuple(sorted((a for a in read if depends[a] == side), key=lambda node: node.number))
+
+
+def _numbers(node: Node, depends: dict[Node, int]) -> Iterator[Node]:
+    """The arguments of a node; of what is no single number (a condition, a matrix' decomposition), its arguments."""
+    for argument in node.arguments:
+        if argument.op in CONDITIONS + SEVERAL and depends[argument] != X | S:
+            yield from _numbers(argument, depends)
+        else:
+            yield argument
+
+
+def copied(source: Graph, target: Graph, roots: Sequence[Node], known: Mapping[Node, Node]) -> tuple[Node, ...]:
+    """Nodes of one graph in another, where some are known already; names and declared derivatives go along."""
+    done, declared, waiting = dict(known), [], list(roots)
+    while waiting:
+        for node in arguments_first(waiting.pop(), lambda n: n.arguments, done):
+            done[node] = target.node(node.op, *(done[a] for a in node.arguments), value=node.value)
+            if node in source.names:
+                target.named(source.names[node], done[node])
+            if node.op == "declared":
+                declared.append(node)
+                waiting += source.slopes[node]
+    target.slopes.update({done[node]: tuple(done[slope] for slope in source.slopes[node]) for node in declared})
+    return tuple(done[root] for root in roots)
+
+
+def undeclared(source: Graph, roots: Sequence[Node], inputs: Sequence[Node]) -> tuple[Graph, dict[Node, Node]]:
+    """The same nodes without declared derivatives, which have served once everything is differentiated."""
+    target = Graph()
+    done = {node: target.input(str(node.value)) for node in inputs}
+    needed: Callable[[Node], Sequence[Node]] = lambda n: n.arguments[:1] if n.op == "declared" else n.arguments  # noqa: E731
+    for root in roots:
+        for node in arguments_first(root, needed, done):
+            parts = [done[a] for a in needed(node)]
+            done[node] = parts[0] if node.op == "declared" else target.node(node.op, *parts, value=node.value)
+            if node in source.names:
+                target.named(source.names[node], done[node])
+    return target, done
+
+
+def _routine(
+    graph: Graph, name: str, parameters: Sequence[Parameter], results: Mapping[str, Sequence[Node]]
+) -> Routine:
+    target, done = undeclared(
+        graph, [n for nodes in results.values() for n in nodes], [n for p in parameters for n in p.nodes]
+    )
+    moved = tuple(Parameter(p.name, p.shape, tuple(done[n] for n in p.nodes)) for p in parameters)
+    found = tuple(Result(key, (len(nodes),), tuple(done[n] for n in nodes)) for key, nodes in results.items())
+    return schedule(target, name, moved, found, "")
+
+
+def parameter(graph: Graph, name: str, entries: Sequence[str]) -> Parameter:
+    """An argument that is a row of numbers with these names."""
+    return Parameter(name, (len(entries),), tuple(graph.input(entry) for entry in entries))
+
+
+def _like(graph: Graph, name: str, other: Parameter) -> Parameter:
+    return parameter(graph, name, [f"{node.value}_bar" for node in other.nodes])
+
+
+def _copied_parameter(graph: Graph, other: Parameter) -> Parameter:
+    return Parameter(other.name, other.shape, tuple(graph.input(str(node.value)) for node in other.nodes))
+
+
+class _Names:
+    """Names of hoisted nodes: an input's own, the one that people know, or what it is."""
+
+    def __init__(self, graph: Graph) -> None:
+        self.graph = graph
+        self.taken: set[str] = set()
+
+    def of(self, node: Node) -> str:
+        """A name that no other hoisted node has."""
+        hint = str(node.value) if node.op == "input" else self.graph.names.get(node, f"{node.op}_of_one")
+        name, count = hint, 1
+        while name in self.taken:
+            count += 1
+            name = f"{hint}_{count}"
+        self.taken.add(name)
+        return name
