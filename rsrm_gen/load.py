@@ -33,6 +33,15 @@ def load(manifold: str | Path, **parameters: int | float | str) -> Manifold:
     return _loaded(_generated(spec, path, parameters), spec.content_hash)
 
 
+def load_in_rows(manifold: str | Path, **parameters: int | float | str) -> Manifold:
+    """The same, and where no derivative of them is asked for, its functions of points run in C: see `rows.py`."""
+    from rsrm_gen.compiler.spec import read_spec
+
+    path = manifold_file(manifold)
+    spec = read_spec(path, parameters)
+    return _loaded(_generated(spec, path, parameters), spec.content_hash, in_rows=True)
+
+
 def _generated(spec: Spec, path: Path, parameters: Mapping[str, int | float | str]) -> Path:
     """A folder with up-to-date generated code of the spec."""
     committed = bundled("generated") / spec.identifier
@@ -47,7 +56,7 @@ def _generated(spec: Spec, path: Path, parameters: Mapping[str, int | float | st
 
 
 @lru_cache
-def _loaded(folder: Path, content_hash: str) -> Manifold:
+def _loaded(folder: Path, content_hash: str, in_rows: bool = False) -> Manifold:
     # The hash is in the key of the cache alone: a folder that was generated again is another manifold.
     from rsrm_gen.compiler.native import compiler
 
@@ -57,4 +66,8 @@ def _loaded(folder: Path, content_hash: str) -> Manifold:
         return manifold
     from rsrm_gen.kernels import accelerated
 
+    if in_rows:
+        from rsrm_gen.rows import in_rows as by_rows
+
+        manifold = by_rows(manifold, folder)
     return accelerated(manifold, folder)

@@ -23,6 +23,16 @@ def test_partials_are_the_derivatives_of_the_value(name: str) -> None:
         assert torch.allclose(partial, truth, rtol=1e-12, atol=1e-14)
 
 
+@pytest.mark.parametrize("name", LINKS)
+def test_second_partials_are_the_derivatives_of_the_first(name: str) -> None:
+    link: Link = LINKS[name]
+    d = torch.linspace(0, 5, 11, dtype=torch.float64)
+    f = torch.linspace(-6, 6, 11, dtype=torch.float64).requires_grad_()
+    for first, second in zip(link.partials(d, f), link.derivatives(d, f)[2:], strict=True):
+        (truth,) = torch.autograd.grad(first.sum(), f, retain_graph=True)
+        assert torch.allclose(second, truth, rtol=1e-12, atol=1e-14)
+
+
 def test_free_space_is_exact_without_a_field() -> None:
     d = torch.linspace(0, 5, 11)
     assert torch.equal(Exponential().value(d, torch.zeros(11)), d)

@@ -11,13 +11,15 @@ from pathlib import Path
 
 import pytest
 from plain_manifolds import PLAIN
-from scenes import ORIGIN
+from scenes import ORIGIN, small_scene
 
 from rsrm_gen import __version__
 from rsrm_gen.errors import UserError
 from rsrm_gen.manifold import Manifold
 from rsrm_gen.trainer import cli
+from rsrm_gen.trainer.clock import StopWatch, table
 from rsrm_gen.trainer.run import Metric, RunFolder
+from rsrm_gen.trainer.train import train
 
 SCENE = f"""\
 scene: a small scene
@@ -169,3 +171,18 @@ def test_a_missing_optional_package_names_its_extra(
     assert "the picture needs matplotlib" in capsys.readouterr().err
     assert rsrm("eval", "runs/scene") == 2
     assert "pip install 'rsrm-gen[reference]'" in capsys.readouterr().err
+
+
+def test_the_phases_of_a_step_add_up_to_it(tmp_path: Path) -> None:
+    watch = StopWatch(warm=2)
+    scene = small_scene(tmp_path, "S2", "{steps: 18, points: 32, splats: {initial: 5, add: 0, prune_below: 0}}")
+    folder = RunFolder(tmp_path / "run")
+    folder.create(scene)
+    train(scene, folder, clock=watch)
+    phases = watch.typical()
+    assert {"sampling", "splat map", "kernel forward", "kernel backward", "optimiser", "logging"} <= phases.keys()
+    assert watch.steps == 16
+    assert phases["sampling"].frequency == 2 / 16
+    assert phases["loss"].frequency == 1
+    shares = [cells for column in table(watch).columns if column.header == "share" for cells in column.cells]
+    assert shares[-2] == "100.0 %"

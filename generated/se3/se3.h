@@ -279,51 +279,42 @@ void se3_splat_batch_f(
 void se3_frame(const double *SE3_RESTRICT p, double *SE3_RESTRICT frame);
 void se3_frame_f(const float *SE3_RESTRICT p, float *SE3_RESTRICT frame);
 
+/* How many numbers of scratch memory the functions below need, for these sizes or smaller ones. */
+size_t se3_splats_work(size_t count, size_t splat_count, int threads);
+size_t se3_splats_work_f(size_t count, size_t splat_count, int threads);
+
 /* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
 void se3_splats(
-    size_t count,
-    size_t splat_count,
-    const double *SE3_RESTRICT x,
-    const double *SE3_RESTRICT mu,
-    const double *SE3_RESTRICT W,
-    const double *SE3_RESTRICT amplitude,
-    double *SE3_RESTRICT value,
-    double *SE3_RESTRICT gradient);
+    size_t count, size_t splat_count, const double *SE3_RESTRICT x, const double *SE3_RESTRICT mu, const double *SE3_RESTRICT W, const double *SE3_RESTRICT amplitude,
+    double *SE3_RESTRICT value, double *SE3_RESTRICT gradient, double *SE3_RESTRICT work, int threads);
 void se3_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *SE3_RESTRICT x,
-    const float *SE3_RESTRICT mu,
-    const float *SE3_RESTRICT W,
-    const float *SE3_RESTRICT amplitude,
-    float *SE3_RESTRICT value,
-    float *SE3_RESTRICT gradient);
+    size_t count, size_t splat_count, const float *SE3_RESTRICT x, const float *SE3_RESTRICT mu, const float *SE3_RESTRICT W, const float *SE3_RESTRICT amplitude,
+    float *SE3_RESTRICT value, float *SE3_RESTRICT gradient, float *SE3_RESTRICT work, int threads);
+
+/* The values of the sums alone. */
+void se3_splats_value(
+    size_t count, size_t splat_count, const double *SE3_RESTRICT x, const double *SE3_RESTRICT mu, const double *SE3_RESTRICT W, const double *SE3_RESTRICT amplitude,
+    double *SE3_RESTRICT value, double *SE3_RESTRICT work, int threads);
+void se3_splats_value_f(
+    size_t count, size_t splat_count, const float *SE3_RESTRICT x, const float *SE3_RESTRICT mu, const float *SE3_RESTRICT W, const float *SE3_RESTRICT amplitude,
+    float *SE3_RESTRICT value, float *SE3_RESTRICT work, int threads);
 
 /* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
 void se3_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *SE3_RESTRICT x,
-    const double *SE3_RESTRICT mu,
-    const double *SE3_RESTRICT W,
-    const double *SE3_RESTRICT amplitude,
-    const double *SE3_RESTRICT value_bar,
-    const double *SE3_RESTRICT gradient_bar,
-    double *SE3_RESTRICT mu_bar,
-    double *SE3_RESTRICT W_bar,
-    double *SE3_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const double *SE3_RESTRICT x, const double *SE3_RESTRICT mu, const double *SE3_RESTRICT W, const double *SE3_RESTRICT amplitude, const double *SE3_RESTRICT value_bar, const double *SE3_RESTRICT gradient_bar,
+    double *SE3_RESTRICT mu_bar, double *SE3_RESTRICT W_bar, double *SE3_RESTRICT amplitude_bar, double *SE3_RESTRICT work, int threads);
 void se3_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *SE3_RESTRICT x,
-    const float *SE3_RESTRICT mu,
-    const float *SE3_RESTRICT W,
-    const float *SE3_RESTRICT amplitude,
-    const float *SE3_RESTRICT value_bar,
-    const float *SE3_RESTRICT gradient_bar,
-    float *SE3_RESTRICT mu_bar,
-    float *SE3_RESTRICT W_bar,
-    float *SE3_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const float *SE3_RESTRICT x, const float *SE3_RESTRICT mu, const float *SE3_RESTRICT W, const float *SE3_RESTRICT amplitude, const float *SE3_RESTRICT value_bar, const float *SE3_RESTRICT gradient_bar,
+    float *SE3_RESTRICT mu_bar, float *SE3_RESTRICT W_bar, float *SE3_RESTRICT amplitude_bar, float *SE3_RESTRICT work, int threads);
+
+/* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +
+ * gradient_n . gradient_bar_n in its mu, W and amplitude, in this order. */
+void se3_splats_rows(
+    size_t count, size_t splat_count, const double *SE3_RESTRICT x, const double *SE3_RESTRICT mu, const double *SE3_RESTRICT W, const double *SE3_RESTRICT amplitude, const double *SE3_RESTRICT value_bar, const double *SE3_RESTRICT gradient_bar,
+    double *SE3_RESTRICT rows, double *SE3_RESTRICT work, int threads);
+void se3_splats_rows_f(
+    size_t count, size_t splat_count, const float *SE3_RESTRICT x, const float *SE3_RESTRICT mu, const float *SE3_RESTRICT W, const float *SE3_RESTRICT amplitude, const float *SE3_RESTRICT value_bar, const float *SE3_RESTRICT gradient_bar,
+    float *SE3_RESTRICT rows, float *SE3_RESTRICT work, int threads);
 
 #ifdef __cplusplus
 }

@@ -7,1275 +7,2806 @@
 #include "se3.h"
 
 #include <float.h>
+#include <stdint.h>
+#include <string.h>
 
-#define LANES 64
+/*
+ * A vector is as wide as the machine's registers, or one number where the compiler has no vectors (or is asked for none
+ * by -DRSRM_NO_VECTORS). Comparisons of vectors are masks; `vector_select` is the ?: of vectors.
+ */
+#if defined(__GNUC__) && !defined(RSRM_NO_VECTORS)
+#if defined(__AVX512F__)
+#define VECTOR_BYTES 64
+#elif defined(__AVX__)
+#define VECTOR_BYTES 32
+#else
+#define VECTOR_BYTES 16
+#endif
+#define LANE(vector, i) (vector)[i]
+#define ZERO {0}
+#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
+typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
+typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
+typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
+typedef int32_t vector_mask_f __attribute__((vector_size(VECTOR_BYTES)));
+typedef uint64_t vector_bits __attribute__((vector_size(VECTOR_BYTES)));
+typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
+#else
+#define LANE(vector, i) (vector)
+#define ZERO 0
+#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
+typedef double vector;
+typedef float vector_f;
+typedef int64_t vector_mask;
+typedef int32_t vector_mask_f;
+typedef uint64_t vector_bits;
+typedef uint32_t vector_bits_f;
+#endif
+#if defined(__GNUC__)
+#define INLINE static inline __attribute__((always_inline, unused))
+#define OUTLINE static __attribute__((noinline))
+#else
+#define INLINE static inline
+#define OUTLINE static
+#endif
+#define LANES (sizeof(vector) / sizeof(double))
+#define LANES_f (sizeof(vector_f) / sizeof(float))
+
+/* Threads, where the compiler has OpenMP. */
+#if defined(_OPENMP)
+#define OMP(directive) _Pragma(#directive)
+#else
+#define OMP(directive)
+#endif
 
 /* Denormal numbers count as zero while the sums run: far splats are many, and slow. */
 #if defined(__SSE2__)
 #include <xmmintrin.h>
-static unsigned flush_denormals(void) {
+INLINE uint64_t flush_denormals(void) {
     const unsigned mode = _mm_getcsr();
     _mm_setcsr(mode | 0x8040u);
     return mode;
 }
-static void restore_denormals(unsigned mode) { _mm_setcsr(mode); }
+INLINE void restore_denormals(uint64_t mode) { _mm_setcsr((unsigned)mode); }
+#elif defined(__aarch64__) && defined(__GNUC__)
+INLINE uint64_t flush_denormals(void) {
+    uint64_t mode;
+    __asm__ __volatile__("mrs %0, fpcr" : "=r"(mode));
+    __asm__ __volatile__("msr fpcr, %0" : : "r"(mode | (UINT64_C(1) << 24)));
+    return mode;
+}
+INLINE void restore_denormals(uint64_t mode) { __asm__ __volatile__("msr fpcr, %0" : : "r"(mode)); }
 #else
-static unsigned flush_denormals(void) { return 0; }
-static void restore_denormals(unsigned mode) { (void)mode; }
+INLINE uint64_t flush_denormals(void) { return 0; }
+INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
 
-/* Of degree 13 on [0, 1], its relative error below 2^-56. */
-static inline double polynomial_rotation_t_over_norm_s_near(double x) {
-    return 2.0 + x * (0.08309566666666784 + x * (0.009321601255279904 + x * (0.0013831869136529075 + x *
-        (0.00023466269139487824 + x * (4.307622244387224e-05 + x * (8.328318196009972e-06 + x *
-        (1.6734198264338605e-06 + x * (3.3892571731146964e-07 + x * (8.160810786979752e-08 + x *
-        (5.559604423994873e-09 + x * (1.0797473542320039e-08 + x * (-2.6805393136717492e-09 + x *
-        9.765079763039615e-10))))))))))));
+/* The same number in all lanes. */
+INLINE vector vector_of(double x) {
+    const vector zero = ZERO;
+    return x - zero;
 }
 
-/* Of degree 13 on [0, 1], its relative error below 2^-56. */
-static inline double polynomial_rotation_log_det_series(double x) {
-    return 0.3333333333333333 + x * (0.030468411111111815 + x * (0.004186774461502485 + x *
-        (0.0006822355998616309 + x * (0.0001221617222686508 + x * (2.3226222426586787e-05 + x *
-        (4.602679660683086e-06 + x * (9.419944287901338e-07 + x * (1.9330673844597264e-07 + x *
-        (4.732354384237477e-08 + x * (3.0572329018458638e-09 + x * (6.43891495522262e-09 + x *
-        (-1.6163842503256483e-09 + x * 5.84780397346594e-10))))))))))));
+/* x in the lanes of the mask, y in the others. */
+INLINE vector vector_select(vector_mask mask, vector x, vector y) {
+    return SELECT(vector, vector_mask, mask, x, y);
 }
 
-/* Of degree 12 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_rotation_log_det_series_slope(double x) {
-    return 0.030468411111111815 + x * (0.00837354892300497 + x * (0.002046706799584893 + x *
-        (0.0004886468890746032 + x * (0.00011613111213293394 + x * (2.7616077964098513e-05 + x *
-        (6.5939610015309365e-06 + x * (1.5464539075677811e-06 + x * (4.2591189458137294e-07 + x *
-        (3.057232901845864e-08 + x * (7.082806450744882e-08 + x * (-1.939661100390778e-08 + x *
-        7.602145165505722e-09)))))))))));
+/* Numbers in memory to a vector, and back. */
+INLINE vector vector_load(const double *from) {
+    vector x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+INLINE void vector_store(double *to, vector x) { memcpy(to, &x, sizeof x); }
+
+/* The sum over the lanes, by halves. */
+INLINE double vector_sum(vector x) {
+    double lanes[LANES];
+    vector_store(lanes, x);
+    for (size_t half = LANES / 2; half > 0; half /= 2)
+        for (size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    return lanes[0];
 }
 
-/* Of degree 12 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_rotation_t_over_norm_s_near_slope(double x) {
-    return 0.08309566666666784 + x * (0.018643202510559807 + x * (0.004149560740958722 + x *
-        (0.0009386507655795129 + x * (0.0002153811122193612 + x * (4.996990917605983e-05 + x *
-        (1.1713938785037024e-05 + x * (2.711405738491757e-06 + x * (7.344729708281776e-07 + x *
-        (5.559604423994873e-08 + x * (1.1877220896552043e-07 + x * (-3.2166471764060994e-08 + x *
-        1.2694603691951498e-08)))))))))));
+/* The bits of a vector as integers, and back. */
+INLINE vector_bits vector_to_bits(vector x) {
+    vector_bits bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+INLINE vector vector_from_bits(vector_bits bits) {
+    vector x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
 }
 
-/* Of degree 11 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_rotation_t_over_norm_s_near_slope_slope(double x) {
-    return 0.018643202510559807 + x * (0.008299121481917445 + x * (0.0028159522967385387 + x *
-        (0.0008615244488774448 + x * (0.00024984954588029915 + x * (7.028363271022215e-05 + x *
-        (1.89798401694423e-05 + x * (5.875783766625421e-06 + x * (5.003643981595386e-07 + x *
-        (1.1877220896552042e-06 + x * (-3.538311894046709e-07 + x * 1.5233524430341798e-07))))))))));
+/* abs of every lane; one instruction where the machine has it. */
+INLINE vector vector_abs(vector x) {
+    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
+    return x;
 }
 
-/* Of degree 11 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_rotation_log_det_series_slope_slope(double x) {
-    return 0.00837354892300497 + x * (0.004093413599169786 + x * (0.0014659406672238098 + x *
-        (0.00046452444853173575 + x * (0.00013808038982049257 + x * (3.956376600918562e-05 + x *
-        (1.0825177352974468e-05 + x * (3.4072951566509835e-06 + x * (2.7515096116612774e-07 + x *
-        (7.082806450744882e-07 + x * (-2.1336272104298557e-07 + x * 9.122574198606865e-08))))))))));
+/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
+INLINE vector vector_exp(vector x) {
+    const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
+    const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
+    const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
+    const vector scale = vector_from_bits((vector_to_bits(shifted) + 1022) << 52); /* 2^(k - 1) */
+    const vector y = vector_select(x > 709.782712893384, vector_of(HUGE_VAL), (scale + scale * part) * 2);
+    return vector_select(x < -707.9, vector_of(0), y);
 }
 
+/* Of degree 22 on [0, 1], its relative error below 2^-56. */
+INLINE vector vector_polynomial_rotation_eta(vector x) {
+    return -0.3333333333333333 + x * (-0.15555555555555417 + x * (-0.0751322751325185 + x *
+        (-0.03675485007122077 + x * (-0.018096307611278978 + x * (-0.008943374809421614 + x *
+        (-0.004430925385329046 + x * (-0.0021964703384272457 + x * (-0.0011104899422210344 + x *
+        (-0.00043588704846449504 + x * (-0.0007657550487225839 + x * (0.0016571322482715526 + x *
+        (-0.005201036361742151 + x * (0.011686077913434692 + x * (-0.021370123691407478 + x *
+        (0.030980832139913622 + x * (-0.03558600284661443 + x * (0.0319201664739325 + x *
+        (-0.021918764490751072 + x * (0.011133610751913487 + x * (-0.003950943563875907 + x *
+        (0.0008768185204850178 + x * -9.231518464940076e-05)))))))))))))))))))));
+}
+
+/* Of degree 24 on [0, 1], the derivative of a polynomial. */
+INLINE vector vector_polynomial_rotation_eta_slope(vector x) {
+    return 0.15555555555555556 + x * (0.15026455026454938 + x * (0.11026455026473153 + x *
+        (0.07238522792583003 + x * (0.044716945477134895 + x * (0.026584251371183424 + x *
+        (0.015391620467330733 + x * (0.008735778127899076 + x * (0.0049282202879051655 + x *
+        (0.0024267420372403327 + x * (0.0030390346356601126 + x * (-0.006123591852401879 + x *
+        (0.025102822589180937 + x * (-0.07064869504587278 + x * (0.16530578140602667 + x *
+        (-0.31271015508815947 + x * (0.4807082529660211 + x * (-0.5967654210780935 + x * (0.5934034512823599 +
+        x * (-0.46583818796288984 + x * (0.2823845184351827 + x * (-0.12759583319351508 + x *
+        (0.04051757743528327 + x * (-0.008083579736595401 + x * 0.0007658488591020234)))))))))))))))))))))));
+}
+
+/* What pairs read of points x. */
+OUTLINE void pair_features(
+    const vector *x, vector *X) {
+    const vector x0 = x[0];
+    const vector x1 = x[1];
+    const vector x2 = x[2];
+    const vector x3 = x[3];
+    const vector x4 = x[4];
+    const vector x5 = x[5];
+    const vector x6 = x[6];
+    const vector rotation_h0 = 0.5 * x3;
+    const vector rotation_h1 = 0.5 * x4;
+    const vector rotation_h2 = 0.5 * x5;
+    const vector rotation_h3 = 0.5 * x6;
+    X[0] = x0;
+    X[1] = x1;
+    X[2] = x2;
+    X[3] = rotation_h0;
+    X[4] = rotation_h1;
+    X[5] = rotation_h2;
+    X[6] = rotation_h3;
+}
+
+/* What pairs read of a splat, of some splats. */
+OUTLINE void pair_constants(
+    const vector *mu, const vector *W, const vector *amplitude, vector *S) {
+    const vector mu0 = mu[0];
+    const vector mu1 = mu[1];
+    const vector mu2 = mu[2];
+    const vector mu3 = mu[3];
+    const vector mu4 = mu[4];
+    const vector mu5 = mu[5];
+    const vector mu6 = mu[6];
+    const vector W0_0 = W[0];
+    const vector W0_1 = W[1];
+    const vector W0_2 = W[2];
+    const vector W0_3 = W[3];
+    const vector W0_4 = W[4];
+    const vector W0_5 = W[5];
+    const vector W1_0 = W[6];
+    const vector W1_1 = W[7];
+    const vector W1_2 = W[8];
+    const vector W1_3 = W[9];
+    const vector W1_4 = W[10];
+    const vector W1_5 = W[11];
+    const vector W2_0 = W[12];
+    const vector W2_1 = W[13];
+    const vector W2_2 = W[14];
+    const vector W2_3 = W[15];
+    const vector W2_4 = W[16];
+    const vector W2_5 = W[17];
+    const vector W3_0 = W[18];
+    const vector W3_1 = W[19];
+    const vector W3_2 = W[20];
+    const vector W3_3 = W[21];
+    const vector W3_4 = W[22];
+    const vector W3_5 = W[23];
+    const vector W4_0 = W[24];
+    const vector W4_1 = W[25];
+    const vector W4_2 = W[26];
+    const vector W4_3 = W[27];
+    const vector W4_4 = W[28];
+    const vector W4_5 = W[29];
+    const vector W5_0 = W[30];
+    const vector W5_1 = W[31];
+    const vector W5_2 = W[32];
+    const vector W5_3 = W[33];
+    const vector W5_4 = W[34];
+    const vector W5_5 = W[35];
+    const vector its_amplitude = amplitude[0];
+    const vector rotation_M0 = 2.0 * mu3;
+    const vector rotation_M1 = 2.0 * mu4;
+    const vector rotation_M2 = 2.0 * mu5;
+    const vector rotation_M3 = 2.0 * mu6;
+    const vector rotation_R0_0 = 2.0 * (-(W0_3 * rotation_M1) - W0_4 * rotation_M2 - W0_5 * rotation_M3);
+    const vector rotation_R0_1 = 2.0 * (W0_3 * rotation_M0 - W0_4 * rotation_M3 + W0_5 * rotation_M2);
+    const vector rotation_R0_2 = 2.0 * (W0_3 * rotation_M3 + W0_4 * rotation_M0 - W0_5 * rotation_M1);
+    const vector rotation_R0_3 = 2.0 * (W0_4 * rotation_M1 - W0_3 * rotation_M2 + W0_5 * rotation_M0);
+    const vector rotation_R1_0 = 2.0 * (-(W1_3 * rotation_M1) - W1_4 * rotation_M2 - W1_5 * rotation_M3);
+    const vector rotation_R1_1 = 2.0 * (W1_3 * rotation_M0 - W1_4 * rotation_M3 + W1_5 * rotation_M2);
+    const vector rotation_R1_2 = 2.0 * (W1_3 * rotation_M3 + W1_4 * rotation_M0 - W1_5 * rotation_M1);
+    const vector rotation_R1_3 = 2.0 * (W1_4 * rotation_M1 - W1_3 * rotation_M2 + W1_5 * rotation_M0);
+    const vector rotation_R2_0 = 2.0 * (-(W2_3 * rotation_M1) - W2_4 * rotation_M2 - W2_5 * rotation_M3);
+    const vector rotation_R2_1 = 2.0 * (W2_3 * rotation_M0 - W2_4 * rotation_M3 + W2_5 * rotation_M2);
+    const vector rotation_R2_2 = 2.0 * (W2_3 * rotation_M3 + W2_4 * rotation_M0 - W2_5 * rotation_M1);
+    const vector rotation_R2_3 = 2.0 * (W2_4 * rotation_M1 - W2_3 * rotation_M2 + W2_5 * rotation_M0);
+    const vector rotation_R3_0 = 2.0 * (-(W3_3 * rotation_M1) - W3_4 * rotation_M2 - W3_5 * rotation_M3);
+    const vector rotation_R3_1 = 2.0 * (W3_3 * rotation_M0 - W3_4 * rotation_M3 + W3_5 * rotation_M2);
+    const vector rotation_R3_2 = 2.0 * (W3_3 * rotation_M3 + W3_4 * rotation_M0 - W3_5 * rotation_M1);
+    const vector rotation_R3_3 = 2.0 * (W3_4 * rotation_M1 - W3_3 * rotation_M2 + W3_5 * rotation_M0);
+    const vector rotation_R4_0 = 2.0 * (-(W4_3 * rotation_M1) - W4_4 * rotation_M2 - W4_5 * rotation_M3);
+    const vector rotation_R4_1 = 2.0 * (W4_3 * rotation_M0 - W4_4 * rotation_M3 + W4_5 * rotation_M2);
+    const vector rotation_R4_2 = 2.0 * (W4_3 * rotation_M3 + W4_4 * rotation_M0 - W4_5 * rotation_M1);
+    const vector rotation_R4_3 = 2.0 * (W4_4 * rotation_M1 - W4_3 * rotation_M2 + W4_5 * rotation_M0);
+    const vector rotation_R5_0 = 2.0 * (-(W5_3 * rotation_M1) - W5_4 * rotation_M2 - W5_5 * rotation_M3);
+    const vector rotation_R5_1 = 2.0 * (W5_3 * rotation_M0 - W5_4 * rotation_M3 + W5_5 * rotation_M2);
+    const vector rotation_R5_2 = 2.0 * (W5_3 * rotation_M3 + W5_4 * rotation_M0 - W5_5 * rotation_M1);
+    const vector rotation_R5_3 = 2.0 * (W5_4 * rotation_M1 - W5_3 * rotation_M2 + W5_5 * rotation_M0);
+    S[0] = mu0;
+    S[1] = mu1;
+    S[2] = mu2;
+    S[3] = W0_0;
+    S[4] = W0_1;
+    S[5] = W0_2;
+    S[6] = W1_0;
+    S[7] = W1_1;
+    S[8] = W1_2;
+    S[9] = W2_0;
+    S[10] = W2_1;
+    S[11] = W2_2;
+    S[12] = W3_0;
+    S[13] = W3_1;
+    S[14] = W3_2;
+    S[15] = W4_0;
+    S[16] = W4_1;
+    S[17] = W4_2;
+    S[18] = W5_0;
+    S[19] = W5_1;
+    S[20] = W5_2;
+    S[21] = its_amplitude;
+    S[22] = rotation_M0;
+    S[23] = rotation_M1;
+    S[24] = rotation_M2;
+    S[25] = rotation_M3;
+    S[26] = rotation_R0_0;
+    S[27] = rotation_R0_1;
+    S[28] = rotation_R0_2;
+    S[29] = rotation_R0_3;
+    S[30] = rotation_R1_0;
+    S[31] = rotation_R1_1;
+    S[32] = rotation_R1_2;
+    S[33] = rotation_R1_3;
+    S[34] = rotation_R2_0;
+    S[35] = rotation_R2_1;
+    S[36] = rotation_R2_2;
+    S[37] = rotation_R2_3;
+    S[38] = rotation_R3_0;
+    S[39] = rotation_R3_1;
+    S[40] = rotation_R3_2;
+    S[41] = rotation_R3_3;
+    S[42] = rotation_R4_0;
+    S[43] = rotation_R4_1;
+    S[44] = rotation_R4_2;
+    S[45] = rotation_R4_3;
+    S[46] = rotation_R5_0;
+    S[47] = rotation_R5_1;
+    S[48] = rotation_R5_2;
+    S[49] = rotation_R5_3;
+}
+
+/* Adds the values phi of a splat at some points. */
+INLINE void pair_value(
+    const vector *X, const double *S, vector *value) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const vector x2 = X[2];
+    const vector rotation_h0 = X[3];
+    const vector rotation_h1 = X[4];
+    const vector rotation_h2 = X[5];
+    const vector rotation_h3 = X[6];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double mu2 = S[2];
+    const double W0_0 = S[3];
+    const double W0_1 = S[4];
+    const double W0_2 = S[5];
+    const double W1_0 = S[6];
+    const double W1_1 = S[7];
+    const double W1_2 = S[8];
+    const double W2_0 = S[9];
+    const double W2_1 = S[10];
+    const double W2_2 = S[11];
+    const double W3_0 = S[12];
+    const double W3_1 = S[13];
+    const double W3_2 = S[14];
+    const double W4_0 = S[15];
+    const double W4_1 = S[16];
+    const double W4_2 = S[17];
+    const double W5_0 = S[18];
+    const double W5_1 = S[19];
+    const double W5_2 = S[20];
+    const double amplitude = S[21];
+    const double rotation_M0 = S[22];
+    const double rotation_M1 = S[23];
+    const double rotation_M2 = S[24];
+    const double rotation_M3 = S[25];
+    const double rotation_R0_0 = S[26];
+    const double rotation_R0_1 = S[27];
+    const double rotation_R0_2 = S[28];
+    const double rotation_R0_3 = S[29];
+    const double rotation_R1_0 = S[30];
+    const double rotation_R1_1 = S[31];
+    const double rotation_R1_2 = S[32];
+    const double rotation_R1_3 = S[33];
+    const double rotation_R2_0 = S[34];
+    const double rotation_R2_1 = S[35];
+    const double rotation_R2_2 = S[36];
+    const double rotation_R2_3 = S[37];
+    const double rotation_R3_0 = S[38];
+    const double rotation_R3_1 = S[39];
+    const double rotation_R3_2 = S[40];
+    const double rotation_R3_3 = S[41];
+    const double rotation_R4_0 = S[42];
+    const double rotation_R4_1 = S[43];
+    const double rotation_R4_2 = S[44];
+    const double rotation_R4_3 = S[45];
+    const double rotation_R5_0 = S[46];
+    const double rotation_R5_1 = S[47];
+    const double rotation_R5_2 = S[48];
+    const double rotation_R5_3 = S[49];
+    const vector total_2 = rotation_h0 * rotation_M0 + rotation_h1 * rotation_M1 + rotation_h2 * rotation_M2 +
+        rotation_h3 * rotation_M3;
+    const vector rotation_w = vector_abs(total_2);
+    const vector rotation_eta = vector_polynomial_rotation_eta(1.0 - rotation_w);
+    const vector rotation_a = 1.0 / (rotation_w - rotation_eta * (1.0 - rotation_w * rotation_w));
+    const vector v0 = x0 - mu0;
+    const vector v1 = x1 - mu1;
+    const vector v2 = x2 - mu2;
+    const vector rotation_a_chosen = vector_select(total_2 < 0.0, -rotation_a, rotation_a);
+    const vector rotation_r0 = rotation_h0 * rotation_R0_0 + rotation_h1 * rotation_R0_1 + rotation_h2 *
+        rotation_R0_2 + rotation_h3 * rotation_R0_3;
+    const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_a_chosen * rotation_r0;
+    const vector rotation_r1 = rotation_h0 * rotation_R1_0 + rotation_h1 * rotation_R1_1 + rotation_h2 *
+        rotation_R1_2 + rotation_h3 * rotation_R1_3;
+    const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_a_chosen * rotation_r1;
+    const vector rotation_r2 = rotation_h0 * rotation_R2_0 + rotation_h1 * rotation_R2_1 + rotation_h2 *
+        rotation_R2_2 + rotation_h3 * rotation_R2_3;
+    const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_a_chosen * rotation_r2;
+    const vector rotation_r3 = rotation_h0 * rotation_R3_0 + rotation_h1 * rotation_R3_1 + rotation_h2 *
+        rotation_R3_2 + rotation_h3 * rotation_R3_3;
+    const vector z3 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_a_chosen * rotation_r3;
+    const vector rotation_r4 = rotation_h0 * rotation_R4_0 + rotation_h1 * rotation_R4_1 + rotation_h2 *
+        rotation_R4_2 + rotation_h3 * rotation_R4_3;
+    const vector z4 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_a_chosen * rotation_r4;
+    const vector total_3 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+    const vector rotation_r5 = rotation_h0 * rotation_R5_0 + rotation_h1 * rotation_R5_1 + rotation_h2 *
+        rotation_R5_2 + rotation_h3 * rotation_R5_3;
+    const vector z5 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_a_chosen * rotation_r5;
+    const vector half_square = 0.5 * (total_3 + z5 * z5);
+    const vector gaussian = vector_exp(-half_square);
+    value[0] = value[0] + amplitude * (rotation_a * (rotation_a * gaussian));
+}
+
+/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+INLINE void pair_forward(
+    const vector *X, const double *S, vector *value, vector *slope) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const vector x2 = X[2];
+    const vector rotation_h0 = X[3];
+    const vector rotation_h1 = X[4];
+    const vector rotation_h2 = X[5];
+    const vector rotation_h3 = X[6];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double mu2 = S[2];
+    const double W0_0 = S[3];
+    const double W0_1 = S[4];
+    const double W0_2 = S[5];
+    const double W1_0 = S[6];
+    const double W1_1 = S[7];
+    const double W1_2 = S[8];
+    const double W2_0 = S[9];
+    const double W2_1 = S[10];
+    const double W2_2 = S[11];
+    const double W3_0 = S[12];
+    const double W3_1 = S[13];
+    const double W3_2 = S[14];
+    const double W4_0 = S[15];
+    const double W4_1 = S[16];
+    const double W4_2 = S[17];
+    const double W5_0 = S[18];
+    const double W5_1 = S[19];
+    const double W5_2 = S[20];
+    const double amplitude = S[21];
+    const double rotation_M0 = S[22];
+    const double rotation_M1 = S[23];
+    const double rotation_M2 = S[24];
+    const double rotation_M3 = S[25];
+    const double rotation_R0_0 = S[26];
+    const double rotation_R0_1 = S[27];
+    const double rotation_R0_2 = S[28];
+    const double rotation_R0_3 = S[29];
+    const double rotation_R1_0 = S[30];
+    const double rotation_R1_1 = S[31];
+    const double rotation_R1_2 = S[32];
+    const double rotation_R1_3 = S[33];
+    const double rotation_R2_0 = S[34];
+    const double rotation_R2_1 = S[35];
+    const double rotation_R2_2 = S[36];
+    const double rotation_R2_3 = S[37];
+    const double rotation_R3_0 = S[38];
+    const double rotation_R3_1 = S[39];
+    const double rotation_R3_2 = S[40];
+    const double rotation_R3_3 = S[41];
+    const double rotation_R4_0 = S[42];
+    const double rotation_R4_1 = S[43];
+    const double rotation_R4_2 = S[44];
+    const double rotation_R4_3 = S[45];
+    const double rotation_R5_0 = S[46];
+    const double rotation_R5_1 = S[47];
+    const double rotation_R5_2 = S[48];
+    const double rotation_R5_3 = S[49];
+    const vector total_2 = rotation_h0 * rotation_M0 + rotation_h1 * rotation_M1 + rotation_h2 * rotation_M2 +
+        rotation_h3 * rotation_M3;
+    const vector rotation_w = vector_abs(total_2);
+    const vector rotation_eta = vector_polynomial_rotation_eta(1.0 - rotation_w);
+    const vector rotation_a = 1.0 / (rotation_w - rotation_eta * (1.0 - rotation_w * rotation_w));
+    const vector v0 = x0 - mu0;
+    const vector v1 = x1 - mu1;
+    const vector v2 = x2 - mu2;
+    const vector_mask is_small = total_2 < 0.0;
+    const vector rotation_a_chosen = vector_select(is_small, -rotation_a, rotation_a);
+    const vector rotation_r0 = rotation_h0 * rotation_R0_0 + rotation_h1 * rotation_R0_1 + rotation_h2 *
+        rotation_R0_2 + rotation_h3 * rotation_R0_3;
+    const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_a_chosen * rotation_r0;
+    const vector rotation_r1 = rotation_h0 * rotation_R1_0 + rotation_h1 * rotation_R1_1 + rotation_h2 *
+        rotation_R1_2 + rotation_h3 * rotation_R1_3;
+    const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_a_chosen * rotation_r1;
+    const vector rotation_r2 = rotation_h0 * rotation_R2_0 + rotation_h1 * rotation_R2_1 + rotation_h2 *
+        rotation_R2_2 + rotation_h3 * rotation_R2_3;
+    const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_a_chosen * rotation_r2;
+    const vector rotation_r3 = rotation_h0 * rotation_R3_0 + rotation_h1 * rotation_R3_1 + rotation_h2 *
+        rotation_R3_2 + rotation_h3 * rotation_R3_3;
+    const vector z3 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_a_chosen * rotation_r3;
+    const vector rotation_r4 = rotation_h0 * rotation_R4_0 + rotation_h1 * rotation_R4_1 + rotation_h2 *
+        rotation_R4_2 + rotation_h3 * rotation_R4_3;
+    const vector z4 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_a_chosen * rotation_r4;
+    const vector total_3 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+    const vector rotation_r5 = rotation_h0 * rotation_R5_0 + rotation_h1 * rotation_R5_1 + rotation_h2 *
+        rotation_R5_2 + rotation_h3 * rotation_R5_3;
+    const vector z5 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_a_chosen * rotation_r5;
+    const vector half_square = 0.5 * (total_3 + z5 * z5);
+    const vector gaussian = vector_exp(-half_square);
+    const vector phi = amplitude * (rotation_a * (rotation_a * gaussian));
+    const vector z5_product = z5 * phi;
+    const vector z4_product = z4 * phi;
+    const vector z3_product = z3 * phi;
+    const vector z2_product = z2 * phi;
+    const vector z1_product = z1 * phi;
+    const vector z0_product = z0 * phi;
+    const vector product = rotation_a_chosen * z5_product;
+    const vector product_2 = rotation_a_chosen * z4_product;
+    const vector product_3 = rotation_a_chosen * z3_product;
+    const vector product_4 = rotation_a_chosen * z2_product;
+    const vector product_5 = rotation_a_chosen * z1_product;
+    const vector product_6 = rotation_a_chosen * z0_product;
+    const vector gap_5 = -(rotation_r5 * z5_product) - rotation_r4 * z4_product - rotation_r3 * z3_product -
+        rotation_r2 * z2_product;
+    const vector total_4 = 2.0 * phi + rotation_a_chosen * (gap_5 - rotation_r1 * z1_product - rotation_r0 *
+        z0_product);
+    const vector by_rotation_w = rotation_eta * total_4;
+    const vector chosen = vector_select(is_small, -by_rotation_w, by_rotation_w);
+    value[0] = value[0] + phi;
+    slope[0] = slope[0] - W5_0 * z5_product - W4_0 * z4_product - W3_0 * z3_product - W2_0 * z2_product - W1_0
+            * z1_product - W0_0 * z0_product;
+    slope[1] = slope[1] - W5_1 * z5_product - W4_1 * z4_product - W3_1 * z3_product - W2_1 * z2_product - W1_1
+            * z1_product - W0_1 * z0_product;
+    slope[2] = slope[2] - W5_2 * z5_product - W4_2 * z4_product - W3_2 * z3_product - W2_2 * z2_product - W1_2
+            * z1_product - W0_2 * z0_product;
+    slope[3] = slope[3] - rotation_R5_0 * product - rotation_R4_0 * product_2 - rotation_R3_0 * product_3 -
+            rotation_R2_0 * product_4 - rotation_R1_0 * product_5 - rotation_R0_0 * product_6 + rotation_M0 *
+            chosen;
+    slope[4] = slope[4] - rotation_R5_1 * product - rotation_R4_1 * product_2 - rotation_R3_1 * product_3 -
+            rotation_R2_1 * product_4 - rotation_R1_1 * product_5 - rotation_R0_1 * product_6 + rotation_M1 *
+            chosen;
+    slope[5] = slope[5] - rotation_R5_2 * product - rotation_R4_2 * product_2 - rotation_R3_2 * product_3 -
+            rotation_R2_2 * product_4 - rotation_R1_2 * product_5 - rotation_R0_2 * product_6 + rotation_M2 *
+            chosen;
+    slope[6] = slope[6] - rotation_R5_3 * product - rotation_R4_3 * product_2 - rotation_R3_3 * product_3 -
+            rotation_R2_3 * product_4 - rotation_R1_3 * product_5 - rotation_R0_3 * product_6 + rotation_M3 *
+            chosen;
+}
+
+/* The Riemannian gradient at some points, of the sums of slopes. */
+OUTLINE void pair_gradient(
+    const vector *x, const vector *slope, vector *gradient) {
+    const vector x3 = x[3];
+    const vector x4 = x[4];
+    const vector x5 = x[5];
+    const vector x6 = x[6];
+    const vector slope_x0 = slope[0];
+    const vector slope_x1 = slope[1];
+    const vector slope_x2 = slope[2];
+    const vector slope_rotation_h0 = slope[3];
+    const vector slope_rotation_h1 = slope[4];
+    const vector slope_rotation_h2 = slope[5];
+    const vector slope_rotation_h3 = slope[6];
+    const vector product = 0.25 * slope_rotation_h1;
+    const vector product_2 = 0.25 * slope_rotation_h2;
+    const vector product_3 = 0.25 * slope_rotation_h0;
+    const vector product_4 = 0.25 * slope_rotation_h3;
+    gradient[0] = slope_x0;
+    gradient[1] = slope_x1;
+    gradient[2] = slope_x2;
+    gradient[3] = x3 * product + x6 * product_2 - x4 * product_3 - x5 * product_4;
+    gradient[4] = x3 * product_2 + x4 * product_4 - x5 * product_3 - x6 * product;
+    gradient[5] = x5 * product + x3 * product_4 - x6 * product_3 - x4 * product_2;
+}
+
+/* The adjoint of slope at some points, of that of the gradient. */
+OUTLINE void pair_gradient_vjp(
+    const vector *x, const vector *gradient_bar, vector *slope_bar) {
+    const vector x3 = x[3];
+    const vector x4 = x[4];
+    const vector x5 = x[5];
+    const vector x6 = x[6];
+    const vector gradient_bar0 = gradient_bar[0];
+    const vector gradient_bar1 = gradient_bar[1];
+    const vector gradient_bar2 = gradient_bar[2];
+    const vector gradient_bar3 = gradient_bar[3];
+    const vector gradient_bar4 = gradient_bar[4];
+    const vector gradient_bar5 = gradient_bar[5];
+    const vector product = 0.25 * (-(x6 * gradient_bar5) - x5 * gradient_bar4 - x4 * gradient_bar3);
+    slope_bar[0] = gradient_bar0;
+    slope_bar[1] = gradient_bar1;
+    slope_bar[2] = gradient_bar2;
+    slope_bar[3] = product;
+    slope_bar[4] = 0.25 * (x5 * gradient_bar5 - x6 * gradient_bar4 + x3 * gradient_bar3);
+    slope_bar[5] = 0.25 * (x3 * gradient_bar4 - x4 * gradient_bar5 + x6 * gradient_bar3);
+    slope_bar[6] = 0.25 * (x3 * gradient_bar5 + x4 * gradient_bar4 - x5 * gradient_bar3);
+}
+
+/* The adjoints of some splats' parameters, of that of S. */
+OUTLINE void pair_constants_vjp(
+    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
+    (void)amplitude;
+    const vector mu3 = mu[3];
+    const vector mu4 = mu[4];
+    const vector mu5 = mu[5];
+    const vector mu6 = mu[6];
+    const vector W0_3 = W[3];
+    const vector W0_4 = W[4];
+    const vector W0_5 = W[5];
+    const vector W1_3 = W[9];
+    const vector W1_4 = W[10];
+    const vector W1_5 = W[11];
+    const vector W2_3 = W[15];
+    const vector W2_4 = W[16];
+    const vector W2_5 = W[17];
+    const vector W3_3 = W[21];
+    const vector W3_4 = W[22];
+    const vector W3_5 = W[23];
+    const vector W4_3 = W[27];
+    const vector W4_4 = W[28];
+    const vector W4_5 = W[29];
+    const vector W5_3 = W[33];
+    const vector W5_4 = W[34];
+    const vector W5_5 = W[35];
+    const vector mu0_bar = S_bar[0];
+    const vector mu1_bar = S_bar[1];
+    const vector mu2_bar = S_bar[2];
+    const vector W0_0_bar = S_bar[3];
+    const vector W0_1_bar = S_bar[4];
+    const vector W0_2_bar = S_bar[5];
+    const vector W1_0_bar = S_bar[6];
+    const vector W1_1_bar = S_bar[7];
+    const vector W1_2_bar = S_bar[8];
+    const vector W2_0_bar = S_bar[9];
+    const vector W2_1_bar = S_bar[10];
+    const vector W2_2_bar = S_bar[11];
+    const vector W3_0_bar = S_bar[12];
+    const vector W3_1_bar = S_bar[13];
+    const vector W3_2_bar = S_bar[14];
+    const vector W4_0_bar = S_bar[15];
+    const vector W4_1_bar = S_bar[16];
+    const vector W4_2_bar = S_bar[17];
+    const vector W5_0_bar = S_bar[18];
+    const vector W5_1_bar = S_bar[19];
+    const vector W5_2_bar = S_bar[20];
+    const vector its_amplitude_bar = S_bar[21];
+    const vector rotation_M0_bar = S_bar[22];
+    const vector rotation_M1_bar = S_bar[23];
+    const vector rotation_M2_bar = S_bar[24];
+    const vector rotation_M3_bar = S_bar[25];
+    const vector rotation_R0_0_bar = S_bar[26];
+    const vector rotation_R0_1_bar = S_bar[27];
+    const vector rotation_R0_2_bar = S_bar[28];
+    const vector rotation_R0_3_bar = S_bar[29];
+    const vector rotation_R1_0_bar = S_bar[30];
+    const vector rotation_R1_1_bar = S_bar[31];
+    const vector rotation_R1_2_bar = S_bar[32];
+    const vector rotation_R1_3_bar = S_bar[33];
+    const vector rotation_R2_0_bar = S_bar[34];
+    const vector rotation_R2_1_bar = S_bar[35];
+    const vector rotation_R2_2_bar = S_bar[36];
+    const vector rotation_R2_3_bar = S_bar[37];
+    const vector rotation_R3_0_bar = S_bar[38];
+    const vector rotation_R3_1_bar = S_bar[39];
+    const vector rotation_R3_2_bar = S_bar[40];
+    const vector rotation_R3_3_bar = S_bar[41];
+    const vector rotation_R4_0_bar = S_bar[42];
+    const vector rotation_R4_1_bar = S_bar[43];
+    const vector rotation_R4_2_bar = S_bar[44];
+    const vector rotation_R4_3_bar = S_bar[45];
+    const vector rotation_R5_0_bar = S_bar[46];
+    const vector rotation_R5_1_bar = S_bar[47];
+    const vector rotation_R5_2_bar = S_bar[48];
+    const vector rotation_R5_3_bar = S_bar[49];
+    const vector product = 2.0 * rotation_R0_1_bar;
+    const vector product_2 = 2.0 * rotation_R0_2_bar;
+    const vector product_3 = 2.0 * rotation_R0_3_bar;
+    const vector product_4 = 2.0 * rotation_R1_1_bar;
+    const vector total_2 = rotation_M0_bar + W0_3 * product + W0_4 * product_2 + W0_5 * product_3 + W1_3 *
+        product_4;
+    const vector product_5 = 2.0 * rotation_R1_2_bar;
+    const vector product_6 = 2.0 * rotation_R1_3_bar;
+    const vector product_7 = 2.0 * rotation_R2_1_bar;
+    const vector product_8 = 2.0 * rotation_R2_2_bar;
+    const vector total_3 = total_2 + W1_4 * product_5 + W1_5 * product_6 + W2_3 * product_7 + W2_4 *
+        product_8;
+    const vector product_9 = 2.0 * rotation_R2_3_bar;
+    const vector product_10 = 2.0 * rotation_R3_1_bar;
+    const vector product_11 = 2.0 * rotation_R3_2_bar;
+    const vector product_12 = 2.0 * rotation_R3_3_bar;
+    const vector total_4 = total_3 + W2_5 * product_9 + W3_3 * product_10 + W3_4 * product_11 + W3_5 *
+        product_12;
+    const vector product_13 = 2.0 * rotation_R4_1_bar;
+    const vector product_14 = 2.0 * rotation_R4_2_bar;
+    const vector product_15 = 2.0 * rotation_R4_3_bar;
+    const vector product_16 = 2.0 * rotation_R5_1_bar;
+    const vector total_5 = total_4 + W4_3 * product_13 + W4_4 * product_14 + W4_5 * product_15 + W5_3 *
+        product_16;
+    const vector product_17 = 2.0 * rotation_R5_2_bar;
+    const vector product_18 = 2.0 * rotation_R5_3_bar;
+    const vector by_rotation_M0 = total_5 + W5_4 * product_17 + W5_5 * product_18;
+    const vector product_19 = 2.0 * rotation_R0_0_bar;
+    const vector product_20 = 2.0 * rotation_R1_0_bar;
+    const vector gap = rotation_M1_bar - W0_3 * product_19 - W0_5 * product_2 + W0_4 * product_3 - W1_3 *
+        product_20;
+    const vector product_21 = 2.0 * rotation_R2_0_bar;
+    const vector gap_2 = gap - W1_5 * product_5 + W1_4 * product_6 - W2_3 * product_21 - W2_5 * product_8;
+    const vector product_22 = 2.0 * rotation_R3_0_bar;
+    const vector total_6 = gap_2 + W2_4 * product_9 - W3_3 * product_22 - W3_5 * product_11 + W3_4 *
+        product_12;
+    const vector product_23 = 2.0 * rotation_R4_0_bar;
+    const vector product_24 = 2.0 * rotation_R5_0_bar;
+    const vector gap_3 = total_6 - W4_3 * product_23 - W4_5 * product_14 + W4_4 * product_15 - W5_3 *
+        product_24;
+    const vector by_rotation_M1 = gap_3 - W5_5 * product_17 + W5_4 * product_18;
+    const vector gap_4 = rotation_M2_bar - W0_4 * product_19 + W0_5 * product - W0_3 * product_3 - W1_4 *
+        product_20;
+    const vector total_7 = gap_4 + W1_5 * product_4 - W1_3 * product_6 - W2_4 * product_21 + W2_5 * product_7;
+    const vector gap_5 = total_7 - W2_3 * product_9 - W3_4 * product_22 + W3_5 * product_10 - W3_3 *
+        product_12;
+    const vector gap_6 = gap_5 - W4_4 * product_23 + W4_5 * product_13 - W4_3 * product_15 - W5_4 *
+        product_24;
+    const vector by_rotation_M2 = gap_6 + W5_5 * product_16 - W5_3 * product_18;
+    const vector gap_7 = rotation_M3_bar - W0_5 * product_19 - W0_4 * product + W0_3 * product_2 - W1_5 *
+        product_20;
+    const vector gap_8 = gap_7 - W1_4 * product_4 + W1_3 * product_5 - W2_5 * product_21 - W2_4 * product_7;
+    const vector total_8 = gap_8 + W2_3 * product_8 - W3_5 * product_22 - W3_4 * product_10 + W3_3 *
+        product_11;
+    const vector gap_9 = total_8 - W4_5 * product_23 - W4_4 * product_13 + W4_3 * product_14 - W5_5 *
+        product_24;
+    const vector by_rotation_M3 = gap_9 - W5_4 * product_16 + W5_3 * product_17;
+    const vector rotation_M0 = 2.0 * mu3;
+    const vector rotation_M1 = 2.0 * mu4;
+    const vector rotation_M3 = 2.0 * mu6;
+    const vector rotation_M2 = 2.0 * mu5;
+    const vector total_9 = -(rotation_M2 * product_19) - rotation_M3 * product + rotation_M0 * product_2 +
+        rotation_M1 * product_3;
+    const vector total_10 = -(rotation_M2 * product_20) - rotation_M3 * product_4 + rotation_M0 * product_5 +
+        rotation_M1 * product_6;
+    const vector total_11 = -(rotation_M2 * product_21) - rotation_M3 * product_7 + rotation_M0 * product_8 +
+        rotation_M1 * product_9;
+    const vector total_12 = -(rotation_M2 * product_22) - rotation_M3 * product_10 + rotation_M0 * product_11
+        + rotation_M1 * product_12;
+    const vector total_13 = -(rotation_M2 * product_23) - rotation_M3 * product_13 + rotation_M0 * product_14
+        + rotation_M1 * product_15;
+    const vector total_14 = -(rotation_M2 * product_24) - rotation_M3 * product_16 + rotation_M0 * product_17
+        + rotation_M1 * product_18;
+    mu_bar[0] = mu0_bar;
+    mu_bar[1] = mu1_bar;
+    mu_bar[2] = mu2_bar;
+    mu_bar[3] = 2.0 * by_rotation_M0;
+    mu_bar[4] = 2.0 * by_rotation_M1;
+    mu_bar[5] = 2.0 * by_rotation_M2;
+    mu_bar[6] = 2.0 * by_rotation_M3;
+    W_bar[0] = W0_0_bar;
+    W_bar[1] = W0_1_bar;
+    W_bar[2] = W0_2_bar;
+    W_bar[3] = rotation_M0 * product - rotation_M1 * product_19 + rotation_M3 * product_2 - rotation_M2 *
+            product_3;
+    W_bar[4] = total_9;
+    W_bar[5] = rotation_M2 * product - rotation_M3 * product_19 - rotation_M1 * product_2 + rotation_M0 *
+            product_3;
+    W_bar[6] = W1_0_bar;
+    W_bar[7] = W1_1_bar;
+    W_bar[8] = W1_2_bar;
+    W_bar[9] = rotation_M0 * product_4 - rotation_M1 * product_20 + rotation_M3 * product_5 - rotation_M2 *
+            product_6;
+    W_bar[10] = total_10;
+    W_bar[11] = rotation_M2 * product_4 - rotation_M3 * product_20 - rotation_M1 * product_5 + rotation_M0 *
+            product_6;
+    W_bar[12] = W2_0_bar;
+    W_bar[13] = W2_1_bar;
+    W_bar[14] = W2_2_bar;
+    W_bar[15] = rotation_M0 * product_7 - rotation_M1 * product_21 + rotation_M3 * product_8 - rotation_M2 *
+            product_9;
+    W_bar[16] = total_11;
+    W_bar[17] = rotation_M2 * product_7 - rotation_M3 * product_21 - rotation_M1 * product_8 + rotation_M0 *
+            product_9;
+    W_bar[18] = W3_0_bar;
+    W_bar[19] = W3_1_bar;
+    W_bar[20] = W3_2_bar;
+    W_bar[21] = rotation_M0 * product_10 - rotation_M1 * product_22 + rotation_M3 * product_11 - rotation_M2 *
+            product_12;
+    W_bar[22] = total_12;
+    W_bar[23] = rotation_M2 * product_10 - rotation_M3 * product_22 - rotation_M1 * product_11 + rotation_M0 *
+            product_12;
+    W_bar[24] = W4_0_bar;
+    W_bar[25] = W4_1_bar;
+    W_bar[26] = W4_2_bar;
+    W_bar[27] = rotation_M0 * product_13 - rotation_M1 * product_23 + rotation_M3 * product_14 - rotation_M2 *
+            product_15;
+    W_bar[28] = total_13;
+    W_bar[29] = rotation_M2 * product_13 - rotation_M3 * product_23 - rotation_M1 * product_14 + rotation_M0 *
+            product_15;
+    W_bar[30] = W5_0_bar;
+    W_bar[31] = W5_1_bar;
+    W_bar[32] = W5_2_bar;
+    W_bar[33] = rotation_M0 * product_16 - rotation_M1 * product_24 + rotation_M3 * product_17 - rotation_M2 *
+            product_18;
+    W_bar[34] = total_14;
+    W_bar[35] = rotation_M2 * product_16 - rotation_M3 * product_24 - rotation_M1 * product_17 + rotation_M0 *
+            product_18;
+    amplitude_bar[0] = its_amplitude_bar;
+}
+
+/* The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar. */
+OUTLINE void pair_factors(
+    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *factor) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const vector x2 = X[2];
+    const vector rotation_h0 = X[3];
+    const vector rotation_h1 = X[4];
+    const vector rotation_h2 = X[5];
+    const vector rotation_h3 = X[6];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double mu2 = S[2];
+    const double W0_0 = S[3];
+    const double W0_1 = S[4];
+    const double W0_2 = S[5];
+    const double W1_0 = S[6];
+    const double W1_1 = S[7];
+    const double W1_2 = S[8];
+    const double W2_0 = S[9];
+    const double W2_1 = S[10];
+    const double W2_2 = S[11];
+    const double W3_0 = S[12];
+    const double W3_1 = S[13];
+    const double W3_2 = S[14];
+    const double W4_0 = S[15];
+    const double W4_1 = S[16];
+    const double W4_2 = S[17];
+    const double W5_0 = S[18];
+    const double W5_1 = S[19];
+    const double W5_2 = S[20];
+    const double amplitude = S[21];
+    const double rotation_M0 = S[22];
+    const double rotation_M1 = S[23];
+    const double rotation_M2 = S[24];
+    const double rotation_M3 = S[25];
+    const double rotation_R0_0 = S[26];
+    const double rotation_R0_1 = S[27];
+    const double rotation_R0_2 = S[28];
+    const double rotation_R0_3 = S[29];
+    const double rotation_R1_0 = S[30];
+    const double rotation_R1_1 = S[31];
+    const double rotation_R1_2 = S[32];
+    const double rotation_R1_3 = S[33];
+    const double rotation_R2_0 = S[34];
+    const double rotation_R2_1 = S[35];
+    const double rotation_R2_2 = S[36];
+    const double rotation_R2_3 = S[37];
+    const double rotation_R3_0 = S[38];
+    const double rotation_R3_1 = S[39];
+    const double rotation_R3_2 = S[40];
+    const double rotation_R3_3 = S[41];
+    const double rotation_R4_0 = S[42];
+    const double rotation_R4_1 = S[43];
+    const double rotation_R4_2 = S[44];
+    const double rotation_R4_3 = S[45];
+    const double rotation_R5_0 = S[46];
+    const double rotation_R5_1 = S[47];
+    const double rotation_R5_2 = S[48];
+    const double rotation_R5_3 = S[49];
+    const vector its_value_bar = value_bar[0];
+    const vector x0_bar = slope_bar[0];
+    const vector x1_bar = slope_bar[1];
+    const vector x2_bar = slope_bar[2];
+    const vector rotation_h0_bar = slope_bar[3];
+    const vector rotation_h1_bar = slope_bar[4];
+    const vector rotation_h2_bar = slope_bar[5];
+    const vector rotation_h3_bar = slope_bar[6];
+    const vector total_2 = rotation_h0 * rotation_M0 + rotation_h1 * rotation_M1 + rotation_h2 * rotation_M2 +
+        rotation_h3 * rotation_M3;
+    const vector rotation_w = vector_abs(total_2);
+    const vector rotation_w_gap = 1.0 - rotation_w;
+    const vector rotation_eta = vector_polynomial_rotation_eta(rotation_w_gap);
+    const vector rotation_a = 1.0 / (rotation_w - rotation_eta * (1.0 - rotation_w * rotation_w));
+    const vector v0 = x0 - mu0;
+    const vector v1 = x1 - mu1;
+    const vector v2 = x2 - mu2;
+    const vector_mask is_small = total_2 < 0.0;
+    const vector rotation_a_chosen = vector_select(is_small, -rotation_a, rotation_a);
+    const vector rotation_r0 = rotation_h0 * rotation_R0_0 + rotation_h1 * rotation_R0_1 + rotation_h2 *
+        rotation_R0_2 + rotation_h3 * rotation_R0_3;
+    const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_a_chosen * rotation_r0;
+    const vector rotation_r1 = rotation_h0 * rotation_R1_0 + rotation_h1 * rotation_R1_1 + rotation_h2 *
+        rotation_R1_2 + rotation_h3 * rotation_R1_3;
+    const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_a_chosen * rotation_r1;
+    const vector rotation_r2 = rotation_h0 * rotation_R2_0 + rotation_h1 * rotation_R2_1 + rotation_h2 *
+        rotation_R2_2 + rotation_h3 * rotation_R2_3;
+    const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_a_chosen * rotation_r2;
+    const vector rotation_r3 = rotation_h0 * rotation_R3_0 + rotation_h1 * rotation_R3_1 + rotation_h2 *
+        rotation_R3_2 + rotation_h3 * rotation_R3_3;
+    const vector z3 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_a_chosen * rotation_r3;
+    const vector rotation_r4 = rotation_h0 * rotation_R4_0 + rotation_h1 * rotation_R4_1 + rotation_h2 *
+        rotation_R4_2 + rotation_h3 * rotation_R4_3;
+    const vector z4 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_a_chosen * rotation_r4;
+    const vector total_3 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+    const vector rotation_r5 = rotation_h0 * rotation_R5_0 + rotation_h1 * rotation_R5_1 + rotation_h2 *
+        rotation_R5_2 + rotation_h3 * rotation_R5_3;
+    const vector z5 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_a_chosen * rotation_r5;
+    const vector half_square = 0.5 * (total_3 + z5 * z5);
+    const vector gaussian = vector_exp(-half_square);
+    const vector rotation_a_product = rotation_a * (rotation_a * gaussian);
+    const vector phi = amplitude * rotation_a_product;
+    const vector gap = -(rotation_R5_0 * rotation_h0_bar) - rotation_R5_1 * rotation_h1_bar - rotation_R5_2 *
+        rotation_h2_bar - rotation_R5_3 * rotation_h3_bar;
+    const vector total_4 = -(W5_0 * x0_bar) - W5_1 * x1_bar - W5_2 * x2_bar + rotation_a_chosen * gap;
+    const vector total_5 = rotation_M0 * rotation_h0_bar + rotation_M1 * rotation_h1_bar + rotation_M2 *
+        rotation_h2_bar + rotation_M3 * rotation_h3_bar;
+    const vector by_by_rotation_w = vector_select(is_small, vector_of(0.0), total_5) - vector_select(is_small,
+        total_5, vector_of(0.0));
+    const vector product = rotation_eta * by_by_rotation_w;
+    const vector product_2 = rotation_a_chosen * product;
+    const vector gap_2 = total_4 - rotation_r5 * product_2;
+    const vector gap_3 = -(rotation_R0_0 * rotation_h0_bar) - rotation_R0_1 * rotation_h1_bar - rotation_R0_2
+        * rotation_h2_bar - rotation_R0_3 * rotation_h3_bar;
+    const vector total_6 = -(W0_0 * x0_bar) - W0_1 * x1_bar - W0_2 * x2_bar + rotation_a_chosen * gap_3;
+    const vector gap_4 = total_6 - rotation_r0 * product_2;
+    const vector gap_5 = -(rotation_R1_0 * rotation_h0_bar) - rotation_R1_1 * rotation_h1_bar - rotation_R1_2
+        * rotation_h2_bar - rotation_R1_3 * rotation_h3_bar;
+    const vector total_7 = -(W1_0 * x0_bar) - W1_1 * x1_bar - W1_2 * x2_bar + rotation_a_chosen * gap_5;
+    const vector gap_6 = total_7 - rotation_r1 * product_2;
+    const vector gap_7 = -(rotation_R2_0 * rotation_h0_bar) - rotation_R2_1 * rotation_h1_bar - rotation_R2_2
+        * rotation_h2_bar - rotation_R2_3 * rotation_h3_bar;
+    const vector total_8 = -(W2_0 * x0_bar) - W2_1 * x1_bar - W2_2 * x2_bar + rotation_a_chosen * gap_7;
+    const vector gap_8 = total_8 - rotation_r2 * product_2;
+    const vector gap_9 = -(rotation_R3_0 * rotation_h0_bar) - rotation_R3_1 * rotation_h1_bar - rotation_R3_2
+        * rotation_h2_bar - rotation_R3_3 * rotation_h3_bar;
+    const vector total_9 = -(W3_0 * x0_bar) - W3_1 * x1_bar - W3_2 * x2_bar + rotation_a_chosen * gap_9;
+    const vector gap_10 = total_9 - rotation_r3 * product_2;
+    const vector total_10 = its_value_bar + z0 * gap_4 + z1 * gap_6 + z2 * gap_8 + z3 * gap_10;
+    const vector gap_11 = -(rotation_R4_0 * rotation_h0_bar) - rotation_R4_1 * rotation_h1_bar - rotation_R4_2
+        * rotation_h2_bar - rotation_R4_3 * rotation_h3_bar;
+    const vector total_11 = -(W4_0 * x0_bar) - W4_1 * x1_bar - W4_2 * x2_bar + rotation_a_chosen * gap_11;
+    const vector gap_12 = total_11 - rotation_r4 * product_2;
+    const vector by_phi = total_10 + z4 * gap_12 + z5 * gap_2 + 2.0 * product;
+    const vector product_3 = rotation_a_product * (amplitude * by_phi);
+    const vector by_z5 = phi * gap_2 - z5 * product_3;
+    const vector by_z4 = phi * gap_12 - z4 * product_3;
+    const vector by_z3 = phi * gap_10 - z3 * product_3;
+    const vector by_z2 = phi * gap_8 - z2 * product_3;
+    const vector by_z1 = phi * gap_6 - z1 * product_3;
+    const vector total_12 = W5_0 * by_z5 + W4_0 * by_z4 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1;
+    const vector by_z0 = phi * gap_4 - z0 * product_3;
+    const vector by_v0 = total_12 + W0_0 * by_z0;
+    const vector total_13 = W5_1 * by_z5 + W4_1 * by_z4 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1;
+    const vector by_v1 = total_13 + W0_1 * by_z0;
+    const vector total_14 = W5_2 * by_z5 + W4_2 * by_z4 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1;
+    const vector by_v2 = total_14 + W0_2 * by_z0;
+    const vector z0_product = z0 * phi;
+    const vector z1_product = z1 * phi;
+    const vector z2_product = z2 * phi;
+    const vector z3_product = z3 * phi;
+    const vector z4_product = z4 * phi;
+    const vector z5_product = z5 * phi;
+    const vector gap_13 = -(rotation_r5 * z5_product) - rotation_r4 * z4_product - rotation_r3 * z3_product -
+        rotation_r2 * z2_product;
+    const vector gap_14 = gap_13 - rotation_r1 * z1_product - rotation_r0 * z0_product;
+    const vector total_15 = 2.0 * phi + rotation_a_chosen * gap_14;
+    const vector by_rotation_w = rotation_eta * total_15;
+    const vector chosen = vector_select(is_small, -by_rotation_w, by_rotation_w);
+    const vector rotation_eta_slope = vector_polynomial_rotation_eta_slope(rotation_w_gap);
+    const vector total_16 = gap_14 * product + z0_product * gap_3 + z1_product * gap_5 + z2_product * gap_7 +
+        z3_product * gap_9;
+    const vector total_17 = total_16 + z4_product * gap_11 + z5_product * gap + rotation_r5 * by_z5 +
+        rotation_r4 * by_z4;
+    const vector total_18 = total_17 + rotation_r3 * by_z3 + rotation_r2 * by_z2 + rotation_r1 * by_z1 +
+        rotation_r0 * by_z0;
+    const vector by_rotation_w_2 = rotation_eta_slope * (total_15 * by_by_rotation_w) + rotation_eta * (2.0 *
+        product_3 + rotation_a_chosen * total_18);
+    const vector chosen_2 = vector_select(is_small, -by_rotation_w_2, by_rotation_w_2);
+    const vector by_rotation_r0 = rotation_a_chosen * by_z0 - z0_product * product_2;
+    const vector product_4 = rotation_a_chosen * z0_product;
+    const vector by_rotation_r1 = rotation_a_chosen * by_z1 - z1_product * product_2;
+    const vector product_5 = rotation_a_chosen * z1_product;
+    const vector by_rotation_r2 = rotation_a_chosen * by_z2 - z2_product * product_2;
+    const vector product_6 = rotation_a_chosen * z2_product;
+    const vector by_rotation_r3 = rotation_a_chosen * by_z3 - z3_product * product_2;
+    const vector product_7 = rotation_a_chosen * z3_product;
+    const vector by_rotation_r4 = rotation_a_chosen * by_z4 - z4_product * product_2;
+    const vector product_8 = rotation_a_chosen * z4_product;
+    const vector by_rotation_r5 = rotation_a_chosen * by_z5 - z5_product * product_2;
+    const vector product_9 = rotation_a_chosen * z5_product;
+    factor[0] = v0;
+    factor[1] = v1;
+    factor[2] = v2;
+    factor[3] = by_z5;
+    factor[4] = by_z4;
+    factor[5] = by_z3;
+    factor[6] = by_z2;
+    factor[7] = by_z1;
+    factor[8] = by_z0;
+    factor[9] = -by_v0;
+    factor[10] = -by_v1;
+    factor[11] = -by_v2;
+    factor[12] = z0_product;
+    factor[13] = z1_product;
+    factor[14] = z2_product;
+    factor[15] = z3_product;
+    factor[16] = z4_product;
+    factor[17] = z5_product;
+    factor[18] = rotation_a_product * by_phi;
+    factor[19] = chosen;
+    factor[20] = chosen_2;
+    factor[21] = by_rotation_r0;
+    factor[22] = product_4;
+    factor[23] = by_rotation_r1;
+    factor[24] = product_5;
+    factor[25] = by_rotation_r2;
+    factor[26] = product_6;
+    factor[27] = by_rotation_r3;
+    factor[28] = product_7;
+    factor[29] = by_rotation_r4;
+    factor[30] = product_8;
+    factor[31] = by_rotation_r5;
+    factor[32] = product_9;
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_0(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[9];
+    sum[1] = sum[1] + factor[10];
+    sum[2] = sum[2] + factor[11];
+    sum[3] = sum[3] + factor[18];
+    sum[4] = sum[4] + factor[0] * factor[8] - factor[12] * point[8];
+    sum[5] = sum[5] + factor[1] * factor[8] - factor[12] * point[9];
+    sum[6] = sum[6] + factor[2] * factor[8] - factor[12] * point[10];
+    sum[7] = sum[7] + factor[0] * factor[7] - factor[13] * point[8];
+    sum[8] = sum[8] + factor[1] * factor[7] - factor[13] * point[9];
+    sum[9] = sum[9] + factor[2] * factor[7] - factor[13] * point[10];
+    sum[10] = sum[10] + factor[0] * factor[6] - factor[14] * point[8];
+    sum[11] = sum[11] + factor[1] * factor[6] - factor[14] * point[9];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_1(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[6] - factor[14] * point[10];
+    sum[1] = sum[1] + factor[2] * factor[5] - factor[15] * point[10];
+    sum[2] = sum[2] + factor[0] * factor[5] - factor[15] * point[8];
+    sum[3] = sum[3] + factor[1] * factor[5] - factor[15] * point[9];
+    sum[4] = sum[4] + factor[0] * factor[4] - factor[16] * point[8];
+    sum[5] = sum[5] + factor[1] * factor[4] - factor[16] * point[9];
+    sum[6] = sum[6] + factor[2] * factor[4] - factor[16] * point[10];
+    sum[7] = sum[7] + factor[0] * factor[3] - factor[17] * point[8];
+    sum[8] = sum[8] + factor[1] * factor[3] - factor[17] * point[9];
+    sum[9] = sum[9] + factor[2] * factor[3] - factor[17] * point[10];
+    sum[10] = sum[10] + factor[19] * point[11] + point[3] * factor[20];
+    sum[11] = sum[11] + factor[19] * point[12] + point[4] * factor[20];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_2(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[19] * point[13] + point[5] * factor[20];
+    sum[1] = sum[1] + factor[19] * point[14] + point[6] * factor[20];
+    sum[2] = sum[2] + point[5] * factor[21] - factor[22] * point[13];
+    sum[3] = sum[3] + point[6] * factor[21] - factor[22] * point[14];
+    sum[4] = sum[4] + point[3] * factor[21] - factor[22] * point[11];
+    sum[5] = sum[5] + point[4] * factor[21] - factor[22] * point[12];
+    sum[6] = sum[6] + point[3] * factor[23] - factor[24] * point[11];
+    sum[7] = sum[7] + point[4] * factor[23] - factor[24] * point[12];
+    sum[8] = sum[8] + point[5] * factor[23] - factor[24] * point[13];
+    sum[9] = sum[9] + point[6] * factor[23] - factor[24] * point[14];
+    sum[10] = sum[10] + point[3] * factor[25] - factor[26] * point[11];
+    sum[11] = sum[11] + point[4] * factor[25] - factor[26] * point[12];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_3(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + point[5] * factor[25] - factor[26] * point[13];
+    sum[1] = sum[1] + point[6] * factor[25] - factor[26] * point[14];
+    sum[2] = sum[2] + point[5] * factor[27] - factor[28] * point[13];
+    sum[3] = sum[3] + point[6] * factor[27] - factor[28] * point[14];
+    sum[4] = sum[4] + point[3] * factor[27] - factor[28] * point[11];
+    sum[5] = sum[5] + point[4] * factor[27] - factor[28] * point[12];
+    sum[6] = sum[6] + point[3] * factor[29] - factor[30] * point[11];
+    sum[7] = sum[7] + point[4] * factor[29] - factor[30] * point[12];
+    sum[8] = sum[8] + point[5] * factor[29] - factor[30] * point[13];
+    sum[9] = sum[9] + point[6] * factor[29] - factor[30] * point[14];
+    sum[10] = sum[10] + point[3] * factor[31] - factor[32] * point[11];
+    sum[11] = sum[11] + point[4] * factor[31] - factor[32] * point[12];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_4(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + point[5] * factor[31] - factor[32] * point[13];
+    sum[1] = sum[1] + point[6] * factor[31] - factor[32] * point[14];
+}
+
+/* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
+OUTLINE void vector_rows(const double *rows, size_t count, size_t start, size_t size, vector *columns) {
+    for (size_t i = 0; i < size; ++i) {
+        double column[LANES];
+        for (size_t lane = 0; lane < LANES; ++lane)
+            column[lane] = rows[size * (start + lane < count ? start + lane : count - 1) + i];
+        columns[i] = vector_load(column);
+    }
+}
+
+/* Back to rows that are `stride` apart; nothing past the end. */
+OUTLINE void vector_to_rows(
+    const vector *columns, double *rows, size_t count, size_t start, size_t size, size_t stride) {
+    const size_t lanes = start >= count ? 0 : count - start < LANES ? count - start : LANES;
+    for (size_t lane = 0; lane < lanes; ++lane)
+        for (size_t i = 0; i < size; ++i) rows[stride * (start + lane) + i] = LANE(columns[i], lane);
+}
+
+/* Zero in the lanes past the end. */
+OUTLINE void vector_end(size_t count, size_t start, size_t size, vector *columns) {
+    for (size_t lane = start >= count ? 0 : count - start; lane < LANES; ++lane)
+        for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
+}
+
+/* Scratch memory: 15 vectors for each block of points, then the constants of the splats. */
+size_t se3_splats_work(size_t count, size_t splat_count, int threads) {
+    (void)threads;
+    return ((count + LANES - 1) / LANES * 15 + 1) * LANES + 50 * splat_count;
+}
+
+static vector *work_points(double *work) {
+    const uintptr_t size = sizeof(vector), start = (uintptr_t)work;
+    return (vector *)((char *)work + ((0 - start) & (size - 1)));
+}
+
+static double *work_constants(double *work, size_t count) {
+    return (double *)(work_points(work) + (count + LANES - 1) / LANES * 15);
+}
+
+/* The constants of LANES splats, as rows. */
+OUTLINE void splat_constants(
+    size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, double *constants) {
+    vector own_mu[7], own_W[36], own_amplitude[1], S[50];
+    vector_rows(mu, splat_count, start, 7, own_mu);
+    vector_rows(W, splat_count, start, 36, own_W);
+    vector_rows(amplitude, splat_count, start, 1, own_amplitude);
+    pair_constants(own_mu, own_W, own_amplitude, S);
+    vector_to_rows(S, constants, splat_count, start, 50, 50);
+}
+
+/* 2 vectors of points at a time stay in registers while all splats pass. */
 void se3_splats(
-    size_t count,
-    size_t splat_count,
-    const double *SE3_RESTRICT x,
-    const double *SE3_RESTRICT mu,
-    const double *SE3_RESTRICT W,
-    const double *SE3_RESTRICT amplitude,
-    double *SE3_RESTRICT value,
-    double *SE3_RESTRICT gradient) {
-    const unsigned mode = flush_denormals();
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        double x_block[7][LANES], sum[7][LANES] = {{0}};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            for (size_t i = 0; i < 7; ++i) x_block[i][lane] = x[7 * n + i];
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            const double mu0 = mu[7 * k + 0];
-            const double mu1 = mu[7 * k + 1];
-            const double mu2 = mu[7 * k + 2];
-            const double mu3 = mu[7 * k + 3];
-            const double mu4 = mu[7 * k + 4];
-            const double mu5 = mu[7 * k + 5];
-            const double mu6 = mu[7 * k + 6];
-            const double W0_0 = W[36 * k + 0];
-            const double W0_1 = W[36 * k + 1];
-            const double W0_2 = W[36 * k + 2];
-            const double W0_3 = W[36 * k + 3];
-            const double W0_4 = W[36 * k + 4];
-            const double W0_5 = W[36 * k + 5];
-            const double W1_0 = W[36 * k + 6];
-            const double W1_1 = W[36 * k + 7];
-            const double W1_2 = W[36 * k + 8];
-            const double W1_3 = W[36 * k + 9];
-            const double W1_4 = W[36 * k + 10];
-            const double W1_5 = W[36 * k + 11];
-            const double W2_0 = W[36 * k + 12];
-            const double W2_1 = W[36 * k + 13];
-            const double W2_2 = W[36 * k + 14];
-            const double W2_3 = W[36 * k + 15];
-            const double W2_4 = W[36 * k + 16];
-            const double W2_5 = W[36 * k + 17];
-            const double W3_0 = W[36 * k + 18];
-            const double W3_1 = W[36 * k + 19];
-            const double W3_2 = W[36 * k + 20];
-            const double W3_3 = W[36 * k + 21];
-            const double W3_4 = W[36 * k + 22];
-            const double W3_5 = W[36 * k + 23];
-            const double W4_0 = W[36 * k + 24];
-            const double W4_1 = W[36 * k + 25];
-            const double W4_2 = W[36 * k + 26];
-            const double W4_3 = W[36 * k + 27];
-            const double W4_4 = W[36 * k + 28];
-            const double W4_5 = W[36 * k + 29];
-            const double W5_0 = W[36 * k + 30];
-            const double W5_1 = W[36 * k + 31];
-            const double W5_2 = W[36 * k + 32];
-            const double W5_3 = W[36 * k + 33];
-            const double W5_4 = W[36 * k + 34];
-            const double W5_5 = W[36 * k + 35];
-            const double amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const double rotation_g0 = x_block[3][lane] * mu3 + x_block[4][lane] * mu4 + x_block[5][lane] * mu5 +
-                    x_block[6][lane] * mu6;
-                const double rotation_g1 = x_block[4][lane] * mu3 + x_block[5][lane] * mu6 - x_block[3][lane] * mu4 -
-                    x_block[6][lane] * mu5;
-                const double rotation_g2 = x_block[5][lane] * mu3 + x_block[6][lane] * mu4 - x_block[3][lane] * mu5 -
-                    x_block[4][lane] * mu6;
-                const double rotation_g3 = x_block[6][lane] * mu3 + x_block[4][lane] * mu5 - x_block[5][lane] * mu4 -
-                    x_block[3][lane] * mu6;
-                const double rotation_norm_s_squared = rotation_g1 * rotation_g1 + rotation_g2 * rotation_g2 + rotation_g3
-                    * rotation_g3;
-                const double rotation_abs_g0 = fabs(rotation_g0);
-                const int near = rotation_norm_s_squared < 0.249287;
-                const double near_chosen = (near ? 4.011440628672975 * rotation_norm_s_squared : 0.0);
-                const double rotation_t_over_norm_s_near = polynomial_rotation_t_over_norm_s_near(near_chosen);
-                const double near_chosen_2 = (near ? 1.0 : rotation_norm_s_squared);
-                const double rotation_norm_s = sqrt(near_chosen_2);
-                const double rotation_atan2_norm_s_abs_g0 = atan2(rotation_norm_s, rotation_abs_g0);
-                const double rotation_t = 2.0 * rotation_atan2_norm_s_abs_g0;
-                const double rotation_t_ratio = rotation_t / rotation_norm_s;
-                const double rotation_t_over_norm_s = (near ? rotation_t_over_norm_s_near : rotation_t_ratio);
-                const int is_small = rotation_g0 < 0.0;
-                const double chosen = (is_small ? -1.0 : 1.0);
-                const double rotation_scale = rotation_t_over_norm_s * chosen;
-                const double v0 = x_block[0][lane] - mu0;
-                const double v1 = x_block[1][lane] - mu1;
-                const double v2 = x_block[2][lane] - mu2;
-                const double v3 = rotation_g1 * rotation_scale;
-                const double v4 = rotation_g2 * rotation_scale;
-                const double v5 = rotation_g3 * rotation_scale;
-                const double rotation_log_det_series = polynomial_rotation_log_det_series(near_chosen);
-                const double rotation_log_det_near = rotation_norm_s_squared * rotation_log_det_series;
-                const double product = 0.5 * rotation_t_ratio;
-                const double rotation_log_det = (near ? rotation_log_det_near : 2.0 * log(product));
-                const double total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-                const double z0 = total_2 + W0_5 * v5;
-                const double total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-                const double z1 = total_3 + W1_5 * v5;
-                const double total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-                const double z2 = total_4 + W2_5 * v5;
-                const double total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-                const double z3 = total_5 + W3_5 * v5;
-                const double total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-                const double z4 = total_6 + W4_5 * v5;
-                const double total_7 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-                const double z5 = total_7 + W5_5 * v5;
-                const double total_8 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-                const double exp_2 = exp(rotation_log_det - 0.5 * (total_8 + z5 * z5));
-                const double phi = amplitude_k * exp_2;
-                const double gap = -(W5_5 * z5) - W4_5 * z4 - W3_5 * z3 - W2_5 * z2;
-                const double gap_2 = -(W5_4 * z5) - W4_4 * z4 - W3_4 * z3 - W2_4 * z2;
-                const double gap_3 = -(W5_3 * z5) - W4_3 * z4 - W3_3 * z3 - W2_3 * z2;
-                const double gap_4 = -(W5_2 * z5) - W4_2 * z4 - W3_2 * z3 - W2_2 * z2;
-                const double gap_5 = -(W5_1 * z5) - W4_1 * z4 - W3_1 * z3 - W2_1 * z2;
-                const double gap_6 = -(W5_0 * z5) - W4_0 * z4 - W3_0 * z3 - W2_0 * z2;
-                const double by_v5 = gap - W1_5 * z1 - W0_5 * z0;
-                const double by_v4 = gap_2 - W1_4 * z1 - W0_4 * z0;
-                const double by_v3 = gap_3 - W1_3 * z1 - W0_3 * z0;
-                const double by_v2 = gap_4 - W1_2 * z1 - W0_2 * z0;
-                const double by_v1 = gap_5 - W1_1 * z1 - W0_1 * z0;
-                const double by_v0 = gap_6 - W1_0 * z1 - W0_0 * z0;
-                const double by_rotation_log_det_near = (near ? 1.0 : 0.0);
-                const double by_rotation_log_det_series = rotation_norm_s_squared * by_rotation_log_det_near;
-                const double rotation_log_det_series_slope = polynomial_rotation_log_det_series_slope(near_chosen);
-                const double by_rotation_scale = rotation_g3 * by_v5 + rotation_g2 * by_v4 + rotation_g1 * by_v3;
-                const double by_rotation_t_over_norm_s = chosen * by_rotation_scale;
-                const double by_rotation_t_over_norm_s_near = (near ? by_rotation_t_over_norm_s : 0.0);
-                const double total_9 = 0.5 * (2.0 * (near ? 0.0 : 1.0) / product) + (near ? 0.0 :
-                    by_rotation_t_over_norm_s);
-                const double by_rotation_t = total_9 / rotation_norm_s;
-                const double by_rotation_atan2_norm_s_abs_g0 = 2.0 * by_rotation_t;
-                const double ratio = by_rotation_atan2_norm_s_abs_g0 / (near_chosen_2 + rotation_abs_g0 *
-                    rotation_abs_g0);
-                const double product_2 = rotation_norm_s * ratio;
-                const double by_rotation_abs_g0 = -product_2;
-                const double by_rotation_norm_s = rotation_abs_g0 * ratio - rotation_t_ratio * by_rotation_t;
-                const double rotation_t_over_norm_s_near_slope =
-                    polynomial_rotation_t_over_norm_s_near_slope(near_chosen);
-                const double by_rotation_norm_s_squared = rotation_log_det_series * by_rotation_log_det_near + (near ? 0.0
-                    : by_rotation_norm_s / (2.0 * rotation_norm_s)) + 4.011440628672975 * (near ?
-                    by_rotation_log_det_series * rotation_log_det_series_slope + by_rotation_t_over_norm_s_near *
-                    rotation_t_over_norm_s_near_slope : 0.0);
-                const double by_rotation_g0 = (is_small ? product_2 : by_rotation_abs_g0);
-                const double product_3 = 2.0 * by_rotation_norm_s_squared;
-                const double by_rotation_g3 = rotation_scale * by_v5 + rotation_g3 * product_3;
-                const double by_rotation_g2 = rotation_scale * by_v4 + rotation_g2 * product_3;
-                const double by_rotation_g1 = rotation_scale * by_v3 + rotation_g1 * product_3;
-                const double exponent_by_x6 = mu3 * by_rotation_g3 + mu4 * by_rotation_g2 - mu5 * by_rotation_g1 + mu6 *
-                    by_rotation_g0;
-                const double exponent_by_x5 = mu3 * by_rotation_g2 - mu4 * by_rotation_g3 + mu6 * by_rotation_g1 + mu5 *
-                    by_rotation_g0;
-                const double exponent_by_x4 = mu5 * by_rotation_g3 - mu6 * by_rotation_g2 + mu3 * by_rotation_g1 + mu4 *
-                    by_rotation_g0;
-                const double exponent_by_x3 = -(mu6 * by_rotation_g3) - mu5 * by_rotation_g2 - mu4 * by_rotation_g1 + mu3
-                    * by_rotation_g0;
-                const double df0 = phi * by_v0;
-                const double df1 = phi * by_v1;
-                const double df2 = phi * by_v2;
-                const double df3 = phi * exponent_by_x3;
-                const double df4 = phi * exponent_by_x4;
-                const double df5 = phi * exponent_by_x5;
-                const double df6 = phi * exponent_by_x6;
-                const double df4_product = 0.5 * df4;
-                const double df5_product = 0.5 * df5;
-                const double df3_product = 0.5 * df3;
-                const double df6_product = 0.5 * df6;
-                const double gradient3 = x_block[3][lane] * df4_product + x_block[6][lane] * df5_product -
-                    x_block[4][lane] * df3_product - x_block[5][lane] * df6_product;
-                const double gradient4 = x_block[3][lane] * df5_product + x_block[4][lane] * df6_product -
-                    x_block[5][lane] * df3_product - x_block[6][lane] * df4_product;
-                const double gradient5 = x_block[5][lane] * df4_product + x_block[3][lane] * df6_product -
-                    x_block[6][lane] * df3_product - x_block[4][lane] * df5_product;
-                sum[0][lane] += phi;
-                sum[1][lane] += df0;
-                sum[2][lane] += df1;
-                sum[3][lane] += df2;
-                sum[4][lane] += gradient3;
-                sum[5][lane] += gradient4;
-                sum[6][lane] += gradient5;
+    size_t count, size_t splat_count, const double *SE3_RESTRICT x, const double *SE3_RESTRICT mu, const double *SE3_RESTRICT W, const double *SE3_RESTRICT amplitude,
+    double *SE3_RESTRICT value, double *SE3_RESTRICT gradient, double *SE3_RESTRICT work, int threads) {
+    (void)threads;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES) {
+            vector at[2][7], X[2][7], grad[6];
+            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][7] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows(x, count, start + b * LANES, 7, at[b]);
+                pair_features(at[b], X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_forward(X[0], constants + 50 * k, value_sum[0], slope_sum[0]);
+                pair_forward(X[1], constants + 50 * k, value_sum[1], slope_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b) {
+                pair_gradient(at[b], slope_sum[b], grad);
+                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                vector_to_rows(grad, gradient, count, start + b * LANES, 6, 6);
             }
         }
-        for (size_t lane = 0; lane < lanes; ++lane) {
-            value[start + lane] = sum[0][lane];
-            for (size_t i = 0; i < 6; ++i) gradient[6 * (start + lane) + i] = sum[i + 1][lane];
-        }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
+void se3_splats_value(
+    size_t count, size_t splat_count, const double *SE3_RESTRICT x, const double *SE3_RESTRICT mu, const double *SE3_RESTRICT W, const double *SE3_RESTRICT amplitude,
+    double *SE3_RESTRICT value, double *SE3_RESTRICT work, int threads) {
+    (void)threads;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES) {
+            vector at[7], X[2][7], value_sum[2][1] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows(x, count, start + b * LANES, 7, at);
+                pair_features(at, X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_value(X[0], constants + 50 * k, value_sum[0]);
+                pair_value(X[1], constants + 50 * k, value_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b)
+                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
+OUTLINE void splat_points(
+    size_t count, size_t start, const double *x, const double *value_bar, const double *gradient_bar, vector *point) {
+    vector at[7], grad_bar[6], slope_bar[7];
+    vector_rows(x, count, start, 7, at);
+    vector_rows(gradient_bar, count, start, 6, grad_bar);
+    vector_rows(value_bar, count, start, 1, point + 7);
+    pair_features(at, point);
+    pair_gradient_vjp(at, grad_bar, slope_bar);
+    for (int i = 0; i < 7; ++i) point[7 + 1 + i] = slope_bar[i];
+    vector_end(count, start, 7 + 1, point + 7);
+}
+
+/* Adds to S_bar what one vector of points adds to it. */
+INLINE void pair_backward(
+    const vector *point, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
+    vector factor[33];
+    pair_factors(point, S, value_bar, slope_bar, factor);
+    {
+        vector sum[12] = {ZERO};
+        pair_products_0(factor, point, sum);
+        S_bar[0] += sum[0];
+        S_bar[1] += sum[1];
+        S_bar[2] += sum[2];
+        S_bar[21] += sum[3];
+        S_bar[3] += sum[4];
+        S_bar[4] += sum[5];
+        S_bar[5] += sum[6];
+        S_bar[6] += sum[7];
+        S_bar[7] += sum[8];
+        S_bar[8] += sum[9];
+        S_bar[9] += sum[10];
+        S_bar[10] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_1(factor, point, sum);
+        S_bar[11] += sum[0];
+        S_bar[14] += sum[1];
+        S_bar[12] += sum[2];
+        S_bar[13] += sum[3];
+        S_bar[15] += sum[4];
+        S_bar[16] += sum[5];
+        S_bar[17] += sum[6];
+        S_bar[18] += sum[7];
+        S_bar[19] += sum[8];
+        S_bar[20] += sum[9];
+        S_bar[22] += sum[10];
+        S_bar[23] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_2(factor, point, sum);
+        S_bar[24] += sum[0];
+        S_bar[25] += sum[1];
+        S_bar[28] += sum[2];
+        S_bar[29] += sum[3];
+        S_bar[26] += sum[4];
+        S_bar[27] += sum[5];
+        S_bar[30] += sum[6];
+        S_bar[31] += sum[7];
+        S_bar[32] += sum[8];
+        S_bar[33] += sum[9];
+        S_bar[34] += sum[10];
+        S_bar[35] += sum[11];
+    }
+    {
+        vector sum[12] = {ZERO};
+        pair_products_3(factor, point, sum);
+        S_bar[36] += sum[0];
+        S_bar[37] += sum[1];
+        S_bar[40] += sum[2];
+        S_bar[41] += sum[3];
+        S_bar[38] += sum[4];
+        S_bar[39] += sum[5];
+        S_bar[42] += sum[6];
+        S_bar[43] += sum[7];
+        S_bar[44] += sum[8];
+        S_bar[45] += sum[9];
+        S_bar[46] += sum[10];
+        S_bar[47] += sum[11];
+    }
+    {
+        vector sum[2] = {ZERO};
+        pair_products_4(factor, point, sum);
+        S_bar[48] += sum[0];
+        S_bar[49] += sum[1];
+    }
+}
+
+/* Adds to S_bar what some vectors of points add to it: factors of 11 vectors at a time, then their products. */
+OUTLINE void splat_sums(const vector *point, size_t count, const double *S, double *S_bar) {
+    vector factor[11 * 33], total[50] = {ZERO};
+    for (size_t start = 0; start < count; start += 11, point += 11 * 15) {
+        const size_t size = count - start < 11 ? count - start : 11;
+        for (size_t b = 0; b < size; ++b) {
+            const vector *at = point + 15 * b;
+            pair_factors(at, S, at + 7, at + 7 + 1, factor + 33 * b);
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_0(factor + 33 * b, point + 15 * b, sum);
+            total[0] += sum[0];
+            total[1] += sum[1];
+            total[2] += sum[2];
+            total[21] += sum[3];
+            total[3] += sum[4];
+            total[4] += sum[5];
+            total[5] += sum[6];
+            total[6] += sum[7];
+            total[7] += sum[8];
+            total[8] += sum[9];
+            total[9] += sum[10];
+            total[10] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_1(factor + 33 * b, point + 15 * b, sum);
+            total[11] += sum[0];
+            total[14] += sum[1];
+            total[12] += sum[2];
+            total[13] += sum[3];
+            total[15] += sum[4];
+            total[16] += sum[5];
+            total[17] += sum[6];
+            total[18] += sum[7];
+            total[19] += sum[8];
+            total[20] += sum[9];
+            total[22] += sum[10];
+            total[23] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_2(factor + 33 * b, point + 15 * b, sum);
+            total[24] += sum[0];
+            total[25] += sum[1];
+            total[28] += sum[2];
+            total[29] += sum[3];
+            total[26] += sum[4];
+            total[27] += sum[5];
+            total[30] += sum[6];
+            total[31] += sum[7];
+            total[32] += sum[8];
+            total[33] += sum[9];
+            total[34] += sum[10];
+            total[35] += sum[11];
+        }
+        {
+            vector sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_3(factor + 33 * b, point + 15 * b, sum);
+            total[36] += sum[0];
+            total[37] += sum[1];
+            total[40] += sum[2];
+            total[41] += sum[3];
+            total[38] += sum[4];
+            total[39] += sum[5];
+            total[42] += sum[6];
+            total[43] += sum[7];
+            total[44] += sum[8];
+            total[45] += sum[9];
+            total[46] += sum[10];
+            total[47] += sum[11];
+        }
+        {
+            vector sum[2] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_4(factor + 33 * b, point + 15 * b, sum);
+            total[48] += sum[0];
+            total[49] += sum[1];
+        }
+    }
+    for (size_t i = 0; i < 50; ++i) S_bar[i] += vector_sum(total[i]);
+}
+
+/*
+ * Some splats at a time; the points pass over each of them, a chunk at a time, while its sums stay in registers. How many
+ * splats depends on the threads, what is summed in which order does not.
+ */
 void se3_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *SE3_RESTRICT x,
-    const double *SE3_RESTRICT mu,
-    const double *SE3_RESTRICT W,
-    const double *SE3_RESTRICT amplitude,
-    const double *SE3_RESTRICT value_bar,
-    const double *SE3_RESTRICT gradient_bar,
-    double *SE3_RESTRICT mu_bar,
-    double *SE3_RESTRICT W_bar,
-    double *SE3_RESTRICT amplitude_bar) {
-    const unsigned mode = flush_denormals();
-    for (size_t i = 0; i < 7 * splat_count; ++i) mu_bar[i] = 0;
-    for (size_t i = 0; i < 36 * splat_count; ++i) W_bar[i] = 0;
-    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        double x_block[7][LANES], value_bar_block[1][LANES], gradient_bar_block[6][LANES];
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            const double weight = lane < lanes ? 1 : 0;
-            for (size_t i = 0; i < 7; ++i) x_block[i][lane] = x[7 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
-            for (size_t i = 0; i < 6; ++i) gradient_bar_block[i][lane] = gradient_bar[6 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
-            for (size_t i = 0; i < 6; ++i) gradient_bar_block[i][lane] *= weight;
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            double sum[44][LANES] = {{0}}, total[44] = {0};
-            const double mu0 = mu[7 * k + 0];
-            const double mu1 = mu[7 * k + 1];
-            const double mu2 = mu[7 * k + 2];
-            const double mu3 = mu[7 * k + 3];
-            const double mu4 = mu[7 * k + 4];
-            const double mu5 = mu[7 * k + 5];
-            const double mu6 = mu[7 * k + 6];
-            const double W0_0 = W[36 * k + 0];
-            const double W0_1 = W[36 * k + 1];
-            const double W0_2 = W[36 * k + 2];
-            const double W0_3 = W[36 * k + 3];
-            const double W0_4 = W[36 * k + 4];
-            const double W0_5 = W[36 * k + 5];
-            const double W1_0 = W[36 * k + 6];
-            const double W1_1 = W[36 * k + 7];
-            const double W1_2 = W[36 * k + 8];
-            const double W1_3 = W[36 * k + 9];
-            const double W1_4 = W[36 * k + 10];
-            const double W1_5 = W[36 * k + 11];
-            const double W2_0 = W[36 * k + 12];
-            const double W2_1 = W[36 * k + 13];
-            const double W2_2 = W[36 * k + 14];
-            const double W2_3 = W[36 * k + 15];
-            const double W2_4 = W[36 * k + 16];
-            const double W2_5 = W[36 * k + 17];
-            const double W3_0 = W[36 * k + 18];
-            const double W3_1 = W[36 * k + 19];
-            const double W3_2 = W[36 * k + 20];
-            const double W3_3 = W[36 * k + 21];
-            const double W3_4 = W[36 * k + 22];
-            const double W3_5 = W[36 * k + 23];
-            const double W4_0 = W[36 * k + 24];
-            const double W4_1 = W[36 * k + 25];
-            const double W4_2 = W[36 * k + 26];
-            const double W4_3 = W[36 * k + 27];
-            const double W4_4 = W[36 * k + 28];
-            const double W4_5 = W[36 * k + 29];
-            const double W5_0 = W[36 * k + 30];
-            const double W5_1 = W[36 * k + 31];
-            const double W5_2 = W[36 * k + 32];
-            const double W5_3 = W[36 * k + 33];
-            const double W5_4 = W[36 * k + 34];
-            const double W5_5 = W[36 * k + 35];
-            const double amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const double rotation_g0 = x_block[3][lane] * mu3 + x_block[4][lane] * mu4 + x_block[5][lane] * mu5 +
-                    x_block[6][lane] * mu6;
-                const double rotation_g1 = x_block[4][lane] * mu3 + x_block[5][lane] * mu6 - x_block[3][lane] * mu4 -
-                    x_block[6][lane] * mu5;
-                const double rotation_g2 = x_block[5][lane] * mu3 + x_block[6][lane] * mu4 - x_block[3][lane] * mu5 -
-                    x_block[4][lane] * mu6;
-                const double rotation_g3 = x_block[6][lane] * mu3 + x_block[4][lane] * mu5 - x_block[5][lane] * mu4 -
-                    x_block[3][lane] * mu6;
-                const double rotation_norm_s_squared = rotation_g1 * rotation_g1 + rotation_g2 * rotation_g2 + rotation_g3
-                    * rotation_g3;
-                const double rotation_abs_g0 = fabs(rotation_g0);
-                const int near = rotation_norm_s_squared < 0.249287;
-                const double near_chosen = (near ? 4.011440628672975 * rotation_norm_s_squared : 0.0);
-                const double rotation_t_over_norm_s_near = polynomial_rotation_t_over_norm_s_near(near_chosen);
-                const double near_chosen_2 = (near ? 1.0 : rotation_norm_s_squared);
-                const double rotation_norm_s = sqrt(near_chosen_2);
-                const double rotation_atan2_norm_s_abs_g0 = atan2(rotation_norm_s, rotation_abs_g0);
-                const double rotation_t = 2.0 * rotation_atan2_norm_s_abs_g0;
-                const double rotation_t_ratio = rotation_t / rotation_norm_s;
-                const double rotation_t_over_norm_s = (near ? rotation_t_over_norm_s_near : rotation_t_ratio);
-                const int is_small = rotation_g0 < 0.0;
-                const double chosen = (is_small ? -1.0 : 1.0);
-                const double rotation_scale = rotation_t_over_norm_s * chosen;
-                const double v0 = x_block[0][lane] - mu0;
-                const double v1 = x_block[1][lane] - mu1;
-                const double v2 = x_block[2][lane] - mu2;
-                const double v3 = rotation_g1 * rotation_scale;
-                const double v4 = rotation_g2 * rotation_scale;
-                const double v5 = rotation_g3 * rotation_scale;
-                const double rotation_log_det_series = polynomial_rotation_log_det_series(near_chosen);
-                const double rotation_log_det_near = rotation_norm_s_squared * rotation_log_det_series;
-                const double product = 0.5 * rotation_t_ratio;
-                const double rotation_log_det = (near ? rotation_log_det_near : 2.0 * log(product));
-                const double total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-                const double z0 = total_2 + W0_5 * v5;
-                const double total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-                const double z1 = total_3 + W1_5 * v5;
-                const double total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-                const double z2 = total_4 + W2_5 * v5;
-                const double total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-                const double z3 = total_5 + W3_5 * v5;
-                const double total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-                const double z4 = total_6 + W4_5 * v5;
-                const double total_7 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-                const double z5 = total_7 + W5_5 * v5;
-                const double total_8 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-                const double exp_2 = exp(rotation_log_det - 0.5 * (total_8 + z5 * z5));
-                const double phi = amplitude_k * exp_2;
-                const double gap = -(W5_5 * z5) - W4_5 * z4 - W3_5 * z3 - W2_5 * z2;
-                const double gap_2 = -(W5_4 * z5) - W4_4 * z4 - W3_4 * z3 - W2_4 * z2;
-                const double gap_3 = -(W5_3 * z5) - W4_3 * z4 - W3_3 * z3 - W2_3 * z2;
-                const double gap_4 = -(W5_2 * z5) - W4_2 * z4 - W3_2 * z3 - W2_2 * z2;
-                const double gap_5 = -(W5_1 * z5) - W4_1 * z4 - W3_1 * z3 - W2_1 * z2;
-                const double gap_6 = -(W5_0 * z5) - W4_0 * z4 - W3_0 * z3 - W2_0 * z2;
-                const double by_v5 = gap - W1_5 * z1 - W0_5 * z0;
-                const double by_v4 = gap_2 - W1_4 * z1 - W0_4 * z0;
-                const double by_v3 = gap_3 - W1_3 * z1 - W0_3 * z0;
-                const double by_v2 = gap_4 - W1_2 * z1 - W0_2 * z0;
-                const double by_v1 = gap_5 - W1_1 * z1 - W0_1 * z0;
-                const double by_v0 = gap_6 - W1_0 * z1 - W0_0 * z0;
-                const double by_rotation_log_det_near = (near ? 1.0 : 0.0);
-                const double ratio = 2.0 * (near ? 0.0 : 1.0) / product;
-                const double by_rotation_log_det_series = rotation_norm_s_squared * by_rotation_log_det_near;
-                const double rotation_log_det_series_slope = polynomial_rotation_log_det_series_slope(near_chosen);
-                const double by_rotation_scale = rotation_g3 * by_v5 + rotation_g2 * by_v4 + rotation_g1 * by_v3;
-                const double by_rotation_t_over_norm_s = chosen * by_rotation_scale;
-                const double by_rotation_t_over_norm_s_near = (near ? by_rotation_t_over_norm_s : 0.0);
-                const double by_rotation_t = (0.5 * ratio + (near ? 0.0 : by_rotation_t_over_norm_s)) / rotation_norm_s;
-                const double by_rotation_atan2_norm_s_abs_g0 = 2.0 * by_rotation_t;
-                const double total_9 = near_chosen_2 + rotation_abs_g0 * rotation_abs_g0;
-                const double ratio_2 = by_rotation_atan2_norm_s_abs_g0 / total_9;
-                const double product_2 = rotation_norm_s * ratio_2;
-                const double by_rotation_abs_g0 = -product_2;
-                const double by_rotation_norm_s = rotation_abs_g0 * ratio_2 - rotation_t_ratio * by_rotation_t;
-                const double product_3 = 2.0 * rotation_norm_s;
-                const double ratio_3 = by_rotation_norm_s / product_3;
-                const double rotation_t_over_norm_s_near_slope =
-                    polynomial_rotation_t_over_norm_s_near_slope(near_chosen);
-                const double by_rotation_norm_s_squared = rotation_log_det_series * by_rotation_log_det_near + (near ? 0.0
-                    : ratio_3) + 4.011440628672975 * (near ? by_rotation_log_det_series * rotation_log_det_series_slope +
-                    by_rotation_t_over_norm_s_near * rotation_t_over_norm_s_near_slope : 0.0);
-                const double by_rotation_g0 = (is_small ? product_2 : by_rotation_abs_g0);
-                const double product_4 = 2.0 * by_rotation_norm_s_squared;
-                const double by_rotation_g3 = rotation_scale * by_v5 + rotation_g3 * product_4;
-                const double by_rotation_g2 = rotation_scale * by_v4 + rotation_g2 * product_4;
-                const double by_rotation_g1 = rotation_scale * by_v3 + rotation_g1 * product_4;
-                const double exponent_by_x6 = mu3 * by_rotation_g3 + mu4 * by_rotation_g2 - mu5 * by_rotation_g1 + mu6 *
-                    by_rotation_g0;
-                const double exponent_by_x5 = mu3 * by_rotation_g2 - mu4 * by_rotation_g3 + mu6 * by_rotation_g1 + mu5 *
-                    by_rotation_g0;
-                const double exponent_by_x4 = mu5 * by_rotation_g3 - mu6 * by_rotation_g2 + mu3 * by_rotation_g1 + mu4 *
-                    by_rotation_g0;
-                const double exponent_by_x3 = -(mu6 * by_rotation_g3) - mu5 * by_rotation_g2 - mu4 * by_rotation_g1 + mu3
-                    * by_rotation_g0;
-                const double by_df6 = 0.5 * (x_block[3][lane] * gradient_bar_block[5][lane] + x_block[4][lane] *
-                    gradient_bar_block[4][lane] - x_block[5][lane] * gradient_bar_block[3][lane]);
-                const double by_df3 = 0.5 * (-(x_block[6][lane] * gradient_bar_block[5][lane]) - x_block[5][lane] *
-                    gradient_bar_block[4][lane] - x_block[4][lane] * gradient_bar_block[3][lane]);
-                const double by_df5 = 0.5 * (x_block[3][lane] * gradient_bar_block[4][lane] - x_block[4][lane] *
-                    gradient_bar_block[5][lane] + x_block[6][lane] * gradient_bar_block[3][lane]);
-                const double by_df4 = 0.5 * (x_block[5][lane] * gradient_bar_block[5][lane] - x_block[6][lane] *
-                    gradient_bar_block[4][lane] + x_block[3][lane] * gradient_bar_block[3][lane]);
-                const double by_exponent_by_x6 = phi * by_df6;
-                const double by_exponent_by_x5 = phi * by_df5;
-                const double by_exponent_by_x4 = phi * by_df4;
-                const double by_exponent_by_x3 = phi * by_df3;
-                const double total_10 = value_bar_block[0][lane] + exponent_by_x6 * by_df6 + exponent_by_x5 * by_df5 +
-                    exponent_by_x4 * by_df4 + exponent_by_x3 * by_df3;
-                const double by_by_v2 = phi * gradient_bar_block[2][lane];
-                const double by_by_v1 = phi * gradient_bar_block[1][lane];
-                const double by_by_v0 = phi * gradient_bar_block[0][lane];
-                const double by_phi = total_10 + by_v2 * gradient_bar_block[2][lane] + by_v1 * gradient_bar_block[1][lane]
-                    + by_v0 * gradient_bar_block[0][lane];
-                const double by_by_rotation_g0 = mu3 * by_exponent_by_x3 + mu4 * by_exponent_by_x4 + mu5 *
-                    by_exponent_by_x5 + mu6 * by_exponent_by_x6;
-                const double by_by_rotation_g1 = mu3 * by_exponent_by_x4 + mu6 * by_exponent_by_x5 - mu4 *
-                    by_exponent_by_x3 - mu5 * by_exponent_by_x6;
-                const double by_by_rotation_g2 = mu3 * by_exponent_by_x5 + mu4 * by_exponent_by_x6 - mu5 *
-                    by_exponent_by_x3 - mu6 * by_exponent_by_x4;
-                const double by_by_rotation_g3 = mu3 * by_exponent_by_x6 + mu5 * by_exponent_by_x4 - mu4 *
-                    by_exponent_by_x5 - mu6 * by_exponent_by_x3;
-                const double total_11 = rotation_g1 * by_by_rotation_g1 + rotation_g2 * by_by_rotation_g2 + rotation_g3 *
-                    by_by_rotation_g3;
-                const double by_by_rotation_norm_s_squared = 2.0 * total_11;
-                const double by_by_rotation_abs_g0 = (is_small ? 0.0 : by_by_rotation_g0);
-                const double near_chosen_3 = (near ? 8.02288125734595 * total_11 : 0.0);
-                const double by_by_rotation_t_over_norm_s_near = rotation_t_over_norm_s_near_slope * near_chosen_3;
-                const double by_rotation_t_over_norm_s_near_slope = by_rotation_t_over_norm_s_near * near_chosen_3;
-                const double rotation_t_over_norm_s_near_slope_slope =
-                    polynomial_rotation_t_over_norm_s_near_slope_slope(near_chosen);
-                const double by_by_rotation_norm_s = (near ? 0.0 : by_by_rotation_norm_s_squared) / product_3;
-                const double gap_7 = (is_small ? by_by_rotation_g0 : 0.0) - by_by_rotation_abs_g0;
-                const double by_by_rotation_atan2_norm_s_abs_g0 = (rotation_norm_s * gap_7 + rotation_abs_g0 *
-                    by_by_rotation_norm_s) / total_9;
-                const double product_5 = ratio_2 * by_by_rotation_atan2_norm_s_abs_g0;
-                const double gap_8 = ratio_2 * by_by_rotation_norm_s - rotation_abs_g0 * (2.0 * product_5);
-                const double by_by_rotation_t = 2.0 * by_by_rotation_atan2_norm_s_abs_g0 - rotation_t_ratio *
-                    by_by_rotation_norm_s;
-                const double ratio_4 = by_by_rotation_t / rotation_norm_s;
-                const double by_by_rotation_t_over_norm_s = (near ? 0.0 : ratio_4) + (near ?
-                    by_by_rotation_t_over_norm_s_near : 0.0);
-                const double by_by_rotation_scale = chosen * by_by_rotation_t_over_norm_s;
-                const double by_by_v3 = rotation_g1 * by_by_rotation_scale + rotation_scale * by_by_rotation_g1;
-                const double by_by_v4 = rotation_g2 * by_by_rotation_scale + rotation_scale * by_by_rotation_g2;
-                const double by_by_v5 = rotation_g3 * by_by_rotation_scale + rotation_scale * by_by_rotation_g3;
-                const double by_by_rotation_log_det_series = rotation_log_det_series_slope * near_chosen_3;
-                const double by_rotation_log_det_series_slope = by_rotation_log_det_series * near_chosen_3;
-                const double rotation_log_det_series_slope_slope =
-                    polynomial_rotation_log_det_series_slope_slope(near_chosen);
-                const double gap_9 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2 - W0_3 * by_by_v3;
-                const double gap_10 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2 - W1_3 * by_by_v3;
-                const double gap_11 = -(W2_0 * by_by_v0) - W2_1 * by_by_v1 - W2_2 * by_by_v2 - W2_3 * by_by_v3;
-                const double gap_12 = -(W3_0 * by_by_v0) - W3_1 * by_by_v1 - W3_2 * by_by_v2 - W3_3 * by_by_v3;
-                const double gap_13 = -(W4_0 * by_by_v0) - W4_1 * by_by_v1 - W4_2 * by_by_v2 - W4_3 * by_by_v3;
-                const double gap_14 = -(W5_0 * by_by_v0) - W5_1 * by_by_v1 - W5_2 * by_by_v2 - W5_3 * by_by_v3;
-                const double by_rotation_log_det = exp_2 * (amplitude_k * by_phi);
-                const double by_z5 = gap_14 - W5_4 * by_by_v4 - W5_5 * by_by_v5 - z5 * by_rotation_log_det;
-                const double by_z4 = gap_13 - W4_4 * by_by_v4 - W4_5 * by_by_v5 - z4 * by_rotation_log_det;
-                const double by_z3 = gap_12 - W3_4 * by_by_v4 - W3_5 * by_by_v5 - z3 * by_rotation_log_det;
-                const double by_z2 = gap_11 - W2_4 * by_by_v4 - W2_5 * by_by_v5 - z2 * by_rotation_log_det;
-                const double by_z1 = gap_10 - W1_4 * by_by_v4 - W1_5 * by_by_v5 - z1 * by_rotation_log_det;
-                const double by_z0 = gap_9 - W0_4 * by_by_v4 - W0_5 * by_by_v5 - z0 * by_rotation_log_det;
-                const double total_12 = W5_5 * by_z5 + W4_5 * by_z4 + W3_5 * by_z3 + W2_5 * by_z2 + W1_5 * by_z1;
-                const double total_13 = W5_4 * by_z5 + W4_4 * by_z4 + W3_4 * by_z3 + W2_4 * by_z2 + W1_4 * by_z1;
-                const double total_14 = W5_3 * by_z5 + W4_3 * by_z4 + W3_3 * by_z3 + W2_3 * by_z2 + W1_3 * by_z1;
-                const double total_15 = W5_2 * by_z5 + W4_2 * by_z4 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1;
-                const double total_16 = W5_1 * by_z5 + W4_1 * by_z4 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1;
-                const double total_17 = W5_0 * by_z5 + W4_0 * by_z4 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1;
-                const double by_v5_2 = total_12 + W0_5 * by_z0;
-                const double by_v4_2 = total_13 + W0_4 * by_z0;
-                const double by_v3_2 = total_14 + W0_3 * by_z0;
-                const double by_v2_2 = total_15 + W0_2 * by_z0;
-                const double by_v1_2 = total_16 + W0_1 * by_z0;
-                const double by_v0_2 = total_17 + W0_0 * by_z0;
-                const double by_rotation_log_det_near_2 = (near ? by_rotation_log_det : 0.0);
-                const double product_6 = 0.5 * (2.0 * (near ? 0.0 : by_rotation_log_det) / product - ratio * (0.5 *
-                    ratio_4 / product));
-                const double by_rotation_log_det_series_2 = by_rotation_log_det_near * by_by_rotation_norm_s_squared +
-                    rotation_norm_s_squared * by_rotation_log_det_near_2;
-                const double total_18 = by_v3 * by_by_rotation_g1 + by_v4 * by_by_rotation_g2 + by_v5 * by_by_rotation_g3
-                    + rotation_g3 * by_v5_2 + rotation_g2 * by_v4_2;
-                const double by_rotation_scale_2 = total_18 + rotation_g1 * by_v3_2;
-                const double by_rotation_t_over_norm_s_2 = chosen * by_rotation_scale_2;
-                const double by_rotation_t_over_norm_s_near_2 = (near ? by_rotation_t_over_norm_s_2 : 0.0);
-                const double by_rotation_t_2 = (product_6 - by_rotation_t * by_by_rotation_norm_s + (near ? 0.0 :
-                    by_rotation_t_over_norm_s_2)) / rotation_norm_s;
-                const double gap_15 = ratio_2 * gap_7 - 2.0 * (ratio_3 * by_by_rotation_norm_s) - by_rotation_t * ratio_4
-                    - rotation_t_ratio * by_rotation_t_2;
-                const double by_rotation_atan2_norm_s_abs_g0_2 = 2.0 * by_rotation_t_2;
-                const double ratio_5 = by_rotation_atan2_norm_s_abs_g0_2 / total_9;
-                const double product_7 = rotation_norm_s * ratio_5;
-                const double by_rotation_norm_s_2 = gap_15 + rotation_abs_g0 * ratio_5;
-                const double by_rotation_abs_g0_2 = gap_8 - product_7;
-                const double near_chosen_4 = (near ? by_rotation_t_over_norm_s_near_slope *
-                    rotation_t_over_norm_s_near_slope_slope + by_rotation_log_det_series_slope *
-                    rotation_log_det_series_slope_slope + rotation_log_det_series_slope * by_rotation_log_det_series_2 +
-                    rotation_t_over_norm_s_near_slope * by_rotation_t_over_norm_s_near_2 : 0.0);
-                const double by_rotation_norm_s_squared_2 = by_rotation_log_det_near * by_by_rotation_log_det_series +
-                    rotation_log_det_series * by_rotation_log_det_near_2 + (near ? 0.0 : by_rotation_norm_s_2 / product_3
-                    - product_5) + 4.011440628672975 * near_chosen_4;
-                const double by_rotation_g0_2 = (is_small ? product_7 - gap_8 : by_rotation_abs_g0_2);
-                const double product_8 = 2.0 * by_rotation_norm_s_squared_2;
-                const double by_rotation_g3_2 = product_4 * by_by_rotation_g3 + by_v5 * by_by_rotation_scale +
-                    rotation_scale * by_v5_2 + rotation_g3 * product_8;
-                const double by_rotation_g2_2 = product_4 * by_by_rotation_g2 + by_v4 * by_by_rotation_scale +
-                    rotation_scale * by_v4_2 + rotation_g2 * product_8;
-                const double by_rotation_g1_2 = product_4 * by_by_rotation_g1 + by_v3 * by_by_rotation_scale +
-                    rotation_scale * by_v3_2 + rotation_g1 * product_8;
-                const double gap_16 = by_rotation_g0 * by_exponent_by_x6 + by_rotation_g1 * by_exponent_by_x5 -
-                    by_rotation_g2 * by_exponent_by_x4 - by_rotation_g3 * by_exponent_by_x3 - x_block[3][lane] *
-                    by_rotation_g3_2;
-                const double gap_17 = by_rotation_g0 * by_exponent_by_x4 - by_rotation_g1 * by_exponent_by_x3 +
-                    by_rotation_g2 * by_exponent_by_x6 - by_rotation_g3 * by_exponent_by_x5 - x_block[5][lane] *
-                    by_rotation_g3_2;
-                const double total_19 = by_rotation_g0 * by_exponent_by_x5 - by_rotation_g1 * by_exponent_by_x6 -
-                    by_rotation_g2 * by_exponent_by_x3 + by_rotation_g3 * by_exponent_by_x4 + x_block[4][lane] *
-                    by_rotation_g3_2;
-                const double total_20 = by_rotation_g0 * by_exponent_by_x3 + by_rotation_g1 * by_exponent_by_x4 +
-                    by_rotation_g2 * by_exponent_by_x5 + by_rotation_g3 * by_exponent_by_x6 + x_block[6][lane] *
-                    by_rotation_g3_2;
-                sum[0][lane] += -by_v0_2;
-                sum[1][lane] += -by_v1_2;
-                sum[2][lane] += -by_v2_2;
-                sum[3][lane] += total_20 + x_block[5][lane] * by_rotation_g2_2 + x_block[4][lane] * by_rotation_g1_2 + x_block[3][lane] * by_rotation_g0_2;
-                sum[4][lane] += gap_17 + x_block[6][lane] * by_rotation_g2_2 - x_block[3][lane] * by_rotation_g1_2 + x_block[4][lane] * by_rotation_g0_2;
-                sum[5][lane] += total_19 - x_block[3][lane] * by_rotation_g2_2 - x_block[6][lane] * by_rotation_g1_2 + x_block[5][lane] * by_rotation_g0_2;
-                sum[6][lane] += gap_16 - x_block[4][lane] * by_rotation_g2_2 + x_block[5][lane] * by_rotation_g1_2 + x_block[6][lane] * by_rotation_g0_2;
-                sum[7][lane] += v0 * by_z0 - z0 * by_by_v0;
-                sum[8][lane] += v1 * by_z0 - z0 * by_by_v1;
-                sum[9][lane] += v2 * by_z0 - z0 * by_by_v2;
-                sum[10][lane] += v3 * by_z0 - z0 * by_by_v3;
-                sum[11][lane] += v4 * by_z0 - z0 * by_by_v4;
-                sum[12][lane] += v5 * by_z0 - z0 * by_by_v5;
-                sum[13][lane] += v0 * by_z1 - z1 * by_by_v0;
-                sum[14][lane] += v1 * by_z1 - z1 * by_by_v1;
-                sum[15][lane] += v2 * by_z1 - z1 * by_by_v2;
-                sum[16][lane] += v3 * by_z1 - z1 * by_by_v3;
-                sum[17][lane] += v4 * by_z1 - z1 * by_by_v4;
-                sum[18][lane] += v5 * by_z1 - z1 * by_by_v5;
-                sum[19][lane] += v0 * by_z2 - z2 * by_by_v0;
-                sum[20][lane] += v1 * by_z2 - z2 * by_by_v1;
-                sum[21][lane] += v2 * by_z2 - z2 * by_by_v2;
-                sum[22][lane] += v3 * by_z2 - z2 * by_by_v3;
-                sum[23][lane] += v4 * by_z2 - z2 * by_by_v4;
-                sum[24][lane] += v5 * by_z2 - z2 * by_by_v5;
-                sum[25][lane] += v0 * by_z3 - z3 * by_by_v0;
-                sum[26][lane] += v1 * by_z3 - z3 * by_by_v1;
-                sum[27][lane] += v2 * by_z3 - z3 * by_by_v2;
-                sum[28][lane] += v3 * by_z3 - z3 * by_by_v3;
-                sum[29][lane] += v4 * by_z3 - z3 * by_by_v4;
-                sum[30][lane] += v5 * by_z3 - z3 * by_by_v5;
-                sum[31][lane] += v0 * by_z4 - z4 * by_by_v0;
-                sum[32][lane] += v1 * by_z4 - z4 * by_by_v1;
-                sum[33][lane] += v2 * by_z4 - z4 * by_by_v2;
-                sum[34][lane] += v3 * by_z4 - z4 * by_by_v3;
-                sum[35][lane] += v4 * by_z4 - z4 * by_by_v4;
-                sum[36][lane] += v5 * by_z4 - z4 * by_by_v5;
-                sum[37][lane] += v0 * by_z5 - z5 * by_by_v0;
-                sum[38][lane] += v1 * by_z5 - z5 * by_by_v1;
-                sum[39][lane] += v2 * by_z5 - z5 * by_by_v2;
-                sum[40][lane] += v3 * by_z5 - z5 * by_by_v3;
-                sum[41][lane] += v4 * by_z5 - z5 * by_by_v4;
-                sum[42][lane] += v5 * by_z5 - z5 * by_by_v5;
-                sum[43][lane] += exp_2 * by_phi;
+    size_t count, size_t splat_count, const double *SE3_RESTRICT x, const double *SE3_RESTRICT mu, const double *SE3_RESTRICT W, const double *SE3_RESTRICT amplitude, const double *SE3_RESTRICT value_bar, const double *SE3_RESTRICT gradient_bar,
+    double *SE3_RESTRICT mu_bar, double *SE3_RESTRICT W_bar, double *SE3_RESTRICT amplitude_bar, double *SE3_RESTRICT work, int threads) {
+    const size_t blocks = (count + LANES - 1) / LANES;
+    const size_t chunk = 131072 / (15 * sizeof(vector)) + 1;
+    const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
+    const size_t share = part < LANES ? part : LANES;
+    vector *points = work_points(work);
+    double *constants = work_constants(work, count);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic) nowait)
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic, 8))
+        for (size_t block = 0; block < blocks; ++block)
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 15 * block);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += share) {
+            const size_t end = start + share < splat_count ? start + share : splat_count;
+            double sums[LANES][50] = {{0}};
+            vector own_mu[7], own_W[36], own_amplitude[1], S_bar[50], bars[44];
+            for (size_t first = 0; first < blocks; first += chunk) {
+                const size_t size = first + chunk < blocks ? chunk : blocks - first;
+                for (size_t k = start; k < end; ++k)
+                    splat_sums(points + 15 * first, size, constants + 50 * k, sums[k - start]);
             }
-            for (size_t i = 0; i < 44; ++i)
-                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
-            mu_bar[7 * k + 0] += total[0];
-            mu_bar[7 * k + 1] += total[1];
-            mu_bar[7 * k + 2] += total[2];
-            mu_bar[7 * k + 3] += total[3];
-            mu_bar[7 * k + 4] += total[4];
-            mu_bar[7 * k + 5] += total[5];
-            mu_bar[7 * k + 6] += total[6];
-            W_bar[36 * k + 0] += total[7];
-            W_bar[36 * k + 1] += total[8];
-            W_bar[36 * k + 2] += total[9];
-            W_bar[36 * k + 3] += total[10];
-            W_bar[36 * k + 4] += total[11];
-            W_bar[36 * k + 5] += total[12];
-            W_bar[36 * k + 6] += total[13];
-            W_bar[36 * k + 7] += total[14];
-            W_bar[36 * k + 8] += total[15];
-            W_bar[36 * k + 9] += total[16];
-            W_bar[36 * k + 10] += total[17];
-            W_bar[36 * k + 11] += total[18];
-            W_bar[36 * k + 12] += total[19];
-            W_bar[36 * k + 13] += total[20];
-            W_bar[36 * k + 14] += total[21];
-            W_bar[36 * k + 15] += total[22];
-            W_bar[36 * k + 16] += total[23];
-            W_bar[36 * k + 17] += total[24];
-            W_bar[36 * k + 18] += total[25];
-            W_bar[36 * k + 19] += total[26];
-            W_bar[36 * k + 20] += total[27];
-            W_bar[36 * k + 21] += total[28];
-            W_bar[36 * k + 22] += total[29];
-            W_bar[36 * k + 23] += total[30];
-            W_bar[36 * k + 24] += total[31];
-            W_bar[36 * k + 25] += total[32];
-            W_bar[36 * k + 26] += total[33];
-            W_bar[36 * k + 27] += total[34];
-            W_bar[36 * k + 28] += total[35];
-            W_bar[36 * k + 29] += total[36];
-            W_bar[36 * k + 30] += total[37];
-            W_bar[36 * k + 31] += total[38];
-            W_bar[36 * k + 32] += total[39];
-            W_bar[36 * k + 33] += total[40];
-            W_bar[36 * k + 34] += total[41];
-            W_bar[36 * k + 35] += total[42];
-            amplitude_bar[1 * k + 0] += total[43];
+            vector_rows(mu, end, start, 7, own_mu);
+            vector_rows(W, end, start, 36, own_W);
+            vector_rows(amplitude, end, start, 1, own_amplitude);
+            vector_rows(sums[0], LANES, 0, 50, S_bar);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 7, bars + 7 + 36);
+            vector_to_rows(bars, mu_bar, end, start, 7, 7);
+            vector_to_rows(bars + 7, W_bar, end, start, 36, 36);
+            vector_to_rows(bars + 7 + 36, amplitude_bar, end, start, 1, 1);
         }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
-/* Of degree 5, within 2^-27 of that of double precision. */
-static inline float polynomial_rotation_t_over_norm_s_near_f(float x) {
-    return 1.9999999916408444f + x * (0.08309625685133959f + x * (0.009314899571001777f + x *
-        (0.001410660168357637f + x * (0.0001850457232808171f + x * 8.1767340923012e-05f))));
+/* Nothing is summed: the adjoints of a splat's constants go on to its parameters for every point. */
+void se3_splats_rows(
+    size_t count, size_t splat_count, const double *SE3_RESTRICT x, const double *SE3_RESTRICT mu, const double *SE3_RESTRICT W, const double *SE3_RESTRICT amplitude, const double *SE3_RESTRICT value_bar, const double *SE3_RESTRICT gradient_bar,
+    double *SE3_RESTRICT rows, double *SE3_RESTRICT work, int threads) {
+    (void)threads;
+    const size_t blocks = (count + LANES - 1) / LANES;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t block = 0; block < blocks; ++block) {
+            vector point[15];
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
+            for (size_t k = 0; k < splat_count; ++k) {
+                vector own_mu[7], own_W[36], own_amplitude[1], S_bar[50] = {ZERO}, bars[44];
+                for (int i = 0; i < 7; ++i) own_mu[i] = vector_of(mu[7 * k + i]);
+                for (int i = 0; i < 36; ++i) own_W[i] = vector_of(W[36 * k + i]);
+                own_amplitude[0] = vector_of(amplitude[k]);
+                pair_backward(point, constants + 50 * k, point + 7, point + 7 + 1, S_bar);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 7, bars + 7 + 36);
+                vector_to_rows(bars, rows + 44 * k, count, block * LANES, 44, 44 * splat_count);
+            }
+        }
+        restore_denormals(mode);
+    }
 }
 
-/* Of degree 6, within 2^-30 of that of double precision. */
-static inline float polynomial_rotation_log_det_series_f(float x) {
-    return 0.33333333360654344f + x * (0.030468384794974636f + x * (0.004187186052703318f + x *
-        (0.0006798423432636281f + x * (0.00012869008203200835f + x * (1.4352383872053921e-05f + x *
-        1.0146648022958735e-05f)))));
+/* The same number in all lanes. */
+INLINE vector_f vector_of_f(float x) {
+    const vector_f zero = ZERO;
+    return x - zero;
 }
 
-/* Of degree 7, within 2^-29 of that of double precision. */
-static inline float polynomial_rotation_log_det_series_slope_f(float x) {
-    return 0.030468411075324144f + x * (0.00837355342611542f + x * (0.0020466142655597187f + x *
-        (0.0004893663510207316f + x * (0.00011341332759154923f + x * (3.308965514831338e-05f + x *
-        (7.033240749837545e-07f + x * 4.5653796914644905e-06f))))));
+/* x in the lanes of the mask, y in the others. */
+INLINE vector_f vector_select_f(vector_mask_f mask, vector_f x, vector_f y) {
+    return SELECT(vector_f, vector_mask_f, mask, x, y);
 }
 
-/* Of degree 7, within 2^-30 of that of double precision. */
-static inline float polynomial_rotation_t_over_norm_s_near_slope_f(float x) {
-    return 0.08309566660530374f + x * (0.0186432102329603f + x * (0.004149402027001096f + x *
-        (0.0009398850567115093f + x * (0.00021071714765224622f + x * (5.936713146666543e-05f + x *
-        (1.5937893933276167e-06f + x * 7.904358196252664e-06f))))));
+/* Numbers in memory to a vector, and back. */
+INLINE vector_f vector_load_f(const float *from) {
+    vector_f x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+INLINE void vector_store_f(float *to, vector_f x) { memcpy(to, &x, sizeof x); }
+
+/* The sum over the lanes, by halves. */
+INLINE float vector_sum_f(vector_f x) {
+    float lanes[LANES_f];
+    vector_store_f(lanes, x);
+    for (size_t half = LANES_f / 2; half > 0; half /= 2)
+        for (size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    return lanes[0];
 }
 
-/* Of degree 8, within 2^-30 of that of double precision. */
-static inline float polynomial_rotation_t_over_norm_s_near_slope_slope_f(float x) {
-    return 0.01864320252205291f + x * (0.008299119649304472f + x * (0.0028160002314375336f + x *
-        (0.0008610440047704579f + x * (0.0002522458975272004f + x * (6.363291448779077e-05f + x *
-        (2.9672627598761578e-05f + x * (-3.950664599532621e-06f + x * 5.308935243478486e-06f)))))));
+/* The bits of a vector as integers, and back. */
+INLINE vector_bits_f vector_to_bits_f(vector_f x) {
+    vector_bits_f bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
+    vector_f x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
 }
 
-/* Of degree 8, within 2^-29 of that of double precision. */
-static inline float polynomial_rotation_log_det_series_slope_slope_f(float x) {
-    return 0.008373548929811502f + x * (0.00409341251393332f + x * (0.0014659690505062421f + x *
-        (0.0004642399977336899f + x * (0.00013949898494014724f + x * (3.562723292198236e-05f + x *
-        (1.715338253936205e-05f + x * (-2.4083903642194996e-06f + x * 3.123850968155648e-06f)))))));
+/* abs of every lane; one instruction where the machine has it. */
+INLINE vector_f vector_abs_f(vector_f x) {
+    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
+    return x;
 }
 
+/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
+INLINE vector_f vector_exp_f(vector_f x) {
+    const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
+    const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
+    const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
+    const vector_f scale = vector_from_bits_f((vector_to_bits_f(shifted) + 126) << 23); /* 2^(k - 1) */
+    const vector_f y = vector_select_f(x > 88.722839f, vector_of_f(HUGE_VALF), (scale + scale * part) * 2);
+    return vector_select_f(x < -86.9f, vector_of_f(0), y);
+}
+
+/* Of degree 11, within 2^-29 of that of double precision. */
+INLINE vector_f vector_polynomial_rotation_eta_f(vector_f x) {
+    return -0.3333333329074172f + x * (-0.15555567514484153f + x * (-0.07512673968454313f + x *
+        (-0.036854683410814014f + x * (-0.017172242426810813f + x * (-0.013945774438806282f + x *
+        (0.01253044380771583f + x * (-0.03940423726113369f + x * (0.051921663529563705f + x *
+        (-0.048257650185791916f + x * (0.024694517679698283f + x * -0.006116061322664089f))))))))));
+}
+
+/* Of degree 13, within 2^-27 of that of double precision. */
+INLINE vector_f vector_polynomial_rotation_eta_slope_f(vector_f x) {
+    return 0.15555555542437843f + x * (0.1502646005226573f + x * (0.11026136698101077f + x *
+        (0.07246434664202496f + x * (0.04369556901094827f + x * (0.034436310057583616f + x *
+        (-0.023420697975480978f + x * (0.13766190227481526f + x * (-0.2894962884105508f + x *
+        (0.4671003677933079f + x * (-0.49758073887669707f + x * (0.35140202925299413f + x *
+        (-0.1460207286663636f + x * 0.028391671210260493f))))))))))));
+}
+
+/* What pairs read of points x. */
+OUTLINE void pair_features_f(
+    const vector_f *x, vector_f *X) {
+    const vector_f x0 = x[0];
+    const vector_f x1 = x[1];
+    const vector_f x2 = x[2];
+    const vector_f x3 = x[3];
+    const vector_f x4 = x[4];
+    const vector_f x5 = x[5];
+    const vector_f x6 = x[6];
+    const vector_f rotation_h0 = 0.5f * x3;
+    const vector_f rotation_h1 = 0.5f * x4;
+    const vector_f rotation_h2 = 0.5f * x5;
+    const vector_f rotation_h3 = 0.5f * x6;
+    X[0] = x0;
+    X[1] = x1;
+    X[2] = x2;
+    X[3] = rotation_h0;
+    X[4] = rotation_h1;
+    X[5] = rotation_h2;
+    X[6] = rotation_h3;
+}
+
+/* What pairs read of a splat, of some splats. */
+OUTLINE void pair_constants_f(
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, vector_f *S) {
+    const vector_f mu0 = mu[0];
+    const vector_f mu1 = mu[1];
+    const vector_f mu2 = mu[2];
+    const vector_f mu3 = mu[3];
+    const vector_f mu4 = mu[4];
+    const vector_f mu5 = mu[5];
+    const vector_f mu6 = mu[6];
+    const vector_f W0_0 = W[0];
+    const vector_f W0_1 = W[1];
+    const vector_f W0_2 = W[2];
+    const vector_f W0_3 = W[3];
+    const vector_f W0_4 = W[4];
+    const vector_f W0_5 = W[5];
+    const vector_f W1_0 = W[6];
+    const vector_f W1_1 = W[7];
+    const vector_f W1_2 = W[8];
+    const vector_f W1_3 = W[9];
+    const vector_f W1_4 = W[10];
+    const vector_f W1_5 = W[11];
+    const vector_f W2_0 = W[12];
+    const vector_f W2_1 = W[13];
+    const vector_f W2_2 = W[14];
+    const vector_f W2_3 = W[15];
+    const vector_f W2_4 = W[16];
+    const vector_f W2_5 = W[17];
+    const vector_f W3_0 = W[18];
+    const vector_f W3_1 = W[19];
+    const vector_f W3_2 = W[20];
+    const vector_f W3_3 = W[21];
+    const vector_f W3_4 = W[22];
+    const vector_f W3_5 = W[23];
+    const vector_f W4_0 = W[24];
+    const vector_f W4_1 = W[25];
+    const vector_f W4_2 = W[26];
+    const vector_f W4_3 = W[27];
+    const vector_f W4_4 = W[28];
+    const vector_f W4_5 = W[29];
+    const vector_f W5_0 = W[30];
+    const vector_f W5_1 = W[31];
+    const vector_f W5_2 = W[32];
+    const vector_f W5_3 = W[33];
+    const vector_f W5_4 = W[34];
+    const vector_f W5_5 = W[35];
+    const vector_f its_amplitude = amplitude[0];
+    const vector_f rotation_M0 = 2.0f * mu3;
+    const vector_f rotation_M1 = 2.0f * mu4;
+    const vector_f rotation_M2 = 2.0f * mu5;
+    const vector_f rotation_M3 = 2.0f * mu6;
+    const vector_f rotation_R0_0 = 2.0f * (-(W0_3 * rotation_M1) - W0_4 * rotation_M2 - W0_5 * rotation_M3);
+    const vector_f rotation_R0_1 = 2.0f * (W0_3 * rotation_M0 - W0_4 * rotation_M3 + W0_5 * rotation_M2);
+    const vector_f rotation_R0_2 = 2.0f * (W0_3 * rotation_M3 + W0_4 * rotation_M0 - W0_5 * rotation_M1);
+    const vector_f rotation_R0_3 = 2.0f * (W0_4 * rotation_M1 - W0_3 * rotation_M2 + W0_5 * rotation_M0);
+    const vector_f rotation_R1_0 = 2.0f * (-(W1_3 * rotation_M1) - W1_4 * rotation_M2 - W1_5 * rotation_M3);
+    const vector_f rotation_R1_1 = 2.0f * (W1_3 * rotation_M0 - W1_4 * rotation_M3 + W1_5 * rotation_M2);
+    const vector_f rotation_R1_2 = 2.0f * (W1_3 * rotation_M3 + W1_4 * rotation_M0 - W1_5 * rotation_M1);
+    const vector_f rotation_R1_3 = 2.0f * (W1_4 * rotation_M1 - W1_3 * rotation_M2 + W1_5 * rotation_M0);
+    const vector_f rotation_R2_0 = 2.0f * (-(W2_3 * rotation_M1) - W2_4 * rotation_M2 - W2_5 * rotation_M3);
+    const vector_f rotation_R2_1 = 2.0f * (W2_3 * rotation_M0 - W2_4 * rotation_M3 + W2_5 * rotation_M2);
+    const vector_f rotation_R2_2 = 2.0f * (W2_3 * rotation_M3 + W2_4 * rotation_M0 - W2_5 * rotation_M1);
+    const vector_f rotation_R2_3 = 2.0f * (W2_4 * rotation_M1 - W2_3 * rotation_M2 + W2_5 * rotation_M0);
+    const vector_f rotation_R3_0 = 2.0f * (-(W3_3 * rotation_M1) - W3_4 * rotation_M2 - W3_5 * rotation_M3);
+    const vector_f rotation_R3_1 = 2.0f * (W3_3 * rotation_M0 - W3_4 * rotation_M3 + W3_5 * rotation_M2);
+    const vector_f rotation_R3_2 = 2.0f * (W3_3 * rotation_M3 + W3_4 * rotation_M0 - W3_5 * rotation_M1);
+    const vector_f rotation_R3_3 = 2.0f * (W3_4 * rotation_M1 - W3_3 * rotation_M2 + W3_5 * rotation_M0);
+    const vector_f rotation_R4_0 = 2.0f * (-(W4_3 * rotation_M1) - W4_4 * rotation_M2 - W4_5 * rotation_M3);
+    const vector_f rotation_R4_1 = 2.0f * (W4_3 * rotation_M0 - W4_4 * rotation_M3 + W4_5 * rotation_M2);
+    const vector_f rotation_R4_2 = 2.0f * (W4_3 * rotation_M3 + W4_4 * rotation_M0 - W4_5 * rotation_M1);
+    const vector_f rotation_R4_3 = 2.0f * (W4_4 * rotation_M1 - W4_3 * rotation_M2 + W4_5 * rotation_M0);
+    const vector_f rotation_R5_0 = 2.0f * (-(W5_3 * rotation_M1) - W5_4 * rotation_M2 - W5_5 * rotation_M3);
+    const vector_f rotation_R5_1 = 2.0f * (W5_3 * rotation_M0 - W5_4 * rotation_M3 + W5_5 * rotation_M2);
+    const vector_f rotation_R5_2 = 2.0f * (W5_3 * rotation_M3 + W5_4 * rotation_M0 - W5_5 * rotation_M1);
+    const vector_f rotation_R5_3 = 2.0f * (W5_4 * rotation_M1 - W5_3 * rotation_M2 + W5_5 * rotation_M0);
+    S[0] = mu0;
+    S[1] = mu1;
+    S[2] = mu2;
+    S[3] = W0_0;
+    S[4] = W0_1;
+    S[5] = W0_2;
+    S[6] = W1_0;
+    S[7] = W1_1;
+    S[8] = W1_2;
+    S[9] = W2_0;
+    S[10] = W2_1;
+    S[11] = W2_2;
+    S[12] = W3_0;
+    S[13] = W3_1;
+    S[14] = W3_2;
+    S[15] = W4_0;
+    S[16] = W4_1;
+    S[17] = W4_2;
+    S[18] = W5_0;
+    S[19] = W5_1;
+    S[20] = W5_2;
+    S[21] = its_amplitude;
+    S[22] = rotation_M0;
+    S[23] = rotation_M1;
+    S[24] = rotation_M2;
+    S[25] = rotation_M3;
+    S[26] = rotation_R0_0;
+    S[27] = rotation_R0_1;
+    S[28] = rotation_R0_2;
+    S[29] = rotation_R0_3;
+    S[30] = rotation_R1_0;
+    S[31] = rotation_R1_1;
+    S[32] = rotation_R1_2;
+    S[33] = rotation_R1_3;
+    S[34] = rotation_R2_0;
+    S[35] = rotation_R2_1;
+    S[36] = rotation_R2_2;
+    S[37] = rotation_R2_3;
+    S[38] = rotation_R3_0;
+    S[39] = rotation_R3_1;
+    S[40] = rotation_R3_2;
+    S[41] = rotation_R3_3;
+    S[42] = rotation_R4_0;
+    S[43] = rotation_R4_1;
+    S[44] = rotation_R4_2;
+    S[45] = rotation_R4_3;
+    S[46] = rotation_R5_0;
+    S[47] = rotation_R5_1;
+    S[48] = rotation_R5_2;
+    S[49] = rotation_R5_3;
+}
+
+/* Adds the values phi of a splat at some points. */
+INLINE void pair_value_f(
+    const vector_f *X, const float *S, vector_f *value) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const vector_f x2 = X[2];
+    const vector_f rotation_h0 = X[3];
+    const vector_f rotation_h1 = X[4];
+    const vector_f rotation_h2 = X[5];
+    const vector_f rotation_h3 = X[6];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float mu2 = S[2];
+    const float W0_0 = S[3];
+    const float W0_1 = S[4];
+    const float W0_2 = S[5];
+    const float W1_0 = S[6];
+    const float W1_1 = S[7];
+    const float W1_2 = S[8];
+    const float W2_0 = S[9];
+    const float W2_1 = S[10];
+    const float W2_2 = S[11];
+    const float W3_0 = S[12];
+    const float W3_1 = S[13];
+    const float W3_2 = S[14];
+    const float W4_0 = S[15];
+    const float W4_1 = S[16];
+    const float W4_2 = S[17];
+    const float W5_0 = S[18];
+    const float W5_1 = S[19];
+    const float W5_2 = S[20];
+    const float amplitude = S[21];
+    const float rotation_M0 = S[22];
+    const float rotation_M1 = S[23];
+    const float rotation_M2 = S[24];
+    const float rotation_M3 = S[25];
+    const float rotation_R0_0 = S[26];
+    const float rotation_R0_1 = S[27];
+    const float rotation_R0_2 = S[28];
+    const float rotation_R0_3 = S[29];
+    const float rotation_R1_0 = S[30];
+    const float rotation_R1_1 = S[31];
+    const float rotation_R1_2 = S[32];
+    const float rotation_R1_3 = S[33];
+    const float rotation_R2_0 = S[34];
+    const float rotation_R2_1 = S[35];
+    const float rotation_R2_2 = S[36];
+    const float rotation_R2_3 = S[37];
+    const float rotation_R3_0 = S[38];
+    const float rotation_R3_1 = S[39];
+    const float rotation_R3_2 = S[40];
+    const float rotation_R3_3 = S[41];
+    const float rotation_R4_0 = S[42];
+    const float rotation_R4_1 = S[43];
+    const float rotation_R4_2 = S[44];
+    const float rotation_R4_3 = S[45];
+    const float rotation_R5_0 = S[46];
+    const float rotation_R5_1 = S[47];
+    const float rotation_R5_2 = S[48];
+    const float rotation_R5_3 = S[49];
+    const vector_f total_2 = rotation_h0 * rotation_M0 + rotation_h1 * rotation_M1 + rotation_h2 * rotation_M2
+        + rotation_h3 * rotation_M3;
+    const vector_f rotation_w = vector_abs_f(total_2);
+    const vector_f rotation_eta = vector_polynomial_rotation_eta_f(1.0f - rotation_w);
+    const vector_f rotation_a = 1.0f / (rotation_w - rotation_eta * (1.0f - rotation_w * rotation_w));
+    const vector_f v0 = x0 - mu0;
+    const vector_f v1 = x1 - mu1;
+    const vector_f v2 = x2 - mu2;
+    const vector_f rotation_a_chosen = vector_select_f(total_2 < 0.0f, -rotation_a, rotation_a);
+    const vector_f rotation_r0 = rotation_h0 * rotation_R0_0 + rotation_h1 * rotation_R0_1 + rotation_h2 *
+        rotation_R0_2 + rotation_h3 * rotation_R0_3;
+    const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_a_chosen * rotation_r0;
+    const vector_f rotation_r1 = rotation_h0 * rotation_R1_0 + rotation_h1 * rotation_R1_1 + rotation_h2 *
+        rotation_R1_2 + rotation_h3 * rotation_R1_3;
+    const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_a_chosen * rotation_r1;
+    const vector_f rotation_r2 = rotation_h0 * rotation_R2_0 + rotation_h1 * rotation_R2_1 + rotation_h2 *
+        rotation_R2_2 + rotation_h3 * rotation_R2_3;
+    const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_a_chosen * rotation_r2;
+    const vector_f rotation_r3 = rotation_h0 * rotation_R3_0 + rotation_h1 * rotation_R3_1 + rotation_h2 *
+        rotation_R3_2 + rotation_h3 * rotation_R3_3;
+    const vector_f z3 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_a_chosen * rotation_r3;
+    const vector_f rotation_r4 = rotation_h0 * rotation_R4_0 + rotation_h1 * rotation_R4_1 + rotation_h2 *
+        rotation_R4_2 + rotation_h3 * rotation_R4_3;
+    const vector_f z4 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_a_chosen * rotation_r4;
+    const vector_f total_3 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+    const vector_f rotation_r5 = rotation_h0 * rotation_R5_0 + rotation_h1 * rotation_R5_1 + rotation_h2 *
+        rotation_R5_2 + rotation_h3 * rotation_R5_3;
+    const vector_f z5 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_a_chosen * rotation_r5;
+    const vector_f half_square = 0.5f * (total_3 + z5 * z5);
+    const vector_f gaussian = vector_exp_f(-half_square);
+    value[0] = value[0] + amplitude * (rotation_a * (rotation_a * gaussian));
+}
+
+/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+INLINE void pair_forward_f(
+    const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const vector_f x2 = X[2];
+    const vector_f rotation_h0 = X[3];
+    const vector_f rotation_h1 = X[4];
+    const vector_f rotation_h2 = X[5];
+    const vector_f rotation_h3 = X[6];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float mu2 = S[2];
+    const float W0_0 = S[3];
+    const float W0_1 = S[4];
+    const float W0_2 = S[5];
+    const float W1_0 = S[6];
+    const float W1_1 = S[7];
+    const float W1_2 = S[8];
+    const float W2_0 = S[9];
+    const float W2_1 = S[10];
+    const float W2_2 = S[11];
+    const float W3_0 = S[12];
+    const float W3_1 = S[13];
+    const float W3_2 = S[14];
+    const float W4_0 = S[15];
+    const float W4_1 = S[16];
+    const float W4_2 = S[17];
+    const float W5_0 = S[18];
+    const float W5_1 = S[19];
+    const float W5_2 = S[20];
+    const float amplitude = S[21];
+    const float rotation_M0 = S[22];
+    const float rotation_M1 = S[23];
+    const float rotation_M2 = S[24];
+    const float rotation_M3 = S[25];
+    const float rotation_R0_0 = S[26];
+    const float rotation_R0_1 = S[27];
+    const float rotation_R0_2 = S[28];
+    const float rotation_R0_3 = S[29];
+    const float rotation_R1_0 = S[30];
+    const float rotation_R1_1 = S[31];
+    const float rotation_R1_2 = S[32];
+    const float rotation_R1_3 = S[33];
+    const float rotation_R2_0 = S[34];
+    const float rotation_R2_1 = S[35];
+    const float rotation_R2_2 = S[36];
+    const float rotation_R2_3 = S[37];
+    const float rotation_R3_0 = S[38];
+    const float rotation_R3_1 = S[39];
+    const float rotation_R3_2 = S[40];
+    const float rotation_R3_3 = S[41];
+    const float rotation_R4_0 = S[42];
+    const float rotation_R4_1 = S[43];
+    const float rotation_R4_2 = S[44];
+    const float rotation_R4_3 = S[45];
+    const float rotation_R5_0 = S[46];
+    const float rotation_R5_1 = S[47];
+    const float rotation_R5_2 = S[48];
+    const float rotation_R5_3 = S[49];
+    const vector_f total_2 = rotation_h0 * rotation_M0 + rotation_h1 * rotation_M1 + rotation_h2 * rotation_M2
+        + rotation_h3 * rotation_M3;
+    const vector_f rotation_w = vector_abs_f(total_2);
+    const vector_f rotation_eta = vector_polynomial_rotation_eta_f(1.0f - rotation_w);
+    const vector_f rotation_a = 1.0f / (rotation_w - rotation_eta * (1.0f - rotation_w * rotation_w));
+    const vector_f v0 = x0 - mu0;
+    const vector_f v1 = x1 - mu1;
+    const vector_f v2 = x2 - mu2;
+    const vector_mask_f is_small = total_2 < 0.0f;
+    const vector_f rotation_a_chosen = vector_select_f(is_small, -rotation_a, rotation_a);
+    const vector_f rotation_r0 = rotation_h0 * rotation_R0_0 + rotation_h1 * rotation_R0_1 + rotation_h2 *
+        rotation_R0_2 + rotation_h3 * rotation_R0_3;
+    const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_a_chosen * rotation_r0;
+    const vector_f rotation_r1 = rotation_h0 * rotation_R1_0 + rotation_h1 * rotation_R1_1 + rotation_h2 *
+        rotation_R1_2 + rotation_h3 * rotation_R1_3;
+    const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_a_chosen * rotation_r1;
+    const vector_f rotation_r2 = rotation_h0 * rotation_R2_0 + rotation_h1 * rotation_R2_1 + rotation_h2 *
+        rotation_R2_2 + rotation_h3 * rotation_R2_3;
+    const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_a_chosen * rotation_r2;
+    const vector_f rotation_r3 = rotation_h0 * rotation_R3_0 + rotation_h1 * rotation_R3_1 + rotation_h2 *
+        rotation_R3_2 + rotation_h3 * rotation_R3_3;
+    const vector_f z3 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_a_chosen * rotation_r3;
+    const vector_f rotation_r4 = rotation_h0 * rotation_R4_0 + rotation_h1 * rotation_R4_1 + rotation_h2 *
+        rotation_R4_2 + rotation_h3 * rotation_R4_3;
+    const vector_f z4 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_a_chosen * rotation_r4;
+    const vector_f total_3 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+    const vector_f rotation_r5 = rotation_h0 * rotation_R5_0 + rotation_h1 * rotation_R5_1 + rotation_h2 *
+        rotation_R5_2 + rotation_h3 * rotation_R5_3;
+    const vector_f z5 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_a_chosen * rotation_r5;
+    const vector_f half_square = 0.5f * (total_3 + z5 * z5);
+    const vector_f gaussian = vector_exp_f(-half_square);
+    const vector_f phi = amplitude * (rotation_a * (rotation_a * gaussian));
+    const vector_f z5_product = z5 * phi;
+    const vector_f z4_product = z4 * phi;
+    const vector_f z3_product = z3 * phi;
+    const vector_f z2_product = z2 * phi;
+    const vector_f z1_product = z1 * phi;
+    const vector_f z0_product = z0 * phi;
+    const vector_f product = rotation_a_chosen * z5_product;
+    const vector_f product_2 = rotation_a_chosen * z4_product;
+    const vector_f product_3 = rotation_a_chosen * z3_product;
+    const vector_f product_4 = rotation_a_chosen * z2_product;
+    const vector_f product_5 = rotation_a_chosen * z1_product;
+    const vector_f product_6 = rotation_a_chosen * z0_product;
+    const vector_f gap_5 = -(rotation_r5 * z5_product) - rotation_r4 * z4_product - rotation_r3 * z3_product -
+        rotation_r2 * z2_product;
+    const vector_f total_4 = 2.0f * phi + rotation_a_chosen * (gap_5 - rotation_r1 * z1_product - rotation_r0
+        * z0_product);
+    const vector_f by_rotation_w = rotation_eta * total_4;
+    const vector_f chosen = vector_select_f(is_small, -by_rotation_w, by_rotation_w);
+    value[0] = value[0] + phi;
+    slope[0] = slope[0] - W5_0 * z5_product - W4_0 * z4_product - W3_0 * z3_product - W2_0 * z2_product - W1_0
+            * z1_product - W0_0 * z0_product;
+    slope[1] = slope[1] - W5_1 * z5_product - W4_1 * z4_product - W3_1 * z3_product - W2_1 * z2_product - W1_1
+            * z1_product - W0_1 * z0_product;
+    slope[2] = slope[2] - W5_2 * z5_product - W4_2 * z4_product - W3_2 * z3_product - W2_2 * z2_product - W1_2
+            * z1_product - W0_2 * z0_product;
+    slope[3] = slope[3] - rotation_R5_0 * product - rotation_R4_0 * product_2 - rotation_R3_0 * product_3 -
+            rotation_R2_0 * product_4 - rotation_R1_0 * product_5 - rotation_R0_0 * product_6 + rotation_M0 *
+            chosen;
+    slope[4] = slope[4] - rotation_R5_1 * product - rotation_R4_1 * product_2 - rotation_R3_1 * product_3 -
+            rotation_R2_1 * product_4 - rotation_R1_1 * product_5 - rotation_R0_1 * product_6 + rotation_M1 *
+            chosen;
+    slope[5] = slope[5] - rotation_R5_2 * product - rotation_R4_2 * product_2 - rotation_R3_2 * product_3 -
+            rotation_R2_2 * product_4 - rotation_R1_2 * product_5 - rotation_R0_2 * product_6 + rotation_M2 *
+            chosen;
+    slope[6] = slope[6] - rotation_R5_3 * product - rotation_R4_3 * product_2 - rotation_R3_3 * product_3 -
+            rotation_R2_3 * product_4 - rotation_R1_3 * product_5 - rotation_R0_3 * product_6 + rotation_M3 *
+            chosen;
+}
+
+/* The Riemannian gradient at some points, of the sums of slopes. */
+OUTLINE void pair_gradient_f(
+    const vector_f *x, const vector_f *slope, vector_f *gradient) {
+    const vector_f x3 = x[3];
+    const vector_f x4 = x[4];
+    const vector_f x5 = x[5];
+    const vector_f x6 = x[6];
+    const vector_f slope_x0 = slope[0];
+    const vector_f slope_x1 = slope[1];
+    const vector_f slope_x2 = slope[2];
+    const vector_f slope_rotation_h0 = slope[3];
+    const vector_f slope_rotation_h1 = slope[4];
+    const vector_f slope_rotation_h2 = slope[5];
+    const vector_f slope_rotation_h3 = slope[6];
+    const vector_f product = 0.25f * slope_rotation_h1;
+    const vector_f product_2 = 0.25f * slope_rotation_h2;
+    const vector_f product_3 = 0.25f * slope_rotation_h0;
+    const vector_f product_4 = 0.25f * slope_rotation_h3;
+    gradient[0] = slope_x0;
+    gradient[1] = slope_x1;
+    gradient[2] = slope_x2;
+    gradient[3] = x3 * product + x6 * product_2 - x4 * product_3 - x5 * product_4;
+    gradient[4] = x3 * product_2 + x4 * product_4 - x5 * product_3 - x6 * product;
+    gradient[5] = x5 * product + x3 * product_4 - x6 * product_3 - x4 * product_2;
+}
+
+/* The adjoint of slope at some points, of that of the gradient. */
+OUTLINE void pair_gradient_vjp_f(
+    const vector_f *x, const vector_f *gradient_bar, vector_f *slope_bar) {
+    const vector_f x3 = x[3];
+    const vector_f x4 = x[4];
+    const vector_f x5 = x[5];
+    const vector_f x6 = x[6];
+    const vector_f gradient_bar0 = gradient_bar[0];
+    const vector_f gradient_bar1 = gradient_bar[1];
+    const vector_f gradient_bar2 = gradient_bar[2];
+    const vector_f gradient_bar3 = gradient_bar[3];
+    const vector_f gradient_bar4 = gradient_bar[4];
+    const vector_f gradient_bar5 = gradient_bar[5];
+    const vector_f product = 0.25f * (-(x6 * gradient_bar5) - x5 * gradient_bar4 - x4 * gradient_bar3);
+    slope_bar[0] = gradient_bar0;
+    slope_bar[1] = gradient_bar1;
+    slope_bar[2] = gradient_bar2;
+    slope_bar[3] = product;
+    slope_bar[4] = 0.25f * (x5 * gradient_bar5 - x6 * gradient_bar4 + x3 * gradient_bar3);
+    slope_bar[5] = 0.25f * (x3 * gradient_bar4 - x4 * gradient_bar5 + x6 * gradient_bar3);
+    slope_bar[6] = 0.25f * (x3 * gradient_bar5 + x4 * gradient_bar4 - x5 * gradient_bar3);
+}
+
+/* The adjoints of some splats' parameters, of that of S. */
+OUTLINE void pair_constants_vjp_f(
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
+    (void)amplitude;
+    const vector_f mu3 = mu[3];
+    const vector_f mu4 = mu[4];
+    const vector_f mu5 = mu[5];
+    const vector_f mu6 = mu[6];
+    const vector_f W0_3 = W[3];
+    const vector_f W0_4 = W[4];
+    const vector_f W0_5 = W[5];
+    const vector_f W1_3 = W[9];
+    const vector_f W1_4 = W[10];
+    const vector_f W1_5 = W[11];
+    const vector_f W2_3 = W[15];
+    const vector_f W2_4 = W[16];
+    const vector_f W2_5 = W[17];
+    const vector_f W3_3 = W[21];
+    const vector_f W3_4 = W[22];
+    const vector_f W3_5 = W[23];
+    const vector_f W4_3 = W[27];
+    const vector_f W4_4 = W[28];
+    const vector_f W4_5 = W[29];
+    const vector_f W5_3 = W[33];
+    const vector_f W5_4 = W[34];
+    const vector_f W5_5 = W[35];
+    const vector_f mu0_bar = S_bar[0];
+    const vector_f mu1_bar = S_bar[1];
+    const vector_f mu2_bar = S_bar[2];
+    const vector_f W0_0_bar = S_bar[3];
+    const vector_f W0_1_bar = S_bar[4];
+    const vector_f W0_2_bar = S_bar[5];
+    const vector_f W1_0_bar = S_bar[6];
+    const vector_f W1_1_bar = S_bar[7];
+    const vector_f W1_2_bar = S_bar[8];
+    const vector_f W2_0_bar = S_bar[9];
+    const vector_f W2_1_bar = S_bar[10];
+    const vector_f W2_2_bar = S_bar[11];
+    const vector_f W3_0_bar = S_bar[12];
+    const vector_f W3_1_bar = S_bar[13];
+    const vector_f W3_2_bar = S_bar[14];
+    const vector_f W4_0_bar = S_bar[15];
+    const vector_f W4_1_bar = S_bar[16];
+    const vector_f W4_2_bar = S_bar[17];
+    const vector_f W5_0_bar = S_bar[18];
+    const vector_f W5_1_bar = S_bar[19];
+    const vector_f W5_2_bar = S_bar[20];
+    const vector_f its_amplitude_bar = S_bar[21];
+    const vector_f rotation_M0_bar = S_bar[22];
+    const vector_f rotation_M1_bar = S_bar[23];
+    const vector_f rotation_M2_bar = S_bar[24];
+    const vector_f rotation_M3_bar = S_bar[25];
+    const vector_f rotation_R0_0_bar = S_bar[26];
+    const vector_f rotation_R0_1_bar = S_bar[27];
+    const vector_f rotation_R0_2_bar = S_bar[28];
+    const vector_f rotation_R0_3_bar = S_bar[29];
+    const vector_f rotation_R1_0_bar = S_bar[30];
+    const vector_f rotation_R1_1_bar = S_bar[31];
+    const vector_f rotation_R1_2_bar = S_bar[32];
+    const vector_f rotation_R1_3_bar = S_bar[33];
+    const vector_f rotation_R2_0_bar = S_bar[34];
+    const vector_f rotation_R2_1_bar = S_bar[35];
+    const vector_f rotation_R2_2_bar = S_bar[36];
+    const vector_f rotation_R2_3_bar = S_bar[37];
+    const vector_f rotation_R3_0_bar = S_bar[38];
+    const vector_f rotation_R3_1_bar = S_bar[39];
+    const vector_f rotation_R3_2_bar = S_bar[40];
+    const vector_f rotation_R3_3_bar = S_bar[41];
+    const vector_f rotation_R4_0_bar = S_bar[42];
+    const vector_f rotation_R4_1_bar = S_bar[43];
+    const vector_f rotation_R4_2_bar = S_bar[44];
+    const vector_f rotation_R4_3_bar = S_bar[45];
+    const vector_f rotation_R5_0_bar = S_bar[46];
+    const vector_f rotation_R5_1_bar = S_bar[47];
+    const vector_f rotation_R5_2_bar = S_bar[48];
+    const vector_f rotation_R5_3_bar = S_bar[49];
+    const vector_f product = 2.0f * rotation_R0_1_bar;
+    const vector_f product_2 = 2.0f * rotation_R0_2_bar;
+    const vector_f product_3 = 2.0f * rotation_R0_3_bar;
+    const vector_f product_4 = 2.0f * rotation_R1_1_bar;
+    const vector_f total_2 = rotation_M0_bar + W0_3 * product + W0_4 * product_2 + W0_5 * product_3 + W1_3 *
+        product_4;
+    const vector_f product_5 = 2.0f * rotation_R1_2_bar;
+    const vector_f product_6 = 2.0f * rotation_R1_3_bar;
+    const vector_f product_7 = 2.0f * rotation_R2_1_bar;
+    const vector_f product_8 = 2.0f * rotation_R2_2_bar;
+    const vector_f total_3 = total_2 + W1_4 * product_5 + W1_5 * product_6 + W2_3 * product_7 + W2_4 *
+        product_8;
+    const vector_f product_9 = 2.0f * rotation_R2_3_bar;
+    const vector_f product_10 = 2.0f * rotation_R3_1_bar;
+    const vector_f product_11 = 2.0f * rotation_R3_2_bar;
+    const vector_f product_12 = 2.0f * rotation_R3_3_bar;
+    const vector_f total_4 = total_3 + W2_5 * product_9 + W3_3 * product_10 + W3_4 * product_11 + W3_5 *
+        product_12;
+    const vector_f product_13 = 2.0f * rotation_R4_1_bar;
+    const vector_f product_14 = 2.0f * rotation_R4_2_bar;
+    const vector_f product_15 = 2.0f * rotation_R4_3_bar;
+    const vector_f product_16 = 2.0f * rotation_R5_1_bar;
+    const vector_f total_5 = total_4 + W4_3 * product_13 + W4_4 * product_14 + W4_5 * product_15 + W5_3 *
+        product_16;
+    const vector_f product_17 = 2.0f * rotation_R5_2_bar;
+    const vector_f product_18 = 2.0f * rotation_R5_3_bar;
+    const vector_f by_rotation_M0 = total_5 + W5_4 * product_17 + W5_5 * product_18;
+    const vector_f product_19 = 2.0f * rotation_R0_0_bar;
+    const vector_f product_20 = 2.0f * rotation_R1_0_bar;
+    const vector_f gap = rotation_M1_bar - W0_3 * product_19 - W0_5 * product_2 + W0_4 * product_3 - W1_3 *
+        product_20;
+    const vector_f product_21 = 2.0f * rotation_R2_0_bar;
+    const vector_f gap_2 = gap - W1_5 * product_5 + W1_4 * product_6 - W2_3 * product_21 - W2_5 * product_8;
+    const vector_f product_22 = 2.0f * rotation_R3_0_bar;
+    const vector_f total_6 = gap_2 + W2_4 * product_9 - W3_3 * product_22 - W3_5 * product_11 + W3_4 *
+        product_12;
+    const vector_f product_23 = 2.0f * rotation_R4_0_bar;
+    const vector_f product_24 = 2.0f * rotation_R5_0_bar;
+    const vector_f gap_3 = total_6 - W4_3 * product_23 - W4_5 * product_14 + W4_4 * product_15 - W5_3 *
+        product_24;
+    const vector_f by_rotation_M1 = gap_3 - W5_5 * product_17 + W5_4 * product_18;
+    const vector_f gap_4 = rotation_M2_bar - W0_4 * product_19 + W0_5 * product - W0_3 * product_3 - W1_4 *
+        product_20;
+    const vector_f total_7 = gap_4 + W1_5 * product_4 - W1_3 * product_6 - W2_4 * product_21 + W2_5 *
+        product_7;
+    const vector_f gap_5 = total_7 - W2_3 * product_9 - W3_4 * product_22 + W3_5 * product_10 - W3_3 *
+        product_12;
+    const vector_f gap_6 = gap_5 - W4_4 * product_23 + W4_5 * product_13 - W4_3 * product_15 - W5_4 *
+        product_24;
+    const vector_f by_rotation_M2 = gap_6 + W5_5 * product_16 - W5_3 * product_18;
+    const vector_f gap_7 = rotation_M3_bar - W0_5 * product_19 - W0_4 * product + W0_3 * product_2 - W1_5 *
+        product_20;
+    const vector_f gap_8 = gap_7 - W1_4 * product_4 + W1_3 * product_5 - W2_5 * product_21 - W2_4 * product_7;
+    const vector_f total_8 = gap_8 + W2_3 * product_8 - W3_5 * product_22 - W3_4 * product_10 + W3_3 *
+        product_11;
+    const vector_f gap_9 = total_8 - W4_5 * product_23 - W4_4 * product_13 + W4_3 * product_14 - W5_5 *
+        product_24;
+    const vector_f by_rotation_M3 = gap_9 - W5_4 * product_16 + W5_3 * product_17;
+    const vector_f rotation_M0 = 2.0f * mu3;
+    const vector_f rotation_M1 = 2.0f * mu4;
+    const vector_f rotation_M3 = 2.0f * mu6;
+    const vector_f rotation_M2 = 2.0f * mu5;
+    const vector_f total_9 = -(rotation_M2 * product_19) - rotation_M3 * product + rotation_M0 * product_2 +
+        rotation_M1 * product_3;
+    const vector_f total_10 = -(rotation_M2 * product_20) - rotation_M3 * product_4 + rotation_M0 * product_5
+        + rotation_M1 * product_6;
+    const vector_f total_11 = -(rotation_M2 * product_21) - rotation_M3 * product_7 + rotation_M0 * product_8
+        + rotation_M1 * product_9;
+    const vector_f total_12 = -(rotation_M2 * product_22) - rotation_M3 * product_10 + rotation_M0 *
+        product_11 + rotation_M1 * product_12;
+    const vector_f total_13 = -(rotation_M2 * product_23) - rotation_M3 * product_13 + rotation_M0 *
+        product_14 + rotation_M1 * product_15;
+    const vector_f total_14 = -(rotation_M2 * product_24) - rotation_M3 * product_16 + rotation_M0 *
+        product_17 + rotation_M1 * product_18;
+    mu_bar[0] = mu0_bar;
+    mu_bar[1] = mu1_bar;
+    mu_bar[2] = mu2_bar;
+    mu_bar[3] = 2.0f * by_rotation_M0;
+    mu_bar[4] = 2.0f * by_rotation_M1;
+    mu_bar[5] = 2.0f * by_rotation_M2;
+    mu_bar[6] = 2.0f * by_rotation_M3;
+    W_bar[0] = W0_0_bar;
+    W_bar[1] = W0_1_bar;
+    W_bar[2] = W0_2_bar;
+    W_bar[3] = rotation_M0 * product - rotation_M1 * product_19 + rotation_M3 * product_2 - rotation_M2 *
+            product_3;
+    W_bar[4] = total_9;
+    W_bar[5] = rotation_M2 * product - rotation_M3 * product_19 - rotation_M1 * product_2 + rotation_M0 *
+            product_3;
+    W_bar[6] = W1_0_bar;
+    W_bar[7] = W1_1_bar;
+    W_bar[8] = W1_2_bar;
+    W_bar[9] = rotation_M0 * product_4 - rotation_M1 * product_20 + rotation_M3 * product_5 - rotation_M2 *
+            product_6;
+    W_bar[10] = total_10;
+    W_bar[11] = rotation_M2 * product_4 - rotation_M3 * product_20 - rotation_M1 * product_5 + rotation_M0 *
+            product_6;
+    W_bar[12] = W2_0_bar;
+    W_bar[13] = W2_1_bar;
+    W_bar[14] = W2_2_bar;
+    W_bar[15] = rotation_M0 * product_7 - rotation_M1 * product_21 + rotation_M3 * product_8 - rotation_M2 *
+            product_9;
+    W_bar[16] = total_11;
+    W_bar[17] = rotation_M2 * product_7 - rotation_M3 * product_21 - rotation_M1 * product_8 + rotation_M0 *
+            product_9;
+    W_bar[18] = W3_0_bar;
+    W_bar[19] = W3_1_bar;
+    W_bar[20] = W3_2_bar;
+    W_bar[21] = rotation_M0 * product_10 - rotation_M1 * product_22 + rotation_M3 * product_11 - rotation_M2 *
+            product_12;
+    W_bar[22] = total_12;
+    W_bar[23] = rotation_M2 * product_10 - rotation_M3 * product_22 - rotation_M1 * product_11 + rotation_M0 *
+            product_12;
+    W_bar[24] = W4_0_bar;
+    W_bar[25] = W4_1_bar;
+    W_bar[26] = W4_2_bar;
+    W_bar[27] = rotation_M0 * product_13 - rotation_M1 * product_23 + rotation_M3 * product_14 - rotation_M2 *
+            product_15;
+    W_bar[28] = total_13;
+    W_bar[29] = rotation_M2 * product_13 - rotation_M3 * product_23 - rotation_M1 * product_14 + rotation_M0 *
+            product_15;
+    W_bar[30] = W5_0_bar;
+    W_bar[31] = W5_1_bar;
+    W_bar[32] = W5_2_bar;
+    W_bar[33] = rotation_M0 * product_16 - rotation_M1 * product_24 + rotation_M3 * product_17 - rotation_M2 *
+            product_18;
+    W_bar[34] = total_14;
+    W_bar[35] = rotation_M2 * product_16 - rotation_M3 * product_24 - rotation_M1 * product_17 + rotation_M0 *
+            product_18;
+    amplitude_bar[0] = its_amplitude_bar;
+}
+
+/* The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar. */
+OUTLINE void pair_factors_f(
+    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *factor) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const vector_f x2 = X[2];
+    const vector_f rotation_h0 = X[3];
+    const vector_f rotation_h1 = X[4];
+    const vector_f rotation_h2 = X[5];
+    const vector_f rotation_h3 = X[6];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float mu2 = S[2];
+    const float W0_0 = S[3];
+    const float W0_1 = S[4];
+    const float W0_2 = S[5];
+    const float W1_0 = S[6];
+    const float W1_1 = S[7];
+    const float W1_2 = S[8];
+    const float W2_0 = S[9];
+    const float W2_1 = S[10];
+    const float W2_2 = S[11];
+    const float W3_0 = S[12];
+    const float W3_1 = S[13];
+    const float W3_2 = S[14];
+    const float W4_0 = S[15];
+    const float W4_1 = S[16];
+    const float W4_2 = S[17];
+    const float W5_0 = S[18];
+    const float W5_1 = S[19];
+    const float W5_2 = S[20];
+    const float amplitude = S[21];
+    const float rotation_M0 = S[22];
+    const float rotation_M1 = S[23];
+    const float rotation_M2 = S[24];
+    const float rotation_M3 = S[25];
+    const float rotation_R0_0 = S[26];
+    const float rotation_R0_1 = S[27];
+    const float rotation_R0_2 = S[28];
+    const float rotation_R0_3 = S[29];
+    const float rotation_R1_0 = S[30];
+    const float rotation_R1_1 = S[31];
+    const float rotation_R1_2 = S[32];
+    const float rotation_R1_3 = S[33];
+    const float rotation_R2_0 = S[34];
+    const float rotation_R2_1 = S[35];
+    const float rotation_R2_2 = S[36];
+    const float rotation_R2_3 = S[37];
+    const float rotation_R3_0 = S[38];
+    const float rotation_R3_1 = S[39];
+    const float rotation_R3_2 = S[40];
+    const float rotation_R3_3 = S[41];
+    const float rotation_R4_0 = S[42];
+    const float rotation_R4_1 = S[43];
+    const float rotation_R4_2 = S[44];
+    const float rotation_R4_3 = S[45];
+    const float rotation_R5_0 = S[46];
+    const float rotation_R5_1 = S[47];
+    const float rotation_R5_2 = S[48];
+    const float rotation_R5_3 = S[49];
+    const vector_f its_value_bar = value_bar[0];
+    const vector_f x0_bar = slope_bar[0];
+    const vector_f x1_bar = slope_bar[1];
+    const vector_f x2_bar = slope_bar[2];
+    const vector_f rotation_h0_bar = slope_bar[3];
+    const vector_f rotation_h1_bar = slope_bar[4];
+    const vector_f rotation_h2_bar = slope_bar[5];
+    const vector_f rotation_h3_bar = slope_bar[6];
+    const vector_f total_2 = rotation_h0 * rotation_M0 + rotation_h1 * rotation_M1 + rotation_h2 * rotation_M2
+        + rotation_h3 * rotation_M3;
+    const vector_f rotation_w = vector_abs_f(total_2);
+    const vector_f rotation_w_gap = 1.0f - rotation_w;
+    const vector_f rotation_eta = vector_polynomial_rotation_eta_f(rotation_w_gap);
+    const vector_f rotation_a = 1.0f / (rotation_w - rotation_eta * (1.0f - rotation_w * rotation_w));
+    const vector_f v0 = x0 - mu0;
+    const vector_f v1 = x1 - mu1;
+    const vector_f v2 = x2 - mu2;
+    const vector_mask_f is_small = total_2 < 0.0f;
+    const vector_f rotation_a_chosen = vector_select_f(is_small, -rotation_a, rotation_a);
+    const vector_f rotation_r0 = rotation_h0 * rotation_R0_0 + rotation_h1 * rotation_R0_1 + rotation_h2 *
+        rotation_R0_2 + rotation_h3 * rotation_R0_3;
+    const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_a_chosen * rotation_r0;
+    const vector_f rotation_r1 = rotation_h0 * rotation_R1_0 + rotation_h1 * rotation_R1_1 + rotation_h2 *
+        rotation_R1_2 + rotation_h3 * rotation_R1_3;
+    const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_a_chosen * rotation_r1;
+    const vector_f rotation_r2 = rotation_h0 * rotation_R2_0 + rotation_h1 * rotation_R2_1 + rotation_h2 *
+        rotation_R2_2 + rotation_h3 * rotation_R2_3;
+    const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_a_chosen * rotation_r2;
+    const vector_f rotation_r3 = rotation_h0 * rotation_R3_0 + rotation_h1 * rotation_R3_1 + rotation_h2 *
+        rotation_R3_2 + rotation_h3 * rotation_R3_3;
+    const vector_f z3 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_a_chosen * rotation_r3;
+    const vector_f rotation_r4 = rotation_h0 * rotation_R4_0 + rotation_h1 * rotation_R4_1 + rotation_h2 *
+        rotation_R4_2 + rotation_h3 * rotation_R4_3;
+    const vector_f z4 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_a_chosen * rotation_r4;
+    const vector_f total_3 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+    const vector_f rotation_r5 = rotation_h0 * rotation_R5_0 + rotation_h1 * rotation_R5_1 + rotation_h2 *
+        rotation_R5_2 + rotation_h3 * rotation_R5_3;
+    const vector_f z5 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_a_chosen * rotation_r5;
+    const vector_f half_square = 0.5f * (total_3 + z5 * z5);
+    const vector_f gaussian = vector_exp_f(-half_square);
+    const vector_f rotation_a_product = rotation_a * (rotation_a * gaussian);
+    const vector_f phi = amplitude * rotation_a_product;
+    const vector_f gap = -(rotation_R5_0 * rotation_h0_bar) - rotation_R5_1 * rotation_h1_bar - rotation_R5_2
+        * rotation_h2_bar - rotation_R5_3 * rotation_h3_bar;
+    const vector_f total_4 = -(W5_0 * x0_bar) - W5_1 * x1_bar - W5_2 * x2_bar + rotation_a_chosen * gap;
+    const vector_f total_5 = rotation_M0 * rotation_h0_bar + rotation_M1 * rotation_h1_bar + rotation_M2 *
+        rotation_h2_bar + rotation_M3 * rotation_h3_bar;
+    const vector_f by_by_rotation_w = vector_select_f(is_small, vector_of_f(0.0f), total_5) -
+        vector_select_f(is_small, total_5, vector_of_f(0.0f));
+    const vector_f product = rotation_eta * by_by_rotation_w;
+    const vector_f product_2 = rotation_a_chosen * product;
+    const vector_f gap_2 = total_4 - rotation_r5 * product_2;
+    const vector_f gap_3 = -(rotation_R0_0 * rotation_h0_bar) - rotation_R0_1 * rotation_h1_bar -
+        rotation_R0_2 * rotation_h2_bar - rotation_R0_3 * rotation_h3_bar;
+    const vector_f total_6 = -(W0_0 * x0_bar) - W0_1 * x1_bar - W0_2 * x2_bar + rotation_a_chosen * gap_3;
+    const vector_f gap_4 = total_6 - rotation_r0 * product_2;
+    const vector_f gap_5 = -(rotation_R1_0 * rotation_h0_bar) - rotation_R1_1 * rotation_h1_bar -
+        rotation_R1_2 * rotation_h2_bar - rotation_R1_3 * rotation_h3_bar;
+    const vector_f total_7 = -(W1_0 * x0_bar) - W1_1 * x1_bar - W1_2 * x2_bar + rotation_a_chosen * gap_5;
+    const vector_f gap_6 = total_7 - rotation_r1 * product_2;
+    const vector_f gap_7 = -(rotation_R2_0 * rotation_h0_bar) - rotation_R2_1 * rotation_h1_bar -
+        rotation_R2_2 * rotation_h2_bar - rotation_R2_3 * rotation_h3_bar;
+    const vector_f total_8 = -(W2_0 * x0_bar) - W2_1 * x1_bar - W2_2 * x2_bar + rotation_a_chosen * gap_7;
+    const vector_f gap_8 = total_8 - rotation_r2 * product_2;
+    const vector_f gap_9 = -(rotation_R3_0 * rotation_h0_bar) - rotation_R3_1 * rotation_h1_bar -
+        rotation_R3_2 * rotation_h2_bar - rotation_R3_3 * rotation_h3_bar;
+    const vector_f total_9 = -(W3_0 * x0_bar) - W3_1 * x1_bar - W3_2 * x2_bar + rotation_a_chosen * gap_9;
+    const vector_f gap_10 = total_9 - rotation_r3 * product_2;
+    const vector_f total_10 = its_value_bar + z0 * gap_4 + z1 * gap_6 + z2 * gap_8 + z3 * gap_10;
+    const vector_f gap_11 = -(rotation_R4_0 * rotation_h0_bar) - rotation_R4_1 * rotation_h1_bar -
+        rotation_R4_2 * rotation_h2_bar - rotation_R4_3 * rotation_h3_bar;
+    const vector_f total_11 = -(W4_0 * x0_bar) - W4_1 * x1_bar - W4_2 * x2_bar + rotation_a_chosen * gap_11;
+    const vector_f gap_12 = total_11 - rotation_r4 * product_2;
+    const vector_f by_phi = total_10 + z4 * gap_12 + z5 * gap_2 + 2.0f * product;
+    const vector_f product_3 = rotation_a_product * (amplitude * by_phi);
+    const vector_f by_z5 = phi * gap_2 - z5 * product_3;
+    const vector_f by_z4 = phi * gap_12 - z4 * product_3;
+    const vector_f by_z3 = phi * gap_10 - z3 * product_3;
+    const vector_f by_z2 = phi * gap_8 - z2 * product_3;
+    const vector_f by_z1 = phi * gap_6 - z1 * product_3;
+    const vector_f total_12 = W5_0 * by_z5 + W4_0 * by_z4 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1;
+    const vector_f by_z0 = phi * gap_4 - z0 * product_3;
+    const vector_f by_v0 = total_12 + W0_0 * by_z0;
+    const vector_f total_13 = W5_1 * by_z5 + W4_1 * by_z4 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1;
+    const vector_f by_v1 = total_13 + W0_1 * by_z0;
+    const vector_f total_14 = W5_2 * by_z5 + W4_2 * by_z4 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1;
+    const vector_f by_v2 = total_14 + W0_2 * by_z0;
+    const vector_f z0_product = z0 * phi;
+    const vector_f z1_product = z1 * phi;
+    const vector_f z2_product = z2 * phi;
+    const vector_f z3_product = z3 * phi;
+    const vector_f z4_product = z4 * phi;
+    const vector_f z5_product = z5 * phi;
+    const vector_f gap_13 = -(rotation_r5 * z5_product) - rotation_r4 * z4_product - rotation_r3 * z3_product
+        - rotation_r2 * z2_product;
+    const vector_f gap_14 = gap_13 - rotation_r1 * z1_product - rotation_r0 * z0_product;
+    const vector_f total_15 = 2.0f * phi + rotation_a_chosen * gap_14;
+    const vector_f by_rotation_w = rotation_eta * total_15;
+    const vector_f chosen = vector_select_f(is_small, -by_rotation_w, by_rotation_w);
+    const vector_f rotation_eta_slope = vector_polynomial_rotation_eta_slope_f(rotation_w_gap);
+    const vector_f total_16 = gap_14 * product + z0_product * gap_3 + z1_product * gap_5 + z2_product * gap_7
+        + z3_product * gap_9;
+    const vector_f total_17 = total_16 + z4_product * gap_11 + z5_product * gap + rotation_r5 * by_z5 +
+        rotation_r4 * by_z4;
+    const vector_f total_18 = total_17 + rotation_r3 * by_z3 + rotation_r2 * by_z2 + rotation_r1 * by_z1 +
+        rotation_r0 * by_z0;
+    const vector_f by_rotation_w_2 = rotation_eta_slope * (total_15 * by_by_rotation_w) + rotation_eta * (2.0f
+        * product_3 + rotation_a_chosen * total_18);
+    const vector_f chosen_2 = vector_select_f(is_small, -by_rotation_w_2, by_rotation_w_2);
+    const vector_f by_rotation_r0 = rotation_a_chosen * by_z0 - z0_product * product_2;
+    const vector_f product_4 = rotation_a_chosen * z0_product;
+    const vector_f by_rotation_r1 = rotation_a_chosen * by_z1 - z1_product * product_2;
+    const vector_f product_5 = rotation_a_chosen * z1_product;
+    const vector_f by_rotation_r2 = rotation_a_chosen * by_z2 - z2_product * product_2;
+    const vector_f product_6 = rotation_a_chosen * z2_product;
+    const vector_f by_rotation_r3 = rotation_a_chosen * by_z3 - z3_product * product_2;
+    const vector_f product_7 = rotation_a_chosen * z3_product;
+    const vector_f by_rotation_r4 = rotation_a_chosen * by_z4 - z4_product * product_2;
+    const vector_f product_8 = rotation_a_chosen * z4_product;
+    const vector_f by_rotation_r5 = rotation_a_chosen * by_z5 - z5_product * product_2;
+    const vector_f product_9 = rotation_a_chosen * z5_product;
+    factor[0] = v0;
+    factor[1] = v1;
+    factor[2] = v2;
+    factor[3] = by_z5;
+    factor[4] = by_z4;
+    factor[5] = by_z3;
+    factor[6] = by_z2;
+    factor[7] = by_z1;
+    factor[8] = by_z0;
+    factor[9] = -by_v0;
+    factor[10] = -by_v1;
+    factor[11] = -by_v2;
+    factor[12] = z0_product;
+    factor[13] = z1_product;
+    factor[14] = z2_product;
+    factor[15] = z3_product;
+    factor[16] = z4_product;
+    factor[17] = z5_product;
+    factor[18] = rotation_a_product * by_phi;
+    factor[19] = chosen;
+    factor[20] = chosen_2;
+    factor[21] = by_rotation_r0;
+    factor[22] = product_4;
+    factor[23] = by_rotation_r1;
+    factor[24] = product_5;
+    factor[25] = by_rotation_r2;
+    factor[26] = product_6;
+    factor[27] = by_rotation_r3;
+    factor[28] = product_7;
+    factor[29] = by_rotation_r4;
+    factor[30] = product_8;
+    factor[31] = by_rotation_r5;
+    factor[32] = product_9;
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_0_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[9];
+    sum[1] = sum[1] + factor[10];
+    sum[2] = sum[2] + factor[11];
+    sum[3] = sum[3] + factor[18];
+    sum[4] = sum[4] + factor[0] * factor[8] - factor[12] * point[8];
+    sum[5] = sum[5] + factor[1] * factor[8] - factor[12] * point[9];
+    sum[6] = sum[6] + factor[2] * factor[8] - factor[12] * point[10];
+    sum[7] = sum[7] + factor[0] * factor[7] - factor[13] * point[8];
+    sum[8] = sum[8] + factor[1] * factor[7] - factor[13] * point[9];
+    sum[9] = sum[9] + factor[2] * factor[7] - factor[13] * point[10];
+    sum[10] = sum[10] + factor[0] * factor[6] - factor[14] * point[8];
+    sum[11] = sum[11] + factor[1] * factor[6] - factor[14] * point[9];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_1_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[6] - factor[14] * point[10];
+    sum[1] = sum[1] + factor[2] * factor[5] - factor[15] * point[10];
+    sum[2] = sum[2] + factor[0] * factor[5] - factor[15] * point[8];
+    sum[3] = sum[3] + factor[1] * factor[5] - factor[15] * point[9];
+    sum[4] = sum[4] + factor[0] * factor[4] - factor[16] * point[8];
+    sum[5] = sum[5] + factor[1] * factor[4] - factor[16] * point[9];
+    sum[6] = sum[6] + factor[2] * factor[4] - factor[16] * point[10];
+    sum[7] = sum[7] + factor[0] * factor[3] - factor[17] * point[8];
+    sum[8] = sum[8] + factor[1] * factor[3] - factor[17] * point[9];
+    sum[9] = sum[9] + factor[2] * factor[3] - factor[17] * point[10];
+    sum[10] = sum[10] + factor[19] * point[11] + point[3] * factor[20];
+    sum[11] = sum[11] + factor[19] * point[12] + point[4] * factor[20];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_2_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[19] * point[13] + point[5] * factor[20];
+    sum[1] = sum[1] + factor[19] * point[14] + point[6] * factor[20];
+    sum[2] = sum[2] + point[5] * factor[21] - factor[22] * point[13];
+    sum[3] = sum[3] + point[6] * factor[21] - factor[22] * point[14];
+    sum[4] = sum[4] + point[3] * factor[21] - factor[22] * point[11];
+    sum[5] = sum[5] + point[4] * factor[21] - factor[22] * point[12];
+    sum[6] = sum[6] + point[3] * factor[23] - factor[24] * point[11];
+    sum[7] = sum[7] + point[4] * factor[23] - factor[24] * point[12];
+    sum[8] = sum[8] + point[5] * factor[23] - factor[24] * point[13];
+    sum[9] = sum[9] + point[6] * factor[23] - factor[24] * point[14];
+    sum[10] = sum[10] + point[3] * factor[25] - factor[26] * point[11];
+    sum[11] = sum[11] + point[4] * factor[25] - factor[26] * point[12];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_3_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + point[5] * factor[25] - factor[26] * point[13];
+    sum[1] = sum[1] + point[6] * factor[25] - factor[26] * point[14];
+    sum[2] = sum[2] + point[5] * factor[27] - factor[28] * point[13];
+    sum[3] = sum[3] + point[6] * factor[27] - factor[28] * point[14];
+    sum[4] = sum[4] + point[3] * factor[27] - factor[28] * point[11];
+    sum[5] = sum[5] + point[4] * factor[27] - factor[28] * point[12];
+    sum[6] = sum[6] + point[3] * factor[29] - factor[30] * point[11];
+    sum[7] = sum[7] + point[4] * factor[29] - factor[30] * point[12];
+    sum[8] = sum[8] + point[5] * factor[29] - factor[30] * point[13];
+    sum[9] = sum[9] + point[6] * factor[29] - factor[30] * point[14];
+    sum[10] = sum[10] + point[3] * factor[31] - factor[32] * point[11];
+    sum[11] = sum[11] + point[4] * factor[31] - factor[32] * point[12];
+}
+
+/* Adds some of the derivatives, as products. */
+INLINE void pair_products_4_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + point[5] * factor[31] - factor[32] * point[13];
+    sum[1] = sum[1] + point[6] * factor[31] - factor[32] * point[14];
+}
+
+/* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
+OUTLINE void vector_rows_f(const float *rows, size_t count, size_t start, size_t size, vector_f *columns) {
+    for (size_t i = 0; i < size; ++i) {
+        float column[LANES_f];
+        for (size_t lane = 0; lane < LANES_f; ++lane)
+            column[lane] = rows[size * (start + lane < count ? start + lane : count - 1) + i];
+        columns[i] = vector_load_f(column);
+    }
+}
+
+/* Back to rows that are `stride` apart; nothing past the end. */
+OUTLINE void vector_to_rows_f(
+    const vector_f *columns, float *rows, size_t count, size_t start, size_t size, size_t stride) {
+    const size_t lanes = start >= count ? 0 : count - start < LANES_f ? count - start : LANES_f;
+    for (size_t lane = 0; lane < lanes; ++lane)
+        for (size_t i = 0; i < size; ++i) rows[stride * (start + lane) + i] = LANE(columns[i], lane);
+}
+
+/* Zero in the lanes past the end. */
+OUTLINE void vector_end_f(size_t count, size_t start, size_t size, vector_f *columns) {
+    for (size_t lane = start >= count ? 0 : count - start; lane < LANES_f; ++lane)
+        for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
+}
+
+/* Scratch memory: 15 vectors for each block of points, then the constants of the splats. */
+size_t se3_splats_work_f(size_t count, size_t splat_count, int threads) {
+    (void)threads;
+    return ((count + LANES_f - 1) / LANES_f * 15 + 1) * LANES_f + 50 * splat_count;
+}
+
+static vector_f *work_points_f(float *work) {
+    const uintptr_t size = sizeof(vector_f), start = (uintptr_t)work;
+    return (vector_f *)((char *)work + ((0 - start) & (size - 1)));
+}
+
+static float *work_constants_f(float *work, size_t count) {
+    return (float *)(work_points_f(work) + (count + LANES_f - 1) / LANES_f * 15);
+}
+
+/* The constants of LANES splats, as rows. */
+OUTLINE void splat_constants_f(
+    size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, float *constants) {
+    vector_f own_mu[7], own_W[36], own_amplitude[1], S[50];
+    vector_rows_f(mu, splat_count, start, 7, own_mu);
+    vector_rows_f(W, splat_count, start, 36, own_W);
+    vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
+    pair_constants_f(own_mu, own_W, own_amplitude, S);
+    vector_to_rows_f(S, constants, splat_count, start, 50, 50);
+}
+
+/* 2 vectors of points at a time stay in registers while all splats pass. */
 void se3_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *SE3_RESTRICT x,
-    const float *SE3_RESTRICT mu,
-    const float *SE3_RESTRICT W,
-    const float *SE3_RESTRICT amplitude,
-    float *SE3_RESTRICT value,
-    float *SE3_RESTRICT gradient) {
-    const unsigned mode = flush_denormals();
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        float x_block[7][LANES], sum[7][LANES] = {{0}};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            for (size_t i = 0; i < 7; ++i) x_block[i][lane] = x[7 * n + i];
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            const float mu0 = mu[7 * k + 0];
-            const float mu1 = mu[7 * k + 1];
-            const float mu2 = mu[7 * k + 2];
-            const float mu3 = mu[7 * k + 3];
-            const float mu4 = mu[7 * k + 4];
-            const float mu5 = mu[7 * k + 5];
-            const float mu6 = mu[7 * k + 6];
-            const float W0_0 = W[36 * k + 0];
-            const float W0_1 = W[36 * k + 1];
-            const float W0_2 = W[36 * k + 2];
-            const float W0_3 = W[36 * k + 3];
-            const float W0_4 = W[36 * k + 4];
-            const float W0_5 = W[36 * k + 5];
-            const float W1_0 = W[36 * k + 6];
-            const float W1_1 = W[36 * k + 7];
-            const float W1_2 = W[36 * k + 8];
-            const float W1_3 = W[36 * k + 9];
-            const float W1_4 = W[36 * k + 10];
-            const float W1_5 = W[36 * k + 11];
-            const float W2_0 = W[36 * k + 12];
-            const float W2_1 = W[36 * k + 13];
-            const float W2_2 = W[36 * k + 14];
-            const float W2_3 = W[36 * k + 15];
-            const float W2_4 = W[36 * k + 16];
-            const float W2_5 = W[36 * k + 17];
-            const float W3_0 = W[36 * k + 18];
-            const float W3_1 = W[36 * k + 19];
-            const float W3_2 = W[36 * k + 20];
-            const float W3_3 = W[36 * k + 21];
-            const float W3_4 = W[36 * k + 22];
-            const float W3_5 = W[36 * k + 23];
-            const float W4_0 = W[36 * k + 24];
-            const float W4_1 = W[36 * k + 25];
-            const float W4_2 = W[36 * k + 26];
-            const float W4_3 = W[36 * k + 27];
-            const float W4_4 = W[36 * k + 28];
-            const float W4_5 = W[36 * k + 29];
-            const float W5_0 = W[36 * k + 30];
-            const float W5_1 = W[36 * k + 31];
-            const float W5_2 = W[36 * k + 32];
-            const float W5_3 = W[36 * k + 33];
-            const float W5_4 = W[36 * k + 34];
-            const float W5_5 = W[36 * k + 35];
-            const float amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const float rotation_g0 = x_block[3][lane] * mu3 + x_block[4][lane] * mu4 + x_block[5][lane] * mu5 +
-                    x_block[6][lane] * mu6;
-                const float rotation_g1 = x_block[4][lane] * mu3 + x_block[5][lane] * mu6 - x_block[3][lane] * mu4 -
-                    x_block[6][lane] * mu5;
-                const float rotation_g2 = x_block[5][lane] * mu3 + x_block[6][lane] * mu4 - x_block[3][lane] * mu5 -
-                    x_block[4][lane] * mu6;
-                const float rotation_g3 = x_block[6][lane] * mu3 + x_block[4][lane] * mu5 - x_block[5][lane] * mu4 -
-                    x_block[3][lane] * mu6;
-                const float rotation_norm_s_squared = rotation_g1 * rotation_g1 + rotation_g2 * rotation_g2 + rotation_g3
-                    * rotation_g3;
-                const float rotation_abs_g0 = fabsf(rotation_g0);
-                const int near = rotation_norm_s_squared < 0.249287f;
-                const float near_chosen = (near ? 4.011440628672975f * rotation_norm_s_squared : 0.0f);
-                const float rotation_t_over_norm_s_near = polynomial_rotation_t_over_norm_s_near_f(near_chosen);
-                const float near_chosen_2 = (near ? 1.0f : rotation_norm_s_squared);
-                const float rotation_norm_s = sqrtf(near_chosen_2);
-                const float rotation_atan2_norm_s_abs_g0 = atan2f(rotation_norm_s, rotation_abs_g0);
-                const float rotation_t = 2.0f * rotation_atan2_norm_s_abs_g0;
-                const float rotation_t_ratio = rotation_t / rotation_norm_s;
-                const float rotation_t_over_norm_s = (near ? rotation_t_over_norm_s_near : rotation_t_ratio);
-                const int is_small = rotation_g0 < 0.0f;
-                const float chosen = (is_small ? -1.0f : 1.0f);
-                const float rotation_scale = rotation_t_over_norm_s * chosen;
-                const float v0 = x_block[0][lane] - mu0;
-                const float v1 = x_block[1][lane] - mu1;
-                const float v2 = x_block[2][lane] - mu2;
-                const float v3 = rotation_g1 * rotation_scale;
-                const float v4 = rotation_g2 * rotation_scale;
-                const float v5 = rotation_g3 * rotation_scale;
-                const float rotation_log_det_series = polynomial_rotation_log_det_series_f(near_chosen);
-                const float rotation_log_det_near = rotation_norm_s_squared * rotation_log_det_series;
-                const float product = 0.5f * rotation_t_ratio;
-                const float rotation_log_det = (near ? rotation_log_det_near : 2.0f * logf(product));
-                const float total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-                const float z0 = total_2 + W0_5 * v5;
-                const float total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-                const float z1 = total_3 + W1_5 * v5;
-                const float total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-                const float z2 = total_4 + W2_5 * v5;
-                const float total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-                const float z3 = total_5 + W3_5 * v5;
-                const float total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-                const float z4 = total_6 + W4_5 * v5;
-                const float total_7 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-                const float z5 = total_7 + W5_5 * v5;
-                const float total_8 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-                const float exp_2 = expf(rotation_log_det - 0.5f * (total_8 + z5 * z5));
-                const float phi = amplitude_k * exp_2;
-                const float gap = -(W5_5 * z5) - W4_5 * z4 - W3_5 * z3 - W2_5 * z2;
-                const float gap_2 = -(W5_4 * z5) - W4_4 * z4 - W3_4 * z3 - W2_4 * z2;
-                const float gap_3 = -(W5_3 * z5) - W4_3 * z4 - W3_3 * z3 - W2_3 * z2;
-                const float gap_4 = -(W5_2 * z5) - W4_2 * z4 - W3_2 * z3 - W2_2 * z2;
-                const float gap_5 = -(W5_1 * z5) - W4_1 * z4 - W3_1 * z3 - W2_1 * z2;
-                const float gap_6 = -(W5_0 * z5) - W4_0 * z4 - W3_0 * z3 - W2_0 * z2;
-                const float by_v5 = gap - W1_5 * z1 - W0_5 * z0;
-                const float by_v4 = gap_2 - W1_4 * z1 - W0_4 * z0;
-                const float by_v3 = gap_3 - W1_3 * z1 - W0_3 * z0;
-                const float by_v2 = gap_4 - W1_2 * z1 - W0_2 * z0;
-                const float by_v1 = gap_5 - W1_1 * z1 - W0_1 * z0;
-                const float by_v0 = gap_6 - W1_0 * z1 - W0_0 * z0;
-                const float by_rotation_log_det_near = (near ? 1.0f : 0.0f);
-                const float by_rotation_log_det_series = rotation_norm_s_squared * by_rotation_log_det_near;
-                const float rotation_log_det_series_slope = polynomial_rotation_log_det_series_slope_f(near_chosen);
-                const float by_rotation_scale = rotation_g3 * by_v5 + rotation_g2 * by_v4 + rotation_g1 * by_v3;
-                const float by_rotation_t_over_norm_s = chosen * by_rotation_scale;
-                const float by_rotation_t_over_norm_s_near = (near ? by_rotation_t_over_norm_s : 0.0f);
-                const float total_9 = 0.5f * (2.0f * (near ? 0.0f : 1.0f) / product) + (near ? 0.0f :
-                    by_rotation_t_over_norm_s);
-                const float by_rotation_t = total_9 / rotation_norm_s;
-                const float by_rotation_atan2_norm_s_abs_g0 = 2.0f * by_rotation_t;
-                const float ratio = by_rotation_atan2_norm_s_abs_g0 / (near_chosen_2 + rotation_abs_g0 * rotation_abs_g0);
-                const float product_2 = rotation_norm_s * ratio;
-                const float by_rotation_abs_g0 = -product_2;
-                const float by_rotation_norm_s = rotation_abs_g0 * ratio - rotation_t_ratio * by_rotation_t;
-                const float rotation_t_over_norm_s_near_slope =
-                    polynomial_rotation_t_over_norm_s_near_slope_f(near_chosen);
-                const float by_rotation_norm_s_squared = rotation_log_det_series * by_rotation_log_det_near + (near ? 0.0f
-                    : by_rotation_norm_s / (2.0f * rotation_norm_s)) + 4.011440628672975f * (near ?
-                    by_rotation_log_det_series * rotation_log_det_series_slope + by_rotation_t_over_norm_s_near *
-                    rotation_t_over_norm_s_near_slope : 0.0f);
-                const float by_rotation_g0 = (is_small ? product_2 : by_rotation_abs_g0);
-                const float product_3 = 2.0f * by_rotation_norm_s_squared;
-                const float by_rotation_g3 = rotation_scale * by_v5 + rotation_g3 * product_3;
-                const float by_rotation_g2 = rotation_scale * by_v4 + rotation_g2 * product_3;
-                const float by_rotation_g1 = rotation_scale * by_v3 + rotation_g1 * product_3;
-                const float exponent_by_x6 = mu3 * by_rotation_g3 + mu4 * by_rotation_g2 - mu5 * by_rotation_g1 + mu6 *
-                    by_rotation_g0;
-                const float exponent_by_x5 = mu3 * by_rotation_g2 - mu4 * by_rotation_g3 + mu6 * by_rotation_g1 + mu5 *
-                    by_rotation_g0;
-                const float exponent_by_x4 = mu5 * by_rotation_g3 - mu6 * by_rotation_g2 + mu3 * by_rotation_g1 + mu4 *
-                    by_rotation_g0;
-                const float exponent_by_x3 = -(mu6 * by_rotation_g3) - mu5 * by_rotation_g2 - mu4 * by_rotation_g1 + mu3 *
-                    by_rotation_g0;
-                const float df0 = phi * by_v0;
-                const float df1 = phi * by_v1;
-                const float df2 = phi * by_v2;
-                const float df3 = phi * exponent_by_x3;
-                const float df4 = phi * exponent_by_x4;
-                const float df5 = phi * exponent_by_x5;
-                const float df6 = phi * exponent_by_x6;
-                const float df4_product = 0.5f * df4;
-                const float df5_product = 0.5f * df5;
-                const float df3_product = 0.5f * df3;
-                const float df6_product = 0.5f * df6;
-                const float gradient3 = x_block[3][lane] * df4_product + x_block[6][lane] * df5_product - x_block[4][lane]
-                    * df3_product - x_block[5][lane] * df6_product;
-                const float gradient4 = x_block[3][lane] * df5_product + x_block[4][lane] * df6_product - x_block[5][lane]
-                    * df3_product - x_block[6][lane] * df4_product;
-                const float gradient5 = x_block[5][lane] * df4_product + x_block[3][lane] * df6_product - x_block[6][lane]
-                    * df3_product - x_block[4][lane] * df5_product;
-                sum[0][lane] += phi;
-                sum[1][lane] += df0;
-                sum[2][lane] += df1;
-                sum[3][lane] += df2;
-                sum[4][lane] += gradient3;
-                sum[5][lane] += gradient4;
-                sum[6][lane] += gradient5;
+    size_t count, size_t splat_count, const float *SE3_RESTRICT x, const float *SE3_RESTRICT mu, const float *SE3_RESTRICT W, const float *SE3_RESTRICT amplitude,
+    float *SE3_RESTRICT value, float *SE3_RESTRICT gradient, float *SE3_RESTRICT work, int threads) {
+    (void)threads;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES_f) {
+            vector_f at[2][7], X[2][7], grad[6];
+            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][7] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows_f(x, count, start + b * LANES_f, 7, at[b]);
+                pair_features_f(at[b], X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_forward_f(X[0], constants + 50 * k, value_sum[0], slope_sum[0]);
+                pair_forward_f(X[1], constants + 50 * k, value_sum[1], slope_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b) {
+                pair_gradient_f(at[b], slope_sum[b], grad);
+                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                vector_to_rows_f(grad, gradient, count, start + b * LANES_f, 6, 6);
             }
         }
-        for (size_t lane = 0; lane < lanes; ++lane) {
-            value[start + lane] = sum[0][lane];
-            for (size_t i = 0; i < 6; ++i) gradient[6 * (start + lane) + i] = sum[i + 1][lane];
-        }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
-void se3_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *SE3_RESTRICT x,
-    const float *SE3_RESTRICT mu,
-    const float *SE3_RESTRICT W,
-    const float *SE3_RESTRICT amplitude,
-    const float *SE3_RESTRICT value_bar,
-    const float *SE3_RESTRICT gradient_bar,
-    float *SE3_RESTRICT mu_bar,
-    float *SE3_RESTRICT W_bar,
-    float *SE3_RESTRICT amplitude_bar) {
-    const unsigned mode = flush_denormals();
-    for (size_t i = 0; i < 7 * splat_count; ++i) mu_bar[i] = 0;
-    for (size_t i = 0; i < 36 * splat_count; ++i) W_bar[i] = 0;
-    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        float x_block[7][LANES], value_bar_block[1][LANES], gradient_bar_block[6][LANES];
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            const float weight = lane < lanes ? 1 : 0;
-            for (size_t i = 0; i < 7; ++i) x_block[i][lane] = x[7 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
-            for (size_t i = 0; i < 6; ++i) gradient_bar_block[i][lane] = gradient_bar[6 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
-            for (size_t i = 0; i < 6; ++i) gradient_bar_block[i][lane] *= weight;
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            float sum[44][LANES] = {{0}}, total[44] = {0};
-            const float mu0 = mu[7 * k + 0];
-            const float mu1 = mu[7 * k + 1];
-            const float mu2 = mu[7 * k + 2];
-            const float mu3 = mu[7 * k + 3];
-            const float mu4 = mu[7 * k + 4];
-            const float mu5 = mu[7 * k + 5];
-            const float mu6 = mu[7 * k + 6];
-            const float W0_0 = W[36 * k + 0];
-            const float W0_1 = W[36 * k + 1];
-            const float W0_2 = W[36 * k + 2];
-            const float W0_3 = W[36 * k + 3];
-            const float W0_4 = W[36 * k + 4];
-            const float W0_5 = W[36 * k + 5];
-            const float W1_0 = W[36 * k + 6];
-            const float W1_1 = W[36 * k + 7];
-            const float W1_2 = W[36 * k + 8];
-            const float W1_3 = W[36 * k + 9];
-            const float W1_4 = W[36 * k + 10];
-            const float W1_5 = W[36 * k + 11];
-            const float W2_0 = W[36 * k + 12];
-            const float W2_1 = W[36 * k + 13];
-            const float W2_2 = W[36 * k + 14];
-            const float W2_3 = W[36 * k + 15];
-            const float W2_4 = W[36 * k + 16];
-            const float W2_5 = W[36 * k + 17];
-            const float W3_0 = W[36 * k + 18];
-            const float W3_1 = W[36 * k + 19];
-            const float W3_2 = W[36 * k + 20];
-            const float W3_3 = W[36 * k + 21];
-            const float W3_4 = W[36 * k + 22];
-            const float W3_5 = W[36 * k + 23];
-            const float W4_0 = W[36 * k + 24];
-            const float W4_1 = W[36 * k + 25];
-            const float W4_2 = W[36 * k + 26];
-            const float W4_3 = W[36 * k + 27];
-            const float W4_4 = W[36 * k + 28];
-            const float W4_5 = W[36 * k + 29];
-            const float W5_0 = W[36 * k + 30];
-            const float W5_1 = W[36 * k + 31];
-            const float W5_2 = W[36 * k + 32];
-            const float W5_3 = W[36 * k + 33];
-            const float W5_4 = W[36 * k + 34];
-            const float W5_5 = W[36 * k + 35];
-            const float amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const float rotation_g0 = x_block[3][lane] * mu3 + x_block[4][lane] * mu4 + x_block[5][lane] * mu5 +
-                    x_block[6][lane] * mu6;
-                const float rotation_g1 = x_block[4][lane] * mu3 + x_block[5][lane] * mu6 - x_block[3][lane] * mu4 -
-                    x_block[6][lane] * mu5;
-                const float rotation_g2 = x_block[5][lane] * mu3 + x_block[6][lane] * mu4 - x_block[3][lane] * mu5 -
-                    x_block[4][lane] * mu6;
-                const float rotation_g3 = x_block[6][lane] * mu3 + x_block[4][lane] * mu5 - x_block[5][lane] * mu4 -
-                    x_block[3][lane] * mu6;
-                const float rotation_norm_s_squared = rotation_g1 * rotation_g1 + rotation_g2 * rotation_g2 + rotation_g3
-                    * rotation_g3;
-                const float rotation_abs_g0 = fabsf(rotation_g0);
-                const int near = rotation_norm_s_squared < 0.249287f;
-                const float near_chosen = (near ? 4.011440628672975f * rotation_norm_s_squared : 0.0f);
-                const float rotation_t_over_norm_s_near = polynomial_rotation_t_over_norm_s_near_f(near_chosen);
-                const float near_chosen_2 = (near ? 1.0f : rotation_norm_s_squared);
-                const float rotation_norm_s = sqrtf(near_chosen_2);
-                const float rotation_atan2_norm_s_abs_g0 = atan2f(rotation_norm_s, rotation_abs_g0);
-                const float rotation_t = 2.0f * rotation_atan2_norm_s_abs_g0;
-                const float rotation_t_ratio = rotation_t / rotation_norm_s;
-                const float rotation_t_over_norm_s = (near ? rotation_t_over_norm_s_near : rotation_t_ratio);
-                const int is_small = rotation_g0 < 0.0f;
-                const float chosen = (is_small ? -1.0f : 1.0f);
-                const float rotation_scale = rotation_t_over_norm_s * chosen;
-                const float v0 = x_block[0][lane] - mu0;
-                const float v1 = x_block[1][lane] - mu1;
-                const float v2 = x_block[2][lane] - mu2;
-                const float v3 = rotation_g1 * rotation_scale;
-                const float v4 = rotation_g2 * rotation_scale;
-                const float v5 = rotation_g3 * rotation_scale;
-                const float rotation_log_det_series = polynomial_rotation_log_det_series_f(near_chosen);
-                const float rotation_log_det_near = rotation_norm_s_squared * rotation_log_det_series;
-                const float product = 0.5f * rotation_t_ratio;
-                const float rotation_log_det = (near ? rotation_log_det_near : 2.0f * logf(product));
-                const float total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-                const float z0 = total_2 + W0_5 * v5;
-                const float total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-                const float z1 = total_3 + W1_5 * v5;
-                const float total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-                const float z2 = total_4 + W2_5 * v5;
-                const float total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-                const float z3 = total_5 + W3_5 * v5;
-                const float total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-                const float z4 = total_6 + W4_5 * v5;
-                const float total_7 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-                const float z5 = total_7 + W5_5 * v5;
-                const float total_8 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-                const float exp_2 = expf(rotation_log_det - 0.5f * (total_8 + z5 * z5));
-                const float phi = amplitude_k * exp_2;
-                const float gap = -(W5_5 * z5) - W4_5 * z4 - W3_5 * z3 - W2_5 * z2;
-                const float gap_2 = -(W5_4 * z5) - W4_4 * z4 - W3_4 * z3 - W2_4 * z2;
-                const float gap_3 = -(W5_3 * z5) - W4_3 * z4 - W3_3 * z3 - W2_3 * z2;
-                const float gap_4 = -(W5_2 * z5) - W4_2 * z4 - W3_2 * z3 - W2_2 * z2;
-                const float gap_5 = -(W5_1 * z5) - W4_1 * z4 - W3_1 * z3 - W2_1 * z2;
-                const float gap_6 = -(W5_0 * z5) - W4_0 * z4 - W3_0 * z3 - W2_0 * z2;
-                const float by_v5 = gap - W1_5 * z1 - W0_5 * z0;
-                const float by_v4 = gap_2 - W1_4 * z1 - W0_4 * z0;
-                const float by_v3 = gap_3 - W1_3 * z1 - W0_3 * z0;
-                const float by_v2 = gap_4 - W1_2 * z1 - W0_2 * z0;
-                const float by_v1 = gap_5 - W1_1 * z1 - W0_1 * z0;
-                const float by_v0 = gap_6 - W1_0 * z1 - W0_0 * z0;
-                const float by_rotation_log_det_near = (near ? 1.0f : 0.0f);
-                const float ratio = 2.0f * (near ? 0.0f : 1.0f) / product;
-                const float by_rotation_log_det_series = rotation_norm_s_squared * by_rotation_log_det_near;
-                const float rotation_log_det_series_slope = polynomial_rotation_log_det_series_slope_f(near_chosen);
-                const float by_rotation_scale = rotation_g3 * by_v5 + rotation_g2 * by_v4 + rotation_g1 * by_v3;
-                const float by_rotation_t_over_norm_s = chosen * by_rotation_scale;
-                const float by_rotation_t_over_norm_s_near = (near ? by_rotation_t_over_norm_s : 0.0f);
-                const float by_rotation_t = (0.5f * ratio + (near ? 0.0f : by_rotation_t_over_norm_s)) / rotation_norm_s;
-                const float by_rotation_atan2_norm_s_abs_g0 = 2.0f * by_rotation_t;
-                const float total_9 = near_chosen_2 + rotation_abs_g0 * rotation_abs_g0;
-                const float ratio_2 = by_rotation_atan2_norm_s_abs_g0 / total_9;
-                const float product_2 = rotation_norm_s * ratio_2;
-                const float by_rotation_abs_g0 = -product_2;
-                const float by_rotation_norm_s = rotation_abs_g0 * ratio_2 - rotation_t_ratio * by_rotation_t;
-                const float product_3 = 2.0f * rotation_norm_s;
-                const float ratio_3 = by_rotation_norm_s / product_3;
-                const float rotation_t_over_norm_s_near_slope =
-                    polynomial_rotation_t_over_norm_s_near_slope_f(near_chosen);
-                const float by_rotation_norm_s_squared = rotation_log_det_series * by_rotation_log_det_near + (near ? 0.0f
-                    : ratio_3) + 4.011440628672975f * (near ? by_rotation_log_det_series * rotation_log_det_series_slope +
-                    by_rotation_t_over_norm_s_near * rotation_t_over_norm_s_near_slope : 0.0f);
-                const float by_rotation_g0 = (is_small ? product_2 : by_rotation_abs_g0);
-                const float product_4 = 2.0f * by_rotation_norm_s_squared;
-                const float by_rotation_g3 = rotation_scale * by_v5 + rotation_g3 * product_4;
-                const float by_rotation_g2 = rotation_scale * by_v4 + rotation_g2 * product_4;
-                const float by_rotation_g1 = rotation_scale * by_v3 + rotation_g1 * product_4;
-                const float exponent_by_x6 = mu3 * by_rotation_g3 + mu4 * by_rotation_g2 - mu5 * by_rotation_g1 + mu6 *
-                    by_rotation_g0;
-                const float exponent_by_x5 = mu3 * by_rotation_g2 - mu4 * by_rotation_g3 + mu6 * by_rotation_g1 + mu5 *
-                    by_rotation_g0;
-                const float exponent_by_x4 = mu5 * by_rotation_g3 - mu6 * by_rotation_g2 + mu3 * by_rotation_g1 + mu4 *
-                    by_rotation_g0;
-                const float exponent_by_x3 = -(mu6 * by_rotation_g3) - mu5 * by_rotation_g2 - mu4 * by_rotation_g1 + mu3 *
-                    by_rotation_g0;
-                const float by_df6 = 0.5f * (x_block[3][lane] * gradient_bar_block[5][lane] + x_block[4][lane] *
-                    gradient_bar_block[4][lane] - x_block[5][lane] * gradient_bar_block[3][lane]);
-                const float by_df3 = 0.5f * (-(x_block[6][lane] * gradient_bar_block[5][lane]) - x_block[5][lane] *
-                    gradient_bar_block[4][lane] - x_block[4][lane] * gradient_bar_block[3][lane]);
-                const float by_df5 = 0.5f * (x_block[3][lane] * gradient_bar_block[4][lane] - x_block[4][lane] *
-                    gradient_bar_block[5][lane] + x_block[6][lane] * gradient_bar_block[3][lane]);
-                const float by_df4 = 0.5f * (x_block[5][lane] * gradient_bar_block[5][lane] - x_block[6][lane] *
-                    gradient_bar_block[4][lane] + x_block[3][lane] * gradient_bar_block[3][lane]);
-                const float by_exponent_by_x6 = phi * by_df6;
-                const float by_exponent_by_x5 = phi * by_df5;
-                const float by_exponent_by_x4 = phi * by_df4;
-                const float by_exponent_by_x3 = phi * by_df3;
-                const float total_10 = value_bar_block[0][lane] + exponent_by_x6 * by_df6 + exponent_by_x5 * by_df5 +
-                    exponent_by_x4 * by_df4 + exponent_by_x3 * by_df3;
-                const float by_by_v2 = phi * gradient_bar_block[2][lane];
-                const float by_by_v1 = phi * gradient_bar_block[1][lane];
-                const float by_by_v0 = phi * gradient_bar_block[0][lane];
-                const float by_phi = total_10 + by_v2 * gradient_bar_block[2][lane] + by_v1 * gradient_bar_block[1][lane]
-                    + by_v0 * gradient_bar_block[0][lane];
-                const float by_by_rotation_g0 = mu3 * by_exponent_by_x3 + mu4 * by_exponent_by_x4 + mu5 *
-                    by_exponent_by_x5 + mu6 * by_exponent_by_x6;
-                const float by_by_rotation_g1 = mu3 * by_exponent_by_x4 + mu6 * by_exponent_by_x5 - mu4 *
-                    by_exponent_by_x3 - mu5 * by_exponent_by_x6;
-                const float by_by_rotation_g2 = mu3 * by_exponent_by_x5 + mu4 * by_exponent_by_x6 - mu5 *
-                    by_exponent_by_x3 - mu6 * by_exponent_by_x4;
-                const float by_by_rotation_g3 = mu3 * by_exponent_by_x6 + mu5 * by_exponent_by_x4 - mu4 *
-                    by_exponent_by_x5 - mu6 * by_exponent_by_x3;
-                const float total_11 = rotation_g1 * by_by_rotation_g1 + rotation_g2 * by_by_rotation_g2 + rotation_g3 *
-                    by_by_rotation_g3;
-                const float by_by_rotation_norm_s_squared = 2.0f * total_11;
-                const float by_by_rotation_abs_g0 = (is_small ? 0.0f : by_by_rotation_g0);
-                const float near_chosen_3 = (near ? 8.02288125734595f * total_11 : 0.0f);
-                const float by_by_rotation_t_over_norm_s_near = rotation_t_over_norm_s_near_slope * near_chosen_3;
-                const float by_rotation_t_over_norm_s_near_slope = by_rotation_t_over_norm_s_near * near_chosen_3;
-                const float rotation_t_over_norm_s_near_slope_slope =
-                    polynomial_rotation_t_over_norm_s_near_slope_slope_f(near_chosen);
-                const float by_by_rotation_norm_s = (near ? 0.0f : by_by_rotation_norm_s_squared) / product_3;
-                const float gap_7 = (is_small ? by_by_rotation_g0 : 0.0f) - by_by_rotation_abs_g0;
-                const float by_by_rotation_atan2_norm_s_abs_g0 = (rotation_norm_s * gap_7 + rotation_abs_g0 *
-                    by_by_rotation_norm_s) / total_9;
-                const float product_5 = ratio_2 * by_by_rotation_atan2_norm_s_abs_g0;
-                const float gap_8 = ratio_2 * by_by_rotation_norm_s - rotation_abs_g0 * (2.0f * product_5);
-                const float by_by_rotation_t = 2.0f * by_by_rotation_atan2_norm_s_abs_g0 - rotation_t_ratio *
-                    by_by_rotation_norm_s;
-                const float ratio_4 = by_by_rotation_t / rotation_norm_s;
-                const float by_by_rotation_t_over_norm_s = (near ? 0.0f : ratio_4) + (near ?
-                    by_by_rotation_t_over_norm_s_near : 0.0f);
-                const float by_by_rotation_scale = chosen * by_by_rotation_t_over_norm_s;
-                const float by_by_v3 = rotation_g1 * by_by_rotation_scale + rotation_scale * by_by_rotation_g1;
-                const float by_by_v4 = rotation_g2 * by_by_rotation_scale + rotation_scale * by_by_rotation_g2;
-                const float by_by_v5 = rotation_g3 * by_by_rotation_scale + rotation_scale * by_by_rotation_g3;
-                const float by_by_rotation_log_det_series = rotation_log_det_series_slope * near_chosen_3;
-                const float by_rotation_log_det_series_slope = by_rotation_log_det_series * near_chosen_3;
-                const float rotation_log_det_series_slope_slope =
-                    polynomial_rotation_log_det_series_slope_slope_f(near_chosen);
-                const float gap_9 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2 - W0_3 * by_by_v3;
-                const float gap_10 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2 - W1_3 * by_by_v3;
-                const float gap_11 = -(W2_0 * by_by_v0) - W2_1 * by_by_v1 - W2_2 * by_by_v2 - W2_3 * by_by_v3;
-                const float gap_12 = -(W3_0 * by_by_v0) - W3_1 * by_by_v1 - W3_2 * by_by_v2 - W3_3 * by_by_v3;
-                const float gap_13 = -(W4_0 * by_by_v0) - W4_1 * by_by_v1 - W4_2 * by_by_v2 - W4_3 * by_by_v3;
-                const float gap_14 = -(W5_0 * by_by_v0) - W5_1 * by_by_v1 - W5_2 * by_by_v2 - W5_3 * by_by_v3;
-                const float by_rotation_log_det = exp_2 * (amplitude_k * by_phi);
-                const float by_z5 = gap_14 - W5_4 * by_by_v4 - W5_5 * by_by_v5 - z5 * by_rotation_log_det;
-                const float by_z4 = gap_13 - W4_4 * by_by_v4 - W4_5 * by_by_v5 - z4 * by_rotation_log_det;
-                const float by_z3 = gap_12 - W3_4 * by_by_v4 - W3_5 * by_by_v5 - z3 * by_rotation_log_det;
-                const float by_z2 = gap_11 - W2_4 * by_by_v4 - W2_5 * by_by_v5 - z2 * by_rotation_log_det;
-                const float by_z1 = gap_10 - W1_4 * by_by_v4 - W1_5 * by_by_v5 - z1 * by_rotation_log_det;
-                const float by_z0 = gap_9 - W0_4 * by_by_v4 - W0_5 * by_by_v5 - z0 * by_rotation_log_det;
-                const float total_12 = W5_5 * by_z5 + W4_5 * by_z4 + W3_5 * by_z3 + W2_5 * by_z2 + W1_5 * by_z1;
-                const float total_13 = W5_4 * by_z5 + W4_4 * by_z4 + W3_4 * by_z3 + W2_4 * by_z2 + W1_4 * by_z1;
-                const float total_14 = W5_3 * by_z5 + W4_3 * by_z4 + W3_3 * by_z3 + W2_3 * by_z2 + W1_3 * by_z1;
-                const float total_15 = W5_2 * by_z5 + W4_2 * by_z4 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1;
-                const float total_16 = W5_1 * by_z5 + W4_1 * by_z4 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1;
-                const float total_17 = W5_0 * by_z5 + W4_0 * by_z4 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1;
-                const float by_v5_2 = total_12 + W0_5 * by_z0;
-                const float by_v4_2 = total_13 + W0_4 * by_z0;
-                const float by_v3_2 = total_14 + W0_3 * by_z0;
-                const float by_v2_2 = total_15 + W0_2 * by_z0;
-                const float by_v1_2 = total_16 + W0_1 * by_z0;
-                const float by_v0_2 = total_17 + W0_0 * by_z0;
-                const float by_rotation_log_det_near_2 = (near ? by_rotation_log_det : 0.0f);
-                const float product_6 = 0.5f * (2.0f * (near ? 0.0f : by_rotation_log_det) / product - ratio * (0.5f *
-                    ratio_4 / product));
-                const float by_rotation_log_det_series_2 = by_rotation_log_det_near * by_by_rotation_norm_s_squared +
-                    rotation_norm_s_squared * by_rotation_log_det_near_2;
-                const float total_18 = by_v3 * by_by_rotation_g1 + by_v4 * by_by_rotation_g2 + by_v5 * by_by_rotation_g3 +
-                    rotation_g3 * by_v5_2 + rotation_g2 * by_v4_2;
-                const float by_rotation_scale_2 = total_18 + rotation_g1 * by_v3_2;
-                const float by_rotation_t_over_norm_s_2 = chosen * by_rotation_scale_2;
-                const float by_rotation_t_over_norm_s_near_2 = (near ? by_rotation_t_over_norm_s_2 : 0.0f);
-                const float by_rotation_t_2 = (product_6 - by_rotation_t * by_by_rotation_norm_s + (near ? 0.0f :
-                    by_rotation_t_over_norm_s_2)) / rotation_norm_s;
-                const float gap_15 = ratio_2 * gap_7 - 2.0f * (ratio_3 * by_by_rotation_norm_s) - by_rotation_t * ratio_4
-                    - rotation_t_ratio * by_rotation_t_2;
-                const float by_rotation_atan2_norm_s_abs_g0_2 = 2.0f * by_rotation_t_2;
-                const float ratio_5 = by_rotation_atan2_norm_s_abs_g0_2 / total_9;
-                const float product_7 = rotation_norm_s * ratio_5;
-                const float by_rotation_norm_s_2 = gap_15 + rotation_abs_g0 * ratio_5;
-                const float by_rotation_abs_g0_2 = gap_8 - product_7;
-                const float near_chosen_4 = (near ? by_rotation_t_over_norm_s_near_slope *
-                    rotation_t_over_norm_s_near_slope_slope + by_rotation_log_det_series_slope *
-                    rotation_log_det_series_slope_slope + rotation_log_det_series_slope * by_rotation_log_det_series_2 +
-                    rotation_t_over_norm_s_near_slope * by_rotation_t_over_norm_s_near_2 : 0.0f);
-                const float by_rotation_norm_s_squared_2 = by_rotation_log_det_near * by_by_rotation_log_det_series +
-                    rotation_log_det_series * by_rotation_log_det_near_2 + (near ? 0.0f : by_rotation_norm_s_2 / product_3
-                    - product_5) + 4.011440628672975f * near_chosen_4;
-                const float by_rotation_g0_2 = (is_small ? product_7 - gap_8 : by_rotation_abs_g0_2);
-                const float product_8 = 2.0f * by_rotation_norm_s_squared_2;
-                const float by_rotation_g3_2 = product_4 * by_by_rotation_g3 + by_v5 * by_by_rotation_scale +
-                    rotation_scale * by_v5_2 + rotation_g3 * product_8;
-                const float by_rotation_g2_2 = product_4 * by_by_rotation_g2 + by_v4 * by_by_rotation_scale +
-                    rotation_scale * by_v4_2 + rotation_g2 * product_8;
-                const float by_rotation_g1_2 = product_4 * by_by_rotation_g1 + by_v3 * by_by_rotation_scale +
-                    rotation_scale * by_v3_2 + rotation_g1 * product_8;
-                const float gap_16 = by_rotation_g0 * by_exponent_by_x6 + by_rotation_g1 * by_exponent_by_x5 -
-                    by_rotation_g2 * by_exponent_by_x4 - by_rotation_g3 * by_exponent_by_x3 - x_block[3][lane] *
-                    by_rotation_g3_2;
-                const float gap_17 = by_rotation_g0 * by_exponent_by_x4 - by_rotation_g1 * by_exponent_by_x3 +
-                    by_rotation_g2 * by_exponent_by_x6 - by_rotation_g3 * by_exponent_by_x5 - x_block[5][lane] *
-                    by_rotation_g3_2;
-                const float total_19 = by_rotation_g0 * by_exponent_by_x5 - by_rotation_g1 * by_exponent_by_x6 -
-                    by_rotation_g2 * by_exponent_by_x3 + by_rotation_g3 * by_exponent_by_x4 + x_block[4][lane] *
-                    by_rotation_g3_2;
-                const float total_20 = by_rotation_g0 * by_exponent_by_x3 + by_rotation_g1 * by_exponent_by_x4 +
-                    by_rotation_g2 * by_exponent_by_x5 + by_rotation_g3 * by_exponent_by_x6 + x_block[6][lane] *
-                    by_rotation_g3_2;
-                sum[0][lane] += -by_v0_2;
-                sum[1][lane] += -by_v1_2;
-                sum[2][lane] += -by_v2_2;
-                sum[3][lane] += total_20 + x_block[5][lane] * by_rotation_g2_2 + x_block[4][lane] * by_rotation_g1_2 + x_block[3][lane] * by_rotation_g0_2;
-                sum[4][lane] += gap_17 + x_block[6][lane] * by_rotation_g2_2 - x_block[3][lane] * by_rotation_g1_2 + x_block[4][lane] * by_rotation_g0_2;
-                sum[5][lane] += total_19 - x_block[3][lane] * by_rotation_g2_2 - x_block[6][lane] * by_rotation_g1_2 + x_block[5][lane] * by_rotation_g0_2;
-                sum[6][lane] += gap_16 - x_block[4][lane] * by_rotation_g2_2 + x_block[5][lane] * by_rotation_g1_2 + x_block[6][lane] * by_rotation_g0_2;
-                sum[7][lane] += v0 * by_z0 - z0 * by_by_v0;
-                sum[8][lane] += v1 * by_z0 - z0 * by_by_v1;
-                sum[9][lane] += v2 * by_z0 - z0 * by_by_v2;
-                sum[10][lane] += v3 * by_z0 - z0 * by_by_v3;
-                sum[11][lane] += v4 * by_z0 - z0 * by_by_v4;
-                sum[12][lane] += v5 * by_z0 - z0 * by_by_v5;
-                sum[13][lane] += v0 * by_z1 - z1 * by_by_v0;
-                sum[14][lane] += v1 * by_z1 - z1 * by_by_v1;
-                sum[15][lane] += v2 * by_z1 - z1 * by_by_v2;
-                sum[16][lane] += v3 * by_z1 - z1 * by_by_v3;
-                sum[17][lane] += v4 * by_z1 - z1 * by_by_v4;
-                sum[18][lane] += v5 * by_z1 - z1 * by_by_v5;
-                sum[19][lane] += v0 * by_z2 - z2 * by_by_v0;
-                sum[20][lane] += v1 * by_z2 - z2 * by_by_v1;
-                sum[21][lane] += v2 * by_z2 - z2 * by_by_v2;
-                sum[22][lane] += v3 * by_z2 - z2 * by_by_v3;
-                sum[23][lane] += v4 * by_z2 - z2 * by_by_v4;
-                sum[24][lane] += v5 * by_z2 - z2 * by_by_v5;
-                sum[25][lane] += v0 * by_z3 - z3 * by_by_v0;
-                sum[26][lane] += v1 * by_z3 - z3 * by_by_v1;
-                sum[27][lane] += v2 * by_z3 - z3 * by_by_v2;
-                sum[28][lane] += v3 * by_z3 - z3 * by_by_v3;
-                sum[29][lane] += v4 * by_z3 - z3 * by_by_v4;
-                sum[30][lane] += v5 * by_z3 - z3 * by_by_v5;
-                sum[31][lane] += v0 * by_z4 - z4 * by_by_v0;
-                sum[32][lane] += v1 * by_z4 - z4 * by_by_v1;
-                sum[33][lane] += v2 * by_z4 - z4 * by_by_v2;
-                sum[34][lane] += v3 * by_z4 - z4 * by_by_v3;
-                sum[35][lane] += v4 * by_z4 - z4 * by_by_v4;
-                sum[36][lane] += v5 * by_z4 - z4 * by_by_v5;
-                sum[37][lane] += v0 * by_z5 - z5 * by_by_v0;
-                sum[38][lane] += v1 * by_z5 - z5 * by_by_v1;
-                sum[39][lane] += v2 * by_z5 - z5 * by_by_v2;
-                sum[40][lane] += v3 * by_z5 - z5 * by_by_v3;
-                sum[41][lane] += v4 * by_z5 - z5 * by_by_v4;
-                sum[42][lane] += v5 * by_z5 - z5 * by_by_v5;
-                sum[43][lane] += exp_2 * by_phi;
+void se3_splats_value_f(
+    size_t count, size_t splat_count, const float *SE3_RESTRICT x, const float *SE3_RESTRICT mu, const float *SE3_RESTRICT W, const float *SE3_RESTRICT amplitude,
+    float *SE3_RESTRICT value, float *SE3_RESTRICT work, int threads) {
+    (void)threads;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES_f) {
+            vector_f at[7], X[2][7], value_sum[2][1] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows_f(x, count, start + b * LANES_f, 7, at);
+                pair_features_f(at, X[b]);
             }
-            for (size_t i = 0; i < 44; ++i)
-                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
-            mu_bar[7 * k + 0] += total[0];
-            mu_bar[7 * k + 1] += total[1];
-            mu_bar[7 * k + 2] += total[2];
-            mu_bar[7 * k + 3] += total[3];
-            mu_bar[7 * k + 4] += total[4];
-            mu_bar[7 * k + 5] += total[5];
-            mu_bar[7 * k + 6] += total[6];
-            W_bar[36 * k + 0] += total[7];
-            W_bar[36 * k + 1] += total[8];
-            W_bar[36 * k + 2] += total[9];
-            W_bar[36 * k + 3] += total[10];
-            W_bar[36 * k + 4] += total[11];
-            W_bar[36 * k + 5] += total[12];
-            W_bar[36 * k + 6] += total[13];
-            W_bar[36 * k + 7] += total[14];
-            W_bar[36 * k + 8] += total[15];
-            W_bar[36 * k + 9] += total[16];
-            W_bar[36 * k + 10] += total[17];
-            W_bar[36 * k + 11] += total[18];
-            W_bar[36 * k + 12] += total[19];
-            W_bar[36 * k + 13] += total[20];
-            W_bar[36 * k + 14] += total[21];
-            W_bar[36 * k + 15] += total[22];
-            W_bar[36 * k + 16] += total[23];
-            W_bar[36 * k + 17] += total[24];
-            W_bar[36 * k + 18] += total[25];
-            W_bar[36 * k + 19] += total[26];
-            W_bar[36 * k + 20] += total[27];
-            W_bar[36 * k + 21] += total[28];
-            W_bar[36 * k + 22] += total[29];
-            W_bar[36 * k + 23] += total[30];
-            W_bar[36 * k + 24] += total[31];
-            W_bar[36 * k + 25] += total[32];
-            W_bar[36 * k + 26] += total[33];
-            W_bar[36 * k + 27] += total[34];
-            W_bar[36 * k + 28] += total[35];
-            W_bar[36 * k + 29] += total[36];
-            W_bar[36 * k + 30] += total[37];
-            W_bar[36 * k + 31] += total[38];
-            W_bar[36 * k + 32] += total[39];
-            W_bar[36 * k + 33] += total[40];
-            W_bar[36 * k + 34] += total[41];
-            W_bar[36 * k + 35] += total[42];
-            amplitude_bar[1 * k + 0] += total[43];
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_value_f(X[0], constants + 50 * k, value_sum[0]);
+                pair_value_f(X[1], constants + 50 * k, value_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b)
+                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
+OUTLINE void splat_points_f(
+    size_t count, size_t start, const float *x, const float *value_bar, const float *gradient_bar, vector_f *point) {
+    vector_f at[7], grad_bar[6], slope_bar[7];
+    vector_rows_f(x, count, start, 7, at);
+    vector_rows_f(gradient_bar, count, start, 6, grad_bar);
+    vector_rows_f(value_bar, count, start, 1, point + 7);
+    pair_features_f(at, point);
+    pair_gradient_vjp_f(at, grad_bar, slope_bar);
+    for (int i = 0; i < 7; ++i) point[7 + 1 + i] = slope_bar[i];
+    vector_end_f(count, start, 7 + 1, point + 7);
+}
+
+/* Adds to S_bar what one vector of points adds to it. */
+INLINE void pair_backward_f(
+    const vector_f *point, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
+    vector_f factor[33];
+    pair_factors_f(point, S, value_bar, slope_bar, factor);
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_0_f(factor, point, sum);
+        S_bar[0] += sum[0];
+        S_bar[1] += sum[1];
+        S_bar[2] += sum[2];
+        S_bar[21] += sum[3];
+        S_bar[3] += sum[4];
+        S_bar[4] += sum[5];
+        S_bar[5] += sum[6];
+        S_bar[6] += sum[7];
+        S_bar[7] += sum[8];
+        S_bar[8] += sum[9];
+        S_bar[9] += sum[10];
+        S_bar[10] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_1_f(factor, point, sum);
+        S_bar[11] += sum[0];
+        S_bar[14] += sum[1];
+        S_bar[12] += sum[2];
+        S_bar[13] += sum[3];
+        S_bar[15] += sum[4];
+        S_bar[16] += sum[5];
+        S_bar[17] += sum[6];
+        S_bar[18] += sum[7];
+        S_bar[19] += sum[8];
+        S_bar[20] += sum[9];
+        S_bar[22] += sum[10];
+        S_bar[23] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_2_f(factor, point, sum);
+        S_bar[24] += sum[0];
+        S_bar[25] += sum[1];
+        S_bar[28] += sum[2];
+        S_bar[29] += sum[3];
+        S_bar[26] += sum[4];
+        S_bar[27] += sum[5];
+        S_bar[30] += sum[6];
+        S_bar[31] += sum[7];
+        S_bar[32] += sum[8];
+        S_bar[33] += sum[9];
+        S_bar[34] += sum[10];
+        S_bar[35] += sum[11];
+    }
+    {
+        vector_f sum[12] = {ZERO};
+        pair_products_3_f(factor, point, sum);
+        S_bar[36] += sum[0];
+        S_bar[37] += sum[1];
+        S_bar[40] += sum[2];
+        S_bar[41] += sum[3];
+        S_bar[38] += sum[4];
+        S_bar[39] += sum[5];
+        S_bar[42] += sum[6];
+        S_bar[43] += sum[7];
+        S_bar[44] += sum[8];
+        S_bar[45] += sum[9];
+        S_bar[46] += sum[10];
+        S_bar[47] += sum[11];
+    }
+    {
+        vector_f sum[2] = {ZERO};
+        pair_products_4_f(factor, point, sum);
+        S_bar[48] += sum[0];
+        S_bar[49] += sum[1];
+    }
+}
+
+/* Adds to S_bar what some vectors of points add to it: factors of 11 vectors at a time, then their products. */
+OUTLINE void splat_sums_f(const vector_f *point, size_t count, const float *S, float *S_bar) {
+    vector_f factor[11 * 33], total[50] = {ZERO};
+    for (size_t start = 0; start < count; start += 11, point += 11 * 15) {
+        const size_t size = count - start < 11 ? count - start : 11;
+        for (size_t b = 0; b < size; ++b) {
+            const vector_f *at = point + 15 * b;
+            pair_factors_f(at, S, at + 7, at + 7 + 1, factor + 33 * b);
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_0_f(factor + 33 * b, point + 15 * b, sum);
+            total[0] += sum[0];
+            total[1] += sum[1];
+            total[2] += sum[2];
+            total[21] += sum[3];
+            total[3] += sum[4];
+            total[4] += sum[5];
+            total[5] += sum[6];
+            total[6] += sum[7];
+            total[7] += sum[8];
+            total[8] += sum[9];
+            total[9] += sum[10];
+            total[10] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_1_f(factor + 33 * b, point + 15 * b, sum);
+            total[11] += sum[0];
+            total[14] += sum[1];
+            total[12] += sum[2];
+            total[13] += sum[3];
+            total[15] += sum[4];
+            total[16] += sum[5];
+            total[17] += sum[6];
+            total[18] += sum[7];
+            total[19] += sum[8];
+            total[20] += sum[9];
+            total[22] += sum[10];
+            total[23] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_2_f(factor + 33 * b, point + 15 * b, sum);
+            total[24] += sum[0];
+            total[25] += sum[1];
+            total[28] += sum[2];
+            total[29] += sum[3];
+            total[26] += sum[4];
+            total[27] += sum[5];
+            total[30] += sum[6];
+            total[31] += sum[7];
+            total[32] += sum[8];
+            total[33] += sum[9];
+            total[34] += sum[10];
+            total[35] += sum[11];
+        }
+        {
+            vector_f sum[12] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_3_f(factor + 33 * b, point + 15 * b, sum);
+            total[36] += sum[0];
+            total[37] += sum[1];
+            total[40] += sum[2];
+            total[41] += sum[3];
+            total[38] += sum[4];
+            total[39] += sum[5];
+            total[42] += sum[6];
+            total[43] += sum[7];
+            total[44] += sum[8];
+            total[45] += sum[9];
+            total[46] += sum[10];
+            total[47] += sum[11];
+        }
+        {
+            vector_f sum[2] = {ZERO};
+            for (size_t b = 0; b < size; ++b) pair_products_4_f(factor + 33 * b, point + 15 * b, sum);
+            total[48] += sum[0];
+            total[49] += sum[1];
         }
     }
-    restore_denormals(mode);
+    for (size_t i = 0; i < 50; ++i) S_bar[i] += vector_sum_f(total[i]);
+}
+
+/*
+ * Some splats at a time; the points pass over each of them, a chunk at a time, while its sums stay in registers. How many
+ * splats depends on the threads, what is summed in which order does not.
+ */
+void se3_splats_vjp_f(
+    size_t count, size_t splat_count, const float *SE3_RESTRICT x, const float *SE3_RESTRICT mu, const float *SE3_RESTRICT W, const float *SE3_RESTRICT amplitude, const float *SE3_RESTRICT value_bar, const float *SE3_RESTRICT gradient_bar,
+    float *SE3_RESTRICT mu_bar, float *SE3_RESTRICT W_bar, float *SE3_RESTRICT amplitude_bar, float *SE3_RESTRICT work, int threads) {
+    const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    const size_t chunk = 131072 / (15 * sizeof(vector_f)) + 1;
+    const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
+    const size_t share = part < LANES_f ? part : LANES_f;
+    vector_f *points = work_points_f(work);
+    float *constants = work_constants_f(work, count);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic) nowait)
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic, 8))
+        for (size_t block = 0; block < blocks; ++block)
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 15 * block);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += share) {
+            const size_t end = start + share < splat_count ? start + share : splat_count;
+            float sums[LANES_f][50] = {{0}};
+            vector_f own_mu[7], own_W[36], own_amplitude[1], S_bar[50], bars[44];
+            for (size_t first = 0; first < blocks; first += chunk) {
+                const size_t size = first + chunk < blocks ? chunk : blocks - first;
+                for (size_t k = start; k < end; ++k)
+                    splat_sums_f(points + 15 * first, size, constants + 50 * k, sums[k - start]);
+            }
+            vector_rows_f(mu, end, start, 7, own_mu);
+            vector_rows_f(W, end, start, 36, own_W);
+            vector_rows_f(amplitude, end, start, 1, own_amplitude);
+            vector_rows_f(sums[0], LANES_f, 0, 50, S_bar);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 7, bars + 7 + 36);
+            vector_to_rows_f(bars, mu_bar, end, start, 7, 7);
+            vector_to_rows_f(bars + 7, W_bar, end, start, 36, 36);
+            vector_to_rows_f(bars + 7 + 36, amplitude_bar, end, start, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* Nothing is summed: the adjoints of a splat's constants go on to its parameters for every point. */
+void se3_splats_rows_f(
+    size_t count, size_t splat_count, const float *SE3_RESTRICT x, const float *SE3_RESTRICT mu, const float *SE3_RESTRICT W, const float *SE3_RESTRICT amplitude, const float *SE3_RESTRICT value_bar, const float *SE3_RESTRICT gradient_bar,
+    float *SE3_RESTRICT rows, float *SE3_RESTRICT work, int threads) {
+    (void)threads;
+    const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t block = 0; block < blocks; ++block) {
+            vector_f point[15];
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
+            for (size_t k = 0; k < splat_count; ++k) {
+                vector_f own_mu[7], own_W[36], own_amplitude[1], S_bar[50] = {ZERO}, bars[44];
+                for (int i = 0; i < 7; ++i) own_mu[i] = vector_of_f(mu[7 * k + i]);
+                for (int i = 0; i < 36; ++i) own_W[i] = vector_of_f(W[36 * k + i]);
+                own_amplitude[0] = vector_of_f(amplitude[k]);
+                pair_backward_f(point, constants + 50 * k, point + 7, point + 7 + 1, S_bar);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 7, bars + 7 + 36);
+                vector_to_rows_f(bars, rows + 44 * k, count, block * LANES_f, 44, 44 * splat_count);
+            }
+        }
+        restore_denormals(mode);
+    }
 }

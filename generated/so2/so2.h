@@ -297,51 +297,42 @@ void so2_splat_batch_f(
 void so2_frame(const double *SO2_RESTRICT p, double *SO2_RESTRICT frame);
 void so2_frame_f(const float *SO2_RESTRICT p, float *SO2_RESTRICT frame);
 
+/* How many numbers of scratch memory the functions below need, for these sizes or smaller ones. */
+size_t so2_splats_work(size_t count, size_t splat_count, int threads);
+size_t so2_splats_work_f(size_t count, size_t splat_count, int threads);
+
 /* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
 void so2_splats(
-    size_t count,
-    size_t splat_count,
-    const double *SO2_RESTRICT x,
-    const double *SO2_RESTRICT mu,
-    const double *SO2_RESTRICT W,
-    const double *SO2_RESTRICT amplitude,
-    double *SO2_RESTRICT value,
-    double *SO2_RESTRICT gradient);
+    size_t count, size_t splat_count, const double *SO2_RESTRICT x, const double *SO2_RESTRICT mu, const double *SO2_RESTRICT W, const double *SO2_RESTRICT amplitude,
+    double *SO2_RESTRICT value, double *SO2_RESTRICT gradient, double *SO2_RESTRICT work, int threads);
 void so2_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *SO2_RESTRICT x,
-    const float *SO2_RESTRICT mu,
-    const float *SO2_RESTRICT W,
-    const float *SO2_RESTRICT amplitude,
-    float *SO2_RESTRICT value,
-    float *SO2_RESTRICT gradient);
+    size_t count, size_t splat_count, const float *SO2_RESTRICT x, const float *SO2_RESTRICT mu, const float *SO2_RESTRICT W, const float *SO2_RESTRICT amplitude,
+    float *SO2_RESTRICT value, float *SO2_RESTRICT gradient, float *SO2_RESTRICT work, int threads);
+
+/* The values of the sums alone. */
+void so2_splats_value(
+    size_t count, size_t splat_count, const double *SO2_RESTRICT x, const double *SO2_RESTRICT mu, const double *SO2_RESTRICT W, const double *SO2_RESTRICT amplitude,
+    double *SO2_RESTRICT value, double *SO2_RESTRICT work, int threads);
+void so2_splats_value_f(
+    size_t count, size_t splat_count, const float *SO2_RESTRICT x, const float *SO2_RESTRICT mu, const float *SO2_RESTRICT W, const float *SO2_RESTRICT amplitude,
+    float *SO2_RESTRICT value, float *SO2_RESTRICT work, int threads);
 
 /* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
 void so2_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *SO2_RESTRICT x,
-    const double *SO2_RESTRICT mu,
-    const double *SO2_RESTRICT W,
-    const double *SO2_RESTRICT amplitude,
-    const double *SO2_RESTRICT value_bar,
-    const double *SO2_RESTRICT gradient_bar,
-    double *SO2_RESTRICT mu_bar,
-    double *SO2_RESTRICT W_bar,
-    double *SO2_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const double *SO2_RESTRICT x, const double *SO2_RESTRICT mu, const double *SO2_RESTRICT W, const double *SO2_RESTRICT amplitude, const double *SO2_RESTRICT value_bar, const double *SO2_RESTRICT gradient_bar,
+    double *SO2_RESTRICT mu_bar, double *SO2_RESTRICT W_bar, double *SO2_RESTRICT amplitude_bar, double *SO2_RESTRICT work, int threads);
 void so2_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *SO2_RESTRICT x,
-    const float *SO2_RESTRICT mu,
-    const float *SO2_RESTRICT W,
-    const float *SO2_RESTRICT amplitude,
-    const float *SO2_RESTRICT value_bar,
-    const float *SO2_RESTRICT gradient_bar,
-    float *SO2_RESTRICT mu_bar,
-    float *SO2_RESTRICT W_bar,
-    float *SO2_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const float *SO2_RESTRICT x, const float *SO2_RESTRICT mu, const float *SO2_RESTRICT W, const float *SO2_RESTRICT amplitude, const float *SO2_RESTRICT value_bar, const float *SO2_RESTRICT gradient_bar,
+    float *SO2_RESTRICT mu_bar, float *SO2_RESTRICT W_bar, float *SO2_RESTRICT amplitude_bar, float *SO2_RESTRICT work, int threads);
+
+/* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +
+ * gradient_n . gradient_bar_n in its mu, W and amplitude, in this order. */
+void so2_splats_rows(
+    size_t count, size_t splat_count, const double *SO2_RESTRICT x, const double *SO2_RESTRICT mu, const double *SO2_RESTRICT W, const double *SO2_RESTRICT amplitude, const double *SO2_RESTRICT value_bar, const double *SO2_RESTRICT gradient_bar,
+    double *SO2_RESTRICT rows, double *SO2_RESTRICT work, int threads);
+void so2_splats_rows_f(
+    size_t count, size_t splat_count, const float *SO2_RESTRICT x, const float *SO2_RESTRICT mu, const float *SO2_RESTRICT W, const float *SO2_RESTRICT amplitude, const float *SO2_RESTRICT value_bar, const float *SO2_RESTRICT gradient_bar,
+    float *SO2_RESTRICT rows, float *SO2_RESTRICT work, int threads);
 
 #ifdef __cplusplus
 }

@@ -7,833 +7,1406 @@
 #include "so3.h"
 
 #include <float.h>
+#include <stdint.h>
+#include <string.h>
 
-#define LANES 64
+/*
+ * A vector is as wide as the machine's registers, or one number where the compiler has no vectors (or is asked for none
+ * by -DRSRM_NO_VECTORS). Comparisons of vectors are masks; `vector_select` is the ?: of vectors.
+ */
+#if defined(__GNUC__) && !defined(RSRM_NO_VECTORS)
+#if defined(__AVX512F__)
+#define VECTOR_BYTES 64
+#elif defined(__AVX__)
+#define VECTOR_BYTES 32
+#else
+#define VECTOR_BYTES 16
+#endif
+#define LANE(vector, i) (vector)[i]
+#define ZERO {0}
+#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
+typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
+typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
+typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
+typedef int32_t vector_mask_f __attribute__((vector_size(VECTOR_BYTES)));
+typedef uint64_t vector_bits __attribute__((vector_size(VECTOR_BYTES)));
+typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
+#else
+#define LANE(vector, i) (vector)
+#define ZERO 0
+#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
+typedef double vector;
+typedef float vector_f;
+typedef int64_t vector_mask;
+typedef int32_t vector_mask_f;
+typedef uint64_t vector_bits;
+typedef uint32_t vector_bits_f;
+#endif
+#if defined(__GNUC__)
+#define INLINE static inline __attribute__((always_inline, unused))
+#define OUTLINE static __attribute__((noinline))
+#else
+#define INLINE static inline
+#define OUTLINE static
+#endif
+#define LANES (sizeof(vector) / sizeof(double))
+#define LANES_f (sizeof(vector_f) / sizeof(float))
+
+/* Threads, where the compiler has OpenMP. */
+#if defined(_OPENMP)
+#define OMP(directive) _Pragma(#directive)
+#else
+#define OMP(directive)
+#endif
 
 /* Denormal numbers count as zero while the sums run: far splats are many, and slow. */
 #if defined(__SSE2__)
 #include <xmmintrin.h>
-static unsigned flush_denormals(void) {
+INLINE uint64_t flush_denormals(void) {
     const unsigned mode = _mm_getcsr();
     _mm_setcsr(mode | 0x8040u);
     return mode;
 }
-static void restore_denormals(unsigned mode) { _mm_setcsr(mode); }
+INLINE void restore_denormals(uint64_t mode) { _mm_setcsr((unsigned)mode); }
+#elif defined(__aarch64__) && defined(__GNUC__)
+INLINE uint64_t flush_denormals(void) {
+    uint64_t mode;
+    __asm__ __volatile__("mrs %0, fpcr" : "=r"(mode));
+    __asm__ __volatile__("msr fpcr, %0" : : "r"(mode | (UINT64_C(1) << 24)));
+    return mode;
+}
+INLINE void restore_denormals(uint64_t mode) { __asm__ __volatile__("msr fpcr, %0" : : "r"(mode)); }
 #else
-static unsigned flush_denormals(void) { return 0; }
-static void restore_denormals(unsigned mode) { (void)mode; }
+INLINE uint64_t flush_denormals(void) { return 0; }
+INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
 
-/* Of degree 13 on [0, 1], its relative error below 2^-56. */
-static inline double polynomial_t_over_norm_s_near(double x) {
-    return 2.0 + x * (0.08309566666666784 + x * (0.009321601255279904 + x * (0.0013831869136529075 + x *
-        (0.00023466269139487824 + x * (4.307622244387224e-05 + x * (8.328318196009972e-06 + x *
-        (1.6734198264338605e-06 + x * (3.3892571731146964e-07 + x * (8.160810786979752e-08 + x *
-        (5.559604423994873e-09 + x * (1.0797473542320039e-08 + x * (-2.6805393136717492e-09 + x *
-        9.765079763039615e-10))))))))))));
+/* The same number in all lanes. */
+INLINE vector vector_of(double x) {
+    const vector zero = ZERO;
+    return x - zero;
 }
 
-/* Of degree 13 on [0, 1], its relative error below 2^-56. */
-static inline double polynomial_log_det_series(double x) {
-    return 0.3333333333333333 + x * (0.030468411111111815 + x * (0.004186774461502485 + x *
-        (0.0006822355998616309 + x * (0.0001221617222686508 + x * (2.3226222426586787e-05 + x *
-        (4.602679660683086e-06 + x * (9.419944287901338e-07 + x * (1.9330673844597264e-07 + x *
-        (4.732354384237477e-08 + x * (3.0572329018458638e-09 + x * (6.43891495522262e-09 + x *
-        (-1.6163842503256483e-09 + x * 5.84780397346594e-10))))))))))));
+/* x in the lanes of the mask, y in the others. */
+INLINE vector vector_select(vector_mask mask, vector x, vector y) {
+    return SELECT(vector, vector_mask, mask, x, y);
 }
 
-/* Of degree 12 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_log_det_series_slope(double x) {
-    return 0.030468411111111815 + x * (0.00837354892300497 + x * (0.002046706799584893 + x *
-        (0.0004886468890746032 + x * (0.00011613111213293394 + x * (2.7616077964098513e-05 + x *
-        (6.5939610015309365e-06 + x * (1.5464539075677811e-06 + x * (4.2591189458137294e-07 + x *
-        (3.057232901845864e-08 + x * (7.082806450744882e-08 + x * (-1.939661100390778e-08 + x *
-        7.602145165505722e-09)))))))))));
+/* Numbers in memory to a vector, and back. */
+INLINE vector vector_load(const double *from) {
+    vector x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+INLINE void vector_store(double *to, vector x) { memcpy(to, &x, sizeof x); }
+
+/* The sum over the lanes, by halves. */
+INLINE double vector_sum(vector x) {
+    double lanes[LANES];
+    vector_store(lanes, x);
+    for (size_t half = LANES / 2; half > 0; half /= 2)
+        for (size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    return lanes[0];
 }
 
-/* Of degree 12 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_t_over_norm_s_near_slope(double x) {
-    return 0.08309566666666784 + x * (0.018643202510559807 + x * (0.004149560740958722 + x *
-        (0.0009386507655795129 + x * (0.0002153811122193612 + x * (4.996990917605983e-05 + x *
-        (1.1713938785037024e-05 + x * (2.711405738491757e-06 + x * (7.344729708281776e-07 + x *
-        (5.559604423994873e-08 + x * (1.1877220896552043e-07 + x * (-3.2166471764060994e-08 + x *
-        1.2694603691951498e-08)))))))))));
+/* The bits of a vector as integers, and back. */
+INLINE vector_bits vector_to_bits(vector x) {
+    vector_bits bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+INLINE vector vector_from_bits(vector_bits bits) {
+    vector x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
 }
 
-/* Of degree 11 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_t_over_norm_s_near_slope_slope(double x) {
-    return 0.018643202510559807 + x * (0.008299121481917445 + x * (0.0028159522967385387 + x *
-        (0.0008615244488774448 + x * (0.00024984954588029915 + x * (7.028363271022215e-05 + x *
-        (1.89798401694423e-05 + x * (5.875783766625421e-06 + x * (5.003643981595386e-07 + x *
-        (1.1877220896552042e-06 + x * (-3.538311894046709e-07 + x * 1.5233524430341798e-07))))))))));
+/* abs of every lane; one instruction where the machine has it. */
+INLINE vector vector_abs(vector x) {
+    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
+    return x;
 }
 
-/* Of degree 11 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_log_det_series_slope_slope(double x) {
-    return 0.00837354892300497 + x * (0.004093413599169786 + x * (0.0014659406672238098 + x *
-        (0.00046452444853173575 + x * (0.00013808038982049257 + x * (3.956376600918562e-05 + x *
-        (1.0825177352974468e-05 + x * (3.4072951566509835e-06 + x * (2.7515096116612774e-07 + x *
-        (7.082806450744882e-07 + x * (-2.1336272104298557e-07 + x * 9.122574198606865e-08))))))))));
+/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
+INLINE vector vector_exp(vector x) {
+    const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
+    const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
+    const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
+    const vector scale = vector_from_bits((vector_to_bits(shifted) + 1022) << 52); /* 2^(k - 1) */
+    const vector y = vector_select(x > 709.782712893384, vector_of(HUGE_VAL), (scale + scale * part) * 2);
+    return vector_select(x < -707.9, vector_of(0), y);
 }
 
+/* Of degree 22 on [0, 1], its relative error below 2^-56. */
+INLINE vector vector_polynomial_eta(vector x) {
+    return -0.3333333333333333 + x * (-0.15555555555555417 + x * (-0.0751322751325185 + x *
+        (-0.03675485007122077 + x * (-0.018096307611278978 + x * (-0.008943374809421614 + x *
+        (-0.004430925385329046 + x * (-0.0021964703384272457 + x * (-0.0011104899422210344 + x *
+        (-0.00043588704846449504 + x * (-0.0007657550487225839 + x * (0.0016571322482715526 + x *
+        (-0.005201036361742151 + x * (0.011686077913434692 + x * (-0.021370123691407478 + x *
+        (0.030980832139913622 + x * (-0.03558600284661443 + x * (0.0319201664739325 + x *
+        (-0.021918764490751072 + x * (0.011133610751913487 + x * (-0.003950943563875907 + x *
+        (0.0008768185204850178 + x * -9.231518464940076e-05)))))))))))))))))))));
+}
+
+/* Of degree 24 on [0, 1], the derivative of a polynomial. */
+INLINE vector vector_polynomial_eta_slope(vector x) {
+    return 0.15555555555555556 + x * (0.15026455026454938 + x * (0.11026455026473153 + x *
+        (0.07238522792583003 + x * (0.044716945477134895 + x * (0.026584251371183424 + x *
+        (0.015391620467330733 + x * (0.008735778127899076 + x * (0.0049282202879051655 + x *
+        (0.0024267420372403327 + x * (0.0030390346356601126 + x * (-0.006123591852401879 + x *
+        (0.025102822589180937 + x * (-0.07064869504587278 + x * (0.16530578140602667 + x *
+        (-0.31271015508815947 + x * (0.4807082529660211 + x * (-0.5967654210780935 + x * (0.5934034512823599 +
+        x * (-0.46583818796288984 + x * (0.2823845184351827 + x * (-0.12759583319351508 + x *
+        (0.04051757743528327 + x * (-0.008083579736595401 + x * 0.0007658488591020234)))))))))))))))))))))));
+}
+
+/* What pairs read of points x. */
+OUTLINE void pair_features(
+    const vector *x, vector *X) {
+    const vector x0 = x[0];
+    const vector x1 = x[1];
+    const vector x2 = x[2];
+    const vector x3 = x[3];
+    const vector h0 = 0.5 * x0;
+    const vector h1 = 0.5 * x1;
+    const vector h2 = 0.5 * x2;
+    const vector h3 = 0.5 * x3;
+    X[0] = h0;
+    X[1] = h1;
+    X[2] = h2;
+    X[3] = h3;
+}
+
+/* What pairs read of a splat, of some splats. */
+OUTLINE void pair_constants(
+    const vector *mu, const vector *W, const vector *amplitude, vector *S) {
+    const vector mu0 = mu[0];
+    const vector mu1 = mu[1];
+    const vector mu2 = mu[2];
+    const vector mu3 = mu[3];
+    const vector W0_0 = W[0];
+    const vector W0_1 = W[1];
+    const vector W0_2 = W[2];
+    const vector W1_0 = W[3];
+    const vector W1_1 = W[4];
+    const vector W1_2 = W[5];
+    const vector W2_0 = W[6];
+    const vector W2_1 = W[7];
+    const vector W2_2 = W[8];
+    const vector its_amplitude = amplitude[0];
+    const vector M0 = 2.0 * mu0;
+    const vector M1 = 2.0 * mu1;
+    const vector M2 = 2.0 * mu2;
+    const vector M3 = 2.0 * mu3;
+    const vector R0_0 = 1.4142135623730951 * (-(W0_0 * M1) - W0_1 * M2 - W0_2 * M3);
+    const vector R0_1 = 1.4142135623730951 * (W0_0 * M0 - W0_1 * M3 + W0_2 * M2);
+    const vector R0_2 = 1.4142135623730951 * (W0_0 * M3 + W0_1 * M0 - W0_2 * M1);
+    const vector R0_3 = 1.4142135623730951 * (W0_1 * M1 - W0_0 * M2 + W0_2 * M0);
+    const vector R1_0 = 1.4142135623730951 * (-(W1_0 * M1) - W1_1 * M2 - W1_2 * M3);
+    const vector R1_1 = 1.4142135623730951 * (W1_0 * M0 - W1_1 * M3 + W1_2 * M2);
+    const vector R1_2 = 1.4142135623730951 * (W1_0 * M3 + W1_1 * M0 - W1_2 * M1);
+    const vector R1_3 = 1.4142135623730951 * (W1_1 * M1 - W1_0 * M2 + W1_2 * M0);
+    const vector R2_0 = 1.4142135623730951 * (-(W2_0 * M1) - W2_1 * M2 - W2_2 * M3);
+    const vector R2_1 = 1.4142135623730951 * (W2_0 * M0 - W2_1 * M3 + W2_2 * M2);
+    const vector R2_2 = 1.4142135623730951 * (W2_0 * M3 + W2_1 * M0 - W2_2 * M1);
+    const vector R2_3 = 1.4142135623730951 * (W2_1 * M1 - W2_0 * M2 + W2_2 * M0);
+    S[0] = its_amplitude;
+    S[1] = M0;
+    S[2] = M1;
+    S[3] = M2;
+    S[4] = M3;
+    S[5] = R0_0;
+    S[6] = R0_1;
+    S[7] = R0_2;
+    S[8] = R0_3;
+    S[9] = R1_0;
+    S[10] = R1_1;
+    S[11] = R1_2;
+    S[12] = R1_3;
+    S[13] = R2_0;
+    S[14] = R2_1;
+    S[15] = R2_2;
+    S[16] = R2_3;
+}
+
+/* Adds the values phi of a splat at some points. */
+INLINE void pair_value(
+    const vector *X, const double *S, vector *value) {
+    const vector h0 = X[0];
+    const vector h1 = X[1];
+    const vector h2 = X[2];
+    const vector h3 = X[3];
+    const double amplitude = S[0];
+    const double M0 = S[1];
+    const double M1 = S[2];
+    const double M2 = S[3];
+    const double M3 = S[4];
+    const double R0_0 = S[5];
+    const double R0_1 = S[6];
+    const double R0_2 = S[7];
+    const double R0_3 = S[8];
+    const double R1_0 = S[9];
+    const double R1_1 = S[10];
+    const double R1_2 = S[11];
+    const double R1_3 = S[12];
+    const double R2_0 = S[13];
+    const double R2_1 = S[14];
+    const double R2_2 = S[15];
+    const double R2_3 = S[16];
+    const vector w = vector_abs(h0 * M0 + h1 * M1 + h2 * M2 + h3 * M3);
+    const vector eta = vector_polynomial_eta(1.0 - w);
+    const vector a = 1.0 / (w - eta * (1.0 - w * w));
+    const vector a_squared = a * a;
+    const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3;
+    const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3;
+    const vector r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3;
+    const vector half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
+    const vector gaussian = vector_exp(-half_square);
+    value[0] = value[0] + amplitude * (a * (a * gaussian));
+}
+
+/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+INLINE void pair_forward(
+    const vector *X, const double *S, vector *value, vector *slope) {
+    const vector h0 = X[0];
+    const vector h1 = X[1];
+    const vector h2 = X[2];
+    const vector h3 = X[3];
+    const double amplitude = S[0];
+    const double M0 = S[1];
+    const double M1 = S[2];
+    const double M2 = S[3];
+    const double M3 = S[4];
+    const double R0_0 = S[5];
+    const double R0_1 = S[6];
+    const double R0_2 = S[7];
+    const double R0_3 = S[8];
+    const double R1_0 = S[9];
+    const double R1_1 = S[10];
+    const double R1_2 = S[11];
+    const double R1_3 = S[12];
+    const double R2_0 = S[13];
+    const double R2_1 = S[14];
+    const double R2_2 = S[15];
+    const double R2_3 = S[16];
+    const vector total_2 = h0 * M0 + h1 * M1 + h2 * M2 + h3 * M3;
+    const vector w = vector_abs(total_2);
+    const vector eta = vector_polynomial_eta(1.0 - w);
+    const vector a = 1.0 / (w - eta * (1.0 - w * w));
+    const vector a_squared = a * a;
+    const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3;
+    const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3;
+    const vector r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3;
+    const vector half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
+    const vector gaussian = vector_exp(-half_square);
+    const vector phi = amplitude * (a * (a * gaussian));
+    const vector product = 2.0 * (phi * a_squared);
+    const vector r2_product = r2 * product;
+    const vector r1_product = r1 * product;
+    const vector r0_product = r0 * product;
+    const vector by_w = eta * (2.0 * phi - phi * (2.0 * half_square));
+    const vector by_w_chosen = vector_select(total_2 < 0.0, -by_w, by_w);
+    value[0] = value[0] + phi;
+    slope[0] = slope[0] - R2_0 * r2_product - R1_0 * r1_product - R0_0 * r0_product + M0 * by_w_chosen;
+    slope[1] = slope[1] - R2_1 * r2_product - R1_1 * r1_product - R0_1 * r0_product + M1 * by_w_chosen;
+    slope[2] = slope[2] - R2_2 * r2_product - R1_2 * r1_product - R0_2 * r0_product + M2 * by_w_chosen;
+    slope[3] = slope[3] - R2_3 * r2_product - R1_3 * r1_product - R0_3 * r0_product + M3 * by_w_chosen;
+}
+
+/* The Riemannian gradient at some points, of the sums of slopes. */
+OUTLINE void pair_gradient(
+    const vector *x, const vector *slope, vector *gradient) {
+    const vector x0 = x[0];
+    const vector x1 = x[1];
+    const vector x2 = x[2];
+    const vector x3 = x[3];
+    const vector slope_h0 = slope[0];
+    const vector slope_h1 = slope[1];
+    const vector slope_h2 = slope[2];
+    const vector slope_h3 = slope[3];
+    const vector product = 0.25 * slope_h1;
+    const vector product_2 = 0.25 * slope_h2;
+    const vector product_3 = 0.25 * slope_h0;
+    const vector product_4 = 0.25 * slope_h3;
+    gradient[0] = x0 * product + x3 * product_2 - x1 * product_3 - x2 * product_4;
+    gradient[1] = x0 * product_2 + x1 * product_4 - x2 * product_3 - x3 * product;
+    gradient[2] = x2 * product + x0 * product_4 - x3 * product_3 - x1 * product_2;
+}
+
+/* The adjoint of slope at some points, of that of the gradient. */
+OUTLINE void pair_gradient_vjp(
+    const vector *x, const vector *gradient_bar, vector *slope_bar) {
+    const vector x0 = x[0];
+    const vector x1 = x[1];
+    const vector x2 = x[2];
+    const vector x3 = x[3];
+    const vector gradient_bar0 = gradient_bar[0];
+    const vector gradient_bar1 = gradient_bar[1];
+    const vector gradient_bar2 = gradient_bar[2];
+    const vector product = 0.25 * (-(x3 * gradient_bar2) - x2 * gradient_bar1 - x1 * gradient_bar0);
+    slope_bar[0] = product;
+    slope_bar[1] = 0.25 * (x2 * gradient_bar2 - x3 * gradient_bar1 + x0 * gradient_bar0);
+    slope_bar[2] = 0.25 * (x0 * gradient_bar1 - x1 * gradient_bar2 + x3 * gradient_bar0);
+    slope_bar[3] = 0.25 * (x0 * gradient_bar2 + x1 * gradient_bar1 - x2 * gradient_bar0);
+}
+
+/* The adjoints of some splats' parameters, of that of S. */
+OUTLINE void pair_constants_vjp(
+    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
+    (void)amplitude;
+    const vector mu0 = mu[0];
+    const vector mu1 = mu[1];
+    const vector mu2 = mu[2];
+    const vector mu3 = mu[3];
+    const vector W0_0 = W[0];
+    const vector W0_1 = W[1];
+    const vector W0_2 = W[2];
+    const vector W1_0 = W[3];
+    const vector W1_1 = W[4];
+    const vector W1_2 = W[5];
+    const vector W2_0 = W[6];
+    const vector W2_1 = W[7];
+    const vector W2_2 = W[8];
+    const vector its_amplitude_bar = S_bar[0];
+    const vector M0_bar = S_bar[1];
+    const vector M1_bar = S_bar[2];
+    const vector M2_bar = S_bar[3];
+    const vector M3_bar = S_bar[4];
+    const vector R0_0_bar = S_bar[5];
+    const vector R0_1_bar = S_bar[6];
+    const vector R0_2_bar = S_bar[7];
+    const vector R0_3_bar = S_bar[8];
+    const vector R1_0_bar = S_bar[9];
+    const vector R1_1_bar = S_bar[10];
+    const vector R1_2_bar = S_bar[11];
+    const vector R1_3_bar = S_bar[12];
+    const vector R2_0_bar = S_bar[13];
+    const vector R2_1_bar = S_bar[14];
+    const vector R2_2_bar = S_bar[15];
+    const vector R2_3_bar = S_bar[16];
+    const vector product = 1.4142135623730951 * R0_1_bar;
+    const vector product_2 = 1.4142135623730951 * R0_2_bar;
+    const vector product_3 = 1.4142135623730951 * R0_3_bar;
+    const vector product_4 = 1.4142135623730951 * R1_1_bar;
+    const vector total_2 = M0_bar + W0_0 * product + W0_1 * product_2 + W0_2 * product_3 + W1_0 * product_4;
+    const vector product_5 = 1.4142135623730951 * R1_2_bar;
+    const vector product_6 = 1.4142135623730951 * R1_3_bar;
+    const vector product_7 = 1.4142135623730951 * R2_1_bar;
+    const vector product_8 = 1.4142135623730951 * R2_2_bar;
+    const vector total_3 = total_2 + W1_1 * product_5 + W1_2 * product_6 + W2_0 * product_7 + W2_1 *
+        product_8;
+    const vector product_9 = 1.4142135623730951 * R2_3_bar;
+    const vector by_M0 = total_3 + W2_2 * product_9;
+    const vector product_10 = 1.4142135623730951 * R0_0_bar;
+    const vector product_11 = 1.4142135623730951 * R1_0_bar;
+    const vector gap = M1_bar - W0_0 * product_10 - W0_2 * product_2 + W0_1 * product_3 - W1_0 * product_11;
+    const vector product_12 = 1.4142135623730951 * R2_0_bar;
+    const vector gap_2 = gap - W1_2 * product_5 + W1_1 * product_6 - W2_0 * product_12 - W2_2 * product_8;
+    const vector by_M1 = gap_2 + W2_1 * product_9;
+    const vector gap_3 = M2_bar - W0_1 * product_10 + W0_2 * product - W0_0 * product_3 - W1_1 * product_11;
+    const vector total_4 = gap_3 + W1_2 * product_4 - W1_0 * product_6 - W2_1 * product_12 + W2_2 * product_7;
+    const vector by_M2 = total_4 - W2_0 * product_9;
+    const vector gap_4 = M3_bar - W0_2 * product_10 - W0_1 * product + W0_0 * product_2 - W1_2 * product_11;
+    const vector gap_5 = gap_4 - W1_1 * product_4 + W1_0 * product_5 - W2_2 * product_12 - W2_1 * product_7;
+    const vector by_M3 = gap_5 + W2_0 * product_8;
+    const vector M0 = 2.0 * mu0;
+    const vector M1 = 2.0 * mu1;
+    const vector M3 = 2.0 * mu3;
+    const vector M2 = 2.0 * mu2;
+    const vector total_5 = -(M2 * product_10) - M3 * product + M0 * product_2 + M1 * product_3;
+    const vector total_6 = -(M2 * product_11) - M3 * product_4 + M0 * product_5 + M1 * product_6;
+    const vector total_7 = -(M2 * product_12) - M3 * product_7 + M0 * product_8 + M1 * product_9;
+    mu_bar[0] = 2.0 * by_M0;
+    mu_bar[1] = 2.0 * by_M1;
+    mu_bar[2] = 2.0 * by_M2;
+    mu_bar[3] = 2.0 * by_M3;
+    W_bar[0] = M0 * product - M1 * product_10 + M3 * product_2 - M2 * product_3;
+    W_bar[1] = total_5;
+    W_bar[2] = M2 * product - M3 * product_10 - M1 * product_2 + M0 * product_3;
+    W_bar[3] = M0 * product_4 - M1 * product_11 + M3 * product_5 - M2 * product_6;
+    W_bar[4] = total_6;
+    W_bar[5] = M2 * product_4 - M3 * product_11 - M1 * product_5 + M0 * product_6;
+    W_bar[6] = M0 * product_7 - M1 * product_12 + M3 * product_8 - M2 * product_9;
+    W_bar[7] = total_7;
+    W_bar[8] = M2 * product_7 - M3 * product_12 - M1 * product_8 + M0 * product_9;
+    amplitude_bar[0] = its_amplitude_bar;
+}
+
+/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+INLINE void pair_backward(
+    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
+    const vector h0 = X[0];
+    const vector h1 = X[1];
+    const vector h2 = X[2];
+    const vector h3 = X[3];
+    const double amplitude = S[0];
+    const double M0 = S[1];
+    const double M1 = S[2];
+    const double M2 = S[3];
+    const double M3 = S[4];
+    const double R0_0 = S[5];
+    const double R0_1 = S[6];
+    const double R0_2 = S[7];
+    const double R0_3 = S[8];
+    const double R1_0 = S[9];
+    const double R1_1 = S[10];
+    const double R1_2 = S[11];
+    const double R1_3 = S[12];
+    const double R2_0 = S[13];
+    const double R2_1 = S[14];
+    const double R2_2 = S[15];
+    const double R2_3 = S[16];
+    const vector its_value_bar = value_bar[0];
+    const vector h0_bar = slope_bar[0];
+    const vector h1_bar = slope_bar[1];
+    const vector h2_bar = slope_bar[2];
+    const vector h3_bar = slope_bar[3];
+    const vector total_2 = h0 * M0 + h1 * M1 + h2 * M2 + h3 * M3;
+    const vector w = vector_abs(total_2);
+    const vector w_gap = 1.0 - w;
+    const vector eta = vector_polynomial_eta(w_gap);
+    const vector a = 1.0 / (w - eta * (1.0 - w * w));
+    const vector a_squared = a * a;
+    const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3;
+    const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3;
+    const vector r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3;
+    const vector half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
+    const vector gaussian = vector_exp(-half_square);
+    const vector a_product = a * (a * gaussian);
+    const vector gap = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar - R0_3 * h3_bar;
+    const vector gap_2 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar - R1_3 * h3_bar;
+    const vector gap_3 = -(R2_0 * h0_bar) - R2_1 * h1_bar - R2_2 * h2_bar - R2_3 * h3_bar;
+    const vector product = 2.0 * (r0 * gap + r1 * gap_2 + r2 * gap_3);
+    const vector half_square_product = 2.0 * half_square;
+    const vector_mask is_small = total_2 < 0.0;
+    const vector total_3 = M0 * h0_bar + M1 * h1_bar + M2 * h2_bar + M3 * h3_bar;
+    const vector by_by_w = vector_select(is_small, vector_of(0.0), total_3) - vector_select(is_small, total_3,
+        vector_of(0.0));
+    const vector eta_product = eta * by_by_w;
+    const vector by_phi = its_value_bar + a_squared * product - half_square_product * eta_product + 2.0 *
+        eta_product;
+    const vector phi = amplitude * a_product;
+    const vector gap_4 = 2.0 * phi - phi * half_square_product;
+    const vector by_w = eta * gap_4;
+    const vector by_w_chosen = vector_select(is_small, -by_w, by_w);
+    const vector eta_slope = vector_polynomial_eta_slope(w_gap);
+    const vector product_2 = a_product * (amplitude * by_phi);
+    const vector by_half_square = -2.0 * (phi * eta_product) - product_2;
+    const vector eta_product_2 = eta * (2.0 * a_squared * (phi * product) + 2.0 * product_2 +
+        half_square_product * by_half_square);
+    const vector by_w_2 = eta_slope * (gap_4 * by_by_w) + eta_product_2;
+    const vector by_w_chosen_2 = vector_select(is_small, -by_w_2, by_w_2);
+    const vector product_3 = 2.0 * (phi * a_squared);
+    const vector product_4 = 2.0 * (a_squared * by_half_square);
+    const vector by_r0 = product_3 * gap + r0 * product_4;
+    const vector r0_product = r0 * product_3;
+    const vector by_r1 = product_3 * gap_2 + r1 * product_4;
+    const vector r1_product = r1 * product_3;
+    const vector by_r2 = product_3 * gap_3 + r2 * product_4;
+    const vector r2_product = r2 * product_3;
+    S_bar[0] = S_bar[0] + a_product * by_phi;
+    S_bar[1] = S_bar[1] + by_w_chosen * h0_bar + h0 * by_w_chosen_2;
+    S_bar[2] = S_bar[2] + by_w_chosen * h1_bar + h1 * by_w_chosen_2;
+    S_bar[3] = S_bar[3] + by_w_chosen * h2_bar + h2 * by_w_chosen_2;
+    S_bar[4] = S_bar[4] + by_w_chosen * h3_bar + h3 * by_w_chosen_2;
+    S_bar[5] = S_bar[5] + h0 * by_r0 - r0_product * h0_bar;
+    S_bar[6] = S_bar[6] + h1 * by_r0 - r0_product * h1_bar;
+    S_bar[7] = S_bar[7] + h2 * by_r0 - r0_product * h2_bar;
+    S_bar[8] = S_bar[8] + h3 * by_r0 - r0_product * h3_bar;
+    S_bar[9] = S_bar[9] + h0 * by_r1 - r1_product * h0_bar;
+    S_bar[10] = S_bar[10] + h1 * by_r1 - r1_product * h1_bar;
+    S_bar[11] = S_bar[11] + h2 * by_r1 - r1_product * h2_bar;
+    S_bar[12] = S_bar[12] + h3 * by_r1 - r1_product * h3_bar;
+    S_bar[13] = S_bar[13] + h0 * by_r2 - r2_product * h0_bar;
+    S_bar[14] = S_bar[14] + h1 * by_r2 - r2_product * h1_bar;
+    S_bar[15] = S_bar[15] + h2 * by_r2 - r2_product * h2_bar;
+    S_bar[16] = S_bar[16] + h3 * by_r2 - r2_product * h3_bar;
+}
+
+/* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
+OUTLINE void vector_rows(const double *rows, size_t count, size_t start, size_t size, vector *columns) {
+    for (size_t i = 0; i < size; ++i) {
+        double column[LANES];
+        for (size_t lane = 0; lane < LANES; ++lane)
+            column[lane] = rows[size * (start + lane < count ? start + lane : count - 1) + i];
+        columns[i] = vector_load(column);
+    }
+}
+
+/* Back to rows that are `stride` apart; nothing past the end. */
+OUTLINE void vector_to_rows(
+    const vector *columns, double *rows, size_t count, size_t start, size_t size, size_t stride) {
+    const size_t lanes = start >= count ? 0 : count - start < LANES ? count - start : LANES;
+    for (size_t lane = 0; lane < lanes; ++lane)
+        for (size_t i = 0; i < size; ++i) rows[stride * (start + lane) + i] = LANE(columns[i], lane);
+}
+
+/* Zero in the lanes past the end. */
+OUTLINE void vector_end(size_t count, size_t start, size_t size, vector *columns) {
+    for (size_t lane = start >= count ? 0 : count - start; lane < LANES; ++lane)
+        for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
+}
+
+/* Scratch memory: 9 vectors for each block of points, then the constants of the splats. */
+size_t so3_splats_work(size_t count, size_t splat_count, int threads) {
+    (void)threads;
+    return ((count + LANES - 1) / LANES * 9 + 1) * LANES + 17 * splat_count;
+}
+
+static vector *work_points(double *work) {
+    const uintptr_t size = sizeof(vector), start = (uintptr_t)work;
+    return (vector *)((char *)work + ((0 - start) & (size - 1)));
+}
+
+static double *work_constants(double *work, size_t count) {
+    return (double *)(work_points(work) + (count + LANES - 1) / LANES * 9);
+}
+
+/* The constants of LANES splats, as rows. */
+OUTLINE void splat_constants(
+    size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, double *constants) {
+    vector own_mu[4], own_W[9], own_amplitude[1], S[17];
+    vector_rows(mu, splat_count, start, 4, own_mu);
+    vector_rows(W, splat_count, start, 9, own_W);
+    vector_rows(amplitude, splat_count, start, 1, own_amplitude);
+    pair_constants(own_mu, own_W, own_amplitude, S);
+    vector_to_rows(S, constants, splat_count, start, 17, 17);
+}
+
+/* 2 vectors of points at a time stay in registers while all splats pass. */
 void so3_splats(
-    size_t count,
-    size_t splat_count,
-    const double *SO3_RESTRICT x,
-    const double *SO3_RESTRICT mu,
-    const double *SO3_RESTRICT W,
-    const double *SO3_RESTRICT amplitude,
-    double *SO3_RESTRICT value,
-    double *SO3_RESTRICT gradient) {
-    const unsigned mode = flush_denormals();
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        double x_block[4][LANES], sum[4][LANES] = {{0}};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            for (size_t i = 0; i < 4; ++i) x_block[i][lane] = x[4 * n + i];
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            const double mu0 = mu[4 * k + 0];
-            const double mu1 = mu[4 * k + 1];
-            const double mu2 = mu[4 * k + 2];
-            const double mu3 = mu[4 * k + 3];
-            const double W0_0 = W[9 * k + 0];
-            const double W0_1 = W[9 * k + 1];
-            const double W0_2 = W[9 * k + 2];
-            const double W1_0 = W[9 * k + 3];
-            const double W1_1 = W[9 * k + 4];
-            const double W1_2 = W[9 * k + 5];
-            const double W2_0 = W[9 * k + 6];
-            const double W2_1 = W[9 * k + 7];
-            const double W2_2 = W[9 * k + 8];
-            const double amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const double g0 = x_block[0][lane] * mu0 + x_block[1][lane] * mu1 + x_block[2][lane] * mu2 +
-                    x_block[3][lane] * mu3;
-                const double g1 = x_block[1][lane] * mu0 + x_block[2][lane] * mu3 - x_block[0][lane] * mu1 -
-                    x_block[3][lane] * mu2;
-                const double g2 = x_block[2][lane] * mu0 + x_block[3][lane] * mu1 - x_block[0][lane] * mu2 -
-                    x_block[1][lane] * mu3;
-                const double g3 = x_block[3][lane] * mu0 + x_block[1][lane] * mu2 - x_block[2][lane] * mu1 -
-                    x_block[0][lane] * mu3;
-                const double norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
-                const double abs_g0 = fabs(g0);
-                const int near = norm_s_squared < 0.249287;
-                const double near_chosen = (near ? 4.011440628672975 * norm_s_squared : 0.0);
-                const double t_over_norm_s_near = polynomial_t_over_norm_s_near(near_chosen);
-                const double near_chosen_2 = (near ? 1.0 : norm_s_squared);
-                const double norm_s = sqrt(near_chosen_2);
-                const double atan2_norm_s_abs_g0 = atan2(norm_s, abs_g0);
-                const double t = 2.0 * atan2_norm_s_abs_g0;
-                const double t_ratio = t / norm_s;
-                const double t_over_norm_s = (near ? t_over_norm_s_near : t_ratio);
-                const int is_small = g0 < 0.0;
-                const double chosen = (is_small ? -1.0 : 1.0);
-                const double scale = t_over_norm_s * chosen;
-                const double v0 = g1 * scale;
-                const double v1 = g2 * scale;
-                const double v2 = g3 * scale;
-                const double log_det_series = polynomial_log_det_series(near_chosen);
-                const double log_det_near = norm_s_squared * log_det_series;
-                const double product = 0.5 * t_ratio;
-                const double log_det = (near ? log_det_near : 2.0 * log(product));
-                const double z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-                const double z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-                const double z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-                const double log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
-                const double phi = amplitude_k * exp(log_det_gap);
-                const double by_v2 = -(W2_2 * z2) - W1_2 * z1 - W0_2 * z0;
-                const double by_v1 = -(W2_1 * z2) - W1_1 * z1 - W0_1 * z0;
-                const double by_v0 = -(W2_0 * z2) - W1_0 * z1 - W0_0 * z0;
-                const double by_log_det_near = (near ? 1.0 : 0.0);
-                const double by_log_det_series = norm_s_squared * by_log_det_near;
-                const double log_det_series_slope = polynomial_log_det_series_slope(near_chosen);
-                const double by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
-                const double by_t_over_norm_s = chosen * by_scale;
-                const double by_t_over_norm_s_near = (near ? by_t_over_norm_s : 0.0);
-                const double total_2 = 0.5 * (2.0 * (near ? 0.0 : 1.0) / product) + (near ? 0.0 : by_t_over_norm_s);
-                const double by_t = total_2 / norm_s;
-                const double by_atan2_norm_s_abs_g0 = 2.0 * by_t;
-                const double ratio = by_atan2_norm_s_abs_g0 / (near_chosen_2 + abs_g0 * abs_g0);
-                const double norm_s_product = norm_s * ratio;
-                const double by_abs_g0 = -norm_s_product;
-                const double by_norm_s = abs_g0 * ratio - t_ratio * by_t;
-                const double t_over_norm_s_near_slope = polynomial_t_over_norm_s_near_slope(near_chosen);
-                const double by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0 : by_norm_s / (2.0 *
-                    norm_s)) + 4.011440628672975 * (near ? by_log_det_series * log_det_series_slope +
-                    by_t_over_norm_s_near * t_over_norm_s_near_slope : 0.0);
-                const double by_g0 = (is_small ? norm_s_product : by_abs_g0);
-                const double product_2 = 2.0 * by_norm_s_squared;
-                const double by_g3 = scale * by_v2 + g3 * product_2;
-                const double by_g2 = scale * by_v1 + g2 * product_2;
-                const double by_g1 = scale * by_v0 + g1 * product_2;
-                const double exponent_by_x3 = mu0 * by_g3 + mu1 * by_g2 - mu2 * by_g1 + mu3 * by_g0;
-                const double exponent_by_x2 = mu0 * by_g2 - mu1 * by_g3 + mu3 * by_g1 + mu2 * by_g0;
-                const double exponent_by_x1 = mu2 * by_g3 - mu3 * by_g2 + mu0 * by_g1 + mu1 * by_g0;
-                const double exponent_by_x0 = -(mu3 * by_g3) - mu2 * by_g2 - mu1 * by_g1 + mu0 * by_g0;
-                const double df0 = phi * exponent_by_x0;
-                const double df1 = phi * exponent_by_x1;
-                const double df2 = phi * exponent_by_x2;
-                const double df3 = phi * exponent_by_x3;
-                const double df1_product = 0.5 * df1;
-                const double df2_product = 0.5 * df2;
-                const double df0_product = 0.5 * df0;
-                const double df3_product = 0.5 * df3;
-                const double gradient0 = x_block[0][lane] * df1_product + x_block[3][lane] * df2_product -
-                    x_block[1][lane] * df0_product - x_block[2][lane] * df3_product;
-                const double gradient1 = x_block[0][lane] * df2_product + x_block[1][lane] * df3_product -
-                    x_block[2][lane] * df0_product - x_block[3][lane] * df1_product;
-                const double gradient2 = x_block[2][lane] * df1_product + x_block[0][lane] * df3_product -
-                    x_block[3][lane] * df0_product - x_block[1][lane] * df2_product;
-                sum[0][lane] += phi;
-                sum[1][lane] += gradient0;
-                sum[2][lane] += gradient1;
-                sum[3][lane] += gradient2;
+    size_t count, size_t splat_count, const double *SO3_RESTRICT x, const double *SO3_RESTRICT mu, const double *SO3_RESTRICT W, const double *SO3_RESTRICT amplitude,
+    double *SO3_RESTRICT value, double *SO3_RESTRICT gradient, double *SO3_RESTRICT work, int threads) {
+    (void)threads;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES) {
+            vector at[2][4], X[2][4], grad[3];
+            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][4] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows(x, count, start + b * LANES, 4, at[b]);
+                pair_features(at[b], X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_forward(X[0], constants + 17 * k, value_sum[0], slope_sum[0]);
+                pair_forward(X[1], constants + 17 * k, value_sum[1], slope_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b) {
+                pair_gradient(at[b], slope_sum[b], grad);
+                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                vector_to_rows(grad, gradient, count, start + b * LANES, 3, 3);
             }
         }
-        for (size_t lane = 0; lane < lanes; ++lane) {
-            value[start + lane] = sum[0][lane];
-            for (size_t i = 0; i < 3; ++i) gradient[3 * (start + lane) + i] = sum[i + 1][lane];
-        }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
+void so3_splats_value(
+    size_t count, size_t splat_count, const double *SO3_RESTRICT x, const double *SO3_RESTRICT mu, const double *SO3_RESTRICT W, const double *SO3_RESTRICT amplitude,
+    double *SO3_RESTRICT value, double *SO3_RESTRICT work, int threads) {
+    (void)threads;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES) {
+            vector at[4], X[2][4], value_sum[2][1] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows(x, count, start + b * LANES, 4, at);
+                pair_features(at, X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_value(X[0], constants + 17 * k, value_sum[0]);
+                pair_value(X[1], constants + 17 * k, value_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b)
+                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
+OUTLINE void splat_points(
+    size_t count, size_t start, const double *x, const double *value_bar, const double *gradient_bar, vector *point) {
+    vector at[4], grad_bar[3], slope_bar[4];
+    vector_rows(x, count, start, 4, at);
+    vector_rows(gradient_bar, count, start, 3, grad_bar);
+    vector_rows(value_bar, count, start, 1, point + 4);
+    pair_features(at, point);
+    pair_gradient_vjp(at, grad_bar, slope_bar);
+    for (int i = 0; i < 4; ++i) point[4 + 1 + i] = slope_bar[i];
+    vector_end(count, start, 4 + 1, point + 4);
+}
+
+/* Adds to S_bar what some vectors of points add to it. */
+OUTLINE void splat_sums(const vector *point, size_t size, const double *S, double *S_bar) {
+    vector sum[17] = {ZERO};
+    for (size_t b = 0; b < size; ++b, point += 9) pair_backward(point, S, point + 4, point + 4 + 1, sum);
+    S_bar[0] += vector_sum(sum[0]);
+    S_bar[1] += vector_sum(sum[1]);
+    S_bar[2] += vector_sum(sum[2]);
+    S_bar[3] += vector_sum(sum[3]);
+    S_bar[4] += vector_sum(sum[4]);
+    S_bar[5] += vector_sum(sum[5]);
+    S_bar[6] += vector_sum(sum[6]);
+    S_bar[7] += vector_sum(sum[7]);
+    S_bar[8] += vector_sum(sum[8]);
+    S_bar[9] += vector_sum(sum[9]);
+    S_bar[10] += vector_sum(sum[10]);
+    S_bar[11] += vector_sum(sum[11]);
+    S_bar[12] += vector_sum(sum[12]);
+    S_bar[13] += vector_sum(sum[13]);
+    S_bar[14] += vector_sum(sum[14]);
+    S_bar[15] += vector_sum(sum[15]);
+    S_bar[16] += vector_sum(sum[16]);
+}
+
+/*
+ * Some splats at a time; the points pass over each of them, a chunk at a time, while its sums stay in registers. How many
+ * splats depends on the threads, what is summed in which order does not.
+ */
 void so3_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *SO3_RESTRICT x,
-    const double *SO3_RESTRICT mu,
-    const double *SO3_RESTRICT W,
-    const double *SO3_RESTRICT amplitude,
-    const double *SO3_RESTRICT value_bar,
-    const double *SO3_RESTRICT gradient_bar,
-    double *SO3_RESTRICT mu_bar,
-    double *SO3_RESTRICT W_bar,
-    double *SO3_RESTRICT amplitude_bar) {
-    const unsigned mode = flush_denormals();
-    for (size_t i = 0; i < 4 * splat_count; ++i) mu_bar[i] = 0;
-    for (size_t i = 0; i < 9 * splat_count; ++i) W_bar[i] = 0;
-    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        double x_block[4][LANES], value_bar_block[1][LANES], gradient_bar_block[3][LANES];
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            const double weight = lane < lanes ? 1 : 0;
-            for (size_t i = 0; i < 4; ++i) x_block[i][lane] = x[4 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
-            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] = gradient_bar[3 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
-            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] *= weight;
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            double sum[14][LANES] = {{0}}, total[14] = {0};
-            const double mu0 = mu[4 * k + 0];
-            const double mu1 = mu[4 * k + 1];
-            const double mu2 = mu[4 * k + 2];
-            const double mu3 = mu[4 * k + 3];
-            const double W0_0 = W[9 * k + 0];
-            const double W0_1 = W[9 * k + 1];
-            const double W0_2 = W[9 * k + 2];
-            const double W1_0 = W[9 * k + 3];
-            const double W1_1 = W[9 * k + 4];
-            const double W1_2 = W[9 * k + 5];
-            const double W2_0 = W[9 * k + 6];
-            const double W2_1 = W[9 * k + 7];
-            const double W2_2 = W[9 * k + 8];
-            const double amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const double g0 = x_block[0][lane] * mu0 + x_block[1][lane] * mu1 + x_block[2][lane] * mu2 +
-                    x_block[3][lane] * mu3;
-                const double g1 = x_block[1][lane] * mu0 + x_block[2][lane] * mu3 - x_block[0][lane] * mu1 -
-                    x_block[3][lane] * mu2;
-                const double g2 = x_block[2][lane] * mu0 + x_block[3][lane] * mu1 - x_block[0][lane] * mu2 -
-                    x_block[1][lane] * mu3;
-                const double g3 = x_block[3][lane] * mu0 + x_block[1][lane] * mu2 - x_block[2][lane] * mu1 -
-                    x_block[0][lane] * mu3;
-                const double norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
-                const double abs_g0 = fabs(g0);
-                const int near = norm_s_squared < 0.249287;
-                const double near_chosen = (near ? 4.011440628672975 * norm_s_squared : 0.0);
-                const double t_over_norm_s_near = polynomial_t_over_norm_s_near(near_chosen);
-                const double near_chosen_2 = (near ? 1.0 : norm_s_squared);
-                const double norm_s = sqrt(near_chosen_2);
-                const double atan2_norm_s_abs_g0 = atan2(norm_s, abs_g0);
-                const double t = 2.0 * atan2_norm_s_abs_g0;
-                const double t_ratio = t / norm_s;
-                const double t_over_norm_s = (near ? t_over_norm_s_near : t_ratio);
-                const int is_small = g0 < 0.0;
-                const double chosen = (is_small ? -1.0 : 1.0);
-                const double scale = t_over_norm_s * chosen;
-                const double v0 = g1 * scale;
-                const double v1 = g2 * scale;
-                const double v2 = g3 * scale;
-                const double log_det_series = polynomial_log_det_series(near_chosen);
-                const double log_det_near = norm_s_squared * log_det_series;
-                const double product = 0.5 * t_ratio;
-                const double log_det = (near ? log_det_near : 2.0 * log(product));
-                const double z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-                const double z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-                const double z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-                const double log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
-                const double exp_2 = exp(log_det_gap);
-                const double phi = amplitude_k * exp_2;
-                const double by_v2 = -(W2_2 * z2) - W1_2 * z1 - W0_2 * z0;
-                const double by_v1 = -(W2_1 * z2) - W1_1 * z1 - W0_1 * z0;
-                const double by_v0 = -(W2_0 * z2) - W1_0 * z1 - W0_0 * z0;
-                const double by_log_det_near = (near ? 1.0 : 0.0);
-                const double ratio = 2.0 * (near ? 0.0 : 1.0) / product;
-                const double by_log_det_series = norm_s_squared * by_log_det_near;
-                const double log_det_series_slope = polynomial_log_det_series_slope(near_chosen);
-                const double by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
-                const double by_t_over_norm_s = chosen * by_scale;
-                const double by_t_over_norm_s_near = (near ? by_t_over_norm_s : 0.0);
-                const double by_t = (0.5 * ratio + (near ? 0.0 : by_t_over_norm_s)) / norm_s;
-                const double by_atan2_norm_s_abs_g0 = 2.0 * by_t;
-                const double total_2 = near_chosen_2 + abs_g0 * abs_g0;
-                const double ratio_2 = by_atan2_norm_s_abs_g0 / total_2;
-                const double norm_s_product = norm_s * ratio_2;
-                const double by_abs_g0 = -norm_s_product;
-                const double by_norm_s = abs_g0 * ratio_2 - t_ratio * by_t;
-                const double norm_s_product_2 = 2.0 * norm_s;
-                const double by_norm_s_ratio = by_norm_s / norm_s_product_2;
-                const double t_over_norm_s_near_slope = polynomial_t_over_norm_s_near_slope(near_chosen);
-                const double by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0 : by_norm_s_ratio) +
-                    4.011440628672975 * (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_s_near *
-                    t_over_norm_s_near_slope : 0.0);
-                const double by_g0 = (is_small ? norm_s_product : by_abs_g0);
-                const double product_2 = 2.0 * by_norm_s_squared;
-                const double by_g3 = scale * by_v2 + g3 * product_2;
-                const double by_g2 = scale * by_v1 + g2 * product_2;
-                const double by_g1 = scale * by_v0 + g1 * product_2;
-                const double exponent_by_x3 = mu0 * by_g3 + mu1 * by_g2 - mu2 * by_g1 + mu3 * by_g0;
-                const double exponent_by_x2 = mu0 * by_g2 - mu1 * by_g3 + mu3 * by_g1 + mu2 * by_g0;
-                const double exponent_by_x1 = mu2 * by_g3 - mu3 * by_g2 + mu0 * by_g1 + mu1 * by_g0;
-                const double exponent_by_x0 = -(mu3 * by_g3) - mu2 * by_g2 - mu1 * by_g1 + mu0 * by_g0;
-                const double by_df3 = 0.5 * (x_block[0][lane] * gradient_bar_block[2][lane] + x_block[1][lane] *
-                    gradient_bar_block[1][lane] - x_block[2][lane] * gradient_bar_block[0][lane]);
-                const double by_df0 = 0.5 * (-(x_block[3][lane] * gradient_bar_block[2][lane]) - x_block[2][lane] *
-                    gradient_bar_block[1][lane] - x_block[1][lane] * gradient_bar_block[0][lane]);
-                const double by_df2 = 0.5 * (x_block[0][lane] * gradient_bar_block[1][lane] - x_block[1][lane] *
-                    gradient_bar_block[2][lane] + x_block[3][lane] * gradient_bar_block[0][lane]);
-                const double by_df1 = 0.5 * (x_block[2][lane] * gradient_bar_block[2][lane] - x_block[3][lane] *
-                    gradient_bar_block[1][lane] + x_block[0][lane] * gradient_bar_block[0][lane]);
-                const double by_exponent_by_x3 = phi * by_df3;
-                const double by_exponent_by_x2 = phi * by_df2;
-                const double by_exponent_by_x1 = phi * by_df1;
-                const double by_exponent_by_x0 = phi * by_df0;
-                const double by_phi = value_bar_block[0][lane] + exponent_by_x3 * by_df3 + exponent_by_x2 * by_df2 +
-                    exponent_by_x1 * by_df1 + exponent_by_x0 * by_df0;
-                const double by_by_g0 = mu0 * by_exponent_by_x0 + mu1 * by_exponent_by_x1 + mu2 * by_exponent_by_x2 + mu3
-                    * by_exponent_by_x3;
-                const double by_by_g1 = mu0 * by_exponent_by_x1 + mu3 * by_exponent_by_x2 - mu1 * by_exponent_by_x0 - mu2
-                    * by_exponent_by_x3;
-                const double by_by_g2 = mu0 * by_exponent_by_x2 + mu1 * by_exponent_by_x3 - mu2 * by_exponent_by_x0 - mu3
-                    * by_exponent_by_x1;
-                const double by_by_g3 = mu0 * by_exponent_by_x3 + mu2 * by_exponent_by_x1 - mu1 * by_exponent_by_x2 - mu3
-                    * by_exponent_by_x0;
-                const double total_3 = g1 * by_by_g1 + g2 * by_by_g2 + g3 * by_by_g3;
-                const double by_by_norm_s_squared = 2.0 * total_3;
-                const double by_by_abs_g0 = (is_small ? 0.0 : by_by_g0);
-                const double near_chosen_3 = (near ? 8.02288125734595 * total_3 : 0.0);
-                const double by_by_t_over_norm_s_near = t_over_norm_s_near_slope * near_chosen_3;
-                const double by_t_over_norm_s_near_slope = by_t_over_norm_s_near * near_chosen_3;
-                const double t_over_norm_s_near_slope_slope = polynomial_t_over_norm_s_near_slope_slope(near_chosen);
-                const double by_by_norm_s = (near ? 0.0 : by_by_norm_s_squared) / norm_s_product_2;
-                const double gap = (is_small ? by_by_g0 : 0.0) - by_by_abs_g0;
-                const double by_by_atan2_norm_s_abs_g0 = (norm_s * gap + abs_g0 * by_by_norm_s) / total_2;
-                const double product_3 = ratio_2 * by_by_atan2_norm_s_abs_g0;
-                const double gap_2 = ratio_2 * by_by_norm_s - abs_g0 * (2.0 * product_3);
-                const double by_by_t = 2.0 * by_by_atan2_norm_s_abs_g0 - t_ratio * by_by_norm_s;
-                const double by_by_t_ratio = by_by_t / norm_s;
-                const double by_by_t_over_norm_s = (near ? 0.0 : by_by_t_ratio) + (near ? by_by_t_over_norm_s_near : 0.0);
-                const double by_by_scale = chosen * by_by_t_over_norm_s;
-                const double by_by_v0 = g1 * by_by_scale + scale * by_by_g1;
-                const double by_by_v1 = g2 * by_by_scale + scale * by_by_g2;
-                const double by_by_v2 = g3 * by_by_scale + scale * by_by_g3;
-                const double by_by_log_det_series = log_det_series_slope * near_chosen_3;
-                const double by_log_det_series_slope = by_log_det_series * near_chosen_3;
-                const double log_det_series_slope_slope = polynomial_log_det_series_slope_slope(near_chosen);
-                const double by_log_det = exp_2 * (amplitude_k * by_phi);
-                const double by_z2 = -(W2_0 * by_by_v0) - W2_1 * by_by_v1 - W2_2 * by_by_v2 - z2 * by_log_det;
-                const double by_z1 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2 - z1 * by_log_det;
-                const double by_z0 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2 - z0 * by_log_det;
-                const double by_v2_2 = W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0;
-                const double by_v1_2 = W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
-                const double by_v0_2 = W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0;
-                const double by_log_det_near_2 = (near ? by_log_det : 0.0);
-                const double product_4 = 0.5 * (2.0 * (near ? 0.0 : by_log_det) / product - ratio * (0.5 * by_by_t_ratio /
-                    product));
-                const double by_log_det_series_2 = by_log_det_near * by_by_norm_s_squared + norm_s_squared *
-                    by_log_det_near_2;
-                const double total_4 = by_v0 * by_by_g1 + by_v1 * by_by_g2 + by_v2 * by_by_g3 + g3 * by_v2_2 + g2 *
-                    by_v1_2;
-                const double by_scale_2 = total_4 + g1 * by_v0_2;
-                const double by_t_over_norm_s_2 = chosen * by_scale_2;
-                const double by_t_over_norm_s_near_2 = (near ? by_t_over_norm_s_2 : 0.0);
-                const double by_t_2 = (product_4 - by_t * by_by_norm_s + (near ? 0.0 : by_t_over_norm_s_2)) / norm_s;
-                const double gap_3 = ratio_2 * gap - 2.0 * (by_norm_s_ratio * by_by_norm_s) - by_t * by_by_t_ratio -
-                    t_ratio * by_t_2;
-                const double by_atan2_norm_s_abs_g0_2 = 2.0 * by_t_2;
-                const double ratio_3 = by_atan2_norm_s_abs_g0_2 / total_2;
-                const double norm_s_product_3 = norm_s * ratio_3;
-                const double by_norm_s_2 = gap_3 + abs_g0 * ratio_3;
-                const double by_abs_g0_2 = gap_2 - norm_s_product_3;
-                const double near_chosen_4 = (near ? by_t_over_norm_s_near_slope * t_over_norm_s_near_slope_slope +
-                    by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
-                    t_over_norm_s_near_slope * by_t_over_norm_s_near_2 : 0.0);
-                const double by_norm_s_squared_2 = by_log_det_near * by_by_log_det_series + log_det_series *
-                    by_log_det_near_2 + (near ? 0.0 : by_norm_s_2 / norm_s_product_2 - product_3) + 4.011440628672975 *
-                    near_chosen_4;
-                const double by_g0_2 = (is_small ? norm_s_product_3 - gap_2 : by_abs_g0_2);
-                const double product_5 = 2.0 * by_norm_s_squared_2;
-                const double by_g3_2 = product_2 * by_by_g3 + by_v2 * by_by_scale + scale * by_v2_2 + g3 * product_5;
-                const double by_g2_2 = product_2 * by_by_g2 + by_v1 * by_by_scale + scale * by_v1_2 + g2 * product_5;
-                const double by_g1_2 = product_2 * by_by_g1 + by_v0 * by_by_scale + scale * by_v0_2 + g1 * product_5;
-                const double gap_4 = by_g0 * by_exponent_by_x3 + by_g1 * by_exponent_by_x2 - by_g2 * by_exponent_by_x1 -
-                    by_g3 * by_exponent_by_x0 - x_block[0][lane] * by_g3_2;
-                const double gap_5 = by_g0 * by_exponent_by_x1 - by_g1 * by_exponent_by_x0 + by_g2 * by_exponent_by_x3 -
-                    by_g3 * by_exponent_by_x2 - x_block[2][lane] * by_g3_2;
-                const double total_5 = by_g0 * by_exponent_by_x2 - by_g1 * by_exponent_by_x3 - by_g2 * by_exponent_by_x0 +
-                    by_g3 * by_exponent_by_x1 + x_block[1][lane] * by_g3_2;
-                const double total_6 = by_g0 * by_exponent_by_x0 + by_g1 * by_exponent_by_x1 + by_g2 * by_exponent_by_x2 +
-                    by_g3 * by_exponent_by_x3 + x_block[3][lane] * by_g3_2;
-                sum[0][lane] += total_6 + x_block[2][lane] * by_g2_2 + x_block[1][lane] * by_g1_2 + x_block[0][lane] * by_g0_2;
-                sum[1][lane] += gap_5 + x_block[3][lane] * by_g2_2 - x_block[0][lane] * by_g1_2 + x_block[1][lane] * by_g0_2;
-                sum[2][lane] += total_5 - x_block[0][lane] * by_g2_2 - x_block[3][lane] * by_g1_2 + x_block[2][lane] * by_g0_2;
-                sum[3][lane] += gap_4 - x_block[1][lane] * by_g2_2 + x_block[2][lane] * by_g1_2 + x_block[3][lane] * by_g0_2;
-                sum[4][lane] += v0 * by_z0 - z0 * by_by_v0;
-                sum[5][lane] += v1 * by_z0 - z0 * by_by_v1;
-                sum[6][lane] += v2 * by_z0 - z0 * by_by_v2;
-                sum[7][lane] += v0 * by_z1 - z1 * by_by_v0;
-                sum[8][lane] += v1 * by_z1 - z1 * by_by_v1;
-                sum[9][lane] += v2 * by_z1 - z1 * by_by_v2;
-                sum[10][lane] += v0 * by_z2 - z2 * by_by_v0;
-                sum[11][lane] += v1 * by_z2 - z2 * by_by_v1;
-                sum[12][lane] += v2 * by_z2 - z2 * by_by_v2;
-                sum[13][lane] += exp_2 * by_phi;
+    size_t count, size_t splat_count, const double *SO3_RESTRICT x, const double *SO3_RESTRICT mu, const double *SO3_RESTRICT W, const double *SO3_RESTRICT amplitude, const double *SO3_RESTRICT value_bar, const double *SO3_RESTRICT gradient_bar,
+    double *SO3_RESTRICT mu_bar, double *SO3_RESTRICT W_bar, double *SO3_RESTRICT amplitude_bar, double *SO3_RESTRICT work, int threads) {
+    const size_t blocks = (count + LANES - 1) / LANES;
+    const size_t chunk = 131072 / (9 * sizeof(vector)) + 1;
+    const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
+    const size_t share = part < LANES ? part : LANES;
+    vector *points = work_points(work);
+    double *constants = work_constants(work, count);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic) nowait)
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic, 8))
+        for (size_t block = 0; block < blocks; ++block)
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 9 * block);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += share) {
+            const size_t end = start + share < splat_count ? start + share : splat_count;
+            double sums[LANES][17] = {{0}};
+            vector own_mu[4], own_W[9], own_amplitude[1], S_bar[17], bars[14];
+            for (size_t first = 0; first < blocks; first += chunk) {
+                const size_t size = first + chunk < blocks ? chunk : blocks - first;
+                for (size_t k = start; k < end; ++k)
+                    splat_sums(points + 9 * first, size, constants + 17 * k, sums[k - start]);
             }
-            for (size_t i = 0; i < 14; ++i)
-                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
-            mu_bar[4 * k + 0] += total[0];
-            mu_bar[4 * k + 1] += total[1];
-            mu_bar[4 * k + 2] += total[2];
-            mu_bar[4 * k + 3] += total[3];
-            W_bar[9 * k + 0] += total[4];
-            W_bar[9 * k + 1] += total[5];
-            W_bar[9 * k + 2] += total[6];
-            W_bar[9 * k + 3] += total[7];
-            W_bar[9 * k + 4] += total[8];
-            W_bar[9 * k + 5] += total[9];
-            W_bar[9 * k + 6] += total[10];
-            W_bar[9 * k + 7] += total[11];
-            W_bar[9 * k + 8] += total[12];
-            amplitude_bar[1 * k + 0] += total[13];
+            vector_rows(mu, end, start, 4, own_mu);
+            vector_rows(W, end, start, 9, own_W);
+            vector_rows(amplitude, end, start, 1, own_amplitude);
+            vector_rows(sums[0], LANES, 0, 17, S_bar);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 4, bars + 4 + 9);
+            vector_to_rows(bars, mu_bar, end, start, 4, 4);
+            vector_to_rows(bars + 4, W_bar, end, start, 9, 9);
+            vector_to_rows(bars + 4 + 9, amplitude_bar, end, start, 1, 1);
         }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
-/* Of degree 5, within 2^-27 of that of double precision. */
-static inline float polynomial_t_over_norm_s_near_f(float x) {
-    return 1.9999999916408444f + x * (0.08309625685133959f + x * (0.009314899571001777f + x *
-        (0.001410660168357637f + x * (0.0001850457232808171f + x * 8.1767340923012e-05f))));
+/* Nothing is summed: the adjoints of a splat's constants go on to its parameters for every point. */
+void so3_splats_rows(
+    size_t count, size_t splat_count, const double *SO3_RESTRICT x, const double *SO3_RESTRICT mu, const double *SO3_RESTRICT W, const double *SO3_RESTRICT amplitude, const double *SO3_RESTRICT value_bar, const double *SO3_RESTRICT gradient_bar,
+    double *SO3_RESTRICT rows, double *SO3_RESTRICT work, int threads) {
+    (void)threads;
+    const size_t blocks = (count + LANES - 1) / LANES;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t block = 0; block < blocks; ++block) {
+            vector point[9];
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
+            for (size_t k = 0; k < splat_count; ++k) {
+                vector own_mu[4], own_W[9], own_amplitude[1], S_bar[17] = {ZERO}, bars[14];
+                for (int i = 0; i < 4; ++i) own_mu[i] = vector_of(mu[4 * k + i]);
+                for (int i = 0; i < 9; ++i) own_W[i] = vector_of(W[9 * k + i]);
+                own_amplitude[0] = vector_of(amplitude[k]);
+                pair_backward(point, constants + 17 * k, point + 4, point + 4 + 1, S_bar);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 4, bars + 4 + 9);
+                vector_to_rows(bars, rows + 14 * k, count, block * LANES, 14, 14 * splat_count);
+            }
+        }
+        restore_denormals(mode);
+    }
 }
 
-/* Of degree 6, within 2^-30 of that of double precision. */
-static inline float polynomial_log_det_series_f(float x) {
-    return 0.33333333360654344f + x * (0.030468384794974636f + x * (0.004187186052703318f + x *
-        (0.0006798423432636281f + x * (0.00012869008203200835f + x * (1.4352383872053921e-05f + x *
-        1.0146648022958735e-05f)))));
+/* The same number in all lanes. */
+INLINE vector_f vector_of_f(float x) {
+    const vector_f zero = ZERO;
+    return x - zero;
 }
 
-/* Of degree 7, within 2^-29 of that of double precision. */
-static inline float polynomial_log_det_series_slope_f(float x) {
-    return 0.030468411075324144f + x * (0.00837355342611542f + x * (0.0020466142655597187f + x *
-        (0.0004893663510207316f + x * (0.00011341332759154923f + x * (3.308965514831338e-05f + x *
-        (7.033240749837545e-07f + x * 4.5653796914644905e-06f))))));
+/* x in the lanes of the mask, y in the others. */
+INLINE vector_f vector_select_f(vector_mask_f mask, vector_f x, vector_f y) {
+    return SELECT(vector_f, vector_mask_f, mask, x, y);
 }
 
-/* Of degree 7, within 2^-30 of that of double precision. */
-static inline float polynomial_t_over_norm_s_near_slope_f(float x) {
-    return 0.08309566660530374f + x * (0.0186432102329603f + x * (0.004149402027001096f + x *
-        (0.0009398850567115093f + x * (0.00021071714765224622f + x * (5.936713146666543e-05f + x *
-        (1.5937893933276167e-06f + x * 7.904358196252664e-06f))))));
+/* Numbers in memory to a vector, and back. */
+INLINE vector_f vector_load_f(const float *from) {
+    vector_f x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+INLINE void vector_store_f(float *to, vector_f x) { memcpy(to, &x, sizeof x); }
+
+/* The sum over the lanes, by halves. */
+INLINE float vector_sum_f(vector_f x) {
+    float lanes[LANES_f];
+    vector_store_f(lanes, x);
+    for (size_t half = LANES_f / 2; half > 0; half /= 2)
+        for (size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    return lanes[0];
 }
 
-/* Of degree 8, within 2^-30 of that of double precision. */
-static inline float polynomial_t_over_norm_s_near_slope_slope_f(float x) {
-    return 0.01864320252205291f + x * (0.008299119649304472f + x * (0.0028160002314375336f + x *
-        (0.0008610440047704579f + x * (0.0002522458975272004f + x * (6.363291448779077e-05f + x *
-        (2.9672627598761578e-05f + x * (-3.950664599532621e-06f + x * 5.308935243478486e-06f)))))));
+/* The bits of a vector as integers, and back. */
+INLINE vector_bits_f vector_to_bits_f(vector_f x) {
+    vector_bits_f bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
+    vector_f x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
 }
 
-/* Of degree 8, within 2^-29 of that of double precision. */
-static inline float polynomial_log_det_series_slope_slope_f(float x) {
-    return 0.008373548929811502f + x * (0.00409341251393332f + x * (0.0014659690505062421f + x *
-        (0.0004642399977336899f + x * (0.00013949898494014724f + x * (3.562723292198236e-05f + x *
-        (1.715338253936205e-05f + x * (-2.4083903642194996e-06f + x * 3.123850968155648e-06f)))))));
+/* abs of every lane; one instruction where the machine has it. */
+INLINE vector_f vector_abs_f(vector_f x) {
+    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
+    return x;
 }
 
+/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
+INLINE vector_f vector_exp_f(vector_f x) {
+    const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
+    const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
+    const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
+    const vector_f scale = vector_from_bits_f((vector_to_bits_f(shifted) + 126) << 23); /* 2^(k - 1) */
+    const vector_f y = vector_select_f(x > 88.722839f, vector_of_f(HUGE_VALF), (scale + scale * part) * 2);
+    return vector_select_f(x < -86.9f, vector_of_f(0), y);
+}
+
+/* Of degree 11, within 2^-29 of that of double precision. */
+INLINE vector_f vector_polynomial_eta_f(vector_f x) {
+    return -0.3333333329074172f + x * (-0.15555567514484153f + x * (-0.07512673968454313f + x *
+        (-0.036854683410814014f + x * (-0.017172242426810813f + x * (-0.013945774438806282f + x *
+        (0.01253044380771583f + x * (-0.03940423726113369f + x * (0.051921663529563705f + x *
+        (-0.048257650185791916f + x * (0.024694517679698283f + x * -0.006116061322664089f))))))))));
+}
+
+/* Of degree 13, within 2^-27 of that of double precision. */
+INLINE vector_f vector_polynomial_eta_slope_f(vector_f x) {
+    return 0.15555555542437843f + x * (0.1502646005226573f + x * (0.11026136698101077f + x *
+        (0.07246434664202496f + x * (0.04369556901094827f + x * (0.034436310057583616f + x *
+        (-0.023420697975480978f + x * (0.13766190227481526f + x * (-0.2894962884105508f + x *
+        (0.4671003677933079f + x * (-0.49758073887669707f + x * (0.35140202925299413f + x *
+        (-0.1460207286663636f + x * 0.028391671210260493f))))))))))));
+}
+
+/* What pairs read of points x. */
+OUTLINE void pair_features_f(
+    const vector_f *x, vector_f *X) {
+    const vector_f x0 = x[0];
+    const vector_f x1 = x[1];
+    const vector_f x2 = x[2];
+    const vector_f x3 = x[3];
+    const vector_f h0 = 0.5f * x0;
+    const vector_f h1 = 0.5f * x1;
+    const vector_f h2 = 0.5f * x2;
+    const vector_f h3 = 0.5f * x3;
+    X[0] = h0;
+    X[1] = h1;
+    X[2] = h2;
+    X[3] = h3;
+}
+
+/* What pairs read of a splat, of some splats. */
+OUTLINE void pair_constants_f(
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, vector_f *S) {
+    const vector_f mu0 = mu[0];
+    const vector_f mu1 = mu[1];
+    const vector_f mu2 = mu[2];
+    const vector_f mu3 = mu[3];
+    const vector_f W0_0 = W[0];
+    const vector_f W0_1 = W[1];
+    const vector_f W0_2 = W[2];
+    const vector_f W1_0 = W[3];
+    const vector_f W1_1 = W[4];
+    const vector_f W1_2 = W[5];
+    const vector_f W2_0 = W[6];
+    const vector_f W2_1 = W[7];
+    const vector_f W2_2 = W[8];
+    const vector_f its_amplitude = amplitude[0];
+    const vector_f M0 = 2.0f * mu0;
+    const vector_f M1 = 2.0f * mu1;
+    const vector_f M2 = 2.0f * mu2;
+    const vector_f M3 = 2.0f * mu3;
+    const vector_f R0_0 = 1.4142135623730951f * (-(W0_0 * M1) - W0_1 * M2 - W0_2 * M3);
+    const vector_f R0_1 = 1.4142135623730951f * (W0_0 * M0 - W0_1 * M3 + W0_2 * M2);
+    const vector_f R0_2 = 1.4142135623730951f * (W0_0 * M3 + W0_1 * M0 - W0_2 * M1);
+    const vector_f R0_3 = 1.4142135623730951f * (W0_1 * M1 - W0_0 * M2 + W0_2 * M0);
+    const vector_f R1_0 = 1.4142135623730951f * (-(W1_0 * M1) - W1_1 * M2 - W1_2 * M3);
+    const vector_f R1_1 = 1.4142135623730951f * (W1_0 * M0 - W1_1 * M3 + W1_2 * M2);
+    const vector_f R1_2 = 1.4142135623730951f * (W1_0 * M3 + W1_1 * M0 - W1_2 * M1);
+    const vector_f R1_3 = 1.4142135623730951f * (W1_1 * M1 - W1_0 * M2 + W1_2 * M0);
+    const vector_f R2_0 = 1.4142135623730951f * (-(W2_0 * M1) - W2_1 * M2 - W2_2 * M3);
+    const vector_f R2_1 = 1.4142135623730951f * (W2_0 * M0 - W2_1 * M3 + W2_2 * M2);
+    const vector_f R2_2 = 1.4142135623730951f * (W2_0 * M3 + W2_1 * M0 - W2_2 * M1);
+    const vector_f R2_3 = 1.4142135623730951f * (W2_1 * M1 - W2_0 * M2 + W2_2 * M0);
+    S[0] = its_amplitude;
+    S[1] = M0;
+    S[2] = M1;
+    S[3] = M2;
+    S[4] = M3;
+    S[5] = R0_0;
+    S[6] = R0_1;
+    S[7] = R0_2;
+    S[8] = R0_3;
+    S[9] = R1_0;
+    S[10] = R1_1;
+    S[11] = R1_2;
+    S[12] = R1_3;
+    S[13] = R2_0;
+    S[14] = R2_1;
+    S[15] = R2_2;
+    S[16] = R2_3;
+}
+
+/* Adds the values phi of a splat at some points. */
+INLINE void pair_value_f(
+    const vector_f *X, const float *S, vector_f *value) {
+    const vector_f h0 = X[0];
+    const vector_f h1 = X[1];
+    const vector_f h2 = X[2];
+    const vector_f h3 = X[3];
+    const float amplitude = S[0];
+    const float M0 = S[1];
+    const float M1 = S[2];
+    const float M2 = S[3];
+    const float M3 = S[4];
+    const float R0_0 = S[5];
+    const float R0_1 = S[6];
+    const float R0_2 = S[7];
+    const float R0_3 = S[8];
+    const float R1_0 = S[9];
+    const float R1_1 = S[10];
+    const float R1_2 = S[11];
+    const float R1_3 = S[12];
+    const float R2_0 = S[13];
+    const float R2_1 = S[14];
+    const float R2_2 = S[15];
+    const float R2_3 = S[16];
+    const vector_f w = vector_abs_f(h0 * M0 + h1 * M1 + h2 * M2 + h3 * M3);
+    const vector_f eta = vector_polynomial_eta_f(1.0f - w);
+    const vector_f a = 1.0f / (w - eta * (1.0f - w * w));
+    const vector_f a_squared = a * a;
+    const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3;
+    const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3;
+    const vector_f r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3;
+    const vector_f half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
+    const vector_f gaussian = vector_exp_f(-half_square);
+    value[0] = value[0] + amplitude * (a * (a * gaussian));
+}
+
+/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+INLINE void pair_forward_f(
+    const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
+    const vector_f h0 = X[0];
+    const vector_f h1 = X[1];
+    const vector_f h2 = X[2];
+    const vector_f h3 = X[3];
+    const float amplitude = S[0];
+    const float M0 = S[1];
+    const float M1 = S[2];
+    const float M2 = S[3];
+    const float M3 = S[4];
+    const float R0_0 = S[5];
+    const float R0_1 = S[6];
+    const float R0_2 = S[7];
+    const float R0_3 = S[8];
+    const float R1_0 = S[9];
+    const float R1_1 = S[10];
+    const float R1_2 = S[11];
+    const float R1_3 = S[12];
+    const float R2_0 = S[13];
+    const float R2_1 = S[14];
+    const float R2_2 = S[15];
+    const float R2_3 = S[16];
+    const vector_f total_2 = h0 * M0 + h1 * M1 + h2 * M2 + h3 * M3;
+    const vector_f w = vector_abs_f(total_2);
+    const vector_f eta = vector_polynomial_eta_f(1.0f - w);
+    const vector_f a = 1.0f / (w - eta * (1.0f - w * w));
+    const vector_f a_squared = a * a;
+    const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3;
+    const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3;
+    const vector_f r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3;
+    const vector_f half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
+    const vector_f gaussian = vector_exp_f(-half_square);
+    const vector_f phi = amplitude * (a * (a * gaussian));
+    const vector_f product = 2.0f * (phi * a_squared);
+    const vector_f r2_product = r2 * product;
+    const vector_f r1_product = r1 * product;
+    const vector_f r0_product = r0 * product;
+    const vector_f by_w = eta * (2.0f * phi - phi * (2.0f * half_square));
+    const vector_f by_w_chosen = vector_select_f(total_2 < 0.0f, -by_w, by_w);
+    value[0] = value[0] + phi;
+    slope[0] = slope[0] - R2_0 * r2_product - R1_0 * r1_product - R0_0 * r0_product + M0 * by_w_chosen;
+    slope[1] = slope[1] - R2_1 * r2_product - R1_1 * r1_product - R0_1 * r0_product + M1 * by_w_chosen;
+    slope[2] = slope[2] - R2_2 * r2_product - R1_2 * r1_product - R0_2 * r0_product + M2 * by_w_chosen;
+    slope[3] = slope[3] - R2_3 * r2_product - R1_3 * r1_product - R0_3 * r0_product + M3 * by_w_chosen;
+}
+
+/* The Riemannian gradient at some points, of the sums of slopes. */
+OUTLINE void pair_gradient_f(
+    const vector_f *x, const vector_f *slope, vector_f *gradient) {
+    const vector_f x0 = x[0];
+    const vector_f x1 = x[1];
+    const vector_f x2 = x[2];
+    const vector_f x3 = x[3];
+    const vector_f slope_h0 = slope[0];
+    const vector_f slope_h1 = slope[1];
+    const vector_f slope_h2 = slope[2];
+    const vector_f slope_h3 = slope[3];
+    const vector_f product = 0.25f * slope_h1;
+    const vector_f product_2 = 0.25f * slope_h2;
+    const vector_f product_3 = 0.25f * slope_h0;
+    const vector_f product_4 = 0.25f * slope_h3;
+    gradient[0] = x0 * product + x3 * product_2 - x1 * product_3 - x2 * product_4;
+    gradient[1] = x0 * product_2 + x1 * product_4 - x2 * product_3 - x3 * product;
+    gradient[2] = x2 * product + x0 * product_4 - x3 * product_3 - x1 * product_2;
+}
+
+/* The adjoint of slope at some points, of that of the gradient. */
+OUTLINE void pair_gradient_vjp_f(
+    const vector_f *x, const vector_f *gradient_bar, vector_f *slope_bar) {
+    const vector_f x0 = x[0];
+    const vector_f x1 = x[1];
+    const vector_f x2 = x[2];
+    const vector_f x3 = x[3];
+    const vector_f gradient_bar0 = gradient_bar[0];
+    const vector_f gradient_bar1 = gradient_bar[1];
+    const vector_f gradient_bar2 = gradient_bar[2];
+    const vector_f product = 0.25f * (-(x3 * gradient_bar2) - x2 * gradient_bar1 - x1 * gradient_bar0);
+    slope_bar[0] = product;
+    slope_bar[1] = 0.25f * (x2 * gradient_bar2 - x3 * gradient_bar1 + x0 * gradient_bar0);
+    slope_bar[2] = 0.25f * (x0 * gradient_bar1 - x1 * gradient_bar2 + x3 * gradient_bar0);
+    slope_bar[3] = 0.25f * (x0 * gradient_bar2 + x1 * gradient_bar1 - x2 * gradient_bar0);
+}
+
+/* The adjoints of some splats' parameters, of that of S. */
+OUTLINE void pair_constants_vjp_f(
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
+    (void)amplitude;
+    const vector_f mu0 = mu[0];
+    const vector_f mu1 = mu[1];
+    const vector_f mu2 = mu[2];
+    const vector_f mu3 = mu[3];
+    const vector_f W0_0 = W[0];
+    const vector_f W0_1 = W[1];
+    const vector_f W0_2 = W[2];
+    const vector_f W1_0 = W[3];
+    const vector_f W1_1 = W[4];
+    const vector_f W1_2 = W[5];
+    const vector_f W2_0 = W[6];
+    const vector_f W2_1 = W[7];
+    const vector_f W2_2 = W[8];
+    const vector_f its_amplitude_bar = S_bar[0];
+    const vector_f M0_bar = S_bar[1];
+    const vector_f M1_bar = S_bar[2];
+    const vector_f M2_bar = S_bar[3];
+    const vector_f M3_bar = S_bar[4];
+    const vector_f R0_0_bar = S_bar[5];
+    const vector_f R0_1_bar = S_bar[6];
+    const vector_f R0_2_bar = S_bar[7];
+    const vector_f R0_3_bar = S_bar[8];
+    const vector_f R1_0_bar = S_bar[9];
+    const vector_f R1_1_bar = S_bar[10];
+    const vector_f R1_2_bar = S_bar[11];
+    const vector_f R1_3_bar = S_bar[12];
+    const vector_f R2_0_bar = S_bar[13];
+    const vector_f R2_1_bar = S_bar[14];
+    const vector_f R2_2_bar = S_bar[15];
+    const vector_f R2_3_bar = S_bar[16];
+    const vector_f product = 1.4142135623730951f * R0_1_bar;
+    const vector_f product_2 = 1.4142135623730951f * R0_2_bar;
+    const vector_f product_3 = 1.4142135623730951f * R0_3_bar;
+    const vector_f product_4 = 1.4142135623730951f * R1_1_bar;
+    const vector_f total_2 = M0_bar + W0_0 * product + W0_1 * product_2 + W0_2 * product_3 + W1_0 * product_4;
+    const vector_f product_5 = 1.4142135623730951f * R1_2_bar;
+    const vector_f product_6 = 1.4142135623730951f * R1_3_bar;
+    const vector_f product_7 = 1.4142135623730951f * R2_1_bar;
+    const vector_f product_8 = 1.4142135623730951f * R2_2_bar;
+    const vector_f total_3 = total_2 + W1_1 * product_5 + W1_2 * product_6 + W2_0 * product_7 + W2_1 *
+        product_8;
+    const vector_f product_9 = 1.4142135623730951f * R2_3_bar;
+    const vector_f by_M0 = total_3 + W2_2 * product_9;
+    const vector_f product_10 = 1.4142135623730951f * R0_0_bar;
+    const vector_f product_11 = 1.4142135623730951f * R1_0_bar;
+    const vector_f gap = M1_bar - W0_0 * product_10 - W0_2 * product_2 + W0_1 * product_3 - W1_0 * product_11;
+    const vector_f product_12 = 1.4142135623730951f * R2_0_bar;
+    const vector_f gap_2 = gap - W1_2 * product_5 + W1_1 * product_6 - W2_0 * product_12 - W2_2 * product_8;
+    const vector_f by_M1 = gap_2 + W2_1 * product_9;
+    const vector_f gap_3 = M2_bar - W0_1 * product_10 + W0_2 * product - W0_0 * product_3 - W1_1 * product_11;
+    const vector_f total_4 = gap_3 + W1_2 * product_4 - W1_0 * product_6 - W2_1 * product_12 + W2_2 *
+        product_7;
+    const vector_f by_M2 = total_4 - W2_0 * product_9;
+    const vector_f gap_4 = M3_bar - W0_2 * product_10 - W0_1 * product + W0_0 * product_2 - W1_2 * product_11;
+    const vector_f gap_5 = gap_4 - W1_1 * product_4 + W1_0 * product_5 - W2_2 * product_12 - W2_1 * product_7;
+    const vector_f by_M3 = gap_5 + W2_0 * product_8;
+    const vector_f M0 = 2.0f * mu0;
+    const vector_f M1 = 2.0f * mu1;
+    const vector_f M3 = 2.0f * mu3;
+    const vector_f M2 = 2.0f * mu2;
+    const vector_f total_5 = -(M2 * product_10) - M3 * product + M0 * product_2 + M1 * product_3;
+    const vector_f total_6 = -(M2 * product_11) - M3 * product_4 + M0 * product_5 + M1 * product_6;
+    const vector_f total_7 = -(M2 * product_12) - M3 * product_7 + M0 * product_8 + M1 * product_9;
+    mu_bar[0] = 2.0f * by_M0;
+    mu_bar[1] = 2.0f * by_M1;
+    mu_bar[2] = 2.0f * by_M2;
+    mu_bar[3] = 2.0f * by_M3;
+    W_bar[0] = M0 * product - M1 * product_10 + M3 * product_2 - M2 * product_3;
+    W_bar[1] = total_5;
+    W_bar[2] = M2 * product - M3 * product_10 - M1 * product_2 + M0 * product_3;
+    W_bar[3] = M0 * product_4 - M1 * product_11 + M3 * product_5 - M2 * product_6;
+    W_bar[4] = total_6;
+    W_bar[5] = M2 * product_4 - M3 * product_11 - M1 * product_5 + M0 * product_6;
+    W_bar[6] = M0 * product_7 - M1 * product_12 + M3 * product_8 - M2 * product_9;
+    W_bar[7] = total_7;
+    W_bar[8] = M2 * product_7 - M3 * product_12 - M1 * product_8 + M0 * product_9;
+    amplitude_bar[0] = its_amplitude_bar;
+}
+
+/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+INLINE void pair_backward_f(
+    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
+    const vector_f h0 = X[0];
+    const vector_f h1 = X[1];
+    const vector_f h2 = X[2];
+    const vector_f h3 = X[3];
+    const float amplitude = S[0];
+    const float M0 = S[1];
+    const float M1 = S[2];
+    const float M2 = S[3];
+    const float M3 = S[4];
+    const float R0_0 = S[5];
+    const float R0_1 = S[6];
+    const float R0_2 = S[7];
+    const float R0_3 = S[8];
+    const float R1_0 = S[9];
+    const float R1_1 = S[10];
+    const float R1_2 = S[11];
+    const float R1_3 = S[12];
+    const float R2_0 = S[13];
+    const float R2_1 = S[14];
+    const float R2_2 = S[15];
+    const float R2_3 = S[16];
+    const vector_f its_value_bar = value_bar[0];
+    const vector_f h0_bar = slope_bar[0];
+    const vector_f h1_bar = slope_bar[1];
+    const vector_f h2_bar = slope_bar[2];
+    const vector_f h3_bar = slope_bar[3];
+    const vector_f total_2 = h0 * M0 + h1 * M1 + h2 * M2 + h3 * M3;
+    const vector_f w = vector_abs_f(total_2);
+    const vector_f w_gap = 1.0f - w;
+    const vector_f eta = vector_polynomial_eta_f(w_gap);
+    const vector_f a = 1.0f / (w - eta * (1.0f - w * w));
+    const vector_f a_squared = a * a;
+    const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3;
+    const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3;
+    const vector_f r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3;
+    const vector_f half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
+    const vector_f gaussian = vector_exp_f(-half_square);
+    const vector_f a_product = a * (a * gaussian);
+    const vector_f gap = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar - R0_3 * h3_bar;
+    const vector_f gap_2 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar - R1_3 * h3_bar;
+    const vector_f gap_3 = -(R2_0 * h0_bar) - R2_1 * h1_bar - R2_2 * h2_bar - R2_3 * h3_bar;
+    const vector_f product = 2.0f * (r0 * gap + r1 * gap_2 + r2 * gap_3);
+    const vector_f half_square_product = 2.0f * half_square;
+    const vector_mask_f is_small = total_2 < 0.0f;
+    const vector_f total_3 = M0 * h0_bar + M1 * h1_bar + M2 * h2_bar + M3 * h3_bar;
+    const vector_f by_by_w = vector_select_f(is_small, vector_of_f(0.0f), total_3) - vector_select_f(is_small,
+        total_3, vector_of_f(0.0f));
+    const vector_f eta_product = eta * by_by_w;
+    const vector_f by_phi = its_value_bar + a_squared * product - half_square_product * eta_product + 2.0f *
+        eta_product;
+    const vector_f phi = amplitude * a_product;
+    const vector_f gap_4 = 2.0f * phi - phi * half_square_product;
+    const vector_f by_w = eta * gap_4;
+    const vector_f by_w_chosen = vector_select_f(is_small, -by_w, by_w);
+    const vector_f eta_slope = vector_polynomial_eta_slope_f(w_gap);
+    const vector_f product_2 = a_product * (amplitude * by_phi);
+    const vector_f by_half_square = -2.0f * (phi * eta_product) - product_2;
+    const vector_f eta_product_2 = eta * (2.0f * a_squared * (phi * product) + 2.0f * product_2 +
+        half_square_product * by_half_square);
+    const vector_f by_w_2 = eta_slope * (gap_4 * by_by_w) + eta_product_2;
+    const vector_f by_w_chosen_2 = vector_select_f(is_small, -by_w_2, by_w_2);
+    const vector_f product_3 = 2.0f * (phi * a_squared);
+    const vector_f product_4 = 2.0f * (a_squared * by_half_square);
+    const vector_f by_r0 = product_3 * gap + r0 * product_4;
+    const vector_f r0_product = r0 * product_3;
+    const vector_f by_r1 = product_3 * gap_2 + r1 * product_4;
+    const vector_f r1_product = r1 * product_3;
+    const vector_f by_r2 = product_3 * gap_3 + r2 * product_4;
+    const vector_f r2_product = r2 * product_3;
+    S_bar[0] = S_bar[0] + a_product * by_phi;
+    S_bar[1] = S_bar[1] + by_w_chosen * h0_bar + h0 * by_w_chosen_2;
+    S_bar[2] = S_bar[2] + by_w_chosen * h1_bar + h1 * by_w_chosen_2;
+    S_bar[3] = S_bar[3] + by_w_chosen * h2_bar + h2 * by_w_chosen_2;
+    S_bar[4] = S_bar[4] + by_w_chosen * h3_bar + h3 * by_w_chosen_2;
+    S_bar[5] = S_bar[5] + h0 * by_r0 - r0_product * h0_bar;
+    S_bar[6] = S_bar[6] + h1 * by_r0 - r0_product * h1_bar;
+    S_bar[7] = S_bar[7] + h2 * by_r0 - r0_product * h2_bar;
+    S_bar[8] = S_bar[8] + h3 * by_r0 - r0_product * h3_bar;
+    S_bar[9] = S_bar[9] + h0 * by_r1 - r1_product * h0_bar;
+    S_bar[10] = S_bar[10] + h1 * by_r1 - r1_product * h1_bar;
+    S_bar[11] = S_bar[11] + h2 * by_r1 - r1_product * h2_bar;
+    S_bar[12] = S_bar[12] + h3 * by_r1 - r1_product * h3_bar;
+    S_bar[13] = S_bar[13] + h0 * by_r2 - r2_product * h0_bar;
+    S_bar[14] = S_bar[14] + h1 * by_r2 - r2_product * h1_bar;
+    S_bar[15] = S_bar[15] + h2 * by_r2 - r2_product * h2_bar;
+    S_bar[16] = S_bar[16] + h3 * by_r2 - r2_product * h3_bar;
+}
+
+/* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
+OUTLINE void vector_rows_f(const float *rows, size_t count, size_t start, size_t size, vector_f *columns) {
+    for (size_t i = 0; i < size; ++i) {
+        float column[LANES_f];
+        for (size_t lane = 0; lane < LANES_f; ++lane)
+            column[lane] = rows[size * (start + lane < count ? start + lane : count - 1) + i];
+        columns[i] = vector_load_f(column);
+    }
+}
+
+/* Back to rows that are `stride` apart; nothing past the end. */
+OUTLINE void vector_to_rows_f(
+    const vector_f *columns, float *rows, size_t count, size_t start, size_t size, size_t stride) {
+    const size_t lanes = start >= count ? 0 : count - start < LANES_f ? count - start : LANES_f;
+    for (size_t lane = 0; lane < lanes; ++lane)
+        for (size_t i = 0; i < size; ++i) rows[stride * (start + lane) + i] = LANE(columns[i], lane);
+}
+
+/* Zero in the lanes past the end. */
+OUTLINE void vector_end_f(size_t count, size_t start, size_t size, vector_f *columns) {
+    for (size_t lane = start >= count ? 0 : count - start; lane < LANES_f; ++lane)
+        for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
+}
+
+/* Scratch memory: 9 vectors for each block of points, then the constants of the splats. */
+size_t so3_splats_work_f(size_t count, size_t splat_count, int threads) {
+    (void)threads;
+    return ((count + LANES_f - 1) / LANES_f * 9 + 1) * LANES_f + 17 * splat_count;
+}
+
+static vector_f *work_points_f(float *work) {
+    const uintptr_t size = sizeof(vector_f), start = (uintptr_t)work;
+    return (vector_f *)((char *)work + ((0 - start) & (size - 1)));
+}
+
+static float *work_constants_f(float *work, size_t count) {
+    return (float *)(work_points_f(work) + (count + LANES_f - 1) / LANES_f * 9);
+}
+
+/* The constants of LANES splats, as rows. */
+OUTLINE void splat_constants_f(
+    size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, float *constants) {
+    vector_f own_mu[4], own_W[9], own_amplitude[1], S[17];
+    vector_rows_f(mu, splat_count, start, 4, own_mu);
+    vector_rows_f(W, splat_count, start, 9, own_W);
+    vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
+    pair_constants_f(own_mu, own_W, own_amplitude, S);
+    vector_to_rows_f(S, constants, splat_count, start, 17, 17);
+}
+
+/* 2 vectors of points at a time stay in registers while all splats pass. */
 void so3_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *SO3_RESTRICT x,
-    const float *SO3_RESTRICT mu,
-    const float *SO3_RESTRICT W,
-    const float *SO3_RESTRICT amplitude,
-    float *SO3_RESTRICT value,
-    float *SO3_RESTRICT gradient) {
-    const unsigned mode = flush_denormals();
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        float x_block[4][LANES], sum[4][LANES] = {{0}};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            for (size_t i = 0; i < 4; ++i) x_block[i][lane] = x[4 * n + i];
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            const float mu0 = mu[4 * k + 0];
-            const float mu1 = mu[4 * k + 1];
-            const float mu2 = mu[4 * k + 2];
-            const float mu3 = mu[4 * k + 3];
-            const float W0_0 = W[9 * k + 0];
-            const float W0_1 = W[9 * k + 1];
-            const float W0_2 = W[9 * k + 2];
-            const float W1_0 = W[9 * k + 3];
-            const float W1_1 = W[9 * k + 4];
-            const float W1_2 = W[9 * k + 5];
-            const float W2_0 = W[9 * k + 6];
-            const float W2_1 = W[9 * k + 7];
-            const float W2_2 = W[9 * k + 8];
-            const float amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const float g0 = x_block[0][lane] * mu0 + x_block[1][lane] * mu1 + x_block[2][lane] * mu2 +
-                    x_block[3][lane] * mu3;
-                const float g1 = x_block[1][lane] * mu0 + x_block[2][lane] * mu3 - x_block[0][lane] * mu1 -
-                    x_block[3][lane] * mu2;
-                const float g2 = x_block[2][lane] * mu0 + x_block[3][lane] * mu1 - x_block[0][lane] * mu2 -
-                    x_block[1][lane] * mu3;
-                const float g3 = x_block[3][lane] * mu0 + x_block[1][lane] * mu2 - x_block[2][lane] * mu1 -
-                    x_block[0][lane] * mu3;
-                const float norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
-                const float abs_g0 = fabsf(g0);
-                const int near = norm_s_squared < 0.249287f;
-                const float near_chosen = (near ? 4.011440628672975f * norm_s_squared : 0.0f);
-                const float t_over_norm_s_near = polynomial_t_over_norm_s_near_f(near_chosen);
-                const float near_chosen_2 = (near ? 1.0f : norm_s_squared);
-                const float norm_s = sqrtf(near_chosen_2);
-                const float atan2_norm_s_abs_g0 = atan2f(norm_s, abs_g0);
-                const float t = 2.0f * atan2_norm_s_abs_g0;
-                const float t_ratio = t / norm_s;
-                const float t_over_norm_s = (near ? t_over_norm_s_near : t_ratio);
-                const int is_small = g0 < 0.0f;
-                const float chosen = (is_small ? -1.0f : 1.0f);
-                const float scale = t_over_norm_s * chosen;
-                const float v0 = g1 * scale;
-                const float v1 = g2 * scale;
-                const float v2 = g3 * scale;
-                const float log_det_series = polynomial_log_det_series_f(near_chosen);
-                const float log_det_near = norm_s_squared * log_det_series;
-                const float product = 0.5f * t_ratio;
-                const float log_det = (near ? log_det_near : 2.0f * logf(product));
-                const float z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-                const float z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-                const float z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-                const float log_det_gap = log_det - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
-                const float phi = amplitude_k * expf(log_det_gap);
-                const float by_v2 = -(W2_2 * z2) - W1_2 * z1 - W0_2 * z0;
-                const float by_v1 = -(W2_1 * z2) - W1_1 * z1 - W0_1 * z0;
-                const float by_v0 = -(W2_0 * z2) - W1_0 * z1 - W0_0 * z0;
-                const float by_log_det_near = (near ? 1.0f : 0.0f);
-                const float by_log_det_series = norm_s_squared * by_log_det_near;
-                const float log_det_series_slope = polynomial_log_det_series_slope_f(near_chosen);
-                const float by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
-                const float by_t_over_norm_s = chosen * by_scale;
-                const float by_t_over_norm_s_near = (near ? by_t_over_norm_s : 0.0f);
-                const float total_2 = 0.5f * (2.0f * (near ? 0.0f : 1.0f) / product) + (near ? 0.0f : by_t_over_norm_s);
-                const float by_t = total_2 / norm_s;
-                const float by_atan2_norm_s_abs_g0 = 2.0f * by_t;
-                const float ratio = by_atan2_norm_s_abs_g0 / (near_chosen_2 + abs_g0 * abs_g0);
-                const float norm_s_product = norm_s * ratio;
-                const float by_abs_g0 = -norm_s_product;
-                const float by_norm_s = abs_g0 * ratio - t_ratio * by_t;
-                const float t_over_norm_s_near_slope = polynomial_t_over_norm_s_near_slope_f(near_chosen);
-                const float by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0f : by_norm_s / (2.0f *
-                    norm_s)) + 4.011440628672975f * (near ? by_log_det_series * log_det_series_slope +
-                    by_t_over_norm_s_near * t_over_norm_s_near_slope : 0.0f);
-                const float by_g0 = (is_small ? norm_s_product : by_abs_g0);
-                const float product_2 = 2.0f * by_norm_s_squared;
-                const float by_g3 = scale * by_v2 + g3 * product_2;
-                const float by_g2 = scale * by_v1 + g2 * product_2;
-                const float by_g1 = scale * by_v0 + g1 * product_2;
-                const float exponent_by_x3 = mu0 * by_g3 + mu1 * by_g2 - mu2 * by_g1 + mu3 * by_g0;
-                const float exponent_by_x2 = mu0 * by_g2 - mu1 * by_g3 + mu3 * by_g1 + mu2 * by_g0;
-                const float exponent_by_x1 = mu2 * by_g3 - mu3 * by_g2 + mu0 * by_g1 + mu1 * by_g0;
-                const float exponent_by_x0 = -(mu3 * by_g3) - mu2 * by_g2 - mu1 * by_g1 + mu0 * by_g0;
-                const float df0 = phi * exponent_by_x0;
-                const float df1 = phi * exponent_by_x1;
-                const float df2 = phi * exponent_by_x2;
-                const float df3 = phi * exponent_by_x3;
-                const float df1_product = 0.5f * df1;
-                const float df2_product = 0.5f * df2;
-                const float df0_product = 0.5f * df0;
-                const float df3_product = 0.5f * df3;
-                const float gradient0 = x_block[0][lane] * df1_product + x_block[3][lane] * df2_product - x_block[1][lane]
-                    * df0_product - x_block[2][lane] * df3_product;
-                const float gradient1 = x_block[0][lane] * df2_product + x_block[1][lane] * df3_product - x_block[2][lane]
-                    * df0_product - x_block[3][lane] * df1_product;
-                const float gradient2 = x_block[2][lane] * df1_product + x_block[0][lane] * df3_product - x_block[3][lane]
-                    * df0_product - x_block[1][lane] * df2_product;
-                sum[0][lane] += phi;
-                sum[1][lane] += gradient0;
-                sum[2][lane] += gradient1;
-                sum[3][lane] += gradient2;
+    size_t count, size_t splat_count, const float *SO3_RESTRICT x, const float *SO3_RESTRICT mu, const float *SO3_RESTRICT W, const float *SO3_RESTRICT amplitude,
+    float *SO3_RESTRICT value, float *SO3_RESTRICT gradient, float *SO3_RESTRICT work, int threads) {
+    (void)threads;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES_f) {
+            vector_f at[2][4], X[2][4], grad[3];
+            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][4] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows_f(x, count, start + b * LANES_f, 4, at[b]);
+                pair_features_f(at[b], X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_forward_f(X[0], constants + 17 * k, value_sum[0], slope_sum[0]);
+                pair_forward_f(X[1], constants + 17 * k, value_sum[1], slope_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b) {
+                pair_gradient_f(at[b], slope_sum[b], grad);
+                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                vector_to_rows_f(grad, gradient, count, start + b * LANES_f, 3, 3);
             }
         }
-        for (size_t lane = 0; lane < lanes; ++lane) {
-            value[start + lane] = sum[0][lane];
-            for (size_t i = 0; i < 3; ++i) gradient[3 * (start + lane) + i] = sum[i + 1][lane];
-        }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
-void so3_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *SO3_RESTRICT x,
-    const float *SO3_RESTRICT mu,
-    const float *SO3_RESTRICT W,
-    const float *SO3_RESTRICT amplitude,
-    const float *SO3_RESTRICT value_bar,
-    const float *SO3_RESTRICT gradient_bar,
-    float *SO3_RESTRICT mu_bar,
-    float *SO3_RESTRICT W_bar,
-    float *SO3_RESTRICT amplitude_bar) {
-    const unsigned mode = flush_denormals();
-    for (size_t i = 0; i < 4 * splat_count; ++i) mu_bar[i] = 0;
-    for (size_t i = 0; i < 9 * splat_count; ++i) W_bar[i] = 0;
-    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        float x_block[4][LANES], value_bar_block[1][LANES], gradient_bar_block[3][LANES];
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            const float weight = lane < lanes ? 1 : 0;
-            for (size_t i = 0; i < 4; ++i) x_block[i][lane] = x[4 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
-            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] = gradient_bar[3 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
-            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] *= weight;
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            float sum[14][LANES] = {{0}}, total[14] = {0};
-            const float mu0 = mu[4 * k + 0];
-            const float mu1 = mu[4 * k + 1];
-            const float mu2 = mu[4 * k + 2];
-            const float mu3 = mu[4 * k + 3];
-            const float W0_0 = W[9 * k + 0];
-            const float W0_1 = W[9 * k + 1];
-            const float W0_2 = W[9 * k + 2];
-            const float W1_0 = W[9 * k + 3];
-            const float W1_1 = W[9 * k + 4];
-            const float W1_2 = W[9 * k + 5];
-            const float W2_0 = W[9 * k + 6];
-            const float W2_1 = W[9 * k + 7];
-            const float W2_2 = W[9 * k + 8];
-            const float amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const float g0 = x_block[0][lane] * mu0 + x_block[1][lane] * mu1 + x_block[2][lane] * mu2 +
-                    x_block[3][lane] * mu3;
-                const float g1 = x_block[1][lane] * mu0 + x_block[2][lane] * mu3 - x_block[0][lane] * mu1 -
-                    x_block[3][lane] * mu2;
-                const float g2 = x_block[2][lane] * mu0 + x_block[3][lane] * mu1 - x_block[0][lane] * mu2 -
-                    x_block[1][lane] * mu3;
-                const float g3 = x_block[3][lane] * mu0 + x_block[1][lane] * mu2 - x_block[2][lane] * mu1 -
-                    x_block[0][lane] * mu3;
-                const float norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
-                const float abs_g0 = fabsf(g0);
-                const int near = norm_s_squared < 0.249287f;
-                const float near_chosen = (near ? 4.011440628672975f * norm_s_squared : 0.0f);
-                const float t_over_norm_s_near = polynomial_t_over_norm_s_near_f(near_chosen);
-                const float near_chosen_2 = (near ? 1.0f : norm_s_squared);
-                const float norm_s = sqrtf(near_chosen_2);
-                const float atan2_norm_s_abs_g0 = atan2f(norm_s, abs_g0);
-                const float t = 2.0f * atan2_norm_s_abs_g0;
-                const float t_ratio = t / norm_s;
-                const float t_over_norm_s = (near ? t_over_norm_s_near : t_ratio);
-                const int is_small = g0 < 0.0f;
-                const float chosen = (is_small ? -1.0f : 1.0f);
-                const float scale = t_over_norm_s * chosen;
-                const float v0 = g1 * scale;
-                const float v1 = g2 * scale;
-                const float v2 = g3 * scale;
-                const float log_det_series = polynomial_log_det_series_f(near_chosen);
-                const float log_det_near = norm_s_squared * log_det_series;
-                const float product = 0.5f * t_ratio;
-                const float log_det = (near ? log_det_near : 2.0f * logf(product));
-                const float z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-                const float z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-                const float z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-                const float log_det_gap = log_det - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
-                const float exp_2 = expf(log_det_gap);
-                const float phi = amplitude_k * exp_2;
-                const float by_v2 = -(W2_2 * z2) - W1_2 * z1 - W0_2 * z0;
-                const float by_v1 = -(W2_1 * z2) - W1_1 * z1 - W0_1 * z0;
-                const float by_v0 = -(W2_0 * z2) - W1_0 * z1 - W0_0 * z0;
-                const float by_log_det_near = (near ? 1.0f : 0.0f);
-                const float ratio = 2.0f * (near ? 0.0f : 1.0f) / product;
-                const float by_log_det_series = norm_s_squared * by_log_det_near;
-                const float log_det_series_slope = polynomial_log_det_series_slope_f(near_chosen);
-                const float by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
-                const float by_t_over_norm_s = chosen * by_scale;
-                const float by_t_over_norm_s_near = (near ? by_t_over_norm_s : 0.0f);
-                const float by_t = (0.5f * ratio + (near ? 0.0f : by_t_over_norm_s)) / norm_s;
-                const float by_atan2_norm_s_abs_g0 = 2.0f * by_t;
-                const float total_2 = near_chosen_2 + abs_g0 * abs_g0;
-                const float ratio_2 = by_atan2_norm_s_abs_g0 / total_2;
-                const float norm_s_product = norm_s * ratio_2;
-                const float by_abs_g0 = -norm_s_product;
-                const float by_norm_s = abs_g0 * ratio_2 - t_ratio * by_t;
-                const float norm_s_product_2 = 2.0f * norm_s;
-                const float by_norm_s_ratio = by_norm_s / norm_s_product_2;
-                const float t_over_norm_s_near_slope = polynomial_t_over_norm_s_near_slope_f(near_chosen);
-                const float by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0f : by_norm_s_ratio) +
-                    4.011440628672975f * (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_s_near *
-                    t_over_norm_s_near_slope : 0.0f);
-                const float by_g0 = (is_small ? norm_s_product : by_abs_g0);
-                const float product_2 = 2.0f * by_norm_s_squared;
-                const float by_g3 = scale * by_v2 + g3 * product_2;
-                const float by_g2 = scale * by_v1 + g2 * product_2;
-                const float by_g1 = scale * by_v0 + g1 * product_2;
-                const float exponent_by_x3 = mu0 * by_g3 + mu1 * by_g2 - mu2 * by_g1 + mu3 * by_g0;
-                const float exponent_by_x2 = mu0 * by_g2 - mu1 * by_g3 + mu3 * by_g1 + mu2 * by_g0;
-                const float exponent_by_x1 = mu2 * by_g3 - mu3 * by_g2 + mu0 * by_g1 + mu1 * by_g0;
-                const float exponent_by_x0 = -(mu3 * by_g3) - mu2 * by_g2 - mu1 * by_g1 + mu0 * by_g0;
-                const float by_df3 = 0.5f * (x_block[0][lane] * gradient_bar_block[2][lane] + x_block[1][lane] *
-                    gradient_bar_block[1][lane] - x_block[2][lane] * gradient_bar_block[0][lane]);
-                const float by_df0 = 0.5f * (-(x_block[3][lane] * gradient_bar_block[2][lane]) - x_block[2][lane] *
-                    gradient_bar_block[1][lane] - x_block[1][lane] * gradient_bar_block[0][lane]);
-                const float by_df2 = 0.5f * (x_block[0][lane] * gradient_bar_block[1][lane] - x_block[1][lane] *
-                    gradient_bar_block[2][lane] + x_block[3][lane] * gradient_bar_block[0][lane]);
-                const float by_df1 = 0.5f * (x_block[2][lane] * gradient_bar_block[2][lane] - x_block[3][lane] *
-                    gradient_bar_block[1][lane] + x_block[0][lane] * gradient_bar_block[0][lane]);
-                const float by_exponent_by_x3 = phi * by_df3;
-                const float by_exponent_by_x2 = phi * by_df2;
-                const float by_exponent_by_x1 = phi * by_df1;
-                const float by_exponent_by_x0 = phi * by_df0;
-                const float by_phi = value_bar_block[0][lane] + exponent_by_x3 * by_df3 + exponent_by_x2 * by_df2 +
-                    exponent_by_x1 * by_df1 + exponent_by_x0 * by_df0;
-                const float by_by_g0 = mu0 * by_exponent_by_x0 + mu1 * by_exponent_by_x1 + mu2 * by_exponent_by_x2 + mu3 *
-                    by_exponent_by_x3;
-                const float by_by_g1 = mu0 * by_exponent_by_x1 + mu3 * by_exponent_by_x2 - mu1 * by_exponent_by_x0 - mu2 *
-                    by_exponent_by_x3;
-                const float by_by_g2 = mu0 * by_exponent_by_x2 + mu1 * by_exponent_by_x3 - mu2 * by_exponent_by_x0 - mu3 *
-                    by_exponent_by_x1;
-                const float by_by_g3 = mu0 * by_exponent_by_x3 + mu2 * by_exponent_by_x1 - mu1 * by_exponent_by_x2 - mu3 *
-                    by_exponent_by_x0;
-                const float total_3 = g1 * by_by_g1 + g2 * by_by_g2 + g3 * by_by_g3;
-                const float by_by_norm_s_squared = 2.0f * total_3;
-                const float by_by_abs_g0 = (is_small ? 0.0f : by_by_g0);
-                const float near_chosen_3 = (near ? 8.02288125734595f * total_3 : 0.0f);
-                const float by_by_t_over_norm_s_near = t_over_norm_s_near_slope * near_chosen_3;
-                const float by_t_over_norm_s_near_slope = by_t_over_norm_s_near * near_chosen_3;
-                const float t_over_norm_s_near_slope_slope = polynomial_t_over_norm_s_near_slope_slope_f(near_chosen);
-                const float by_by_norm_s = (near ? 0.0f : by_by_norm_s_squared) / norm_s_product_2;
-                const float gap = (is_small ? by_by_g0 : 0.0f) - by_by_abs_g0;
-                const float by_by_atan2_norm_s_abs_g0 = (norm_s * gap + abs_g0 * by_by_norm_s) / total_2;
-                const float product_3 = ratio_2 * by_by_atan2_norm_s_abs_g0;
-                const float gap_2 = ratio_2 * by_by_norm_s - abs_g0 * (2.0f * product_3);
-                const float by_by_t = 2.0f * by_by_atan2_norm_s_abs_g0 - t_ratio * by_by_norm_s;
-                const float by_by_t_ratio = by_by_t / norm_s;
-                const float by_by_t_over_norm_s = (near ? 0.0f : by_by_t_ratio) + (near ? by_by_t_over_norm_s_near :
-                    0.0f);
-                const float by_by_scale = chosen * by_by_t_over_norm_s;
-                const float by_by_v0 = g1 * by_by_scale + scale * by_by_g1;
-                const float by_by_v1 = g2 * by_by_scale + scale * by_by_g2;
-                const float by_by_v2 = g3 * by_by_scale + scale * by_by_g3;
-                const float by_by_log_det_series = log_det_series_slope * near_chosen_3;
-                const float by_log_det_series_slope = by_log_det_series * near_chosen_3;
-                const float log_det_series_slope_slope = polynomial_log_det_series_slope_slope_f(near_chosen);
-                const float by_log_det = exp_2 * (amplitude_k * by_phi);
-                const float by_z2 = -(W2_0 * by_by_v0) - W2_1 * by_by_v1 - W2_2 * by_by_v2 - z2 * by_log_det;
-                const float by_z1 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2 - z1 * by_log_det;
-                const float by_z0 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2 - z0 * by_log_det;
-                const float by_v2_2 = W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0;
-                const float by_v1_2 = W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
-                const float by_v0_2 = W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0;
-                const float by_log_det_near_2 = (near ? by_log_det : 0.0f);
-                const float product_4 = 0.5f * (2.0f * (near ? 0.0f : by_log_det) / product - ratio * (0.5f *
-                    by_by_t_ratio / product));
-                const float by_log_det_series_2 = by_log_det_near * by_by_norm_s_squared + norm_s_squared *
-                    by_log_det_near_2;
-                const float total_4 = by_v0 * by_by_g1 + by_v1 * by_by_g2 + by_v2 * by_by_g3 + g3 * by_v2_2 + g2 *
-                    by_v1_2;
-                const float by_scale_2 = total_4 + g1 * by_v0_2;
-                const float by_t_over_norm_s_2 = chosen * by_scale_2;
-                const float by_t_over_norm_s_near_2 = (near ? by_t_over_norm_s_2 : 0.0f);
-                const float by_t_2 = (product_4 - by_t * by_by_norm_s + (near ? 0.0f : by_t_over_norm_s_2)) / norm_s;
-                const float gap_3 = ratio_2 * gap - 2.0f * (by_norm_s_ratio * by_by_norm_s) - by_t * by_by_t_ratio -
-                    t_ratio * by_t_2;
-                const float by_atan2_norm_s_abs_g0_2 = 2.0f * by_t_2;
-                const float ratio_3 = by_atan2_norm_s_abs_g0_2 / total_2;
-                const float norm_s_product_3 = norm_s * ratio_3;
-                const float by_norm_s_2 = gap_3 + abs_g0 * ratio_3;
-                const float by_abs_g0_2 = gap_2 - norm_s_product_3;
-                const float near_chosen_4 = (near ? by_t_over_norm_s_near_slope * t_over_norm_s_near_slope_slope +
-                    by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
-                    t_over_norm_s_near_slope * by_t_over_norm_s_near_2 : 0.0f);
-                const float by_norm_s_squared_2 = by_log_det_near * by_by_log_det_series + log_det_series *
-                    by_log_det_near_2 + (near ? 0.0f : by_norm_s_2 / norm_s_product_2 - product_3) + 4.011440628672975f *
-                    near_chosen_4;
-                const float by_g0_2 = (is_small ? norm_s_product_3 - gap_2 : by_abs_g0_2);
-                const float product_5 = 2.0f * by_norm_s_squared_2;
-                const float by_g3_2 = product_2 * by_by_g3 + by_v2 * by_by_scale + scale * by_v2_2 + g3 * product_5;
-                const float by_g2_2 = product_2 * by_by_g2 + by_v1 * by_by_scale + scale * by_v1_2 + g2 * product_5;
-                const float by_g1_2 = product_2 * by_by_g1 + by_v0 * by_by_scale + scale * by_v0_2 + g1 * product_5;
-                const float gap_4 = by_g0 * by_exponent_by_x3 + by_g1 * by_exponent_by_x2 - by_g2 * by_exponent_by_x1 -
-                    by_g3 * by_exponent_by_x0 - x_block[0][lane] * by_g3_2;
-                const float gap_5 = by_g0 * by_exponent_by_x1 - by_g1 * by_exponent_by_x0 + by_g2 * by_exponent_by_x3 -
-                    by_g3 * by_exponent_by_x2 - x_block[2][lane] * by_g3_2;
-                const float total_5 = by_g0 * by_exponent_by_x2 - by_g1 * by_exponent_by_x3 - by_g2 * by_exponent_by_x0 +
-                    by_g3 * by_exponent_by_x1 + x_block[1][lane] * by_g3_2;
-                const float total_6 = by_g0 * by_exponent_by_x0 + by_g1 * by_exponent_by_x1 + by_g2 * by_exponent_by_x2 +
-                    by_g3 * by_exponent_by_x3 + x_block[3][lane] * by_g3_2;
-                sum[0][lane] += total_6 + x_block[2][lane] * by_g2_2 + x_block[1][lane] * by_g1_2 + x_block[0][lane] * by_g0_2;
-                sum[1][lane] += gap_5 + x_block[3][lane] * by_g2_2 - x_block[0][lane] * by_g1_2 + x_block[1][lane] * by_g0_2;
-                sum[2][lane] += total_5 - x_block[0][lane] * by_g2_2 - x_block[3][lane] * by_g1_2 + x_block[2][lane] * by_g0_2;
-                sum[3][lane] += gap_4 - x_block[1][lane] * by_g2_2 + x_block[2][lane] * by_g1_2 + x_block[3][lane] * by_g0_2;
-                sum[4][lane] += v0 * by_z0 - z0 * by_by_v0;
-                sum[5][lane] += v1 * by_z0 - z0 * by_by_v1;
-                sum[6][lane] += v2 * by_z0 - z0 * by_by_v2;
-                sum[7][lane] += v0 * by_z1 - z1 * by_by_v0;
-                sum[8][lane] += v1 * by_z1 - z1 * by_by_v1;
-                sum[9][lane] += v2 * by_z1 - z1 * by_by_v2;
-                sum[10][lane] += v0 * by_z2 - z2 * by_by_v0;
-                sum[11][lane] += v1 * by_z2 - z2 * by_by_v1;
-                sum[12][lane] += v2 * by_z2 - z2 * by_by_v2;
-                sum[13][lane] += exp_2 * by_phi;
+void so3_splats_value_f(
+    size_t count, size_t splat_count, const float *SO3_RESTRICT x, const float *SO3_RESTRICT mu, const float *SO3_RESTRICT W, const float *SO3_RESTRICT amplitude,
+    float *SO3_RESTRICT value, float *SO3_RESTRICT work, int threads) {
+    (void)threads;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES_f) {
+            vector_f at[4], X[2][4], value_sum[2][1] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows_f(x, count, start + b * LANES_f, 4, at);
+                pair_features_f(at, X[b]);
             }
-            for (size_t i = 0; i < 14; ++i)
-                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
-            mu_bar[4 * k + 0] += total[0];
-            mu_bar[4 * k + 1] += total[1];
-            mu_bar[4 * k + 2] += total[2];
-            mu_bar[4 * k + 3] += total[3];
-            W_bar[9 * k + 0] += total[4];
-            W_bar[9 * k + 1] += total[5];
-            W_bar[9 * k + 2] += total[6];
-            W_bar[9 * k + 3] += total[7];
-            W_bar[9 * k + 4] += total[8];
-            W_bar[9 * k + 5] += total[9];
-            W_bar[9 * k + 6] += total[10];
-            W_bar[9 * k + 7] += total[11];
-            W_bar[9 * k + 8] += total[12];
-            amplitude_bar[1 * k + 0] += total[13];
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_value_f(X[0], constants + 17 * k, value_sum[0]);
+                pair_value_f(X[1], constants + 17 * k, value_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b)
+                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
         }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
+}
+
+/* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
+OUTLINE void splat_points_f(
+    size_t count, size_t start, const float *x, const float *value_bar, const float *gradient_bar, vector_f *point) {
+    vector_f at[4], grad_bar[3], slope_bar[4];
+    vector_rows_f(x, count, start, 4, at);
+    vector_rows_f(gradient_bar, count, start, 3, grad_bar);
+    vector_rows_f(value_bar, count, start, 1, point + 4);
+    pair_features_f(at, point);
+    pair_gradient_vjp_f(at, grad_bar, slope_bar);
+    for (int i = 0; i < 4; ++i) point[4 + 1 + i] = slope_bar[i];
+    vector_end_f(count, start, 4 + 1, point + 4);
+}
+
+/* Adds to S_bar what some vectors of points add to it. */
+OUTLINE void splat_sums_f(const vector_f *point, size_t size, const float *S, float *S_bar) {
+    vector_f sum[17] = {ZERO};
+    for (size_t b = 0; b < size; ++b, point += 9) pair_backward_f(point, S, point + 4, point + 4 + 1, sum);
+    S_bar[0] += vector_sum_f(sum[0]);
+    S_bar[1] += vector_sum_f(sum[1]);
+    S_bar[2] += vector_sum_f(sum[2]);
+    S_bar[3] += vector_sum_f(sum[3]);
+    S_bar[4] += vector_sum_f(sum[4]);
+    S_bar[5] += vector_sum_f(sum[5]);
+    S_bar[6] += vector_sum_f(sum[6]);
+    S_bar[7] += vector_sum_f(sum[7]);
+    S_bar[8] += vector_sum_f(sum[8]);
+    S_bar[9] += vector_sum_f(sum[9]);
+    S_bar[10] += vector_sum_f(sum[10]);
+    S_bar[11] += vector_sum_f(sum[11]);
+    S_bar[12] += vector_sum_f(sum[12]);
+    S_bar[13] += vector_sum_f(sum[13]);
+    S_bar[14] += vector_sum_f(sum[14]);
+    S_bar[15] += vector_sum_f(sum[15]);
+    S_bar[16] += vector_sum_f(sum[16]);
+}
+
+/*
+ * Some splats at a time; the points pass over each of them, a chunk at a time, while its sums stay in registers. How many
+ * splats depends on the threads, what is summed in which order does not.
+ */
+void so3_splats_vjp_f(
+    size_t count, size_t splat_count, const float *SO3_RESTRICT x, const float *SO3_RESTRICT mu, const float *SO3_RESTRICT W, const float *SO3_RESTRICT amplitude, const float *SO3_RESTRICT value_bar, const float *SO3_RESTRICT gradient_bar,
+    float *SO3_RESTRICT mu_bar, float *SO3_RESTRICT W_bar, float *SO3_RESTRICT amplitude_bar, float *SO3_RESTRICT work, int threads) {
+    const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    const size_t chunk = 131072 / (9 * sizeof(vector_f)) + 1;
+    const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
+    const size_t share = part < LANES_f ? part : LANES_f;
+    vector_f *points = work_points_f(work);
+    float *constants = work_constants_f(work, count);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic) nowait)
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic, 8))
+        for (size_t block = 0; block < blocks; ++block)
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 9 * block);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += share) {
+            const size_t end = start + share < splat_count ? start + share : splat_count;
+            float sums[LANES_f][17] = {{0}};
+            vector_f own_mu[4], own_W[9], own_amplitude[1], S_bar[17], bars[14];
+            for (size_t first = 0; first < blocks; first += chunk) {
+                const size_t size = first + chunk < blocks ? chunk : blocks - first;
+                for (size_t k = start; k < end; ++k)
+                    splat_sums_f(points + 9 * first, size, constants + 17 * k, sums[k - start]);
+            }
+            vector_rows_f(mu, end, start, 4, own_mu);
+            vector_rows_f(W, end, start, 9, own_W);
+            vector_rows_f(amplitude, end, start, 1, own_amplitude);
+            vector_rows_f(sums[0], LANES_f, 0, 17, S_bar);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 4, bars + 4 + 9);
+            vector_to_rows_f(bars, mu_bar, end, start, 4, 4);
+            vector_to_rows_f(bars + 4, W_bar, end, start, 9, 9);
+            vector_to_rows_f(bars + 4 + 9, amplitude_bar, end, start, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* Nothing is summed: the adjoints of a splat's constants go on to its parameters for every point. */
+void so3_splats_rows_f(
+    size_t count, size_t splat_count, const float *SO3_RESTRICT x, const float *SO3_RESTRICT mu, const float *SO3_RESTRICT W, const float *SO3_RESTRICT amplitude, const float *SO3_RESTRICT value_bar, const float *SO3_RESTRICT gradient_bar,
+    float *SO3_RESTRICT rows, float *SO3_RESTRICT work, int threads) {
+    (void)threads;
+    const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t block = 0; block < blocks; ++block) {
+            vector_f point[9];
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
+            for (size_t k = 0; k < splat_count; ++k) {
+                vector_f own_mu[4], own_W[9], own_amplitude[1], S_bar[17] = {ZERO}, bars[14];
+                for (int i = 0; i < 4; ++i) own_mu[i] = vector_of_f(mu[4 * k + i]);
+                for (int i = 0; i < 9; ++i) own_W[i] = vector_of_f(W[9 * k + i]);
+                own_amplitude[0] = vector_of_f(amplitude[k]);
+                pair_backward_f(point, constants + 17 * k, point + 4, point + 4 + 1, S_bar);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 4, bars + 4 + 9);
+                vector_to_rows_f(bars, rows + 14 * k, count, block * LANES_f, 14, 14 * splat_count);
+            }
+        }
+        restore_denormals(mode);
+    }
 }

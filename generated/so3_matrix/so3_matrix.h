@@ -333,51 +333,42 @@ void so3_matrix_splat_batch_f(
 void so3_matrix_frame(const double *SO3_MATRIX_RESTRICT p, double *SO3_MATRIX_RESTRICT frame);
 void so3_matrix_frame_f(const float *SO3_MATRIX_RESTRICT p, float *SO3_MATRIX_RESTRICT frame);
 
+/* How many numbers of scratch memory the functions below need, for these sizes or smaller ones. */
+size_t so3_matrix_splats_work(size_t count, size_t splat_count, int threads);
+size_t so3_matrix_splats_work_f(size_t count, size_t splat_count, int threads);
+
 /* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
 void so3_matrix_splats(
-    size_t count,
-    size_t splat_count,
-    const double *SO3_MATRIX_RESTRICT x,
-    const double *SO3_MATRIX_RESTRICT mu,
-    const double *SO3_MATRIX_RESTRICT W,
-    const double *SO3_MATRIX_RESTRICT amplitude,
-    double *SO3_MATRIX_RESTRICT value,
-    double *SO3_MATRIX_RESTRICT gradient);
+    size_t count, size_t splat_count, const double *SO3_MATRIX_RESTRICT x, const double *SO3_MATRIX_RESTRICT mu, const double *SO3_MATRIX_RESTRICT W, const double *SO3_MATRIX_RESTRICT amplitude,
+    double *SO3_MATRIX_RESTRICT value, double *SO3_MATRIX_RESTRICT gradient, double *SO3_MATRIX_RESTRICT work, int threads);
 void so3_matrix_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *SO3_MATRIX_RESTRICT x,
-    const float *SO3_MATRIX_RESTRICT mu,
-    const float *SO3_MATRIX_RESTRICT W,
-    const float *SO3_MATRIX_RESTRICT amplitude,
-    float *SO3_MATRIX_RESTRICT value,
-    float *SO3_MATRIX_RESTRICT gradient);
+    size_t count, size_t splat_count, const float *SO3_MATRIX_RESTRICT x, const float *SO3_MATRIX_RESTRICT mu, const float *SO3_MATRIX_RESTRICT W, const float *SO3_MATRIX_RESTRICT amplitude,
+    float *SO3_MATRIX_RESTRICT value, float *SO3_MATRIX_RESTRICT gradient, float *SO3_MATRIX_RESTRICT work, int threads);
+
+/* The values of the sums alone. */
+void so3_matrix_splats_value(
+    size_t count, size_t splat_count, const double *SO3_MATRIX_RESTRICT x, const double *SO3_MATRIX_RESTRICT mu, const double *SO3_MATRIX_RESTRICT W, const double *SO3_MATRIX_RESTRICT amplitude,
+    double *SO3_MATRIX_RESTRICT value, double *SO3_MATRIX_RESTRICT work, int threads);
+void so3_matrix_splats_value_f(
+    size_t count, size_t splat_count, const float *SO3_MATRIX_RESTRICT x, const float *SO3_MATRIX_RESTRICT mu, const float *SO3_MATRIX_RESTRICT W, const float *SO3_MATRIX_RESTRICT amplitude,
+    float *SO3_MATRIX_RESTRICT value, float *SO3_MATRIX_RESTRICT work, int threads);
 
 /* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
 void so3_matrix_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *SO3_MATRIX_RESTRICT x,
-    const double *SO3_MATRIX_RESTRICT mu,
-    const double *SO3_MATRIX_RESTRICT W,
-    const double *SO3_MATRIX_RESTRICT amplitude,
-    const double *SO3_MATRIX_RESTRICT value_bar,
-    const double *SO3_MATRIX_RESTRICT gradient_bar,
-    double *SO3_MATRIX_RESTRICT mu_bar,
-    double *SO3_MATRIX_RESTRICT W_bar,
-    double *SO3_MATRIX_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const double *SO3_MATRIX_RESTRICT x, const double *SO3_MATRIX_RESTRICT mu, const double *SO3_MATRIX_RESTRICT W, const double *SO3_MATRIX_RESTRICT amplitude, const double *SO3_MATRIX_RESTRICT value_bar, const double *SO3_MATRIX_RESTRICT gradient_bar,
+    double *SO3_MATRIX_RESTRICT mu_bar, double *SO3_MATRIX_RESTRICT W_bar, double *SO3_MATRIX_RESTRICT amplitude_bar, double *SO3_MATRIX_RESTRICT work, int threads);
 void so3_matrix_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *SO3_MATRIX_RESTRICT x,
-    const float *SO3_MATRIX_RESTRICT mu,
-    const float *SO3_MATRIX_RESTRICT W,
-    const float *SO3_MATRIX_RESTRICT amplitude,
-    const float *SO3_MATRIX_RESTRICT value_bar,
-    const float *SO3_MATRIX_RESTRICT gradient_bar,
-    float *SO3_MATRIX_RESTRICT mu_bar,
-    float *SO3_MATRIX_RESTRICT W_bar,
-    float *SO3_MATRIX_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const float *SO3_MATRIX_RESTRICT x, const float *SO3_MATRIX_RESTRICT mu, const float *SO3_MATRIX_RESTRICT W, const float *SO3_MATRIX_RESTRICT amplitude, const float *SO3_MATRIX_RESTRICT value_bar, const float *SO3_MATRIX_RESTRICT gradient_bar,
+    float *SO3_MATRIX_RESTRICT mu_bar, float *SO3_MATRIX_RESTRICT W_bar, float *SO3_MATRIX_RESTRICT amplitude_bar, float *SO3_MATRIX_RESTRICT work, int threads);
+
+/* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +
+ * gradient_n . gradient_bar_n in its mu, W and amplitude, in this order. */
+void so3_matrix_splats_rows(
+    size_t count, size_t splat_count, const double *SO3_MATRIX_RESTRICT x, const double *SO3_MATRIX_RESTRICT mu, const double *SO3_MATRIX_RESTRICT W, const double *SO3_MATRIX_RESTRICT amplitude, const double *SO3_MATRIX_RESTRICT value_bar, const double *SO3_MATRIX_RESTRICT gradient_bar,
+    double *SO3_MATRIX_RESTRICT rows, double *SO3_MATRIX_RESTRICT work, int threads);
+void so3_matrix_splats_rows_f(
+    size_t count, size_t splat_count, const float *SO3_MATRIX_RESTRICT x, const float *SO3_MATRIX_RESTRICT mu, const float *SO3_MATRIX_RESTRICT W, const float *SO3_MATRIX_RESTRICT amplitude, const float *SO3_MATRIX_RESTRICT value_bar, const float *SO3_MATRIX_RESTRICT gradient_bar,
+    float *SO3_MATRIX_RESTRICT rows, float *SO3_MATRIX_RESTRICT work, int threads);
 
 #ifdef __cplusplus
 }

@@ -7,34 +7,178 @@
 #include "so3_matrix.h"
 
 #include <float.h>
+#include <stdint.h>
+#include <string.h>
 
-#define LANES 64
+/*
+ * A vector is as wide as the machine's registers, or one number where the compiler has no vectors (or is asked for none
+ * by -DRSRM_NO_VECTORS). Comparisons of vectors are masks; `vector_select` is the ?: of vectors.
+ */
+#if defined(__GNUC__) && !defined(RSRM_NO_VECTORS)
+#if defined(__AVX512F__)
+#define VECTOR_BYTES 64
+#elif defined(__AVX__)
+#define VECTOR_BYTES 32
+#else
+#define VECTOR_BYTES 16
+#endif
+#define LANE(vector, i) (vector)[i]
+#define ZERO {0}
+#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
+typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
+typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
+typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
+typedef int32_t vector_mask_f __attribute__((vector_size(VECTOR_BYTES)));
+typedef uint64_t vector_bits __attribute__((vector_size(VECTOR_BYTES)));
+typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
+#else
+#define LANE(vector, i) (vector)
+#define ZERO 0
+#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
+typedef double vector;
+typedef float vector_f;
+typedef int64_t vector_mask;
+typedef int32_t vector_mask_f;
+typedef uint64_t vector_bits;
+typedef uint32_t vector_bits_f;
+#endif
+#if defined(__GNUC__)
+#define INLINE static inline __attribute__((always_inline, unused))
+#define OUTLINE static __attribute__((noinline))
+#else
+#define INLINE static inline
+#define OUTLINE static
+#endif
+#define LANES (sizeof(vector) / sizeof(double))
+#define LANES_f (sizeof(vector_f) / sizeof(float))
+
+/* Threads, where the compiler has OpenMP. */
+#if defined(_OPENMP)
+#define OMP(directive) _Pragma(#directive)
+#else
+#define OMP(directive)
+#endif
 
 /* Denormal numbers count as zero while the sums run: far splats are many, and slow. */
 #if defined(__SSE2__)
 #include <xmmintrin.h>
-static unsigned flush_denormals(void) {
+INLINE uint64_t flush_denormals(void) {
     const unsigned mode = _mm_getcsr();
     _mm_setcsr(mode | 0x8040u);
     return mode;
 }
-static void restore_denormals(unsigned mode) { _mm_setcsr(mode); }
+INLINE void restore_denormals(uint64_t mode) { _mm_setcsr((unsigned)mode); }
+#elif defined(__aarch64__) && defined(__GNUC__)
+INLINE uint64_t flush_denormals(void) {
+    uint64_t mode;
+    __asm__ __volatile__("mrs %0, fpcr" : "=r"(mode));
+    __asm__ __volatile__("msr fpcr, %0" : : "r"(mode | (UINT64_C(1) << 24)));
+    return mode;
+}
+INLINE void restore_denormals(uint64_t mode) { __asm__ __volatile__("msr fpcr, %0" : : "r"(mode)); }
 #else
-static unsigned flush_denormals(void) { return 0; }
-static void restore_denormals(unsigned mode) { (void)mode; }
+INLINE uint64_t flush_denormals(void) { return 0; }
+INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
 
-/* Of degree 13 on [0, 1], its relative error below 2^-56. */
-static inline double polynomial_t_over_norm_s_near(double x) {
-    return 2.0 + x * (0.08309566666666784 + x * (0.009321601255279904 + x * (0.0013831869136529075 + x *
-        (0.00023466269139487824 + x * (4.307622244387224e-05 + x * (8.328318196009972e-06 + x *
-        (1.6734198264338605e-06 + x * (3.3892571731146964e-07 + x * (8.160810786979752e-08 + x *
-        (5.559604423994873e-09 + x * (1.0797473542320039e-08 + x * (-2.6805393136717492e-09 + x *
-        9.765079763039615e-10))))))))))));
+/* The same number in all lanes. */
+INLINE vector vector_of(double x) {
+    const vector zero = ZERO;
+    return x - zero;
+}
+
+/* x in the lanes of the mask, y in the others. */
+INLINE vector vector_select(vector_mask mask, vector x, vector y) {
+    return SELECT(vector, vector_mask, mask, x, y);
+}
+
+/* Numbers in memory to a vector, and back. */
+INLINE vector vector_load(const double *from) {
+    vector x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+INLINE void vector_store(double *to, vector x) { memcpy(to, &x, sizeof x); }
+
+/* The sum over the lanes, by halves. */
+INLINE double vector_sum(vector x) {
+    double lanes[LANES];
+    vector_store(lanes, x);
+    for (size_t half = LANES / 2; half > 0; half /= 2)
+        for (size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    return lanes[0];
+}
+
+/* The bits of a vector as integers, and back. */
+INLINE vector_bits vector_to_bits(vector x) {
+    vector_bits bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+INLINE vector vector_from_bits(vector_bits bits) {
+    vector x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* x >= 0 with the sign of another. */
+INLINE vector vector_signed(vector x, vector sign) {
+    return vector_from_bits(vector_to_bits(x) | (vector_to_bits(sign) & 0x8000000000000000));
+}
+
+/* abs of every lane; one instruction where the machine has it. */
+INLINE vector vector_abs(vector x) {
+    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
+    return x;
+}
+
+/* sqrt of every lane; one instruction where the machine has it. */
+INLINE vector vector_sqrt(vector x) {
+    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
+    return x;
+}
+
+/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
+INLINE vector vector_exp(vector x) {
+    const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
+    const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
+    const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
+    const vector scale = vector_from_bits((vector_to_bits(shifted) + 1022) << 52); /* 2^(k - 1) */
+    const vector y = vector_select(x > 709.782712893384, vector_of(HUGE_VAL), (scale + scale * part) * 2);
+    return vector_select(x < -707.9, vector_of(0), y);
+}
+
+/* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
+INLINE vector vector_log(vector x) {
+    const vector_bits bits = vector_to_bits(x), biased = (bits + 0x95f619980c433) >> 52; /* k + 1023 */
+    const vector k = vector_from_bits(biased + 0x4338000000000000) - 6755399441056767.0;
+    const vector f = vector_from_bits(bits - (biased << 52) + 0x3ff0000000000000) - 1, s = f / (2 + f), z = s * s;
+    const vector half = f * f * 0.5;
+    const vector rest = z * (0.6666666666666666 + z * (0.4000000000000088 + z * (0.28571428570801954 + z * (0.22222222392089008 + z * (0.18181795600060793 + z * (0.15386241881938595 + z * (0.13268714792348096 + z * 0.1308723619665962)))))));
+    const vector y = k * 0.6931471805601177 - ((half - (s * (half + rest) + k * -1.7239444525614835e-13)) - f);
+    const vector small = vector_select(x < 0, vector_of(NAN), vector_of(-HUGE_VAL));
+    const vector finite = vector_select(x > 2.2250738585072009e-308, y, small);
+    return vector_select(x <= 1.7976931348623157e308, finite, x);
+}
+
+/* atan2, within 3 units in the last place. */
+INLINE vector vector_atan2(vector y, vector x) {
+    const vector a = vector_abs(y), b = vector_abs(x), one = vector_of(1);
+    const vector less = vector_select(a > b, b, a), more = vector_select(a > b, a, b);
+    const vector low = vector_select(less > 1.7976931348623157e308, one, less);
+    const vector high = vector_select(less > 1.7976931348623157e308, one, vector_select(more == 0, one, more));
+    const vector top = vector_select(low > 0.4142135623730951 * high, low - high, low);
+    const vector bottom = vector_select(low > 0.4142135623730951 * high, low * 0.5 + high * 0.5, high * 0.5);
+    const vector t = top / bottom * 0.5, z = t * t;
+    const vector angle = t + t * z * (-0.3333333333333333 + z * (0.19999999999999804 + z * (-0.14285714285659806 + z * (0.11111111105153429 + z * (-0.09090908753400499 + z * (0.07692296372129964 + z * (-0.06666424833613552 + z * (0.05878928398517232 + z * (-0.052304498567092406 + z * (0.04551573086664191 + z * (-0.034570044186095536 + z * 0.016285183029865667)))))))))));
+    const vector first = vector_select(low > 0.4142135623730951 * high, 0.7853981633974483 + (angle + 3.061616997868383e-17), angle);
+    const vector second = vector_select(a > b, 1.5707963267948966 - (first - 6.123233995736766e-17), first);
+    const vector third = vector_select((vector_to_bits(x) & 0x8000000000000000) != 0, 3.141592653589793 - (second - 1.2246467991473532e-16), second);
+    return vector_signed(third, y);
 }
 
 /* Of degree 13 on [0, 1], its relative error below 2^-56. */
-static inline double polynomial_log_det_series(double x) {
+INLINE vector vector_polynomial_log_det_series(vector x) {
     return 0.3333333333333333 + x * (0.030468411111111815 + x * (0.004186774461502485 + x *
         (0.0006822355998616309 + x * (0.0001221617222686508 + x * (2.3226222426586787e-05 + x *
         (4.602679660683086e-06 + x * (9.419944287901338e-07 + x * (1.9330673844597264e-07 + x *
@@ -42,17 +186,17 @@ static inline double polynomial_log_det_series(double x) {
         (-1.6163842503256483e-09 + x * 5.84780397346594e-10))))))))))));
 }
 
-/* Of degree 12 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_log_det_series_slope(double x) {
-    return 0.030468411111111815 + x * (0.00837354892300497 + x * (0.002046706799584893 + x *
-        (0.0004886468890746032 + x * (0.00011613111213293394 + x * (2.7616077964098513e-05 + x *
-        (6.5939610015309365e-06 + x * (1.5464539075677811e-06 + x * (4.2591189458137294e-07 + x *
-        (3.057232901845864e-08 + x * (7.082806450744882e-08 + x * (-1.939661100390778e-08 + x *
-        7.602145165505722e-09)))))))))));
+/* Of degree 13 on [0, 1], its relative error below 2^-56. */
+INLINE vector vector_polynomial_t_over_norm_s_near(vector x) {
+    return 2.0 + x * (0.08309566666666784 + x * (0.009321601255279904 + x * (0.0013831869136529075 + x *
+        (0.00023466269139487824 + x * (4.307622244387224e-05 + x * (8.328318196009972e-06 + x *
+        (1.6734198264338605e-06 + x * (3.3892571731146964e-07 + x * (8.160810786979752e-08 + x *
+        (5.559604423994873e-09 + x * (1.0797473542320039e-08 + x * (-2.6805393136717492e-09 + x *
+        9.765079763039615e-10))))))))))));
 }
 
 /* Of degree 12 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_t_over_norm_s_near_slope(double x) {
+INLINE vector vector_polynomial_t_over_norm_s_near_slope(vector x) {
     return 0.08309566666666784 + x * (0.018643202510559807 + x * (0.004149560740958722 + x *
         (0.0009386507655795129 + x * (0.0002153811122193612 + x * (4.996990917605983e-05 + x *
         (1.1713938785037024e-05 + x * (2.711405738491757e-06 + x * (7.344729708281776e-07 + x *
@@ -60,1350 +204,2306 @@ static inline double polynomial_t_over_norm_s_near_slope(double x) {
         1.2694603691951498e-08)))))))))));
 }
 
-/* Of degree 11 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_t_over_norm_s_near_slope_slope(double x) {
-    return 0.018643202510559807 + x * (0.008299121481917445 + x * (0.0028159522967385387 + x *
-        (0.0008615244488774448 + x * (0.00024984954588029915 + x * (7.028363271022215e-05 + x *
-        (1.89798401694423e-05 + x * (5.875783766625421e-06 + x * (5.003643981595386e-07 + x *
-        (1.1877220896552042e-06 + x * (-3.538311894046709e-07 + x * 1.5233524430341798e-07))))))))));
+/* Of degree 12 on [0, 1], the derivative of a polynomial. */
+INLINE vector vector_polynomial_log_det_series_slope(vector x) {
+    return 0.030468411111111815 + x * (0.00837354892300497 + x * (0.002046706799584893 + x *
+        (0.0004886468890746032 + x * (0.00011613111213293394 + x * (2.7616077964098513e-05 + x *
+        (6.5939610015309365e-06 + x * (1.5464539075677811e-06 + x * (4.2591189458137294e-07 + x *
+        (3.057232901845864e-08 + x * (7.082806450744882e-08 + x * (-1.939661100390778e-08 + x *
+        7.602145165505722e-09)))))))))));
 }
 
 /* Of degree 11 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_log_det_series_slope_slope(double x) {
+INLINE vector vector_polynomial_log_det_series_slope_slope(vector x) {
     return 0.00837354892300497 + x * (0.004093413599169786 + x * (0.0014659406672238098 + x *
         (0.00046452444853173575 + x * (0.00013808038982049257 + x * (3.956376600918562e-05 + x *
         (1.0825177352974468e-05 + x * (3.4072951566509835e-06 + x * (2.7515096116612774e-07 + x *
         (7.082806450744882e-07 + x * (-2.1336272104298557e-07 + x * 9.122574198606865e-08))))))))));
 }
 
+/* Of degree 11 on [0, 1], the derivative of a polynomial. */
+INLINE vector vector_polynomial_t_over_norm_s_near_slope_slope(vector x) {
+    return 0.018643202510559807 + x * (0.008299121481917445 + x * (0.0028159522967385387 + x *
+        (0.0008615244488774448 + x * (0.00024984954588029915 + x * (7.028363271022215e-05 + x *
+        (1.89798401694423e-05 + x * (5.875783766625421e-06 + x * (5.003643981595386e-07 + x *
+        (1.1877220896552042e-06 + x * (-3.538311894046709e-07 + x * 1.5233524430341798e-07))))))))));
+}
+
+/* What pairs read of points x. */
+OUTLINE void pair_features(
+    const vector *x, vector *X) {
+    const vector x0 = x[0];
+    const vector x1 = x[1];
+    const vector x2 = x[2];
+    const vector x3 = x[3];
+    const vector x4 = x[4];
+    const vector x5 = x[5];
+    const vector x6 = x[6];
+    const vector x7 = x[7];
+    const vector x8 = x[8];
+    X[0] = x0;
+    X[1] = x1;
+    X[2] = x2;
+    X[3] = x3;
+    X[4] = x4;
+    X[5] = x5;
+    X[6] = x6;
+    X[7] = x7;
+    X[8] = x8;
+}
+
+/* What pairs read of a splat, of some splats. */
+OUTLINE void pair_constants(
+    const vector *mu, const vector *W, const vector *amplitude, vector *S) {
+    const vector mu0 = mu[0];
+    const vector mu1 = mu[1];
+    const vector mu2 = mu[2];
+    const vector mu3 = mu[3];
+    const vector mu4 = mu[4];
+    const vector mu5 = mu[5];
+    const vector mu6 = mu[6];
+    const vector mu7 = mu[7];
+    const vector mu8 = mu[8];
+    const vector W0_0 = W[0];
+    const vector W0_1 = W[1];
+    const vector W0_2 = W[2];
+    const vector W1_0 = W[3];
+    const vector W1_1 = W[4];
+    const vector W1_2 = W[5];
+    const vector W2_0 = W[6];
+    const vector W2_1 = W[7];
+    const vector W2_2 = W[8];
+    const vector its_amplitude = amplitude[0];
+    S[0] = mu0;
+    S[1] = mu1;
+    S[2] = mu2;
+    S[3] = mu3;
+    S[4] = mu4;
+    S[5] = mu5;
+    S[6] = mu6;
+    S[7] = mu7;
+    S[8] = mu8;
+    S[9] = W0_0;
+    S[10] = W0_1;
+    S[11] = W0_2;
+    S[12] = W1_0;
+    S[13] = W1_1;
+    S[14] = W1_2;
+    S[15] = W2_0;
+    S[16] = W2_1;
+    S[17] = W2_2;
+    S[18] = its_amplitude;
+}
+
+/* Adds the values phi of a splat at some points. */
+INLINE void pair_value(
+    const vector *X, const double *S, vector *value) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const vector x2 = X[2];
+    const vector x3 = X[3];
+    const vector x4 = X[4];
+    const vector x5 = X[5];
+    const vector x6 = X[6];
+    const vector x7 = X[7];
+    const vector x8 = X[8];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double mu2 = S[2];
+    const double mu3 = S[3];
+    const double mu4 = S[4];
+    const double mu5 = S[5];
+    const double mu6 = S[6];
+    const double mu7 = S[7];
+    const double mu8 = S[8];
+    const double W0_0 = S[9];
+    const double W0_1 = S[10];
+    const double W0_2 = S[11];
+    const double W1_0 = S[12];
+    const double W1_1 = S[13];
+    const double W1_2 = S[14];
+    const double W2_0 = S[15];
+    const double W2_1 = S[16];
+    const double W2_2 = S[17];
+    const double amplitude = S[18];
+    const vector R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8;
+    const vector R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7;
+    const vector R0_0 = x0 * mu0 + x3 * mu3 + x6 * mu6;
+    const vector R0_0_total = 1.0 + R0_0;
+    const vector square0 = R2_2 + (R1_1 + R0_0_total);
+    const vector square1 = R0_0_total - R1_1 - R2_2;
+    const vector_mask is_less = square0 < square1;
+    const vector largest = vector_select(is_less, square1, square0);
+    const vector square2 = 1.0 + R1_1 - R0_0 - R2_2;
+    const vector_mask is_less_2 = largest < square2;
+    const vector largest_2 = vector_select(is_less_2, square2, largest);
+    const vector square3 = 1.0 + R2_2 - R0_0 - R1_1;
+    const vector_mask is_less_3 = largest_2 < square3;
+    const vector R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6;
+    const vector R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8;
+    const vector R0_2_total = R0_2 + R2_0;
+    const vector R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6;
+    const vector R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7;
+    const vector R0_1_total = R0_1 + R1_0;
+    const vector R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8;
+    const vector R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7;
+    const vector R2_1_gap = R2_1 - R1_2;
+    const vector row_2 = vector_select(is_less, square1, R2_1_gap);
+    const vector row_6 = vector_select(is_less_2, R0_1_total, row_2);
+    const vector row_10 = vector_select(is_less_3, R0_2_total, row_6);
+    const vector R1_2_total = R1_2 + R2_1;
+    const vector R0_2_gap = R0_2 - R2_0;
+    const vector row_3 = vector_select(is_less, R0_1_total, R0_2_gap);
+    const vector row_7 = vector_select(is_less_2, square2, row_3);
+    const vector row_11 = vector_select(is_less_3, R1_2_total, row_7);
+    const vector R1_0_gap = R1_0 - R0_1;
+    const vector row_4 = vector_select(is_less, R0_2_total, R1_0_gap);
+    const vector row_8 = vector_select(is_less_2, R1_2_total, row_4);
+    const vector row_12 = vector_select(is_less_3, square3, row_8);
+    const vector row = vector_select(is_less, R2_1_gap, square0);
+    const vector row_5 = vector_select(is_less_2, R0_2_gap, row);
+    const vector row_9 = vector_select(is_less_3, R1_0_gap, row_5);
+    const vector row_length = vector_sqrt(row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 *
+        row_9);
+    const vector g1 = row_10 / row_length;
+    const vector g2 = row_11 / row_length;
+    const vector g3 = row_12 / row_length;
+    const vector norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+    const vector_mask near = norm_s_squared < 0.249287;
+    const vector near_chosen = vector_select(near, 4.011440628672975 * norm_s_squared, vector_of(0.0));
+    const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
+    const vector log_det_near = norm_s_squared * log_det_series;
+    const vector norm_s = vector_sqrt(vector_select(near, vector_of(1.0), norm_s_squared));
+    const vector g0 = row_9 / row_length;
+    const vector abs_g0 = vector_abs(g0);
+    const vector atan2_norm_s_abs_g0 = vector_atan2(norm_s, abs_g0);
+    const vector t = 2.0 * atan2_norm_s_abs_g0;
+    const vector t_ratio = t / norm_s;
+    const vector log_det = vector_select(near, log_det_near, 2.0 * vector_log(0.5 * t_ratio));
+    const vector t_over_norm_s_near = vector_polynomial_t_over_norm_s_near(near_chosen);
+    const vector t_over_norm_s = vector_select(near, t_over_norm_s_near, t_ratio);
+    const vector scale = t_over_norm_s * vector_select(g0 < 0.0, vector_of(-1.0), vector_of(1.0));
+    const vector v0 = g1 * scale;
+    const vector v1 = g2 * scale;
+    const vector v2 = g3 * scale;
+    const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+    const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+    const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
+    const vector log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
+    value[0] = value[0] + amplitude * vector_exp(log_det_gap);
+}
+
+/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+OUTLINE void pair_forward(
+    const vector *X, const double *S, vector *value, vector *slope) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const vector x2 = X[2];
+    const vector x3 = X[3];
+    const vector x4 = X[4];
+    const vector x5 = X[5];
+    const vector x6 = X[6];
+    const vector x7 = X[7];
+    const vector x8 = X[8];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double mu2 = S[2];
+    const double mu3 = S[3];
+    const double mu4 = S[4];
+    const double mu5 = S[5];
+    const double mu6 = S[6];
+    const double mu7 = S[7];
+    const double mu8 = S[8];
+    const double W0_0 = S[9];
+    const double W0_1 = S[10];
+    const double W0_2 = S[11];
+    const double W1_0 = S[12];
+    const double W1_1 = S[13];
+    const double W1_2 = S[14];
+    const double W2_0 = S[15];
+    const double W2_1 = S[16];
+    const double W2_2 = S[17];
+    const double amplitude = S[18];
+    const vector R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8;
+    const vector R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7;
+    const vector R0_0 = x0 * mu0 + x3 * mu3 + x6 * mu6;
+    const vector R0_0_total = 1.0 + R0_0;
+    const vector square0 = R2_2 + (R1_1 + R0_0_total);
+    const vector square1 = R0_0_total - R1_1 - R2_2;
+    const vector_mask is_less = square0 < square1;
+    const vector largest = vector_select(is_less, square1, square0);
+    const vector square2 = 1.0 + R1_1 - R0_0 - R2_2;
+    const vector_mask is_less_2 = largest < square2;
+    const vector largest_2 = vector_select(is_less_2, square2, largest);
+    const vector square3 = 1.0 + R2_2 - R0_0 - R1_1;
+    const vector_mask is_less_3 = largest_2 < square3;
+    const vector R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6;
+    const vector R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8;
+    const vector R0_2_total = R0_2 + R2_0;
+    const vector R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6;
+    const vector R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7;
+    const vector R0_1_total = R0_1 + R1_0;
+    const vector R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8;
+    const vector R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7;
+    const vector R2_1_gap = R2_1 - R1_2;
+    const vector row_2 = vector_select(is_less, square1, R2_1_gap);
+    const vector row_6 = vector_select(is_less_2, R0_1_total, row_2);
+    const vector row_10 = vector_select(is_less_3, R0_2_total, row_6);
+    const vector R1_2_total = R1_2 + R2_1;
+    const vector R0_2_gap = R0_2 - R2_0;
+    const vector row_3 = vector_select(is_less, R0_1_total, R0_2_gap);
+    const vector row_7 = vector_select(is_less_2, square2, row_3);
+    const vector row_11 = vector_select(is_less_3, R1_2_total, row_7);
+    const vector R1_0_gap = R1_0 - R0_1;
+    const vector row_4 = vector_select(is_less, R0_2_total, R1_0_gap);
+    const vector row_8 = vector_select(is_less_2, R1_2_total, row_4);
+    const vector row_12 = vector_select(is_less_3, square3, row_8);
+    const vector row = vector_select(is_less, R2_1_gap, square0);
+    const vector row_5 = vector_select(is_less_2, R0_2_gap, row);
+    const vector row_9 = vector_select(is_less_3, R1_0_gap, row_5);
+    const vector total_2 = row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9;
+    const vector row_length = vector_sqrt(total_2);
+    const vector g1 = row_10 / row_length;
+    const vector g2 = row_11 / row_length;
+    const vector g3 = row_12 / row_length;
+    const vector norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+    const vector_mask near = norm_s_squared < 0.249287;
+    const vector near_chosen = vector_select(near, 4.011440628672975 * norm_s_squared, vector_of(0.0));
+    const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
+    const vector log_det_near = norm_s_squared * log_det_series;
+    const vector near_chosen_2 = vector_select(near, vector_of(1.0), norm_s_squared);
+    const vector norm_s = vector_sqrt(near_chosen_2);
+    const vector g0 = row_9 / row_length;
+    const vector abs_g0 = vector_abs(g0);
+    const vector atan2_norm_s_abs_g0 = vector_atan2(norm_s, abs_g0);
+    const vector t = 2.0 * atan2_norm_s_abs_g0;
+    const vector t_ratio = t / norm_s;
+    const vector product = 0.5 * t_ratio;
+    const vector log_det = vector_select(near, log_det_near, 2.0 * vector_log(product));
+    const vector t_over_norm_s_near = vector_polynomial_t_over_norm_s_near(near_chosen);
+    const vector t_over_norm_s = vector_select(near, t_over_norm_s_near, t_ratio);
+    const vector_mask is_small = g0 < 0.0;
+    const vector chosen = vector_select(is_small, vector_of(-1.0), vector_of(1.0));
+    const vector scale = t_over_norm_s * chosen;
+    const vector v0 = g1 * scale;
+    const vector v1 = g2 * scale;
+    const vector v2 = g3 * scale;
+    const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+    const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+    const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
+    const vector log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
+    const vector phi = amplitude * vector_exp(log_det_gap);
+    const vector z2_product = z2 * phi;
+    const vector z1_product = z1 * phi;
+    const vector z0_product = z0 * phi;
+    const vector by_v2 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product;
+    const vector by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product;
+    const vector by_v0 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product;
+    const vector by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
+    const vector by_t_over_norm_s = chosen * by_scale;
+    const vector total_3 = vector_select(near, vector_of(0.0), by_t_over_norm_s) + 0.5 * (2.0 *
+        vector_select(near, vector_of(0.0), phi) / product);
+    const vector by_t = total_3 / norm_s;
+    const vector by_atan2_norm_s_abs_g0 = 2.0 * by_t;
+    const vector ratio = by_atan2_norm_s_abs_g0 / (near_chosen_2 + abs_g0 * abs_g0);
+    const vector norm_s_product = norm_s * ratio;
+    const vector by_abs_g0 = -norm_s_product;
+    const vector by_g0 = vector_select(is_small, norm_s_product, by_abs_g0);
+    const vector by_g0_ratio = by_g0 / row_length;
+    const vector_mask is_small_2 = total_2 == 0.0;
+    const vector by_norm_s = abs_g0 * ratio - t_ratio * by_t;
+    const vector by_log_det_near = vector_select(near, phi, vector_of(0.0));
+    const vector by_t_over_norm_s_near = vector_select(near, by_t_over_norm_s, vector_of(0.0));
+    const vector t_over_norm_s_near_slope = vector_polynomial_t_over_norm_s_near_slope(near_chosen);
+    const vector by_log_det_series = norm_s_squared * by_log_det_near;
+    const vector log_det_series_slope = vector_polynomial_log_det_series_slope(near_chosen);
+    const vector by_norm_s_squared = vector_select(near, vector_of(0.0), by_norm_s / (2.0 * norm_s)) +
+        log_det_series * by_log_det_near + 4.011440628672975 * vector_select(near, by_t_over_norm_s_near *
+        t_over_norm_s_near_slope + by_log_det_series * log_det_series_slope, vector_of(0.0));
+    const vector product_2 = 2.0 * by_norm_s_squared;
+    const vector by_g3 = scale * by_v2 + g3 * product_2;
+    const vector by_g3_ratio = by_g3 / row_length;
+    const vector by_g2 = scale * by_v1 + g2 * product_2;
+    const vector by_g2_ratio = by_g2 / row_length;
+    const vector by_g1 = scale * by_v0 + g1 * product_2;
+    const vector by_g1_ratio = by_g1 / row_length;
+    const vector by_row_length = -(g0 * by_g0_ratio) - g3 * by_g3_ratio - g2 * by_g2_ratio - g1 * by_g1_ratio;
+    const vector product_3 = 2.0 * vector_select(is_small_2, vector_of(0.0), by_row_length / (2.0 *
+        vector_select(is_small_2, vector_of(1.0), row_length)));
+    const vector by_row_9 = by_g0_ratio + row_9 * product_3;
+    const vector by_row_12 = by_g3_ratio + row_12 * product_3;
+    const vector by_row_8 = vector_select(is_less_3, vector_of(0.0), by_row_12);
+    const vector by_row_4 = vector_select(is_less_2, vector_of(0.0), by_row_8);
+    const vector total_4 = vector_select(is_less_3, by_row_9, vector_of(0.0)) + vector_select(is_less,
+        vector_of(0.0), by_row_4);
+    const vector by_row_11 = by_g2_ratio + row_11 * product_3;
+    const vector by_row_7 = vector_select(is_less_3, vector_of(0.0), by_row_11);
+    const vector by_row_3 = vector_select(is_less_2, vector_of(0.0), by_row_7);
+    const vector by_row_10 = by_g1_ratio + row_10 * product_3;
+    const vector by_row_6 = vector_select(is_less_3, vector_of(0.0), by_row_10);
+    const vector total_5 = vector_select(is_less, by_row_3, vector_of(0.0)) + vector_select(is_less_2,
+        by_row_6, vector_of(0.0));
+    const vector by_R1_0 = total_4 + total_5;
+    const vector total_6 = vector_select(is_less, by_row_4, vector_of(0.0)) + vector_select(is_less_3,
+        by_row_10, vector_of(0.0));
+    const vector by_row_5 = vector_select(is_less_3, vector_of(0.0), by_row_9);
+    const vector total_7 = vector_select(is_less_2, by_row_5, vector_of(0.0)) + vector_select(is_less,
+        vector_of(0.0), by_row_3);
+    const vector by_R2_0 = total_6 - total_7;
+    const vector by_square3 = vector_select(is_less_3, by_row_12, vector_of(0.0));
+    const vector by_square2 = vector_select(is_less_2, by_row_7, vector_of(0.0));
+    const vector by_row = vector_select(is_less_2, vector_of(0.0), by_row_5);
+    const vector by_square0 = vector_select(is_less, vector_of(0.0), by_row);
+    const vector by_row_2 = vector_select(is_less_2, vector_of(0.0), by_row_6);
+    const vector by_square1 = vector_select(is_less, by_row_2, vector_of(0.0));
+    const vector by_R0_0 = -by_square3 - by_square2 + (by_square0 + by_square1);
+    const vector total_8 = vector_select(is_less_2, by_row_8, vector_of(0.0)) + vector_select(is_less_3,
+        by_row_11, vector_of(0.0));
+    const vector total_9 = vector_select(is_less, by_row, vector_of(0.0)) + vector_select(is_less,
+        vector_of(0.0), by_row_2);
+    const vector by_R2_1 = total_8 + total_9;
+    const vector by_R0_1 = total_5 - total_4;
+    const vector by_R1_1 = by_square0 + (by_square2 - by_square3 - by_square1);
+    const vector by_R1_2 = total_8 - total_9;
+    const vector by_R0_2 = total_7 + total_6;
+    const vector by_R2_2 = by_square0 + (by_square3 - by_square2 - by_square1);
+    value[0] = value[0] + phi;
+    slope[0] = slope[0] + mu1 * by_R1_0 + mu2 * by_R2_0 + mu0 * by_R0_0;
+    slope[1] = slope[1] + mu2 * by_R2_1 + mu0 * by_R0_1 + mu1 * by_R1_1;
+    slope[2] = slope[2] + mu1 * by_R1_2 + mu0 * by_R0_2 + mu2 * by_R2_2;
+    slope[3] = slope[3] + mu4 * by_R1_0 + mu5 * by_R2_0 + mu3 * by_R0_0;
+    slope[4] = slope[4] + mu5 * by_R2_1 + mu3 * by_R0_1 + mu4 * by_R1_1;
+    slope[5] = slope[5] + mu4 * by_R1_2 + mu3 * by_R0_2 + mu5 * by_R2_2;
+    slope[6] = slope[6] + mu7 * by_R1_0 + mu8 * by_R2_0 + mu6 * by_R0_0;
+    slope[7] = slope[7] + mu8 * by_R2_1 + mu6 * by_R0_1 + mu7 * by_R1_1;
+    slope[8] = slope[8] + mu7 * by_R1_2 + mu6 * by_R0_2 + mu8 * by_R2_2;
+}
+
+/* The Riemannian gradient at some points, of the sums of slopes. */
+OUTLINE void pair_gradient(
+    const vector *x, const vector *slope, vector *gradient) {
+    const vector x0 = x[0];
+    const vector x1 = x[1];
+    const vector x2 = x[2];
+    const vector x3 = x[3];
+    const vector x4 = x[4];
+    const vector x5 = x[5];
+    const vector x6 = x[6];
+    const vector x7 = x[7];
+    const vector x8 = x[8];
+    const vector slope_x0 = slope[0];
+    const vector slope_x1 = slope[1];
+    const vector slope_x2 = slope[2];
+    const vector slope_x3 = slope[3];
+    const vector slope_x4 = slope[4];
+    const vector slope_x5 = slope[5];
+    const vector slope_x6 = slope[6];
+    const vector slope_x7 = slope[7];
+    const vector slope_x8 = slope[8];
+    const vector gap = x2 * slope_x1 + x5 * slope_x4 + x8 * slope_x7 - x1 * slope_x2 - x4 * slope_x5;
+    const vector gap_2 = x0 * slope_x2 + x3 * slope_x5 + x6 * slope_x8 - x2 * slope_x0 - x5 * slope_x3;
+    const vector gap_3 = x1 * slope_x0 + x4 * slope_x3 + x7 * slope_x6 - x0 * slope_x1 - x3 * slope_x4;
+    gradient[0] = gap - x7 * slope_x8;
+    gradient[1] = gap_2 - x8 * slope_x6;
+    gradient[2] = gap_3 - x6 * slope_x7;
+}
+
+/* The adjoint of slope at some points, of that of the gradient. */
+OUTLINE void pair_gradient_vjp(
+    const vector *x, const vector *gradient_bar, vector *slope_bar) {
+    const vector x0 = x[0];
+    const vector x1 = x[1];
+    const vector x2 = x[2];
+    const vector x3 = x[3];
+    const vector x4 = x[4];
+    const vector x5 = x[5];
+    const vector x6 = x[6];
+    const vector x7 = x[7];
+    const vector x8 = x[8];
+    const vector gradient_bar0 = gradient_bar[0];
+    const vector gradient_bar1 = gradient_bar[1];
+    const vector gradient_bar2 = gradient_bar[2];
+    slope_bar[0] = x1 * gradient_bar2 - x2 * gradient_bar1;
+    slope_bar[1] = x2 * gradient_bar0 - x0 * gradient_bar2;
+    slope_bar[2] = x0 * gradient_bar1 - x1 * gradient_bar0;
+    slope_bar[3] = x4 * gradient_bar2 - x5 * gradient_bar1;
+    slope_bar[4] = x5 * gradient_bar0 - x3 * gradient_bar2;
+    slope_bar[5] = x3 * gradient_bar1 - x4 * gradient_bar0;
+    slope_bar[6] = x7 * gradient_bar2 - x8 * gradient_bar1;
+    slope_bar[7] = x8 * gradient_bar0 - x6 * gradient_bar2;
+    slope_bar[8] = x6 * gradient_bar1 - x7 * gradient_bar0;
+}
+
+/* The adjoints of some splats' parameters, of that of S. */
+OUTLINE void pair_constants_vjp(
+    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
+    (void)mu;
+    (void)W;
+    (void)amplitude;
+    const vector mu0_bar = S_bar[0];
+    const vector mu1_bar = S_bar[1];
+    const vector mu2_bar = S_bar[2];
+    const vector mu3_bar = S_bar[3];
+    const vector mu4_bar = S_bar[4];
+    const vector mu5_bar = S_bar[5];
+    const vector mu6_bar = S_bar[6];
+    const vector mu7_bar = S_bar[7];
+    const vector mu8_bar = S_bar[8];
+    const vector W0_0_bar = S_bar[9];
+    const vector W0_1_bar = S_bar[10];
+    const vector W0_2_bar = S_bar[11];
+    const vector W1_0_bar = S_bar[12];
+    const vector W1_1_bar = S_bar[13];
+    const vector W1_2_bar = S_bar[14];
+    const vector W2_0_bar = S_bar[15];
+    const vector W2_1_bar = S_bar[16];
+    const vector W2_2_bar = S_bar[17];
+    const vector its_amplitude_bar = S_bar[18];
+    mu_bar[0] = mu0_bar;
+    mu_bar[1] = mu1_bar;
+    mu_bar[2] = mu2_bar;
+    mu_bar[3] = mu3_bar;
+    mu_bar[4] = mu4_bar;
+    mu_bar[5] = mu5_bar;
+    mu_bar[6] = mu6_bar;
+    mu_bar[7] = mu7_bar;
+    mu_bar[8] = mu8_bar;
+    W_bar[0] = W0_0_bar;
+    W_bar[1] = W0_1_bar;
+    W_bar[2] = W0_2_bar;
+    W_bar[3] = W1_0_bar;
+    W_bar[4] = W1_1_bar;
+    W_bar[5] = W1_2_bar;
+    W_bar[6] = W2_0_bar;
+    W_bar[7] = W2_1_bar;
+    W_bar[8] = W2_2_bar;
+    amplitude_bar[0] = its_amplitude_bar;
+}
+
+/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+OUTLINE void pair_backward(
+    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const vector x2 = X[2];
+    const vector x3 = X[3];
+    const vector x4 = X[4];
+    const vector x5 = X[5];
+    const vector x6 = X[6];
+    const vector x7 = X[7];
+    const vector x8 = X[8];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double mu2 = S[2];
+    const double mu3 = S[3];
+    const double mu4 = S[4];
+    const double mu5 = S[5];
+    const double mu6 = S[6];
+    const double mu7 = S[7];
+    const double mu8 = S[8];
+    const double W0_0 = S[9];
+    const double W0_1 = S[10];
+    const double W0_2 = S[11];
+    const double W1_0 = S[12];
+    const double W1_1 = S[13];
+    const double W1_2 = S[14];
+    const double W2_0 = S[15];
+    const double W2_1 = S[16];
+    const double W2_2 = S[17];
+    const double amplitude = S[18];
+    const vector its_value_bar = value_bar[0];
+    const vector x0_bar = slope_bar[0];
+    const vector x1_bar = slope_bar[1];
+    const vector x2_bar = slope_bar[2];
+    const vector x3_bar = slope_bar[3];
+    const vector x4_bar = slope_bar[4];
+    const vector x5_bar = slope_bar[5];
+    const vector x6_bar = slope_bar[6];
+    const vector x7_bar = slope_bar[7];
+    const vector x8_bar = slope_bar[8];
+    const vector R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8;
+    const vector R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7;
+    const vector R0_0 = x0 * mu0 + x3 * mu3 + x6 * mu6;
+    const vector R0_0_total = 1.0 + R0_0;
+    const vector square0 = R2_2 + (R1_1 + R0_0_total);
+    const vector square1 = R0_0_total - R1_1 - R2_2;
+    const vector_mask is_less = square0 < square1;
+    const vector largest = vector_select(is_less, square1, square0);
+    const vector square2 = 1.0 + R1_1 - R0_0 - R2_2;
+    const vector_mask is_less_2 = largest < square2;
+    const vector largest_2 = vector_select(is_less_2, square2, largest);
+    const vector square3 = 1.0 + R2_2 - R0_0 - R1_1;
+    const vector_mask is_less_3 = largest_2 < square3;
+    const vector R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6;
+    const vector R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8;
+    const vector R0_2_total = R0_2 + R2_0;
+    const vector R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6;
+    const vector R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7;
+    const vector R0_1_total = R0_1 + R1_0;
+    const vector R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8;
+    const vector R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7;
+    const vector R2_1_gap = R2_1 - R1_2;
+    const vector row_2 = vector_select(is_less, square1, R2_1_gap);
+    const vector row_6 = vector_select(is_less_2, R0_1_total, row_2);
+    const vector row_10 = vector_select(is_less_3, R0_2_total, row_6);
+    const vector R1_2_total = R1_2 + R2_1;
+    const vector R0_2_gap = R0_2 - R2_0;
+    const vector row_3 = vector_select(is_less, R0_1_total, R0_2_gap);
+    const vector row_7 = vector_select(is_less_2, square2, row_3);
+    const vector row_11 = vector_select(is_less_3, R1_2_total, row_7);
+    const vector R1_0_gap = R1_0 - R0_1;
+    const vector row_4 = vector_select(is_less, R0_2_total, R1_0_gap);
+    const vector row_8 = vector_select(is_less_2, R1_2_total, row_4);
+    const vector row_12 = vector_select(is_less_3, square3, row_8);
+    const vector row = vector_select(is_less, R2_1_gap, square0);
+    const vector row_5 = vector_select(is_less_2, R0_2_gap, row);
+    const vector row_9 = vector_select(is_less_3, R1_0_gap, row_5);
+    const vector total_2 = row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9;
+    const vector row_length = vector_sqrt(total_2);
+    const vector g1 = row_10 / row_length;
+    const vector g2 = row_11 / row_length;
+    const vector g3 = row_12 / row_length;
+    const vector norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+    const vector_mask near = norm_s_squared < 0.249287;
+    const vector near_chosen = vector_select(near, 4.011440628672975 * norm_s_squared, vector_of(0.0));
+    const vector t_over_norm_s_near = vector_polynomial_t_over_norm_s_near(near_chosen);
+    const vector near_chosen_2 = vector_select(near, vector_of(1.0), norm_s_squared);
+    const vector norm_s = vector_sqrt(near_chosen_2);
+    const vector g0 = row_9 / row_length;
+    const vector abs_g0 = vector_abs(g0);
+    const vector atan2_norm_s_abs_g0 = vector_atan2(norm_s, abs_g0);
+    const vector t = 2.0 * atan2_norm_s_abs_g0;
+    const vector t_ratio = t / norm_s;
+    const vector t_over_norm_s = vector_select(near, t_over_norm_s_near, t_ratio);
+    const vector_mask is_small = g0 < 0.0;
+    const vector chosen = vector_select(is_small, vector_of(-1.0), vector_of(1.0));
+    const vector scale = t_over_norm_s * chosen;
+    const vector v0 = g1 * scale;
+    const vector v1 = g2 * scale;
+    const vector v2 = g3 * scale;
+    const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
+    const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
+    const vector log_det_near = norm_s_squared * log_det_series;
+    const vector product = 0.5 * t_ratio;
+    const vector log_det = vector_select(near, log_det_near, 2.0 * vector_log(product));
+    const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+    const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+    const vector log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
+    const vector exp_2 = vector_exp(log_det_gap);
+    const vector phi = amplitude * exp_2;
+    const vector z2_product = z2 * phi;
+    const vector z1_product = z1 * phi;
+    const vector z0_product = z0 * phi;
+    const vector by_v2 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product;
+    const vector by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product;
+    const vector by_v0 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product;
+    const vector by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
+    const vector by_t_over_norm_s = chosen * by_scale;
+    const vector ratio = 2.0 * vector_select(near, vector_of(0.0), phi) / product;
+    const vector by_t = (vector_select(near, vector_of(0.0), by_t_over_norm_s) + 0.5 * ratio) / norm_s;
+    const vector by_atan2_norm_s_abs_g0 = 2.0 * by_t;
+    const vector total_3 = near_chosen_2 + abs_g0 * abs_g0;
+    const vector ratio_2 = by_atan2_norm_s_abs_g0 / total_3;
+    const vector by_norm_s = abs_g0 * ratio_2 - t_ratio * by_t;
+    const vector norm_s_product = 2.0 * norm_s;
+    const vector by_norm_s_ratio = by_norm_s / norm_s_product;
+    const vector by_log_det_near = vector_select(near, phi, vector_of(0.0));
+    const vector by_t_over_norm_s_near = vector_select(near, by_t_over_norm_s, vector_of(0.0));
+    const vector t_over_norm_s_near_slope = vector_polynomial_t_over_norm_s_near_slope(near_chosen);
+    const vector by_log_det_series = norm_s_squared * by_log_det_near;
+    const vector log_det_series_slope = vector_polynomial_log_det_series_slope(near_chosen);
+    const vector by_norm_s_squared = vector_select(near, vector_of(0.0), by_norm_s_ratio) + log_det_series *
+        by_log_det_near + 4.011440628672975 * vector_select(near, by_t_over_norm_s_near *
+        t_over_norm_s_near_slope + by_log_det_series * log_det_series_slope, vector_of(0.0));
+    const vector product_2 = 2.0 * by_norm_s_squared;
+    const vector by_g3 = scale * by_v2 + g3 * product_2;
+    const vector by_g3_ratio = by_g3 / row_length;
+    const vector_mask is_small_2 = total_2 == 0.0;
+    const vector norm_s_product_2 = norm_s * ratio_2;
+    const vector by_abs_g0 = -norm_s_product_2;
+    const vector by_g0 = vector_select(is_small, norm_s_product_2, by_abs_g0);
+    const vector by_g0_ratio = by_g0 / row_length;
+    const vector by_g2 = scale * by_v1 + g2 * product_2;
+    const vector by_g2_ratio = by_g2 / row_length;
+    const vector by_g1 = scale * by_v0 + g1 * product_2;
+    const vector by_g1_ratio = by_g1 / row_length;
+    const vector by_row_length = -(g0 * by_g0_ratio) - g3 * by_g3_ratio - g2 * by_g2_ratio - g1 * by_g1_ratio;
+    const vector product_3 = 2.0 * vector_select(is_small_2, vector_of(1.0), row_length);
+    const vector ratio_3 = by_row_length / product_3;
+    const vector product_4 = 2.0 * vector_select(is_small_2, vector_of(0.0), ratio_3);
+    const vector by_row_12 = by_g3_ratio + row_12 * product_4;
+    const vector by_square3 = vector_select(is_less_3, by_row_12, vector_of(0.0));
+    const vector by_row_11 = by_g2_ratio + row_11 * product_4;
+    const vector by_row_7 = vector_select(is_less_3, vector_of(0.0), by_row_11);
+    const vector by_square2 = vector_select(is_less_2, by_row_7, vector_of(0.0));
+    const vector by_row_9 = by_g0_ratio + row_9 * product_4;
+    const vector by_row_5 = vector_select(is_less_3, vector_of(0.0), by_row_9);
+    const vector by_row = vector_select(is_less_2, vector_of(0.0), by_row_5);
+    const vector by_square0 = vector_select(is_less, vector_of(0.0), by_row);
+    const vector by_row_10 = by_g1_ratio + row_10 * product_4;
+    const vector by_row_6 = vector_select(is_less_3, vector_of(0.0), by_row_10);
+    const vector by_row_2 = vector_select(is_less_2, vector_of(0.0), by_row_6);
+    const vector by_square1 = vector_select(is_less, by_row_2, vector_of(0.0));
+    const vector by_R0_0 = -by_square3 - by_square2 + (by_square0 + by_square1);
+    const vector by_row_3 = vector_select(is_less_2, vector_of(0.0), by_row_7);
+    const vector total_4 = vector_select(is_less_2, by_row_5, vector_of(0.0)) + vector_select(is_less,
+        vector_of(0.0), by_row_3);
+    const vector by_row_8 = vector_select(is_less_3, vector_of(0.0), by_row_12);
+    const vector by_row_4 = vector_select(is_less_2, vector_of(0.0), by_row_8);
+    const vector total_5 = vector_select(is_less, by_row_4, vector_of(0.0)) + vector_select(is_less_3,
+        by_row_10, vector_of(0.0));
+    const vector by_R0_2 = total_4 + total_5;
+    const vector total_6 = vector_select(is_less, by_row_3, vector_of(0.0)) + vector_select(is_less_2,
+        by_row_6, vector_of(0.0));
+    const vector total_7 = vector_select(is_less_3, by_row_9, vector_of(0.0)) + vector_select(is_less,
+        vector_of(0.0), by_row_4);
+    const vector by_R0_1 = total_6 - total_7;
+    const vector by_by_R0_2 = mu0 * x2_bar + mu3 * x5_bar + mu6 * x8_bar;
+    const vector by_by_R2_0 = mu2 * x0_bar + mu5 * x3_bar + mu8 * x6_bar;
+    const vector by_by_R0_2_gap = by_by_R0_2 - by_by_R2_0;
+    const vector by_by_R0_1 = mu0 * x1_bar + mu3 * x4_bar + mu6 * x7_bar;
+    const vector by_by_R1_0 = mu1 * x0_bar + mu4 * x3_bar + mu7 * x6_bar;
+    const vector by_by_R0_1_total = by_by_R0_1 + by_by_R1_0;
+    const vector by_by_row_3 = vector_select(is_less, vector_of(0.0), by_by_R0_2_gap) + vector_select(is_less,
+        by_by_R0_1_total, vector_of(0.0));
+    const vector by_by_R1_1 = mu1 * x1_bar + mu4 * x4_bar + mu7 * x7_bar;
+    const vector by_by_R0_0 = mu0 * x0_bar + mu3 * x3_bar + mu6 * x6_bar;
+    const vector by_by_R2_2 = mu2 * x2_bar + mu5 * x5_bar + mu8 * x8_bar;
+    const vector by_by_square2 = by_by_R1_1 - by_by_R0_0 - by_by_R2_2;
+    const vector by_by_row_7 = vector_select(is_less_2, vector_of(0.0), by_by_row_3) +
+        vector_select(is_less_2, by_by_square2, vector_of(0.0));
+    const vector by_by_R2_1 = mu2 * x1_bar + mu5 * x4_bar + mu8 * x7_bar;
+    const vector by_by_R1_2 = mu1 * x2_bar + mu4 * x5_bar + mu7 * x8_bar;
+    const vector by_by_R2_1_total = by_by_R2_1 + by_by_R1_2;
+    const vector by_by_row_11 = vector_select(is_less_3, vector_of(0.0), by_by_row_7) +
+        vector_select(is_less_3, by_by_R2_1_total, vector_of(0.0));
+    const vector by_by_R2_1_gap = by_by_R2_1 - by_by_R1_2;
+    const vector by_by_square1 = by_by_R0_0 - by_by_R1_1 - by_by_R2_2;
+    const vector by_by_row_2 = vector_select(is_less, vector_of(0.0), by_by_R2_1_gap) + vector_select(is_less,
+        by_by_square1, vector_of(0.0));
+    const vector by_by_row_6 = vector_select(is_less_2, vector_of(0.0), by_by_row_2) +
+        vector_select(is_less_2, by_by_R0_1_total, vector_of(0.0));
+    const vector by_by_R0_2_total = by_by_R0_2 + by_by_R2_0;
+    const vector by_by_row_10 = vector_select(is_less_3, vector_of(0.0), by_by_row_6) +
+        vector_select(is_less_3, by_by_R0_2_total, vector_of(0.0));
+    const vector by_by_R1_0_gap = by_by_R1_0 - by_by_R0_1;
+    const vector by_by_row_4 = vector_select(is_less, vector_of(0.0), by_by_R1_0_gap) + vector_select(is_less,
+        by_by_R0_2_total, vector_of(0.0));
+    const vector by_by_row_8 = vector_select(is_less_2, vector_of(0.0), by_by_row_4) +
+        vector_select(is_less_2, by_by_R2_1_total, vector_of(0.0));
+    const vector by_by_square3 = by_by_R2_2 - by_by_R1_1 - by_by_R0_0;
+    const vector by_by_row_12 = vector_select(is_less_3, vector_of(0.0), by_by_row_8) +
+        vector_select(is_less_3, by_by_square3, vector_of(0.0));
+    const vector by_by_square0 = by_by_R2_2 + (by_by_R1_1 + by_by_R0_0);
+    const vector by_by_row = vector_select(is_less, by_by_R2_1_gap, vector_of(0.0)) + vector_select(is_less,
+        vector_of(0.0), by_by_square0);
+    const vector by_by_row_5 = vector_select(is_less_2, vector_of(0.0), by_by_row) + vector_select(is_less_2,
+        by_by_R0_2_gap, vector_of(0.0));
+    const vector by_by_row_9 = vector_select(is_less_3, vector_of(0.0), by_by_row_5) +
+        vector_select(is_less_3, by_by_R1_0_gap, vector_of(0.0));
+    const vector product_5 = 2.0 * (row_10 * by_by_row_10 + row_11 * by_by_row_11 + row_12 * by_by_row_12 +
+        row_9 * by_by_row_9);
+    const vector by_by_row_length = vector_select(is_small_2, vector_of(0.0), product_5) / product_3;
+    const vector by_by_g2 = (by_by_row_11 - g2 * by_by_row_length) / row_length;
+    const vector by_by_g0 = (by_by_row_9 - g0 * by_by_row_length) / row_length;
+    const vector by_by_abs_g0 = vector_select(is_small, vector_of(0.0), by_by_g0);
+    const vector gap = vector_select(is_small, by_by_g0, vector_of(0.0)) - by_by_abs_g0;
+    const vector by_by_g1 = (by_by_row_10 - g1 * by_by_row_length) / row_length;
+    const vector by_by_g3 = (by_by_row_12 - g3 * by_by_row_length) / row_length;
+    const vector total_8 = g1 * by_by_g1 + g2 * by_by_g2 + g3 * by_by_g3;
+    const vector by_by_norm_s_squared = 2.0 * total_8;
+    const vector by_by_norm_s = vector_select(near, vector_of(0.0), by_by_norm_s_squared) / norm_s_product;
+    const vector by_by_atan2_norm_s_abs_g0 = (norm_s * gap + abs_g0 * by_by_norm_s) / total_3;
+    const vector by_by_t = 2.0 * by_by_atan2_norm_s_abs_g0 - t_ratio * by_by_norm_s;
+    const vector by_by_t_ratio = by_by_t / norm_s;
+    const vector near_chosen_3 = vector_select(near, 8.02288125734595 * total_8, vector_of(0.0));
+    const vector by_by_t_over_norm_s_near = t_over_norm_s_near_slope * near_chosen_3;
+    const vector by_by_t_over_norm_s = vector_select(near, vector_of(0.0), by_by_t_ratio) +
+        vector_select(near, by_by_t_over_norm_s_near, vector_of(0.0));
+    const vector by_by_scale = chosen * by_by_t_over_norm_s;
+    const vector by_by_v0 = g1 * by_by_scale + scale * by_by_g1;
+    const vector by_by_v1 = g2 * by_by_scale + scale * by_by_g2;
+    const vector by_by_v2 = g3 * by_by_scale + scale * by_by_g3;
+    const vector gap_2 = -(W2_0 * by_by_v0) - W2_1 * by_by_v1 - W2_2 * by_by_v2;
+    const vector ratio_4 = 0.5 * by_by_t_ratio / product;
+    const vector by_by_log_det_series = log_det_series_slope * near_chosen_3;
+    const vector by_by_log_det_near = norm_s_squared * by_by_log_det_series + log_det_series *
+        by_by_norm_s_squared;
+    const vector gap_3 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2;
+    const vector total_9 = its_value_bar + vector_select(near, vector_of(0.0), 2.0 * ratio_4) +
+        vector_select(near, by_by_log_det_near, vector_of(0.0)) + z0 * gap_3;
+    const vector gap_4 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2;
+    const vector by_phi = total_9 + z1 * gap_4 + z2 * gap_2;
+    const vector by_log_det = exp_2 * (amplitude * by_phi);
+    const vector by_z2 = phi * gap_2 - z2 * by_log_det;
+    const vector by_z1 = phi * gap_4 - z1 * by_log_det;
+    const vector by_z0 = phi * gap_3 - z0 * by_log_det;
+    const vector by_v1_2 = W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
+    const vector by_v2_2 = W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0;
+    const vector total_10 = by_v0 * by_by_g1 + by_v1 * by_by_g2 + by_v2 * by_by_g3 + g3 * by_v2_2 + g2 *
+        by_v1_2;
+    const vector by_v0_2 = W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0;
+    const vector by_scale_2 = total_10 + g1 * by_v0_2;
+    const vector by_t_over_norm_s_2 = chosen * by_scale_2;
+    const vector product_6 = 0.5 * (2.0 * vector_select(near, vector_of(0.0), by_log_det) / product - ratio *
+        ratio_4);
+    const vector by_t_2 = (vector_select(near, vector_of(0.0), by_t_over_norm_s_2) - by_t * by_by_norm_s +
+        product_6) / norm_s;
+    const vector gap_5 = ratio_2 * gap - 2.0 * (by_norm_s_ratio * by_by_norm_s) - by_t * by_by_t_ratio -
+        t_ratio * by_t_2;
+    const vector by_atan2_norm_s_abs_g0_2 = 2.0 * by_t_2;
+    const vector ratio_5 = by_atan2_norm_s_abs_g0_2 / total_3;
+    const vector by_norm_s_2 = gap_5 + abs_g0 * ratio_5;
+    const vector product_7 = ratio_2 * by_by_atan2_norm_s_abs_g0;
+    const vector by_log_det_near_2 = vector_select(near, by_log_det, vector_of(0.0));
+    const vector total_11 = by_log_det_near * by_by_log_det_series + vector_select(near, vector_of(0.0),
+        by_norm_s_2 / norm_s_product - product_7) + log_det_series * by_log_det_near_2;
+    const vector by_log_det_series_slope = by_log_det_series * near_chosen_3;
+    const vector log_det_series_slope_slope = vector_polynomial_log_det_series_slope_slope(near_chosen);
+    const vector by_t_over_norm_s_near_slope = by_t_over_norm_s_near * near_chosen_3;
+    const vector t_over_norm_s_near_slope_slope =
+        vector_polynomial_t_over_norm_s_near_slope_slope(near_chosen);
+    const vector by_t_over_norm_s_near_2 = vector_select(near, by_t_over_norm_s_2, vector_of(0.0));
+    const vector by_log_det_series_2 = by_log_det_near * by_by_norm_s_squared + norm_s_squared *
+        by_log_det_near_2;
+    const vector near_chosen_4 = vector_select(near, by_log_det_series_slope * log_det_series_slope_slope +
+        by_t_over_norm_s_near_slope * t_over_norm_s_near_slope_slope + t_over_norm_s_near_slope *
+        by_t_over_norm_s_near_2 + log_det_series_slope * by_log_det_series_2, vector_of(0.0));
+    const vector by_norm_s_squared_2 = total_11 + 4.011440628672975 * near_chosen_4;
+    const vector product_8 = 2.0 * by_norm_s_squared_2;
+    const vector by_g2_2 = product_2 * by_by_g2 - by_g2_ratio * by_by_row_length + by_v1 * by_by_scale + scale
+        * by_v1_2 + g2 * product_8;
+    const vector by_g2_ratio_2 = by_g2_2 / row_length;
+    const vector gap_6 = vector_select(is_small_2, vector_of(0.0), -2.0 * (ratio_3 * by_by_row_length)) -
+        by_g1_ratio * by_by_g1;
+    const vector norm_s_product_3 = norm_s * ratio_5;
+    const vector gap_7 = ratio_2 * by_by_norm_s - abs_g0 * (2.0 * product_7);
+    const vector by_abs_g0_2 = gap_7 - norm_s_product_3;
+    const vector by_g0_2 = vector_select(is_small, norm_s_product_3 - gap_7, by_abs_g0_2) - by_g0_ratio *
+        by_by_row_length;
+    const vector by_g0_ratio_2 = by_g0_2 / row_length;
+    const vector gap_8 = gap_6 - by_g2_ratio * by_by_g2 - by_g3_ratio * by_by_g3 - by_g0_ratio * by_by_g0 - g0
+        * by_g0_ratio_2;
+    const vector by_g3_2 = product_2 * by_by_g3 - by_g3_ratio * by_by_row_length + by_v2 * by_by_scale + scale
+        * by_v2_2 + g3 * product_8;
+    const vector by_g3_ratio_2 = by_g3_2 / row_length;
+    const vector by_g1_2 = product_2 * by_by_g1 - by_g1_ratio * by_by_row_length + by_v0 * by_by_scale + scale
+        * by_v0_2 + g1 * product_8;
+    const vector by_g1_ratio_2 = by_g1_2 / row_length;
+    const vector by_row_length_2 = gap_8 - g3 * by_g3_ratio_2 - g2 * by_g2_ratio_2 - g1 * by_g1_ratio_2;
+    const vector product_9 = 2.0 * vector_select(is_small_2, vector_of(0.0), by_row_length_2 / product_3);
+    const vector by_row_11_2 = product_4 * by_by_row_11 + by_g2_ratio_2 + row_11 * product_9;
+    const vector by_row_7_2 = vector_select(is_less_3, vector_of(0.0), by_row_11_2);
+    const vector by_row_3_2 = vector_select(is_less_2, vector_of(0.0), by_row_7_2);
+    const vector by_row_10_2 = product_4 * by_by_row_10 + by_g1_ratio_2 + row_10 * product_9;
+    const vector by_row_6_2 = vector_select(is_less_3, vector_of(0.0), by_row_10_2);
+    const vector total_12 = vector_select(is_less, by_row_3_2, vector_of(0.0)) + vector_select(is_less_2,
+        by_row_6_2, vector_of(0.0));
+    const vector by_row_9_2 = product_4 * by_by_row_9 + by_g0_ratio_2 + row_9 * product_9;
+    const vector by_row_12_2 = product_4 * by_by_row_12 + by_g3_ratio_2 + row_12 * product_9;
+    const vector by_row_8_2 = vector_select(is_less_3, vector_of(0.0), by_row_12_2);
+    const vector by_row_4_2 = vector_select(is_less_2, vector_of(0.0), by_row_8_2);
+    const vector total_13 = vector_select(is_less_3, by_row_9_2, vector_of(0.0)) + vector_select(is_less,
+        vector_of(0.0), by_row_4_2);
+    const vector by_R0_1_2 = total_12 - total_13;
+    const vector by_row_5_2 = vector_select(is_less_3, vector_of(0.0), by_row_9_2);
+    const vector total_14 = vector_select(is_less_2, by_row_5_2, vector_of(0.0)) + vector_select(is_less,
+        vector_of(0.0), by_row_3_2);
+    const vector total_15 = vector_select(is_less, by_row_4_2, vector_of(0.0)) + vector_select(is_less_3,
+        by_row_10_2, vector_of(0.0));
+    const vector by_R0_2_2 = total_14 + total_15;
+    const vector by_square3_2 = vector_select(is_less_3, by_row_12_2, vector_of(0.0));
+    const vector by_square2_2 = vector_select(is_less_2, by_row_7_2, vector_of(0.0));
+    const vector by_row_13 = vector_select(is_less_2, vector_of(0.0), by_row_5_2);
+    const vector by_square0_2 = vector_select(is_less, vector_of(0.0), by_row_13);
+    const vector by_row_2_2 = vector_select(is_less_2, vector_of(0.0), by_row_6_2);
+    const vector by_square1_2 = vector_select(is_less, by_row_2_2, vector_of(0.0));
+    const vector by_R0_0_2 = -by_square3_2 - by_square2_2 + (by_square0_2 + by_square1_2);
+    const vector by_R1_1 = by_square0 + (by_square2 - by_square3 - by_square1);
+    const vector by_R1_0 = total_7 + total_6;
+    const vector total_17 = vector_select(is_less_2, by_row_8, vector_of(0.0)) + vector_select(is_less_3,
+        by_row_11, vector_of(0.0));
+    const vector total_18 = vector_select(is_less, by_row, vector_of(0.0)) + vector_select(is_less,
+        vector_of(0.0), by_row_2);
+    const vector by_R1_2 = total_17 - total_18;
+    const vector total_19 = vector_select(is_less_2, by_row_8_2, vector_of(0.0)) + vector_select(is_less_3,
+        by_row_11_2, vector_of(0.0));
+    const vector total_20 = vector_select(is_less, by_row_13, vector_of(0.0)) + vector_select(is_less,
+        vector_of(0.0), by_row_2_2);
+    const vector by_R1_2_2 = total_19 - total_20;
+    const vector by_R1_0_2 = total_13 + total_12;
+    const vector by_R1_1_2 = by_square0_2 + (by_square2_2 - by_square3_2 - by_square1_2);
+    const vector by_R2_2 = by_square0 + (by_square3 - by_square2 - by_square1);
+    const vector by_R2_0 = total_5 - total_4;
+    const vector by_R2_1 = total_17 + total_18;
+    const vector by_R2_1_2 = total_19 + total_20;
+    const vector by_R2_0_2 = total_15 - total_14;
+    const vector by_R2_2_2 = by_square0_2 + (by_square3_2 - by_square2_2 - by_square1_2);
+    S_bar[0] = S_bar[0] + by_R0_0 * x0_bar + by_R0_2 * x2_bar + by_R0_1 * x1_bar + x1 * by_R0_1_2 + x2 *
+            by_R0_2_2 + x0 * by_R0_0_2;
+    S_bar[1] = S_bar[1] + by_R1_1 * x1_bar + by_R1_0 * x0_bar + by_R1_2 * x2_bar + x2 * by_R1_2_2 + x0 *
+            by_R1_0_2 + x1 * by_R1_1_2;
+    S_bar[2] = S_bar[2] + by_R2_2 * x2_bar + by_R2_0 * x0_bar + by_R2_1 * x1_bar + x1 * by_R2_1_2 + x0 *
+            by_R2_0_2 + x2 * by_R2_2_2;
+    S_bar[3] = S_bar[3] + by_R0_0 * x3_bar + by_R0_2 * x5_bar + by_R0_1 * x4_bar + x4 * by_R0_1_2 + x5 *
+            by_R0_2_2 + x3 * by_R0_0_2;
+    S_bar[4] = S_bar[4] + by_R1_1 * x4_bar + by_R1_0 * x3_bar + by_R1_2 * x5_bar + x5 * by_R1_2_2 + x3 *
+            by_R1_0_2 + x4 * by_R1_1_2;
+    S_bar[5] = S_bar[5] + by_R2_2 * x5_bar + by_R2_0 * x3_bar + by_R2_1 * x4_bar + x4 * by_R2_1_2 + x3 *
+            by_R2_0_2 + x5 * by_R2_2_2;
+    S_bar[6] = S_bar[6] + by_R0_0 * x6_bar + by_R0_2 * x8_bar + by_R0_1 * x7_bar + x7 * by_R0_1_2 + x8 *
+            by_R0_2_2 + x6 * by_R0_0_2;
+    S_bar[7] = S_bar[7] + by_R1_1 * x7_bar + by_R1_0 * x6_bar + by_R1_2 * x8_bar + x8 * by_R1_2_2 + x6 *
+            by_R1_0_2 + x7 * by_R1_1_2;
+    S_bar[8] = S_bar[8] + by_R2_2 * x8_bar + by_R2_0 * x6_bar + by_R2_1 * x7_bar + x7 * by_R2_1_2 + x6 *
+            by_R2_0_2 + x8 * by_R2_2_2;
+    S_bar[9] = S_bar[9] + v0 * by_z0 - z0_product * by_by_v0;
+    S_bar[10] = S_bar[10] + v1 * by_z0 - z0_product * by_by_v1;
+    S_bar[11] = S_bar[11] + v2 * by_z0 - z0_product * by_by_v2;
+    S_bar[12] = S_bar[12] + v0 * by_z1 - z1_product * by_by_v0;
+    S_bar[13] = S_bar[13] + v1 * by_z1 - z1_product * by_by_v1;
+    S_bar[14] = S_bar[14] + v2 * by_z1 - z1_product * by_by_v2;
+    S_bar[15] = S_bar[15] + v0 * by_z2 - z2_product * by_by_v0;
+    S_bar[16] = S_bar[16] + v1 * by_z2 - z2_product * by_by_v1;
+    S_bar[17] = S_bar[17] + v2 * by_z2 - z2_product * by_by_v2;
+    S_bar[18] = S_bar[18] + exp_2 * by_phi;
+}
+
+/* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
+OUTLINE void vector_rows(const double *rows, size_t count, size_t start, size_t size, vector *columns) {
+    for (size_t i = 0; i < size; ++i) {
+        double column[LANES];
+        for (size_t lane = 0; lane < LANES; ++lane)
+            column[lane] = rows[size * (start + lane < count ? start + lane : count - 1) + i];
+        columns[i] = vector_load(column);
+    }
+}
+
+/* Back to rows that are `stride` apart; nothing past the end. */
+OUTLINE void vector_to_rows(
+    const vector *columns, double *rows, size_t count, size_t start, size_t size, size_t stride) {
+    const size_t lanes = start >= count ? 0 : count - start < LANES ? count - start : LANES;
+    for (size_t lane = 0; lane < lanes; ++lane)
+        for (size_t i = 0; i < size; ++i) rows[stride * (start + lane) + i] = LANE(columns[i], lane);
+}
+
+/* Zero in the lanes past the end. */
+OUTLINE void vector_end(size_t count, size_t start, size_t size, vector *columns) {
+    for (size_t lane = start >= count ? 0 : count - start; lane < LANES; ++lane)
+        for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
+}
+
+/* Scratch memory: 19 vectors for each block of points, then the constants of the splats. */
+size_t so3_matrix_splats_work(size_t count, size_t splat_count, int threads) {
+    (void)threads;
+    return ((count + LANES - 1) / LANES * 19 + 1) * LANES + 19 * splat_count;
+}
+
+static vector *work_points(double *work) {
+    const uintptr_t size = sizeof(vector), start = (uintptr_t)work;
+    return (vector *)((char *)work + ((0 - start) & (size - 1)));
+}
+
+static double *work_constants(double *work, size_t count) {
+    return (double *)(work_points(work) + (count + LANES - 1) / LANES * 19);
+}
+
+/* The constants of LANES splats, as rows. */
+OUTLINE void splat_constants(
+    size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, double *constants) {
+    vector own_mu[9], own_W[9], own_amplitude[1], S[19];
+    vector_rows(mu, splat_count, start, 9, own_mu);
+    vector_rows(W, splat_count, start, 9, own_W);
+    vector_rows(amplitude, splat_count, start, 1, own_amplitude);
+    pair_constants(own_mu, own_W, own_amplitude, S);
+    vector_to_rows(S, constants, splat_count, start, 19, 19);
+}
+
+/* 2 vectors of points at a time stay in registers while all splats pass. */
 void so3_matrix_splats(
-    size_t count,
-    size_t splat_count,
-    const double *SO3_MATRIX_RESTRICT x,
-    const double *SO3_MATRIX_RESTRICT mu,
-    const double *SO3_MATRIX_RESTRICT W,
-    const double *SO3_MATRIX_RESTRICT amplitude,
-    double *SO3_MATRIX_RESTRICT value,
-    double *SO3_MATRIX_RESTRICT gradient) {
-    const unsigned mode = flush_denormals();
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        double x_block[9][LANES], sum[4][LANES] = {{0}};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            for (size_t i = 0; i < 9; ++i) x_block[i][lane] = x[9 * n + i];
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            const double mu0 = mu[9 * k + 0];
-            const double mu1 = mu[9 * k + 1];
-            const double mu2 = mu[9 * k + 2];
-            const double mu3 = mu[9 * k + 3];
-            const double mu4 = mu[9 * k + 4];
-            const double mu5 = mu[9 * k + 5];
-            const double mu6 = mu[9 * k + 6];
-            const double mu7 = mu[9 * k + 7];
-            const double mu8 = mu[9 * k + 8];
-            const double W0_0 = W[9 * k + 0];
-            const double W0_1 = W[9 * k + 1];
-            const double W0_2 = W[9 * k + 2];
-            const double W1_0 = W[9 * k + 3];
-            const double W1_1 = W[9 * k + 4];
-            const double W1_2 = W[9 * k + 5];
-            const double W2_0 = W[9 * k + 6];
-            const double W2_1 = W[9 * k + 7];
-            const double W2_2 = W[9 * k + 8];
-            const double amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const double R0_0 = x_block[0][lane] * mu0 + x_block[3][lane] * mu3 + x_block[6][lane] * mu6;
-                const double R0_1 = x_block[1][lane] * mu0 + x_block[4][lane] * mu3 + x_block[7][lane] * mu6;
-                const double R0_2 = x_block[2][lane] * mu0 + x_block[5][lane] * mu3 + x_block[8][lane] * mu6;
-                const double R1_0 = x_block[0][lane] * mu1 + x_block[3][lane] * mu4 + x_block[6][lane] * mu7;
-                const double R1_1 = x_block[1][lane] * mu1 + x_block[4][lane] * mu4 + x_block[7][lane] * mu7;
-                const double R1_2 = x_block[2][lane] * mu1 + x_block[5][lane] * mu4 + x_block[8][lane] * mu7;
-                const double R2_0 = x_block[0][lane] * mu2 + x_block[3][lane] * mu5 + x_block[6][lane] * mu8;
-                const double R2_1 = x_block[1][lane] * mu2 + x_block[4][lane] * mu5 + x_block[7][lane] * mu8;
-                const double R2_2 = x_block[2][lane] * mu2 + x_block[5][lane] * mu5 + x_block[8][lane] * mu8;
-                const double R0_0_total = 1.0 + R0_0;
-                const double square0 = R2_2 + (R1_1 + R0_0_total);
-                const double square1 = R0_0_total - R1_1 - R2_2;
-                const double square2 = 1.0 + R1_1 - R0_0 - R2_2;
-                const double square3 = 1.0 + R2_2 - R0_0 - R1_1;
-                const int is_less = square0 < square1;
-                const double R2_1_gap = R2_1 - R1_2;
-                const double row = (is_less ? R2_1_gap : square0);
-                const double row_2 = (is_less ? square1 : R2_1_gap);
-                const double R0_1_total = R0_1 + R1_0;
-                const double R0_2_gap = R0_2 - R2_0;
-                const double row_3 = (is_less ? R0_1_total : R0_2_gap);
-                const double R0_2_total = R0_2 + R2_0;
-                const double R1_0_gap = R1_0 - R0_1;
-                const double row_4 = (is_less ? R0_2_total : R1_0_gap);
-                const double largest = (is_less ? square1 : square0);
-                const int is_less_2 = largest < square2;
-                const double row_5 = (is_less_2 ? R0_2_gap : row);
-                const double row_6 = (is_less_2 ? R0_1_total : row_2);
-                const double row_7 = (is_less_2 ? square2 : row_3);
-                const double R1_2_total = R1_2 + R2_1;
-                const double row_8 = (is_less_2 ? R1_2_total : row_4);
-                const double largest_2 = (is_less_2 ? square2 : largest);
-                const int is_less_3 = largest_2 < square3;
-                const double row_9 = (is_less_3 ? R1_0_gap : row_5);
-                const double row_10 = (is_less_3 ? R0_2_total : row_6);
-                const double row_11 = (is_less_3 ? R1_2_total : row_7);
-                const double row_12 = (is_less_3 ? square3 : row_8);
-                const double total_2 = row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9;
-                const double row_length = sqrt(total_2);
-                const double g0 = row_9 / row_length;
-                const double g1 = row_10 / row_length;
-                const double g2 = row_11 / row_length;
-                const double g3 = row_12 / row_length;
-                const double norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
-                const double abs_g0 = fabs(g0);
-                const int near = norm_s_squared < 0.249287;
-                const double near_chosen = (near ? 4.011440628672975 * norm_s_squared : 0.0);
-                const double t_over_norm_s_near = polynomial_t_over_norm_s_near(near_chosen);
-                const double near_chosen_2 = (near ? 1.0 : norm_s_squared);
-                const double norm_s = sqrt(near_chosen_2);
-                const double atan2_norm_s_abs_g0 = atan2(norm_s, abs_g0);
-                const double t = 2.0 * atan2_norm_s_abs_g0;
-                const double t_ratio = t / norm_s;
-                const double t_over_norm_s = (near ? t_over_norm_s_near : t_ratio);
-                const int is_small = g0 < 0.0;
-                const double chosen = (is_small ? -1.0 : 1.0);
-                const double scale = t_over_norm_s * chosen;
-                const double v0 = g1 * scale;
-                const double v1 = g2 * scale;
-                const double v2 = g3 * scale;
-                const double log_det_series = polynomial_log_det_series(near_chosen);
-                const double log_det_near = norm_s_squared * log_det_series;
-                const double product = 0.5 * t_ratio;
-                const double log_det = (near ? log_det_near : 2.0 * log(product));
-                const double z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-                const double z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-                const double z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-                const double log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
-                const double phi = amplitude_k * exp(log_det_gap);
-                const double by_v2 = -(W2_2 * z2) - W1_2 * z1 - W0_2 * z0;
-                const double by_v1 = -(W2_1 * z2) - W1_1 * z1 - W0_1 * z0;
-                const double by_v0 = -(W2_0 * z2) - W1_0 * z1 - W0_0 * z0;
-                const double by_log_det_near = (near ? 1.0 : 0.0);
-                const double by_log_det_series = norm_s_squared * by_log_det_near;
-                const double log_det_series_slope = polynomial_log_det_series_slope(near_chosen);
-                const double by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
-                const double by_t_over_norm_s = chosen * by_scale;
-                const double by_t_over_norm_s_near = (near ? by_t_over_norm_s : 0.0);
-                const double total_3 = 0.5 * (2.0 * (near ? 0.0 : 1.0) / product) + (near ? 0.0 : by_t_over_norm_s);
-                const double by_t = total_3 / norm_s;
-                const double by_atan2_norm_s_abs_g0 = 2.0 * by_t;
-                const double ratio = by_atan2_norm_s_abs_g0 / (near_chosen_2 + abs_g0 * abs_g0);
-                const double norm_s_product = norm_s * ratio;
-                const double by_abs_g0 = -norm_s_product;
-                const double by_norm_s = abs_g0 * ratio - t_ratio * by_t;
-                const double t_over_norm_s_near_slope = polynomial_t_over_norm_s_near_slope(near_chosen);
-                const double by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0 : by_norm_s / (2.0 *
-                    norm_s)) + 4.011440628672975 * (near ? by_log_det_series * log_det_series_slope +
-                    by_t_over_norm_s_near * t_over_norm_s_near_slope : 0.0);
-                const double by_g0 = (is_small ? norm_s_product : by_abs_g0);
-                const double product_2 = 2.0 * by_norm_s_squared;
-                const double by_g3 = scale * by_v2 + g3 * product_2;
-                const double by_g2 = scale * by_v1 + g2 * product_2;
-                const double by_g1 = scale * by_v0 + g1 * product_2;
-                const double by_g3_ratio = by_g3 / row_length;
-                const double by_g2_ratio = by_g2 / row_length;
-                const double by_g1_ratio = by_g1 / row_length;
-                const double by_g0_ratio = by_g0 / row_length;
-                const double by_row_length = -(g3 * by_g3_ratio) - g2 * by_g2_ratio - g1 * by_g1_ratio - g0 * by_g0_ratio;
-                const int is_small_2 = total_2 == 0.0;
-                const double product_3 = 2.0 * (is_small_2 ? 0.0 : by_row_length / (2.0 * (is_small_2 ? 1.0 :
-                    row_length)));
-                const double by_row_9 = by_g0_ratio + row_9 * product_3;
-                const double by_row_12 = by_g3_ratio + row_12 * product_3;
-                const double by_row_11 = by_g2_ratio + row_11 * product_3;
-                const double by_row_10 = by_g1_ratio + row_10 * product_3;
-                const double by_square3 = (is_less_3 ? by_row_12 : 0.0);
-                const double by_row_8 = (is_less_3 ? 0.0 : by_row_12);
-                const double by_row_7 = (is_less_3 ? 0.0 : by_row_11);
-                const double by_row_6 = (is_less_3 ? 0.0 : by_row_10);
-                const double by_row_5 = (is_less_3 ? 0.0 : by_row_9);
-                const double by_row_4 = (is_less_2 ? 0.0 : by_row_8);
-                const double total_4 = (is_less_3 ? by_row_11 : 0.0) + (is_less_2 ? by_row_8 : 0.0);
-                const double by_square2 = (is_less_2 ? by_row_7 : 0.0);
-                const double by_row_3 = (is_less_2 ? 0.0 : by_row_7);
-                const double by_row_2 = (is_less_2 ? 0.0 : by_row_6);
-                const double by_row = (is_less_2 ? 0.0 : by_row_5);
-                const double total_5 = (is_less_3 ? by_row_10 : 0.0) + (is_less ? by_row_4 : 0.0);
-                const double total_6 = (is_less_3 ? by_row_9 : 0.0) + (is_less ? 0.0 : by_row_4);
-                const double total_7 = (is_less_2 ? by_row_6 : 0.0) + (is_less ? by_row_3 : 0.0);
-                const double total_8 = (is_less_2 ? by_row_5 : 0.0) + (is_less ? 0.0 : by_row_3);
-                const double by_R0_2 = total_5 + total_8;
-                const double by_R2_0 = total_5 - total_8;
-                const double by_R0_1 = total_7 - total_6;
-                const double by_R1_0 = total_6 + total_7;
-                const double by_square1 = (is_less ? by_row_2 : 0.0);
-                const double by_square0 = (is_less ? 0.0 : by_row);
-                const double total_9 = (is_less ? 0.0 : by_row_2) + (is_less ? by_row : 0.0);
-                const double by_R2_1 = total_4 + total_9;
-                const double by_R1_2 = total_4 - total_9;
-                const double by_R2_2 = by_square0 + (by_square3 - by_square2 - by_square1);
-                const double by_R1_1 = by_square0 + (by_square2 - by_square3 - by_square1);
-                const double by_R0_0 = -by_square3 - by_square2 + (by_square1 + by_square0);
-                const double exponent_by_x8 = mu8 * by_R2_2 + mu7 * by_R1_2 + mu6 * by_R0_2;
-                const double exponent_by_x5 = mu5 * by_R2_2 + mu4 * by_R1_2 + mu3 * by_R0_2;
-                const double exponent_by_x2 = mu2 * by_R2_2 + mu1 * by_R1_2 + mu0 * by_R0_2;
-                const double exponent_by_x7 = mu8 * by_R2_1 + mu7 * by_R1_1 + mu6 * by_R0_1;
-                const double exponent_by_x4 = mu5 * by_R2_1 + mu4 * by_R1_1 + mu3 * by_R0_1;
-                const double exponent_by_x1 = mu2 * by_R2_1 + mu1 * by_R1_1 + mu0 * by_R0_1;
-                const double exponent_by_x6 = mu8 * by_R2_0 + mu7 * by_R1_0 + mu6 * by_R0_0;
-                const double exponent_by_x3 = mu5 * by_R2_0 + mu4 * by_R1_0 + mu3 * by_R0_0;
-                const double exponent_by_x0 = mu2 * by_R2_0 + mu1 * by_R1_0 + mu0 * by_R0_0;
-                const double df0 = phi * exponent_by_x0;
-                const double df1 = phi * exponent_by_x1;
-                const double df2 = phi * exponent_by_x2;
-                const double df3 = phi * exponent_by_x3;
-                const double df4 = phi * exponent_by_x4;
-                const double df5 = phi * exponent_by_x5;
-                const double df6 = phi * exponent_by_x6;
-                const double df7 = phi * exponent_by_x7;
-                const double df8 = phi * exponent_by_x8;
-                const double gap = x_block[2][lane] * df1 + x_block[5][lane] * df4 + x_block[8][lane] * df7 -
-                    x_block[1][lane] * df2 - x_block[4][lane] * df5;
-                const double gradient0 = gap - x_block[7][lane] * df8;
-                const double gap_2 = x_block[0][lane] * df2 + x_block[3][lane] * df5 + x_block[6][lane] * df8 -
-                    x_block[2][lane] * df0 - x_block[5][lane] * df3;
-                const double gradient1 = gap_2 - x_block[8][lane] * df6;
-                const double gap_3 = x_block[1][lane] * df0 + x_block[4][lane] * df3 + x_block[7][lane] * df6 -
-                    x_block[0][lane] * df1 - x_block[3][lane] * df4;
-                const double gradient2 = gap_3 - x_block[6][lane] * df7;
-                sum[0][lane] += phi;
-                sum[1][lane] += gradient0;
-                sum[2][lane] += gradient1;
-                sum[3][lane] += gradient2;
+    size_t count, size_t splat_count, const double *SO3_MATRIX_RESTRICT x, const double *SO3_MATRIX_RESTRICT mu, const double *SO3_MATRIX_RESTRICT W, const double *SO3_MATRIX_RESTRICT amplitude,
+    double *SO3_MATRIX_RESTRICT value, double *SO3_MATRIX_RESTRICT gradient, double *SO3_MATRIX_RESTRICT work, int threads) {
+    (void)threads;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES) {
+            vector at[2][9], X[2][9], grad[3];
+            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][9] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows(x, count, start + b * LANES, 9, at[b]);
+                pair_features(at[b], X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_forward(X[0], constants + 19 * k, value_sum[0], slope_sum[0]);
+                pair_forward(X[1], constants + 19 * k, value_sum[1], slope_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b) {
+                pair_gradient(at[b], slope_sum[b], grad);
+                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                vector_to_rows(grad, gradient, count, start + b * LANES, 3, 3);
             }
         }
-        for (size_t lane = 0; lane < lanes; ++lane) {
-            value[start + lane] = sum[0][lane];
-            for (size_t i = 0; i < 3; ++i) gradient[3 * (start + lane) + i] = sum[i + 1][lane];
-        }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
+void so3_matrix_splats_value(
+    size_t count, size_t splat_count, const double *SO3_MATRIX_RESTRICT x, const double *SO3_MATRIX_RESTRICT mu, const double *SO3_MATRIX_RESTRICT W, const double *SO3_MATRIX_RESTRICT amplitude,
+    double *SO3_MATRIX_RESTRICT value, double *SO3_MATRIX_RESTRICT work, int threads) {
+    (void)threads;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES) {
+            vector at[9], X[2][9], value_sum[2][1] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows(x, count, start + b * LANES, 9, at);
+                pair_features(at, X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_value(X[0], constants + 19 * k, value_sum[0]);
+                pair_value(X[1], constants + 19 * k, value_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b)
+                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
+OUTLINE void splat_points(
+    size_t count, size_t start, const double *x, const double *value_bar, const double *gradient_bar, vector *point) {
+    vector at[9], grad_bar[3], slope_bar[9];
+    vector_rows(x, count, start, 9, at);
+    vector_rows(gradient_bar, count, start, 3, grad_bar);
+    vector_rows(value_bar, count, start, 1, point + 9);
+    pair_features(at, point);
+    pair_gradient_vjp(at, grad_bar, slope_bar);
+    for (int i = 0; i < 9; ++i) point[9 + 1 + i] = slope_bar[i];
+    vector_end(count, start, 9 + 1, point + 9);
+}
+
+/* Adds to S_bar what some vectors of points add to it. */
+OUTLINE void splat_sums(const vector *point, size_t size, const double *S, double *S_bar) {
+    vector sum[19] = {ZERO};
+    for (size_t b = 0; b < size; ++b, point += 19) pair_backward(point, S, point + 9, point + 9 + 1, sum);
+    S_bar[0] += vector_sum(sum[0]);
+    S_bar[1] += vector_sum(sum[1]);
+    S_bar[2] += vector_sum(sum[2]);
+    S_bar[3] += vector_sum(sum[3]);
+    S_bar[4] += vector_sum(sum[4]);
+    S_bar[5] += vector_sum(sum[5]);
+    S_bar[6] += vector_sum(sum[6]);
+    S_bar[7] += vector_sum(sum[7]);
+    S_bar[8] += vector_sum(sum[8]);
+    S_bar[9] += vector_sum(sum[9]);
+    S_bar[10] += vector_sum(sum[10]);
+    S_bar[11] += vector_sum(sum[11]);
+    S_bar[12] += vector_sum(sum[12]);
+    S_bar[13] += vector_sum(sum[13]);
+    S_bar[14] += vector_sum(sum[14]);
+    S_bar[15] += vector_sum(sum[15]);
+    S_bar[16] += vector_sum(sum[16]);
+    S_bar[17] += vector_sum(sum[17]);
+    S_bar[18] += vector_sum(sum[18]);
+}
+
+/*
+ * Some splats at a time; the points pass over each of them, a chunk at a time, while its sums stay in registers. How many
+ * splats depends on the threads, what is summed in which order does not.
+ */
 void so3_matrix_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *SO3_MATRIX_RESTRICT x,
-    const double *SO3_MATRIX_RESTRICT mu,
-    const double *SO3_MATRIX_RESTRICT W,
-    const double *SO3_MATRIX_RESTRICT amplitude,
-    const double *SO3_MATRIX_RESTRICT value_bar,
-    const double *SO3_MATRIX_RESTRICT gradient_bar,
-    double *SO3_MATRIX_RESTRICT mu_bar,
-    double *SO3_MATRIX_RESTRICT W_bar,
-    double *SO3_MATRIX_RESTRICT amplitude_bar) {
-    const unsigned mode = flush_denormals();
-    for (size_t i = 0; i < 9 * splat_count; ++i) mu_bar[i] = 0;
-    for (size_t i = 0; i < 9 * splat_count; ++i) W_bar[i] = 0;
-    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        double x_block[9][LANES], value_bar_block[1][LANES], gradient_bar_block[3][LANES];
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            const double weight = lane < lanes ? 1 : 0;
-            for (size_t i = 0; i < 9; ++i) x_block[i][lane] = x[9 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
-            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] = gradient_bar[3 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
-            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] *= weight;
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            double sum[19][LANES] = {{0}}, total[19] = {0};
-            const double mu0 = mu[9 * k + 0];
-            const double mu1 = mu[9 * k + 1];
-            const double mu2 = mu[9 * k + 2];
-            const double mu3 = mu[9 * k + 3];
-            const double mu4 = mu[9 * k + 4];
-            const double mu5 = mu[9 * k + 5];
-            const double mu6 = mu[9 * k + 6];
-            const double mu7 = mu[9 * k + 7];
-            const double mu8 = mu[9 * k + 8];
-            const double W0_0 = W[9 * k + 0];
-            const double W0_1 = W[9 * k + 1];
-            const double W0_2 = W[9 * k + 2];
-            const double W1_0 = W[9 * k + 3];
-            const double W1_1 = W[9 * k + 4];
-            const double W1_2 = W[9 * k + 5];
-            const double W2_0 = W[9 * k + 6];
-            const double W2_1 = W[9 * k + 7];
-            const double W2_2 = W[9 * k + 8];
-            const double amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const double R0_0 = x_block[0][lane] * mu0 + x_block[3][lane] * mu3 + x_block[6][lane] * mu6;
-                const double R0_1 = x_block[1][lane] * mu0 + x_block[4][lane] * mu3 + x_block[7][lane] * mu6;
-                const double R0_2 = x_block[2][lane] * mu0 + x_block[5][lane] * mu3 + x_block[8][lane] * mu6;
-                const double R1_0 = x_block[0][lane] * mu1 + x_block[3][lane] * mu4 + x_block[6][lane] * mu7;
-                const double R1_1 = x_block[1][lane] * mu1 + x_block[4][lane] * mu4 + x_block[7][lane] * mu7;
-                const double R1_2 = x_block[2][lane] * mu1 + x_block[5][lane] * mu4 + x_block[8][lane] * mu7;
-                const double R2_0 = x_block[0][lane] * mu2 + x_block[3][lane] * mu5 + x_block[6][lane] * mu8;
-                const double R2_1 = x_block[1][lane] * mu2 + x_block[4][lane] * mu5 + x_block[7][lane] * mu8;
-                const double R2_2 = x_block[2][lane] * mu2 + x_block[5][lane] * mu5 + x_block[8][lane] * mu8;
-                const double R0_0_total = 1.0 + R0_0;
-                const double square0 = R2_2 + (R1_1 + R0_0_total);
-                const double square1 = R0_0_total - R1_1 - R2_2;
-                const double square2 = 1.0 + R1_1 - R0_0 - R2_2;
-                const double square3 = 1.0 + R2_2 - R0_0 - R1_1;
-                const int is_less = square0 < square1;
-                const double R2_1_gap = R2_1 - R1_2;
-                const double row = (is_less ? R2_1_gap : square0);
-                const double row_2 = (is_less ? square1 : R2_1_gap);
-                const double R0_1_total = R0_1 + R1_0;
-                const double R0_2_gap = R0_2 - R2_0;
-                const double row_3 = (is_less ? R0_1_total : R0_2_gap);
-                const double R0_2_total = R0_2 + R2_0;
-                const double R1_0_gap = R1_0 - R0_1;
-                const double row_4 = (is_less ? R0_2_total : R1_0_gap);
-                const double largest = (is_less ? square1 : square0);
-                const int is_less_2 = largest < square2;
-                const double row_5 = (is_less_2 ? R0_2_gap : row);
-                const double row_6 = (is_less_2 ? R0_1_total : row_2);
-                const double row_7 = (is_less_2 ? square2 : row_3);
-                const double R1_2_total = R1_2 + R2_1;
-                const double row_8 = (is_less_2 ? R1_2_total : row_4);
-                const double largest_2 = (is_less_2 ? square2 : largest);
-                const int is_less_3 = largest_2 < square3;
-                const double row_9 = (is_less_3 ? R1_0_gap : row_5);
-                const double row_10 = (is_less_3 ? R0_2_total : row_6);
-                const double row_11 = (is_less_3 ? R1_2_total : row_7);
-                const double row_12 = (is_less_3 ? square3 : row_8);
-                const double total_2 = row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9;
-                const double row_length = sqrt(total_2);
-                const double g0 = row_9 / row_length;
-                const double g1 = row_10 / row_length;
-                const double g2 = row_11 / row_length;
-                const double g3 = row_12 / row_length;
-                const double norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
-                const double abs_g0 = fabs(g0);
-                const int near = norm_s_squared < 0.249287;
-                const double near_chosen = (near ? 4.011440628672975 * norm_s_squared : 0.0);
-                const double t_over_norm_s_near = polynomial_t_over_norm_s_near(near_chosen);
-                const double near_chosen_2 = (near ? 1.0 : norm_s_squared);
-                const double norm_s = sqrt(near_chosen_2);
-                const double atan2_norm_s_abs_g0 = atan2(norm_s, abs_g0);
-                const double t = 2.0 * atan2_norm_s_abs_g0;
-                const double t_ratio = t / norm_s;
-                const double t_over_norm_s = (near ? t_over_norm_s_near : t_ratio);
-                const int is_small = g0 < 0.0;
-                const double chosen = (is_small ? -1.0 : 1.0);
-                const double scale = t_over_norm_s * chosen;
-                const double v0 = g1 * scale;
-                const double v1 = g2 * scale;
-                const double v2 = g3 * scale;
-                const double log_det_series = polynomial_log_det_series(near_chosen);
-                const double log_det_near = norm_s_squared * log_det_series;
-                const double product = 0.5 * t_ratio;
-                const double log_det = (near ? log_det_near : 2.0 * log(product));
-                const double z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-                const double z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-                const double z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-                const double log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
-                const double exp_2 = exp(log_det_gap);
-                const double phi = amplitude_k * exp_2;
-                const double by_v2 = -(W2_2 * z2) - W1_2 * z1 - W0_2 * z0;
-                const double by_v1 = -(W2_1 * z2) - W1_1 * z1 - W0_1 * z0;
-                const double by_v0 = -(W2_0 * z2) - W1_0 * z1 - W0_0 * z0;
-                const double by_log_det_near = (near ? 1.0 : 0.0);
-                const double ratio = 2.0 * (near ? 0.0 : 1.0) / product;
-                const double by_log_det_series = norm_s_squared * by_log_det_near;
-                const double log_det_series_slope = polynomial_log_det_series_slope(near_chosen);
-                const double by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
-                const double by_t_over_norm_s = chosen * by_scale;
-                const double by_t_over_norm_s_near = (near ? by_t_over_norm_s : 0.0);
-                const double by_t = (0.5 * ratio + (near ? 0.0 : by_t_over_norm_s)) / norm_s;
-                const double by_atan2_norm_s_abs_g0 = 2.0 * by_t;
-                const double total_3 = near_chosen_2 + abs_g0 * abs_g0;
-                const double ratio_2 = by_atan2_norm_s_abs_g0 / total_3;
-                const double norm_s_product = norm_s * ratio_2;
-                const double by_abs_g0 = -norm_s_product;
-                const double by_norm_s = abs_g0 * ratio_2 - t_ratio * by_t;
-                const double norm_s_product_2 = 2.0 * norm_s;
-                const double by_norm_s_ratio = by_norm_s / norm_s_product_2;
-                const double t_over_norm_s_near_slope = polynomial_t_over_norm_s_near_slope(near_chosen);
-                const double by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0 : by_norm_s_ratio) +
-                    4.011440628672975 * (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_s_near *
-                    t_over_norm_s_near_slope : 0.0);
-                const double by_g0 = (is_small ? norm_s_product : by_abs_g0);
-                const double product_2 = 2.0 * by_norm_s_squared;
-                const double by_g3 = scale * by_v2 + g3 * product_2;
-                const double by_g2 = scale * by_v1 + g2 * product_2;
-                const double by_g1 = scale * by_v0 + g1 * product_2;
-                const double by_g3_ratio = by_g3 / row_length;
-                const double by_g2_ratio = by_g2 / row_length;
-                const double by_g1_ratio = by_g1 / row_length;
-                const double by_g0_ratio = by_g0 / row_length;
-                const double by_row_length = -(g3 * by_g3_ratio) - g2 * by_g2_ratio - g1 * by_g1_ratio - g0 * by_g0_ratio;
-                const int is_small_2 = total_2 == 0.0;
-                const double product_3 = 2.0 * (is_small_2 ? 1.0 : row_length);
-                const double ratio_3 = by_row_length / product_3;
-                const double product_4 = 2.0 * (is_small_2 ? 0.0 : ratio_3);
-                const double by_row_9 = by_g0_ratio + row_9 * product_4;
-                const double by_row_12 = by_g3_ratio + row_12 * product_4;
-                const double by_row_11 = by_g2_ratio + row_11 * product_4;
-                const double by_row_10 = by_g1_ratio + row_10 * product_4;
-                const double by_square3 = (is_less_3 ? by_row_12 : 0.0);
-                const double by_row_8 = (is_less_3 ? 0.0 : by_row_12);
-                const double by_row_7 = (is_less_3 ? 0.0 : by_row_11);
-                const double by_row_6 = (is_less_3 ? 0.0 : by_row_10);
-                const double by_row_5 = (is_less_3 ? 0.0 : by_row_9);
-                const double by_row_4 = (is_less_2 ? 0.0 : by_row_8);
-                const double total_4 = (is_less_3 ? by_row_11 : 0.0) + (is_less_2 ? by_row_8 : 0.0);
-                const double by_square2 = (is_less_2 ? by_row_7 : 0.0);
-                const double by_row_3 = (is_less_2 ? 0.0 : by_row_7);
-                const double by_row_2 = (is_less_2 ? 0.0 : by_row_6);
-                const double by_row = (is_less_2 ? 0.0 : by_row_5);
-                const double total_5 = (is_less_3 ? by_row_10 : 0.0) + (is_less ? by_row_4 : 0.0);
-                const double total_6 = (is_less_3 ? by_row_9 : 0.0) + (is_less ? 0.0 : by_row_4);
-                const double total_7 = (is_less_2 ? by_row_6 : 0.0) + (is_less ? by_row_3 : 0.0);
-                const double total_8 = (is_less_2 ? by_row_5 : 0.0) + (is_less ? 0.0 : by_row_3);
-                const double by_R0_2 = total_5 + total_8;
-                const double by_R2_0 = total_5 - total_8;
-                const double by_R0_1 = total_7 - total_6;
-                const double by_R1_0 = total_6 + total_7;
-                const double by_square1 = (is_less ? by_row_2 : 0.0);
-                const double by_square0 = (is_less ? 0.0 : by_row);
-                const double total_9 = (is_less ? 0.0 : by_row_2) + (is_less ? by_row : 0.0);
-                const double by_R2_1 = total_4 + total_9;
-                const double by_R1_2 = total_4 - total_9;
-                const double by_R2_2 = by_square0 + (by_square3 - by_square2 - by_square1);
-                const double by_R1_1 = by_square0 + (by_square2 - by_square3 - by_square1);
-                const double by_R0_0 = -by_square3 - by_square2 + (by_square1 + by_square0);
-                const double exponent_by_x8 = mu8 * by_R2_2 + mu7 * by_R1_2 + mu6 * by_R0_2;
-                const double exponent_by_x5 = mu5 * by_R2_2 + mu4 * by_R1_2 + mu3 * by_R0_2;
-                const double exponent_by_x2 = mu2 * by_R2_2 + mu1 * by_R1_2 + mu0 * by_R0_2;
-                const double exponent_by_x7 = mu8 * by_R2_1 + mu7 * by_R1_1 + mu6 * by_R0_1;
-                const double exponent_by_x4 = mu5 * by_R2_1 + mu4 * by_R1_1 + mu3 * by_R0_1;
-                const double exponent_by_x1 = mu2 * by_R2_1 + mu1 * by_R1_1 + mu0 * by_R0_1;
-                const double exponent_by_x6 = mu8 * by_R2_0 + mu7 * by_R1_0 + mu6 * by_R0_0;
-                const double exponent_by_x3 = mu5 * by_R2_0 + mu4 * by_R1_0 + mu3 * by_R0_0;
-                const double exponent_by_x0 = mu2 * by_R2_0 + mu1 * by_R1_0 + mu0 * by_R0_0;
-                const double by_df6 = x_block[7][lane] * gradient_bar_block[2][lane] - x_block[8][lane] *
-                    gradient_bar_block[1][lane];
-                const double by_df3 = x_block[4][lane] * gradient_bar_block[2][lane] - x_block[5][lane] *
-                    gradient_bar_block[1][lane];
-                const double by_df0 = x_block[1][lane] * gradient_bar_block[2][lane] - x_block[2][lane] *
-                    gradient_bar_block[1][lane];
-                const double by_df8 = x_block[6][lane] * gradient_bar_block[1][lane] - x_block[7][lane] *
-                    gradient_bar_block[0][lane];
-                const double by_df5 = x_block[3][lane] * gradient_bar_block[1][lane] - x_block[4][lane] *
-                    gradient_bar_block[0][lane];
-                const double by_df2 = x_block[0][lane] * gradient_bar_block[1][lane] - x_block[1][lane] *
-                    gradient_bar_block[0][lane];
-                const double by_df7 = x_block[8][lane] * gradient_bar_block[0][lane] - x_block[6][lane] *
-                    gradient_bar_block[2][lane];
-                const double by_df4 = x_block[5][lane] * gradient_bar_block[0][lane] - x_block[3][lane] *
-                    gradient_bar_block[2][lane];
-                const double by_df1 = x_block[2][lane] * gradient_bar_block[0][lane] - x_block[0][lane] *
-                    gradient_bar_block[2][lane];
-                const double by_exponent_by_x8 = phi * by_df8;
-                const double by_exponent_by_x7 = phi * by_df7;
-                const double by_exponent_by_x6 = phi * by_df6;
-                const double by_exponent_by_x5 = phi * by_df5;
-                const double total_10 = value_bar_block[0][lane] + exponent_by_x8 * by_df8 + exponent_by_x7 * by_df7 +
-                    exponent_by_x6 * by_df6 + exponent_by_x5 * by_df5;
-                const double by_exponent_by_x4 = phi * by_df4;
-                const double by_exponent_by_x3 = phi * by_df3;
-                const double by_exponent_by_x2 = phi * by_df2;
-                const double by_exponent_by_x1 = phi * by_df1;
-                const double total_11 = total_10 + exponent_by_x4 * by_df4 + exponent_by_x3 * by_df3 + exponent_by_x2 *
-                    by_df2 + exponent_by_x1 * by_df1;
-                const double by_exponent_by_x0 = phi * by_df0;
-                const double by_phi = total_11 + exponent_by_x0 * by_df0;
-                const double by_by_R0_0 = mu0 * by_exponent_by_x0 + mu3 * by_exponent_by_x3 + mu6 * by_exponent_by_x6;
-                const double by_by_R0_1 = mu0 * by_exponent_by_x1 + mu3 * by_exponent_by_x4 + mu6 * by_exponent_by_x7;
-                const double by_by_R0_2 = mu0 * by_exponent_by_x2 + mu3 * by_exponent_by_x5 + mu6 * by_exponent_by_x8;
-                const double by_by_R1_0 = mu1 * by_exponent_by_x0 + mu4 * by_exponent_by_x3 + mu7 * by_exponent_by_x6;
-                const double by_by_R1_1 = mu1 * by_exponent_by_x1 + mu4 * by_exponent_by_x4 + mu7 * by_exponent_by_x7;
-                const double by_by_R1_2 = mu1 * by_exponent_by_x2 + mu4 * by_exponent_by_x5 + mu7 * by_exponent_by_x8;
-                const double by_by_R2_0 = mu2 * by_exponent_by_x0 + mu5 * by_exponent_by_x3 + mu8 * by_exponent_by_x6;
-                const double by_by_R2_1 = mu2 * by_exponent_by_x1 + mu5 * by_exponent_by_x4 + mu8 * by_exponent_by_x7;
-                const double by_by_R2_2 = mu2 * by_exponent_by_x2 + mu5 * by_exponent_by_x5 + mu8 * by_exponent_by_x8;
-                const double by_by_square0 = by_by_R2_2 + (by_by_R0_0 + by_by_R1_1);
-                const double by_by_square1 = by_by_R0_0 - by_by_R1_1 - by_by_R2_2;
-                const double by_by_square2 = by_by_R1_1 - by_by_R0_0 - by_by_R2_2;
-                const double by_by_square3 = by_by_R2_2 - by_by_R1_1 - by_by_R0_0;
-                const double by_by_R1_2_total = by_by_R1_2 + by_by_R2_1;
-                const double by_by_R2_1_gap = by_by_R2_1 - by_by_R1_2;
-                const double by_by_row = (is_less ? 0.0 : by_by_square0) + (is_less ? by_by_R2_1_gap : 0.0);
-                const double by_by_row_2 = (is_less ? 0.0 : by_by_R2_1_gap) + (is_less ? by_by_square1 : 0.0);
-                const double by_by_R0_1_total = by_by_R0_1 + by_by_R1_0;
-                const double by_by_R1_0_gap = by_by_R1_0 - by_by_R0_1;
-                const double by_by_R0_2_total = by_by_R0_2 + by_by_R2_0;
-                const double by_by_R0_2_gap = by_by_R0_2 - by_by_R2_0;
-                const double by_by_row_3 = (is_less ? 0.0 : by_by_R0_2_gap) + (is_less ? by_by_R0_1_total : 0.0);
-                const double by_by_row_4 = (is_less ? 0.0 : by_by_R1_0_gap) + (is_less ? by_by_R0_2_total : 0.0);
-                const double by_by_row_5 = (is_less_2 ? 0.0 : by_by_row) + (is_less_2 ? by_by_R0_2_gap : 0.0);
-                const double by_by_row_6 = (is_less_2 ? 0.0 : by_by_row_2) + (is_less_2 ? by_by_R0_1_total : 0.0);
-                const double by_by_row_7 = (is_less_2 ? 0.0 : by_by_row_3) + (is_less_2 ? by_by_square2 : 0.0);
-                const double by_by_row_8 = (is_less_2 ? 0.0 : by_by_row_4) + (is_less_2 ? by_by_R1_2_total : 0.0);
-                const double by_by_row_9 = (is_less_3 ? 0.0 : by_by_row_5) + (is_less_3 ? by_by_R1_0_gap : 0.0);
-                const double by_by_row_10 = (is_less_3 ? 0.0 : by_by_row_6) + (is_less_3 ? by_by_R0_2_total : 0.0);
-                const double by_by_row_11 = (is_less_3 ? 0.0 : by_by_row_7) + (is_less_3 ? by_by_R1_2_total : 0.0);
-                const double by_by_row_12 = (is_less_3 ? 0.0 : by_by_row_8) + (is_less_3 ? by_by_square3 : 0.0);
-                const double product_5 = 2.0 * (row_10 * by_by_row_10 + row_11 * by_by_row_11 + row_12 * by_by_row_12 +
-                    row_9 * by_by_row_9);
-                const double by_by_row_length = (is_small_2 ? 0.0 : product_5) / product_3;
-                const double by_by_g0 = (by_by_row_9 - g0 * by_by_row_length) / row_length;
-                const double gap = (is_small_2 ? 0.0 : -(2.0 * (ratio_3 * by_by_row_length))) - by_g0_ratio * by_by_g0;
-                const double by_by_g1 = (by_by_row_10 - g1 * by_by_row_length) / row_length;
-                const double by_by_g2 = (by_by_row_11 - g2 * by_by_row_length) / row_length;
-                const double by_by_g3 = (by_by_row_12 - g3 * by_by_row_length) / row_length;
-                const double total_12 = g1 * by_by_g1 + g2 * by_by_g2 + g3 * by_by_g3;
-                const double by_by_norm_s_squared = 2.0 * total_12;
-                const double by_by_abs_g0 = (is_small ? 0.0 : by_by_g0);
-                const double near_chosen_3 = (near ? 8.02288125734595 * total_12 : 0.0);
-                const double by_by_t_over_norm_s_near = t_over_norm_s_near_slope * near_chosen_3;
-                const double by_t_over_norm_s_near_slope = by_t_over_norm_s_near * near_chosen_3;
-                const double t_over_norm_s_near_slope_slope = polynomial_t_over_norm_s_near_slope_slope(near_chosen);
-                const double by_by_norm_s = (near ? 0.0 : by_by_norm_s_squared) / norm_s_product_2;
-                const double gap_2 = (is_small ? by_by_g0 : 0.0) - by_by_abs_g0;
-                const double by_by_atan2_norm_s_abs_g0 = (norm_s * gap_2 + abs_g0 * by_by_norm_s) / total_3;
-                const double product_6 = ratio_2 * by_by_atan2_norm_s_abs_g0;
-                const double gap_3 = ratio_2 * by_by_norm_s - abs_g0 * (2.0 * product_6);
-                const double by_by_t = 2.0 * by_by_atan2_norm_s_abs_g0 - t_ratio * by_by_norm_s;
-                const double by_by_t_ratio = by_by_t / norm_s;
-                const double by_by_t_over_norm_s = (near ? 0.0 : by_by_t_ratio) + (near ? by_by_t_over_norm_s_near : 0.0);
-                const double by_by_scale = chosen * by_by_t_over_norm_s;
-                const double by_by_v0 = g1 * by_by_scale + scale * by_by_g1;
-                const double by_by_v1 = g2 * by_by_scale + scale * by_by_g2;
-                const double by_by_v2 = g3 * by_by_scale + scale * by_by_g3;
-                const double by_by_log_det_series = log_det_series_slope * near_chosen_3;
-                const double by_log_det_series_slope = by_log_det_series * near_chosen_3;
-                const double log_det_series_slope_slope = polynomial_log_det_series_slope_slope(near_chosen);
-                const double by_log_det = exp_2 * (amplitude_k * by_phi);
-                const double by_z2 = -(W2_0 * by_by_v0) - W2_1 * by_by_v1 - W2_2 * by_by_v2 - z2 * by_log_det;
-                const double by_z1 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2 - z1 * by_log_det;
-                const double by_z0 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2 - z0 * by_log_det;
-                const double by_v2_2 = W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0;
-                const double by_v1_2 = W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
-                const double by_v0_2 = W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0;
-                const double by_log_det_near_2 = (near ? by_log_det : 0.0);
-                const double product_7 = 0.5 * (2.0 * (near ? 0.0 : by_log_det) / product - ratio * (0.5 * by_by_t_ratio /
-                    product));
-                const double by_log_det_series_2 = by_log_det_near * by_by_norm_s_squared + norm_s_squared *
-                    by_log_det_near_2;
-                const double total_13 = by_v0 * by_by_g1 + by_v1 * by_by_g2 + by_v2 * by_by_g3 + g3 * by_v2_2 + g2 *
-                    by_v1_2;
-                const double by_scale_2 = total_13 + g1 * by_v0_2;
-                const double by_t_over_norm_s_2 = chosen * by_scale_2;
-                const double by_t_over_norm_s_near_2 = (near ? by_t_over_norm_s_2 : 0.0);
-                const double by_t_2 = (product_7 - by_t * by_by_norm_s + (near ? 0.0 : by_t_over_norm_s_2)) / norm_s;
-                const double gap_4 = ratio_2 * gap_2 - 2.0 * (by_norm_s_ratio * by_by_norm_s) - by_t * by_by_t_ratio -
-                    t_ratio * by_t_2;
-                const double by_atan2_norm_s_abs_g0_2 = 2.0 * by_t_2;
-                const double ratio_4 = by_atan2_norm_s_abs_g0_2 / total_3;
-                const double norm_s_product_3 = norm_s * ratio_4;
-                const double by_norm_s_2 = gap_4 + abs_g0 * ratio_4;
-                const double by_abs_g0_2 = gap_3 - norm_s_product_3;
-                const double near_chosen_4 = (near ? by_t_over_norm_s_near_slope * t_over_norm_s_near_slope_slope +
-                    by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
-                    t_over_norm_s_near_slope * by_t_over_norm_s_near_2 : 0.0);
-                const double by_norm_s_squared_2 = by_log_det_near * by_by_log_det_series + log_det_series *
-                    by_log_det_near_2 + (near ? 0.0 : by_norm_s_2 / norm_s_product_2 - product_6) + 4.011440628672975 *
-                    near_chosen_4;
-                const double by_g0_2 = (is_small ? norm_s_product_3 - gap_3 : by_abs_g0_2) - by_g0_ratio *
-                    by_by_row_length;
-                const double product_8 = 2.0 * by_norm_s_squared_2;
-                const double by_g3_2 = product_2 * by_by_g3 - by_g3_ratio * by_by_row_length + by_v2 * by_by_scale + scale
-                    * by_v2_2 + g3 * product_8;
-                const double by_g2_2 = product_2 * by_by_g2 - by_g2_ratio * by_by_row_length + by_v1 * by_by_scale + scale
-                    * by_v1_2 + g2 * product_8;
-                const double by_g1_2 = product_2 * by_by_g1 - by_g1_ratio * by_by_row_length + by_v0 * by_by_scale + scale
-                    * by_v0_2 + g1 * product_8;
-                const double by_g3_ratio_2 = by_g3_2 / row_length;
-                const double gap_5 = gap - by_g1_ratio * by_by_g1 - by_g2_ratio * by_by_g2 - by_g3_ratio * by_by_g3 - g3 *
-                    by_g3_ratio_2;
-                const double by_g2_ratio_2 = by_g2_2 / row_length;
-                const double by_g1_ratio_2 = by_g1_2 / row_length;
-                const double by_g0_ratio_2 = by_g0_2 / row_length;
-                const double by_row_length_2 = gap_5 - g2 * by_g2_ratio_2 - g1 * by_g1_ratio_2 - g0 * by_g0_ratio_2;
-                const double product_9 = 2.0 * (is_small_2 ? 0.0 : by_row_length_2 / product_3);
-                const double by_row_9_2 = product_4 * by_by_row_9 + by_g0_ratio_2 + row_9 * product_9;
-                const double by_row_12_2 = product_4 * by_by_row_12 + by_g3_ratio_2 + row_12 * product_9;
-                const double by_row_11_2 = product_4 * by_by_row_11 + by_g2_ratio_2 + row_11 * product_9;
-                const double by_row_10_2 = product_4 * by_by_row_10 + by_g1_ratio_2 + row_10 * product_9;
-                const double by_square3_2 = (is_less_3 ? by_row_12_2 : 0.0);
-                const double by_row_8_2 = (is_less_3 ? 0.0 : by_row_12_2);
-                const double by_row_7_2 = (is_less_3 ? 0.0 : by_row_11_2);
-                const double by_row_6_2 = (is_less_3 ? 0.0 : by_row_10_2);
-                const double by_row_5_2 = (is_less_3 ? 0.0 : by_row_9_2);
-                const double by_row_4_2 = (is_less_2 ? 0.0 : by_row_8_2);
-                const double total_14 = (is_less_3 ? by_row_11_2 : 0.0) + (is_less_2 ? by_row_8_2 : 0.0);
-                const double by_square2_2 = (is_less_2 ? by_row_7_2 : 0.0);
-                const double by_row_3_2 = (is_less_2 ? 0.0 : by_row_7_2);
-                const double by_row_2_2 = (is_less_2 ? 0.0 : by_row_6_2);
-                const double by_row_13 = (is_less_2 ? 0.0 : by_row_5_2);
-                const double total_15 = (is_less_3 ? by_row_10_2 : 0.0) + (is_less ? by_row_4_2 : 0.0);
-                const double total_16 = (is_less_3 ? by_row_9_2 : 0.0) + (is_less ? 0.0 : by_row_4_2);
-                const double total_17 = (is_less_2 ? by_row_6_2 : 0.0) + (is_less ? by_row_3_2 : 0.0);
-                const double total_18 = (is_less_2 ? by_row_5_2 : 0.0) + (is_less ? 0.0 : by_row_3_2);
-                const double by_R0_2_2 = total_15 + total_18;
-                const double by_R2_0_2 = total_15 - total_18;
-                const double by_R0_1_2 = total_17 - total_16;
-                const double by_R1_0_2 = total_16 + total_17;
-                const double by_square1_2 = (is_less ? by_row_2_2 : 0.0);
-                const double by_square0_2 = (is_less ? 0.0 : by_row_13);
-                const double total_19 = (is_less ? 0.0 : by_row_2_2) + (is_less ? by_row_13 : 0.0);
-                const double by_R2_1_2 = total_14 + total_19;
-                const double by_R1_2_2 = total_14 - total_19;
-                const double by_R2_2_2 = by_square0_2 + (by_square3_2 - by_square2_2 - by_square1_2);
-                const double by_R1_1_2 = by_square0_2 + (by_square2_2 - by_square3_2 - by_square1_2);
-                const double by_R0_0_2 = -by_square3_2 - by_square2_2 + (by_square1_2 + by_square0_2);
-                const double total_20 = by_R2_0 * by_exponent_by_x6 + by_R2_1 * by_exponent_by_x7 + by_R2_2 *
-                    by_exponent_by_x8 + x_block[8][lane] * by_R2_2_2 + x_block[7][lane] * by_R2_1_2;
-                const double total_21 = by_R2_0 * by_exponent_by_x3 + by_R2_1 * by_exponent_by_x4 + by_R2_2 *
-                    by_exponent_by_x5 + x_block[5][lane] * by_R2_2_2 + x_block[4][lane] * by_R2_1_2;
-                const double total_22 = by_R2_0 * by_exponent_by_x0 + by_R2_1 * by_exponent_by_x1 + by_R2_2 *
-                    by_exponent_by_x2 + x_block[2][lane] * by_R2_2_2 + x_block[1][lane] * by_R2_1_2;
-                const double total_23 = by_R1_0 * by_exponent_by_x6 + by_R1_1 * by_exponent_by_x7 + by_R1_2 *
-                    by_exponent_by_x8 + x_block[8][lane] * by_R1_2_2 + x_block[7][lane] * by_R1_1_2;
-                const double total_24 = by_R1_0 * by_exponent_by_x3 + by_R1_1 * by_exponent_by_x4 + by_R1_2 *
-                    by_exponent_by_x5 + x_block[5][lane] * by_R1_2_2 + x_block[4][lane] * by_R1_1_2;
-                const double total_25 = by_R1_0 * by_exponent_by_x0 + by_R1_1 * by_exponent_by_x1 + by_R1_2 *
-                    by_exponent_by_x2 + x_block[2][lane] * by_R1_2_2 + x_block[1][lane] * by_R1_1_2;
-                const double total_26 = by_R0_0 * by_exponent_by_x6 + by_R0_1 * by_exponent_by_x7 + by_R0_2 *
-                    by_exponent_by_x8 + x_block[8][lane] * by_R0_2_2 + x_block[7][lane] * by_R0_1_2;
-                const double total_27 = by_R0_0 * by_exponent_by_x3 + by_R0_1 * by_exponent_by_x4 + by_R0_2 *
-                    by_exponent_by_x5 + x_block[5][lane] * by_R0_2_2 + x_block[4][lane] * by_R0_1_2;
-                const double total_28 = by_R0_0 * by_exponent_by_x0 + by_R0_1 * by_exponent_by_x1 + by_R0_2 *
-                    by_exponent_by_x2 + x_block[2][lane] * by_R0_2_2 + x_block[1][lane] * by_R0_1_2;
-                sum[0][lane] += total_28 + x_block[0][lane] * by_R0_0_2;
-                sum[1][lane] += total_25 + x_block[0][lane] * by_R1_0_2;
-                sum[2][lane] += total_22 + x_block[0][lane] * by_R2_0_2;
-                sum[3][lane] += total_27 + x_block[3][lane] * by_R0_0_2;
-                sum[4][lane] += total_24 + x_block[3][lane] * by_R1_0_2;
-                sum[5][lane] += total_21 + x_block[3][lane] * by_R2_0_2;
-                sum[6][lane] += total_26 + x_block[6][lane] * by_R0_0_2;
-                sum[7][lane] += total_23 + x_block[6][lane] * by_R1_0_2;
-                sum[8][lane] += total_20 + x_block[6][lane] * by_R2_0_2;
-                sum[9][lane] += v0 * by_z0 - z0 * by_by_v0;
-                sum[10][lane] += v1 * by_z0 - z0 * by_by_v1;
-                sum[11][lane] += v2 * by_z0 - z0 * by_by_v2;
-                sum[12][lane] += v0 * by_z1 - z1 * by_by_v0;
-                sum[13][lane] += v1 * by_z1 - z1 * by_by_v1;
-                sum[14][lane] += v2 * by_z1 - z1 * by_by_v2;
-                sum[15][lane] += v0 * by_z2 - z2 * by_by_v0;
-                sum[16][lane] += v1 * by_z2 - z2 * by_by_v1;
-                sum[17][lane] += v2 * by_z2 - z2 * by_by_v2;
-                sum[18][lane] += exp_2 * by_phi;
+    size_t count, size_t splat_count, const double *SO3_MATRIX_RESTRICT x, const double *SO3_MATRIX_RESTRICT mu, const double *SO3_MATRIX_RESTRICT W, const double *SO3_MATRIX_RESTRICT amplitude, const double *SO3_MATRIX_RESTRICT value_bar, const double *SO3_MATRIX_RESTRICT gradient_bar,
+    double *SO3_MATRIX_RESTRICT mu_bar, double *SO3_MATRIX_RESTRICT W_bar, double *SO3_MATRIX_RESTRICT amplitude_bar, double *SO3_MATRIX_RESTRICT work, int threads) {
+    const size_t blocks = (count + LANES - 1) / LANES;
+    const size_t chunk = 131072 / (19 * sizeof(vector)) + 1;
+    const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
+    const size_t share = part < LANES ? part : LANES;
+    vector *points = work_points(work);
+    double *constants = work_constants(work, count);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic) nowait)
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic, 8))
+        for (size_t block = 0; block < blocks; ++block)
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 19 * block);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += share) {
+            const size_t end = start + share < splat_count ? start + share : splat_count;
+            double sums[LANES][19] = {{0}};
+            vector own_mu[9], own_W[9], own_amplitude[1], S_bar[19], bars[19];
+            for (size_t first = 0; first < blocks; first += chunk) {
+                const size_t size = first + chunk < blocks ? chunk : blocks - first;
+                for (size_t k = start; k < end; ++k)
+                    splat_sums(points + 19 * first, size, constants + 19 * k, sums[k - start]);
             }
-            for (size_t i = 0; i < 19; ++i)
-                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
-            mu_bar[9 * k + 0] += total[0];
-            mu_bar[9 * k + 1] += total[1];
-            mu_bar[9 * k + 2] += total[2];
-            mu_bar[9 * k + 3] += total[3];
-            mu_bar[9 * k + 4] += total[4];
-            mu_bar[9 * k + 5] += total[5];
-            mu_bar[9 * k + 6] += total[6];
-            mu_bar[9 * k + 7] += total[7];
-            mu_bar[9 * k + 8] += total[8];
-            W_bar[9 * k + 0] += total[9];
-            W_bar[9 * k + 1] += total[10];
-            W_bar[9 * k + 2] += total[11];
-            W_bar[9 * k + 3] += total[12];
-            W_bar[9 * k + 4] += total[13];
-            W_bar[9 * k + 5] += total[14];
-            W_bar[9 * k + 6] += total[15];
-            W_bar[9 * k + 7] += total[16];
-            W_bar[9 * k + 8] += total[17];
-            amplitude_bar[1 * k + 0] += total[18];
+            vector_rows(mu, end, start, 9, own_mu);
+            vector_rows(W, end, start, 9, own_W);
+            vector_rows(amplitude, end, start, 1, own_amplitude);
+            vector_rows(sums[0], LANES, 0, 19, S_bar);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 9, bars + 9 + 9);
+            vector_to_rows(bars, mu_bar, end, start, 9, 9);
+            vector_to_rows(bars + 9, W_bar, end, start, 9, 9);
+            vector_to_rows(bars + 9 + 9, amplitude_bar, end, start, 1, 1);
         }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
-/* Of degree 5, within 2^-27 of that of double precision. */
-static inline float polynomial_t_over_norm_s_near_f(float x) {
-    return 1.9999999916408444f + x * (0.08309625685133959f + x * (0.009314899571001777f + x *
-        (0.001410660168357637f + x * (0.0001850457232808171f + x * 8.1767340923012e-05f))));
+/* Nothing is summed: the adjoints of a splat's constants go on to its parameters for every point. */
+void so3_matrix_splats_rows(
+    size_t count, size_t splat_count, const double *SO3_MATRIX_RESTRICT x, const double *SO3_MATRIX_RESTRICT mu, const double *SO3_MATRIX_RESTRICT W, const double *SO3_MATRIX_RESTRICT amplitude, const double *SO3_MATRIX_RESTRICT value_bar, const double *SO3_MATRIX_RESTRICT gradient_bar,
+    double *SO3_MATRIX_RESTRICT rows, double *SO3_MATRIX_RESTRICT work, int threads) {
+    (void)threads;
+    const size_t blocks = (count + LANES - 1) / LANES;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t block = 0; block < blocks; ++block) {
+            vector point[19];
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
+            for (size_t k = 0; k < splat_count; ++k) {
+                vector own_mu[9], own_W[9], own_amplitude[1], S_bar[19] = {ZERO}, bars[19];
+                for (int i = 0; i < 9; ++i) own_mu[i] = vector_of(mu[9 * k + i]);
+                for (int i = 0; i < 9; ++i) own_W[i] = vector_of(W[9 * k + i]);
+                own_amplitude[0] = vector_of(amplitude[k]);
+                pair_backward(point, constants + 19 * k, point + 9, point + 9 + 1, S_bar);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 9, bars + 9 + 9);
+                vector_to_rows(bars, rows + 19 * k, count, block * LANES, 19, 19 * splat_count);
+            }
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* The same number in all lanes. */
+INLINE vector_f vector_of_f(float x) {
+    const vector_f zero = ZERO;
+    return x - zero;
+}
+
+/* x in the lanes of the mask, y in the others. */
+INLINE vector_f vector_select_f(vector_mask_f mask, vector_f x, vector_f y) {
+    return SELECT(vector_f, vector_mask_f, mask, x, y);
+}
+
+/* Numbers in memory to a vector, and back. */
+INLINE vector_f vector_load_f(const float *from) {
+    vector_f x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+INLINE void vector_store_f(float *to, vector_f x) { memcpy(to, &x, sizeof x); }
+
+/* The sum over the lanes, by halves. */
+INLINE float vector_sum_f(vector_f x) {
+    float lanes[LANES_f];
+    vector_store_f(lanes, x);
+    for (size_t half = LANES_f / 2; half > 0; half /= 2)
+        for (size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    return lanes[0];
+}
+
+/* The bits of a vector as integers, and back. */
+INLINE vector_bits_f vector_to_bits_f(vector_f x) {
+    vector_bits_f bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
+    vector_f x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* x >= 0 with the sign of another. */
+INLINE vector_f vector_signed_f(vector_f x, vector_f sign) {
+    return vector_from_bits_f(vector_to_bits_f(x) | (vector_to_bits_f(sign) & 0x80000000));
+}
+
+/* abs of every lane; one instruction where the machine has it. */
+INLINE vector_f vector_abs_f(vector_f x) {
+    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
+    return x;
+}
+
+/* sqrt of every lane; one instruction where the machine has it. */
+INLINE vector_f vector_sqrt_f(vector_f x) {
+    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
+    return x;
+}
+
+/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
+INLINE vector_f vector_exp_f(vector_f x) {
+    const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
+    const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
+    const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
+    const vector_f scale = vector_from_bits_f((vector_to_bits_f(shifted) + 126) << 23); /* 2^(k - 1) */
+    const vector_f y = vector_select_f(x > 88.722839f, vector_of_f(HUGE_VALF), (scale + scale * part) * 2);
+    return vector_select_f(x < -86.9f, vector_of_f(0), y);
+}
+
+/* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
+INLINE vector_f vector_log_f(vector_f x) {
+    const vector_bits_f bits = vector_to_bits_f(x), biased = (bits + 0x4afb0d) >> 23; /* k + 127 */
+    const vector_f k = vector_from_bits_f(biased + 0x4b400000) - 12583039.0f;
+    const vector_f f = vector_from_bits_f(bits - (biased << 23) + 0x3f800000) - 1, s = f / (2 + f), z = s * s;
+    const vector_f half = f * f * 0.5f;
+    const vector_f rest = z * (0.6666666655430018f + z * (0.4000012200081688f + z * (0.2855080255327671f + z * 0.2333096405177204f)));
+    const vector_f y = k * 0.693145751953125f - ((half - (s * (half + rest) + k * 1.4286068203094173e-06f)) - f);
+    const vector_f small = vector_select_f(x < 0, vector_of_f(NAN), vector_of_f(-HUGE_VALF));
+    const vector_f finite = vector_select_f(x > 1.17549421e-38f, y, small);
+    return vector_select_f(x <= 3.4028234663852886e38f, finite, x);
+}
+
+/* atan2, within 3 units in the last place. */
+INLINE vector_f vector_atan2_f(vector_f y, vector_f x) {
+    const vector_f a = vector_abs_f(y), b = vector_abs_f(x), one = vector_of_f(1);
+    const vector_f less = vector_select_f(a > b, b, a), more = vector_select_f(a > b, a, b);
+    const vector_f low = vector_select_f(less > 3.4028234663852886e38f, one, less);
+    const vector_f high = vector_select_f(less > 3.4028234663852886e38f, one, vector_select_f(more == 0, one, more));
+    const vector_f top = vector_select_f(low > 0.4142135623730951f * high, low - high, low);
+    const vector_f bottom = vector_select_f(low > 0.4142135623730951f * high, low * 0.5f + high * 0.5f, high * 0.5f);
+    const vector_f t = top / bottom * 0.5f, z = t * t;
+    const vector_f angle = t + t * z * (-0.33333333279242233f + z * (0.19999977254347343f + z * (-0.14284150959481018f + z * (0.11071360682318138f + z * (-0.08624643784438366f + z * 0.05048055010223574f)))));
+    const vector_f first = vector_select_f(low > 0.4142135623730951f * high, 0.7853981852531433f + (angle + -2.1855695000931213e-08f), angle);
+    const vector_f second = vector_select_f(a > b, 1.5707963705062866f - (first - -4.3711390001862426e-08f), first);
+    const vector_f third = vector_select_f((vector_to_bits_f(x) & 0x80000000) != 0, 3.1415927410125732f - (second - -8.742278000372485e-08f), second);
+    return vector_signed_f(third, y);
 }
 
 /* Of degree 6, within 2^-30 of that of double precision. */
-static inline float polynomial_log_det_series_f(float x) {
+INLINE vector_f vector_polynomial_log_det_series_f(vector_f x) {
     return 0.33333333360654344f + x * (0.030468384794974636f + x * (0.004187186052703318f + x *
         (0.0006798423432636281f + x * (0.00012869008203200835f + x * (1.4352383872053921e-05f + x *
         1.0146648022958735e-05f)))));
 }
 
-/* Of degree 7, within 2^-29 of that of double precision. */
-static inline float polynomial_log_det_series_slope_f(float x) {
-    return 0.030468411075324144f + x * (0.00837355342611542f + x * (0.0020466142655597187f + x *
-        (0.0004893663510207316f + x * (0.00011341332759154923f + x * (3.308965514831338e-05f + x *
-        (7.033240749837545e-07f + x * 4.5653796914644905e-06f))))));
+/* Of degree 5, within 2^-27 of that of double precision. */
+INLINE vector_f vector_polynomial_t_over_norm_s_near_f(vector_f x) {
+    return 1.9999999916408444f + x * (0.08309625685133959f + x * (0.009314899571001777f + x *
+        (0.001410660168357637f + x * (0.0001850457232808171f + x * 8.1767340923012e-05f))));
 }
 
 /* Of degree 7, within 2^-30 of that of double precision. */
-static inline float polynomial_t_over_norm_s_near_slope_f(float x) {
+INLINE vector_f vector_polynomial_t_over_norm_s_near_slope_f(vector_f x) {
     return 0.08309566660530374f + x * (0.0186432102329603f + x * (0.004149402027001096f + x *
         (0.0009398850567115093f + x * (0.00021071714765224622f + x * (5.936713146666543e-05f + x *
         (1.5937893933276167e-06f + x * 7.904358196252664e-06f))))));
 }
 
-/* Of degree 8, within 2^-30 of that of double precision. */
-static inline float polynomial_t_over_norm_s_near_slope_slope_f(float x) {
-    return 0.01864320252205291f + x * (0.008299119649304472f + x * (0.0028160002314375336f + x *
-        (0.0008610440047704579f + x * (0.0002522458975272004f + x * (6.363291448779077e-05f + x *
-        (2.9672627598761578e-05f + x * (-3.950664599532621e-06f + x * 5.308935243478486e-06f)))))));
+/* Of degree 7, within 2^-29 of that of double precision. */
+INLINE vector_f vector_polynomial_log_det_series_slope_f(vector_f x) {
+    return 0.030468411075324144f + x * (0.00837355342611542f + x * (0.0020466142655597187f + x *
+        (0.0004893663510207316f + x * (0.00011341332759154923f + x * (3.308965514831338e-05f + x *
+        (7.033240749837545e-07f + x * 4.5653796914644905e-06f))))));
 }
 
 /* Of degree 8, within 2^-29 of that of double precision. */
-static inline float polynomial_log_det_series_slope_slope_f(float x) {
+INLINE vector_f vector_polynomial_log_det_series_slope_slope_f(vector_f x) {
     return 0.008373548929811502f + x * (0.00409341251393332f + x * (0.0014659690505062421f + x *
         (0.0004642399977336899f + x * (0.00013949898494014724f + x * (3.562723292198236e-05f + x *
         (1.715338253936205e-05f + x * (-2.4083903642194996e-06f + x * 3.123850968155648e-06f)))))));
 }
 
-void so3_matrix_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *SO3_MATRIX_RESTRICT x,
-    const float *SO3_MATRIX_RESTRICT mu,
-    const float *SO3_MATRIX_RESTRICT W,
-    const float *SO3_MATRIX_RESTRICT amplitude,
-    float *SO3_MATRIX_RESTRICT value,
-    float *SO3_MATRIX_RESTRICT gradient) {
-    const unsigned mode = flush_denormals();
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        float x_block[9][LANES], sum[4][LANES] = {{0}};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            for (size_t i = 0; i < 9; ++i) x_block[i][lane] = x[9 * n + i];
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            const float mu0 = mu[9 * k + 0];
-            const float mu1 = mu[9 * k + 1];
-            const float mu2 = mu[9 * k + 2];
-            const float mu3 = mu[9 * k + 3];
-            const float mu4 = mu[9 * k + 4];
-            const float mu5 = mu[9 * k + 5];
-            const float mu6 = mu[9 * k + 6];
-            const float mu7 = mu[9 * k + 7];
-            const float mu8 = mu[9 * k + 8];
-            const float W0_0 = W[9 * k + 0];
-            const float W0_1 = W[9 * k + 1];
-            const float W0_2 = W[9 * k + 2];
-            const float W1_0 = W[9 * k + 3];
-            const float W1_1 = W[9 * k + 4];
-            const float W1_2 = W[9 * k + 5];
-            const float W2_0 = W[9 * k + 6];
-            const float W2_1 = W[9 * k + 7];
-            const float W2_2 = W[9 * k + 8];
-            const float amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const float R0_0 = x_block[0][lane] * mu0 + x_block[3][lane] * mu3 + x_block[6][lane] * mu6;
-                const float R0_1 = x_block[1][lane] * mu0 + x_block[4][lane] * mu3 + x_block[7][lane] * mu6;
-                const float R0_2 = x_block[2][lane] * mu0 + x_block[5][lane] * mu3 + x_block[8][lane] * mu6;
-                const float R1_0 = x_block[0][lane] * mu1 + x_block[3][lane] * mu4 + x_block[6][lane] * mu7;
-                const float R1_1 = x_block[1][lane] * mu1 + x_block[4][lane] * mu4 + x_block[7][lane] * mu7;
-                const float R1_2 = x_block[2][lane] * mu1 + x_block[5][lane] * mu4 + x_block[8][lane] * mu7;
-                const float R2_0 = x_block[0][lane] * mu2 + x_block[3][lane] * mu5 + x_block[6][lane] * mu8;
-                const float R2_1 = x_block[1][lane] * mu2 + x_block[4][lane] * mu5 + x_block[7][lane] * mu8;
-                const float R2_2 = x_block[2][lane] * mu2 + x_block[5][lane] * mu5 + x_block[8][lane] * mu8;
-                const float R0_0_total = 1.0f + R0_0;
-                const float square0 = R2_2 + (R1_1 + R0_0_total);
-                const float square1 = R0_0_total - R1_1 - R2_2;
-                const float square2 = 1.0f + R1_1 - R0_0 - R2_2;
-                const float square3 = 1.0f + R2_2 - R0_0 - R1_1;
-                const int is_less = square0 < square1;
-                const float R2_1_gap = R2_1 - R1_2;
-                const float row = (is_less ? R2_1_gap : square0);
-                const float row_2 = (is_less ? square1 : R2_1_gap);
-                const float R0_1_total = R0_1 + R1_0;
-                const float R0_2_gap = R0_2 - R2_0;
-                const float row_3 = (is_less ? R0_1_total : R0_2_gap);
-                const float R0_2_total = R0_2 + R2_0;
-                const float R1_0_gap = R1_0 - R0_1;
-                const float row_4 = (is_less ? R0_2_total : R1_0_gap);
-                const float largest = (is_less ? square1 : square0);
-                const int is_less_2 = largest < square2;
-                const float row_5 = (is_less_2 ? R0_2_gap : row);
-                const float row_6 = (is_less_2 ? R0_1_total : row_2);
-                const float row_7 = (is_less_2 ? square2 : row_3);
-                const float R1_2_total = R1_2 + R2_1;
-                const float row_8 = (is_less_2 ? R1_2_total : row_4);
-                const float largest_2 = (is_less_2 ? square2 : largest);
-                const int is_less_3 = largest_2 < square3;
-                const float row_9 = (is_less_3 ? R1_0_gap : row_5);
-                const float row_10 = (is_less_3 ? R0_2_total : row_6);
-                const float row_11 = (is_less_3 ? R1_2_total : row_7);
-                const float row_12 = (is_less_3 ? square3 : row_8);
-                const float total_2 = row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9;
-                const float row_length = sqrtf(total_2);
-                const float g0 = row_9 / row_length;
-                const float g1 = row_10 / row_length;
-                const float g2 = row_11 / row_length;
-                const float g3 = row_12 / row_length;
-                const float norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
-                const float abs_g0 = fabsf(g0);
-                const int near = norm_s_squared < 0.249287f;
-                const float near_chosen = (near ? 4.011440628672975f * norm_s_squared : 0.0f);
-                const float t_over_norm_s_near = polynomial_t_over_norm_s_near_f(near_chosen);
-                const float near_chosen_2 = (near ? 1.0f : norm_s_squared);
-                const float norm_s = sqrtf(near_chosen_2);
-                const float atan2_norm_s_abs_g0 = atan2f(norm_s, abs_g0);
-                const float t = 2.0f * atan2_norm_s_abs_g0;
-                const float t_ratio = t / norm_s;
-                const float t_over_norm_s = (near ? t_over_norm_s_near : t_ratio);
-                const int is_small = g0 < 0.0f;
-                const float chosen = (is_small ? -1.0f : 1.0f);
-                const float scale = t_over_norm_s * chosen;
-                const float v0 = g1 * scale;
-                const float v1 = g2 * scale;
-                const float v2 = g3 * scale;
-                const float log_det_series = polynomial_log_det_series_f(near_chosen);
-                const float log_det_near = norm_s_squared * log_det_series;
-                const float product = 0.5f * t_ratio;
-                const float log_det = (near ? log_det_near : 2.0f * logf(product));
-                const float z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-                const float z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-                const float z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-                const float log_det_gap = log_det - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
-                const float phi = amplitude_k * expf(log_det_gap);
-                const float by_v2 = -(W2_2 * z2) - W1_2 * z1 - W0_2 * z0;
-                const float by_v1 = -(W2_1 * z2) - W1_1 * z1 - W0_1 * z0;
-                const float by_v0 = -(W2_0 * z2) - W1_0 * z1 - W0_0 * z0;
-                const float by_log_det_near = (near ? 1.0f : 0.0f);
-                const float by_log_det_series = norm_s_squared * by_log_det_near;
-                const float log_det_series_slope = polynomial_log_det_series_slope_f(near_chosen);
-                const float by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
-                const float by_t_over_norm_s = chosen * by_scale;
-                const float by_t_over_norm_s_near = (near ? by_t_over_norm_s : 0.0f);
-                const float total_3 = 0.5f * (2.0f * (near ? 0.0f : 1.0f) / product) + (near ? 0.0f : by_t_over_norm_s);
-                const float by_t = total_3 / norm_s;
-                const float by_atan2_norm_s_abs_g0 = 2.0f * by_t;
-                const float ratio = by_atan2_norm_s_abs_g0 / (near_chosen_2 + abs_g0 * abs_g0);
-                const float norm_s_product = norm_s * ratio;
-                const float by_abs_g0 = -norm_s_product;
-                const float by_norm_s = abs_g0 * ratio - t_ratio * by_t;
-                const float t_over_norm_s_near_slope = polynomial_t_over_norm_s_near_slope_f(near_chosen);
-                const float by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0f : by_norm_s / (2.0f *
-                    norm_s)) + 4.011440628672975f * (near ? by_log_det_series * log_det_series_slope +
-                    by_t_over_norm_s_near * t_over_norm_s_near_slope : 0.0f);
-                const float by_g0 = (is_small ? norm_s_product : by_abs_g0);
-                const float product_2 = 2.0f * by_norm_s_squared;
-                const float by_g3 = scale * by_v2 + g3 * product_2;
-                const float by_g2 = scale * by_v1 + g2 * product_2;
-                const float by_g1 = scale * by_v0 + g1 * product_2;
-                const float by_g3_ratio = by_g3 / row_length;
-                const float by_g2_ratio = by_g2 / row_length;
-                const float by_g1_ratio = by_g1 / row_length;
-                const float by_g0_ratio = by_g0 / row_length;
-                const float by_row_length = -(g3 * by_g3_ratio) - g2 * by_g2_ratio - g1 * by_g1_ratio - g0 * by_g0_ratio;
-                const int is_small_2 = total_2 == 0.0f;
-                const float product_3 = 2.0f * (is_small_2 ? 0.0f : by_row_length / (2.0f * (is_small_2 ? 1.0f :
-                    row_length)));
-                const float by_row_9 = by_g0_ratio + row_9 * product_3;
-                const float by_row_12 = by_g3_ratio + row_12 * product_3;
-                const float by_row_11 = by_g2_ratio + row_11 * product_3;
-                const float by_row_10 = by_g1_ratio + row_10 * product_3;
-                const float by_square3 = (is_less_3 ? by_row_12 : 0.0f);
-                const float by_row_8 = (is_less_3 ? 0.0f : by_row_12);
-                const float by_row_7 = (is_less_3 ? 0.0f : by_row_11);
-                const float by_row_6 = (is_less_3 ? 0.0f : by_row_10);
-                const float by_row_5 = (is_less_3 ? 0.0f : by_row_9);
-                const float by_row_4 = (is_less_2 ? 0.0f : by_row_8);
-                const float total_4 = (is_less_3 ? by_row_11 : 0.0f) + (is_less_2 ? by_row_8 : 0.0f);
-                const float by_square2 = (is_less_2 ? by_row_7 : 0.0f);
-                const float by_row_3 = (is_less_2 ? 0.0f : by_row_7);
-                const float by_row_2 = (is_less_2 ? 0.0f : by_row_6);
-                const float by_row = (is_less_2 ? 0.0f : by_row_5);
-                const float total_5 = (is_less_3 ? by_row_10 : 0.0f) + (is_less ? by_row_4 : 0.0f);
-                const float total_6 = (is_less_3 ? by_row_9 : 0.0f) + (is_less ? 0.0f : by_row_4);
-                const float total_7 = (is_less_2 ? by_row_6 : 0.0f) + (is_less ? by_row_3 : 0.0f);
-                const float total_8 = (is_less_2 ? by_row_5 : 0.0f) + (is_less ? 0.0f : by_row_3);
-                const float by_R0_2 = total_5 + total_8;
-                const float by_R2_0 = total_5 - total_8;
-                const float by_R0_1 = total_7 - total_6;
-                const float by_R1_0 = total_6 + total_7;
-                const float by_square1 = (is_less ? by_row_2 : 0.0f);
-                const float by_square0 = (is_less ? 0.0f : by_row);
-                const float total_9 = (is_less ? 0.0f : by_row_2) + (is_less ? by_row : 0.0f);
-                const float by_R2_1 = total_4 + total_9;
-                const float by_R1_2 = total_4 - total_9;
-                const float by_R2_2 = by_square0 + (by_square3 - by_square2 - by_square1);
-                const float by_R1_1 = by_square0 + (by_square2 - by_square3 - by_square1);
-                const float by_R0_0 = -by_square3 - by_square2 + (by_square1 + by_square0);
-                const float exponent_by_x8 = mu8 * by_R2_2 + mu7 * by_R1_2 + mu6 * by_R0_2;
-                const float exponent_by_x5 = mu5 * by_R2_2 + mu4 * by_R1_2 + mu3 * by_R0_2;
-                const float exponent_by_x2 = mu2 * by_R2_2 + mu1 * by_R1_2 + mu0 * by_R0_2;
-                const float exponent_by_x7 = mu8 * by_R2_1 + mu7 * by_R1_1 + mu6 * by_R0_1;
-                const float exponent_by_x4 = mu5 * by_R2_1 + mu4 * by_R1_1 + mu3 * by_R0_1;
-                const float exponent_by_x1 = mu2 * by_R2_1 + mu1 * by_R1_1 + mu0 * by_R0_1;
-                const float exponent_by_x6 = mu8 * by_R2_0 + mu7 * by_R1_0 + mu6 * by_R0_0;
-                const float exponent_by_x3 = mu5 * by_R2_0 + mu4 * by_R1_0 + mu3 * by_R0_0;
-                const float exponent_by_x0 = mu2 * by_R2_0 + mu1 * by_R1_0 + mu0 * by_R0_0;
-                const float df0 = phi * exponent_by_x0;
-                const float df1 = phi * exponent_by_x1;
-                const float df2 = phi * exponent_by_x2;
-                const float df3 = phi * exponent_by_x3;
-                const float df4 = phi * exponent_by_x4;
-                const float df5 = phi * exponent_by_x5;
-                const float df6 = phi * exponent_by_x6;
-                const float df7 = phi * exponent_by_x7;
-                const float df8 = phi * exponent_by_x8;
-                const float gap = x_block[2][lane] * df1 + x_block[5][lane] * df4 + x_block[8][lane] * df7 -
-                    x_block[1][lane] * df2 - x_block[4][lane] * df5;
-                const float gradient0 = gap - x_block[7][lane] * df8;
-                const float gap_2 = x_block[0][lane] * df2 + x_block[3][lane] * df5 + x_block[6][lane] * df8 -
-                    x_block[2][lane] * df0 - x_block[5][lane] * df3;
-                const float gradient1 = gap_2 - x_block[8][lane] * df6;
-                const float gap_3 = x_block[1][lane] * df0 + x_block[4][lane] * df3 + x_block[7][lane] * df6 -
-                    x_block[0][lane] * df1 - x_block[3][lane] * df4;
-                const float gradient2 = gap_3 - x_block[6][lane] * df7;
-                sum[0][lane] += phi;
-                sum[1][lane] += gradient0;
-                sum[2][lane] += gradient1;
-                sum[3][lane] += gradient2;
-            }
-        }
-        for (size_t lane = 0; lane < lanes; ++lane) {
-            value[start + lane] = sum[0][lane];
-            for (size_t i = 0; i < 3; ++i) gradient[3 * (start + lane) + i] = sum[i + 1][lane];
-        }
-    }
-    restore_denormals(mode);
+/* Of degree 8, within 2^-30 of that of double precision. */
+INLINE vector_f vector_polynomial_t_over_norm_s_near_slope_slope_f(vector_f x) {
+    return 0.01864320252205291f + x * (0.008299119649304472f + x * (0.0028160002314375336f + x *
+        (0.0008610440047704579f + x * (0.0002522458975272004f + x * (6.363291448779077e-05f + x *
+        (2.9672627598761578e-05f + x * (-3.950664599532621e-06f + x * 5.308935243478486e-06f)))))));
 }
 
-void so3_matrix_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *SO3_MATRIX_RESTRICT x,
-    const float *SO3_MATRIX_RESTRICT mu,
-    const float *SO3_MATRIX_RESTRICT W,
-    const float *SO3_MATRIX_RESTRICT amplitude,
-    const float *SO3_MATRIX_RESTRICT value_bar,
-    const float *SO3_MATRIX_RESTRICT gradient_bar,
-    float *SO3_MATRIX_RESTRICT mu_bar,
-    float *SO3_MATRIX_RESTRICT W_bar,
-    float *SO3_MATRIX_RESTRICT amplitude_bar) {
-    const unsigned mode = flush_denormals();
-    for (size_t i = 0; i < 9 * splat_count; ++i) mu_bar[i] = 0;
-    for (size_t i = 0; i < 9 * splat_count; ++i) W_bar[i] = 0;
-    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        float x_block[9][LANES], value_bar_block[1][LANES], gradient_bar_block[3][LANES];
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            const float weight = lane < lanes ? 1 : 0;
-            for (size_t i = 0; i < 9; ++i) x_block[i][lane] = x[9 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
-            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] = gradient_bar[3 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
-            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] *= weight;
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            float sum[19][LANES] = {{0}}, total[19] = {0};
-            const float mu0 = mu[9 * k + 0];
-            const float mu1 = mu[9 * k + 1];
-            const float mu2 = mu[9 * k + 2];
-            const float mu3 = mu[9 * k + 3];
-            const float mu4 = mu[9 * k + 4];
-            const float mu5 = mu[9 * k + 5];
-            const float mu6 = mu[9 * k + 6];
-            const float mu7 = mu[9 * k + 7];
-            const float mu8 = mu[9 * k + 8];
-            const float W0_0 = W[9 * k + 0];
-            const float W0_1 = W[9 * k + 1];
-            const float W0_2 = W[9 * k + 2];
-            const float W1_0 = W[9 * k + 3];
-            const float W1_1 = W[9 * k + 4];
-            const float W1_2 = W[9 * k + 5];
-            const float W2_0 = W[9 * k + 6];
-            const float W2_1 = W[9 * k + 7];
-            const float W2_2 = W[9 * k + 8];
-            const float amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const float R0_0 = x_block[0][lane] * mu0 + x_block[3][lane] * mu3 + x_block[6][lane] * mu6;
-                const float R0_1 = x_block[1][lane] * mu0 + x_block[4][lane] * mu3 + x_block[7][lane] * mu6;
-                const float R0_2 = x_block[2][lane] * mu0 + x_block[5][lane] * mu3 + x_block[8][lane] * mu6;
-                const float R1_0 = x_block[0][lane] * mu1 + x_block[3][lane] * mu4 + x_block[6][lane] * mu7;
-                const float R1_1 = x_block[1][lane] * mu1 + x_block[4][lane] * mu4 + x_block[7][lane] * mu7;
-                const float R1_2 = x_block[2][lane] * mu1 + x_block[5][lane] * mu4 + x_block[8][lane] * mu7;
-                const float R2_0 = x_block[0][lane] * mu2 + x_block[3][lane] * mu5 + x_block[6][lane] * mu8;
-                const float R2_1 = x_block[1][lane] * mu2 + x_block[4][lane] * mu5 + x_block[7][lane] * mu8;
-                const float R2_2 = x_block[2][lane] * mu2 + x_block[5][lane] * mu5 + x_block[8][lane] * mu8;
-                const float R0_0_total = 1.0f + R0_0;
-                const float square0 = R2_2 + (R1_1 + R0_0_total);
-                const float square1 = R0_0_total - R1_1 - R2_2;
-                const float square2 = 1.0f + R1_1 - R0_0 - R2_2;
-                const float square3 = 1.0f + R2_2 - R0_0 - R1_1;
-                const int is_less = square0 < square1;
-                const float R2_1_gap = R2_1 - R1_2;
-                const float row = (is_less ? R2_1_gap : square0);
-                const float row_2 = (is_less ? square1 : R2_1_gap);
-                const float R0_1_total = R0_1 + R1_0;
-                const float R0_2_gap = R0_2 - R2_0;
-                const float row_3 = (is_less ? R0_1_total : R0_2_gap);
-                const float R0_2_total = R0_2 + R2_0;
-                const float R1_0_gap = R1_0 - R0_1;
-                const float row_4 = (is_less ? R0_2_total : R1_0_gap);
-                const float largest = (is_less ? square1 : square0);
-                const int is_less_2 = largest < square2;
-                const float row_5 = (is_less_2 ? R0_2_gap : row);
-                const float row_6 = (is_less_2 ? R0_1_total : row_2);
-                const float row_7 = (is_less_2 ? square2 : row_3);
-                const float R1_2_total = R1_2 + R2_1;
-                const float row_8 = (is_less_2 ? R1_2_total : row_4);
-                const float largest_2 = (is_less_2 ? square2 : largest);
-                const int is_less_3 = largest_2 < square3;
-                const float row_9 = (is_less_3 ? R1_0_gap : row_5);
-                const float row_10 = (is_less_3 ? R0_2_total : row_6);
-                const float row_11 = (is_less_3 ? R1_2_total : row_7);
-                const float row_12 = (is_less_3 ? square3 : row_8);
-                const float total_2 = row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9;
-                const float row_length = sqrtf(total_2);
-                const float g0 = row_9 / row_length;
-                const float g1 = row_10 / row_length;
-                const float g2 = row_11 / row_length;
-                const float g3 = row_12 / row_length;
-                const float norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
-                const float abs_g0 = fabsf(g0);
-                const int near = norm_s_squared < 0.249287f;
-                const float near_chosen = (near ? 4.011440628672975f * norm_s_squared : 0.0f);
-                const float t_over_norm_s_near = polynomial_t_over_norm_s_near_f(near_chosen);
-                const float near_chosen_2 = (near ? 1.0f : norm_s_squared);
-                const float norm_s = sqrtf(near_chosen_2);
-                const float atan2_norm_s_abs_g0 = atan2f(norm_s, abs_g0);
-                const float t = 2.0f * atan2_norm_s_abs_g0;
-                const float t_ratio = t / norm_s;
-                const float t_over_norm_s = (near ? t_over_norm_s_near : t_ratio);
-                const int is_small = g0 < 0.0f;
-                const float chosen = (is_small ? -1.0f : 1.0f);
-                const float scale = t_over_norm_s * chosen;
-                const float v0 = g1 * scale;
-                const float v1 = g2 * scale;
-                const float v2 = g3 * scale;
-                const float log_det_series = polynomial_log_det_series_f(near_chosen);
-                const float log_det_near = norm_s_squared * log_det_series;
-                const float product = 0.5f * t_ratio;
-                const float log_det = (near ? log_det_near : 2.0f * logf(product));
-                const float z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-                const float z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-                const float z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-                const float log_det_gap = log_det - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
-                const float exp_2 = expf(log_det_gap);
-                const float phi = amplitude_k * exp_2;
-                const float by_v2 = -(W2_2 * z2) - W1_2 * z1 - W0_2 * z0;
-                const float by_v1 = -(W2_1 * z2) - W1_1 * z1 - W0_1 * z0;
-                const float by_v0 = -(W2_0 * z2) - W1_0 * z1 - W0_0 * z0;
-                const float by_log_det_near = (near ? 1.0f : 0.0f);
-                const float ratio = 2.0f * (near ? 0.0f : 1.0f) / product;
-                const float by_log_det_series = norm_s_squared * by_log_det_near;
-                const float log_det_series_slope = polynomial_log_det_series_slope_f(near_chosen);
-                const float by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
-                const float by_t_over_norm_s = chosen * by_scale;
-                const float by_t_over_norm_s_near = (near ? by_t_over_norm_s : 0.0f);
-                const float by_t = (0.5f * ratio + (near ? 0.0f : by_t_over_norm_s)) / norm_s;
-                const float by_atan2_norm_s_abs_g0 = 2.0f * by_t;
-                const float total_3 = near_chosen_2 + abs_g0 * abs_g0;
-                const float ratio_2 = by_atan2_norm_s_abs_g0 / total_3;
-                const float norm_s_product = norm_s * ratio_2;
-                const float by_abs_g0 = -norm_s_product;
-                const float by_norm_s = abs_g0 * ratio_2 - t_ratio * by_t;
-                const float norm_s_product_2 = 2.0f * norm_s;
-                const float by_norm_s_ratio = by_norm_s / norm_s_product_2;
-                const float t_over_norm_s_near_slope = polynomial_t_over_norm_s_near_slope_f(near_chosen);
-                const float by_norm_s_squared = log_det_series * by_log_det_near + (near ? 0.0f : by_norm_s_ratio) +
-                    4.011440628672975f * (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_s_near *
-                    t_over_norm_s_near_slope : 0.0f);
-                const float by_g0 = (is_small ? norm_s_product : by_abs_g0);
-                const float product_2 = 2.0f * by_norm_s_squared;
-                const float by_g3 = scale * by_v2 + g3 * product_2;
-                const float by_g2 = scale * by_v1 + g2 * product_2;
-                const float by_g1 = scale * by_v0 + g1 * product_2;
-                const float by_g3_ratio = by_g3 / row_length;
-                const float by_g2_ratio = by_g2 / row_length;
-                const float by_g1_ratio = by_g1 / row_length;
-                const float by_g0_ratio = by_g0 / row_length;
-                const float by_row_length = -(g3 * by_g3_ratio) - g2 * by_g2_ratio - g1 * by_g1_ratio - g0 * by_g0_ratio;
-                const int is_small_2 = total_2 == 0.0f;
-                const float product_3 = 2.0f * (is_small_2 ? 1.0f : row_length);
-                const float ratio_3 = by_row_length / product_3;
-                const float product_4 = 2.0f * (is_small_2 ? 0.0f : ratio_3);
-                const float by_row_9 = by_g0_ratio + row_9 * product_4;
-                const float by_row_12 = by_g3_ratio + row_12 * product_4;
-                const float by_row_11 = by_g2_ratio + row_11 * product_4;
-                const float by_row_10 = by_g1_ratio + row_10 * product_4;
-                const float by_square3 = (is_less_3 ? by_row_12 : 0.0f);
-                const float by_row_8 = (is_less_3 ? 0.0f : by_row_12);
-                const float by_row_7 = (is_less_3 ? 0.0f : by_row_11);
-                const float by_row_6 = (is_less_3 ? 0.0f : by_row_10);
-                const float by_row_5 = (is_less_3 ? 0.0f : by_row_9);
-                const float by_row_4 = (is_less_2 ? 0.0f : by_row_8);
-                const float total_4 = (is_less_3 ? by_row_11 : 0.0f) + (is_less_2 ? by_row_8 : 0.0f);
-                const float by_square2 = (is_less_2 ? by_row_7 : 0.0f);
-                const float by_row_3 = (is_less_2 ? 0.0f : by_row_7);
-                const float by_row_2 = (is_less_2 ? 0.0f : by_row_6);
-                const float by_row = (is_less_2 ? 0.0f : by_row_5);
-                const float total_5 = (is_less_3 ? by_row_10 : 0.0f) + (is_less ? by_row_4 : 0.0f);
-                const float total_6 = (is_less_3 ? by_row_9 : 0.0f) + (is_less ? 0.0f : by_row_4);
-                const float total_7 = (is_less_2 ? by_row_6 : 0.0f) + (is_less ? by_row_3 : 0.0f);
-                const float total_8 = (is_less_2 ? by_row_5 : 0.0f) + (is_less ? 0.0f : by_row_3);
-                const float by_R0_2 = total_5 + total_8;
-                const float by_R2_0 = total_5 - total_8;
-                const float by_R0_1 = total_7 - total_6;
-                const float by_R1_0 = total_6 + total_7;
-                const float by_square1 = (is_less ? by_row_2 : 0.0f);
-                const float by_square0 = (is_less ? 0.0f : by_row);
-                const float total_9 = (is_less ? 0.0f : by_row_2) + (is_less ? by_row : 0.0f);
-                const float by_R2_1 = total_4 + total_9;
-                const float by_R1_2 = total_4 - total_9;
-                const float by_R2_2 = by_square0 + (by_square3 - by_square2 - by_square1);
-                const float by_R1_1 = by_square0 + (by_square2 - by_square3 - by_square1);
-                const float by_R0_0 = -by_square3 - by_square2 + (by_square1 + by_square0);
-                const float exponent_by_x8 = mu8 * by_R2_2 + mu7 * by_R1_2 + mu6 * by_R0_2;
-                const float exponent_by_x5 = mu5 * by_R2_2 + mu4 * by_R1_2 + mu3 * by_R0_2;
-                const float exponent_by_x2 = mu2 * by_R2_2 + mu1 * by_R1_2 + mu0 * by_R0_2;
-                const float exponent_by_x7 = mu8 * by_R2_1 + mu7 * by_R1_1 + mu6 * by_R0_1;
-                const float exponent_by_x4 = mu5 * by_R2_1 + mu4 * by_R1_1 + mu3 * by_R0_1;
-                const float exponent_by_x1 = mu2 * by_R2_1 + mu1 * by_R1_1 + mu0 * by_R0_1;
-                const float exponent_by_x6 = mu8 * by_R2_0 + mu7 * by_R1_0 + mu6 * by_R0_0;
-                const float exponent_by_x3 = mu5 * by_R2_0 + mu4 * by_R1_0 + mu3 * by_R0_0;
-                const float exponent_by_x0 = mu2 * by_R2_0 + mu1 * by_R1_0 + mu0 * by_R0_0;
-                const float by_df6 = x_block[7][lane] * gradient_bar_block[2][lane] - x_block[8][lane] *
-                    gradient_bar_block[1][lane];
-                const float by_df3 = x_block[4][lane] * gradient_bar_block[2][lane] - x_block[5][lane] *
-                    gradient_bar_block[1][lane];
-                const float by_df0 = x_block[1][lane] * gradient_bar_block[2][lane] - x_block[2][lane] *
-                    gradient_bar_block[1][lane];
-                const float by_df8 = x_block[6][lane] * gradient_bar_block[1][lane] - x_block[7][lane] *
-                    gradient_bar_block[0][lane];
-                const float by_df5 = x_block[3][lane] * gradient_bar_block[1][lane] - x_block[4][lane] *
-                    gradient_bar_block[0][lane];
-                const float by_df2 = x_block[0][lane] * gradient_bar_block[1][lane] - x_block[1][lane] *
-                    gradient_bar_block[0][lane];
-                const float by_df7 = x_block[8][lane] * gradient_bar_block[0][lane] - x_block[6][lane] *
-                    gradient_bar_block[2][lane];
-                const float by_df4 = x_block[5][lane] * gradient_bar_block[0][lane] - x_block[3][lane] *
-                    gradient_bar_block[2][lane];
-                const float by_df1 = x_block[2][lane] * gradient_bar_block[0][lane] - x_block[0][lane] *
-                    gradient_bar_block[2][lane];
-                const float by_exponent_by_x8 = phi * by_df8;
-                const float by_exponent_by_x7 = phi * by_df7;
-                const float by_exponent_by_x6 = phi * by_df6;
-                const float by_exponent_by_x5 = phi * by_df5;
-                const float total_10 = value_bar_block[0][lane] + exponent_by_x8 * by_df8 + exponent_by_x7 * by_df7 +
-                    exponent_by_x6 * by_df6 + exponent_by_x5 * by_df5;
-                const float by_exponent_by_x4 = phi * by_df4;
-                const float by_exponent_by_x3 = phi * by_df3;
-                const float by_exponent_by_x2 = phi * by_df2;
-                const float by_exponent_by_x1 = phi * by_df1;
-                const float total_11 = total_10 + exponent_by_x4 * by_df4 + exponent_by_x3 * by_df3 + exponent_by_x2 *
-                    by_df2 + exponent_by_x1 * by_df1;
-                const float by_exponent_by_x0 = phi * by_df0;
-                const float by_phi = total_11 + exponent_by_x0 * by_df0;
-                const float by_by_R0_0 = mu0 * by_exponent_by_x0 + mu3 * by_exponent_by_x3 + mu6 * by_exponent_by_x6;
-                const float by_by_R0_1 = mu0 * by_exponent_by_x1 + mu3 * by_exponent_by_x4 + mu6 * by_exponent_by_x7;
-                const float by_by_R0_2 = mu0 * by_exponent_by_x2 + mu3 * by_exponent_by_x5 + mu6 * by_exponent_by_x8;
-                const float by_by_R1_0 = mu1 * by_exponent_by_x0 + mu4 * by_exponent_by_x3 + mu7 * by_exponent_by_x6;
-                const float by_by_R1_1 = mu1 * by_exponent_by_x1 + mu4 * by_exponent_by_x4 + mu7 * by_exponent_by_x7;
-                const float by_by_R1_2 = mu1 * by_exponent_by_x2 + mu4 * by_exponent_by_x5 + mu7 * by_exponent_by_x8;
-                const float by_by_R2_0 = mu2 * by_exponent_by_x0 + mu5 * by_exponent_by_x3 + mu8 * by_exponent_by_x6;
-                const float by_by_R2_1 = mu2 * by_exponent_by_x1 + mu5 * by_exponent_by_x4 + mu8 * by_exponent_by_x7;
-                const float by_by_R2_2 = mu2 * by_exponent_by_x2 + mu5 * by_exponent_by_x5 + mu8 * by_exponent_by_x8;
-                const float by_by_square0 = by_by_R2_2 + (by_by_R0_0 + by_by_R1_1);
-                const float by_by_square1 = by_by_R0_0 - by_by_R1_1 - by_by_R2_2;
-                const float by_by_square2 = by_by_R1_1 - by_by_R0_0 - by_by_R2_2;
-                const float by_by_square3 = by_by_R2_2 - by_by_R1_1 - by_by_R0_0;
-                const float by_by_R1_2_total = by_by_R1_2 + by_by_R2_1;
-                const float by_by_R2_1_gap = by_by_R2_1 - by_by_R1_2;
-                const float by_by_row = (is_less ? 0.0f : by_by_square0) + (is_less ? by_by_R2_1_gap : 0.0f);
-                const float by_by_row_2 = (is_less ? 0.0f : by_by_R2_1_gap) + (is_less ? by_by_square1 : 0.0f);
-                const float by_by_R0_1_total = by_by_R0_1 + by_by_R1_0;
-                const float by_by_R1_0_gap = by_by_R1_0 - by_by_R0_1;
-                const float by_by_R0_2_total = by_by_R0_2 + by_by_R2_0;
-                const float by_by_R0_2_gap = by_by_R0_2 - by_by_R2_0;
-                const float by_by_row_3 = (is_less ? 0.0f : by_by_R0_2_gap) + (is_less ? by_by_R0_1_total : 0.0f);
-                const float by_by_row_4 = (is_less ? 0.0f : by_by_R1_0_gap) + (is_less ? by_by_R0_2_total : 0.0f);
-                const float by_by_row_5 = (is_less_2 ? 0.0f : by_by_row) + (is_less_2 ? by_by_R0_2_gap : 0.0f);
-                const float by_by_row_6 = (is_less_2 ? 0.0f : by_by_row_2) + (is_less_2 ? by_by_R0_1_total : 0.0f);
-                const float by_by_row_7 = (is_less_2 ? 0.0f : by_by_row_3) + (is_less_2 ? by_by_square2 : 0.0f);
-                const float by_by_row_8 = (is_less_2 ? 0.0f : by_by_row_4) + (is_less_2 ? by_by_R1_2_total : 0.0f);
-                const float by_by_row_9 = (is_less_3 ? 0.0f : by_by_row_5) + (is_less_3 ? by_by_R1_0_gap : 0.0f);
-                const float by_by_row_10 = (is_less_3 ? 0.0f : by_by_row_6) + (is_less_3 ? by_by_R0_2_total : 0.0f);
-                const float by_by_row_11 = (is_less_3 ? 0.0f : by_by_row_7) + (is_less_3 ? by_by_R1_2_total : 0.0f);
-                const float by_by_row_12 = (is_less_3 ? 0.0f : by_by_row_8) + (is_less_3 ? by_by_square3 : 0.0f);
-                const float product_5 = 2.0f * (row_10 * by_by_row_10 + row_11 * by_by_row_11 + row_12 * by_by_row_12 +
-                    row_9 * by_by_row_9);
-                const float by_by_row_length = (is_small_2 ? 0.0f : product_5) / product_3;
-                const float by_by_g0 = (by_by_row_9 - g0 * by_by_row_length) / row_length;
-                const float gap = (is_small_2 ? 0.0f : -(2.0f * (ratio_3 * by_by_row_length))) - by_g0_ratio * by_by_g0;
-                const float by_by_g1 = (by_by_row_10 - g1 * by_by_row_length) / row_length;
-                const float by_by_g2 = (by_by_row_11 - g2 * by_by_row_length) / row_length;
-                const float by_by_g3 = (by_by_row_12 - g3 * by_by_row_length) / row_length;
-                const float total_12 = g1 * by_by_g1 + g2 * by_by_g2 + g3 * by_by_g3;
-                const float by_by_norm_s_squared = 2.0f * total_12;
-                const float by_by_abs_g0 = (is_small ? 0.0f : by_by_g0);
-                const float near_chosen_3 = (near ? 8.02288125734595f * total_12 : 0.0f);
-                const float by_by_t_over_norm_s_near = t_over_norm_s_near_slope * near_chosen_3;
-                const float by_t_over_norm_s_near_slope = by_t_over_norm_s_near * near_chosen_3;
-                const float t_over_norm_s_near_slope_slope = polynomial_t_over_norm_s_near_slope_slope_f(near_chosen);
-                const float by_by_norm_s = (near ? 0.0f : by_by_norm_s_squared) / norm_s_product_2;
-                const float gap_2 = (is_small ? by_by_g0 : 0.0f) - by_by_abs_g0;
-                const float by_by_atan2_norm_s_abs_g0 = (norm_s * gap_2 + abs_g0 * by_by_norm_s) / total_3;
-                const float product_6 = ratio_2 * by_by_atan2_norm_s_abs_g0;
-                const float gap_3 = ratio_2 * by_by_norm_s - abs_g0 * (2.0f * product_6);
-                const float by_by_t = 2.0f * by_by_atan2_norm_s_abs_g0 - t_ratio * by_by_norm_s;
-                const float by_by_t_ratio = by_by_t / norm_s;
-                const float by_by_t_over_norm_s = (near ? 0.0f : by_by_t_ratio) + (near ? by_by_t_over_norm_s_near :
-                    0.0f);
-                const float by_by_scale = chosen * by_by_t_over_norm_s;
-                const float by_by_v0 = g1 * by_by_scale + scale * by_by_g1;
-                const float by_by_v1 = g2 * by_by_scale + scale * by_by_g2;
-                const float by_by_v2 = g3 * by_by_scale + scale * by_by_g3;
-                const float by_by_log_det_series = log_det_series_slope * near_chosen_3;
-                const float by_log_det_series_slope = by_log_det_series * near_chosen_3;
-                const float log_det_series_slope_slope = polynomial_log_det_series_slope_slope_f(near_chosen);
-                const float by_log_det = exp_2 * (amplitude_k * by_phi);
-                const float by_z2 = -(W2_0 * by_by_v0) - W2_1 * by_by_v1 - W2_2 * by_by_v2 - z2 * by_log_det;
-                const float by_z1 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2 - z1 * by_log_det;
-                const float by_z0 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2 - z0 * by_log_det;
-                const float by_v2_2 = W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0;
-                const float by_v1_2 = W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
-                const float by_v0_2 = W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0;
-                const float by_log_det_near_2 = (near ? by_log_det : 0.0f);
-                const float product_7 = 0.5f * (2.0f * (near ? 0.0f : by_log_det) / product - ratio * (0.5f *
-                    by_by_t_ratio / product));
-                const float by_log_det_series_2 = by_log_det_near * by_by_norm_s_squared + norm_s_squared *
-                    by_log_det_near_2;
-                const float total_13 = by_v0 * by_by_g1 + by_v1 * by_by_g2 + by_v2 * by_by_g3 + g3 * by_v2_2 + g2 *
-                    by_v1_2;
-                const float by_scale_2 = total_13 + g1 * by_v0_2;
-                const float by_t_over_norm_s_2 = chosen * by_scale_2;
-                const float by_t_over_norm_s_near_2 = (near ? by_t_over_norm_s_2 : 0.0f);
-                const float by_t_2 = (product_7 - by_t * by_by_norm_s + (near ? 0.0f : by_t_over_norm_s_2)) / norm_s;
-                const float gap_4 = ratio_2 * gap_2 - 2.0f * (by_norm_s_ratio * by_by_norm_s) - by_t * by_by_t_ratio -
-                    t_ratio * by_t_2;
-                const float by_atan2_norm_s_abs_g0_2 = 2.0f * by_t_2;
-                const float ratio_4 = by_atan2_norm_s_abs_g0_2 / total_3;
-                const float norm_s_product_3 = norm_s * ratio_4;
-                const float by_norm_s_2 = gap_4 + abs_g0 * ratio_4;
-                const float by_abs_g0_2 = gap_3 - norm_s_product_3;
-                const float near_chosen_4 = (near ? by_t_over_norm_s_near_slope * t_over_norm_s_near_slope_slope +
-                    by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
-                    t_over_norm_s_near_slope * by_t_over_norm_s_near_2 : 0.0f);
-                const float by_norm_s_squared_2 = by_log_det_near * by_by_log_det_series + log_det_series *
-                    by_log_det_near_2 + (near ? 0.0f : by_norm_s_2 / norm_s_product_2 - product_6) + 4.011440628672975f *
-                    near_chosen_4;
-                const float by_g0_2 = (is_small ? norm_s_product_3 - gap_3 : by_abs_g0_2) - by_g0_ratio *
-                    by_by_row_length;
-                const float product_8 = 2.0f * by_norm_s_squared_2;
-                const float by_g3_2 = product_2 * by_by_g3 - by_g3_ratio * by_by_row_length + by_v2 * by_by_scale + scale
-                    * by_v2_2 + g3 * product_8;
-                const float by_g2_2 = product_2 * by_by_g2 - by_g2_ratio * by_by_row_length + by_v1 * by_by_scale + scale
-                    * by_v1_2 + g2 * product_8;
-                const float by_g1_2 = product_2 * by_by_g1 - by_g1_ratio * by_by_row_length + by_v0 * by_by_scale + scale
-                    * by_v0_2 + g1 * product_8;
-                const float by_g3_ratio_2 = by_g3_2 / row_length;
-                const float gap_5 = gap - by_g1_ratio * by_by_g1 - by_g2_ratio * by_by_g2 - by_g3_ratio * by_by_g3 - g3 *
-                    by_g3_ratio_2;
-                const float by_g2_ratio_2 = by_g2_2 / row_length;
-                const float by_g1_ratio_2 = by_g1_2 / row_length;
-                const float by_g0_ratio_2 = by_g0_2 / row_length;
-                const float by_row_length_2 = gap_5 - g2 * by_g2_ratio_2 - g1 * by_g1_ratio_2 - g0 * by_g0_ratio_2;
-                const float product_9 = 2.0f * (is_small_2 ? 0.0f : by_row_length_2 / product_3);
-                const float by_row_9_2 = product_4 * by_by_row_9 + by_g0_ratio_2 + row_9 * product_9;
-                const float by_row_12_2 = product_4 * by_by_row_12 + by_g3_ratio_2 + row_12 * product_9;
-                const float by_row_11_2 = product_4 * by_by_row_11 + by_g2_ratio_2 + row_11 * product_9;
-                const float by_row_10_2 = product_4 * by_by_row_10 + by_g1_ratio_2 + row_10 * product_9;
-                const float by_square3_2 = (is_less_3 ? by_row_12_2 : 0.0f);
-                const float by_row_8_2 = (is_less_3 ? 0.0f : by_row_12_2);
-                const float by_row_7_2 = (is_less_3 ? 0.0f : by_row_11_2);
-                const float by_row_6_2 = (is_less_3 ? 0.0f : by_row_10_2);
-                const float by_row_5_2 = (is_less_3 ? 0.0f : by_row_9_2);
-                const float by_row_4_2 = (is_less_2 ? 0.0f : by_row_8_2);
-                const float total_14 = (is_less_3 ? by_row_11_2 : 0.0f) + (is_less_2 ? by_row_8_2 : 0.0f);
-                const float by_square2_2 = (is_less_2 ? by_row_7_2 : 0.0f);
-                const float by_row_3_2 = (is_less_2 ? 0.0f : by_row_7_2);
-                const float by_row_2_2 = (is_less_2 ? 0.0f : by_row_6_2);
-                const float by_row_13 = (is_less_2 ? 0.0f : by_row_5_2);
-                const float total_15 = (is_less_3 ? by_row_10_2 : 0.0f) + (is_less ? by_row_4_2 : 0.0f);
-                const float total_16 = (is_less_3 ? by_row_9_2 : 0.0f) + (is_less ? 0.0f : by_row_4_2);
-                const float total_17 = (is_less_2 ? by_row_6_2 : 0.0f) + (is_less ? by_row_3_2 : 0.0f);
-                const float total_18 = (is_less_2 ? by_row_5_2 : 0.0f) + (is_less ? 0.0f : by_row_3_2);
-                const float by_R0_2_2 = total_15 + total_18;
-                const float by_R2_0_2 = total_15 - total_18;
-                const float by_R0_1_2 = total_17 - total_16;
-                const float by_R1_0_2 = total_16 + total_17;
-                const float by_square1_2 = (is_less ? by_row_2_2 : 0.0f);
-                const float by_square0_2 = (is_less ? 0.0f : by_row_13);
-                const float total_19 = (is_less ? 0.0f : by_row_2_2) + (is_less ? by_row_13 : 0.0f);
-                const float by_R2_1_2 = total_14 + total_19;
-                const float by_R1_2_2 = total_14 - total_19;
-                const float by_R2_2_2 = by_square0_2 + (by_square3_2 - by_square2_2 - by_square1_2);
-                const float by_R1_1_2 = by_square0_2 + (by_square2_2 - by_square3_2 - by_square1_2);
-                const float by_R0_0_2 = -by_square3_2 - by_square2_2 + (by_square1_2 + by_square0_2);
-                const float total_20 = by_R2_0 * by_exponent_by_x6 + by_R2_1 * by_exponent_by_x7 + by_R2_2 *
-                    by_exponent_by_x8 + x_block[8][lane] * by_R2_2_2 + x_block[7][lane] * by_R2_1_2;
-                const float total_21 = by_R2_0 * by_exponent_by_x3 + by_R2_1 * by_exponent_by_x4 + by_R2_2 *
-                    by_exponent_by_x5 + x_block[5][lane] * by_R2_2_2 + x_block[4][lane] * by_R2_1_2;
-                const float total_22 = by_R2_0 * by_exponent_by_x0 + by_R2_1 * by_exponent_by_x1 + by_R2_2 *
-                    by_exponent_by_x2 + x_block[2][lane] * by_R2_2_2 + x_block[1][lane] * by_R2_1_2;
-                const float total_23 = by_R1_0 * by_exponent_by_x6 + by_R1_1 * by_exponent_by_x7 + by_R1_2 *
-                    by_exponent_by_x8 + x_block[8][lane] * by_R1_2_2 + x_block[7][lane] * by_R1_1_2;
-                const float total_24 = by_R1_0 * by_exponent_by_x3 + by_R1_1 * by_exponent_by_x4 + by_R1_2 *
-                    by_exponent_by_x5 + x_block[5][lane] * by_R1_2_2 + x_block[4][lane] * by_R1_1_2;
-                const float total_25 = by_R1_0 * by_exponent_by_x0 + by_R1_1 * by_exponent_by_x1 + by_R1_2 *
-                    by_exponent_by_x2 + x_block[2][lane] * by_R1_2_2 + x_block[1][lane] * by_R1_1_2;
-                const float total_26 = by_R0_0 * by_exponent_by_x6 + by_R0_1 * by_exponent_by_x7 + by_R0_2 *
-                    by_exponent_by_x8 + x_block[8][lane] * by_R0_2_2 + x_block[7][lane] * by_R0_1_2;
-                const float total_27 = by_R0_0 * by_exponent_by_x3 + by_R0_1 * by_exponent_by_x4 + by_R0_2 *
-                    by_exponent_by_x5 + x_block[5][lane] * by_R0_2_2 + x_block[4][lane] * by_R0_1_2;
-                const float total_28 = by_R0_0 * by_exponent_by_x0 + by_R0_1 * by_exponent_by_x1 + by_R0_2 *
-                    by_exponent_by_x2 + x_block[2][lane] * by_R0_2_2 + x_block[1][lane] * by_R0_1_2;
-                sum[0][lane] += total_28 + x_block[0][lane] * by_R0_0_2;
-                sum[1][lane] += total_25 + x_block[0][lane] * by_R1_0_2;
-                sum[2][lane] += total_22 + x_block[0][lane] * by_R2_0_2;
-                sum[3][lane] += total_27 + x_block[3][lane] * by_R0_0_2;
-                sum[4][lane] += total_24 + x_block[3][lane] * by_R1_0_2;
-                sum[5][lane] += total_21 + x_block[3][lane] * by_R2_0_2;
-                sum[6][lane] += total_26 + x_block[6][lane] * by_R0_0_2;
-                sum[7][lane] += total_23 + x_block[6][lane] * by_R1_0_2;
-                sum[8][lane] += total_20 + x_block[6][lane] * by_R2_0_2;
-                sum[9][lane] += v0 * by_z0 - z0 * by_by_v0;
-                sum[10][lane] += v1 * by_z0 - z0 * by_by_v1;
-                sum[11][lane] += v2 * by_z0 - z0 * by_by_v2;
-                sum[12][lane] += v0 * by_z1 - z1 * by_by_v0;
-                sum[13][lane] += v1 * by_z1 - z1 * by_by_v1;
-                sum[14][lane] += v2 * by_z1 - z1 * by_by_v2;
-                sum[15][lane] += v0 * by_z2 - z2 * by_by_v0;
-                sum[16][lane] += v1 * by_z2 - z2 * by_by_v1;
-                sum[17][lane] += v2 * by_z2 - z2 * by_by_v2;
-                sum[18][lane] += exp_2 * by_phi;
-            }
-            for (size_t i = 0; i < 19; ++i)
-                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
-            mu_bar[9 * k + 0] += total[0];
-            mu_bar[9 * k + 1] += total[1];
-            mu_bar[9 * k + 2] += total[2];
-            mu_bar[9 * k + 3] += total[3];
-            mu_bar[9 * k + 4] += total[4];
-            mu_bar[9 * k + 5] += total[5];
-            mu_bar[9 * k + 6] += total[6];
-            mu_bar[9 * k + 7] += total[7];
-            mu_bar[9 * k + 8] += total[8];
-            W_bar[9 * k + 0] += total[9];
-            W_bar[9 * k + 1] += total[10];
-            W_bar[9 * k + 2] += total[11];
-            W_bar[9 * k + 3] += total[12];
-            W_bar[9 * k + 4] += total[13];
-            W_bar[9 * k + 5] += total[14];
-            W_bar[9 * k + 6] += total[15];
-            W_bar[9 * k + 7] += total[16];
-            W_bar[9 * k + 8] += total[17];
-            amplitude_bar[1 * k + 0] += total[18];
-        }
+/* What pairs read of points x. */
+OUTLINE void pair_features_f(
+    const vector_f *x, vector_f *X) {
+    const vector_f x0 = x[0];
+    const vector_f x1 = x[1];
+    const vector_f x2 = x[2];
+    const vector_f x3 = x[3];
+    const vector_f x4 = x[4];
+    const vector_f x5 = x[5];
+    const vector_f x6 = x[6];
+    const vector_f x7 = x[7];
+    const vector_f x8 = x[8];
+    X[0] = x0;
+    X[1] = x1;
+    X[2] = x2;
+    X[3] = x3;
+    X[4] = x4;
+    X[5] = x5;
+    X[6] = x6;
+    X[7] = x7;
+    X[8] = x8;
+}
+
+/* What pairs read of a splat, of some splats. */
+OUTLINE void pair_constants_f(
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, vector_f *S) {
+    const vector_f mu0 = mu[0];
+    const vector_f mu1 = mu[1];
+    const vector_f mu2 = mu[2];
+    const vector_f mu3 = mu[3];
+    const vector_f mu4 = mu[4];
+    const vector_f mu5 = mu[5];
+    const vector_f mu6 = mu[6];
+    const vector_f mu7 = mu[7];
+    const vector_f mu8 = mu[8];
+    const vector_f W0_0 = W[0];
+    const vector_f W0_1 = W[1];
+    const vector_f W0_2 = W[2];
+    const vector_f W1_0 = W[3];
+    const vector_f W1_1 = W[4];
+    const vector_f W1_2 = W[5];
+    const vector_f W2_0 = W[6];
+    const vector_f W2_1 = W[7];
+    const vector_f W2_2 = W[8];
+    const vector_f its_amplitude = amplitude[0];
+    S[0] = mu0;
+    S[1] = mu1;
+    S[2] = mu2;
+    S[3] = mu3;
+    S[4] = mu4;
+    S[5] = mu5;
+    S[6] = mu6;
+    S[7] = mu7;
+    S[8] = mu8;
+    S[9] = W0_0;
+    S[10] = W0_1;
+    S[11] = W0_2;
+    S[12] = W1_0;
+    S[13] = W1_1;
+    S[14] = W1_2;
+    S[15] = W2_0;
+    S[16] = W2_1;
+    S[17] = W2_2;
+    S[18] = its_amplitude;
+}
+
+/* Adds the values phi of a splat at some points. */
+INLINE void pair_value_f(
+    const vector_f *X, const float *S, vector_f *value) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const vector_f x2 = X[2];
+    const vector_f x3 = X[3];
+    const vector_f x4 = X[4];
+    const vector_f x5 = X[5];
+    const vector_f x6 = X[6];
+    const vector_f x7 = X[7];
+    const vector_f x8 = X[8];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float mu2 = S[2];
+    const float mu3 = S[3];
+    const float mu4 = S[4];
+    const float mu5 = S[5];
+    const float mu6 = S[6];
+    const float mu7 = S[7];
+    const float mu8 = S[8];
+    const float W0_0 = S[9];
+    const float W0_1 = S[10];
+    const float W0_2 = S[11];
+    const float W1_0 = S[12];
+    const float W1_1 = S[13];
+    const float W1_2 = S[14];
+    const float W2_0 = S[15];
+    const float W2_1 = S[16];
+    const float W2_2 = S[17];
+    const float amplitude = S[18];
+    const vector_f R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8;
+    const vector_f R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7;
+    const vector_f R0_0 = x0 * mu0 + x3 * mu3 + x6 * mu6;
+    const vector_f R0_0_total = 1.0f + R0_0;
+    const vector_f square0 = R2_2 + (R1_1 + R0_0_total);
+    const vector_f square1 = R0_0_total - R1_1 - R2_2;
+    const vector_mask_f is_less = square0 < square1;
+    const vector_f largest = vector_select_f(is_less, square1, square0);
+    const vector_f square2 = 1.0f + R1_1 - R0_0 - R2_2;
+    const vector_mask_f is_less_2 = largest < square2;
+    const vector_f largest_2 = vector_select_f(is_less_2, square2, largest);
+    const vector_f square3 = 1.0f + R2_2 - R0_0 - R1_1;
+    const vector_mask_f is_less_3 = largest_2 < square3;
+    const vector_f R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6;
+    const vector_f R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8;
+    const vector_f R0_2_total = R0_2 + R2_0;
+    const vector_f R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6;
+    const vector_f R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7;
+    const vector_f R0_1_total = R0_1 + R1_0;
+    const vector_f R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8;
+    const vector_f R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7;
+    const vector_f R2_1_gap = R2_1 - R1_2;
+    const vector_f row_2 = vector_select_f(is_less, square1, R2_1_gap);
+    const vector_f row_6 = vector_select_f(is_less_2, R0_1_total, row_2);
+    const vector_f row_10 = vector_select_f(is_less_3, R0_2_total, row_6);
+    const vector_f R1_2_total = R1_2 + R2_1;
+    const vector_f R0_2_gap = R0_2 - R2_0;
+    const vector_f row_3 = vector_select_f(is_less, R0_1_total, R0_2_gap);
+    const vector_f row_7 = vector_select_f(is_less_2, square2, row_3);
+    const vector_f row_11 = vector_select_f(is_less_3, R1_2_total, row_7);
+    const vector_f R1_0_gap = R1_0 - R0_1;
+    const vector_f row_4 = vector_select_f(is_less, R0_2_total, R1_0_gap);
+    const vector_f row_8 = vector_select_f(is_less_2, R1_2_total, row_4);
+    const vector_f row_12 = vector_select_f(is_less_3, square3, row_8);
+    const vector_f row = vector_select_f(is_less, R2_1_gap, square0);
+    const vector_f row_5 = vector_select_f(is_less_2, R0_2_gap, row);
+    const vector_f row_9 = vector_select_f(is_less_3, R1_0_gap, row_5);
+    const vector_f row_length = vector_sqrt_f(row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 *
+        row_9);
+    const vector_f g1 = row_10 / row_length;
+    const vector_f g2 = row_11 / row_length;
+    const vector_f g3 = row_12 / row_length;
+    const vector_f norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+    const vector_mask_f near = norm_s_squared < 0.249287f;
+    const vector_f near_chosen = vector_select_f(near, 4.011440628672975f * norm_s_squared,
+        vector_of_f(0.0f));
+    const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
+    const vector_f log_det_near = norm_s_squared * log_det_series;
+    const vector_f norm_s = vector_sqrt_f(vector_select_f(near, vector_of_f(1.0f), norm_s_squared));
+    const vector_f g0 = row_9 / row_length;
+    const vector_f abs_g0 = vector_abs_f(g0);
+    const vector_f atan2_norm_s_abs_g0 = vector_atan2_f(norm_s, abs_g0);
+    const vector_f t = 2.0f * atan2_norm_s_abs_g0;
+    const vector_f t_ratio = t / norm_s;
+    const vector_f log_det = vector_select_f(near, log_det_near, 2.0f * vector_log_f(0.5f * t_ratio));
+    const vector_f t_over_norm_s_near = vector_polynomial_t_over_norm_s_near_f(near_chosen);
+    const vector_f t_over_norm_s = vector_select_f(near, t_over_norm_s_near, t_ratio);
+    const vector_f scale = t_over_norm_s * vector_select_f(g0 < 0.0f, vector_of_f(-1.0f), vector_of_f(1.0f));
+    const vector_f v0 = g1 * scale;
+    const vector_f v1 = g2 * scale;
+    const vector_f v2 = g3 * scale;
+    const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+    const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+    const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
+    const vector_f log_det_gap = log_det - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
+    value[0] = value[0] + amplitude * vector_exp_f(log_det_gap);
+}
+
+/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+OUTLINE void pair_forward_f(
+    const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const vector_f x2 = X[2];
+    const vector_f x3 = X[3];
+    const vector_f x4 = X[4];
+    const vector_f x5 = X[5];
+    const vector_f x6 = X[6];
+    const vector_f x7 = X[7];
+    const vector_f x8 = X[8];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float mu2 = S[2];
+    const float mu3 = S[3];
+    const float mu4 = S[4];
+    const float mu5 = S[5];
+    const float mu6 = S[6];
+    const float mu7 = S[7];
+    const float mu8 = S[8];
+    const float W0_0 = S[9];
+    const float W0_1 = S[10];
+    const float W0_2 = S[11];
+    const float W1_0 = S[12];
+    const float W1_1 = S[13];
+    const float W1_2 = S[14];
+    const float W2_0 = S[15];
+    const float W2_1 = S[16];
+    const float W2_2 = S[17];
+    const float amplitude = S[18];
+    const vector_f R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8;
+    const vector_f R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7;
+    const vector_f R0_0 = x0 * mu0 + x3 * mu3 + x6 * mu6;
+    const vector_f R0_0_total = 1.0f + R0_0;
+    const vector_f square0 = R2_2 + (R1_1 + R0_0_total);
+    const vector_f square1 = R0_0_total - R1_1 - R2_2;
+    const vector_mask_f is_less = square0 < square1;
+    const vector_f largest = vector_select_f(is_less, square1, square0);
+    const vector_f square2 = 1.0f + R1_1 - R0_0 - R2_2;
+    const vector_mask_f is_less_2 = largest < square2;
+    const vector_f largest_2 = vector_select_f(is_less_2, square2, largest);
+    const vector_f square3 = 1.0f + R2_2 - R0_0 - R1_1;
+    const vector_mask_f is_less_3 = largest_2 < square3;
+    const vector_f R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6;
+    const vector_f R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8;
+    const vector_f R0_2_total = R0_2 + R2_0;
+    const vector_f R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6;
+    const vector_f R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7;
+    const vector_f R0_1_total = R0_1 + R1_0;
+    const vector_f R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8;
+    const vector_f R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7;
+    const vector_f R2_1_gap = R2_1 - R1_2;
+    const vector_f row_2 = vector_select_f(is_less, square1, R2_1_gap);
+    const vector_f row_6 = vector_select_f(is_less_2, R0_1_total, row_2);
+    const vector_f row_10 = vector_select_f(is_less_3, R0_2_total, row_6);
+    const vector_f R1_2_total = R1_2 + R2_1;
+    const vector_f R0_2_gap = R0_2 - R2_0;
+    const vector_f row_3 = vector_select_f(is_less, R0_1_total, R0_2_gap);
+    const vector_f row_7 = vector_select_f(is_less_2, square2, row_3);
+    const vector_f row_11 = vector_select_f(is_less_3, R1_2_total, row_7);
+    const vector_f R1_0_gap = R1_0 - R0_1;
+    const vector_f row_4 = vector_select_f(is_less, R0_2_total, R1_0_gap);
+    const vector_f row_8 = vector_select_f(is_less_2, R1_2_total, row_4);
+    const vector_f row_12 = vector_select_f(is_less_3, square3, row_8);
+    const vector_f row = vector_select_f(is_less, R2_1_gap, square0);
+    const vector_f row_5 = vector_select_f(is_less_2, R0_2_gap, row);
+    const vector_f row_9 = vector_select_f(is_less_3, R1_0_gap, row_5);
+    const vector_f total_2 = row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9;
+    const vector_f row_length = vector_sqrt_f(total_2);
+    const vector_f g1 = row_10 / row_length;
+    const vector_f g2 = row_11 / row_length;
+    const vector_f g3 = row_12 / row_length;
+    const vector_f norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+    const vector_mask_f near = norm_s_squared < 0.249287f;
+    const vector_f near_chosen = vector_select_f(near, 4.011440628672975f * norm_s_squared,
+        vector_of_f(0.0f));
+    const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
+    const vector_f log_det_near = norm_s_squared * log_det_series;
+    const vector_f near_chosen_2 = vector_select_f(near, vector_of_f(1.0f), norm_s_squared);
+    const vector_f norm_s = vector_sqrt_f(near_chosen_2);
+    const vector_f g0 = row_9 / row_length;
+    const vector_f abs_g0 = vector_abs_f(g0);
+    const vector_f atan2_norm_s_abs_g0 = vector_atan2_f(norm_s, abs_g0);
+    const vector_f t = 2.0f * atan2_norm_s_abs_g0;
+    const vector_f t_ratio = t / norm_s;
+    const vector_f product = 0.5f * t_ratio;
+    const vector_f log_det = vector_select_f(near, log_det_near, 2.0f * vector_log_f(product));
+    const vector_f t_over_norm_s_near = vector_polynomial_t_over_norm_s_near_f(near_chosen);
+    const vector_f t_over_norm_s = vector_select_f(near, t_over_norm_s_near, t_ratio);
+    const vector_mask_f is_small = g0 < 0.0f;
+    const vector_f chosen = vector_select_f(is_small, vector_of_f(-1.0f), vector_of_f(1.0f));
+    const vector_f scale = t_over_norm_s * chosen;
+    const vector_f v0 = g1 * scale;
+    const vector_f v1 = g2 * scale;
+    const vector_f v2 = g3 * scale;
+    const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+    const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+    const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
+    const vector_f log_det_gap = log_det - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
+    const vector_f phi = amplitude * vector_exp_f(log_det_gap);
+    const vector_f z2_product = z2 * phi;
+    const vector_f z1_product = z1 * phi;
+    const vector_f z0_product = z0 * phi;
+    const vector_f by_v2 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product;
+    const vector_f by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product;
+    const vector_f by_v0 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product;
+    const vector_f by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
+    const vector_f by_t_over_norm_s = chosen * by_scale;
+    const vector_f total_3 = vector_select_f(near, vector_of_f(0.0f), by_t_over_norm_s) + 0.5f * (2.0f *
+        vector_select_f(near, vector_of_f(0.0f), phi) / product);
+    const vector_f by_t = total_3 / norm_s;
+    const vector_f by_atan2_norm_s_abs_g0 = 2.0f * by_t;
+    const vector_f ratio = by_atan2_norm_s_abs_g0 / (near_chosen_2 + abs_g0 * abs_g0);
+    const vector_f norm_s_product = norm_s * ratio;
+    const vector_f by_abs_g0 = -norm_s_product;
+    const vector_f by_g0 = vector_select_f(is_small, norm_s_product, by_abs_g0);
+    const vector_f by_g0_ratio = by_g0 / row_length;
+    const vector_mask_f is_small_2 = total_2 == 0.0f;
+    const vector_f by_norm_s = abs_g0 * ratio - t_ratio * by_t;
+    const vector_f by_log_det_near = vector_select_f(near, phi, vector_of_f(0.0f));
+    const vector_f by_t_over_norm_s_near = vector_select_f(near, by_t_over_norm_s, vector_of_f(0.0f));
+    const vector_f t_over_norm_s_near_slope = vector_polynomial_t_over_norm_s_near_slope_f(near_chosen);
+    const vector_f by_log_det_series = norm_s_squared * by_log_det_near;
+    const vector_f log_det_series_slope = vector_polynomial_log_det_series_slope_f(near_chosen);
+    const vector_f by_norm_s_squared = vector_select_f(near, vector_of_f(0.0f), by_norm_s / (2.0f * norm_s)) +
+        log_det_series * by_log_det_near + 4.011440628672975f * vector_select_f(near, by_t_over_norm_s_near *
+        t_over_norm_s_near_slope + by_log_det_series * log_det_series_slope, vector_of_f(0.0f));
+    const vector_f product_2 = 2.0f * by_norm_s_squared;
+    const vector_f by_g3 = scale * by_v2 + g3 * product_2;
+    const vector_f by_g3_ratio = by_g3 / row_length;
+    const vector_f by_g2 = scale * by_v1 + g2 * product_2;
+    const vector_f by_g2_ratio = by_g2 / row_length;
+    const vector_f by_g1 = scale * by_v0 + g1 * product_2;
+    const vector_f by_g1_ratio = by_g1 / row_length;
+    const vector_f by_row_length = -(g0 * by_g0_ratio) - g3 * by_g3_ratio - g2 * by_g2_ratio - g1 *
+        by_g1_ratio;
+    const vector_f product_3 = 2.0f * vector_select_f(is_small_2, vector_of_f(0.0f), by_row_length / (2.0f *
+        vector_select_f(is_small_2, vector_of_f(1.0f), row_length)));
+    const vector_f by_row_9 = by_g0_ratio + row_9 * product_3;
+    const vector_f by_row_12 = by_g3_ratio + row_12 * product_3;
+    const vector_f by_row_8 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_12);
+    const vector_f by_row_4 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_8);
+    const vector_f total_4 = vector_select_f(is_less_3, by_row_9, vector_of_f(0.0f)) +
+        vector_select_f(is_less, vector_of_f(0.0f), by_row_4);
+    const vector_f by_row_11 = by_g2_ratio + row_11 * product_3;
+    const vector_f by_row_7 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_11);
+    const vector_f by_row_3 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_7);
+    const vector_f by_row_10 = by_g1_ratio + row_10 * product_3;
+    const vector_f by_row_6 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_10);
+    const vector_f total_5 = vector_select_f(is_less, by_row_3, vector_of_f(0.0f)) +
+        vector_select_f(is_less_2, by_row_6, vector_of_f(0.0f));
+    const vector_f by_R1_0 = total_4 + total_5;
+    const vector_f total_6 = vector_select_f(is_less, by_row_4, vector_of_f(0.0f)) +
+        vector_select_f(is_less_3, by_row_10, vector_of_f(0.0f));
+    const vector_f by_row_5 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_9);
+    const vector_f total_7 = vector_select_f(is_less_2, by_row_5, vector_of_f(0.0f)) +
+        vector_select_f(is_less, vector_of_f(0.0f), by_row_3);
+    const vector_f by_R2_0 = total_6 - total_7;
+    const vector_f by_square3 = vector_select_f(is_less_3, by_row_12, vector_of_f(0.0f));
+    const vector_f by_square2 = vector_select_f(is_less_2, by_row_7, vector_of_f(0.0f));
+    const vector_f by_row = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_5);
+    const vector_f by_square0 = vector_select_f(is_less, vector_of_f(0.0f), by_row);
+    const vector_f by_row_2 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_6);
+    const vector_f by_square1 = vector_select_f(is_less, by_row_2, vector_of_f(0.0f));
+    const vector_f by_R0_0 = -by_square3 - by_square2 + (by_square0 + by_square1);
+    const vector_f total_8 = vector_select_f(is_less_2, by_row_8, vector_of_f(0.0f)) +
+        vector_select_f(is_less_3, by_row_11, vector_of_f(0.0f));
+    const vector_f total_9 = vector_select_f(is_less, by_row, vector_of_f(0.0f)) + vector_select_f(is_less,
+        vector_of_f(0.0f), by_row_2);
+    const vector_f by_R2_1 = total_8 + total_9;
+    const vector_f by_R0_1 = total_5 - total_4;
+    const vector_f by_R1_1 = by_square0 + (by_square2 - by_square3 - by_square1);
+    const vector_f by_R1_2 = total_8 - total_9;
+    const vector_f by_R0_2 = total_7 + total_6;
+    const vector_f by_R2_2 = by_square0 + (by_square3 - by_square2 - by_square1);
+    value[0] = value[0] + phi;
+    slope[0] = slope[0] + mu1 * by_R1_0 + mu2 * by_R2_0 + mu0 * by_R0_0;
+    slope[1] = slope[1] + mu2 * by_R2_1 + mu0 * by_R0_1 + mu1 * by_R1_1;
+    slope[2] = slope[2] + mu1 * by_R1_2 + mu0 * by_R0_2 + mu2 * by_R2_2;
+    slope[3] = slope[3] + mu4 * by_R1_0 + mu5 * by_R2_0 + mu3 * by_R0_0;
+    slope[4] = slope[4] + mu5 * by_R2_1 + mu3 * by_R0_1 + mu4 * by_R1_1;
+    slope[5] = slope[5] + mu4 * by_R1_2 + mu3 * by_R0_2 + mu5 * by_R2_2;
+    slope[6] = slope[6] + mu7 * by_R1_0 + mu8 * by_R2_0 + mu6 * by_R0_0;
+    slope[7] = slope[7] + mu8 * by_R2_1 + mu6 * by_R0_1 + mu7 * by_R1_1;
+    slope[8] = slope[8] + mu7 * by_R1_2 + mu6 * by_R0_2 + mu8 * by_R2_2;
+}
+
+/* The Riemannian gradient at some points, of the sums of slopes. */
+OUTLINE void pair_gradient_f(
+    const vector_f *x, const vector_f *slope, vector_f *gradient) {
+    const vector_f x0 = x[0];
+    const vector_f x1 = x[1];
+    const vector_f x2 = x[2];
+    const vector_f x3 = x[3];
+    const vector_f x4 = x[4];
+    const vector_f x5 = x[5];
+    const vector_f x6 = x[6];
+    const vector_f x7 = x[7];
+    const vector_f x8 = x[8];
+    const vector_f slope_x0 = slope[0];
+    const vector_f slope_x1 = slope[1];
+    const vector_f slope_x2 = slope[2];
+    const vector_f slope_x3 = slope[3];
+    const vector_f slope_x4 = slope[4];
+    const vector_f slope_x5 = slope[5];
+    const vector_f slope_x6 = slope[6];
+    const vector_f slope_x7 = slope[7];
+    const vector_f slope_x8 = slope[8];
+    const vector_f gap = x2 * slope_x1 + x5 * slope_x4 + x8 * slope_x7 - x1 * slope_x2 - x4 * slope_x5;
+    const vector_f gap_2 = x0 * slope_x2 + x3 * slope_x5 + x6 * slope_x8 - x2 * slope_x0 - x5 * slope_x3;
+    const vector_f gap_3 = x1 * slope_x0 + x4 * slope_x3 + x7 * slope_x6 - x0 * slope_x1 - x3 * slope_x4;
+    gradient[0] = gap - x7 * slope_x8;
+    gradient[1] = gap_2 - x8 * slope_x6;
+    gradient[2] = gap_3 - x6 * slope_x7;
+}
+
+/* The adjoint of slope at some points, of that of the gradient. */
+OUTLINE void pair_gradient_vjp_f(
+    const vector_f *x, const vector_f *gradient_bar, vector_f *slope_bar) {
+    const vector_f x0 = x[0];
+    const vector_f x1 = x[1];
+    const vector_f x2 = x[2];
+    const vector_f x3 = x[3];
+    const vector_f x4 = x[4];
+    const vector_f x5 = x[5];
+    const vector_f x6 = x[6];
+    const vector_f x7 = x[7];
+    const vector_f x8 = x[8];
+    const vector_f gradient_bar0 = gradient_bar[0];
+    const vector_f gradient_bar1 = gradient_bar[1];
+    const vector_f gradient_bar2 = gradient_bar[2];
+    slope_bar[0] = x1 * gradient_bar2 - x2 * gradient_bar1;
+    slope_bar[1] = x2 * gradient_bar0 - x0 * gradient_bar2;
+    slope_bar[2] = x0 * gradient_bar1 - x1 * gradient_bar0;
+    slope_bar[3] = x4 * gradient_bar2 - x5 * gradient_bar1;
+    slope_bar[4] = x5 * gradient_bar0 - x3 * gradient_bar2;
+    slope_bar[5] = x3 * gradient_bar1 - x4 * gradient_bar0;
+    slope_bar[6] = x7 * gradient_bar2 - x8 * gradient_bar1;
+    slope_bar[7] = x8 * gradient_bar0 - x6 * gradient_bar2;
+    slope_bar[8] = x6 * gradient_bar1 - x7 * gradient_bar0;
+}
+
+/* The adjoints of some splats' parameters, of that of S. */
+OUTLINE void pair_constants_vjp_f(
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
+    (void)mu;
+    (void)W;
+    (void)amplitude;
+    const vector_f mu0_bar = S_bar[0];
+    const vector_f mu1_bar = S_bar[1];
+    const vector_f mu2_bar = S_bar[2];
+    const vector_f mu3_bar = S_bar[3];
+    const vector_f mu4_bar = S_bar[4];
+    const vector_f mu5_bar = S_bar[5];
+    const vector_f mu6_bar = S_bar[6];
+    const vector_f mu7_bar = S_bar[7];
+    const vector_f mu8_bar = S_bar[8];
+    const vector_f W0_0_bar = S_bar[9];
+    const vector_f W0_1_bar = S_bar[10];
+    const vector_f W0_2_bar = S_bar[11];
+    const vector_f W1_0_bar = S_bar[12];
+    const vector_f W1_1_bar = S_bar[13];
+    const vector_f W1_2_bar = S_bar[14];
+    const vector_f W2_0_bar = S_bar[15];
+    const vector_f W2_1_bar = S_bar[16];
+    const vector_f W2_2_bar = S_bar[17];
+    const vector_f its_amplitude_bar = S_bar[18];
+    mu_bar[0] = mu0_bar;
+    mu_bar[1] = mu1_bar;
+    mu_bar[2] = mu2_bar;
+    mu_bar[3] = mu3_bar;
+    mu_bar[4] = mu4_bar;
+    mu_bar[5] = mu5_bar;
+    mu_bar[6] = mu6_bar;
+    mu_bar[7] = mu7_bar;
+    mu_bar[8] = mu8_bar;
+    W_bar[0] = W0_0_bar;
+    W_bar[1] = W0_1_bar;
+    W_bar[2] = W0_2_bar;
+    W_bar[3] = W1_0_bar;
+    W_bar[4] = W1_1_bar;
+    W_bar[5] = W1_2_bar;
+    W_bar[6] = W2_0_bar;
+    W_bar[7] = W2_1_bar;
+    W_bar[8] = W2_2_bar;
+    amplitude_bar[0] = its_amplitude_bar;
+}
+
+/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+OUTLINE void pair_backward_f(
+    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const vector_f x2 = X[2];
+    const vector_f x3 = X[3];
+    const vector_f x4 = X[4];
+    const vector_f x5 = X[5];
+    const vector_f x6 = X[6];
+    const vector_f x7 = X[7];
+    const vector_f x8 = X[8];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float mu2 = S[2];
+    const float mu3 = S[3];
+    const float mu4 = S[4];
+    const float mu5 = S[5];
+    const float mu6 = S[6];
+    const float mu7 = S[7];
+    const float mu8 = S[8];
+    const float W0_0 = S[9];
+    const float W0_1 = S[10];
+    const float W0_2 = S[11];
+    const float W1_0 = S[12];
+    const float W1_1 = S[13];
+    const float W1_2 = S[14];
+    const float W2_0 = S[15];
+    const float W2_1 = S[16];
+    const float W2_2 = S[17];
+    const float amplitude = S[18];
+    const vector_f its_value_bar = value_bar[0];
+    const vector_f x0_bar = slope_bar[0];
+    const vector_f x1_bar = slope_bar[1];
+    const vector_f x2_bar = slope_bar[2];
+    const vector_f x3_bar = slope_bar[3];
+    const vector_f x4_bar = slope_bar[4];
+    const vector_f x5_bar = slope_bar[5];
+    const vector_f x6_bar = slope_bar[6];
+    const vector_f x7_bar = slope_bar[7];
+    const vector_f x8_bar = slope_bar[8];
+    const vector_f R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8;
+    const vector_f R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7;
+    const vector_f R0_0 = x0 * mu0 + x3 * mu3 + x6 * mu6;
+    const vector_f R0_0_total = 1.0f + R0_0;
+    const vector_f square0 = R2_2 + (R1_1 + R0_0_total);
+    const vector_f square1 = R0_0_total - R1_1 - R2_2;
+    const vector_mask_f is_less = square0 < square1;
+    const vector_f largest = vector_select_f(is_less, square1, square0);
+    const vector_f square2 = 1.0f + R1_1 - R0_0 - R2_2;
+    const vector_mask_f is_less_2 = largest < square2;
+    const vector_f largest_2 = vector_select_f(is_less_2, square2, largest);
+    const vector_f square3 = 1.0f + R2_2 - R0_0 - R1_1;
+    const vector_mask_f is_less_3 = largest_2 < square3;
+    const vector_f R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6;
+    const vector_f R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8;
+    const vector_f R0_2_total = R0_2 + R2_0;
+    const vector_f R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6;
+    const vector_f R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7;
+    const vector_f R0_1_total = R0_1 + R1_0;
+    const vector_f R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8;
+    const vector_f R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7;
+    const vector_f R2_1_gap = R2_1 - R1_2;
+    const vector_f row_2 = vector_select_f(is_less, square1, R2_1_gap);
+    const vector_f row_6 = vector_select_f(is_less_2, R0_1_total, row_2);
+    const vector_f row_10 = vector_select_f(is_less_3, R0_2_total, row_6);
+    const vector_f R1_2_total = R1_2 + R2_1;
+    const vector_f R0_2_gap = R0_2 - R2_0;
+    const vector_f row_3 = vector_select_f(is_less, R0_1_total, R0_2_gap);
+    const vector_f row_7 = vector_select_f(is_less_2, square2, row_3);
+    const vector_f row_11 = vector_select_f(is_less_3, R1_2_total, row_7);
+    const vector_f R1_0_gap = R1_0 - R0_1;
+    const vector_f row_4 = vector_select_f(is_less, R0_2_total, R1_0_gap);
+    const vector_f row_8 = vector_select_f(is_less_2, R1_2_total, row_4);
+    const vector_f row_12 = vector_select_f(is_less_3, square3, row_8);
+    const vector_f row = vector_select_f(is_less, R2_1_gap, square0);
+    const vector_f row_5 = vector_select_f(is_less_2, R0_2_gap, row);
+    const vector_f row_9 = vector_select_f(is_less_3, R1_0_gap, row_5);
+    const vector_f total_2 = row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9;
+    const vector_f row_length = vector_sqrt_f(total_2);
+    const vector_f g1 = row_10 / row_length;
+    const vector_f g2 = row_11 / row_length;
+    const vector_f g3 = row_12 / row_length;
+    const vector_f norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+    const vector_mask_f near = norm_s_squared < 0.249287f;
+    const vector_f near_chosen = vector_select_f(near, 4.011440628672975f * norm_s_squared,
+        vector_of_f(0.0f));
+    const vector_f t_over_norm_s_near = vector_polynomial_t_over_norm_s_near_f(near_chosen);
+    const vector_f near_chosen_2 = vector_select_f(near, vector_of_f(1.0f), norm_s_squared);
+    const vector_f norm_s = vector_sqrt_f(near_chosen_2);
+    const vector_f g0 = row_9 / row_length;
+    const vector_f abs_g0 = vector_abs_f(g0);
+    const vector_f atan2_norm_s_abs_g0 = vector_atan2_f(norm_s, abs_g0);
+    const vector_f t = 2.0f * atan2_norm_s_abs_g0;
+    const vector_f t_ratio = t / norm_s;
+    const vector_f t_over_norm_s = vector_select_f(near, t_over_norm_s_near, t_ratio);
+    const vector_mask_f is_small = g0 < 0.0f;
+    const vector_f chosen = vector_select_f(is_small, vector_of_f(-1.0f), vector_of_f(1.0f));
+    const vector_f scale = t_over_norm_s * chosen;
+    const vector_f v0 = g1 * scale;
+    const vector_f v1 = g2 * scale;
+    const vector_f v2 = g3 * scale;
+    const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
+    const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
+    const vector_f log_det_near = norm_s_squared * log_det_series;
+    const vector_f product = 0.5f * t_ratio;
+    const vector_f log_det = vector_select_f(near, log_det_near, 2.0f * vector_log_f(product));
+    const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+    const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+    const vector_f log_det_gap = log_det - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
+    const vector_f exp_2 = vector_exp_f(log_det_gap);
+    const vector_f phi = amplitude * exp_2;
+    const vector_f z2_product = z2 * phi;
+    const vector_f z1_product = z1 * phi;
+    const vector_f z0_product = z0 * phi;
+    const vector_f by_v2 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product;
+    const vector_f by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product;
+    const vector_f by_v0 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product;
+    const vector_f by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
+    const vector_f by_t_over_norm_s = chosen * by_scale;
+    const vector_f ratio = 2.0f * vector_select_f(near, vector_of_f(0.0f), phi) / product;
+    const vector_f by_t = (vector_select_f(near, vector_of_f(0.0f), by_t_over_norm_s) + 0.5f * ratio) /
+        norm_s;
+    const vector_f by_atan2_norm_s_abs_g0 = 2.0f * by_t;
+    const vector_f total_3 = near_chosen_2 + abs_g0 * abs_g0;
+    const vector_f ratio_2 = by_atan2_norm_s_abs_g0 / total_3;
+    const vector_f by_norm_s = abs_g0 * ratio_2 - t_ratio * by_t;
+    const vector_f norm_s_product = 2.0f * norm_s;
+    const vector_f by_norm_s_ratio = by_norm_s / norm_s_product;
+    const vector_f by_log_det_near = vector_select_f(near, phi, vector_of_f(0.0f));
+    const vector_f by_t_over_norm_s_near = vector_select_f(near, by_t_over_norm_s, vector_of_f(0.0f));
+    const vector_f t_over_norm_s_near_slope = vector_polynomial_t_over_norm_s_near_slope_f(near_chosen);
+    const vector_f by_log_det_series = norm_s_squared * by_log_det_near;
+    const vector_f log_det_series_slope = vector_polynomial_log_det_series_slope_f(near_chosen);
+    const vector_f by_norm_s_squared = vector_select_f(near, vector_of_f(0.0f), by_norm_s_ratio) +
+        log_det_series * by_log_det_near + 4.011440628672975f * vector_select_f(near, by_t_over_norm_s_near *
+        t_over_norm_s_near_slope + by_log_det_series * log_det_series_slope, vector_of_f(0.0f));
+    const vector_f product_2 = 2.0f * by_norm_s_squared;
+    const vector_f by_g3 = scale * by_v2 + g3 * product_2;
+    const vector_f by_g3_ratio = by_g3 / row_length;
+    const vector_mask_f is_small_2 = total_2 == 0.0f;
+    const vector_f norm_s_product_2 = norm_s * ratio_2;
+    const vector_f by_abs_g0 = -norm_s_product_2;
+    const vector_f by_g0 = vector_select_f(is_small, norm_s_product_2, by_abs_g0);
+    const vector_f by_g0_ratio = by_g0 / row_length;
+    const vector_f by_g2 = scale * by_v1 + g2 * product_2;
+    const vector_f by_g2_ratio = by_g2 / row_length;
+    const vector_f by_g1 = scale * by_v0 + g1 * product_2;
+    const vector_f by_g1_ratio = by_g1 / row_length;
+    const vector_f by_row_length = -(g0 * by_g0_ratio) - g3 * by_g3_ratio - g2 * by_g2_ratio - g1 *
+        by_g1_ratio;
+    const vector_f product_3 = 2.0f * vector_select_f(is_small_2, vector_of_f(1.0f), row_length);
+    const vector_f ratio_3 = by_row_length / product_3;
+    const vector_f product_4 = 2.0f * vector_select_f(is_small_2, vector_of_f(0.0f), ratio_3);
+    const vector_f by_row_12 = by_g3_ratio + row_12 * product_4;
+    const vector_f by_square3 = vector_select_f(is_less_3, by_row_12, vector_of_f(0.0f));
+    const vector_f by_row_11 = by_g2_ratio + row_11 * product_4;
+    const vector_f by_row_7 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_11);
+    const vector_f by_square2 = vector_select_f(is_less_2, by_row_7, vector_of_f(0.0f));
+    const vector_f by_row_9 = by_g0_ratio + row_9 * product_4;
+    const vector_f by_row_5 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_9);
+    const vector_f by_row = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_5);
+    const vector_f by_square0 = vector_select_f(is_less, vector_of_f(0.0f), by_row);
+    const vector_f by_row_10 = by_g1_ratio + row_10 * product_4;
+    const vector_f by_row_6 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_10);
+    const vector_f by_row_2 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_6);
+    const vector_f by_square1 = vector_select_f(is_less, by_row_2, vector_of_f(0.0f));
+    const vector_f by_R0_0 = -by_square3 - by_square2 + (by_square0 + by_square1);
+    const vector_f by_row_3 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_7);
+    const vector_f total_4 = vector_select_f(is_less_2, by_row_5, vector_of_f(0.0f)) +
+        vector_select_f(is_less, vector_of_f(0.0f), by_row_3);
+    const vector_f by_row_8 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_12);
+    const vector_f by_row_4 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_8);
+    const vector_f total_5 = vector_select_f(is_less, by_row_4, vector_of_f(0.0f)) +
+        vector_select_f(is_less_3, by_row_10, vector_of_f(0.0f));
+    const vector_f by_R0_2 = total_4 + total_5;
+    const vector_f total_6 = vector_select_f(is_less, by_row_3, vector_of_f(0.0f)) +
+        vector_select_f(is_less_2, by_row_6, vector_of_f(0.0f));
+    const vector_f total_7 = vector_select_f(is_less_3, by_row_9, vector_of_f(0.0f)) +
+        vector_select_f(is_less, vector_of_f(0.0f), by_row_4);
+    const vector_f by_R0_1 = total_6 - total_7;
+    const vector_f by_by_R0_2 = mu0 * x2_bar + mu3 * x5_bar + mu6 * x8_bar;
+    const vector_f by_by_R2_0 = mu2 * x0_bar + mu5 * x3_bar + mu8 * x6_bar;
+    const vector_f by_by_R0_2_gap = by_by_R0_2 - by_by_R2_0;
+    const vector_f by_by_R0_1 = mu0 * x1_bar + mu3 * x4_bar + mu6 * x7_bar;
+    const vector_f by_by_R1_0 = mu1 * x0_bar + mu4 * x3_bar + mu7 * x6_bar;
+    const vector_f by_by_R0_1_total = by_by_R0_1 + by_by_R1_0;
+    const vector_f by_by_row_3 = vector_select_f(is_less, vector_of_f(0.0f), by_by_R0_2_gap) +
+        vector_select_f(is_less, by_by_R0_1_total, vector_of_f(0.0f));
+    const vector_f by_by_R1_1 = mu1 * x1_bar + mu4 * x4_bar + mu7 * x7_bar;
+    const vector_f by_by_R0_0 = mu0 * x0_bar + mu3 * x3_bar + mu6 * x6_bar;
+    const vector_f by_by_R2_2 = mu2 * x2_bar + mu5 * x5_bar + mu8 * x8_bar;
+    const vector_f by_by_square2 = by_by_R1_1 - by_by_R0_0 - by_by_R2_2;
+    const vector_f by_by_row_7 = vector_select_f(is_less_2, vector_of_f(0.0f), by_by_row_3) +
+        vector_select_f(is_less_2, by_by_square2, vector_of_f(0.0f));
+    const vector_f by_by_R2_1 = mu2 * x1_bar + mu5 * x4_bar + mu8 * x7_bar;
+    const vector_f by_by_R1_2 = mu1 * x2_bar + mu4 * x5_bar + mu7 * x8_bar;
+    const vector_f by_by_R2_1_total = by_by_R2_1 + by_by_R1_2;
+    const vector_f by_by_row_11 = vector_select_f(is_less_3, vector_of_f(0.0f), by_by_row_7) +
+        vector_select_f(is_less_3, by_by_R2_1_total, vector_of_f(0.0f));
+    const vector_f by_by_R2_1_gap = by_by_R2_1 - by_by_R1_2;
+    const vector_f by_by_square1 = by_by_R0_0 - by_by_R1_1 - by_by_R2_2;
+    const vector_f by_by_row_2 = vector_select_f(is_less, vector_of_f(0.0f), by_by_R2_1_gap) +
+        vector_select_f(is_less, by_by_square1, vector_of_f(0.0f));
+    const vector_f by_by_row_6 = vector_select_f(is_less_2, vector_of_f(0.0f), by_by_row_2) +
+        vector_select_f(is_less_2, by_by_R0_1_total, vector_of_f(0.0f));
+    const vector_f by_by_R0_2_total = by_by_R0_2 + by_by_R2_0;
+    const vector_f by_by_row_10 = vector_select_f(is_less_3, vector_of_f(0.0f), by_by_row_6) +
+        vector_select_f(is_less_3, by_by_R0_2_total, vector_of_f(0.0f));
+    const vector_f by_by_R1_0_gap = by_by_R1_0 - by_by_R0_1;
+    const vector_f by_by_row_4 = vector_select_f(is_less, vector_of_f(0.0f), by_by_R1_0_gap) +
+        vector_select_f(is_less, by_by_R0_2_total, vector_of_f(0.0f));
+    const vector_f by_by_row_8 = vector_select_f(is_less_2, vector_of_f(0.0f), by_by_row_4) +
+        vector_select_f(is_less_2, by_by_R2_1_total, vector_of_f(0.0f));
+    const vector_f by_by_square3 = by_by_R2_2 - by_by_R1_1 - by_by_R0_0;
+    const vector_f by_by_row_12 = vector_select_f(is_less_3, vector_of_f(0.0f), by_by_row_8) +
+        vector_select_f(is_less_3, by_by_square3, vector_of_f(0.0f));
+    const vector_f by_by_square0 = by_by_R2_2 + (by_by_R1_1 + by_by_R0_0);
+    const vector_f by_by_row = vector_select_f(is_less, by_by_R2_1_gap, vector_of_f(0.0f)) +
+        vector_select_f(is_less, vector_of_f(0.0f), by_by_square0);
+    const vector_f by_by_row_5 = vector_select_f(is_less_2, vector_of_f(0.0f), by_by_row) +
+        vector_select_f(is_less_2, by_by_R0_2_gap, vector_of_f(0.0f));
+    const vector_f by_by_row_9 = vector_select_f(is_less_3, vector_of_f(0.0f), by_by_row_5) +
+        vector_select_f(is_less_3, by_by_R1_0_gap, vector_of_f(0.0f));
+    const vector_f product_5 = 2.0f * (row_10 * by_by_row_10 + row_11 * by_by_row_11 + row_12 * by_by_row_12 +
+        row_9 * by_by_row_9);
+    const vector_f by_by_row_length = vector_select_f(is_small_2, vector_of_f(0.0f), product_5) / product_3;
+    const vector_f by_by_g2 = (by_by_row_11 - g2 * by_by_row_length) / row_length;
+    const vector_f by_by_g0 = (by_by_row_9 - g0 * by_by_row_length) / row_length;
+    const vector_f by_by_abs_g0 = vector_select_f(is_small, vector_of_f(0.0f), by_by_g0);
+    const vector_f gap = vector_select_f(is_small, by_by_g0, vector_of_f(0.0f)) - by_by_abs_g0;
+    const vector_f by_by_g1 = (by_by_row_10 - g1 * by_by_row_length) / row_length;
+    const vector_f by_by_g3 = (by_by_row_12 - g3 * by_by_row_length) / row_length;
+    const vector_f total_8 = g1 * by_by_g1 + g2 * by_by_g2 + g3 * by_by_g3;
+    const vector_f by_by_norm_s_squared = 2.0f * total_8;
+    const vector_f by_by_norm_s = vector_select_f(near, vector_of_f(0.0f), by_by_norm_s_squared) /
+        norm_s_product;
+    const vector_f by_by_atan2_norm_s_abs_g0 = (norm_s * gap + abs_g0 * by_by_norm_s) / total_3;
+    const vector_f by_by_t = 2.0f * by_by_atan2_norm_s_abs_g0 - t_ratio * by_by_norm_s;
+    const vector_f by_by_t_ratio = by_by_t / norm_s;
+    const vector_f near_chosen_3 = vector_select_f(near, 8.02288125734595f * total_8, vector_of_f(0.0f));
+    const vector_f by_by_t_over_norm_s_near = t_over_norm_s_near_slope * near_chosen_3;
+    const vector_f by_by_t_over_norm_s = vector_select_f(near, vector_of_f(0.0f), by_by_t_ratio) +
+        vector_select_f(near, by_by_t_over_norm_s_near, vector_of_f(0.0f));
+    const vector_f by_by_scale = chosen * by_by_t_over_norm_s;
+    const vector_f by_by_v0 = g1 * by_by_scale + scale * by_by_g1;
+    const vector_f by_by_v1 = g2 * by_by_scale + scale * by_by_g2;
+    const vector_f by_by_v2 = g3 * by_by_scale + scale * by_by_g3;
+    const vector_f gap_2 = -(W2_0 * by_by_v0) - W2_1 * by_by_v1 - W2_2 * by_by_v2;
+    const vector_f ratio_4 = 0.5f * by_by_t_ratio / product;
+    const vector_f by_by_log_det_series = log_det_series_slope * near_chosen_3;
+    const vector_f by_by_log_det_near = norm_s_squared * by_by_log_det_series + log_det_series *
+        by_by_norm_s_squared;
+    const vector_f gap_3 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2;
+    const vector_f total_9 = its_value_bar + vector_select_f(near, vector_of_f(0.0f), 2.0f * ratio_4) +
+        vector_select_f(near, by_by_log_det_near, vector_of_f(0.0f)) + z0 * gap_3;
+    const vector_f gap_4 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2;
+    const vector_f by_phi = total_9 + z1 * gap_4 + z2 * gap_2;
+    const vector_f by_log_det = exp_2 * (amplitude * by_phi);
+    const vector_f by_z2 = phi * gap_2 - z2 * by_log_det;
+    const vector_f by_z1 = phi * gap_4 - z1 * by_log_det;
+    const vector_f by_z0 = phi * gap_3 - z0 * by_log_det;
+    const vector_f by_v1_2 = W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
+    const vector_f by_v2_2 = W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0;
+    const vector_f total_10 = by_v0 * by_by_g1 + by_v1 * by_by_g2 + by_v2 * by_by_g3 + g3 * by_v2_2 + g2 *
+        by_v1_2;
+    const vector_f by_v0_2 = W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0;
+    const vector_f by_scale_2 = total_10 + g1 * by_v0_2;
+    const vector_f by_t_over_norm_s_2 = chosen * by_scale_2;
+    const vector_f product_6 = 0.5f * (2.0f * vector_select_f(near, vector_of_f(0.0f), by_log_det) / product -
+        ratio * ratio_4);
+    const vector_f by_t_2 = (vector_select_f(near, vector_of_f(0.0f), by_t_over_norm_s_2) - by_t *
+        by_by_norm_s + product_6) / norm_s;
+    const vector_f gap_5 = ratio_2 * gap - 2.0f * (by_norm_s_ratio * by_by_norm_s) - by_t * by_by_t_ratio -
+        t_ratio * by_t_2;
+    const vector_f by_atan2_norm_s_abs_g0_2 = 2.0f * by_t_2;
+    const vector_f ratio_5 = by_atan2_norm_s_abs_g0_2 / total_3;
+    const vector_f by_norm_s_2 = gap_5 + abs_g0 * ratio_5;
+    const vector_f product_7 = ratio_2 * by_by_atan2_norm_s_abs_g0;
+    const vector_f by_log_det_near_2 = vector_select_f(near, by_log_det, vector_of_f(0.0f));
+    const vector_f total_11 = by_log_det_near * by_by_log_det_series + vector_select_f(near,
+        vector_of_f(0.0f), by_norm_s_2 / norm_s_product - product_7) + log_det_series * by_log_det_near_2;
+    const vector_f by_log_det_series_slope = by_log_det_series * near_chosen_3;
+    const vector_f log_det_series_slope_slope = vector_polynomial_log_det_series_slope_slope_f(near_chosen);
+    const vector_f by_t_over_norm_s_near_slope = by_t_over_norm_s_near * near_chosen_3;
+    const vector_f t_over_norm_s_near_slope_slope =
+        vector_polynomial_t_over_norm_s_near_slope_slope_f(near_chosen);
+    const vector_f by_t_over_norm_s_near_2 = vector_select_f(near, by_t_over_norm_s_2, vector_of_f(0.0f));
+    const vector_f by_log_det_series_2 = by_log_det_near * by_by_norm_s_squared + norm_s_squared *
+        by_log_det_near_2;
+    const vector_f near_chosen_4 = vector_select_f(near, by_log_det_series_slope * log_det_series_slope_slope
+        + by_t_over_norm_s_near_slope * t_over_norm_s_near_slope_slope + t_over_norm_s_near_slope *
+        by_t_over_norm_s_near_2 + log_det_series_slope * by_log_det_series_2, vector_of_f(0.0f));
+    const vector_f by_norm_s_squared_2 = total_11 + 4.011440628672975f * near_chosen_4;
+    const vector_f product_8 = 2.0f * by_norm_s_squared_2;
+    const vector_f by_g2_2 = product_2 * by_by_g2 - by_g2_ratio * by_by_row_length + by_v1 * by_by_scale +
+        scale * by_v1_2 + g2 * product_8;
+    const vector_f by_g2_ratio_2 = by_g2_2 / row_length;
+    const vector_f gap_6 = vector_select_f(is_small_2, vector_of_f(0.0f), -2.0f * (ratio_3 *
+        by_by_row_length)) - by_g1_ratio * by_by_g1;
+    const vector_f norm_s_product_3 = norm_s * ratio_5;
+    const vector_f gap_7 = ratio_2 * by_by_norm_s - abs_g0 * (2.0f * product_7);
+    const vector_f by_abs_g0_2 = gap_7 - norm_s_product_3;
+    const vector_f by_g0_2 = vector_select_f(is_small, norm_s_product_3 - gap_7, by_abs_g0_2) - by_g0_ratio *
+        by_by_row_length;
+    const vector_f by_g0_ratio_2 = by_g0_2 / row_length;
+    const vector_f gap_8 = gap_6 - by_g2_ratio * by_by_g2 - by_g3_ratio * by_by_g3 - by_g0_ratio * by_by_g0 -
+        g0 * by_g0_ratio_2;
+    const vector_f by_g3_2 = product_2 * by_by_g3 - by_g3_ratio * by_by_row_length + by_v2 * by_by_scale +
+        scale * by_v2_2 + g3 * product_8;
+    const vector_f by_g3_ratio_2 = by_g3_2 / row_length;
+    const vector_f by_g1_2 = product_2 * by_by_g1 - by_g1_ratio * by_by_row_length + by_v0 * by_by_scale +
+        scale * by_v0_2 + g1 * product_8;
+    const vector_f by_g1_ratio_2 = by_g1_2 / row_length;
+    const vector_f by_row_length_2 = gap_8 - g3 * by_g3_ratio_2 - g2 * by_g2_ratio_2 - g1 * by_g1_ratio_2;
+    const vector_f product_9 = 2.0f * vector_select_f(is_small_2, vector_of_f(0.0f), by_row_length_2 /
+        product_3);
+    const vector_f by_row_11_2 = product_4 * by_by_row_11 + by_g2_ratio_2 + row_11 * product_9;
+    const vector_f by_row_7_2 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_11_2);
+    const vector_f by_row_3_2 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_7_2);
+    const vector_f by_row_10_2 = product_4 * by_by_row_10 + by_g1_ratio_2 + row_10 * product_9;
+    const vector_f by_row_6_2 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_10_2);
+    const vector_f total_12 = vector_select_f(is_less, by_row_3_2, vector_of_f(0.0f)) +
+        vector_select_f(is_less_2, by_row_6_2, vector_of_f(0.0f));
+    const vector_f by_row_9_2 = product_4 * by_by_row_9 + by_g0_ratio_2 + row_9 * product_9;
+    const vector_f by_row_12_2 = product_4 * by_by_row_12 + by_g3_ratio_2 + row_12 * product_9;
+    const vector_f by_row_8_2 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_12_2);
+    const vector_f by_row_4_2 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_8_2);
+    const vector_f total_13 = vector_select_f(is_less_3, by_row_9_2, vector_of_f(0.0f)) +
+        vector_select_f(is_less, vector_of_f(0.0f), by_row_4_2);
+    const vector_f by_R0_1_2 = total_12 - total_13;
+    const vector_f by_row_5_2 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_9_2);
+    const vector_f total_14 = vector_select_f(is_less_2, by_row_5_2, vector_of_f(0.0f)) +
+        vector_select_f(is_less, vector_of_f(0.0f), by_row_3_2);
+    const vector_f total_15 = vector_select_f(is_less, by_row_4_2, vector_of_f(0.0f)) +
+        vector_select_f(is_less_3, by_row_10_2, vector_of_f(0.0f));
+    const vector_f by_R0_2_2 = total_14 + total_15;
+    const vector_f by_square3_2 = vector_select_f(is_less_3, by_row_12_2, vector_of_f(0.0f));
+    const vector_f by_square2_2 = vector_select_f(is_less_2, by_row_7_2, vector_of_f(0.0f));
+    const vector_f by_row_13 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_5_2);
+    const vector_f by_square0_2 = vector_select_f(is_less, vector_of_f(0.0f), by_row_13);
+    const vector_f by_row_2_2 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_6_2);
+    const vector_f by_square1_2 = vector_select_f(is_less, by_row_2_2, vector_of_f(0.0f));
+    const vector_f by_R0_0_2 = -by_square3_2 - by_square2_2 + (by_square0_2 + by_square1_2);
+    const vector_f by_R1_1 = by_square0 + (by_square2 - by_square3 - by_square1);
+    const vector_f by_R1_0 = total_7 + total_6;
+    const vector_f total_17 = vector_select_f(is_less_2, by_row_8, vector_of_f(0.0f)) +
+        vector_select_f(is_less_3, by_row_11, vector_of_f(0.0f));
+    const vector_f total_18 = vector_select_f(is_less, by_row, vector_of_f(0.0f)) + vector_select_f(is_less,
+        vector_of_f(0.0f), by_row_2);
+    const vector_f by_R1_2 = total_17 - total_18;
+    const vector_f total_19 = vector_select_f(is_less_2, by_row_8_2, vector_of_f(0.0f)) +
+        vector_select_f(is_less_3, by_row_11_2, vector_of_f(0.0f));
+    const vector_f total_20 = vector_select_f(is_less, by_row_13, vector_of_f(0.0f)) +
+        vector_select_f(is_less, vector_of_f(0.0f), by_row_2_2);
+    const vector_f by_R1_2_2 = total_19 - total_20;
+    const vector_f by_R1_0_2 = total_13 + total_12;
+    const vector_f by_R1_1_2 = by_square0_2 + (by_square2_2 - by_square3_2 - by_square1_2);
+    const vector_f by_R2_2 = by_square0 + (by_square3 - by_square2 - by_square1);
+    const vector_f by_R2_0 = total_5 - total_4;
+    const vector_f by_R2_1 = total_17 + total_18;
+    const vector_f by_R2_1_2 = total_19 + total_20;
+    const vector_f by_R2_0_2 = total_15 - total_14;
+    const vector_f by_R2_2_2 = by_square0_2 + (by_square3_2 - by_square2_2 - by_square1_2);
+    S_bar[0] = S_bar[0] + by_R0_0 * x0_bar + by_R0_2 * x2_bar + by_R0_1 * x1_bar + x1 * by_R0_1_2 + x2 *
+            by_R0_2_2 + x0 * by_R0_0_2;
+    S_bar[1] = S_bar[1] + by_R1_1 * x1_bar + by_R1_0 * x0_bar + by_R1_2 * x2_bar + x2 * by_R1_2_2 + x0 *
+            by_R1_0_2 + x1 * by_R1_1_2;
+    S_bar[2] = S_bar[2] + by_R2_2 * x2_bar + by_R2_0 * x0_bar + by_R2_1 * x1_bar + x1 * by_R2_1_2 + x0 *
+            by_R2_0_2 + x2 * by_R2_2_2;
+    S_bar[3] = S_bar[3] + by_R0_0 * x3_bar + by_R0_2 * x5_bar + by_R0_1 * x4_bar + x4 * by_R0_1_2 + x5 *
+            by_R0_2_2 + x3 * by_R0_0_2;
+    S_bar[4] = S_bar[4] + by_R1_1 * x4_bar + by_R1_0 * x3_bar + by_R1_2 * x5_bar + x5 * by_R1_2_2 + x3 *
+            by_R1_0_2 + x4 * by_R1_1_2;
+    S_bar[5] = S_bar[5] + by_R2_2 * x5_bar + by_R2_0 * x3_bar + by_R2_1 * x4_bar + x4 * by_R2_1_2 + x3 *
+            by_R2_0_2 + x5 * by_R2_2_2;
+    S_bar[6] = S_bar[6] + by_R0_0 * x6_bar + by_R0_2 * x8_bar + by_R0_1 * x7_bar + x7 * by_R0_1_2 + x8 *
+            by_R0_2_2 + x6 * by_R0_0_2;
+    S_bar[7] = S_bar[7] + by_R1_1 * x7_bar + by_R1_0 * x6_bar + by_R1_2 * x8_bar + x8 * by_R1_2_2 + x6 *
+            by_R1_0_2 + x7 * by_R1_1_2;
+    S_bar[8] = S_bar[8] + by_R2_2 * x8_bar + by_R2_0 * x6_bar + by_R2_1 * x7_bar + x7 * by_R2_1_2 + x6 *
+            by_R2_0_2 + x8 * by_R2_2_2;
+    S_bar[9] = S_bar[9] + v0 * by_z0 - z0_product * by_by_v0;
+    S_bar[10] = S_bar[10] + v1 * by_z0 - z0_product * by_by_v1;
+    S_bar[11] = S_bar[11] + v2 * by_z0 - z0_product * by_by_v2;
+    S_bar[12] = S_bar[12] + v0 * by_z1 - z1_product * by_by_v0;
+    S_bar[13] = S_bar[13] + v1 * by_z1 - z1_product * by_by_v1;
+    S_bar[14] = S_bar[14] + v2 * by_z1 - z1_product * by_by_v2;
+    S_bar[15] = S_bar[15] + v0 * by_z2 - z2_product * by_by_v0;
+    S_bar[16] = S_bar[16] + v1 * by_z2 - z2_product * by_by_v1;
+    S_bar[17] = S_bar[17] + v2 * by_z2 - z2_product * by_by_v2;
+    S_bar[18] = S_bar[18] + exp_2 * by_phi;
+}
+
+/* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
+OUTLINE void vector_rows_f(const float *rows, size_t count, size_t start, size_t size, vector_f *columns) {
+    for (size_t i = 0; i < size; ++i) {
+        float column[LANES_f];
+        for (size_t lane = 0; lane < LANES_f; ++lane)
+            column[lane] = rows[size * (start + lane < count ? start + lane : count - 1) + i];
+        columns[i] = vector_load_f(column);
     }
-    restore_denormals(mode);
+}
+
+/* Back to rows that are `stride` apart; nothing past the end. */
+OUTLINE void vector_to_rows_f(
+    const vector_f *columns, float *rows, size_t count, size_t start, size_t size, size_t stride) {
+    const size_t lanes = start >= count ? 0 : count - start < LANES_f ? count - start : LANES_f;
+    for (size_t lane = 0; lane < lanes; ++lane)
+        for (size_t i = 0; i < size; ++i) rows[stride * (start + lane) + i] = LANE(columns[i], lane);
+}
+
+/* Zero in the lanes past the end. */
+OUTLINE void vector_end_f(size_t count, size_t start, size_t size, vector_f *columns) {
+    for (size_t lane = start >= count ? 0 : count - start; lane < LANES_f; ++lane)
+        for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
+}
+
+/* Scratch memory: 19 vectors for each block of points, then the constants of the splats. */
+size_t so3_matrix_splats_work_f(size_t count, size_t splat_count, int threads) {
+    (void)threads;
+    return ((count + LANES_f - 1) / LANES_f * 19 + 1) * LANES_f + 19 * splat_count;
+}
+
+static vector_f *work_points_f(float *work) {
+    const uintptr_t size = sizeof(vector_f), start = (uintptr_t)work;
+    return (vector_f *)((char *)work + ((0 - start) & (size - 1)));
+}
+
+static float *work_constants_f(float *work, size_t count) {
+    return (float *)(work_points_f(work) + (count + LANES_f - 1) / LANES_f * 19);
+}
+
+/* The constants of LANES splats, as rows. */
+OUTLINE void splat_constants_f(
+    size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, float *constants) {
+    vector_f own_mu[9], own_W[9], own_amplitude[1], S[19];
+    vector_rows_f(mu, splat_count, start, 9, own_mu);
+    vector_rows_f(W, splat_count, start, 9, own_W);
+    vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
+    pair_constants_f(own_mu, own_W, own_amplitude, S);
+    vector_to_rows_f(S, constants, splat_count, start, 19, 19);
+}
+
+/* 2 vectors of points at a time stay in registers while all splats pass. */
+void so3_matrix_splats_f(
+    size_t count, size_t splat_count, const float *SO3_MATRIX_RESTRICT x, const float *SO3_MATRIX_RESTRICT mu, const float *SO3_MATRIX_RESTRICT W, const float *SO3_MATRIX_RESTRICT amplitude,
+    float *SO3_MATRIX_RESTRICT value, float *SO3_MATRIX_RESTRICT gradient, float *SO3_MATRIX_RESTRICT work, int threads) {
+    (void)threads;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES_f) {
+            vector_f at[2][9], X[2][9], grad[3];
+            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][9] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows_f(x, count, start + b * LANES_f, 9, at[b]);
+                pair_features_f(at[b], X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_forward_f(X[0], constants + 19 * k, value_sum[0], slope_sum[0]);
+                pair_forward_f(X[1], constants + 19 * k, value_sum[1], slope_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b) {
+                pair_gradient_f(at[b], slope_sum[b], grad);
+                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                vector_to_rows_f(grad, gradient, count, start + b * LANES_f, 3, 3);
+            }
+        }
+        restore_denormals(mode);
+    }
+}
+
+void so3_matrix_splats_value_f(
+    size_t count, size_t splat_count, const float *SO3_MATRIX_RESTRICT x, const float *SO3_MATRIX_RESTRICT mu, const float *SO3_MATRIX_RESTRICT W, const float *SO3_MATRIX_RESTRICT amplitude,
+    float *SO3_MATRIX_RESTRICT value, float *SO3_MATRIX_RESTRICT work, int threads) {
+    (void)threads;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES_f) {
+            vector_f at[9], X[2][9], value_sum[2][1] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows_f(x, count, start + b * LANES_f, 9, at);
+                pair_features_f(at, X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_value_f(X[0], constants + 19 * k, value_sum[0]);
+                pair_value_f(X[1], constants + 19 * k, value_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b)
+                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
+OUTLINE void splat_points_f(
+    size_t count, size_t start, const float *x, const float *value_bar, const float *gradient_bar, vector_f *point) {
+    vector_f at[9], grad_bar[3], slope_bar[9];
+    vector_rows_f(x, count, start, 9, at);
+    vector_rows_f(gradient_bar, count, start, 3, grad_bar);
+    vector_rows_f(value_bar, count, start, 1, point + 9);
+    pair_features_f(at, point);
+    pair_gradient_vjp_f(at, grad_bar, slope_bar);
+    for (int i = 0; i < 9; ++i) point[9 + 1 + i] = slope_bar[i];
+    vector_end_f(count, start, 9 + 1, point + 9);
+}
+
+/* Adds to S_bar what some vectors of points add to it. */
+OUTLINE void splat_sums_f(const vector_f *point, size_t size, const float *S, float *S_bar) {
+    vector_f sum[19] = {ZERO};
+    for (size_t b = 0; b < size; ++b, point += 19) pair_backward_f(point, S, point + 9, point + 9 + 1, sum);
+    S_bar[0] += vector_sum_f(sum[0]);
+    S_bar[1] += vector_sum_f(sum[1]);
+    S_bar[2] += vector_sum_f(sum[2]);
+    S_bar[3] += vector_sum_f(sum[3]);
+    S_bar[4] += vector_sum_f(sum[4]);
+    S_bar[5] += vector_sum_f(sum[5]);
+    S_bar[6] += vector_sum_f(sum[6]);
+    S_bar[7] += vector_sum_f(sum[7]);
+    S_bar[8] += vector_sum_f(sum[8]);
+    S_bar[9] += vector_sum_f(sum[9]);
+    S_bar[10] += vector_sum_f(sum[10]);
+    S_bar[11] += vector_sum_f(sum[11]);
+    S_bar[12] += vector_sum_f(sum[12]);
+    S_bar[13] += vector_sum_f(sum[13]);
+    S_bar[14] += vector_sum_f(sum[14]);
+    S_bar[15] += vector_sum_f(sum[15]);
+    S_bar[16] += vector_sum_f(sum[16]);
+    S_bar[17] += vector_sum_f(sum[17]);
+    S_bar[18] += vector_sum_f(sum[18]);
+}
+
+/*
+ * Some splats at a time; the points pass over each of them, a chunk at a time, while its sums stay in registers. How many
+ * splats depends on the threads, what is summed in which order does not.
+ */
+void so3_matrix_splats_vjp_f(
+    size_t count, size_t splat_count, const float *SO3_MATRIX_RESTRICT x, const float *SO3_MATRIX_RESTRICT mu, const float *SO3_MATRIX_RESTRICT W, const float *SO3_MATRIX_RESTRICT amplitude, const float *SO3_MATRIX_RESTRICT value_bar, const float *SO3_MATRIX_RESTRICT gradient_bar,
+    float *SO3_MATRIX_RESTRICT mu_bar, float *SO3_MATRIX_RESTRICT W_bar, float *SO3_MATRIX_RESTRICT amplitude_bar, float *SO3_MATRIX_RESTRICT work, int threads) {
+    const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    const size_t chunk = 131072 / (19 * sizeof(vector_f)) + 1;
+    const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
+    const size_t share = part < LANES_f ? part : LANES_f;
+    vector_f *points = work_points_f(work);
+    float *constants = work_constants_f(work, count);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic) nowait)
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic, 8))
+        for (size_t block = 0; block < blocks; ++block)
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 19 * block);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += share) {
+            const size_t end = start + share < splat_count ? start + share : splat_count;
+            float sums[LANES_f][19] = {{0}};
+            vector_f own_mu[9], own_W[9], own_amplitude[1], S_bar[19], bars[19];
+            for (size_t first = 0; first < blocks; first += chunk) {
+                const size_t size = first + chunk < blocks ? chunk : blocks - first;
+                for (size_t k = start; k < end; ++k)
+                    splat_sums_f(points + 19 * first, size, constants + 19 * k, sums[k - start]);
+            }
+            vector_rows_f(mu, end, start, 9, own_mu);
+            vector_rows_f(W, end, start, 9, own_W);
+            vector_rows_f(amplitude, end, start, 1, own_amplitude);
+            vector_rows_f(sums[0], LANES_f, 0, 19, S_bar);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 9, bars + 9 + 9);
+            vector_to_rows_f(bars, mu_bar, end, start, 9, 9);
+            vector_to_rows_f(bars + 9, W_bar, end, start, 9, 9);
+            vector_to_rows_f(bars + 9 + 9, amplitude_bar, end, start, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* Nothing is summed: the adjoints of a splat's constants go on to its parameters for every point. */
+void so3_matrix_splats_rows_f(
+    size_t count, size_t splat_count, const float *SO3_MATRIX_RESTRICT x, const float *SO3_MATRIX_RESTRICT mu, const float *SO3_MATRIX_RESTRICT W, const float *SO3_MATRIX_RESTRICT amplitude, const float *SO3_MATRIX_RESTRICT value_bar, const float *SO3_MATRIX_RESTRICT gradient_bar,
+    float *SO3_MATRIX_RESTRICT rows, float *SO3_MATRIX_RESTRICT work, int threads) {
+    (void)threads;
+    const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t block = 0; block < blocks; ++block) {
+            vector_f point[19];
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
+            for (size_t k = 0; k < splat_count; ++k) {
+                vector_f own_mu[9], own_W[9], own_amplitude[1], S_bar[19] = {ZERO}, bars[19];
+                for (int i = 0; i < 9; ++i) own_mu[i] = vector_of_f(mu[9 * k + i]);
+                for (int i = 0; i < 9; ++i) own_W[i] = vector_of_f(W[9 * k + i]);
+                own_amplitude[0] = vector_of_f(amplitude[k]);
+                pair_backward_f(point, constants + 19 * k, point + 9, point + 9 + 1, S_bar);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 9, bars + 9 + 9);
+                vector_to_rows_f(bars, rows + 19 * k, count, block * LANES_f, 19, 19 * splat_count);
+            }
+        }
+        restore_denormals(mode);
+    }
 }

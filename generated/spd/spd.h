@@ -275,51 +275,42 @@ void spd_splat_batch_f(
 void spd_frame(const double *SPD_RESTRICT p, double *SPD_RESTRICT frame);
 void spd_frame_f(const float *SPD_RESTRICT p, float *SPD_RESTRICT frame);
 
+/* How many numbers of scratch memory the functions below need, for these sizes or smaller ones. */
+size_t spd_splats_work(size_t count, size_t splat_count, int threads);
+size_t spd_splats_work_f(size_t count, size_t splat_count, int threads);
+
 /* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
 void spd_splats(
-    size_t count,
-    size_t splat_count,
-    const double *SPD_RESTRICT x,
-    const double *SPD_RESTRICT mu,
-    const double *SPD_RESTRICT W,
-    const double *SPD_RESTRICT amplitude,
-    double *SPD_RESTRICT value,
-    double *SPD_RESTRICT gradient);
+    size_t count, size_t splat_count, const double *SPD_RESTRICT x, const double *SPD_RESTRICT mu, const double *SPD_RESTRICT W, const double *SPD_RESTRICT amplitude,
+    double *SPD_RESTRICT value, double *SPD_RESTRICT gradient, double *SPD_RESTRICT work, int threads);
 void spd_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *SPD_RESTRICT x,
-    const float *SPD_RESTRICT mu,
-    const float *SPD_RESTRICT W,
-    const float *SPD_RESTRICT amplitude,
-    float *SPD_RESTRICT value,
-    float *SPD_RESTRICT gradient);
+    size_t count, size_t splat_count, const float *SPD_RESTRICT x, const float *SPD_RESTRICT mu, const float *SPD_RESTRICT W, const float *SPD_RESTRICT amplitude,
+    float *SPD_RESTRICT value, float *SPD_RESTRICT gradient, float *SPD_RESTRICT work, int threads);
+
+/* The values of the sums alone. */
+void spd_splats_value(
+    size_t count, size_t splat_count, const double *SPD_RESTRICT x, const double *SPD_RESTRICT mu, const double *SPD_RESTRICT W, const double *SPD_RESTRICT amplitude,
+    double *SPD_RESTRICT value, double *SPD_RESTRICT work, int threads);
+void spd_splats_value_f(
+    size_t count, size_t splat_count, const float *SPD_RESTRICT x, const float *SPD_RESTRICT mu, const float *SPD_RESTRICT W, const float *SPD_RESTRICT amplitude,
+    float *SPD_RESTRICT value, float *SPD_RESTRICT work, int threads);
 
 /* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
 void spd_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *SPD_RESTRICT x,
-    const double *SPD_RESTRICT mu,
-    const double *SPD_RESTRICT W,
-    const double *SPD_RESTRICT amplitude,
-    const double *SPD_RESTRICT value_bar,
-    const double *SPD_RESTRICT gradient_bar,
-    double *SPD_RESTRICT mu_bar,
-    double *SPD_RESTRICT W_bar,
-    double *SPD_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const double *SPD_RESTRICT x, const double *SPD_RESTRICT mu, const double *SPD_RESTRICT W, const double *SPD_RESTRICT amplitude, const double *SPD_RESTRICT value_bar, const double *SPD_RESTRICT gradient_bar,
+    double *SPD_RESTRICT mu_bar, double *SPD_RESTRICT W_bar, double *SPD_RESTRICT amplitude_bar, double *SPD_RESTRICT work, int threads);
 void spd_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *SPD_RESTRICT x,
-    const float *SPD_RESTRICT mu,
-    const float *SPD_RESTRICT W,
-    const float *SPD_RESTRICT amplitude,
-    const float *SPD_RESTRICT value_bar,
-    const float *SPD_RESTRICT gradient_bar,
-    float *SPD_RESTRICT mu_bar,
-    float *SPD_RESTRICT W_bar,
-    float *SPD_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const float *SPD_RESTRICT x, const float *SPD_RESTRICT mu, const float *SPD_RESTRICT W, const float *SPD_RESTRICT amplitude, const float *SPD_RESTRICT value_bar, const float *SPD_RESTRICT gradient_bar,
+    float *SPD_RESTRICT mu_bar, float *SPD_RESTRICT W_bar, float *SPD_RESTRICT amplitude_bar, float *SPD_RESTRICT work, int threads);
+
+/* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +
+ * gradient_n . gradient_bar_n in its mu, W and amplitude, in this order. */
+void spd_splats_rows(
+    size_t count, size_t splat_count, const double *SPD_RESTRICT x, const double *SPD_RESTRICT mu, const double *SPD_RESTRICT W, const double *SPD_RESTRICT amplitude, const double *SPD_RESTRICT value_bar, const double *SPD_RESTRICT gradient_bar,
+    double *SPD_RESTRICT rows, double *SPD_RESTRICT work, int threads);
+void spd_splats_rows_f(
+    size_t count, size_t splat_count, const float *SPD_RESTRICT x, const float *SPD_RESTRICT mu, const float *SPD_RESTRICT W, const float *SPD_RESTRICT amplitude, const float *SPD_RESTRICT value_bar, const float *SPD_RESTRICT gradient_bar,
+    float *SPD_RESTRICT rows, float *SPD_RESTRICT work, int threads);
 
 #ifdef __cplusplus
 }

@@ -7,22 +7,129 @@
 #include "spd.h"
 
 #include <float.h>
+#include <stdint.h>
+#include <string.h>
 
-#define LANES 64
+/*
+ * A vector is as wide as the machine's registers, or one number where the compiler has no vectors (or is asked for none
+ * by -DRSRM_NO_VECTORS). Comparisons of vectors are masks; `vector_select` is the ?: of vectors.
+ */
+#if defined(__GNUC__) && !defined(RSRM_NO_VECTORS)
+#if defined(__AVX512F__)
+#define VECTOR_BYTES 64
+#elif defined(__AVX__)
+#define VECTOR_BYTES 32
+#else
+#define VECTOR_BYTES 16
+#endif
+#define LANE(vector, i) (vector)[i]
+#define ZERO {0}
+#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
+typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
+typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
+typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
+typedef int32_t vector_mask_f __attribute__((vector_size(VECTOR_BYTES)));
+typedef uint64_t vector_bits __attribute__((vector_size(VECTOR_BYTES)));
+typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
+#else
+#define LANE(vector, i) (vector)
+#define ZERO 0
+#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
+typedef double vector;
+typedef float vector_f;
+typedef int64_t vector_mask;
+typedef int32_t vector_mask_f;
+typedef uint64_t vector_bits;
+typedef uint32_t vector_bits_f;
+#endif
+#if defined(__GNUC__)
+#define INLINE static inline __attribute__((always_inline, unused))
+#define OUTLINE static __attribute__((noinline))
+#else
+#define INLINE static inline
+#define OUTLINE static
+#endif
+#define LANES (sizeof(vector) / sizeof(double))
+#define LANES_f (sizeof(vector_f) / sizeof(float))
+
+/* Threads, where the compiler has OpenMP. */
+#if defined(_OPENMP)
+#define OMP(directive) _Pragma(#directive)
+#else
+#define OMP(directive)
+#endif
 
 /* Denormal numbers count as zero while the sums run: far splats are many, and slow. */
 #if defined(__SSE2__)
 #include <xmmintrin.h>
-static unsigned flush_denormals(void) {
+INLINE uint64_t flush_denormals(void) {
     const unsigned mode = _mm_getcsr();
     _mm_setcsr(mode | 0x8040u);
     return mode;
 }
-static void restore_denormals(unsigned mode) { _mm_setcsr(mode); }
+INLINE void restore_denormals(uint64_t mode) { _mm_setcsr((unsigned)mode); }
+#elif defined(__aarch64__) && defined(__GNUC__)
+INLINE uint64_t flush_denormals(void) {
+    uint64_t mode;
+    __asm__ __volatile__("mrs %0, fpcr" : "=r"(mode));
+    __asm__ __volatile__("msr fpcr, %0" : : "r"(mode | (UINT64_C(1) << 24)));
+    return mode;
+}
+INLINE void restore_denormals(uint64_t mode) { __asm__ __volatile__("msr fpcr, %0" : : "r"(mode)); }
 #else
-static unsigned flush_denormals(void) { return 0; }
-static void restore_denormals(unsigned mode) { (void)mode; }
+INLINE uint64_t flush_denormals(void) { return 0; }
+INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
+
+/* The same number in all lanes. */
+INLINE vector vector_of(double x) {
+    const vector zero = ZERO;
+    return x - zero;
+}
+
+/* x in the lanes of the mask, y in the others. */
+INLINE vector vector_select(vector_mask mask, vector x, vector y) {
+    return SELECT(vector, vector_mask, mask, x, y);
+}
+
+/* Numbers in memory to a vector, and back. */
+INLINE vector vector_load(const double *from) {
+    vector x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+INLINE void vector_store(double *to, vector x) { memcpy(to, &x, sizeof x); }
+
+/* The sum over the lanes, by halves. */
+INLINE double vector_sum(vector x) {
+    double lanes[LANES];
+    vector_store(lanes, x);
+    for (size_t half = LANES / 2; half > 0; half /= 2)
+        for (size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    return lanes[0];
+}
+
+/* The bits of a vector as integers, and back. */
+INLINE vector_bits vector_to_bits(vector x) {
+    vector_bits bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+INLINE vector vector_from_bits(vector_bits bits) {
+    vector x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
+INLINE vector vector_exp(vector x) {
+    const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
+    const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
+    const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
+    const vector scale = vector_from_bits((vector_to_bits(shifted) + 1022) << 52); /* 2^(k - 1) */
+    const vector y = vector_select(x > 709.782712893384, vector_of(HUGE_VAL), (scale + scale * part) * 2);
+    return vector_select(x < -707.9, vector_of(0), y);
+}
 
 /* Eigenvalues, ascending, and eigenvectors of a symmetric 1 x 1 matrix, by Jacobi's rotations. */
 static void symmetric_eigh_1(const double *in, double *out) {
@@ -402,411 +509,1069 @@ static void symmetric_sqrt_2(const double *eigh, double *out) {
     out_of_eigenbasis_2(eigh, (const double (*)[2])total, out);
 }
 
-void spd_splats(
-    size_t count,
-    size_t splat_count,
-    const double *SPD_RESTRICT x,
-    const double *SPD_RESTRICT mu,
-    const double *SPD_RESTRICT W,
-    const double *SPD_RESTRICT amplitude,
-    double *SPD_RESTRICT value,
-    double *SPD_RESTRICT gradient) {
-    const unsigned mode = flush_denormals();
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        double x_block[4][LANES], sum[4][LANES] = {{0}};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            for (size_t i = 0; i < 4; ++i) x_block[i][lane] = x[4 * n + i];
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            const double mu0 = mu[4 * k + 0];
-            const double mu1 = mu[4 * k + 1];
-            const double mu2 = mu[4 * k + 2];
-            const double mu3 = mu[4 * k + 3];
-            const double W0_0 = W[9 * k + 0];
-            const double W0_1 = W[9 * k + 1];
-            const double W0_2 = W[9 * k + 2];
-            const double W1_0 = W[9 * k + 3];
-            const double W1_1 = W[9 * k + 4];
-            const double W1_2 = W[9 * k + 5];
-            const double W2_0 = W[9 * k + 6];
-            const double W2_1 = W[9 * k + 7];
-            const double W2_2 = W[9 * k + 8];
-            const double amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const double p_0_1 = 0.5 * mu1 + 0.5 * mu2;
-                double p_0_1_eigh[6];
-                {
-                    const double in_0[3] = {mu0, p_0_1, mu3};
-                    symmetric_eigh_2(in_0, p_0_1_eigh);
-                }
-                double invsqrtm[3];
-                symmetric_invsqrt_2(p_0_1_eigh, invsqrtm);
-                const double r0_0 = invsqrtm[0];
-                const double r0_1 = invsqrtm[1];
-                const double r1_1 = invsqrtm[2];
-                const double total_2 = x_block[0][lane] * r0_0 + x_block[2][lane] * r0_1;
-                const double total_3 = x_block[1][lane] * r0_0 + x_block[3][lane] * r0_1;
-                const double entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
-                const double r0_0_product = 0.5 * r0_0;
-                const double total_4 = x_block[0][lane] * r0_1 + x_block[2][lane] * r1_1;
-                const double r0_1_product = 0.5 * r0_1;
-                const double total_5 = x_block[1][lane] * r0_1 + x_block[3][lane] * r1_1;
-                const double r1_1_product = 0.5 * r1_1;
-                const double entry_0_1 = r0_0_product * total_4 + total_2 * r0_1_product + r0_1_product * total_5 +
-                    total_3 * r1_1_product;
-                const double entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
-                double entry_0_0_eigh[6];
-                {
-                    const double in_0[3] = {entry_0_0, entry_0_1, entry_1_1};
-                    symmetric_eigh_2(in_0, entry_0_0_eigh);
-                }
-                double logm[3];
-                symmetric_log_2(entry_0_0_eigh, logm);
-                const double L0_0 = logm[0];
-                const double L0_1 = logm[1];
-                const double L1_1 = logm[2];
-                const double v1 = 1.4142135623730951 * L0_1;
-                const double L0_0_gap = L0_0 - L1_1;
-                const double entry_0_0_2 = L0_1 * L0_1 + 0.25 * (L0_0_gap * L0_0_gap);
-                double entry_0_0_2_eigh[2];
-                {
-                    const double in_0[1] = {entry_0_0_2};
-                    symmetric_eigh_1(in_0, entry_0_0_2_eigh);
-                }
-                double log_sinhc_sqrtm[1];
-                symmetric_log_sinhc_sqrt_1(entry_0_0_2_eigh, log_sinhc_sqrtm);
-                const double log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[0];
-                const double z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1;
-                const double z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
-                const double z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
-                const double gap = -log_sinhc_sqrtm_value0_0 - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
-                const double phi = amplitude_k * exp(gap);
-                const double by_v1 = -(W2_1 * z2) - W1_1 * z1 - W0_1 * z0;
-                double log_sinhc_sqrtm_slope[1];
-                {
-                    const double in_0[1] = {-1.0};
-                    symmetric_log_sinhc_sqrt_1_derivative1(entry_0_0_2_eigh, in_0, log_sinhc_sqrtm_slope);
-                }
-                const double by_entry_0_0_2 = log_sinhc_sqrtm_slope[0];
-                const double product = L0_0_gap * (0.5 * by_entry_0_0_2);
-                const double total_6 = -(W2_0 * z2) - W1_0 * z1 - W0_0 * z0 + product;
-                const double gap_2 = -(W2_2 * z2) - W1_2 * z1 - W0_2 * z0 - product;
-                double logm_slope[3];
-                {
-                    const double in_0[3] = {total_6, 0.5 * (L0_1 * (2.0 * by_entry_0_0_2) + 1.4142135623730951 * by_v1), gap_2};
-                    symmetric_log_2_derivative1(entry_0_0_eigh, in_0, logm_slope);
-                }
-                const double by_entry_0_0 = logm_slope[0];
-                const double by_entry_1_1 = logm_slope[2];
-                const double by_entry_0_1 = 2.0 * logm_slope[1];
-                const double product_2 = r0_1_product * by_entry_0_1;
-                const double total_7 = r1_1 * by_entry_1_1 + product_2;
-                const double total_8 = r0_1 * by_entry_1_1 + r0_0_product * by_entry_0_1;
-                const double total_9 = r1_1_product * by_entry_0_1 + r0_1 * by_entry_0_0;
-                const double exponent_by_x3 = r1_1 * total_7 + r0_1 * total_9;
-                const double exponent_by_x1 = r0_1 * total_7 + r0_0 * total_9;
-                const double total_10 = product_2 + r0_0 * by_entry_0_0;
-                const double exponent_by_x2 = r1_1 * total_8 + r0_1 * total_10;
-                const double exponent_by_x0 = r0_1 * total_8 + r0_0 * total_10;
-                const double df0 = phi * exponent_by_x0;
-                const double df1 = phi * exponent_by_x1;
-                const double df2 = phi * exponent_by_x2;
-                const double df3 = phi * exponent_by_x3;
-                const double p_0_1_2 = 0.5 * x_block[1][lane] + 0.5 * x_block[2][lane];
-                double p_0_1_eigh_2[6];
-                {
-                    const double in_0[3] = {x_block[0][lane], p_0_1_2, x_block[3][lane]};
-                    symmetric_eigh_2(in_0, p_0_1_eigh_2);
-                }
-                double sqrtm[3];
-                symmetric_sqrt_2(p_0_1_eigh_2, sqrtm);
-                const double sqrtm_p0_0 = sqrtm[0];
-                const double sqrtm_p0_1 = sqrtm[1];
-                const double sqrtm_p1_1 = sqrtm[2];
-                const double sqrtm_p0_1_squared = sqrtm_p0_1 * sqrtm_p0_1;
-                const double gradient0 = df0 * (sqrtm_p0_0 * sqrtm_p0_0) + df3 * sqrtm_p0_1_squared + sqrtm_p0_1 * (df1 *
-                    sqrtm_p0_0) + sqrtm_p0_1 * (df2 * sqrtm_p0_0);
-                const double total_11 = 0.7071067811865476 * sqrtm_p0_1_squared + 1.4142135623730951 * (sqrtm_p1_1 * (0.5
-                    * sqrtm_p0_0));
-                const double gradient1 = df1 * total_11 + df2 * total_11 + 1.4142135623730951 * (sqrtm_p0_1 * (df0 *
-                    sqrtm_p0_0)) + 1.4142135623730951 * (sqrtm_p1_1 * (df3 * sqrtm_p0_1));
-                const double gradient2 = df0 * sqrtm_p0_1_squared + df3 * (sqrtm_p1_1 * sqrtm_p1_1) + sqrtm_p1_1 * (df1 *
-                    sqrtm_p0_1) + sqrtm_p1_1 * (df2 * sqrtm_p0_1);
-                sum[0][lane] += phi;
-                sum[1][lane] += gradient0;
-                sum[2][lane] += gradient1;
-                sum[3][lane] += gradient2;
-            }
-        }
-        for (size_t lane = 0; lane < lanes; ++lane) {
-            value[start + lane] = sum[0][lane];
-            for (size_t i = 0; i < 3; ++i) gradient[3 * (start + lane) + i] = sum[i + 1][lane];
-        }
-    }
-    restore_denormals(mode);
+/* What pairs read of points x. */
+OUTLINE void pair_features(
+    const vector *x, vector *X) {
+    const vector x0 = x[0];
+    const vector x1 = x[1];
+    const vector x2 = x[2];
+    const vector x3 = x[3];
+    X[0] = x0;
+    X[1] = x1;
+    X[2] = x2;
+    X[3] = x3;
 }
 
-void spd_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *SPD_RESTRICT x,
-    const double *SPD_RESTRICT mu,
-    const double *SPD_RESTRICT W,
-    const double *SPD_RESTRICT amplitude,
-    const double *SPD_RESTRICT value_bar,
-    const double *SPD_RESTRICT gradient_bar,
-    double *SPD_RESTRICT mu_bar,
-    double *SPD_RESTRICT W_bar,
-    double *SPD_RESTRICT amplitude_bar) {
-    const unsigned mode = flush_denormals();
-    for (size_t i = 0; i < 4 * splat_count; ++i) mu_bar[i] = 0;
-    for (size_t i = 0; i < 9 * splat_count; ++i) W_bar[i] = 0;
-    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        double x_block[4][LANES], value_bar_block[1][LANES], gradient_bar_block[3][LANES];
+/* What pairs read of a splat, of some splats. */
+OUTLINE void pair_constants(
+    const vector *mu, const vector *W, const vector *amplitude, vector *S) {
+    const vector mu0 = mu[0];
+    const vector mu1 = mu[1];
+    const vector mu2 = mu[2];
+    const vector mu3 = mu[3];
+    const vector W0_0 = W[0];
+    const vector W0_1 = W[1];
+    const vector W0_2 = W[2];
+    const vector W1_0 = W[3];
+    const vector W1_1 = W[4];
+    const vector W1_2 = W[5];
+    const vector W2_0 = W[6];
+    const vector W2_1 = W[7];
+    const vector W2_2 = W[8];
+    const vector its_amplitude = amplitude[0];
+    const vector p_0_1 = 0.5 * mu1 + 0.5 * mu2;
+    vector p_0_1_eigh[6];
+    {
+        const vector given_lanes[3] = {mu0, p_0_1, mu3};
         for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            const double weight = lane < lanes ? 1 : 0;
-            for (size_t i = 0; i < 4; ++i) x_block[i][lane] = x[4 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
-            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] = gradient_bar[3 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
-            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] *= weight;
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            double sum[14][LANES] = {{0}}, total[14] = {0};
-            const double mu0 = mu[4 * k + 0];
-            const double mu1 = mu[4 * k + 1];
-            const double mu2 = mu[4 * k + 2];
-            const double mu3 = mu[4 * k + 3];
-            const double W0_0 = W[9 * k + 0];
-            const double W0_1 = W[9 * k + 1];
-            const double W0_2 = W[9 * k + 2];
-            const double W1_0 = W[9 * k + 3];
-            const double W1_1 = W[9 * k + 4];
-            const double W1_2 = W[9 * k + 5];
-            const double W2_0 = W[9 * k + 6];
-            const double W2_1 = W[9 * k + 7];
-            const double W2_2 = W[9 * k + 8];
-            const double amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const double p_0_1 = 0.5 * mu1 + 0.5 * mu2;
-                double p_0_1_eigh[6];
-                {
-                    const double in_0[3] = {mu0, p_0_1, mu3};
-                    symmetric_eigh_2(in_0, p_0_1_eigh);
-                }
-                double invsqrtm[3];
-                symmetric_invsqrt_2(p_0_1_eigh, invsqrtm);
-                const double r0_0 = invsqrtm[0];
-                const double r0_1 = invsqrtm[1];
-                const double r1_1 = invsqrtm[2];
-                const double total_2 = x_block[0][lane] * r0_0 + x_block[2][lane] * r0_1;
-                const double total_3 = x_block[1][lane] * r0_0 + x_block[3][lane] * r0_1;
-                const double entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
-                const double r0_0_product = 0.5 * r0_0;
-                const double total_4 = x_block[0][lane] * r0_1 + x_block[2][lane] * r1_1;
-                const double r0_1_product = 0.5 * r0_1;
-                const double total_5 = x_block[1][lane] * r0_1 + x_block[3][lane] * r1_1;
-                const double r1_1_product = 0.5 * r1_1;
-                const double entry_0_1 = r0_0_product * total_4 + total_2 * r0_1_product + r0_1_product * total_5 +
-                    total_3 * r1_1_product;
-                const double entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
-                double entry_0_0_eigh[6];
-                {
-                    const double in_0[3] = {entry_0_0, entry_0_1, entry_1_1};
-                    symmetric_eigh_2(in_0, entry_0_0_eigh);
-                }
-                double logm[3];
-                symmetric_log_2(entry_0_0_eigh, logm);
-                const double L0_0 = logm[0];
-                const double L0_1 = logm[1];
-                const double L1_1 = logm[2];
-                const double v1 = 1.4142135623730951 * L0_1;
-                const double L0_0_gap = L0_0 - L1_1;
-                const double entry_0_0_2 = L0_1 * L0_1 + 0.25 * (L0_0_gap * L0_0_gap);
-                double entry_0_0_2_eigh[2];
-                {
-                    const double in_0[1] = {entry_0_0_2};
-                    symmetric_eigh_1(in_0, entry_0_0_2_eigh);
-                }
-                double log_sinhc_sqrtm[1];
-                symmetric_log_sinhc_sqrt_1(entry_0_0_2_eigh, log_sinhc_sqrtm);
-                const double log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[0];
-                const double z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1;
-                const double z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
-                const double z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
-                const double gap = -log_sinhc_sqrtm_value0_0 - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
-                const double exp_2 = exp(gap);
-                const double phi = amplitude_k * exp_2;
-                const double by_v1 = -(W2_1 * z2) - W1_1 * z1 - W0_1 * z0;
-                double log_sinhc_sqrtm_slope[1];
-                {
-                    const double in_0[1] = {-1.0};
-                    symmetric_log_sinhc_sqrt_1_derivative1(entry_0_0_2_eigh, in_0, log_sinhc_sqrtm_slope);
-                }
-                const double by_entry_0_0_2 = log_sinhc_sqrtm_slope[0];
-                const double product = 0.5 * by_entry_0_0_2;
-                const double product_2 = L0_0_gap * product;
-                const double total_6 = -(W2_0 * z2) - W1_0 * z1 - W0_0 * z0 + product_2;
-                const double gap_2 = -(W2_2 * z2) - W1_2 * z1 - W0_2 * z0 - product_2;
-                const double product_3 = 2.0 * by_entry_0_0_2;
-                const double product_4 = 0.5 * (L0_1 * product_3 + 1.4142135623730951 * by_v1);
-                double logm_slope[3];
-                {
-                    const double in_0[3] = {total_6, product_4, gap_2};
-                    symmetric_log_2_derivative1(entry_0_0_eigh, in_0, logm_slope);
-                }
-                const double by_entry_0_0 = logm_slope[0];
-                const double by_entry_1_1 = logm_slope[2];
-                const double by_entry_0_1 = 2.0 * logm_slope[1];
-                const double product_5 = r0_1_product * by_entry_0_1;
-                const double total_7 = r1_1 * by_entry_1_1 + product_5;
-                const double total_8 = r0_1 * by_entry_1_1 + r0_0_product * by_entry_0_1;
-                const double total_9 = r1_1_product * by_entry_0_1 + r0_1 * by_entry_0_0;
-                const double exponent_by_x3 = r1_1 * total_7 + r0_1 * total_9;
-                const double exponent_by_x1 = r0_1 * total_7 + r0_0 * total_9;
-                const double total_10 = product_5 + r0_0 * by_entry_0_0;
-                const double exponent_by_x2 = r1_1 * total_8 + r0_1 * total_10;
-                const double exponent_by_x0 = r0_1 * total_8 + r0_0 * total_10;
-                const double p_0_1_2 = 0.5 * x_block[1][lane] + 0.5 * x_block[2][lane];
-                double p_0_1_eigh_2[6];
-                {
-                    const double in_0[3] = {x_block[0][lane], p_0_1_2, x_block[3][lane]};
-                    symmetric_eigh_2(in_0, p_0_1_eigh_2);
-                }
-                double sqrtm[3];
-                symmetric_sqrt_2(p_0_1_eigh_2, sqrtm);
-                const double sqrtm_p0_0 = sqrtm[0];
-                const double sqrtm_p0_1 = sqrtm[1];
-                const double sqrtm_p1_1 = sqrtm[2];
-                const double sqrtm_p0_1_squared = sqrtm_p0_1 * sqrtm_p0_1;
-                const double product_6 = 1.4142135623730951 * gradient_bar_block[1][lane];
-                const double product_7 = (0.7071067811865476 * sqrtm_p0_1_squared + 1.4142135623730951 * (sqrtm_p1_1 *
-                    (0.5 * sqrtm_p0_0))) * gradient_bar_block[1][lane];
-                const double by_df2 = sqrtm_p0_1 * (sqrtm_p1_1 * gradient_bar_block[2][lane]) + product_7 + sqrtm_p0_0 *
-                    (sqrtm_p0_1 * gradient_bar_block[0][lane]);
-                const double by_df3 = sqrtm_p1_1 * sqrtm_p1_1 * gradient_bar_block[2][lane] + sqrtm_p0_1 * (sqrtm_p1_1 *
-                    product_6) + sqrtm_p0_1_squared * gradient_bar_block[0][lane];
-                const double by_df0 = sqrtm_p0_1_squared * gradient_bar_block[2][lane] + sqrtm_p0_0 * (sqrtm_p0_1 *
-                    product_6) + sqrtm_p0_0 * sqrtm_p0_0 * gradient_bar_block[0][lane];
-                const double by_exponent_by_x3 = phi * by_df3;
-                const double by_exponent_by_x2 = phi * by_df2;
-                const double by_exponent_by_x0 = phi * by_df0;
-                const double by_phi = value_bar_block[0][lane] + exponent_by_x3 * by_df3 + exponent_by_x2 * by_df2 +
-                    exponent_by_x1 * by_df2 + exponent_by_x0 * by_df0;
-                const double r0_1_product_2 = r0_1 * by_exponent_by_x2;
-                const double total_11 = r0_0 * by_exponent_by_x0 + r0_1_product_2;
-                const double total_12 = r0_0 * by_exponent_by_x2 + r0_1 * by_exponent_by_x3;
-                const double total_13 = r0_0 * total_11 + r0_1 * total_12;
-                const double total_14 = r0_1 * by_exponent_by_x0 + r1_1 * by_exponent_by_x2;
-                const double total_15 = total_10 * by_exponent_by_x2 + total_9 * by_exponent_by_x3 + by_entry_0_0 *
-                    total_12 + total_8 * by_exponent_by_x0 + total_7 * by_exponent_by_x2;
-                const double total_16 = r0_1_product_2 + r1_1 * by_exponent_by_x3;
-                const double total_17 = total_11 + total_16;
-                const double by_by_entry_0_1 = r0_0_product * total_14 + r0_1_product * total_17 + r1_1_product *
-                    total_12;
-                const double total_18 = r0_1 * total_14 + r1_1 * total_16;
-                double logm_derivative2[3];
-                {
-                    const double in_0[3] = {total_6, product_4, gap_2};
-                    const double in_1[3] = {total_13, by_by_entry_0_1, total_18};
-                    symmetric_log_2_derivative2(entry_0_0_eigh, in_0, in_1, logm_derivative2);
-                }
-                double logm_slope_2[3];
-                {
-                    const double in_0[3] = {total_13, by_by_entry_0_1, total_18};
-                    symmetric_log_2_derivative1(entry_0_0_eigh, in_0, logm_slope_2);
-                }
-                const double by_by_v1 = 1.4142135623730951 * logm_slope_2[1];
-                const double gap_3 = logm_slope_2[0] - logm_slope_2[2];
-                double log_sinhc_sqrtm_derivative2[1];
-                {
-                    const double in_0[1] = {-1.0};
-                    const double in_1[1] = {2.0 * (L0_1 * logm_slope_2[1]) + 0.5 * (L0_0_gap * gap_3)};
-                    symmetric_log_sinhc_sqrt_1_derivative2(entry_0_0_2_eigh, in_0, in_1, log_sinhc_sqrtm_derivative2);
-                }
-                const double product_8 = exp_2 * (amplitude_k * by_phi);
-                const double by_z2 = -(W2_0 * logm_slope_2[0]) - W2_1 * by_by_v1 - W2_2 * logm_slope_2[2] - z2 *
-                    product_8;
-                const double by_z1 = -(W1_0 * logm_slope_2[0]) - W1_1 * by_by_v1 - W1_2 * logm_slope_2[2] - z1 *
-                    product_8;
-                const double by_z0 = -(W0_0 * logm_slope_2[0]) - W0_1 * by_by_v1 - W0_2 * logm_slope_2[2] - z0 *
-                    product_8;
-                const double by_v1_2 = W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
-                double log_sinhc_sqrtm_slope_2[1];
-                {
-                    const double in_0[1] = {-product_8};
-                    symmetric_log_sinhc_sqrt_1_derivative1(entry_0_0_2_eigh, in_0, log_sinhc_sqrtm_slope_2);
-                }
-                const double by_entry_0_0_2_2 = log_sinhc_sqrtm_derivative2[0] + log_sinhc_sqrtm_slope_2[0];
-                const double total_19 = product * gap_3 + L0_0_gap * (0.5 * by_entry_0_0_2_2);
-                const double product_9 = 0.5 * (product_3 * logm_slope_2[1] + L0_1 * (2.0 * by_entry_0_0_2_2) +
-                    1.4142135623730951 * by_v1_2);
-                double logm_slope_3[3];
-                {
-                    const double in_0[3] = {W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0 + total_19, product_9, W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0 - total_19};
-                    symmetric_log_2_derivative1(entry_0_0_eigh, in_0, logm_slope_3);
-                }
-                const double by_entry_0_0_3 = logm_derivative2[0] + logm_slope_3[0];
-                const double by_entry_0_1_2 = 2.0 * logm_derivative2[1] + 2.0 * logm_slope_3[1];
-                const double by_entry_1_1_2 = logm_derivative2[2] + logm_slope_3[2];
-                const double total_20 = total_8 * by_exponent_by_x2 + total_7 * by_exponent_by_x3 + by_entry_1_1 *
-                    total_16 + total_5 * by_entry_1_1_2 + 0.5 * (by_entry_0_1 * total_12 + total_3 * by_entry_0_1_2);
-                const double product_10 = r0_1_product * by_entry_0_1_2;
-                const double total_21 = r1_1 * by_entry_1_1_2 + product_10;
-                const double total_22 = total_15 + by_entry_1_1 * total_14 + total_4 * by_entry_1_1_2 + x_block[1][lane] *
-                    total_21 + 0.5 * (by_entry_0_1 * total_17 + total_5 * by_entry_0_1_2 + total_2 * by_entry_0_1_2);
-                const double total_23 = r0_1 * by_entry_1_1_2 + r0_0_product * by_entry_0_1_2;
-                const double total_24 = r1_1_product * by_entry_0_1_2 + r0_1 * by_entry_0_0_3;
-                const double total_25 = total_10 * by_exponent_by_x0 + by_entry_0_0 * total_11 + total_9 *
-                    by_exponent_by_x2 + 0.5 * (by_entry_0_1 * total_14 + total_4 * by_entry_0_1_2) + x_block[1][lane] *
-                    total_24;
-                const double total_26 = product_10 + r0_0 * by_entry_0_0_3;
-                const double total_27 = total_22 + x_block[0][lane] * total_23 + total_3 * by_entry_0_0_3 +
-                    x_block[3][lane] * total_24 + x_block[2][lane] * total_26;
-                double invsqrtm_slope[3];
-                {
-                    const double in_0[3] = {total_25 + total_2 * by_entry_0_0_3 + x_block[0][lane] * total_26, 0.5 * total_27, total_20 + x_block[3][lane] * total_21 + x_block[2][lane] * total_23};
-                    symmetric_invsqrt_2_derivative1(p_0_1_eigh, in_0, invsqrtm_slope);
-                }
-                sum[0][lane] += invsqrtm_slope[0];
-                sum[1][lane] += invsqrtm_slope[1];
-                sum[2][lane] += invsqrtm_slope[1];
-                sum[3][lane] += invsqrtm_slope[2];
-                sum[4][lane] += L0_0 * by_z0 - z0 * logm_slope_2[0];
-                sum[5][lane] += v1 * by_z0 - z0 * by_by_v1;
-                sum[6][lane] += L1_1 * by_z0 - z0 * logm_slope_2[2];
-                sum[7][lane] += L0_0 * by_z1 - z1 * logm_slope_2[0];
-                sum[8][lane] += v1 * by_z1 - z1 * by_by_v1;
-                sum[9][lane] += L1_1 * by_z1 - z1 * logm_slope_2[2];
-                sum[10][lane] += L0_0 * by_z2 - z2 * logm_slope_2[0];
-                sum[11][lane] += v1 * by_z2 - z2 * by_by_v1;
-                sum[12][lane] += L1_1 * by_z2 - z2 * logm_slope_2[2];
-                sum[13][lane] += exp_2 * by_phi;
+            double given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            double found[6];
+            {
+                const double in_0[3] = {given[0], given[1], given[2]};
+                symmetric_eigh_2(in_0, found);
             }
-            for (size_t i = 0; i < 14; ++i)
-                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
-            mu_bar[4 * k + 0] += total[0];
-            mu_bar[4 * k + 1] += total[1];
-            mu_bar[4 * k + 2] += total[2];
-            mu_bar[4 * k + 3] += total[3];
-            W_bar[9 * k + 0] += total[4];
-            W_bar[9 * k + 1] += total[5];
-            W_bar[9 * k + 2] += total[6];
-            W_bar[9 * k + 3] += total[7];
-            W_bar[9 * k + 4] += total[8];
-            W_bar[9 * k + 5] += total[9];
-            W_bar[9 * k + 6] += total[10];
-            W_bar[9 * k + 7] += total[11];
-            W_bar[9 * k + 8] += total[12];
-            amplitude_bar[1 * k + 0] += total[13];
+            for (int i = 0; i < 6; ++i) LANE(p_0_1_eigh[i], lane) = found[i];
         }
     }
-    restore_denormals(mode);
+    vector invsqrtm[3];
+    {
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(p_0_1_eigh[i], lane);
+            double found[3];
+            symmetric_invsqrt_2(whole, found);
+            for (int i = 0; i < 3; ++i) LANE(invsqrtm[i], lane) = found[i];
+        }
+    }
+    const vector r0_0 = invsqrtm[0];
+    const vector r0_1 = invsqrtm[1];
+    const vector r1_1 = invsqrtm[2];
+    S[0] = W0_0;
+    S[1] = W0_1;
+    S[2] = W0_2;
+    S[3] = W1_0;
+    S[4] = W1_1;
+    S[5] = W1_2;
+    S[6] = W2_0;
+    S[7] = W2_1;
+    S[8] = W2_2;
+    S[9] = its_amplitude;
+    S[10] = r0_0;
+    S[11] = r0_1;
+    S[12] = r1_1;
+    S[13] = 0.5 * r0_0;
+    S[14] = 0.5 * r0_1;
+    S[15] = 0.5 * r1_1;
+}
+
+/* Adds the values phi of a splat at some points. */
+OUTLINE void pair_value(
+    const vector *X, const double *S, vector *value) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const vector x2 = X[2];
+    const vector x3 = X[3];
+    const double W0_0 = S[0];
+    const double W0_1 = S[1];
+    const double W0_2 = S[2];
+    const double W1_0 = S[3];
+    const double W1_1 = S[4];
+    const double W1_2 = S[5];
+    const double W2_0 = S[6];
+    const double W2_1 = S[7];
+    const double W2_2 = S[8];
+    const double amplitude = S[9];
+    const double r0_0 = S[10];
+    const double r0_1 = S[11];
+    const double r1_1 = S[12];
+    const double mul_of_one = S[13];
+    const double mul_of_one_2 = S[14];
+    const double mul_of_one_3 = S[15];
+    const vector total_2 = x0 * r0_0 + x2 * r0_1;
+    const vector total_3 = x1 * r0_0 + x3 * r0_1;
+    const vector entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
+    const vector total_4 = x0 * r0_1 + x2 * r1_1;
+    const vector total_5 = x1 * r0_1 + x3 * r1_1;
+    const vector entry_0_1 = mul_of_one * total_4 + total_2 * mul_of_one_2 + mul_of_one_2 * total_5 + total_3
+        * mul_of_one_3;
+    const vector entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
+    vector entry_0_0_eigh[6];
+    {
+        const vector given_lanes[3] = {entry_0_0, entry_0_1, entry_1_1};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            double found[6];
+            {
+                const double in_0[3] = {given[0], given[1], given[2]};
+                symmetric_eigh_2(in_0, found);
+            }
+            for (int i = 0; i < 6; ++i) LANE(entry_0_0_eigh[i], lane) = found[i];
+        }
+    }
+    vector logm[3];
+    {
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+            double found[3];
+            symmetric_log_2(whole, found);
+            for (int i = 0; i < 3; ++i) LANE(logm[i], lane) = found[i];
+        }
+    }
+    const vector L0_1 = logm[1];
+    const vector L0_0 = logm[0];
+    const vector L1_1 = logm[2];
+    const vector L0_0_gap = L0_0 - L1_1;
+    const vector entry_0_0_2 = L0_1 * L0_1 + 0.25 * (L0_0_gap * L0_0_gap);
+    vector entry_0_0_2_eigh[2];
+    {
+        const vector given_lanes[1] = {entry_0_0_2};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double given[1];
+            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+            double found[2];
+            {
+                const double in_0[1] = {given[0]};
+                symmetric_eigh_1(in_0, found);
+            }
+            for (int i = 0; i < 2; ++i) LANE(entry_0_0_2_eigh[i], lane) = found[i];
+        }
+    }
+    vector log_sinhc_sqrtm[1];
+    {
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double whole[2];
+            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+            double found[1];
+            symmetric_log_sinhc_sqrt_1(whole, found);
+            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm[i], lane) = found[i];
+        }
+    }
+    const vector log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[0];
+    const vector v1 = 1.4142135623730951 * L0_1;
+    const vector z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1;
+    const vector z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
+    const vector z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
+    const vector gap = -log_sinhc_sqrtm_value0_0 - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
+    value[0] = value[0] + amplitude * vector_exp(gap);
+}
+
+/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+OUTLINE void pair_forward(
+    const vector *X, const double *S, vector *value, vector *slope) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const vector x2 = X[2];
+    const vector x3 = X[3];
+    const double W0_0 = S[0];
+    const double W0_1 = S[1];
+    const double W0_2 = S[2];
+    const double W1_0 = S[3];
+    const double W1_1 = S[4];
+    const double W1_2 = S[5];
+    const double W2_0 = S[6];
+    const double W2_1 = S[7];
+    const double W2_2 = S[8];
+    const double amplitude = S[9];
+    const double r0_0 = S[10];
+    const double r0_1 = S[11];
+    const double r1_1 = S[12];
+    const double mul_of_one = S[13];
+    const double mul_of_one_2 = S[14];
+    const double mul_of_one_3 = S[15];
+    const vector total_2 = x0 * r0_0 + x2 * r0_1;
+    const vector total_3 = x1 * r0_0 + x3 * r0_1;
+    const vector entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
+    const vector total_4 = x0 * r0_1 + x2 * r1_1;
+    const vector total_5 = x1 * r0_1 + x3 * r1_1;
+    const vector entry_0_1 = mul_of_one * total_4 + total_2 * mul_of_one_2 + mul_of_one_2 * total_5 + total_3
+        * mul_of_one_3;
+    const vector entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
+    vector entry_0_0_eigh[6];
+    {
+        const vector given_lanes[3] = {entry_0_0, entry_0_1, entry_1_1};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            double found[6];
+            {
+                const double in_0[3] = {given[0], given[1], given[2]};
+                symmetric_eigh_2(in_0, found);
+            }
+            for (int i = 0; i < 6; ++i) LANE(entry_0_0_eigh[i], lane) = found[i];
+        }
+    }
+    vector logm[3];
+    {
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+            double found[3];
+            symmetric_log_2(whole, found);
+            for (int i = 0; i < 3; ++i) LANE(logm[i], lane) = found[i];
+        }
+    }
+    const vector L0_1 = logm[1];
+    const vector L0_0 = logm[0];
+    const vector L1_1 = logm[2];
+    const vector L0_0_gap = L0_0 - L1_1;
+    const vector entry_0_0_2 = L0_1 * L0_1 + 0.25 * (L0_0_gap * L0_0_gap);
+    vector entry_0_0_2_eigh[2];
+    {
+        const vector given_lanes[1] = {entry_0_0_2};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double given[1];
+            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+            double found[2];
+            {
+                const double in_0[1] = {given[0]};
+                symmetric_eigh_1(in_0, found);
+            }
+            for (int i = 0; i < 2; ++i) LANE(entry_0_0_2_eigh[i], lane) = found[i];
+        }
+    }
+    vector log_sinhc_sqrtm[1];
+    {
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double whole[2];
+            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+            double found[1];
+            symmetric_log_sinhc_sqrt_1(whole, found);
+            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm[i], lane) = found[i];
+        }
+    }
+    const vector log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[0];
+    const vector v1 = 1.4142135623730951 * L0_1;
+    const vector z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1;
+    const vector z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
+    const vector z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
+    const vector gap = -log_sinhc_sqrtm_value0_0 - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
+    const vector phi = amplitude * vector_exp(gap);
+    const vector z2_product = z2 * phi;
+    const vector z1_product = z1 * phi;
+    const vector z0_product = z0 * phi;
+    vector log_sinhc_sqrtm_slope[1];
+    {
+        const vector given_lanes[1] = {-phi};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double given[1];
+            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+            double whole[2];
+            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+            double found[1];
+            {
+                const double in_0[1] = {given[0]};
+                symmetric_log_sinhc_sqrt_1_derivative1(whole, in_0, found);
+            }
+            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope[i], lane) = found[i];
+        }
+    }
+    const vector by_entry_0_0_2 = log_sinhc_sqrtm_slope[0];
+    const vector product = L0_0_gap * (0.5 * by_entry_0_0_2);
+    const vector total_6 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product + product;
+    const vector by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product;
+    const vector gap_2 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product - product;
+    vector logm_slope[3];
+    {
+        const vector given_lanes[3] = {total_6, 0.5 * (1.4142135623730951 * by_v1 + L0_1 * (2.0 * by_entry_0_0_2)), gap_2};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            double whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+            double found[3];
+            {
+                const double in_0[3] = {given[0], given[1], given[2]};
+                symmetric_log_2_derivative1(whole, in_0, found);
+            }
+            for (int i = 0; i < 3; ++i) LANE(logm_slope[i], lane) = found[i];
+        }
+    }
+    const vector by_entry_1_1 = logm_slope[2];
+    const vector by_entry_0_1 = 2.0 * logm_slope[1];
+    const vector total_7 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1;
+    const vector product_2 = mul_of_one_2 * by_entry_0_1;
+    const vector by_entry_0_0 = logm_slope[0];
+    const vector total_8 = product_2 + r0_0 * by_entry_0_0;
+    const vector total_9 = r1_1 * by_entry_1_1 + product_2;
+    const vector total_10 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0;
+    value[0] = value[0] + phi;
+    slope[0] = slope[0] + r0_1 * total_7 + r0_0 * total_8;
+    slope[1] = slope[1] + r0_1 * total_9 + r0_0 * total_10;
+    slope[2] = slope[2] + r1_1 * total_7 + r0_1 * total_8;
+    slope[3] = slope[3] + r1_1 * total_9 + r0_1 * total_10;
+}
+
+/* The Riemannian gradient at some points, of the sums of slopes. */
+OUTLINE void pair_gradient(
+    const vector *x, const vector *slope, vector *gradient) {
+    const vector x0 = x[0];
+    const vector x1 = x[1];
+    const vector x2 = x[2];
+    const vector x3 = x[3];
+    const vector slope_x0 = slope[0];
+    const vector slope_x1 = slope[1];
+    const vector slope_x2 = slope[2];
+    const vector slope_x3 = slope[3];
+    const vector p_0_1 = 0.5 * x1 + 0.5 * x2;
+    vector p_0_1_eigh[6];
+    {
+        const vector given_lanes[3] = {x0, p_0_1, x3};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            double found[6];
+            {
+                const double in_0[3] = {given[0], given[1], given[2]};
+                symmetric_eigh_2(in_0, found);
+            }
+            for (int i = 0; i < 6; ++i) LANE(p_0_1_eigh[i], lane) = found[i];
+        }
+    }
+    vector sqrtm[3];
+    {
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(p_0_1_eigh[i], lane);
+            double found[3];
+            symmetric_sqrt_2(whole, found);
+            for (int i = 0; i < 3; ++i) LANE(sqrtm[i], lane) = found[i];
+        }
+    }
+    const vector sqrtm_p0_0 = sqrtm[0];
+    const vector sqrtm_p0_1 = sqrtm[1];
+    const vector sqrtm_p0_1_squared = sqrtm_p0_1 * sqrtm_p0_1;
+    const vector total_2 = slope_x0 * (sqrtm_p0_0 * sqrtm_p0_0) + slope_x3 * sqrtm_p0_1_squared + sqrtm_p0_1 *
+        (slope_x1 * sqrtm_p0_0) + sqrtm_p0_1 * (slope_x2 * sqrtm_p0_0);
+    const vector sqrtm_p1_1 = sqrtm[2];
+    const vector total_3 = 0.7071067811865476 * sqrtm_p0_1_squared + 1.4142135623730951 * (sqrtm_p1_1 * (0.5 *
+        sqrtm_p0_0));
+    const vector total_4 = slope_x1 * total_3 + slope_x2 * total_3 + 1.4142135623730951 * (sqrtm_p0_1 *
+        (slope_x0 * sqrtm_p0_0)) + 1.4142135623730951 * (sqrtm_p1_1 * (slope_x3 * sqrtm_p0_1));
+    const vector total_5 = slope_x0 * sqrtm_p0_1_squared + slope_x3 * (sqrtm_p1_1 * sqrtm_p1_1) + sqrtm_p1_1 *
+        (slope_x1 * sqrtm_p0_1) + sqrtm_p1_1 * (slope_x2 * sqrtm_p0_1);
+    gradient[0] = total_2;
+    gradient[1] = total_4;
+    gradient[2] = total_5;
+}
+
+/* The adjoint of slope at some points, of that of the gradient. */
+OUTLINE void pair_gradient_vjp(
+    const vector *x, const vector *gradient_bar, vector *slope_bar) {
+    const vector x0 = x[0];
+    const vector x1 = x[1];
+    const vector x2 = x[2];
+    const vector x3 = x[3];
+    const vector gradient_bar0 = gradient_bar[0];
+    const vector gradient_bar1 = gradient_bar[1];
+    const vector gradient_bar2 = gradient_bar[2];
+    const vector p_0_1 = 0.5 * x1 + 0.5 * x2;
+    vector p_0_1_eigh[6];
+    {
+        const vector given_lanes[3] = {x0, p_0_1, x3};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            double found[6];
+            {
+                const double in_0[3] = {given[0], given[1], given[2]};
+                symmetric_eigh_2(in_0, found);
+            }
+            for (int i = 0; i < 6; ++i) LANE(p_0_1_eigh[i], lane) = found[i];
+        }
+    }
+    vector sqrtm[3];
+    {
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(p_0_1_eigh[i], lane);
+            double found[3];
+            symmetric_sqrt_2(whole, found);
+            for (int i = 0; i < 3; ++i) LANE(sqrtm[i], lane) = found[i];
+        }
+    }
+    const vector sqrtm_p0_1 = sqrtm[1];
+    const vector sqrtm_p0_1_squared = sqrtm_p0_1 * sqrtm_p0_1;
+    const vector sqrtm_p0_0 = sqrtm[0];
+    const vector product = 1.4142135623730951 * gradient_bar1;
+    const vector sqrtm_p1_1 = sqrtm[2];
+    const vector product_2 = (0.7071067811865476 * sqrtm_p0_1_squared + 1.4142135623730951 * (sqrtm_p1_1 *
+        (0.5 * sqrtm_p0_0))) * gradient_bar1;
+    const vector total_2 = sqrtm_p0_1 * (sqrtm_p1_1 * gradient_bar2) + product_2 + sqrtm_p0_0 * (sqrtm_p0_1 *
+        gradient_bar0);
+    slope_bar[0] = sqrtm_p0_1_squared * gradient_bar2 + sqrtm_p0_0 * (sqrtm_p0_1 * product) + sqrtm_p0_0 *
+            sqrtm_p0_0 * gradient_bar0;
+    slope_bar[1] = total_2;
+    slope_bar[2] = total_2;
+    slope_bar[3] = sqrtm_p1_1 * sqrtm_p1_1 * gradient_bar2 + sqrtm_p0_1 * (sqrtm_p1_1 * product) +
+            sqrtm_p0_1_squared * gradient_bar0;
+}
+
+/* The adjoints of some splats' parameters, of that of S. */
+OUTLINE void pair_constants_vjp(
+    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
+    (void)W;
+    (void)amplitude;
+    const vector mu0 = mu[0];
+    const vector mu1 = mu[1];
+    const vector mu2 = mu[2];
+    const vector mu3 = mu[3];
+    const vector W0_0_bar = S_bar[0];
+    const vector W0_1_bar = S_bar[1];
+    const vector W0_2_bar = S_bar[2];
+    const vector W1_0_bar = S_bar[3];
+    const vector W1_1_bar = S_bar[4];
+    const vector W1_2_bar = S_bar[5];
+    const vector W2_0_bar = S_bar[6];
+    const vector W2_1_bar = S_bar[7];
+    const vector W2_2_bar = S_bar[8];
+    const vector its_amplitude_bar = S_bar[9];
+    const vector r0_0_bar = S_bar[10];
+    const vector r0_1_bar = S_bar[11];
+    const vector r1_1_bar = S_bar[12];
+    const vector mul_of_one_bar = S_bar[13];
+    const vector mul_of_one_2_bar = S_bar[14];
+    const vector mul_of_one_3_bar = S_bar[15];
+    const vector p_0_1 = 0.5 * mu1 + 0.5 * mu2;
+    vector p_0_1_eigh[6];
+    {
+        const vector given_lanes[3] = {mu0, p_0_1, mu3};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            double found[6];
+            {
+                const double in_0[3] = {given[0], given[1], given[2]};
+                symmetric_eigh_2(in_0, found);
+            }
+            for (int i = 0; i < 6; ++i) LANE(p_0_1_eigh[i], lane) = found[i];
+        }
+    }
+    vector invsqrtm_slope[3];
+    {
+        const vector given_lanes[3] = {r0_0_bar + 0.5 * mul_of_one_bar, 0.5 * (r0_1_bar + 0.5 * mul_of_one_2_bar), r1_1_bar + 0.5 * mul_of_one_3_bar};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            double whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(p_0_1_eigh[i], lane);
+            double found[3];
+            {
+                const double in_0[3] = {given[0], given[1], given[2]};
+                symmetric_invsqrt_2_derivative1(whole, in_0, found);
+            }
+            for (int i = 0; i < 3; ++i) LANE(invsqrtm_slope[i], lane) = found[i];
+        }
+    }
+    mu_bar[0] = invsqrtm_slope[0];
+    mu_bar[1] = invsqrtm_slope[1];
+    mu_bar[2] = invsqrtm_slope[1];
+    mu_bar[3] = invsqrtm_slope[2];
+    W_bar[0] = W0_0_bar;
+    W_bar[1] = W0_1_bar;
+    W_bar[2] = W0_2_bar;
+    W_bar[3] = W1_0_bar;
+    W_bar[4] = W1_1_bar;
+    W_bar[5] = W1_2_bar;
+    W_bar[6] = W2_0_bar;
+    W_bar[7] = W2_1_bar;
+    W_bar[8] = W2_2_bar;
+    amplitude_bar[0] = its_amplitude_bar;
+}
+
+/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+OUTLINE void pair_backward(
+    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const vector x2 = X[2];
+    const vector x3 = X[3];
+    const double W0_0 = S[0];
+    const double W0_1 = S[1];
+    const double W0_2 = S[2];
+    const double W1_0 = S[3];
+    const double W1_1 = S[4];
+    const double W1_2 = S[5];
+    const double W2_0 = S[6];
+    const double W2_1 = S[7];
+    const double W2_2 = S[8];
+    const double amplitude = S[9];
+    const double r0_0 = S[10];
+    const double r0_1 = S[11];
+    const double r1_1 = S[12];
+    const double mul_of_one = S[13];
+    const double mul_of_one_2 = S[14];
+    const double mul_of_one_3 = S[15];
+    const vector its_value_bar = value_bar[0];
+    const vector x0_bar = slope_bar[0];
+    const vector x1_bar = slope_bar[1];
+    const vector x2_bar = slope_bar[2];
+    const vector x3_bar = slope_bar[3];
+    const vector total_2 = x0 * r0_0 + x2 * r0_1;
+    const vector total_3 = x1 * r0_0 + x3 * r0_1;
+    const vector entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
+    const vector total_4 = x0 * r0_1 + x2 * r1_1;
+    const vector total_5 = x1 * r0_1 + x3 * r1_1;
+    const vector entry_0_1 = mul_of_one * total_4 + total_2 * mul_of_one_2 + mul_of_one_2 * total_5 + total_3
+        * mul_of_one_3;
+    const vector entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
+    vector entry_0_0_eigh[6];
+    {
+        const vector given_lanes[3] = {entry_0_0, entry_0_1, entry_1_1};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            double found[6];
+            {
+                const double in_0[3] = {given[0], given[1], given[2]};
+                symmetric_eigh_2(in_0, found);
+            }
+            for (int i = 0; i < 6; ++i) LANE(entry_0_0_eigh[i], lane) = found[i];
+        }
+    }
+    vector logm[3];
+    {
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+            double found[3];
+            symmetric_log_2(whole, found);
+            for (int i = 0; i < 3; ++i) LANE(logm[i], lane) = found[i];
+        }
+    }
+    const vector L0_0 = logm[0];
+    const vector L0_1 = logm[1];
+    const vector L1_1 = logm[2];
+    const vector L0_0_gap = L0_0 - L1_1;
+    const vector entry_0_0_2 = L0_1 * L0_1 + 0.25 * (L0_0_gap * L0_0_gap);
+    vector entry_0_0_2_eigh[2];
+    {
+        const vector given_lanes[1] = {entry_0_0_2};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double given[1];
+            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+            double found[2];
+            {
+                const double in_0[1] = {given[0]};
+                symmetric_eigh_1(in_0, found);
+            }
+            for (int i = 0; i < 2; ++i) LANE(entry_0_0_2_eigh[i], lane) = found[i];
+        }
+    }
+    vector log_sinhc_sqrtm[1];
+    {
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double whole[2];
+            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+            double found[1];
+            symmetric_log_sinhc_sqrt_1(whole, found);
+            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm[i], lane) = found[i];
+        }
+    }
+    const vector log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[0];
+    const vector v1 = 1.4142135623730951 * L0_1;
+    const vector z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1;
+    const vector z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
+    const vector z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
+    const vector gap = -log_sinhc_sqrtm_value0_0 - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
+    const vector exp_2 = vector_exp(gap);
+    const vector phi = amplitude * exp_2;
+    const vector total_6 = r0_0 * x0_bar + r0_1 * x2_bar;
+    const vector total_7 = r0_0 * x1_bar + r0_1 * x3_bar;
+    const vector total_8 = r0_0 * total_6 + r0_1 * total_7;
+    const vector total_9 = r0_1 * x0_bar + r1_1 * x2_bar;
+    const vector total_10 = r0_1 * x1_bar + r1_1 * x3_bar;
+    const vector total_11 = total_6 + total_10;
+    const vector by_by_entry_0_1 = mul_of_one * total_9 + mul_of_one_2 * total_11 + mul_of_one_3 * total_7;
+    const vector total_12 = r0_1 * total_9 + r1_1 * total_10;
+    vector logm_slope[3];
+    {
+        const vector given_lanes[3] = {total_8, by_by_entry_0_1, total_12};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            double whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+            double found[3];
+            {
+                const double in_0[3] = {given[0], given[1], given[2]};
+                symmetric_log_2_derivative1(whole, in_0, found);
+            }
+            for (int i = 0; i < 3; ++i) LANE(logm_slope[i], lane) = found[i];
+        }
+    }
+    const vector by_by_v1 = 1.4142135623730951 * logm_slope[1];
+    const vector gap_2 = -(W0_0 * logm_slope[0]) - W0_1 * by_by_v1 - W0_2 * logm_slope[2];
+    const vector gap_3 = -(W1_0 * logm_slope[0]) - W1_1 * by_by_v1 - W1_2 * logm_slope[2];
+    const vector gap_4 = -(W2_0 * logm_slope[0]) - W2_1 * by_by_v1 - W2_2 * logm_slope[2];
+    const vector gap_5 = logm_slope[0] - logm_slope[2];
+    const vector total_13 = 2.0 * (L0_1 * logm_slope[1]) + 0.5 * (L0_0_gap * gap_5);
+    vector log_sinhc_sqrtm_slope[1];
+    {
+        const vector given_lanes[1] = {total_13};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double given[1];
+            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+            double whole[2];
+            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+            double found[1];
+            {
+                const double in_0[1] = {given[0]};
+                symmetric_log_sinhc_sqrt_1_derivative1(whole, in_0, found);
+            }
+            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope[i], lane) = found[i];
+        }
+    }
+    const vector by_phi = its_value_bar + z0 * gap_2 + z1 * gap_3 + z2 * gap_4 - log_sinhc_sqrtm_slope[0];
+    const vector product = exp_2 * (amplitude * by_phi);
+    const vector by_z0 = phi * gap_2 - z0 * product;
+    const vector z0_product = z0 * phi;
+    const vector by_z1 = phi * gap_3 - z1 * product;
+    const vector z1_product = z1 * phi;
+    const vector by_z2 = phi * gap_4 - z2 * product;
+    const vector z2_product = z2 * phi;
+    const vector phi_minus = -phi;
+    vector log_sinhc_sqrtm_slope_2[1];
+    {
+        const vector given_lanes[1] = {phi_minus};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double given[1];
+            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+            double whole[2];
+            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+            double found[1];
+            {
+                const double in_0[1] = {given[0]};
+                symmetric_log_sinhc_sqrt_1_derivative1(whole, in_0, found);
+            }
+            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope_2[i], lane) = found[i];
+        }
+    }
+    const vector by_entry_0_0_2 = log_sinhc_sqrtm_slope_2[0];
+    const vector product_2 = 0.5 * by_entry_0_0_2;
+    const vector product_3 = L0_0_gap * product_2;
+    const vector total_14 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product + product_3;
+    const vector by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product;
+    const vector product_4 = 2.0 * by_entry_0_0_2;
+    const vector product_5 = 0.5 * (1.4142135623730951 * by_v1 + L0_1 * product_4);
+    const vector gap_6 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product - product_3;
+    vector logm_slope_2[3];
+    {
+        const vector given_lanes[3] = {total_14, product_5, gap_6};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            double whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+            double found[3];
+            {
+                const double in_0[3] = {given[0], given[1], given[2]};
+                symmetric_log_2_derivative1(whole, in_0, found);
+            }
+            for (int i = 0; i < 3; ++i) LANE(logm_slope_2[i], lane) = found[i];
+        }
+    }
+    const vector by_entry_0_1 = 2.0 * logm_slope_2[1];
+    const vector product_6 = mul_of_one_2 * by_entry_0_1;
+    const vector by_entry_0_0 = logm_slope_2[0];
+    const vector total_15 = product_6 + r0_0 * by_entry_0_0;
+    const vector total_16 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0;
+    vector logm_derivative2[3];
+    {
+        const vector given_lanes[6] = {total_14, product_5, gap_6, total_8, by_by_entry_0_1, total_12};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double given[6];
+            for (int i = 0; i < 6; ++i) given[i] = LANE(given_lanes[i], lane);
+            double whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+            double found[3];
+            {
+                const double in_0[3] = {given[0], given[1], given[2]};
+                const double in_1[3] = {given[3], given[4], given[5]};
+                symmetric_log_2_derivative2(whole, in_0, in_1, found);
+            }
+            for (int i = 0; i < 3; ++i) LANE(logm_derivative2[i], lane) = found[i];
+        }
+    }
+    vector log_sinhc_sqrtm_derivative2[1];
+    {
+        const vector given_lanes[2] = {phi_minus, total_13};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double given[2];
+            for (int i = 0; i < 2; ++i) given[i] = LANE(given_lanes[i], lane);
+            double whole[2];
+            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+            double found[1];
+            {
+                const double in_0[1] = {given[0]};
+                const double in_1[1] = {given[1]};
+                symmetric_log_sinhc_sqrt_1_derivative2(whole, in_0, in_1, found);
+            }
+            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_derivative2[i], lane) = found[i];
+        }
+    }
+    vector log_sinhc_sqrtm_slope_3[1];
+    {
+        const vector given_lanes[1] = {-product};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double given[1];
+            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+            double whole[2];
+            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+            double found[1];
+            {
+                const double in_0[1] = {given[0]};
+                symmetric_log_sinhc_sqrt_1_derivative1(whole, in_0, found);
+            }
+            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope_3[i], lane) = found[i];
+        }
+    }
+    const vector by_entry_0_0_2_2 = log_sinhc_sqrtm_derivative2[0] + log_sinhc_sqrtm_slope_3[0];
+    const vector total_17 = product_2 * gap_5 + L0_0_gap * (0.5 * by_entry_0_0_2_2);
+    const vector by_v1_2 = W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
+    vector logm_slope_3[3];
+    {
+        const vector given_lanes[3] = {W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0 + total_17, 0.5 * (product_4 * logm_slope[1] + 1.4142135623730951 * by_v1_2 + L0_1 * (2.0 * by_entry_0_0_2_2)), W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0 - total_17};
+        for (size_t lane = 0; lane < LANES; ++lane) {
+            double given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            double whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+            double found[3];
+            {
+                const double in_0[3] = {given[0], given[1], given[2]};
+                symmetric_log_2_derivative1(whole, in_0, found);
+            }
+            for (int i = 0; i < 3; ++i) LANE(logm_slope_3[i], lane) = found[i];
+        }
+    }
+    const vector by_entry_0_1_2 = 2.0 * logm_derivative2[1] + 2.0 * logm_slope_3[1];
+    const vector by_entry_0_0_3 = logm_derivative2[0] + logm_slope_3[0];
+    const vector total_18 = mul_of_one_3 * by_entry_0_1_2 + r0_1 * by_entry_0_0_3;
+    const vector product_7 = mul_of_one_2 * by_entry_0_1_2;
+    const vector total_20 = product_7 + r0_0 * by_entry_0_0_3;
+    const vector by_entry_1_1 = logm_slope_2[2];
+    const vector total_21 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1;
+    const vector total_22 = r1_1 * by_entry_1_1 + product_6;
+    const vector by_entry_1_1_2 = logm_derivative2[2] + logm_slope_3[2];
+    const vector total_24 = r1_1 * by_entry_1_1_2 + product_7;
+    const vector total_25 = r0_1 * by_entry_1_1_2 + mul_of_one * by_entry_0_1_2;
+    S_bar[0] = S_bar[0] + L0_0 * by_z0 - z0_product * logm_slope[0];
+    S_bar[1] = S_bar[1] + v1 * by_z0 - z0_product * by_by_v1;
+    S_bar[2] = S_bar[2] + L1_1 * by_z0 - z0_product * logm_slope[2];
+    S_bar[3] = S_bar[3] + L0_0 * by_z1 - z1_product * logm_slope[0];
+    S_bar[4] = S_bar[4] + v1 * by_z1 - z1_product * by_by_v1;
+    S_bar[5] = S_bar[5] + L1_1 * by_z1 - z1_product * logm_slope[2];
+    S_bar[6] = S_bar[6] + L0_0 * by_z2 - z2_product * logm_slope[0];
+    S_bar[7] = S_bar[7] + v1 * by_z2 - z2_product * by_by_v1;
+    S_bar[8] = S_bar[8] + L1_1 * by_z2 - z2_product * logm_slope[2];
+    S_bar[9] = S_bar[9] + exp_2 * by_phi;
+    S_bar[10] = S_bar[10] + total_15 * x0_bar + by_entry_0_0 * total_6 + total_16 * x1_bar + x1 * total_18 +
+            total_2 * by_entry_0_0_3 + x0 * total_20;
+    S_bar[11] = S_bar[11] + total_15 * x2_bar + total_16 * x3_bar + by_entry_0_0 * total_7 + total_21 * x0_bar
+            + total_22 * x1_bar + by_entry_1_1 * total_9 + total_4 * by_entry_1_1_2 + x1 * total_24 + x0 *
+            total_25 + total_3 * by_entry_0_0_3 + x3 * total_18 + x2 * total_20;
+    S_bar[12] = S_bar[12] + total_21 * x2_bar + total_22 * x3_bar + by_entry_1_1 * total_10 + total_5 *
+            by_entry_1_1_2 + x3 * total_24 + x2 * total_25;
+    S_bar[13] = S_bar[13] + by_entry_0_1 * total_9 + total_4 * by_entry_0_1_2;
+    S_bar[14] = S_bar[14] + by_entry_0_1 * total_11 + total_5 * by_entry_0_1_2 + total_2 * by_entry_0_1_2;
+    S_bar[15] = S_bar[15] + by_entry_0_1 * total_7 + total_3 * by_entry_0_1_2;
+}
+
+/* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
+OUTLINE void vector_rows(const double *rows, size_t count, size_t start, size_t size, vector *columns) {
+    for (size_t i = 0; i < size; ++i) {
+        double column[LANES];
+        for (size_t lane = 0; lane < LANES; ++lane)
+            column[lane] = rows[size * (start + lane < count ? start + lane : count - 1) + i];
+        columns[i] = vector_load(column);
+    }
+}
+
+/* Back to rows that are `stride` apart; nothing past the end. */
+OUTLINE void vector_to_rows(
+    const vector *columns, double *rows, size_t count, size_t start, size_t size, size_t stride) {
+    const size_t lanes = start >= count ? 0 : count - start < LANES ? count - start : LANES;
+    for (size_t lane = 0; lane < lanes; ++lane)
+        for (size_t i = 0; i < size; ++i) rows[stride * (start + lane) + i] = LANE(columns[i], lane);
+}
+
+/* Zero in the lanes past the end. */
+OUTLINE void vector_end(size_t count, size_t start, size_t size, vector *columns) {
+    for (size_t lane = start >= count ? 0 : count - start; lane < LANES; ++lane)
+        for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
+}
+
+/* Scratch memory: 9 vectors for each block of points, then the constants of the splats. */
+size_t spd_splats_work(size_t count, size_t splat_count, int threads) {
+    (void)threads;
+    return ((count + LANES - 1) / LANES * 9 + 1) * LANES + 16 * splat_count;
+}
+
+static vector *work_points(double *work) {
+    const uintptr_t size = sizeof(vector), start = (uintptr_t)work;
+    return (vector *)((char *)work + ((0 - start) & (size - 1)));
+}
+
+static double *work_constants(double *work, size_t count) {
+    return (double *)(work_points(work) + (count + LANES - 1) / LANES * 9);
+}
+
+/* The constants of LANES splats, as rows. */
+OUTLINE void splat_constants(
+    size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, double *constants) {
+    vector own_mu[4], own_W[9], own_amplitude[1], S[16];
+    vector_rows(mu, splat_count, start, 4, own_mu);
+    vector_rows(W, splat_count, start, 9, own_W);
+    vector_rows(amplitude, splat_count, start, 1, own_amplitude);
+    pair_constants(own_mu, own_W, own_amplitude, S);
+    vector_to_rows(S, constants, splat_count, start, 16, 16);
+}
+
+/* 2 vectors of points at a time stay in registers while all splats pass. */
+void spd_splats(
+    size_t count, size_t splat_count, const double *SPD_RESTRICT x, const double *SPD_RESTRICT mu, const double *SPD_RESTRICT W, const double *SPD_RESTRICT amplitude,
+    double *SPD_RESTRICT value, double *SPD_RESTRICT gradient, double *SPD_RESTRICT work, int threads) {
+    (void)threads;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES) {
+            vector at[2][4], X[2][4], grad[3];
+            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][4] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows(x, count, start + b * LANES, 4, at[b]);
+                pair_features(at[b], X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_forward(X[0], constants + 16 * k, value_sum[0], slope_sum[0]);
+                pair_forward(X[1], constants + 16 * k, value_sum[1], slope_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b) {
+                pair_gradient(at[b], slope_sum[b], grad);
+                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                vector_to_rows(grad, gradient, count, start + b * LANES, 3, 3);
+            }
+        }
+        restore_denormals(mode);
+    }
+}
+
+void spd_splats_value(
+    size_t count, size_t splat_count, const double *SPD_RESTRICT x, const double *SPD_RESTRICT mu, const double *SPD_RESTRICT W, const double *SPD_RESTRICT amplitude,
+    double *SPD_RESTRICT value, double *SPD_RESTRICT work, int threads) {
+    (void)threads;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES) {
+            vector at[4], X[2][4], value_sum[2][1] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows(x, count, start + b * LANES, 4, at);
+                pair_features(at, X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_value(X[0], constants + 16 * k, value_sum[0]);
+                pair_value(X[1], constants + 16 * k, value_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b)
+                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
+OUTLINE void splat_points(
+    size_t count, size_t start, const double *x, const double *value_bar, const double *gradient_bar, vector *point) {
+    vector at[4], grad_bar[3], slope_bar[4];
+    vector_rows(x, count, start, 4, at);
+    vector_rows(gradient_bar, count, start, 3, grad_bar);
+    vector_rows(value_bar, count, start, 1, point + 4);
+    pair_features(at, point);
+    pair_gradient_vjp(at, grad_bar, slope_bar);
+    for (int i = 0; i < 4; ++i) point[4 + 1 + i] = slope_bar[i];
+    vector_end(count, start, 4 + 1, point + 4);
+}
+
+/* Adds to S_bar what some vectors of points add to it. */
+OUTLINE void splat_sums(const vector *point, size_t size, const double *S, double *S_bar) {
+    vector sum[16] = {ZERO};
+    for (size_t b = 0; b < size; ++b, point += 9) pair_backward(point, S, point + 4, point + 4 + 1, sum);
+    S_bar[0] += vector_sum(sum[0]);
+    S_bar[1] += vector_sum(sum[1]);
+    S_bar[2] += vector_sum(sum[2]);
+    S_bar[3] += vector_sum(sum[3]);
+    S_bar[4] += vector_sum(sum[4]);
+    S_bar[5] += vector_sum(sum[5]);
+    S_bar[6] += vector_sum(sum[6]);
+    S_bar[7] += vector_sum(sum[7]);
+    S_bar[8] += vector_sum(sum[8]);
+    S_bar[9] += vector_sum(sum[9]);
+    S_bar[10] += vector_sum(sum[10]);
+    S_bar[11] += vector_sum(sum[11]);
+    S_bar[12] += vector_sum(sum[12]);
+    S_bar[13] += vector_sum(sum[13]);
+    S_bar[14] += vector_sum(sum[14]);
+    S_bar[15] += vector_sum(sum[15]);
+}
+
+/*
+ * Some splats at a time; the points pass over each of them, a chunk at a time, while its sums stay in registers. How many
+ * splats depends on the threads, what is summed in which order does not.
+ */
+void spd_splats_vjp(
+    size_t count, size_t splat_count, const double *SPD_RESTRICT x, const double *SPD_RESTRICT mu, const double *SPD_RESTRICT W, const double *SPD_RESTRICT amplitude, const double *SPD_RESTRICT value_bar, const double *SPD_RESTRICT gradient_bar,
+    double *SPD_RESTRICT mu_bar, double *SPD_RESTRICT W_bar, double *SPD_RESTRICT amplitude_bar, double *SPD_RESTRICT work, int threads) {
+    const size_t blocks = (count + LANES - 1) / LANES;
+    const size_t chunk = 131072 / (9 * sizeof(vector)) + 1;
+    const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
+    const size_t share = part < LANES ? part : LANES;
+    vector *points = work_points(work);
+    double *constants = work_constants(work, count);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic) nowait)
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic, 8))
+        for (size_t block = 0; block < blocks; ++block)
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 9 * block);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += share) {
+            const size_t end = start + share < splat_count ? start + share : splat_count;
+            double sums[LANES][16] = {{0}};
+            vector own_mu[4], own_W[9], own_amplitude[1], S_bar[16], bars[14];
+            for (size_t first = 0; first < blocks; first += chunk) {
+                const size_t size = first + chunk < blocks ? chunk : blocks - first;
+                for (size_t k = start; k < end; ++k)
+                    splat_sums(points + 9 * first, size, constants + 16 * k, sums[k - start]);
+            }
+            vector_rows(mu, end, start, 4, own_mu);
+            vector_rows(W, end, start, 9, own_W);
+            vector_rows(amplitude, end, start, 1, own_amplitude);
+            vector_rows(sums[0], LANES, 0, 16, S_bar);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 4, bars + 4 + 9);
+            vector_to_rows(bars, mu_bar, end, start, 4, 4);
+            vector_to_rows(bars + 4, W_bar, end, start, 9, 9);
+            vector_to_rows(bars + 4 + 9, amplitude_bar, end, start, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* Nothing is summed: the adjoints of a splat's constants go on to its parameters for every point. */
+void spd_splats_rows(
+    size_t count, size_t splat_count, const double *SPD_RESTRICT x, const double *SPD_RESTRICT mu, const double *SPD_RESTRICT W, const double *SPD_RESTRICT amplitude, const double *SPD_RESTRICT value_bar, const double *SPD_RESTRICT gradient_bar,
+    double *SPD_RESTRICT rows, double *SPD_RESTRICT work, int threads) {
+    (void)threads;
+    const size_t blocks = (count + LANES - 1) / LANES;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t block = 0; block < blocks; ++block) {
+            vector point[9];
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
+            for (size_t k = 0; k < splat_count; ++k) {
+                vector own_mu[4], own_W[9], own_amplitude[1], S_bar[16] = {ZERO}, bars[14];
+                for (int i = 0; i < 4; ++i) own_mu[i] = vector_of(mu[4 * k + i]);
+                for (int i = 0; i < 9; ++i) own_W[i] = vector_of(W[9 * k + i]);
+                own_amplitude[0] = vector_of(amplitude[k]);
+                pair_backward(point, constants + 16 * k, point + 4, point + 4 + 1, S_bar);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 4, bars + 4 + 9);
+                vector_to_rows(bars, rows + 14 * k, count, block * LANES, 14, 14 * splat_count);
+            }
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* The same number in all lanes. */
+INLINE vector_f vector_of_f(float x) {
+    const vector_f zero = ZERO;
+    return x - zero;
+}
+
+/* x in the lanes of the mask, y in the others. */
+INLINE vector_f vector_select_f(vector_mask_f mask, vector_f x, vector_f y) {
+    return SELECT(vector_f, vector_mask_f, mask, x, y);
+}
+
+/* Numbers in memory to a vector, and back. */
+INLINE vector_f vector_load_f(const float *from) {
+    vector_f x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+INLINE void vector_store_f(float *to, vector_f x) { memcpy(to, &x, sizeof x); }
+
+/* The sum over the lanes, by halves. */
+INLINE float vector_sum_f(vector_f x) {
+    float lanes[LANES_f];
+    vector_store_f(lanes, x);
+    for (size_t half = LANES_f / 2; half > 0; half /= 2)
+        for (size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    return lanes[0];
+}
+
+/* The bits of a vector as integers, and back. */
+INLINE vector_bits_f vector_to_bits_f(vector_f x) {
+    vector_bits_f bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
+    vector_f x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
+INLINE vector_f vector_exp_f(vector_f x) {
+    const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
+    const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
+    const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
+    const vector_f scale = vector_from_bits_f((vector_to_bits_f(shifted) + 126) << 23); /* 2^(k - 1) */
+    const vector_f y = vector_select_f(x > 88.722839f, vector_of_f(HUGE_VALF), (scale + scale * part) * 2);
+    return vector_select_f(x < -86.9f, vector_of_f(0), y);
 }
 
 /* Eigenvalues, ascending, and eigenvectors of a symmetric 1 x 1 matrix, by Jacobi's rotations. */
@@ -1187,405 +1952,1017 @@ static void symmetric_sqrt_2_f(const float *eigh, float *out) {
     out_of_eigenbasis_2_f(eigh, (const float (*)[2])total, out);
 }
 
-void spd_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *SPD_RESTRICT x,
-    const float *SPD_RESTRICT mu,
-    const float *SPD_RESTRICT W,
-    const float *SPD_RESTRICT amplitude,
-    float *SPD_RESTRICT value,
-    float *SPD_RESTRICT gradient) {
-    const unsigned mode = flush_denormals();
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        float x_block[4][LANES], sum[4][LANES] = {{0}};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            for (size_t i = 0; i < 4; ++i) x_block[i][lane] = x[4 * n + i];
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            const float mu0 = mu[4 * k + 0];
-            const float mu1 = mu[4 * k + 1];
-            const float mu2 = mu[4 * k + 2];
-            const float mu3 = mu[4 * k + 3];
-            const float W0_0 = W[9 * k + 0];
-            const float W0_1 = W[9 * k + 1];
-            const float W0_2 = W[9 * k + 2];
-            const float W1_0 = W[9 * k + 3];
-            const float W1_1 = W[9 * k + 4];
-            const float W1_2 = W[9 * k + 5];
-            const float W2_0 = W[9 * k + 6];
-            const float W2_1 = W[9 * k + 7];
-            const float W2_2 = W[9 * k + 8];
-            const float amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const float p_0_1 = 0.5f * mu1 + 0.5f * mu2;
-                float p_0_1_eigh[6];
-                {
-                    const float in_0[3] = {mu0, p_0_1, mu3};
-                    symmetric_eigh_2_f(in_0, p_0_1_eigh);
-                }
-                float invsqrtm[3];
-                symmetric_invsqrt_2_f(p_0_1_eigh, invsqrtm);
-                const float r0_0 = invsqrtm[0];
-                const float r0_1 = invsqrtm[1];
-                const float r1_1 = invsqrtm[2];
-                const float total_2 = x_block[0][lane] * r0_0 + x_block[2][lane] * r0_1;
-                const float total_3 = x_block[1][lane] * r0_0 + x_block[3][lane] * r0_1;
-                const float entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
-                const float r0_0_product = 0.5f * r0_0;
-                const float total_4 = x_block[0][lane] * r0_1 + x_block[2][lane] * r1_1;
-                const float r0_1_product = 0.5f * r0_1;
-                const float total_5 = x_block[1][lane] * r0_1 + x_block[3][lane] * r1_1;
-                const float r1_1_product = 0.5f * r1_1;
-                const float entry_0_1 = r0_0_product * total_4 + total_2 * r0_1_product + r0_1_product * total_5 + total_3
-                    * r1_1_product;
-                const float entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
-                float entry_0_0_eigh[6];
-                {
-                    const float in_0[3] = {entry_0_0, entry_0_1, entry_1_1};
-                    symmetric_eigh_2_f(in_0, entry_0_0_eigh);
-                }
-                float logm[3];
-                symmetric_log_2_f(entry_0_0_eigh, logm);
-                const float L0_0 = logm[0];
-                const float L0_1 = logm[1];
-                const float L1_1 = logm[2];
-                const float v1 = 1.4142135623730951f * L0_1;
-                const float L0_0_gap = L0_0 - L1_1;
-                const float entry_0_0_2 = L0_1 * L0_1 + 0.25f * (L0_0_gap * L0_0_gap);
-                float entry_0_0_2_eigh[2];
-                {
-                    const float in_0[1] = {entry_0_0_2};
-                    symmetric_eigh_1_f(in_0, entry_0_0_2_eigh);
-                }
-                float log_sinhc_sqrtm[1];
-                symmetric_log_sinhc_sqrt_1_f(entry_0_0_2_eigh, log_sinhc_sqrtm);
-                const float log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[0];
-                const float z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1;
-                const float z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
-                const float z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
-                const float gap = -log_sinhc_sqrtm_value0_0 - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
-                const float phi = amplitude_k * expf(gap);
-                const float by_v1 = -(W2_1 * z2) - W1_1 * z1 - W0_1 * z0;
-                float log_sinhc_sqrtm_slope[1];
-                {
-                    const float in_0[1] = {-1.0f};
-                    symmetric_log_sinhc_sqrt_1_derivative1_f(entry_0_0_2_eigh, in_0, log_sinhc_sqrtm_slope);
-                }
-                const float by_entry_0_0_2 = log_sinhc_sqrtm_slope[0];
-                const float product = L0_0_gap * (0.5f * by_entry_0_0_2);
-                const float total_6 = -(W2_0 * z2) - W1_0 * z1 - W0_0 * z0 + product;
-                const float gap_2 = -(W2_2 * z2) - W1_2 * z1 - W0_2 * z0 - product;
-                float logm_slope[3];
-                {
-                    const float in_0[3] = {total_6, 0.5f * (L0_1 * (2.0f * by_entry_0_0_2) + 1.4142135623730951f * by_v1), gap_2};
-                    symmetric_log_2_derivative1_f(entry_0_0_eigh, in_0, logm_slope);
-                }
-                const float by_entry_0_0 = logm_slope[0];
-                const float by_entry_1_1 = logm_slope[2];
-                const float by_entry_0_1 = 2.0f * logm_slope[1];
-                const float product_2 = r0_1_product * by_entry_0_1;
-                const float total_7 = r1_1 * by_entry_1_1 + product_2;
-                const float total_8 = r0_1 * by_entry_1_1 + r0_0_product * by_entry_0_1;
-                const float total_9 = r1_1_product * by_entry_0_1 + r0_1 * by_entry_0_0;
-                const float exponent_by_x3 = r1_1 * total_7 + r0_1 * total_9;
-                const float exponent_by_x1 = r0_1 * total_7 + r0_0 * total_9;
-                const float total_10 = product_2 + r0_0 * by_entry_0_0;
-                const float exponent_by_x2 = r1_1 * total_8 + r0_1 * total_10;
-                const float exponent_by_x0 = r0_1 * total_8 + r0_0 * total_10;
-                const float df0 = phi * exponent_by_x0;
-                const float df1 = phi * exponent_by_x1;
-                const float df2 = phi * exponent_by_x2;
-                const float df3 = phi * exponent_by_x3;
-                const float p_0_1_2 = 0.5f * x_block[1][lane] + 0.5f * x_block[2][lane];
-                float p_0_1_eigh_2[6];
-                {
-                    const float in_0[3] = {x_block[0][lane], p_0_1_2, x_block[3][lane]};
-                    symmetric_eigh_2_f(in_0, p_0_1_eigh_2);
-                }
-                float sqrtm[3];
-                symmetric_sqrt_2_f(p_0_1_eigh_2, sqrtm);
-                const float sqrtm_p0_0 = sqrtm[0];
-                const float sqrtm_p0_1 = sqrtm[1];
-                const float sqrtm_p1_1 = sqrtm[2];
-                const float sqrtm_p0_1_squared = sqrtm_p0_1 * sqrtm_p0_1;
-                const float gradient0 = df0 * (sqrtm_p0_0 * sqrtm_p0_0) + df3 * sqrtm_p0_1_squared + sqrtm_p0_1 * (df1 *
-                    sqrtm_p0_0) + sqrtm_p0_1 * (df2 * sqrtm_p0_0);
-                const float total_11 = 0.7071067811865476f * sqrtm_p0_1_squared + 1.4142135623730951f * (sqrtm_p1_1 *
-                    (0.5f * sqrtm_p0_0));
-                const float gradient1 = df1 * total_11 + df2 * total_11 + 1.4142135623730951f * (sqrtm_p0_1 * (df0 *
-                    sqrtm_p0_0)) + 1.4142135623730951f * (sqrtm_p1_1 * (df3 * sqrtm_p0_1));
-                const float gradient2 = df0 * sqrtm_p0_1_squared + df3 * (sqrtm_p1_1 * sqrtm_p1_1) + sqrtm_p1_1 * (df1 *
-                    sqrtm_p0_1) + sqrtm_p1_1 * (df2 * sqrtm_p0_1);
-                sum[0][lane] += phi;
-                sum[1][lane] += gradient0;
-                sum[2][lane] += gradient1;
-                sum[3][lane] += gradient2;
-            }
-        }
-        for (size_t lane = 0; lane < lanes; ++lane) {
-            value[start + lane] = sum[0][lane];
-            for (size_t i = 0; i < 3; ++i) gradient[3 * (start + lane) + i] = sum[i + 1][lane];
-        }
-    }
-    restore_denormals(mode);
+/* What pairs read of points x. */
+OUTLINE void pair_features_f(
+    const vector_f *x, vector_f *X) {
+    const vector_f x0 = x[0];
+    const vector_f x1 = x[1];
+    const vector_f x2 = x[2];
+    const vector_f x3 = x[3];
+    X[0] = x0;
+    X[1] = x1;
+    X[2] = x2;
+    X[3] = x3;
 }
 
-void spd_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *SPD_RESTRICT x,
-    const float *SPD_RESTRICT mu,
-    const float *SPD_RESTRICT W,
-    const float *SPD_RESTRICT amplitude,
-    const float *SPD_RESTRICT value_bar,
-    const float *SPD_RESTRICT gradient_bar,
-    float *SPD_RESTRICT mu_bar,
-    float *SPD_RESTRICT W_bar,
-    float *SPD_RESTRICT amplitude_bar) {
-    const unsigned mode = flush_denormals();
-    for (size_t i = 0; i < 4 * splat_count; ++i) mu_bar[i] = 0;
-    for (size_t i = 0; i < 9 * splat_count; ++i) W_bar[i] = 0;
-    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        float x_block[4][LANES], value_bar_block[1][LANES], gradient_bar_block[3][LANES];
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            const float weight = lane < lanes ? 1 : 0;
-            for (size_t i = 0; i < 4; ++i) x_block[i][lane] = x[4 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
-            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] = gradient_bar[3 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
-            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] *= weight;
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            float sum[14][LANES] = {{0}}, total[14] = {0};
-            const float mu0 = mu[4 * k + 0];
-            const float mu1 = mu[4 * k + 1];
-            const float mu2 = mu[4 * k + 2];
-            const float mu3 = mu[4 * k + 3];
-            const float W0_0 = W[9 * k + 0];
-            const float W0_1 = W[9 * k + 1];
-            const float W0_2 = W[9 * k + 2];
-            const float W1_0 = W[9 * k + 3];
-            const float W1_1 = W[9 * k + 4];
-            const float W1_2 = W[9 * k + 5];
-            const float W2_0 = W[9 * k + 6];
-            const float W2_1 = W[9 * k + 7];
-            const float W2_2 = W[9 * k + 8];
-            const float amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const float p_0_1 = 0.5f * mu1 + 0.5f * mu2;
-                float p_0_1_eigh[6];
-                {
-                    const float in_0[3] = {mu0, p_0_1, mu3};
-                    symmetric_eigh_2_f(in_0, p_0_1_eigh);
-                }
-                float invsqrtm[3];
-                symmetric_invsqrt_2_f(p_0_1_eigh, invsqrtm);
-                const float r0_0 = invsqrtm[0];
-                const float r0_1 = invsqrtm[1];
-                const float r1_1 = invsqrtm[2];
-                const float total_2 = x_block[0][lane] * r0_0 + x_block[2][lane] * r0_1;
-                const float total_3 = x_block[1][lane] * r0_0 + x_block[3][lane] * r0_1;
-                const float entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
-                const float r0_0_product = 0.5f * r0_0;
-                const float total_4 = x_block[0][lane] * r0_1 + x_block[2][lane] * r1_1;
-                const float r0_1_product = 0.5f * r0_1;
-                const float total_5 = x_block[1][lane] * r0_1 + x_block[3][lane] * r1_1;
-                const float r1_1_product = 0.5f * r1_1;
-                const float entry_0_1 = r0_0_product * total_4 + total_2 * r0_1_product + r0_1_product * total_5 + total_3
-                    * r1_1_product;
-                const float entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
-                float entry_0_0_eigh[6];
-                {
-                    const float in_0[3] = {entry_0_0, entry_0_1, entry_1_1};
-                    symmetric_eigh_2_f(in_0, entry_0_0_eigh);
-                }
-                float logm[3];
-                symmetric_log_2_f(entry_0_0_eigh, logm);
-                const float L0_0 = logm[0];
-                const float L0_1 = logm[1];
-                const float L1_1 = logm[2];
-                const float v1 = 1.4142135623730951f * L0_1;
-                const float L0_0_gap = L0_0 - L1_1;
-                const float entry_0_0_2 = L0_1 * L0_1 + 0.25f * (L0_0_gap * L0_0_gap);
-                float entry_0_0_2_eigh[2];
-                {
-                    const float in_0[1] = {entry_0_0_2};
-                    symmetric_eigh_1_f(in_0, entry_0_0_2_eigh);
-                }
-                float log_sinhc_sqrtm[1];
-                symmetric_log_sinhc_sqrt_1_f(entry_0_0_2_eigh, log_sinhc_sqrtm);
-                const float log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[0];
-                const float z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1;
-                const float z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
-                const float z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
-                const float gap = -log_sinhc_sqrtm_value0_0 - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
-                const float exp_2 = expf(gap);
-                const float phi = amplitude_k * exp_2;
-                const float by_v1 = -(W2_1 * z2) - W1_1 * z1 - W0_1 * z0;
-                float log_sinhc_sqrtm_slope[1];
-                {
-                    const float in_0[1] = {-1.0f};
-                    symmetric_log_sinhc_sqrt_1_derivative1_f(entry_0_0_2_eigh, in_0, log_sinhc_sqrtm_slope);
-                }
-                const float by_entry_0_0_2 = log_sinhc_sqrtm_slope[0];
-                const float product = 0.5f * by_entry_0_0_2;
-                const float product_2 = L0_0_gap * product;
-                const float total_6 = -(W2_0 * z2) - W1_0 * z1 - W0_0 * z0 + product_2;
-                const float gap_2 = -(W2_2 * z2) - W1_2 * z1 - W0_2 * z0 - product_2;
-                const float product_3 = 2.0f * by_entry_0_0_2;
-                const float product_4 = 0.5f * (L0_1 * product_3 + 1.4142135623730951f * by_v1);
-                float logm_slope[3];
-                {
-                    const float in_0[3] = {total_6, product_4, gap_2};
-                    symmetric_log_2_derivative1_f(entry_0_0_eigh, in_0, logm_slope);
-                }
-                const float by_entry_0_0 = logm_slope[0];
-                const float by_entry_1_1 = logm_slope[2];
-                const float by_entry_0_1 = 2.0f * logm_slope[1];
-                const float product_5 = r0_1_product * by_entry_0_1;
-                const float total_7 = r1_1 * by_entry_1_1 + product_5;
-                const float total_8 = r0_1 * by_entry_1_1 + r0_0_product * by_entry_0_1;
-                const float total_9 = r1_1_product * by_entry_0_1 + r0_1 * by_entry_0_0;
-                const float exponent_by_x3 = r1_1 * total_7 + r0_1 * total_9;
-                const float exponent_by_x1 = r0_1 * total_7 + r0_0 * total_9;
-                const float total_10 = product_5 + r0_0 * by_entry_0_0;
-                const float exponent_by_x2 = r1_1 * total_8 + r0_1 * total_10;
-                const float exponent_by_x0 = r0_1 * total_8 + r0_0 * total_10;
-                const float p_0_1_2 = 0.5f * x_block[1][lane] + 0.5f * x_block[2][lane];
-                float p_0_1_eigh_2[6];
-                {
-                    const float in_0[3] = {x_block[0][lane], p_0_1_2, x_block[3][lane]};
-                    symmetric_eigh_2_f(in_0, p_0_1_eigh_2);
-                }
-                float sqrtm[3];
-                symmetric_sqrt_2_f(p_0_1_eigh_2, sqrtm);
-                const float sqrtm_p0_0 = sqrtm[0];
-                const float sqrtm_p0_1 = sqrtm[1];
-                const float sqrtm_p1_1 = sqrtm[2];
-                const float sqrtm_p0_1_squared = sqrtm_p0_1 * sqrtm_p0_1;
-                const float product_6 = 1.4142135623730951f * gradient_bar_block[1][lane];
-                const float product_7 = (0.7071067811865476f * sqrtm_p0_1_squared + 1.4142135623730951f * (sqrtm_p1_1 *
-                    (0.5f * sqrtm_p0_0))) * gradient_bar_block[1][lane];
-                const float by_df2 = sqrtm_p0_1 * (sqrtm_p1_1 * gradient_bar_block[2][lane]) + product_7 + sqrtm_p0_0 *
-                    (sqrtm_p0_1 * gradient_bar_block[0][lane]);
-                const float by_df3 = sqrtm_p1_1 * sqrtm_p1_1 * gradient_bar_block[2][lane] + sqrtm_p0_1 * (sqrtm_p1_1 *
-                    product_6) + sqrtm_p0_1_squared * gradient_bar_block[0][lane];
-                const float by_df0 = sqrtm_p0_1_squared * gradient_bar_block[2][lane] + sqrtm_p0_0 * (sqrtm_p0_1 *
-                    product_6) + sqrtm_p0_0 * sqrtm_p0_0 * gradient_bar_block[0][lane];
-                const float by_exponent_by_x3 = phi * by_df3;
-                const float by_exponent_by_x2 = phi * by_df2;
-                const float by_exponent_by_x0 = phi * by_df0;
-                const float by_phi = value_bar_block[0][lane] + exponent_by_x3 * by_df3 + exponent_by_x2 * by_df2 +
-                    exponent_by_x1 * by_df2 + exponent_by_x0 * by_df0;
-                const float r0_1_product_2 = r0_1 * by_exponent_by_x2;
-                const float total_11 = r0_0 * by_exponent_by_x0 + r0_1_product_2;
-                const float total_12 = r0_0 * by_exponent_by_x2 + r0_1 * by_exponent_by_x3;
-                const float total_13 = r0_0 * total_11 + r0_1 * total_12;
-                const float total_14 = r0_1 * by_exponent_by_x0 + r1_1 * by_exponent_by_x2;
-                const float total_15 = total_10 * by_exponent_by_x2 + total_9 * by_exponent_by_x3 + by_entry_0_0 *
-                    total_12 + total_8 * by_exponent_by_x0 + total_7 * by_exponent_by_x2;
-                const float total_16 = r0_1_product_2 + r1_1 * by_exponent_by_x3;
-                const float total_17 = total_11 + total_16;
-                const float by_by_entry_0_1 = r0_0_product * total_14 + r0_1_product * total_17 + r1_1_product * total_12;
-                const float total_18 = r0_1 * total_14 + r1_1 * total_16;
-                float logm_derivative2[3];
-                {
-                    const float in_0[3] = {total_6, product_4, gap_2};
-                    const float in_1[3] = {total_13, by_by_entry_0_1, total_18};
-                    symmetric_log_2_derivative2_f(entry_0_0_eigh, in_0, in_1, logm_derivative2);
-                }
-                float logm_slope_2[3];
-                {
-                    const float in_0[3] = {total_13, by_by_entry_0_1, total_18};
-                    symmetric_log_2_derivative1_f(entry_0_0_eigh, in_0, logm_slope_2);
-                }
-                const float by_by_v1 = 1.4142135623730951f * logm_slope_2[1];
-                const float gap_3 = logm_slope_2[0] - logm_slope_2[2];
-                float log_sinhc_sqrtm_derivative2[1];
-                {
-                    const float in_0[1] = {-1.0f};
-                    const float in_1[1] = {2.0f * (L0_1 * logm_slope_2[1]) + 0.5f * (L0_0_gap * gap_3)};
-                    symmetric_log_sinhc_sqrt_1_derivative2_f(entry_0_0_2_eigh, in_0, in_1, log_sinhc_sqrtm_derivative2);
-                }
-                const float product_8 = exp_2 * (amplitude_k * by_phi);
-                const float by_z2 = -(W2_0 * logm_slope_2[0]) - W2_1 * by_by_v1 - W2_2 * logm_slope_2[2] - z2 * product_8;
-                const float by_z1 = -(W1_0 * logm_slope_2[0]) - W1_1 * by_by_v1 - W1_2 * logm_slope_2[2] - z1 * product_8;
-                const float by_z0 = -(W0_0 * logm_slope_2[0]) - W0_1 * by_by_v1 - W0_2 * logm_slope_2[2] - z0 * product_8;
-                const float by_v1_2 = W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
-                float log_sinhc_sqrtm_slope_2[1];
-                {
-                    const float in_0[1] = {-product_8};
-                    symmetric_log_sinhc_sqrt_1_derivative1_f(entry_0_0_2_eigh, in_0, log_sinhc_sqrtm_slope_2);
-                }
-                const float by_entry_0_0_2_2 = log_sinhc_sqrtm_derivative2[0] + log_sinhc_sqrtm_slope_2[0];
-                const float total_19 = product * gap_3 + L0_0_gap * (0.5f * by_entry_0_0_2_2);
-                const float product_9 = 0.5f * (product_3 * logm_slope_2[1] + L0_1 * (2.0f * by_entry_0_0_2_2) +
-                    1.4142135623730951f * by_v1_2);
-                float logm_slope_3[3];
-                {
-                    const float in_0[3] = {W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0 + total_19, product_9, W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0 - total_19};
-                    symmetric_log_2_derivative1_f(entry_0_0_eigh, in_0, logm_slope_3);
-                }
-                const float by_entry_0_0_3 = logm_derivative2[0] + logm_slope_3[0];
-                const float by_entry_0_1_2 = 2.0f * logm_derivative2[1] + 2.0f * logm_slope_3[1];
-                const float by_entry_1_1_2 = logm_derivative2[2] + logm_slope_3[2];
-                const float total_20 = total_8 * by_exponent_by_x2 + total_7 * by_exponent_by_x3 + by_entry_1_1 * total_16
-                    + total_5 * by_entry_1_1_2 + 0.5f * (by_entry_0_1 * total_12 + total_3 * by_entry_0_1_2);
-                const float product_10 = r0_1_product * by_entry_0_1_2;
-                const float total_21 = r1_1 * by_entry_1_1_2 + product_10;
-                const float total_22 = total_15 + by_entry_1_1 * total_14 + total_4 * by_entry_1_1_2 + x_block[1][lane] *
-                    total_21 + 0.5f * (by_entry_0_1 * total_17 + total_5 * by_entry_0_1_2 + total_2 * by_entry_0_1_2);
-                const float total_23 = r0_1 * by_entry_1_1_2 + r0_0_product * by_entry_0_1_2;
-                const float total_24 = r1_1_product * by_entry_0_1_2 + r0_1 * by_entry_0_0_3;
-                const float total_25 = total_10 * by_exponent_by_x0 + by_entry_0_0 * total_11 + total_9 *
-                    by_exponent_by_x2 + 0.5f * (by_entry_0_1 * total_14 + total_4 * by_entry_0_1_2) + x_block[1][lane] *
-                    total_24;
-                const float total_26 = product_10 + r0_0 * by_entry_0_0_3;
-                const float total_27 = total_22 + x_block[0][lane] * total_23 + total_3 * by_entry_0_0_3 +
-                    x_block[3][lane] * total_24 + x_block[2][lane] * total_26;
-                float invsqrtm_slope[3];
-                {
-                    const float in_0[3] = {total_25 + total_2 * by_entry_0_0_3 + x_block[0][lane] * total_26, 0.5f * total_27, total_20 + x_block[3][lane] * total_21 + x_block[2][lane] * total_23};
-                    symmetric_invsqrt_2_derivative1_f(p_0_1_eigh, in_0, invsqrtm_slope);
-                }
-                sum[0][lane] += invsqrtm_slope[0];
-                sum[1][lane] += invsqrtm_slope[1];
-                sum[2][lane] += invsqrtm_slope[1];
-                sum[3][lane] += invsqrtm_slope[2];
-                sum[4][lane] += L0_0 * by_z0 - z0 * logm_slope_2[0];
-                sum[5][lane] += v1 * by_z0 - z0 * by_by_v1;
-                sum[6][lane] += L1_1 * by_z0 - z0 * logm_slope_2[2];
-                sum[7][lane] += L0_0 * by_z1 - z1 * logm_slope_2[0];
-                sum[8][lane] += v1 * by_z1 - z1 * by_by_v1;
-                sum[9][lane] += L1_1 * by_z1 - z1 * logm_slope_2[2];
-                sum[10][lane] += L0_0 * by_z2 - z2 * logm_slope_2[0];
-                sum[11][lane] += v1 * by_z2 - z2 * by_by_v1;
-                sum[12][lane] += L1_1 * by_z2 - z2 * logm_slope_2[2];
-                sum[13][lane] += exp_2 * by_phi;
+/* What pairs read of a splat, of some splats. */
+OUTLINE void pair_constants_f(
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, vector_f *S) {
+    const vector_f mu0 = mu[0];
+    const vector_f mu1 = mu[1];
+    const vector_f mu2 = mu[2];
+    const vector_f mu3 = mu[3];
+    const vector_f W0_0 = W[0];
+    const vector_f W0_1 = W[1];
+    const vector_f W0_2 = W[2];
+    const vector_f W1_0 = W[3];
+    const vector_f W1_1 = W[4];
+    const vector_f W1_2 = W[5];
+    const vector_f W2_0 = W[6];
+    const vector_f W2_1 = W[7];
+    const vector_f W2_2 = W[8];
+    const vector_f its_amplitude = amplitude[0];
+    const vector_f p_0_1 = 0.5f * mu1 + 0.5f * mu2;
+    vector_f p_0_1_eigh[6];
+    {
+        const vector_f given_lanes[3] = {mu0, p_0_1, mu3};
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            float found[6];
+            {
+                const float in_0[3] = {given[0], given[1], given[2]};
+                symmetric_eigh_2_f(in_0, found);
             }
-            for (size_t i = 0; i < 14; ++i)
-                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
-            mu_bar[4 * k + 0] += total[0];
-            mu_bar[4 * k + 1] += total[1];
-            mu_bar[4 * k + 2] += total[2];
-            mu_bar[4 * k + 3] += total[3];
-            W_bar[9 * k + 0] += total[4];
-            W_bar[9 * k + 1] += total[5];
-            W_bar[9 * k + 2] += total[6];
-            W_bar[9 * k + 3] += total[7];
-            W_bar[9 * k + 4] += total[8];
-            W_bar[9 * k + 5] += total[9];
-            W_bar[9 * k + 6] += total[10];
-            W_bar[9 * k + 7] += total[11];
-            W_bar[9 * k + 8] += total[12];
-            amplitude_bar[1 * k + 0] += total[13];
+            for (int i = 0; i < 6; ++i) LANE(p_0_1_eigh[i], lane) = found[i];
         }
     }
-    restore_denormals(mode);
+    vector_f invsqrtm[3];
+    {
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(p_0_1_eigh[i], lane);
+            float found[3];
+            symmetric_invsqrt_2_f(whole, found);
+            for (int i = 0; i < 3; ++i) LANE(invsqrtm[i], lane) = found[i];
+        }
+    }
+    const vector_f r0_0 = invsqrtm[0];
+    const vector_f r0_1 = invsqrtm[1];
+    const vector_f r1_1 = invsqrtm[2];
+    S[0] = W0_0;
+    S[1] = W0_1;
+    S[2] = W0_2;
+    S[3] = W1_0;
+    S[4] = W1_1;
+    S[5] = W1_2;
+    S[6] = W2_0;
+    S[7] = W2_1;
+    S[8] = W2_2;
+    S[9] = its_amplitude;
+    S[10] = r0_0;
+    S[11] = r0_1;
+    S[12] = r1_1;
+    S[13] = 0.5f * r0_0;
+    S[14] = 0.5f * r0_1;
+    S[15] = 0.5f * r1_1;
+}
+
+/* Adds the values phi of a splat at some points. */
+OUTLINE void pair_value_f(
+    const vector_f *X, const float *S, vector_f *value) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const vector_f x2 = X[2];
+    const vector_f x3 = X[3];
+    const float W0_0 = S[0];
+    const float W0_1 = S[1];
+    const float W0_2 = S[2];
+    const float W1_0 = S[3];
+    const float W1_1 = S[4];
+    const float W1_2 = S[5];
+    const float W2_0 = S[6];
+    const float W2_1 = S[7];
+    const float W2_2 = S[8];
+    const float amplitude = S[9];
+    const float r0_0 = S[10];
+    const float r0_1 = S[11];
+    const float r1_1 = S[12];
+    const float mul_of_one = S[13];
+    const float mul_of_one_2 = S[14];
+    const float mul_of_one_3 = S[15];
+    const vector_f total_2 = x0 * r0_0 + x2 * r0_1;
+    const vector_f total_3 = x1 * r0_0 + x3 * r0_1;
+    const vector_f entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
+    const vector_f total_4 = x0 * r0_1 + x2 * r1_1;
+    const vector_f total_5 = x1 * r0_1 + x3 * r1_1;
+    const vector_f entry_0_1 = mul_of_one * total_4 + total_2 * mul_of_one_2 + mul_of_one_2 * total_5 +
+        total_3 * mul_of_one_3;
+    const vector_f entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
+    vector_f entry_0_0_eigh[6];
+    {
+        const vector_f given_lanes[3] = {entry_0_0, entry_0_1, entry_1_1};
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            float found[6];
+            {
+                const float in_0[3] = {given[0], given[1], given[2]};
+                symmetric_eigh_2_f(in_0, found);
+            }
+            for (int i = 0; i < 6; ++i) LANE(entry_0_0_eigh[i], lane) = found[i];
+        }
+    }
+    vector_f logm[3];
+    {
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+            float found[3];
+            symmetric_log_2_f(whole, found);
+            for (int i = 0; i < 3; ++i) LANE(logm[i], lane) = found[i];
+        }
+    }
+    const vector_f L0_1 = logm[1];
+    const vector_f L0_0 = logm[0];
+    const vector_f L1_1 = logm[2];
+    const vector_f L0_0_gap = L0_0 - L1_1;
+    const vector_f entry_0_0_2 = L0_1 * L0_1 + 0.25f * (L0_0_gap * L0_0_gap);
+    vector_f entry_0_0_2_eigh[2];
+    {
+        const vector_f given_lanes[1] = {entry_0_0_2};
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float given[1];
+            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+            float found[2];
+            {
+                const float in_0[1] = {given[0]};
+                symmetric_eigh_1_f(in_0, found);
+            }
+            for (int i = 0; i < 2; ++i) LANE(entry_0_0_2_eigh[i], lane) = found[i];
+        }
+    }
+    vector_f log_sinhc_sqrtm[1];
+    {
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float whole[2];
+            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+            float found[1];
+            symmetric_log_sinhc_sqrt_1_f(whole, found);
+            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm[i], lane) = found[i];
+        }
+    }
+    const vector_f log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[0];
+    const vector_f v1 = 1.4142135623730951f * L0_1;
+    const vector_f z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1;
+    const vector_f z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
+    const vector_f z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
+    const vector_f gap = -log_sinhc_sqrtm_value0_0 - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
+    value[0] = value[0] + amplitude * vector_exp_f(gap);
+}
+
+/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+OUTLINE void pair_forward_f(
+    const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const vector_f x2 = X[2];
+    const vector_f x3 = X[3];
+    const float W0_0 = S[0];
+    const float W0_1 = S[1];
+    const float W0_2 = S[2];
+    const float W1_0 = S[3];
+    const float W1_1 = S[4];
+    const float W1_2 = S[5];
+    const float W2_0 = S[6];
+    const float W2_1 = S[7];
+    const float W2_2 = S[8];
+    const float amplitude = S[9];
+    const float r0_0 = S[10];
+    const float r0_1 = S[11];
+    const float r1_1 = S[12];
+    const float mul_of_one = S[13];
+    const float mul_of_one_2 = S[14];
+    const float mul_of_one_3 = S[15];
+    const vector_f total_2 = x0 * r0_0 + x2 * r0_1;
+    const vector_f total_3 = x1 * r0_0 + x3 * r0_1;
+    const vector_f entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
+    const vector_f total_4 = x0 * r0_1 + x2 * r1_1;
+    const vector_f total_5 = x1 * r0_1 + x3 * r1_1;
+    const vector_f entry_0_1 = mul_of_one * total_4 + total_2 * mul_of_one_2 + mul_of_one_2 * total_5 +
+        total_3 * mul_of_one_3;
+    const vector_f entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
+    vector_f entry_0_0_eigh[6];
+    {
+        const vector_f given_lanes[3] = {entry_0_0, entry_0_1, entry_1_1};
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            float found[6];
+            {
+                const float in_0[3] = {given[0], given[1], given[2]};
+                symmetric_eigh_2_f(in_0, found);
+            }
+            for (int i = 0; i < 6; ++i) LANE(entry_0_0_eigh[i], lane) = found[i];
+        }
+    }
+    vector_f logm[3];
+    {
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+            float found[3];
+            symmetric_log_2_f(whole, found);
+            for (int i = 0; i < 3; ++i) LANE(logm[i], lane) = found[i];
+        }
+    }
+    const vector_f L0_1 = logm[1];
+    const vector_f L0_0 = logm[0];
+    const vector_f L1_1 = logm[2];
+    const vector_f L0_0_gap = L0_0 - L1_1;
+    const vector_f entry_0_0_2 = L0_1 * L0_1 + 0.25f * (L0_0_gap * L0_0_gap);
+    vector_f entry_0_0_2_eigh[2];
+    {
+        const vector_f given_lanes[1] = {entry_0_0_2};
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float given[1];
+            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+            float found[2];
+            {
+                const float in_0[1] = {given[0]};
+                symmetric_eigh_1_f(in_0, found);
+            }
+            for (int i = 0; i < 2; ++i) LANE(entry_0_0_2_eigh[i], lane) = found[i];
+        }
+    }
+    vector_f log_sinhc_sqrtm[1];
+    {
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float whole[2];
+            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+            float found[1];
+            symmetric_log_sinhc_sqrt_1_f(whole, found);
+            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm[i], lane) = found[i];
+        }
+    }
+    const vector_f log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[0];
+    const vector_f v1 = 1.4142135623730951f * L0_1;
+    const vector_f z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1;
+    const vector_f z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
+    const vector_f z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
+    const vector_f gap = -log_sinhc_sqrtm_value0_0 - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
+    const vector_f phi = amplitude * vector_exp_f(gap);
+    const vector_f z2_product = z2 * phi;
+    const vector_f z1_product = z1 * phi;
+    const vector_f z0_product = z0 * phi;
+    vector_f log_sinhc_sqrtm_slope[1];
+    {
+        const vector_f given_lanes[1] = {-phi};
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float given[1];
+            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+            float whole[2];
+            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+            float found[1];
+            {
+                const float in_0[1] = {given[0]};
+                symmetric_log_sinhc_sqrt_1_derivative1_f(whole, in_0, found);
+            }
+            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope[i], lane) = found[i];
+        }
+    }
+    const vector_f by_entry_0_0_2 = log_sinhc_sqrtm_slope[0];
+    const vector_f product = L0_0_gap * (0.5f * by_entry_0_0_2);
+    const vector_f total_6 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product + product;
+    const vector_f by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product;
+    const vector_f gap_2 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product - product;
+    vector_f logm_slope[3];
+    {
+        const vector_f given_lanes[3] = {total_6, 0.5f * (1.4142135623730951f * by_v1 + L0_1 * (2.0f * by_entry_0_0_2)), gap_2};
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            float whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+            float found[3];
+            {
+                const float in_0[3] = {given[0], given[1], given[2]};
+                symmetric_log_2_derivative1_f(whole, in_0, found);
+            }
+            for (int i = 0; i < 3; ++i) LANE(logm_slope[i], lane) = found[i];
+        }
+    }
+    const vector_f by_entry_1_1 = logm_slope[2];
+    const vector_f by_entry_0_1 = 2.0f * logm_slope[1];
+    const vector_f total_7 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1;
+    const vector_f product_2 = mul_of_one_2 * by_entry_0_1;
+    const vector_f by_entry_0_0 = logm_slope[0];
+    const vector_f total_8 = product_2 + r0_0 * by_entry_0_0;
+    const vector_f total_9 = r1_1 * by_entry_1_1 + product_2;
+    const vector_f total_10 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0;
+    value[0] = value[0] + phi;
+    slope[0] = slope[0] + r0_1 * total_7 + r0_0 * total_8;
+    slope[1] = slope[1] + r0_1 * total_9 + r0_0 * total_10;
+    slope[2] = slope[2] + r1_1 * total_7 + r0_1 * total_8;
+    slope[3] = slope[3] + r1_1 * total_9 + r0_1 * total_10;
+}
+
+/* The Riemannian gradient at some points, of the sums of slopes. */
+OUTLINE void pair_gradient_f(
+    const vector_f *x, const vector_f *slope, vector_f *gradient) {
+    const vector_f x0 = x[0];
+    const vector_f x1 = x[1];
+    const vector_f x2 = x[2];
+    const vector_f x3 = x[3];
+    const vector_f slope_x0 = slope[0];
+    const vector_f slope_x1 = slope[1];
+    const vector_f slope_x2 = slope[2];
+    const vector_f slope_x3 = slope[3];
+    const vector_f p_0_1 = 0.5f * x1 + 0.5f * x2;
+    vector_f p_0_1_eigh[6];
+    {
+        const vector_f given_lanes[3] = {x0, p_0_1, x3};
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            float found[6];
+            {
+                const float in_0[3] = {given[0], given[1], given[2]};
+                symmetric_eigh_2_f(in_0, found);
+            }
+            for (int i = 0; i < 6; ++i) LANE(p_0_1_eigh[i], lane) = found[i];
+        }
+    }
+    vector_f sqrtm[3];
+    {
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(p_0_1_eigh[i], lane);
+            float found[3];
+            symmetric_sqrt_2_f(whole, found);
+            for (int i = 0; i < 3; ++i) LANE(sqrtm[i], lane) = found[i];
+        }
+    }
+    const vector_f sqrtm_p0_0 = sqrtm[0];
+    const vector_f sqrtm_p0_1 = sqrtm[1];
+    const vector_f sqrtm_p0_1_squared = sqrtm_p0_1 * sqrtm_p0_1;
+    const vector_f total_2 = slope_x0 * (sqrtm_p0_0 * sqrtm_p0_0) + slope_x3 * sqrtm_p0_1_squared + sqrtm_p0_1
+        * (slope_x1 * sqrtm_p0_0) + sqrtm_p0_1 * (slope_x2 * sqrtm_p0_0);
+    const vector_f sqrtm_p1_1 = sqrtm[2];
+    const vector_f total_3 = 0.7071067811865476f * sqrtm_p0_1_squared + 1.4142135623730951f * (sqrtm_p1_1 *
+        (0.5f * sqrtm_p0_0));
+    const vector_f total_4 = slope_x1 * total_3 + slope_x2 * total_3 + 1.4142135623730951f * (sqrtm_p0_1 *
+        (slope_x0 * sqrtm_p0_0)) + 1.4142135623730951f * (sqrtm_p1_1 * (slope_x3 * sqrtm_p0_1));
+    const vector_f total_5 = slope_x0 * sqrtm_p0_1_squared + slope_x3 * (sqrtm_p1_1 * sqrtm_p1_1) + sqrtm_p1_1
+        * (slope_x1 * sqrtm_p0_1) + sqrtm_p1_1 * (slope_x2 * sqrtm_p0_1);
+    gradient[0] = total_2;
+    gradient[1] = total_4;
+    gradient[2] = total_5;
+}
+
+/* The adjoint of slope at some points, of that of the gradient. */
+OUTLINE void pair_gradient_vjp_f(
+    const vector_f *x, const vector_f *gradient_bar, vector_f *slope_bar) {
+    const vector_f x0 = x[0];
+    const vector_f x1 = x[1];
+    const vector_f x2 = x[2];
+    const vector_f x3 = x[3];
+    const vector_f gradient_bar0 = gradient_bar[0];
+    const vector_f gradient_bar1 = gradient_bar[1];
+    const vector_f gradient_bar2 = gradient_bar[2];
+    const vector_f p_0_1 = 0.5f * x1 + 0.5f * x2;
+    vector_f p_0_1_eigh[6];
+    {
+        const vector_f given_lanes[3] = {x0, p_0_1, x3};
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            float found[6];
+            {
+                const float in_0[3] = {given[0], given[1], given[2]};
+                symmetric_eigh_2_f(in_0, found);
+            }
+            for (int i = 0; i < 6; ++i) LANE(p_0_1_eigh[i], lane) = found[i];
+        }
+    }
+    vector_f sqrtm[3];
+    {
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(p_0_1_eigh[i], lane);
+            float found[3];
+            symmetric_sqrt_2_f(whole, found);
+            for (int i = 0; i < 3; ++i) LANE(sqrtm[i], lane) = found[i];
+        }
+    }
+    const vector_f sqrtm_p0_1 = sqrtm[1];
+    const vector_f sqrtm_p0_1_squared = sqrtm_p0_1 * sqrtm_p0_1;
+    const vector_f sqrtm_p0_0 = sqrtm[0];
+    const vector_f product = 1.4142135623730951f * gradient_bar1;
+    const vector_f sqrtm_p1_1 = sqrtm[2];
+    const vector_f product_2 = (0.7071067811865476f * sqrtm_p0_1_squared + 1.4142135623730951f * (sqrtm_p1_1 *
+        (0.5f * sqrtm_p0_0))) * gradient_bar1;
+    const vector_f total_2 = sqrtm_p0_1 * (sqrtm_p1_1 * gradient_bar2) + product_2 + sqrtm_p0_0 * (sqrtm_p0_1
+        * gradient_bar0);
+    slope_bar[0] = sqrtm_p0_1_squared * gradient_bar2 + sqrtm_p0_0 * (sqrtm_p0_1 * product) + sqrtm_p0_0 *
+            sqrtm_p0_0 * gradient_bar0;
+    slope_bar[1] = total_2;
+    slope_bar[2] = total_2;
+    slope_bar[3] = sqrtm_p1_1 * sqrtm_p1_1 * gradient_bar2 + sqrtm_p0_1 * (sqrtm_p1_1 * product) +
+            sqrtm_p0_1_squared * gradient_bar0;
+}
+
+/* The adjoints of some splats' parameters, of that of S. */
+OUTLINE void pair_constants_vjp_f(
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
+    (void)W;
+    (void)amplitude;
+    const vector_f mu0 = mu[0];
+    const vector_f mu1 = mu[1];
+    const vector_f mu2 = mu[2];
+    const vector_f mu3 = mu[3];
+    const vector_f W0_0_bar = S_bar[0];
+    const vector_f W0_1_bar = S_bar[1];
+    const vector_f W0_2_bar = S_bar[2];
+    const vector_f W1_0_bar = S_bar[3];
+    const vector_f W1_1_bar = S_bar[4];
+    const vector_f W1_2_bar = S_bar[5];
+    const vector_f W2_0_bar = S_bar[6];
+    const vector_f W2_1_bar = S_bar[7];
+    const vector_f W2_2_bar = S_bar[8];
+    const vector_f its_amplitude_bar = S_bar[9];
+    const vector_f r0_0_bar = S_bar[10];
+    const vector_f r0_1_bar = S_bar[11];
+    const vector_f r1_1_bar = S_bar[12];
+    const vector_f mul_of_one_bar = S_bar[13];
+    const vector_f mul_of_one_2_bar = S_bar[14];
+    const vector_f mul_of_one_3_bar = S_bar[15];
+    const vector_f p_0_1 = 0.5f * mu1 + 0.5f * mu2;
+    vector_f p_0_1_eigh[6];
+    {
+        const vector_f given_lanes[3] = {mu0, p_0_1, mu3};
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            float found[6];
+            {
+                const float in_0[3] = {given[0], given[1], given[2]};
+                symmetric_eigh_2_f(in_0, found);
+            }
+            for (int i = 0; i < 6; ++i) LANE(p_0_1_eigh[i], lane) = found[i];
+        }
+    }
+    vector_f invsqrtm_slope[3];
+    {
+        const vector_f given_lanes[3] = {r0_0_bar + 0.5f * mul_of_one_bar, 0.5f * (r0_1_bar + 0.5f * mul_of_one_2_bar), r1_1_bar + 0.5f * mul_of_one_3_bar};
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            float whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(p_0_1_eigh[i], lane);
+            float found[3];
+            {
+                const float in_0[3] = {given[0], given[1], given[2]};
+                symmetric_invsqrt_2_derivative1_f(whole, in_0, found);
+            }
+            for (int i = 0; i < 3; ++i) LANE(invsqrtm_slope[i], lane) = found[i];
+        }
+    }
+    mu_bar[0] = invsqrtm_slope[0];
+    mu_bar[1] = invsqrtm_slope[1];
+    mu_bar[2] = invsqrtm_slope[1];
+    mu_bar[3] = invsqrtm_slope[2];
+    W_bar[0] = W0_0_bar;
+    W_bar[1] = W0_1_bar;
+    W_bar[2] = W0_2_bar;
+    W_bar[3] = W1_0_bar;
+    W_bar[4] = W1_1_bar;
+    W_bar[5] = W1_2_bar;
+    W_bar[6] = W2_0_bar;
+    W_bar[7] = W2_1_bar;
+    W_bar[8] = W2_2_bar;
+    amplitude_bar[0] = its_amplitude_bar;
+}
+
+/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+OUTLINE void pair_backward_f(
+    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const vector_f x2 = X[2];
+    const vector_f x3 = X[3];
+    const float W0_0 = S[0];
+    const float W0_1 = S[1];
+    const float W0_2 = S[2];
+    const float W1_0 = S[3];
+    const float W1_1 = S[4];
+    const float W1_2 = S[5];
+    const float W2_0 = S[6];
+    const float W2_1 = S[7];
+    const float W2_2 = S[8];
+    const float amplitude = S[9];
+    const float r0_0 = S[10];
+    const float r0_1 = S[11];
+    const float r1_1 = S[12];
+    const float mul_of_one = S[13];
+    const float mul_of_one_2 = S[14];
+    const float mul_of_one_3 = S[15];
+    const vector_f its_value_bar = value_bar[0];
+    const vector_f x0_bar = slope_bar[0];
+    const vector_f x1_bar = slope_bar[1];
+    const vector_f x2_bar = slope_bar[2];
+    const vector_f x3_bar = slope_bar[3];
+    const vector_f total_2 = x0 * r0_0 + x2 * r0_1;
+    const vector_f total_3 = x1 * r0_0 + x3 * r0_1;
+    const vector_f entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
+    const vector_f total_4 = x0 * r0_1 + x2 * r1_1;
+    const vector_f total_5 = x1 * r0_1 + x3 * r1_1;
+    const vector_f entry_0_1 = mul_of_one * total_4 + total_2 * mul_of_one_2 + mul_of_one_2 * total_5 +
+        total_3 * mul_of_one_3;
+    const vector_f entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
+    vector_f entry_0_0_eigh[6];
+    {
+        const vector_f given_lanes[3] = {entry_0_0, entry_0_1, entry_1_1};
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            float found[6];
+            {
+                const float in_0[3] = {given[0], given[1], given[2]};
+                symmetric_eigh_2_f(in_0, found);
+            }
+            for (int i = 0; i < 6; ++i) LANE(entry_0_0_eigh[i], lane) = found[i];
+        }
+    }
+    vector_f logm[3];
+    {
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+            float found[3];
+            symmetric_log_2_f(whole, found);
+            for (int i = 0; i < 3; ++i) LANE(logm[i], lane) = found[i];
+        }
+    }
+    const vector_f L0_0 = logm[0];
+    const vector_f L0_1 = logm[1];
+    const vector_f L1_1 = logm[2];
+    const vector_f L0_0_gap = L0_0 - L1_1;
+    const vector_f entry_0_0_2 = L0_1 * L0_1 + 0.25f * (L0_0_gap * L0_0_gap);
+    vector_f entry_0_0_2_eigh[2];
+    {
+        const vector_f given_lanes[1] = {entry_0_0_2};
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float given[1];
+            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+            float found[2];
+            {
+                const float in_0[1] = {given[0]};
+                symmetric_eigh_1_f(in_0, found);
+            }
+            for (int i = 0; i < 2; ++i) LANE(entry_0_0_2_eigh[i], lane) = found[i];
+        }
+    }
+    vector_f log_sinhc_sqrtm[1];
+    {
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float whole[2];
+            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+            float found[1];
+            symmetric_log_sinhc_sqrt_1_f(whole, found);
+            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm[i], lane) = found[i];
+        }
+    }
+    const vector_f log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[0];
+    const vector_f v1 = 1.4142135623730951f * L0_1;
+    const vector_f z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1;
+    const vector_f z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
+    const vector_f z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
+    const vector_f gap = -log_sinhc_sqrtm_value0_0 - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
+    const vector_f exp_2 = vector_exp_f(gap);
+    const vector_f phi = amplitude * exp_2;
+    const vector_f total_6 = r0_0 * x0_bar + r0_1 * x2_bar;
+    const vector_f total_7 = r0_0 * x1_bar + r0_1 * x3_bar;
+    const vector_f total_8 = r0_0 * total_6 + r0_1 * total_7;
+    const vector_f total_9 = r0_1 * x0_bar + r1_1 * x2_bar;
+    const vector_f total_10 = r0_1 * x1_bar + r1_1 * x3_bar;
+    const vector_f total_11 = total_6 + total_10;
+    const vector_f by_by_entry_0_1 = mul_of_one * total_9 + mul_of_one_2 * total_11 + mul_of_one_3 * total_7;
+    const vector_f total_12 = r0_1 * total_9 + r1_1 * total_10;
+    vector_f logm_slope[3];
+    {
+        const vector_f given_lanes[3] = {total_8, by_by_entry_0_1, total_12};
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            float whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+            float found[3];
+            {
+                const float in_0[3] = {given[0], given[1], given[2]};
+                symmetric_log_2_derivative1_f(whole, in_0, found);
+            }
+            for (int i = 0; i < 3; ++i) LANE(logm_slope[i], lane) = found[i];
+        }
+    }
+    const vector_f by_by_v1 = 1.4142135623730951f * logm_slope[1];
+    const vector_f gap_2 = -(W0_0 * logm_slope[0]) - W0_1 * by_by_v1 - W0_2 * logm_slope[2];
+    const vector_f gap_3 = -(W1_0 * logm_slope[0]) - W1_1 * by_by_v1 - W1_2 * logm_slope[2];
+    const vector_f gap_4 = -(W2_0 * logm_slope[0]) - W2_1 * by_by_v1 - W2_2 * logm_slope[2];
+    const vector_f gap_5 = logm_slope[0] - logm_slope[2];
+    const vector_f total_13 = 2.0f * (L0_1 * logm_slope[1]) + 0.5f * (L0_0_gap * gap_5);
+    vector_f log_sinhc_sqrtm_slope[1];
+    {
+        const vector_f given_lanes[1] = {total_13};
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float given[1];
+            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+            float whole[2];
+            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+            float found[1];
+            {
+                const float in_0[1] = {given[0]};
+                symmetric_log_sinhc_sqrt_1_derivative1_f(whole, in_0, found);
+            }
+            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope[i], lane) = found[i];
+        }
+    }
+    const vector_f by_phi = its_value_bar + z0 * gap_2 + z1 * gap_3 + z2 * gap_4 - log_sinhc_sqrtm_slope[0];
+    const vector_f product = exp_2 * (amplitude * by_phi);
+    const vector_f by_z0 = phi * gap_2 - z0 * product;
+    const vector_f z0_product = z0 * phi;
+    const vector_f by_z1 = phi * gap_3 - z1 * product;
+    const vector_f z1_product = z1 * phi;
+    const vector_f by_z2 = phi * gap_4 - z2 * product;
+    const vector_f z2_product = z2 * phi;
+    const vector_f phi_minus = -phi;
+    vector_f log_sinhc_sqrtm_slope_2[1];
+    {
+        const vector_f given_lanes[1] = {phi_minus};
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float given[1];
+            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+            float whole[2];
+            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+            float found[1];
+            {
+                const float in_0[1] = {given[0]};
+                symmetric_log_sinhc_sqrt_1_derivative1_f(whole, in_0, found);
+            }
+            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope_2[i], lane) = found[i];
+        }
+    }
+    const vector_f by_entry_0_0_2 = log_sinhc_sqrtm_slope_2[0];
+    const vector_f product_2 = 0.5f * by_entry_0_0_2;
+    const vector_f product_3 = L0_0_gap * product_2;
+    const vector_f total_14 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product + product_3;
+    const vector_f by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product;
+    const vector_f product_4 = 2.0f * by_entry_0_0_2;
+    const vector_f product_5 = 0.5f * (1.4142135623730951f * by_v1 + L0_1 * product_4);
+    const vector_f gap_6 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product - product_3;
+    vector_f logm_slope_2[3];
+    {
+        const vector_f given_lanes[3] = {total_14, product_5, gap_6};
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            float whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+            float found[3];
+            {
+                const float in_0[3] = {given[0], given[1], given[2]};
+                symmetric_log_2_derivative1_f(whole, in_0, found);
+            }
+            for (int i = 0; i < 3; ++i) LANE(logm_slope_2[i], lane) = found[i];
+        }
+    }
+    const vector_f by_entry_0_1 = 2.0f * logm_slope_2[1];
+    const vector_f product_6 = mul_of_one_2 * by_entry_0_1;
+    const vector_f by_entry_0_0 = logm_slope_2[0];
+    const vector_f total_15 = product_6 + r0_0 * by_entry_0_0;
+    const vector_f total_16 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0;
+    vector_f logm_derivative2[3];
+    {
+        const vector_f given_lanes[6] = {total_14, product_5, gap_6, total_8, by_by_entry_0_1, total_12};
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float given[6];
+            for (int i = 0; i < 6; ++i) given[i] = LANE(given_lanes[i], lane);
+            float whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+            float found[3];
+            {
+                const float in_0[3] = {given[0], given[1], given[2]};
+                const float in_1[3] = {given[3], given[4], given[5]};
+                symmetric_log_2_derivative2_f(whole, in_0, in_1, found);
+            }
+            for (int i = 0; i < 3; ++i) LANE(logm_derivative2[i], lane) = found[i];
+        }
+    }
+    vector_f log_sinhc_sqrtm_derivative2[1];
+    {
+        const vector_f given_lanes[2] = {phi_minus, total_13};
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float given[2];
+            for (int i = 0; i < 2; ++i) given[i] = LANE(given_lanes[i], lane);
+            float whole[2];
+            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+            float found[1];
+            {
+                const float in_0[1] = {given[0]};
+                const float in_1[1] = {given[1]};
+                symmetric_log_sinhc_sqrt_1_derivative2_f(whole, in_0, in_1, found);
+            }
+            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_derivative2[i], lane) = found[i];
+        }
+    }
+    vector_f log_sinhc_sqrtm_slope_3[1];
+    {
+        const vector_f given_lanes[1] = {-product};
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float given[1];
+            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+            float whole[2];
+            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+            float found[1];
+            {
+                const float in_0[1] = {given[0]};
+                symmetric_log_sinhc_sqrt_1_derivative1_f(whole, in_0, found);
+            }
+            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope_3[i], lane) = found[i];
+        }
+    }
+    const vector_f by_entry_0_0_2_2 = log_sinhc_sqrtm_derivative2[0] + log_sinhc_sqrtm_slope_3[0];
+    const vector_f total_17 = product_2 * gap_5 + L0_0_gap * (0.5f * by_entry_0_0_2_2);
+    const vector_f by_v1_2 = W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
+    vector_f logm_slope_3[3];
+    {
+        const vector_f given_lanes[3] = {W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0 + total_17, 0.5f * (product_4 * logm_slope[1] + 1.4142135623730951f * by_v1_2 + L0_1 * (2.0f * by_entry_0_0_2_2)), W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0 - total_17};
+        for (size_t lane = 0; lane < LANES_f; ++lane) {
+            float given[3];
+            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+            float whole[6];
+            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+            float found[3];
+            {
+                const float in_0[3] = {given[0], given[1], given[2]};
+                symmetric_log_2_derivative1_f(whole, in_0, found);
+            }
+            for (int i = 0; i < 3; ++i) LANE(logm_slope_3[i], lane) = found[i];
+        }
+    }
+    const vector_f by_entry_0_1_2 = 2.0f * logm_derivative2[1] + 2.0f * logm_slope_3[1];
+    const vector_f by_entry_0_0_3 = logm_derivative2[0] + logm_slope_3[0];
+    const vector_f total_18 = mul_of_one_3 * by_entry_0_1_2 + r0_1 * by_entry_0_0_3;
+    const vector_f product_7 = mul_of_one_2 * by_entry_0_1_2;
+    const vector_f total_20 = product_7 + r0_0 * by_entry_0_0_3;
+    const vector_f by_entry_1_1 = logm_slope_2[2];
+    const vector_f total_21 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1;
+    const vector_f total_22 = r1_1 * by_entry_1_1 + product_6;
+    const vector_f by_entry_1_1_2 = logm_derivative2[2] + logm_slope_3[2];
+    const vector_f total_24 = r1_1 * by_entry_1_1_2 + product_7;
+    const vector_f total_25 = r0_1 * by_entry_1_1_2 + mul_of_one * by_entry_0_1_2;
+    S_bar[0] = S_bar[0] + L0_0 * by_z0 - z0_product * logm_slope[0];
+    S_bar[1] = S_bar[1] + v1 * by_z0 - z0_product * by_by_v1;
+    S_bar[2] = S_bar[2] + L1_1 * by_z0 - z0_product * logm_slope[2];
+    S_bar[3] = S_bar[3] + L0_0 * by_z1 - z1_product * logm_slope[0];
+    S_bar[4] = S_bar[4] + v1 * by_z1 - z1_product * by_by_v1;
+    S_bar[5] = S_bar[5] + L1_1 * by_z1 - z1_product * logm_slope[2];
+    S_bar[6] = S_bar[6] + L0_0 * by_z2 - z2_product * logm_slope[0];
+    S_bar[7] = S_bar[7] + v1 * by_z2 - z2_product * by_by_v1;
+    S_bar[8] = S_bar[8] + L1_1 * by_z2 - z2_product * logm_slope[2];
+    S_bar[9] = S_bar[9] + exp_2 * by_phi;
+    S_bar[10] = S_bar[10] + total_15 * x0_bar + by_entry_0_0 * total_6 + total_16 * x1_bar + x1 * total_18 +
+            total_2 * by_entry_0_0_3 + x0 * total_20;
+    S_bar[11] = S_bar[11] + total_15 * x2_bar + total_16 * x3_bar + by_entry_0_0 * total_7 + total_21 * x0_bar
+            + total_22 * x1_bar + by_entry_1_1 * total_9 + total_4 * by_entry_1_1_2 + x1 * total_24 + x0 *
+            total_25 + total_3 * by_entry_0_0_3 + x3 * total_18 + x2 * total_20;
+    S_bar[12] = S_bar[12] + total_21 * x2_bar + total_22 * x3_bar + by_entry_1_1 * total_10 + total_5 *
+            by_entry_1_1_2 + x3 * total_24 + x2 * total_25;
+    S_bar[13] = S_bar[13] + by_entry_0_1 * total_9 + total_4 * by_entry_0_1_2;
+    S_bar[14] = S_bar[14] + by_entry_0_1 * total_11 + total_5 * by_entry_0_1_2 + total_2 * by_entry_0_1_2;
+    S_bar[15] = S_bar[15] + by_entry_0_1 * total_7 + total_3 * by_entry_0_1_2;
+}
+
+/* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
+OUTLINE void vector_rows_f(const float *rows, size_t count, size_t start, size_t size, vector_f *columns) {
+    for (size_t i = 0; i < size; ++i) {
+        float column[LANES_f];
+        for (size_t lane = 0; lane < LANES_f; ++lane)
+            column[lane] = rows[size * (start + lane < count ? start + lane : count - 1) + i];
+        columns[i] = vector_load_f(column);
+    }
+}
+
+/* Back to rows that are `stride` apart; nothing past the end. */
+OUTLINE void vector_to_rows_f(
+    const vector_f *columns, float *rows, size_t count, size_t start, size_t size, size_t stride) {
+    const size_t lanes = start >= count ? 0 : count - start < LANES_f ? count - start : LANES_f;
+    for (size_t lane = 0; lane < lanes; ++lane)
+        for (size_t i = 0; i < size; ++i) rows[stride * (start + lane) + i] = LANE(columns[i], lane);
+}
+
+/* Zero in the lanes past the end. */
+OUTLINE void vector_end_f(size_t count, size_t start, size_t size, vector_f *columns) {
+    for (size_t lane = start >= count ? 0 : count - start; lane < LANES_f; ++lane)
+        for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
+}
+
+/* Scratch memory: 9 vectors for each block of points, then the constants of the splats. */
+size_t spd_splats_work_f(size_t count, size_t splat_count, int threads) {
+    (void)threads;
+    return ((count + LANES_f - 1) / LANES_f * 9 + 1) * LANES_f + 16 * splat_count;
+}
+
+static vector_f *work_points_f(float *work) {
+    const uintptr_t size = sizeof(vector_f), start = (uintptr_t)work;
+    return (vector_f *)((char *)work + ((0 - start) & (size - 1)));
+}
+
+static float *work_constants_f(float *work, size_t count) {
+    return (float *)(work_points_f(work) + (count + LANES_f - 1) / LANES_f * 9);
+}
+
+/* The constants of LANES splats, as rows. */
+OUTLINE void splat_constants_f(
+    size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, float *constants) {
+    vector_f own_mu[4], own_W[9], own_amplitude[1], S[16];
+    vector_rows_f(mu, splat_count, start, 4, own_mu);
+    vector_rows_f(W, splat_count, start, 9, own_W);
+    vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
+    pair_constants_f(own_mu, own_W, own_amplitude, S);
+    vector_to_rows_f(S, constants, splat_count, start, 16, 16);
+}
+
+/* 2 vectors of points at a time stay in registers while all splats pass. */
+void spd_splats_f(
+    size_t count, size_t splat_count, const float *SPD_RESTRICT x, const float *SPD_RESTRICT mu, const float *SPD_RESTRICT W, const float *SPD_RESTRICT amplitude,
+    float *SPD_RESTRICT value, float *SPD_RESTRICT gradient, float *SPD_RESTRICT work, int threads) {
+    (void)threads;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES_f) {
+            vector_f at[2][4], X[2][4], grad[3];
+            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][4] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows_f(x, count, start + b * LANES_f, 4, at[b]);
+                pair_features_f(at[b], X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_forward_f(X[0], constants + 16 * k, value_sum[0], slope_sum[0]);
+                pair_forward_f(X[1], constants + 16 * k, value_sum[1], slope_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b) {
+                pair_gradient_f(at[b], slope_sum[b], grad);
+                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                vector_to_rows_f(grad, gradient, count, start + b * LANES_f, 3, 3);
+            }
+        }
+        restore_denormals(mode);
+    }
+}
+
+void spd_splats_value_f(
+    size_t count, size_t splat_count, const float *SPD_RESTRICT x, const float *SPD_RESTRICT mu, const float *SPD_RESTRICT W, const float *SPD_RESTRICT amplitude,
+    float *SPD_RESTRICT value, float *SPD_RESTRICT work, int threads) {
+    (void)threads;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES_f) {
+            vector_f at[4], X[2][4], value_sum[2][1] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows_f(x, count, start + b * LANES_f, 4, at);
+                pair_features_f(at, X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_value_f(X[0], constants + 16 * k, value_sum[0]);
+                pair_value_f(X[1], constants + 16 * k, value_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b)
+                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
+OUTLINE void splat_points_f(
+    size_t count, size_t start, const float *x, const float *value_bar, const float *gradient_bar, vector_f *point) {
+    vector_f at[4], grad_bar[3], slope_bar[4];
+    vector_rows_f(x, count, start, 4, at);
+    vector_rows_f(gradient_bar, count, start, 3, grad_bar);
+    vector_rows_f(value_bar, count, start, 1, point + 4);
+    pair_features_f(at, point);
+    pair_gradient_vjp_f(at, grad_bar, slope_bar);
+    for (int i = 0; i < 4; ++i) point[4 + 1 + i] = slope_bar[i];
+    vector_end_f(count, start, 4 + 1, point + 4);
+}
+
+/* Adds to S_bar what some vectors of points add to it. */
+OUTLINE void splat_sums_f(const vector_f *point, size_t size, const float *S, float *S_bar) {
+    vector_f sum[16] = {ZERO};
+    for (size_t b = 0; b < size; ++b, point += 9) pair_backward_f(point, S, point + 4, point + 4 + 1, sum);
+    S_bar[0] += vector_sum_f(sum[0]);
+    S_bar[1] += vector_sum_f(sum[1]);
+    S_bar[2] += vector_sum_f(sum[2]);
+    S_bar[3] += vector_sum_f(sum[3]);
+    S_bar[4] += vector_sum_f(sum[4]);
+    S_bar[5] += vector_sum_f(sum[5]);
+    S_bar[6] += vector_sum_f(sum[6]);
+    S_bar[7] += vector_sum_f(sum[7]);
+    S_bar[8] += vector_sum_f(sum[8]);
+    S_bar[9] += vector_sum_f(sum[9]);
+    S_bar[10] += vector_sum_f(sum[10]);
+    S_bar[11] += vector_sum_f(sum[11]);
+    S_bar[12] += vector_sum_f(sum[12]);
+    S_bar[13] += vector_sum_f(sum[13]);
+    S_bar[14] += vector_sum_f(sum[14]);
+    S_bar[15] += vector_sum_f(sum[15]);
+}
+
+/*
+ * Some splats at a time; the points pass over each of them, a chunk at a time, while its sums stay in registers. How many
+ * splats depends on the threads, what is summed in which order does not.
+ */
+void spd_splats_vjp_f(
+    size_t count, size_t splat_count, const float *SPD_RESTRICT x, const float *SPD_RESTRICT mu, const float *SPD_RESTRICT W, const float *SPD_RESTRICT amplitude, const float *SPD_RESTRICT value_bar, const float *SPD_RESTRICT gradient_bar,
+    float *SPD_RESTRICT mu_bar, float *SPD_RESTRICT W_bar, float *SPD_RESTRICT amplitude_bar, float *SPD_RESTRICT work, int threads) {
+    const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    const size_t chunk = 131072 / (9 * sizeof(vector_f)) + 1;
+    const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
+    const size_t share = part < LANES_f ? part : LANES_f;
+    vector_f *points = work_points_f(work);
+    float *constants = work_constants_f(work, count);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic) nowait)
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic, 8))
+        for (size_t block = 0; block < blocks; ++block)
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 9 * block);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += share) {
+            const size_t end = start + share < splat_count ? start + share : splat_count;
+            float sums[LANES_f][16] = {{0}};
+            vector_f own_mu[4], own_W[9], own_amplitude[1], S_bar[16], bars[14];
+            for (size_t first = 0; first < blocks; first += chunk) {
+                const size_t size = first + chunk < blocks ? chunk : blocks - first;
+                for (size_t k = start; k < end; ++k)
+                    splat_sums_f(points + 9 * first, size, constants + 16 * k, sums[k - start]);
+            }
+            vector_rows_f(mu, end, start, 4, own_mu);
+            vector_rows_f(W, end, start, 9, own_W);
+            vector_rows_f(amplitude, end, start, 1, own_amplitude);
+            vector_rows_f(sums[0], LANES_f, 0, 16, S_bar);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 4, bars + 4 + 9);
+            vector_to_rows_f(bars, mu_bar, end, start, 4, 4);
+            vector_to_rows_f(bars + 4, W_bar, end, start, 9, 9);
+            vector_to_rows_f(bars + 4 + 9, amplitude_bar, end, start, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* Nothing is summed: the adjoints of a splat's constants go on to its parameters for every point. */
+void spd_splats_rows_f(
+    size_t count, size_t splat_count, const float *SPD_RESTRICT x, const float *SPD_RESTRICT mu, const float *SPD_RESTRICT W, const float *SPD_RESTRICT amplitude, const float *SPD_RESTRICT value_bar, const float *SPD_RESTRICT gradient_bar,
+    float *SPD_RESTRICT rows, float *SPD_RESTRICT work, int threads) {
+    (void)threads;
+    const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t block = 0; block < blocks; ++block) {
+            vector_f point[9];
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
+            for (size_t k = 0; k < splat_count; ++k) {
+                vector_f own_mu[4], own_W[9], own_amplitude[1], S_bar[16] = {ZERO}, bars[14];
+                for (int i = 0; i < 4; ++i) own_mu[i] = vector_of_f(mu[4 * k + i]);
+                for (int i = 0; i < 9; ++i) own_W[i] = vector_of_f(W[9 * k + i]);
+                own_amplitude[0] = vector_of_f(amplitude[k]);
+                pair_backward_f(point, constants + 16 * k, point + 4, point + 4 + 1, S_bar);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 4, bars + 4 + 9);
+                vector_to_rows_f(bars, rows + 14 * k, count, block * LANES_f, 14, 14 * splat_count);
+            }
+        }
+        restore_denormals(mode);
+    }
 }

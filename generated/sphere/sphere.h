@@ -327,51 +327,42 @@ void sphere_splat_batch_f(
 void sphere_frame(const double *SPHERE_RESTRICT p, double *SPHERE_RESTRICT frame);
 void sphere_frame_f(const float *SPHERE_RESTRICT p, float *SPHERE_RESTRICT frame);
 
+/* How many numbers of scratch memory the functions below need, for these sizes or smaller ones. */
+size_t sphere_splats_work(size_t count, size_t splat_count, int threads);
+size_t sphere_splats_work_f(size_t count, size_t splat_count, int threads);
+
 /* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
 void sphere_splats(
-    size_t count,
-    size_t splat_count,
-    const double *SPHERE_RESTRICT x,
-    const double *SPHERE_RESTRICT mu,
-    const double *SPHERE_RESTRICT W,
-    const double *SPHERE_RESTRICT amplitude,
-    double *SPHERE_RESTRICT value,
-    double *SPHERE_RESTRICT gradient);
+    size_t count, size_t splat_count, const double *SPHERE_RESTRICT x, const double *SPHERE_RESTRICT mu, const double *SPHERE_RESTRICT W, const double *SPHERE_RESTRICT amplitude,
+    double *SPHERE_RESTRICT value, double *SPHERE_RESTRICT gradient, double *SPHERE_RESTRICT work, int threads);
 void sphere_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *SPHERE_RESTRICT x,
-    const float *SPHERE_RESTRICT mu,
-    const float *SPHERE_RESTRICT W,
-    const float *SPHERE_RESTRICT amplitude,
-    float *SPHERE_RESTRICT value,
-    float *SPHERE_RESTRICT gradient);
+    size_t count, size_t splat_count, const float *SPHERE_RESTRICT x, const float *SPHERE_RESTRICT mu, const float *SPHERE_RESTRICT W, const float *SPHERE_RESTRICT amplitude,
+    float *SPHERE_RESTRICT value, float *SPHERE_RESTRICT gradient, float *SPHERE_RESTRICT work, int threads);
+
+/* The values of the sums alone. */
+void sphere_splats_value(
+    size_t count, size_t splat_count, const double *SPHERE_RESTRICT x, const double *SPHERE_RESTRICT mu, const double *SPHERE_RESTRICT W, const double *SPHERE_RESTRICT amplitude,
+    double *SPHERE_RESTRICT value, double *SPHERE_RESTRICT work, int threads);
+void sphere_splats_value_f(
+    size_t count, size_t splat_count, const float *SPHERE_RESTRICT x, const float *SPHERE_RESTRICT mu, const float *SPHERE_RESTRICT W, const float *SPHERE_RESTRICT amplitude,
+    float *SPHERE_RESTRICT value, float *SPHERE_RESTRICT work, int threads);
 
 /* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
 void sphere_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *SPHERE_RESTRICT x,
-    const double *SPHERE_RESTRICT mu,
-    const double *SPHERE_RESTRICT W,
-    const double *SPHERE_RESTRICT amplitude,
-    const double *SPHERE_RESTRICT value_bar,
-    const double *SPHERE_RESTRICT gradient_bar,
-    double *SPHERE_RESTRICT mu_bar,
-    double *SPHERE_RESTRICT W_bar,
-    double *SPHERE_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const double *SPHERE_RESTRICT x, const double *SPHERE_RESTRICT mu, const double *SPHERE_RESTRICT W, const double *SPHERE_RESTRICT amplitude, const double *SPHERE_RESTRICT value_bar, const double *SPHERE_RESTRICT gradient_bar,
+    double *SPHERE_RESTRICT mu_bar, double *SPHERE_RESTRICT W_bar, double *SPHERE_RESTRICT amplitude_bar, double *SPHERE_RESTRICT work, int threads);
 void sphere_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *SPHERE_RESTRICT x,
-    const float *SPHERE_RESTRICT mu,
-    const float *SPHERE_RESTRICT W,
-    const float *SPHERE_RESTRICT amplitude,
-    const float *SPHERE_RESTRICT value_bar,
-    const float *SPHERE_RESTRICT gradient_bar,
-    float *SPHERE_RESTRICT mu_bar,
-    float *SPHERE_RESTRICT W_bar,
-    float *SPHERE_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const float *SPHERE_RESTRICT x, const float *SPHERE_RESTRICT mu, const float *SPHERE_RESTRICT W, const float *SPHERE_RESTRICT amplitude, const float *SPHERE_RESTRICT value_bar, const float *SPHERE_RESTRICT gradient_bar,
+    float *SPHERE_RESTRICT mu_bar, float *SPHERE_RESTRICT W_bar, float *SPHERE_RESTRICT amplitude_bar, float *SPHERE_RESTRICT work, int threads);
+
+/* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +
+ * gradient_n . gradient_bar_n in its mu, W and amplitude, in this order. */
+void sphere_splats_rows(
+    size_t count, size_t splat_count, const double *SPHERE_RESTRICT x, const double *SPHERE_RESTRICT mu, const double *SPHERE_RESTRICT W, const double *SPHERE_RESTRICT amplitude, const double *SPHERE_RESTRICT value_bar, const double *SPHERE_RESTRICT gradient_bar,
+    double *SPHERE_RESTRICT rows, double *SPHERE_RESTRICT work, int threads);
+void sphere_splats_rows_f(
+    size_t count, size_t splat_count, const float *SPHERE_RESTRICT x, const float *SPHERE_RESTRICT mu, const float *SPHERE_RESTRICT W, const float *SPHERE_RESTRICT amplitude, const float *SPHERE_RESTRICT value_bar, const float *SPHERE_RESTRICT gradient_bar,
+    float *SPHERE_RESTRICT rows, float *SPHERE_RESTRICT work, int threads);
 
 #ifdef __cplusplus
 }

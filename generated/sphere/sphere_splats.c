@@ -7,34 +7,178 @@
 #include "sphere.h"
 
 #include <float.h>
+#include <stdint.h>
+#include <string.h>
 
-#define LANES 64
+/*
+ * A vector is as wide as the machine's registers, or one number where the compiler has no vectors (or is asked for none
+ * by -DRSRM_NO_VECTORS). Comparisons of vectors are masks; `vector_select` is the ?: of vectors.
+ */
+#if defined(__GNUC__) && !defined(RSRM_NO_VECTORS)
+#if defined(__AVX512F__)
+#define VECTOR_BYTES 64
+#elif defined(__AVX__)
+#define VECTOR_BYTES 32
+#else
+#define VECTOR_BYTES 16
+#endif
+#define LANE(vector, i) (vector)[i]
+#define ZERO {0}
+#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
+typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
+typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
+typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
+typedef int32_t vector_mask_f __attribute__((vector_size(VECTOR_BYTES)));
+typedef uint64_t vector_bits __attribute__((vector_size(VECTOR_BYTES)));
+typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
+#else
+#define LANE(vector, i) (vector)
+#define ZERO 0
+#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
+typedef double vector;
+typedef float vector_f;
+typedef int64_t vector_mask;
+typedef int32_t vector_mask_f;
+typedef uint64_t vector_bits;
+typedef uint32_t vector_bits_f;
+#endif
+#if defined(__GNUC__)
+#define INLINE static inline __attribute__((always_inline, unused))
+#define OUTLINE static __attribute__((noinline))
+#else
+#define INLINE static inline
+#define OUTLINE static
+#endif
+#define LANES (sizeof(vector) / sizeof(double))
+#define LANES_f (sizeof(vector_f) / sizeof(float))
+
+/* Threads, where the compiler has OpenMP. */
+#if defined(_OPENMP)
+#define OMP(directive) _Pragma(#directive)
+#else
+#define OMP(directive)
+#endif
 
 /* Denormal numbers count as zero while the sums run: far splats are many, and slow. */
 #if defined(__SSE2__)
 #include <xmmintrin.h>
-static unsigned flush_denormals(void) {
+INLINE uint64_t flush_denormals(void) {
     const unsigned mode = _mm_getcsr();
     _mm_setcsr(mode | 0x8040u);
     return mode;
 }
-static void restore_denormals(unsigned mode) { _mm_setcsr(mode); }
+INLINE void restore_denormals(uint64_t mode) { _mm_setcsr((unsigned)mode); }
+#elif defined(__aarch64__) && defined(__GNUC__)
+INLINE uint64_t flush_denormals(void) {
+    uint64_t mode;
+    __asm__ __volatile__("mrs %0, fpcr" : "=r"(mode));
+    __asm__ __volatile__("msr fpcr, %0" : : "r"(mode | (UINT64_C(1) << 24)));
+    return mode;
+}
+INLINE void restore_denormals(uint64_t mode) { __asm__ __volatile__("msr fpcr, %0" : : "r"(mode)); }
 #else
-static unsigned flush_denormals(void) { return 0; }
-static void restore_denormals(unsigned mode) { (void)mode; }
+INLINE uint64_t flush_denormals(void) { return 0; }
+INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
 
-/* Of degree 14 on [0, 1], its relative error below 2^-56. */
-static inline double polynomial_t_over_norm_w_near(double x) {
-    return 1.0 + x * (0.1662524999999975 + x * (0.033167872507672114 + x * (0.0070897393547985224 + x *
-        (0.0015715825913113733 + x * (0.00035628967365586723 + x * (8.201983320917496e-05 + x *
-        (1.907670567869169e-05 + x * (4.515955030924914e-06 + x * (9.891104407795466e-07 + x *
-        (3.4857725787739116e-07 + x * (-3.572738831505148e-08 + x * (7.823058427560213e-08 + x *
-        (-2.320706538769562e-08 + x * 6.513842453315236e-09)))))))))))));
+/* The same number in all lanes. */
+INLINE vector vector_of(double x) {
+    const vector zero = ZERO;
+    return x - zero;
+}
+
+/* x in the lanes of the mask, y in the others. */
+INLINE vector vector_select(vector_mask mask, vector x, vector y) {
+    return SELECT(vector, vector_mask, mask, x, y);
+}
+
+/* Numbers in memory to a vector, and back. */
+INLINE vector vector_load(const double *from) {
+    vector x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+INLINE void vector_store(double *to, vector x) { memcpy(to, &x, sizeof x); }
+
+/* The sum over the lanes, by halves. */
+INLINE double vector_sum(vector x) {
+    double lanes[LANES];
+    vector_store(lanes, x);
+    for (size_t half = LANES / 2; half > 0; half /= 2)
+        for (size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    return lanes[0];
+}
+
+/* The bits of a vector as integers, and back. */
+INLINE vector_bits vector_to_bits(vector x) {
+    vector_bits bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+INLINE vector vector_from_bits(vector_bits bits) {
+    vector x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* x >= 0 with the sign of another. */
+INLINE vector vector_signed(vector x, vector sign) {
+    return vector_from_bits(vector_to_bits(x) | (vector_to_bits(sign) & 0x8000000000000000));
+}
+
+/* abs of every lane; one instruction where the machine has it. */
+INLINE vector vector_abs(vector x) {
+    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
+    return x;
+}
+
+/* sqrt of every lane; one instruction where the machine has it. */
+INLINE vector vector_sqrt(vector x) {
+    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
+    return x;
+}
+
+/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
+INLINE vector vector_exp(vector x) {
+    const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
+    const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
+    const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
+    const vector scale = vector_from_bits((vector_to_bits(shifted) + 1022) << 52); /* 2^(k - 1) */
+    const vector y = vector_select(x > 709.782712893384, vector_of(HUGE_VAL), (scale + scale * part) * 2);
+    return vector_select(x < -707.9, vector_of(0), y);
+}
+
+/* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
+INLINE vector vector_log(vector x) {
+    const vector_bits bits = vector_to_bits(x), biased = (bits + 0x95f619980c433) >> 52; /* k + 1023 */
+    const vector k = vector_from_bits(biased + 0x4338000000000000) - 6755399441056767.0;
+    const vector f = vector_from_bits(bits - (biased << 52) + 0x3ff0000000000000) - 1, s = f / (2 + f), z = s * s;
+    const vector half = f * f * 0.5;
+    const vector rest = z * (0.6666666666666666 + z * (0.4000000000000088 + z * (0.28571428570801954 + z * (0.22222222392089008 + z * (0.18181795600060793 + z * (0.15386241881938595 + z * (0.13268714792348096 + z * 0.1308723619665962)))))));
+    const vector y = k * 0.6931471805601177 - ((half - (s * (half + rest) + k * -1.7239444525614835e-13)) - f);
+    const vector small = vector_select(x < 0, vector_of(NAN), vector_of(-HUGE_VAL));
+    const vector finite = vector_select(x > 2.2250738585072009e-308, y, small);
+    return vector_select(x <= 1.7976931348623157e308, finite, x);
+}
+
+/* atan2, within 3 units in the last place. */
+INLINE vector vector_atan2(vector y, vector x) {
+    const vector a = vector_abs(y), b = vector_abs(x), one = vector_of(1);
+    const vector less = vector_select(a > b, b, a), more = vector_select(a > b, a, b);
+    const vector low = vector_select(less > 1.7976931348623157e308, one, less);
+    const vector high = vector_select(less > 1.7976931348623157e308, one, vector_select(more == 0, one, more));
+    const vector top = vector_select(low > 0.4142135623730951 * high, low - high, low);
+    const vector bottom = vector_select(low > 0.4142135623730951 * high, low * 0.5 + high * 0.5, high * 0.5);
+    const vector t = top / bottom * 0.5, z = t * t;
+    const vector angle = t + t * z * (-0.3333333333333333 + z * (0.19999999999999804 + z * (-0.14285714285659806 + z * (0.11111111105153429 + z * (-0.09090908753400499 + z * (0.07692296372129964 + z * (-0.06666424833613552 + z * (0.05878928398517232 + z * (-0.052304498567092406 + z * (0.04551573086664191 + z * (-0.034570044186095536 + z * 0.016285183029865667)))))))))));
+    const vector first = vector_select(low > 0.4142135623730951 * high, 0.7853981633974483 + (angle + 3.061616997868383e-17), angle);
+    const vector second = vector_select(a > b, 1.5707963267948966 - (first - 6.123233995736766e-17), first);
+    const vector third = vector_select((vector_to_bits(x) & 0x8000000000000000) != 0, 3.141592653589793 - (second - 1.2246467991473532e-16), second);
+    return vector_signed(third, y);
 }
 
 /* Of degree 14 on [0, 1], its relative error below 2^-56. */
-static inline double polynomial_log_det_series(double x) {
+INLINE vector vector_polynomial_log_det_series(vector x) {
     return 0.16666666666666666 + x * (0.01939612499999991 + x * (0.0031149721534882713 + x *
         (0.0005700237971008779 + x * (0.00011198187163070022 + x * (2.3002110017289655e-05 + x *
         (4.8718356693444944e-06 + x * (1.054614402260622e-06 + x * (2.3367541929114962e-07 + x *
@@ -42,17 +186,41 @@ static inline double polynomial_log_det_series(double x) {
         (2.9042189576467986e-09 + x * (-8.192556206837465e-10 + x * 2.390653866184623e-10)))))))))))));
 }
 
-/* Of degree 13 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_log_det_series_slope(double x) {
-    return 0.01939612499999991 + x * (0.0062299443069765426 + x * (0.0017100713913026338 + x *
-        (0.00044792748652280087 + x * (0.00011501055008644827 + x * (2.9231014016066968e-05 + x *
-        (7.382300815824355e-06 + x * (1.869403354329197e-06 + x * (4.4462882135685005e-07 + x *
-        (1.5182298751247571e-07 + x * (-8.38146084321007e-09 + x * (3.485062749176158e-08 + x *
-        (-1.0650323068888705e-08 + x * 3.346915412658472e-09))))))))))));
+/* Of degree 14 on [0, 1], its relative error below 2^-56. */
+INLINE vector vector_polynomial_t_over_norm_w_near(vector x) {
+    return 1.0 + x * (0.1662524999999975 + x * (0.033167872507672114 + x * (0.0070897393547985224 + x *
+        (0.0015715825913113733 + x * (0.00035628967365586723 + x * (8.201983320917496e-05 + x *
+        (1.907670567869169e-05 + x * (4.515955030924914e-06 + x * (9.891104407795466e-07 + x *
+        (3.4857725787739116e-07 + x * (-3.572738831505148e-08 + x * (7.823058427560213e-08 + x *
+        (-2.320706538769562e-08 + x * 6.513842453315236e-09)))))))))))));
+}
+
+/* Of degree 22 on [0, 1], its relative error below 2^-56. */
+INLINE vector vector_polynomial_eta(vector x) {
+    return -0.3333333333333333 + x * (-0.15555555555555417 + x * (-0.0751322751325185 + x *
+        (-0.03675485007122077 + x * (-0.018096307611278978 + x * (-0.008943374809421614 + x *
+        (-0.004430925385329046 + x * (-0.0021964703384272457 + x * (-0.0011104899422210344 + x *
+        (-0.00043588704846449504 + x * (-0.0007657550487225839 + x * (0.0016571322482715526 + x *
+        (-0.005201036361742151 + x * (0.011686077913434692 + x * (-0.021370123691407478 + x *
+        (0.030980832139913622 + x * (-0.03558600284661443 + x * (0.0319201664739325 + x *
+        (-0.021918764490751072 + x * (0.011133610751913487 + x * (-0.003950943563875907 + x *
+        (0.0008768185204850178 + x * -9.231518464940076e-05)))))))))))))))))))));
+}
+
+/* Of degree 24 on [0, 1], the derivative of a polynomial. */
+INLINE vector vector_polynomial_eta_slope(vector x) {
+    return 0.15555555555555556 + x * (0.15026455026454938 + x * (0.11026455026473153 + x *
+        (0.07238522792583003 + x * (0.044716945477134895 + x * (0.026584251371183424 + x *
+        (0.015391620467330733 + x * (0.008735778127899076 + x * (0.0049282202879051655 + x *
+        (0.0024267420372403327 + x * (0.0030390346356601126 + x * (-0.006123591852401879 + x *
+        (0.025102822589180937 + x * (-0.07064869504587278 + x * (0.16530578140602667 + x *
+        (-0.31271015508815947 + x * (0.4807082529660211 + x * (-0.5967654210780935 + x * (0.5934034512823599 +
+        x * (-0.46583818796288984 + x * (0.2823845184351827 + x * (-0.12759583319351508 + x *
+        (0.04051757743528327 + x * (-0.008083579736595401 + x * 0.0007658488591020234)))))))))))))))))))))));
 }
 
 /* Of degree 13 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_t_over_norm_w_near_slope(double x) {
+INLINE vector vector_polynomial_t_over_norm_w_near_slope(vector x) {
     return 0.1662524999999975 + x * (0.06633574501534423 + x * (0.021269218064395565 + x *
         (0.006286330365245493 + x * (0.0017814483682793362 + x * (0.0004921189992550497 + x *
         (0.00013353693975084183 + x * (3.6127640247399315e-05 + x * (8.901993967015918e-06 + x *
@@ -60,1027 +228,1587 @@ static inline double polynomial_t_over_norm_w_near_slope(double x) {
         (-3.016918500400431e-07 + x * 9.119379434641331e-08))))))))))));
 }
 
-/* Of degree 12 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_t_over_norm_w_near_slope_slope(double x) {
-    return 0.06633574501534423 + x * (0.04253843612879113 + x * (0.01885899109573648 + x *
-        (0.007125793473117345 + x * (0.0024605949962752485 + x * (0.000801221638505051 + x *
-        (0.0002528934817317952 + x * (7.121595173612734e-05 + x * (3.1371953208965205e-05 + x *
-        (-3.9300127146556635e-06 + x * (1.0326437124379481e-05 + x * (-3.620302200480517e-06 + x *
-        1.185519326503373e-06)))))))))));
+/* Of degree 13 on [0, 1], the derivative of a polynomial. */
+INLINE vector vector_polynomial_log_det_series_slope(vector x) {
+    return 0.01939612499999991 + x * (0.0062299443069765426 + x * (0.0017100713913026338 + x *
+        (0.00044792748652280087 + x * (0.00011501055008644827 + x * (2.9231014016066968e-05 + x *
+        (7.382300815824355e-06 + x * (1.869403354329197e-06 + x * (4.4462882135685005e-07 + x *
+        (1.5182298751247571e-07 + x * (-8.38146084321007e-09 + x * (3.485062749176158e-08 + x *
+        (-1.0650323068888705e-08 + x * 3.346915412658472e-09))))))))))));
 }
 
-/* Of degree 12 on [0, 1], the derivative of a polynomial. */
-static inline double polynomial_log_det_series_slope_slope(double x) {
-    return 0.0062299443069765426 + x * (0.0034201427826052676 + x * (0.0013437824595684026 + x *
-        (0.0004600422003457931 + x * (0.00014615507008033484 + x * (4.429380489494613e-05 + x *
-        (1.3085823480304379e-05 + x * (3.5570305708548004e-06 + x * (1.3664068876122816e-06 + x *
-        (-8.38146084321007e-08 + x * (3.833569024093774e-07 + x * (-1.2780387682666445e-07 + x *
-        4.350990036456014e-08)))))))))));
+/* What pairs read of points x. */
+OUTLINE void pair_features(
+    const vector *x, vector *X) {
+    const vector x0 = x[0];
+    const vector x1 = x[1];
+    const vector x2 = x[2];
+    const vector h0 = 0.5 * x0;
+    const vector h1 = 0.5 * x1;
+    const vector h2 = 0.5 * x2;
+    X[0] = h0;
+    X[1] = h1;
+    X[2] = h2;
 }
 
+/* What pairs read of a splat, of some splats. */
+OUTLINE void pair_constants(
+    const vector *mu, const vector *W, const vector *amplitude, vector *S) {
+    const vector mu0 = mu[0];
+    const vector mu1 = mu[1];
+    const vector mu2 = mu[2];
+    const vector W0_0 = W[0];
+    const vector W0_1 = W[1];
+    const vector W0_2 = W[2];
+    const vector W1_0 = W[3];
+    const vector W1_1 = W[4];
+    const vector W1_2 = W[5];
+    const vector its_amplitude = amplitude[0];
+    const vector M0 = 0.5 * mu0;
+    const vector M1 = 0.5 * mu1;
+    const vector M2 = 0.5 * mu2;
+    const vector squared = mu0 * mu0;
+    const vector gap = 1.0 - squared;
+    const vector product = mu0 * mu1;
+    const vector product_2 = mu0 * mu2;
+    const vector R0_0 = 1.4142135623730951 * (W0_0 * gap - W0_1 * product - W0_2 * product_2);
+    const vector gap_2 = 1.0 - mu1 * mu1;
+    const vector product_3 = mu1 * mu2;
+    const vector R0_1 = 1.4142135623730951 * (W0_1 * gap_2 - W0_0 * product - W0_2 * product_3);
+    const vector gap_3 = 1.0 - mu2 * mu2;
+    const vector R0_2 = 1.4142135623730951 * (-(W0_0 * product_2) - W0_1 * product_3 + W0_2 * gap_3);
+    const vector R1_0 = 1.4142135623730951 * (W1_0 * gap - W1_1 * product - W1_2 * product_2);
+    const vector R1_1 = 1.4142135623730951 * (W1_1 * gap_2 - W1_0 * product - W1_2 * product_3);
+    const vector R1_2 = 1.4142135623730951 * (-(W1_0 * product_2) - W1_1 * product_3 + W1_2 * gap_3);
+    const vector norm_q_plus_p = vector_sqrt(vector_of(0.0));
+    const vector_mask on_cut_locus = norm_q_plus_p <= 4.0 * DBL_EPSILON;
+    const vector log_value = vector_log(vector_of(0.7853981633974483 / DBL_EPSILON));
+    const vector q0_off_cut = vector_select(on_cut_locus, mu0, -mu0);
+    const vector d0 = q0_off_cut - mu0;
+    const vector q1_off_cut = vector_select(on_cut_locus, mu1, -mu1);
+    const vector d1 = q1_off_cut - mu1;
+    const vector q2_off_cut = vector_select(on_cut_locus, mu2, -mu2);
+    const vector d2 = q2_off_cut - mu2;
+    const vector norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
+    const vector_mask near = norm_d_squared < 0.997515;
+    const vector near_chosen = vector_select(near, 1.0024911906086624 * norm_d_squared, vector_of(0.0));
+    const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
+    const vector log_det_near = norm_d_squared * log_det_series;
+    const vector norm_d = vector_sqrt(vector_select(near, vector_of(1.0), norm_d_squared));
+    const vector q_plus_p0_2 = mu0 + q0_off_cut;
+    const vector q_plus_p1_2 = mu1 + q1_off_cut;
+    const vector q_plus_p2_2 = mu2 + q2_off_cut;
+    const vector norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
+        * q_plus_p2_2;
+    const vector norm_q_plus_p_2 = vector_sqrt(norm_q_plus_p_squared_2);
+    const vector atan2_value = vector_atan2(norm_d, norm_q_plus_p_2);
+    const vector t = 2.0 * atan2_value;
+    const vector dot_p_q = mu0 * q0_off_cut + mu1 * q1_off_cut + mu2 * q2_off_cut;
+    const vector_mask is_small = dot_p_q < 0.0;
+    const vector e0 = vector_select(is_small, q_plus_p0_2, d0);
+    const vector e1 = vector_select(is_small, q_plus_p1_2, d1);
+    const vector e2 = vector_select(is_small, q_plus_p2_2, d2);
+    const vector dot_p_e = mu0 * e0 + mu1 * e1 + mu2 * e2;
+    const vector w0 = e0 - mu0 * dot_p_e;
+    const vector w1 = e1 - mu1 * dot_p_e;
+    const vector w2 = e2 - mu2 * dot_p_e;
+    const vector norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
+    const vector norm_w = vector_sqrt(vector_select(near, vector_of(1.0), norm_w_squared));
+    const vector t_ratio = t / norm_w;
+    const vector log_det = vector_select(near, log_det_near, vector_log(t_ratio));
+    const vector_mask is_small_2 = squared < 0.5;
+    const vector sine_to_axis0 = vector_sqrt(vector_select(is_small_2, gap, vector_of(1.0)));
+    const vector sine_to_axis1 = vector_sqrt(vector_select(is_small_2, vector_of(1.0), gap_2));
+    const vector t_over_norm_w_near = vector_polynomial_t_over_norm_w_near(near_chosen);
+    const vector t_over_norm_w = vector_select(near, t_over_norm_w_near, t_ratio);
+    const vector chosen = vector_select(on_cut_locus, 3.141592653589793 * vector_select(is_small_2, gap /
+        sine_to_axis0, -(product / sine_to_axis1)), w0 * t_over_norm_w);
+    const vector chosen_2 = vector_select(on_cut_locus, 3.141592653589793 * vector_select(is_small_2,
+        -(product / sine_to_axis0), gap_2 / sine_to_axis1), w1 * t_over_norm_w);
+    const vector chosen_3 = vector_select(on_cut_locus, 3.141592653589793 * vector_select(is_small_2,
+        -(product_2 / sine_to_axis0), -(product_3 / sine_to_axis1)), w2 * t_over_norm_w);
+    const vector total_2 = W0_0 * chosen + W0_1 * chosen_2 + W0_2 * chosen_3;
+    const vector total_3 = W1_0 * chosen + W1_1 * chosen_2 + W1_2 * chosen_3;
+    const vector value_on_cut_locus = vector_exp(vector_select(on_cut_locus, log_value, log_det) - 0.5 *
+        (total_2 * total_2 + total_3 * total_3));
+    S[0] = its_amplitude;
+    S[1] = M0;
+    S[2] = M1;
+    S[3] = M2;
+    S[4] = R0_0;
+    S[5] = R0_1;
+    S[6] = R0_2;
+    S[7] = R1_0;
+    S[8] = R1_1;
+    S[9] = R1_2;
+    S[10] = value_on_cut_locus;
+}
+
+/* Adds the values phi of a splat at some points. */
+INLINE void pair_value(
+    const vector *X, const double *S, vector *value) {
+    const vector h0 = X[0];
+    const vector h1 = X[1];
+    const vector h2 = X[2];
+    const double amplitude = S[0];
+    const double M0 = S[1];
+    const double M1 = S[2];
+    const double M2 = S[3];
+    const double R0_0 = S[4];
+    const double R0_1 = S[5];
+    const double R0_2 = S[6];
+    const double R1_0 = S[7];
+    const double R1_1 = S[8];
+    const double R1_2 = S[9];
+    const double value_on_cut_locus = S[10];
+    const vector total_2 = h0 + M0;
+    const vector total_3 = h1 + M1;
+    const vector total_4 = h2 + M2;
+    const vector total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4;
+    const vector_mask on_cut_locus = total_5 <= 4.0 * (DBL_EPSILON * DBL_EPSILON);
+    const vector u = vector_select(on_cut_locus, vector_of(1.0), total_5);
+    const vector w = vector_sqrt(u);
+    const vector eta = vector_polynomial_eta(1.0 - w);
+    const vector a = 1.0 / (w * (w - eta * (1.0 - u)));
+    const vector a_squared = a * a;
+    const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
+    const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
+    const vector half_square = a_squared * (r0 * r0 + r1 * r1);
+    const vector gaussian = vector_exp(-half_square);
+    value[0] = value[0] + amplitude * vector_select(on_cut_locus, vector_of(value_on_cut_locus), a *
+            gaussian);
+}
+
+/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+INLINE void pair_forward(
+    const vector *X, const double *S, vector *value, vector *slope) {
+    const vector h0 = X[0];
+    const vector h1 = X[1];
+    const vector h2 = X[2];
+    const double amplitude = S[0];
+    const double M0 = S[1];
+    const double M1 = S[2];
+    const double M2 = S[3];
+    const double R0_0 = S[4];
+    const double R0_1 = S[5];
+    const double R0_2 = S[6];
+    const double R1_0 = S[7];
+    const double R1_1 = S[8];
+    const double R1_2 = S[9];
+    const double value_on_cut_locus = S[10];
+    const vector total_2 = h0 + M0;
+    const vector total_3 = h1 + M1;
+    const vector total_4 = h2 + M2;
+    const vector total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4;
+    const vector_mask on_cut_locus = total_5 <= 4.0 * (DBL_EPSILON * DBL_EPSILON);
+    const vector u = vector_select(on_cut_locus, vector_of(1.0), total_5);
+    const vector w = vector_sqrt(u);
+    const vector eta = vector_polynomial_eta(1.0 - w);
+    const vector w_gap = w - eta * (1.0 - u);
+    const vector a = 1.0 / (w * w_gap);
+    const vector a_squared = a * a;
+    const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
+    const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
+    const vector half_square = a_squared * (r0 * r0 + r1 * r1);
+    const vector gaussian = vector_exp(-half_square);
+    const vector a_product = a * gaussian;
+    const vector product = amplitude * vector_select(on_cut_locus, vector_of(0.0), a_product);
+    const vector product_2 = 2.0 * (product * a_squared);
+    const vector r1_product = r1 * product_2;
+    const vector r0_product = r0 * product_2;
+    const vector over_w = w_gap * a;
+    const vector over_w_product = over_w * ((eta - over_w) * (product - product * (2.0 * half_square)));
+    value[0] = value[0] + amplitude * vector_select(on_cut_locus, vector_of(value_on_cut_locus), a_product);
+    slope[0] = slope[0] - R1_0 * r1_product - R0_0 * r0_product + M0 * over_w_product;
+    slope[1] = slope[1] - R1_1 * r1_product - R0_1 * r0_product + M1 * over_w_product;
+    slope[2] = slope[2] - R1_2 * r1_product - R0_2 * r0_product + M2 * over_w_product;
+}
+
+/* The Riemannian gradient at some points, of the sums of slopes. */
+OUTLINE void pair_gradient(
+    const vector *x, const vector *slope, vector *gradient) {
+    const vector x0 = x[0];
+    const vector x1 = x[1];
+    const vector x2 = x[2];
+    const vector slope_h0 = slope[0];
+    const vector slope_h1 = slope[1];
+    const vector slope_h2 = slope[2];
+    const vector product = 0.5 * slope_h0;
+    const vector product_2 = 0.5 * slope_h1;
+    const vector product_3 = 0.5 * slope_h2;
+    const vector normal_part = x0 * product + x1 * product_2 + x2 * product_3;
+    gradient[0] = product - x0 * normal_part;
+    gradient[1] = product_2 - x1 * normal_part;
+    gradient[2] = product_3 - x2 * normal_part;
+}
+
+/* The adjoint of slope at some points, of that of the gradient. */
+OUTLINE void pair_gradient_vjp(
+    const vector *x, const vector *gradient_bar, vector *slope_bar) {
+    const vector x0 = x[0];
+    const vector x1 = x[1];
+    const vector x2 = x[2];
+    const vector gradient_bar0 = gradient_bar[0];
+    const vector gradient_bar1 = gradient_bar[1];
+    const vector gradient_bar2 = gradient_bar[2];
+    const vector by_normal_part = -(x2 * gradient_bar2) - x1 * gradient_bar1 - x0 * gradient_bar0;
+    slope_bar[0] = 0.5 * (gradient_bar0 + x0 * by_normal_part);
+    slope_bar[1] = 0.5 * (gradient_bar1 + x1 * by_normal_part);
+    slope_bar[2] = 0.5 * (gradient_bar2 + x2 * by_normal_part);
+}
+
+/* The adjoints of some splats' parameters, of that of S. */
+OUTLINE void pair_constants_vjp(
+    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
+    (void)amplitude;
+    const vector mu0 = mu[0];
+    const vector mu1 = mu[1];
+    const vector mu2 = mu[2];
+    const vector W0_0 = W[0];
+    const vector W0_1 = W[1];
+    const vector W0_2 = W[2];
+    const vector W1_0 = W[3];
+    const vector W1_1 = W[4];
+    const vector W1_2 = W[5];
+    const vector its_amplitude_bar = S_bar[0];
+    const vector M0_bar = S_bar[1];
+    const vector M1_bar = S_bar[2];
+    const vector M2_bar = S_bar[3];
+    const vector R0_0_bar = S_bar[4];
+    const vector R0_1_bar = S_bar[5];
+    const vector R0_2_bar = S_bar[6];
+    const vector R1_0_bar = S_bar[7];
+    const vector R1_1_bar = S_bar[8];
+    const vector R1_2_bar = S_bar[9];
+    const vector value_on_cut_locus_bar = S_bar[10];
+    const vector product = 1.4142135623730951 * R0_0_bar;
+    const vector product_2 = 1.4142135623730951 * R0_2_bar;
+    const vector product_3 = 1.4142135623730951 * R1_0_bar;
+    const vector product_4 = 1.4142135623730951 * R1_2_bar;
+    const vector gap = -(W0_2 * product) - W0_0 * product_2 - W1_2 * product_3 - W1_0 * product_4;
+    const vector squared = mu0 * mu0;
+    const vector_mask is_small = squared < 0.5;
+    const vector norm_q_plus_p = vector_sqrt(vector_of(0.0));
+    const vector_mask on_cut_locus = norm_q_plus_p <= 4.0 * DBL_EPSILON;
+    const vector gap_2 = 1.0 - squared;
+    const vector chosen = vector_select(is_small, gap_2, vector_of(1.0));
+    const vector sine_to_axis0 = vector_sqrt(chosen);
+    const vector ratio = gap_2 / sine_to_axis0;
+    const vector product_5 = mu0 * mu1;
+    const vector gap_3 = 1.0 - mu1 * mu1;
+    const vector chosen_2 = vector_select(is_small, vector_of(1.0), gap_3);
+    const vector sine_to_axis1 = vector_sqrt(chosen_2);
+    const vector ratio_2 = product_5 / sine_to_axis1;
+    const vector q0_off_cut = vector_select(on_cut_locus, mu0, -mu0);
+    const vector q1_off_cut = vector_select(on_cut_locus, mu1, -mu1);
+    const vector q2_off_cut = vector_select(on_cut_locus, mu2, -mu2);
+    const vector dot_p_q = mu0 * q0_off_cut + mu1 * q1_off_cut + mu2 * q2_off_cut;
+    const vector_mask is_small_2 = dot_p_q < 0.0;
+    const vector q_plus_p0_2 = mu0 + q0_off_cut;
+    const vector d0 = q0_off_cut - mu0;
+    const vector e0 = vector_select(is_small_2, q_plus_p0_2, d0);
+    const vector q_plus_p1_2 = mu1 + q1_off_cut;
+    const vector d1 = q1_off_cut - mu1;
+    const vector e1 = vector_select(is_small_2, q_plus_p1_2, d1);
+    const vector q_plus_p2_2 = mu2 + q2_off_cut;
+    const vector d2 = q2_off_cut - mu2;
+    const vector e2 = vector_select(is_small_2, q_plus_p2_2, d2);
+    const vector dot_p_e = mu0 * e0 + mu1 * e1 + mu2 * e2;
+    const vector w0 = e0 - mu0 * dot_p_e;
+    const vector norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
+    const vector_mask near = norm_d_squared < 0.997515;
+    const vector near_chosen = vector_select(near, 1.0024911906086624 * norm_d_squared, vector_of(0.0));
+    const vector t_over_norm_w_near = vector_polynomial_t_over_norm_w_near(near_chosen);
+    const vector near_chosen_2 = vector_select(near, vector_of(1.0), norm_d_squared);
+    const vector norm_d = vector_sqrt(near_chosen_2);
+    const vector norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
+        * q_plus_p2_2;
+    const vector norm_q_plus_p_2 = vector_sqrt(norm_q_plus_p_squared_2);
+    const vector atan2_value = vector_atan2(norm_d, norm_q_plus_p_2);
+    const vector t = 2.0 * atan2_value;
+    const vector w1 = e1 - mu1 * dot_p_e;
+    const vector w2 = e2 - mu2 * dot_p_e;
+    const vector norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
+    const vector norm_w = vector_sqrt(vector_select(near, vector_of(1.0), norm_w_squared));
+    const vector t_ratio = t / norm_w;
+    const vector t_over_norm_w = vector_select(near, t_over_norm_w_near, t_ratio);
+    const vector chosen_3 = vector_select(on_cut_locus, 3.141592653589793 * vector_select(is_small, ratio,
+        -ratio_2), w0 * t_over_norm_w);
+    const vector ratio_3 = product_5 / sine_to_axis0;
+    const vector ratio_4 = gap_3 / sine_to_axis1;
+    const vector chosen_4 = vector_select(on_cut_locus, 3.141592653589793 * vector_select(is_small, -ratio_3,
+        ratio_4), w1 * t_over_norm_w);
+    const vector product_6 = mu0 * mu2;
+    const vector ratio_5 = product_6 / sine_to_axis0;
+    const vector product_7 = mu1 * mu2;
+    const vector ratio_6 = product_7 / sine_to_axis1;
+    const vector chosen_5 = vector_select(on_cut_locus, 3.141592653589793 * vector_select(is_small, -ratio_5,
+        -ratio_6), w2 * t_over_norm_w);
+    const vector total_2 = W1_0 * chosen_3 + W1_1 * chosen_4 + W1_2 * chosen_5;
+    const vector log_value = vector_log(vector_of(0.7853981633974483 / DBL_EPSILON));
+    const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
+    const vector log_det_near = norm_d_squared * log_det_series;
+    const vector log_det = vector_select(near, log_det_near, vector_log(t_ratio));
+    const vector total_3 = W0_0 * chosen_3 + W0_1 * chosen_4 + W0_2 * chosen_5;
+    const vector value_on_cut_locus = vector_exp(vector_select(on_cut_locus, log_value, log_det) - 0.5 *
+        (total_3 * total_3 + total_2 * total_2));
+    const vector product_8 = value_on_cut_locus * value_on_cut_locus_bar;
+    const vector product_9 = total_2 * product_8;
+    const vector product_10 = total_3 * product_8;
+    const vector gap_4 = -(W1_2 * product_9) - W0_2 * product_10;
+    const vector product_11 = 3.141592653589793 * vector_select(on_cut_locus, gap_4, vector_of(0.0));
+    const vector ratio_7 = vector_select(is_small, product_11, vector_of(0.0)) / sine_to_axis0;
+    const vector gap_5 = gap - ratio_7;
+    const vector product_12 = 1.4142135623730951 * R0_1_bar;
+    const vector product_13 = 1.4142135623730951 * R1_1_bar;
+    const vector gap_6 = -(W0_1 * product) - W0_0 * product_12 - W1_1 * product_3 - W1_0 * product_13;
+    const vector gap_7 = -(W1_1 * product_9) - W0_1 * product_10;
+    const vector product_14 = 3.141592653589793 * vector_select(on_cut_locus, gap_7, vector_of(0.0));
+    const vector ratio_8 = vector_select(is_small, product_14, vector_of(0.0)) / sine_to_axis0;
+    const vector gap_8 = -(W1_0 * product_9) - W0_0 * product_10;
+    const vector product_15 = 3.141592653589793 * vector_select(on_cut_locus, gap_8, vector_of(0.0));
+    const vector ratio_9 = vector_select(is_small, vector_of(0.0), product_15) / sine_to_axis1;
+    const vector gap_9 = gap_6 - ratio_8 - ratio_9;
+    const vector ratio_10 = vector_select(is_small, product_15, vector_of(0.0)) / sine_to_axis0;
+    const vector_mask is_small_3 = chosen == 0.0;
+    const vector by_sine_to_axis0 = ratio_5 * ratio_7 + ratio_3 * ratio_8 - ratio * ratio_10;
+    const vector chosen_6 = vector_select(is_small, vector_select(is_small_3, vector_of(0.0), by_sine_to_axis0
+        / (2.0 * vector_select(is_small_3, vector_of(1.0), sine_to_axis0))), vector_of(0.0));
+    const vector product_16 = 2.0 * (W0_0 * product + W1_0 * product_3 + ratio_10 + chosen_6);
+    const vector chosen_7 = vector_select(on_cut_locus, vector_of(0.0), gap_8);
+    const vector chosen_8 = vector_select(on_cut_locus, vector_of(0.0), gap_4);
+    const vector chosen_9 = vector_select(on_cut_locus, vector_of(0.0), gap_7);
+    const vector by_t_over_norm_w = w2 * chosen_8 + w1 * chosen_9 + w0 * chosen_7;
+    const vector by_log_det = vector_select(on_cut_locus, vector_of(0.0), product_8);
+    const vector by_t = (vector_select(near, vector_of(0.0), by_t_over_norm_w) + vector_select(near,
+        vector_of(0.0), by_log_det) / t_ratio) / norm_w;
+    const vector by_norm_w_squared = vector_select(near, vector_of(0.0), -(t_ratio * by_t / (2.0 * norm_w)));
+    const vector product_17 = 2.0 * by_norm_w_squared;
+    const vector by_w0 = t_over_norm_w * chosen_7 + w0 * product_17;
+    const vector gap_10 = 0.5 * M0_bar + mu2 * gap_5 + mu1 * gap_9 - mu0 * product_16 - dot_p_e * by_w0;
+    const vector by_w2 = t_over_norm_w * chosen_8 + w2 * product_17;
+    const vector by_w1 = t_over_norm_w * chosen_9 + w1 * product_17;
+    const vector by_dot_p_e = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
+    const vector by_e0 = by_w0 + mu0 * by_dot_p_e;
+    const vector_mask is_small_4 = norm_q_plus_p_squared_2 == 0.0;
+    const vector by_atan2_value = 2.0 * by_t;
+    const vector ratio_11 = by_atan2_value / (near_chosen_2 + norm_q_plus_p_squared_2);
+    const vector by_norm_q_plus_p_squared_2 = vector_select(is_small_4, vector_of(0.0), -(norm_d * ratio_11 /
+        (2.0 * vector_select(is_small_4, vector_of(1.0), norm_q_plus_p_2))));
+    const vector product_18 = 2.0 * by_norm_q_plus_p_squared_2;
+    const vector by_q_plus_p0_2 = vector_select(is_small_2, by_e0, vector_of(0.0)) + q_plus_p0_2 * product_18;
+    const vector by_norm_d = norm_q_plus_p_2 * ratio_11;
+    const vector by_log_det_near = vector_select(near, by_log_det, vector_of(0.0));
+    const vector by_t_over_norm_w_near = vector_select(near, by_t_over_norm_w, vector_of(0.0));
+    const vector t_over_norm_w_near_slope = vector_polynomial_t_over_norm_w_near_slope(near_chosen);
+    const vector by_log_det_series = norm_d_squared * by_log_det_near;
+    const vector log_det_series_slope = vector_polynomial_log_det_series_slope(near_chosen);
+    const vector by_norm_d_squared = vector_select(near, vector_of(0.0), by_norm_d / (2.0 * norm_d)) +
+        log_det_series * by_log_det_near + 1.0024911906086624 * vector_select(near, by_t_over_norm_w_near *
+        t_over_norm_w_near_slope + by_log_det_series * log_det_series_slope, vector_of(0.0));
+    const vector product_19 = 2.0 * by_norm_d_squared;
+    const vector by_d0 = vector_select(is_small_2, vector_of(0.0), by_e0) + d0 * product_19;
+    const vector by_q0_off_cut = by_q_plus_p0_2 + by_d0;
+    const vector total_4 = gap_10 + e0 * by_dot_p_e + by_q_plus_p0_2 - by_d0 + vector_select(on_cut_locus,
+        by_q0_off_cut, vector_of(0.0));
+    const vector gap_11 = -(W0_2 * product_12) - W0_1 * product_2 - W1_2 * product_13 - W1_1 * product_4;
+    const vector ratio_12 = vector_select(is_small, vector_of(0.0), product_11) / sine_to_axis1;
+    const vector gap_12 = gap_11 - ratio_12;
+    const vector ratio_13 = vector_select(is_small, vector_of(0.0), product_14) / sine_to_axis1;
+    const vector_mask is_small_5 = chosen_2 == 0.0;
+    const vector by_sine_to_axis1 = ratio_6 * ratio_12 - ratio_4 * ratio_13 + ratio_2 * ratio_9;
+    const vector chosen_10 = vector_select(is_small, vector_of(0.0), vector_select(is_small_5, vector_of(0.0),
+        by_sine_to_axis1 / (2.0 * vector_select(is_small_5, vector_of(1.0), sine_to_axis1))));
+    const vector product_20 = 2.0 * (W0_1 * product_12 + W1_1 * product_13 + ratio_13 + chosen_10);
+    const vector gap_13 = 0.5 * M1_bar + mu2 * gap_12 - mu1 * product_20 + mu0 * gap_9 - dot_p_e * by_w1;
+    const vector by_e1 = by_w1 + mu1 * by_dot_p_e;
+    const vector by_q_plus_p1_2 = vector_select(is_small_2, by_e1, vector_of(0.0)) + q_plus_p1_2 * product_18;
+    const vector by_d1 = vector_select(is_small_2, vector_of(0.0), by_e1) + d1 * product_19;
+    const vector by_q1_off_cut = by_q_plus_p1_2 + by_d1;
+    const vector total_5 = gap_13 + e1 * by_dot_p_e + by_q_plus_p1_2 - by_d1 + vector_select(on_cut_locus,
+        by_q1_off_cut, vector_of(0.0));
+    const vector gap_14 = 0.5 * M2_bar - mu2 * (2.0 * (W0_2 * product_2 + W1_2 * product_4));
+    const vector total_6 = gap_14 + mu1 * gap_12 + mu0 * gap_5 - dot_p_e * by_w2 + e2 * by_dot_p_e;
+    const vector by_e2 = by_w2 + mu2 * by_dot_p_e;
+    const vector by_q_plus_p2_2 = vector_select(is_small_2, by_e2, vector_of(0.0)) + q_plus_p2_2 * product_18;
+    const vector by_d2 = vector_select(is_small_2, vector_of(0.0), by_e2) + d2 * product_19;
+    const vector by_q2_off_cut = by_q_plus_p2_2 + by_d2;
+    const vector gap_15 = 1.0 - mu2 * mu2;
+    const vector gap_16 = -(product_6 * product) - product_7 * product_12 + gap_15 * product_2 - chosen_5 *
+        product_10;
+    const vector gap_17 = -(product_6 * product_3) - product_7 * product_13 + gap_15 * product_4 - chosen_5 *
+        product_9;
+    mu_bar[0] = total_4 - vector_select(on_cut_locus, vector_of(0.0), by_q0_off_cut);
+    mu_bar[1] = total_5 - vector_select(on_cut_locus, vector_of(0.0), by_q1_off_cut);
+    mu_bar[2] = total_6 + by_q_plus_p2_2 - by_d2 + vector_select(on_cut_locus, by_q2_off_cut, vector_of(0.0))
+            - vector_select(on_cut_locus, vector_of(0.0), by_q2_off_cut);
+    W_bar[0] = gap_2 * product - product_5 * product_12 - product_6 * product_2 - chosen_3 * product_10;
+    W_bar[1] = gap_3 * product_12 - product_5 * product - product_7 * product_2 - chosen_4 * product_10;
+    W_bar[2] = gap_16;
+    W_bar[3] = gap_2 * product_3 - product_5 * product_13 - product_6 * product_4 - chosen_3 * product_9;
+    W_bar[4] = gap_3 * product_13 - product_5 * product_3 - product_7 * product_4 - chosen_4 * product_9;
+    W_bar[5] = gap_17;
+    amplitude_bar[0] = its_amplitude_bar;
+}
+
+/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+INLINE void pair_backward(
+    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
+    const vector h0 = X[0];
+    const vector h1 = X[1];
+    const vector h2 = X[2];
+    const double amplitude = S[0];
+    const double M0 = S[1];
+    const double M1 = S[2];
+    const double M2 = S[3];
+    const double R0_0 = S[4];
+    const double R0_1 = S[5];
+    const double R0_2 = S[6];
+    const double R1_0 = S[7];
+    const double R1_1 = S[8];
+    const double R1_2 = S[9];
+    const double value_on_cut_locus = S[10];
+    const vector its_value_bar = value_bar[0];
+    const vector h0_bar = slope_bar[0];
+    const vector h1_bar = slope_bar[1];
+    const vector h2_bar = slope_bar[2];
+    const vector total_2 = h0 + M0;
+    const vector total_3 = h1 + M1;
+    const vector total_4 = h2 + M2;
+    const vector total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4;
+    const vector_mask on_cut_locus = total_5 <= 4.0 * (DBL_EPSILON * DBL_EPSILON);
+    const vector u = vector_select(on_cut_locus, vector_of(1.0), total_5);
+    const vector w = vector_sqrt(u);
+    const vector w_gap = 1.0 - w;
+    const vector eta = vector_polynomial_eta(w_gap);
+    const vector w_gap_2 = w - eta * (1.0 - u);
+    const vector a = 1.0 / (w * w_gap_2);
+    const vector a_squared = a * a;
+    const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
+    const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
+    const vector half_square = a_squared * (r0 * r0 + r1 * r1);
+    const vector gaussian = vector_exp(-half_square);
+    const vector a_product = a * gaussian;
+    const vector chosen = vector_select(on_cut_locus, vector_of(0.0), a_product);
+    const vector over_w = w_gap_2 * a;
+    const vector eta_gap = eta - over_w;
+    const vector total_6 = M0 * h0_bar + M1 * h1_bar + M2 * h2_bar;
+    const vector over_w_product = over_w * total_6;
+    const vector product = eta_gap * over_w_product;
+    const vector gap = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar;
+    const vector gap_2 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar;
+    const vector product_2 = 2.0 * (r0 * gap + r1 * gap_2);
+    const vector half_square_product = 2.0 * half_square;
+    const vector gap_3 = product + a_squared * product_2 - half_square_product * product;
+    const vector product_3 = amplitude * chosen;
+    const vector gap_4 = product_3 - product_3 * half_square_product;
+    const vector product_4 = eta_gap * gap_4;
+    const vector over_w_product_2 = over_w * product_4;
+    const vector eta_slope = vector_polynomial_eta_slope(w_gap);
+    const vector product_5 = gap_4 * over_w_product;
+    const vector total_7 = chosen * (amplitude * its_value_bar) + chosen * (amplitude * gap_3);
+    const vector by_half_square = -2.0 * (product_3 * product) - total_7;
+    const vector product_6 = eta_gap * (2.0 * a_squared * (product_3 * product_2) + total_7 +
+        half_square_product * by_half_square);
+    const vector total_8 = eta_slope * product_5 - over_w * over_w * (product_4 * total_6 - product_5) +
+        product_6;
+    const vector over_w_product_3 = over_w * total_8;
+    const vector product_7 = 2.0 * (product_3 * a_squared);
+    const vector product_8 = 2.0 * (a_squared * by_half_square);
+    const vector by_r0 = product_7 * gap + r0 * product_8;
+    const vector r0_product = r0 * product_7;
+    const vector by_r1 = product_7 * gap_2 + r1 * product_8;
+    const vector r1_product = r1 * product_7;
+    S_bar[0] = S_bar[0] + vector_select(on_cut_locus, vector_of(value_on_cut_locus), a_product) *
+            its_value_bar + chosen * gap_3;
+    S_bar[1] = S_bar[1] + over_w_product_2 * h0_bar + h0 * over_w_product_3;
+    S_bar[2] = S_bar[2] + over_w_product_2 * h1_bar + h1 * over_w_product_3;
+    S_bar[3] = S_bar[3] + over_w_product_2 * h2_bar + h2 * over_w_product_3;
+    S_bar[4] = S_bar[4] + h0 * by_r0 - r0_product * h0_bar;
+    S_bar[5] = S_bar[5] + h1 * by_r0 - r0_product * h1_bar;
+    S_bar[6] = S_bar[6] + h2 * by_r0 - r0_product * h2_bar;
+    S_bar[7] = S_bar[7] + h0 * by_r1 - r1_product * h0_bar;
+    S_bar[8] = S_bar[8] + h1 * by_r1 - r1_product * h1_bar;
+    S_bar[9] = S_bar[9] + h2 * by_r1 - r1_product * h2_bar;
+}
+
+/* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
+OUTLINE void vector_rows(const double *rows, size_t count, size_t start, size_t size, vector *columns) {
+    for (size_t i = 0; i < size; ++i) {
+        double column[LANES];
+        for (size_t lane = 0; lane < LANES; ++lane)
+            column[lane] = rows[size * (start + lane < count ? start + lane : count - 1) + i];
+        columns[i] = vector_load(column);
+    }
+}
+
+/* Back to rows that are `stride` apart; nothing past the end. */
+OUTLINE void vector_to_rows(
+    const vector *columns, double *rows, size_t count, size_t start, size_t size, size_t stride) {
+    const size_t lanes = start >= count ? 0 : count - start < LANES ? count - start : LANES;
+    for (size_t lane = 0; lane < lanes; ++lane)
+        for (size_t i = 0; i < size; ++i) rows[stride * (start + lane) + i] = LANE(columns[i], lane);
+}
+
+/* Zero in the lanes past the end. */
+OUTLINE void vector_end(size_t count, size_t start, size_t size, vector *columns) {
+    for (size_t lane = start >= count ? 0 : count - start; lane < LANES; ++lane)
+        for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
+}
+
+/* Scratch memory: 7 vectors for each block of points, then the constants of the splats. */
+size_t sphere_splats_work(size_t count, size_t splat_count, int threads) {
+    (void)threads;
+    return ((count + LANES - 1) / LANES * 7 + 1) * LANES + 11 * splat_count;
+}
+
+static vector *work_points(double *work) {
+    const uintptr_t size = sizeof(vector), start = (uintptr_t)work;
+    return (vector *)((char *)work + ((0 - start) & (size - 1)));
+}
+
+static double *work_constants(double *work, size_t count) {
+    return (double *)(work_points(work) + (count + LANES - 1) / LANES * 7);
+}
+
+/* The constants of LANES splats, as rows. */
+OUTLINE void splat_constants(
+    size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, double *constants) {
+    vector own_mu[3], own_W[6], own_amplitude[1], S[11];
+    vector_rows(mu, splat_count, start, 3, own_mu);
+    vector_rows(W, splat_count, start, 6, own_W);
+    vector_rows(amplitude, splat_count, start, 1, own_amplitude);
+    pair_constants(own_mu, own_W, own_amplitude, S);
+    vector_to_rows(S, constants, splat_count, start, 11, 11);
+}
+
+/* 2 vectors of points at a time stay in registers while all splats pass. */
 void sphere_splats(
-    size_t count,
-    size_t splat_count,
-    const double *SPHERE_RESTRICT x,
-    const double *SPHERE_RESTRICT mu,
-    const double *SPHERE_RESTRICT W,
-    const double *SPHERE_RESTRICT amplitude,
-    double *SPHERE_RESTRICT value,
-    double *SPHERE_RESTRICT gradient) {
-    const unsigned mode = flush_denormals();
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        double x_block[3][LANES], sum[4][LANES] = {{0}};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            for (size_t i = 0; i < 3; ++i) x_block[i][lane] = x[3 * n + i];
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            const double mu0 = mu[3 * k + 0];
-            const double mu1 = mu[3 * k + 1];
-            const double mu2 = mu[3 * k + 2];
-            const double W0_0 = W[6 * k + 0];
-            const double W0_1 = W[6 * k + 1];
-            const double W0_2 = W[6 * k + 2];
-            const double W1_0 = W[6 * k + 3];
-            const double W1_1 = W[6 * k + 4];
-            const double W1_2 = W[6 * k + 5];
-            const double amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const double q_plus_p0 = x_block[0][lane] + mu0;
-                const double q_plus_p1 = x_block[1][lane] + mu1;
-                const double q_plus_p2 = x_block[2][lane] + mu2;
-                const double norm_q_plus_p_squared = q_plus_p0 * q_plus_p0 + q_plus_p1 * q_plus_p1 + q_plus_p2 *
-                    q_plus_p2;
-                const double norm_q_plus_p = sqrt(norm_q_plus_p_squared);
-                const double squared = mu0 * mu0;
-                const double gap = 1.0 - squared;
-                const double gap_2 = 1.0 - mu1 * mu1;
-                const int on_cut_locus = norm_q_plus_p <= 4.0 * DBL_EPSILON;
-                const double q0_off_cut = (on_cut_locus ? mu0 : x_block[0][lane]);
-                const double q1_off_cut = (on_cut_locus ? mu1 : x_block[1][lane]);
-                const double q2_off_cut = (on_cut_locus ? mu2 : x_block[2][lane]);
-                const double d0 = q0_off_cut - mu0;
-                const double d1 = q1_off_cut - mu1;
-                const double d2 = q2_off_cut - mu2;
-                const double norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
-                const double q_plus_p0_2 = mu0 + q0_off_cut;
-                const double q_plus_p1_2 = mu1 + q1_off_cut;
-                const double q_plus_p2_2 = mu2 + q2_off_cut;
-                const double norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
-                    * q_plus_p2_2;
-                const double norm_q_plus_p_2 = sqrt(norm_q_plus_p_squared_2);
-                const double dot_p_q = mu0 * q0_off_cut + mu1 * q1_off_cut + mu2 * q2_off_cut;
-                const int is_small = dot_p_q < 0.0;
-                const double e0 = (is_small ? q_plus_p0_2 : d0);
-                const double e1 = (is_small ? q_plus_p1_2 : d1);
-                const double e2 = (is_small ? q_plus_p2_2 : d2);
-                const double dot_p_e = mu0 * e0 + mu1 * e1 + mu2 * e2;
-                const double w0 = e0 - mu0 * dot_p_e;
-                const double w1 = e1 - mu1 * dot_p_e;
-                const double w2 = e2 - mu2 * dot_p_e;
-                const double norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
-                const int near = norm_d_squared < 0.997515;
-                const double near_chosen = (near ? 1.0024911906086624 * norm_d_squared : 0.0);
-                const double t_over_norm_w_near = polynomial_t_over_norm_w_near(near_chosen);
-                const double near_chosen_2 = (near ? 1.0 : norm_d_squared);
-                const double norm_d = sqrt(near_chosen_2);
-                const double atan2_value = atan2(norm_d, norm_q_plus_p_2);
-                const double t = 2.0 * atan2_value;
-                const double norm_w = sqrt((near ? 1.0 : norm_w_squared));
-                const double t_ratio = t / norm_w;
-                const double t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
-                const int is_small_2 = squared < 0.5;
-                const double sine_to_axis0 = sqrt((is_small_2 ? gap : 1.0));
-                const double product = mu0 * mu1;
-                const double sine_to_axis1 = sqrt((is_small_2 ? 1.0 : gap_2));
-                const double v0 = (on_cut_locus ? 3.141592653589793 * (is_small_2 ? gap / sine_to_axis0 : -(product /
-                    sine_to_axis1)) : w0 * t_over_norm_w);
-                const double v1 = (on_cut_locus ? 3.141592653589793 * (is_small_2 ? -(product / sine_to_axis0) : gap_2 /
-                    sine_to_axis1) : w1 * t_over_norm_w);
-                const double product_2 = 3.141592653589793 * (is_small_2 ? -(mu0 * mu2 / sine_to_axis0) : -(mu1 * mu2 /
-                    sine_to_axis1));
-                const double v2 = (on_cut_locus ? product_2 : w2 * t_over_norm_w);
-                const double log_value = log(0.7853981633974483 / DBL_EPSILON);
-                const double log_det_series = polynomial_log_det_series(near_chosen);
-                const double log_det_near = norm_d_squared * log_det_series;
-                const double log_det = (near ? log_det_near : log(t_ratio));
-                const double z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-                const double z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-                const double exp_2 = exp((on_cut_locus ? log_value : log_det) - 0.5 * (z0 * z0 + z1 * z1));
-                const double phi = amplitude_k * exp_2;
-                const double by_v2 = -(W1_2 * z1) - W0_2 * z0;
-                const double by_v1 = -(W1_1 * z1) - W0_1 * z0;
-                const double by_v0 = -(W1_0 * z1) - W0_0 * z0;
-                const double by_log_det = (on_cut_locus ? 0.0 : 1.0);
-                const double by_log_det_near = (near ? by_log_det : 0.0);
-                const double by_log_det_series = norm_d_squared * by_log_det_near;
-                const double log_det_series_slope = polynomial_log_det_series_slope(near_chosen);
-                const double chosen = (on_cut_locus ? 0.0 : by_v2);
-                const double chosen_2 = (on_cut_locus ? 0.0 : by_v1);
-                const double chosen_3 = (on_cut_locus ? 0.0 : by_v0);
-                const double by_t_over_norm_w = w2 * chosen + w1 * chosen_2 + w0 * chosen_3;
-                const double by_t_over_norm_w_near = (near ? by_t_over_norm_w : 0.0);
-                const double by_t = ((near ? 0.0 : by_log_det) / t_ratio + (near ? 0.0 : by_t_over_norm_w)) / norm_w;
-                const double by_norm_w_squared = (near ? 0.0 : -(t_ratio * by_t / (2.0 * norm_w)));
-                const double by_atan2_value = 2.0 * by_t;
-                const double ratio = by_atan2_value / (norm_q_plus_p_squared_2 + near_chosen_2);
-                const double by_norm_d = norm_q_plus_p_2 * ratio;
-                const double t_over_norm_w_near_slope = polynomial_t_over_norm_w_near_slope(near_chosen);
-                const double by_norm_d_squared = log_det_series * by_log_det_near + (near ? 0.0 : by_norm_d / (2.0 *
-                    norm_d)) + 1.0024911906086624 * (near ? by_log_det_series * log_det_series_slope +
-                    by_t_over_norm_w_near * t_over_norm_w_near_slope : 0.0);
-                const double product_3 = 2.0 * by_norm_w_squared;
-                const double by_w2 = t_over_norm_w * chosen + w2 * product_3;
-                const double by_w1 = t_over_norm_w * chosen_2 + w1 * product_3;
-                const double by_w0 = t_over_norm_w * chosen_3 + w0 * product_3;
-                const double by_dot_p_e = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
-                const double by_e2 = by_w2 + mu2 * by_dot_p_e;
-                const double by_e1 = by_w1 + mu1 * by_dot_p_e;
-                const double by_e0 = by_w0 + mu0 * by_dot_p_e;
-                const int is_small_3 = norm_q_plus_p_squared_2 == 0.0;
-                const double by_norm_q_plus_p_squared_2 = (is_small_3 ? 0.0 : -(norm_d * ratio / (2.0 * (is_small_3 ? 1.0
-                    : norm_q_plus_p_2))));
-                const double product_4 = 2.0 * by_norm_q_plus_p_squared_2;
-                const double by_q_plus_p2_2 = (is_small ? by_e2 : 0.0) + q_plus_p2_2 * product_4;
-                const double by_q_plus_p1_2 = (is_small ? by_e1 : 0.0) + q_plus_p1_2 * product_4;
-                const double by_q_plus_p0_2 = (is_small ? by_e0 : 0.0) + q_plus_p0_2 * product_4;
-                const double product_5 = 2.0 * by_norm_d_squared;
-                const double by_d2 = (is_small ? 0.0 : by_e2) + d2 * product_5;
-                const double by_d1 = (is_small ? 0.0 : by_e1) + d1 * product_5;
-                const double by_d0 = (is_small ? 0.0 : by_e0) + d0 * product_5;
-                const double by_q2_off_cut = by_q_plus_p2_2 + by_d2;
-                const double by_q1_off_cut = by_q_plus_p1_2 + by_d1;
-                const double by_q0_off_cut = by_q_plus_p0_2 + by_d0;
-                const double exponent_by_x2 = (on_cut_locus ? 0.0 : by_q2_off_cut);
-                const double exponent_by_x1 = (on_cut_locus ? 0.0 : by_q1_off_cut);
-                const double exponent_by_x0 = (on_cut_locus ? 0.0 : by_q0_off_cut);
-                const double df0 = phi * exponent_by_x0;
-                const double df1 = phi * exponent_by_x1;
-                const double df2 = phi * exponent_by_x2;
-                const double normal_part = x_block[0][lane] * df0 + x_block[1][lane] * df1 + x_block[2][lane] * df2;
-                const double gradient0 = df0 - x_block[0][lane] * normal_part;
-                const double gradient1 = df1 - x_block[1][lane] * normal_part;
-                const double gradient2 = df2 - x_block[2][lane] * normal_part;
-                sum[0][lane] += phi;
-                sum[1][lane] += gradient0;
-                sum[2][lane] += gradient1;
-                sum[3][lane] += gradient2;
+    size_t count, size_t splat_count, const double *SPHERE_RESTRICT x, const double *SPHERE_RESTRICT mu, const double *SPHERE_RESTRICT W, const double *SPHERE_RESTRICT amplitude,
+    double *SPHERE_RESTRICT value, double *SPHERE_RESTRICT gradient, double *SPHERE_RESTRICT work, int threads) {
+    (void)threads;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES) {
+            vector at[2][3], X[2][3], grad[3];
+            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][3] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows(x, count, start + b * LANES, 3, at[b]);
+                pair_features(at[b], X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_forward(X[0], constants + 11 * k, value_sum[0], slope_sum[0]);
+                pair_forward(X[1], constants + 11 * k, value_sum[1], slope_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b) {
+                pair_gradient(at[b], slope_sum[b], grad);
+                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                vector_to_rows(grad, gradient, count, start + b * LANES, 3, 3);
             }
         }
-        for (size_t lane = 0; lane < lanes; ++lane) {
-            value[start + lane] = sum[0][lane];
-            for (size_t i = 0; i < 3; ++i) gradient[3 * (start + lane) + i] = sum[i + 1][lane];
-        }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
+void sphere_splats_value(
+    size_t count, size_t splat_count, const double *SPHERE_RESTRICT x, const double *SPHERE_RESTRICT mu, const double *SPHERE_RESTRICT W, const double *SPHERE_RESTRICT amplitude,
+    double *SPHERE_RESTRICT value, double *SPHERE_RESTRICT work, int threads) {
+    (void)threads;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES) {
+            vector at[3], X[2][3], value_sum[2][1] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows(x, count, start + b * LANES, 3, at);
+                pair_features(at, X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_value(X[0], constants + 11 * k, value_sum[0]);
+                pair_value(X[1], constants + 11 * k, value_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b)
+                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
+OUTLINE void splat_points(
+    size_t count, size_t start, const double *x, const double *value_bar, const double *gradient_bar, vector *point) {
+    vector at[3], grad_bar[3], slope_bar[3];
+    vector_rows(x, count, start, 3, at);
+    vector_rows(gradient_bar, count, start, 3, grad_bar);
+    vector_rows(value_bar, count, start, 1, point + 3);
+    pair_features(at, point);
+    pair_gradient_vjp(at, grad_bar, slope_bar);
+    for (int i = 0; i < 3; ++i) point[3 + 1 + i] = slope_bar[i];
+    vector_end(count, start, 3 + 1, point + 3);
+}
+
+/* Adds to S_bar what some vectors of points add to it. */
+OUTLINE void splat_sums(const vector *point, size_t size, const double *S, double *S_bar) {
+    vector sum[11] = {ZERO};
+    for (size_t b = 0; b < size; ++b, point += 7) pair_backward(point, S, point + 3, point + 3 + 1, sum);
+    S_bar[0] += vector_sum(sum[0]);
+    S_bar[1] += vector_sum(sum[1]);
+    S_bar[2] += vector_sum(sum[2]);
+    S_bar[3] += vector_sum(sum[3]);
+    S_bar[4] += vector_sum(sum[4]);
+    S_bar[5] += vector_sum(sum[5]);
+    S_bar[6] += vector_sum(sum[6]);
+    S_bar[7] += vector_sum(sum[7]);
+    S_bar[8] += vector_sum(sum[8]);
+    S_bar[9] += vector_sum(sum[9]);
+}
+
+/*
+ * Some splats at a time; the points pass over each of them, a chunk at a time, while its sums stay in registers. How many
+ * splats depends on the threads, what is summed in which order does not.
+ */
 void sphere_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *SPHERE_RESTRICT x,
-    const double *SPHERE_RESTRICT mu,
-    const double *SPHERE_RESTRICT W,
-    const double *SPHERE_RESTRICT amplitude,
-    const double *SPHERE_RESTRICT value_bar,
-    const double *SPHERE_RESTRICT gradient_bar,
-    double *SPHERE_RESTRICT mu_bar,
-    double *SPHERE_RESTRICT W_bar,
-    double *SPHERE_RESTRICT amplitude_bar) {
-    const unsigned mode = flush_denormals();
-    for (size_t i = 0; i < 3 * splat_count; ++i) mu_bar[i] = 0;
-    for (size_t i = 0; i < 6 * splat_count; ++i) W_bar[i] = 0;
-    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        double x_block[3][LANES], value_bar_block[1][LANES], gradient_bar_block[3][LANES];
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            const double weight = lane < lanes ? 1 : 0;
-            for (size_t i = 0; i < 3; ++i) x_block[i][lane] = x[3 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
-            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] = gradient_bar[3 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
-            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] *= weight;
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            double sum[10][LANES] = {{0}}, total[10] = {0};
-            const double mu0 = mu[3 * k + 0];
-            const double mu1 = mu[3 * k + 1];
-            const double mu2 = mu[3 * k + 2];
-            const double W0_0 = W[6 * k + 0];
-            const double W0_1 = W[6 * k + 1];
-            const double W0_2 = W[6 * k + 2];
-            const double W1_0 = W[6 * k + 3];
-            const double W1_1 = W[6 * k + 4];
-            const double W1_2 = W[6 * k + 5];
-            const double amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const double q_plus_p0 = x_block[0][lane] + mu0;
-                const double q_plus_p1 = x_block[1][lane] + mu1;
-                const double q_plus_p2 = x_block[2][lane] + mu2;
-                const double norm_q_plus_p_squared = q_plus_p0 * q_plus_p0 + q_plus_p1 * q_plus_p1 + q_plus_p2 *
-                    q_plus_p2;
-                const double norm_q_plus_p = sqrt(norm_q_plus_p_squared);
-                const double squared = mu0 * mu0;
-                const double gap = 1.0 - squared;
-                const double gap_2 = 1.0 - mu1 * mu1;
-                const int on_cut_locus = norm_q_plus_p <= 4.0 * DBL_EPSILON;
-                const double q0_off_cut = (on_cut_locus ? mu0 : x_block[0][lane]);
-                const double q1_off_cut = (on_cut_locus ? mu1 : x_block[1][lane]);
-                const double q2_off_cut = (on_cut_locus ? mu2 : x_block[2][lane]);
-                const double d0 = q0_off_cut - mu0;
-                const double d1 = q1_off_cut - mu1;
-                const double d2 = q2_off_cut - mu2;
-                const double norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
-                const double q_plus_p0_2 = mu0 + q0_off_cut;
-                const double q_plus_p1_2 = mu1 + q1_off_cut;
-                const double q_plus_p2_2 = mu2 + q2_off_cut;
-                const double norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
-                    * q_plus_p2_2;
-                const double norm_q_plus_p_2 = sqrt(norm_q_plus_p_squared_2);
-                const double dot_p_q = mu0 * q0_off_cut + mu1 * q1_off_cut + mu2 * q2_off_cut;
-                const int is_small = dot_p_q < 0.0;
-                const double e0 = (is_small ? q_plus_p0_2 : d0);
-                const double e1 = (is_small ? q_plus_p1_2 : d1);
-                const double e2 = (is_small ? q_plus_p2_2 : d2);
-                const double dot_p_e = mu0 * e0 + mu1 * e1 + mu2 * e2;
-                const double w0 = e0 - mu0 * dot_p_e;
-                const double w1 = e1 - mu1 * dot_p_e;
-                const double w2 = e2 - mu2 * dot_p_e;
-                const double norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
-                const int near = norm_d_squared < 0.997515;
-                const double near_chosen = (near ? 1.0024911906086624 * norm_d_squared : 0.0);
-                const double t_over_norm_w_near = polynomial_t_over_norm_w_near(near_chosen);
-                const double near_chosen_2 = (near ? 1.0 : norm_d_squared);
-                const double norm_d = sqrt(near_chosen_2);
-                const double atan2_value = atan2(norm_d, norm_q_plus_p_2);
-                const double t = 2.0 * atan2_value;
-                const double norm_w = sqrt((near ? 1.0 : norm_w_squared));
-                const double t_ratio = t / norm_w;
-                const double t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
-                const int is_small_2 = squared < 0.5;
-                const double chosen = (is_small_2 ? gap : 1.0);
-                const double sine_to_axis0 = sqrt(chosen);
-                const double ratio = gap / sine_to_axis0;
-                const double product = mu0 * mu1;
-                const double chosen_2 = (is_small_2 ? 1.0 : gap_2);
-                const double sine_to_axis1 = sqrt(chosen_2);
-                const double ratio_2 = product / sine_to_axis1;
-                const double v0 = (on_cut_locus ? 3.141592653589793 * (is_small_2 ? ratio : -ratio_2) : w0 *
-                    t_over_norm_w);
-                const double ratio_3 = product / sine_to_axis0;
-                const double ratio_4 = gap_2 / sine_to_axis1;
-                const double v1 = (on_cut_locus ? 3.141592653589793 * (is_small_2 ? -ratio_3 : ratio_4) : w1 *
-                    t_over_norm_w);
-                const double ratio_5 = mu0 * mu2 / sine_to_axis0;
-                const double ratio_6 = mu1 * mu2 / sine_to_axis1;
-                const double v2 = (on_cut_locus ? 3.141592653589793 * (is_small_2 ? -ratio_5 : -ratio_6) : w2 *
-                    t_over_norm_w);
-                const double log_value = log(0.7853981633974483 / DBL_EPSILON);
-                const double log_det_series = polynomial_log_det_series(near_chosen);
-                const double log_det_near = norm_d_squared * log_det_series;
-                const double log_det = (near ? log_det_near : log(t_ratio));
-                const double z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-                const double z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-                const double exp_2 = exp((on_cut_locus ? log_value : log_det) - 0.5 * (z0 * z0 + z1 * z1));
-                const double phi = amplitude_k * exp_2;
-                const double by_v2 = -(W1_2 * z1) - W0_2 * z0;
-                const double by_v1 = -(W1_1 * z1) - W0_1 * z0;
-                const double by_v0 = -(W1_0 * z1) - W0_0 * z0;
-                const double by_log_det = (on_cut_locus ? 0.0 : 1.0);
-                const double by_log_det_near = (near ? by_log_det : 0.0);
-                const double ratio_7 = (near ? 0.0 : by_log_det) / t_ratio;
-                const double by_log_det_series = norm_d_squared * by_log_det_near;
-                const double log_det_series_slope = polynomial_log_det_series_slope(near_chosen);
-                const double chosen_3 = (on_cut_locus ? 0.0 : by_v2);
-                const double chosen_4 = (on_cut_locus ? 0.0 : by_v1);
-                const double chosen_5 = (on_cut_locus ? 0.0 : by_v0);
-                const double by_t_over_norm_w = w2 * chosen_3 + w1 * chosen_4 + w0 * chosen_5;
-                const double by_t_over_norm_w_near = (near ? by_t_over_norm_w : 0.0);
-                const double by_t = (ratio_7 + (near ? 0.0 : by_t_over_norm_w)) / norm_w;
-                const double norm_w_product = 2.0 * norm_w;
-                const double ratio_8 = t_ratio * by_t / norm_w_product;
-                const double by_norm_w_squared = (near ? 0.0 : -ratio_8);
-                const double by_atan2_value = 2.0 * by_t;
-                const double total_2 = norm_q_plus_p_squared_2 + near_chosen_2;
-                const double ratio_9 = by_atan2_value / total_2;
-                const double by_norm_d = norm_q_plus_p_2 * ratio_9;
-                const double norm_d_product = 2.0 * norm_d;
-                const double by_norm_d_ratio = by_norm_d / norm_d_product;
-                const double t_over_norm_w_near_slope = polynomial_t_over_norm_w_near_slope(near_chosen);
-                const double by_norm_d_squared = log_det_series * by_log_det_near + (near ? 0.0 : by_norm_d_ratio) +
-                    1.0024911906086624 * (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near *
-                    t_over_norm_w_near_slope : 0.0);
-                const double product_2 = 2.0 * by_norm_w_squared;
-                const double by_w2 = t_over_norm_w * chosen_3 + w2 * product_2;
-                const double by_w1 = t_over_norm_w * chosen_4 + w1 * product_2;
-                const double by_w0 = t_over_norm_w * chosen_5 + w0 * product_2;
-                const double by_dot_p_e = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
-                const double by_e2 = by_w2 + mu2 * by_dot_p_e;
-                const double by_e1 = by_w1 + mu1 * by_dot_p_e;
-                const double by_e0 = by_w0 + mu0 * by_dot_p_e;
-                const int is_small_3 = norm_q_plus_p_squared_2 == 0.0;
-                const double product_3 = 2.0 * (is_small_3 ? 1.0 : norm_q_plus_p_2);
-                const double ratio_10 = norm_d * ratio_9 / product_3;
-                const double by_norm_q_plus_p_squared_2 = (is_small_3 ? 0.0 : -ratio_10);
-                const double product_4 = 2.0 * by_norm_q_plus_p_squared_2;
-                const double by_q_plus_p2_2 = (is_small ? by_e2 : 0.0) + q_plus_p2_2 * product_4;
-                const double by_q_plus_p1_2 = (is_small ? by_e1 : 0.0) + q_plus_p1_2 * product_4;
-                const double by_q_plus_p0_2 = (is_small ? by_e0 : 0.0) + q_plus_p0_2 * product_4;
-                const double product_5 = 2.0 * by_norm_d_squared;
-                const double by_d2 = (is_small ? 0.0 : by_e2) + d2 * product_5;
-                const double by_d1 = (is_small ? 0.0 : by_e1) + d1 * product_5;
-                const double by_d0 = (is_small ? 0.0 : by_e0) + d0 * product_5;
-                const double by_q2_off_cut = by_q_plus_p2_2 + by_d2;
-                const double by_q1_off_cut = by_q_plus_p1_2 + by_d1;
-                const double by_q0_off_cut = by_q_plus_p0_2 + by_d0;
-                const double exponent_by_x2 = (on_cut_locus ? 0.0 : by_q2_off_cut);
-                const double exponent_by_x1 = (on_cut_locus ? 0.0 : by_q1_off_cut);
-                const double exponent_by_x0 = (on_cut_locus ? 0.0 : by_q0_off_cut);
-                const double by_normal_part = -(x_block[2][lane] * gradient_bar_block[2][lane]) - x_block[1][lane] *
-                    gradient_bar_block[1][lane] - x_block[0][lane] * gradient_bar_block[0][lane];
-                const double by_df2 = gradient_bar_block[2][lane] + x_block[2][lane] * by_normal_part;
-                const double by_df1 = gradient_bar_block[1][lane] + x_block[1][lane] * by_normal_part;
-                const double by_df0 = gradient_bar_block[0][lane] + x_block[0][lane] * by_normal_part;
-                const double by_exponent_by_x2 = phi * by_df2;
-                const double by_exponent_by_x1 = phi * by_df1;
-                const double by_exponent_by_x0 = phi * by_df0;
-                const double by_phi = value_bar_block[0][lane] + exponent_by_x2 * by_df2 + exponent_by_x1 * by_df1 +
-                    exponent_by_x0 * by_df0;
-                const double by_by_q0_off_cut = (on_cut_locus ? 0.0 : by_exponent_by_x0);
-                const double by_by_q1_off_cut = (on_cut_locus ? 0.0 : by_exponent_by_x1);
-                const double by_by_q2_off_cut = (on_cut_locus ? 0.0 : by_exponent_by_x2);
-                const double total_3 = d0 * by_by_q0_off_cut + d1 * by_by_q1_off_cut + d2 * by_by_q2_off_cut;
-                const double by_by_norm_d_squared = 2.0 * total_3;
-                const double by_by_norm_q_plus_p_squared_2 = 2.0 * (q_plus_p0_2 * by_by_q0_off_cut + q_plus_p1_2 *
-                    by_by_q1_off_cut + q_plus_p2_2 * by_by_q2_off_cut);
-                const double ratio_11 = (is_small_3 ? 0.0 : by_by_norm_q_plus_p_squared_2) / product_3;
-                const double by_by_e0 = (is_small ? by_by_q0_off_cut : 0.0) + (is_small ? 0.0 : by_by_q0_off_cut);
-                const double by_by_e1 = (is_small ? by_by_q1_off_cut : 0.0) + (is_small ? 0.0 : by_by_q1_off_cut);
-                const double by_by_e2 = (is_small ? by_by_q2_off_cut : 0.0) + (is_small ? 0.0 : by_by_q2_off_cut);
-                const double by_by_dot_p_e = mu0 * by_by_e0 + mu1 * by_by_e1 + mu2 * by_by_e2;
-                const double by_by_w0 = by_by_e0 - mu0 * by_by_dot_p_e;
-                const double by_by_w1 = by_by_e1 - mu1 * by_by_dot_p_e;
-                const double by_by_w2 = by_by_e2 - mu2 * by_by_dot_p_e;
-                const double by_by_norm_w_squared = 2.0 * (w0 * by_by_w0 + w1 * by_by_w1 + w2 * by_by_w2);
-                const double near_chosen_3 = (near ? 2.004982381217325 * total_3 : 0.0);
-                const double by_by_t_over_norm_w_near = t_over_norm_w_near_slope * near_chosen_3;
-                const double by_t_over_norm_w_near_slope = by_t_over_norm_w_near * near_chosen_3;
-                const double t_over_norm_w_near_slope_slope = polynomial_t_over_norm_w_near_slope_slope(near_chosen);
-                const double by_by_norm_d = (near ? 0.0 : by_by_norm_d_squared) / norm_d_product;
-                const double by_by_atan2_value = (norm_q_plus_p_2 * by_by_norm_d - norm_d * ratio_11) / total_2;
-                const double product_6 = ratio_9 * by_by_atan2_value;
-                const double ratio_12 = (near ? 0.0 : by_by_norm_w_squared) / norm_w_product;
-                const double by_by_t = 2.0 * by_by_atan2_value - t_ratio * ratio_12;
-                const double by_by_t_ratio = by_by_t / norm_w;
-                const double by_by_t_over_norm_w = (near ? 0.0 : by_by_t_ratio) + (near ? by_by_t_over_norm_w_near : 0.0);
-                const double by_by_v0 = (on_cut_locus ? 0.0 : w0 * by_by_t_over_norm_w + t_over_norm_w * by_by_w0);
-                const double by_by_v1 = (on_cut_locus ? 0.0 : w1 * by_by_t_over_norm_w + t_over_norm_w * by_by_w1);
-                const double by_by_v2 = (on_cut_locus ? 0.0 : w2 * by_by_t_over_norm_w + t_over_norm_w * by_by_w2);
-                const double by_by_log_det_series = log_det_series_slope * near_chosen_3;
-                const double by_log_det_series_slope = by_log_det_series * near_chosen_3;
-                const double log_det_series_slope_slope = polynomial_log_det_series_slope_slope(near_chosen);
-                const double product_7 = exp_2 * (amplitude_k * by_phi);
-                const double by_z1 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2 - z1 * product_7;
-                const double by_z0 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2 - z0 * product_7;
-                const double by_v2_2 = W1_2 * by_z1 + W0_2 * by_z0;
-                const double by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0;
-                const double by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0;
-                const double by_log_det_2 = (on_cut_locus ? 0.0 : product_7);
-                const double by_log_det_near_2 = (near ? by_log_det_2 : 0.0);
-                const double by_log_det_series_2 = by_log_det_near * by_by_norm_d_squared + norm_d_squared *
-                    by_log_det_near_2;
-                const double chosen_6 = (on_cut_locus ? 0.0 : by_v2_2);
-                const double product_8 = 3.141592653589793 * (on_cut_locus ? by_v2_2 : 0.0);
-                const double ratio_13 = (is_small_2 ? 0.0 : product_8) / sine_to_axis1;
-                const double ratio_14 = (is_small_2 ? product_8 : 0.0) / sine_to_axis0;
-                const double chosen_7 = (on_cut_locus ? 0.0 : by_v1_2);
-                const double total_4 = chosen_5 * by_by_w0 + chosen_4 * by_by_w1 + chosen_3 * by_by_w2 + w2 * chosen_6 +
-                    w1 * chosen_7;
-                const double product_9 = 3.141592653589793 * (on_cut_locus ? by_v1_2 : 0.0);
-                const double ratio_15 = (is_small_2 ? 0.0 : product_9) / sine_to_axis1;
-                const double ratio_16 = (is_small_2 ? product_9 : 0.0) / sine_to_axis0;
-                const double chosen_8 = (on_cut_locus ? 0.0 : by_v0_2);
-                const double by_t_over_norm_w_2 = total_4 + w0 * chosen_8;
-                const double product_10 = 3.141592653589793 * (on_cut_locus ? by_v0_2 : 0.0);
-                const double ratio_17 = (is_small_2 ? 0.0 : product_10) / sine_to_axis1;
-                const double gap_3 = -ratio_16 - ratio_17;
-                const double by_sine_to_axis1 = ratio_6 * ratio_13 - ratio_4 * ratio_15 + ratio_2 * ratio_17;
-                const int is_small_4 = chosen_2 == 0.0;
-                const double chosen_9 = (is_small_2 ? 0.0 : (is_small_4 ? 0.0 : by_sine_to_axis1 / (2.0 * (is_small_4 ?
-                    1.0 : sine_to_axis1))));
-                const double ratio_18 = (is_small_2 ? product_10 : 0.0) / sine_to_axis0;
-                const double by_sine_to_axis0 = ratio_5 * ratio_14 + ratio_3 * ratio_16 - ratio * ratio_18;
-                const int is_small_5 = chosen == 0.0;
-                const double chosen_10 = (is_small_2 ? (is_small_5 ? 0.0 : by_sine_to_axis0 / (2.0 * (is_small_5 ? 1.0 :
-                    sine_to_axis0))) : 0.0);
-                const double by_t_over_norm_w_near_2 = (near ? by_t_over_norm_w_2 : 0.0);
-                const double total_5 = -(by_t * ratio_12) - ratio_7 * (by_by_t_ratio / t_ratio) + (near ? 0.0 :
-                    by_log_det_2) / t_ratio + (near ? 0.0 : by_t_over_norm_w_2);
-                const double by_t_2 = total_5 / norm_w;
-                const double by_norm_w = 2.0 * (ratio_8 * ratio_12) - by_t * by_by_t_ratio - t_ratio * by_t_2;
-                const double by_norm_w_squared_2 = (near ? 0.0 : by_norm_w / norm_w_product);
-                const double by_atan2_value_2 = 2.0 * by_t_2;
-                const double ratio_19 = by_atan2_value_2 / total_2;
-                const double by_norm_d_2 = -(2.0 * (by_norm_d_ratio * by_by_norm_d)) - ratio_9 * ratio_11 +
-                    norm_q_plus_p_2 * ratio_19;
-                const double by_norm_q_plus_p_2 = (is_small_3 ? 0.0 : 2.0 * (ratio_10 * ratio_11)) + ratio_9 *
-                    by_by_norm_d - norm_d * ratio_19;
-                const double near_chosen_4 = (near ? by_t_over_norm_w_near_slope * t_over_norm_w_near_slope_slope +
-                    by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
-                    t_over_norm_w_near_slope * by_t_over_norm_w_near_2 : 0.0);
-                const double by_norm_d_squared_2 = by_log_det_near * by_by_log_det_series + log_det_series *
-                    by_log_det_near_2 + (near ? 0.0 : by_norm_d_2 / norm_d_product - product_6) + 1.0024911906086624 *
-                    near_chosen_4;
-                const double product_11 = 2.0 * by_norm_w_squared_2;
-                const double by_w2_2 = product_2 * by_by_w2 + chosen_3 * by_by_t_over_norm_w + t_over_norm_w * chosen_6 +
-                    w2 * product_11;
-                const double by_w1_2 = product_2 * by_by_w1 + chosen_4 * by_by_t_over_norm_w + t_over_norm_w * chosen_7 +
-                    w1 * product_11;
-                const double by_w0_2 = product_2 * by_by_w0 + chosen_5 * by_by_t_over_norm_w + t_over_norm_w * chosen_8 +
-                    w0 * product_11;
-                const double gap_4 = by_dot_p_e * by_by_e2 - by_w2 * by_by_dot_p_e - mu1 * ratio_13 - mu0 * ratio_14 -
-                    dot_p_e * by_w2_2;
-                const double gap_5 = by_dot_p_e * by_by_e1 - by_w1 * by_by_dot_p_e - mu2 * ratio_13 + mu0 * gap_3 -
-                    dot_p_e * by_w1_2;
-                const double gap_6 = by_dot_p_e * by_by_e0 - by_w0 * by_by_dot_p_e - mu2 * ratio_14 + mu1 * gap_3 -
-                    dot_p_e * by_w0_2;
-                const double by_dot_p_e_2 = -(mu2 * by_w2_2) - mu1 * by_w1_2 - mu0 * by_w0_2;
-                const double by_e2_2 = by_w2_2 + mu2 * by_dot_p_e_2;
-                const double by_e1_2 = by_w1_2 + mu1 * by_dot_p_e_2;
-                const double by_e0_2 = by_w0_2 + mu0 * by_dot_p_e_2;
-                const double by_norm_q_plus_p_squared_2_2 = (is_small_3 ? 0.0 : by_norm_q_plus_p_2 / product_3) -
-                    product_6;
-                const double product_12 = 2.0 * by_norm_q_plus_p_squared_2_2;
-                const double by_q_plus_p2_2_2 = product_4 * by_by_q2_off_cut + (is_small ? by_e2_2 : 0.0) + q_plus_p2_2 *
-                    product_12;
-                const double by_q_plus_p1_2_2 = product_4 * by_by_q1_off_cut + (is_small ? by_e1_2 : 0.0) + q_plus_p1_2 *
-                    product_12;
-                const double by_q_plus_p0_2_2 = product_4 * by_by_q0_off_cut + (is_small ? by_e0_2 : 0.0) + q_plus_p0_2 *
-                    product_12;
-                const double product_13 = 2.0 * by_norm_d_squared_2;
-                const double by_d2_2 = product_5 * by_by_q2_off_cut + (is_small ? 0.0 : by_e2_2) + d2 * product_13;
-                const double by_d1_2 = product_5 * by_by_q1_off_cut + (is_small ? 0.0 : by_e1_2) + d1 * product_13;
-                const double by_d0_2 = product_5 * by_by_q0_off_cut + (is_small ? 0.0 : by_e0_2) + d0 * product_13;
-                const double by_q2_off_cut_2 = by_q_plus_p2_2_2 + by_d2_2;
-                const double by_q1_off_cut_2 = by_q_plus_p1_2_2 + by_d1_2;
-                const double by_q0_off_cut_2 = by_q_plus_p0_2_2 + by_d0_2;
-                const double total_6 = gap_4 + e2 * by_dot_p_e_2 + by_q_plus_p2_2_2 - by_d2_2 + (on_cut_locus ?
-                    by_q2_off_cut_2 : 0.0);
-                const double total_7 = gap_5 + e1 * by_dot_p_e_2 + by_q_plus_p1_2_2 - by_d1_2 + (on_cut_locus ?
-                    by_q1_off_cut_2 : 0.0);
-                const double total_8 = gap_6 + e0 * by_dot_p_e_2 + by_q_plus_p0_2_2 - by_d0_2 + (on_cut_locus ?
-                    by_q0_off_cut_2 : 0.0);
-                sum[0][lane] += total_8 - mu0 * (2.0 * (ratio_18 + chosen_10));
-                sum[1][lane] += total_7 - mu1 * (2.0 * (ratio_15 + chosen_9));
-                sum[2][lane] += total_6;
-                sum[3][lane] += v0 * by_z0 - z0 * by_by_v0;
-                sum[4][lane] += v1 * by_z0 - z0 * by_by_v1;
-                sum[5][lane] += v2 * by_z0 - z0 * by_by_v2;
-                sum[6][lane] += v0 * by_z1 - z1 * by_by_v0;
-                sum[7][lane] += v1 * by_z1 - z1 * by_by_v1;
-                sum[8][lane] += v2 * by_z1 - z1 * by_by_v2;
-                sum[9][lane] += exp_2 * by_phi;
+    size_t count, size_t splat_count, const double *SPHERE_RESTRICT x, const double *SPHERE_RESTRICT mu, const double *SPHERE_RESTRICT W, const double *SPHERE_RESTRICT amplitude, const double *SPHERE_RESTRICT value_bar, const double *SPHERE_RESTRICT gradient_bar,
+    double *SPHERE_RESTRICT mu_bar, double *SPHERE_RESTRICT W_bar, double *SPHERE_RESTRICT amplitude_bar, double *SPHERE_RESTRICT work, int threads) {
+    const size_t blocks = (count + LANES - 1) / LANES;
+    const size_t chunk = 131072 / (7 * sizeof(vector)) + 1;
+    const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
+    const size_t share = part < LANES ? part : LANES;
+    vector *points = work_points(work);
+    double *constants = work_constants(work, count);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic) nowait)
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic, 8))
+        for (size_t block = 0; block < blocks; ++block)
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 7 * block);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += share) {
+            const size_t end = start + share < splat_count ? start + share : splat_count;
+            double sums[LANES][11] = {{0}};
+            vector own_mu[3], own_W[6], own_amplitude[1], S_bar[11], bars[10];
+            for (size_t first = 0; first < blocks; first += chunk) {
+                const size_t size = first + chunk < blocks ? chunk : blocks - first;
+                for (size_t k = start; k < end; ++k)
+                    splat_sums(points + 7 * first, size, constants + 11 * k, sums[k - start]);
             }
-            for (size_t i = 0; i < 10; ++i)
-                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
-            mu_bar[3 * k + 0] += total[0];
-            mu_bar[3 * k + 1] += total[1];
-            mu_bar[3 * k + 2] += total[2];
-            W_bar[6 * k + 0] += total[3];
-            W_bar[6 * k + 1] += total[4];
-            W_bar[6 * k + 2] += total[5];
-            W_bar[6 * k + 3] += total[6];
-            W_bar[6 * k + 4] += total[7];
-            W_bar[6 * k + 5] += total[8];
-            amplitude_bar[1 * k + 0] += total[9];
+            vector_rows(mu, end, start, 3, own_mu);
+            vector_rows(W, end, start, 6, own_W);
+            vector_rows(amplitude, end, start, 1, own_amplitude);
+            vector_rows(sums[0], LANES, 0, 11, S_bar);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 3, bars + 3 + 6);
+            vector_to_rows(bars, mu_bar, end, start, 3, 3);
+            vector_to_rows(bars + 3, W_bar, end, start, 6, 6);
+            vector_to_rows(bars + 3 + 6, amplitude_bar, end, start, 1, 1);
         }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
-/* Of degree 6, within 2^-27 of that of double precision. */
-static inline float polynomial_t_over_norm_w_near_f(float x) {
-    return 1.00000000619894f + x * (0.16625190413032676f + x * (0.03317716716973815f + x *
-        (0.007035890983780297f + x * (0.0017176917798953461f + x * (0.00015939746442501272f + x *
-        0.00020289529759782475f)))));
+/* Nothing is summed: the adjoints of a splat's constants go on to its parameters for every point. */
+void sphere_splats_rows(
+    size_t count, size_t splat_count, const double *SPHERE_RESTRICT x, const double *SPHERE_RESTRICT mu, const double *SPHERE_RESTRICT W, const double *SPHERE_RESTRICT amplitude, const double *SPHERE_RESTRICT value_bar, const double *SPHERE_RESTRICT gradient_bar,
+    double *SPHERE_RESTRICT rows, double *SPHERE_RESTRICT work, int threads) {
+    (void)threads;
+    const size_t blocks = (count + LANES - 1) / LANES;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t block = 0; block < blocks; ++block) {
+            vector point[7];
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
+            for (size_t k = 0; k < splat_count; ++k) {
+                vector own_mu[3], own_W[6], own_amplitude[1], S_bar[11] = {ZERO}, bars[10];
+                for (int i = 0; i < 3; ++i) own_mu[i] = vector_of(mu[3 * k + i]);
+                for (int i = 0; i < 6; ++i) own_W[i] = vector_of(W[6 * k + i]);
+                own_amplitude[0] = vector_of(amplitude[k]);
+                pair_backward(point, constants + 11 * k, point + 3, point + 3 + 1, S_bar);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 3, bars + 3 + 6);
+                vector_to_rows(bars, rows + 10 * k, count, block * LANES, 10, 10 * splat_count);
+            }
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* The same number in all lanes. */
+INLINE vector_f vector_of_f(float x) {
+    const vector_f zero = ZERO;
+    return x - zero;
+}
+
+/* x in the lanes of the mask, y in the others. */
+INLINE vector_f vector_select_f(vector_mask_f mask, vector_f x, vector_f y) {
+    return SELECT(vector_f, vector_mask_f, mask, x, y);
+}
+
+/* Numbers in memory to a vector, and back. */
+INLINE vector_f vector_load_f(const float *from) {
+    vector_f x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+INLINE void vector_store_f(float *to, vector_f x) { memcpy(to, &x, sizeof x); }
+
+/* The sum over the lanes, by halves. */
+INLINE float vector_sum_f(vector_f x) {
+    float lanes[LANES_f];
+    vector_store_f(lanes, x);
+    for (size_t half = LANES_f / 2; half > 0; half /= 2)
+        for (size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    return lanes[0];
+}
+
+/* The bits of a vector as integers, and back. */
+INLINE vector_bits_f vector_to_bits_f(vector_f x) {
+    vector_bits_f bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
+    vector_f x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* x >= 0 with the sign of another. */
+INLINE vector_f vector_signed_f(vector_f x, vector_f sign) {
+    return vector_from_bits_f(vector_to_bits_f(x) | (vector_to_bits_f(sign) & 0x80000000));
+}
+
+/* abs of every lane; one instruction where the machine has it. */
+INLINE vector_f vector_abs_f(vector_f x) {
+    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
+    return x;
+}
+
+/* sqrt of every lane; one instruction where the machine has it. */
+INLINE vector_f vector_sqrt_f(vector_f x) {
+    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
+    return x;
+}
+
+/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
+INLINE vector_f vector_exp_f(vector_f x) {
+    const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
+    const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
+    const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
+    const vector_f scale = vector_from_bits_f((vector_to_bits_f(shifted) + 126) << 23); /* 2^(k - 1) */
+    const vector_f y = vector_select_f(x > 88.722839f, vector_of_f(HUGE_VALF), (scale + scale * part) * 2);
+    return vector_select_f(x < -86.9f, vector_of_f(0), y);
+}
+
+/* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
+INLINE vector_f vector_log_f(vector_f x) {
+    const vector_bits_f bits = vector_to_bits_f(x), biased = (bits + 0x4afb0d) >> 23; /* k + 127 */
+    const vector_f k = vector_from_bits_f(biased + 0x4b400000) - 12583039.0f;
+    const vector_f f = vector_from_bits_f(bits - (biased << 23) + 0x3f800000) - 1, s = f / (2 + f), z = s * s;
+    const vector_f half = f * f * 0.5f;
+    const vector_f rest = z * (0.6666666655430018f + z * (0.4000012200081688f + z * (0.2855080255327671f + z * 0.2333096405177204f)));
+    const vector_f y = k * 0.693145751953125f - ((half - (s * (half + rest) + k * 1.4286068203094173e-06f)) - f);
+    const vector_f small = vector_select_f(x < 0, vector_of_f(NAN), vector_of_f(-HUGE_VALF));
+    const vector_f finite = vector_select_f(x > 1.17549421e-38f, y, small);
+    return vector_select_f(x <= 3.4028234663852886e38f, finite, x);
+}
+
+/* atan2, within 3 units in the last place. */
+INLINE vector_f vector_atan2_f(vector_f y, vector_f x) {
+    const vector_f a = vector_abs_f(y), b = vector_abs_f(x), one = vector_of_f(1);
+    const vector_f less = vector_select_f(a > b, b, a), more = vector_select_f(a > b, a, b);
+    const vector_f low = vector_select_f(less > 3.4028234663852886e38f, one, less);
+    const vector_f high = vector_select_f(less > 3.4028234663852886e38f, one, vector_select_f(more == 0, one, more));
+    const vector_f top = vector_select_f(low > 0.4142135623730951f * high, low - high, low);
+    const vector_f bottom = vector_select_f(low > 0.4142135623730951f * high, low * 0.5f + high * 0.5f, high * 0.5f);
+    const vector_f t = top / bottom * 0.5f, z = t * t;
+    const vector_f angle = t + t * z * (-0.33333333279242233f + z * (0.19999977254347343f + z * (-0.14284150959481018f + z * (0.11071360682318138f + z * (-0.08624643784438366f + z * 0.05048055010223574f)))));
+    const vector_f first = vector_select_f(low > 0.4142135623730951f * high, 0.7853981852531433f + (angle + -2.1855695000931213e-08f), angle);
+    const vector_f second = vector_select_f(a > b, 1.5707963705062866f - (first - -4.3711390001862426e-08f), first);
+    const vector_f third = vector_select_f((vector_to_bits_f(x) & 0x80000000) != 0, 3.1415927410125732f - (second - -8.742278000372485e-08f), second);
+    return vector_signed_f(third, y);
 }
 
 /* Of degree 6, within 2^-28 of that of double precision. */
-static inline float polynomial_log_det_series_f(float x) {
+INLINE vector_f vector_polynomial_log_det_series_f(vector_f x) {
     return 0.16666666698842558f + x * (0.01939609403553286f + x * (0.003115455875791959f + x *
         (0.0005672156396303965f + x * (0.00011962406701481749f + x * (1.265383663821544e-05f + x *
         1.1287063796917841e-05f)))));
 }
 
-/* Of degree 7, within 2^-28 of that of double precision. */
-static inline float polynomial_log_det_series_slope_f(float x) {
-    return 0.019396124953314112f + x * (0.006229950177086295f + x * (0.0017099508786384825f + x *
-        (0.0004488633398675725f + x * (0.00011148142766242262f + x * (3.631933110632547e-05f + x *
-        (-2.054050626290468e-07f + x * 5.692314108989995e-06f))))));
+/* Of degree 6, within 2^-27 of that of double precision. */
+INLINE vector_f vector_polynomial_t_over_norm_w_near_f(vector_f x) {
+    return 1.00000000619894f + x * (0.16625190413032676f + x * (0.03317716716973815f + x *
+        (0.007035890983780297f + x * (0.0017176917798953461f + x * (0.00015939746442501272f + x *
+        0.00020289529759782475f)))));
+}
+
+/* Of degree 11, within 2^-29 of that of double precision. */
+INLINE vector_f vector_polynomial_eta_f(vector_f x) {
+    return -0.3333333329074172f + x * (-0.15555567514484153f + x * (-0.07512673968454313f + x *
+        (-0.036854683410814014f + x * (-0.017172242426810813f + x * (-0.013945774438806282f + x *
+        (0.01253044380771583f + x * (-0.03940423726113369f + x * (0.051921663529563705f + x *
+        (-0.048257650185791916f + x * (0.024694517679698283f + x * -0.006116061322664089f))))))))));
+}
+
+/* Of degree 13, within 2^-27 of that of double precision. */
+INLINE vector_f vector_polynomial_eta_slope_f(vector_f x) {
+    return 0.15555555542437843f + x * (0.1502646005226573f + x * (0.11026136698101077f + x *
+        (0.07246434664202496f + x * (0.04369556901094827f + x * (0.034436310057583616f + x *
+        (-0.023420697975480978f + x * (0.13766190227481526f + x * (-0.2894962884105508f + x *
+        (0.4671003677933079f + x * (-0.49758073887669707f + x * (0.35140202925299413f + x *
+        (-0.1460207286663636f + x * 0.028391671210260493f))))))))))));
 }
 
 /* Of degree 7, within 2^-27 of that of double precision. */
-static inline float polynomial_t_over_norm_w_near_slope_f(float x) {
+INLINE vector_f vector_polynomial_t_over_norm_w_near_slope_f(vector_f x) {
     return 0.166252498983116f + x * (0.06633587276024193f + x * (0.02126659841817475f + x *
         (0.006306643891312201f + x * (0.0017049970358088175f + x * (0.0006452315929490522f + x *
         (-2.9591250849232477e-05f + x * 0.0001174958124774389f))))));
 }
 
-/* Of degree 8, within 2^-27 of that of double precision. */
-static inline float polynomial_t_over_norm_w_near_slope_slope_f(float x) {
-    return 0.06633574524735136f + x * (0.04253839921568694f + x * (0.018859953714945116f + x *
-        (0.007116187388862165f + x * (0.0025081773727685867f + x * (0.0006707717309135404f + x *
-        (0.00045739113274665544f + x * (-0.00010480883009425309f + x * 9.840812906558691e-05f)))))));
+/* Of degree 7, within 2^-28 of that of double precision. */
+INLINE vector_f vector_polynomial_log_det_series_slope_f(vector_f x) {
+    return 0.019396124953314112f + x * (0.006229950177086295f + x * (0.0017099508786384825f + x *
+        (0.0004488633398675725f + x * (0.00011148142766242262f + x * (3.631933110632547e-05f + x *
+        (-2.054050626290468e-07f + x * 5.692314108989995e-06f))))));
 }
 
-/* Of degree 8, within 2^-29 of that of double precision. */
-static inline float polynomial_log_det_series_slope_slope_f(float x) {
-    return 0.006229944316617849f + x * (0.0034201412475210677f + x * (0.0013438225275634516f + x *
-        (0.0004596418976622537f + x * (0.00014814095627058545f + x * (3.883739899285821e-05f + x *
-        (2.1669920296332757e-05f + x * (-3.885466858431985e-06f + x * 4.272324365863415e-06f)))))));
+/* What pairs read of points x. */
+OUTLINE void pair_features_f(
+    const vector_f *x, vector_f *X) {
+    const vector_f x0 = x[0];
+    const vector_f x1 = x[1];
+    const vector_f x2 = x[2];
+    const vector_f h0 = 0.5f * x0;
+    const vector_f h1 = 0.5f * x1;
+    const vector_f h2 = 0.5f * x2;
+    X[0] = h0;
+    X[1] = h1;
+    X[2] = h2;
 }
 
+/* What pairs read of a splat, of some splats. */
+OUTLINE void pair_constants_f(
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, vector_f *S) {
+    const vector_f mu0 = mu[0];
+    const vector_f mu1 = mu[1];
+    const vector_f mu2 = mu[2];
+    const vector_f W0_0 = W[0];
+    const vector_f W0_1 = W[1];
+    const vector_f W0_2 = W[2];
+    const vector_f W1_0 = W[3];
+    const vector_f W1_1 = W[4];
+    const vector_f W1_2 = W[5];
+    const vector_f its_amplitude = amplitude[0];
+    const vector_f M0 = 0.5f * mu0;
+    const vector_f M1 = 0.5f * mu1;
+    const vector_f M2 = 0.5f * mu2;
+    const vector_f squared = mu0 * mu0;
+    const vector_f gap = 1.0f - squared;
+    const vector_f product = mu0 * mu1;
+    const vector_f product_2 = mu0 * mu2;
+    const vector_f R0_0 = 1.4142135623730951f * (W0_0 * gap - W0_1 * product - W0_2 * product_2);
+    const vector_f gap_2 = 1.0f - mu1 * mu1;
+    const vector_f product_3 = mu1 * mu2;
+    const vector_f R0_1 = 1.4142135623730951f * (W0_1 * gap_2 - W0_0 * product - W0_2 * product_3);
+    const vector_f gap_3 = 1.0f - mu2 * mu2;
+    const vector_f R0_2 = 1.4142135623730951f * (-(W0_0 * product_2) - W0_1 * product_3 + W0_2 * gap_3);
+    const vector_f R1_0 = 1.4142135623730951f * (W1_0 * gap - W1_1 * product - W1_2 * product_2);
+    const vector_f R1_1 = 1.4142135623730951f * (W1_1 * gap_2 - W1_0 * product - W1_2 * product_3);
+    const vector_f R1_2 = 1.4142135623730951f * (-(W1_0 * product_2) - W1_1 * product_3 + W1_2 * gap_3);
+    const vector_f norm_q_plus_p = vector_sqrt_f(vector_of_f(0.0f));
+    const vector_mask_f on_cut_locus = norm_q_plus_p <= 4.0f * FLT_EPSILON;
+    const vector_f log_value = vector_log_f(vector_of_f(0.7853981633974483f / FLT_EPSILON));
+    const vector_f q0_off_cut = vector_select_f(on_cut_locus, mu0, -mu0);
+    const vector_f d0 = q0_off_cut - mu0;
+    const vector_f q1_off_cut = vector_select_f(on_cut_locus, mu1, -mu1);
+    const vector_f d1 = q1_off_cut - mu1;
+    const vector_f q2_off_cut = vector_select_f(on_cut_locus, mu2, -mu2);
+    const vector_f d2 = q2_off_cut - mu2;
+    const vector_f norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
+    const vector_mask_f near = norm_d_squared < 0.997515f;
+    const vector_f near_chosen = vector_select_f(near, 1.0024911906086624f * norm_d_squared,
+        vector_of_f(0.0f));
+    const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
+    const vector_f log_det_near = norm_d_squared * log_det_series;
+    const vector_f norm_d = vector_sqrt_f(vector_select_f(near, vector_of_f(1.0f), norm_d_squared));
+    const vector_f q_plus_p0_2 = mu0 + q0_off_cut;
+    const vector_f q_plus_p1_2 = mu1 + q1_off_cut;
+    const vector_f q_plus_p2_2 = mu2 + q2_off_cut;
+    const vector_f norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 +
+        q_plus_p2_2 * q_plus_p2_2;
+    const vector_f norm_q_plus_p_2 = vector_sqrt_f(norm_q_plus_p_squared_2);
+    const vector_f atan2_value = vector_atan2_f(norm_d, norm_q_plus_p_2);
+    const vector_f t = 2.0f * atan2_value;
+    const vector_f dot_p_q = mu0 * q0_off_cut + mu1 * q1_off_cut + mu2 * q2_off_cut;
+    const vector_mask_f is_small = dot_p_q < 0.0f;
+    const vector_f e0 = vector_select_f(is_small, q_plus_p0_2, d0);
+    const vector_f e1 = vector_select_f(is_small, q_plus_p1_2, d1);
+    const vector_f e2 = vector_select_f(is_small, q_plus_p2_2, d2);
+    const vector_f dot_p_e = mu0 * e0 + mu1 * e1 + mu2 * e2;
+    const vector_f w0 = e0 - mu0 * dot_p_e;
+    const vector_f w1 = e1 - mu1 * dot_p_e;
+    const vector_f w2 = e2 - mu2 * dot_p_e;
+    const vector_f norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
+    const vector_f norm_w = vector_sqrt_f(vector_select_f(near, vector_of_f(1.0f), norm_w_squared));
+    const vector_f t_ratio = t / norm_w;
+    const vector_f log_det = vector_select_f(near, log_det_near, vector_log_f(t_ratio));
+    const vector_mask_f is_small_2 = squared < 0.5f;
+    const vector_f sine_to_axis0 = vector_sqrt_f(vector_select_f(is_small_2, gap, vector_of_f(1.0f)));
+    const vector_f sine_to_axis1 = vector_sqrt_f(vector_select_f(is_small_2, vector_of_f(1.0f), gap_2));
+    const vector_f t_over_norm_w_near = vector_polynomial_t_over_norm_w_near_f(near_chosen);
+    const vector_f t_over_norm_w = vector_select_f(near, t_over_norm_w_near, t_ratio);
+    const vector_f chosen = vector_select_f(on_cut_locus, 3.141592653589793f * vector_select_f(is_small_2, gap
+        / sine_to_axis0, -(product / sine_to_axis1)), w0 * t_over_norm_w);
+    const vector_f chosen_2 = vector_select_f(on_cut_locus, 3.141592653589793f * vector_select_f(is_small_2,
+        -(product / sine_to_axis0), gap_2 / sine_to_axis1), w1 * t_over_norm_w);
+    const vector_f chosen_3 = vector_select_f(on_cut_locus, 3.141592653589793f * vector_select_f(is_small_2,
+        -(product_2 / sine_to_axis0), -(product_3 / sine_to_axis1)), w2 * t_over_norm_w);
+    const vector_f total_2 = W0_0 * chosen + W0_1 * chosen_2 + W0_2 * chosen_3;
+    const vector_f total_3 = W1_0 * chosen + W1_1 * chosen_2 + W1_2 * chosen_3;
+    const vector_f value_on_cut_locus = vector_exp_f(vector_select_f(on_cut_locus, log_value, log_det) - 0.5f
+        * (total_2 * total_2 + total_3 * total_3));
+    S[0] = its_amplitude;
+    S[1] = M0;
+    S[2] = M1;
+    S[3] = M2;
+    S[4] = R0_0;
+    S[5] = R0_1;
+    S[6] = R0_2;
+    S[7] = R1_0;
+    S[8] = R1_1;
+    S[9] = R1_2;
+    S[10] = value_on_cut_locus;
+}
+
+/* Adds the values phi of a splat at some points. */
+INLINE void pair_value_f(
+    const vector_f *X, const float *S, vector_f *value) {
+    const vector_f h0 = X[0];
+    const vector_f h1 = X[1];
+    const vector_f h2 = X[2];
+    const float amplitude = S[0];
+    const float M0 = S[1];
+    const float M1 = S[2];
+    const float M2 = S[3];
+    const float R0_0 = S[4];
+    const float R0_1 = S[5];
+    const float R0_2 = S[6];
+    const float R1_0 = S[7];
+    const float R1_1 = S[8];
+    const float R1_2 = S[9];
+    const float value_on_cut_locus = S[10];
+    const vector_f total_2 = h0 + M0;
+    const vector_f total_3 = h1 + M1;
+    const vector_f total_4 = h2 + M2;
+    const vector_f total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4;
+    const vector_mask_f on_cut_locus = total_5 <= 4.0f * (FLT_EPSILON * FLT_EPSILON);
+    const vector_f u = vector_select_f(on_cut_locus, vector_of_f(1.0f), total_5);
+    const vector_f w = vector_sqrt_f(u);
+    const vector_f eta = vector_polynomial_eta_f(1.0f - w);
+    const vector_f a = 1.0f / (w * (w - eta * (1.0f - u)));
+    const vector_f a_squared = a * a;
+    const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
+    const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
+    const vector_f half_square = a_squared * (r0 * r0 + r1 * r1);
+    const vector_f gaussian = vector_exp_f(-half_square);
+    value[0] = value[0] + amplitude * vector_select_f(on_cut_locus, vector_of_f(value_on_cut_locus), a *
+            gaussian);
+}
+
+/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+INLINE void pair_forward_f(
+    const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
+    const vector_f h0 = X[0];
+    const vector_f h1 = X[1];
+    const vector_f h2 = X[2];
+    const float amplitude = S[0];
+    const float M0 = S[1];
+    const float M1 = S[2];
+    const float M2 = S[3];
+    const float R0_0 = S[4];
+    const float R0_1 = S[5];
+    const float R0_2 = S[6];
+    const float R1_0 = S[7];
+    const float R1_1 = S[8];
+    const float R1_2 = S[9];
+    const float value_on_cut_locus = S[10];
+    const vector_f total_2 = h0 + M0;
+    const vector_f total_3 = h1 + M1;
+    const vector_f total_4 = h2 + M2;
+    const vector_f total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4;
+    const vector_mask_f on_cut_locus = total_5 <= 4.0f * (FLT_EPSILON * FLT_EPSILON);
+    const vector_f u = vector_select_f(on_cut_locus, vector_of_f(1.0f), total_5);
+    const vector_f w = vector_sqrt_f(u);
+    const vector_f eta = vector_polynomial_eta_f(1.0f - w);
+    const vector_f w_gap = w - eta * (1.0f - u);
+    const vector_f a = 1.0f / (w * w_gap);
+    const vector_f a_squared = a * a;
+    const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
+    const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
+    const vector_f half_square = a_squared * (r0 * r0 + r1 * r1);
+    const vector_f gaussian = vector_exp_f(-half_square);
+    const vector_f a_product = a * gaussian;
+    const vector_f product = amplitude * vector_select_f(on_cut_locus, vector_of_f(0.0f), a_product);
+    const vector_f product_2 = 2.0f * (product * a_squared);
+    const vector_f r1_product = r1 * product_2;
+    const vector_f r0_product = r0 * product_2;
+    const vector_f over_w = w_gap * a;
+    const vector_f over_w_product = over_w * ((eta - over_w) * (product - product * (2.0f * half_square)));
+    value[0] = value[0] + amplitude * vector_select_f(on_cut_locus, vector_of_f(value_on_cut_locus),
+            a_product);
+    slope[0] = slope[0] - R1_0 * r1_product - R0_0 * r0_product + M0 * over_w_product;
+    slope[1] = slope[1] - R1_1 * r1_product - R0_1 * r0_product + M1 * over_w_product;
+    slope[2] = slope[2] - R1_2 * r1_product - R0_2 * r0_product + M2 * over_w_product;
+}
+
+/* The Riemannian gradient at some points, of the sums of slopes. */
+OUTLINE void pair_gradient_f(
+    const vector_f *x, const vector_f *slope, vector_f *gradient) {
+    const vector_f x0 = x[0];
+    const vector_f x1 = x[1];
+    const vector_f x2 = x[2];
+    const vector_f slope_h0 = slope[0];
+    const vector_f slope_h1 = slope[1];
+    const vector_f slope_h2 = slope[2];
+    const vector_f product = 0.5f * slope_h0;
+    const vector_f product_2 = 0.5f * slope_h1;
+    const vector_f product_3 = 0.5f * slope_h2;
+    const vector_f normal_part = x0 * product + x1 * product_2 + x2 * product_3;
+    gradient[0] = product - x0 * normal_part;
+    gradient[1] = product_2 - x1 * normal_part;
+    gradient[2] = product_3 - x2 * normal_part;
+}
+
+/* The adjoint of slope at some points, of that of the gradient. */
+OUTLINE void pair_gradient_vjp_f(
+    const vector_f *x, const vector_f *gradient_bar, vector_f *slope_bar) {
+    const vector_f x0 = x[0];
+    const vector_f x1 = x[1];
+    const vector_f x2 = x[2];
+    const vector_f gradient_bar0 = gradient_bar[0];
+    const vector_f gradient_bar1 = gradient_bar[1];
+    const vector_f gradient_bar2 = gradient_bar[2];
+    const vector_f by_normal_part = -(x2 * gradient_bar2) - x1 * gradient_bar1 - x0 * gradient_bar0;
+    slope_bar[0] = 0.5f * (gradient_bar0 + x0 * by_normal_part);
+    slope_bar[1] = 0.5f * (gradient_bar1 + x1 * by_normal_part);
+    slope_bar[2] = 0.5f * (gradient_bar2 + x2 * by_normal_part);
+}
+
+/* The adjoints of some splats' parameters, of that of S. */
+OUTLINE void pair_constants_vjp_f(
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
+    (void)amplitude;
+    const vector_f mu0 = mu[0];
+    const vector_f mu1 = mu[1];
+    const vector_f mu2 = mu[2];
+    const vector_f W0_0 = W[0];
+    const vector_f W0_1 = W[1];
+    const vector_f W0_2 = W[2];
+    const vector_f W1_0 = W[3];
+    const vector_f W1_1 = W[4];
+    const vector_f W1_2 = W[5];
+    const vector_f its_amplitude_bar = S_bar[0];
+    const vector_f M0_bar = S_bar[1];
+    const vector_f M1_bar = S_bar[2];
+    const vector_f M2_bar = S_bar[3];
+    const vector_f R0_0_bar = S_bar[4];
+    const vector_f R0_1_bar = S_bar[5];
+    const vector_f R0_2_bar = S_bar[6];
+    const vector_f R1_0_bar = S_bar[7];
+    const vector_f R1_1_bar = S_bar[8];
+    const vector_f R1_2_bar = S_bar[9];
+    const vector_f value_on_cut_locus_bar = S_bar[10];
+    const vector_f product = 1.4142135623730951f * R0_0_bar;
+    const vector_f product_2 = 1.4142135623730951f * R0_2_bar;
+    const vector_f product_3 = 1.4142135623730951f * R1_0_bar;
+    const vector_f product_4 = 1.4142135623730951f * R1_2_bar;
+    const vector_f gap = -(W0_2 * product) - W0_0 * product_2 - W1_2 * product_3 - W1_0 * product_4;
+    const vector_f squared = mu0 * mu0;
+    const vector_mask_f is_small = squared < 0.5f;
+    const vector_f norm_q_plus_p = vector_sqrt_f(vector_of_f(0.0f));
+    const vector_mask_f on_cut_locus = norm_q_plus_p <= 4.0f * FLT_EPSILON;
+    const vector_f gap_2 = 1.0f - squared;
+    const vector_f chosen = vector_select_f(is_small, gap_2, vector_of_f(1.0f));
+    const vector_f sine_to_axis0 = vector_sqrt_f(chosen);
+    const vector_f ratio = gap_2 / sine_to_axis0;
+    const vector_f product_5 = mu0 * mu1;
+    const vector_f gap_3 = 1.0f - mu1 * mu1;
+    const vector_f chosen_2 = vector_select_f(is_small, vector_of_f(1.0f), gap_3);
+    const vector_f sine_to_axis1 = vector_sqrt_f(chosen_2);
+    const vector_f ratio_2 = product_5 / sine_to_axis1;
+    const vector_f q0_off_cut = vector_select_f(on_cut_locus, mu0, -mu0);
+    const vector_f q1_off_cut = vector_select_f(on_cut_locus, mu1, -mu1);
+    const vector_f q2_off_cut = vector_select_f(on_cut_locus, mu2, -mu2);
+    const vector_f dot_p_q = mu0 * q0_off_cut + mu1 * q1_off_cut + mu2 * q2_off_cut;
+    const vector_mask_f is_small_2 = dot_p_q < 0.0f;
+    const vector_f q_plus_p0_2 = mu0 + q0_off_cut;
+    const vector_f d0 = q0_off_cut - mu0;
+    const vector_f e0 = vector_select_f(is_small_2, q_plus_p0_2, d0);
+    const vector_f q_plus_p1_2 = mu1 + q1_off_cut;
+    const vector_f d1 = q1_off_cut - mu1;
+    const vector_f e1 = vector_select_f(is_small_2, q_plus_p1_2, d1);
+    const vector_f q_plus_p2_2 = mu2 + q2_off_cut;
+    const vector_f d2 = q2_off_cut - mu2;
+    const vector_f e2 = vector_select_f(is_small_2, q_plus_p2_2, d2);
+    const vector_f dot_p_e = mu0 * e0 + mu1 * e1 + mu2 * e2;
+    const vector_f w0 = e0 - mu0 * dot_p_e;
+    const vector_f norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
+    const vector_mask_f near = norm_d_squared < 0.997515f;
+    const vector_f near_chosen = vector_select_f(near, 1.0024911906086624f * norm_d_squared,
+        vector_of_f(0.0f));
+    const vector_f t_over_norm_w_near = vector_polynomial_t_over_norm_w_near_f(near_chosen);
+    const vector_f near_chosen_2 = vector_select_f(near, vector_of_f(1.0f), norm_d_squared);
+    const vector_f norm_d = vector_sqrt_f(near_chosen_2);
+    const vector_f norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 +
+        q_plus_p2_2 * q_plus_p2_2;
+    const vector_f norm_q_plus_p_2 = vector_sqrt_f(norm_q_plus_p_squared_2);
+    const vector_f atan2_value = vector_atan2_f(norm_d, norm_q_plus_p_2);
+    const vector_f t = 2.0f * atan2_value;
+    const vector_f w1 = e1 - mu1 * dot_p_e;
+    const vector_f w2 = e2 - mu2 * dot_p_e;
+    const vector_f norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
+    const vector_f norm_w = vector_sqrt_f(vector_select_f(near, vector_of_f(1.0f), norm_w_squared));
+    const vector_f t_ratio = t / norm_w;
+    const vector_f t_over_norm_w = vector_select_f(near, t_over_norm_w_near, t_ratio);
+    const vector_f chosen_3 = vector_select_f(on_cut_locus, 3.141592653589793f * vector_select_f(is_small,
+        ratio, -ratio_2), w0 * t_over_norm_w);
+    const vector_f ratio_3 = product_5 / sine_to_axis0;
+    const vector_f ratio_4 = gap_3 / sine_to_axis1;
+    const vector_f chosen_4 = vector_select_f(on_cut_locus, 3.141592653589793f * vector_select_f(is_small,
+        -ratio_3, ratio_4), w1 * t_over_norm_w);
+    const vector_f product_6 = mu0 * mu2;
+    const vector_f ratio_5 = product_6 / sine_to_axis0;
+    const vector_f product_7 = mu1 * mu2;
+    const vector_f ratio_6 = product_7 / sine_to_axis1;
+    const vector_f chosen_5 = vector_select_f(on_cut_locus, 3.141592653589793f * vector_select_f(is_small,
+        -ratio_5, -ratio_6), w2 * t_over_norm_w);
+    const vector_f total_2 = W1_0 * chosen_3 + W1_1 * chosen_4 + W1_2 * chosen_5;
+    const vector_f log_value = vector_log_f(vector_of_f(0.7853981633974483f / FLT_EPSILON));
+    const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
+    const vector_f log_det_near = norm_d_squared * log_det_series;
+    const vector_f log_det = vector_select_f(near, log_det_near, vector_log_f(t_ratio));
+    const vector_f total_3 = W0_0 * chosen_3 + W0_1 * chosen_4 + W0_2 * chosen_5;
+    const vector_f value_on_cut_locus = vector_exp_f(vector_select_f(on_cut_locus, log_value, log_det) - 0.5f
+        * (total_3 * total_3 + total_2 * total_2));
+    const vector_f product_8 = value_on_cut_locus * value_on_cut_locus_bar;
+    const vector_f product_9 = total_2 * product_8;
+    const vector_f product_10 = total_3 * product_8;
+    const vector_f gap_4 = -(W1_2 * product_9) - W0_2 * product_10;
+    const vector_f product_11 = 3.141592653589793f * vector_select_f(on_cut_locus, gap_4, vector_of_f(0.0f));
+    const vector_f ratio_7 = vector_select_f(is_small, product_11, vector_of_f(0.0f)) / sine_to_axis0;
+    const vector_f gap_5 = gap - ratio_7;
+    const vector_f product_12 = 1.4142135623730951f * R0_1_bar;
+    const vector_f product_13 = 1.4142135623730951f * R1_1_bar;
+    const vector_f gap_6 = -(W0_1 * product) - W0_0 * product_12 - W1_1 * product_3 - W1_0 * product_13;
+    const vector_f gap_7 = -(W1_1 * product_9) - W0_1 * product_10;
+    const vector_f product_14 = 3.141592653589793f * vector_select_f(on_cut_locus, gap_7, vector_of_f(0.0f));
+    const vector_f ratio_8 = vector_select_f(is_small, product_14, vector_of_f(0.0f)) / sine_to_axis0;
+    const vector_f gap_8 = -(W1_0 * product_9) - W0_0 * product_10;
+    const vector_f product_15 = 3.141592653589793f * vector_select_f(on_cut_locus, gap_8, vector_of_f(0.0f));
+    const vector_f ratio_9 = vector_select_f(is_small, vector_of_f(0.0f), product_15) / sine_to_axis1;
+    const vector_f gap_9 = gap_6 - ratio_8 - ratio_9;
+    const vector_f ratio_10 = vector_select_f(is_small, product_15, vector_of_f(0.0f)) / sine_to_axis0;
+    const vector_mask_f is_small_3 = chosen == 0.0f;
+    const vector_f by_sine_to_axis0 = ratio_5 * ratio_7 + ratio_3 * ratio_8 - ratio * ratio_10;
+    const vector_f chosen_6 = vector_select_f(is_small, vector_select_f(is_small_3, vector_of_f(0.0f),
+        by_sine_to_axis0 / (2.0f * vector_select_f(is_small_3, vector_of_f(1.0f), sine_to_axis0))),
+        vector_of_f(0.0f));
+    const vector_f product_16 = 2.0f * (W0_0 * product + W1_0 * product_3 + ratio_10 + chosen_6);
+    const vector_f chosen_7 = vector_select_f(on_cut_locus, vector_of_f(0.0f), gap_8);
+    const vector_f chosen_8 = vector_select_f(on_cut_locus, vector_of_f(0.0f), gap_4);
+    const vector_f chosen_9 = vector_select_f(on_cut_locus, vector_of_f(0.0f), gap_7);
+    const vector_f by_t_over_norm_w = w2 * chosen_8 + w1 * chosen_9 + w0 * chosen_7;
+    const vector_f by_log_det = vector_select_f(on_cut_locus, vector_of_f(0.0f), product_8);
+    const vector_f by_t = (vector_select_f(near, vector_of_f(0.0f), by_t_over_norm_w) + vector_select_f(near,
+        vector_of_f(0.0f), by_log_det) / t_ratio) / norm_w;
+    const vector_f by_norm_w_squared = vector_select_f(near, vector_of_f(0.0f), -(t_ratio * by_t / (2.0f *
+        norm_w)));
+    const vector_f product_17 = 2.0f * by_norm_w_squared;
+    const vector_f by_w0 = t_over_norm_w * chosen_7 + w0 * product_17;
+    const vector_f gap_10 = 0.5f * M0_bar + mu2 * gap_5 + mu1 * gap_9 - mu0 * product_16 - dot_p_e * by_w0;
+    const vector_f by_w2 = t_over_norm_w * chosen_8 + w2 * product_17;
+    const vector_f by_w1 = t_over_norm_w * chosen_9 + w1 * product_17;
+    const vector_f by_dot_p_e = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
+    const vector_f by_e0 = by_w0 + mu0 * by_dot_p_e;
+    const vector_mask_f is_small_4 = norm_q_plus_p_squared_2 == 0.0f;
+    const vector_f by_atan2_value = 2.0f * by_t;
+    const vector_f ratio_11 = by_atan2_value / (near_chosen_2 + norm_q_plus_p_squared_2);
+    const vector_f by_norm_q_plus_p_squared_2 = vector_select_f(is_small_4, vector_of_f(0.0f), -(norm_d *
+        ratio_11 / (2.0f * vector_select_f(is_small_4, vector_of_f(1.0f), norm_q_plus_p_2))));
+    const vector_f product_18 = 2.0f * by_norm_q_plus_p_squared_2;
+    const vector_f by_q_plus_p0_2 = vector_select_f(is_small_2, by_e0, vector_of_f(0.0f)) + q_plus_p0_2 *
+        product_18;
+    const vector_f by_norm_d = norm_q_plus_p_2 * ratio_11;
+    const vector_f by_log_det_near = vector_select_f(near, by_log_det, vector_of_f(0.0f));
+    const vector_f by_t_over_norm_w_near = vector_select_f(near, by_t_over_norm_w, vector_of_f(0.0f));
+    const vector_f t_over_norm_w_near_slope = vector_polynomial_t_over_norm_w_near_slope_f(near_chosen);
+    const vector_f by_log_det_series = norm_d_squared * by_log_det_near;
+    const vector_f log_det_series_slope = vector_polynomial_log_det_series_slope_f(near_chosen);
+    const vector_f by_norm_d_squared = vector_select_f(near, vector_of_f(0.0f), by_norm_d / (2.0f * norm_d)) +
+        log_det_series * by_log_det_near + 1.0024911906086624f * vector_select_f(near, by_t_over_norm_w_near *
+        t_over_norm_w_near_slope + by_log_det_series * log_det_series_slope, vector_of_f(0.0f));
+    const vector_f product_19 = 2.0f * by_norm_d_squared;
+    const vector_f by_d0 = vector_select_f(is_small_2, vector_of_f(0.0f), by_e0) + d0 * product_19;
+    const vector_f by_q0_off_cut = by_q_plus_p0_2 + by_d0;
+    const vector_f total_4 = gap_10 + e0 * by_dot_p_e + by_q_plus_p0_2 - by_d0 + vector_select_f(on_cut_locus,
+        by_q0_off_cut, vector_of_f(0.0f));
+    const vector_f gap_11 = -(W0_2 * product_12) - W0_1 * product_2 - W1_2 * product_13 - W1_1 * product_4;
+    const vector_f ratio_12 = vector_select_f(is_small, vector_of_f(0.0f), product_11) / sine_to_axis1;
+    const vector_f gap_12 = gap_11 - ratio_12;
+    const vector_f ratio_13 = vector_select_f(is_small, vector_of_f(0.0f), product_14) / sine_to_axis1;
+    const vector_mask_f is_small_5 = chosen_2 == 0.0f;
+    const vector_f by_sine_to_axis1 = ratio_6 * ratio_12 - ratio_4 * ratio_13 + ratio_2 * ratio_9;
+    const vector_f chosen_10 = vector_select_f(is_small, vector_of_f(0.0f), vector_select_f(is_small_5,
+        vector_of_f(0.0f), by_sine_to_axis1 / (2.0f * vector_select_f(is_small_5, vector_of_f(1.0f),
+        sine_to_axis1))));
+    const vector_f product_20 = 2.0f * (W0_1 * product_12 + W1_1 * product_13 + ratio_13 + chosen_10);
+    const vector_f gap_13 = 0.5f * M1_bar + mu2 * gap_12 - mu1 * product_20 + mu0 * gap_9 - dot_p_e * by_w1;
+    const vector_f by_e1 = by_w1 + mu1 * by_dot_p_e;
+    const vector_f by_q_plus_p1_2 = vector_select_f(is_small_2, by_e1, vector_of_f(0.0f)) + q_plus_p1_2 *
+        product_18;
+    const vector_f by_d1 = vector_select_f(is_small_2, vector_of_f(0.0f), by_e1) + d1 * product_19;
+    const vector_f by_q1_off_cut = by_q_plus_p1_2 + by_d1;
+    const vector_f total_5 = gap_13 + e1 * by_dot_p_e + by_q_plus_p1_2 - by_d1 + vector_select_f(on_cut_locus,
+        by_q1_off_cut, vector_of_f(0.0f));
+    const vector_f gap_14 = 0.5f * M2_bar - mu2 * (2.0f * (W0_2 * product_2 + W1_2 * product_4));
+    const vector_f total_6 = gap_14 + mu1 * gap_12 + mu0 * gap_5 - dot_p_e * by_w2 + e2 * by_dot_p_e;
+    const vector_f by_e2 = by_w2 + mu2 * by_dot_p_e;
+    const vector_f by_q_plus_p2_2 = vector_select_f(is_small_2, by_e2, vector_of_f(0.0f)) + q_plus_p2_2 *
+        product_18;
+    const vector_f by_d2 = vector_select_f(is_small_2, vector_of_f(0.0f), by_e2) + d2 * product_19;
+    const vector_f by_q2_off_cut = by_q_plus_p2_2 + by_d2;
+    const vector_f gap_15 = 1.0f - mu2 * mu2;
+    const vector_f gap_16 = -(product_6 * product) - product_7 * product_12 + gap_15 * product_2 - chosen_5 *
+        product_10;
+    const vector_f gap_17 = -(product_6 * product_3) - product_7 * product_13 + gap_15 * product_4 - chosen_5
+        * product_9;
+    mu_bar[0] = total_4 - vector_select_f(on_cut_locus, vector_of_f(0.0f), by_q0_off_cut);
+    mu_bar[1] = total_5 - vector_select_f(on_cut_locus, vector_of_f(0.0f), by_q1_off_cut);
+    mu_bar[2] = total_6 + by_q_plus_p2_2 - by_d2 + vector_select_f(on_cut_locus, by_q2_off_cut,
+            vector_of_f(0.0f)) - vector_select_f(on_cut_locus, vector_of_f(0.0f), by_q2_off_cut);
+    W_bar[0] = gap_2 * product - product_5 * product_12 - product_6 * product_2 - chosen_3 * product_10;
+    W_bar[1] = gap_3 * product_12 - product_5 * product - product_7 * product_2 - chosen_4 * product_10;
+    W_bar[2] = gap_16;
+    W_bar[3] = gap_2 * product_3 - product_5 * product_13 - product_6 * product_4 - chosen_3 * product_9;
+    W_bar[4] = gap_3 * product_13 - product_5 * product_3 - product_7 * product_4 - chosen_4 * product_9;
+    W_bar[5] = gap_17;
+    amplitude_bar[0] = its_amplitude_bar;
+}
+
+/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+INLINE void pair_backward_f(
+    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
+    const vector_f h0 = X[0];
+    const vector_f h1 = X[1];
+    const vector_f h2 = X[2];
+    const float amplitude = S[0];
+    const float M0 = S[1];
+    const float M1 = S[2];
+    const float M2 = S[3];
+    const float R0_0 = S[4];
+    const float R0_1 = S[5];
+    const float R0_2 = S[6];
+    const float R1_0 = S[7];
+    const float R1_1 = S[8];
+    const float R1_2 = S[9];
+    const float value_on_cut_locus = S[10];
+    const vector_f its_value_bar = value_bar[0];
+    const vector_f h0_bar = slope_bar[0];
+    const vector_f h1_bar = slope_bar[1];
+    const vector_f h2_bar = slope_bar[2];
+    const vector_f total_2 = h0 + M0;
+    const vector_f total_3 = h1 + M1;
+    const vector_f total_4 = h2 + M2;
+    const vector_f total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4;
+    const vector_mask_f on_cut_locus = total_5 <= 4.0f * (FLT_EPSILON * FLT_EPSILON);
+    const vector_f u = vector_select_f(on_cut_locus, vector_of_f(1.0f), total_5);
+    const vector_f w = vector_sqrt_f(u);
+    const vector_f w_gap = 1.0f - w;
+    const vector_f eta = vector_polynomial_eta_f(w_gap);
+    const vector_f w_gap_2 = w - eta * (1.0f - u);
+    const vector_f a = 1.0f / (w * w_gap_2);
+    const vector_f a_squared = a * a;
+    const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
+    const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
+    const vector_f half_square = a_squared * (r0 * r0 + r1 * r1);
+    const vector_f gaussian = vector_exp_f(-half_square);
+    const vector_f a_product = a * gaussian;
+    const vector_f chosen = vector_select_f(on_cut_locus, vector_of_f(0.0f), a_product);
+    const vector_f over_w = w_gap_2 * a;
+    const vector_f eta_gap = eta - over_w;
+    const vector_f total_6 = M0 * h0_bar + M1 * h1_bar + M2 * h2_bar;
+    const vector_f over_w_product = over_w * total_6;
+    const vector_f product = eta_gap * over_w_product;
+    const vector_f gap = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar;
+    const vector_f gap_2 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar;
+    const vector_f product_2 = 2.0f * (r0 * gap + r1 * gap_2);
+    const vector_f half_square_product = 2.0f * half_square;
+    const vector_f gap_3 = product + a_squared * product_2 - half_square_product * product;
+    const vector_f product_3 = amplitude * chosen;
+    const vector_f gap_4 = product_3 - product_3 * half_square_product;
+    const vector_f product_4 = eta_gap * gap_4;
+    const vector_f over_w_product_2 = over_w * product_4;
+    const vector_f eta_slope = vector_polynomial_eta_slope_f(w_gap);
+    const vector_f product_5 = gap_4 * over_w_product;
+    const vector_f total_7 = chosen * (amplitude * its_value_bar) + chosen * (amplitude * gap_3);
+    const vector_f by_half_square = -2.0f * (product_3 * product) - total_7;
+    const vector_f product_6 = eta_gap * (2.0f * a_squared * (product_3 * product_2) + total_7 +
+        half_square_product * by_half_square);
+    const vector_f total_8 = eta_slope * product_5 - over_w * over_w * (product_4 * total_6 - product_5) +
+        product_6;
+    const vector_f over_w_product_3 = over_w * total_8;
+    const vector_f product_7 = 2.0f * (product_3 * a_squared);
+    const vector_f product_8 = 2.0f * (a_squared * by_half_square);
+    const vector_f by_r0 = product_7 * gap + r0 * product_8;
+    const vector_f r0_product = r0 * product_7;
+    const vector_f by_r1 = product_7 * gap_2 + r1 * product_8;
+    const vector_f r1_product = r1 * product_7;
+    S_bar[0] = S_bar[0] + vector_select_f(on_cut_locus, vector_of_f(value_on_cut_locus), a_product) *
+            its_value_bar + chosen * gap_3;
+    S_bar[1] = S_bar[1] + over_w_product_2 * h0_bar + h0 * over_w_product_3;
+    S_bar[2] = S_bar[2] + over_w_product_2 * h1_bar + h1 * over_w_product_3;
+    S_bar[3] = S_bar[3] + over_w_product_2 * h2_bar + h2 * over_w_product_3;
+    S_bar[4] = S_bar[4] + h0 * by_r0 - r0_product * h0_bar;
+    S_bar[5] = S_bar[5] + h1 * by_r0 - r0_product * h1_bar;
+    S_bar[6] = S_bar[6] + h2 * by_r0 - r0_product * h2_bar;
+    S_bar[7] = S_bar[7] + h0 * by_r1 - r1_product * h0_bar;
+    S_bar[8] = S_bar[8] + h1 * by_r1 - r1_product * h1_bar;
+    S_bar[9] = S_bar[9] + h2 * by_r1 - r1_product * h2_bar;
+}
+
+/* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
+OUTLINE void vector_rows_f(const float *rows, size_t count, size_t start, size_t size, vector_f *columns) {
+    for (size_t i = 0; i < size; ++i) {
+        float column[LANES_f];
+        for (size_t lane = 0; lane < LANES_f; ++lane)
+            column[lane] = rows[size * (start + lane < count ? start + lane : count - 1) + i];
+        columns[i] = vector_load_f(column);
+    }
+}
+
+/* Back to rows that are `stride` apart; nothing past the end. */
+OUTLINE void vector_to_rows_f(
+    const vector_f *columns, float *rows, size_t count, size_t start, size_t size, size_t stride) {
+    const size_t lanes = start >= count ? 0 : count - start < LANES_f ? count - start : LANES_f;
+    for (size_t lane = 0; lane < lanes; ++lane)
+        for (size_t i = 0; i < size; ++i) rows[stride * (start + lane) + i] = LANE(columns[i], lane);
+}
+
+/* Zero in the lanes past the end. */
+OUTLINE void vector_end_f(size_t count, size_t start, size_t size, vector_f *columns) {
+    for (size_t lane = start >= count ? 0 : count - start; lane < LANES_f; ++lane)
+        for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
+}
+
+/* Scratch memory: 7 vectors for each block of points, then the constants of the splats. */
+size_t sphere_splats_work_f(size_t count, size_t splat_count, int threads) {
+    (void)threads;
+    return ((count + LANES_f - 1) / LANES_f * 7 + 1) * LANES_f + 11 * splat_count;
+}
+
+static vector_f *work_points_f(float *work) {
+    const uintptr_t size = sizeof(vector_f), start = (uintptr_t)work;
+    return (vector_f *)((char *)work + ((0 - start) & (size - 1)));
+}
+
+static float *work_constants_f(float *work, size_t count) {
+    return (float *)(work_points_f(work) + (count + LANES_f - 1) / LANES_f * 7);
+}
+
+/* The constants of LANES splats, as rows. */
+OUTLINE void splat_constants_f(
+    size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, float *constants) {
+    vector_f own_mu[3], own_W[6], own_amplitude[1], S[11];
+    vector_rows_f(mu, splat_count, start, 3, own_mu);
+    vector_rows_f(W, splat_count, start, 6, own_W);
+    vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
+    pair_constants_f(own_mu, own_W, own_amplitude, S);
+    vector_to_rows_f(S, constants, splat_count, start, 11, 11);
+}
+
+/* 2 vectors of points at a time stay in registers while all splats pass. */
 void sphere_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *SPHERE_RESTRICT x,
-    const float *SPHERE_RESTRICT mu,
-    const float *SPHERE_RESTRICT W,
-    const float *SPHERE_RESTRICT amplitude,
-    float *SPHERE_RESTRICT value,
-    float *SPHERE_RESTRICT gradient) {
-    const unsigned mode = flush_denormals();
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        float x_block[3][LANES], sum[4][LANES] = {{0}};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            for (size_t i = 0; i < 3; ++i) x_block[i][lane] = x[3 * n + i];
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            const float mu0 = mu[3 * k + 0];
-            const float mu1 = mu[3 * k + 1];
-            const float mu2 = mu[3 * k + 2];
-            const float W0_0 = W[6 * k + 0];
-            const float W0_1 = W[6 * k + 1];
-            const float W0_2 = W[6 * k + 2];
-            const float W1_0 = W[6 * k + 3];
-            const float W1_1 = W[6 * k + 4];
-            const float W1_2 = W[6 * k + 5];
-            const float amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const float q_plus_p0 = x_block[0][lane] + mu0;
-                const float q_plus_p1 = x_block[1][lane] + mu1;
-                const float q_plus_p2 = x_block[2][lane] + mu2;
-                const float norm_q_plus_p_squared = q_plus_p0 * q_plus_p0 + q_plus_p1 * q_plus_p1 + q_plus_p2 * q_plus_p2;
-                const float norm_q_plus_p = sqrtf(norm_q_plus_p_squared);
-                const float squared = mu0 * mu0;
-                const float gap = 1.0f - squared;
-                const float gap_2 = 1.0f - mu1 * mu1;
-                const int on_cut_locus = norm_q_plus_p <= 4.0f * FLT_EPSILON;
-                const float q0_off_cut = (on_cut_locus ? mu0 : x_block[0][lane]);
-                const float q1_off_cut = (on_cut_locus ? mu1 : x_block[1][lane]);
-                const float q2_off_cut = (on_cut_locus ? mu2 : x_block[2][lane]);
-                const float d0 = q0_off_cut - mu0;
-                const float d1 = q1_off_cut - mu1;
-                const float d2 = q2_off_cut - mu2;
-                const float norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
-                const float q_plus_p0_2 = mu0 + q0_off_cut;
-                const float q_plus_p1_2 = mu1 + q1_off_cut;
-                const float q_plus_p2_2 = mu2 + q2_off_cut;
-                const float norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
-                    * q_plus_p2_2;
-                const float norm_q_plus_p_2 = sqrtf(norm_q_plus_p_squared_2);
-                const float dot_p_q = mu0 * q0_off_cut + mu1 * q1_off_cut + mu2 * q2_off_cut;
-                const int is_small = dot_p_q < 0.0f;
-                const float e0 = (is_small ? q_plus_p0_2 : d0);
-                const float e1 = (is_small ? q_plus_p1_2 : d1);
-                const float e2 = (is_small ? q_plus_p2_2 : d2);
-                const float dot_p_e = mu0 * e0 + mu1 * e1 + mu2 * e2;
-                const float w0 = e0 - mu0 * dot_p_e;
-                const float w1 = e1 - mu1 * dot_p_e;
-                const float w2 = e2 - mu2 * dot_p_e;
-                const float norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
-                const int near = norm_d_squared < 0.997515f;
-                const float near_chosen = (near ? 1.0024911906086624f * norm_d_squared : 0.0f);
-                const float t_over_norm_w_near = polynomial_t_over_norm_w_near_f(near_chosen);
-                const float near_chosen_2 = (near ? 1.0f : norm_d_squared);
-                const float norm_d = sqrtf(near_chosen_2);
-                const float atan2_value = atan2f(norm_d, norm_q_plus_p_2);
-                const float t = 2.0f * atan2_value;
-                const float norm_w = sqrtf((near ? 1.0f : norm_w_squared));
-                const float t_ratio = t / norm_w;
-                const float t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
-                const int is_small_2 = squared < 0.5f;
-                const float sine_to_axis0 = sqrtf((is_small_2 ? gap : 1.0f));
-                const float product = mu0 * mu1;
-                const float sine_to_axis1 = sqrtf((is_small_2 ? 1.0f : gap_2));
-                const float v0 = (on_cut_locus ? 3.141592653589793f * (is_small_2 ? gap / sine_to_axis0 : -(product /
-                    sine_to_axis1)) : w0 * t_over_norm_w);
-                const float v1 = (on_cut_locus ? 3.141592653589793f * (is_small_2 ? -(product / sine_to_axis0) : gap_2 /
-                    sine_to_axis1) : w1 * t_over_norm_w);
-                const float product_2 = 3.141592653589793f * (is_small_2 ? -(mu0 * mu2 / sine_to_axis0) : -(mu1 * mu2 /
-                    sine_to_axis1));
-                const float v2 = (on_cut_locus ? product_2 : w2 * t_over_norm_w);
-                const float log_value = logf(0.7853981633974483f / FLT_EPSILON);
-                const float log_det_series = polynomial_log_det_series_f(near_chosen);
-                const float log_det_near = norm_d_squared * log_det_series;
-                const float log_det = (near ? log_det_near : logf(t_ratio));
-                const float z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-                const float z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-                const float exp_2 = expf((on_cut_locus ? log_value : log_det) - 0.5f * (z0 * z0 + z1 * z1));
-                const float phi = amplitude_k * exp_2;
-                const float by_v2 = -(W1_2 * z1) - W0_2 * z0;
-                const float by_v1 = -(W1_1 * z1) - W0_1 * z0;
-                const float by_v0 = -(W1_0 * z1) - W0_0 * z0;
-                const float by_log_det = (on_cut_locus ? 0.0f : 1.0f);
-                const float by_log_det_near = (near ? by_log_det : 0.0f);
-                const float by_log_det_series = norm_d_squared * by_log_det_near;
-                const float log_det_series_slope = polynomial_log_det_series_slope_f(near_chosen);
-                const float chosen = (on_cut_locus ? 0.0f : by_v2);
-                const float chosen_2 = (on_cut_locus ? 0.0f : by_v1);
-                const float chosen_3 = (on_cut_locus ? 0.0f : by_v0);
-                const float by_t_over_norm_w = w2 * chosen + w1 * chosen_2 + w0 * chosen_3;
-                const float by_t_over_norm_w_near = (near ? by_t_over_norm_w : 0.0f);
-                const float by_t = ((near ? 0.0f : by_log_det) / t_ratio + (near ? 0.0f : by_t_over_norm_w)) / norm_w;
-                const float by_norm_w_squared = (near ? 0.0f : -(t_ratio * by_t / (2.0f * norm_w)));
-                const float by_atan2_value = 2.0f * by_t;
-                const float ratio = by_atan2_value / (norm_q_plus_p_squared_2 + near_chosen_2);
-                const float by_norm_d = norm_q_plus_p_2 * ratio;
-                const float t_over_norm_w_near_slope = polynomial_t_over_norm_w_near_slope_f(near_chosen);
-                const float by_norm_d_squared = log_det_series * by_log_det_near + (near ? 0.0f : by_norm_d / (2.0f *
-                    norm_d)) + 1.0024911906086624f * (near ? by_log_det_series * log_det_series_slope +
-                    by_t_over_norm_w_near * t_over_norm_w_near_slope : 0.0f);
-                const float product_3 = 2.0f * by_norm_w_squared;
-                const float by_w2 = t_over_norm_w * chosen + w2 * product_3;
-                const float by_w1 = t_over_norm_w * chosen_2 + w1 * product_3;
-                const float by_w0 = t_over_norm_w * chosen_3 + w0 * product_3;
-                const float by_dot_p_e = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
-                const float by_e2 = by_w2 + mu2 * by_dot_p_e;
-                const float by_e1 = by_w1 + mu1 * by_dot_p_e;
-                const float by_e0 = by_w0 + mu0 * by_dot_p_e;
-                const int is_small_3 = norm_q_plus_p_squared_2 == 0.0f;
-                const float by_norm_q_plus_p_squared_2 = (is_small_3 ? 0.0f : -(norm_d * ratio / (2.0f * (is_small_3 ?
-                    1.0f : norm_q_plus_p_2))));
-                const float product_4 = 2.0f * by_norm_q_plus_p_squared_2;
-                const float by_q_plus_p2_2 = (is_small ? by_e2 : 0.0f) + q_plus_p2_2 * product_4;
-                const float by_q_plus_p1_2 = (is_small ? by_e1 : 0.0f) + q_plus_p1_2 * product_4;
-                const float by_q_plus_p0_2 = (is_small ? by_e0 : 0.0f) + q_plus_p0_2 * product_4;
-                const float product_5 = 2.0f * by_norm_d_squared;
-                const float by_d2 = (is_small ? 0.0f : by_e2) + d2 * product_5;
-                const float by_d1 = (is_small ? 0.0f : by_e1) + d1 * product_5;
-                const float by_d0 = (is_small ? 0.0f : by_e0) + d0 * product_5;
-                const float by_q2_off_cut = by_q_plus_p2_2 + by_d2;
-                const float by_q1_off_cut = by_q_plus_p1_2 + by_d1;
-                const float by_q0_off_cut = by_q_plus_p0_2 + by_d0;
-                const float exponent_by_x2 = (on_cut_locus ? 0.0f : by_q2_off_cut);
-                const float exponent_by_x1 = (on_cut_locus ? 0.0f : by_q1_off_cut);
-                const float exponent_by_x0 = (on_cut_locus ? 0.0f : by_q0_off_cut);
-                const float df0 = phi * exponent_by_x0;
-                const float df1 = phi * exponent_by_x1;
-                const float df2 = phi * exponent_by_x2;
-                const float normal_part = x_block[0][lane] * df0 + x_block[1][lane] * df1 + x_block[2][lane] * df2;
-                const float gradient0 = df0 - x_block[0][lane] * normal_part;
-                const float gradient1 = df1 - x_block[1][lane] * normal_part;
-                const float gradient2 = df2 - x_block[2][lane] * normal_part;
-                sum[0][lane] += phi;
-                sum[1][lane] += gradient0;
-                sum[2][lane] += gradient1;
-                sum[3][lane] += gradient2;
+    size_t count, size_t splat_count, const float *SPHERE_RESTRICT x, const float *SPHERE_RESTRICT mu, const float *SPHERE_RESTRICT W, const float *SPHERE_RESTRICT amplitude,
+    float *SPHERE_RESTRICT value, float *SPHERE_RESTRICT gradient, float *SPHERE_RESTRICT work, int threads) {
+    (void)threads;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES_f) {
+            vector_f at[2][3], X[2][3], grad[3];
+            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][3] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows_f(x, count, start + b * LANES_f, 3, at[b]);
+                pair_features_f(at[b], X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_forward_f(X[0], constants + 11 * k, value_sum[0], slope_sum[0]);
+                pair_forward_f(X[1], constants + 11 * k, value_sum[1], slope_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b) {
+                pair_gradient_f(at[b], slope_sum[b], grad);
+                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                vector_to_rows_f(grad, gradient, count, start + b * LANES_f, 3, 3);
             }
         }
-        for (size_t lane = 0; lane < lanes; ++lane) {
-            value[start + lane] = sum[0][lane];
-            for (size_t i = 0; i < 3; ++i) gradient[3 * (start + lane) + i] = sum[i + 1][lane];
-        }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
-void sphere_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *SPHERE_RESTRICT x,
-    const float *SPHERE_RESTRICT mu,
-    const float *SPHERE_RESTRICT W,
-    const float *SPHERE_RESTRICT amplitude,
-    const float *SPHERE_RESTRICT value_bar,
-    const float *SPHERE_RESTRICT gradient_bar,
-    float *SPHERE_RESTRICT mu_bar,
-    float *SPHERE_RESTRICT W_bar,
-    float *SPHERE_RESTRICT amplitude_bar) {
-    const unsigned mode = flush_denormals();
-    for (size_t i = 0; i < 3 * splat_count; ++i) mu_bar[i] = 0;
-    for (size_t i = 0; i < 6 * splat_count; ++i) W_bar[i] = 0;
-    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        float x_block[3][LANES], value_bar_block[1][LANES], gradient_bar_block[3][LANES];
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            const float weight = lane < lanes ? 1 : 0;
-            for (size_t i = 0; i < 3; ++i) x_block[i][lane] = x[3 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
-            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] = gradient_bar[3 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
-            for (size_t i = 0; i < 3; ++i) gradient_bar_block[i][lane] *= weight;
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            float sum[10][LANES] = {{0}}, total[10] = {0};
-            const float mu0 = mu[3 * k + 0];
-            const float mu1 = mu[3 * k + 1];
-            const float mu2 = mu[3 * k + 2];
-            const float W0_0 = W[6 * k + 0];
-            const float W0_1 = W[6 * k + 1];
-            const float W0_2 = W[6 * k + 2];
-            const float W1_0 = W[6 * k + 3];
-            const float W1_1 = W[6 * k + 4];
-            const float W1_2 = W[6 * k + 5];
-            const float amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const float q_plus_p0 = x_block[0][lane] + mu0;
-                const float q_plus_p1 = x_block[1][lane] + mu1;
-                const float q_plus_p2 = x_block[2][lane] + mu2;
-                const float norm_q_plus_p_squared = q_plus_p0 * q_plus_p0 + q_plus_p1 * q_plus_p1 + q_plus_p2 * q_plus_p2;
-                const float norm_q_plus_p = sqrtf(norm_q_plus_p_squared);
-                const float squared = mu0 * mu0;
-                const float gap = 1.0f - squared;
-                const float gap_2 = 1.0f - mu1 * mu1;
-                const int on_cut_locus = norm_q_plus_p <= 4.0f * FLT_EPSILON;
-                const float q0_off_cut = (on_cut_locus ? mu0 : x_block[0][lane]);
-                const float q1_off_cut = (on_cut_locus ? mu1 : x_block[1][lane]);
-                const float q2_off_cut = (on_cut_locus ? mu2 : x_block[2][lane]);
-                const float d0 = q0_off_cut - mu0;
-                const float d1 = q1_off_cut - mu1;
-                const float d2 = q2_off_cut - mu2;
-                const float norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
-                const float q_plus_p0_2 = mu0 + q0_off_cut;
-                const float q_plus_p1_2 = mu1 + q1_off_cut;
-                const float q_plus_p2_2 = mu2 + q2_off_cut;
-                const float norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
-                    * q_plus_p2_2;
-                const float norm_q_plus_p_2 = sqrtf(norm_q_plus_p_squared_2);
-                const float dot_p_q = mu0 * q0_off_cut + mu1 * q1_off_cut + mu2 * q2_off_cut;
-                const int is_small = dot_p_q < 0.0f;
-                const float e0 = (is_small ? q_plus_p0_2 : d0);
-                const float e1 = (is_small ? q_plus_p1_2 : d1);
-                const float e2 = (is_small ? q_plus_p2_2 : d2);
-                const float dot_p_e = mu0 * e0 + mu1 * e1 + mu2 * e2;
-                const float w0 = e0 - mu0 * dot_p_e;
-                const float w1 = e1 - mu1 * dot_p_e;
-                const float w2 = e2 - mu2 * dot_p_e;
-                const float norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
-                const int near = norm_d_squared < 0.997515f;
-                const float near_chosen = (near ? 1.0024911906086624f * norm_d_squared : 0.0f);
-                const float t_over_norm_w_near = polynomial_t_over_norm_w_near_f(near_chosen);
-                const float near_chosen_2 = (near ? 1.0f : norm_d_squared);
-                const float norm_d = sqrtf(near_chosen_2);
-                const float atan2_value = atan2f(norm_d, norm_q_plus_p_2);
-                const float t = 2.0f * atan2_value;
-                const float norm_w = sqrtf((near ? 1.0f : norm_w_squared));
-                const float t_ratio = t / norm_w;
-                const float t_over_norm_w = (near ? t_over_norm_w_near : t_ratio);
-                const int is_small_2 = squared < 0.5f;
-                const float chosen = (is_small_2 ? gap : 1.0f);
-                const float sine_to_axis0 = sqrtf(chosen);
-                const float ratio = gap / sine_to_axis0;
-                const float product = mu0 * mu1;
-                const float chosen_2 = (is_small_2 ? 1.0f : gap_2);
-                const float sine_to_axis1 = sqrtf(chosen_2);
-                const float ratio_2 = product / sine_to_axis1;
-                const float v0 = (on_cut_locus ? 3.141592653589793f * (is_small_2 ? ratio : -ratio_2) : w0 *
-                    t_over_norm_w);
-                const float ratio_3 = product / sine_to_axis0;
-                const float ratio_4 = gap_2 / sine_to_axis1;
-                const float v1 = (on_cut_locus ? 3.141592653589793f * (is_small_2 ? -ratio_3 : ratio_4) : w1 *
-                    t_over_norm_w);
-                const float ratio_5 = mu0 * mu2 / sine_to_axis0;
-                const float ratio_6 = mu1 * mu2 / sine_to_axis1;
-                const float v2 = (on_cut_locus ? 3.141592653589793f * (is_small_2 ? -ratio_5 : -ratio_6) : w2 *
-                    t_over_norm_w);
-                const float log_value = logf(0.7853981633974483f / FLT_EPSILON);
-                const float log_det_series = polynomial_log_det_series_f(near_chosen);
-                const float log_det_near = norm_d_squared * log_det_series;
-                const float log_det = (near ? log_det_near : logf(t_ratio));
-                const float z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-                const float z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-                const float exp_2 = expf((on_cut_locus ? log_value : log_det) - 0.5f * (z0 * z0 + z1 * z1));
-                const float phi = amplitude_k * exp_2;
-                const float by_v2 = -(W1_2 * z1) - W0_2 * z0;
-                const float by_v1 = -(W1_1 * z1) - W0_1 * z0;
-                const float by_v0 = -(W1_0 * z1) - W0_0 * z0;
-                const float by_log_det = (on_cut_locus ? 0.0f : 1.0f);
-                const float by_log_det_near = (near ? by_log_det : 0.0f);
-                const float ratio_7 = (near ? 0.0f : by_log_det) / t_ratio;
-                const float by_log_det_series = norm_d_squared * by_log_det_near;
-                const float log_det_series_slope = polynomial_log_det_series_slope_f(near_chosen);
-                const float chosen_3 = (on_cut_locus ? 0.0f : by_v2);
-                const float chosen_4 = (on_cut_locus ? 0.0f : by_v1);
-                const float chosen_5 = (on_cut_locus ? 0.0f : by_v0);
-                const float by_t_over_norm_w = w2 * chosen_3 + w1 * chosen_4 + w0 * chosen_5;
-                const float by_t_over_norm_w_near = (near ? by_t_over_norm_w : 0.0f);
-                const float by_t = (ratio_7 + (near ? 0.0f : by_t_over_norm_w)) / norm_w;
-                const float norm_w_product = 2.0f * norm_w;
-                const float ratio_8 = t_ratio * by_t / norm_w_product;
-                const float by_norm_w_squared = (near ? 0.0f : -ratio_8);
-                const float by_atan2_value = 2.0f * by_t;
-                const float total_2 = norm_q_plus_p_squared_2 + near_chosen_2;
-                const float ratio_9 = by_atan2_value / total_2;
-                const float by_norm_d = norm_q_plus_p_2 * ratio_9;
-                const float norm_d_product = 2.0f * norm_d;
-                const float by_norm_d_ratio = by_norm_d / norm_d_product;
-                const float t_over_norm_w_near_slope = polynomial_t_over_norm_w_near_slope_f(near_chosen);
-                const float by_norm_d_squared = log_det_series * by_log_det_near + (near ? 0.0f : by_norm_d_ratio) +
-                    1.0024911906086624f * (near ? by_log_det_series * log_det_series_slope + by_t_over_norm_w_near *
-                    t_over_norm_w_near_slope : 0.0f);
-                const float product_2 = 2.0f * by_norm_w_squared;
-                const float by_w2 = t_over_norm_w * chosen_3 + w2 * product_2;
-                const float by_w1 = t_over_norm_w * chosen_4 + w1 * product_2;
-                const float by_w0 = t_over_norm_w * chosen_5 + w0 * product_2;
-                const float by_dot_p_e = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
-                const float by_e2 = by_w2 + mu2 * by_dot_p_e;
-                const float by_e1 = by_w1 + mu1 * by_dot_p_e;
-                const float by_e0 = by_w0 + mu0 * by_dot_p_e;
-                const int is_small_3 = norm_q_plus_p_squared_2 == 0.0f;
-                const float product_3 = 2.0f * (is_small_3 ? 1.0f : norm_q_plus_p_2);
-                const float ratio_10 = norm_d * ratio_9 / product_3;
-                const float by_norm_q_plus_p_squared_2 = (is_small_3 ? 0.0f : -ratio_10);
-                const float product_4 = 2.0f * by_norm_q_plus_p_squared_2;
-                const float by_q_plus_p2_2 = (is_small ? by_e2 : 0.0f) + q_plus_p2_2 * product_4;
-                const float by_q_plus_p1_2 = (is_small ? by_e1 : 0.0f) + q_plus_p1_2 * product_4;
-                const float by_q_plus_p0_2 = (is_small ? by_e0 : 0.0f) + q_plus_p0_2 * product_4;
-                const float product_5 = 2.0f * by_norm_d_squared;
-                const float by_d2 = (is_small ? 0.0f : by_e2) + d2 * product_5;
-                const float by_d1 = (is_small ? 0.0f : by_e1) + d1 * product_5;
-                const float by_d0 = (is_small ? 0.0f : by_e0) + d0 * product_5;
-                const float by_q2_off_cut = by_q_plus_p2_2 + by_d2;
-                const float by_q1_off_cut = by_q_plus_p1_2 + by_d1;
-                const float by_q0_off_cut = by_q_plus_p0_2 + by_d0;
-                const float exponent_by_x2 = (on_cut_locus ? 0.0f : by_q2_off_cut);
-                const float exponent_by_x1 = (on_cut_locus ? 0.0f : by_q1_off_cut);
-                const float exponent_by_x0 = (on_cut_locus ? 0.0f : by_q0_off_cut);
-                const float by_normal_part = -(x_block[2][lane] * gradient_bar_block[2][lane]) - x_block[1][lane] *
-                    gradient_bar_block[1][lane] - x_block[0][lane] * gradient_bar_block[0][lane];
-                const float by_df2 = gradient_bar_block[2][lane] + x_block[2][lane] * by_normal_part;
-                const float by_df1 = gradient_bar_block[1][lane] + x_block[1][lane] * by_normal_part;
-                const float by_df0 = gradient_bar_block[0][lane] + x_block[0][lane] * by_normal_part;
-                const float by_exponent_by_x2 = phi * by_df2;
-                const float by_exponent_by_x1 = phi * by_df1;
-                const float by_exponent_by_x0 = phi * by_df0;
-                const float by_phi = value_bar_block[0][lane] + exponent_by_x2 * by_df2 + exponent_by_x1 * by_df1 +
-                    exponent_by_x0 * by_df0;
-                const float by_by_q0_off_cut = (on_cut_locus ? 0.0f : by_exponent_by_x0);
-                const float by_by_q1_off_cut = (on_cut_locus ? 0.0f : by_exponent_by_x1);
-                const float by_by_q2_off_cut = (on_cut_locus ? 0.0f : by_exponent_by_x2);
-                const float total_3 = d0 * by_by_q0_off_cut + d1 * by_by_q1_off_cut + d2 * by_by_q2_off_cut;
-                const float by_by_norm_d_squared = 2.0f * total_3;
-                const float by_by_norm_q_plus_p_squared_2 = 2.0f * (q_plus_p0_2 * by_by_q0_off_cut + q_plus_p1_2 *
-                    by_by_q1_off_cut + q_plus_p2_2 * by_by_q2_off_cut);
-                const float ratio_11 = (is_small_3 ? 0.0f : by_by_norm_q_plus_p_squared_2) / product_3;
-                const float by_by_e0 = (is_small ? by_by_q0_off_cut : 0.0f) + (is_small ? 0.0f : by_by_q0_off_cut);
-                const float by_by_e1 = (is_small ? by_by_q1_off_cut : 0.0f) + (is_small ? 0.0f : by_by_q1_off_cut);
-                const float by_by_e2 = (is_small ? by_by_q2_off_cut : 0.0f) + (is_small ? 0.0f : by_by_q2_off_cut);
-                const float by_by_dot_p_e = mu0 * by_by_e0 + mu1 * by_by_e1 + mu2 * by_by_e2;
-                const float by_by_w0 = by_by_e0 - mu0 * by_by_dot_p_e;
-                const float by_by_w1 = by_by_e1 - mu1 * by_by_dot_p_e;
-                const float by_by_w2 = by_by_e2 - mu2 * by_by_dot_p_e;
-                const float by_by_norm_w_squared = 2.0f * (w0 * by_by_w0 + w1 * by_by_w1 + w2 * by_by_w2);
-                const float near_chosen_3 = (near ? 2.004982381217325f * total_3 : 0.0f);
-                const float by_by_t_over_norm_w_near = t_over_norm_w_near_slope * near_chosen_3;
-                const float by_t_over_norm_w_near_slope = by_t_over_norm_w_near * near_chosen_3;
-                const float t_over_norm_w_near_slope_slope = polynomial_t_over_norm_w_near_slope_slope_f(near_chosen);
-                const float by_by_norm_d = (near ? 0.0f : by_by_norm_d_squared) / norm_d_product;
-                const float by_by_atan2_value = (norm_q_plus_p_2 * by_by_norm_d - norm_d * ratio_11) / total_2;
-                const float product_6 = ratio_9 * by_by_atan2_value;
-                const float ratio_12 = (near ? 0.0f : by_by_norm_w_squared) / norm_w_product;
-                const float by_by_t = 2.0f * by_by_atan2_value - t_ratio * ratio_12;
-                const float by_by_t_ratio = by_by_t / norm_w;
-                const float by_by_t_over_norm_w = (near ? 0.0f : by_by_t_ratio) + (near ? by_by_t_over_norm_w_near :
-                    0.0f);
-                const float by_by_v0 = (on_cut_locus ? 0.0f : w0 * by_by_t_over_norm_w + t_over_norm_w * by_by_w0);
-                const float by_by_v1 = (on_cut_locus ? 0.0f : w1 * by_by_t_over_norm_w + t_over_norm_w * by_by_w1);
-                const float by_by_v2 = (on_cut_locus ? 0.0f : w2 * by_by_t_over_norm_w + t_over_norm_w * by_by_w2);
-                const float by_by_log_det_series = log_det_series_slope * near_chosen_3;
-                const float by_log_det_series_slope = by_log_det_series * near_chosen_3;
-                const float log_det_series_slope_slope = polynomial_log_det_series_slope_slope_f(near_chosen);
-                const float product_7 = exp_2 * (amplitude_k * by_phi);
-                const float by_z1 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2 - z1 * product_7;
-                const float by_z0 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2 - z0 * product_7;
-                const float by_v2_2 = W1_2 * by_z1 + W0_2 * by_z0;
-                const float by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0;
-                const float by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0;
-                const float by_log_det_2 = (on_cut_locus ? 0.0f : product_7);
-                const float by_log_det_near_2 = (near ? by_log_det_2 : 0.0f);
-                const float by_log_det_series_2 = by_log_det_near * by_by_norm_d_squared + norm_d_squared *
-                    by_log_det_near_2;
-                const float chosen_6 = (on_cut_locus ? 0.0f : by_v2_2);
-                const float product_8 = 3.141592653589793f * (on_cut_locus ? by_v2_2 : 0.0f);
-                const float ratio_13 = (is_small_2 ? 0.0f : product_8) / sine_to_axis1;
-                const float ratio_14 = (is_small_2 ? product_8 : 0.0f) / sine_to_axis0;
-                const float chosen_7 = (on_cut_locus ? 0.0f : by_v1_2);
-                const float total_4 = chosen_5 * by_by_w0 + chosen_4 * by_by_w1 + chosen_3 * by_by_w2 + w2 * chosen_6 + w1
-                    * chosen_7;
-                const float product_9 = 3.141592653589793f * (on_cut_locus ? by_v1_2 : 0.0f);
-                const float ratio_15 = (is_small_2 ? 0.0f : product_9) / sine_to_axis1;
-                const float ratio_16 = (is_small_2 ? product_9 : 0.0f) / sine_to_axis0;
-                const float chosen_8 = (on_cut_locus ? 0.0f : by_v0_2);
-                const float by_t_over_norm_w_2 = total_4 + w0 * chosen_8;
-                const float product_10 = 3.141592653589793f * (on_cut_locus ? by_v0_2 : 0.0f);
-                const float ratio_17 = (is_small_2 ? 0.0f : product_10) / sine_to_axis1;
-                const float gap_3 = -ratio_16 - ratio_17;
-                const float by_sine_to_axis1 = ratio_6 * ratio_13 - ratio_4 * ratio_15 + ratio_2 * ratio_17;
-                const int is_small_4 = chosen_2 == 0.0f;
-                const float chosen_9 = (is_small_2 ? 0.0f : (is_small_4 ? 0.0f : by_sine_to_axis1 / (2.0f * (is_small_4 ?
-                    1.0f : sine_to_axis1))));
-                const float ratio_18 = (is_small_2 ? product_10 : 0.0f) / sine_to_axis0;
-                const float by_sine_to_axis0 = ratio_5 * ratio_14 + ratio_3 * ratio_16 - ratio * ratio_18;
-                const int is_small_5 = chosen == 0.0f;
-                const float chosen_10 = (is_small_2 ? (is_small_5 ? 0.0f : by_sine_to_axis0 / (2.0f * (is_small_5 ? 1.0f :
-                    sine_to_axis0))) : 0.0f);
-                const float by_t_over_norm_w_near_2 = (near ? by_t_over_norm_w_2 : 0.0f);
-                const float total_5 = -(by_t * ratio_12) - ratio_7 * (by_by_t_ratio / t_ratio) + (near ? 0.0f :
-                    by_log_det_2) / t_ratio + (near ? 0.0f : by_t_over_norm_w_2);
-                const float by_t_2 = total_5 / norm_w;
-                const float by_norm_w = 2.0f * (ratio_8 * ratio_12) - by_t * by_by_t_ratio - t_ratio * by_t_2;
-                const float by_norm_w_squared_2 = (near ? 0.0f : by_norm_w / norm_w_product);
-                const float by_atan2_value_2 = 2.0f * by_t_2;
-                const float ratio_19 = by_atan2_value_2 / total_2;
-                const float by_norm_d_2 = -(2.0f * (by_norm_d_ratio * by_by_norm_d)) - ratio_9 * ratio_11 +
-                    norm_q_plus_p_2 * ratio_19;
-                const float by_norm_q_plus_p_2 = (is_small_3 ? 0.0f : 2.0f * (ratio_10 * ratio_11)) + ratio_9 *
-                    by_by_norm_d - norm_d * ratio_19;
-                const float near_chosen_4 = (near ? by_t_over_norm_w_near_slope * t_over_norm_w_near_slope_slope +
-                    by_log_det_series_slope * log_det_series_slope_slope + log_det_series_slope * by_log_det_series_2 +
-                    t_over_norm_w_near_slope * by_t_over_norm_w_near_2 : 0.0f);
-                const float by_norm_d_squared_2 = by_log_det_near * by_by_log_det_series + log_det_series *
-                    by_log_det_near_2 + (near ? 0.0f : by_norm_d_2 / norm_d_product - product_6) + 1.0024911906086624f *
-                    near_chosen_4;
-                const float product_11 = 2.0f * by_norm_w_squared_2;
-                const float by_w2_2 = product_2 * by_by_w2 + chosen_3 * by_by_t_over_norm_w + t_over_norm_w * chosen_6 +
-                    w2 * product_11;
-                const float by_w1_2 = product_2 * by_by_w1 + chosen_4 * by_by_t_over_norm_w + t_over_norm_w * chosen_7 +
-                    w1 * product_11;
-                const float by_w0_2 = product_2 * by_by_w0 + chosen_5 * by_by_t_over_norm_w + t_over_norm_w * chosen_8 +
-                    w0 * product_11;
-                const float gap_4 = by_dot_p_e * by_by_e2 - by_w2 * by_by_dot_p_e - mu1 * ratio_13 - mu0 * ratio_14 -
-                    dot_p_e * by_w2_2;
-                const float gap_5 = by_dot_p_e * by_by_e1 - by_w1 * by_by_dot_p_e - mu2 * ratio_13 + mu0 * gap_3 - dot_p_e
-                    * by_w1_2;
-                const float gap_6 = by_dot_p_e * by_by_e0 - by_w0 * by_by_dot_p_e - mu2 * ratio_14 + mu1 * gap_3 - dot_p_e
-                    * by_w0_2;
-                const float by_dot_p_e_2 = -(mu2 * by_w2_2) - mu1 * by_w1_2 - mu0 * by_w0_2;
-                const float by_e2_2 = by_w2_2 + mu2 * by_dot_p_e_2;
-                const float by_e1_2 = by_w1_2 + mu1 * by_dot_p_e_2;
-                const float by_e0_2 = by_w0_2 + mu0 * by_dot_p_e_2;
-                const float by_norm_q_plus_p_squared_2_2 = (is_small_3 ? 0.0f : by_norm_q_plus_p_2 / product_3) -
-                    product_6;
-                const float product_12 = 2.0f * by_norm_q_plus_p_squared_2_2;
-                const float by_q_plus_p2_2_2 = product_4 * by_by_q2_off_cut + (is_small ? by_e2_2 : 0.0f) + q_plus_p2_2 *
-                    product_12;
-                const float by_q_plus_p1_2_2 = product_4 * by_by_q1_off_cut + (is_small ? by_e1_2 : 0.0f) + q_plus_p1_2 *
-                    product_12;
-                const float by_q_plus_p0_2_2 = product_4 * by_by_q0_off_cut + (is_small ? by_e0_2 : 0.0f) + q_plus_p0_2 *
-                    product_12;
-                const float product_13 = 2.0f * by_norm_d_squared_2;
-                const float by_d2_2 = product_5 * by_by_q2_off_cut + (is_small ? 0.0f : by_e2_2) + d2 * product_13;
-                const float by_d1_2 = product_5 * by_by_q1_off_cut + (is_small ? 0.0f : by_e1_2) + d1 * product_13;
-                const float by_d0_2 = product_5 * by_by_q0_off_cut + (is_small ? 0.0f : by_e0_2) + d0 * product_13;
-                const float by_q2_off_cut_2 = by_q_plus_p2_2_2 + by_d2_2;
-                const float by_q1_off_cut_2 = by_q_plus_p1_2_2 + by_d1_2;
-                const float by_q0_off_cut_2 = by_q_plus_p0_2_2 + by_d0_2;
-                const float total_6 = gap_4 + e2 * by_dot_p_e_2 + by_q_plus_p2_2_2 - by_d2_2 + (on_cut_locus ?
-                    by_q2_off_cut_2 : 0.0f);
-                const float total_7 = gap_5 + e1 * by_dot_p_e_2 + by_q_plus_p1_2_2 - by_d1_2 + (on_cut_locus ?
-                    by_q1_off_cut_2 : 0.0f);
-                const float total_8 = gap_6 + e0 * by_dot_p_e_2 + by_q_plus_p0_2_2 - by_d0_2 + (on_cut_locus ?
-                    by_q0_off_cut_2 : 0.0f);
-                sum[0][lane] += total_8 - mu0 * (2.0f * (ratio_18 + chosen_10));
-                sum[1][lane] += total_7 - mu1 * (2.0f * (ratio_15 + chosen_9));
-                sum[2][lane] += total_6;
-                sum[3][lane] += v0 * by_z0 - z0 * by_by_v0;
-                sum[4][lane] += v1 * by_z0 - z0 * by_by_v1;
-                sum[5][lane] += v2 * by_z0 - z0 * by_by_v2;
-                sum[6][lane] += v0 * by_z1 - z1 * by_by_v0;
-                sum[7][lane] += v1 * by_z1 - z1 * by_by_v1;
-                sum[8][lane] += v2 * by_z1 - z1 * by_by_v2;
-                sum[9][lane] += exp_2 * by_phi;
+void sphere_splats_value_f(
+    size_t count, size_t splat_count, const float *SPHERE_RESTRICT x, const float *SPHERE_RESTRICT mu, const float *SPHERE_RESTRICT W, const float *SPHERE_RESTRICT amplitude,
+    float *SPHERE_RESTRICT value, float *SPHERE_RESTRICT work, int threads) {
+    (void)threads;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES_f) {
+            vector_f at[3], X[2][3], value_sum[2][1] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows_f(x, count, start + b * LANES_f, 3, at);
+                pair_features_f(at, X[b]);
             }
-            for (size_t i = 0; i < 10; ++i)
-                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
-            mu_bar[3 * k + 0] += total[0];
-            mu_bar[3 * k + 1] += total[1];
-            mu_bar[3 * k + 2] += total[2];
-            W_bar[6 * k + 0] += total[3];
-            W_bar[6 * k + 1] += total[4];
-            W_bar[6 * k + 2] += total[5];
-            W_bar[6 * k + 3] += total[6];
-            W_bar[6 * k + 4] += total[7];
-            W_bar[6 * k + 5] += total[8];
-            amplitude_bar[1 * k + 0] += total[9];
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_value_f(X[0], constants + 11 * k, value_sum[0]);
+                pair_value_f(X[1], constants + 11 * k, value_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b)
+                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
         }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
+}
+
+/* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
+OUTLINE void splat_points_f(
+    size_t count, size_t start, const float *x, const float *value_bar, const float *gradient_bar, vector_f *point) {
+    vector_f at[3], grad_bar[3], slope_bar[3];
+    vector_rows_f(x, count, start, 3, at);
+    vector_rows_f(gradient_bar, count, start, 3, grad_bar);
+    vector_rows_f(value_bar, count, start, 1, point + 3);
+    pair_features_f(at, point);
+    pair_gradient_vjp_f(at, grad_bar, slope_bar);
+    for (int i = 0; i < 3; ++i) point[3 + 1 + i] = slope_bar[i];
+    vector_end_f(count, start, 3 + 1, point + 3);
+}
+
+/* Adds to S_bar what some vectors of points add to it. */
+OUTLINE void splat_sums_f(const vector_f *point, size_t size, const float *S, float *S_bar) {
+    vector_f sum[11] = {ZERO};
+    for (size_t b = 0; b < size; ++b, point += 7) pair_backward_f(point, S, point + 3, point + 3 + 1, sum);
+    S_bar[0] += vector_sum_f(sum[0]);
+    S_bar[1] += vector_sum_f(sum[1]);
+    S_bar[2] += vector_sum_f(sum[2]);
+    S_bar[3] += vector_sum_f(sum[3]);
+    S_bar[4] += vector_sum_f(sum[4]);
+    S_bar[5] += vector_sum_f(sum[5]);
+    S_bar[6] += vector_sum_f(sum[6]);
+    S_bar[7] += vector_sum_f(sum[7]);
+    S_bar[8] += vector_sum_f(sum[8]);
+    S_bar[9] += vector_sum_f(sum[9]);
+}
+
+/*
+ * Some splats at a time; the points pass over each of them, a chunk at a time, while its sums stay in registers. How many
+ * splats depends on the threads, what is summed in which order does not.
+ */
+void sphere_splats_vjp_f(
+    size_t count, size_t splat_count, const float *SPHERE_RESTRICT x, const float *SPHERE_RESTRICT mu, const float *SPHERE_RESTRICT W, const float *SPHERE_RESTRICT amplitude, const float *SPHERE_RESTRICT value_bar, const float *SPHERE_RESTRICT gradient_bar,
+    float *SPHERE_RESTRICT mu_bar, float *SPHERE_RESTRICT W_bar, float *SPHERE_RESTRICT amplitude_bar, float *SPHERE_RESTRICT work, int threads) {
+    const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    const size_t chunk = 131072 / (7 * sizeof(vector_f)) + 1;
+    const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
+    const size_t share = part < LANES_f ? part : LANES_f;
+    vector_f *points = work_points_f(work);
+    float *constants = work_constants_f(work, count);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic) nowait)
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic, 8))
+        for (size_t block = 0; block < blocks; ++block)
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 7 * block);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += share) {
+            const size_t end = start + share < splat_count ? start + share : splat_count;
+            float sums[LANES_f][11] = {{0}};
+            vector_f own_mu[3], own_W[6], own_amplitude[1], S_bar[11], bars[10];
+            for (size_t first = 0; first < blocks; first += chunk) {
+                const size_t size = first + chunk < blocks ? chunk : blocks - first;
+                for (size_t k = start; k < end; ++k)
+                    splat_sums_f(points + 7 * first, size, constants + 11 * k, sums[k - start]);
+            }
+            vector_rows_f(mu, end, start, 3, own_mu);
+            vector_rows_f(W, end, start, 6, own_W);
+            vector_rows_f(amplitude, end, start, 1, own_amplitude);
+            vector_rows_f(sums[0], LANES_f, 0, 11, S_bar);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 3, bars + 3 + 6);
+            vector_to_rows_f(bars, mu_bar, end, start, 3, 3);
+            vector_to_rows_f(bars + 3, W_bar, end, start, 6, 6);
+            vector_to_rows_f(bars + 3 + 6, amplitude_bar, end, start, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* Nothing is summed: the adjoints of a splat's constants go on to its parameters for every point. */
+void sphere_splats_rows_f(
+    size_t count, size_t splat_count, const float *SPHERE_RESTRICT x, const float *SPHERE_RESTRICT mu, const float *SPHERE_RESTRICT W, const float *SPHERE_RESTRICT amplitude, const float *SPHERE_RESTRICT value_bar, const float *SPHERE_RESTRICT gradient_bar,
+    float *SPHERE_RESTRICT rows, float *SPHERE_RESTRICT work, int threads) {
+    (void)threads;
+    const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t block = 0; block < blocks; ++block) {
+            vector_f point[7];
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
+            for (size_t k = 0; k < splat_count; ++k) {
+                vector_f own_mu[3], own_W[6], own_amplitude[1], S_bar[11] = {ZERO}, bars[10];
+                for (int i = 0; i < 3; ++i) own_mu[i] = vector_of_f(mu[3 * k + i]);
+                for (int i = 0; i < 6; ++i) own_W[i] = vector_of_f(W[6 * k + i]);
+                own_amplitude[0] = vector_of_f(amplitude[k]);
+                pair_backward_f(point, constants + 11 * k, point + 3, point + 3 + 1, S_bar);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 3, bars + 3 + 6);
+                vector_to_rows_f(bars, rows + 10 * k, count, block * LANES_f, 10, 10 * splat_count);
+            }
+        }
+        restore_denormals(mode);
+    }
 }

@@ -315,51 +315,42 @@ void torus_splat_batch_f(
 void torus_frame(const double *TORUS_RESTRICT p, double *TORUS_RESTRICT frame);
 void torus_frame_f(const float *TORUS_RESTRICT p, float *TORUS_RESTRICT frame);
 
+/* How many numbers of scratch memory the functions below need, for these sizes or smaller ones. */
+size_t torus_splats_work(size_t count, size_t splat_count, int threads);
+size_t torus_splats_work_f(size_t count, size_t splat_count, int threads);
+
 /* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
 void torus_splats(
-    size_t count,
-    size_t splat_count,
-    const double *TORUS_RESTRICT x,
-    const double *TORUS_RESTRICT mu,
-    const double *TORUS_RESTRICT W,
-    const double *TORUS_RESTRICT amplitude,
-    double *TORUS_RESTRICT value,
-    double *TORUS_RESTRICT gradient);
+    size_t count, size_t splat_count, const double *TORUS_RESTRICT x, const double *TORUS_RESTRICT mu, const double *TORUS_RESTRICT W, const double *TORUS_RESTRICT amplitude,
+    double *TORUS_RESTRICT value, double *TORUS_RESTRICT gradient, double *TORUS_RESTRICT work, int threads);
 void torus_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *TORUS_RESTRICT x,
-    const float *TORUS_RESTRICT mu,
-    const float *TORUS_RESTRICT W,
-    const float *TORUS_RESTRICT amplitude,
-    float *TORUS_RESTRICT value,
-    float *TORUS_RESTRICT gradient);
+    size_t count, size_t splat_count, const float *TORUS_RESTRICT x, const float *TORUS_RESTRICT mu, const float *TORUS_RESTRICT W, const float *TORUS_RESTRICT amplitude,
+    float *TORUS_RESTRICT value, float *TORUS_RESTRICT gradient, float *TORUS_RESTRICT work, int threads);
+
+/* The values of the sums alone. */
+void torus_splats_value(
+    size_t count, size_t splat_count, const double *TORUS_RESTRICT x, const double *TORUS_RESTRICT mu, const double *TORUS_RESTRICT W, const double *TORUS_RESTRICT amplitude,
+    double *TORUS_RESTRICT value, double *TORUS_RESTRICT work, int threads);
+void torus_splats_value_f(
+    size_t count, size_t splat_count, const float *TORUS_RESTRICT x, const float *TORUS_RESTRICT mu, const float *TORUS_RESTRICT W, const float *TORUS_RESTRICT amplitude,
+    float *TORUS_RESTRICT value, float *TORUS_RESTRICT work, int threads);
 
 /* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
 void torus_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *TORUS_RESTRICT x,
-    const double *TORUS_RESTRICT mu,
-    const double *TORUS_RESTRICT W,
-    const double *TORUS_RESTRICT amplitude,
-    const double *TORUS_RESTRICT value_bar,
-    const double *TORUS_RESTRICT gradient_bar,
-    double *TORUS_RESTRICT mu_bar,
-    double *TORUS_RESTRICT W_bar,
-    double *TORUS_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const double *TORUS_RESTRICT x, const double *TORUS_RESTRICT mu, const double *TORUS_RESTRICT W, const double *TORUS_RESTRICT amplitude, const double *TORUS_RESTRICT value_bar, const double *TORUS_RESTRICT gradient_bar,
+    double *TORUS_RESTRICT mu_bar, double *TORUS_RESTRICT W_bar, double *TORUS_RESTRICT amplitude_bar, double *TORUS_RESTRICT work, int threads);
 void torus_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *TORUS_RESTRICT x,
-    const float *TORUS_RESTRICT mu,
-    const float *TORUS_RESTRICT W,
-    const float *TORUS_RESTRICT amplitude,
-    const float *TORUS_RESTRICT value_bar,
-    const float *TORUS_RESTRICT gradient_bar,
-    float *TORUS_RESTRICT mu_bar,
-    float *TORUS_RESTRICT W_bar,
-    float *TORUS_RESTRICT amplitude_bar);
+    size_t count, size_t splat_count, const float *TORUS_RESTRICT x, const float *TORUS_RESTRICT mu, const float *TORUS_RESTRICT W, const float *TORUS_RESTRICT amplitude, const float *TORUS_RESTRICT value_bar, const float *TORUS_RESTRICT gradient_bar,
+    float *TORUS_RESTRICT mu_bar, float *TORUS_RESTRICT W_bar, float *TORUS_RESTRICT amplitude_bar, float *TORUS_RESTRICT work, int threads);
+
+/* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +
+ * gradient_n . gradient_bar_n in its mu, W and amplitude, in this order. */
+void torus_splats_rows(
+    size_t count, size_t splat_count, const double *TORUS_RESTRICT x, const double *TORUS_RESTRICT mu, const double *TORUS_RESTRICT W, const double *TORUS_RESTRICT amplitude, const double *TORUS_RESTRICT value_bar, const double *TORUS_RESTRICT gradient_bar,
+    double *TORUS_RESTRICT rows, double *TORUS_RESTRICT work, int threads);
+void torus_splats_rows_f(
+    size_t count, size_t splat_count, const float *TORUS_RESTRICT x, const float *TORUS_RESTRICT mu, const float *TORUS_RESTRICT W, const float *TORUS_RESTRICT amplitude, const float *TORUS_RESTRICT value_bar, const float *TORUS_RESTRICT gradient_bar,
+    float *TORUS_RESTRICT rows, float *TORUS_RESTRICT work, int threads);
 
 #ifdef __cplusplus
 }

@@ -7,295 +7,960 @@
 #include "torus.h"
 
 #include <float.h>
+#include <stdint.h>
+#include <string.h>
 
-#define LANES 64
+/*
+ * A vector is as wide as the machine's registers, or one number where the compiler has no vectors (or is asked for none
+ * by -DRSRM_NO_VECTORS). Comparisons of vectors are masks; `vector_select` is the ?: of vectors.
+ */
+#if defined(__GNUC__) && !defined(RSRM_NO_VECTORS)
+#if defined(__AVX512F__)
+#define VECTOR_BYTES 64
+#elif defined(__AVX__)
+#define VECTOR_BYTES 32
+#else
+#define VECTOR_BYTES 16
+#endif
+#define LANE(vector, i) (vector)[i]
+#define ZERO {0}
+#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
+typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
+typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
+typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
+typedef int32_t vector_mask_f __attribute__((vector_size(VECTOR_BYTES)));
+typedef uint64_t vector_bits __attribute__((vector_size(VECTOR_BYTES)));
+typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
+#else
+#define LANE(vector, i) (vector)
+#define ZERO 0
+#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
+typedef double vector;
+typedef float vector_f;
+typedef int64_t vector_mask;
+typedef int32_t vector_mask_f;
+typedef uint64_t vector_bits;
+typedef uint32_t vector_bits_f;
+#endif
+#if defined(__GNUC__)
+#define INLINE static inline __attribute__((always_inline, unused))
+#define OUTLINE static __attribute__((noinline))
+#else
+#define INLINE static inline
+#define OUTLINE static
+#endif
+#define LANES (sizeof(vector) / sizeof(double))
+#define LANES_f (sizeof(vector_f) / sizeof(float))
+
+/* Threads, where the compiler has OpenMP. */
+#if defined(_OPENMP)
+#define OMP(directive) _Pragma(#directive)
+#else
+#define OMP(directive)
+#endif
 
 /* Denormal numbers count as zero while the sums run: far splats are many, and slow. */
 #if defined(__SSE2__)
 #include <xmmintrin.h>
-static unsigned flush_denormals(void) {
+INLINE uint64_t flush_denormals(void) {
     const unsigned mode = _mm_getcsr();
     _mm_setcsr(mode | 0x8040u);
     return mode;
 }
-static void restore_denormals(unsigned mode) { _mm_setcsr(mode); }
+INLINE void restore_denormals(uint64_t mode) { _mm_setcsr((unsigned)mode); }
+#elif defined(__aarch64__) && defined(__GNUC__)
+INLINE uint64_t flush_denormals(void) {
+    uint64_t mode;
+    __asm__ __volatile__("mrs %0, fpcr" : "=r"(mode));
+    __asm__ __volatile__("msr fpcr, %0" : : "r"(mode | (UINT64_C(1) << 24)));
+    return mode;
+}
+INLINE void restore_denormals(uint64_t mode) { __asm__ __volatile__("msr fpcr, %0" : : "r"(mode)); }
 #else
-static unsigned flush_denormals(void) { return 0; }
-static void restore_denormals(unsigned mode) { (void)mode; }
+INLINE uint64_t flush_denormals(void) { return 0; }
+INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
 
+/* The same number in all lanes. */
+INLINE vector vector_of(double x) {
+    const vector zero = ZERO;
+    return x - zero;
+}
+
+/* x in the lanes of the mask, y in the others. */
+INLINE vector vector_select(vector_mask mask, vector x, vector y) {
+    return SELECT(vector, vector_mask, mask, x, y);
+}
+
+/* Numbers in memory to a vector, and back. */
+INLINE vector vector_load(const double *from) {
+    vector x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+INLINE void vector_store(double *to, vector x) { memcpy(to, &x, sizeof x); }
+
+/* The sum over the lanes, by halves. */
+INLINE double vector_sum(vector x) {
+    double lanes[LANES];
+    vector_store(lanes, x);
+    for (size_t half = LANES / 2; half > 0; half /= 2)
+        for (size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    return lanes[0];
+}
+
+/* The bits of a vector as integers, and back. */
+INLINE vector_bits vector_to_bits(vector x) {
+    vector_bits bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+INLINE vector vector_from_bits(vector_bits bits) {
+    vector x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* round of every lane; one instruction where the machine has it. */
+INLINE vector vector_round(vector x) {
+    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = rint(LANE(x, i));
+    return x;
+}
+
+/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
+INLINE vector vector_exp(vector x) {
+    const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
+    const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
+    const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
+    const vector scale = vector_from_bits((vector_to_bits(shifted) + 1022) << 52); /* 2^(k - 1) */
+    const vector y = vector_select(x > 709.782712893384, vector_of(HUGE_VAL), (scale + scale * part) * 2);
+    return vector_select(x < -707.9, vector_of(0), y);
+}
+
+/* What pairs read of points x. */
+OUTLINE void pair_features(
+    const vector *x, vector *X) {
+    const vector x0 = x[0];
+    const vector x1 = x[1];
+    X[0] = x0;
+    X[1] = x1;
+}
+
+/* What pairs read of a splat, of some splats. */
+OUTLINE void pair_constants(
+    const vector *mu, const vector *W, const vector *amplitude, vector *S) {
+    const vector mu0 = mu[0];
+    const vector mu1 = mu[1];
+    const vector W0_0 = W[0];
+    const vector W0_1 = W[1];
+    const vector W1_0 = W[2];
+    const vector W1_1 = W[3];
+    const vector its_amplitude = amplitude[0];
+    S[0] = mu0;
+    S[1] = mu1;
+    S[2] = W0_0;
+    S[3] = W0_1;
+    S[4] = W1_0;
+    S[5] = W1_1;
+    S[6] = its_amplitude;
+}
+
+/* Adds the values phi of a splat at some points. */
+INLINE void pair_value(
+    const vector *X, const double *S, vector *value) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double W0_0 = S[2];
+    const double W0_1 = S[3];
+    const double W1_0 = S[4];
+    const double W1_1 = S[5];
+    const double amplitude = S[6];
+    const vector gap = x0 - mu0;
+    const vector round_2 = vector_round(0.15915494309189535 * gap);
+    const vector v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
+        round_2;
+    const vector gap_2 = x1 - mu1;
+    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
+    const vector v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
+        round_3;
+    const vector z0 = W0_0 * v0 + W0_1 * v1;
+    const vector z1 = W1_0 * v0 + W1_1 * v1;
+    const vector exp_2 = vector_exp(-0.5 * (z0 * z0 + z1 * z1));
+    value[0] = value[0] + amplitude * exp_2;
+}
+
+/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+INLINE void pair_forward(
+    const vector *X, const double *S, vector *value, vector *slope) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double W0_0 = S[2];
+    const double W0_1 = S[3];
+    const double W1_0 = S[4];
+    const double W1_1 = S[5];
+    const double amplitude = S[6];
+    const vector gap = x0 - mu0;
+    const vector round_2 = vector_round(0.15915494309189535 * gap);
+    const vector v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
+        round_2;
+    const vector gap_2 = x1 - mu1;
+    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
+    const vector v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
+        round_3;
+    const vector z0 = W0_0 * v0 + W0_1 * v1;
+    const vector z1 = W1_0 * v0 + W1_1 * v1;
+    const vector exp_2 = vector_exp(-0.5 * (z0 * z0 + z1 * z1));
+    const vector phi = amplitude * exp_2;
+    const vector z1_product = z1 * phi;
+    const vector z0_product = z0 * phi;
+    value[0] = value[0] + phi;
+    slope[0] = slope[0] - W1_0 * z1_product - W0_0 * z0_product;
+    slope[1] = slope[1] - W1_1 * z1_product - W0_1 * z0_product;
+}
+
+/* The Riemannian gradient at some points, of the sums of slopes. */
+OUTLINE void pair_gradient(
+    const vector *x, const vector *slope, vector *gradient) {
+    (void)x;
+    const vector slope_x0 = slope[0];
+    const vector slope_x1 = slope[1];
+    gradient[0] = slope_x0;
+    gradient[1] = slope_x1;
+}
+
+/* The adjoint of slope at some points, of that of the gradient. */
+OUTLINE void pair_gradient_vjp(
+    const vector *x, const vector *gradient_bar, vector *slope_bar) {
+    (void)x;
+    const vector gradient_bar0 = gradient_bar[0];
+    const vector gradient_bar1 = gradient_bar[1];
+    slope_bar[0] = gradient_bar0;
+    slope_bar[1] = gradient_bar1;
+}
+
+/* The adjoints of some splats' parameters, of that of S. */
+OUTLINE void pair_constants_vjp(
+    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
+    (void)mu;
+    (void)W;
+    (void)amplitude;
+    const vector mu0_bar = S_bar[0];
+    const vector mu1_bar = S_bar[1];
+    const vector W0_0_bar = S_bar[2];
+    const vector W0_1_bar = S_bar[3];
+    const vector W1_0_bar = S_bar[4];
+    const vector W1_1_bar = S_bar[5];
+    const vector its_amplitude_bar = S_bar[6];
+    mu_bar[0] = mu0_bar;
+    mu_bar[1] = mu1_bar;
+    W_bar[0] = W0_0_bar;
+    W_bar[1] = W0_1_bar;
+    W_bar[2] = W1_0_bar;
+    W_bar[3] = W1_1_bar;
+    amplitude_bar[0] = its_amplitude_bar;
+}
+
+/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+INLINE void pair_backward(
+    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double W0_0 = S[2];
+    const double W0_1 = S[3];
+    const double W1_0 = S[4];
+    const double W1_1 = S[5];
+    const double amplitude = S[6];
+    const vector its_value_bar = value_bar[0];
+    const vector x0_bar = slope_bar[0];
+    const vector x1_bar = slope_bar[1];
+    const vector gap = x0 - mu0;
+    const vector round_2 = vector_round(0.15915494309189535 * gap);
+    const vector v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
+        round_2;
+    const vector gap_2 = x1 - mu1;
+    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
+    const vector v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
+        round_3;
+    const vector z0 = W0_0 * v0 + W0_1 * v1;
+    const vector z1 = W1_0 * v0 + W1_1 * v1;
+    const vector exp_2 = vector_exp(-0.5 * (z0 * z0 + z1 * z1));
+    const vector phi = amplitude * exp_2;
+    const vector gap_3 = -(W1_0 * x0_bar) - W1_1 * x1_bar;
+    const vector gap_4 = -(W0_0 * x0_bar) - W0_1 * x1_bar;
+    const vector by_phi = its_value_bar + z0 * gap_4 + z1 * gap_3;
+    const vector product = exp_2 * (amplitude * by_phi);
+    const vector by_z1 = phi * gap_3 - z1 * product;
+    const vector by_z0 = phi * gap_4 - z0 * product;
+    const vector z0_product = z0 * phi;
+    const vector z1_product = z1 * phi;
+    S_bar[0] = S_bar[0] - W1_0 * by_z1 - W0_0 * by_z0;
+    S_bar[1] = S_bar[1] - W1_1 * by_z1 - W0_1 * by_z0;
+    S_bar[2] = S_bar[2] + v0 * by_z0 - z0_product * x0_bar;
+    S_bar[3] = S_bar[3] + v1 * by_z0 - z0_product * x1_bar;
+    S_bar[4] = S_bar[4] + v0 * by_z1 - z1_product * x0_bar;
+    S_bar[5] = S_bar[5] + v1 * by_z1 - z1_product * x1_bar;
+    S_bar[6] = S_bar[6] + exp_2 * by_phi;
+}
+
+/* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
+OUTLINE void vector_rows(const double *rows, size_t count, size_t start, size_t size, vector *columns) {
+    for (size_t i = 0; i < size; ++i) {
+        double column[LANES];
+        for (size_t lane = 0; lane < LANES; ++lane)
+            column[lane] = rows[size * (start + lane < count ? start + lane : count - 1) + i];
+        columns[i] = vector_load(column);
+    }
+}
+
+/* Back to rows that are `stride` apart; nothing past the end. */
+OUTLINE void vector_to_rows(
+    const vector *columns, double *rows, size_t count, size_t start, size_t size, size_t stride) {
+    const size_t lanes = start >= count ? 0 : count - start < LANES ? count - start : LANES;
+    for (size_t lane = 0; lane < lanes; ++lane)
+        for (size_t i = 0; i < size; ++i) rows[stride * (start + lane) + i] = LANE(columns[i], lane);
+}
+
+/* Zero in the lanes past the end. */
+OUTLINE void vector_end(size_t count, size_t start, size_t size, vector *columns) {
+    for (size_t lane = start >= count ? 0 : count - start; lane < LANES; ++lane)
+        for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
+}
+
+/* Scratch memory: 5 vectors for each block of points, then the constants of the splats. */
+size_t torus_splats_work(size_t count, size_t splat_count, int threads) {
+    (void)threads;
+    return ((count + LANES - 1) / LANES * 5 + 1) * LANES + 7 * splat_count;
+}
+
+static vector *work_points(double *work) {
+    const uintptr_t size = sizeof(vector), start = (uintptr_t)work;
+    return (vector *)((char *)work + ((0 - start) & (size - 1)));
+}
+
+static double *work_constants(double *work, size_t count) {
+    return (double *)(work_points(work) + (count + LANES - 1) / LANES * 5);
+}
+
+/* The constants of LANES splats, as rows. */
+OUTLINE void splat_constants(
+    size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, double *constants) {
+    vector own_mu[2], own_W[4], own_amplitude[1], S[7];
+    vector_rows(mu, splat_count, start, 2, own_mu);
+    vector_rows(W, splat_count, start, 4, own_W);
+    vector_rows(amplitude, splat_count, start, 1, own_amplitude);
+    pair_constants(own_mu, own_W, own_amplitude, S);
+    vector_to_rows(S, constants, splat_count, start, 7, 7);
+}
+
+/* 2 vectors of points at a time stay in registers while all splats pass. */
 void torus_splats(
-    size_t count,
-    size_t splat_count,
-    const double *TORUS_RESTRICT x,
-    const double *TORUS_RESTRICT mu,
-    const double *TORUS_RESTRICT W,
-    const double *TORUS_RESTRICT amplitude,
-    double *TORUS_RESTRICT value,
-    double *TORUS_RESTRICT gradient) {
-    const unsigned mode = flush_denormals();
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        double x_block[2][LANES], sum[3][LANES] = {{0}};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            for (size_t i = 0; i < 2; ++i) x_block[i][lane] = x[2 * n + i];
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            const double mu0 = mu[2 * k + 0];
-            const double mu1 = mu[2 * k + 1];
-            const double W0_0 = W[4 * k + 0];
-            const double W0_1 = W[4 * k + 1];
-            const double W1_0 = W[4 * k + 2];
-            const double W1_1 = W[4 * k + 3];
-            const double amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const double gap = x_block[0][lane] - mu0;
-                const double round_2 = rint(0.15915494309189535 * gap);
-                const double v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-                    round_2;
-                const double gap_2 = x_block[1][lane] - mu1;
-                const double round_3 = rint(0.15915494309189535 * gap_2);
-                const double v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-                    round_3;
-                const double z0 = W0_0 * v0 + W0_1 * v1;
-                const double z1 = W1_0 * v0 + W1_1 * v1;
-                const double exp_2 = exp(-(0.5 * (z0 * z0 + z1 * z1)));
-                const double phi = amplitude_k * exp_2;
-                const double by_v1 = -(W1_1 * z1) - W0_1 * z0;
-                const double by_v0 = -(W1_0 * z1) - W0_0 * z0;
-                const double df0 = phi * by_v0;
-                const double df1 = phi * by_v1;
-                sum[0][lane] += phi;
-                sum[1][lane] += df0;
-                sum[2][lane] += df1;
+    size_t count, size_t splat_count, const double *TORUS_RESTRICT x, const double *TORUS_RESTRICT mu, const double *TORUS_RESTRICT W, const double *TORUS_RESTRICT amplitude,
+    double *TORUS_RESTRICT value, double *TORUS_RESTRICT gradient, double *TORUS_RESTRICT work, int threads) {
+    (void)threads;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES) {
+            vector at[2][2], X[2][2], grad[2];
+            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][2] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows(x, count, start + b * LANES, 2, at[b]);
+                pair_features(at[b], X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_forward(X[0], constants + 7 * k, value_sum[0], slope_sum[0]);
+                pair_forward(X[1], constants + 7 * k, value_sum[1], slope_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b) {
+                pair_gradient(at[b], slope_sum[b], grad);
+                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                vector_to_rows(grad, gradient, count, start + b * LANES, 2, 2);
             }
         }
-        for (size_t lane = 0; lane < lanes; ++lane) {
-            value[start + lane] = sum[0][lane];
-            for (size_t i = 0; i < 2; ++i) gradient[2 * (start + lane) + i] = sum[i + 1][lane];
-        }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
+void torus_splats_value(
+    size_t count, size_t splat_count, const double *TORUS_RESTRICT x, const double *TORUS_RESTRICT mu, const double *TORUS_RESTRICT W, const double *TORUS_RESTRICT amplitude,
+    double *TORUS_RESTRICT value, double *TORUS_RESTRICT work, int threads) {
+    (void)threads;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES) {
+            vector at[2], X[2][2], value_sum[2][1] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows(x, count, start + b * LANES, 2, at);
+                pair_features(at, X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_value(X[0], constants + 7 * k, value_sum[0]);
+                pair_value(X[1], constants + 7 * k, value_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b)
+                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
+OUTLINE void splat_points(
+    size_t count, size_t start, const double *x, const double *value_bar, const double *gradient_bar, vector *point) {
+    vector at[2], grad_bar[2], slope_bar[2];
+    vector_rows(x, count, start, 2, at);
+    vector_rows(gradient_bar, count, start, 2, grad_bar);
+    vector_rows(value_bar, count, start, 1, point + 2);
+    pair_features(at, point);
+    pair_gradient_vjp(at, grad_bar, slope_bar);
+    for (int i = 0; i < 2; ++i) point[2 + 1 + i] = slope_bar[i];
+    vector_end(count, start, 2 + 1, point + 2);
+}
+
+/* Adds to S_bar what some vectors of points add to it. */
+OUTLINE void splat_sums(const vector *point, size_t size, const double *S, double *S_bar) {
+    vector sum[7] = {ZERO};
+    for (size_t b = 0; b < size; ++b, point += 5) pair_backward(point, S, point + 2, point + 2 + 1, sum);
+    S_bar[0] += vector_sum(sum[0]);
+    S_bar[1] += vector_sum(sum[1]);
+    S_bar[2] += vector_sum(sum[2]);
+    S_bar[3] += vector_sum(sum[3]);
+    S_bar[4] += vector_sum(sum[4]);
+    S_bar[5] += vector_sum(sum[5]);
+    S_bar[6] += vector_sum(sum[6]);
+}
+
+/*
+ * Some splats at a time; the points pass over each of them, a chunk at a time, while its sums stay in registers. How many
+ * splats depends on the threads, what is summed in which order does not.
+ */
 void torus_splats_vjp(
-    size_t count,
-    size_t splat_count,
-    const double *TORUS_RESTRICT x,
-    const double *TORUS_RESTRICT mu,
-    const double *TORUS_RESTRICT W,
-    const double *TORUS_RESTRICT amplitude,
-    const double *TORUS_RESTRICT value_bar,
-    const double *TORUS_RESTRICT gradient_bar,
-    double *TORUS_RESTRICT mu_bar,
-    double *TORUS_RESTRICT W_bar,
-    double *TORUS_RESTRICT amplitude_bar) {
-    const unsigned mode = flush_denormals();
-    for (size_t i = 0; i < 2 * splat_count; ++i) mu_bar[i] = 0;
-    for (size_t i = 0; i < 4 * splat_count; ++i) W_bar[i] = 0;
-    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        double x_block[2][LANES], value_bar_block[1][LANES], gradient_bar_block[2][LANES];
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            const double weight = lane < lanes ? 1 : 0;
-            for (size_t i = 0; i < 2; ++i) x_block[i][lane] = x[2 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
-            for (size_t i = 0; i < 2; ++i) gradient_bar_block[i][lane] = gradient_bar[2 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
-            for (size_t i = 0; i < 2; ++i) gradient_bar_block[i][lane] *= weight;
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            double sum[7][LANES] = {{0}}, total[7] = {0};
-            const double mu0 = mu[2 * k + 0];
-            const double mu1 = mu[2 * k + 1];
-            const double W0_0 = W[4 * k + 0];
-            const double W0_1 = W[4 * k + 1];
-            const double W1_0 = W[4 * k + 2];
-            const double W1_1 = W[4 * k + 3];
-            const double amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const double gap = x_block[0][lane] - mu0;
-                const double round_2 = rint(0.15915494309189535 * gap);
-                const double v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-                    round_2;
-                const double gap_2 = x_block[1][lane] - mu1;
-                const double round_3 = rint(0.15915494309189535 * gap_2);
-                const double v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-                    round_3;
-                const double z0 = W0_0 * v0 + W0_1 * v1;
-                const double z1 = W1_0 * v0 + W1_1 * v1;
-                const double exp_2 = exp(-(0.5 * (z0 * z0 + z1 * z1)));
-                const double phi = amplitude_k * exp_2;
-                const double by_v1 = -(W1_1 * z1) - W0_1 * z0;
-                const double by_v0 = -(W1_0 * z1) - W0_0 * z0;
-                const double by_by_v1 = phi * gradient_bar_block[1][lane];
-                const double by_by_v0 = phi * gradient_bar_block[0][lane];
-                const double by_phi = value_bar_block[0][lane] + by_v1 * gradient_bar_block[1][lane] + by_v0 *
-                    gradient_bar_block[0][lane];
-                const double product = exp_2 * (amplitude_k * by_phi);
-                const double by_z1 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - z1 * product;
-                const double by_z0 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - z0 * product;
-                const double by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0;
-                const double by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0;
-                sum[0][lane] += -by_v0_2;
-                sum[1][lane] += -by_v1_2;
-                sum[2][lane] += v0 * by_z0 - z0 * by_by_v0;
-                sum[3][lane] += v1 * by_z0 - z0 * by_by_v1;
-                sum[4][lane] += v0 * by_z1 - z1 * by_by_v0;
-                sum[5][lane] += v1 * by_z1 - z1 * by_by_v1;
-                sum[6][lane] += exp_2 * by_phi;
+    size_t count, size_t splat_count, const double *TORUS_RESTRICT x, const double *TORUS_RESTRICT mu, const double *TORUS_RESTRICT W, const double *TORUS_RESTRICT amplitude, const double *TORUS_RESTRICT value_bar, const double *TORUS_RESTRICT gradient_bar,
+    double *TORUS_RESTRICT mu_bar, double *TORUS_RESTRICT W_bar, double *TORUS_RESTRICT amplitude_bar, double *TORUS_RESTRICT work, int threads) {
+    const size_t blocks = (count + LANES - 1) / LANES;
+    const size_t chunk = 131072 / (5 * sizeof(vector)) + 1;
+    const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
+    const size_t share = part < LANES ? part : LANES;
+    vector *points = work_points(work);
+    double *constants = work_constants(work, count);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic) nowait)
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic, 8))
+        for (size_t block = 0; block < blocks; ++block)
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 5 * block);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += share) {
+            const size_t end = start + share < splat_count ? start + share : splat_count;
+            double sums[LANES][7] = {{0}};
+            vector own_mu[2], own_W[4], own_amplitude[1], S_bar[7], bars[7];
+            for (size_t first = 0; first < blocks; first += chunk) {
+                const size_t size = first + chunk < blocks ? chunk : blocks - first;
+                for (size_t k = start; k < end; ++k)
+                    splat_sums(points + 5 * first, size, constants + 7 * k, sums[k - start]);
             }
-            for (size_t i = 0; i < 7; ++i)
-                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
-            mu_bar[2 * k + 0] += total[0];
-            mu_bar[2 * k + 1] += total[1];
-            W_bar[4 * k + 0] += total[2];
-            W_bar[4 * k + 1] += total[3];
-            W_bar[4 * k + 2] += total[4];
-            W_bar[4 * k + 3] += total[5];
-            amplitude_bar[1 * k + 0] += total[6];
+            vector_rows(mu, end, start, 2, own_mu);
+            vector_rows(W, end, start, 4, own_W);
+            vector_rows(amplitude, end, start, 1, own_amplitude);
+            vector_rows(sums[0], LANES, 0, 7, S_bar);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+            vector_to_rows(bars, mu_bar, end, start, 2, 2);
+            vector_to_rows(bars + 2, W_bar, end, start, 4, 4);
+            vector_to_rows(bars + 2 + 4, amplitude_bar, end, start, 1, 1);
         }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
+/* Nothing is summed: the adjoints of a splat's constants go on to its parameters for every point. */
+void torus_splats_rows(
+    size_t count, size_t splat_count, const double *TORUS_RESTRICT x, const double *TORUS_RESTRICT mu, const double *TORUS_RESTRICT W, const double *TORUS_RESTRICT amplitude, const double *TORUS_RESTRICT value_bar, const double *TORUS_RESTRICT gradient_bar,
+    double *TORUS_RESTRICT rows, double *TORUS_RESTRICT work, int threads) {
+    (void)threads;
+    const size_t blocks = (count + LANES - 1) / LANES;
+    double *constants = work_constants(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES)
+            splat_constants(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t block = 0; block < blocks; ++block) {
+            vector point[5];
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
+            for (size_t k = 0; k < splat_count; ++k) {
+                vector own_mu[2], own_W[4], own_amplitude[1], S_bar[7] = {ZERO}, bars[7];
+                for (int i = 0; i < 2; ++i) own_mu[i] = vector_of(mu[2 * k + i]);
+                for (int i = 0; i < 4; ++i) own_W[i] = vector_of(W[4 * k + i]);
+                own_amplitude[0] = vector_of(amplitude[k]);
+                pair_backward(point, constants + 7 * k, point + 2, point + 2 + 1, S_bar);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+                vector_to_rows(bars, rows + 7 * k, count, block * LANES, 7, 7 * splat_count);
+            }
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* The same number in all lanes. */
+INLINE vector_f vector_of_f(float x) {
+    const vector_f zero = ZERO;
+    return x - zero;
+}
+
+/* x in the lanes of the mask, y in the others. */
+INLINE vector_f vector_select_f(vector_mask_f mask, vector_f x, vector_f y) {
+    return SELECT(vector_f, vector_mask_f, mask, x, y);
+}
+
+/* Numbers in memory to a vector, and back. */
+INLINE vector_f vector_load_f(const float *from) {
+    vector_f x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+INLINE void vector_store_f(float *to, vector_f x) { memcpy(to, &x, sizeof x); }
+
+/* The sum over the lanes, by halves. */
+INLINE float vector_sum_f(vector_f x) {
+    float lanes[LANES_f];
+    vector_store_f(lanes, x);
+    for (size_t half = LANES_f / 2; half > 0; half /= 2)
+        for (size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    return lanes[0];
+}
+
+/* The bits of a vector as integers, and back. */
+INLINE vector_bits_f vector_to_bits_f(vector_f x) {
+    vector_bits_f bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
+    vector_f x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* round of every lane; one instruction where the machine has it. */
+INLINE vector_f vector_round_f(vector_f x) {
+    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = rintf(LANE(x, i));
+    return x;
+}
+
+/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
+INLINE vector_f vector_exp_f(vector_f x) {
+    const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
+    const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
+    const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
+    const vector_f scale = vector_from_bits_f((vector_to_bits_f(shifted) + 126) << 23); /* 2^(k - 1) */
+    const vector_f y = vector_select_f(x > 88.722839f, vector_of_f(HUGE_VALF), (scale + scale * part) * 2);
+    return vector_select_f(x < -86.9f, vector_of_f(0), y);
+}
+
+/* What pairs read of points x. */
+OUTLINE void pair_features_f(
+    const vector_f *x, vector_f *X) {
+    const vector_f x0 = x[0];
+    const vector_f x1 = x[1];
+    X[0] = x0;
+    X[1] = x1;
+}
+
+/* What pairs read of a splat, of some splats. */
+OUTLINE void pair_constants_f(
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, vector_f *S) {
+    const vector_f mu0 = mu[0];
+    const vector_f mu1 = mu[1];
+    const vector_f W0_0 = W[0];
+    const vector_f W0_1 = W[1];
+    const vector_f W1_0 = W[2];
+    const vector_f W1_1 = W[3];
+    const vector_f its_amplitude = amplitude[0];
+    S[0] = mu0;
+    S[1] = mu1;
+    S[2] = W0_0;
+    S[3] = W0_1;
+    S[4] = W1_0;
+    S[5] = W1_1;
+    S[6] = its_amplitude;
+}
+
+/* Adds the values phi of a splat at some points. */
+INLINE void pair_value_f(
+    const vector_f *X, const float *S, vector_f *value) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float W0_0 = S[2];
+    const float W0_1 = S[3];
+    const float W1_0 = S[4];
+    const float W1_1 = S[5];
+    const float amplitude = S[6];
+    const vector_f gap = x0 - mu0;
+    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
+    const vector_f v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
+        round_2;
+    const vector_f gap_2 = x1 - mu1;
+    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
+    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
+        * round_3;
+    const vector_f z0 = W0_0 * v0 + W0_1 * v1;
+    const vector_f z1 = W1_0 * v0 + W1_1 * v1;
+    const vector_f exp_2 = vector_exp_f(-0.5f * (z0 * z0 + z1 * z1));
+    value[0] = value[0] + amplitude * exp_2;
+}
+
+/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+INLINE void pair_forward_f(
+    const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float W0_0 = S[2];
+    const float W0_1 = S[3];
+    const float W1_0 = S[4];
+    const float W1_1 = S[5];
+    const float amplitude = S[6];
+    const vector_f gap = x0 - mu0;
+    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
+    const vector_f v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
+        round_2;
+    const vector_f gap_2 = x1 - mu1;
+    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
+    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
+        * round_3;
+    const vector_f z0 = W0_0 * v0 + W0_1 * v1;
+    const vector_f z1 = W1_0 * v0 + W1_1 * v1;
+    const vector_f exp_2 = vector_exp_f(-0.5f * (z0 * z0 + z1 * z1));
+    const vector_f phi = amplitude * exp_2;
+    const vector_f z1_product = z1 * phi;
+    const vector_f z0_product = z0 * phi;
+    value[0] = value[0] + phi;
+    slope[0] = slope[0] - W1_0 * z1_product - W0_0 * z0_product;
+    slope[1] = slope[1] - W1_1 * z1_product - W0_1 * z0_product;
+}
+
+/* The Riemannian gradient at some points, of the sums of slopes. */
+OUTLINE void pair_gradient_f(
+    const vector_f *x, const vector_f *slope, vector_f *gradient) {
+    (void)x;
+    const vector_f slope_x0 = slope[0];
+    const vector_f slope_x1 = slope[1];
+    gradient[0] = slope_x0;
+    gradient[1] = slope_x1;
+}
+
+/* The adjoint of slope at some points, of that of the gradient. */
+OUTLINE void pair_gradient_vjp_f(
+    const vector_f *x, const vector_f *gradient_bar, vector_f *slope_bar) {
+    (void)x;
+    const vector_f gradient_bar0 = gradient_bar[0];
+    const vector_f gradient_bar1 = gradient_bar[1];
+    slope_bar[0] = gradient_bar0;
+    slope_bar[1] = gradient_bar1;
+}
+
+/* The adjoints of some splats' parameters, of that of S. */
+OUTLINE void pair_constants_vjp_f(
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
+    (void)mu;
+    (void)W;
+    (void)amplitude;
+    const vector_f mu0_bar = S_bar[0];
+    const vector_f mu1_bar = S_bar[1];
+    const vector_f W0_0_bar = S_bar[2];
+    const vector_f W0_1_bar = S_bar[3];
+    const vector_f W1_0_bar = S_bar[4];
+    const vector_f W1_1_bar = S_bar[5];
+    const vector_f its_amplitude_bar = S_bar[6];
+    mu_bar[0] = mu0_bar;
+    mu_bar[1] = mu1_bar;
+    W_bar[0] = W0_0_bar;
+    W_bar[1] = W0_1_bar;
+    W_bar[2] = W1_0_bar;
+    W_bar[3] = W1_1_bar;
+    amplitude_bar[0] = its_amplitude_bar;
+}
+
+/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+INLINE void pair_backward_f(
+    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float W0_0 = S[2];
+    const float W0_1 = S[3];
+    const float W1_0 = S[4];
+    const float W1_1 = S[5];
+    const float amplitude = S[6];
+    const vector_f its_value_bar = value_bar[0];
+    const vector_f x0_bar = slope_bar[0];
+    const vector_f x1_bar = slope_bar[1];
+    const vector_f gap = x0 - mu0;
+    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
+    const vector_f v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
+        round_2;
+    const vector_f gap_2 = x1 - mu1;
+    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
+    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
+        * round_3;
+    const vector_f z0 = W0_0 * v0 + W0_1 * v1;
+    const vector_f z1 = W1_0 * v0 + W1_1 * v1;
+    const vector_f exp_2 = vector_exp_f(-0.5f * (z0 * z0 + z1 * z1));
+    const vector_f phi = amplitude * exp_2;
+    const vector_f gap_3 = -(W1_0 * x0_bar) - W1_1 * x1_bar;
+    const vector_f gap_4 = -(W0_0 * x0_bar) - W0_1 * x1_bar;
+    const vector_f by_phi = its_value_bar + z0 * gap_4 + z1 * gap_3;
+    const vector_f product = exp_2 * (amplitude * by_phi);
+    const vector_f by_z1 = phi * gap_3 - z1 * product;
+    const vector_f by_z0 = phi * gap_4 - z0 * product;
+    const vector_f z0_product = z0 * phi;
+    const vector_f z1_product = z1 * phi;
+    S_bar[0] = S_bar[0] - W1_0 * by_z1 - W0_0 * by_z0;
+    S_bar[1] = S_bar[1] - W1_1 * by_z1 - W0_1 * by_z0;
+    S_bar[2] = S_bar[2] + v0 * by_z0 - z0_product * x0_bar;
+    S_bar[3] = S_bar[3] + v1 * by_z0 - z0_product * x1_bar;
+    S_bar[4] = S_bar[4] + v0 * by_z1 - z1_product * x0_bar;
+    S_bar[5] = S_bar[5] + v1 * by_z1 - z1_product * x1_bar;
+    S_bar[6] = S_bar[6] + exp_2 * by_phi;
+}
+
+/* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
+OUTLINE void vector_rows_f(const float *rows, size_t count, size_t start, size_t size, vector_f *columns) {
+    for (size_t i = 0; i < size; ++i) {
+        float column[LANES_f];
+        for (size_t lane = 0; lane < LANES_f; ++lane)
+            column[lane] = rows[size * (start + lane < count ? start + lane : count - 1) + i];
+        columns[i] = vector_load_f(column);
+    }
+}
+
+/* Back to rows that are `stride` apart; nothing past the end. */
+OUTLINE void vector_to_rows_f(
+    const vector_f *columns, float *rows, size_t count, size_t start, size_t size, size_t stride) {
+    const size_t lanes = start >= count ? 0 : count - start < LANES_f ? count - start : LANES_f;
+    for (size_t lane = 0; lane < lanes; ++lane)
+        for (size_t i = 0; i < size; ++i) rows[stride * (start + lane) + i] = LANE(columns[i], lane);
+}
+
+/* Zero in the lanes past the end. */
+OUTLINE void vector_end_f(size_t count, size_t start, size_t size, vector_f *columns) {
+    for (size_t lane = start >= count ? 0 : count - start; lane < LANES_f; ++lane)
+        for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
+}
+
+/* Scratch memory: 5 vectors for each block of points, then the constants of the splats. */
+size_t torus_splats_work_f(size_t count, size_t splat_count, int threads) {
+    (void)threads;
+    return ((count + LANES_f - 1) / LANES_f * 5 + 1) * LANES_f + 7 * splat_count;
+}
+
+static vector_f *work_points_f(float *work) {
+    const uintptr_t size = sizeof(vector_f), start = (uintptr_t)work;
+    return (vector_f *)((char *)work + ((0 - start) & (size - 1)));
+}
+
+static float *work_constants_f(float *work, size_t count) {
+    return (float *)(work_points_f(work) + (count + LANES_f - 1) / LANES_f * 5);
+}
+
+/* The constants of LANES splats, as rows. */
+OUTLINE void splat_constants_f(
+    size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, float *constants) {
+    vector_f own_mu[2], own_W[4], own_amplitude[1], S[7];
+    vector_rows_f(mu, splat_count, start, 2, own_mu);
+    vector_rows_f(W, splat_count, start, 4, own_W);
+    vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
+    pair_constants_f(own_mu, own_W, own_amplitude, S);
+    vector_to_rows_f(S, constants, splat_count, start, 7, 7);
+}
+
+/* 2 vectors of points at a time stay in registers while all splats pass. */
 void torus_splats_f(
-    size_t count,
-    size_t splat_count,
-    const float *TORUS_RESTRICT x,
-    const float *TORUS_RESTRICT mu,
-    const float *TORUS_RESTRICT W,
-    const float *TORUS_RESTRICT amplitude,
-    float *TORUS_RESTRICT value,
-    float *TORUS_RESTRICT gradient) {
-    const unsigned mode = flush_denormals();
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        float x_block[2][LANES], sum[3][LANES] = {{0}};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            for (size_t i = 0; i < 2; ++i) x_block[i][lane] = x[2 * n + i];
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            const float mu0 = mu[2 * k + 0];
-            const float mu1 = mu[2 * k + 1];
-            const float W0_0 = W[4 * k + 0];
-            const float W0_1 = W[4 * k + 1];
-            const float W1_0 = W[4 * k + 2];
-            const float W1_1 = W[4 * k + 3];
-            const float amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const float gap = x_block[0][lane] - mu0;
-                const float round_2 = rintf(0.15915494309189535f * gap);
-                const float v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-                    round_2;
-                const float gap_2 = x_block[1][lane] - mu1;
-                const float round_3 = rintf(0.15915494309189535f * gap_2);
-                const float v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f *
-                    round_3;
-                const float z0 = W0_0 * v0 + W0_1 * v1;
-                const float z1 = W1_0 * v0 + W1_1 * v1;
-                const float exp_2 = expf(-(0.5f * (z0 * z0 + z1 * z1)));
-                const float phi = amplitude_k * exp_2;
-                const float by_v1 = -(W1_1 * z1) - W0_1 * z0;
-                const float by_v0 = -(W1_0 * z1) - W0_0 * z0;
-                const float df0 = phi * by_v0;
-                const float df1 = phi * by_v1;
-                sum[0][lane] += phi;
-                sum[1][lane] += df0;
-                sum[2][lane] += df1;
+    size_t count, size_t splat_count, const float *TORUS_RESTRICT x, const float *TORUS_RESTRICT mu, const float *TORUS_RESTRICT W, const float *TORUS_RESTRICT amplitude,
+    float *TORUS_RESTRICT value, float *TORUS_RESTRICT gradient, float *TORUS_RESTRICT work, int threads) {
+    (void)threads;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES_f) {
+            vector_f at[2][2], X[2][2], grad[2];
+            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][2] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows_f(x, count, start + b * LANES_f, 2, at[b]);
+                pair_features_f(at[b], X[b]);
+            }
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_forward_f(X[0], constants + 7 * k, value_sum[0], slope_sum[0]);
+                pair_forward_f(X[1], constants + 7 * k, value_sum[1], slope_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b) {
+                pair_gradient_f(at[b], slope_sum[b], grad);
+                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                vector_to_rows_f(grad, gradient, count, start + b * LANES_f, 2, 2);
             }
         }
-        for (size_t lane = 0; lane < lanes; ++lane) {
-            value[start + lane] = sum[0][lane];
-            for (size_t i = 0; i < 2; ++i) gradient[2 * (start + lane) + i] = sum[i + 1][lane];
-        }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
 }
 
-void torus_splats_vjp_f(
-    size_t count,
-    size_t splat_count,
-    const float *TORUS_RESTRICT x,
-    const float *TORUS_RESTRICT mu,
-    const float *TORUS_RESTRICT W,
-    const float *TORUS_RESTRICT amplitude,
-    const float *TORUS_RESTRICT value_bar,
-    const float *TORUS_RESTRICT gradient_bar,
-    float *TORUS_RESTRICT mu_bar,
-    float *TORUS_RESTRICT W_bar,
-    float *TORUS_RESTRICT amplitude_bar) {
-    const unsigned mode = flush_denormals();
-    for (size_t i = 0; i < 2 * splat_count; ++i) mu_bar[i] = 0;
-    for (size_t i = 0; i < 4 * splat_count; ++i) W_bar[i] = 0;
-    for (size_t i = 0; i < 1 * splat_count; ++i) amplitude_bar[i] = 0;
-    for (size_t start = 0; start < count; start += LANES) {
-        const size_t lanes = count - start < LANES ? count - start : LANES;
-        float x_block[2][LANES], value_bar_block[1][LANES], gradient_bar_block[2][LANES];
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            const size_t n = start + (lane < lanes ? lane : lanes - 1);
-            const float weight = lane < lanes ? 1 : 0;
-            for (size_t i = 0; i < 2; ++i) x_block[i][lane] = x[2 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] = value_bar[1 * n + i];
-            for (size_t i = 0; i < 2; ++i) gradient_bar_block[i][lane] = gradient_bar[2 * n + i];
-            for (size_t i = 0; i < 1; ++i) value_bar_block[i][lane] *= weight;
-            for (size_t i = 0; i < 2; ++i) gradient_bar_block[i][lane] *= weight;
-        }
-        for (size_t k = 0; k < splat_count; ++k) {
-            float sum[7][LANES] = {{0}}, total[7] = {0};
-            const float mu0 = mu[2 * k + 0];
-            const float mu1 = mu[2 * k + 1];
-            const float W0_0 = W[4 * k + 0];
-            const float W0_1 = W[4 * k + 1];
-            const float W1_0 = W[4 * k + 2];
-            const float W1_1 = W[4 * k + 3];
-            const float amplitude_k = amplitude[1 * k + 0];
-            for (size_t lane = 0; lane < LANES; ++lane) {
-                const float gap = x_block[0][lane] - mu0;
-                const float round_2 = rintf(0.15915494309189535f * gap);
-                const float v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-                    round_2;
-                const float gap_2 = x_block[1][lane] - mu1;
-                const float round_3 = rintf(0.15915494309189535f * gap_2);
-                const float v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f *
-                    round_3;
-                const float z0 = W0_0 * v0 + W0_1 * v1;
-                const float z1 = W1_0 * v0 + W1_1 * v1;
-                const float exp_2 = expf(-(0.5f * (z0 * z0 + z1 * z1)));
-                const float phi = amplitude_k * exp_2;
-                const float by_v1 = -(W1_1 * z1) - W0_1 * z0;
-                const float by_v0 = -(W1_0 * z1) - W0_0 * z0;
-                const float by_by_v1 = phi * gradient_bar_block[1][lane];
-                const float by_by_v0 = phi * gradient_bar_block[0][lane];
-                const float by_phi = value_bar_block[0][lane] + by_v1 * gradient_bar_block[1][lane] + by_v0 *
-                    gradient_bar_block[0][lane];
-                const float product = exp_2 * (amplitude_k * by_phi);
-                const float by_z1 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - z1 * product;
-                const float by_z0 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - z0 * product;
-                const float by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0;
-                const float by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0;
-                sum[0][lane] += -by_v0_2;
-                sum[1][lane] += -by_v1_2;
-                sum[2][lane] += v0 * by_z0 - z0 * by_by_v0;
-                sum[3][lane] += v1 * by_z0 - z0 * by_by_v1;
-                sum[4][lane] += v0 * by_z1 - z1 * by_by_v0;
-                sum[5][lane] += v1 * by_z1 - z1 * by_by_v1;
-                sum[6][lane] += exp_2 * by_phi;
+void torus_splats_value_f(
+    size_t count, size_t splat_count, const float *TORUS_RESTRICT x, const float *TORUS_RESTRICT mu, const float *TORUS_RESTRICT W, const float *TORUS_RESTRICT amplitude,
+    float *TORUS_RESTRICT value, float *TORUS_RESTRICT work, int threads) {
+    (void)threads;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < count; start += 2 * LANES_f) {
+            vector_f at[2], X[2][2], value_sum[2][1] = {{ZERO}};
+            for (size_t b = 0; b < 2; ++b) {
+                vector_rows_f(x, count, start + b * LANES_f, 2, at);
+                pair_features_f(at, X[b]);
             }
-            for (size_t i = 0; i < 7; ++i)
-                for (size_t lane = 0; lane < LANES; ++lane) total[i] += sum[i][lane];
-            mu_bar[2 * k + 0] += total[0];
-            mu_bar[2 * k + 1] += total[1];
-            W_bar[4 * k + 0] += total[2];
-            W_bar[4 * k + 1] += total[3];
-            W_bar[4 * k + 2] += total[4];
-            W_bar[4 * k + 3] += total[5];
-            amplitude_bar[1 * k + 0] += total[6];
+            for (size_t k = 0; k < splat_count; ++k) {
+                pair_value_f(X[0], constants + 7 * k, value_sum[0]);
+                pair_value_f(X[1], constants + 7 * k, value_sum[1]);
+            }
+            for (size_t b = 0; b < 2; ++b)
+                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
         }
+        restore_denormals(mode);
     }
-    restore_denormals(mode);
+}
+
+/* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
+OUTLINE void splat_points_f(
+    size_t count, size_t start, const float *x, const float *value_bar, const float *gradient_bar, vector_f *point) {
+    vector_f at[2], grad_bar[2], slope_bar[2];
+    vector_rows_f(x, count, start, 2, at);
+    vector_rows_f(gradient_bar, count, start, 2, grad_bar);
+    vector_rows_f(value_bar, count, start, 1, point + 2);
+    pair_features_f(at, point);
+    pair_gradient_vjp_f(at, grad_bar, slope_bar);
+    for (int i = 0; i < 2; ++i) point[2 + 1 + i] = slope_bar[i];
+    vector_end_f(count, start, 2 + 1, point + 2);
+}
+
+/* Adds to S_bar what some vectors of points add to it. */
+OUTLINE void splat_sums_f(const vector_f *point, size_t size, const float *S, float *S_bar) {
+    vector_f sum[7] = {ZERO};
+    for (size_t b = 0; b < size; ++b, point += 5) pair_backward_f(point, S, point + 2, point + 2 + 1, sum);
+    S_bar[0] += vector_sum_f(sum[0]);
+    S_bar[1] += vector_sum_f(sum[1]);
+    S_bar[2] += vector_sum_f(sum[2]);
+    S_bar[3] += vector_sum_f(sum[3]);
+    S_bar[4] += vector_sum_f(sum[4]);
+    S_bar[5] += vector_sum_f(sum[5]);
+    S_bar[6] += vector_sum_f(sum[6]);
+}
+
+/*
+ * Some splats at a time; the points pass over each of them, a chunk at a time, while its sums stay in registers. How many
+ * splats depends on the threads, what is summed in which order does not.
+ */
+void torus_splats_vjp_f(
+    size_t count, size_t splat_count, const float *TORUS_RESTRICT x, const float *TORUS_RESTRICT mu, const float *TORUS_RESTRICT W, const float *TORUS_RESTRICT amplitude, const float *TORUS_RESTRICT value_bar, const float *TORUS_RESTRICT gradient_bar,
+    float *TORUS_RESTRICT mu_bar, float *TORUS_RESTRICT W_bar, float *TORUS_RESTRICT amplitude_bar, float *TORUS_RESTRICT work, int threads) {
+    const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    const size_t chunk = 131072 / (5 * sizeof(vector_f)) + 1;
+    const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
+    const size_t share = part < LANES_f ? part : LANES_f;
+    vector_f *points = work_points_f(work);
+    float *constants = work_constants_f(work, count);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic) nowait)
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic, 8))
+        for (size_t block = 0; block < blocks; ++block)
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 5 * block);
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += share) {
+            const size_t end = start + share < splat_count ? start + share : splat_count;
+            float sums[LANES_f][7] = {{0}};
+            vector_f own_mu[2], own_W[4], own_amplitude[1], S_bar[7], bars[7];
+            for (size_t first = 0; first < blocks; first += chunk) {
+                const size_t size = first + chunk < blocks ? chunk : blocks - first;
+                for (size_t k = start; k < end; ++k)
+                    splat_sums_f(points + 5 * first, size, constants + 7 * k, sums[k - start]);
+            }
+            vector_rows_f(mu, end, start, 2, own_mu);
+            vector_rows_f(W, end, start, 4, own_W);
+            vector_rows_f(amplitude, end, start, 1, own_amplitude);
+            vector_rows_f(sums[0], LANES_f, 0, 7, S_bar);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+            vector_to_rows_f(bars, mu_bar, end, start, 2, 2);
+            vector_to_rows_f(bars + 2, W_bar, end, start, 4, 4);
+            vector_to_rows_f(bars + 2 + 4, amplitude_bar, end, start, 1, 1);
+        }
+        restore_denormals(mode);
+    }
+}
+
+/* Nothing is summed: the adjoints of a splat's constants go on to its parameters for every point. */
+void torus_splats_rows_f(
+    size_t count, size_t splat_count, const float *TORUS_RESTRICT x, const float *TORUS_RESTRICT mu, const float *TORUS_RESTRICT W, const float *TORUS_RESTRICT amplitude, const float *TORUS_RESTRICT value_bar, const float *TORUS_RESTRICT gradient_bar,
+    float *TORUS_RESTRICT rows, float *TORUS_RESTRICT work, int threads) {
+    (void)threads;
+    const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    float *constants = work_constants_f(work, 0);
+    OMP(omp parallel num_threads(threads) if(threads > 1))
+    {
+        const uint64_t mode = flush_denormals();
+        OMP(omp for schedule(dynamic))
+        for (size_t start = 0; start < splat_count; start += LANES_f)
+            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+        OMP(omp for schedule(dynamic))
+        for (size_t block = 0; block < blocks; ++block) {
+            vector_f point[5];
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
+            for (size_t k = 0; k < splat_count; ++k) {
+                vector_f own_mu[2], own_W[4], own_amplitude[1], S_bar[7] = {ZERO}, bars[7];
+                for (int i = 0; i < 2; ++i) own_mu[i] = vector_of_f(mu[2 * k + i]);
+                for (int i = 0; i < 4; ++i) own_W[i] = vector_of_f(W[4 * k + i]);
+                own_amplitude[0] = vector_of_f(amplitude[k]);
+                pair_backward_f(point, constants + 7 * k, point + 2, point + 2 + 1, S_bar);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+                vector_to_rows_f(bars, rows + 7 * k, count, block * LANES_f, 7, 7 * splat_count);
+            }
+        }
+        restore_denormals(mode);
+    }
 }

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+import os
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
@@ -10,6 +12,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from rsrm_gen.errors import UserError
 from rsrm_gen.files import assignments, bundled, manifold_file
 
 app = typer.Typer(
@@ -36,6 +39,18 @@ CASES: tuple[tuple[str, Parameters], ...] = (
 )
 LARGE: tuple[tuple[str, Parameters], ...] = (("sphere", {"n": 16}),)
 ROWS, QUICK_ROWS = 48, 8
+# Manifolds and sizes, points and splats, of `rsrm bench kernels`.
+STEP_CASES: tuple[tuple[str, Parameters], ...] = (
+    ("torus", {}),
+    ("sphere", {}),
+    ("hyperbolic", {}),
+    ("so3", {}),
+    ("torus", {"n": 6}),
+    ("sphere", {"n": 5}),
+    ("se3", {}),
+)
+STEP_SIZES = ((1024, 128), (4096, 512), (16384, 2048))
+CONTENDER_KEYS = ["eager", "analytic", "compiled", "jax", "jax-analytic", "ours", "kernel"]
 
 Manifolds = Annotated[
     list[str] | None, typer.Argument(metavar="[MANIFOLD...]", help="Bundled manifolds or files.", show_default=False)
@@ -117,6 +132,100 @@ def generation_command(
         write_markdown(markdown, tables(results), foot(results))
     if json is not None:
         write_json(json, document(results))
+
+
+@app.command("kernels")
+def kernels_command(
+    manifolds: Manifolds = None,
+    parameter: Assignments = None,
+    size: Annotated[
+        list[str] | None, typer.Option("--size", metavar="N,K", help="Points and splats; may be given several times.")
+    ] = None,
+    threads: Annotated[list[int] | None, typer.Option(min=1, help="Number of threads; several times.")] = None,
+    precision: Annotated[list[str] | None, typer.Option(help="float32 or float64; several times.")] = None,
+    contender: Annotated[
+        list[str] | None,
+        typer.Option(help="eager, analytic, compiled, jax, jax-analytic, ours or kernel; several times."),
+    ] = None,
+    rounds: Annotated[int, typer.Option(min=1, help="Samples of each, one a round; the tables have medians.")] = 7,
+    compile_budget: Annotated[float, typer.Option(help="Seconds that torch.compile may take for a size.")] = 120,
+    quick: Annotated[
+        bool, typer.Option("--quick", help="The smallest size, float32, three rounds, no torch.compile.")
+    ] = False,
+    markdown: Markdown = None,
+    json: Json = None,
+    plot: Annotated[
+        Path | None, typer.Option("--plot", metavar="FILE", help="Draw the medians: PNG, PDF or SVG.")
+    ] = None,
+) -> None:
+    """The time of a training step by the generated kernel, beside torch and JAX in one run.
+
+    \b
+    rsrm bench kernels                           T^2, S^2, H^2, SO(3), T^6, S^5, SE(3): an hour or more
+    rsrm bench kernels sphere --size 4096,512 --threads 2 --precision float32
+    rsrm bench kernels --markdown kernels.md --json kernels.json --plot kernels.png
+
+    JAX is timed where it is installed: pip install 'rsrm-gen[jax]'.
+    """
+    from rsrm_gen.bench.kernel_tables import foot, tables
+    from rsrm_gen.bench.kernels import Plan, kernels
+    from rsrm_gen.bench.steps import CONTENDERS
+    from rsrm_gen.bench.table import write_json, write_markdown
+
+    given: Parameters = assignments(parameter or ())
+    chosen = [(name, given) for name in manifolds] if manifolds else [(name, {**p, **given}) for name, p in STEP_CASES]
+    keys = _chosen(contender, [c.key for c in CONTENDERS if not (quick and c.key == "compiled")], "contender")
+    plan = Plan(
+        cases=tuple((manifold_file(name), parameters) for name, parameters in chosen),
+        sizes=tuple(map(_size, size)) if size else STEP_SIZES[: 1 if quick else None],
+        threads=_available(threads or (1, 2)),
+        precisions=tuple(_chosen(precision, ["float32"] if quick else ["float32", "float64"], "precision")),
+        contenders=tuple(c for c in CONTENDERS if c.key in keys),
+        rounds=min(rounds, 3) if quick else rounds,
+        compile_budget=compile_budget,
+    )
+    with _progress() as say:
+        result = kernels(plan, say)
+    console = _console()
+    for table in tables(result):
+        console.print(table.rich())
+        console.print()
+    console.print(foot(result), style="dim", highlight=False)
+    if markdown is not None:
+        write_markdown(markdown, tables(result), foot(result))
+    if json is not None:
+        write_json(json, result.document())
+    if plot is not None:
+        from rsrm_gen.bench.kernel_plot import draw
+
+        draw(result, plot)
+
+
+def _size(text: str) -> tuple[int, int]:
+    """`4096,512` as two numbers."""
+    points, _, splats = text.partition(",")
+    if not (points.strip().isdecimal() and splats.strip().isdecimal() and int(points) and int(splats)):
+        raise UserError(f"`{text}` is no size", hint="write points and splats, like --size 4096,512")
+    return int(points), int(splats)
+
+
+def _chosen(given: list[str] | None, default: list[str], what: str) -> list[str]:
+    """What was given, each one of those there are."""
+    known = {"precision": ["float32", "float64"], "contender": CONTENDER_KEYS}[what]
+    for word in given or ():
+        if word not in known:
+            raise UserError(f"`{word}` is no {what}", hint=f"one of {', '.join(known)}")
+    return given or default
+
+
+def _available(threads: Sequence[int]) -> tuple[int, ...]:
+    """The numbers of threads for which there are cores; the others are said and left out."""
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    for count in threads:
+        if count > cores:
+            print(f"{count} threads are left out: there are {cores} cores", file=sys.stderr)
+    found = tuple(dict.fromkeys(count for count in threads if count <= cores))
+    return found or (cores,)
 
 
 def _names() -> list[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -17,6 +18,7 @@ from rich.table import Table
 import rsrm_gen
 from rsrm_gen.bench.cli import app as bench
 from rsrm_gen.errors import UserError
+from rsrm_gen.trainer.clock import StopWatch, table
 from rsrm_gen.trainer.plan import Paths, plan
 from rsrm_gen.trainer.progress import show_progress
 from rsrm_gen.trainer.run import Run, RunFolder, load_run
@@ -90,6 +92,36 @@ def _train(
     _report(console, folder, prepared, outcome)
     if not no_picture:
         _picture(console, folder.path)
+
+
+@bench.command("step")
+def _step(
+    scene: Annotated[Path, typer.Argument(metavar="SCENE", help="A scene file (YAML).")],
+    points: Annotated[int, typer.Option(min=1, help="Points a step.")] = 2048,
+    splats: Annotated[int, typer.Option(min=1, help="Splats, the same at every step.")] = 512,
+    steps: Annotated[int, typer.Option(min=1, help="Steps that are measured.")] = 400,
+) -> None:
+    """Where the time of a training step goes: the median of every phase, and the share outside the sum of splats.
+
+    \b
+    rsrm bench step scene.yaml
+    rsrm bench step scene.yaml --points 4096 --splats 128
+    """
+    prepared = read_scene(scene)
+    fixed = {**prepared.training.splats.model_dump(), "initial": splats, "capacity": splats, "add": 0, "prune_below": 0}
+    warm = min(steps, 50)
+    prepared = prepared.with_training(points=points, splats=fixed, steps=warm + steps)
+    if prepared.training.threads:
+        torch.set_num_threads(prepared.training.threads)
+    watch = StopWatch(warm)
+    with tempfile.TemporaryDirectory() as folder:
+        run = RunFolder(Path(folder))
+        run.create(prepared)
+        train(prepared, run, clock=watch)
+    console = Console()
+    threads = torch.get_num_threads()
+    console.print(f"{prepared.manifold.name}: {points} points, {splats} splats, {threads} threads", highlight=False)
+    console.print(table(watch))
 
 
 def _new(path: Path, output: Path | None, steps: int | None, seed: int | None, force: bool) -> tuple[RunFolder, Scene]:

@@ -1,7 +1,7 @@
 """How the arrival time T depends on the distance d to the goal and on the field f: two forms with one interface.
 
 The partial derivatives are written out, so that grad T = dT/dd grad d + dT/df grad f needs no differentiation by the
-framework, and the loss one backward pass.
+framework; the second ones, so that the derivative of the loss needs none either.
 """
 
 from __future__ import annotations
@@ -26,6 +26,10 @@ class Link(Protocol):
         """dT/dd and dT/df: (...), (...)."""
         ...
 
+    def derivatives(self, d: Tensor, f: Tensor) -> tuple[Tensor, Tensor, Tensor, Tensor]:
+        """dT/dd, dT/df, d^2T/dd df and d^2T/df^2, each (...)."""
+        ...
+
 
 @dataclass(frozen=True)
 class Exponential:
@@ -40,6 +44,11 @@ class Exponential:
         factor = torch.exp(f)
         return factor, d * factor
 
+    def derivatives(self, d: Tensor, f: Tensor) -> tuple[Tensor, Tensor, Tensor, Tensor]:
+        """dT/dd, dT/df, d^2T/dd df and d^2T/df^2, each (...); the second ones are the first ones again."""
+        by_d, by_f = self.partials(d, f)
+        return by_d, by_f, by_d, by_f
+
 
 @dataclass(frozen=True)
 class Quotient:
@@ -49,9 +58,9 @@ class Quotient:
     floor: float = 0.0
 
     def _speed(self, f: Tensor) -> tuple[Tensor, Tensor]:
-        """tau and d tau / df."""
+        """tau and the sigmoid in it."""
         sigmoid = torch.sigmoid(f + self.offset)
-        return self.floor + (1 - self.floor) * sigmoid, (1 - self.floor) * sigmoid * (1 - sigmoid)
+        return self.floor + (1 - self.floor) * sigmoid, sigmoid
 
     def value(self, d: Tensor, f: Tensor) -> Tensor:
         """T: (...)."""
@@ -59,8 +68,16 @@ class Quotient:
 
     def partials(self, d: Tensor, f: Tensor) -> tuple[Tensor, Tensor]:
         """dT/dd and dT/df: (...), (...)."""
-        tau, slope = self._speed(f)
-        return 1 / tau, -d * slope / tau**2
+        return self.derivatives(d, f)[:2]
+
+    def derivatives(self, d: Tensor, f: Tensor) -> tuple[Tensor, Tensor, Tensor, Tensor]:
+        """dT/dd, dT/df, d^2T/dd df and d^2T/df^2, each (...)."""
+        tau, sigmoid = self._speed(f)
+        slope = (tau - self.floor) * (1 - sigmoid)  # d tau / df
+        by_d = 1 / tau
+        relative = slope * by_d
+        by_df = -relative * by_d
+        return by_d, d * by_df, by_df, d * by_df * (1 - 2 * (sigmoid + relative))
 
 
 def make_link(choice: LinkChoice) -> Link:

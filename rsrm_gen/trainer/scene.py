@@ -16,7 +16,7 @@ from torch import Generator, Tensor
 
 from rsrm_gen.document import Document, Path_, read_document, validate
 from rsrm_gen.errors import Source, Span, UserError
-from rsrm_gen.load import load
+from rsrm_gen.load import load_in_rows as load
 from rsrm_gen.manifold import Manifold
 from rsrm_gen.trainer.settings import Evaluation, ManifoldChoice, Picture, SceneDocument, Slowness, Training
 
@@ -54,8 +54,10 @@ class Scene:
         """min_i d(x, c_i) - r_i: negative inside an obstacle, inf where there is none; (...)."""
         if not len(self.radii):
             return x.new_full(x.shape[:-1], math.inf)
-        distances: Tensor = self.manifold.distance(x[..., None, :], self.centers) - self.radii
-        return distances.amin(-1)
+        # Obstacles first, points last: numbers that are treated alike lie side by side.
+        ahead = (-1, *[1] * (x.dim() - 1))
+        distances: Tensor = self.manifold.distance(x, self.centers.view(*ahead, x.shape[-1]))
+        return (distances - self.radii.view(ahead)).amin(0)
 
     def in_double(self) -> Scene:
         """The same scene in float64, its points put back exactly onto the manifold."""

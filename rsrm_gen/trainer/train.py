@@ -1,7 +1,7 @@
 """The training loop: fresh points, one backward pass, a step, now and then other splats; kept so that it can go on.
 
-A training that was interrupted goes on exactly as if it had not been: all random numbers come from one generator, and
-its state is kept with the splats, the moments and the step.
+A training that was interrupted goes on exactly as if it had not been: the splats, the moments and the step are kept, and
+what random numbers are drawn at a step follows from the seed and the step alone.
 """
 
 from __future__ import annotations
@@ -14,23 +14,29 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from types import FrameType
+from typing import Literal, get_args
 
 import numpy as np
 import torch
 from torch import Tensor
 
 from rsrm_gen.errors import UserError
+from rsrm_gen.trainer.clock import NO_CLOCK, Clock
 from rsrm_gen.trainer.density import make_density, pick_apart, pick_spread
-from rsrm_gen.trainer.objective import Eikonal
+from rsrm_gen.trainer.objective import Eikonal, Points
 from rsrm_gen.trainer.optimise import AdamW
 from rsrm_gen.trainer.run import Arrays, Metric, RunFolder, Summary, fill_rows, new_arrival
 from rsrm_gen.trainer.scene import Scene
+from rsrm_gen.trainer.threads import one_thread
 
+BLOCK = 8  # steps whose points are drawn together
 RECORD_EVERY = 10  # steps between two lines of metrics
 POOL = 4096  # points at which the residual is looked at for new splats
 FINAL_POINTS = 16384  # points of the final loss
 
 Progress = Callable[[Metric], None]
+Purpose = Literal["points", "splats", "final loss"]
+PURPOSES = get_args(Purpose)
 
 
 @dataclass(frozen=True)
@@ -45,7 +51,7 @@ class Outcome:
 class Trainer:
     """All that changes during a training, and one step of it."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: Scene, clock: Clock = NO_CLOCK) -> None:
         """At step 0 and without splats: place the first ones, or restore a checkpoint."""
         settings = scene.training
         self.scene = scene
@@ -55,43 +61,72 @@ class Trainer:
         self.objective = Eikonal(scene, settings.objective.residual)
         self.density = make_density(settings)
         self.adam = AdamW(self.field, settings.weight_decay, settings.gradient_clip)
-        self.generator = torch.Generator().manual_seed(settings.seed)
+        self.clock = clock
         self.step = 0
+        self._points: list[Points] = []  # of the steps to come in this block
 
     def place_first_splats(self) -> None:
         """Well spread over the domain."""
         count = self.settings.splats.initial
-        candidates = self.scene.sample(8 * count, self.generator)
+        candidates = self.scene.sample(8 * count, self.generator("splats"))
         self.field.append(pick_spread(self.scene.manifold, candidates, count), self.settings.splats.shape)
 
     def advance(self) -> float:
         """One step: its loss. A loss or gradient that is not finite is a `FloatingPointError`, and nothing moved."""
-        loss, _ = self.objective.loss(self.arrival, self.points(self.settings.points))
-        value = float(loss.detach())
+        if not self._points:
+            self._points = self._block()
+        loss, gradient = self.objective.loss_and_gradient(self.arrival, self._points[0], self.clock)
+        value = float(loss)
         if not math.isfinite(value):
             raise FloatingPointError(f"the loss is {value}")
-        loss.backward()  # type: ignore[no-untyped-call]
-        self.adam.step(self.learning_rate())
-        self.field.clamp_shapes(self.settings.splats.min_singular)
+        with one_thread():
+            self.adam.step(gradient, self.learning_rate(), self.clock)
+            self.field.clamp_shapes(self.settings.splats.min_singular)
+            self.clock.lap("clamp")
+            if (self.step + 1) % BLOCK == 0:
+                self.field.project_centers()
+        del self._points[0]
         self.step += 1
         change = self.density.update(self.step, self.field, self.propose)
         if change:
             self.adam.follow(change)
+            self.clock.lap("density control")
         return value
 
-    def points(self, count: int) -> Tensor:
+    def _block(self) -> list[Points]:
+        """What the steps of this block that are still to come learn from; the same wherever in it one begins."""
+        begun = self.step % BLOCK
+        with one_thread():
+            x, kept = self._sample(BLOCK * self.settings.points, self.generator("points", self.step - begun))
+            counts = kept.view(BLOCK, -1).sum(1).tolist()
+            self.clock.lap("sampling")
+            points = self.objective.at(self.arrival, x[kept])
+        self.clock.lap("geometry of the points")
+        return points.split(counts)[begun:]
+
+    def points(self, count: int, purpose: Purpose) -> Tensor:
         """Fresh points of the domain, uniform in volume, without those near the goal: (at most `count`, D)."""
-        x = self.scene.sample(count, self.generator)
+        x, kept = self._sample(count, self.generator(purpose, self.step))
+        return x[kept]
+
+    def _sample(self, count: int, generator: torch.Generator) -> tuple[Tensor, Tensor]:
+        """Points (count, D) and which are far enough from the goal, (count)."""
+        x = self.scene.sample(count, generator)
         far = self.scene.manifold.distance(x, self.scene.goal) > self.settings.goal_exclusion
         if not far.any():
             raise UserError(f"no point of the domain is farther than {self.settings.goal_exclusion:g} from the goal")
-        return x[far]
+        return x, far
+
+    def generator(self, purpose: Purpose, step: int = 0) -> torch.Generator:
+        """The random numbers of this training for one purpose at one step."""
+        entropy = (self.settings.seed, step, PURPOSES.index(purpose))
+        state = np.random.SeedSequence(entropy).generate_state(1, np.uint64)
+        return torch.Generator().manual_seed(int(state[0]))
 
     def propose(self, count: int) -> Tensor:
         """Centres for new splats where the residual is largest, not closer to each other than half a shape: (k, D)."""
-        x = self.points(POOL)
-        with torch.no_grad():
-            residual = self.objective.loss(self.arrival, x)[1]
+        x = self.points(POOL, "splats")
+        residual = self.objective.loss(self.arrival, x)[1]
         return pick_apart(self.scene.manifold, x, residual, count, self.settings.splats.shape / 2)
 
     def learning_rate(self) -> float:
@@ -101,33 +136,37 @@ class Trainer:
             return first
         return final + (first - final) * (1 + math.cos(math.pi * self.step / self.settings.steps)) / 2
 
-    @torch.no_grad()
     def final_loss(self) -> float:
         """The mean residual at many fresh points."""
-        x = self.points(FINAL_POINTS)
+        x = self.points(FINAL_POINTS, "final loss")
         return float(torch.cat([self.objective.loss(self.arrival, part)[1] for part in torch.split(x, POOL)]).mean())
 
     def arrays(self, seconds: float) -> Arrays:
         """Everything that changes, as plain arrays: active rows only."""
         buffers = {**self.field.buffers_of_splats(), **self.adam.buffers_of_splats()}
         arrays: Arrays = {name: rows[: self.field.count].numpy() for name, rows in buffers.items()}
-        generator = self.generator.get_state().numpy()
-        return {**arrays, "generator": generator, "step": np.array(self.step), "seconds": np.array(seconds)}
+        return {**arrays, "step": np.array(self.step), "seconds": np.array(seconds)}
 
     def restore(self, arrays: Arrays, folder: RunFolder) -> None:
         """Go back to what `arrays` gave."""
         buffers = {**self.field.buffers_of_splats(), **self.adam.buffers_of_splats()}
         self.field.count = fill_rows(buffers, arrays, folder.checkpoint)
-        self.generator.set_state(torch.from_numpy(arrays["generator"]))
         self.step = int(arrays["step"])
+        self._points = []
 
 
-def train(scene: Scene, folder: RunFolder, resume: bool = False, progress: Progress = lambda metric: None) -> Outcome:
+def train(
+    scene: Scene,
+    folder: RunFolder,
+    resume: bool = False,
+    progress: Progress = lambda metric: None,
+    clock: Clock = NO_CLOCK,
+) -> Outcome:
     """Train a scene's field into a run folder that `create` has made; `resume` goes on from its checkpoint.
 
     Ctrl-C ends the training after the step it is in, with a checkpoint; `progress` is called after every step.
     """
-    trainer, before = Trainer(scene), 0.0
+    trainer, before = Trainer(scene, clock), 0.0
     if resume:
         arrays = folder.restore()
         trainer.restore(arrays, folder)
@@ -143,6 +182,8 @@ def train(scene: Scene, folder: RunFolder, resume: bool = False, progress: Progr
             metric = Metric(trainer.step, loss, trainer.field.count, round(time.perf_counter() - start, 3))
             _keep(trainer, folder, metric)
             progress(metric)
+            clock.lap("logging")
+            clock.step()
     seconds = time.perf_counter() - start
     folder.save(trainer.arrays(seconds))
     return Outcome(trainer.step, trainer.field.count, _finish(trainer, folder, seconds))

@@ -126,7 +126,7 @@ class _Form:
         if self.alone:
             self.half_square = shape.times_square(dot(graph, rows, rows))
         else:
-            self.z.append(tuple(graph.mul(shape.a, r) for r in rows))
+            self.z.append(tuple(graph.mul(shape.signed_a, r) for r in rows))
         self.log_dets.append(graph.mul(graph.constant(radial.power), shape.log_a))
         self.factors += [shape.a] * radial.power
         if shape.on_cut is not None:
@@ -226,12 +226,16 @@ class _Profile:
         return dot(self.graph, self.image(x), x)
 
     def of_folded(self, c: Node) -> None:
-        """a = A(|c|): the sign of a changes z, not its length."""
+        """a = sign(c) A(|c|); its sign changes what it adds to z, not the length of that."""
         graph = self.graph
         w = self.named("w", graph.function("abs", c))
         eta, eta_slope = self.near(graph.sub(self.number(1), w), False)
         over_A = graph.sub(w, graph.mul(graph.sub(self.number(1), self.square(w)), eta))
         self.declare(w, graph.div(self.number(1), over_A), eta, eta_slope, None)
+        a = self.a.arguments[0]
+        negative = graph.node("less", c, self.number(0))
+        self.signed_a = graph.declared(graph.select(negative, graph.neg(a), a), self.log_a)
+        graph.slopes[self.signed_a] = (self.signed_a,)
 
     def of_sphere(self, quarter_c: Node, u: Node) -> None:
         """u = w^2 = (1 + c) / 2."""
@@ -299,6 +303,7 @@ class _Profile:
         graph.slopes[self.log_a] = (graph.sub(eta, over_w) if over_w else eta,)
         self.a = graph.declared(a, self.log_a)
         graph.slopes[self.a] = (self.a,)
+        self.signed_a = self.a
         self.a_squared = graph.declared(self.named("a_squared", self.square(a)), self.log_a)
         graph.slopes[self.a_squared] = (graph.mul(self.number(2), self.a_squared),)
 
