@@ -11,7 +11,7 @@ import random
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -264,7 +264,13 @@ def _meant(project: Function | None, names: Sequence[str], inputs: Sequence[Sequ
     """The same inputs with their points on the manifold."""
     if project is None:
         return inputs
-    return [x if name == "v" else run(project, x)[0] for name, x in zip(names, inputs, strict=True)]
+    return [x if name == "v" else _projected(project, tuple(x)) for name, x in zip(names, inputs, strict=True)]
+
+
+@lru_cache(maxsize=1024)
+def _projected(project: Function, x: tuple[Any, ...]) -> Sequence[Any]:
+    """A point on the manifold; asked for again wherever only the other input of a row was shaken."""
+    return run(project, x)[0]
 
 
 def grain(x: Sequence[Any], whole: Sequence[slice]) -> list[Any]:

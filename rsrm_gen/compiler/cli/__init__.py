@@ -9,6 +9,8 @@ Commands import what takes long when they run: a command that finds nothing to d
 
 from __future__ import annotations
 
+import atexit
+import gc
 import sys
 from pathlib import Path
 
@@ -20,6 +22,8 @@ __all__ = ["main"]
 
 def main() -> None:
     """The entry point. Exits with 0, with 1 when a check failed, with 2 for a user's mistake, which is printed."""
+    gc.disable()  # a second of looking for cycles among what torch and sympy import, in a process of a few
+    atexit.register(gc.freeze)  # and again at the end
     try:
         if _nothing_to_do(sys.argv[1:]):
             sys.exit(0)
@@ -31,6 +35,8 @@ def main() -> None:
         sys.exit(2)
     except KeyboardInterrupt:
         sys.exit(130)
+    finally:
+        gc.enable()
 
 
 def _nothing_to_do(arguments: list[str]) -> bool:

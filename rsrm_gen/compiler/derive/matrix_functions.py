@@ -20,6 +20,7 @@ class MatrixFunction(sp.Function):  # type: ignore[misc]
     """MatrixFunction(k, m, i, A..., E1..., ..., Em...): the packed entry i of D^m f(A)[E1, ..., Em], f the k-th of `NAMES`."""
 
     is_real = True
+    HEAD, INDEX = 3, 2  # how many arguments come before the matrices, and which of them is i
 
     @classmethod
     def entry(cls, word: str, index: int, matrix: Sequence[sp.Expr]) -> sp.Expr:
@@ -66,9 +67,13 @@ class MatrixFunction(sp.Function):  # type: ignore[misc]
 
     def value(self, packed: Sequence[Any]) -> Any:
         """Its value from those of the entries of all matrices, in the working precision of mpmath."""
+        return self.values(packed)[self.index]
+
+    def values(self, packed: Sequence[Any]) -> Packed:
+        """The same of all entries of the value."""
         size = len(packed) // (self.order + 1)
         matrix, *directions = (tuple(packed[k : k + size]) for k in range(0, len(packed), size))
-        return derivative(self.name_of_function, matrix, tuple(directions))[self.index]
+        return derivative(self.name_of_function, matrix, tuple(directions))
 
     def _eval_evalf(self, prec: int) -> sp.Expr:
         return _evaluated(self, self.args[3:], prec)
@@ -82,10 +87,15 @@ class Eigenvalue(sp.Function):  # type: ignore[misc]
     """Eigenvalue(n, i, A...): the i-th eigenvalue of an n x n matrix, ascending. It has no derivative where two meet."""
 
     is_real = True
+    HEAD, INDEX = 2, 1  # how many arguments come before the matrix, and which of them is i
 
     def value(self, packed: Packed) -> Any:
         """Its value from those of the entries of A, in the working precision of mpmath."""
-        return eigenvalues(tuple(packed))[int(self.args[1])]
+        return self.values(packed)[int(self.args[1])]
+
+    def values(self, packed: Packed) -> Packed:
+        """The same of all eigenvalues."""
+        return eigenvalues(tuple(packed))
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
         """Refused: eigenvalues are only compared."""

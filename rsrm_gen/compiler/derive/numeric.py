@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -20,7 +20,7 @@ PRECISION = libmp.dps_to_prec(DIGITS)
 TINY = mp.mpf(10) ** -40  # what counts as zero among numbers of size 1 with so many digits
 HALF = sp.Rational(1, 2)
 
-Values = dict[sp.Symbol, Any]
+Values = Mapping[sp.Symbol, Any]
 
 ELEMENTARY = {
     sp.exp: "exp", sp.log: "log", sp.sin: "sin", sp.cos: "cos", sp.tan: "tan", sp.sinh: "sinh", sp.cosh: "cosh",
@@ -45,8 +45,24 @@ def run(function: Function, *arguments: Sequence[Any], eps: float = 2.0**-52) ->
     tape, symbols, results = tape_of(function)
     flat = [x for declared, given in zip(function.arguments, arguments, strict=True) for x in _entries(declared, given)]
     slots = tape.run([raw(eps), *map(raw, flat)], PRECISION)
-    values = {symbol: number(slots[slot]) for symbol, slot in symbols.items()}
-    return [number(slots[slot]) for slot in results], values
+    return [number(slots[slot]) for slot in results], _InSlots(symbols, slots)
+
+
+class _InSlots(Mapping[sp.Symbol, Any]):
+    """The values of symbols, as mpmath's numbers when they are asked for: most are not."""
+
+    def __init__(self, symbols: Mapping[sp.Symbol, int], slots: Sequence[Any]) -> None:
+        self.symbols = symbols
+        self.slots = slots
+
+    def __getitem__(self, symbol: sp.Symbol) -> Any:
+        return number(self.slots[self.symbols[symbol]])
+
+    def __iter__(self) -> Iterator[sp.Symbol]:
+        return iter(self.symbols)
+
+    def __len__(self) -> int:
+        return len(self.symbols)
 
 
 def _entries(declared: Any, given: Sequence[Any]) -> Sequence[Any]:
@@ -116,11 +132,12 @@ class Writer:
         return tape.write(ELEMENTARY[expression.func], *arguments)
 
     def of_matrix(self, expression: Any) -> int:
-        """A quantity of a symmetric matrix, of all of whose entries it is a function."""
-        head = 3 if isinstance(expression, MatrixFunction) else 2
+        """An entry of a function of symmetric matrices, or an eigenvalue: all are computed at once."""
+        head, index = expression.HEAD, expression.args[expression.INDEX]
         entries = [self.slot(e) for e in expression.args[head:]]
-        name = f"{expression.func.__name__}{expression.args[:head]}"
-        return self.tape.write(name, *entries, function=lambda *values: expression.value(values))
+        name = f"{expression.func.__name__}{[expression.args[i] for i in range(head) if i != expression.INDEX]}"
+        several = self.tape.write(name, *entries, function=lambda *values: expression.values(values))
+        return self.tape.pick(several, int(index))
 
     def power(self, base: int, exponent: sp.Expr) -> int:
         tape = self.tape

@@ -1,43 +1,43 @@
 """Straight-line programs of real numbers: written once, run often, in any precision.
 
 Formulas are evaluated thousands of times in 60 digits while they are derived and audited. A tape holds them as a list of
-operations on numbered slots, each written once; it runs on mpmath's raw numbers, or on arrays of doubles.
+operations on numbered slots, each written once; it runs on gmpy2's real numbers, or on arrays of doubles.
 An operation without a real value gives NaN, and what is computed from it does too.
 """
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable, Sequence
+from contextlib import nullcontext
+from dataclasses import dataclass
 from functools import reduce
 from typing import Any
 
+import gmpy2
 import mpmath as mp
 import numpy as np
 import sympy as sp
-from mpmath import libmp
 
-from rsrm_gen.compiler.derive import magnitudes
+from rsrm_gen.compiler.derive import reals
+from rsrm_gen.compiler.derive.reals import NAN, Raw, Real, from_mpmath, in_precision, to_mpmath
 
-Raw = Any  # mpmath's (sign, mantissa, exponent, bits); a truth value for a comparison
-
-NEAREST = "n"
 REFUSED = (ZeroDivisionError, ValueError, TypeError, OverflowError)  # what mpmath raises where there is no real value
 
-# Each of (arguments..., precision, rounding), or of (arguments...) for a comparison.
-UNARY: dict[str, Callable[..., Raw]] = {
-    "neg": libmp.mpf_neg, "sqrt": libmp.mpf_sqrt, "root": libmp.mpf_sqrt, "exp": magnitudes.exp, "log": libmp.mpf_log,
-    "sin": magnitudes.sin, "cos": magnitudes.cos, "tan": magnitudes.tan, "sinh": magnitudes.sinh, "cosh": magnitudes.cosh,
-    "tanh": magnitudes.tanh, "asinh": libmp.mpf_asinh, "acosh": libmp.mpf_acosh, "acos": libmp.mpf_acos,
-    "atanh": libmp.mpf_atanh, "abs": libmp.mpf_abs, "round": libmp.mpf_nint,
+UNARY: dict[str, Callable[[Real], Real]] = {
+    "neg": operator.neg, "sqrt": gmpy2.sqrt, "root": gmpy2.sqrt, "exp": gmpy2.exp, "log": gmpy2.log,
+    "sin": reals.sin, "cos": reals.cos, "tan": reals.tan, "sinh": gmpy2.sinh, "cosh": gmpy2.cosh,
+    "tanh": gmpy2.tanh, "asinh": gmpy2.asinh, "acosh": gmpy2.acosh, "acos": gmpy2.acos,
+    "atanh": gmpy2.atanh, "abs": operator.abs, "round": gmpy2.rint,
 }  # fmt: skip
-BINARY: dict[str, Callable[..., Raw]] = {
-    "add": libmp.mpf_add, "sub": libmp.mpf_sub, "mul": libmp.mpf_mul, "div": libmp.mpf_div, "atan2": libmp.mpf_atan2,
-    "power": libmp.mpf_pow,
+BINARY: dict[str, Callable[[Real, Real], Any]] = {
+    "add": operator.add, "sub": operator.sub, "mul": operator.mul, "div": reals.divide, "atan2": reals.atan2,
+    "power": reals.power, "less": operator.lt, "less_equal": operator.le, "equal": operator.eq,
 }  # fmt: skip
-COMPARISONS: dict[str, Callable[..., bool]] = {
-    "less": libmp.mpf_lt,
-    "less_equal": libmp.mpf_le,
-    "equal": libmp.mpf_eq,
+MANY: dict[str, Callable[..., Real]] = {
+    "sum": reals.sum_of,
+    "product": reals.product_of,
+    "polynomial": reals.polynomial,
 }
 
 IN_DOUBLE: dict[str, Callable[..., Any]] = {
@@ -52,27 +52,7 @@ IN_DOUBLE: dict[str, Callable[..., Any]] = {
 }  # fmt: skip
 
 
-def _sum(precision: int, *terms: Raw) -> Raw:
-    return libmp.mpf_sum(list(terms), precision, NEAREST)
-
-
-def _product(precision: int, *factors: Raw) -> Raw:
-    total = factors[0]
-    for factor in factors[1:]:
-        total = libmp.mpf_mul(total, factor, precision, NEAREST)
-    return total
-
-
-def _polynomial(precision: int, x: Raw, *coefficients: Raw) -> Raw:
-    total = coefficients[-1]
-    for c in coefficients[-2::-1]:
-        total = libmp.mpf_add(libmp.mpf_mul(total, x, precision, NEAREST), c, precision, NEAREST)
-    return total
-
-
-MANY: dict[str, Callable[..., Raw]] = {"sum": _sum, "product": _product, "polynomial": _polynomial}
-
-Instruction = tuple[int, Callable[..., Raw] | None, Any, int, int]  # kind, function, slots of up to three arguments
+Instruction = tuple[int, Callable[..., Any] | None, Any, int, int]  # kind, function, slots of up to three arguments
 
 
 class Tape:
@@ -85,7 +65,7 @@ class Tape:
         self.functions: dict[str, Callable[..., Any]] = {}  # of mpmath's numbers: operations not in the tables here
         self.known: dict[Any, int] = {}
         self.instructions: list[Instruction] = []
-        self.constants_at: dict[int, list[Raw]] = {}
+        self.constants_at: dict[int, list[Real]] = {}
 
     def constant(self, number: Any) -> int:
         """The slot of an exact number: sympy's or mpmath's."""
@@ -111,45 +91,50 @@ class Tape:
         self.instructions.append(instruction)
         self.size += 1
 
-    def run(self, inputs: Sequence[Raw], precision: int) -> list[Raw]:
+    def pick(self, several: int, index: int) -> int:
+        """The slot of one of the numbers that a function has."""
+        return self.write(f"number {index}", several, function=_Pick(index))
+
+    def run(self, inputs: Sequence[Raw], precision: int) -> list[Real]:
         """All slots, for raw inputs, with a binary precision."""
-        slots = list(inputs)
+        with in_precision(max(precision, reals.widest(inputs))):
+            slots = [from_mpmath(x) for x in inputs]
         append = slots.append
-        exact = self.rounded(precision)
-        for kind, function, i, j, k in self.instructions:
-            try:
-                if kind == 2:
-                    append(function(slots[i], slots[j], precision, NEAREST))  # type: ignore[misc]
-                elif kind == 1:
-                    append(function(slots[i], precision, NEAREST))  # type: ignore[misc]
-                elif kind == 4:
-                    append(exact[i])
-                elif kind == 3:
-                    append(slots[j] if slots[i] else slots[k])
-                elif kind == 5:
-                    append(function(slots[i], slots[j]))  # type: ignore[misc]
-                else:
-                    append(function(precision, *[slots[a] for a in i]))  # type: ignore[misc]
-            except REFUSED:
-                append(libmp.fnan)
+        with in_precision(precision), mp.workprec(precision) if self.functions else nullcontext():
+            exact = self.rounded(precision)
+            for kind, function, i, j, k in self.instructions:
+                try:
+                    if kind == 2:
+                        append(function(slots[i], slots[j]))  # type: ignore[misc]
+                    elif kind == 1:
+                        append(function(slots[i]))  # type: ignore[misc]
+                    elif kind == 4:
+                        append(exact[i])
+                    elif kind == 3:
+                        append(slots[j] if slots[i] else slots[k])
+                    else:
+                        append(function(*[slots[a] for a in i]))  # type: ignore[misc]
+                except REFUSED:
+                    append(NAN)
         return slots
 
-    def rounded(self, precision: int) -> list[Raw]:
-        """The constants in a precision."""
+    def rounded(self, precision: int) -> list[Real]:
+        """The constants in the precision, which is that in force."""
         known = self.constants_at.setdefault(precision, [])
-        known += [_raw_constant(c, precision) for c in self.constants[len(known) :]]
+        known += [from_mpmath(_raw_constant(c, precision)) for c in self.constants[len(known) :]]
         return known
 
     def run_in_double(self, inputs: Sequence[Any]) -> list[Any]:
         """All slots, for arrays of doubles of one shape, rounded like the emitted code rounds."""
         slots = list(inputs)
-        with np.errstate(all="ignore"):
+        with in_precision(100), np.errstate(all="ignore"):
+            exact = self.rounded(100)
             for operation, arguments in self.operations:
                 if operation == "constant":
-                    slots.append(libmp.to_float(self.rounded(100)[arguments[0]]))
+                    slots.append(float(exact[arguments[0]]))
                 else:
                     function = IN_DOUBLE.get(operation) or _each(self.functions[operation])
-                    slots.append(function(*(slots[a] for a in arguments)))
+                    slots.append(_as_doubles(function(*(slots[a] for a in arguments))))
         return slots
 
 
@@ -160,47 +145,67 @@ def _instruction(operation: str, slots: tuple[int, ...], function: Callable[...,
         return 2, BINARY[operation], slots[0], slots[1], 0
     if operation == "select":
         return 3, None, slots[0], slots[1], slots[2]
-    if operation in COMPARISONS:
-        return 5, COMPARISONS[operation], slots[0], slots[1], 0
     if operation in MANY:
-        return 6, MANY[operation], slots, 0, 0
+        return 5, MANY[operation], slots, 0, 0
     assert function is not None, operation
-    return 6, _wrapped(function), slots, 0, 0
+    if isinstance(function, _Pick):
+        return 1, function.of_mpmath, slots[0], 0, 0
+    return 5, _wrapped(function), slots, 0, 0
 
 
-def _wrapped(function: Callable[..., Any]) -> Callable[..., Raw]:
-    """A function of mpmath's numbers as one of raw numbers; several numbers, of or from a function, are a list."""
+@dataclass(frozen=True)
+class _Pick:
+    """Takes one of several numbers."""
 
-    def raw_function(precision: int, *arguments: Raw) -> Raw:
-        with mp.workprec(precision):
-            result = function(*(tuple(a) if isinstance(a, list) else number(a) for a in arguments))
-            return list(result) if isinstance(result, tuple) else raw(result)
+    index: int
 
-    return raw_function
+    def __call__(self, numbers: Sequence[Any]) -> Any:
+        return numbers[self.index]
+
+    def of_mpmath(self, numbers: Sequence[Any]) -> Real:
+        """It as a real number; of a slot that has no several numbers this raises `TypeError`."""
+        return from_mpmath(numbers[self.index]._mpf_)
+
+
+def _wrapped(function: Callable[..., Any]) -> Callable[..., Any]:
+    """A function of mpmath's numbers as one of real ones; several numbers, of or from a function, stay mpmath's."""
+
+    def real_function(*arguments: Any) -> Any:
+        result = function(*map(number, arguments))
+        return result if isinstance(result, tuple) else from_mpmath(raw(result))
+
+    return real_function
 
 
 def _each(function: Callable[..., Any]) -> Callable[..., Any]:
-    """A function of mpmath's numbers as one of arrays of doubles."""
+    """A function of mpmath's numbers as one of arrays of doubles; several numbers, of or from it, are a tuple."""
 
-    def value(*numbers: float) -> float:
+    def value(*numbers: Any) -> Any:
         try:
-            return float(function(*map(mp.mpf, numbers)))
+            result = function(*(a if isinstance(a, tuple) else mp.mpf(a) for a in numbers))
+            return result if isinstance(result, tuple) else float(result)
         except REFUSED:
             return float("nan")
 
-    return np.vectorize(value, otypes=[float])
+    return np.vectorize(value, otypes=[object])
+
+
+def _as_doubles(values: Any) -> Any:
+    """Values of a function of one number as doubles; where it has several, they stay tuples."""
+    return values if values.dtype != object or isinstance(values.flat[0], tuple) else values.astype(float)
 
 
 def _raw_constant(exact: Any, precision: int) -> Raw:
     with mp.workprec(precision):
-        return mp.mpf(exact._to_mpmath(precision + 10) if isinstance(exact, sp.Basic) else exact)._mpf_
+        return raw(mp.mpf(exact._to_mpmath(precision + 10) if isinstance(exact, sp.Basic) else exact))
 
 
-def number(raw: Raw) -> Any:
-    """A raw number as mpmath's own."""
-    return mp.make_mpf(raw) if isinstance(raw, tuple) else raw
+def number(slot: Any) -> Any:
+    """What is in a slot as a number of mpmath; other things are left as they are."""
+    return to_mpmath(slot) if isinstance(slot, gmpy2.mpfr) else slot
 
 
 def raw(x: Any) -> Raw:
     """A number as a raw one, unrounded where it is mpmath's."""
-    return x._mpf_ if isinstance(x, mp.mpf) else mp.mpf(x)._mpf_
+    found: Raw = (x if isinstance(x, mp.mpf) else mp.mpf(x))._mpf_
+    return found
