@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from rsrm_gen.compiler.lower import Program
+from collections.abc import Sequence
+
+from rsrm_gen.compiler.lower import Routine
 
 CORE = '''
 class _Eigen(NamedTuple):
@@ -272,16 +274,16 @@ _SCALARS["log_sinhc_sqrt"] = _Scalar(
 }
 
 
-def functions(program: Program) -> list[str]:
-    """The names of the functions of matrices that a program takes, in the order of their first use."""
-    nodes = (node for routine in program for node in routine.nodes if node.op == "spectral")
+def functions(routines: Sequence[Routine]) -> list[str]:
+    """The names of the functions of matrices that routines take, in the order of their first use."""
+    nodes = (node for routine in routines for node in routine.nodes if node.op == "spectral")
     return list(dict.fromkeys(node.function[0] for node in nodes))
 
 
-def runtime(program: Program) -> list[str]:
-    """The helpers that a program needs: none where it takes no functions of matrices."""
-    names = functions(program)
-    if not any(node.op == "eigh" for routine in program for node in routine.nodes):
+def runtime(routines: Sequence[Routine]) -> list[str]:
+    """The helpers that routines need: none where they take no functions of matrices."""
+    names = functions(routines)
+    if not any(node.op == "eigh" for routine in routines for node in routine.nodes):
         return []
     table = "_SCALARS: dict[str, _Scalar] = {}"
     return [part.strip("\n") for part in (CORE, table, *(SCALARS[name] for name in names))]
