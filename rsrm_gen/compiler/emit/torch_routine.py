@@ -108,14 +108,18 @@ def _unpacked(parameter: Parameter, used: set[str], names: dict[Node, str], apar
         return []
     targets = [names[node] if is_read else "_" for node, is_read in zip(parameter.nodes, read, strict=True)]
     flat = f"{parameter.name}.flatten(-2)" if len(parameter.shape) == 2 else parameter.name
-    return [listed("", targets, f" = {flat}" if apart else f" = {flat}.unbind(-1)", around="()")]
+    source = flat if apart else f"{flat}.unbind(-1)"
+    line = f"{', '.join(targets)}{',' if len(targets) == 1 else ''} = {source}"
+    if len(line) <= WIDTH - 8:
+        return [line]
+    inner = textwrap.fill(", ".join(targets) + ",", WIDTH - 12)
+    return [f"(\n{textwrap.indent(inner, '    ')}\n) = {source}"]
 
 
-def listed(head: str, texts: list[str], tail: str, around: str = "") -> str:
-    """A tuple of texts in one line where it fits, else one a line, in brackets."""
+def listed(head: str, texts: list[str], tail: str) -> str:
+    """A tuple of texts in one line where it fits, else one a line."""
     line = f"{head}{', '.join(texts)}{',' if len(texts) == 1 else ''}{tail}"
     if len(line) <= WIDTH - 8:
         return line
-    opening, closing = around[:1], around[1:]
     inner = "".join(f"    {text},\n" for text in texts)
-    return f"{head}{opening}\n{inner}{closing}{tail}"
+    return f"{head}\n{inner}{tail}"

@@ -11,7 +11,7 @@ import textwrap
 
 from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.emit.series import Coefficients
-from rsrm_gen.compiler.emit.torch_routine import body, listed
+from rsrm_gen.compiler.emit.torch_routine import WIDTH, body, listed
 from rsrm_gen.compiler.lower import Routine
 from rsrm_gen.compiler.lower.ir import Pairs, Parameter
 
@@ -188,7 +188,12 @@ def _method(geometry: Geometry, routine: Routine, series: dict[Coefficients, str
     ]
     returns, final = _results(geometry, routine, texts)
     content = "\n".join([f'"""{promise}"""', *lines, *final])
-    return f"def {name}(self, {parameters}) -> {returns}:\n{textwrap.indent(content, '    ')}"
+    return f"{_signature(name, parameters, returns)}\n{textwrap.indent(content, '    ')}"
+
+
+def _signature(name: str, parameters: str, returns: str) -> str:
+    line = f"def {name}(self, {parameters}) -> {returns}:"
+    return line if len(line) <= WIDTH - 4 else f"def {name}(\n    self, {parameters}\n) -> {returns}:"
 
 
 def _type(parameter: Parameter) -> str:
