@@ -35,7 +35,8 @@ SPELLING = Spelling(
 def body(routine: Routine, series: dict[Coefficients, str], apart: Collection[str] = ()) -> tuple[list[str], list[str]]:
     """The statements of a routine and the expressions of its results.
 
-    An argument that is one tensor has its entries along the last dimension; those in `apart` are sequences of entries.
+    An argument that is one tensor has its entries along the last dimension; those in `apart` are sequences of entries,
+    in routines that autograd does not see.
     """
     names = _input_names(routine)
     printer = Printer(SPELLING, names, {k: f"_{name}" for k, name in series.items()})
@@ -44,7 +45,7 @@ def body(routine: Routine, series: dict[Coefficients, str], apart: Collection[st
         read = next(names[n] for p in routine.parameters for n in p.nodes if str(n.value) in routine.inputs)
         lines.append(f"eps = torch.full_like({read}, torch.finfo({read}.dtype).eps)")
     for name, node in routine.body:
-        text = _matrix_call(printer, node) if node.op in SEVERAL else printer.definition(node)[0]
+        text = _matrix_call(printer, node, bool(apart)) if node.op in SEVERAL else printer.definition(node)[0]
         lines.append(_assignment(name, text))
         names[node] = name
     return lines, [printer.text(node) for result in routine.results for node in result.nodes]
@@ -69,13 +70,14 @@ def _is_one(parameter: Parameter) -> bool:
     return [str(node.value) for node in parameter.nodes] == [parameter.name]
 
 
-def _matrix_call(printer: Printer, node: Node) -> str:
+def _matrix_call(printer: Printer, node: Node, alone: bool) -> str:
     """The call of a helper for functions of matrices."""
     if node.op == "eigh":
         return f"_eigh({', '.join(printer.text(a) for a in node.arguments)})"
     name = node.function[0]
     directions = ["(" + "".join(f"{printer.text(e)}, " for e in packed).strip() + ")" for packed in node.directions]
-    return f'_spectral("{name}", {", ".join([printer.text(node.arguments[0]), *directions])})'
+    function = "_spectral_alone" if alone else "_spectral"
+    return f'{function}("{name}", {", ".join([printer.text(node.arguments[0]), *directions])})'
 
 
 def _assignment(name: str, text: str) -> str:
