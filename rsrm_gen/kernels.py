@@ -309,10 +309,9 @@ class _Splats(torch.autograd.Function):
         return kernel.forward(*tensors)
 
     @staticmethod
-    @torch.autograd.function.once_differentiable
     def backward(ctx: Any, value_bar: Tensor, gradient_bar: Tensor) -> tuple[Tensor | None, ...]:
         """The derivatives in mu, W and amplitude."""
-        return None, None, *ctx.kernel.vjp(*ctx.saved_tensors, value_bar, gradient_bar)
+        return _derivatives(ctx.kernel, *ctx.saved_tensors, value_bar, gradient_bar)
 
 
 class _Value(torch.autograd.Function):
@@ -326,12 +325,31 @@ class _Value(torch.autograd.Function):
         return kernel.value(*tensors)
 
     @staticmethod
-    @torch.autograd.function.once_differentiable
     def backward(ctx: Any, value_bar: Tensor) -> tuple[Tensor | None, ...]:
         """The derivatives in mu, W and amplitude."""
         x, mu, W, amplitude = ctx.saved_tensors
-        gradient_bar = x.new_zeros(len(x), W.shape[2])
-        return None, None, *ctx.kernel.vjp(x, mu, W, amplitude, value_bar, gradient_bar)
+        return _derivatives(ctx.kernel, x, mu, W, amplitude, value_bar, x.new_zeros(x.shape[0], W.shape[2]))
+
+
+def _derivatives(kernel: SplatKernel, *tensors: Tensor) -> tuple[Tensor | None, ...]:
+    """Of kernel, x, mu, W and amplitude."""
+    if torch.is_grad_enabled():
+        return None, None, *_Backward.apply(kernel, *tensors)  # type: ignore[no-untyped-call]
+    return None, None, *kernel.vjp(*tensors)
+
+
+class _Backward(torch.autograd.Function):
+    """The backward pass where somebody might differentiate it again, which is an error."""
+
+    @staticmethod
+    def forward(ctx: Any, kernel: SplatKernel, *tensors: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives in mu, W and amplitude."""
+        return kernel.vjp(*tensors)
+
+    @staticmethod
+    def backward(ctx: Any, *bars: Tensor) -> Any:
+        """None."""
+        raise RuntimeError("`splats` has first derivatives only; of `splat`, autograd knows all")
 
 
 # Operations: what they take and give, what they do, and what their results look like without doing it.

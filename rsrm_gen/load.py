@@ -85,7 +85,7 @@ def _loaded(folder: Path, content_hash: str, choice: str, in_rows: bool = False)
     if compiler() is None:
         hint = "install one, or name it in CC"
         if choice == "c":
-            raise UserError("C is wanted for sums of splats, but no C compiler found", hint=hint)
+            raise UserError("C is wanted for sums of splats, but there is no C compiler", hint=hint)
         log.warning("no C compiler found: sums of splats run in torch, many times slower; %s", hint)
         return manifold
     from rsrm_gen.kernels import accelerated

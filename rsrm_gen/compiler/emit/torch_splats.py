@@ -48,7 +48,7 @@ def _checked(
 
 
 class _Splats(torch.autograd.Function):
-    """The sums under autograd: the backward pass is one sweep over all pairs; it cannot be differentiated again."""
+    """The sums under autograd: the backward pass is one sweep over all pairs."""
 
     @staticmethod
     def forward(ctx: Any, manifold: Any, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
@@ -59,10 +59,27 @@ class _Splats(torch.autograd.Function):
         return value, gradient
 
     @staticmethod
-    @torch.autograd.function.once_differentiable
     def backward(ctx: Any, value_bar: Tensor, gradient_bar: Tensor) -> tuple[Tensor | None, ...]:
         """The derivatives in mu, W and amplitude."""
-        return None, None, *ctx.manifold._splats_vjp(*ctx.saved_tensors, value_bar, gradient_bar)
+        tensors = *ctx.saved_tensors, value_bar, gradient_bar
+        if torch.is_grad_enabled() and not torch.compiler.is_compiling():
+            return None, None, *_SplatsBackward.apply(ctx.manifold, *tensors)  # type: ignore[no-untyped-call]
+        return None, None, *ctx.manifold._splats_vjp(*tensors)
+
+
+class _SplatsBackward(torch.autograd.Function):
+    """The backward pass where somebody might differentiate it again, which is an error."""
+
+    @staticmethod
+    def forward(ctx: Any, manifold: Any, *tensors: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives in mu, W and amplitude."""
+        by_mu, by_W, by_amplitude = manifold._splats_vjp(*tensors)
+        return by_mu, by_W, by_amplitude
+
+    @staticmethod
+    def backward(ctx: Any, *bars: Tensor) -> Any:
+        """None."""
+        raise RuntimeError("`splats` has first derivatives only; of `splat`, autograd knows all")
 '''
 
 METHODS = '''
