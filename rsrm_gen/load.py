@@ -6,40 +6,59 @@ What takes long to import (torch, the schema of manifold files, the compiler) is
 
 from __future__ import annotations
 
-import sys
+import logging
+import os
 from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rsrm_gen.compiler.output import contents, generator, staleness, write
+from rsrm_gen.errors import UserError
 from rsrm_gen.files import bundled, cache_folder, imported, manifold_file
 from rsrm_gen.manifold import Manifold
 
 if TYPE_CHECKING:
     from rsrm_gen.compiler.spec import Spec
 
+CHOICES = ("auto", "c", "torch")
 
-def load(manifold: str | Path, **parameters: int | float | str) -> Manifold:
+log = logging.getLogger("rsrm_gen")
+
+
+def load(manifold: str | Path, kernels: str | None = None, **parameters: int | float | str) -> Manifold:
     """The torch object of a bundled manifold (by name) or of a manifold file (by path), its parameters overridden.
 
     Taken from the bundled generated code or from the cache where that is what the file gives today; else compiled and
     audited, which takes some seconds. Raises `UserError` for an unknown name, a wrong file or a refused audit.
+
+    `kernels` says what computes sums of splats: "c", "torch", or "auto", which is C for what C can do; left out, what the
+    environment variable RSRM_KERNELS says, or "auto". `Manifold.kernels` tells which it is.
     """
     from rsrm_gen.compiler.spec import read_spec
 
+    choice = _choice(kernels)
     path = manifold_file(manifold)
     spec = read_spec(path, parameters)
-    return _loaded(_generated(spec, path, parameters), spec.content_hash)
+    return _loaded(_generated(spec, path, parameters), spec.content_hash, choice)
 
 
-def load_in_rows(manifold: str | Path, **parameters: int | float | str) -> Manifold:
+def _choice(kernels: str | None) -> str:
+    """What is to compute sums of splats."""
+    chosen, place = (kernels, "kernels") if kernels else (os.environ.get("RSRM_KERNELS") or "auto", "RSRM_KERNELS")
+    if chosen not in CHOICES:
+        raise UserError(f"{place} is `{chosen}`", hint=f"one of {', '.join(CHOICES)}")
+    return chosen
+
+
+def load_in_rows(manifold: str | Path, kernels: str | None = None, **parameters: int | float | str) -> Manifold:
     """The same, and where no derivative of them is asked for, its functions of points run in C: see `rows.py`."""
     from rsrm_gen.compiler.spec import read_spec
 
+    choice = _choice(kernels)
     path = manifold_file(manifold)
     spec = read_spec(path, parameters)
-    return _loaded(_generated(spec, path, parameters), spec.content_hash, in_rows=True)
+    return _loaded(_generated(spec, path, parameters), spec.content_hash, choice, in_rows=True)
 
 
 def _generated(spec: Spec, path: Path, parameters: Mapping[str, int | float | str]) -> Path:
@@ -56,13 +75,18 @@ def _generated(spec: Spec, path: Path, parameters: Mapping[str, int | float | st
 
 
 @lru_cache
-def _loaded(folder: Path, content_hash: str, in_rows: bool = False) -> Manifold:
+def _loaded(folder: Path, content_hash: str, choice: str, in_rows: bool = False) -> Manifold:
     # The hash is in the key of the cache alone: a folder that was generated again is another manifold.
     from rsrm_gen.compiler.native import compiler
 
     manifold: Manifold = imported(folder / f"{folder.name}.py").manifold
+    if choice == "torch":
+        return manifold
     if compiler() is None:
-        print("no C compiler found: sums of splats run in torch, many times slower", file=sys.stderr)
+        hint = "install one, or name it in CC"
+        if choice == "c":
+            raise UserError("C is wanted for sums of splats, but there is no C compiler", hint=hint)
+        log.warning("no C compiler found: sums of splats run in torch, many times slower; %s", hint)
         return manifold
     from rsrm_gen.kernels import accelerated
 
@@ -70,4 +94,4 @@ def _loaded(folder: Path, content_hash: str, in_rows: bool = False) -> Manifold:
         from rsrm_gen.rows import in_rows as by_rows
 
         manifold = by_rows(manifold, folder)
-    return accelerated(manifold, folder)
+    return accelerated(manifold, folder, always=choice == "c")

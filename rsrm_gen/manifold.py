@@ -132,5 +132,40 @@ class Manifold(Protocol):
         ...
 
     def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
-        """The sum of K splats at N points: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T)."""
+        """The sum of K splats at N points and its Riemannian gradient (RSRM eq. 4), differentiable once.
+
+        Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T). Any floating-point dtype; the derivatives
+        are those in mu, W and amplitude. A point that is not finite spoils its own row, and the derivatives, which are
+        sums over all points; a splat that is not finite spoils all rows, and of the derivatives its own.
+        """
         ...
+
+    def splats_value(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> Tensor:
+        """The values of `splats` alone: (N)."""
+        ...
+
+    def splats_rows(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> Tensor:
+        """The derivatives of value_n value_bar_n + <gradient_n, gradient_bar_n> for each point n by itself.
+
+        Shapes: value_bar (N) and gradient_bar (N, T) to (N, K, D + d T + 1): the derivatives in mu, W (row by row) and
+        amplitude of each splat, whose sums over N the backward pass of `splats` gives. Not differentiable.
+        """
+        ...
+
+    def kernels(self, like: Tensor) -> str:
+        """What computes `splats` for tensors like this one: "C, AVX-512, 2 threads", "torch, cuda"."""
+        ...
+
+
+def not_finite(**tensors: Tensor) -> str | None:
+    """The first row that is not finite of the first tensor that has one, by its name; None where all is finite."""
+    for name, tensor in tensors.items():
+        bad = ~tensor.detach().isfinite().flatten(1).all(1) if tensor.dim() > 1 else ~tensor.detach().isfinite()
+        if bool(bad.any()):
+            row = int(bad.flatten().int().argmax())
+            count = int(bad.sum())
+            numbers = ", ".join(f"{c:g}" for c in tensor.detach()[row].flatten()[:8].tolist())
+            return f"{name}[{row}] is not finite: [{numbers}] ({count} of {len(bad)} rows)"
+    return None

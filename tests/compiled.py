@@ -21,6 +21,9 @@ from rsrm_gen.compiler.emit import emit
 from rsrm_gen.compiler.lower import Program, Routine, lower
 from rsrm_gen.compiler.spec import ManifoldSpec, read_spec
 from rsrm_gen.document import parse_document
+from rsrm_gen.files import cache_folder, imported
+from rsrm_gen.kernels import accelerated
+from rsrm_gen.manifold import Manifold
 
 torch.set_num_threads(1)
 
@@ -52,6 +55,18 @@ def program(name: str, **parameters: Any) -> Program:
 @cache
 def files(name: str, **parameters: Any) -> Mapping[str, str]:
     return emit(geometry(name, **parameters), program(name, **parameters))
+
+
+@cache
+def summing(name: str, kernels: str = "c", **parameters: Any) -> Manifold:
+    """A manifold whose sums of splats run in C, always, or in torch; its code is not the committed one, but today's."""
+    texts = files(name, **parameters)
+    folder = cache_folder() / "today" / program(name, **parameters).name
+    folder.mkdir(parents=True, exist_ok=True)
+    for file, text in texts.items():
+        (folder / file).write_text(text, encoding="utf-8")
+    manifold: Manifold = imported(folder / f"{folder.name}.py").manifold
+    return manifold if kernels == "torch" else accelerated(manifold, folder, always=kernels == "c")
 
 
 def torch_module(texts: Mapping[str, str], name: str, folder: Path) -> Any:

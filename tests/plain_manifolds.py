@@ -87,6 +87,12 @@ class Plain:
     def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
         return self._with_gradient(lambda y: self._splat_values(y[:, None], mu, W, amplitude).sum(1), x)
 
+    def splats_value(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> Tensor:
+        return self._splat_values(x[:, None], mu, W, amplitude).sum(1)
+
+    def kernels(self, like: Tensor) -> str:
+        return f"autograd, {like.device.type}"
+
 
 class Euclidean(Plain):
     """R^n."""

@@ -14,7 +14,7 @@ from rsrm_gen.compiler.audit.numbers import Code
 
 EDITS = {
     "the gradient of a splat in torch": ("py", r"gradient1 = df1 - (?=x1)", "gradient1 = df1 + ", "functions torch"),
-    "a mean for a sum": ("py", r"return value\.sum\(-1\), _stack", "return value.mean(-1), _stack", "sums torch"),
+    "a mean for a sum": ("py", r"\.sum\(dim\) for", ".mean(dim) for", "sums torch"),
     "a frame of any length": ("py", r"row = row / self\.norm\(base, row\)\.unsqueeze\(-1\)", "row = 2 * row", "frame torch"),
     "points crowded at the centre": ("py", r"\*\* \(1 / self\.dim\)", "** 1.5", "sample ball"),
     "another diameter": ("py", r"\n    diameter = .*", "\n    diameter = 0.5", "constants"),

@@ -130,7 +130,7 @@ def test_a_metric_that_was_cut_off_does_not_spoil_the_others(tmp_path: Path) -> 
 def test_the_manifolds_file_is_found_again_from_the_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[Path] = []
 
-    def load(name: Path, **parameters: object) -> Manifold:
+    def load(name: Path, kernels: str | None = None, **parameters: object) -> Manifold:
         asked.append(name)
         return Sphere(2)
 

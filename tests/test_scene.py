@@ -153,7 +153,7 @@ def test_a_scene_file_that_is_not_there_is_named_with_its_neighbours(tmp_path: P
 
 
 def test_an_unknown_manifold_is_an_error_in_the_scene_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def load(name: object, **parameters: object) -> Manifold:
+    def load(name: object, kernels: str | None = None, **parameters: object) -> Manifold:
         raise UserError(f"no manifold is called {name}")
 
     monkeypatch.setattr("rsrm_gen.trainer.scene.load", load)
@@ -166,7 +166,7 @@ def test_an_unknown_manifold_is_an_error_in_the_scene_file(tmp_path: Path, monke
 def test_the_manifolds_file_is_found_beside_the_scene(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[tuple[object, dict[str, object]]] = []
 
-    def load(name: object, **parameters: object) -> Manifold:
+    def load(name: object, kernels: str | None = None, **parameters: object) -> Manifold:
         asked.append((name, parameters))
         return Sphere(2)
 

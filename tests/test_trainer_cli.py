@@ -34,7 +34,7 @@ training: {{steps: 20, points: 64, splats: {{initial: 6, add: 0}}}}
 def rsrm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., int]:
     """Runs `rsrm ARGUMENTS` in an empty folder with the plain manifolds; gives its exit code."""
 
-    def load(name: str, **parameters: object) -> Manifold:
+    def load(name: str, kernels: str | None = None, **parameters: object) -> Manifold:
         if name not in PLAIN:
             raise UserError(f"no manifold is called {name}")
         return PLAIN[name]
@@ -72,6 +72,15 @@ def test_a_training_reports_ten_times_and_keeps_its_run_under_runs(rsrm: Rsrm, c
     assert len(re.findall(r"^step \d+/20  loss \d", printed, re.MULTILINE)) == 10
     assert "6 splats (48 numbers)" in printed
     assert RunFolder(Path("runs/scene")).read_summary() is not None
+
+
+def test_a_training_says_what_sums_its_splats(rsrm: Rsrm, capsys: Capture) -> None:
+    assert rsrm("train", "scene.yaml", "--no-picture", "--kernels", "torch", "--steps", "1") == 0
+    assert "kernels: autograd, cpu\n" in capsys.readouterr().out
+    settings = json.loads(Path("runs/scene/settings.json").read_text())
+    assert settings["training"]["kernels"] == "torch"
+    assert rsrm("train", "scene.yaml", "--kernels", "gpu") == 2
+    assert "--kernels gpu: one of auto, c, torch" in capsys.readouterr().err
 
 
 def test_a_plan_says_what_the_path_costs(rsrm: Rsrm, capsys: Capture) -> None:
@@ -126,7 +135,7 @@ MISTAKES = {
     "no scene": (["train"], "which scene?"),
     "no steps": (["train", "scene.yaml", "--steps", "0"], "--steps must be at least 1"),
     "negative seed": (["train", "scene.yaml", "--seed", "-1"], "--seed must be"),
-    "resume with a seed": (["train", "--resume", "run", "--seed", "3"], "only --steps may be given"),
+    "resume with a seed": (["train", "--resume", "run", "--seed", "3"], "only --steps and --kernels may be given"),
     "resume nothing": (["train", "--resume", "nowhere"], "not a run folder"),
     "again": (["train", "scene.yaml", "-o", "run"], "--force"),
     "plan in nothing": (["plan", "nowhere", "--from", "0,0,1"], "not a run folder"),

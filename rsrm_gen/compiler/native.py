@@ -97,6 +97,13 @@ def _processor() -> str:
     return next((line for line in lines if line.startswith(("flags", "Features"))), platform.machine())
 
 
+def vector_unit() -> str:
+    """The vector instructions that code for this machine uses."""
+    flags = _processor().split()
+    names = {"avx512f": "AVX-512", "avx2": "AVX2", "avx": "AVX", "sve": "SVE", "asimd": "NEON", "sse2": "SSE2"}
+    return next((name for flag, name in names.items() if flag in flags), platform.machine())
+
+
 def scratch(library: ctypes.CDLL, name: str, points: int, splats: int, threads: int, dtype: Any) -> Any:
     """The scratch memory that the sums of splats of a manifold's library want."""
     function = getattr(library, f"{name}_splats_work" + ("_f" if dtype == np.float32 else ""))

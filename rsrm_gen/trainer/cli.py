@@ -18,6 +18,7 @@ from rich.table import Table
 import rsrm_gen
 from rsrm_gen.bench.cli import app as bench
 from rsrm_gen.errors import UserError
+from rsrm_gen.load import CHOICES
 from rsrm_gen.trainer.clock import StopWatch, table
 from rsrm_gen.trainer.plan import Paths, plan
 from rsrm_gen.trainer.progress import show_progress
@@ -66,6 +67,7 @@ def _train(
     steps: Annotated[int | None, typer.Option(help="Steps in all, instead of the scene's.")] = None,
     seed: Annotated[int | None, typer.Option(help="Random seed, instead of the scene's.")] = None,
     resume: Annotated[Path | None, typer.Option(metavar="RUN", help="Go on with an interrupted training.")] = None,
+    kernels: Annotated[str | None, typer.Option(help="What sums splats: c, torch or auto.")] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace a training that is already there.")] = False,
     no_picture: Annotated[bool, typer.Option("--no-picture", help="Draw nothing at the end.")] = False,
 ) -> None:
@@ -77,15 +79,16 @@ def _train(
     rsrm train --resume runs/first
     """
     if resume is not None:
-        folder, prepared = _resumed(resume, scene, output, steps, seed)
+        folder, prepared = _resumed(resume, scene, output, steps, seed, kernels)
     elif scene is not None:
-        folder, prepared = _new(scene, output, steps, seed, force)
+        folder, prepared = _new(scene, output, steps, seed, kernels, force)
     else:
         raise UserError("which scene?", hint="rsrm train SCENE, or rsrm train --resume RUN")
     if prepared.training.threads:
         torch.set_num_threads(prepared.training.threads)
     console = Console()
     console.print(f"{prepared.title}: {prepared.manifold.name}, into {folder.path}", highlight=False, markup=False)
+    console.print(f"kernels: {prepared.manifold.kernels(prepared.goal)}", highlight=False, markup=False)
     first = int(folder.restore()["step"]) if resume else 0
     with show_progress(console, first, prepared.training.steps) as progress:
         outcome = train(prepared, folder, resume is not None, progress)
@@ -124,20 +127,29 @@ def _step(
     console.print(table(watch))
 
 
-def _new(path: Path, output: Path | None, steps: int | None, seed: int | None, force: bool) -> tuple[RunFolder, Scene]:
-    scene = _with_options(read_scene(path), steps, seed)
+def _new(
+    path: Path, output: Path | None, steps: int | None, seed: int | None, kernels: str | None, force: bool
+) -> tuple[RunFolder, Scene]:
+    scene = _with_options(read_scene(path), steps, seed, kernels)
     folder = RunFolder(output or Path("runs") / path.stem)
     folder.create(scene, force)
     return folder, scene
 
 
 def _resumed(
-    run: Path, scene: Path | None, output: Path | None, steps: int | None, seed: int | None
+    run: Path,
+    scene: Path | None,
+    output: Path | None,
+    steps: int | None,
+    seed: int | None,
+    kernels: str | None,
 ) -> tuple[RunFolder, Scene]:
     if scene or output or seed is not None:
-        raise UserError("--resume RUN takes its scene, folder and seed from the run", hint="only --steps may be given")
+        raise UserError(
+            "--resume RUN takes its scene, folder and seed from the run", hint="only --steps and --kernels may be given"
+        )
     folder = RunFolder(run)
-    resumed = _with_options(folder.read_scene(), steps, None)
+    resumed = _with_options(folder.read_scene(), steps, None, kernels)
     stored = folder.restore()
     done, splats = int(stored["step"]), len(stored["v"])
     if splats > resumed.training.capacity:
@@ -152,13 +164,16 @@ def _resumed(
     return folder, resumed
 
 
-def _with_options(scene: Scene, steps: int | None, seed: int | None) -> Scene:
+def _with_options(scene: Scene, steps: int | None, seed: int | None, kernels: str | None) -> Scene:
     if steps is not None and steps < 1:
         raise UserError("--steps must be at least 1")
     if seed is not None and not 0 <= seed < 2**63:
         raise UserError("--seed must be at least 0 and less than 2^63")
-    given = {"steps": steps, "seed": seed}
-    return scene.with_training(**{name: value for name, value in given.items() if value is not None})
+    if kernels not in (None, *CHOICES):
+        raise UserError(f"--kernels {kernels}: one of {', '.join(CHOICES)}")
+    given = {"steps": steps, "seed": seed, "kernels": kernels}
+    scene = scene.with_training(**{name: value for name, value in given.items() if value is not None})
+    return scene.with_kernels(scene.training.kernels) if scene.training.kernels else scene
 
 
 def _report(console: Console, folder: RunFolder, scene: Scene, outcome: Outcome) -> None:

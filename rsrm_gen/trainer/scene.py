@@ -103,6 +103,12 @@ class Scene:
         training = Training.model_validate({**self.training.model_dump(), **changes})
         return replace(self, training=training)
 
+    def with_kernels(self, kernels: str) -> Scene:
+        """The same scene, its sums of splats computed by "c", "torch" or, as C can, "auto"."""
+        choice = self.manifold_choice
+        name = Path(self.source.name).parent / choice.spec if choice.is_path else choice.spec
+        return replace(self, manifold=load(name, kernels, **choice.parameters))
+
 
 def read_scene(path: Path, manifold: Manifold | None = None) -> Scene:
     """Read a scene file; `manifold` stands in for the one it names. Every mistake is a `UserError` with its place."""
@@ -115,7 +121,7 @@ def read_scene(path: Path, manifold: Manifold | None = None) -> Scene:
 def _load(document: Document, choice: ManifoldChoice, folder: Path) -> Manifold:
     name: str | Path = folder / choice.spec if choice.is_path else choice.spec
     try:
-        return load(name, **choice.parameters)
+        return load(name, None, **choice.parameters)
     except UserError as error:
         if error.span is not None:  # a mistake inside the manifold's own file: that place is the one to show
             raise

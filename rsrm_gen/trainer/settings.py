@@ -139,6 +139,7 @@ class Training(_Part):
     goal_exclusion: Annotated[Number, Field(ge=0)] = 0.25  # points nearer to the goal are left out; a length
     dtype: Literal["float32", "float64"] = "float32"
     threads: Count | None = None  # of torch; left out: its own choice
+    kernels: Literal["auto", "c", "torch"] | None = None  # what sums splats; left out: RSRM_KERNELS, or what is fastest
     checkpoint_every: Count = 500  # steps
 
     @property

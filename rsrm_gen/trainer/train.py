@@ -21,6 +21,7 @@ import torch
 from torch import Tensor
 
 from rsrm_gen.errors import UserError
+from rsrm_gen.manifold import not_finite
 from rsrm_gen.trainer.clock import NO_CLOCK, Clock
 from rsrm_gen.trainer.density import make_density, pick_apart, pick_spread
 from rsrm_gen.trainer.objective import Eikonal, Points
@@ -78,7 +79,9 @@ class Trainer:
         loss, gradient = self.objective.loss_and_gradient(self.arrival, self._points[0], self.clock)
         value = float(loss)
         if not math.isfinite(value):
-            raise FloatingPointError(f"the loss is {value}")
+            splats = {name: rows[: self.field.count] for name, rows in self.field.buffers_of_splats().items()}
+            culprit = not_finite(points=self._points[0].x, **splats)
+            raise FloatingPointError(f"the loss is {value}" + (f", and {culprit}" if culprit else ""))
         with one_thread():
             self.adam.step(gradient, self.learning_rate(), self.clock)
             self.field.clamp_shapes(self.settings.splats.min_singular)

@@ -7,10 +7,10 @@ import textwrap
 import sympy as sp
 
 from rsrm_gen.compiler.derive import Geometry
-from rsrm_gen.compiler.emit import torch_matrix
-from rsrm_gen.compiler.emit.expression import SUM, Printer, Spelling
+from rsrm_gen.compiler.emit import torch_matrix, torch_splats
 from rsrm_gen.compiler.emit.promises import promise, public
 from rsrm_gen.compiler.emit.series import Coefficients, described, in_double, in_single, spelled, tables
+from rsrm_gen.compiler.emit.torch_routine import WIDTH, body, listed
 from rsrm_gen.compiler.emit.torch_runtime import (
     FRAME,
     HELPERS,
@@ -19,42 +19,21 @@ from rsrm_gen.compiler.emit.torch_runtime import (
     SAMPLE_FORMULA,
     SAMPLE_NONE,
     SAMPLE_WHOLE,
-    SPLATS,
     TRANSPORT_NONE,
 )
-from rsrm_gen.compiler.lower import Node, Parameter, Program, Routine
-from rsrm_gen.compiler.lower.ir import SEVERAL
+from rsrm_gen.compiler.lower import Program, Routine
 from rsrm_gen.compiler.spec import ManifoldSpec, ProductSpec
-
-WIDTH = 120
-
-SPELLING = Spelling(
-    function={
-        "sqrt": "torch.sqrt({})", "root": "_root({})", "exp": "torch.exp({})", "log": "torch.log({})", "sin": "torch.sin({})",
-        "cos": "torch.cos({})", "tan": "torch.tan({})", "sinh": "torch.sinh({})", "cosh": "torch.cosh({})",
-        "tanh": "torch.tanh({})", "asinh": "torch.asinh({})", "acosh": "torch.acosh({})", "acos": "torch.acos({})",
-        "atanh": "torch.atanh({})", "atan2": "torch.atan2({}, {})", "abs": "torch.abs({})", "round": "torch.round({})",
-    },
-    select="torch.where({condition}, {x}, {y})",
-    pick="_pick({condition}, {x}, {y}, {like})",
-    polynomial="_polynomial({x}, {coefficients})",
-    entry="{whole}[..., {index}]",
-    eigenvalue="{whole}.values[..., {index}]",
-    eps="eps",
-    suffix="",
-    compare_binds=SUM,
-)  # fmt: skip
 
 
 def module(geometry: Geometry, program: Program, heading: list[str]) -> str:
     """The text of the module."""
-    program = public(program)  # the adjoint of the splat is autograd's here
-    series = tables(program)
+    program = public(program)  # sums have the adjoint of a pair; that of a single splat is autograd's
+    series = tables([*program, *program.pairs])
     fixed = [textwrap.indent(text.strip("\n"), "    ") for text in _fixed(geometry)]
-    matrices = torch_matrix.runtime(program)
-    imports = ["import math", "from collections.abc import Callable, Sequence"]
+    matrices = torch_matrix.runtime([*program, *program.pairs])
+    imports = ["import math", "from collections.abc import Callable, Sequence", "from typing import Any"]
     if matrices:
-        imports = ["import itertools", *imports, "from typing import Any, NamedTuple"]
+        imports = ["import itertools", *imports[:-1], "from typing import Any, NamedTuple"]
     top = [
         f'"""{_python_text(heading)}\n"""',
         "from __future__ import annotations\n\n"
@@ -62,11 +41,17 @@ def module(geometry: Geometry, program: Program, heading: list[str]) -> str:
         + "\n\nimport torch\nfrom torch import Generator, Tensor",
         *(_table(name, coefficients) for coefficients, name in series.items()),
     ]
-    methods = [_class_head(geometry, program), *(_method(geometry, routine, series) for routine in program), *fixed]
+    methods = [
+        _class_head(geometry, program),
+        *(_method(geometry, routine, series) for routine in program),
+        *fixed,
+        *torch_splats.methods(geometry, program.pairs, series),
+    ]
     parts = [
         "\n\n".join(top),
         HELPERS.strip("\n"),
         *matrices,
+        torch_splats.HELPERS.strip("\n"),
         "\n\n".join(methods),
         f"manifold = {class_name(program)}()",
     ]
@@ -77,7 +62,7 @@ def _fixed(geometry: Geometry) -> list[str]:
     """The methods that are text."""
     spec = geometry.spec
     frame = FRAME.format(dim=spec.dim, size=spec.point_size, tangent=spec.tangent_size)
-    return [SPLATS, *([] if "transport" in geometry else [TRANSPORT_NONE]), frame, _sample(geometry), SAMPLE_BALL]
+    return [*([] if "transport" in geometry else [TRANSPORT_NONE]), frame, _sample(geometry), SAMPLE_BALL]
 
 
 def _python_text(lines: list[str]) -> str:
@@ -144,7 +129,7 @@ def _float(value: sp.Expr | None) -> str:
 
 def _method(geometry: Geometry, routine: Routine, series: dict[Coefficients, str]) -> str:
     """One routine as a method."""
-    lines, texts = _body(routine, series)
+    lines, texts = body(routine, series)
     if len(routine.results) > 1:
         return textwrap.indent("\n\n".join(_public_and_private(geometry, routine, lines, texts)), "    ")
     names = ", ".join(p.name for p in routine.parameters)
@@ -152,7 +137,7 @@ def _method(geometry: Geometry, routine: Routine, series: dict[Coefficients, str
     for i, node in enumerate(routine.results[0].nodes):
         if node.is_constant or (i == 0 and unread):
             texts[i] = f"_rows({texts[i]}, {names})"
-    final = _listed("return _stack((", texts, "))") if routine.results[0].shape else f"return {texts[0]}"
+    final = listed("return _stack((", texts, "))") if routine.results[0].shape else f"return {texts[0]}"
     name = "_sample" if routine.name == "sample" else routine.name  # the public one draws the random numbers
     return textwrap.indent(_definition(name, routine, "Tensor", _docstring(geometry, routine), [*lines, final]), "    ")
 
@@ -161,7 +146,7 @@ def _public_and_private(geometry: Geometry, routine: Routine, lines: list[str], 
     """A splat has a private form that returns its entries, to be summed before they are stacked."""
     call = f"value, *gradient = self._{routine.name}({', '.join(p.name for p in routine.parameters)})"
     public = [call, "return value, _stack(gradient)"]
-    private = [*lines, _listed("return (", texts, ")")]
+    private = [*lines, listed("return (", texts, ")")]
     explained = '"""The value and the entries of the gradient, not stacked."""'
     return (
         _definition(routine.name, routine, "tuple[Tensor, Tensor]", _docstring(geometry, routine), public),
@@ -189,72 +174,6 @@ def _documented(routine: Routine) -> str:
 
 def _shape(shape: tuple[int, ...]) -> str:
     return "(..." + "".join(f", {n}" for n in shape) + ")"
-
-
-def _body(routine: Routine, series: dict[Coefficients, str]) -> tuple[list[str], list[str]]:
-    """The statements of a routine and the expressions of its results."""
-    names = {node: str(node.value) for p in routine.parameters for node in p.nodes}
-    printer = Printer(SPELLING, names, {k: f"_{name}" for k, name in series.items()})
-    lines = [line for p in routine.parameters for line in _unpacked(p, routine.inputs)]
-    if routine.reads_eps:
-        read = next(str(n.value) for p in routine.parameters for n in p.nodes if str(n.value) in routine.inputs)
-        lines.append(f"eps = torch.full_like({read}, torch.finfo({read}.dtype).eps)")
-    for name, node in routine.body:
-        text = _matrix_call(printer, node) if node.op in SEVERAL else printer.definition(node)[0]
-        lines.append(_assignment(name, text))
-        names[node] = name
-    return lines, [printer.text(node) for result in routine.results for node in result.nodes]
-
-
-def _matrix_call(printer: Printer, node: Node) -> str:
-    """The call of a helper for functions of matrices."""
-    if node.op == "eigh":
-        return f"_eigh({', '.join(printer.text(a) for a in node.arguments)})"
-    name = node.function[0]
-    directions = ["(" + "".join(f"{printer.text(e)}, " for e in packed).strip() + ")" for packed in node.directions]
-    return f'_spectral("{name}", {", ".join([printer.text(node.arguments[0]), *directions])})'
-
-
-def _assignment(name: str, text: str) -> str:
-    """A statement; a long one with what stands in its brackets on lines of its own."""
-    line = f"{name} = {text}"
-    if len(line) <= WIDTH - 8:
-        return line
-    head, inner = _call(text)
-    lines = textwrap.wrap(inner, WIDTH - 12, break_long_words=False, break_on_hyphens=False)
-    body = textwrap.indent("\n".join(lines), "    ")
-    return f"{name} = {head}(\n{body}\n)"
-
-
-def _call(text: str) -> tuple[str, str]:
-    """A call as what is called and its arguments; any other expression as nothing called and itself."""
-    head, _, rest = text.partition("(")
-    depth = 1
-    for at, character in enumerate(rest):
-        depth += {"(": 1, ")": -1}.get(character, 0)
-        if depth == 0:
-            is_call = at == len(rest) - 1 and head.replace(".", "").isidentifier()
-            return (head, rest[:-1]) if is_call else ("", text)
-    return "", text
-
-
-def _unpacked(parameter: Parameter, used: set[str]) -> list[str]:
-    """The entries of an argument as scalars (in truth: tensors of the leading shape)."""
-    names = [str(node.value) for node in parameter.nodes]
-    if not parameter.shape or not used.intersection(names):
-        return []
-    targets = ", ".join(name if name in used else "_" for name in names) + ("," if len(names) == 1 else "")
-    flat = f"{parameter.name}.flatten(-2)" if len(parameter.shape) == 2 else parameter.name
-    return [f"{targets} = {flat}.unbind(-1)"]
-
-
-def _listed(head: str, texts: list[str], tail: str) -> str:
-    """A tuple of texts in one line where it fits, else one a line."""
-    line = f"{head}{', '.join(texts)}{',' if len(texts) == 1 else ''}{tail}"
-    if len(line) <= WIDTH - 8:
-        return line
-    inner = "".join(f"    {text},\n" for text in texts)
-    return f"{head}\n{inner}{tail}"
 
 
 def _start(geometry: Geometry) -> str:

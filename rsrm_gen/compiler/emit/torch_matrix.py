@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from rsrm_gen.compiler.lower import Program
+from collections.abc import Sequence
+
+from rsrm_gen.compiler.lower import Routine
 
 CORE = '''
 class _Eigen(NamedTuple):
@@ -94,12 +96,23 @@ def _rotate(a: Tensor, v: Tensor, p: int, q: int) -> None:
 
 def _spectral(name: str, eigen: _Eigen, *directions: Sequence[Tensor | float]) -> Tensor:
     """D^m f(A)[E1, ..., Em], packed; f(A) without directions."""
+    result: Tensor = _Spectral.apply(name, *_alike(eigen, directions))  # type: ignore[no-untyped-call]
+    return result
+
+
+def _spectral_alone(name: str, eigen: _Eigen, *directions: Sequence[Tensor | float]) -> Tensor:
+    """The same without autograd."""
+    values, vectors, _, *stacked = _alike(eigen, directions)
+    return _derivative(name, values, vectors, stacked)
+
+
+def _alike(eigen: _Eigen, directions: Sequence[Sequence[Tensor | float]]) -> list[Tensor]:
+    """Eigenvalues, eigenvectors, the matrix and the directions, packed, of the same leading dimensions."""
     stacked = [_pack(entries, eigen.matrix) for entries in directions]
     matrix, *stacked = torch.broadcast_tensors(eigen.matrix, *stacked)
     values = eigen.values.expand(*matrix.shape[:-1], -1)
     vectors = eigen.vectors.expand(*matrix.shape[:-1], -1, -1)
-    result: Tensor = _Spectral.apply(name, values, vectors, matrix, *stacked)  # type: ignore[no-untyped-call]
-    return result
+    return [values, vectors, matrix, *stacked]
 
 
 class _Spectral(torch.autograd.Function):
@@ -157,7 +170,9 @@ def _divided_differences(f: _Scalar, values: Sequence[Tensor], order: int) -> di
     found = {(i,): f.value(x) for i, x in enumerate(values)}
     for degree in range(1, order + 1):
         lower, found = found, {}
-        for indices in itertools.combinations_with_replacement(range(len(values)), degree + 1):
+        for indices in itertools.product(range(len(values)), repeat=degree + 1):
+            if list(indices) != sorted(indices):
+                continue
             points = [values[i] for i in indices]
             gap, middle = points[-1] - points[0], (points[0] + points[-1]) / 2
             if indices[0] == indices[-1]:
@@ -272,16 +287,16 @@ _SCALARS["log_sinhc_sqrt"] = _Scalar(
 }
 
 
-def functions(program: Program) -> list[str]:
-    """The names of the functions of matrices that a program takes, in the order of their first use."""
-    nodes = (node for routine in program for node in routine.nodes if node.op == "spectral")
+def functions(routines: Sequence[Routine]) -> list[str]:
+    """The names of the functions of matrices that routines take, in the order of their first use."""
+    nodes = (node for routine in routines for node in routine.nodes if node.op == "spectral")
     return list(dict.fromkeys(node.function[0] for node in nodes))
 
 
-def runtime(program: Program) -> list[str]:
-    """The helpers that a program needs: none where it takes no functions of matrices."""
-    names = functions(program)
-    if not any(node.op == "eigh" for routine in program for node in routine.nodes):
+def runtime(routines: Sequence[Routine]) -> list[str]:
+    """The helpers that routines need: none where they take no functions of matrices."""
+    names = functions(routines)
+    if not any(node.op == "eigh" for routine in routines for node in routine.nodes):
         return []
     table = "_SCALARS: dict[str, _Scalar] = {}"
     return [part.strip("\n") for part in (CORE, table, *(SCALARS[name] for name in names))]

@@ -53,16 +53,6 @@ def _rejection(
     return torch.cat(kept)[:count]
 '''
 
-SPLATS = '''
-def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
-    """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
-
-    Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T).
-    """
-    value, *gradient = self._splat(x.unsqueeze(-2), mu, W, amplitude)
-    return value.sum(-1), _stack([entry.sum(-1) for entry in gradient])
-'''
-
 FRAME = '''
 def frame(self, p: Tensor) -> Tensor:
     """An orthonormal basis of the tangent space at p, one vector a row; not continuous in p where none is.

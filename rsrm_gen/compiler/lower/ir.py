@@ -210,6 +210,8 @@ class Graph:
 
     def function(self, name: str, *arguments: Node) -> Node:
         """One of `FUNCTIONS`."""
+        if name in ("sqrt", "root") and (arguments[0].is_number(0) or arguments[0].is_number(1)):
+            return arguments[0]
         return self.node(name, *arguments)
 
     def polynomial(self, x: Node, coefficients: tuple[sp.Expr, ...]) -> Node:
@@ -220,6 +222,8 @@ class Graph:
 
     def select(self, condition: Node, x: Node, y: Node) -> Node:
         """x where the condition holds, else y."""
+        if _is_true(condition):
+            return x
         return x if x is y else self.node("select", condition, x, y)
 
     def declared(self, value: Node, *variables: Node) -> Node:
@@ -341,6 +345,20 @@ class Program:
 
     def __iter__(self) -> Iterator[Routine]:
         return iter(self.routines)
+
+
+def _is_true(condition: Node) -> bool:
+    """Whether this says 0 <= c eps: at an exact antipode, as below some rounding."""
+    x, y = condition.arguments
+    return (
+        condition.op == "less_equal"
+        and x.is_number(0)
+        and all(n.op == "eps" or _is_positive(n) for n in reachable([y]))
+    )
+
+
+def _is_positive(node: Node) -> bool:
+    return node.op == "mul" or (node.is_constant and bool(node.value > 0))  # type: ignore[operator]
 
 
 def dot(graph: Graph, x: Iterable[Node], y: Iterable[Node]) -> Node:
