@@ -30,6 +30,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import torch
 from torch import Generator, Tensor
@@ -85,6 +86,72 @@ def _rejection(
         uniform = torch.rand(len(points), generator=generator, dtype=like.dtype, device=like.device)
         kept.append(points[uniform * bound < density])
     return torch.cat(kept)[:count]
+
+
+def _chunks(x: Tensor, splats: int) -> Sequence[Tensor]:
+    """Points by chunks whose pairs with all splats are a bounded number; all at once where a compiler fuses the sums."""
+    if torch.compiler.is_compiling():
+        return (x,)
+    pairs = 2**15 if x.device.type == "cpu" else 2**21  # CPU: what fits in a cache
+    return x.split(max(1, pairs // max(1, splats)))
+
+
+def _sums(entries: Sequence[Tensor], points: int, splats: int, dim: int) -> list[Tensor]:
+    """Entries of pairs, summed over the points (dim 0) or over the splats (dim 1)."""
+    return [entry.expand(points, splats).sum(dim) for entry in entries]
+
+
+def _checked(
+    manifold: Any, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor
+) -> tuple[tuple[Tensor, Tensor, Tensor, Tensor], torch.dtype]:
+    """The four in one precision, single for what is less, and the precision of the results; their shapes must fit."""
+    K, D = len(mu) if mu.dim() else 0, manifold.point_size
+    N = len(x) if x.dim() else 0
+    shapes = {"x": (N, D), "mu": (K, D), "W": (K, manifold.dim, manifold.tangent_size), "amplitude": (K,)}
+    dtype = x.dtype
+    for (name, shape), tensor in zip(shapes.items(), (x, mu, W, amplitude), strict=True):
+        if tensor.shape != shape:
+            raise ValueError(f"{name} has shape {tuple(tensor.shape)}; with {N} points and {K} splats it is {shape}")
+        if not tensor.is_floating_point():
+            raise TypeError(f"{name} is {tensor.dtype}: splats take floating-point numbers")
+        dtype = torch.promote_types(dtype, tensor.dtype)
+    inside = torch.promote_types(dtype, torch.float32)
+    return (x.to(inside), mu.to(inside), W.to(inside), amplitude.to(inside)), dtype
+
+
+class _Splats(torch.autograd.Function):
+    """The sums under autograd: the backward pass is one sweep over all pairs."""
+
+    @staticmethod
+    def forward(ctx: Any, manifold: Any, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """Values and gradients."""
+        ctx.manifold = manifold
+        ctx.save_for_backward(x, mu, W, amplitude)
+        value, gradient = manifold._splats(x, mu, W, amplitude)
+        return value, gradient
+
+    @staticmethod
+    def backward(ctx: Any, value_bar: Tensor, gradient_bar: Tensor) -> tuple[Tensor | None, ...]:
+        """The derivatives in mu, W and amplitude."""
+        tensors = *ctx.saved_tensors, value_bar, gradient_bar
+        if torch.is_grad_enabled() and not torch.compiler.is_compiling():
+            return None, None, *_SplatsBackward.apply(ctx.manifold, *tensors)  # type: ignore[no-untyped-call]
+        return None, None, *ctx.manifold._splats_vjp(*tensors)
+
+
+class _SplatsBackward(torch.autograd.Function):
+    """The backward pass where somebody might differentiate it again, which is an error."""
+
+    @staticmethod
+    def forward(ctx: Any, manifold: Any, *tensors: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives in mu, W and amplitude."""
+        by_mu, by_W, by_amplitude = manifold._splats_vjp(*tensors)
+        return by_mu, by_W, by_amplitude
+
+    @staticmethod
+    def backward(ctx: Any, *bars: Tensor) -> Any:
+        """None."""
+        raise RuntimeError("`splats` has first derivatives only; of `splat`, autograd knows all")
 
 
 class DualArm:
@@ -397,7 +464,10 @@ class DualArm:
         Formula: arm1: wrap(2 * pi * uniform), arm2: wrap(2 * pi * uniform).
         Shapes: normal (..., 14), uniform (..., 14) to (..., 14).
         """
-        uniform0, uniform1, uniform2, uniform3, uniform4, uniform5, uniform6, uniform7, uniform8, uniform9, uniform10, uniform11, uniform12, uniform13 = uniform.unbind(-1)
+        (
+            uniform0, uniform1, uniform2, uniform3, uniform4, uniform5, uniform6, uniform7, uniform8, uniform9,
+            uniform10, uniform11, uniform12, uniform13,
+        ) = uniform.unbind(-1)
         round_2 = torch.round(uniform0)
         p0 = (
             6.283185307179586 * uniform0 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
@@ -483,7 +553,21 @@ class DualArm:
         """The value and the entries of the gradient, not stacked."""
         x0, x1, x2, x3, x4, x5, x6, x7, x8, x9, x10, x11, x12, x13 = x.unbind(-1)
         mu0, mu1, mu2, mu3, mu4, mu5, mu6, mu7, mu8, mu9, mu10, mu11, mu12, mu13 = mu.unbind(-1)
-        W0_0, W0_1, W0_2, W0_3, W0_4, W0_5, W0_6, W0_7, W0_8, W0_9, W0_10, W0_11, W0_12, W0_13, W1_0, W1_1, W1_2, W1_3, W1_4, W1_5, W1_6, W1_7, W1_8, W1_9, W1_10, W1_11, W1_12, W1_13, W2_0, W2_1, W2_2, W2_3, W2_4, W2_5, W2_6, W2_7, W2_8, W2_9, W2_10, W2_11, W2_12, W2_13, W3_0, W3_1, W3_2, W3_3, W3_4, W3_5, W3_6, W3_7, W3_8, W3_9, W3_10, W3_11, W3_12, W3_13, W4_0, W4_1, W4_2, W4_3, W4_4, W4_5, W4_6, W4_7, W4_8, W4_9, W4_10, W4_11, W4_12, W4_13, W5_0, W5_1, W5_2, W5_3, W5_4, W5_5, W5_6, W5_7, W5_8, W5_9, W5_10, W5_11, W5_12, W5_13, W6_0, W6_1, W6_2, W6_3, W6_4, W6_5, W6_6, W6_7, W6_8, W6_9, W6_10, W6_11, W6_12, W6_13, W7_0, W7_1, W7_2, W7_3, W7_4, W7_5, W7_6, W7_7, W7_8, W7_9, W7_10, W7_11, W7_12, W7_13, W8_0, W8_1, W8_2, W8_3, W8_4, W8_5, W8_6, W8_7, W8_8, W8_9, W8_10, W8_11, W8_12, W8_13, W9_0, W9_1, W9_2, W9_3, W9_4, W9_5, W9_6, W9_7, W9_8, W9_9, W9_10, W9_11, W9_12, W9_13, W10_0, W10_1, W10_2, W10_3, W10_4, W10_5, W10_6, W10_7, W10_8, W10_9, W10_10, W10_11, W10_12, W10_13, W11_0, W11_1, W11_2, W11_3, W11_4, W11_5, W11_6, W11_7, W11_8, W11_9, W11_10, W11_11, W11_12, W11_13, W12_0, W12_1, W12_2, W12_3, W12_4, W12_5, W12_6, W12_7, W12_8, W12_9, W12_10, W12_11, W12_12, W12_13, W13_0, W13_1, W13_2, W13_3, W13_4, W13_5, W13_6, W13_7, W13_8, W13_9, W13_10, W13_11, W13_12, W13_13 = W.flatten(-2).unbind(-1)
+        (
+            W0_0, W0_1, W0_2, W0_3, W0_4, W0_5, W0_6, W0_7, W0_8, W0_9, W0_10, W0_11, W0_12, W0_13, W1_0, W1_1, W1_2,
+            W1_3, W1_4, W1_5, W1_6, W1_7, W1_8, W1_9, W1_10, W1_11, W1_12, W1_13, W2_0, W2_1, W2_2, W2_3, W2_4, W2_5,
+            W2_6, W2_7, W2_8, W2_9, W2_10, W2_11, W2_12, W2_13, W3_0, W3_1, W3_2, W3_3, W3_4, W3_5, W3_6, W3_7, W3_8,
+            W3_9, W3_10, W3_11, W3_12, W3_13, W4_0, W4_1, W4_2, W4_3, W4_4, W4_5, W4_6, W4_7, W4_8, W4_9, W4_10, W4_11,
+            W4_12, W4_13, W5_0, W5_1, W5_2, W5_3, W5_4, W5_5, W5_6, W5_7, W5_8, W5_9, W5_10, W5_11, W5_12, W5_13, W6_0,
+            W6_1, W6_2, W6_3, W6_4, W6_5, W6_6, W6_7, W6_8, W6_9, W6_10, W6_11, W6_12, W6_13, W7_0, W7_1, W7_2, W7_3,
+            W7_4, W7_5, W7_6, W7_7, W7_8, W7_9, W7_10, W7_11, W7_12, W7_13, W8_0, W8_1, W8_2, W8_3, W8_4, W8_5, W8_6,
+            W8_7, W8_8, W8_9, W8_10, W8_11, W8_12, W8_13, W9_0, W9_1, W9_2, W9_3, W9_4, W9_5, W9_6, W9_7, W9_8, W9_9,
+            W9_10, W9_11, W9_12, W9_13, W10_0, W10_1, W10_2, W10_3, W10_4, W10_5, W10_6, W10_7, W10_8, W10_9, W10_10,
+            W10_11, W10_12, W10_13, W11_0, W11_1, W11_2, W11_3, W11_4, W11_5, W11_6, W11_7, W11_8, W11_9, W11_10,
+            W11_11, W11_12, W11_13, W12_0, W12_1, W12_2, W12_3, W12_4, W12_5, W12_6, W12_7, W12_8, W12_9, W12_10,
+            W12_11, W12_12, W12_13, W13_0, W13_1, W13_2, W13_3, W13_4, W13_5, W13_6, W13_7, W13_8, W13_9, W13_10,
+            W13_11, W13_12, W13_13,
+        ) = W.flatten(-2).unbind(-1)
         gap = x0 - mu0
         round_2 = torch.round(0.15915494309189535 * gap)
         v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
@@ -659,14 +743,6 @@ class DualArm:
         df13 = phi * by_v13
         return (phi, df0, df1, df2, df3, df4, df5, df6, df7, df8, df9, df10, df11, df12, df13)
 
-    def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
-        """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
-
-        Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T).
-        """
-        value, *gradient = self._splat(x.unsqueeze(-2), mu, W, amplitude)
-        return value.sum(-1), _stack([entry.sum(-1) for entry in gradient])
-
     def frame(self, p: Tensor) -> Tensor:
         """An orthonormal basis of the tangent space at p, one vector a row; not continuous in p where none is.
 
@@ -709,6 +785,1441 @@ class DualArm:
             return points, torch.exp(-self.log_abs_det(center, points))
 
         return _rejection(propose, count, generator, center)
+
+    def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
+
+        Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T).
+        Differentiable once in mu, W and amplitude, with nothing of size N x K kept. Where x requires a gradient too, autograd
+        differentiates the formula of every pair, as often as is wanted, and keeps all of them.
+        """
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        if x.requires_grad and torch.is_grad_enabled():
+            value, *entries = self._splat(tensors[0].unsqueeze(-2), *tensors[1:])
+            value, gradient = value.sum(-1), _stack([entry.sum(-1) for entry in entries])
+        else:
+            value, gradient = _Splats.apply(self, *tensors)  # type: ignore[no-untyped-call]
+        return value.to(dtype), gradient.to(dtype)
+
+    def splats_value(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> Tensor:
+        """The value of `splats` alone: (N), differentiable as there."""
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        if torch.is_grad_enabled() and any(tensor.requires_grad for tensor in tensors):
+            return self.splats(x, mu, W, amplitude)[0]
+        return self._splats_value(*tensors).to(dtype)
+
+    def splats_rows(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> Tensor:
+        """The derivatives of value_bar_n value_n + gradient_bar_n . gradient_n of `splats`, each point's by itself.
+
+        Shapes: as in `splats`, value_bar (N), gradient_bar (N, T) to (N, K, D + d T + 1), the derivatives in mu, W (row by
+        row) and amplitude of every splat; not differentiable. Their sum over N is what the backward pass of `splats` gives.
+        """
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        with torch.no_grad():
+            return self._splats_rows(*tensors, value_bar.to(tensors[0]), gradient_bar.to(tensors[0])).to(dtype)
+
+    def kernels(self, like: Tensor) -> str:
+        """What computes `splats` for tensors like this one."""
+        return f"torch, {like.device.type}"
+
+    def _splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """Values (N) and gradients (N, T)."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        values, gradients = [], []
+        for part in _chunks(x, len(mu)):
+            X = [entry.unsqueeze(-1) for entry in self._point_features(part)]
+            value, *slope = _sums(self._pair(X, S), len(part), len(mu), 1)
+            values.append(value)
+            gradients.append(self._point_gradient(part, slope))
+        return torch.cat(values), torch.cat(gradients)
+
+    def _splats_value(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> Tensor:
+        """Values (N) alone."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        values = []
+        for part in _chunks(x, len(mu)):
+            X = [entry.unsqueeze(-1) for entry in self._point_features(part)]
+            values += _sums(self._pair_value(X, S), len(part), len(mu), 1)
+        return torch.cat(values)
+
+    def _splats_vjp(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu (K, D), W (K, d, T) and amplitude (K)."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        total = torch.zeros((len(S), len(mu)), dtype=x.dtype, device=x.device)
+        parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
+        for part, *bars in zip(*parts, strict=True):
+            total = total + torch.stack(_sums(self._pair_bars(part, S, *bars), len(part), len(mu), 0))
+        return self._splat_constants_vjp(mu, W, amplitude, total.unbind(0))
+
+    def _splats_rows(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> Tensor:
+        """The rows (N, K, D + d T + 1) of the derivatives that `_splats_vjp` sums over N."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
+        rows = []
+        for part, *bars in zip(*parts, strict=True):
+            S_bar = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
+            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, S_bar)
+            rows.append(torch.cat([by_mu, by_W.flatten(-2), by_amplitude.unsqueeze(-1)], -1))
+        return torch.cat(rows)
+
+    def _pair_bars(
+        self, x: Tensor, S: Sequence[Tensor], value_bar: Tensor, gradient_bar: Tensor
+    ) -> tuple[Tensor, ...]:
+        """The derivatives in S of every pair, from those in the sums."""
+        X = [entry.unsqueeze(-1) for entry in self._point_features(x)]
+        slope_bar = [entry.unsqueeze(-1) for entry in self._point_gradient_vjp(x, gradient_bar)]
+        return self._pair_vjp(X, S, value_bar.unsqueeze(-1), slope_bar)
+
+    def _point_features(self, x: Tensor) -> tuple[Tensor, ...]:
+        """X, what the pairs need of a point alone."""
+        x0, x1, x2, x3, x4, x5, x6, x7, x8, x9, x10, x11, x12, x13 = x.unbind(-1)
+        return (x0, x1, x2, x3, x4, x5, x6, x7, x8, x9, x10, x11, x12, x13)
+
+    def _splat_constants(self, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, ...]:
+        """S, what the pairs need of a splat alone."""
+        mu0, mu1, mu2, mu3, mu4, mu5, mu6, mu7, mu8, mu9, mu10, mu11, mu12, mu13 = mu.unbind(-1)
+        (
+            W0_0, W0_1, W0_2, W0_3, W0_4, W0_5, W0_6, W0_7, W0_8, W0_9, W0_10, W0_11, W0_12, W0_13, W1_0, W1_1, W1_2,
+            W1_3, W1_4, W1_5, W1_6, W1_7, W1_8, W1_9, W1_10, W1_11, W1_12, W1_13, W2_0, W2_1, W2_2, W2_3, W2_4, W2_5,
+            W2_6, W2_7, W2_8, W2_9, W2_10, W2_11, W2_12, W2_13, W3_0, W3_1, W3_2, W3_3, W3_4, W3_5, W3_6, W3_7, W3_8,
+            W3_9, W3_10, W3_11, W3_12, W3_13, W4_0, W4_1, W4_2, W4_3, W4_4, W4_5, W4_6, W4_7, W4_8, W4_9, W4_10, W4_11,
+            W4_12, W4_13, W5_0, W5_1, W5_2, W5_3, W5_4, W5_5, W5_6, W5_7, W5_8, W5_9, W5_10, W5_11, W5_12, W5_13, W6_0,
+            W6_1, W6_2, W6_3, W6_4, W6_5, W6_6, W6_7, W6_8, W6_9, W6_10, W6_11, W6_12, W6_13, W7_0, W7_1, W7_2, W7_3,
+            W7_4, W7_5, W7_6, W7_7, W7_8, W7_9, W7_10, W7_11, W7_12, W7_13, W8_0, W8_1, W8_2, W8_3, W8_4, W8_5, W8_6,
+            W8_7, W8_8, W8_9, W8_10, W8_11, W8_12, W8_13, W9_0, W9_1, W9_2, W9_3, W9_4, W9_5, W9_6, W9_7, W9_8, W9_9,
+            W9_10, W9_11, W9_12, W9_13, W10_0, W10_1, W10_2, W10_3, W10_4, W10_5, W10_6, W10_7, W10_8, W10_9, W10_10,
+            W10_11, W10_12, W10_13, W11_0, W11_1, W11_2, W11_3, W11_4, W11_5, W11_6, W11_7, W11_8, W11_9, W11_10,
+            W11_11, W11_12, W11_13, W12_0, W12_1, W12_2, W12_3, W12_4, W12_5, W12_6, W12_7, W12_8, W12_9, W12_10,
+            W12_11, W12_12, W12_13, W13_0, W13_1, W13_2, W13_3, W13_4, W13_5, W13_6, W13_7, W13_8, W13_9, W13_10,
+            W13_11, W13_12, W13_13,
+        ) = W.flatten(-2).unbind(-1)
+        return (
+            mu0,
+            mu1,
+            mu2,
+            mu3,
+            mu4,
+            mu5,
+            mu6,
+            mu7,
+            mu8,
+            mu9,
+            mu10,
+            mu11,
+            mu12,
+            mu13,
+            W0_0,
+            W0_1,
+            W0_2,
+            W0_3,
+            W0_4,
+            W0_5,
+            W0_6,
+            W0_7,
+            W0_8,
+            W0_9,
+            W0_10,
+            W0_11,
+            W0_12,
+            W0_13,
+            W1_0,
+            W1_1,
+            W1_2,
+            W1_3,
+            W1_4,
+            W1_5,
+            W1_6,
+            W1_7,
+            W1_8,
+            W1_9,
+            W1_10,
+            W1_11,
+            W1_12,
+            W1_13,
+            W2_0,
+            W2_1,
+            W2_2,
+            W2_3,
+            W2_4,
+            W2_5,
+            W2_6,
+            W2_7,
+            W2_8,
+            W2_9,
+            W2_10,
+            W2_11,
+            W2_12,
+            W2_13,
+            W3_0,
+            W3_1,
+            W3_2,
+            W3_3,
+            W3_4,
+            W3_5,
+            W3_6,
+            W3_7,
+            W3_8,
+            W3_9,
+            W3_10,
+            W3_11,
+            W3_12,
+            W3_13,
+            W4_0,
+            W4_1,
+            W4_2,
+            W4_3,
+            W4_4,
+            W4_5,
+            W4_6,
+            W4_7,
+            W4_8,
+            W4_9,
+            W4_10,
+            W4_11,
+            W4_12,
+            W4_13,
+            W5_0,
+            W5_1,
+            W5_2,
+            W5_3,
+            W5_4,
+            W5_5,
+            W5_6,
+            W5_7,
+            W5_8,
+            W5_9,
+            W5_10,
+            W5_11,
+            W5_12,
+            W5_13,
+            W6_0,
+            W6_1,
+            W6_2,
+            W6_3,
+            W6_4,
+            W6_5,
+            W6_6,
+            W6_7,
+            W6_8,
+            W6_9,
+            W6_10,
+            W6_11,
+            W6_12,
+            W6_13,
+            W7_0,
+            W7_1,
+            W7_2,
+            W7_3,
+            W7_4,
+            W7_5,
+            W7_6,
+            W7_7,
+            W7_8,
+            W7_9,
+            W7_10,
+            W7_11,
+            W7_12,
+            W7_13,
+            W8_0,
+            W8_1,
+            W8_2,
+            W8_3,
+            W8_4,
+            W8_5,
+            W8_6,
+            W8_7,
+            W8_8,
+            W8_9,
+            W8_10,
+            W8_11,
+            W8_12,
+            W8_13,
+            W9_0,
+            W9_1,
+            W9_2,
+            W9_3,
+            W9_4,
+            W9_5,
+            W9_6,
+            W9_7,
+            W9_8,
+            W9_9,
+            W9_10,
+            W9_11,
+            W9_12,
+            W9_13,
+            W10_0,
+            W10_1,
+            W10_2,
+            W10_3,
+            W10_4,
+            W10_5,
+            W10_6,
+            W10_7,
+            W10_8,
+            W10_9,
+            W10_10,
+            W10_11,
+            W10_12,
+            W10_13,
+            W11_0,
+            W11_1,
+            W11_2,
+            W11_3,
+            W11_4,
+            W11_5,
+            W11_6,
+            W11_7,
+            W11_8,
+            W11_9,
+            W11_10,
+            W11_11,
+            W11_12,
+            W11_13,
+            W12_0,
+            W12_1,
+            W12_2,
+            W12_3,
+            W12_4,
+            W12_5,
+            W12_6,
+            W12_7,
+            W12_8,
+            W12_9,
+            W12_10,
+            W12_11,
+            W12_12,
+            W12_13,
+            W13_0,
+            W13_1,
+            W13_2,
+            W13_3,
+            W13_4,
+            W13_5,
+            W13_6,
+            W13_7,
+            W13_8,
+            W13_9,
+            W13_10,
+            W13_11,
+            W13_12,
+            W13_13,
+            amplitude,
+        )
+
+    def _pair_value(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
+        """The value of a splat at a point."""
+        x0, x1, x2, x3, x4, x5, x6, x7, x8, x9, x10, x11, x12, x13 = X
+        (
+            mu0, mu1, mu2, mu3, mu4, mu5, mu6, mu7, mu8, mu9, mu10, mu11, mu12, mu13, W0_0, W0_1, W0_2, W0_3, W0_4,
+            W0_5, W0_6, W0_7, W0_8, W0_9, W0_10, W0_11, W0_12, W0_13, W1_0, W1_1, W1_2, W1_3, W1_4, W1_5, W1_6, W1_7,
+            W1_8, W1_9, W1_10, W1_11, W1_12, W1_13, W2_0, W2_1, W2_2, W2_3, W2_4, W2_5, W2_6, W2_7, W2_8, W2_9, W2_10,
+            W2_11, W2_12, W2_13, W3_0, W3_1, W3_2, W3_3, W3_4, W3_5, W3_6, W3_7, W3_8, W3_9, W3_10, W3_11, W3_12, W3_13,
+            W4_0, W4_1, W4_2, W4_3, W4_4, W4_5, W4_6, W4_7, W4_8, W4_9, W4_10, W4_11, W4_12, W4_13, W5_0, W5_1, W5_2,
+            W5_3, W5_4, W5_5, W5_6, W5_7, W5_8, W5_9, W5_10, W5_11, W5_12, W5_13, W6_0, W6_1, W6_2, W6_3, W6_4, W6_5,
+            W6_6, W6_7, W6_8, W6_9, W6_10, W6_11, W6_12, W6_13, W7_0, W7_1, W7_2, W7_3, W7_4, W7_5, W7_6, W7_7, W7_8,
+            W7_9, W7_10, W7_11, W7_12, W7_13, W8_0, W8_1, W8_2, W8_3, W8_4, W8_5, W8_6, W8_7, W8_8, W8_9, W8_10, W8_11,
+            W8_12, W8_13, W9_0, W9_1, W9_2, W9_3, W9_4, W9_5, W9_6, W9_7, W9_8, W9_9, W9_10, W9_11, W9_12, W9_13, W10_0,
+            W10_1, W10_2, W10_3, W10_4, W10_5, W10_6, W10_7, W10_8, W10_9, W10_10, W10_11, W10_12, W10_13, W11_0, W11_1,
+            W11_2, W11_3, W11_4, W11_5, W11_6, W11_7, W11_8, W11_9, W11_10, W11_11, W11_12, W11_13, W12_0, W12_1, W12_2,
+            W12_3, W12_4, W12_5, W12_6, W12_7, W12_8, W12_9, W12_10, W12_11, W12_12, W12_13, W13_0, W13_1, W13_2, W13_3,
+            W13_4, W13_5, W13_6, W13_7, W13_8, W13_9, W13_10, W13_11, W13_12, W13_13, amplitude,
+        ) = S
+        gap = x0 - mu0
+        round_2 = torch.round(0.15915494309189535 * gap)
+        v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        gap_2 = x1 - mu1
+        round_3 = torch.round(0.15915494309189535 * gap_2)
+        v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        gap_3 = x2 - mu2
+        round_4 = torch.round(0.15915494309189535 * gap_3)
+        v2 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 * round_4
+        gap_4 = x3 - mu3
+        round_5 = torch.round(0.15915494309189535 * gap_4)
+        v3 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 * round_5
+        gap_5 = x4 - mu4
+        round_6 = torch.round(0.15915494309189535 * gap_5)
+        v4 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 * round_6
+        total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4
+        gap_6 = x5 - mu5
+        round_7 = torch.round(0.15915494309189535 * gap_6)
+        v5 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 * round_7
+        gap_7 = x6 - mu6
+        round_8 = torch.round(0.15915494309189535 * gap_7)
+        v6 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 * round_8
+        gap_8 = x7 - mu7
+        round_9 = torch.round(0.15915494309189535 * gap_8)
+        v7 = gap_8 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 * round_9
+        gap_9 = x8 - mu8
+        round_10 = torch.round(0.15915494309189535 * gap_9)
+        v8 = gap_9 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07 * round_10
+        total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8
+        gap_10 = x9 - mu9
+        round_11 = torch.round(0.15915494309189535 * gap_10)
+        v9 = gap_10 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07 * round_11
+        gap_11 = x10 - mu10
+        round_12 = torch.round(0.15915494309189535 * gap_11)
+        v10 = gap_11 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 - 3.019915981956753e-07 * round_12
+        gap_12 = x11 - mu11
+        round_13 = torch.round(0.15915494309189535 * gap_12)
+        v11 = gap_12 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 - 3.019915981956753e-07 * round_13
+        gap_13 = x12 - mu12
+        round_14 = torch.round(0.15915494309189535 * gap_13)
+        v12 = gap_13 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 - 3.019915981956753e-07 * round_14
+        total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12
+        gap_14 = x13 - mu13
+        round_15 = torch.round(0.15915494309189535 * gap_14)
+        v13 = gap_14 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 - 3.019915981956753e-07 * round_15
+        z0 = total_4 + W0_13 * v13
+        total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4
+        total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8
+        total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12
+        z1 = total_7 + W1_13 * v13
+        total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4
+        total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8
+        total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12
+        z2 = total_10 + W2_13 * v13
+        total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4
+        total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8
+        total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12
+        z3 = total_13 + W3_13 * v13
+        total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4
+        total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8
+        total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12
+        z4 = total_16 + W4_13 * v13
+        total_17 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4
+        total_18 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4
+        total_19 = total_18 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8
+        total_20 = total_19 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12
+        z5 = total_20 + W5_13 * v13
+        total_21 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4
+        total_22 = total_21 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8
+        total_23 = total_22 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12
+        z6 = total_23 + W6_13 * v13
+        total_24 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4
+        total_25 = total_24 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8
+        total_26 = total_25 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12
+        z7 = total_26 + W7_13 * v13
+        total_27 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4
+        total_28 = total_27 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8
+        total_29 = total_28 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12
+        z8 = total_29 + W8_13 * v13
+        total_30 = total_17 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8
+        total_31 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4
+        total_32 = total_31 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8
+        total_33 = total_32 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12
+        z9 = total_33 + W9_13 * v13
+        total_34 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4
+        total_35 = total_34 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8
+        total_36 = total_35 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12
+        z10 = total_36 + W10_13 * v13
+        total_37 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4
+        total_38 = total_37 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8
+        total_39 = total_38 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12
+        z11 = total_39 + W11_13 * v13
+        total_40 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4
+        total_41 = total_40 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8
+        total_42 = total_41 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12
+        z12 = total_42 + W12_13 * v13
+        total_43 = total_30 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12
+        total_44 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4
+        total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8
+        total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12
+        z13 = total_46 + W13_13 * v13
+        exp_2 = torch.exp(-(0.5 * (total_43 + z13 * z13)))
+        phi = amplitude * exp_2
+        return (phi,)
+
+    def _pair(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
+        """The value of a splat at a point, and the slope, its derivatives in X."""
+        x0, x1, x2, x3, x4, x5, x6, x7, x8, x9, x10, x11, x12, x13 = X
+        (
+            mu0, mu1, mu2, mu3, mu4, mu5, mu6, mu7, mu8, mu9, mu10, mu11, mu12, mu13, W0_0, W0_1, W0_2, W0_3, W0_4,
+            W0_5, W0_6, W0_7, W0_8, W0_9, W0_10, W0_11, W0_12, W0_13, W1_0, W1_1, W1_2, W1_3, W1_4, W1_5, W1_6, W1_7,
+            W1_8, W1_9, W1_10, W1_11, W1_12, W1_13, W2_0, W2_1, W2_2, W2_3, W2_4, W2_5, W2_6, W2_7, W2_8, W2_9, W2_10,
+            W2_11, W2_12, W2_13, W3_0, W3_1, W3_2, W3_3, W3_4, W3_5, W3_6, W3_7, W3_8, W3_9, W3_10, W3_11, W3_12, W3_13,
+            W4_0, W4_1, W4_2, W4_3, W4_4, W4_5, W4_6, W4_7, W4_8, W4_9, W4_10, W4_11, W4_12, W4_13, W5_0, W5_1, W5_2,
+            W5_3, W5_4, W5_5, W5_6, W5_7, W5_8, W5_9, W5_10, W5_11, W5_12, W5_13, W6_0, W6_1, W6_2, W6_3, W6_4, W6_5,
+            W6_6, W6_7, W6_8, W6_9, W6_10, W6_11, W6_12, W6_13, W7_0, W7_1, W7_2, W7_3, W7_4, W7_5, W7_6, W7_7, W7_8,
+            W7_9, W7_10, W7_11, W7_12, W7_13, W8_0, W8_1, W8_2, W8_3, W8_4, W8_5, W8_6, W8_7, W8_8, W8_9, W8_10, W8_11,
+            W8_12, W8_13, W9_0, W9_1, W9_2, W9_3, W9_4, W9_5, W9_6, W9_7, W9_8, W9_9, W9_10, W9_11, W9_12, W9_13, W10_0,
+            W10_1, W10_2, W10_3, W10_4, W10_5, W10_6, W10_7, W10_8, W10_9, W10_10, W10_11, W10_12, W10_13, W11_0, W11_1,
+            W11_2, W11_3, W11_4, W11_5, W11_6, W11_7, W11_8, W11_9, W11_10, W11_11, W11_12, W11_13, W12_0, W12_1, W12_2,
+            W12_3, W12_4, W12_5, W12_6, W12_7, W12_8, W12_9, W12_10, W12_11, W12_12, W12_13, W13_0, W13_1, W13_2, W13_3,
+            W13_4, W13_5, W13_6, W13_7, W13_8, W13_9, W13_10, W13_11, W13_12, W13_13, amplitude,
+        ) = S
+        gap = x0 - mu0
+        round_2 = torch.round(0.15915494309189535 * gap)
+        v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        gap_2 = x1 - mu1
+        round_3 = torch.round(0.15915494309189535 * gap_2)
+        v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        gap_3 = x2 - mu2
+        round_4 = torch.round(0.15915494309189535 * gap_3)
+        v2 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 * round_4
+        gap_4 = x3 - mu3
+        round_5 = torch.round(0.15915494309189535 * gap_4)
+        v3 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 * round_5
+        gap_5 = x4 - mu4
+        round_6 = torch.round(0.15915494309189535 * gap_5)
+        v4 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 * round_6
+        total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4
+        gap_6 = x5 - mu5
+        round_7 = torch.round(0.15915494309189535 * gap_6)
+        v5 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 * round_7
+        gap_7 = x6 - mu6
+        round_8 = torch.round(0.15915494309189535 * gap_7)
+        v6 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 * round_8
+        gap_8 = x7 - mu7
+        round_9 = torch.round(0.15915494309189535 * gap_8)
+        v7 = gap_8 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 * round_9
+        gap_9 = x8 - mu8
+        round_10 = torch.round(0.15915494309189535 * gap_9)
+        v8 = gap_9 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07 * round_10
+        total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8
+        gap_10 = x9 - mu9
+        round_11 = torch.round(0.15915494309189535 * gap_10)
+        v9 = gap_10 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07 * round_11
+        gap_11 = x10 - mu10
+        round_12 = torch.round(0.15915494309189535 * gap_11)
+        v10 = gap_11 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 - 3.019915981956753e-07 * round_12
+        gap_12 = x11 - mu11
+        round_13 = torch.round(0.15915494309189535 * gap_12)
+        v11 = gap_12 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 - 3.019915981956753e-07 * round_13
+        gap_13 = x12 - mu12
+        round_14 = torch.round(0.15915494309189535 * gap_13)
+        v12 = gap_13 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 - 3.019915981956753e-07 * round_14
+        total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12
+        gap_14 = x13 - mu13
+        round_15 = torch.round(0.15915494309189535 * gap_14)
+        v13 = gap_14 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 - 3.019915981956753e-07 * round_15
+        z0 = total_4 + W0_13 * v13
+        total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4
+        total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8
+        total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12
+        z1 = total_7 + W1_13 * v13
+        total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4
+        total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8
+        total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12
+        z2 = total_10 + W2_13 * v13
+        total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4
+        total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8
+        total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12
+        z3 = total_13 + W3_13 * v13
+        total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4
+        total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8
+        total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12
+        z4 = total_16 + W4_13 * v13
+        total_17 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4
+        total_18 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4
+        total_19 = total_18 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8
+        total_20 = total_19 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12
+        z5 = total_20 + W5_13 * v13
+        total_21 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4
+        total_22 = total_21 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8
+        total_23 = total_22 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12
+        z6 = total_23 + W6_13 * v13
+        total_24 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4
+        total_25 = total_24 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8
+        total_26 = total_25 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12
+        z7 = total_26 + W7_13 * v13
+        total_27 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4
+        total_28 = total_27 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8
+        total_29 = total_28 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12
+        z8 = total_29 + W8_13 * v13
+        total_30 = total_17 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8
+        total_31 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4
+        total_32 = total_31 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8
+        total_33 = total_32 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12
+        z9 = total_33 + W9_13 * v13
+        total_34 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4
+        total_35 = total_34 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8
+        total_36 = total_35 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12
+        z10 = total_36 + W10_13 * v13
+        total_37 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4
+        total_38 = total_37 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8
+        total_39 = total_38 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12
+        z11 = total_39 + W11_13 * v13
+        total_40 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4
+        total_41 = total_40 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8
+        total_42 = total_41 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12
+        z12 = total_42 + W12_13 * v13
+        total_43 = total_30 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12
+        total_44 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4
+        total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8
+        total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12
+        z13 = total_46 + W13_13 * v13
+        exp_2 = torch.exp(-(0.5 * (total_43 + z13 * z13)))
+        phi = amplitude * exp_2
+        z13_product = z13 * phi
+        z12_product = z12 * phi
+        z11_product = z11 * phi
+        z10_product = z10 * phi
+        gap_15 = -(W13_0 * z13_product) - W12_0 * z12_product - W11_0 * z11_product - W10_0 * z10_product
+        z9_product = z9 * phi
+        z8_product = z8 * phi
+        z7_product = z7 * phi
+        z6_product = z6 * phi
+        gap_16 = gap_15 - W9_0 * z9_product - W8_0 * z8_product - W7_0 * z7_product - W6_0 * z6_product
+        z5_product = z5 * phi
+        z4_product = z4 * phi
+        z3_product = z3 * phi
+        z2_product = z2 * phi
+        gap_17 = gap_16 - W5_0 * z5_product - W4_0 * z4_product - W3_0 * z3_product - W2_0 * z2_product
+        z1_product = z1 * phi
+        z0_product = z0 * phi
+        by_v0 = gap_17 - W1_0 * z1_product - W0_0 * z0_product
+        gap_18 = -(W13_1 * z13_product) - W12_1 * z12_product - W11_1 * z11_product - W10_1 * z10_product
+        gap_19 = gap_18 - W9_1 * z9_product - W8_1 * z8_product - W7_1 * z7_product - W6_1 * z6_product
+        gap_20 = gap_19 - W5_1 * z5_product - W4_1 * z4_product - W3_1 * z3_product - W2_1 * z2_product
+        by_v1 = gap_20 - W1_1 * z1_product - W0_1 * z0_product
+        gap_21 = -(W13_2 * z13_product) - W12_2 * z12_product - W11_2 * z11_product - W10_2 * z10_product
+        gap_22 = gap_21 - W9_2 * z9_product - W8_2 * z8_product - W7_2 * z7_product - W6_2 * z6_product
+        gap_23 = gap_22 - W5_2 * z5_product - W4_2 * z4_product - W3_2 * z3_product - W2_2 * z2_product
+        by_v2 = gap_23 - W1_2 * z1_product - W0_2 * z0_product
+        gap_24 = -(W13_3 * z13_product) - W12_3 * z12_product - W11_3 * z11_product - W10_3 * z10_product
+        gap_25 = gap_24 - W9_3 * z9_product - W8_3 * z8_product - W7_3 * z7_product - W6_3 * z6_product
+        gap_26 = gap_25 - W5_3 * z5_product - W4_3 * z4_product - W3_3 * z3_product - W2_3 * z2_product
+        by_v3 = gap_26 - W1_3 * z1_product - W0_3 * z0_product
+        gap_27 = -(W13_4 * z13_product) - W12_4 * z12_product - W11_4 * z11_product - W10_4 * z10_product
+        gap_28 = gap_27 - W9_4 * z9_product - W8_4 * z8_product - W7_4 * z7_product - W6_4 * z6_product
+        gap_29 = gap_28 - W5_4 * z5_product - W4_4 * z4_product - W3_4 * z3_product - W2_4 * z2_product
+        by_v4 = gap_29 - W1_4 * z1_product - W0_4 * z0_product
+        gap_30 = -(W13_5 * z13_product) - W12_5 * z12_product - W11_5 * z11_product - W10_5 * z10_product
+        gap_31 = gap_30 - W9_5 * z9_product - W8_5 * z8_product - W7_5 * z7_product - W6_5 * z6_product
+        gap_32 = gap_31 - W5_5 * z5_product - W4_5 * z4_product - W3_5 * z3_product - W2_5 * z2_product
+        by_v5 = gap_32 - W1_5 * z1_product - W0_5 * z0_product
+        gap_33 = -(W13_6 * z13_product) - W12_6 * z12_product - W11_6 * z11_product - W10_6 * z10_product
+        gap_34 = gap_33 - W9_6 * z9_product - W8_6 * z8_product - W7_6 * z7_product - W6_6 * z6_product
+        gap_35 = gap_34 - W5_6 * z5_product - W4_6 * z4_product - W3_6 * z3_product - W2_6 * z2_product
+        by_v6 = gap_35 - W1_6 * z1_product - W0_6 * z0_product
+        gap_36 = -(W13_7 * z13_product) - W12_7 * z12_product - W11_7 * z11_product - W10_7 * z10_product
+        gap_37 = gap_36 - W9_7 * z9_product - W8_7 * z8_product - W7_7 * z7_product - W6_7 * z6_product
+        gap_38 = gap_37 - W5_7 * z5_product - W4_7 * z4_product - W3_7 * z3_product - W2_7 * z2_product
+        by_v7 = gap_38 - W1_7 * z1_product - W0_7 * z0_product
+        gap_39 = -(W13_8 * z13_product) - W12_8 * z12_product - W11_8 * z11_product - W10_8 * z10_product
+        gap_40 = gap_39 - W9_8 * z9_product - W8_8 * z8_product - W7_8 * z7_product - W6_8 * z6_product
+        gap_41 = gap_40 - W5_8 * z5_product - W4_8 * z4_product - W3_8 * z3_product - W2_8 * z2_product
+        by_v8 = gap_41 - W1_8 * z1_product - W0_8 * z0_product
+        gap_42 = -(W13_9 * z13_product) - W12_9 * z12_product - W11_9 * z11_product - W10_9 * z10_product
+        gap_43 = gap_42 - W9_9 * z9_product - W8_9 * z8_product - W7_9 * z7_product - W6_9 * z6_product
+        gap_44 = gap_43 - W5_9 * z5_product - W4_9 * z4_product - W3_9 * z3_product - W2_9 * z2_product
+        by_v9 = gap_44 - W1_9 * z1_product - W0_9 * z0_product
+        gap_45 = -(W13_10 * z13_product) - W12_10 * z12_product - W11_10 * z11_product - W10_10 * z10_product
+        gap_46 = gap_45 - W9_10 * z9_product - W8_10 * z8_product - W7_10 * z7_product - W6_10 * z6_product
+        gap_47 = gap_46 - W5_10 * z5_product - W4_10 * z4_product - W3_10 * z3_product - W2_10 * z2_product
+        by_v10 = gap_47 - W1_10 * z1_product - W0_10 * z0_product
+        gap_48 = -(W13_11 * z13_product) - W12_11 * z12_product - W11_11 * z11_product - W10_11 * z10_product
+        gap_49 = gap_48 - W9_11 * z9_product - W8_11 * z8_product - W7_11 * z7_product - W6_11 * z6_product
+        gap_50 = gap_49 - W5_11 * z5_product - W4_11 * z4_product - W3_11 * z3_product - W2_11 * z2_product
+        by_v11 = gap_50 - W1_11 * z1_product - W0_11 * z0_product
+        gap_51 = -(W13_12 * z13_product) - W12_12 * z12_product - W11_12 * z11_product - W10_12 * z10_product
+        gap_52 = gap_51 - W9_12 * z9_product - W8_12 * z8_product - W7_12 * z7_product - W6_12 * z6_product
+        gap_53 = gap_52 - W5_12 * z5_product - W4_12 * z4_product - W3_12 * z3_product - W2_12 * z2_product
+        by_v12 = gap_53 - W1_12 * z1_product - W0_12 * z0_product
+        gap_54 = -(W13_13 * z13_product) - W12_13 * z12_product - W11_13 * z11_product - W10_13 * z10_product
+        gap_55 = gap_54 - W9_13 * z9_product - W8_13 * z8_product - W7_13 * z7_product - W6_13 * z6_product
+        gap_56 = gap_55 - W5_13 * z5_product - W4_13 * z4_product - W3_13 * z3_product - W2_13 * z2_product
+        by_v13 = gap_56 - W1_13 * z1_product - W0_13 * z0_product
+        return (
+            phi,
+            by_v0,
+            by_v1,
+            by_v2,
+            by_v3,
+            by_v4,
+            by_v5,
+            by_v6,
+            by_v7,
+            by_v8,
+            by_v9,
+            by_v10,
+            by_v11,
+            by_v12,
+            by_v13,
+        )
+
+    def _point_gradient(self, x: Tensor, slope: Sequence[Tensor]) -> Tensor:
+        """The Riemannian gradient of a function whose derivatives in X are `slope`."""
+        (
+            slope_x0, slope_x1, slope_x2, slope_x3, slope_x4, slope_x5, slope_x6, slope_x7, slope_x8, slope_x9,
+            slope_x10, slope_x11, slope_x12, slope_x13,
+        ) = slope
+        return _stack((
+            slope_x0,
+            slope_x1,
+            slope_x2,
+            slope_x3,
+            slope_x4,
+            slope_x5,
+            slope_x6,
+            slope_x7,
+            slope_x8,
+            slope_x9,
+            slope_x10,
+            slope_x11,
+            slope_x12,
+            slope_x13,
+        ))
+
+    def _point_gradient_vjp(self, x: Tensor, gradient_bar: Tensor) -> tuple[Tensor, ...]:
+        """The derivatives of gradient . gradient_bar in `slope`."""
+        (
+            gradient_bar0, gradient_bar1, gradient_bar2, gradient_bar3, gradient_bar4, gradient_bar5, gradient_bar6,
+            gradient_bar7, gradient_bar8, gradient_bar9, gradient_bar10, gradient_bar11, gradient_bar12, gradient_bar13,
+        ) = gradient_bar.unbind(-1)
+        return (
+            gradient_bar0,
+            gradient_bar1,
+            gradient_bar2,
+            gradient_bar3,
+            gradient_bar4,
+            gradient_bar5,
+            gradient_bar6,
+            gradient_bar7,
+            gradient_bar8,
+            gradient_bar9,
+            gradient_bar10,
+            gradient_bar11,
+            gradient_bar12,
+            gradient_bar13,
+        )
+
+    def _pair_vjp(
+        self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
+    ) -> tuple[Tensor, ...]:
+        """The derivatives of value value_bar + slope . slope_bar in S."""
+        x0, x1, x2, x3, x4, x5, x6, x7, x8, x9, x10, x11, x12, x13 = X
+        (
+            mu0, mu1, mu2, mu3, mu4, mu5, mu6, mu7, mu8, mu9, mu10, mu11, mu12, mu13, W0_0, W0_1, W0_2, W0_3, W0_4,
+            W0_5, W0_6, W0_7, W0_8, W0_9, W0_10, W0_11, W0_12, W0_13, W1_0, W1_1, W1_2, W1_3, W1_4, W1_5, W1_6, W1_7,
+            W1_8, W1_9, W1_10, W1_11, W1_12, W1_13, W2_0, W2_1, W2_2, W2_3, W2_4, W2_5, W2_6, W2_7, W2_8, W2_9, W2_10,
+            W2_11, W2_12, W2_13, W3_0, W3_1, W3_2, W3_3, W3_4, W3_5, W3_6, W3_7, W3_8, W3_9, W3_10, W3_11, W3_12, W3_13,
+            W4_0, W4_1, W4_2, W4_3, W4_4, W4_5, W4_6, W4_7, W4_8, W4_9, W4_10, W4_11, W4_12, W4_13, W5_0, W5_1, W5_2,
+            W5_3, W5_4, W5_5, W5_6, W5_7, W5_8, W5_9, W5_10, W5_11, W5_12, W5_13, W6_0, W6_1, W6_2, W6_3, W6_4, W6_5,
+            W6_6, W6_7, W6_8, W6_9, W6_10, W6_11, W6_12, W6_13, W7_0, W7_1, W7_2, W7_3, W7_4, W7_5, W7_6, W7_7, W7_8,
+            W7_9, W7_10, W7_11, W7_12, W7_13, W8_0, W8_1, W8_2, W8_3, W8_4, W8_5, W8_6, W8_7, W8_8, W8_9, W8_10, W8_11,
+            W8_12, W8_13, W9_0, W9_1, W9_2, W9_3, W9_4, W9_5, W9_6, W9_7, W9_8, W9_9, W9_10, W9_11, W9_12, W9_13, W10_0,
+            W10_1, W10_2, W10_3, W10_4, W10_5, W10_6, W10_7, W10_8, W10_9, W10_10, W10_11, W10_12, W10_13, W11_0, W11_1,
+            W11_2, W11_3, W11_4, W11_5, W11_6, W11_7, W11_8, W11_9, W11_10, W11_11, W11_12, W11_13, W12_0, W12_1, W12_2,
+            W12_3, W12_4, W12_5, W12_6, W12_7, W12_8, W12_9, W12_10, W12_11, W12_12, W12_13, W13_0, W13_1, W13_2, W13_3,
+            W13_4, W13_5, W13_6, W13_7, W13_8, W13_9, W13_10, W13_11, W13_12, W13_13, amplitude,
+        ) = S
+        (
+            x0_bar, x1_bar, x2_bar, x3_bar, x4_bar, x5_bar, x6_bar, x7_bar, x8_bar, x9_bar, x10_bar, x11_bar, x12_bar,
+            x13_bar,
+        ) = slope_bar
+        gap = x0 - mu0
+        round_2 = torch.round(0.15915494309189535 * gap)
+        v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        gap_2 = x1 - mu1
+        round_3 = torch.round(0.15915494309189535 * gap_2)
+        v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        gap_3 = x2 - mu2
+        round_4 = torch.round(0.15915494309189535 * gap_3)
+        v2 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 * round_4
+        gap_4 = x3 - mu3
+        round_5 = torch.round(0.15915494309189535 * gap_4)
+        v3 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 * round_5
+        gap_5 = x4 - mu4
+        round_6 = torch.round(0.15915494309189535 * gap_5)
+        v4 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 * round_6
+        total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4
+        gap_6 = x5 - mu5
+        round_7 = torch.round(0.15915494309189535 * gap_6)
+        v5 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 * round_7
+        gap_7 = x6 - mu6
+        round_8 = torch.round(0.15915494309189535 * gap_7)
+        v6 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 * round_8
+        gap_8 = x7 - mu7
+        round_9 = torch.round(0.15915494309189535 * gap_8)
+        v7 = gap_8 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 * round_9
+        gap_9 = x8 - mu8
+        round_10 = torch.round(0.15915494309189535 * gap_9)
+        v8 = gap_9 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07 * round_10
+        total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8
+        gap_10 = x9 - mu9
+        round_11 = torch.round(0.15915494309189535 * gap_10)
+        v9 = gap_10 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07 * round_11
+        gap_11 = x10 - mu10
+        round_12 = torch.round(0.15915494309189535 * gap_11)
+        v10 = gap_11 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 - 3.019915981956753e-07 * round_12
+        gap_12 = x11 - mu11
+        round_13 = torch.round(0.15915494309189535 * gap_12)
+        v11 = gap_12 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 - 3.019915981956753e-07 * round_13
+        gap_13 = x12 - mu12
+        round_14 = torch.round(0.15915494309189535 * gap_13)
+        v12 = gap_13 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 - 3.019915981956753e-07 * round_14
+        total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12
+        gap_14 = x13 - mu13
+        round_15 = torch.round(0.15915494309189535 * gap_14)
+        v13 = gap_14 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 - 3.019915981956753e-07 * round_15
+        z0 = total_4 + W0_13 * v13
+        total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4
+        total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8
+        total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12
+        z1 = total_7 + W1_13 * v13
+        total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4
+        total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8
+        total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12
+        z2 = total_10 + W2_13 * v13
+        total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4
+        total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8
+        total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12
+        z3 = total_13 + W3_13 * v13
+        total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4
+        total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8
+        total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12
+        z4 = total_16 + W4_13 * v13
+        total_17 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4
+        total_18 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4
+        total_19 = total_18 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8
+        total_20 = total_19 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12
+        z5 = total_20 + W5_13 * v13
+        total_21 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4
+        total_22 = total_21 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8
+        total_23 = total_22 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12
+        z6 = total_23 + W6_13 * v13
+        total_24 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4
+        total_25 = total_24 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8
+        total_26 = total_25 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12
+        z7 = total_26 + W7_13 * v13
+        total_27 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4
+        total_28 = total_27 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8
+        total_29 = total_28 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12
+        z8 = total_29 + W8_13 * v13
+        total_30 = total_17 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8
+        total_31 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4
+        total_32 = total_31 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8
+        total_33 = total_32 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12
+        z9 = total_33 + W9_13 * v13
+        total_34 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4
+        total_35 = total_34 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8
+        total_36 = total_35 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12
+        z10 = total_36 + W10_13 * v13
+        total_37 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4
+        total_38 = total_37 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8
+        total_39 = total_38 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12
+        z11 = total_39 + W11_13 * v13
+        total_40 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4
+        total_41 = total_40 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8
+        total_42 = total_41 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12
+        z12 = total_42 + W12_13 * v13
+        total_43 = total_30 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12
+        total_44 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4
+        total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8
+        total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12
+        z13 = total_46 + W13_13 * v13
+        exp_2 = torch.exp(-(0.5 * (total_43 + z13 * z13)))
+        phi = amplitude * exp_2
+        gap_15 = -(W13_0 * x0_bar) - W13_1 * x1_bar - W13_2 * x2_bar - W13_3 * x3_bar
+        gap_16 = gap_15 - W13_4 * x4_bar - W13_5 * x5_bar - W13_6 * x6_bar - W13_7 * x7_bar
+        gap_17 = gap_16 - W13_8 * x8_bar - W13_9 * x9_bar - W13_10 * x10_bar - W13_11 * x11_bar
+        gap_18 = gap_17 - W13_12 * x12_bar - W13_13 * x13_bar
+        gap_19 = -(W0_0 * x0_bar) - W0_1 * x1_bar - W0_2 * x2_bar - W0_3 * x3_bar
+        gap_20 = gap_19 - W0_4 * x4_bar - W0_5 * x5_bar - W0_6 * x6_bar - W0_7 * x7_bar
+        gap_21 = gap_20 - W0_8 * x8_bar - W0_9 * x9_bar - W0_10 * x10_bar - W0_11 * x11_bar
+        gap_22 = gap_21 - W0_12 * x12_bar - W0_13 * x13_bar
+        gap_23 = -(W1_0 * x0_bar) - W1_1 * x1_bar - W1_2 * x2_bar - W1_3 * x3_bar
+        gap_24 = gap_23 - W1_4 * x4_bar - W1_5 * x5_bar - W1_6 * x6_bar - W1_7 * x7_bar
+        gap_25 = gap_24 - W1_8 * x8_bar - W1_9 * x9_bar - W1_10 * x10_bar - W1_11 * x11_bar
+        gap_26 = gap_25 - W1_12 * x12_bar - W1_13 * x13_bar
+        gap_27 = -(W2_0 * x0_bar) - W2_1 * x1_bar - W2_2 * x2_bar - W2_3 * x3_bar
+        gap_28 = gap_27 - W2_4 * x4_bar - W2_5 * x5_bar - W2_6 * x6_bar - W2_7 * x7_bar
+        gap_29 = gap_28 - W2_8 * x8_bar - W2_9 * x9_bar - W2_10 * x10_bar - W2_11 * x11_bar
+        gap_30 = gap_29 - W2_12 * x12_bar - W2_13 * x13_bar
+        gap_31 = -(W3_0 * x0_bar) - W3_1 * x1_bar - W3_2 * x2_bar - W3_3 * x3_bar
+        gap_32 = gap_31 - W3_4 * x4_bar - W3_5 * x5_bar - W3_6 * x6_bar - W3_7 * x7_bar
+        gap_33 = gap_32 - W3_8 * x8_bar - W3_9 * x9_bar - W3_10 * x10_bar - W3_11 * x11_bar
+        gap_34 = gap_33 - W3_12 * x12_bar - W3_13 * x13_bar
+        total_47 = value_bar + z0 * gap_22 + z1 * gap_26 + z2 * gap_30 + z3 * gap_34
+        gap_35 = -(W4_0 * x0_bar) - W4_1 * x1_bar - W4_2 * x2_bar - W4_3 * x3_bar
+        gap_36 = gap_35 - W4_4 * x4_bar - W4_5 * x5_bar - W4_6 * x6_bar - W4_7 * x7_bar
+        gap_37 = gap_36 - W4_8 * x8_bar - W4_9 * x9_bar - W4_10 * x10_bar - W4_11 * x11_bar
+        gap_38 = gap_37 - W4_12 * x12_bar - W4_13 * x13_bar
+        gap_39 = -(W5_0 * x0_bar) - W5_1 * x1_bar - W5_2 * x2_bar - W5_3 * x3_bar
+        gap_40 = gap_39 - W5_4 * x4_bar - W5_5 * x5_bar - W5_6 * x6_bar - W5_7 * x7_bar
+        gap_41 = gap_40 - W5_8 * x8_bar - W5_9 * x9_bar - W5_10 * x10_bar - W5_11 * x11_bar
+        gap_42 = gap_41 - W5_12 * x12_bar - W5_13 * x13_bar
+        gap_43 = -(W6_0 * x0_bar) - W6_1 * x1_bar - W6_2 * x2_bar - W6_3 * x3_bar
+        gap_44 = gap_43 - W6_4 * x4_bar - W6_5 * x5_bar - W6_6 * x6_bar - W6_7 * x7_bar
+        gap_45 = gap_44 - W6_8 * x8_bar - W6_9 * x9_bar - W6_10 * x10_bar - W6_11 * x11_bar
+        gap_46 = gap_45 - W6_12 * x12_bar - W6_13 * x13_bar
+        gap_47 = -(W7_0 * x0_bar) - W7_1 * x1_bar - W7_2 * x2_bar - W7_3 * x3_bar
+        gap_48 = gap_47 - W7_4 * x4_bar - W7_5 * x5_bar - W7_6 * x6_bar - W7_7 * x7_bar
+        gap_49 = gap_48 - W7_8 * x8_bar - W7_9 * x9_bar - W7_10 * x10_bar - W7_11 * x11_bar
+        gap_50 = gap_49 - W7_12 * x12_bar - W7_13 * x13_bar
+        total_48 = total_47 + z4 * gap_38 + z5 * gap_42 + z6 * gap_46 + z7 * gap_50
+        gap_51 = -(W8_0 * x0_bar) - W8_1 * x1_bar - W8_2 * x2_bar - W8_3 * x3_bar
+        gap_52 = gap_51 - W8_4 * x4_bar - W8_5 * x5_bar - W8_6 * x6_bar - W8_7 * x7_bar
+        gap_53 = gap_52 - W8_8 * x8_bar - W8_9 * x9_bar - W8_10 * x10_bar - W8_11 * x11_bar
+        gap_54 = gap_53 - W8_12 * x12_bar - W8_13 * x13_bar
+        gap_55 = -(W9_0 * x0_bar) - W9_1 * x1_bar - W9_2 * x2_bar - W9_3 * x3_bar
+        gap_56 = gap_55 - W9_4 * x4_bar - W9_5 * x5_bar - W9_6 * x6_bar - W9_7 * x7_bar
+        gap_57 = gap_56 - W9_8 * x8_bar - W9_9 * x9_bar - W9_10 * x10_bar - W9_11 * x11_bar
+        gap_58 = gap_57 - W9_12 * x12_bar - W9_13 * x13_bar
+        gap_59 = -(W10_0 * x0_bar) - W10_1 * x1_bar - W10_2 * x2_bar - W10_3 * x3_bar
+        gap_60 = gap_59 - W10_4 * x4_bar - W10_5 * x5_bar - W10_6 * x6_bar - W10_7 * x7_bar
+        gap_61 = gap_60 - W10_8 * x8_bar - W10_9 * x9_bar - W10_10 * x10_bar - W10_11 * x11_bar
+        gap_62 = gap_61 - W10_12 * x12_bar - W10_13 * x13_bar
+        gap_63 = -(W11_0 * x0_bar) - W11_1 * x1_bar - W11_2 * x2_bar - W11_3 * x3_bar
+        gap_64 = gap_63 - W11_4 * x4_bar - W11_5 * x5_bar - W11_6 * x6_bar - W11_7 * x7_bar
+        gap_65 = gap_64 - W11_8 * x8_bar - W11_9 * x9_bar - W11_10 * x10_bar - W11_11 * x11_bar
+        gap_66 = gap_65 - W11_12 * x12_bar - W11_13 * x13_bar
+        total_49 = total_48 + z8 * gap_54 + z9 * gap_58 + z10 * gap_62 + z11 * gap_66
+        gap_67 = -(W12_0 * x0_bar) - W12_1 * x1_bar - W12_2 * x2_bar - W12_3 * x3_bar
+        gap_68 = gap_67 - W12_4 * x4_bar - W12_5 * x5_bar - W12_6 * x6_bar - W12_7 * x7_bar
+        gap_69 = gap_68 - W12_8 * x8_bar - W12_9 * x9_bar - W12_10 * x10_bar - W12_11 * x11_bar
+        gap_70 = gap_69 - W12_12 * x12_bar - W12_13 * x13_bar
+        by_phi = total_49 + z12 * gap_70 + z13 * gap_18
+        product = exp_2 * (amplitude * by_phi)
+        by_z13 = phi * gap_18 - z13 * product
+        by_z12 = phi * gap_70 - z12 * product
+        by_z11 = phi * gap_66 - z11 * product
+        by_z10 = phi * gap_62 - z10 * product
+        by_z9 = phi * gap_58 - z9 * product
+        total_50 = W13_0 * by_z13 + W12_0 * by_z12 + W11_0 * by_z11 + W10_0 * by_z10 + W9_0 * by_z9
+        by_z8 = phi * gap_54 - z8 * product
+        by_z7 = phi * gap_50 - z7 * product
+        by_z6 = phi * gap_46 - z6 * product
+        by_z5 = phi * gap_42 - z5 * product
+        total_51 = total_50 + W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5
+        by_z4 = phi * gap_38 - z4 * product
+        by_z3 = phi * gap_34 - z3 * product
+        by_z2 = phi * gap_30 - z2 * product
+        by_z1 = phi * gap_26 - z1 * product
+        total_52 = total_51 + W4_0 * by_z4 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1
+        by_z0 = phi * gap_22 - z0 * product
+        by_v0 = total_52 + W0_0 * by_z0
+        total_53 = W13_1 * by_z13 + W12_1 * by_z12 + W11_1 * by_z11 + W10_1 * by_z10 + W9_1 * by_z9
+        total_54 = total_53 + W8_1 * by_z8 + W7_1 * by_z7 + W6_1 * by_z6 + W5_1 * by_z5
+        total_55 = total_54 + W4_1 * by_z4 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1
+        by_v1 = total_55 + W0_1 * by_z0
+        total_56 = W13_2 * by_z13 + W12_2 * by_z12 + W11_2 * by_z11 + W10_2 * by_z10 + W9_2 * by_z9
+        total_57 = total_56 + W8_2 * by_z8 + W7_2 * by_z7 + W6_2 * by_z6 + W5_2 * by_z5
+        total_58 = total_57 + W4_2 * by_z4 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1
+        by_v2 = total_58 + W0_2 * by_z0
+        total_59 = W13_3 * by_z13 + W12_3 * by_z12 + W11_3 * by_z11 + W10_3 * by_z10 + W9_3 * by_z9
+        total_60 = total_59 + W8_3 * by_z8 + W7_3 * by_z7 + W6_3 * by_z6 + W5_3 * by_z5
+        total_61 = total_60 + W4_3 * by_z4 + W3_3 * by_z3 + W2_3 * by_z2 + W1_3 * by_z1
+        by_v3 = total_61 + W0_3 * by_z0
+        total_62 = W13_4 * by_z13 + W12_4 * by_z12 + W11_4 * by_z11 + W10_4 * by_z10 + W9_4 * by_z9
+        total_63 = total_62 + W8_4 * by_z8 + W7_4 * by_z7 + W6_4 * by_z6 + W5_4 * by_z5
+        total_64 = total_63 + W4_4 * by_z4 + W3_4 * by_z3 + W2_4 * by_z2 + W1_4 * by_z1
+        by_v4 = total_64 + W0_4 * by_z0
+        total_65 = W13_5 * by_z13 + W12_5 * by_z12 + W11_5 * by_z11 + W10_5 * by_z10 + W9_5 * by_z9
+        total_66 = total_65 + W8_5 * by_z8 + W7_5 * by_z7 + W6_5 * by_z6 + W5_5 * by_z5
+        total_67 = total_66 + W4_5 * by_z4 + W3_5 * by_z3 + W2_5 * by_z2 + W1_5 * by_z1
+        by_v5 = total_67 + W0_5 * by_z0
+        total_68 = W13_6 * by_z13 + W12_6 * by_z12 + W11_6 * by_z11 + W10_6 * by_z10 + W9_6 * by_z9
+        total_69 = total_68 + W8_6 * by_z8 + W7_6 * by_z7 + W6_6 * by_z6 + W5_6 * by_z5
+        total_70 = total_69 + W4_6 * by_z4 + W3_6 * by_z3 + W2_6 * by_z2 + W1_6 * by_z1
+        by_v6 = total_70 + W0_6 * by_z0
+        total_71 = W13_7 * by_z13 + W12_7 * by_z12 + W11_7 * by_z11 + W10_7 * by_z10 + W9_7 * by_z9
+        total_72 = total_71 + W8_7 * by_z8 + W7_7 * by_z7 + W6_7 * by_z6 + W5_7 * by_z5
+        total_73 = total_72 + W4_7 * by_z4 + W3_7 * by_z3 + W2_7 * by_z2 + W1_7 * by_z1
+        by_v7 = total_73 + W0_7 * by_z0
+        total_74 = W13_8 * by_z13 + W12_8 * by_z12 + W11_8 * by_z11 + W10_8 * by_z10 + W9_8 * by_z9
+        total_75 = total_74 + W8_8 * by_z8 + W7_8 * by_z7 + W6_8 * by_z6 + W5_8 * by_z5
+        total_76 = total_75 + W4_8 * by_z4 + W3_8 * by_z3 + W2_8 * by_z2 + W1_8 * by_z1
+        by_v8 = total_76 + W0_8 * by_z0
+        total_77 = W13_9 * by_z13 + W12_9 * by_z12 + W11_9 * by_z11 + W10_9 * by_z10 + W9_9 * by_z9
+        total_78 = total_77 + W8_9 * by_z8 + W7_9 * by_z7 + W6_9 * by_z6 + W5_9 * by_z5
+        total_79 = total_78 + W4_9 * by_z4 + W3_9 * by_z3 + W2_9 * by_z2 + W1_9 * by_z1
+        by_v9 = total_79 + W0_9 * by_z0
+        total_80 = W13_10 * by_z13 + W12_10 * by_z12 + W11_10 * by_z11 + W10_10 * by_z10 + W9_10 * by_z9
+        total_81 = total_80 + W8_10 * by_z8 + W7_10 * by_z7 + W6_10 * by_z6 + W5_10 * by_z5
+        total_82 = total_81 + W4_10 * by_z4 + W3_10 * by_z3 + W2_10 * by_z2 + W1_10 * by_z1
+        by_v10 = total_82 + W0_10 * by_z0
+        total_83 = W13_11 * by_z13 + W12_11 * by_z12 + W11_11 * by_z11 + W10_11 * by_z10 + W9_11 * by_z9
+        total_84 = total_83 + W8_11 * by_z8 + W7_11 * by_z7 + W6_11 * by_z6 + W5_11 * by_z5
+        total_85 = total_84 + W4_11 * by_z4 + W3_11 * by_z3 + W2_11 * by_z2 + W1_11 * by_z1
+        by_v11 = total_85 + W0_11 * by_z0
+        total_86 = W13_12 * by_z13 + W12_12 * by_z12 + W11_12 * by_z11 + W10_12 * by_z10 + W9_12 * by_z9
+        total_87 = total_86 + W8_12 * by_z8 + W7_12 * by_z7 + W6_12 * by_z6 + W5_12 * by_z5
+        total_88 = total_87 + W4_12 * by_z4 + W3_12 * by_z3 + W2_12 * by_z2 + W1_12 * by_z1
+        by_v12 = total_88 + W0_12 * by_z0
+        total_89 = W13_13 * by_z13 + W12_13 * by_z12 + W11_13 * by_z11 + W10_13 * by_z10 + W9_13 * by_z9
+        total_90 = total_89 + W8_13 * by_z8 + W7_13 * by_z7 + W6_13 * by_z6 + W5_13 * by_z5
+        total_91 = total_90 + W4_13 * by_z4 + W3_13 * by_z3 + W2_13 * by_z2 + W1_13 * by_z1
+        by_v13 = total_91 + W0_13 * by_z0
+        z0_product = z0 * phi
+        z1_product = z1 * phi
+        z2_product = z2 * phi
+        z3_product = z3 * phi
+        z4_product = z4 * phi
+        z5_product = z5 * phi
+        z6_product = z6 * phi
+        z7_product = z7 * phi
+        z8_product = z8 * phi
+        z9_product = z9 * phi
+        z10_product = z10 * phi
+        z11_product = z11 * phi
+        z12_product = z12 * phi
+        z13_product = z13 * phi
+        return (
+            -by_v0,
+            -by_v1,
+            -by_v2,
+            -by_v3,
+            -by_v4,
+            -by_v5,
+            -by_v6,
+            -by_v7,
+            -by_v8,
+            -by_v9,
+            -by_v10,
+            -by_v11,
+            -by_v12,
+            -by_v13,
+            v0 * by_z0 - z0_product * x0_bar,
+            v1 * by_z0 - z0_product * x1_bar,
+            v2 * by_z0 - z0_product * x2_bar,
+            v3 * by_z0 - z0_product * x3_bar,
+            v4 * by_z0 - z0_product * x4_bar,
+            v5 * by_z0 - z0_product * x5_bar,
+            v6 * by_z0 - z0_product * x6_bar,
+            v7 * by_z0 - z0_product * x7_bar,
+            v8 * by_z0 - z0_product * x8_bar,
+            v9 * by_z0 - z0_product * x9_bar,
+            v10 * by_z0 - z0_product * x10_bar,
+            v11 * by_z0 - z0_product * x11_bar,
+            v12 * by_z0 - z0_product * x12_bar,
+            v13 * by_z0 - z0_product * x13_bar,
+            v0 * by_z1 - z1_product * x0_bar,
+            v1 * by_z1 - z1_product * x1_bar,
+            v2 * by_z1 - z1_product * x2_bar,
+            v3 * by_z1 - z1_product * x3_bar,
+            v4 * by_z1 - z1_product * x4_bar,
+            v5 * by_z1 - z1_product * x5_bar,
+            v6 * by_z1 - z1_product * x6_bar,
+            v7 * by_z1 - z1_product * x7_bar,
+            v8 * by_z1 - z1_product * x8_bar,
+            v9 * by_z1 - z1_product * x9_bar,
+            v10 * by_z1 - z1_product * x10_bar,
+            v11 * by_z1 - z1_product * x11_bar,
+            v12 * by_z1 - z1_product * x12_bar,
+            v13 * by_z1 - z1_product * x13_bar,
+            v0 * by_z2 - z2_product * x0_bar,
+            v1 * by_z2 - z2_product * x1_bar,
+            v2 * by_z2 - z2_product * x2_bar,
+            v3 * by_z2 - z2_product * x3_bar,
+            v4 * by_z2 - z2_product * x4_bar,
+            v5 * by_z2 - z2_product * x5_bar,
+            v6 * by_z2 - z2_product * x6_bar,
+            v7 * by_z2 - z2_product * x7_bar,
+            v8 * by_z2 - z2_product * x8_bar,
+            v9 * by_z2 - z2_product * x9_bar,
+            v10 * by_z2 - z2_product * x10_bar,
+            v11 * by_z2 - z2_product * x11_bar,
+            v12 * by_z2 - z2_product * x12_bar,
+            v13 * by_z2 - z2_product * x13_bar,
+            v0 * by_z3 - z3_product * x0_bar,
+            v1 * by_z3 - z3_product * x1_bar,
+            v2 * by_z3 - z3_product * x2_bar,
+            v3 * by_z3 - z3_product * x3_bar,
+            v4 * by_z3 - z3_product * x4_bar,
+            v5 * by_z3 - z3_product * x5_bar,
+            v6 * by_z3 - z3_product * x6_bar,
+            v7 * by_z3 - z3_product * x7_bar,
+            v8 * by_z3 - z3_product * x8_bar,
+            v9 * by_z3 - z3_product * x9_bar,
+            v10 * by_z3 - z3_product * x10_bar,
+            v11 * by_z3 - z3_product * x11_bar,
+            v12 * by_z3 - z3_product * x12_bar,
+            v13 * by_z3 - z3_product * x13_bar,
+            v0 * by_z4 - z4_product * x0_bar,
+            v1 * by_z4 - z4_product * x1_bar,
+            v2 * by_z4 - z4_product * x2_bar,
+            v3 * by_z4 - z4_product * x3_bar,
+            v4 * by_z4 - z4_product * x4_bar,
+            v5 * by_z4 - z4_product * x5_bar,
+            v6 * by_z4 - z4_product * x6_bar,
+            v7 * by_z4 - z4_product * x7_bar,
+            v8 * by_z4 - z4_product * x8_bar,
+            v9 * by_z4 - z4_product * x9_bar,
+            v10 * by_z4 - z4_product * x10_bar,
+            v11 * by_z4 - z4_product * x11_bar,
+            v12 * by_z4 - z4_product * x12_bar,
+            v13 * by_z4 - z4_product * x13_bar,
+            v0 * by_z5 - z5_product * x0_bar,
+            v1 * by_z5 - z5_product * x1_bar,
+            v2 * by_z5 - z5_product * x2_bar,
+            v3 * by_z5 - z5_product * x3_bar,
+            v4 * by_z5 - z5_product * x4_bar,
+            v5 * by_z5 - z5_product * x5_bar,
+            v6 * by_z5 - z5_product * x6_bar,
+            v7 * by_z5 - z5_product * x7_bar,
+            v8 * by_z5 - z5_product * x8_bar,
+            v9 * by_z5 - z5_product * x9_bar,
+            v10 * by_z5 - z5_product * x10_bar,
+            v11 * by_z5 - z5_product * x11_bar,
+            v12 * by_z5 - z5_product * x12_bar,
+            v13 * by_z5 - z5_product * x13_bar,
+            v0 * by_z6 - z6_product * x0_bar,
+            v1 * by_z6 - z6_product * x1_bar,
+            v2 * by_z6 - z6_product * x2_bar,
+            v3 * by_z6 - z6_product * x3_bar,
+            v4 * by_z6 - z6_product * x4_bar,
+            v5 * by_z6 - z6_product * x5_bar,
+            v6 * by_z6 - z6_product * x6_bar,
+            v7 * by_z6 - z6_product * x7_bar,
+            v8 * by_z6 - z6_product * x8_bar,
+            v9 * by_z6 - z6_product * x9_bar,
+            v10 * by_z6 - z6_product * x10_bar,
+            v11 * by_z6 - z6_product * x11_bar,
+            v12 * by_z6 - z6_product * x12_bar,
+            v13 * by_z6 - z6_product * x13_bar,
+            v0 * by_z7 - z7_product * x0_bar,
+            v1 * by_z7 - z7_product * x1_bar,
+            v2 * by_z7 - z7_product * x2_bar,
+            v3 * by_z7 - z7_product * x3_bar,
+            v4 * by_z7 - z7_product * x4_bar,
+            v5 * by_z7 - z7_product * x5_bar,
+            v6 * by_z7 - z7_product * x6_bar,
+            v7 * by_z7 - z7_product * x7_bar,
+            v8 * by_z7 - z7_product * x8_bar,
+            v9 * by_z7 - z7_product * x9_bar,
+            v10 * by_z7 - z7_product * x10_bar,
+            v11 * by_z7 - z7_product * x11_bar,
+            v12 * by_z7 - z7_product * x12_bar,
+            v13 * by_z7 - z7_product * x13_bar,
+            v0 * by_z8 - z8_product * x0_bar,
+            v1 * by_z8 - z8_product * x1_bar,
+            v2 * by_z8 - z8_product * x2_bar,
+            v3 * by_z8 - z8_product * x3_bar,
+            v4 * by_z8 - z8_product * x4_bar,
+            v5 * by_z8 - z8_product * x5_bar,
+            v6 * by_z8 - z8_product * x6_bar,
+            v7 * by_z8 - z8_product * x7_bar,
+            v8 * by_z8 - z8_product * x8_bar,
+            v9 * by_z8 - z8_product * x9_bar,
+            v10 * by_z8 - z8_product * x10_bar,
+            v11 * by_z8 - z8_product * x11_bar,
+            v12 * by_z8 - z8_product * x12_bar,
+            v13 * by_z8 - z8_product * x13_bar,
+            v0 * by_z9 - z9_product * x0_bar,
+            v1 * by_z9 - z9_product * x1_bar,
+            v2 * by_z9 - z9_product * x2_bar,
+            v3 * by_z9 - z9_product * x3_bar,
+            v4 * by_z9 - z9_product * x4_bar,
+            v5 * by_z9 - z9_product * x5_bar,
+            v6 * by_z9 - z9_product * x6_bar,
+            v7 * by_z9 - z9_product * x7_bar,
+            v8 * by_z9 - z9_product * x8_bar,
+            v9 * by_z9 - z9_product * x9_bar,
+            v10 * by_z9 - z9_product * x10_bar,
+            v11 * by_z9 - z9_product * x11_bar,
+            v12 * by_z9 - z9_product * x12_bar,
+            v13 * by_z9 - z9_product * x13_bar,
+            v0 * by_z10 - z10_product * x0_bar,
+            v1 * by_z10 - z10_product * x1_bar,
+            v2 * by_z10 - z10_product * x2_bar,
+            v3 * by_z10 - z10_product * x3_bar,
+            v4 * by_z10 - z10_product * x4_bar,
+            v5 * by_z10 - z10_product * x5_bar,
+            v6 * by_z10 - z10_product * x6_bar,
+            v7 * by_z10 - z10_product * x7_bar,
+            v8 * by_z10 - z10_product * x8_bar,
+            v9 * by_z10 - z10_product * x9_bar,
+            v10 * by_z10 - z10_product * x10_bar,
+            v11 * by_z10 - z10_product * x11_bar,
+            v12 * by_z10 - z10_product * x12_bar,
+            v13 * by_z10 - z10_product * x13_bar,
+            v0 * by_z11 - z11_product * x0_bar,
+            v1 * by_z11 - z11_product * x1_bar,
+            v2 * by_z11 - z11_product * x2_bar,
+            v3 * by_z11 - z11_product * x3_bar,
+            v4 * by_z11 - z11_product * x4_bar,
+            v5 * by_z11 - z11_product * x5_bar,
+            v6 * by_z11 - z11_product * x6_bar,
+            v7 * by_z11 - z11_product * x7_bar,
+            v8 * by_z11 - z11_product * x8_bar,
+            v9 * by_z11 - z11_product * x9_bar,
+            v10 * by_z11 - z11_product * x10_bar,
+            v11 * by_z11 - z11_product * x11_bar,
+            v12 * by_z11 - z11_product * x12_bar,
+            v13 * by_z11 - z11_product * x13_bar,
+            v0 * by_z12 - z12_product * x0_bar,
+            v1 * by_z12 - z12_product * x1_bar,
+            v2 * by_z12 - z12_product * x2_bar,
+            v3 * by_z12 - z12_product * x3_bar,
+            v4 * by_z12 - z12_product * x4_bar,
+            v5 * by_z12 - z12_product * x5_bar,
+            v6 * by_z12 - z12_product * x6_bar,
+            v7 * by_z12 - z12_product * x7_bar,
+            v8 * by_z12 - z12_product * x8_bar,
+            v9 * by_z12 - z12_product * x9_bar,
+            v10 * by_z12 - z12_product * x10_bar,
+            v11 * by_z12 - z12_product * x11_bar,
+            v12 * by_z12 - z12_product * x12_bar,
+            v13 * by_z12 - z12_product * x13_bar,
+            v0 * by_z13 - z13_product * x0_bar,
+            v1 * by_z13 - z13_product * x1_bar,
+            v2 * by_z13 - z13_product * x2_bar,
+            v3 * by_z13 - z13_product * x3_bar,
+            v4 * by_z13 - z13_product * x4_bar,
+            v5 * by_z13 - z13_product * x5_bar,
+            v6 * by_z13 - z13_product * x6_bar,
+            v7 * by_z13 - z13_product * x7_bar,
+            v8 * by_z13 - z13_product * x8_bar,
+            v9 * by_z13 - z13_product * x9_bar,
+            v10 * by_z13 - z13_product * x10_bar,
+            v11 * by_z13 - z13_product * x11_bar,
+            v12 * by_z13 - z13_product * x12_bar,
+            v13 * by_z13 - z13_product * x13_bar,
+            exp_2 * by_phi,
+        )
+
+    def _splat_constants_vjp(
+        self, mu: Tensor, W: Tensor, amplitude: Tensor, S_bar: Sequence[Tensor]
+    ) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives in mu, W and amplitude from those in S."""
+        (
+            mu0_bar, mu1_bar, mu2_bar, mu3_bar, mu4_bar, mu5_bar, mu6_bar, mu7_bar, mu8_bar, mu9_bar, mu10_bar,
+            mu11_bar, mu12_bar, mu13_bar, W0_0_bar, W0_1_bar, W0_2_bar, W0_3_bar, W0_4_bar, W0_5_bar, W0_6_bar,
+            W0_7_bar, W0_8_bar, W0_9_bar, W0_10_bar, W0_11_bar, W0_12_bar, W0_13_bar, W1_0_bar, W1_1_bar, W1_2_bar,
+            W1_3_bar, W1_4_bar, W1_5_bar, W1_6_bar, W1_7_bar, W1_8_bar, W1_9_bar, W1_10_bar, W1_11_bar, W1_12_bar,
+            W1_13_bar, W2_0_bar, W2_1_bar, W2_2_bar, W2_3_bar, W2_4_bar, W2_5_bar, W2_6_bar, W2_7_bar, W2_8_bar,
+            W2_9_bar, W2_10_bar, W2_11_bar, W2_12_bar, W2_13_bar, W3_0_bar, W3_1_bar, W3_2_bar, W3_3_bar, W3_4_bar,
+            W3_5_bar, W3_6_bar, W3_7_bar, W3_8_bar, W3_9_bar, W3_10_bar, W3_11_bar, W3_12_bar, W3_13_bar, W4_0_bar,
+            W4_1_bar, W4_2_bar, W4_3_bar, W4_4_bar, W4_5_bar, W4_6_bar, W4_7_bar, W4_8_bar, W4_9_bar, W4_10_bar,
+            W4_11_bar, W4_12_bar, W4_13_bar, W5_0_bar, W5_1_bar, W5_2_bar, W5_3_bar, W5_4_bar, W5_5_bar, W5_6_bar,
+            W5_7_bar, W5_8_bar, W5_9_bar, W5_10_bar, W5_11_bar, W5_12_bar, W5_13_bar, W6_0_bar, W6_1_bar, W6_2_bar,
+            W6_3_bar, W6_4_bar, W6_5_bar, W6_6_bar, W6_7_bar, W6_8_bar, W6_9_bar, W6_10_bar, W6_11_bar, W6_12_bar,
+            W6_13_bar, W7_0_bar, W7_1_bar, W7_2_bar, W7_3_bar, W7_4_bar, W7_5_bar, W7_6_bar, W7_7_bar, W7_8_bar,
+            W7_9_bar, W7_10_bar, W7_11_bar, W7_12_bar, W7_13_bar, W8_0_bar, W8_1_bar, W8_2_bar, W8_3_bar, W8_4_bar,
+            W8_5_bar, W8_6_bar, W8_7_bar, W8_8_bar, W8_9_bar, W8_10_bar, W8_11_bar, W8_12_bar, W8_13_bar, W9_0_bar,
+            W9_1_bar, W9_2_bar, W9_3_bar, W9_4_bar, W9_5_bar, W9_6_bar, W9_7_bar, W9_8_bar, W9_9_bar, W9_10_bar,
+            W9_11_bar, W9_12_bar, W9_13_bar, W10_0_bar, W10_1_bar, W10_2_bar, W10_3_bar, W10_4_bar, W10_5_bar,
+            W10_6_bar, W10_7_bar, W10_8_bar, W10_9_bar, W10_10_bar, W10_11_bar, W10_12_bar, W10_13_bar, W11_0_bar,
+            W11_1_bar, W11_2_bar, W11_3_bar, W11_4_bar, W11_5_bar, W11_6_bar, W11_7_bar, W11_8_bar, W11_9_bar,
+            W11_10_bar, W11_11_bar, W11_12_bar, W11_13_bar, W12_0_bar, W12_1_bar, W12_2_bar, W12_3_bar, W12_4_bar,
+            W12_5_bar, W12_6_bar, W12_7_bar, W12_8_bar, W12_9_bar, W12_10_bar, W12_11_bar, W12_12_bar, W12_13_bar,
+            W13_0_bar, W13_1_bar, W13_2_bar, W13_3_bar, W13_4_bar, W13_5_bar, W13_6_bar, W13_7_bar, W13_8_bar,
+            W13_9_bar, W13_10_bar, W13_11_bar, W13_12_bar, W13_13_bar, amplitude_bar,
+        ) = S_bar
+        mu_bar = _stack((
+            mu0_bar,
+            mu1_bar,
+            mu2_bar,
+            mu3_bar,
+            mu4_bar,
+            mu5_bar,
+            mu6_bar,
+            mu7_bar,
+            mu8_bar,
+            mu9_bar,
+            mu10_bar,
+            mu11_bar,
+            mu12_bar,
+            mu13_bar,
+        ))
+        W_bar = _stack((
+            W0_0_bar,
+            W0_1_bar,
+            W0_2_bar,
+            W0_3_bar,
+            W0_4_bar,
+            W0_5_bar,
+            W0_6_bar,
+            W0_7_bar,
+            W0_8_bar,
+            W0_9_bar,
+            W0_10_bar,
+            W0_11_bar,
+            W0_12_bar,
+            W0_13_bar,
+            W1_0_bar,
+            W1_1_bar,
+            W1_2_bar,
+            W1_3_bar,
+            W1_4_bar,
+            W1_5_bar,
+            W1_6_bar,
+            W1_7_bar,
+            W1_8_bar,
+            W1_9_bar,
+            W1_10_bar,
+            W1_11_bar,
+            W1_12_bar,
+            W1_13_bar,
+            W2_0_bar,
+            W2_1_bar,
+            W2_2_bar,
+            W2_3_bar,
+            W2_4_bar,
+            W2_5_bar,
+            W2_6_bar,
+            W2_7_bar,
+            W2_8_bar,
+            W2_9_bar,
+            W2_10_bar,
+            W2_11_bar,
+            W2_12_bar,
+            W2_13_bar,
+            W3_0_bar,
+            W3_1_bar,
+            W3_2_bar,
+            W3_3_bar,
+            W3_4_bar,
+            W3_5_bar,
+            W3_6_bar,
+            W3_7_bar,
+            W3_8_bar,
+            W3_9_bar,
+            W3_10_bar,
+            W3_11_bar,
+            W3_12_bar,
+            W3_13_bar,
+            W4_0_bar,
+            W4_1_bar,
+            W4_2_bar,
+            W4_3_bar,
+            W4_4_bar,
+            W4_5_bar,
+            W4_6_bar,
+            W4_7_bar,
+            W4_8_bar,
+            W4_9_bar,
+            W4_10_bar,
+            W4_11_bar,
+            W4_12_bar,
+            W4_13_bar,
+            W5_0_bar,
+            W5_1_bar,
+            W5_2_bar,
+            W5_3_bar,
+            W5_4_bar,
+            W5_5_bar,
+            W5_6_bar,
+            W5_7_bar,
+            W5_8_bar,
+            W5_9_bar,
+            W5_10_bar,
+            W5_11_bar,
+            W5_12_bar,
+            W5_13_bar,
+            W6_0_bar,
+            W6_1_bar,
+            W6_2_bar,
+            W6_3_bar,
+            W6_4_bar,
+            W6_5_bar,
+            W6_6_bar,
+            W6_7_bar,
+            W6_8_bar,
+            W6_9_bar,
+            W6_10_bar,
+            W6_11_bar,
+            W6_12_bar,
+            W6_13_bar,
+            W7_0_bar,
+            W7_1_bar,
+            W7_2_bar,
+            W7_3_bar,
+            W7_4_bar,
+            W7_5_bar,
+            W7_6_bar,
+            W7_7_bar,
+            W7_8_bar,
+            W7_9_bar,
+            W7_10_bar,
+            W7_11_bar,
+            W7_12_bar,
+            W7_13_bar,
+            W8_0_bar,
+            W8_1_bar,
+            W8_2_bar,
+            W8_3_bar,
+            W8_4_bar,
+            W8_5_bar,
+            W8_6_bar,
+            W8_7_bar,
+            W8_8_bar,
+            W8_9_bar,
+            W8_10_bar,
+            W8_11_bar,
+            W8_12_bar,
+            W8_13_bar,
+            W9_0_bar,
+            W9_1_bar,
+            W9_2_bar,
+            W9_3_bar,
+            W9_4_bar,
+            W9_5_bar,
+            W9_6_bar,
+            W9_7_bar,
+            W9_8_bar,
+            W9_9_bar,
+            W9_10_bar,
+            W9_11_bar,
+            W9_12_bar,
+            W9_13_bar,
+            W10_0_bar,
+            W10_1_bar,
+            W10_2_bar,
+            W10_3_bar,
+            W10_4_bar,
+            W10_5_bar,
+            W10_6_bar,
+            W10_7_bar,
+            W10_8_bar,
+            W10_9_bar,
+            W10_10_bar,
+            W10_11_bar,
+            W10_12_bar,
+            W10_13_bar,
+            W11_0_bar,
+            W11_1_bar,
+            W11_2_bar,
+            W11_3_bar,
+            W11_4_bar,
+            W11_5_bar,
+            W11_6_bar,
+            W11_7_bar,
+            W11_8_bar,
+            W11_9_bar,
+            W11_10_bar,
+            W11_11_bar,
+            W11_12_bar,
+            W11_13_bar,
+            W12_0_bar,
+            W12_1_bar,
+            W12_2_bar,
+            W12_3_bar,
+            W12_4_bar,
+            W12_5_bar,
+            W12_6_bar,
+            W12_7_bar,
+            W12_8_bar,
+            W12_9_bar,
+            W12_10_bar,
+            W12_11_bar,
+            W12_12_bar,
+            W12_13_bar,
+            W13_0_bar,
+            W13_1_bar,
+            W13_2_bar,
+            W13_3_bar,
+            W13_4_bar,
+            W13_5_bar,
+            W13_6_bar,
+            W13_7_bar,
+            W13_8_bar,
+            W13_9_bar,
+            W13_10_bar,
+            W13_11_bar,
+            W13_12_bar,
+            W13_13_bar,
+        ))
+        return mu_bar, W_bar.unflatten(-1, (14, 14)), amplitude_bar
 
 
 manifold = DualArm()

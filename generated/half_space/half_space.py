@@ -28,6 +28,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import torch
 from torch import Generator, Tensor
@@ -106,6 +107,32 @@ _T_OVER_SINH_T_NEAR_SLOPE = (
     ),
 )
 
+# Of degree 8 on [0, 1], the derivative of a polynomial; for float32 of degree 6, within 2^-31 of that.
+_LOG_DET_SERIES_SLOPE_SLOPE = (
+    (
+        -0.005269878915827681, 0.001330420567248421, -0.00024038197434818817, 3.784413124133655e-05,
+        -5.528543340481669e-06, 7.70130787745477e-07, -1.0286165584172534e-07, 1.246298064804857e-08,
+        -1.0274249230371691e-09,
+    ),
+    (
+        -0.0052698789147766385, 0.0013304204633056561, -0.00024038029119705448, 3.783386377263302e-05,
+        -5.498485307465418e-06, 7.242797860685044e-07, -6.694691049633411e-08,
+    ),
+)
+
+# Of degree 8 on [0, 1], the derivative of a polynomial; for float32 of degree 6, within 2^-30 of that.
+_T_OVER_SINH_T_NEAR_SLOPE_SLOPE = (
+    (
+        0.014028269226611401, -0.004136816349987618, 0.0008433956887753833, -0.00014654605283609116,
+        2.326822069810852e-05, -3.4827792313868604e-06, 4.948797823429416e-07, -6.302182025142203e-08,
+        5.3744241594190786e-09,
+    ),
+    (
+        0.014028269221378524, -0.004136815832245224, 0.0008433872999278661, -0.00014649483800952389,
+        2.3118113730214914e-05, -3.253385053618904e-06, 3.1461159265860754e-07,
+    ),
+)
+
 
 def _root(x: Tensor) -> Tensor:
     """sqrt(x) with the derivative 0 at x = 0, where autograd would make 0 * inf = NaN of it."""
@@ -157,6 +184,72 @@ def _rejection(
         uniform = torch.rand(len(points), generator=generator, dtype=like.dtype, device=like.device)
         kept.append(points[uniform * bound < density])
     return torch.cat(kept)[:count]
+
+
+def _chunks(x: Tensor, splats: int) -> Sequence[Tensor]:
+    """Points by chunks whose pairs with all splats are a bounded number; all at once where a compiler fuses the sums."""
+    if torch.compiler.is_compiling():
+        return (x,)
+    pairs = 2**15 if x.device.type == "cpu" else 2**21  # CPU: what fits in a cache
+    return x.split(max(1, pairs // max(1, splats)))
+
+
+def _sums(entries: Sequence[Tensor], points: int, splats: int, dim: int) -> list[Tensor]:
+    """Entries of pairs, summed over the points (dim 0) or over the splats (dim 1)."""
+    return [entry.expand(points, splats).sum(dim) for entry in entries]
+
+
+def _checked(
+    manifold: Any, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor
+) -> tuple[tuple[Tensor, Tensor, Tensor, Tensor], torch.dtype]:
+    """The four in one precision, single for what is less, and the precision of the results; their shapes must fit."""
+    K, D = len(mu) if mu.dim() else 0, manifold.point_size
+    N = len(x) if x.dim() else 0
+    shapes = {"x": (N, D), "mu": (K, D), "W": (K, manifold.dim, manifold.tangent_size), "amplitude": (K,)}
+    dtype = x.dtype
+    for (name, shape), tensor in zip(shapes.items(), (x, mu, W, amplitude), strict=True):
+        if tensor.shape != shape:
+            raise ValueError(f"{name} has shape {tuple(tensor.shape)}; with {N} points and {K} splats it is {shape}")
+        if not tensor.is_floating_point():
+            raise TypeError(f"{name} is {tensor.dtype}: splats take floating-point numbers")
+        dtype = torch.promote_types(dtype, tensor.dtype)
+    inside = torch.promote_types(dtype, torch.float32)
+    return (x.to(inside), mu.to(inside), W.to(inside), amplitude.to(inside)), dtype
+
+
+class _Splats(torch.autograd.Function):
+    """The sums under autograd: the backward pass is one sweep over all pairs."""
+
+    @staticmethod
+    def forward(ctx: Any, manifold: Any, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """Values and gradients."""
+        ctx.manifold = manifold
+        ctx.save_for_backward(x, mu, W, amplitude)
+        value, gradient = manifold._splats(x, mu, W, amplitude)
+        return value, gradient
+
+    @staticmethod
+    def backward(ctx: Any, value_bar: Tensor, gradient_bar: Tensor) -> tuple[Tensor | None, ...]:
+        """The derivatives in mu, W and amplitude."""
+        tensors = *ctx.saved_tensors, value_bar, gradient_bar
+        if torch.is_grad_enabled() and not torch.compiler.is_compiling():
+            return None, None, *_SplatsBackward.apply(ctx.manifold, *tensors)  # type: ignore[no-untyped-call]
+        return None, None, *ctx.manifold._splats_vjp(*tensors)
+
+
+class _SplatsBackward(torch.autograd.Function):
+    """The backward pass where somebody might differentiate it again, which is an error."""
+
+    @staticmethod
+    def forward(ctx: Any, manifold: Any, *tensors: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives in mu, W and amplitude."""
+        by_mu, by_W, by_amplitude = manifold._splats_vjp(*tensors)
+        return by_mu, by_W, by_amplitude
+
+    @staticmethod
+    def backward(ctx: Any, *bars: Tensor) -> Any:
+        """None."""
+        raise RuntimeError("`splats` has first derivatives only; of `splat`, autograd knows all")
 
 
 class HalfSpace:
@@ -490,14 +583,6 @@ class HalfSpace:
         gradient1 = df1 * squared
         return (phi, gradient0, gradient1)
 
-    def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
-        """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
-
-        Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T).
-        """
-        value, *gradient = self._splat(x.unsqueeze(-2), mu, W, amplitude)
-        return value.sum(-1), _stack([entry.sum(-1) for entry in gradient])
-
     def transport(self, p: Tensor, q: Tensor, v: Tensor) -> Tensor:
         """Not known for this manifold: its file gives no `transport:`."""
         raise ValueError("parallel transport is not known here: give its closed form as `transport:` in the manifold file")
@@ -541,6 +626,420 @@ class HalfSpace:
             return points, torch.exp(-self.log_abs_det(center, points))
 
         return _rejection(propose, count, generator, center)
+
+    def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
+
+        Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T).
+        Differentiable once in mu, W and amplitude, with nothing of size N x K kept. Where x requires a gradient too, autograd
+        differentiates the formula of every pair, as often as is wanted, and keeps all of them.
+        """
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        if x.requires_grad and torch.is_grad_enabled():
+            value, *entries = self._splat(tensors[0].unsqueeze(-2), *tensors[1:])
+            value, gradient = value.sum(-1), _stack([entry.sum(-1) for entry in entries])
+        else:
+            value, gradient = _Splats.apply(self, *tensors)  # type: ignore[no-untyped-call]
+        return value.to(dtype), gradient.to(dtype)
+
+    def splats_value(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> Tensor:
+        """The value of `splats` alone: (N), differentiable as there."""
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        if torch.is_grad_enabled() and any(tensor.requires_grad for tensor in tensors):
+            return self.splats(x, mu, W, amplitude)[0]
+        return self._splats_value(*tensors).to(dtype)
+
+    def splats_rows(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> Tensor:
+        """The derivatives of value_bar_n value_n + gradient_bar_n . gradient_n of `splats`, each point's by itself.
+
+        Shapes: as in `splats`, value_bar (N), gradient_bar (N, T) to (N, K, D + d T + 1), the derivatives in mu, W (row by
+        row) and amplitude of every splat; not differentiable. Their sum over N is what the backward pass of `splats` gives.
+        """
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        with torch.no_grad():
+            return self._splats_rows(*tensors, value_bar.to(tensors[0]), gradient_bar.to(tensors[0])).to(dtype)
+
+    def kernels(self, like: Tensor) -> str:
+        """What computes `splats` for tensors like this one."""
+        return f"torch, {like.device.type}"
+
+    def _splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """Values (N) and gradients (N, T)."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        values, gradients = [], []
+        for part in _chunks(x, len(mu)):
+            X = [entry.unsqueeze(-1) for entry in self._point_features(part)]
+            value, *slope = _sums(self._pair(X, S), len(part), len(mu), 1)
+            values.append(value)
+            gradients.append(self._point_gradient(part, slope))
+        return torch.cat(values), torch.cat(gradients)
+
+    def _splats_value(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> Tensor:
+        """Values (N) alone."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        values = []
+        for part in _chunks(x, len(mu)):
+            X = [entry.unsqueeze(-1) for entry in self._point_features(part)]
+            values += _sums(self._pair_value(X, S), len(part), len(mu), 1)
+        return torch.cat(values)
+
+    def _splats_vjp(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu (K, D), W (K, d, T) and amplitude (K)."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        total = torch.zeros((len(S), len(mu)), dtype=x.dtype, device=x.device)
+        parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
+        for part, *bars in zip(*parts, strict=True):
+            total = total + torch.stack(_sums(self._pair_bars(part, S, *bars), len(part), len(mu), 0))
+        return self._splat_constants_vjp(mu, W, amplitude, total.unbind(0))
+
+    def _splats_rows(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> Tensor:
+        """The rows (N, K, D + d T + 1) of the derivatives that `_splats_vjp` sums over N."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
+        rows = []
+        for part, *bars in zip(*parts, strict=True):
+            S_bar = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
+            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, S_bar)
+            rows.append(torch.cat([by_mu, by_W.flatten(-2), by_amplitude.unsqueeze(-1)], -1))
+        return torch.cat(rows)
+
+    def _pair_bars(
+        self, x: Tensor, S: Sequence[Tensor], value_bar: Tensor, gradient_bar: Tensor
+    ) -> tuple[Tensor, ...]:
+        """The derivatives in S of every pair, from those in the sums."""
+        X = [entry.unsqueeze(-1) for entry in self._point_features(x)]
+        slope_bar = [entry.unsqueeze(-1) for entry in self._point_gradient_vjp(x, gradient_bar)]
+        return self._pair_vjp(X, S, value_bar.unsqueeze(-1), slope_bar)
+
+    def _point_features(self, x: Tensor) -> tuple[Tensor, ...]:
+        """X, what the pairs need of a point alone."""
+        x0, x1 = x.unbind(-1)
+        return (x0, x1)
+
+    def _splat_constants(self, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, ...]:
+        """S, what the pairs need of a splat alone."""
+        mu0, mu1 = mu.unbind(-1)
+        W0_0, W0_1, W1_0, W1_1 = W.flatten(-2).unbind(-1)
+        return (mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude)
+
+    def _pair_value(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
+        """The value of a splat at a point."""
+        x0, x1 = X
+        mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude = S
+        d0 = x0 - mu0
+        sqrt_value = 2.0 * _root(x1 * mu1)
+        scale = 1.0 / sqrt_value
+        part0 = d0 * scale
+        d1 = x1 - mu1
+        part1 = d1 * scale
+        h_squared = part0 * part0 + part1 * part1
+        near = h_squared < 0.11468
+        near_chosen = torch.where(near, 8.719916288803628 * h_squared, 0.0)
+        log_det_series = _polynomial(near_chosen, _LOG_DET_SERIES)
+        log_det_near = h_squared * log_det_series
+        h = torch.sqrt(torch.where(near, 1.0, h_squared))
+        asinh_h = torch.asinh(h)
+        t = 2.0 * asinh_h
+        sqrt_1_plus_h_to_2 = _root(1.0 + h_squared)
+        sinh_t = sqrt_1_plus_h_to_2 * (2.0 * h)
+        t_ratio = t / sinh_t
+        log_det = torch.where(near, log_det_near, torch.log(t_ratio))
+        t_over_sinh_t_near = _polynomial(near_chosen, _T_OVER_SINH_T_NEAR)
+        t_over_sinh_t = torch.where(near, t_over_sinh_t_near, t_ratio)
+        scale_2 = t_over_sinh_t / x1
+        v0 = scale_2 * (mu1 * d0)
+        dot_ds_ds = d0 * d0
+        up = 0.5 * dot_ds_ds + 0.5 * d1 * (x1 + mu1)
+        v1 = up * scale_2
+        z0 = W0_0 * v0 + W0_1 * v1
+        z1 = W1_0 * v0 + W1_1 * v1
+        exp_2 = torch.exp(log_det - 0.5 * (z0 * z0 + z1 * z1))
+        phi = amplitude * exp_2
+        return (phi,)
+
+    def _pair(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
+        """The value of a splat at a point, and the slope, its derivatives in X."""
+        x0, x1 = X
+        mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude = S
+        d0 = x0 - mu0
+        product = x1 * mu1
+        length = _root(product)
+        sqrt_value = 2.0 * length
+        scale = 1.0 / sqrt_value
+        part0 = d0 * scale
+        d1 = x1 - mu1
+        part1 = d1 * scale
+        h_squared = part0 * part0 + part1 * part1
+        near = h_squared < 0.11468
+        near_chosen = torch.where(near, 8.719916288803628 * h_squared, 0.0)
+        log_det_series = _polynomial(near_chosen, _LOG_DET_SERIES)
+        log_det_near = h_squared * log_det_series
+        near_chosen_2 = torch.where(near, 1.0, h_squared)
+        h = torch.sqrt(near_chosen_2)
+        asinh_h = torch.asinh(h)
+        t = 2.0 * asinh_h
+        h_squared_total = 1.0 + h_squared
+        sqrt_1_plus_h_to_2 = _root(h_squared_total)
+        h_product = 2.0 * h
+        sinh_t = sqrt_1_plus_h_to_2 * h_product
+        t_ratio = t / sinh_t
+        log_det = torch.where(near, log_det_near, torch.log(t_ratio))
+        t_over_sinh_t_near = _polynomial(near_chosen, _T_OVER_SINH_T_NEAR)
+        t_over_sinh_t = torch.where(near, t_over_sinh_t_near, t_ratio)
+        scale_2 = t_over_sinh_t / x1
+        d0_product = mu1 * d0
+        v0 = scale_2 * d0_product
+        dot_ds_ds = d0 * d0
+        d1_product = 0.5 * d1
+        total_2 = x1 + mu1
+        up = 0.5 * dot_ds_ds + d1_product * total_2
+        v1 = up * scale_2
+        z0 = W0_0 * v0 + W0_1 * v1
+        z1 = W1_0 * v0 + W1_1 * v1
+        exp_2 = torch.exp(log_det - 0.5 * (z0 * z0 + z1 * z1))
+        phi = amplitude * exp_2
+        z1_product = z1 * phi
+        z0_product = z0 * phi
+        by_v1 = -(W1_1 * z1_product) - W0_1 * z0_product
+        by_up = scale_2 * by_v1
+        by_v0 = -(W1_0 * z1_product) - W0_0 * z0_product
+        is_small = h_squared_total == 0.0
+        by_scale_2 = up * by_v1 + d0_product * by_v0
+        by_t_over_sinh_t = by_scale_2 / x1
+        by_t = (torch.where(near, 0.0, by_t_over_sinh_t) + torch.where(near, 0.0, phi) / t_ratio) / sinh_t
+        by_t_product = t_ratio * by_t
+        chosen = torch.where(
+            is_small, 0.0, -(h_product * by_t_product / (2.0 * torch.where(is_small, 1.0, sqrt_1_plus_h_to_2)))
+        )
+        by_asinh_h = 2.0 * by_t
+        by_h = by_asinh_h / torch.sqrt(1.0 + near_chosen_2) - 2.0 * (sqrt_1_plus_h_to_2 * by_t_product)
+        by_log_det_near = torch.where(near, phi, 0.0)
+        by_t_over_sinh_t_near = torch.where(near, by_t_over_sinh_t, 0.0)
+        t_over_sinh_t_near_slope = _polynomial(near_chosen, _T_OVER_SINH_T_NEAR_SLOPE)
+        by_log_det_series = h_squared * by_log_det_near
+        log_det_series_slope = _polynomial(near_chosen, _LOG_DET_SERIES_SLOPE)
+        by_h_squared = (
+            chosen + torch.where(near, 0.0, by_h / h_product) + log_det_series * by_log_det_near + 8.719916288803628 *
+            torch.where(near, by_t_over_sinh_t_near * t_over_sinh_t_near_slope + by_log_det_series *
+            log_det_series_slope, 0.0)
+        )
+        product_2 = 2.0 * by_h_squared
+        by_part0 = part0 * product_2
+        by_d0 = d0 * by_up + mu1 * (scale_2 * by_v0) + scale * by_part0
+        by_part1 = part1 * product_2
+        by_d1 = 0.5 * (total_2 * by_up) + scale * by_part1
+        is_small_2 = product == 0.0
+        by_scale = d1 * by_part1 + d0 * by_part0
+        minus = -(2.0 * (scale * (by_scale / sqrt_value)) / (2.0 * torch.where(is_small_2, 1.0, length)))
+        by_x1 = d1_product * by_up - scale_2 * by_t_over_sinh_t + by_d1 + mu1 * torch.where(is_small_2, 0.0, minus)
+        return (phi, by_d0, by_x1)
+
+    def _point_gradient(self, x: Tensor, slope: Sequence[Tensor]) -> Tensor:
+        """The Riemannian gradient of a function whose derivatives in X are `slope`."""
+        _, x1 = x.unbind(-1)
+        slope_x0, slope_x1 = slope
+        squared = x1 * x1
+        return _stack((slope_x0 * squared, slope_x1 * squared))
+
+    def _point_gradient_vjp(self, x: Tensor, gradient_bar: Tensor) -> tuple[Tensor, ...]:
+        """The derivatives of gradient . gradient_bar in `slope`."""
+        _, x1 = x.unbind(-1)
+        gradient_bar0, gradient_bar1 = gradient_bar.unbind(-1)
+        squared = x1 * x1
+        return (squared * gradient_bar0, squared * gradient_bar1)
+
+    def _pair_vjp(
+        self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
+    ) -> tuple[Tensor, ...]:
+        """The derivatives of value value_bar + slope . slope_bar in S."""
+        x0, x1 = X
+        mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude = S
+        x0_bar, x1_bar = slope_bar
+        d0 = x0 - mu0
+        product = x1 * mu1
+        length = _root(product)
+        sqrt_value = 2.0 * length
+        scale = 1.0 / sqrt_value
+        part0 = d0 * scale
+        d1 = x1 - mu1
+        part1 = d1 * scale
+        h_squared = part0 * part0 + part1 * part1
+        near = h_squared < 0.11468
+        near_chosen = torch.where(near, 8.719916288803628 * h_squared, 0.0)
+        t_over_sinh_t_near = _polynomial(near_chosen, _T_OVER_SINH_T_NEAR)
+        near_chosen_2 = torch.where(near, 1.0, h_squared)
+        h = torch.sqrt(near_chosen_2)
+        asinh_h = torch.asinh(h)
+        t = 2.0 * asinh_h
+        h_squared_total = 1.0 + h_squared
+        sqrt_1_plus_h_to_2 = _root(h_squared_total)
+        h_product = 2.0 * h
+        sinh_t = sqrt_1_plus_h_to_2 * h_product
+        t_ratio = t / sinh_t
+        t_over_sinh_t = torch.where(near, t_over_sinh_t_near, t_ratio)
+        scale_2 = t_over_sinh_t / x1
+        d0_product = mu1 * d0
+        v0 = scale_2 * d0_product
+        dot_ds_ds = d0 * d0
+        d1_product = 0.5 * d1
+        total_2 = x1 + mu1
+        up = 0.5 * dot_ds_ds + d1_product * total_2
+        v1 = up * scale_2
+        z1 = W1_0 * v0 + W1_1 * v1
+        log_det_series = _polynomial(near_chosen, _LOG_DET_SERIES)
+        log_det_near = h_squared * log_det_series
+        log_det = torch.where(near, log_det_near, torch.log(t_ratio))
+        z0 = W0_0 * v0 + W0_1 * v1
+        exp_2 = torch.exp(log_det - 0.5 * (z0 * z0 + z1 * z1))
+        phi = amplitude * exp_2
+        z1_product = z1 * phi
+        z0_product = z0 * phi
+        by_v1 = -(W1_1 * z1_product) - W0_1 * z0_product
+        by_up = scale_2 * by_v1
+        is_small = h_squared_total == 0.0
+        by_v0 = -(W1_0 * z1_product) - W0_0 * z0_product
+        by_scale_2 = up * by_v1 + d0_product * by_v0
+        by_t_over_sinh_t = by_scale_2 / x1
+        ratio = torch.where(near, 0.0, phi) / t_ratio
+        by_t = (torch.where(near, 0.0, by_t_over_sinh_t) + ratio) / sinh_t
+        by_t_product = t_ratio * by_t
+        product_2 = 2.0 * torch.where(is_small, 1.0, sqrt_1_plus_h_to_2)
+        ratio_2 = h_product * by_t_product / product_2
+        by_asinh_h = 2.0 * by_t
+        sqrt_2 = torch.sqrt(1.0 + near_chosen_2)
+        by_asinh_h_ratio = by_asinh_h / sqrt_2
+        by_h = by_asinh_h_ratio - 2.0 * (sqrt_1_plus_h_to_2 * by_t_product)
+        by_h_ratio = by_h / h_product
+        by_log_det_near = torch.where(near, phi, 0.0)
+        by_t_over_sinh_t_near = torch.where(near, by_t_over_sinh_t, 0.0)
+        t_over_sinh_t_near_slope = _polynomial(near_chosen, _T_OVER_SINH_T_NEAR_SLOPE)
+        by_log_det_series = h_squared * by_log_det_near
+        log_det_series_slope = _polynomial(near_chosen, _LOG_DET_SERIES_SLOPE)
+        by_h_squared = (
+            torch.where(is_small, 0.0, -ratio_2) + torch.where(near, 0.0, by_h_ratio) + log_det_series * by_log_det_near
+            + 8.719916288803628 * torch.where(near, by_t_over_sinh_t_near * t_over_sinh_t_near_slope + by_log_det_series
+            * log_det_series_slope, 0.0)
+        )
+        product_3 = 2.0 * by_h_squared
+        by_part0 = part0 * product_3
+        is_small_2 = product == 0.0
+        product_4 = 2.0 * torch.where(is_small_2, 1.0, length)
+        ratio_3 = torch.where(is_small_2, 0.0, mu1 * x1_bar) / product_4
+        product_5 = 2.0 * ratio_3
+        sqrt_value_ratio = scale * product_5 / sqrt_value
+        by_by_part0 = scale * x0_bar - d0 * sqrt_value_ratio
+        by_by_part1 = scale * x1_bar - d1 * sqrt_value_ratio
+        total_3 = part0 * by_by_part0 + part1 * by_by_part1
+        by_by_h_squared = 2.0 * total_3
+        by_by_h = torch.where(near, 0.0, by_by_h_squared) / h_product
+        by_by_asinh_h = by_by_h / sqrt_2
+        by_by_h_product = 2.0 * by_by_h
+        ratio_4 = torch.where(is_small, 0.0, by_by_h_squared) / product_2
+        gap = -(sqrt_1_plus_h_to_2 * by_by_h_product) - h_product * ratio_4
+        by_by_t = 2.0 * by_by_asinh_h + t_ratio * gap
+        by_by_t_ratio = by_by_t / sinh_t
+        near_chosen_3 = torch.where(near, 17.439832577607255 * total_3, 0.0)
+        by_by_t_over_sinh_t_near = t_over_sinh_t_near_slope * near_chosen_3
+        by_by_t_over_sinh_t = (
+            torch.where(near, 0.0, by_by_t_ratio) + torch.where(near, by_by_t_over_sinh_t_near, 0.0) - scale_2 * x1_bar
+        )
+        by_by_scale_2 = by_by_t_over_sinh_t / x1
+        product_6 = mu1 * x0_bar
+        by_by_v0 = scale_2 * product_6 + d0_product * by_by_scale_2
+        product_7 = 0.5 * x1_bar
+        by_by_up = d0 * x0_bar + d1_product * x1_bar + total_2 * product_7
+        by_by_v1 = up * by_by_scale_2 + scale_2 * by_by_up
+        gap_2 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1
+        ratio_5 = by_by_t_ratio / t_ratio
+        by_by_log_det_series = log_det_series_slope * near_chosen_3
+        by_by_log_det_near = h_squared * by_by_log_det_series + log_det_series * by_by_h_squared
+        gap_3 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1
+        by_phi = (
+            value_bar + torch.where(near, 0.0, ratio_5) + torch.where(near, by_by_log_det_near, 0.0) + z0 * gap_3 + z1 *
+            gap_2
+        )
+        by_log_det = exp_2 * (amplitude * by_phi)
+        by_z1 = phi * gap_2 - z1 * by_log_det
+        by_z0 = phi * gap_3 - z0 * by_log_det
+        by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0
+        by_up_2 = by_v1 * by_by_scale_2 + scale_2 * by_v1_2
+        by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0
+        total_4 = by_v0 * by_by_scale_2 + scale_2 * by_v0_2
+        by_scale_2_2 = (
+            by_v0 * product_6 - by_t_over_sinh_t * x1_bar + by_v1 * by_by_up + up * by_v1_2 + d0_product * by_v0_2
+        )
+        by_t_over_sinh_t_2 = by_scale_2_2 / x1
+        by_t_2 = (
+            (by_t * gap - ratio * ratio_5 + torch.where(near, 0.0, by_t_over_sinh_t_2) + torch.where(near, 0.0,
+            by_log_det) / t_ratio) / sinh_t
+        )
+        by_sinh_t = -(by_t * by_by_t_ratio) - t_ratio * by_t_2
+        by_sqrt_1_plus_h_to_2 = (
+            torch.where(is_small, 0.0, 2.0 * (ratio_2 * ratio_4)) - by_t_product * by_by_h_product + h_product *
+            by_sinh_t
+        )
+        product_8 = 2.0 * (-(by_h_ratio * by_by_h) - by_t_product * ratio_4 + sqrt_1_plus_h_to_2 * by_sinh_t)
+        by_asinh_h_2 = 2.0 * by_t_2
+        by_h_2 = product_8 + by_asinh_h_2 / sqrt_2
+        total_5 = (
+            by_log_det_near * by_by_log_det_series + torch.where(is_small, 0.0, by_sqrt_1_plus_h_to_2 / product_2) +
+            torch.where(near, 0.0, by_h_2 / h_product - by_asinh_h_ratio * by_by_asinh_h / (2.0 * sqrt_2))
+        )
+        by_log_det_near_2 = torch.where(near, by_log_det, 0.0)
+        by_log_det_series_slope = by_log_det_series * near_chosen_3
+        log_det_series_slope_slope = _polynomial(near_chosen, _LOG_DET_SERIES_SLOPE_SLOPE)
+        by_t_over_sinh_t_near_slope = by_t_over_sinh_t_near * near_chosen_3
+        t_over_sinh_t_near_slope_slope = _polynomial(near_chosen, _T_OVER_SINH_T_NEAR_SLOPE_SLOPE)
+        by_t_over_sinh_t_near_2 = torch.where(near, by_t_over_sinh_t_2, 0.0)
+        by_log_det_series_2 = by_log_det_near * by_by_h_squared + h_squared * by_log_det_near_2
+        near_chosen_4 = torch.where(
+            near, by_log_det_series_slope * log_det_series_slope_slope + by_t_over_sinh_t_near_slope *
+            t_over_sinh_t_near_slope_slope + t_over_sinh_t_near_slope * by_t_over_sinh_t_near_2 + log_det_series_slope *
+            by_log_det_series_2, 0.0
+        )
+        by_h_squared_2 = total_5 + log_det_series * by_log_det_near_2 + 8.719916288803628 * near_chosen_4
+        product_9 = 2.0 * by_h_squared_2
+        by_part0_2 = product_3 * by_by_part0 + part0 * product_9
+        by_d0 = by_up * x0_bar - by_part0 * sqrt_value_ratio + d0 * by_up_2 + mu1 * total_4 + scale * by_part0_2
+        by_part1 = part1 * product_3
+        by_scale = d1 * by_part1 + d0 * by_part0
+        by_scale_ratio = by_scale / sqrt_value
+        ratio_6 = 2.0 * (scale * by_scale_ratio) / product_4
+        total_6 = (
+            torch.where(is_small_2, 0.0, -ratio_6) * x1_bar + scale_2 * by_v0 * x0_bar + (by_up * product_7 + d1_product
+            * by_up_2)
+        )
+        by_part1_2 = product_3 * by_by_part1 + part1 * product_9
+        by_d1 = 0.5 * (by_up * x1_bar + total_2 * by_up_2) - by_part1 * sqrt_value_ratio + scale * by_part1_2
+        by_scale_3 = (
+            by_part0 * x0_bar - by_scale_ratio * product_5 + by_part1 * x1_bar + d1 * by_part1_2 + d0 * by_part0_2
+        )
+        by_sqrt_value = by_scale_ratio * sqrt_value_ratio - scale * (by_scale_3 / sqrt_value)
+        ratio_7 = (torch.where(is_small_2, 0.0, 2.0 * (ratio_6 * ratio_3)) + 2.0 * by_sqrt_value) / product_4
+        return (
+            -by_d0,
+            total_6 + d0 * total_4 - by_d1 + x1 * torch.where(is_small_2, 0.0, ratio_7),
+            v0 * by_z0 - z0_product * by_by_v0,
+            v1 * by_z0 - z0_product * by_by_v1,
+            v0 * by_z1 - z1_product * by_by_v0,
+            v1 * by_z1 - z1_product * by_by_v1,
+            exp_2 * by_phi,
+        )
+
+    def _splat_constants_vjp(
+        self, mu: Tensor, W: Tensor, amplitude: Tensor, S_bar: Sequence[Tensor]
+    ) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives in mu, W and amplitude from those in S."""
+        mu0_bar, mu1_bar, W0_0_bar, W0_1_bar, W1_0_bar, W1_1_bar, amplitude_bar = S_bar
+        mu_bar = _stack((mu0_bar, mu1_bar))
+        W_bar = _stack((W0_0_bar, W0_1_bar, W1_0_bar, W1_1_bar))
+        return mu_bar, W_bar.unflatten(-1, (2, 2)), amplitude_bar
 
 
 manifold = HalfSpace()

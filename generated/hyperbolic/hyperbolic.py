@@ -28,6 +28,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import torch
 from torch import Generator, Tensor
@@ -106,6 +107,32 @@ _R_OVER_SINH_R_NEAR_SLOPE = (
     ),
 )
 
+# Of degree 11 on [0, 1], its relative error below 2^-56; for float32 of degree 5, within 2^-29 of that.
+_ETA = (
+    (
+        -0.3333333333333333, 0.03888888888888882, -0.004695767195763986, 0.0005742945325677045, -7.068869857715428e-05,
+        8.73377493462523e-06, -1.081704433585778e-06, 1.3417193242135835e-07, -1.6621793563008396e-08,
+        2.0201168790031167e-09, -2.2052156012759445e-10, 1.571171820836068e-11,
+    ),
+    (
+        -0.3333333329738172, 0.038888862721119646, -0.004695457196731528, 0.0005729409253513102, -6.797492497278703e-05,
+        6.127417886832629e-06,
+    ),
+)
+
+# Of degree 11 on [0, 1], the derivative of a polynomial; for float32 of degree 6, within 2^-31 of that.
+_ETA_SLOPE = (
+    (
+        0.15555555555555556, -0.03756613756613715, 0.00689153439151469, -0.0011310191862053624, 0.00017467556212788076,
+        -2.5961179550403887e-05, 3.7575671816986786e-06, -5.332547379314519e-07, 7.431542814507216e-08,
+        -9.989583870693198e-09, 1.1796388215400893e-09, -8.854985513574796e-11,
+    ),
+    (
+        0.15555555551604225, -0.037566133653313336, 0.006891470905338728, -0.0011306306849031013,
+        0.00017353196911450256, -2.4197931086547884e-05, 2.3412224833279386e-06,
+    ),
+)
+
 
 def _root(x: Tensor) -> Tensor:
     """sqrt(x) with the derivative 0 at x = 0, where autograd would make 0 * inf = NaN of it."""
@@ -157,6 +184,72 @@ def _rejection(
         uniform = torch.rand(len(points), generator=generator, dtype=like.dtype, device=like.device)
         kept.append(points[uniform * bound < density])
     return torch.cat(kept)[:count]
+
+
+def _chunks(x: Tensor, splats: int) -> Sequence[Tensor]:
+    """Points by chunks whose pairs with all splats are a bounded number; all at once where a compiler fuses the sums."""
+    if torch.compiler.is_compiling():
+        return (x,)
+    pairs = 2**15 if x.device.type == "cpu" else 2**21  # CPU: what fits in a cache
+    return x.split(max(1, pairs // max(1, splats)))
+
+
+def _sums(entries: Sequence[Tensor], points: int, splats: int, dim: int) -> list[Tensor]:
+    """Entries of pairs, summed over the points (dim 0) or over the splats (dim 1)."""
+    return [entry.expand(points, splats).sum(dim) for entry in entries]
+
+
+def _checked(
+    manifold: Any, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor
+) -> tuple[tuple[Tensor, Tensor, Tensor, Tensor], torch.dtype]:
+    """The four in one precision, single for what is less, and the precision of the results; their shapes must fit."""
+    K, D = len(mu) if mu.dim() else 0, manifold.point_size
+    N = len(x) if x.dim() else 0
+    shapes = {"x": (N, D), "mu": (K, D), "W": (K, manifold.dim, manifold.tangent_size), "amplitude": (K,)}
+    dtype = x.dtype
+    for (name, shape), tensor in zip(shapes.items(), (x, mu, W, amplitude), strict=True):
+        if tensor.shape != shape:
+            raise ValueError(f"{name} has shape {tuple(tensor.shape)}; with {N} points and {K} splats it is {shape}")
+        if not tensor.is_floating_point():
+            raise TypeError(f"{name} is {tensor.dtype}: splats take floating-point numbers")
+        dtype = torch.promote_types(dtype, tensor.dtype)
+    inside = torch.promote_types(dtype, torch.float32)
+    return (x.to(inside), mu.to(inside), W.to(inside), amplitude.to(inside)), dtype
+
+
+class _Splats(torch.autograd.Function):
+    """The sums under autograd: the backward pass is one sweep over all pairs."""
+
+    @staticmethod
+    def forward(ctx: Any, manifold: Any, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """Values and gradients."""
+        ctx.manifold = manifold
+        ctx.save_for_backward(x, mu, W, amplitude)
+        value, gradient = manifold._splats(x, mu, W, amplitude)
+        return value, gradient
+
+    @staticmethod
+    def backward(ctx: Any, value_bar: Tensor, gradient_bar: Tensor) -> tuple[Tensor | None, ...]:
+        """The derivatives in mu, W and amplitude."""
+        tensors = *ctx.saved_tensors, value_bar, gradient_bar
+        if torch.is_grad_enabled() and not torch.compiler.is_compiling():
+            return None, None, *_SplatsBackward.apply(ctx.manifold, *tensors)  # type: ignore[no-untyped-call]
+        return None, None, *ctx.manifold._splats_vjp(*tensors)
+
+
+class _SplatsBackward(torch.autograd.Function):
+    """The backward pass where somebody might differentiate it again, which is an error."""
+
+    @staticmethod
+    def forward(ctx: Any, manifold: Any, *tensors: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives in mu, W and amplitude."""
+        by_mu, by_W, by_amplitude = manifold._splats_vjp(*tensors)
+        return by_mu, by_W, by_amplitude
+
+    @staticmethod
+    def backward(ctx: Any, *bars: Tensor) -> Any:
+        """None."""
+        raise RuntimeError("`splats` has first derivatives only; of `splat`, autograd knows all")
 
 
 class Hyperbolic:
@@ -562,14 +655,6 @@ class Hyperbolic:
         gradient2 = df2 + x2 * normal_part
         return (phi, gradient0, gradient1, gradient2)
 
-    def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
-        """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
-
-        Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T).
-        """
-        value, *gradient = self._splat(x.unsqueeze(-2), mu, W, amplitude)
-        return value.sum(-1), _stack([entry.sum(-1) for entry in gradient])
-
     def transport(self, p: Tensor, q: Tensor, v: Tensor) -> Tensor:
         """Not known for this manifold: its file gives no `transport:`."""
         raise ValueError("parallel transport is not known here: give its closed form as `transport:` in the manifold file")
@@ -613,6 +698,318 @@ class Hyperbolic:
             return points, torch.exp(-self.log_abs_det(center, points))
 
         return _rejection(propose, count, generator, center)
+
+    def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
+
+        Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T).
+        Differentiable once in mu, W and amplitude, with nothing of size N x K kept. Where x requires a gradient too, autograd
+        differentiates the formula of every pair, as often as is wanted, and keeps all of them.
+        """
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        if x.requires_grad and torch.is_grad_enabled():
+            value, *entries = self._splat(tensors[0].unsqueeze(-2), *tensors[1:])
+            value, gradient = value.sum(-1), _stack([entry.sum(-1) for entry in entries])
+        else:
+            value, gradient = _Splats.apply(self, *tensors)  # type: ignore[no-untyped-call]
+        return value.to(dtype), gradient.to(dtype)
+
+    def splats_value(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> Tensor:
+        """The value of `splats` alone: (N), differentiable as there."""
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        if torch.is_grad_enabled() and any(tensor.requires_grad for tensor in tensors):
+            return self.splats(x, mu, W, amplitude)[0]
+        return self._splats_value(*tensors).to(dtype)
+
+    def splats_rows(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> Tensor:
+        """The derivatives of value_bar_n value_n + gradient_bar_n . gradient_n of `splats`, each point's by itself.
+
+        Shapes: as in `splats`, value_bar (N), gradient_bar (N, T) to (N, K, D + d T + 1), the derivatives in mu, W (row by
+        row) and amplitude of every splat; not differentiable. Their sum over N is what the backward pass of `splats` gives.
+        """
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        with torch.no_grad():
+            return self._splats_rows(*tensors, value_bar.to(tensors[0]), gradient_bar.to(tensors[0])).to(dtype)
+
+    def kernels(self, like: Tensor) -> str:
+        """What computes `splats` for tensors like this one."""
+        return f"torch, {like.device.type}"
+
+    def _splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """Values (N) and gradients (N, T)."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        values, gradients = [], []
+        for part in _chunks(x, len(mu)):
+            X = [entry.unsqueeze(-1) for entry in self._point_features(part)]
+            value, *slope = _sums(self._pair(X, S), len(part), len(mu), 1)
+            values.append(value)
+            gradients.append(self._point_gradient(part, slope))
+        return torch.cat(values), torch.cat(gradients)
+
+    def _splats_value(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> Tensor:
+        """Values (N) alone."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        values = []
+        for part in _chunks(x, len(mu)):
+            X = [entry.unsqueeze(-1) for entry in self._point_features(part)]
+            values += _sums(self._pair_value(X, S), len(part), len(mu), 1)
+        return torch.cat(values)
+
+    def _splats_vjp(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu (K, D), W (K, d, T) and amplitude (K)."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        total = torch.zeros((len(S), len(mu)), dtype=x.dtype, device=x.device)
+        parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
+        for part, *bars in zip(*parts, strict=True):
+            total = total + torch.stack(_sums(self._pair_bars(part, S, *bars), len(part), len(mu), 0))
+        return self._splat_constants_vjp(mu, W, amplitude, total.unbind(0))
+
+    def _splats_rows(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> Tensor:
+        """The rows (N, K, D + d T + 1) of the derivatives that `_splats_vjp` sums over N."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
+        rows = []
+        for part, *bars in zip(*parts, strict=True):
+            S_bar = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
+            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, S_bar)
+            rows.append(torch.cat([by_mu, by_W.flatten(-2), by_amplitude.unsqueeze(-1)], -1))
+        return torch.cat(rows)
+
+    def _pair_bars(
+        self, x: Tensor, S: Sequence[Tensor], value_bar: Tensor, gradient_bar: Tensor
+    ) -> tuple[Tensor, ...]:
+        """The derivatives in S of every pair, from those in the sums."""
+        X = [entry.unsqueeze(-1) for entry in self._point_features(x)]
+        slope_bar = [entry.unsqueeze(-1) for entry in self._point_gradient_vjp(x, gradient_bar)]
+        return self._pair_vjp(X, S, value_bar.unsqueeze(-1), slope_bar)
+
+    def _point_features(self, x: Tensor) -> tuple[Tensor, ...]:
+        """X, what the pairs need of a point alone."""
+        x0, x1, x2 = x.unbind(-1)
+        h0 = 0.5 * x0
+        h1 = 0.5 * x1
+        h2 = 0.5 * x2
+        return (h0, h1, h2)
+
+    def _splat_constants(self, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, ...]:
+        """S, what the pairs need of a splat alone."""
+        mu0, mu1, mu2 = mu.unbind(-1)
+        W0_0, W0_1, W0_2, W1_0, W1_1, W1_2 = W.flatten(-2).unbind(-1)
+        M0 = 0.5 * mu0
+        M1 = 0.5 * mu1
+        M2 = 0.5 * mu2
+        by_normal_part = mu2 * W0_2 + mu1 * W0_1 + mu0 * W0_0
+        R0_0 = 1.4142135623730951 * (W0_0 - mu0 * by_normal_part)
+        R0_1 = 1.4142135623730951 * (W0_1 + mu1 * by_normal_part)
+        R0_2 = 1.4142135623730951 * (W0_2 + mu2 * by_normal_part)
+        by_normal_part_2 = mu2 * W1_2 + mu1 * W1_1 + mu0 * W1_0
+        R1_0 = 1.4142135623730951 * (W1_0 - mu0 * by_normal_part_2)
+        R1_1 = 1.4142135623730951 * (W1_1 + mu1 * by_normal_part_2)
+        R1_2 = 1.4142135623730951 * (W1_2 + mu2 * by_normal_part_2)
+        return (amplitude, M0, M1, M2, R0_0, R0_1, R0_2, R1_0, R1_1, R1_2)
+
+    def _pair_value(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
+        """The value of a splat at a point."""
+        h0, h1, h2 = X
+        amplitude, M0, M1, M2, R0_0, R0_1, R0_2, R1_0, R1_1, R1_2 = S
+        gap = h0 - M0
+        minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2))
+        u = torch.where(minus < 0.0, 0.0, minus)
+        w = torch.sqrt(1.0 + u)
+        near = w < 1.25
+        eta = _polynomial(4.0 * torch.where(near, w - 1.0, 0.0), _ETA)
+        near_chosen = torch.where(near, 1.0, u)
+        sqrt_2 = torch.sqrt(near_chosen)
+        half_angle = torch.log(w + sqrt_2)
+        half_angle_product = sqrt_2 * half_angle
+        ratio = 1.0 / (near_chosen * half_angle_product)
+        u_product = u * torch.where(near, eta, near_chosen * ratio - w * (half_angle_product * ratio))
+        a = 1.0 / (w * (w + u_product))
+        a_squared = a * a
+        r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2
+        r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2
+        half_square = a_squared * (r0 * r0 + r1 * r1)
+        gaussian = torch.exp(-half_square)
+        phi = amplitude * (a * gaussian)
+        return (phi,)
+
+    def _pair(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
+        """The value of a splat at a point, and the slope, its derivatives in X."""
+        h0, h1, h2 = X
+        amplitude, M0, M1, M2, R0_0, R0_1, R0_2, R1_0, R1_1, R1_2 = S
+        gap = h0 - M0
+        minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2))
+        u = torch.where(minus < 0.0, 0.0, minus)
+        w = torch.sqrt(1.0 + u)
+        near = w < 1.25
+        eta = _polynomial(4.0 * torch.where(near, w - 1.0, 0.0), _ETA)
+        near_chosen = torch.where(near, 1.0, u)
+        sqrt_2 = torch.sqrt(near_chosen)
+        half_angle = torch.log(w + sqrt_2)
+        half_angle_product = sqrt_2 * half_angle
+        ratio = 1.0 / (near_chosen * half_angle_product)
+        near_chosen_2 = torch.where(near, eta, near_chosen * ratio - w * (half_angle_product * ratio))
+        w_total = w + u * near_chosen_2
+        a = 1.0 / (w * w_total)
+        a_squared = a * a
+        r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2
+        r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2
+        half_square = a_squared * (r0 * r0 + r1 * r1)
+        gaussian = torch.exp(-half_square)
+        phi = amplitude * (a * gaussian)
+        product = 2.0 * (phi * a_squared)
+        r1_product = r1 * product
+        r0_product = r0 * product
+        over_w = w_total * a
+        over_w_product = over_w * ((near_chosen_2 - over_w) * (phi - phi * (2.0 * half_square)))
+        by_h0 = -(R1_0 * r1_product) - R0_0 * r0_product + M0 * over_w_product
+        by_h1 = -(R1_1 * r1_product) - R0_1 * r0_product - M1 * over_w_product
+        by_h2 = -(R1_2 * r1_product) - R0_2 * r0_product - M2 * over_w_product
+        return (phi, by_h0, by_h1, by_h2)
+
+    def _point_gradient(self, x: Tensor, slope: Sequence[Tensor]) -> Tensor:
+        """The Riemannian gradient of a function whose derivatives in X are `slope`."""
+        x0, x1, x2 = x.unbind(-1)
+        slope_h0, slope_h1, slope_h2 = slope
+        product = 0.5 * slope_h0
+        product_2 = 0.5 * slope_h1
+        product_3 = 0.5 * slope_h2
+        normal_part = x0 * product + x1 * product_2 + x2 * product_3
+        return _stack((x0 * normal_part - product, product_2 + x1 * normal_part, product_3 + x2 * normal_part))
+
+    def _point_gradient_vjp(self, x: Tensor, gradient_bar: Tensor) -> tuple[Tensor, ...]:
+        """The derivatives of gradient . gradient_bar in `slope`."""
+        x0, x1, x2 = x.unbind(-1)
+        gradient_bar0, gradient_bar1, gradient_bar2 = gradient_bar.unbind(-1)
+        by_normal_part = x2 * gradient_bar2 + x1 * gradient_bar1 + x0 * gradient_bar0
+        return (
+            0.5 * (x0 * by_normal_part - gradient_bar0),
+            0.5 * (gradient_bar1 + x1 * by_normal_part),
+            0.5 * (gradient_bar2 + x2 * by_normal_part),
+        )
+
+    def _pair_vjp(
+        self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
+    ) -> tuple[Tensor, ...]:
+        """The derivatives of value value_bar + slope . slope_bar in S."""
+        h0, h1, h2 = X
+        amplitude, M0, M1, M2, R0_0, R0_1, R0_2, R1_0, R1_1, R1_2 = S
+        h0_bar, h1_bar, h2_bar = slope_bar
+        gap = h0 - M0
+        minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2))
+        u = torch.where(minus < 0.0, 0.0, minus)
+        w = torch.sqrt(1.0 + u)
+        near = w < 1.25
+        product = 4.0 * torch.where(near, w - 1.0, 0.0)
+        eta = _polynomial(product, _ETA)
+        near_chosen = torch.where(near, 1.0, u)
+        sqrt_2 = torch.sqrt(near_chosen)
+        half_angle = torch.log(w + sqrt_2)
+        half_angle_product = sqrt_2 * half_angle
+        ratio = 1.0 / (near_chosen * half_angle_product)
+        product_2 = near_chosen * ratio
+        product_3 = half_angle_product * ratio
+        w_product = w * product_3
+        near_chosen_2 = torch.where(near, eta, product_2 - w_product)
+        w_total = w + u * near_chosen_2
+        a = 1.0 / (w * w_total)
+        a_squared = a * a
+        r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2
+        r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2
+        half_square = a_squared * (r0 * r0 + r1 * r1)
+        gaussian = torch.exp(-half_square)
+        a_product = a * gaussian
+        over_w = w_total * a
+        over_w_gap = near_chosen_2 - over_w
+        gap_2 = M0 * h0_bar - M1 * h1_bar - M2 * h2_bar
+        over_w_product = over_w * gap_2
+        product_4 = over_w_gap * over_w_product
+        gap_3 = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar
+        gap_4 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar
+        product_5 = 2.0 * (r0 * gap_3 + r1 * gap_4)
+        half_square_product = 2.0 * half_square
+        by_phi = value_bar + product_4 + a_squared * product_5 - half_square_product * product_4
+        phi = amplitude * a_product
+        phi_gap = phi - phi * half_square_product
+        product_6 = over_w_gap * phi_gap
+        over_w_product_2 = over_w * product_6
+        eta_slope = _polynomial(product, _ETA_SLOPE)
+        product_7 = phi_gap * over_w_product
+        product_8 = (
+            torch.where(near, eta_slope, (2.0 + near_chosen) * (product_3 * product_3) - product_2 * (product_2 +
+            w_product)) * product_7
+        )
+        product_9 = a_product * (amplitude * by_phi)
+        by_half_square = -(2.0 * (phi * product_4)) - product_9
+        product_10 = (
+            over_w_gap * (2.0 * a_squared * (phi * product_5) + product_9 + half_square_product * by_half_square)
+        )
+        total_2 = product_8 - over_w * over_w * (product_6 * gap_2 - product_7) + product_10
+        over_w_product_3 = over_w * total_2
+        product_11 = 2.0 * (phi * a_squared)
+        product_12 = 2.0 * (a_squared * by_half_square)
+        by_r0 = product_11 * gap_3 + r0 * product_12
+        r0_product = r0 * product_11
+        by_r1 = product_11 * gap_4 + r1 * product_12
+        r1_product = r1 * product_11
+        return (
+            a_product * by_phi,
+            over_w_product_2 * h0_bar + h0 * over_w_product_3,
+            -(over_w_product_2 * h1_bar) - h1 * over_w_product_3,
+            -(over_w_product_2 * h2_bar) - h2 * over_w_product_3,
+            h0 * by_r0 - r0_product * h0_bar,
+            h1 * by_r0 - r0_product * h1_bar,
+            h2 * by_r0 - r0_product * h2_bar,
+            h0 * by_r1 - r1_product * h0_bar,
+            h1 * by_r1 - r1_product * h1_bar,
+            h2 * by_r1 - r1_product * h2_bar,
+        )
+
+    def _splat_constants_vjp(
+        self, mu: Tensor, W: Tensor, amplitude: Tensor, S_bar: Sequence[Tensor]
+    ) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives in mu, W and amplitude from those in S."""
+        mu0, mu1, mu2 = mu.unbind(-1)
+        W0_0, W0_1, W0_2, W1_0, W1_1, W1_2 = W.flatten(-2).unbind(-1)
+        amplitude_bar, M0_bar, M1_bar, M2_bar, R0_0_bar, R0_1_bar, R0_2_bar, R1_0_bar, R1_1_bar, R1_2_bar = S_bar
+        by_normal_part = mu2 * W0_2 + mu1 * W0_1 + mu0 * W0_0
+        product = 1.4142135623730951 * R0_0_bar
+        product_2 = 1.4142135623730951 * R0_1_bar
+        product_3 = 1.4142135623730951 * R0_2_bar
+        by_by_normal_part = mu1 * product_2 - mu0 * product + mu2 * product_3
+        by_normal_part_2 = mu2 * W1_2 + mu1 * W1_1 + mu0 * W1_0
+        product_4 = 1.4142135623730951 * R1_0_bar
+        product_5 = 1.4142135623730951 * R1_1_bar
+        product_6 = 1.4142135623730951 * R1_2_bar
+        by_by_normal_part_2 = mu1 * product_5 - mu0 * product_4 + mu2 * product_6
+        total_2 = (
+            0.5 * M0_bar - by_normal_part * product + W0_0 * by_by_normal_part - by_normal_part_2 * product_4 + W1_0 *
+            by_by_normal_part_2
+        )
+        total_3 = (
+            0.5 * M1_bar + by_normal_part * product_2 + W0_1 * by_by_normal_part + by_normal_part_2 * product_5 + W1_1 *
+            by_by_normal_part_2
+        )
+        total_4 = (
+            0.5 * M2_bar + by_normal_part * product_3 + W0_2 * by_by_normal_part + by_normal_part_2 * product_6 + W1_2 *
+            by_by_normal_part_2
+        )
+        mu_bar = _stack((total_2, total_3, total_4))
+        W_bar = _stack((
+            product + mu0 * by_by_normal_part,
+            product_2 + mu1 * by_by_normal_part,
+            product_3 + mu2 * by_by_normal_part,
+            product_4 + mu0 * by_by_normal_part_2,
+            product_5 + mu1 * by_by_normal_part_2,
+            product_6 + mu2 * by_by_normal_part_2,
+        ))
+        return mu_bar, W_bar.unflatten(-1, (2, 3)), amplitude_bar
 
 
 manifold = Hyperbolic()

@@ -31,6 +31,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import torch
 from torch import Generator, Tensor
@@ -86,6 +87,72 @@ def _rejection(
         uniform = torch.rand(len(points), generator=generator, dtype=like.dtype, device=like.device)
         kept.append(points[uniform * bound < density])
     return torch.cat(kept)[:count]
+
+
+def _chunks(x: Tensor, splats: int) -> Sequence[Tensor]:
+    """Points by chunks whose pairs with all splats are a bounded number; all at once where a compiler fuses the sums."""
+    if torch.compiler.is_compiling():
+        return (x,)
+    pairs = 2**15 if x.device.type == "cpu" else 2**21  # CPU: what fits in a cache
+    return x.split(max(1, pairs // max(1, splats)))
+
+
+def _sums(entries: Sequence[Tensor], points: int, splats: int, dim: int) -> list[Tensor]:
+    """Entries of pairs, summed over the points (dim 0) or over the splats (dim 1)."""
+    return [entry.expand(points, splats).sum(dim) for entry in entries]
+
+
+def _checked(
+    manifold: Any, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor
+) -> tuple[tuple[Tensor, Tensor, Tensor, Tensor], torch.dtype]:
+    """The four in one precision, single for what is less, and the precision of the results; their shapes must fit."""
+    K, D = len(mu) if mu.dim() else 0, manifold.point_size
+    N = len(x) if x.dim() else 0
+    shapes = {"x": (N, D), "mu": (K, D), "W": (K, manifold.dim, manifold.tangent_size), "amplitude": (K,)}
+    dtype = x.dtype
+    for (name, shape), tensor in zip(shapes.items(), (x, mu, W, amplitude), strict=True):
+        if tensor.shape != shape:
+            raise ValueError(f"{name} has shape {tuple(tensor.shape)}; with {N} points and {K} splats it is {shape}")
+        if not tensor.is_floating_point():
+            raise TypeError(f"{name} is {tensor.dtype}: splats take floating-point numbers")
+        dtype = torch.promote_types(dtype, tensor.dtype)
+    inside = torch.promote_types(dtype, torch.float32)
+    return (x.to(inside), mu.to(inside), W.to(inside), amplitude.to(inside)), dtype
+
+
+class _Splats(torch.autograd.Function):
+    """The sums under autograd: the backward pass is one sweep over all pairs."""
+
+    @staticmethod
+    def forward(ctx: Any, manifold: Any, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """Values and gradients."""
+        ctx.manifold = manifold
+        ctx.save_for_backward(x, mu, W, amplitude)
+        value, gradient = manifold._splats(x, mu, W, amplitude)
+        return value, gradient
+
+    @staticmethod
+    def backward(ctx: Any, value_bar: Tensor, gradient_bar: Tensor) -> tuple[Tensor | None, ...]:
+        """The derivatives in mu, W and amplitude."""
+        tensors = *ctx.saved_tensors, value_bar, gradient_bar
+        if torch.is_grad_enabled() and not torch.compiler.is_compiling():
+            return None, None, *_SplatsBackward.apply(ctx.manifold, *tensors)  # type: ignore[no-untyped-call]
+        return None, None, *ctx.manifold._splats_vjp(*tensors)
+
+
+class _SplatsBackward(torch.autograd.Function):
+    """The backward pass where somebody might differentiate it again, which is an error."""
+
+    @staticmethod
+    def forward(ctx: Any, manifold: Any, *tensors: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives in mu, W and amplitude."""
+        by_mu, by_W, by_amplitude = manifold._splats_vjp(*tensors)
+        return by_mu, by_W, by_amplitude
+
+    @staticmethod
+    def backward(ctx: Any, *bars: Tensor) -> Any:
+        """None."""
+        raise RuntimeError("`splats` has first derivatives only; of `splat`, autograd knows all")
 
 
 class MobileManipulator:
@@ -364,7 +431,13 @@ class MobileManipulator:
         """The value and the entries of the gradient, not stacked."""
         x0, x1, x2, x3, x4, x5, x6, x7, x8 = x.unbind(-1)
         mu0, mu1, mu2, mu3, mu4, mu5, mu6, mu7, mu8 = mu.unbind(-1)
-        W0_0, W0_1, W0_2, W0_3, W0_4, W0_5, W0_6, W0_7, W0_8, W1_0, W1_1, W1_2, W1_3, W1_4, W1_5, W1_6, W1_7, W1_8, W2_0, W2_1, W2_2, W2_3, W2_4, W2_5, W2_6, W2_7, W2_8, W3_0, W3_1, W3_2, W3_3, W3_4, W3_5, W3_6, W3_7, W3_8, W4_0, W4_1, W4_2, W4_3, W4_4, W4_5, W4_6, W4_7, W4_8, W5_0, W5_1, W5_2, W5_3, W5_4, W5_5, W5_6, W5_7, W5_8, W6_0, W6_1, W6_2, W6_3, W6_4, W6_5, W6_6, W6_7, W6_8, W7_0, W7_1, W7_2, W7_3, W7_4, W7_5, W7_6, W7_7, W7_8, W8_0, W8_1, W8_2, W8_3, W8_4, W8_5, W8_6, W8_7, W8_8 = W.flatten(-2).unbind(-1)
+        (
+            W0_0, W0_1, W0_2, W0_3, W0_4, W0_5, W0_6, W0_7, W0_8, W1_0, W1_1, W1_2, W1_3, W1_4, W1_5, W1_6, W1_7, W1_8,
+            W2_0, W2_1, W2_2, W2_3, W2_4, W2_5, W2_6, W2_7, W2_8, W3_0, W3_1, W3_2, W3_3, W3_4, W3_5, W3_6, W3_7, W3_8,
+            W4_0, W4_1, W4_2, W4_3, W4_4, W4_5, W4_6, W4_7, W4_8, W5_0, W5_1, W5_2, W5_3, W5_4, W5_5, W5_6, W5_7, W5_8,
+            W6_0, W6_1, W6_2, W6_3, W6_4, W6_5, W6_6, W6_7, W6_8, W7_0, W7_1, W7_2, W7_3, W7_4, W7_5, W7_6, W7_7, W7_8,
+            W8_0, W8_1, W8_2, W8_3, W8_4, W8_5, W8_6, W8_7, W8_8,
+        ) = W.flatten(-2).unbind(-1)
         v0 = x0 - mu0
         v1 = x1 - mu1
         gap = x2 - mu2
@@ -454,14 +527,6 @@ class MobileManipulator:
         gradient8 = 16.0 * df8
         return (phi, df0, df1, gradient2, gradient3, gradient4, gradient5, gradient6, gradient7, gradient8)
 
-    def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
-        """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
-
-        Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T).
-        """
-        value, *gradient = self._splat(x.unsqueeze(-2), mu, W, amplitude)
-        return value.sum(-1), _stack([entry.sum(-1) for entry in gradient])
-
     def frame(self, p: Tensor) -> Tensor:
         """An orthonormal basis of the tangent space at p, one vector a row; not continuous in p where none is.
 
@@ -501,6 +566,709 @@ class MobileManipulator:
             return points, torch.exp(-self.log_abs_det(center, points))
 
         return _rejection(propose, count, generator, center)
+
+    def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
+
+        Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T).
+        Differentiable once in mu, W and amplitude, with nothing of size N x K kept. Where x requires a gradient too, autograd
+        differentiates the formula of every pair, as often as is wanted, and keeps all of them.
+        """
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        if x.requires_grad and torch.is_grad_enabled():
+            value, *entries = self._splat(tensors[0].unsqueeze(-2), *tensors[1:])
+            value, gradient = value.sum(-1), _stack([entry.sum(-1) for entry in entries])
+        else:
+            value, gradient = _Splats.apply(self, *tensors)  # type: ignore[no-untyped-call]
+        return value.to(dtype), gradient.to(dtype)
+
+    def splats_value(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> Tensor:
+        """The value of `splats` alone: (N), differentiable as there."""
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        if torch.is_grad_enabled() and any(tensor.requires_grad for tensor in tensors):
+            return self.splats(x, mu, W, amplitude)[0]
+        return self._splats_value(*tensors).to(dtype)
+
+    def splats_rows(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> Tensor:
+        """The derivatives of value_bar_n value_n + gradient_bar_n . gradient_n of `splats`, each point's by itself.
+
+        Shapes: as in `splats`, value_bar (N), gradient_bar (N, T) to (N, K, D + d T + 1), the derivatives in mu, W (row by
+        row) and amplitude of every splat; not differentiable. Their sum over N is what the backward pass of `splats` gives.
+        """
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        with torch.no_grad():
+            return self._splats_rows(*tensors, value_bar.to(tensors[0]), gradient_bar.to(tensors[0])).to(dtype)
+
+    def kernels(self, like: Tensor) -> str:
+        """What computes `splats` for tensors like this one."""
+        return f"torch, {like.device.type}"
+
+    def _splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """Values (N) and gradients (N, T)."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        values, gradients = [], []
+        for part in _chunks(x, len(mu)):
+            X = [entry.unsqueeze(-1) for entry in self._point_features(part)]
+            value, *slope = _sums(self._pair(X, S), len(part), len(mu), 1)
+            values.append(value)
+            gradients.append(self._point_gradient(part, slope))
+        return torch.cat(values), torch.cat(gradients)
+
+    def _splats_value(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> Tensor:
+        """Values (N) alone."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        values = []
+        for part in _chunks(x, len(mu)):
+            X = [entry.unsqueeze(-1) for entry in self._point_features(part)]
+            values += _sums(self._pair_value(X, S), len(part), len(mu), 1)
+        return torch.cat(values)
+
+    def _splats_vjp(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu (K, D), W (K, d, T) and amplitude (K)."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        total = torch.zeros((len(S), len(mu)), dtype=x.dtype, device=x.device)
+        parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
+        for part, *bars in zip(*parts, strict=True):
+            total = total + torch.stack(_sums(self._pair_bars(part, S, *bars), len(part), len(mu), 0))
+        return self._splat_constants_vjp(mu, W, amplitude, total.unbind(0))
+
+    def _splats_rows(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> Tensor:
+        """The rows (N, K, D + d T + 1) of the derivatives that `_splats_vjp` sums over N."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
+        rows = []
+        for part, *bars in zip(*parts, strict=True):
+            S_bar = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
+            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, S_bar)
+            rows.append(torch.cat([by_mu, by_W.flatten(-2), by_amplitude.unsqueeze(-1)], -1))
+        return torch.cat(rows)
+
+    def _pair_bars(
+        self, x: Tensor, S: Sequence[Tensor], value_bar: Tensor, gradient_bar: Tensor
+    ) -> tuple[Tensor, ...]:
+        """The derivatives in S of every pair, from those in the sums."""
+        X = [entry.unsqueeze(-1) for entry in self._point_features(x)]
+        slope_bar = [entry.unsqueeze(-1) for entry in self._point_gradient_vjp(x, gradient_bar)]
+        return self._pair_vjp(X, S, value_bar.unsqueeze(-1), slope_bar)
+
+    def _point_features(self, x: Tensor) -> tuple[Tensor, ...]:
+        """X, what the pairs need of a point alone."""
+        x0, x1, x2, x3, x4, x5, x6, x7, x8 = x.unbind(-1)
+        return (x0, x1, x2, x3, x4, x5, x6, x7, x8)
+
+    def _splat_constants(self, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, ...]:
+        """S, what the pairs need of a splat alone."""
+        mu0, mu1, mu2, mu3, mu4, mu5, mu6, mu7, mu8 = mu.unbind(-1)
+        (
+            W0_0, W0_1, W0_2, W0_3, W0_4, W0_5, W0_6, W0_7, W0_8, W1_0, W1_1, W1_2, W1_3, W1_4, W1_5, W1_6, W1_7, W1_8,
+            W2_0, W2_1, W2_2, W2_3, W2_4, W2_5, W2_6, W2_7, W2_8, W3_0, W3_1, W3_2, W3_3, W3_4, W3_5, W3_6, W3_7, W3_8,
+            W4_0, W4_1, W4_2, W4_3, W4_4, W4_5, W4_6, W4_7, W4_8, W5_0, W5_1, W5_2, W5_3, W5_4, W5_5, W5_6, W5_7, W5_8,
+            W6_0, W6_1, W6_2, W6_3, W6_4, W6_5, W6_6, W6_7, W6_8, W7_0, W7_1, W7_2, W7_3, W7_4, W7_5, W7_6, W7_7, W7_8,
+            W8_0, W8_1, W8_2, W8_3, W8_4, W8_5, W8_6, W8_7, W8_8,
+        ) = W.flatten(-2).unbind(-1)
+        return (
+            mu0,
+            mu1,
+            mu2,
+            mu3,
+            mu4,
+            mu5,
+            mu6,
+            mu7,
+            mu8,
+            W0_0,
+            W0_1,
+            W0_2,
+            W0_3,
+            W0_4,
+            W0_5,
+            W0_6,
+            W0_7,
+            W0_8,
+            W1_0,
+            W1_1,
+            W1_2,
+            W1_3,
+            W1_4,
+            W1_5,
+            W1_6,
+            W1_7,
+            W1_8,
+            W2_0,
+            W2_1,
+            W2_2,
+            W2_3,
+            W2_4,
+            W2_5,
+            W2_6,
+            W2_7,
+            W2_8,
+            W3_0,
+            W3_1,
+            W3_2,
+            W3_3,
+            W3_4,
+            W3_5,
+            W3_6,
+            W3_7,
+            W3_8,
+            W4_0,
+            W4_1,
+            W4_2,
+            W4_3,
+            W4_4,
+            W4_5,
+            W4_6,
+            W4_7,
+            W4_8,
+            W5_0,
+            W5_1,
+            W5_2,
+            W5_3,
+            W5_4,
+            W5_5,
+            W5_6,
+            W5_7,
+            W5_8,
+            W6_0,
+            W6_1,
+            W6_2,
+            W6_3,
+            W6_4,
+            W6_5,
+            W6_6,
+            W6_7,
+            W6_8,
+            W7_0,
+            W7_1,
+            W7_2,
+            W7_3,
+            W7_4,
+            W7_5,
+            W7_6,
+            W7_7,
+            W7_8,
+            W8_0,
+            W8_1,
+            W8_2,
+            W8_3,
+            W8_4,
+            W8_5,
+            W8_6,
+            W8_7,
+            W8_8,
+            amplitude,
+        )
+
+    def _pair_value(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
+        """The value of a splat at a point."""
+        x0, x1, x2, x3, x4, x5, x6, x7, x8 = X
+        (
+            mu0, mu1, mu2, mu3, mu4, mu5, mu6, mu7, mu8, W0_0, W0_1, W0_2, W0_3, W0_4, W0_5, W0_6, W0_7, W0_8, W1_0,
+            W1_1, W1_2, W1_3, W1_4, W1_5, W1_6, W1_7, W1_8, W2_0, W2_1, W2_2, W2_3, W2_4, W2_5, W2_6, W2_7, W2_8, W3_0,
+            W3_1, W3_2, W3_3, W3_4, W3_5, W3_6, W3_7, W3_8, W4_0, W4_1, W4_2, W4_3, W4_4, W4_5, W4_6, W4_7, W4_8, W5_0,
+            W5_1, W5_2, W5_3, W5_4, W5_5, W5_6, W5_7, W5_8, W6_0, W6_1, W6_2, W6_3, W6_4, W6_5, W6_6, W6_7, W6_8, W7_0,
+            W7_1, W7_2, W7_3, W7_4, W7_5, W7_6, W7_7, W7_8, W8_0, W8_1, W8_2, W8_3, W8_4, W8_5, W8_6, W8_7, W8_8,
+            amplitude,
+        ) = S
+        v0 = x0 - mu0
+        v1 = x1 - mu1
+        gap = x2 - mu2
+        round_2 = torch.round(0.15915494309189535 * gap)
+        v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        gap_2 = x3 - mu3
+        round_3 = torch.round(0.15915494309189535 * gap_2)
+        v3 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        gap_3 = x4 - mu4
+        round_4 = torch.round(0.15915494309189535 * gap_3)
+        v4 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 * round_4
+        total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4
+        gap_4 = x5 - mu5
+        round_5 = torch.round(0.15915494309189535 * gap_4)
+        v5 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 * round_5
+        gap_5 = x6 - mu6
+        round_6 = torch.round(0.15915494309189535 * gap_5)
+        v6 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 * round_6
+        gap_6 = x7 - mu7
+        round_7 = torch.round(0.15915494309189535 * gap_6)
+        v7 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 * round_7
+        gap_7 = x8 - mu8
+        round_8 = torch.round(0.15915494309189535 * gap_7)
+        v8 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 * round_8
+        z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8
+        total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4
+        z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8
+        total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4
+        z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8
+        total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4
+        z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8
+        total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4
+        z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8
+        total_7 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4
+        total_8 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4
+        z5 = total_8 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8
+        total_9 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4
+        z6 = total_9 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8
+        total_10 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4
+        z7 = total_10 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8
+        total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4
+        z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8
+        total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8
+        phi = amplitude * torch.exp(-(0.5 * total_12))
+        return (phi,)
+
+    def _pair(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
+        """The value of a splat at a point, and the slope, its derivatives in X."""
+        x0, x1, x2, x3, x4, x5, x6, x7, x8 = X
+        (
+            mu0, mu1, mu2, mu3, mu4, mu5, mu6, mu7, mu8, W0_0, W0_1, W0_2, W0_3, W0_4, W0_5, W0_6, W0_7, W0_8, W1_0,
+            W1_1, W1_2, W1_3, W1_4, W1_5, W1_6, W1_7, W1_8, W2_0, W2_1, W2_2, W2_3, W2_4, W2_5, W2_6, W2_7, W2_8, W3_0,
+            W3_1, W3_2, W3_3, W3_4, W3_5, W3_6, W3_7, W3_8, W4_0, W4_1, W4_2, W4_3, W4_4, W4_5, W4_6, W4_7, W4_8, W5_0,
+            W5_1, W5_2, W5_3, W5_4, W5_5, W5_6, W5_7, W5_8, W6_0, W6_1, W6_2, W6_3, W6_4, W6_5, W6_6, W6_7, W6_8, W7_0,
+            W7_1, W7_2, W7_3, W7_4, W7_5, W7_6, W7_7, W7_8, W8_0, W8_1, W8_2, W8_3, W8_4, W8_5, W8_6, W8_7, W8_8,
+            amplitude,
+        ) = S
+        v0 = x0 - mu0
+        v1 = x1 - mu1
+        gap = x2 - mu2
+        round_2 = torch.round(0.15915494309189535 * gap)
+        v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        gap_2 = x3 - mu3
+        round_3 = torch.round(0.15915494309189535 * gap_2)
+        v3 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        gap_3 = x4 - mu4
+        round_4 = torch.round(0.15915494309189535 * gap_3)
+        v4 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 * round_4
+        total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4
+        gap_4 = x5 - mu5
+        round_5 = torch.round(0.15915494309189535 * gap_4)
+        v5 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 * round_5
+        gap_5 = x6 - mu6
+        round_6 = torch.round(0.15915494309189535 * gap_5)
+        v6 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 * round_6
+        gap_6 = x7 - mu7
+        round_7 = torch.round(0.15915494309189535 * gap_6)
+        v7 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 * round_7
+        gap_7 = x8 - mu8
+        round_8 = torch.round(0.15915494309189535 * gap_7)
+        v8 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 * round_8
+        z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8
+        total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4
+        z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8
+        total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4
+        z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8
+        total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4
+        z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8
+        total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4
+        z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8
+        total_7 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4
+        total_8 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4
+        z5 = total_8 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8
+        total_9 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4
+        z6 = total_9 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8
+        total_10 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4
+        z7 = total_10 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8
+        total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4
+        z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8
+        total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8
+        phi = amplitude * torch.exp(-(0.5 * total_12))
+        z8_product = z8 * phi
+        z7_product = z7 * phi
+        z6_product = z6 * phi
+        z5_product = z5 * phi
+        gap_8 = -(W8_0 * z8_product) - W7_0 * z7_product - W6_0 * z6_product - W5_0 * z5_product
+        z4_product = z4 * phi
+        z3_product = z3 * phi
+        z2_product = z2 * phi
+        z1_product = z1 * phi
+        gap_9 = gap_8 - W4_0 * z4_product - W3_0 * z3_product - W2_0 * z2_product - W1_0 * z1_product
+        z0_product = z0 * phi
+        by_v0 = gap_9 - W0_0 * z0_product
+        gap_10 = -(W8_1 * z8_product) - W7_1 * z7_product - W6_1 * z6_product - W5_1 * z5_product
+        gap_11 = gap_10 - W4_1 * z4_product - W3_1 * z3_product - W2_1 * z2_product - W1_1 * z1_product
+        by_v1 = gap_11 - W0_1 * z0_product
+        gap_12 = -(W8_2 * z8_product) - W7_2 * z7_product - W6_2 * z6_product - W5_2 * z5_product
+        gap_13 = gap_12 - W4_2 * z4_product - W3_2 * z3_product - W2_2 * z2_product - W1_2 * z1_product
+        by_v2 = gap_13 - W0_2 * z0_product
+        gap_14 = -(W8_3 * z8_product) - W7_3 * z7_product - W6_3 * z6_product - W5_3 * z5_product
+        gap_15 = gap_14 - W4_3 * z4_product - W3_3 * z3_product - W2_3 * z2_product - W1_3 * z1_product
+        by_v3 = gap_15 - W0_3 * z0_product
+        gap_16 = -(W8_4 * z8_product) - W7_4 * z7_product - W6_4 * z6_product - W5_4 * z5_product
+        gap_17 = gap_16 - W4_4 * z4_product - W3_4 * z3_product - W2_4 * z2_product - W1_4 * z1_product
+        by_v4 = gap_17 - W0_4 * z0_product
+        gap_18 = -(W8_5 * z8_product) - W7_5 * z7_product - W6_5 * z6_product - W5_5 * z5_product
+        gap_19 = gap_18 - W4_5 * z4_product - W3_5 * z3_product - W2_5 * z2_product - W1_5 * z1_product
+        by_v5 = gap_19 - W0_5 * z0_product
+        gap_20 = -(W8_6 * z8_product) - W7_6 * z7_product - W6_6 * z6_product - W5_6 * z5_product
+        gap_21 = gap_20 - W4_6 * z4_product - W3_6 * z3_product - W2_6 * z2_product - W1_6 * z1_product
+        by_v6 = gap_21 - W0_6 * z0_product
+        gap_22 = -(W8_7 * z8_product) - W7_7 * z7_product - W6_7 * z6_product - W5_7 * z5_product
+        gap_23 = gap_22 - W4_7 * z4_product - W3_7 * z3_product - W2_7 * z2_product - W1_7 * z1_product
+        by_v7 = gap_23 - W0_7 * z0_product
+        gap_24 = -(W8_8 * z8_product) - W7_8 * z7_product - W6_8 * z6_product - W5_8 * z5_product
+        gap_25 = gap_24 - W4_8 * z4_product - W3_8 * z3_product - W2_8 * z2_product - W1_8 * z1_product
+        by_v8 = gap_25 - W0_8 * z0_product
+        return (phi, by_v0, by_v1, by_v2, by_v3, by_v4, by_v5, by_v6, by_v7, by_v8)
+
+    def _point_gradient(self, x: Tensor, slope: Sequence[Tensor]) -> Tensor:
+        """The Riemannian gradient of a function whose derivatives in X are `slope`."""
+        slope_x0, slope_x1, slope_x2, slope_x3, slope_x4, slope_x5, slope_x6, slope_x7, slope_x8 = slope
+        return _stack((
+            slope_x0,
+            slope_x1,
+            4.0 * slope_x2,
+            16.0 * slope_x3,
+            16.0 * slope_x4,
+            16.0 * slope_x5,
+            16.0 * slope_x6,
+            16.0 * slope_x7,
+            16.0 * slope_x8,
+        ))
+
+    def _point_gradient_vjp(self, x: Tensor, gradient_bar: Tensor) -> tuple[Tensor, ...]:
+        """The derivatives of gradient . gradient_bar in `slope`."""
+        (
+            gradient_bar0, gradient_bar1, gradient_bar2, gradient_bar3, gradient_bar4, gradient_bar5, gradient_bar6,
+            gradient_bar7, gradient_bar8,
+        ) = gradient_bar.unbind(-1)
+        return (
+            gradient_bar0,
+            gradient_bar1,
+            4.0 * gradient_bar2,
+            16.0 * gradient_bar3,
+            16.0 * gradient_bar4,
+            16.0 * gradient_bar5,
+            16.0 * gradient_bar6,
+            16.0 * gradient_bar7,
+            16.0 * gradient_bar8,
+        )
+
+    def _pair_vjp(
+        self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
+    ) -> tuple[Tensor, ...]:
+        """The derivatives of value value_bar + slope . slope_bar in S."""
+        x0, x1, x2, x3, x4, x5, x6, x7, x8 = X
+        (
+            mu0, mu1, mu2, mu3, mu4, mu5, mu6, mu7, mu8, W0_0, W0_1, W0_2, W0_3, W0_4, W0_5, W0_6, W0_7, W0_8, W1_0,
+            W1_1, W1_2, W1_3, W1_4, W1_5, W1_6, W1_7, W1_8, W2_0, W2_1, W2_2, W2_3, W2_4, W2_5, W2_6, W2_7, W2_8, W3_0,
+            W3_1, W3_2, W3_3, W3_4, W3_5, W3_6, W3_7, W3_8, W4_0, W4_1, W4_2, W4_3, W4_4, W4_5, W4_6, W4_7, W4_8, W5_0,
+            W5_1, W5_2, W5_3, W5_4, W5_5, W5_6, W5_7, W5_8, W6_0, W6_1, W6_2, W6_3, W6_4, W6_5, W6_6, W6_7, W6_8, W7_0,
+            W7_1, W7_2, W7_3, W7_4, W7_5, W7_6, W7_7, W7_8, W8_0, W8_1, W8_2, W8_3, W8_4, W8_5, W8_6, W8_7, W8_8,
+            amplitude,
+        ) = S
+        x0_bar, x1_bar, x2_bar, x3_bar, x4_bar, x5_bar, x6_bar, x7_bar, x8_bar = slope_bar
+        v0 = x0 - mu0
+        v1 = x1 - mu1
+        gap = x2 - mu2
+        round_2 = torch.round(0.15915494309189535 * gap)
+        v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        gap_2 = x3 - mu3
+        round_3 = torch.round(0.15915494309189535 * gap_2)
+        v3 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        gap_3 = x4 - mu4
+        round_4 = torch.round(0.15915494309189535 * gap_3)
+        v4 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 * round_4
+        total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4
+        gap_4 = x5 - mu5
+        round_5 = torch.round(0.15915494309189535 * gap_4)
+        v5 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 * round_5
+        gap_5 = x6 - mu6
+        round_6 = torch.round(0.15915494309189535 * gap_5)
+        v6 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 * round_6
+        gap_6 = x7 - mu7
+        round_7 = torch.round(0.15915494309189535 * gap_6)
+        v7 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 * round_7
+        gap_7 = x8 - mu8
+        round_8 = torch.round(0.15915494309189535 * gap_7)
+        v8 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 * round_8
+        z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8
+        total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4
+        z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8
+        total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4
+        z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8
+        total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4
+        z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8
+        total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4
+        z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8
+        total_7 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4
+        total_8 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4
+        z5 = total_8 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8
+        total_9 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4
+        z6 = total_9 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8
+        total_10 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4
+        z7 = total_10 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8
+        total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4
+        z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8
+        total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8
+        exp_2 = torch.exp(-(0.5 * total_12))
+        phi = amplitude * exp_2
+        gap_8 = -(W8_0 * x0_bar) - W8_1 * x1_bar - W8_2 * x2_bar - W8_3 * x3_bar
+        gap_9 = gap_8 - W8_4 * x4_bar - W8_5 * x5_bar - W8_6 * x6_bar - W8_7 * x7_bar
+        gap_10 = gap_9 - W8_8 * x8_bar
+        gap_11 = -(W0_0 * x0_bar) - W0_1 * x1_bar - W0_2 * x2_bar - W0_3 * x3_bar
+        gap_12 = gap_11 - W0_4 * x4_bar - W0_5 * x5_bar - W0_6 * x6_bar - W0_7 * x7_bar
+        gap_13 = gap_12 - W0_8 * x8_bar
+        gap_14 = -(W1_0 * x0_bar) - W1_1 * x1_bar - W1_2 * x2_bar - W1_3 * x3_bar
+        gap_15 = gap_14 - W1_4 * x4_bar - W1_5 * x5_bar - W1_6 * x6_bar - W1_7 * x7_bar
+        gap_16 = gap_15 - W1_8 * x8_bar
+        gap_17 = -(W2_0 * x0_bar) - W2_1 * x1_bar - W2_2 * x2_bar - W2_3 * x3_bar
+        gap_18 = gap_17 - W2_4 * x4_bar - W2_5 * x5_bar - W2_6 * x6_bar - W2_7 * x7_bar
+        gap_19 = gap_18 - W2_8 * x8_bar
+        gap_20 = -(W3_0 * x0_bar) - W3_1 * x1_bar - W3_2 * x2_bar - W3_3 * x3_bar
+        gap_21 = gap_20 - W3_4 * x4_bar - W3_5 * x5_bar - W3_6 * x6_bar - W3_7 * x7_bar
+        gap_22 = gap_21 - W3_8 * x8_bar
+        total_13 = value_bar + z0 * gap_13 + z1 * gap_16 + z2 * gap_19 + z3 * gap_22
+        gap_23 = -(W4_0 * x0_bar) - W4_1 * x1_bar - W4_2 * x2_bar - W4_3 * x3_bar
+        gap_24 = gap_23 - W4_4 * x4_bar - W4_5 * x5_bar - W4_6 * x6_bar - W4_7 * x7_bar
+        gap_25 = gap_24 - W4_8 * x8_bar
+        gap_26 = -(W5_0 * x0_bar) - W5_1 * x1_bar - W5_2 * x2_bar - W5_3 * x3_bar
+        gap_27 = gap_26 - W5_4 * x4_bar - W5_5 * x5_bar - W5_6 * x6_bar - W5_7 * x7_bar
+        gap_28 = gap_27 - W5_8 * x8_bar
+        gap_29 = -(W6_0 * x0_bar) - W6_1 * x1_bar - W6_2 * x2_bar - W6_3 * x3_bar
+        gap_30 = gap_29 - W6_4 * x4_bar - W6_5 * x5_bar - W6_6 * x6_bar - W6_7 * x7_bar
+        gap_31 = gap_30 - W6_8 * x8_bar
+        gap_32 = -(W7_0 * x0_bar) - W7_1 * x1_bar - W7_2 * x2_bar - W7_3 * x3_bar
+        gap_33 = gap_32 - W7_4 * x4_bar - W7_5 * x5_bar - W7_6 * x6_bar - W7_7 * x7_bar
+        gap_34 = gap_33 - W7_8 * x8_bar
+        total_14 = total_13 + z4 * gap_25 + z5 * gap_28 + z6 * gap_31 + z7 * gap_34
+        by_phi = total_14 + z8 * gap_10
+        product = exp_2 * (amplitude * by_phi)
+        by_z8 = phi * gap_10 - z8 * product
+        by_z7 = phi * gap_34 - z7 * product
+        by_z6 = phi * gap_31 - z6 * product
+        by_z5 = phi * gap_28 - z5 * product
+        by_z4 = phi * gap_25 - z4 * product
+        total_15 = W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5 + W4_0 * by_z4
+        by_z3 = phi * gap_22 - z3 * product
+        by_z2 = phi * gap_19 - z2 * product
+        by_z1 = phi * gap_16 - z1 * product
+        by_z0 = phi * gap_13 - z0 * product
+        by_v0 = total_15 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0
+        total_16 = W8_1 * by_z8 + W7_1 * by_z7 + W6_1 * by_z6 + W5_1 * by_z5 + W4_1 * by_z4
+        by_v1 = total_16 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0
+        total_17 = W8_2 * by_z8 + W7_2 * by_z7 + W6_2 * by_z6 + W5_2 * by_z5 + W4_2 * by_z4
+        by_v2 = total_17 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0
+        total_18 = W8_3 * by_z8 + W7_3 * by_z7 + W6_3 * by_z6 + W5_3 * by_z5 + W4_3 * by_z4
+        by_v3 = total_18 + W3_3 * by_z3 + W2_3 * by_z2 + W1_3 * by_z1 + W0_3 * by_z0
+        total_19 = W8_4 * by_z8 + W7_4 * by_z7 + W6_4 * by_z6 + W5_4 * by_z5 + W4_4 * by_z4
+        by_v4 = total_19 + W3_4 * by_z3 + W2_4 * by_z2 + W1_4 * by_z1 + W0_4 * by_z0
+        total_20 = W8_5 * by_z8 + W7_5 * by_z7 + W6_5 * by_z6 + W5_5 * by_z5 + W4_5 * by_z4
+        by_v5 = total_20 + W3_5 * by_z3 + W2_5 * by_z2 + W1_5 * by_z1 + W0_5 * by_z0
+        total_21 = W8_6 * by_z8 + W7_6 * by_z7 + W6_6 * by_z6 + W5_6 * by_z5 + W4_6 * by_z4
+        by_v6 = total_21 + W3_6 * by_z3 + W2_6 * by_z2 + W1_6 * by_z1 + W0_6 * by_z0
+        total_22 = W8_7 * by_z8 + W7_7 * by_z7 + W6_7 * by_z6 + W5_7 * by_z5 + W4_7 * by_z4
+        by_v7 = total_22 + W3_7 * by_z3 + W2_7 * by_z2 + W1_7 * by_z1 + W0_7 * by_z0
+        total_23 = W8_8 * by_z8 + W7_8 * by_z7 + W6_8 * by_z6 + W5_8 * by_z5 + W4_8 * by_z4
+        by_v8 = total_23 + W3_8 * by_z3 + W2_8 * by_z2 + W1_8 * by_z1 + W0_8 * by_z0
+        z0_product = z0 * phi
+        z1_product = z1 * phi
+        z2_product = z2 * phi
+        z3_product = z3 * phi
+        z4_product = z4 * phi
+        z5_product = z5 * phi
+        z6_product = z6 * phi
+        z7_product = z7 * phi
+        z8_product = z8 * phi
+        return (
+            -by_v0,
+            -by_v1,
+            -by_v2,
+            -by_v3,
+            -by_v4,
+            -by_v5,
+            -by_v6,
+            -by_v7,
+            -by_v8,
+            v0 * by_z0 - z0_product * x0_bar,
+            v1 * by_z0 - z0_product * x1_bar,
+            v2 * by_z0 - z0_product * x2_bar,
+            v3 * by_z0 - z0_product * x3_bar,
+            v4 * by_z0 - z0_product * x4_bar,
+            v5 * by_z0 - z0_product * x5_bar,
+            v6 * by_z0 - z0_product * x6_bar,
+            v7 * by_z0 - z0_product * x7_bar,
+            v8 * by_z0 - z0_product * x8_bar,
+            v0 * by_z1 - z1_product * x0_bar,
+            v1 * by_z1 - z1_product * x1_bar,
+            v2 * by_z1 - z1_product * x2_bar,
+            v3 * by_z1 - z1_product * x3_bar,
+            v4 * by_z1 - z1_product * x4_bar,
+            v5 * by_z1 - z1_product * x5_bar,
+            v6 * by_z1 - z1_product * x6_bar,
+            v7 * by_z1 - z1_product * x7_bar,
+            v8 * by_z1 - z1_product * x8_bar,
+            v0 * by_z2 - z2_product * x0_bar,
+            v1 * by_z2 - z2_product * x1_bar,
+            v2 * by_z2 - z2_product * x2_bar,
+            v3 * by_z2 - z2_product * x3_bar,
+            v4 * by_z2 - z2_product * x4_bar,
+            v5 * by_z2 - z2_product * x5_bar,
+            v6 * by_z2 - z2_product * x6_bar,
+            v7 * by_z2 - z2_product * x7_bar,
+            v8 * by_z2 - z2_product * x8_bar,
+            v0 * by_z3 - z3_product * x0_bar,
+            v1 * by_z3 - z3_product * x1_bar,
+            v2 * by_z3 - z3_product * x2_bar,
+            v3 * by_z3 - z3_product * x3_bar,
+            v4 * by_z3 - z3_product * x4_bar,
+            v5 * by_z3 - z3_product * x5_bar,
+            v6 * by_z3 - z3_product * x6_bar,
+            v7 * by_z3 - z3_product * x7_bar,
+            v8 * by_z3 - z3_product * x8_bar,
+            v0 * by_z4 - z4_product * x0_bar,
+            v1 * by_z4 - z4_product * x1_bar,
+            v2 * by_z4 - z4_product * x2_bar,
+            v3 * by_z4 - z4_product * x3_bar,
+            v4 * by_z4 - z4_product * x4_bar,
+            v5 * by_z4 - z4_product * x5_bar,
+            v6 * by_z4 - z4_product * x6_bar,
+            v7 * by_z4 - z4_product * x7_bar,
+            v8 * by_z4 - z4_product * x8_bar,
+            v0 * by_z5 - z5_product * x0_bar,
+            v1 * by_z5 - z5_product * x1_bar,
+            v2 * by_z5 - z5_product * x2_bar,
+            v3 * by_z5 - z5_product * x3_bar,
+            v4 * by_z5 - z5_product * x4_bar,
+            v5 * by_z5 - z5_product * x5_bar,
+            v6 * by_z5 - z5_product * x6_bar,
+            v7 * by_z5 - z5_product * x7_bar,
+            v8 * by_z5 - z5_product * x8_bar,
+            v0 * by_z6 - z6_product * x0_bar,
+            v1 * by_z6 - z6_product * x1_bar,
+            v2 * by_z6 - z6_product * x2_bar,
+            v3 * by_z6 - z6_product * x3_bar,
+            v4 * by_z6 - z6_product * x4_bar,
+            v5 * by_z6 - z6_product * x5_bar,
+            v6 * by_z6 - z6_product * x6_bar,
+            v7 * by_z6 - z6_product * x7_bar,
+            v8 * by_z6 - z6_product * x8_bar,
+            v0 * by_z7 - z7_product * x0_bar,
+            v1 * by_z7 - z7_product * x1_bar,
+            v2 * by_z7 - z7_product * x2_bar,
+            v3 * by_z7 - z7_product * x3_bar,
+            v4 * by_z7 - z7_product * x4_bar,
+            v5 * by_z7 - z7_product * x5_bar,
+            v6 * by_z7 - z7_product * x6_bar,
+            v7 * by_z7 - z7_product * x7_bar,
+            v8 * by_z7 - z7_product * x8_bar,
+            v0 * by_z8 - z8_product * x0_bar,
+            v1 * by_z8 - z8_product * x1_bar,
+            v2 * by_z8 - z8_product * x2_bar,
+            v3 * by_z8 - z8_product * x3_bar,
+            v4 * by_z8 - z8_product * x4_bar,
+            v5 * by_z8 - z8_product * x5_bar,
+            v6 * by_z8 - z8_product * x6_bar,
+            v7 * by_z8 - z8_product * x7_bar,
+            v8 * by_z8 - z8_product * x8_bar,
+            exp_2 * by_phi,
+        )
+
+    def _splat_constants_vjp(
+        self, mu: Tensor, W: Tensor, amplitude: Tensor, S_bar: Sequence[Tensor]
+    ) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives in mu, W and amplitude from those in S."""
+        (
+            mu0_bar, mu1_bar, mu2_bar, mu3_bar, mu4_bar, mu5_bar, mu6_bar, mu7_bar, mu8_bar, W0_0_bar, W0_1_bar,
+            W0_2_bar, W0_3_bar, W0_4_bar, W0_5_bar, W0_6_bar, W0_7_bar, W0_8_bar, W1_0_bar, W1_1_bar, W1_2_bar,
+            W1_3_bar, W1_4_bar, W1_5_bar, W1_6_bar, W1_7_bar, W1_8_bar, W2_0_bar, W2_1_bar, W2_2_bar, W2_3_bar,
+            W2_4_bar, W2_5_bar, W2_6_bar, W2_7_bar, W2_8_bar, W3_0_bar, W3_1_bar, W3_2_bar, W3_3_bar, W3_4_bar,
+            W3_5_bar, W3_6_bar, W3_7_bar, W3_8_bar, W4_0_bar, W4_1_bar, W4_2_bar, W4_3_bar, W4_4_bar, W4_5_bar,
+            W4_6_bar, W4_7_bar, W4_8_bar, W5_0_bar, W5_1_bar, W5_2_bar, W5_3_bar, W5_4_bar, W5_5_bar, W5_6_bar,
+            W5_7_bar, W5_8_bar, W6_0_bar, W6_1_bar, W6_2_bar, W6_3_bar, W6_4_bar, W6_5_bar, W6_6_bar, W6_7_bar,
+            W6_8_bar, W7_0_bar, W7_1_bar, W7_2_bar, W7_3_bar, W7_4_bar, W7_5_bar, W7_6_bar, W7_7_bar, W7_8_bar,
+            W8_0_bar, W8_1_bar, W8_2_bar, W8_3_bar, W8_4_bar, W8_5_bar, W8_6_bar, W8_7_bar, W8_8_bar, amplitude_bar,
+        ) = S_bar
+        mu_bar = _stack((mu0_bar, mu1_bar, mu2_bar, mu3_bar, mu4_bar, mu5_bar, mu6_bar, mu7_bar, mu8_bar))
+        W_bar = _stack((
+            W0_0_bar,
+            W0_1_bar,
+            W0_2_bar,
+            W0_3_bar,
+            W0_4_bar,
+            W0_5_bar,
+            W0_6_bar,
+            W0_7_bar,
+            W0_8_bar,
+            W1_0_bar,
+            W1_1_bar,
+            W1_2_bar,
+            W1_3_bar,
+            W1_4_bar,
+            W1_5_bar,
+            W1_6_bar,
+            W1_7_bar,
+            W1_8_bar,
+            W2_0_bar,
+            W2_1_bar,
+            W2_2_bar,
+            W2_3_bar,
+            W2_4_bar,
+            W2_5_bar,
+            W2_6_bar,
+            W2_7_bar,
+            W2_8_bar,
+            W3_0_bar,
+            W3_1_bar,
+            W3_2_bar,
+            W3_3_bar,
+            W3_4_bar,
+            W3_5_bar,
+            W3_6_bar,
+            W3_7_bar,
+            W3_8_bar,
+            W4_0_bar,
+            W4_1_bar,
+            W4_2_bar,
+            W4_3_bar,
+            W4_4_bar,
+            W4_5_bar,
+            W4_6_bar,
+            W4_7_bar,
+            W4_8_bar,
+            W5_0_bar,
+            W5_1_bar,
+            W5_2_bar,
+            W5_3_bar,
+            W5_4_bar,
+            W5_5_bar,
+            W5_6_bar,
+            W5_7_bar,
+            W5_8_bar,
+            W6_0_bar,
+            W6_1_bar,
+            W6_2_bar,
+            W6_3_bar,
+            W6_4_bar,
+            W6_5_bar,
+            W6_6_bar,
+            W6_7_bar,
+            W6_8_bar,
+            W7_0_bar,
+            W7_1_bar,
+            W7_2_bar,
+            W7_3_bar,
+            W7_4_bar,
+            W7_5_bar,
+            W7_6_bar,
+            W7_7_bar,
+            W7_8_bar,
+            W8_0_bar,
+            W8_1_bar,
+            W8_2_bar,
+            W8_3_bar,
+            W8_4_bar,
+            W8_5_bar,
+            W8_6_bar,
+            W8_7_bar,
+            W8_8_bar,
+        ))
+        return mu_bar, W_bar.unflatten(-1, (9, 9)), amplitude_bar
 
 
 manifold = MobileManipulator()

@@ -28,6 +28,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import torch
 from torch import Generator, Tensor
@@ -106,6 +107,32 @@ _T_OVER_SINH_T_NEAR_SLOPE = (
     ),
 )
 
+# Of degree 8 on [0, 1], the derivative of a polynomial; for float32 of degree 6, within 2^-31 of that.
+_LOG_DET_SERIES_SLOPE_SLOPE = (
+    (
+        -0.005269878915827681, 0.001330420567248421, -0.00024038197434818817, 3.784413124133655e-05,
+        -5.528543340481669e-06, 7.70130787745477e-07, -1.0286165584172534e-07, 1.246298064804857e-08,
+        -1.0274249230371691e-09,
+    ),
+    (
+        -0.0052698789147766385, 0.0013304204633056561, -0.00024038029119705448, 3.783386377263302e-05,
+        -5.498485307465418e-06, 7.242797860685044e-07, -6.694691049633411e-08,
+    ),
+)
+
+# Of degree 8 on [0, 1], the derivative of a polynomial; for float32 of degree 6, within 2^-30 of that.
+_T_OVER_SINH_T_NEAR_SLOPE_SLOPE = (
+    (
+        0.014028269226611401, -0.004136816349987618, 0.0008433956887753833, -0.00014654605283609116,
+        2.326822069810852e-05, -3.4827792313868604e-06, 4.948797823429416e-07, -6.302182025142203e-08,
+        5.3744241594190786e-09,
+    ),
+    (
+        0.014028269221378524, -0.004136815832245224, 0.0008433872999278661, -0.00014649483800952389,
+        2.3118113730214914e-05, -3.253385053618904e-06, 3.1461159265860754e-07,
+    ),
+)
+
 
 def _root(x: Tensor) -> Tensor:
     """sqrt(x) with the derivative 0 at x = 0, where autograd would make 0 * inf = NaN of it."""
@@ -157,6 +184,72 @@ def _rejection(
         uniform = torch.rand(len(points), generator=generator, dtype=like.dtype, device=like.device)
         kept.append(points[uniform * bound < density])
     return torch.cat(kept)[:count]
+
+
+def _chunks(x: Tensor, splats: int) -> Sequence[Tensor]:
+    """Points by chunks whose pairs with all splats are a bounded number; all at once where a compiler fuses the sums."""
+    if torch.compiler.is_compiling():
+        return (x,)
+    pairs = 2**15 if x.device.type == "cpu" else 2**21  # CPU: what fits in a cache
+    return x.split(max(1, pairs // max(1, splats)))
+
+
+def _sums(entries: Sequence[Tensor], points: int, splats: int, dim: int) -> list[Tensor]:
+    """Entries of pairs, summed over the points (dim 0) or over the splats (dim 1)."""
+    return [entry.expand(points, splats).sum(dim) for entry in entries]
+
+
+def _checked(
+    manifold: Any, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor
+) -> tuple[tuple[Tensor, Tensor, Tensor, Tensor], torch.dtype]:
+    """The four in one precision, single for what is less, and the precision of the results; their shapes must fit."""
+    K, D = len(mu) if mu.dim() else 0, manifold.point_size
+    N = len(x) if x.dim() else 0
+    shapes = {"x": (N, D), "mu": (K, D), "W": (K, manifold.dim, manifold.tangent_size), "amplitude": (K,)}
+    dtype = x.dtype
+    for (name, shape), tensor in zip(shapes.items(), (x, mu, W, amplitude), strict=True):
+        if tensor.shape != shape:
+            raise ValueError(f"{name} has shape {tuple(tensor.shape)}; with {N} points and {K} splats it is {shape}")
+        if not tensor.is_floating_point():
+            raise TypeError(f"{name} is {tensor.dtype}: splats take floating-point numbers")
+        dtype = torch.promote_types(dtype, tensor.dtype)
+    inside = torch.promote_types(dtype, torch.float32)
+    return (x.to(inside), mu.to(inside), W.to(inside), amplitude.to(inside)), dtype
+
+
+class _Splats(torch.autograd.Function):
+    """The sums under autograd: the backward pass is one sweep over all pairs."""
+
+    @staticmethod
+    def forward(ctx: Any, manifold: Any, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """Values and gradients."""
+        ctx.manifold = manifold
+        ctx.save_for_backward(x, mu, W, amplitude)
+        value, gradient = manifold._splats(x, mu, W, amplitude)
+        return value, gradient
+
+    @staticmethod
+    def backward(ctx: Any, value_bar: Tensor, gradient_bar: Tensor) -> tuple[Tensor | None, ...]:
+        """The derivatives in mu, W and amplitude."""
+        tensors = *ctx.saved_tensors, value_bar, gradient_bar
+        if torch.is_grad_enabled() and not torch.compiler.is_compiling():
+            return None, None, *_SplatsBackward.apply(ctx.manifold, *tensors)  # type: ignore[no-untyped-call]
+        return None, None, *ctx.manifold._splats_vjp(*tensors)
+
+
+class _SplatsBackward(torch.autograd.Function):
+    """The backward pass where somebody might differentiate it again, which is an error."""
+
+    @staticmethod
+    def forward(ctx: Any, manifold: Any, *tensors: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives in mu, W and amplitude."""
+        by_mu, by_W, by_amplitude = manifold._splats_vjp(*tensors)
+        return by_mu, by_W, by_amplitude
+
+    @staticmethod
+    def backward(ctx: Any, *bars: Tensor) -> Any:
+        """None."""
+        raise RuntimeError("`splats` has first derivatives only; of `splat`, autograd knows all")
 
 
 class Poincare:
@@ -489,14 +582,6 @@ class Poincare:
         gradient1 = squared_3 * (0.25 * df1)
         return (phi, gradient0, gradient1)
 
-    def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
-        """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
-
-        Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T).
-        """
-        value, *gradient = self._splat(x.unsqueeze(-2), mu, W, amplitude)
-        return value.sum(-1), _stack([entry.sum(-1) for entry in gradient])
-
     def transport(self, p: Tensor, q: Tensor, v: Tensor) -> Tensor:
         """Not known for this manifold: its file gives no `transport:`."""
         raise ValueError("parallel transport is not known here: give its closed form as `transport:` in the manifold file")
@@ -540,6 +625,430 @@ class Poincare:
             return points, torch.exp(-self.log_abs_det(center, points))
 
         return _rejection(propose, count, generator, center)
+
+    def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
+
+        Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T).
+        Differentiable once in mu, W and amplitude, with nothing of size N x K kept. Where x requires a gradient too, autograd
+        differentiates the formula of every pair, as often as is wanted, and keeps all of them.
+        """
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        if x.requires_grad and torch.is_grad_enabled():
+            value, *entries = self._splat(tensors[0].unsqueeze(-2), *tensors[1:])
+            value, gradient = value.sum(-1), _stack([entry.sum(-1) for entry in entries])
+        else:
+            value, gradient = _Splats.apply(self, *tensors)  # type: ignore[no-untyped-call]
+        return value.to(dtype), gradient.to(dtype)
+
+    def splats_value(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> Tensor:
+        """The value of `splats` alone: (N), differentiable as there."""
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        if torch.is_grad_enabled() and any(tensor.requires_grad for tensor in tensors):
+            return self.splats(x, mu, W, amplitude)[0]
+        return self._splats_value(*tensors).to(dtype)
+
+    def splats_rows(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> Tensor:
+        """The derivatives of value_bar_n value_n + gradient_bar_n . gradient_n of `splats`, each point's by itself.
+
+        Shapes: as in `splats`, value_bar (N), gradient_bar (N, T) to (N, K, D + d T + 1), the derivatives in mu, W (row by
+        row) and amplitude of every splat; not differentiable. Their sum over N is what the backward pass of `splats` gives.
+        """
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        with torch.no_grad():
+            return self._splats_rows(*tensors, value_bar.to(tensors[0]), gradient_bar.to(tensors[0])).to(dtype)
+
+    def kernels(self, like: Tensor) -> str:
+        """What computes `splats` for tensors like this one."""
+        return f"torch, {like.device.type}"
+
+    def _splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """Values (N) and gradients (N, T)."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        values, gradients = [], []
+        for part in _chunks(x, len(mu)):
+            X = [entry.unsqueeze(-1) for entry in self._point_features(part)]
+            value, *slope = _sums(self._pair(X, S), len(part), len(mu), 1)
+            values.append(value)
+            gradients.append(self._point_gradient(part, slope))
+        return torch.cat(values), torch.cat(gradients)
+
+    def _splats_value(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> Tensor:
+        """Values (N) alone."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        values = []
+        for part in _chunks(x, len(mu)):
+            X = [entry.unsqueeze(-1) for entry in self._point_features(part)]
+            values += _sums(self._pair_value(X, S), len(part), len(mu), 1)
+        return torch.cat(values)
+
+    def _splats_vjp(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu (K, D), W (K, d, T) and amplitude (K)."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        total = torch.zeros((len(S), len(mu)), dtype=x.dtype, device=x.device)
+        parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
+        for part, *bars in zip(*parts, strict=True):
+            total = total + torch.stack(_sums(self._pair_bars(part, S, *bars), len(part), len(mu), 0))
+        return self._splat_constants_vjp(mu, W, amplitude, total.unbind(0))
+
+    def _splats_rows(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> Tensor:
+        """The rows (N, K, D + d T + 1) of the derivatives that `_splats_vjp` sums over N."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
+        rows = []
+        for part, *bars in zip(*parts, strict=True):
+            S_bar = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
+            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, S_bar)
+            rows.append(torch.cat([by_mu, by_W.flatten(-2), by_amplitude.unsqueeze(-1)], -1))
+        return torch.cat(rows)
+
+    def _pair_bars(
+        self, x: Tensor, S: Sequence[Tensor], value_bar: Tensor, gradient_bar: Tensor
+    ) -> tuple[Tensor, ...]:
+        """The derivatives in S of every pair, from those in the sums."""
+        X = [entry.unsqueeze(-1) for entry in self._point_features(x)]
+        slope_bar = [entry.unsqueeze(-1) for entry in self._point_gradient_vjp(x, gradient_bar)]
+        return self._pair_vjp(X, S, value_bar.unsqueeze(-1), slope_bar)
+
+    def _point_features(self, x: Tensor) -> tuple[Tensor, ...]:
+        """X, what the pairs need of a point alone."""
+        x0, x1 = x.unbind(-1)
+        dot_q_q = x0 * x0 + x1 * x1
+        b = 1.0 - dot_q_q
+        return (x0, x1, b)
+
+    def _splat_constants(self, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, ...]:
+        """S, what the pairs need of a splat alone."""
+        mu0, mu1 = mu.unbind(-1)
+        W0_0, W0_1, W1_0, W1_1 = W.flatten(-2).unbind(-1)
+        dot_p_p = mu0 * mu0 + mu1 * mu1
+        a = 1.0 - dot_p_p
+        return (mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude, a)
+
+    def _pair_value(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
+        """The value of a splat at a point."""
+        x0, x1, b = X
+        mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude, a = S
+        d0 = x0 - mu0
+        sqrt_a_times_b = _root(a * b)
+        scale = 1.0 / sqrt_a_times_b
+        part0 = d0 * scale
+        d1 = x1 - mu1
+        part1 = d1 * scale
+        h_squared = part0 * part0 + part1 * part1
+        near = h_squared < 0.11468
+        near_chosen = torch.where(near, 8.719916288803628 * h_squared, 0.0)
+        log_det_series = _polynomial(near_chosen, _LOG_DET_SERIES)
+        log_det_near = h_squared * log_det_series
+        h = torch.sqrt(torch.where(near, 1.0, h_squared))
+        asinh_h = torch.asinh(h)
+        t = 2.0 * asinh_h
+        sqrt_1_plus_h_to_2 = _root(1.0 + h_squared)
+        sinh_t = sqrt_1_plus_h_to_2 * (2.0 * h)
+        t_ratio = t / sinh_t
+        log_det = torch.where(near, log_det_near, torch.log(t_ratio))
+        t_over_sinh_t_near = _polynomial(near_chosen, _T_OVER_SINH_T_NEAR)
+        t_over_sinh_t = torch.where(near, t_over_sinh_t_near, t_ratio)
+        scale_2 = t_over_sinh_t / b
+        dd = d0 * d0 + d1 * d1
+        v0 = scale_2 * (d0 * a - mu0 * dd)
+        v1 = scale_2 * (d1 * a - mu1 * dd)
+        z0 = W0_0 * v0 + W0_1 * v1
+        z1 = W1_0 * v0 + W1_1 * v1
+        exp_2 = torch.exp(log_det - 0.5 * (z0 * z0 + z1 * z1))
+        phi = amplitude * exp_2
+        return (phi,)
+
+    def _pair(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
+        """The value of a splat at a point, and the slope, its derivatives in X."""
+        x0, x1, b = X
+        mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude, a = S
+        d0 = x0 - mu0
+        product = a * b
+        sqrt_a_times_b = _root(product)
+        scale = 1.0 / sqrt_a_times_b
+        part0 = d0 * scale
+        d1 = x1 - mu1
+        part1 = d1 * scale
+        h_squared = part0 * part0 + part1 * part1
+        near = h_squared < 0.11468
+        near_chosen = torch.where(near, 8.719916288803628 * h_squared, 0.0)
+        log_det_series = _polynomial(near_chosen, _LOG_DET_SERIES)
+        log_det_near = h_squared * log_det_series
+        near_chosen_2 = torch.where(near, 1.0, h_squared)
+        h = torch.sqrt(near_chosen_2)
+        asinh_h = torch.asinh(h)
+        t = 2.0 * asinh_h
+        h_squared_total = 1.0 + h_squared
+        sqrt_1_plus_h_to_2 = _root(h_squared_total)
+        h_product = 2.0 * h
+        sinh_t = sqrt_1_plus_h_to_2 * h_product
+        t_ratio = t / sinh_t
+        log_det = torch.where(near, log_det_near, torch.log(t_ratio))
+        t_over_sinh_t_near = _polynomial(near_chosen, _T_OVER_SINH_T_NEAR)
+        t_over_sinh_t = torch.where(near, t_over_sinh_t_near, t_ratio)
+        scale_2 = t_over_sinh_t / b
+        dd = d0 * d0 + d1 * d1
+        gap = d0 * a - mu0 * dd
+        v0 = scale_2 * gap
+        gap_2 = d1 * a - mu1 * dd
+        v1 = scale_2 * gap_2
+        z0 = W0_0 * v0 + W0_1 * v1
+        z1 = W1_0 * v0 + W1_1 * v1
+        exp_2 = torch.exp(log_det - 0.5 * (z0 * z0 + z1 * z1))
+        phi = amplitude * exp_2
+        z1_product = z1 * phi
+        z0_product = z0 * phi
+        by_v1 = -(W1_1 * z1_product) - W0_1 * z0_product
+        scale_2_product = scale_2 * by_v1
+        by_v0 = -(W1_0 * z1_product) - W0_0 * z0_product
+        scale_2_product_2 = scale_2 * by_v0
+        by_dd = -(mu1 * scale_2_product) - mu0 * scale_2_product_2
+        by_dd_product = 2.0 * by_dd
+        is_small = h_squared_total == 0.0
+        by_scale_2 = gap_2 * by_v1 + gap * by_v0
+        by_t_over_sinh_t = by_scale_2 / b
+        by_t = (torch.where(near, 0.0, by_t_over_sinh_t) + torch.where(near, 0.0, phi) / t_ratio) / sinh_t
+        by_t_product = t_ratio * by_t
+        chosen = torch.where(
+            is_small, 0.0, -(h_product * by_t_product / (2.0 * torch.where(is_small, 1.0, sqrt_1_plus_h_to_2)))
+        )
+        by_asinh_h = 2.0 * by_t
+        by_h = by_asinh_h / torch.sqrt(1.0 + near_chosen_2) - 2.0 * (sqrt_1_plus_h_to_2 * by_t_product)
+        by_log_det_near = torch.where(near, phi, 0.0)
+        by_t_over_sinh_t_near = torch.where(near, by_t_over_sinh_t, 0.0)
+        t_over_sinh_t_near_slope = _polynomial(near_chosen, _T_OVER_SINH_T_NEAR_SLOPE)
+        by_log_det_series = h_squared * by_log_det_near
+        log_det_series_slope = _polynomial(near_chosen, _LOG_DET_SERIES_SLOPE)
+        by_h_squared = (
+            chosen + torch.where(near, 0.0, by_h / h_product) + log_det_series * by_log_det_near + 8.719916288803628 *
+            torch.where(near, by_t_over_sinh_t_near * t_over_sinh_t_near_slope + by_log_det_series *
+            log_det_series_slope, 0.0)
+        )
+        product_2 = 2.0 * by_h_squared
+        by_part0 = part0 * product_2
+        by_d0 = d0 * by_dd_product + a * scale_2_product_2 + scale * by_part0
+        by_part1 = part1 * product_2
+        by_d1 = a * scale_2_product + d1 * by_dd_product + scale * by_part1
+        is_small_2 = product == 0.0
+        by_scale = d1 * by_part1 + d0 * by_part0
+        chosen_2 = torch.where(
+            is_small_2, 0.0, -(scale * (by_scale / sqrt_a_times_b) / (2.0 * torch.where(is_small_2, 1.0,
+            sqrt_a_times_b)))
+        )
+        by_b = a * chosen_2 - scale_2 * by_t_over_sinh_t
+        return (phi, by_d0, by_d1, by_b)
+
+    def _point_gradient(self, x: Tensor, slope: Sequence[Tensor]) -> Tensor:
+        """The Riemannian gradient of a function whose derivatives in X are `slope`."""
+        x0, x1 = x.unbind(-1)
+        slope_x0, slope_x1, slope_b = slope
+        product = 2.0 * slope_b
+        gap = 1.0 - x0 * x0 - x1 * x1
+        squared = gap * gap
+        return _stack((0.25 * (slope_x0 - x0 * product) * squared, squared * (0.25 * (slope_x1 - x1 * product))))
+
+    def _point_gradient_vjp(self, x: Tensor, gradient_bar: Tensor) -> tuple[Tensor, ...]:
+        """The derivatives of gradient . gradient_bar in `slope`."""
+        x0, x1 = x.unbind(-1)
+        gradient_bar0, gradient_bar1 = gradient_bar.unbind(-1)
+        gap = 1.0 - x0 * x0 - x1 * x1
+        squared = gap * gap
+        product = 0.25 * (squared * gradient_bar0)
+        product_2 = 0.25 * (squared * gradient_bar1)
+        return (product, product_2, 2.0 * (-(x0 * product) - x1 * product_2))
+
+    def _pair_vjp(
+        self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
+    ) -> tuple[Tensor, ...]:
+        """The derivatives of value value_bar + slope . slope_bar in S."""
+        x0, x1, b = X
+        mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude, a = S
+        x0_bar, x1_bar, b_bar = slope_bar
+        d0 = x0 - mu0
+        product = a * b
+        sqrt_a_times_b = _root(product)
+        scale = 1.0 / sqrt_a_times_b
+        part0 = d0 * scale
+        d1 = x1 - mu1
+        part1 = d1 * scale
+        h_squared = part0 * part0 + part1 * part1
+        near = h_squared < 0.11468
+        near_chosen = torch.where(near, 8.719916288803628 * h_squared, 0.0)
+        t_over_sinh_t_near = _polynomial(near_chosen, _T_OVER_SINH_T_NEAR)
+        near_chosen_2 = torch.where(near, 1.0, h_squared)
+        h = torch.sqrt(near_chosen_2)
+        asinh_h = torch.asinh(h)
+        t = 2.0 * asinh_h
+        h_squared_total = 1.0 + h_squared
+        sqrt_1_plus_h_to_2 = _root(h_squared_total)
+        h_product = 2.0 * h
+        sinh_t = sqrt_1_plus_h_to_2 * h_product
+        t_ratio = t / sinh_t
+        t_over_sinh_t = torch.where(near, t_over_sinh_t_near, t_ratio)
+        scale_2 = t_over_sinh_t / b
+        dd = d0 * d0 + d1 * d1
+        gap = d0 * a - mu0 * dd
+        v0 = scale_2 * gap
+        gap_2 = d1 * a - mu1 * dd
+        v1 = scale_2 * gap_2
+        z1 = W1_0 * v0 + W1_1 * v1
+        log_det_series = _polynomial(near_chosen, _LOG_DET_SERIES)
+        log_det_near = h_squared * log_det_series
+        log_det = torch.where(near, log_det_near, torch.log(t_ratio))
+        z0 = W0_0 * v0 + W0_1 * v1
+        exp_2 = torch.exp(log_det - 0.5 * (z0 * z0 + z1 * z1))
+        phi = amplitude * exp_2
+        z1_product = z1 * phi
+        z0_product = z0 * phi
+        by_v0 = -(W1_0 * z1_product) - W0_0 * z0_product
+        scale_2_product = scale_2 * by_v0
+        by_by_dd = 2.0 * (d0 * x0_bar + d1 * x1_bar)
+        is_small = product == 0.0
+        product_2 = 2.0 * torch.where(is_small, 1.0, sqrt_a_times_b)
+        ratio = torch.where(is_small, 0.0, a * b_bar) / product_2
+        ratio_2 = scale * ratio / sqrt_a_times_b
+        by_by_part0 = scale * x0_bar - d0 * ratio_2
+        by_by_part1 = scale * x1_bar - d1 * ratio_2
+        total_2 = part0 * by_by_part0 + part1 * by_by_part1
+        by_by_h_squared = 2.0 * total_2
+        by_by_h = torch.where(near, 0.0, by_by_h_squared) / h_product
+        sqrt_2 = torch.sqrt(1.0 + near_chosen_2)
+        by_by_asinh_h = by_by_h / sqrt_2
+        by_by_h_product = 2.0 * by_by_h
+        is_small_2 = h_squared_total == 0.0
+        product_3 = 2.0 * torch.where(is_small_2, 1.0, sqrt_1_plus_h_to_2)
+        ratio_3 = torch.where(is_small_2, 0.0, by_by_h_squared) / product_3
+        gap_3 = -(sqrt_1_plus_h_to_2 * by_by_h_product) - h_product * ratio_3
+        by_by_t = 2.0 * by_by_asinh_h + t_ratio * gap_3
+        by_by_t_ratio = by_by_t / sinh_t
+        t_over_sinh_t_near_slope = _polynomial(near_chosen, _T_OVER_SINH_T_NEAR_SLOPE)
+        near_chosen_3 = torch.where(near, 17.439832577607255 * total_2, 0.0)
+        by_by_t_over_sinh_t_near = t_over_sinh_t_near_slope * near_chosen_3
+        by_by_t_over_sinh_t = (
+            torch.where(near, 0.0, by_by_t_ratio) + torch.where(near, by_by_t_over_sinh_t_near, 0.0) - scale_2 * b_bar
+        )
+        by_by_scale_2 = by_by_t_over_sinh_t / b
+        gap_4 = a * x0_bar - mu0 * by_by_dd
+        by_by_v0 = scale_2 * gap_4 + gap * by_by_scale_2
+        gap_5 = a * x1_bar - mu1 * by_by_dd
+        by_by_v1 = scale_2 * gap_5 + gap_2 * by_by_scale_2
+        gap_6 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1
+        ratio_4 = by_by_t_ratio / t_ratio
+        log_det_series_slope = _polynomial(near_chosen, _LOG_DET_SERIES_SLOPE)
+        by_by_log_det_series = log_det_series_slope * near_chosen_3
+        by_by_log_det_near = h_squared * by_by_log_det_series + log_det_series * by_by_h_squared
+        gap_7 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1
+        by_phi = (
+            value_bar + torch.where(near, 0.0, ratio_4) + torch.where(near, by_by_log_det_near, 0.0) + z0 * gap_7 + z1 *
+            gap_6
+        )
+        by_log_det = exp_2 * (amplitude * by_phi)
+        by_z1 = phi * gap_6 - z1 * by_log_det
+        by_z0 = phi * gap_7 - z0 * by_log_det
+        by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0
+        total_3 = by_v0 * by_by_scale_2 + scale_2 * by_v0_2
+        by_v1 = -(W1_1 * z1_product) - W0_1 * z0_product
+        scale_2_product_2 = scale_2 * by_v1
+        by_dd = -(mu1 * scale_2_product_2) - mu0 * scale_2_product
+        by_dd_product = 2.0 * by_dd
+        by_scale_2 = gap_2 * by_v1 + gap * by_v0
+        by_t_over_sinh_t = by_scale_2 / b
+        ratio_5 = torch.where(near, 0.0, phi) / t_ratio
+        by_t = (torch.where(near, 0.0, by_t_over_sinh_t) + ratio_5) / sinh_t
+        by_t_product = t_ratio * by_t
+        ratio_6 = h_product * by_t_product / product_3
+        by_asinh_h = 2.0 * by_t
+        by_asinh_h_ratio = by_asinh_h / sqrt_2
+        by_h = by_asinh_h_ratio - 2.0 * (sqrt_1_plus_h_to_2 * by_t_product)
+        by_h_ratio = by_h / h_product
+        by_log_det_near = torch.where(near, phi, 0.0)
+        by_t_over_sinh_t_near = torch.where(near, by_t_over_sinh_t, 0.0)
+        by_log_det_series = h_squared * by_log_det_near
+        by_h_squared = (
+            torch.where(is_small_2, 0.0, -ratio_6) + torch.where(near, 0.0, by_h_ratio) + log_det_series *
+            by_log_det_near + 8.719916288803628 * torch.where(near, by_t_over_sinh_t_near * t_over_sinh_t_near_slope +
+            by_log_det_series * log_det_series_slope, 0.0)
+        )
+        product_4 = 2.0 * by_h_squared
+        by_part0 = part0 * product_4
+        by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0
+        total_4 = by_v1 * by_by_scale_2 + scale_2 * by_v1_2
+        by_dd_2 = -(mu1 * total_4) - mu0 * total_3
+        by_dd_product_2 = 2.0 * by_dd_2
+        by_scale_2_2 = by_v0 * gap_4 - by_t_over_sinh_t * b_bar + by_v1 * gap_5 + gap_2 * by_v1_2 + gap * by_v0_2
+        by_t_over_sinh_t_2 = by_scale_2_2 / b
+        by_t_2 = (
+            (by_t * gap_3 - ratio_5 * ratio_4 + torch.where(near, 0.0, by_t_over_sinh_t_2) + torch.where(near, 0.0,
+            by_log_det) / t_ratio) / sinh_t
+        )
+        by_sinh_t = -(by_t * by_by_t_ratio) - t_ratio * by_t_2
+        by_sqrt_1_plus_h_to_2 = (
+            torch.where(is_small_2, 0.0, 2.0 * (ratio_6 * ratio_3)) - by_t_product * by_by_h_product + h_product *
+            by_sinh_t
+        )
+        product_5 = 2.0 * (-(by_h_ratio * by_by_h) - by_t_product * ratio_3 + sqrt_1_plus_h_to_2 * by_sinh_t)
+        by_asinh_h_2 = 2.0 * by_t_2
+        by_h_2 = product_5 + by_asinh_h_2 / sqrt_2
+        total_5 = (
+            by_log_det_near * by_by_log_det_series + torch.where(is_small_2, 0.0, by_sqrt_1_plus_h_to_2 / product_3) +
+            torch.where(near, 0.0, by_h_2 / h_product - by_asinh_h_ratio * by_by_asinh_h / (2.0 * sqrt_2))
+        )
+        by_log_det_near_2 = torch.where(near, by_log_det, 0.0)
+        by_log_det_series_slope = by_log_det_series * near_chosen_3
+        log_det_series_slope_slope = _polynomial(near_chosen, _LOG_DET_SERIES_SLOPE_SLOPE)
+        by_t_over_sinh_t_near_slope = by_t_over_sinh_t_near * near_chosen_3
+        t_over_sinh_t_near_slope_slope = _polynomial(near_chosen, _T_OVER_SINH_T_NEAR_SLOPE_SLOPE)
+        by_t_over_sinh_t_near_2 = torch.where(near, by_t_over_sinh_t_2, 0.0)
+        by_log_det_series_2 = by_log_det_near * by_by_h_squared + h_squared * by_log_det_near_2
+        near_chosen_4 = torch.where(
+            near, by_log_det_series_slope * log_det_series_slope_slope + by_t_over_sinh_t_near_slope *
+            t_over_sinh_t_near_slope_slope + t_over_sinh_t_near_slope * by_t_over_sinh_t_near_2 + log_det_series_slope *
+            by_log_det_series_2, 0.0
+        )
+        by_h_squared_2 = total_5 + log_det_series * by_log_det_near_2 + 8.719916288803628 * near_chosen_4
+        product_6 = 2.0 * by_h_squared_2
+        by_part0_2 = product_4 * by_by_part0 + part0 * product_6
+        by_d0 = by_dd_product * x0_bar - by_part0 * ratio_2 + d0 * by_dd_product_2 + a * total_3 + scale * by_part0_2
+        by_part1 = part1 * product_4
+        by_part1_2 = product_4 * by_by_part1 + part1 * product_6
+        by_d1 = by_dd_product * x1_bar - by_part1 * ratio_2 + a * total_4 + d1 * by_dd_product_2 + scale * by_part1_2
+        by_scale = d1 * by_part1 + d0 * by_part0
+        by_scale_ratio = by_scale / sqrt_a_times_b
+        ratio_7 = scale * by_scale_ratio / product_2
+        total_6 = torch.where(is_small, 0.0, -ratio_7) * b_bar + scale_2_product * x0_bar + scale_2_product_2 * x1_bar
+        by_scale_3 = by_part0 * x0_bar - by_scale_ratio * ratio + by_part1 * x1_bar + d1 * by_part1_2 + d0 * by_part0_2
+        by_sqrt_a_times_b = (
+            torch.where(is_small, 0.0, 2.0 * (ratio_7 * ratio)) + by_scale_ratio * ratio_2 - scale * (by_scale_3 /
+            sqrt_a_times_b)
+        )
+        return (
+            -(scale_2_product * by_by_dd) - dd * total_3 - by_d0,
+            -(scale_2_product_2 * by_by_dd) - dd * total_4 - by_d1,
+            v0 * by_z0 - z0_product * by_by_v0,
+            v1 * by_z0 - z0_product * by_by_v1,
+            v0 * by_z1 - z1_product * by_by_v0,
+            v1 * by_z1 - z1_product * by_by_v1,
+            exp_2 * by_phi,
+            total_6 + d1 * total_4 + d0 * total_3 + b * torch.where(is_small, 0.0, by_sqrt_a_times_b / product_2),
+        )
+
+    def _splat_constants_vjp(
+        self, mu: Tensor, W: Tensor, amplitude: Tensor, S_bar: Sequence[Tensor]
+    ) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives in mu, W and amplitude from those in S."""
+        mu0, mu1 = mu.unbind(-1)
+        mu0_bar, mu1_bar, W0_0_bar, W0_1_bar, W1_0_bar, W1_1_bar, amplitude_bar, a_bar = S_bar
+        product = 2.0 * a_bar
+        mu_bar = _stack((mu0_bar - mu0 * product, mu1_bar - mu1 * product))
+        W_bar = _stack((W0_0_bar, W0_1_bar, W1_0_bar, W1_1_bar))
+        return mu_bar, W_bar.unflatten(-1, (2, 2)), amplitude_bar
 
 
 manifold = Poincare()

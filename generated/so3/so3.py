@@ -31,6 +31,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import torch
 from torch import Generator, Tensor
@@ -111,6 +112,39 @@ _T_OVER_NORM_S_NEAR_SLOPE = (
     ),
 )
 
+# Of degree 22 on [0, 1], its relative error below 2^-56; for float32 of degree 11, within 2^-29 of that.
+_ETA = (
+    (
+        -0.3333333333333333, -0.15555555555555417, -0.0751322751325185, -0.03675485007122077, -0.018096307611278978,
+        -0.008943374809421614, -0.004430925385329046, -0.0021964703384272457, -0.0011104899422210344,
+        -0.00043588704846449504, -0.0007657550487225839, 0.0016571322482715526, -0.005201036361742151,
+        0.011686077913434692, -0.021370123691407478, 0.030980832139913622, -0.03558600284661443, 0.0319201664739325,
+        -0.021918764490751072, 0.011133610751913487, -0.003950943563875907, 0.0008768185204850178,
+        -9.231518464940076e-05,
+    ),
+    (
+        -0.3333333329074172, -0.15555567514484153, -0.07512673968454313, -0.036854683410814014, -0.017172242426810813,
+        -0.013945774438806282, 0.01253044380771583, -0.03940423726113369, 0.051921663529563705, -0.048257650185791916,
+        0.024694517679698283, -0.006116061322664089,
+    ),
+)
+
+# Of degree 24 on [0, 1], the derivative of a polynomial; for float32 of degree 13, within 2^-27 of that.
+_ETA_SLOPE = (
+    (
+        0.15555555555555556, 0.15026455026454938, 0.11026455026473153, 0.07238522792583003, 0.044716945477134895,
+        0.026584251371183424, 0.015391620467330733, 0.008735778127899076, 0.0049282202879051655, 0.0024267420372403327,
+        0.0030390346356601126, -0.006123591852401879, 0.025102822589180937, -0.07064869504587278, 0.16530578140602667,
+        -0.31271015508815947, 0.4807082529660211, -0.5967654210780935, 0.5934034512823599, -0.46583818796288984,
+        0.2823845184351827, -0.12759583319351508, 0.04051757743528327, -0.008083579736595401, 0.0007658488591020234,
+    ),
+    (
+        0.15555555542437843, 0.1502646005226573, 0.11026136698101077, 0.07246434664202496, 0.04369556901094827,
+        0.034436310057583616, -0.023420697975480978, 0.13766190227481526, -0.2894962884105508, 0.4671003677933079,
+        -0.49758073887669707, 0.35140202925299413, -0.1460207286663636, 0.028391671210260493,
+    ),
+)
+
 
 def _root(x: Tensor) -> Tensor:
     """sqrt(x) with the derivative 0 at x = 0, where autograd would make 0 * inf = NaN of it."""
@@ -162,6 +196,72 @@ def _rejection(
         uniform = torch.rand(len(points), generator=generator, dtype=like.dtype, device=like.device)
         kept.append(points[uniform * bound < density])
     return torch.cat(kept)[:count]
+
+
+def _chunks(x: Tensor, splats: int) -> Sequence[Tensor]:
+    """Points by chunks whose pairs with all splats are a bounded number; all at once where a compiler fuses the sums."""
+    if torch.compiler.is_compiling():
+        return (x,)
+    pairs = 2**15 if x.device.type == "cpu" else 2**21  # CPU: what fits in a cache
+    return x.split(max(1, pairs // max(1, splats)))
+
+
+def _sums(entries: Sequence[Tensor], points: int, splats: int, dim: int) -> list[Tensor]:
+    """Entries of pairs, summed over the points (dim 0) or over the splats (dim 1)."""
+    return [entry.expand(points, splats).sum(dim) for entry in entries]
+
+
+def _checked(
+    manifold: Any, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor
+) -> tuple[tuple[Tensor, Tensor, Tensor, Tensor], torch.dtype]:
+    """The four in one precision, single for what is less, and the precision of the results; their shapes must fit."""
+    K, D = len(mu) if mu.dim() else 0, manifold.point_size
+    N = len(x) if x.dim() else 0
+    shapes = {"x": (N, D), "mu": (K, D), "W": (K, manifold.dim, manifold.tangent_size), "amplitude": (K,)}
+    dtype = x.dtype
+    for (name, shape), tensor in zip(shapes.items(), (x, mu, W, amplitude), strict=True):
+        if tensor.shape != shape:
+            raise ValueError(f"{name} has shape {tuple(tensor.shape)}; with {N} points and {K} splats it is {shape}")
+        if not tensor.is_floating_point():
+            raise TypeError(f"{name} is {tensor.dtype}: splats take floating-point numbers")
+        dtype = torch.promote_types(dtype, tensor.dtype)
+    inside = torch.promote_types(dtype, torch.float32)
+    return (x.to(inside), mu.to(inside), W.to(inside), amplitude.to(inside)), dtype
+
+
+class _Splats(torch.autograd.Function):
+    """The sums under autograd: the backward pass is one sweep over all pairs."""
+
+    @staticmethod
+    def forward(ctx: Any, manifold: Any, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """Values and gradients."""
+        ctx.manifold = manifold
+        ctx.save_for_backward(x, mu, W, amplitude)
+        value, gradient = manifold._splats(x, mu, W, amplitude)
+        return value, gradient
+
+    @staticmethod
+    def backward(ctx: Any, value_bar: Tensor, gradient_bar: Tensor) -> tuple[Tensor | None, ...]:
+        """The derivatives in mu, W and amplitude."""
+        tensors = *ctx.saved_tensors, value_bar, gradient_bar
+        if torch.is_grad_enabled() and not torch.compiler.is_compiling():
+            return None, None, *_SplatsBackward.apply(ctx.manifold, *tensors)  # type: ignore[no-untyped-call]
+        return None, None, *ctx.manifold._splats_vjp(*tensors)
+
+
+class _SplatsBackward(torch.autograd.Function):
+    """The backward pass where somebody might differentiate it again, which is an error."""
+
+    @staticmethod
+    def forward(ctx: Any, manifold: Any, *tensors: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives in mu, W and amplitude."""
+        by_mu, by_W, by_amplitude = manifold._splats_vjp(*tensors)
+        return by_mu, by_W, by_amplitude
+
+    @staticmethod
+    def backward(ctx: Any, *bars: Tensor) -> Any:
+        """None."""
+        raise RuntimeError("`splats` has first derivatives only; of `splat`, autograd knows all")
 
 
 class So3:
@@ -523,14 +623,6 @@ class So3:
         gradient2 = x2 * df1_product + x0 * df3_product - x3 * df0_product - x1 * df2_product
         return (phi, gradient0, gradient1, gradient2)
 
-    def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
-        """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
-
-        Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T).
-        """
-        value, *gradient = self._splat(x.unsqueeze(-2), mu, W, amplitude)
-        return value.sum(-1), _stack([entry.sum(-1) for entry in gradient])
-
     def frame(self, p: Tensor) -> Tensor:
         """An orthonormal basis of the tangent space at p, one vector a row; not continuous in p where none is.
 
@@ -573,6 +665,320 @@ class So3:
             return points, torch.exp(-self.log_abs_det(center, points))
 
         return _rejection(propose, count, generator, center)
+
+    def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
+
+        Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T).
+        Differentiable once in mu, W and amplitude, with nothing of size N x K kept. Where x requires a gradient too, autograd
+        differentiates the formula of every pair, as often as is wanted, and keeps all of them.
+        """
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        if x.requires_grad and torch.is_grad_enabled():
+            value, *entries = self._splat(tensors[0].unsqueeze(-2), *tensors[1:])
+            value, gradient = value.sum(-1), _stack([entry.sum(-1) for entry in entries])
+        else:
+            value, gradient = _Splats.apply(self, *tensors)  # type: ignore[no-untyped-call]
+        return value.to(dtype), gradient.to(dtype)
+
+    def splats_value(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> Tensor:
+        """The value of `splats` alone: (N), differentiable as there."""
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        if torch.is_grad_enabled() and any(tensor.requires_grad for tensor in tensors):
+            return self.splats(x, mu, W, amplitude)[0]
+        return self._splats_value(*tensors).to(dtype)
+
+    def splats_rows(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> Tensor:
+        """The derivatives of value_bar_n value_n + gradient_bar_n . gradient_n of `splats`, each point's by itself.
+
+        Shapes: as in `splats`, value_bar (N), gradient_bar (N, T) to (N, K, D + d T + 1), the derivatives in mu, W (row by
+        row) and amplitude of every splat; not differentiable. Their sum over N is what the backward pass of `splats` gives.
+        """
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        with torch.no_grad():
+            return self._splats_rows(*tensors, value_bar.to(tensors[0]), gradient_bar.to(tensors[0])).to(dtype)
+
+    def kernels(self, like: Tensor) -> str:
+        """What computes `splats` for tensors like this one."""
+        return f"torch, {like.device.type}"
+
+    def _splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """Values (N) and gradients (N, T)."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        values, gradients = [], []
+        for part in _chunks(x, len(mu)):
+            X = [entry.unsqueeze(-1) for entry in self._point_features(part)]
+            value, *slope = _sums(self._pair(X, S), len(part), len(mu), 1)
+            values.append(value)
+            gradients.append(self._point_gradient(part, slope))
+        return torch.cat(values), torch.cat(gradients)
+
+    def _splats_value(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> Tensor:
+        """Values (N) alone."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        values = []
+        for part in _chunks(x, len(mu)):
+            X = [entry.unsqueeze(-1) for entry in self._point_features(part)]
+            values += _sums(self._pair_value(X, S), len(part), len(mu), 1)
+        return torch.cat(values)
+
+    def _splats_vjp(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu (K, D), W (K, d, T) and amplitude (K)."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        total = torch.zeros((len(S), len(mu)), dtype=x.dtype, device=x.device)
+        parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
+        for part, *bars in zip(*parts, strict=True):
+            total = total + torch.stack(_sums(self._pair_bars(part, S, *bars), len(part), len(mu), 0))
+        return self._splat_constants_vjp(mu, W, amplitude, total.unbind(0))
+
+    def _splats_rows(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> Tensor:
+        """The rows (N, K, D + d T + 1) of the derivatives that `_splats_vjp` sums over N."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
+        rows = []
+        for part, *bars in zip(*parts, strict=True):
+            S_bar = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
+            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, S_bar)
+            rows.append(torch.cat([by_mu, by_W.flatten(-2), by_amplitude.unsqueeze(-1)], -1))
+        return torch.cat(rows)
+
+    def _pair_bars(
+        self, x: Tensor, S: Sequence[Tensor], value_bar: Tensor, gradient_bar: Tensor
+    ) -> tuple[Tensor, ...]:
+        """The derivatives in S of every pair, from those in the sums."""
+        X = [entry.unsqueeze(-1) for entry in self._point_features(x)]
+        slope_bar = [entry.unsqueeze(-1) for entry in self._point_gradient_vjp(x, gradient_bar)]
+        return self._pair_vjp(X, S, value_bar.unsqueeze(-1), slope_bar)
+
+    def _point_features(self, x: Tensor) -> tuple[Tensor, ...]:
+        """X, what the pairs need of a point alone."""
+        x0, x1, x2, x3 = x.unbind(-1)
+        h0 = 0.5 * x0
+        h1 = 0.5 * x1
+        h2 = 0.5 * x2
+        h3 = 0.5 * x3
+        return (h0, h1, h2, h3)
+
+    def _splat_constants(self, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, ...]:
+        """S, what the pairs need of a splat alone."""
+        mu0, mu1, mu2, mu3 = mu.unbind(-1)
+        W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2 = W.flatten(-2).unbind(-1)
+        M0 = 2.0 * mu0
+        M1 = 2.0 * mu1
+        M2 = 2.0 * mu2
+        M3 = 2.0 * mu3
+        R0_0 = 1.4142135623730951 * (-(W0_2 * M3) - W0_1 * M2 - W0_0 * M1)
+        R0_1 = 1.4142135623730951 * (W0_2 * M2 - W0_1 * M3 + W0_0 * M0)
+        R0_2 = 1.4142135623730951 * (W0_1 * M0 - W0_2 * M1 + W0_0 * M3)
+        R0_3 = 1.4142135623730951 * (W0_2 * M0 + W0_1 * M1 - W0_0 * M2)
+        R1_0 = 1.4142135623730951 * (-(W1_2 * M3) - W1_1 * M2 - W1_0 * M1)
+        R1_1 = 1.4142135623730951 * (W1_2 * M2 - W1_1 * M3 + W1_0 * M0)
+        R1_2 = 1.4142135623730951 * (W1_1 * M0 - W1_2 * M1 + W1_0 * M3)
+        R1_3 = 1.4142135623730951 * (W1_2 * M0 + W1_1 * M1 - W1_0 * M2)
+        R2_0 = 1.4142135623730951 * (-(W2_2 * M3) - W2_1 * M2 - W2_0 * M1)
+        R2_1 = 1.4142135623730951 * (W2_2 * M2 - W2_1 * M3 + W2_0 * M0)
+        R2_2 = 1.4142135623730951 * (W2_1 * M0 - W2_2 * M1 + W2_0 * M3)
+        R2_3 = 1.4142135623730951 * (W2_2 * M0 + W2_1 * M1 - W2_0 * M2)
+        return (amplitude, M0, M1, M2, M3, R0_0, R0_1, R0_2, R0_3, R1_0, R1_1, R1_2, R1_3, R2_0, R2_1, R2_2, R2_3)
+
+    def _pair_value(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
+        """The value of a splat at a point."""
+        h0, h1, h2, h3 = X
+        amplitude, M0, M1, M2, M3, R0_0, R0_1, R0_2, R0_3, R1_0, R1_1, R1_2, R1_3, R2_0, R2_1, R2_2, R2_3 = S
+        w = torch.abs(h0 * M0 + h1 * M1 + h2 * M2 + h3 * M3)
+        eta = _polynomial(1.0 - w, _ETA)
+        a = 1.0 / (w - eta * (1.0 - w * w))
+        a_squared = a * a
+        r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3
+        r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3
+        r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3
+        half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2)
+        gaussian = torch.exp(-half_square)
+        phi = amplitude * (a * (a * gaussian))
+        return (phi,)
+
+    def _pair(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
+        """The value of a splat at a point, and the slope, its derivatives in X."""
+        h0, h1, h2, h3 = X
+        amplitude, M0, M1, M2, M3, R0_0, R0_1, R0_2, R0_3, R1_0, R1_1, R1_2, R1_3, R2_0, R2_1, R2_2, R2_3 = S
+        total_2 = h0 * M0 + h1 * M1 + h2 * M2 + h3 * M3
+        w = torch.abs(total_2)
+        eta = _polynomial(1.0 - w, _ETA)
+        a = 1.0 / (w - eta * (1.0 - w * w))
+        a_squared = a * a
+        r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3
+        r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3
+        r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3
+        half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2)
+        gaussian = torch.exp(-half_square)
+        phi = amplitude * (a * (a * gaussian))
+        product = 2.0 * (phi * a_squared)
+        r2_product = r2 * product
+        r1_product = r1 * product
+        r0_product = r0 * product
+        by_w = eta * (2.0 * phi - phi * (2.0 * half_square))
+        by_w_chosen = torch.where(total_2 < 0.0, -by_w, by_w)
+        by_h0 = -(R2_0 * r2_product) - R1_0 * r1_product - R0_0 * r0_product + M0 * by_w_chosen
+        by_h1 = -(R2_1 * r2_product) - R1_1 * r1_product - R0_1 * r0_product + M1 * by_w_chosen
+        by_h2 = -(R2_2 * r2_product) - R1_2 * r1_product - R0_2 * r0_product + M2 * by_w_chosen
+        by_h3 = -(R2_3 * r2_product) - R1_3 * r1_product - R0_3 * r0_product + M3 * by_w_chosen
+        return (phi, by_h0, by_h1, by_h2, by_h3)
+
+    def _point_gradient(self, x: Tensor, slope: Sequence[Tensor]) -> Tensor:
+        """The Riemannian gradient of a function whose derivatives in X are `slope`."""
+        x0, x1, x2, x3 = x.unbind(-1)
+        slope_h0, slope_h1, slope_h2, slope_h3 = slope
+        product = 0.25 * slope_h1
+        product_2 = 0.25 * slope_h2
+        product_3 = 0.25 * slope_h0
+        product_4 = 0.25 * slope_h3
+        return _stack((
+            x0 * product + x3 * product_2 - x1 * product_3 - x2 * product_4,
+            x0 * product_2 + x1 * product_4 - x2 * product_3 - x3 * product,
+            x2 * product + x0 * product_4 - x3 * product_3 - x1 * product_2,
+        ))
+
+    def _point_gradient_vjp(self, x: Tensor, gradient_bar: Tensor) -> tuple[Tensor, ...]:
+        """The derivatives of gradient . gradient_bar in `slope`."""
+        x0, x1, x2, x3 = x.unbind(-1)
+        gradient_bar0, gradient_bar1, gradient_bar2 = gradient_bar.unbind(-1)
+        product = 0.25 * (-(x3 * gradient_bar2) - x2 * gradient_bar1 - x1 * gradient_bar0)
+        return (
+            product,
+            0.25 * (x2 * gradient_bar2 - x3 * gradient_bar1 + x0 * gradient_bar0),
+            0.25 * (x0 * gradient_bar1 - x1 * gradient_bar2 + x3 * gradient_bar0),
+            0.25 * (x0 * gradient_bar2 + x1 * gradient_bar1 - x2 * gradient_bar0),
+        )
+
+    def _pair_vjp(
+        self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
+    ) -> tuple[Tensor, ...]:
+        """The derivatives of value value_bar + slope . slope_bar in S."""
+        h0, h1, h2, h3 = X
+        amplitude, M0, M1, M2, M3, R0_0, R0_1, R0_2, R0_3, R1_0, R1_1, R1_2, R1_3, R2_0, R2_1, R2_2, R2_3 = S
+        h0_bar, h1_bar, h2_bar, h3_bar = slope_bar
+        total_2 = h0 * M0 + h1 * M1 + h2 * M2 + h3 * M3
+        w = torch.abs(total_2)
+        w_gap = 1.0 - w
+        eta = _polynomial(w_gap, _ETA)
+        a = 1.0 / (w - eta * (1.0 - w * w))
+        a_squared = a * a
+        r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3
+        r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3
+        r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3
+        half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2)
+        gaussian = torch.exp(-half_square)
+        a_product = a * (a * gaussian)
+        gap = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar - R0_3 * h3_bar
+        gap_2 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar - R1_3 * h3_bar
+        gap_3 = -(R2_0 * h0_bar) - R2_1 * h1_bar - R2_2 * h2_bar - R2_3 * h3_bar
+        product = 2.0 * (r0 * gap + r1 * gap_2 + r2 * gap_3)
+        half_square_product = 2.0 * half_square
+        is_small = total_2 < 0.0
+        total_3 = M0 * h0_bar + M1 * h1_bar + M2 * h2_bar + M3 * h3_bar
+        by_by_w = torch.where(is_small, 0.0, total_3) - torch.where(is_small, total_3, 0.0)
+        eta_product = eta * by_by_w
+        by_phi = value_bar + a_squared * product - half_square_product * eta_product + 2.0 * eta_product
+        phi = amplitude * a_product
+        gap_4 = 2.0 * phi - phi * half_square_product
+        by_w = eta * gap_4
+        by_w_chosen = torch.where(is_small, -by_w, by_w)
+        eta_slope = _polynomial(w_gap, _ETA_SLOPE)
+        product_2 = a_product * (amplitude * by_phi)
+        by_half_square = -(2.0 * (phi * eta_product)) - product_2
+        eta_product_2 = (
+            eta * (2.0 * a_squared * (phi * product) + 2.0 * product_2 + half_square_product * by_half_square)
+        )
+        by_w_2 = eta_slope * (gap_4 * by_by_w) + eta_product_2
+        by_w_chosen_2 = torch.where(is_small, -by_w_2, by_w_2)
+        product_3 = 2.0 * (phi * a_squared)
+        product_4 = 2.0 * (a_squared * by_half_square)
+        by_r0 = product_3 * gap + r0 * product_4
+        r0_product = r0 * product_3
+        by_r1 = product_3 * gap_2 + r1 * product_4
+        r1_product = r1 * product_3
+        by_r2 = product_3 * gap_3 + r2 * product_4
+        r2_product = r2 * product_3
+        return (
+            a_product * by_phi,
+            by_w_chosen * h0_bar + h0 * by_w_chosen_2,
+            by_w_chosen * h1_bar + h1 * by_w_chosen_2,
+            by_w_chosen * h2_bar + h2 * by_w_chosen_2,
+            by_w_chosen * h3_bar + h3 * by_w_chosen_2,
+            h0 * by_r0 - r0_product * h0_bar,
+            h1 * by_r0 - r0_product * h1_bar,
+            h2 * by_r0 - r0_product * h2_bar,
+            h3 * by_r0 - r0_product * h3_bar,
+            h0 * by_r1 - r1_product * h0_bar,
+            h1 * by_r1 - r1_product * h1_bar,
+            h2 * by_r1 - r1_product * h2_bar,
+            h3 * by_r1 - r1_product * h3_bar,
+            h0 * by_r2 - r2_product * h0_bar,
+            h1 * by_r2 - r2_product * h1_bar,
+            h2 * by_r2 - r2_product * h2_bar,
+            h3 * by_r2 - r2_product * h3_bar,
+        )
+
+    def _splat_constants_vjp(
+        self, mu: Tensor, W: Tensor, amplitude: Tensor, S_bar: Sequence[Tensor]
+    ) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives in mu, W and amplitude from those in S."""
+        mu0, mu1, mu2, mu3 = mu.unbind(-1)
+        W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2 = W.flatten(-2).unbind(-1)
+        (
+            amplitude_bar, M0_bar, M1_bar, M2_bar, M3_bar, R0_0_bar, R0_1_bar, R0_2_bar, R0_3_bar, R1_0_bar, R1_1_bar,
+            R1_2_bar, R1_3_bar, R2_0_bar, R2_1_bar, R2_2_bar, R2_3_bar,
+        ) = S_bar
+        product = 1.4142135623730951 * R0_1_bar
+        product_2 = 1.4142135623730951 * R0_2_bar
+        product_3 = 1.4142135623730951 * R0_3_bar
+        product_4 = 1.4142135623730951 * R1_1_bar
+        total_2 = M0_bar + W0_0 * product + W0_1 * product_2 + W0_2 * product_3 + W1_0 * product_4
+        product_5 = 1.4142135623730951 * R1_2_bar
+        product_6 = 1.4142135623730951 * R1_3_bar
+        product_7 = 1.4142135623730951 * R2_1_bar
+        product_8 = 1.4142135623730951 * R2_2_bar
+        total_3 = total_2 + W1_1 * product_5 + W1_2 * product_6 + W2_0 * product_7 + W2_1 * product_8
+        product_9 = 1.4142135623730951 * R2_3_bar
+        by_M0 = total_3 + W2_2 * product_9
+        product_10 = 1.4142135623730951 * R0_0_bar
+        product_11 = 1.4142135623730951 * R1_0_bar
+        gap = M1_bar - W0_0 * product_10 - W0_2 * product_2 + W0_1 * product_3 - W1_0 * product_11
+        product_12 = 1.4142135623730951 * R2_0_bar
+        gap_2 = gap - W1_2 * product_5 + W1_1 * product_6 - W2_0 * product_12 - W2_2 * product_8
+        by_M1 = gap_2 + W2_1 * product_9
+        gap_3 = M2_bar - W0_1 * product_10 + W0_2 * product - W0_0 * product_3 - W1_1 * product_11
+        total_4 = gap_3 + W1_2 * product_4 - W1_0 * product_6 - W2_1 * product_12 + W2_2 * product_7
+        by_M2 = total_4 - W2_0 * product_9
+        gap_4 = M3_bar - W0_2 * product_10 - W0_1 * product + W0_0 * product_2 - W1_2 * product_11
+        gap_5 = gap_4 - W1_1 * product_4 + W1_0 * product_5 - W2_2 * product_12 - W2_1 * product_7
+        by_M3 = gap_5 + W2_0 * product_8
+        M0 = 2.0 * mu0
+        M1 = 2.0 * mu1
+        M3 = 2.0 * mu3
+        M2 = 2.0 * mu2
+        total_5 = -(M2 * product_10) - M3 * product + M0 * product_2 + M1 * product_3
+        total_6 = -(M2 * product_11) - M3 * product_4 + M0 * product_5 + M1 * product_6
+        total_7 = -(M2 * product_12) - M3 * product_7 + M0 * product_8 + M1 * product_9
+        mu_bar = _stack((2.0 * by_M0, 2.0 * by_M1, 2.0 * by_M2, 2.0 * by_M3))
+        W_bar = _stack((
+            M0 * product - M1 * product_10 + M3 * product_2 - M2 * product_3,
+            total_5,
+            M2 * product - M3 * product_10 - M1 * product_2 + M0 * product_3,
+            M0 * product_4 - M1 * product_11 + M3 * product_5 - M2 * product_6,
+            total_6,
+            M2 * product_4 - M3 * product_11 - M1 * product_5 + M0 * product_6,
+            M0 * product_7 - M1 * product_12 + M3 * product_8 - M2 * product_9,
+            total_7,
+            M2 * product_7 - M3 * product_12 - M1 * product_8 + M0 * product_9,
+        ))
+        return mu_bar, W_bar.unflatten(-1, (3, 3)), amplitude_bar
 
 
 manifold = So3()

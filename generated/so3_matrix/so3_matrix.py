@@ -111,6 +111,32 @@ _T_OVER_NORM_S_NEAR_SLOPE = (
     ),
 )
 
+# Of degree 11 on [0, 1], the derivative of a polynomial; for float32 of degree 8, within 2^-29 of that.
+_LOG_DET_SERIES_SLOPE_SLOPE = (
+    (
+        0.00837354892300497, 0.004093413599169786, 0.0014659406672238098, 0.00046452444853173575,
+        0.00013808038982049257, 3.956376600918562e-05, 1.0825177352974468e-05, 3.4072951566509835e-06,
+        2.7515096116612774e-07, 7.082806450744882e-07, -2.1336272104298557e-07, 9.122574198606865e-08,
+    ),
+    (
+        0.008373548929811502, 0.00409341251393332, 0.0014659690505062421, 0.0004642399977336899, 0.00013949898494014724,
+        3.562723292198236e-05, 1.715338253936205e-05, -2.4083903642194996e-06, 3.123850968155648e-06,
+    ),
+)
+
+# Of degree 11 on [0, 1], the derivative of a polynomial; for float32 of degree 8, within 2^-30 of that.
+_T_OVER_NORM_S_NEAR_SLOPE_SLOPE = (
+    (
+        0.018643202510559807, 0.008299121481917445, 0.0028159522967385387, 0.0008615244488774448,
+        0.00024984954588029915, 7.028363271022215e-05, 1.89798401694423e-05, 5.875783766625421e-06,
+        5.003643981595386e-07, 1.1877220896552042e-06, -3.538311894046709e-07, 1.5233524430341798e-07,
+    ),
+    (
+        0.01864320252205291, 0.008299119649304472, 0.0028160002314375336, 0.0008610440047704579, 0.0002522458975272004,
+        6.363291448779077e-05, 2.9672627598761578e-05, -3.950664599532621e-06, 5.308935243478486e-06,
+    ),
+)
+
 
 def _root(x: Tensor) -> Tensor:
     """sqrt(x) with the derivative 0 at x = 0, where autograd would make 0 * inf = NaN of it."""
@@ -253,12 +279,23 @@ def _rotate(a: Tensor, v: Tensor, p: int, q: int) -> None:
 
 def _spectral(name: str, eigen: _Eigen, *directions: Sequence[Tensor | float]) -> Tensor:
     """D^m f(A)[E1, ..., Em], packed; f(A) without directions."""
+    result: Tensor = _Spectral.apply(name, *_alike(eigen, directions))  # type: ignore[no-untyped-call]
+    return result
+
+
+def _spectral_alone(name: str, eigen: _Eigen, *directions: Sequence[Tensor | float]) -> Tensor:
+    """The same without autograd."""
+    values, vectors, _, *stacked = _alike(eigen, directions)
+    return _derivative(name, values, vectors, stacked)
+
+
+def _alike(eigen: _Eigen, directions: Sequence[Sequence[Tensor | float]]) -> list[Tensor]:
+    """Eigenvalues, eigenvectors, the matrix and the directions, packed, of the same leading dimensions."""
     stacked = [_pack(entries, eigen.matrix) for entries in directions]
     matrix, *stacked = torch.broadcast_tensors(eigen.matrix, *stacked)
     values = eigen.values.expand(*matrix.shape[:-1], -1)
     vectors = eigen.vectors.expand(*matrix.shape[:-1], -1, -1)
-    result: Tensor = _Spectral.apply(name, values, vectors, matrix, *stacked)  # type: ignore[no-untyped-call]
-    return result
+    return [values, vectors, matrix, *stacked]
 
 
 class _Spectral(torch.autograd.Function):
@@ -316,7 +353,9 @@ def _divided_differences(f: _Scalar, values: Sequence[Tensor], order: int) -> di
     found = {(i,): f.value(x) for i, x in enumerate(values)}
     for degree in range(1, order + 1):
         lower, found = found, {}
-        for indices in itertools.combinations_with_replacement(range(len(values)), degree + 1):
+        for indices in itertools.product(range(len(values)), repeat=degree + 1):
+            if list(indices) != sorted(indices):
+                continue
             points = [values[i] for i in indices]
             gap, middle = points[-1] - points[0], (points[0] + points[-1]) / 2
             if indices[0] == indices[-1]:
@@ -360,6 +399,72 @@ def _invsqrt_slope(a: Tensor, b: Tensor) -> Tensor:
 
 
 _SCALARS["invsqrt"] = _Scalar(torch.rsqrt, _invsqrt_slope, lambda c: c, _invsqrt_taylor)
+
+
+def _chunks(x: Tensor, splats: int) -> Sequence[Tensor]:
+    """Points by chunks whose pairs with all splats are a bounded number; all at once where a compiler fuses the sums."""
+    if torch.compiler.is_compiling():
+        return (x,)
+    pairs = 2**15 if x.device.type == "cpu" else 2**21  # CPU: what fits in a cache
+    return x.split(max(1, pairs // max(1, splats)))
+
+
+def _sums(entries: Sequence[Tensor], points: int, splats: int, dim: int) -> list[Tensor]:
+    """Entries of pairs, summed over the points (dim 0) or over the splats (dim 1)."""
+    return [entry.expand(points, splats).sum(dim) for entry in entries]
+
+
+def _checked(
+    manifold: Any, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor
+) -> tuple[tuple[Tensor, Tensor, Tensor, Tensor], torch.dtype]:
+    """The four in one precision, single for what is less, and the precision of the results; their shapes must fit."""
+    K, D = len(mu) if mu.dim() else 0, manifold.point_size
+    N = len(x) if x.dim() else 0
+    shapes = {"x": (N, D), "mu": (K, D), "W": (K, manifold.dim, manifold.tangent_size), "amplitude": (K,)}
+    dtype = x.dtype
+    for (name, shape), tensor in zip(shapes.items(), (x, mu, W, amplitude), strict=True):
+        if tensor.shape != shape:
+            raise ValueError(f"{name} has shape {tuple(tensor.shape)}; with {N} points and {K} splats it is {shape}")
+        if not tensor.is_floating_point():
+            raise TypeError(f"{name} is {tensor.dtype}: splats take floating-point numbers")
+        dtype = torch.promote_types(dtype, tensor.dtype)
+    inside = torch.promote_types(dtype, torch.float32)
+    return (x.to(inside), mu.to(inside), W.to(inside), amplitude.to(inside)), dtype
+
+
+class _Splats(torch.autograd.Function):
+    """The sums under autograd: the backward pass is one sweep over all pairs."""
+
+    @staticmethod
+    def forward(ctx: Any, manifold: Any, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """Values and gradients."""
+        ctx.manifold = manifold
+        ctx.save_for_backward(x, mu, W, amplitude)
+        value, gradient = manifold._splats(x, mu, W, amplitude)
+        return value, gradient
+
+    @staticmethod
+    def backward(ctx: Any, value_bar: Tensor, gradient_bar: Tensor) -> tuple[Tensor | None, ...]:
+        """The derivatives in mu, W and amplitude."""
+        tensors = *ctx.saved_tensors, value_bar, gradient_bar
+        if torch.is_grad_enabled() and not torch.compiler.is_compiling():
+            return None, None, *_SplatsBackward.apply(ctx.manifold, *tensors)  # type: ignore[no-untyped-call]
+        return None, None, *ctx.manifold._splats_vjp(*tensors)
+
+
+class _SplatsBackward(torch.autograd.Function):
+    """The backward pass where somebody might differentiate it again, which is an error."""
+
+    @staticmethod
+    def forward(ctx: Any, manifold: Any, *tensors: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives in mu, W and amplitude."""
+        by_mu, by_W, by_amplitude = manifold._splats_vjp(*tensors)
+        return by_mu, by_W, by_amplitude
+
+    @staticmethod
+    def backward(ctx: Any, *bars: Tensor) -> Any:
+        """None."""
+        raise RuntimeError("`splats` has first derivatives only; of `splat`, autograd knows all")
 
 
 class So3Matrix:
@@ -1026,14 +1131,6 @@ class So3Matrix:
         gradient2 = gap_3 - x6 * df7
         return (phi, gradient0, gradient1, gradient2)
 
-    def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
-        """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
-
-        Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T).
-        """
-        value, *gradient = self._splat(x.unsqueeze(-2), mu, W, amplitude)
-        return value.sum(-1), _stack([entry.sum(-1) for entry in gradient])
-
     def frame(self, p: Tensor) -> Tensor:
         """An orthonormal basis of the tangent space at p, one vector a row; not continuous in p where none is.
 
@@ -1076,6 +1173,719 @@ class So3Matrix:
             return points, torch.exp(-self.log_abs_det(center, points))
 
         return _rejection(propose, count, generator, center)
+
+    def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
+
+        Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T).
+        Differentiable once in mu, W and amplitude, with nothing of size N x K kept. Where x requires a gradient too, autograd
+        differentiates the formula of every pair, as often as is wanted, and keeps all of them.
+        """
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        if x.requires_grad and torch.is_grad_enabled():
+            value, *entries = self._splat(tensors[0].unsqueeze(-2), *tensors[1:])
+            value, gradient = value.sum(-1), _stack([entry.sum(-1) for entry in entries])
+        else:
+            value, gradient = _Splats.apply(self, *tensors)  # type: ignore[no-untyped-call]
+        return value.to(dtype), gradient.to(dtype)
+
+    def splats_value(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> Tensor:
+        """The value of `splats` alone: (N), differentiable as there."""
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        if torch.is_grad_enabled() and any(tensor.requires_grad for tensor in tensors):
+            return self.splats(x, mu, W, amplitude)[0]
+        return self._splats_value(*tensors).to(dtype)
+
+    def splats_rows(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> Tensor:
+        """The derivatives of value_bar_n value_n + gradient_bar_n . gradient_n of `splats`, each point's by itself.
+
+        Shapes: as in `splats`, value_bar (N), gradient_bar (N, T) to (N, K, D + d T + 1), the derivatives in mu, W (row by
+        row) and amplitude of every splat; not differentiable. Their sum over N is what the backward pass of `splats` gives.
+        """
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        with torch.no_grad():
+            return self._splats_rows(*tensors, value_bar.to(tensors[0]), gradient_bar.to(tensors[0])).to(dtype)
+
+    def kernels(self, like: Tensor) -> str:
+        """What computes `splats` for tensors like this one."""
+        return f"torch, {like.device.type}"
+
+    def _splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """Values (N) and gradients (N, T)."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        values, gradients = [], []
+        for part in _chunks(x, len(mu)):
+            X = [entry.unsqueeze(-1) for entry in self._point_features(part)]
+            value, *slope = _sums(self._pair(X, S), len(part), len(mu), 1)
+            values.append(value)
+            gradients.append(self._point_gradient(part, slope))
+        return torch.cat(values), torch.cat(gradients)
+
+    def _splats_value(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> Tensor:
+        """Values (N) alone."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        values = []
+        for part in _chunks(x, len(mu)):
+            X = [entry.unsqueeze(-1) for entry in self._point_features(part)]
+            values += _sums(self._pair_value(X, S), len(part), len(mu), 1)
+        return torch.cat(values)
+
+    def _splats_vjp(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu (K, D), W (K, d, T) and amplitude (K)."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        total = torch.zeros((len(S), len(mu)), dtype=x.dtype, device=x.device)
+        parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
+        for part, *bars in zip(*parts, strict=True):
+            total = total + torch.stack(_sums(self._pair_bars(part, S, *bars), len(part), len(mu), 0))
+        return self._splat_constants_vjp(mu, W, amplitude, total.unbind(0))
+
+    def _splats_rows(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> Tensor:
+        """The rows (N, K, D + d T + 1) of the derivatives that `_splats_vjp` sums over N."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
+        rows = []
+        for part, *bars in zip(*parts, strict=True):
+            S_bar = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
+            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, S_bar)
+            rows.append(torch.cat([by_mu, by_W.flatten(-2), by_amplitude.unsqueeze(-1)], -1))
+        return torch.cat(rows)
+
+    def _pair_bars(
+        self, x: Tensor, S: Sequence[Tensor], value_bar: Tensor, gradient_bar: Tensor
+    ) -> tuple[Tensor, ...]:
+        """The derivatives in S of every pair, from those in the sums."""
+        X = [entry.unsqueeze(-1) for entry in self._point_features(x)]
+        slope_bar = [entry.unsqueeze(-1) for entry in self._point_gradient_vjp(x, gradient_bar)]
+        return self._pair_vjp(X, S, value_bar.unsqueeze(-1), slope_bar)
+
+    def _point_features(self, x: Tensor) -> tuple[Tensor, ...]:
+        """X, what the pairs need of a point alone."""
+        x0, x1, x2, x3, x4, x5, x6, x7, x8 = x.unbind(-1)
+        return (x0, x1, x2, x3, x4, x5, x6, x7, x8)
+
+    def _splat_constants(self, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, ...]:
+        """S, what the pairs need of a splat alone."""
+        mu0, mu1, mu2, mu3, mu4, mu5, mu6, mu7, mu8 = mu.unbind(-1)
+        W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2 = W.flatten(-2).unbind(-1)
+        return (
+            mu0,
+            mu1,
+            mu2,
+            mu3,
+            mu4,
+            mu5,
+            mu6,
+            mu7,
+            mu8,
+            W0_0,
+            W0_1,
+            W0_2,
+            W1_0,
+            W1_1,
+            W1_2,
+            W2_0,
+            W2_1,
+            W2_2,
+            amplitude,
+        )
+
+    def _pair_value(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
+        """The value of a splat at a point."""
+        x0, x1, x2, x3, x4, x5, x6, x7, x8 = X
+        mu0, mu1, mu2, mu3, mu4, mu5, mu6, mu7, mu8, W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, amplitude = S
+        R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8
+        R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7
+        R0_0 = x0 * mu0 + x3 * mu3 + x6 * mu6
+        R0_0_total = 1.0 + R0_0
+        square0 = R2_2 + (R1_1 + R0_0_total)
+        square1 = R0_0_total - R1_1 - R2_2
+        is_less = square0 < square1
+        largest = torch.where(is_less, square1, square0)
+        square2 = 1.0 + R1_1 - R0_0 - R2_2
+        is_less_2 = largest < square2
+        largest_2 = torch.where(is_less_2, square2, largest)
+        square3 = 1.0 + R2_2 - R0_0 - R1_1
+        is_less_3 = largest_2 < square3
+        R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6
+        R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8
+        R0_2_total = R0_2 + R2_0
+        R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6
+        R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7
+        R0_1_total = R0_1 + R1_0
+        R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8
+        R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7
+        R2_1_gap = R2_1 - R1_2
+        row_2 = torch.where(is_less, square1, R2_1_gap)
+        row_6 = torch.where(is_less_2, R0_1_total, row_2)
+        row_10 = torch.where(is_less_3, R0_2_total, row_6)
+        R1_2_total = R1_2 + R2_1
+        R0_2_gap = R0_2 - R2_0
+        row_3 = torch.where(is_less, R0_1_total, R0_2_gap)
+        row_7 = torch.where(is_less_2, square2, row_3)
+        row_11 = torch.where(is_less_3, R1_2_total, row_7)
+        R1_0_gap = R1_0 - R0_1
+        row_4 = torch.where(is_less, R0_2_total, R1_0_gap)
+        row_8 = torch.where(is_less_2, R1_2_total, row_4)
+        row_12 = torch.where(is_less_3, square3, row_8)
+        row = torch.where(is_less, R2_1_gap, square0)
+        row_5 = torch.where(is_less_2, R0_2_gap, row)
+        row_9 = torch.where(is_less_3, R1_0_gap, row_5)
+        row_length = _root(row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9)
+        g1 = row_10 / row_length
+        g2 = row_11 / row_length
+        g3 = row_12 / row_length
+        norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3
+        near = norm_s_squared < 0.249287
+        near_chosen = torch.where(near, 4.011440628672975 * norm_s_squared, 0.0)
+        log_det_series = _polynomial(near_chosen, _LOG_DET_SERIES)
+        log_det_near = norm_s_squared * log_det_series
+        norm_s = torch.sqrt(torch.where(near, 1.0, norm_s_squared))
+        g0 = row_9 / row_length
+        abs_g0 = torch.abs(g0)
+        atan2_norm_s_abs_g0 = torch.atan2(norm_s, abs_g0)
+        t = 2.0 * atan2_norm_s_abs_g0
+        t_ratio = t / norm_s
+        log_det = torch.where(near, log_det_near, 2.0 * torch.log(0.5 * t_ratio))
+        t_over_norm_s_near = _polynomial(near_chosen, _T_OVER_NORM_S_NEAR)
+        t_over_norm_s = torch.where(near, t_over_norm_s_near, t_ratio)
+        scale = t_over_norm_s * _pick(g0 < 0.0, -1.0, 1.0, g0)
+        v0 = g1 * scale
+        v1 = g2 * scale
+        v2 = g3 * scale
+        z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2
+        z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2
+        z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2
+        log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2)
+        phi = amplitude * torch.exp(log_det_gap)
+        return (phi,)
+
+    def _pair(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
+        """The value of a splat at a point, and the slope, its derivatives in X."""
+        x0, x1, x2, x3, x4, x5, x6, x7, x8 = X
+        mu0, mu1, mu2, mu3, mu4, mu5, mu6, mu7, mu8, W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, amplitude = S
+        R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8
+        R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7
+        R0_0 = x0 * mu0 + x3 * mu3 + x6 * mu6
+        R0_0_total = 1.0 + R0_0
+        square0 = R2_2 + (R1_1 + R0_0_total)
+        square1 = R0_0_total - R1_1 - R2_2
+        is_less = square0 < square1
+        largest = torch.where(is_less, square1, square0)
+        square2 = 1.0 + R1_1 - R0_0 - R2_2
+        is_less_2 = largest < square2
+        largest_2 = torch.where(is_less_2, square2, largest)
+        square3 = 1.0 + R2_2 - R0_0 - R1_1
+        is_less_3 = largest_2 < square3
+        R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6
+        R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8
+        R0_2_total = R0_2 + R2_0
+        R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6
+        R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7
+        R0_1_total = R0_1 + R1_0
+        R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8
+        R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7
+        R2_1_gap = R2_1 - R1_2
+        row_2 = torch.where(is_less, square1, R2_1_gap)
+        row_6 = torch.where(is_less_2, R0_1_total, row_2)
+        row_10 = torch.where(is_less_3, R0_2_total, row_6)
+        R1_2_total = R1_2 + R2_1
+        R0_2_gap = R0_2 - R2_0
+        row_3 = torch.where(is_less, R0_1_total, R0_2_gap)
+        row_7 = torch.where(is_less_2, square2, row_3)
+        row_11 = torch.where(is_less_3, R1_2_total, row_7)
+        R1_0_gap = R1_0 - R0_1
+        row_4 = torch.where(is_less, R0_2_total, R1_0_gap)
+        row_8 = torch.where(is_less_2, R1_2_total, row_4)
+        row_12 = torch.where(is_less_3, square3, row_8)
+        row = torch.where(is_less, R2_1_gap, square0)
+        row_5 = torch.where(is_less_2, R0_2_gap, row)
+        row_9 = torch.where(is_less_3, R1_0_gap, row_5)
+        total_2 = row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9
+        row_length = _root(total_2)
+        g1 = row_10 / row_length
+        g2 = row_11 / row_length
+        g3 = row_12 / row_length
+        norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3
+        near = norm_s_squared < 0.249287
+        near_chosen = torch.where(near, 4.011440628672975 * norm_s_squared, 0.0)
+        log_det_series = _polynomial(near_chosen, _LOG_DET_SERIES)
+        log_det_near = norm_s_squared * log_det_series
+        near_chosen_2 = torch.where(near, 1.0, norm_s_squared)
+        norm_s = torch.sqrt(near_chosen_2)
+        g0 = row_9 / row_length
+        abs_g0 = torch.abs(g0)
+        atan2_norm_s_abs_g0 = torch.atan2(norm_s, abs_g0)
+        t = 2.0 * atan2_norm_s_abs_g0
+        t_ratio = t / norm_s
+        product = 0.5 * t_ratio
+        log_det = torch.where(near, log_det_near, 2.0 * torch.log(product))
+        t_over_norm_s_near = _polynomial(near_chosen, _T_OVER_NORM_S_NEAR)
+        t_over_norm_s = torch.where(near, t_over_norm_s_near, t_ratio)
+        is_small = g0 < 0.0
+        chosen = _pick(is_small, -1.0, 1.0, g0)
+        scale = t_over_norm_s * chosen
+        v0 = g1 * scale
+        v1 = g2 * scale
+        v2 = g3 * scale
+        z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2
+        z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2
+        z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2
+        log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2)
+        phi = amplitude * torch.exp(log_det_gap)
+        z2_product = z2 * phi
+        z1_product = z1 * phi
+        z0_product = z0 * phi
+        by_v2 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product
+        by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product
+        by_v0 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product
+        by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0
+        by_t_over_norm_s = chosen * by_scale
+        total_3 = torch.where(near, 0.0, by_t_over_norm_s) + 0.5 * (2.0 * torch.where(near, 0.0, phi) / product)
+        by_t = total_3 / norm_s
+        by_atan2_norm_s_abs_g0 = 2.0 * by_t
+        ratio = by_atan2_norm_s_abs_g0 / (near_chosen_2 + abs_g0 * abs_g0)
+        norm_s_product = norm_s * ratio
+        by_abs_g0 = -norm_s_product
+        by_g0 = torch.where(is_small, norm_s_product, by_abs_g0)
+        by_g0_ratio = by_g0 / row_length
+        is_small_2 = total_2 == 0.0
+        by_norm_s = abs_g0 * ratio - t_ratio * by_t
+        by_log_det_near = torch.where(near, phi, 0.0)
+        by_t_over_norm_s_near = torch.where(near, by_t_over_norm_s, 0.0)
+        t_over_norm_s_near_slope = _polynomial(near_chosen, _T_OVER_NORM_S_NEAR_SLOPE)
+        by_log_det_series = norm_s_squared * by_log_det_near
+        log_det_series_slope = _polynomial(near_chosen, _LOG_DET_SERIES_SLOPE)
+        by_norm_s_squared = (
+            torch.where(near, 0.0, by_norm_s / (2.0 * norm_s)) + log_det_series * by_log_det_near + 4.011440628672975 *
+            torch.where(near, by_t_over_norm_s_near * t_over_norm_s_near_slope + by_log_det_series *
+            log_det_series_slope, 0.0)
+        )
+        product_2 = 2.0 * by_norm_s_squared
+        by_g3 = scale * by_v2 + g3 * product_2
+        by_g3_ratio = by_g3 / row_length
+        by_g2 = scale * by_v1 + g2 * product_2
+        by_g2_ratio = by_g2 / row_length
+        by_g1 = scale * by_v0 + g1 * product_2
+        by_g1_ratio = by_g1 / row_length
+        by_row_length = -(g0 * by_g0_ratio) - g3 * by_g3_ratio - g2 * by_g2_ratio - g1 * by_g1_ratio
+        product_3 = 2.0 * torch.where(is_small_2, 0.0, by_row_length / (2.0 * torch.where(is_small_2, 1.0, row_length)))
+        by_row_9 = by_g0_ratio + row_9 * product_3
+        by_row_12 = by_g3_ratio + row_12 * product_3
+        by_row_8 = torch.where(is_less_3, 0.0, by_row_12)
+        by_row_4 = torch.where(is_less_2, 0.0, by_row_8)
+        total_4 = torch.where(is_less_3, by_row_9, 0.0) + torch.where(is_less, 0.0, by_row_4)
+        by_row_11 = by_g2_ratio + row_11 * product_3
+        by_row_7 = torch.where(is_less_3, 0.0, by_row_11)
+        by_row_3 = torch.where(is_less_2, 0.0, by_row_7)
+        by_row_10 = by_g1_ratio + row_10 * product_3
+        by_row_6 = torch.where(is_less_3, 0.0, by_row_10)
+        total_5 = torch.where(is_less, by_row_3, 0.0) + torch.where(is_less_2, by_row_6, 0.0)
+        by_R1_0 = total_4 + total_5
+        total_6 = torch.where(is_less, by_row_4, 0.0) + torch.where(is_less_3, by_row_10, 0.0)
+        by_row_5 = torch.where(is_less_3, 0.0, by_row_9)
+        total_7 = torch.where(is_less_2, by_row_5, 0.0) + torch.where(is_less, 0.0, by_row_3)
+        by_R2_0 = total_6 - total_7
+        by_square3 = torch.where(is_less_3, by_row_12, 0.0)
+        by_square2 = torch.where(is_less_2, by_row_7, 0.0)
+        by_row = torch.where(is_less_2, 0.0, by_row_5)
+        by_square0 = torch.where(is_less, 0.0, by_row)
+        by_row_2 = torch.where(is_less_2, 0.0, by_row_6)
+        by_square1 = torch.where(is_less, by_row_2, 0.0)
+        by_R0_0 = -by_square3 - by_square2 + (by_square0 + by_square1)
+        by_x0 = mu1 * by_R1_0 + mu2 * by_R2_0 + mu0 * by_R0_0
+        total_8 = torch.where(is_less_2, by_row_8, 0.0) + torch.where(is_less_3, by_row_11, 0.0)
+        total_9 = torch.where(is_less, by_row, 0.0) + torch.where(is_less, 0.0, by_row_2)
+        by_R2_1 = total_8 + total_9
+        by_R0_1 = total_5 - total_4
+        by_R1_1 = by_square0 + (by_square2 - by_square3 - by_square1)
+        by_x1 = mu2 * by_R2_1 + mu0 * by_R0_1 + mu1 * by_R1_1
+        by_R1_2 = total_8 - total_9
+        by_R0_2 = total_7 + total_6
+        by_R2_2 = by_square0 + (by_square3 - by_square2 - by_square1)
+        by_x2 = mu1 * by_R1_2 + mu0 * by_R0_2 + mu2 * by_R2_2
+        by_x3 = mu4 * by_R1_0 + mu5 * by_R2_0 + mu3 * by_R0_0
+        by_x4 = mu5 * by_R2_1 + mu3 * by_R0_1 + mu4 * by_R1_1
+        by_x5 = mu4 * by_R1_2 + mu3 * by_R0_2 + mu5 * by_R2_2
+        by_x6 = mu7 * by_R1_0 + mu8 * by_R2_0 + mu6 * by_R0_0
+        by_x7 = mu8 * by_R2_1 + mu6 * by_R0_1 + mu7 * by_R1_1
+        by_x8 = mu7 * by_R1_2 + mu6 * by_R0_2 + mu8 * by_R2_2
+        return (phi, by_x0, by_x1, by_x2, by_x3, by_x4, by_x5, by_x6, by_x7, by_x8)
+
+    def _point_gradient(self, x: Tensor, slope: Sequence[Tensor]) -> Tensor:
+        """The Riemannian gradient of a function whose derivatives in X are `slope`."""
+        x0, x1, x2, x3, x4, x5, x6, x7, x8 = x.unbind(-1)
+        slope_x0, slope_x1, slope_x2, slope_x3, slope_x4, slope_x5, slope_x6, slope_x7, slope_x8 = slope
+        gap = x2 * slope_x1 + x5 * slope_x4 + x8 * slope_x7 - x1 * slope_x2 - x4 * slope_x5
+        gap_2 = x0 * slope_x2 + x3 * slope_x5 + x6 * slope_x8 - x2 * slope_x0 - x5 * slope_x3
+        gap_3 = x1 * slope_x0 + x4 * slope_x3 + x7 * slope_x6 - x0 * slope_x1 - x3 * slope_x4
+        return _stack((gap - x7 * slope_x8, gap_2 - x8 * slope_x6, gap_3 - x6 * slope_x7))
+
+    def _point_gradient_vjp(self, x: Tensor, gradient_bar: Tensor) -> tuple[Tensor, ...]:
+        """The derivatives of gradient . gradient_bar in `slope`."""
+        x0, x1, x2, x3, x4, x5, x6, x7, x8 = x.unbind(-1)
+        gradient_bar0, gradient_bar1, gradient_bar2 = gradient_bar.unbind(-1)
+        return (
+            x1 * gradient_bar2 - x2 * gradient_bar1,
+            x2 * gradient_bar0 - x0 * gradient_bar2,
+            x0 * gradient_bar1 - x1 * gradient_bar0,
+            x4 * gradient_bar2 - x5 * gradient_bar1,
+            x5 * gradient_bar0 - x3 * gradient_bar2,
+            x3 * gradient_bar1 - x4 * gradient_bar0,
+            x7 * gradient_bar2 - x8 * gradient_bar1,
+            x8 * gradient_bar0 - x6 * gradient_bar2,
+            x6 * gradient_bar1 - x7 * gradient_bar0,
+        )
+
+    def _pair_vjp(
+        self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
+    ) -> tuple[Tensor, ...]:
+        """The derivatives of value value_bar + slope . slope_bar in S."""
+        x0, x1, x2, x3, x4, x5, x6, x7, x8 = X
+        mu0, mu1, mu2, mu3, mu4, mu5, mu6, mu7, mu8, W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, amplitude = S
+        x0_bar, x1_bar, x2_bar, x3_bar, x4_bar, x5_bar, x6_bar, x7_bar, x8_bar = slope_bar
+        R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8
+        R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7
+        R0_0 = x0 * mu0 + x3 * mu3 + x6 * mu6
+        R0_0_total = 1.0 + R0_0
+        square0 = R2_2 + (R1_1 + R0_0_total)
+        square1 = R0_0_total - R1_1 - R2_2
+        is_less = square0 < square1
+        largest = torch.where(is_less, square1, square0)
+        square2 = 1.0 + R1_1 - R0_0 - R2_2
+        is_less_2 = largest < square2
+        largest_2 = torch.where(is_less_2, square2, largest)
+        square3 = 1.0 + R2_2 - R0_0 - R1_1
+        is_less_3 = largest_2 < square3
+        R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6
+        R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8
+        R0_2_total = R0_2 + R2_0
+        R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6
+        R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7
+        R0_1_total = R0_1 + R1_0
+        R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8
+        R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7
+        R2_1_gap = R2_1 - R1_2
+        row_2 = torch.where(is_less, square1, R2_1_gap)
+        row_6 = torch.where(is_less_2, R0_1_total, row_2)
+        row_10 = torch.where(is_less_3, R0_2_total, row_6)
+        R1_2_total = R1_2 + R2_1
+        R0_2_gap = R0_2 - R2_0
+        row_3 = torch.where(is_less, R0_1_total, R0_2_gap)
+        row_7 = torch.where(is_less_2, square2, row_3)
+        row_11 = torch.where(is_less_3, R1_2_total, row_7)
+        R1_0_gap = R1_0 - R0_1
+        row_4 = torch.where(is_less, R0_2_total, R1_0_gap)
+        row_8 = torch.where(is_less_2, R1_2_total, row_4)
+        row_12 = torch.where(is_less_3, square3, row_8)
+        row = torch.where(is_less, R2_1_gap, square0)
+        row_5 = torch.where(is_less_2, R0_2_gap, row)
+        row_9 = torch.where(is_less_3, R1_0_gap, row_5)
+        total_2 = row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9
+        row_length = _root(total_2)
+        g1 = row_10 / row_length
+        g2 = row_11 / row_length
+        g3 = row_12 / row_length
+        norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3
+        near = norm_s_squared < 0.249287
+        near_chosen = torch.where(near, 4.011440628672975 * norm_s_squared, 0.0)
+        t_over_norm_s_near = _polynomial(near_chosen, _T_OVER_NORM_S_NEAR)
+        near_chosen_2 = torch.where(near, 1.0, norm_s_squared)
+        norm_s = torch.sqrt(near_chosen_2)
+        g0 = row_9 / row_length
+        abs_g0 = torch.abs(g0)
+        atan2_norm_s_abs_g0 = torch.atan2(norm_s, abs_g0)
+        t = 2.0 * atan2_norm_s_abs_g0
+        t_ratio = t / norm_s
+        t_over_norm_s = torch.where(near, t_over_norm_s_near, t_ratio)
+        is_small = g0 < 0.0
+        chosen = _pick(is_small, -1.0, 1.0, g0)
+        scale = t_over_norm_s * chosen
+        v0 = g1 * scale
+        v1 = g2 * scale
+        v2 = g3 * scale
+        z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2
+        log_det_series = _polynomial(near_chosen, _LOG_DET_SERIES)
+        log_det_near = norm_s_squared * log_det_series
+        product = 0.5 * t_ratio
+        log_det = torch.where(near, log_det_near, 2.0 * torch.log(product))
+        z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2
+        z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2
+        log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2)
+        exp_2 = torch.exp(log_det_gap)
+        phi = amplitude * exp_2
+        z2_product = z2 * phi
+        z1_product = z1 * phi
+        z0_product = z0 * phi
+        by_v2 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product
+        by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product
+        by_v0 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product
+        by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0
+        by_t_over_norm_s = chosen * by_scale
+        ratio = 2.0 * torch.where(near, 0.0, phi) / product
+        by_t = (torch.where(near, 0.0, by_t_over_norm_s) + 0.5 * ratio) / norm_s
+        by_atan2_norm_s_abs_g0 = 2.0 * by_t
+        total_3 = near_chosen_2 + abs_g0 * abs_g0
+        ratio_2 = by_atan2_norm_s_abs_g0 / total_3
+        by_norm_s = abs_g0 * ratio_2 - t_ratio * by_t
+        norm_s_product = 2.0 * norm_s
+        by_norm_s_ratio = by_norm_s / norm_s_product
+        by_log_det_near = torch.where(near, phi, 0.0)
+        by_t_over_norm_s_near = torch.where(near, by_t_over_norm_s, 0.0)
+        t_over_norm_s_near_slope = _polynomial(near_chosen, _T_OVER_NORM_S_NEAR_SLOPE)
+        by_log_det_series = norm_s_squared * by_log_det_near
+        log_det_series_slope = _polynomial(near_chosen, _LOG_DET_SERIES_SLOPE)
+        by_norm_s_squared = (
+            torch.where(near, 0.0, by_norm_s_ratio) + log_det_series * by_log_det_near + 4.011440628672975 *
+            torch.where(near, by_t_over_norm_s_near * t_over_norm_s_near_slope + by_log_det_series *
+            log_det_series_slope, 0.0)
+        )
+        product_2 = 2.0 * by_norm_s_squared
+        by_g3 = scale * by_v2 + g3 * product_2
+        by_g3_ratio = by_g3 / row_length
+        is_small_2 = total_2 == 0.0
+        norm_s_product_2 = norm_s * ratio_2
+        by_abs_g0 = -norm_s_product_2
+        by_g0 = torch.where(is_small, norm_s_product_2, by_abs_g0)
+        by_g0_ratio = by_g0 / row_length
+        by_g2 = scale * by_v1 + g2 * product_2
+        by_g2_ratio = by_g2 / row_length
+        by_g1 = scale * by_v0 + g1 * product_2
+        by_g1_ratio = by_g1 / row_length
+        by_row_length = -(g0 * by_g0_ratio) - g3 * by_g3_ratio - g2 * by_g2_ratio - g1 * by_g1_ratio
+        product_3 = 2.0 * torch.where(is_small_2, 1.0, row_length)
+        ratio_3 = by_row_length / product_3
+        product_4 = 2.0 * torch.where(is_small_2, 0.0, ratio_3)
+        by_row_12 = by_g3_ratio + row_12 * product_4
+        by_square3 = torch.where(is_less_3, by_row_12, 0.0)
+        by_row_11 = by_g2_ratio + row_11 * product_4
+        by_row_7 = torch.where(is_less_3, 0.0, by_row_11)
+        by_square2 = torch.where(is_less_2, by_row_7, 0.0)
+        by_row_9 = by_g0_ratio + row_9 * product_4
+        by_row_5 = torch.where(is_less_3, 0.0, by_row_9)
+        by_row = torch.where(is_less_2, 0.0, by_row_5)
+        by_square0 = torch.where(is_less, 0.0, by_row)
+        by_row_10 = by_g1_ratio + row_10 * product_4
+        by_row_6 = torch.where(is_less_3, 0.0, by_row_10)
+        by_row_2 = torch.where(is_less_2, 0.0, by_row_6)
+        by_square1 = torch.where(is_less, by_row_2, 0.0)
+        by_R0_0 = -by_square3 - by_square2 + (by_square0 + by_square1)
+        by_row_3 = torch.where(is_less_2, 0.0, by_row_7)
+        total_4 = torch.where(is_less_2, by_row_5, 0.0) + torch.where(is_less, 0.0, by_row_3)
+        by_row_8 = torch.where(is_less_3, 0.0, by_row_12)
+        by_row_4 = torch.where(is_less_2, 0.0, by_row_8)
+        total_5 = torch.where(is_less, by_row_4, 0.0) + torch.where(is_less_3, by_row_10, 0.0)
+        by_R0_2 = total_4 + total_5
+        total_6 = torch.where(is_less, by_row_3, 0.0) + torch.where(is_less_2, by_row_6, 0.0)
+        total_7 = torch.where(is_less_3, by_row_9, 0.0) + torch.where(is_less, 0.0, by_row_4)
+        by_R0_1 = total_6 - total_7
+        by_by_R0_2 = mu0 * x2_bar + mu3 * x5_bar + mu6 * x8_bar
+        by_by_R2_0 = mu2 * x0_bar + mu5 * x3_bar + mu8 * x6_bar
+        by_by_R0_2_gap = by_by_R0_2 - by_by_R2_0
+        by_by_R0_1 = mu0 * x1_bar + mu3 * x4_bar + mu6 * x7_bar
+        by_by_R1_0 = mu1 * x0_bar + mu4 * x3_bar + mu7 * x6_bar
+        by_by_R0_1_total = by_by_R0_1 + by_by_R1_0
+        by_by_row_3 = torch.where(is_less, 0.0, by_by_R0_2_gap) + torch.where(is_less, by_by_R0_1_total, 0.0)
+        by_by_R1_1 = mu1 * x1_bar + mu4 * x4_bar + mu7 * x7_bar
+        by_by_R0_0 = mu0 * x0_bar + mu3 * x3_bar + mu6 * x6_bar
+        by_by_R2_2 = mu2 * x2_bar + mu5 * x5_bar + mu8 * x8_bar
+        by_by_square2 = by_by_R1_1 - by_by_R0_0 - by_by_R2_2
+        by_by_row_7 = torch.where(is_less_2, 0.0, by_by_row_3) + torch.where(is_less_2, by_by_square2, 0.0)
+        by_by_R2_1 = mu2 * x1_bar + mu5 * x4_bar + mu8 * x7_bar
+        by_by_R1_2 = mu1 * x2_bar + mu4 * x5_bar + mu7 * x8_bar
+        by_by_R2_1_total = by_by_R2_1 + by_by_R1_2
+        by_by_row_11 = torch.where(is_less_3, 0.0, by_by_row_7) + torch.where(is_less_3, by_by_R2_1_total, 0.0)
+        by_by_R2_1_gap = by_by_R2_1 - by_by_R1_2
+        by_by_square1 = by_by_R0_0 - by_by_R1_1 - by_by_R2_2
+        by_by_row_2 = torch.where(is_less, 0.0, by_by_R2_1_gap) + torch.where(is_less, by_by_square1, 0.0)
+        by_by_row_6 = torch.where(is_less_2, 0.0, by_by_row_2) + torch.where(is_less_2, by_by_R0_1_total, 0.0)
+        by_by_R0_2_total = by_by_R0_2 + by_by_R2_0
+        by_by_row_10 = torch.where(is_less_3, 0.0, by_by_row_6) + torch.where(is_less_3, by_by_R0_2_total, 0.0)
+        by_by_R1_0_gap = by_by_R1_0 - by_by_R0_1
+        by_by_row_4 = torch.where(is_less, 0.0, by_by_R1_0_gap) + torch.where(is_less, by_by_R0_2_total, 0.0)
+        by_by_row_8 = torch.where(is_less_2, 0.0, by_by_row_4) + torch.where(is_less_2, by_by_R2_1_total, 0.0)
+        by_by_square3 = by_by_R2_2 - by_by_R1_1 - by_by_R0_0
+        by_by_row_12 = torch.where(is_less_3, 0.0, by_by_row_8) + torch.where(is_less_3, by_by_square3, 0.0)
+        by_by_square0 = by_by_R2_2 + (by_by_R1_1 + by_by_R0_0)
+        by_by_row = torch.where(is_less, by_by_R2_1_gap, 0.0) + torch.where(is_less, 0.0, by_by_square0)
+        by_by_row_5 = torch.where(is_less_2, 0.0, by_by_row) + torch.where(is_less_2, by_by_R0_2_gap, 0.0)
+        by_by_row_9 = torch.where(is_less_3, 0.0, by_by_row_5) + torch.where(is_less_3, by_by_R1_0_gap, 0.0)
+        product_5 = 2.0 * (row_10 * by_by_row_10 + row_11 * by_by_row_11 + row_12 * by_by_row_12 + row_9 * by_by_row_9)
+        by_by_row_length = torch.where(is_small_2, 0.0, product_5) / product_3
+        by_by_g2 = (by_by_row_11 - g2 * by_by_row_length) / row_length
+        by_by_g0 = (by_by_row_9 - g0 * by_by_row_length) / row_length
+        by_by_abs_g0 = torch.where(is_small, 0.0, by_by_g0)
+        gap = torch.where(is_small, by_by_g0, 0.0) - by_by_abs_g0
+        by_by_g1 = (by_by_row_10 - g1 * by_by_row_length) / row_length
+        by_by_g3 = (by_by_row_12 - g3 * by_by_row_length) / row_length
+        total_8 = g1 * by_by_g1 + g2 * by_by_g2 + g3 * by_by_g3
+        by_by_norm_s_squared = 2.0 * total_8
+        by_by_norm_s = torch.where(near, 0.0, by_by_norm_s_squared) / norm_s_product
+        by_by_atan2_norm_s_abs_g0 = (norm_s * gap + abs_g0 * by_by_norm_s) / total_3
+        by_by_t = 2.0 * by_by_atan2_norm_s_abs_g0 - t_ratio * by_by_norm_s
+        by_by_t_ratio = by_by_t / norm_s
+        near_chosen_3 = torch.where(near, 8.02288125734595 * total_8, 0.0)
+        by_by_t_over_norm_s_near = t_over_norm_s_near_slope * near_chosen_3
+        by_by_t_over_norm_s = torch.where(near, 0.0, by_by_t_ratio) + torch.where(near, by_by_t_over_norm_s_near, 0.0)
+        by_by_scale = chosen * by_by_t_over_norm_s
+        by_by_v0 = g1 * by_by_scale + scale * by_by_g1
+        by_by_v1 = g2 * by_by_scale + scale * by_by_g2
+        by_by_v2 = g3 * by_by_scale + scale * by_by_g3
+        gap_2 = -(W2_0 * by_by_v0) - W2_1 * by_by_v1 - W2_2 * by_by_v2
+        ratio_4 = 0.5 * by_by_t_ratio / product
+        by_by_log_det_series = log_det_series_slope * near_chosen_3
+        by_by_log_det_near = norm_s_squared * by_by_log_det_series + log_det_series * by_by_norm_s_squared
+        gap_3 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2
+        total_9 = (
+            value_bar + torch.where(near, 0.0, 2.0 * ratio_4) + torch.where(near, by_by_log_det_near, 0.0) + z0 * gap_3
+        )
+        gap_4 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2
+        by_phi = total_9 + z1 * gap_4 + z2 * gap_2
+        by_log_det = exp_2 * (amplitude * by_phi)
+        by_z2 = phi * gap_2 - z2 * by_log_det
+        by_z1 = phi * gap_4 - z1 * by_log_det
+        by_z0 = phi * gap_3 - z0 * by_log_det
+        by_v1_2 = W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0
+        by_v2_2 = W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0
+        total_10 = by_v0 * by_by_g1 + by_v1 * by_by_g2 + by_v2 * by_by_g3 + g3 * by_v2_2 + g2 * by_v1_2
+        by_v0_2 = W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0
+        by_scale_2 = total_10 + g1 * by_v0_2
+        by_t_over_norm_s_2 = chosen * by_scale_2
+        product_6 = 0.5 * (2.0 * torch.where(near, 0.0, by_log_det) / product - ratio * ratio_4)
+        by_t_2 = (torch.where(near, 0.0, by_t_over_norm_s_2) - by_t * by_by_norm_s + product_6) / norm_s
+        gap_5 = ratio_2 * gap - 2.0 * (by_norm_s_ratio * by_by_norm_s) - by_t * by_by_t_ratio - t_ratio * by_t_2
+        by_atan2_norm_s_abs_g0_2 = 2.0 * by_t_2
+        ratio_5 = by_atan2_norm_s_abs_g0_2 / total_3
+        by_norm_s_2 = gap_5 + abs_g0 * ratio_5
+        product_7 = ratio_2 * by_by_atan2_norm_s_abs_g0
+        by_log_det_near_2 = torch.where(near, by_log_det, 0.0)
+        total_11 = (
+            by_log_det_near * by_by_log_det_series + torch.where(near, 0.0, by_norm_s_2 / norm_s_product - product_7) +
+            log_det_series * by_log_det_near_2
+        )
+        by_log_det_series_slope = by_log_det_series * near_chosen_3
+        log_det_series_slope_slope = _polynomial(near_chosen, _LOG_DET_SERIES_SLOPE_SLOPE)
+        by_t_over_norm_s_near_slope = by_t_over_norm_s_near * near_chosen_3
+        t_over_norm_s_near_slope_slope = _polynomial(near_chosen, _T_OVER_NORM_S_NEAR_SLOPE_SLOPE)
+        by_t_over_norm_s_near_2 = torch.where(near, by_t_over_norm_s_2, 0.0)
+        by_log_det_series_2 = by_log_det_near * by_by_norm_s_squared + norm_s_squared * by_log_det_near_2
+        near_chosen_4 = torch.where(
+            near, by_log_det_series_slope * log_det_series_slope_slope + by_t_over_norm_s_near_slope *
+            t_over_norm_s_near_slope_slope + t_over_norm_s_near_slope * by_t_over_norm_s_near_2 + log_det_series_slope *
+            by_log_det_series_2, 0.0
+        )
+        by_norm_s_squared_2 = total_11 + 4.011440628672975 * near_chosen_4
+        product_8 = 2.0 * by_norm_s_squared_2
+        by_g2_2 = (
+            product_2 * by_by_g2 - by_g2_ratio * by_by_row_length + by_v1 * by_by_scale + scale * by_v1_2 + g2 *
+            product_8
+        )
+        by_g2_ratio_2 = by_g2_2 / row_length
+        gap_6 = torch.where(is_small_2, 0.0, -(2.0 * (ratio_3 * by_by_row_length))) - by_g1_ratio * by_by_g1
+        norm_s_product_3 = norm_s * ratio_5
+        gap_7 = ratio_2 * by_by_norm_s - abs_g0 * (2.0 * product_7)
+        by_abs_g0_2 = gap_7 - norm_s_product_3
+        by_g0_2 = torch.where(is_small, norm_s_product_3 - gap_7, by_abs_g0_2) - by_g0_ratio * by_by_row_length
+        by_g0_ratio_2 = by_g0_2 / row_length
+        gap_8 = gap_6 - by_g2_ratio * by_by_g2 - by_g3_ratio * by_by_g3 - by_g0_ratio * by_by_g0 - g0 * by_g0_ratio_2
+        by_g3_2 = (
+            product_2 * by_by_g3 - by_g3_ratio * by_by_row_length + by_v2 * by_by_scale + scale * by_v2_2 + g3 *
+            product_8
+        )
+        by_g3_ratio_2 = by_g3_2 / row_length
+        by_g1_2 = (
+            product_2 * by_by_g1 - by_g1_ratio * by_by_row_length + by_v0 * by_by_scale + scale * by_v0_2 + g1 *
+            product_8
+        )
+        by_g1_ratio_2 = by_g1_2 / row_length
+        by_row_length_2 = gap_8 - g3 * by_g3_ratio_2 - g2 * by_g2_ratio_2 - g1 * by_g1_ratio_2
+        product_9 = 2.0 * torch.where(is_small_2, 0.0, by_row_length_2 / product_3)
+        by_row_11_2 = product_4 * by_by_row_11 + by_g2_ratio_2 + row_11 * product_9
+        by_row_7_2 = torch.where(is_less_3, 0.0, by_row_11_2)
+        by_row_3_2 = torch.where(is_less_2, 0.0, by_row_7_2)
+        by_row_10_2 = product_4 * by_by_row_10 + by_g1_ratio_2 + row_10 * product_9
+        by_row_6_2 = torch.where(is_less_3, 0.0, by_row_10_2)
+        total_12 = torch.where(is_less, by_row_3_2, 0.0) + torch.where(is_less_2, by_row_6_2, 0.0)
+        by_row_9_2 = product_4 * by_by_row_9 + by_g0_ratio_2 + row_9 * product_9
+        by_row_12_2 = product_4 * by_by_row_12 + by_g3_ratio_2 + row_12 * product_9
+        by_row_8_2 = torch.where(is_less_3, 0.0, by_row_12_2)
+        by_row_4_2 = torch.where(is_less_2, 0.0, by_row_8_2)
+        total_13 = torch.where(is_less_3, by_row_9_2, 0.0) + torch.where(is_less, 0.0, by_row_4_2)
+        by_R0_1_2 = total_12 - total_13
+        by_row_5_2 = torch.where(is_less_3, 0.0, by_row_9_2)
+        total_14 = torch.where(is_less_2, by_row_5_2, 0.0) + torch.where(is_less, 0.0, by_row_3_2)
+        total_15 = torch.where(is_less, by_row_4_2, 0.0) + torch.where(is_less_3, by_row_10_2, 0.0)
+        by_R0_2_2 = total_14 + total_15
+        total_16 = by_R0_0 * x0_bar + by_R0_2 * x2_bar + by_R0_1 * x1_bar + x1 * by_R0_1_2 + x2 * by_R0_2_2
+        by_square3_2 = torch.where(is_less_3, by_row_12_2, 0.0)
+        by_square2_2 = torch.where(is_less_2, by_row_7_2, 0.0)
+        by_row_13 = torch.where(is_less_2, 0.0, by_row_5_2)
+        by_square0_2 = torch.where(is_less, 0.0, by_row_13)
+        by_row_2_2 = torch.where(is_less_2, 0.0, by_row_6_2)
+        by_square1_2 = torch.where(is_less, by_row_2_2, 0.0)
+        by_R0_0_2 = -by_square3_2 - by_square2_2 + (by_square0_2 + by_square1_2)
+        by_R1_1 = by_square0 + (by_square2 - by_square3 - by_square1)
+        by_R1_0 = total_7 + total_6
+        total_17 = torch.where(is_less_2, by_row_8, 0.0) + torch.where(is_less_3, by_row_11, 0.0)
+        total_18 = torch.where(is_less, by_row, 0.0) + torch.where(is_less, 0.0, by_row_2)
+        by_R1_2 = total_17 - total_18
+        total_19 = torch.where(is_less_2, by_row_8_2, 0.0) + torch.where(is_less_3, by_row_11_2, 0.0)
+        total_20 = torch.where(is_less, by_row_13, 0.0) + torch.where(is_less, 0.0, by_row_2_2)
+        by_R1_2_2 = total_19 - total_20
+        by_R1_0_2 = total_13 + total_12
+        total_21 = by_R1_1 * x1_bar + by_R1_0 * x0_bar + by_R1_2 * x2_bar + x2 * by_R1_2_2 + x0 * by_R1_0_2
+        by_R1_1_2 = by_square0_2 + (by_square2_2 - by_square3_2 - by_square1_2)
+        by_R2_2 = by_square0 + (by_square3 - by_square2 - by_square1)
+        by_R2_0 = total_5 - total_4
+        by_R2_1 = total_17 + total_18
+        by_R2_1_2 = total_19 + total_20
+        by_R2_0_2 = total_15 - total_14
+        total_22 = by_R2_2 * x2_bar + by_R2_0 * x0_bar + by_R2_1 * x1_bar + x1 * by_R2_1_2 + x0 * by_R2_0_2
+        by_R2_2_2 = by_square0_2 + (by_square3_2 - by_square2_2 - by_square1_2)
+        total_23 = by_R0_0 * x3_bar + by_R0_2 * x5_bar + by_R0_1 * x4_bar + x4 * by_R0_1_2 + x5 * by_R0_2_2
+        total_24 = by_R1_1 * x4_bar + by_R1_0 * x3_bar + by_R1_2 * x5_bar + x5 * by_R1_2_2 + x3 * by_R1_0_2
+        total_25 = by_R2_2 * x5_bar + by_R2_0 * x3_bar + by_R2_1 * x4_bar + x4 * by_R2_1_2 + x3 * by_R2_0_2
+        total_26 = by_R0_0 * x6_bar + by_R0_2 * x8_bar + by_R0_1 * x7_bar + x7 * by_R0_1_2 + x8 * by_R0_2_2
+        total_27 = by_R1_1 * x7_bar + by_R1_0 * x6_bar + by_R1_2 * x8_bar + x8 * by_R1_2_2 + x6 * by_R1_0_2
+        total_28 = by_R2_2 * x8_bar + by_R2_0 * x6_bar + by_R2_1 * x7_bar + x7 * by_R2_1_2 + x6 * by_R2_0_2
+        return (
+            total_16 + x0 * by_R0_0_2,
+            total_21 + x1 * by_R1_1_2,
+            total_22 + x2 * by_R2_2_2,
+            total_23 + x3 * by_R0_0_2,
+            total_24 + x4 * by_R1_1_2,
+            total_25 + x5 * by_R2_2_2,
+            total_26 + x6 * by_R0_0_2,
+            total_27 + x7 * by_R1_1_2,
+            total_28 + x8 * by_R2_2_2,
+            v0 * by_z0 - z0_product * by_by_v0,
+            v1 * by_z0 - z0_product * by_by_v1,
+            v2 * by_z0 - z0_product * by_by_v2,
+            v0 * by_z1 - z1_product * by_by_v0,
+            v1 * by_z1 - z1_product * by_by_v1,
+            v2 * by_z1 - z1_product * by_by_v2,
+            v0 * by_z2 - z2_product * by_by_v0,
+            v1 * by_z2 - z2_product * by_by_v1,
+            v2 * by_z2 - z2_product * by_by_v2,
+            exp_2 * by_phi,
+        )
+
+    def _splat_constants_vjp(
+        self, mu: Tensor, W: Tensor, amplitude: Tensor, S_bar: Sequence[Tensor]
+    ) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives in mu, W and amplitude from those in S."""
+        (
+            mu0_bar, mu1_bar, mu2_bar, mu3_bar, mu4_bar, mu5_bar, mu6_bar, mu7_bar, mu8_bar, W0_0_bar, W0_1_bar,
+            W0_2_bar, W1_0_bar, W1_1_bar, W1_2_bar, W2_0_bar, W2_1_bar, W2_2_bar, amplitude_bar,
+        ) = S_bar
+        mu_bar = _stack((mu0_bar, mu1_bar, mu2_bar, mu3_bar, mu4_bar, mu5_bar, mu6_bar, mu7_bar, mu8_bar))
+        W_bar = _stack((W0_0_bar, W0_1_bar, W0_2_bar, W1_0_bar, W1_1_bar, W1_2_bar, W2_0_bar, W2_1_bar, W2_2_bar))
+        return mu_bar, W_bar.unflatten(-1, (3, 3)), amplitude_bar
 
 
 manifold = So3Matrix()

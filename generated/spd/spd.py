@@ -176,12 +176,23 @@ def _rotate(a: Tensor, v: Tensor, p: int, q: int) -> None:
 
 def _spectral(name: str, eigen: _Eigen, *directions: Sequence[Tensor | float]) -> Tensor:
     """D^m f(A)[E1, ..., Em], packed; f(A) without directions."""
+    result: Tensor = _Spectral.apply(name, *_alike(eigen, directions))  # type: ignore[no-untyped-call]
+    return result
+
+
+def _spectral_alone(name: str, eigen: _Eigen, *directions: Sequence[Tensor | float]) -> Tensor:
+    """The same without autograd."""
+    values, vectors, _, *stacked = _alike(eigen, directions)
+    return _derivative(name, values, vectors, stacked)
+
+
+def _alike(eigen: _Eigen, directions: Sequence[Sequence[Tensor | float]]) -> list[Tensor]:
+    """Eigenvalues, eigenvectors, the matrix and the directions, packed, of the same leading dimensions."""
     stacked = [_pack(entries, eigen.matrix) for entries in directions]
     matrix, *stacked = torch.broadcast_tensors(eigen.matrix, *stacked)
     values = eigen.values.expand(*matrix.shape[:-1], -1)
     vectors = eigen.vectors.expand(*matrix.shape[:-1], -1, -1)
-    result: Tensor = _Spectral.apply(name, values, vectors, matrix, *stacked)  # type: ignore[no-untyped-call]
-    return result
+    return [values, vectors, matrix, *stacked]
 
 
 class _Spectral(torch.autograd.Function):
@@ -239,7 +250,9 @@ def _divided_differences(f: _Scalar, values: Sequence[Tensor], order: int) -> di
     found = {(i,): f.value(x) for i, x in enumerate(values)}
     for degree in range(1, order + 1):
         lower, found = found, {}
-        for indices in itertools.combinations_with_replacement(range(len(values)), degree + 1):
+        for indices in itertools.product(range(len(values)), repeat=degree + 1):
+            if list(indices) != sorted(indices):
+                continue
             points = [values[i] for i in indices]
             gap, middle = points[-1] - points[0], (points[0] + points[-1]) / 2
             if indices[0] == indices[-1]:
@@ -351,6 +364,72 @@ _SCALARS["log_sinhc_sqrt"] = _Scalar(
     lambda c: c + math.pi**2,
     _log_sinhc_sqrt_taylor,
 )
+
+
+def _chunks(x: Tensor, splats: int) -> Sequence[Tensor]:
+    """Points by chunks whose pairs with all splats are a bounded number; all at once where a compiler fuses the sums."""
+    if torch.compiler.is_compiling():
+        return (x,)
+    pairs = 2**15 if x.device.type == "cpu" else 2**21  # CPU: what fits in a cache
+    return x.split(max(1, pairs // max(1, splats)))
+
+
+def _sums(entries: Sequence[Tensor], points: int, splats: int, dim: int) -> list[Tensor]:
+    """Entries of pairs, summed over the points (dim 0) or over the splats (dim 1)."""
+    return [entry.expand(points, splats).sum(dim) for entry in entries]
+
+
+def _checked(
+    manifold: Any, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor
+) -> tuple[tuple[Tensor, Tensor, Tensor, Tensor], torch.dtype]:
+    """The four in one precision, single for what is less, and the precision of the results; their shapes must fit."""
+    K, D = len(mu) if mu.dim() else 0, manifold.point_size
+    N = len(x) if x.dim() else 0
+    shapes = {"x": (N, D), "mu": (K, D), "W": (K, manifold.dim, manifold.tangent_size), "amplitude": (K,)}
+    dtype = x.dtype
+    for (name, shape), tensor in zip(shapes.items(), (x, mu, W, amplitude), strict=True):
+        if tensor.shape != shape:
+            raise ValueError(f"{name} has shape {tuple(tensor.shape)}; with {N} points and {K} splats it is {shape}")
+        if not tensor.is_floating_point():
+            raise TypeError(f"{name} is {tensor.dtype}: splats take floating-point numbers")
+        dtype = torch.promote_types(dtype, tensor.dtype)
+    inside = torch.promote_types(dtype, torch.float32)
+    return (x.to(inside), mu.to(inside), W.to(inside), amplitude.to(inside)), dtype
+
+
+class _Splats(torch.autograd.Function):
+    """The sums under autograd: the backward pass is one sweep over all pairs."""
+
+    @staticmethod
+    def forward(ctx: Any, manifold: Any, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """Values and gradients."""
+        ctx.manifold = manifold
+        ctx.save_for_backward(x, mu, W, amplitude)
+        value, gradient = manifold._splats(x, mu, W, amplitude)
+        return value, gradient
+
+    @staticmethod
+    def backward(ctx: Any, value_bar: Tensor, gradient_bar: Tensor) -> tuple[Tensor | None, ...]:
+        """The derivatives in mu, W and amplitude."""
+        tensors = *ctx.saved_tensors, value_bar, gradient_bar
+        if torch.is_grad_enabled() and not torch.compiler.is_compiling():
+            return None, None, *_SplatsBackward.apply(ctx.manifold, *tensors)  # type: ignore[no-untyped-call]
+        return None, None, *ctx.manifold._splats_vjp(*tensors)
+
+
+class _SplatsBackward(torch.autograd.Function):
+    """The backward pass where somebody might differentiate it again, which is an error."""
+
+    @staticmethod
+    def forward(ctx: Any, manifold: Any, *tensors: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives in mu, W and amplitude."""
+        by_mu, by_W, by_amplitude = manifold._splats_vjp(*tensors)
+        return by_mu, by_W, by_amplitude
+
+    @staticmethod
+    def backward(ctx: Any, *bars: Tensor) -> Any:
+        """None."""
+        raise RuntimeError("`splats` has first derivatives only; of `splat`, autograd knows all")
 
 
 class Spd:
@@ -823,14 +902,6 @@ class Spd:
         )
         return (phi, gradient0, gradient1, gradient2)
 
-    def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
-        """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
-
-        Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T).
-        """
-        value, *gradient = self._splat(x.unsqueeze(-2), mu, W, amplitude)
-        return value.sum(-1), _stack([entry.sum(-1) for entry in gradient])
-
     def frame(self, p: Tensor) -> Tensor:
         """An orthonormal basis of the tangent space at p, one vector a row; not continuous in p where none is.
 
@@ -870,6 +941,419 @@ class Spd:
             return points, torch.exp(-self.log_abs_det(center, points))
 
         return _rejection(propose, count, generator, center)
+
+    def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
+
+        Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T).
+        Differentiable once in mu, W and amplitude, with nothing of size N x K kept. Where x requires a gradient too, autograd
+        differentiates the formula of every pair, as often as is wanted, and keeps all of them.
+        """
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        if x.requires_grad and torch.is_grad_enabled():
+            value, *entries = self._splat(tensors[0].unsqueeze(-2), *tensors[1:])
+            value, gradient = value.sum(-1), _stack([entry.sum(-1) for entry in entries])
+        else:
+            value, gradient = _Splats.apply(self, *tensors)  # type: ignore[no-untyped-call]
+        return value.to(dtype), gradient.to(dtype)
+
+    def splats_value(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> Tensor:
+        """The value of `splats` alone: (N), differentiable as there."""
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        if torch.is_grad_enabled() and any(tensor.requires_grad for tensor in tensors):
+            return self.splats(x, mu, W, amplitude)[0]
+        return self._splats_value(*tensors).to(dtype)
+
+    def splats_rows(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> Tensor:
+        """The derivatives of value_bar_n value_n + gradient_bar_n . gradient_n of `splats`, each point's by itself.
+
+        Shapes: as in `splats`, value_bar (N), gradient_bar (N, T) to (N, K, D + d T + 1), the derivatives in mu, W (row by
+        row) and amplitude of every splat; not differentiable. Their sum over N is what the backward pass of `splats` gives.
+        """
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        with torch.no_grad():
+            return self._splats_rows(*tensors, value_bar.to(tensors[0]), gradient_bar.to(tensors[0])).to(dtype)
+
+    def kernels(self, like: Tensor) -> str:
+        """What computes `splats` for tensors like this one."""
+        return f"torch, {like.device.type}"
+
+    def _splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """Values (N) and gradients (N, T)."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        values, gradients = [], []
+        for part in _chunks(x, len(mu)):
+            X = [entry.unsqueeze(-1) for entry in self._point_features(part)]
+            value, *slope = _sums(self._pair(X, S), len(part), len(mu), 1)
+            values.append(value)
+            gradients.append(self._point_gradient(part, slope))
+        return torch.cat(values), torch.cat(gradients)
+
+    def _splats_value(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> Tensor:
+        """Values (N) alone."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        values = []
+        for part in _chunks(x, len(mu)):
+            X = [entry.unsqueeze(-1) for entry in self._point_features(part)]
+            values += _sums(self._pair_value(X, S), len(part), len(mu), 1)
+        return torch.cat(values)
+
+    def _splats_vjp(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu (K, D), W (K, d, T) and amplitude (K)."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        total = torch.zeros((len(S), len(mu)), dtype=x.dtype, device=x.device)
+        parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
+        for part, *bars in zip(*parts, strict=True):
+            total = total + torch.stack(_sums(self._pair_bars(part, S, *bars), len(part), len(mu), 0))
+        return self._splat_constants_vjp(mu, W, amplitude, total.unbind(0))
+
+    def _splats_rows(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> Tensor:
+        """The rows (N, K, D + d T + 1) of the derivatives that `_splats_vjp` sums over N."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
+        rows = []
+        for part, *bars in zip(*parts, strict=True):
+            S_bar = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
+            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, S_bar)
+            rows.append(torch.cat([by_mu, by_W.flatten(-2), by_amplitude.unsqueeze(-1)], -1))
+        return torch.cat(rows)
+
+    def _pair_bars(
+        self, x: Tensor, S: Sequence[Tensor], value_bar: Tensor, gradient_bar: Tensor
+    ) -> tuple[Tensor, ...]:
+        """The derivatives in S of every pair, from those in the sums."""
+        X = [entry.unsqueeze(-1) for entry in self._point_features(x)]
+        slope_bar = [entry.unsqueeze(-1) for entry in self._point_gradient_vjp(x, gradient_bar)]
+        return self._pair_vjp(X, S, value_bar.unsqueeze(-1), slope_bar)
+
+    def _point_features(self, x: Tensor) -> tuple[Tensor, ...]:
+        """X, what the pairs need of a point alone."""
+        x0, x1, x2, x3 = x.unbind(-1)
+        return (x0, x1, x2, x3)
+
+    def _splat_constants(self, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, ...]:
+        """S, what the pairs need of a splat alone."""
+        mu0, mu1, mu2, mu3 = mu.unbind(-1)
+        W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2 = W.flatten(-2).unbind(-1)
+        p_0_1 = 0.5 * mu1 + 0.5 * mu2
+        p_0_1_eigh = _eigh(mu0, p_0_1, mu3)
+        invsqrtm = _spectral_alone("invsqrt", p_0_1_eigh)
+        r0_0 = invsqrtm[..., 0]
+        r0_1 = invsqrtm[..., 1]
+        r1_1 = invsqrtm[..., 2]
+        return (
+            W0_0,
+            W0_1,
+            W0_2,
+            W1_0,
+            W1_1,
+            W1_2,
+            W2_0,
+            W2_1,
+            W2_2,
+            amplitude,
+            r0_0,
+            r0_1,
+            r1_1,
+            0.5 * r0_0,
+            0.5 * r0_1,
+            0.5 * r1_1,
+        )
+
+    def _pair_value(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
+        """The value of a splat at a point."""
+        x0, x1, x2, x3 = X
+        (
+            W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, amplitude, r0_0, r0_1, r1_1, mul_of_one, mul_of_one_2,
+            mul_of_one_3,
+        ) = S
+        total_2 = x0 * r0_0 + x2 * r0_1
+        total_3 = x1 * r0_0 + x3 * r0_1
+        entry_0_0 = r0_0 * total_2 + r0_1 * total_3
+        total_4 = x0 * r0_1 + x2 * r1_1
+        total_5 = x1 * r0_1 + x3 * r1_1
+        entry_0_1 = mul_of_one * total_4 + total_2 * mul_of_one_2 + mul_of_one_2 * total_5 + total_3 * mul_of_one_3
+        entry_1_1 = r0_1 * total_4 + r1_1 * total_5
+        entry_0_0_eigh = _eigh(entry_0_0, entry_0_1, entry_1_1)
+        logm = _spectral_alone("log", entry_0_0_eigh)
+        L0_1 = logm[..., 1]
+        L0_0 = logm[..., 0]
+        L1_1 = logm[..., 2]
+        L0_0_gap = L0_0 - L1_1
+        entry_0_0_2 = L0_1 * L0_1 + 0.25 * (L0_0_gap * L0_0_gap)
+        entry_0_0_2_eigh = _eigh(entry_0_0_2)
+        log_sinhc_sqrtm = _spectral_alone("log_sinhc_sqrt", entry_0_0_2_eigh)
+        log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[..., 0]
+        v1 = 1.4142135623730951 * L0_1
+        z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1
+        z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1
+        z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1
+        gap = -log_sinhc_sqrtm_value0_0 - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2)
+        phi = amplitude * torch.exp(gap)
+        return (phi,)
+
+    def _pair(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
+        """The value of a splat at a point, and the slope, its derivatives in X."""
+        x0, x1, x2, x3 = X
+        (
+            W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, amplitude, r0_0, r0_1, r1_1, mul_of_one, mul_of_one_2,
+            mul_of_one_3,
+        ) = S
+        total_2 = x0 * r0_0 + x2 * r0_1
+        total_3 = x1 * r0_0 + x3 * r0_1
+        entry_0_0 = r0_0 * total_2 + r0_1 * total_3
+        total_4 = x0 * r0_1 + x2 * r1_1
+        total_5 = x1 * r0_1 + x3 * r1_1
+        entry_0_1 = mul_of_one * total_4 + total_2 * mul_of_one_2 + mul_of_one_2 * total_5 + total_3 * mul_of_one_3
+        entry_1_1 = r0_1 * total_4 + r1_1 * total_5
+        entry_0_0_eigh = _eigh(entry_0_0, entry_0_1, entry_1_1)
+        logm = _spectral_alone("log", entry_0_0_eigh)
+        L0_1 = logm[..., 1]
+        L0_0 = logm[..., 0]
+        L1_1 = logm[..., 2]
+        L0_0_gap = L0_0 - L1_1
+        entry_0_0_2 = L0_1 * L0_1 + 0.25 * (L0_0_gap * L0_0_gap)
+        entry_0_0_2_eigh = _eigh(entry_0_0_2)
+        log_sinhc_sqrtm = _spectral_alone("log_sinhc_sqrt", entry_0_0_2_eigh)
+        log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[..., 0]
+        v1 = 1.4142135623730951 * L0_1
+        z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1
+        z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1
+        z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1
+        gap = -log_sinhc_sqrtm_value0_0 - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2)
+        phi = amplitude * torch.exp(gap)
+        z2_product = z2 * phi
+        z1_product = z1 * phi
+        z0_product = z0 * phi
+        log_sinhc_sqrtm_slope = _spectral_alone("log_sinhc_sqrt", entry_0_0_2_eigh, (-phi,))
+        by_entry_0_0_2 = log_sinhc_sqrtm_slope[..., 0]
+        product = L0_0_gap * (0.5 * by_entry_0_0_2)
+        total_6 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product + product
+        by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product
+        gap_2 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product - product
+        logm_slope = _spectral_alone(
+            "log", entry_0_0_eigh, (total_6, 0.5 * (1.4142135623730951 * by_v1 + L0_1 * (2.0 * by_entry_0_0_2)), gap_2,)
+        )
+        by_entry_1_1 = logm_slope[..., 2]
+        by_entry_0_1 = 2.0 * logm_slope[..., 1]
+        total_7 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1
+        product_2 = mul_of_one_2 * by_entry_0_1
+        by_entry_0_0 = logm_slope[..., 0]
+        total_8 = product_2 + r0_0 * by_entry_0_0
+        by_x0 = r0_1 * total_7 + r0_0 * total_8
+        total_9 = r1_1 * by_entry_1_1 + product_2
+        total_10 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0
+        by_x1 = r0_1 * total_9 + r0_0 * total_10
+        by_x2 = r1_1 * total_7 + r0_1 * total_8
+        by_x3 = r1_1 * total_9 + r0_1 * total_10
+        return (phi, by_x0, by_x1, by_x2, by_x3)
+
+    def _point_gradient(self, x: Tensor, slope: Sequence[Tensor]) -> Tensor:
+        """The Riemannian gradient of a function whose derivatives in X are `slope`."""
+        x0, x1, x2, x3 = x.unbind(-1)
+        slope_x0, slope_x1, slope_x2, slope_x3 = slope
+        p_0_1 = 0.5 * x1 + 0.5 * x2
+        p_0_1_eigh = _eigh(x0, p_0_1, x3)
+        sqrtm = _spectral_alone("sqrt", p_0_1_eigh)
+        sqrtm_p0_0 = sqrtm[..., 0]
+        sqrtm_p0_1 = sqrtm[..., 1]
+        sqrtm_p0_1_squared = sqrtm_p0_1 * sqrtm_p0_1
+        total_2 = (
+            slope_x0 * (sqrtm_p0_0 * sqrtm_p0_0) + slope_x3 * sqrtm_p0_1_squared + sqrtm_p0_1 * (slope_x1 * sqrtm_p0_0)
+            + sqrtm_p0_1 * (slope_x2 * sqrtm_p0_0)
+        )
+        sqrtm_p1_1 = sqrtm[..., 2]
+        total_3 = 0.7071067811865476 * sqrtm_p0_1_squared + 1.4142135623730951 * (sqrtm_p1_1 * (0.5 * sqrtm_p0_0))
+        total_4 = (
+            slope_x1 * total_3 + slope_x2 * total_3 + 1.4142135623730951 * (sqrtm_p0_1 * (slope_x0 * sqrtm_p0_0)) +
+            1.4142135623730951 * (sqrtm_p1_1 * (slope_x3 * sqrtm_p0_1))
+        )
+        total_5 = (
+            slope_x0 * sqrtm_p0_1_squared + slope_x3 * (sqrtm_p1_1 * sqrtm_p1_1) + sqrtm_p1_1 * (slope_x1 * sqrtm_p0_1)
+            + sqrtm_p1_1 * (slope_x2 * sqrtm_p0_1)
+        )
+        return _stack((total_2, total_4, total_5))
+
+    def _point_gradient_vjp(self, x: Tensor, gradient_bar: Tensor) -> tuple[Tensor, ...]:
+        """The derivatives of gradient . gradient_bar in `slope`."""
+        x0, x1, x2, x3 = x.unbind(-1)
+        gradient_bar0, gradient_bar1, gradient_bar2 = gradient_bar.unbind(-1)
+        p_0_1 = 0.5 * x1 + 0.5 * x2
+        p_0_1_eigh = _eigh(x0, p_0_1, x3)
+        sqrtm = _spectral_alone("sqrt", p_0_1_eigh)
+        sqrtm_p0_1 = sqrtm[..., 1]
+        sqrtm_p0_1_squared = sqrtm_p0_1 * sqrtm_p0_1
+        sqrtm_p0_0 = sqrtm[..., 0]
+        product = 1.4142135623730951 * gradient_bar1
+        sqrtm_p1_1 = sqrtm[..., 2]
+        product_2 = (
+            (0.7071067811865476 * sqrtm_p0_1_squared + 1.4142135623730951 * (sqrtm_p1_1 * (0.5 * sqrtm_p0_0))) *
+            gradient_bar1
+        )
+        total_2 = sqrtm_p0_1 * (sqrtm_p1_1 * gradient_bar2) + product_2 + sqrtm_p0_0 * (sqrtm_p0_1 * gradient_bar0)
+        return (
+            sqrtm_p0_1_squared * gradient_bar2 + sqrtm_p0_0 * (sqrtm_p0_1 * product) + sqrtm_p0_0 * sqrtm_p0_0 * gradient_bar0,
+            total_2,
+            total_2,
+            sqrtm_p1_1 * sqrtm_p1_1 * gradient_bar2 + sqrtm_p0_1 * (sqrtm_p1_1 * product) + sqrtm_p0_1_squared * gradient_bar0,
+        )
+
+    def _pair_vjp(
+        self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
+    ) -> tuple[Tensor, ...]:
+        """The derivatives of value value_bar + slope . slope_bar in S."""
+        x0, x1, x2, x3 = X
+        (
+            W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, amplitude, r0_0, r0_1, r1_1, mul_of_one, mul_of_one_2,
+            mul_of_one_3,
+        ) = S
+        x0_bar, x1_bar, x2_bar, x3_bar = slope_bar
+        total_2 = x0 * r0_0 + x2 * r0_1
+        total_3 = x1 * r0_0 + x3 * r0_1
+        entry_0_0 = r0_0 * total_2 + r0_1 * total_3
+        total_4 = x0 * r0_1 + x2 * r1_1
+        total_5 = x1 * r0_1 + x3 * r1_1
+        entry_0_1 = mul_of_one * total_4 + total_2 * mul_of_one_2 + mul_of_one_2 * total_5 + total_3 * mul_of_one_3
+        entry_1_1 = r0_1 * total_4 + r1_1 * total_5
+        entry_0_0_eigh = _eigh(entry_0_0, entry_0_1, entry_1_1)
+        logm = _spectral_alone("log", entry_0_0_eigh)
+        L0_0 = logm[..., 0]
+        L0_1 = logm[..., 1]
+        L1_1 = logm[..., 2]
+        L0_0_gap = L0_0 - L1_1
+        entry_0_0_2 = L0_1 * L0_1 + 0.25 * (L0_0_gap * L0_0_gap)
+        entry_0_0_2_eigh = _eigh(entry_0_0_2)
+        log_sinhc_sqrtm = _spectral_alone("log_sinhc_sqrt", entry_0_0_2_eigh)
+        log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[..., 0]
+        v1 = 1.4142135623730951 * L0_1
+        z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1
+        z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1
+        z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1
+        gap = -log_sinhc_sqrtm_value0_0 - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2)
+        exp_2 = torch.exp(gap)
+        phi = amplitude * exp_2
+        total_6 = r0_0 * x0_bar + r0_1 * x2_bar
+        total_7 = r0_0 * x1_bar + r0_1 * x3_bar
+        total_8 = r0_0 * total_6 + r0_1 * total_7
+        total_9 = r0_1 * x0_bar + r1_1 * x2_bar
+        total_10 = r0_1 * x1_bar + r1_1 * x3_bar
+        total_11 = total_6 + total_10
+        by_by_entry_0_1 = mul_of_one * total_9 + mul_of_one_2 * total_11 + mul_of_one_3 * total_7
+        total_12 = r0_1 * total_9 + r1_1 * total_10
+        logm_slope = _spectral_alone("log", entry_0_0_eigh, (total_8, by_by_entry_0_1, total_12,))
+        by_by_v1 = 1.4142135623730951 * logm_slope[..., 1]
+        gap_2 = -(W0_0 * logm_slope[..., 0]) - W0_1 * by_by_v1 - W0_2 * logm_slope[..., 2]
+        gap_3 = -(W1_0 * logm_slope[..., 0]) - W1_1 * by_by_v1 - W1_2 * logm_slope[..., 2]
+        gap_4 = -(W2_0 * logm_slope[..., 0]) - W2_1 * by_by_v1 - W2_2 * logm_slope[..., 2]
+        gap_5 = logm_slope[..., 0] - logm_slope[..., 2]
+        total_13 = 2.0 * (L0_1 * logm_slope[..., 1]) + 0.5 * (L0_0_gap * gap_5)
+        log_sinhc_sqrtm_slope = _spectral_alone("log_sinhc_sqrt", entry_0_0_2_eigh, (total_13,))
+        by_phi = value_bar + z0 * gap_2 + z1 * gap_3 + z2 * gap_4 - log_sinhc_sqrtm_slope[..., 0]
+        product = exp_2 * (amplitude * by_phi)
+        by_z0 = phi * gap_2 - z0 * product
+        z0_product = z0 * phi
+        by_z1 = phi * gap_3 - z1 * product
+        z1_product = z1 * phi
+        by_z2 = phi * gap_4 - z2 * product
+        z2_product = z2 * phi
+        phi_minus = -phi
+        log_sinhc_sqrtm_slope_2 = _spectral_alone("log_sinhc_sqrt", entry_0_0_2_eigh, (phi_minus,))
+        by_entry_0_0_2 = log_sinhc_sqrtm_slope_2[..., 0]
+        product_2 = 0.5 * by_entry_0_0_2
+        product_3 = L0_0_gap * product_2
+        total_14 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product + product_3
+        by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product
+        product_4 = 2.0 * by_entry_0_0_2
+        product_5 = 0.5 * (1.4142135623730951 * by_v1 + L0_1 * product_4)
+        gap_6 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product - product_3
+        logm_slope_2 = _spectral_alone("log", entry_0_0_eigh, (total_14, product_5, gap_6,))
+        by_entry_0_1 = 2.0 * logm_slope_2[..., 1]
+        product_6 = mul_of_one_2 * by_entry_0_1
+        by_entry_0_0 = logm_slope_2[..., 0]
+        total_15 = product_6 + r0_0 * by_entry_0_0
+        total_16 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0
+        logm_derivative2 = _spectral_alone(
+            "log", entry_0_0_eigh, (total_14, product_5, gap_6,), (total_8, by_by_entry_0_1, total_12,)
+        )
+        log_sinhc_sqrtm_derivative2 = _spectral_alone("log_sinhc_sqrt", entry_0_0_2_eigh, (phi_minus,), (total_13,))
+        log_sinhc_sqrtm_slope_3 = _spectral_alone("log_sinhc_sqrt", entry_0_0_2_eigh, (-product,))
+        by_entry_0_0_2_2 = log_sinhc_sqrtm_derivative2[..., 0] + log_sinhc_sqrtm_slope_3[..., 0]
+        total_17 = product_2 * gap_5 + L0_0_gap * (0.5 * by_entry_0_0_2_2)
+        by_v1_2 = W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0
+        logm_slope_3 = _spectral_alone(
+            "log", entry_0_0_eigh, (W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0 + total_17, 0.5 * (product_4 *
+            logm_slope[..., 1] + 1.4142135623730951 * by_v1_2 + L0_1 * (2.0 * by_entry_0_0_2_2)), W2_2 * by_z2 + W1_2 *
+            by_z1 + W0_2 * by_z0 - total_17,)
+        )
+        by_entry_0_1_2 = 2.0 * logm_derivative2[..., 1] + 2.0 * logm_slope_3[..., 1]
+        by_entry_0_0_3 = logm_derivative2[..., 0] + logm_slope_3[..., 0]
+        total_18 = mul_of_one_3 * by_entry_0_1_2 + r0_1 * by_entry_0_0_3
+        total_19 = (
+            total_15 * x0_bar + by_entry_0_0 * total_6 + total_16 * x1_bar + x1 * total_18 + total_2 * by_entry_0_0_3
+        )
+        product_7 = mul_of_one_2 * by_entry_0_1_2
+        total_20 = product_7 + r0_0 * by_entry_0_0_3
+        by_entry_1_1 = logm_slope_2[..., 2]
+        total_21 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1
+        total_22 = r1_1 * by_entry_1_1 + product_6
+        total_23 = (
+            total_15 * x2_bar + total_16 * x3_bar + by_entry_0_0 * total_7 + total_21 * x0_bar + total_22 * x1_bar
+        )
+        by_entry_1_1_2 = logm_derivative2[..., 2] + logm_slope_3[..., 2]
+        total_24 = r1_1 * by_entry_1_1_2 + product_7
+        total_25 = r0_1 * by_entry_1_1_2 + mul_of_one * by_entry_0_1_2
+        total_26 = total_23 + by_entry_1_1 * total_9 + total_4 * by_entry_1_1_2 + x1 * total_24 + x0 * total_25
+        total_27 = (
+            total_21 * x2_bar + total_22 * x3_bar + by_entry_1_1 * total_10 + total_5 * by_entry_1_1_2 + x3 * total_24
+        )
+        return (
+            L0_0 * by_z0 - z0_product * logm_slope[..., 0],
+            v1 * by_z0 - z0_product * by_by_v1,
+            L1_1 * by_z0 - z0_product * logm_slope[..., 2],
+            L0_0 * by_z1 - z1_product * logm_slope[..., 0],
+            v1 * by_z1 - z1_product * by_by_v1,
+            L1_1 * by_z1 - z1_product * logm_slope[..., 2],
+            L0_0 * by_z2 - z2_product * logm_slope[..., 0],
+            v1 * by_z2 - z2_product * by_by_v1,
+            L1_1 * by_z2 - z2_product * logm_slope[..., 2],
+            exp_2 * by_phi,
+            total_19 + x0 * total_20,
+            total_26 + total_3 * by_entry_0_0_3 + x3 * total_18 + x2 * total_20,
+            total_27 + x2 * total_25,
+            by_entry_0_1 * total_9 + total_4 * by_entry_0_1_2,
+            by_entry_0_1 * total_11 + total_5 * by_entry_0_1_2 + total_2 * by_entry_0_1_2,
+            by_entry_0_1 * total_7 + total_3 * by_entry_0_1_2,
+        )
+
+    def _splat_constants_vjp(
+        self, mu: Tensor, W: Tensor, amplitude: Tensor, S_bar: Sequence[Tensor]
+    ) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives in mu, W and amplitude from those in S."""
+        mu0, mu1, mu2, mu3 = mu.unbind(-1)
+        (
+            W0_0_bar, W0_1_bar, W0_2_bar, W1_0_bar, W1_1_bar, W1_2_bar, W2_0_bar, W2_1_bar, W2_2_bar, amplitude_bar,
+            r0_0_bar, r0_1_bar, r1_1_bar, mul_of_one_bar, mul_of_one_2_bar, mul_of_one_3_bar,
+        ) = S_bar
+        p_0_1 = 0.5 * mu1 + 0.5 * mu2
+        p_0_1_eigh = _eigh(mu0, p_0_1, mu3)
+        invsqrtm_slope = _spectral_alone(
+            "invsqrt", p_0_1_eigh, (r0_0_bar + 0.5 * mul_of_one_bar, 0.5 * (r0_1_bar + 0.5 * mul_of_one_2_bar), r1_1_bar
+            + 0.5 * mul_of_one_3_bar,)
+        )
+        mu_bar = _stack((
+            invsqrtm_slope[..., 0],
+            invsqrtm_slope[..., 1],
+            invsqrtm_slope[..., 1],
+            invsqrtm_slope[..., 2],
+        ))
+        W_bar = _stack((W0_0_bar, W0_1_bar, W0_2_bar, W1_0_bar, W1_1_bar, W1_2_bar, W2_0_bar, W2_1_bar, W2_2_bar))
+        return mu_bar, W_bar.unflatten(-1, (3, 3)), amplitude_bar
 
 
 manifold = Spd()

@@ -29,6 +29,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import torch
 from torch import Generator, Tensor
@@ -111,6 +112,39 @@ _T_OVER_NORM_W_NEAR_SLOPE = (
     ),
 )
 
+# Of degree 22 on [0, 1], its relative error below 2^-56; for float32 of degree 11, within 2^-29 of that.
+_ETA = (
+    (
+        -0.3333333333333333, -0.15555555555555417, -0.0751322751325185, -0.03675485007122077, -0.018096307611278978,
+        -0.008943374809421614, -0.004430925385329046, -0.0021964703384272457, -0.0011104899422210344,
+        -0.00043588704846449504, -0.0007657550487225839, 0.0016571322482715526, -0.005201036361742151,
+        0.011686077913434692, -0.021370123691407478, 0.030980832139913622, -0.03558600284661443, 0.0319201664739325,
+        -0.021918764490751072, 0.011133610751913487, -0.003950943563875907, 0.0008768185204850178,
+        -9.231518464940076e-05,
+    ),
+    (
+        -0.3333333329074172, -0.15555567514484153, -0.07512673968454313, -0.036854683410814014, -0.017172242426810813,
+        -0.013945774438806282, 0.01253044380771583, -0.03940423726113369, 0.051921663529563705, -0.048257650185791916,
+        0.024694517679698283, -0.006116061322664089,
+    ),
+)
+
+# Of degree 24 on [0, 1], the derivative of a polynomial; for float32 of degree 13, within 2^-27 of that.
+_ETA_SLOPE = (
+    (
+        0.15555555555555556, 0.15026455026454938, 0.11026455026473153, 0.07238522792583003, 0.044716945477134895,
+        0.026584251371183424, 0.015391620467330733, 0.008735778127899076, 0.0049282202879051655, 0.0024267420372403327,
+        0.0030390346356601126, -0.006123591852401879, 0.025102822589180937, -0.07064869504587278, 0.16530578140602667,
+        -0.31271015508815947, 0.4807082529660211, -0.5967654210780935, 0.5934034512823599, -0.46583818796288984,
+        0.2823845184351827, -0.12759583319351508, 0.04051757743528327, -0.008083579736595401, 0.0007658488591020234,
+    ),
+    (
+        0.15555555542437843, 0.1502646005226573, 0.11026136698101077, 0.07246434664202496, 0.04369556901094827,
+        0.034436310057583616, -0.023420697975480978, 0.13766190227481526, -0.2894962884105508, 0.4671003677933079,
+        -0.49758073887669707, 0.35140202925299413, -0.1460207286663636, 0.028391671210260493,
+    ),
+)
+
 
 def _root(x: Tensor) -> Tensor:
     """sqrt(x) with the derivative 0 at x = 0, where autograd would make 0 * inf = NaN of it."""
@@ -162,6 +196,72 @@ def _rejection(
         uniform = torch.rand(len(points), generator=generator, dtype=like.dtype, device=like.device)
         kept.append(points[uniform * bound < density])
     return torch.cat(kept)[:count]
+
+
+def _chunks(x: Tensor, splats: int) -> Sequence[Tensor]:
+    """Points by chunks whose pairs with all splats are a bounded number; all at once where a compiler fuses the sums."""
+    if torch.compiler.is_compiling():
+        return (x,)
+    pairs = 2**15 if x.device.type == "cpu" else 2**21  # CPU: what fits in a cache
+    return x.split(max(1, pairs // max(1, splats)))
+
+
+def _sums(entries: Sequence[Tensor], points: int, splats: int, dim: int) -> list[Tensor]:
+    """Entries of pairs, summed over the points (dim 0) or over the splats (dim 1)."""
+    return [entry.expand(points, splats).sum(dim) for entry in entries]
+
+
+def _checked(
+    manifold: Any, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor
+) -> tuple[tuple[Tensor, Tensor, Tensor, Tensor], torch.dtype]:
+    """The four in one precision, single for what is less, and the precision of the results; their shapes must fit."""
+    K, D = len(mu) if mu.dim() else 0, manifold.point_size
+    N = len(x) if x.dim() else 0
+    shapes = {"x": (N, D), "mu": (K, D), "W": (K, manifold.dim, manifold.tangent_size), "amplitude": (K,)}
+    dtype = x.dtype
+    for (name, shape), tensor in zip(shapes.items(), (x, mu, W, amplitude), strict=True):
+        if tensor.shape != shape:
+            raise ValueError(f"{name} has shape {tuple(tensor.shape)}; with {N} points and {K} splats it is {shape}")
+        if not tensor.is_floating_point():
+            raise TypeError(f"{name} is {tensor.dtype}: splats take floating-point numbers")
+        dtype = torch.promote_types(dtype, tensor.dtype)
+    inside = torch.promote_types(dtype, torch.float32)
+    return (x.to(inside), mu.to(inside), W.to(inside), amplitude.to(inside)), dtype
+
+
+class _Splats(torch.autograd.Function):
+    """The sums under autograd: the backward pass is one sweep over all pairs."""
+
+    @staticmethod
+    def forward(ctx: Any, manifold: Any, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """Values and gradients."""
+        ctx.manifold = manifold
+        ctx.save_for_backward(x, mu, W, amplitude)
+        value, gradient = manifold._splats(x, mu, W, amplitude)
+        return value, gradient
+
+    @staticmethod
+    def backward(ctx: Any, value_bar: Tensor, gradient_bar: Tensor) -> tuple[Tensor | None, ...]:
+        """The derivatives in mu, W and amplitude."""
+        tensors = *ctx.saved_tensors, value_bar, gradient_bar
+        if torch.is_grad_enabled() and not torch.compiler.is_compiling():
+            return None, None, *_SplatsBackward.apply(ctx.manifold, *tensors)  # type: ignore[no-untyped-call]
+        return None, None, *ctx.manifold._splats_vjp(*tensors)
+
+
+class _SplatsBackward(torch.autograd.Function):
+    """The backward pass where somebody might differentiate it again, which is an error."""
+
+    @staticmethod
+    def forward(ctx: Any, manifold: Any, *tensors: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives in mu, W and amplitude."""
+        by_mu, by_W, by_amplitude = manifold._splats_vjp(*tensors)
+        return by_mu, by_W, by_amplitude
+
+    @staticmethod
+    def backward(ctx: Any, *bars: Tensor) -> Any:
+        """None."""
+        raise RuntimeError("`splats` has first derivatives only; of `splat`, autograd knows all")
 
 
 class Sphere:
@@ -611,14 +711,6 @@ class Sphere:
         gradient2 = df2 - x2 * normal_part
         return (phi, gradient0, gradient1, gradient2)
 
-    def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
-        """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
-
-        Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T).
-        """
-        value, *gradient = self._splat(x.unsqueeze(-2), mu, W, amplitude)
-        return value.sum(-1), _stack([entry.sum(-1) for entry in gradient])
-
     def frame(self, p: Tensor) -> Tensor:
         """An orthonormal basis of the tangent space at p, one vector a row; not continuous in p where none is.
 
@@ -661,6 +753,379 @@ class Sphere:
             return points, torch.exp(-self.log_abs_det(center, points))
 
         return _rejection(propose, count, generator, center)
+
+    def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
+
+        Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T).
+        Differentiable once in mu, W and amplitude, with nothing of size N x K kept. Where x requires a gradient too, autograd
+        differentiates the formula of every pair, as often as is wanted, and keeps all of them.
+        """
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        if x.requires_grad and torch.is_grad_enabled():
+            value, *entries = self._splat(tensors[0].unsqueeze(-2), *tensors[1:])
+            value, gradient = value.sum(-1), _stack([entry.sum(-1) for entry in entries])
+        else:
+            value, gradient = _Splats.apply(self, *tensors)  # type: ignore[no-untyped-call]
+        return value.to(dtype), gradient.to(dtype)
+
+    def splats_value(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> Tensor:
+        """The value of `splats` alone: (N), differentiable as there."""
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        if torch.is_grad_enabled() and any(tensor.requires_grad for tensor in tensors):
+            return self.splats(x, mu, W, amplitude)[0]
+        return self._splats_value(*tensors).to(dtype)
+
+    def splats_rows(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> Tensor:
+        """The derivatives of value_bar_n value_n + gradient_bar_n . gradient_n of `splats`, each point's by itself.
+
+        Shapes: as in `splats`, value_bar (N), gradient_bar (N, T) to (N, K, D + d T + 1), the derivatives in mu, W (row by
+        row) and amplitude of every splat; not differentiable. Their sum over N is what the backward pass of `splats` gives.
+        """
+        tensors, dtype = _checked(self, x, mu, W, amplitude)
+        with torch.no_grad():
+            return self._splats_rows(*tensors, value_bar.to(tensors[0]), gradient_bar.to(tensors[0])).to(dtype)
+
+    def kernels(self, like: Tensor) -> str:
+        """What computes `splats` for tensors like this one."""
+        return f"torch, {like.device.type}"
+
+    def _splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        """Values (N) and gradients (N, T)."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        values, gradients = [], []
+        for part in _chunks(x, len(mu)):
+            X = [entry.unsqueeze(-1) for entry in self._point_features(part)]
+            value, *slope = _sums(self._pair(X, S), len(part), len(mu), 1)
+            values.append(value)
+            gradients.append(self._point_gradient(part, slope))
+        return torch.cat(values), torch.cat(gradients)
+
+    def _splats_value(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> Tensor:
+        """Values (N) alone."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        values = []
+        for part in _chunks(x, len(mu)):
+            X = [entry.unsqueeze(-1) for entry in self._point_features(part)]
+            values += _sums(self._pair_value(X, S), len(part), len(mu), 1)
+        return torch.cat(values)
+
+    def _splats_vjp(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu (K, D), W (K, d, T) and amplitude (K)."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        total = torch.zeros((len(S), len(mu)), dtype=x.dtype, device=x.device)
+        parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
+        for part, *bars in zip(*parts, strict=True):
+            total = total + torch.stack(_sums(self._pair_bars(part, S, *bars), len(part), len(mu), 0))
+        return self._splat_constants_vjp(mu, W, amplitude, total.unbind(0))
+
+    def _splats_rows(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+    ) -> Tensor:
+        """The rows (N, K, D + d T + 1) of the derivatives that `_splats_vjp` sums over N."""
+        S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
+        parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
+        rows = []
+        for part, *bars in zip(*parts, strict=True):
+            S_bar = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
+            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, S_bar)
+            rows.append(torch.cat([by_mu, by_W.flatten(-2), by_amplitude.unsqueeze(-1)], -1))
+        return torch.cat(rows)
+
+    def _pair_bars(
+        self, x: Tensor, S: Sequence[Tensor], value_bar: Tensor, gradient_bar: Tensor
+    ) -> tuple[Tensor, ...]:
+        """The derivatives in S of every pair, from those in the sums."""
+        X = [entry.unsqueeze(-1) for entry in self._point_features(x)]
+        slope_bar = [entry.unsqueeze(-1) for entry in self._point_gradient_vjp(x, gradient_bar)]
+        return self._pair_vjp(X, S, value_bar.unsqueeze(-1), slope_bar)
+
+    def _point_features(self, x: Tensor) -> tuple[Tensor, ...]:
+        """X, what the pairs need of a point alone."""
+        x0, x1, x2 = x.unbind(-1)
+        h0 = 0.5 * x0
+        h1 = 0.5 * x1
+        h2 = 0.5 * x2
+        return (h0, h1, h2)
+
+    def _splat_constants(self, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, ...]:
+        """S, what the pairs need of a splat alone."""
+        mu0, mu1, mu2 = mu.unbind(-1)
+        W0_0, W0_1, W0_2, W1_0, W1_1, W1_2 = W.flatten(-2).unbind(-1)
+        eps = torch.full_like(mu0, torch.finfo(mu0.dtype).eps)
+        M0 = 0.5 * mu0
+        M1 = 0.5 * mu1
+        M2 = 0.5 * mu2
+        by_normal_part = -(mu2 * W0_2) - mu1 * W0_1 - mu0 * W0_0
+        R0_0 = 1.4142135623730951 * (W0_0 + mu0 * by_normal_part)
+        R0_1 = 1.4142135623730951 * (W0_1 + mu1 * by_normal_part)
+        R0_2 = 1.4142135623730951 * (W0_2 + mu2 * by_normal_part)
+        by_normal_part_2 = -(mu2 * W1_2) - mu1 * W1_1 - mu0 * W1_0
+        R1_0 = 1.4142135623730951 * (W1_0 + mu0 * by_normal_part_2)
+        R1_1 = 1.4142135623730951 * (W1_1 + mu1 * by_normal_part_2)
+        R1_2 = 1.4142135623730951 * (W1_2 + mu2 * by_normal_part_2)
+        log_value = torch.log(0.7853981633974483 / eps)
+        squared = mu0 * mu0
+        is_small = squared < 0.5
+        gap = 1.0 - squared
+        sine_to_axis0 = _root(torch.where(is_small, gap, 1.0))
+        product = mu0 * mu1
+        gap_2 = 1.0 - mu1 * mu1
+        sine_to_axis1 = _root(torch.where(is_small, 1.0, gap_2))
+        product_2 = 3.141592653589793 * torch.where(is_small, gap / sine_to_axis0, -(product / sine_to_axis1))
+        product_3 = 3.141592653589793 * torch.where(is_small, -(product / sine_to_axis0), gap_2 / sine_to_axis1)
+        product_4 = (
+            3.141592653589793 * torch.where(is_small, -(mu0 * mu2 / sine_to_axis0), -(mu1 * mu2 / sine_to_axis1))
+        )
+        total_2 = W0_0 * product_2 + W0_1 * product_3 + W0_2 * product_4
+        total_3 = W1_0 * product_2 + W1_1 * product_3 + W1_2 * product_4
+        value_on_cut_locus = torch.exp(log_value - 0.5 * (total_2 * total_2 + total_3 * total_3))
+        return (amplitude, M0, M1, M2, R0_0, R0_1, R0_2, R1_0, R1_1, R1_2, value_on_cut_locus)
+
+    def _pair_value(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
+        """The value of a splat at a point."""
+        h0, h1, h2 = X
+        amplitude, M0, M1, M2, R0_0, R0_1, R0_2, R1_0, R1_1, R1_2, value_on_cut_locus = S
+        eps = torch.full_like(h0, torch.finfo(h0.dtype).eps)
+        total_2 = h0 + M0
+        total_3 = h1 + M1
+        total_4 = h2 + M2
+        total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4
+        on_cut_locus = total_5 <= 4.0 * (eps * eps)
+        u = torch.where(on_cut_locus, 1.0, total_5)
+        w = torch.sqrt(u)
+        eta = _polynomial(1.0 - w, _ETA)
+        a = 1.0 / (w * (w - eta * (1.0 - u)))
+        a_squared = a * a
+        r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2
+        r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2
+        half_square = a_squared * (r0 * r0 + r1 * r1)
+        gaussian = torch.exp(-half_square)
+        phi = amplitude * torch.where(on_cut_locus, value_on_cut_locus, a * gaussian)
+        return (phi,)
+
+    def _pair(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
+        """The value of a splat at a point, and the slope, its derivatives in X."""
+        h0, h1, h2 = X
+        amplitude, M0, M1, M2, R0_0, R0_1, R0_2, R1_0, R1_1, R1_2, value_on_cut_locus = S
+        eps = torch.full_like(h0, torch.finfo(h0.dtype).eps)
+        total_2 = h0 + M0
+        total_3 = h1 + M1
+        total_4 = h2 + M2
+        total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4
+        on_cut_locus = total_5 <= 4.0 * (eps * eps)
+        u = torch.where(on_cut_locus, 1.0, total_5)
+        w = torch.sqrt(u)
+        eta = _polynomial(1.0 - w, _ETA)
+        w_gap = w - eta * (1.0 - u)
+        a = 1.0 / (w * w_gap)
+        a_squared = a * a
+        r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2
+        r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2
+        half_square = a_squared * (r0 * r0 + r1 * r1)
+        gaussian = torch.exp(-half_square)
+        a_product = a * gaussian
+        phi = amplitude * torch.where(on_cut_locus, value_on_cut_locus, a_product)
+        product = amplitude * torch.where(on_cut_locus, 0.0, a_product)
+        product_2 = 2.0 * (product * a_squared)
+        r1_product = r1 * product_2
+        r0_product = r0 * product_2
+        over_w = w_gap * a
+        over_w_product = over_w * ((eta - over_w) * (product - product * (2.0 * half_square)))
+        by_h0 = -(R1_0 * r1_product) - R0_0 * r0_product + M0 * over_w_product
+        by_h1 = -(R1_1 * r1_product) - R0_1 * r0_product + M1 * over_w_product
+        by_h2 = -(R1_2 * r1_product) - R0_2 * r0_product + M2 * over_w_product
+        return (phi, by_h0, by_h1, by_h2)
+
+    def _point_gradient(self, x: Tensor, slope: Sequence[Tensor]) -> Tensor:
+        """The Riemannian gradient of a function whose derivatives in X are `slope`."""
+        x0, x1, x2 = x.unbind(-1)
+        slope_h0, slope_h1, slope_h2 = slope
+        product = 0.5 * slope_h0
+        product_2 = 0.5 * slope_h1
+        product_3 = 0.5 * slope_h2
+        normal_part = x0 * product + x1 * product_2 + x2 * product_3
+        return _stack((product - x0 * normal_part, product_2 - x1 * normal_part, product_3 - x2 * normal_part))
+
+    def _point_gradient_vjp(self, x: Tensor, gradient_bar: Tensor) -> tuple[Tensor, ...]:
+        """The derivatives of gradient . gradient_bar in `slope`."""
+        x0, x1, x2 = x.unbind(-1)
+        gradient_bar0, gradient_bar1, gradient_bar2 = gradient_bar.unbind(-1)
+        by_normal_part = -(x2 * gradient_bar2) - x1 * gradient_bar1 - x0 * gradient_bar0
+        return (
+            0.5 * (gradient_bar0 + x0 * by_normal_part),
+            0.5 * (gradient_bar1 + x1 * by_normal_part),
+            0.5 * (gradient_bar2 + x2 * by_normal_part),
+        )
+
+    def _pair_vjp(
+        self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
+    ) -> tuple[Tensor, ...]:
+        """The derivatives of value value_bar + slope . slope_bar in S."""
+        h0, h1, h2 = X
+        amplitude, M0, M1, M2, R0_0, R0_1, R0_2, R1_0, R1_1, R1_2, value_on_cut_locus = S
+        h0_bar, h1_bar, h2_bar = slope_bar
+        eps = torch.full_like(h0, torch.finfo(h0.dtype).eps)
+        total_2 = h0 + M0
+        total_3 = h1 + M1
+        total_4 = h2 + M2
+        total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4
+        on_cut_locus = total_5 <= 4.0 * (eps * eps)
+        u = torch.where(on_cut_locus, 1.0, total_5)
+        w = torch.sqrt(u)
+        w_gap = 1.0 - w
+        eta = _polynomial(w_gap, _ETA)
+        w_gap_2 = w - eta * (1.0 - u)
+        a = 1.0 / (w * w_gap_2)
+        a_squared = a * a
+        r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2
+        r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2
+        half_square = a_squared * (r0 * r0 + r1 * r1)
+        gaussian = torch.exp(-half_square)
+        a_product = a * gaussian
+        chosen = torch.where(on_cut_locus, 0.0, a_product)
+        over_w = w_gap_2 * a
+        eta_gap = eta - over_w
+        total_6 = M0 * h0_bar + M1 * h1_bar + M2 * h2_bar
+        over_w_product = over_w * total_6
+        product = eta_gap * over_w_product
+        gap = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar
+        gap_2 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar
+        product_2 = 2.0 * (r0 * gap + r1 * gap_2)
+        half_square_product = 2.0 * half_square
+        gap_3 = product + a_squared * product_2 - half_square_product * product
+        product_3 = amplitude * chosen
+        gap_4 = product_3 - product_3 * half_square_product
+        product_4 = eta_gap * gap_4
+        over_w_product_2 = over_w * product_4
+        eta_slope = _polynomial(w_gap, _ETA_SLOPE)
+        product_5 = gap_4 * over_w_product
+        total_7 = chosen * (amplitude * value_bar) + chosen * (amplitude * gap_3)
+        by_half_square = -(2.0 * (product_3 * product)) - total_7
+        product_6 = (
+            eta_gap * (2.0 * a_squared * (product_3 * product_2) + total_7 + half_square_product * by_half_square)
+        )
+        total_8 = eta_slope * product_5 - over_w * over_w * (product_4 * total_6 - product_5) + product_6
+        over_w_product_3 = over_w * total_8
+        product_7 = 2.0 * (product_3 * a_squared)
+        product_8 = 2.0 * (a_squared * by_half_square)
+        by_r0 = product_7 * gap + r0 * product_8
+        r0_product = r0 * product_7
+        by_r1 = product_7 * gap_2 + r1 * product_8
+        r1_product = r1 * product_7
+        return (
+            torch.where(on_cut_locus, value_on_cut_locus, a_product) * value_bar + chosen * gap_3,
+            over_w_product_2 * h0_bar + h0 * over_w_product_3,
+            over_w_product_2 * h1_bar + h1 * over_w_product_3,
+            over_w_product_2 * h2_bar + h2 * over_w_product_3,
+            h0 * by_r0 - r0_product * h0_bar,
+            h1 * by_r0 - r0_product * h1_bar,
+            h2 * by_r0 - r0_product * h2_bar,
+            h0 * by_r1 - r1_product * h0_bar,
+            h1 * by_r1 - r1_product * h1_bar,
+            h2 * by_r1 - r1_product * h2_bar,
+            torch.full_like(slope_bar[0], 0.0),
+        )
+
+    def _splat_constants_vjp(
+        self, mu: Tensor, W: Tensor, amplitude: Tensor, S_bar: Sequence[Tensor]
+    ) -> tuple[Tensor, Tensor, Tensor]:
+        """The derivatives in mu, W and amplitude from those in S."""
+        mu0, mu1, mu2 = mu.unbind(-1)
+        W0_0, W0_1, W0_2, W1_0, W1_1, W1_2 = W.flatten(-2).unbind(-1)
+        (
+            amplitude_bar, M0_bar, M1_bar, M2_bar, R0_0_bar, R0_1_bar, R0_2_bar, R1_0_bar, R1_1_bar, R1_2_bar,
+            value_on_cut_locus_bar,
+        ) = S_bar
+        eps = torch.full_like(mu0, torch.finfo(mu0.dtype).eps)
+        by_normal_part = -(mu2 * W0_2) - mu1 * W0_1 - mu0 * W0_0
+        product = 1.4142135623730951 * R0_0_bar
+        product_2 = 1.4142135623730951 * R0_1_bar
+        product_3 = 1.4142135623730951 * R0_2_bar
+        by_by_normal_part = mu0 * product + mu1 * product_2 + mu2 * product_3
+        by_normal_part_2 = -(mu2 * W1_2) - mu1 * W1_1 - mu0 * W1_0
+        product_4 = 1.4142135623730951 * R1_0_bar
+        product_5 = 1.4142135623730951 * R1_1_bar
+        product_6 = 1.4142135623730951 * R1_2_bar
+        by_by_normal_part_2 = mu0 * product_4 + mu1 * product_5 + mu2 * product_6
+        gap = (
+            0.5 * M0_bar + by_normal_part * product - W0_0 * by_by_normal_part + by_normal_part_2 * product_4 - W1_0 *
+            by_by_normal_part_2
+        )
+        squared = mu0 * mu0
+        is_small = squared < 0.5
+        gap_2 = 1.0 - squared
+        chosen = torch.where(is_small, gap_2, 1.0)
+        sine_to_axis0 = _root(chosen)
+        ratio = gap_2 / sine_to_axis0
+        product_7 = mu0 * mu1
+        gap_3 = 1.0 - mu1 * mu1
+        chosen_2 = torch.where(is_small, 1.0, gap_3)
+        sine_to_axis1 = _root(chosen_2)
+        ratio_2 = product_7 / sine_to_axis1
+        product_8 = 3.141592653589793 * torch.where(is_small, ratio, -ratio_2)
+        ratio_3 = product_7 / sine_to_axis0
+        ratio_4 = gap_3 / sine_to_axis1
+        product_9 = 3.141592653589793 * torch.where(is_small, -ratio_3, ratio_4)
+        ratio_5 = mu0 * mu2 / sine_to_axis0
+        ratio_6 = mu1 * mu2 / sine_to_axis1
+        product_10 = 3.141592653589793 * torch.where(is_small, -ratio_5, -ratio_6)
+        total_2 = W1_0 * product_8 + W1_1 * product_9 + W1_2 * product_10
+        log_value = torch.log(0.7853981633974483 / eps)
+        total_3 = W0_0 * product_8 + W0_1 * product_9 + W0_2 * product_10
+        value_on_cut_locus = torch.exp(log_value - 0.5 * (total_3 * total_3 + total_2 * total_2))
+        product_11 = value_on_cut_locus * value_on_cut_locus_bar
+        product_12 = total_2 * product_11
+        product_13 = total_3 * product_11
+        product_14 = 3.141592653589793 * (-(W1_2 * product_12) - W0_2 * product_13)
+        ratio_7 = torch.where(is_small, product_14, 0.0) / sine_to_axis0
+        product_15 = 3.141592653589793 * (-(W1_1 * product_12) - W0_1 * product_13)
+        ratio_8 = torch.where(is_small, product_15, 0.0) / sine_to_axis0
+        product_16 = 3.141592653589793 * (-(W1_0 * product_12) - W0_0 * product_13)
+        ratio_9 = torch.where(is_small, 0.0, product_16) / sine_to_axis1
+        gap_4 = -ratio_8 - ratio_9
+        ratio_10 = torch.where(is_small, product_16, 0.0) / sine_to_axis0
+        is_small_2 = chosen == 0.0
+        by_sine_to_axis0 = ratio_5 * ratio_7 + ratio_3 * ratio_8 - ratio * ratio_10
+        chosen_3 = torch.where(
+            is_small, torch.where(is_small_2, 0.0, by_sine_to_axis0 / (2.0 * torch.where(is_small_2, 1.0,
+            sine_to_axis0))), 0.0
+        )
+        gap_5 = (
+            0.5 * M1_bar + by_normal_part * product_2 - W0_1 * by_by_normal_part + by_normal_part_2 * product_5 - W1_1 *
+            by_by_normal_part_2
+        )
+        ratio_11 = torch.where(is_small, 0.0, product_14) / sine_to_axis1
+        ratio_12 = torch.where(is_small, 0.0, product_15) / sine_to_axis1
+        is_small_3 = chosen_2 == 0.0
+        by_sine_to_axis1 = ratio_6 * ratio_11 - ratio_4 * ratio_12 + ratio_2 * ratio_9
+        chosen_4 = torch.where(
+            is_small, 0.0, torch.where(is_small_3, 0.0, by_sine_to_axis1 / (2.0 * torch.where(is_small_3, 1.0,
+            sine_to_axis1)))
+        )
+        total_4 = gap_5 - mu2 * ratio_11 - mu1 * (2.0 * (ratio_12 + chosen_4)) + mu0 * gap_4
+        gap_6 = (
+            0.5 * M2_bar + by_normal_part * product_3 - W0_2 * by_by_normal_part + by_normal_part_2 * product_6 - W1_2 *
+            by_by_normal_part_2
+        )
+        mu_bar = _stack((
+            gap - mu2 * ratio_7 + mu1 * gap_4 - mu0 * (2.0 * (ratio_10 + chosen_3)),
+            total_4,
+            gap_6 - mu1 * ratio_11 - mu0 * ratio_7,
+        ))
+        W_bar = _stack((
+            product - mu0 * by_by_normal_part - product_8 * product_13,
+            product_2 - mu1 * by_by_normal_part - product_9 * product_13,
+            product_3 - mu2 * by_by_normal_part - product_10 * product_13,
+            product_4 - mu0 * by_by_normal_part_2 - product_8 * product_12,
+            product_5 - mu1 * by_by_normal_part_2 - product_9 * product_12,
+            product_6 - mu2 * by_by_normal_part_2 - product_10 * product_12,
+        ))
+        return mu_bar, W_bar.unflatten(-1, (2, 3)), amplitude_bar
 
 
 manifold = Sphere()

@@ -121,17 +121,6 @@ INLINE vector vector_from_bits(vector_bits bits) {
     return x;
 }
 
-/* x >= 0 with the sign of another. */
-INLINE vector vector_signed(vector x, vector sign) {
-    return vector_from_bits(vector_to_bits(x) | (vector_to_bits(sign) & 0x8000000000000000));
-}
-
-/* abs of every lane; one instruction where the machine has it. */
-INLINE vector vector_abs(vector x) {
-    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
-    return x;
-}
-
 /* sqrt of every lane; one instruction where the machine has it. */
 INLINE vector vector_sqrt(vector x) {
     for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
@@ -161,40 +150,6 @@ INLINE vector vector_log(vector x) {
     return vector_select(x <= 1.7976931348623157e308, finite, x);
 }
 
-/* atan2, within 3 units in the last place. */
-INLINE vector vector_atan2(vector y, vector x) {
-    const vector a = vector_abs(y), b = vector_abs(x), one = vector_of(1);
-    const vector less = vector_select(a > b, b, a), more = vector_select(a > b, a, b);
-    const vector low = vector_select(less > 1.7976931348623157e308, one, less);
-    const vector high = vector_select(less > 1.7976931348623157e308, one, vector_select(more == 0, one, more));
-    const vector top = vector_select(low > 0.4142135623730951 * high, low - high, low);
-    const vector bottom = vector_select(low > 0.4142135623730951 * high, low * 0.5 + high * 0.5, high * 0.5);
-    const vector t = top / bottom * 0.5, z = t * t;
-    const vector angle = t + t * z * (-0.3333333333333333 + z * (0.19999999999999804 + z * (-0.14285714285659806 + z * (0.11111111105153429 + z * (-0.09090908753400499 + z * (0.07692296372129964 + z * (-0.06666424833613552 + z * (0.05878928398517232 + z * (-0.052304498567092406 + z * (0.04551573086664191 + z * (-0.034570044186095536 + z * 0.016285183029865667)))))))))));
-    const vector first = vector_select(low > 0.4142135623730951 * high, 0.7853981633974483 + (angle + 3.061616997868383e-17), angle);
-    const vector second = vector_select(a > b, 1.5707963267948966 - (first - 6.123233995736766e-17), first);
-    const vector third = vector_select((vector_to_bits(x) & 0x8000000000000000) != 0, 3.141592653589793 - (second - 1.2246467991473532e-16), second);
-    return vector_signed(third, y);
-}
-
-/* Of degree 14 on [0, 1], its relative error below 2^-56. */
-INLINE vector vector_polynomial_log_det_series(vector x) {
-    return 0.16666666666666666 + x * (0.01939612499999991 + x * (0.0031149721534882713 + x *
-        (0.0005700237971008779 + x * (0.00011198187163070022 + x * (2.3002110017289655e-05 + x *
-        (4.8718356693444944e-06 + x * (1.054614402260622e-06 + x * (2.3367541929114962e-07 + x *
-        (4.9403202372983336e-08 + x * (1.5182298751247572e-08 + x * (-7.6195098574637e-10 + x *
-        (2.9042189576467986e-09 + x * (-8.192556206837465e-10 + x * 2.390653866184623e-10)))))))))))));
-}
-
-/* Of degree 14 on [0, 1], its relative error below 2^-56. */
-INLINE vector vector_polynomial_t_over_norm_w_near(vector x) {
-    return 1.0 + x * (0.1662524999999975 + x * (0.033167872507672114 + x * (0.0070897393547985224 + x *
-        (0.0015715825913113733 + x * (0.00035628967365586723 + x * (8.201983320917496e-05 + x *
-        (1.907670567869169e-05 + x * (4.515955030924914e-06 + x * (9.891104407795466e-07 + x *
-        (3.4857725787739116e-07 + x * (-3.572738831505148e-08 + x * (7.823058427560213e-08 + x *
-        (-2.320706538769562e-08 + x * 6.513842453315236e-09)))))))))))));
-}
-
 /* Of degree 22 on [0, 1], its relative error below 2^-56. */
 INLINE vector vector_polynomial_eta(vector x) {
     return -0.3333333333333333 + x * (-0.15555555555555417 + x * (-0.0751322751325185 + x *
@@ -217,24 +172,6 @@ INLINE vector vector_polynomial_eta_slope(vector x) {
         (-0.31271015508815947 + x * (0.4807082529660211 + x * (-0.5967654210780935 + x * (0.5934034512823599 +
         x * (-0.46583818796288984 + x * (0.2823845184351827 + x * (-0.12759583319351508 + x *
         (0.04051757743528327 + x * (-0.008083579736595401 + x * 0.0007658488591020234)))))))))))))))))))))));
-}
-
-/* Of degree 13 on [0, 1], the derivative of a polynomial. */
-INLINE vector vector_polynomial_t_over_norm_w_near_slope(vector x) {
-    return 0.1662524999999975 + x * (0.06633574501534423 + x * (0.021269218064395565 + x *
-        (0.006286330365245493 + x * (0.0017814483682793362 + x * (0.0004921189992550497 + x *
-        (0.00013353693975084183 + x * (3.6127640247399315e-05 + x * (8.901993967015918e-06 + x *
-        (3.485772578773912e-06 + x * (-3.930012714655663e-07 + x * (9.387670113072255e-07 + x *
-        (-3.016918500400431e-07 + x * 9.119379434641331e-08))))))))))));
-}
-
-/* Of degree 13 on [0, 1], the derivative of a polynomial. */
-INLINE vector vector_polynomial_log_det_series_slope(vector x) {
-    return 0.01939612499999991 + x * (0.0062299443069765426 + x * (0.0017100713913026338 + x *
-        (0.00044792748652280087 + x * (0.00011501055008644827 + x * (2.9231014016066968e-05 + x *
-        (7.382300815824355e-06 + x * (1.869403354329197e-06 + x * (4.4462882135685005e-07 + x *
-        (1.5182298751247571e-07 + x * (-8.38146084321007e-09 + x * (3.485062749176158e-08 + x *
-        (-1.0650323068888705e-08 + x * 3.346915412658472e-09))))))))))));
 }
 
 /* What pairs read of points x. */
@@ -275,62 +212,23 @@ OUTLINE void pair_constants(
     const vector R1_0 = 1.4142135623730951 * (W1_0 + mu0 * by_normal_part_2);
     const vector R1_1 = 1.4142135623730951 * (W1_1 + mu1 * by_normal_part_2);
     const vector R1_2 = 1.4142135623730951 * (W1_2 + mu2 * by_normal_part_2);
-    const vector norm_q_plus_p = vector_sqrt(vector_of(0.0));
-    const vector_mask on_cut_locus = norm_q_plus_p <= 4.0 * DBL_EPSILON;
     const vector log_value = vector_log(vector_of(0.7853981633974483 / DBL_EPSILON));
-    const vector q0_off_cut = vector_select(on_cut_locus, mu0, -mu0);
-    const vector d0 = q0_off_cut - mu0;
-    const vector q1_off_cut = vector_select(on_cut_locus, mu1, -mu1);
-    const vector d1 = q1_off_cut - mu1;
-    const vector q2_off_cut = vector_select(on_cut_locus, mu2, -mu2);
-    const vector d2 = q2_off_cut - mu2;
-    const vector norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
-    const vector_mask near = norm_d_squared < 0.997515;
-    const vector near_chosen = vector_select(near, 1.0024911906086624 * norm_d_squared, vector_of(0.0));
-    const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
-    const vector log_det_near = norm_d_squared * log_det_series;
-    const vector norm_d = vector_sqrt(vector_select(near, vector_of(1.0), norm_d_squared));
-    const vector q_plus_p0_2 = mu0 + q0_off_cut;
-    const vector q_plus_p1_2 = mu1 + q1_off_cut;
-    const vector q_plus_p2_2 = mu2 + q2_off_cut;
-    const vector norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
-        * q_plus_p2_2;
-    const vector norm_q_plus_p_2 = vector_sqrt(norm_q_plus_p_squared_2);
-    const vector atan2_value = vector_atan2(norm_d, norm_q_plus_p_2);
-    const vector t = 2.0 * atan2_value;
-    const vector dot_p_q = mu0 * q0_off_cut + mu1 * q1_off_cut + mu2 * q2_off_cut;
-    const vector_mask is_small = dot_p_q < 0.0;
-    const vector e0 = vector_select(is_small, q_plus_p0_2, d0);
-    const vector e1 = vector_select(is_small, q_plus_p1_2, d1);
-    const vector e2 = vector_select(is_small, q_plus_p2_2, d2);
-    const vector dot_p_e = mu0 * e0 + mu1 * e1 + mu2 * e2;
-    const vector w0 = e0 - mu0 * dot_p_e;
-    const vector w1 = e1 - mu1 * dot_p_e;
-    const vector w2 = e2 - mu2 * dot_p_e;
-    const vector norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
-    const vector norm_w = vector_sqrt(vector_select(near, vector_of(1.0), norm_w_squared));
-    const vector t_ratio = t / norm_w;
-    const vector log_det = vector_select(near, log_det_near, vector_log(t_ratio));
     const vector squared = mu0 * mu0;
-    const vector_mask is_small_2 = squared < 0.5;
+    const vector_mask is_small = squared < 0.5;
     const vector gap = 1.0 - squared;
-    const vector sine_to_axis0 = vector_sqrt(vector_select(is_small_2, gap, vector_of(1.0)));
+    const vector sine_to_axis0 = vector_sqrt(vector_select(is_small, gap, vector_of(1.0)));
     const vector product = mu0 * mu1;
     const vector gap_2 = 1.0 - mu1 * mu1;
-    const vector sine_to_axis1 = vector_sqrt(vector_select(is_small_2, vector_of(1.0), gap_2));
-    const vector t_over_norm_w_near = vector_polynomial_t_over_norm_w_near(near_chosen);
-    const vector t_over_norm_w = vector_select(near, t_over_norm_w_near, t_ratio);
-    const vector chosen = vector_select(on_cut_locus, 3.141592653589793 * vector_select(is_small_2, gap /
-        sine_to_axis0, -(product / sine_to_axis1)), w0 * t_over_norm_w);
-    const vector chosen_2 = vector_select(on_cut_locus, 3.141592653589793 * vector_select(is_small_2,
-        -(product / sine_to_axis0), gap_2 / sine_to_axis1), w1 * t_over_norm_w);
-    const vector product_2 = 3.141592653589793 * vector_select(is_small_2, -(mu0 * mu2 / sine_to_axis0), -(mu1
-        * mu2 / sine_to_axis1));
-    const vector chosen_3 = vector_select(on_cut_locus, product_2, w2 * t_over_norm_w);
-    const vector total_2 = W0_0 * chosen + W0_1 * chosen_2 + W0_2 * chosen_3;
-    const vector total_3 = W1_0 * chosen + W1_1 * chosen_2 + W1_2 * chosen_3;
-    const vector value_on_cut_locus = vector_exp(vector_select(on_cut_locus, log_value, log_det) - 0.5 *
-        (total_2 * total_2 + total_3 * total_3));
+    const vector sine_to_axis1 = vector_sqrt(vector_select(is_small, vector_of(1.0), gap_2));
+    const vector product_2 = 3.141592653589793 * vector_select(is_small, gap / sine_to_axis0, -(product /
+        sine_to_axis1));
+    const vector product_3 = 3.141592653589793 * vector_select(is_small, -(product / sine_to_axis0), gap_2 /
+        sine_to_axis1);
+    const vector product_4 = 3.141592653589793 * vector_select(is_small, -(mu0 * mu2 / sine_to_axis0), -(mu1 *
+        mu2 / sine_to_axis1));
+    const vector total_2 = W0_0 * product_2 + W0_1 * product_3 + W0_2 * product_4;
+    const vector total_3 = W1_0 * product_2 + W1_1 * product_3 + W1_2 * product_4;
+    const vector value_on_cut_locus = vector_exp(log_value - 0.5 * (total_2 * total_2 + total_3 * total_3));
     S[0] = its_amplitude;
     S[1] = M0;
     S[2] = M1;
@@ -495,8 +393,6 @@ OUTLINE void pair_constants_vjp(
         product_4 - W1_0 * by_by_normal_part_2;
     const vector squared = mu0 * mu0;
     const vector_mask is_small = squared < 0.5;
-    const vector norm_q_plus_p = vector_sqrt(vector_of(0.0));
-    const vector_mask on_cut_locus = norm_q_plus_p <= 4.0 * DBL_EPSILON;
     const vector gap_2 = 1.0 - squared;
     const vector chosen = vector_select(is_small, gap_2, vector_of(1.0));
     const vector sine_to_axis0 = vector_sqrt(chosen);
@@ -506,144 +402,52 @@ OUTLINE void pair_constants_vjp(
     const vector chosen_2 = vector_select(is_small, vector_of(1.0), gap_3);
     const vector sine_to_axis1 = vector_sqrt(chosen_2);
     const vector ratio_2 = product_7 / sine_to_axis1;
-    const vector q0_off_cut = vector_select(on_cut_locus, mu0, -mu0);
-    const vector q1_off_cut = vector_select(on_cut_locus, mu1, -mu1);
-    const vector q2_off_cut = vector_select(on_cut_locus, mu2, -mu2);
-    const vector dot_p_q = mu0 * q0_off_cut + mu1 * q1_off_cut + mu2 * q2_off_cut;
-    const vector_mask is_small_2 = dot_p_q < 0.0;
-    const vector q_plus_p0_2 = mu0 + q0_off_cut;
-    const vector d0 = q0_off_cut - mu0;
-    const vector e0 = vector_select(is_small_2, q_plus_p0_2, d0);
-    const vector q_plus_p1_2 = mu1 + q1_off_cut;
-    const vector d1 = q1_off_cut - mu1;
-    const vector e1 = vector_select(is_small_2, q_plus_p1_2, d1);
-    const vector q_plus_p2_2 = mu2 + q2_off_cut;
-    const vector d2 = q2_off_cut - mu2;
-    const vector e2 = vector_select(is_small_2, q_plus_p2_2, d2);
-    const vector dot_p_e = mu0 * e0 + mu1 * e1 + mu2 * e2;
-    const vector w0 = e0 - mu0 * dot_p_e;
-    const vector norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
-    const vector_mask near = norm_d_squared < 0.997515;
-    const vector near_chosen = vector_select(near, 1.0024911906086624 * norm_d_squared, vector_of(0.0));
-    const vector t_over_norm_w_near = vector_polynomial_t_over_norm_w_near(near_chosen);
-    const vector near_chosen_2 = vector_select(near, vector_of(1.0), norm_d_squared);
-    const vector norm_d = vector_sqrt(near_chosen_2);
-    const vector norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 + q_plus_p2_2
-        * q_plus_p2_2;
-    const vector norm_q_plus_p_2 = vector_sqrt(norm_q_plus_p_squared_2);
-    const vector atan2_value = vector_atan2(norm_d, norm_q_plus_p_2);
-    const vector t = 2.0 * atan2_value;
-    const vector w1 = e1 - mu1 * dot_p_e;
-    const vector w2 = e2 - mu2 * dot_p_e;
-    const vector norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
-    const vector norm_w = vector_sqrt(vector_select(near, vector_of(1.0), norm_w_squared));
-    const vector t_ratio = t / norm_w;
-    const vector t_over_norm_w = vector_select(near, t_over_norm_w_near, t_ratio);
-    const vector chosen_3 = vector_select(on_cut_locus, 3.141592653589793 * vector_select(is_small, ratio,
-        -ratio_2), w0 * t_over_norm_w);
+    const vector product_8 = 3.141592653589793 * vector_select(is_small, ratio, -ratio_2);
     const vector ratio_3 = product_7 / sine_to_axis0;
     const vector ratio_4 = gap_3 / sine_to_axis1;
-    const vector chosen_4 = vector_select(on_cut_locus, 3.141592653589793 * vector_select(is_small, -ratio_3,
-        ratio_4), w1 * t_over_norm_w);
+    const vector product_9 = 3.141592653589793 * vector_select(is_small, -ratio_3, ratio_4);
     const vector ratio_5 = mu0 * mu2 / sine_to_axis0;
     const vector ratio_6 = mu1 * mu2 / sine_to_axis1;
-    const vector chosen_5 = vector_select(on_cut_locus, 3.141592653589793 * vector_select(is_small, -ratio_5,
-        -ratio_6), w2 * t_over_norm_w);
-    const vector total_2 = W1_0 * chosen_3 + W1_1 * chosen_4 + W1_2 * chosen_5;
+    const vector product_10 = 3.141592653589793 * vector_select(is_small, -ratio_5, -ratio_6);
+    const vector total_2 = W1_0 * product_8 + W1_1 * product_9 + W1_2 * product_10;
     const vector log_value = vector_log(vector_of(0.7853981633974483 / DBL_EPSILON));
-    const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
-    const vector log_det_near = norm_d_squared * log_det_series;
-    const vector log_det = vector_select(near, log_det_near, vector_log(t_ratio));
-    const vector total_3 = W0_0 * chosen_3 + W0_1 * chosen_4 + W0_2 * chosen_5;
-    const vector value_on_cut_locus = vector_exp(vector_select(on_cut_locus, log_value, log_det) - 0.5 *
-        (total_3 * total_3 + total_2 * total_2));
-    const vector product_8 = value_on_cut_locus * value_on_cut_locus_bar;
-    const vector product_9 = total_2 * product_8;
-    const vector product_10 = total_3 * product_8;
-    const vector gap_4 = -(W1_2 * product_9) - W0_2 * product_10;
-    const vector product_11 = 3.141592653589793 * vector_select(on_cut_locus, gap_4, vector_of(0.0));
-    const vector ratio_7 = vector_select(is_small, product_11, vector_of(0.0)) / sine_to_axis0;
-    const vector gap_5 = -(W1_1 * product_9) - W0_1 * product_10;
-    const vector product_12 = 3.141592653589793 * vector_select(on_cut_locus, gap_5, vector_of(0.0));
-    const vector ratio_8 = vector_select(is_small, product_12, vector_of(0.0)) / sine_to_axis0;
-    const vector gap_6 = -(W1_0 * product_9) - W0_0 * product_10;
-    const vector product_13 = 3.141592653589793 * vector_select(on_cut_locus, gap_6, vector_of(0.0));
-    const vector ratio_9 = vector_select(is_small, vector_of(0.0), product_13) / sine_to_axis1;
-    const vector gap_7 = -ratio_8 - ratio_9;
-    const vector ratio_10 = vector_select(is_small, product_13, vector_of(0.0)) / sine_to_axis0;
-    const vector_mask is_small_3 = chosen == 0.0;
+    const vector total_3 = W0_0 * product_8 + W0_1 * product_9 + W0_2 * product_10;
+    const vector value_on_cut_locus = vector_exp(log_value - 0.5 * (total_3 * total_3 + total_2 * total_2));
+    const vector product_11 = value_on_cut_locus * value_on_cut_locus_bar;
+    const vector product_12 = total_2 * product_11;
+    const vector product_13 = total_3 * product_11;
+    const vector product_14 = 3.141592653589793 * (-(W1_2 * product_12) - W0_2 * product_13);
+    const vector ratio_7 = vector_select(is_small, product_14, vector_of(0.0)) / sine_to_axis0;
+    const vector product_15 = 3.141592653589793 * (-(W1_1 * product_12) - W0_1 * product_13);
+    const vector ratio_8 = vector_select(is_small, product_15, vector_of(0.0)) / sine_to_axis0;
+    const vector product_16 = 3.141592653589793 * (-(W1_0 * product_12) - W0_0 * product_13);
+    const vector ratio_9 = vector_select(is_small, vector_of(0.0), product_16) / sine_to_axis1;
+    const vector gap_4 = -ratio_8 - ratio_9;
+    const vector ratio_10 = vector_select(is_small, product_16, vector_of(0.0)) / sine_to_axis0;
+    const vector_mask is_small_2 = chosen == 0.0;
     const vector by_sine_to_axis0 = ratio_5 * ratio_7 + ratio_3 * ratio_8 - ratio * ratio_10;
-    const vector chosen_6 = vector_select(is_small, vector_select(is_small_3, vector_of(0.0), by_sine_to_axis0
-        / (2.0 * vector_select(is_small_3, vector_of(1.0), sine_to_axis0))), vector_of(0.0));
-    const vector chosen_7 = vector_select(on_cut_locus, vector_of(0.0), gap_6);
-    const vector chosen_8 = vector_select(on_cut_locus, vector_of(0.0), gap_4);
-    const vector chosen_9 = vector_select(on_cut_locus, vector_of(0.0), gap_5);
-    const vector by_t_over_norm_w = w2 * chosen_8 + w1 * chosen_9 + w0 * chosen_7;
-    const vector by_log_det = vector_select(on_cut_locus, vector_of(0.0), product_8);
-    const vector by_t = (vector_select(near, vector_of(0.0), by_t_over_norm_w) + vector_select(near,
-        vector_of(0.0), by_log_det) / t_ratio) / norm_w;
-    const vector by_norm_w_squared = vector_select(near, vector_of(0.0), -(t_ratio * by_t / (2.0 * norm_w)));
-    const vector product_14 = 2.0 * by_norm_w_squared;
-    const vector by_w0 = t_over_norm_w * chosen_7 + w0 * product_14;
-    const vector gap_8 = gap - mu2 * ratio_7 + mu1 * gap_7 - mu0 * (2.0 * (ratio_10 + chosen_6)) - dot_p_e *
-        by_w0;
-    const vector by_w2 = t_over_norm_w * chosen_8 + w2 * product_14;
-    const vector by_w1 = t_over_norm_w * chosen_9 + w1 * product_14;
-    const vector by_dot_p_e = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
-    const vector by_e0 = by_w0 + mu0 * by_dot_p_e;
-    const vector_mask is_small_4 = norm_q_plus_p_squared_2 == 0.0;
-    const vector by_atan2_value = 2.0 * by_t;
-    const vector ratio_11 = by_atan2_value / (near_chosen_2 + norm_q_plus_p_squared_2);
-    const vector by_norm_q_plus_p_squared_2 = vector_select(is_small_4, vector_of(0.0), -(norm_d * ratio_11 /
-        (2.0 * vector_select(is_small_4, vector_of(1.0), norm_q_plus_p_2))));
-    const vector product_15 = 2.0 * by_norm_q_plus_p_squared_2;
-    const vector by_q_plus_p0_2 = vector_select(is_small_2, by_e0, vector_of(0.0)) + q_plus_p0_2 * product_15;
-    const vector by_norm_d = norm_q_plus_p_2 * ratio_11;
-    const vector by_log_det_near = vector_select(near, by_log_det, vector_of(0.0));
-    const vector by_t_over_norm_w_near = vector_select(near, by_t_over_norm_w, vector_of(0.0));
-    const vector t_over_norm_w_near_slope = vector_polynomial_t_over_norm_w_near_slope(near_chosen);
-    const vector by_log_det_series = norm_d_squared * by_log_det_near;
-    const vector log_det_series_slope = vector_polynomial_log_det_series_slope(near_chosen);
-    const vector by_norm_d_squared = vector_select(near, vector_of(0.0), by_norm_d / (2.0 * norm_d)) +
-        log_det_series * by_log_det_near + 1.0024911906086624 * vector_select(near, by_t_over_norm_w_near *
-        t_over_norm_w_near_slope + by_log_det_series * log_det_series_slope, vector_of(0.0));
-    const vector product_16 = 2.0 * by_norm_d_squared;
-    const vector by_d0 = vector_select(is_small_2, vector_of(0.0), by_e0) + d0 * product_16;
-    const vector by_q0_off_cut = by_q_plus_p0_2 + by_d0;
-    const vector total_4 = gap_8 + e0 * by_dot_p_e + by_q_plus_p0_2 - by_d0 + vector_select(on_cut_locus,
-        by_q0_off_cut, vector_of(0.0));
-    const vector gap_9 = 0.5 * M1_bar + by_normal_part * product_2 - W0_1 * by_by_normal_part +
+    const vector chosen_3 = vector_select(is_small, vector_select(is_small_2, vector_of(0.0), by_sine_to_axis0
+        / (2.0 * vector_select(is_small_2, vector_of(1.0), sine_to_axis0))), vector_of(0.0));
+    const vector gap_5 = 0.5 * M1_bar + by_normal_part * product_2 - W0_1 * by_by_normal_part +
         by_normal_part_2 * product_5 - W1_1 * by_by_normal_part_2;
-    const vector ratio_12 = vector_select(is_small, vector_of(0.0), product_11) / sine_to_axis1;
-    const vector ratio_13 = vector_select(is_small, vector_of(0.0), product_12) / sine_to_axis1;
-    const vector_mask is_small_5 = chosen_2 == 0.0;
-    const vector by_sine_to_axis1 = ratio_6 * ratio_12 - ratio_4 * ratio_13 + ratio_2 * ratio_9;
-    const vector chosen_10 = vector_select(is_small, vector_of(0.0), vector_select(is_small_5, vector_of(0.0),
-        by_sine_to_axis1 / (2.0 * vector_select(is_small_5, vector_of(1.0), sine_to_axis1))));
-    const vector total_5 = gap_9 - mu2 * ratio_12 - mu1 * (2.0 * (ratio_13 + chosen_10)) + mu0 * gap_7;
-    const vector by_e1 = by_w1 + mu1 * by_dot_p_e;
-    const vector by_q_plus_p1_2 = vector_select(is_small_2, by_e1, vector_of(0.0)) + q_plus_p1_2 * product_15;
-    const vector by_d1 = vector_select(is_small_2, vector_of(0.0), by_e1) + d1 * product_16;
-    const vector by_d1_gap = total_5 - dot_p_e * by_w1 + e1 * by_dot_p_e + by_q_plus_p1_2 - by_d1;
-    const vector by_q1_off_cut = by_q_plus_p1_2 + by_d1;
-    const vector gap_10 = 0.5 * M2_bar + by_normal_part * product_3 - W0_2 * by_by_normal_part +
+    const vector ratio_11 = vector_select(is_small, vector_of(0.0), product_14) / sine_to_axis1;
+    const vector ratio_12 = vector_select(is_small, vector_of(0.0), product_15) / sine_to_axis1;
+    const vector_mask is_small_3 = chosen_2 == 0.0;
+    const vector by_sine_to_axis1 = ratio_6 * ratio_11 - ratio_4 * ratio_12 + ratio_2 * ratio_9;
+    const vector chosen_4 = vector_select(is_small, vector_of(0.0), vector_select(is_small_3, vector_of(0.0),
+        by_sine_to_axis1 / (2.0 * vector_select(is_small_3, vector_of(1.0), sine_to_axis1))));
+    const vector total_4 = gap_5 - mu2 * ratio_11 - mu1 * (2.0 * (ratio_12 + chosen_4)) + mu0 * gap_4;
+    const vector gap_6 = 0.5 * M2_bar + by_normal_part * product_3 - W0_2 * by_by_normal_part +
         by_normal_part_2 * product_6 - W1_2 * by_by_normal_part_2;
-    const vector total_6 = gap_10 - mu1 * ratio_12 - mu0 * ratio_7 - dot_p_e * by_w2 + e2 * by_dot_p_e;
-    const vector by_e2 = by_w2 + mu2 * by_dot_p_e;
-    const vector by_q_plus_p2_2 = vector_select(is_small_2, by_e2, vector_of(0.0)) + q_plus_p2_2 * product_15;
-    const vector by_d2 = vector_select(is_small_2, vector_of(0.0), by_e2) + d2 * product_16;
-    const vector by_q2_off_cut = by_q_plus_p2_2 + by_d2;
-    mu_bar[0] = total_4 - vector_select(on_cut_locus, vector_of(0.0), by_q0_off_cut);
-    mu_bar[1] = by_d1_gap + vector_select(on_cut_locus, by_q1_off_cut, vector_of(0.0)) -
-            vector_select(on_cut_locus, vector_of(0.0), by_q1_off_cut);
-    mu_bar[2] = total_6 + by_q_plus_p2_2 - by_d2 + vector_select(on_cut_locus, by_q2_off_cut, vector_of(0.0))
-            - vector_select(on_cut_locus, vector_of(0.0), by_q2_off_cut);
-    W_bar[0] = product - mu0 * by_by_normal_part - chosen_3 * product_10;
-    W_bar[1] = product_2 - mu1 * by_by_normal_part - chosen_4 * product_10;
-    W_bar[2] = product_3 - mu2 * by_by_normal_part - chosen_5 * product_10;
-    W_bar[3] = product_4 - mu0 * by_by_normal_part_2 - chosen_3 * product_9;
-    W_bar[4] = product_5 - mu1 * by_by_normal_part_2 - chosen_4 * product_9;
-    W_bar[5] = product_6 - mu2 * by_by_normal_part_2 - chosen_5 * product_9;
+    mu_bar[0] = gap - mu2 * ratio_7 + mu1 * gap_4 - mu0 * (2.0 * (ratio_10 + chosen_3));
+    mu_bar[1] = total_4;
+    mu_bar[2] = gap_6 - mu1 * ratio_11 - mu0 * ratio_7;
+    W_bar[0] = product - mu0 * by_by_normal_part - product_8 * product_13;
+    W_bar[1] = product_2 - mu1 * by_by_normal_part - product_9 * product_13;
+    W_bar[2] = product_3 - mu2 * by_by_normal_part - product_10 * product_13;
+    W_bar[3] = product_4 - mu0 * by_by_normal_part_2 - product_8 * product_12;
+    W_bar[4] = product_5 - mu1 * by_by_normal_part_2 - product_9 * product_12;
+    W_bar[5] = product_6 - mu2 * by_by_normal_part_2 - product_10 * product_12;
     amplitude_bar[0] = its_amplitude_bar;
 }
 
@@ -986,17 +790,6 @@ INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
     return x;
 }
 
-/* x >= 0 with the sign of another. */
-INLINE vector_f vector_signed_f(vector_f x, vector_f sign) {
-    return vector_from_bits_f(vector_to_bits_f(x) | (vector_to_bits_f(sign) & 0x80000000));
-}
-
-/* abs of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_abs_f(vector_f x) {
-    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
-    return x;
-}
-
 /* sqrt of every lane; one instruction where the machine has it. */
 INLINE vector_f vector_sqrt_f(vector_f x) {
     for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
@@ -1026,36 +819,6 @@ INLINE vector_f vector_log_f(vector_f x) {
     return vector_select_f(x <= 3.4028234663852886e38f, finite, x);
 }
 
-/* atan2, within 3 units in the last place. */
-INLINE vector_f vector_atan2_f(vector_f y, vector_f x) {
-    const vector_f a = vector_abs_f(y), b = vector_abs_f(x), one = vector_of_f(1);
-    const vector_f less = vector_select_f(a > b, b, a), more = vector_select_f(a > b, a, b);
-    const vector_f low = vector_select_f(less > 3.4028234663852886e38f, one, less);
-    const vector_f high = vector_select_f(less > 3.4028234663852886e38f, one, vector_select_f(more == 0, one, more));
-    const vector_f top = vector_select_f(low > 0.4142135623730951f * high, low - high, low);
-    const vector_f bottom = vector_select_f(low > 0.4142135623730951f * high, low * 0.5f + high * 0.5f, high * 0.5f);
-    const vector_f t = top / bottom * 0.5f, z = t * t;
-    const vector_f angle = t + t * z * (-0.33333333279242233f + z * (0.19999977254347343f + z * (-0.14284150959481018f + z * (0.11071360682318138f + z * (-0.08624643784438366f + z * 0.05048055010223574f)))));
-    const vector_f first = vector_select_f(low > 0.4142135623730951f * high, 0.7853981852531433f + (angle + -2.1855695000931213e-08f), angle);
-    const vector_f second = vector_select_f(a > b, 1.5707963705062866f - (first - -4.3711390001862426e-08f), first);
-    const vector_f third = vector_select_f((vector_to_bits_f(x) & 0x80000000) != 0, 3.1415927410125732f - (second - -8.742278000372485e-08f), second);
-    return vector_signed_f(third, y);
-}
-
-/* Of degree 6, within 2^-28 of that of double precision. */
-INLINE vector_f vector_polynomial_log_det_series_f(vector_f x) {
-    return 0.16666666698842558f + x * (0.01939609403553286f + x * (0.003115455875791959f + x *
-        (0.0005672156396303965f + x * (0.00011962406701481749f + x * (1.265383663821544e-05f + x *
-        1.1287063796917841e-05f)))));
-}
-
-/* Of degree 6, within 2^-27 of that of double precision. */
-INLINE vector_f vector_polynomial_t_over_norm_w_near_f(vector_f x) {
-    return 1.00000000619894f + x * (0.16625190413032676f + x * (0.03317716716973815f + x *
-        (0.007035890983780297f + x * (0.0017176917798953461f + x * (0.00015939746442501272f + x *
-        0.00020289529759782475f)))));
-}
-
 /* Of degree 11, within 2^-29 of that of double precision. */
 INLINE vector_f vector_polynomial_eta_f(vector_f x) {
     return -0.3333333329074172f + x * (-0.15555567514484153f + x * (-0.07512673968454313f + x *
@@ -1071,20 +834,6 @@ INLINE vector_f vector_polynomial_eta_slope_f(vector_f x) {
         (-0.023420697975480978f + x * (0.13766190227481526f + x * (-0.2894962884105508f + x *
         (0.4671003677933079f + x * (-0.49758073887669707f + x * (0.35140202925299413f + x *
         (-0.1460207286663636f + x * 0.028391671210260493f))))))))))));
-}
-
-/* Of degree 7, within 2^-27 of that of double precision. */
-INLINE vector_f vector_polynomial_t_over_norm_w_near_slope_f(vector_f x) {
-    return 0.166252498983116f + x * (0.06633587276024193f + x * (0.02126659841817475f + x *
-        (0.006306643891312201f + x * (0.0017049970358088175f + x * (0.0006452315929490522f + x *
-        (-2.9591250849232477e-05f + x * 0.0001174958124774389f))))));
-}
-
-/* Of degree 7, within 2^-28 of that of double precision. */
-INLINE vector_f vector_polynomial_log_det_series_slope_f(vector_f x) {
-    return 0.019396124953314112f + x * (0.006229950177086295f + x * (0.0017099508786384825f + x *
-        (0.0004488633398675725f + x * (0.00011148142766242262f + x * (3.631933110632547e-05f + x *
-        (-2.054050626290468e-07f + x * 5.692314108989995e-06f))))));
 }
 
 /* What pairs read of points x. */
@@ -1125,63 +874,24 @@ OUTLINE void pair_constants_f(
     const vector_f R1_0 = 1.4142135623730951f * (W1_0 + mu0 * by_normal_part_2);
     const vector_f R1_1 = 1.4142135623730951f * (W1_1 + mu1 * by_normal_part_2);
     const vector_f R1_2 = 1.4142135623730951f * (W1_2 + mu2 * by_normal_part_2);
-    const vector_f norm_q_plus_p = vector_sqrt_f(vector_of_f(0.0f));
-    const vector_mask_f on_cut_locus = norm_q_plus_p <= 4.0f * FLT_EPSILON;
     const vector_f log_value = vector_log_f(vector_of_f(0.7853981633974483f / FLT_EPSILON));
-    const vector_f q0_off_cut = vector_select_f(on_cut_locus, mu0, -mu0);
-    const vector_f d0 = q0_off_cut - mu0;
-    const vector_f q1_off_cut = vector_select_f(on_cut_locus, mu1, -mu1);
-    const vector_f d1 = q1_off_cut - mu1;
-    const vector_f q2_off_cut = vector_select_f(on_cut_locus, mu2, -mu2);
-    const vector_f d2 = q2_off_cut - mu2;
-    const vector_f norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
-    const vector_mask_f near = norm_d_squared < 0.997515f;
-    const vector_f near_chosen = vector_select_f(near, 1.0024911906086624f * norm_d_squared,
-        vector_of_f(0.0f));
-    const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
-    const vector_f log_det_near = norm_d_squared * log_det_series;
-    const vector_f norm_d = vector_sqrt_f(vector_select_f(near, vector_of_f(1.0f), norm_d_squared));
-    const vector_f q_plus_p0_2 = mu0 + q0_off_cut;
-    const vector_f q_plus_p1_2 = mu1 + q1_off_cut;
-    const vector_f q_plus_p2_2 = mu2 + q2_off_cut;
-    const vector_f norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 +
-        q_plus_p2_2 * q_plus_p2_2;
-    const vector_f norm_q_plus_p_2 = vector_sqrt_f(norm_q_plus_p_squared_2);
-    const vector_f atan2_value = vector_atan2_f(norm_d, norm_q_plus_p_2);
-    const vector_f t = 2.0f * atan2_value;
-    const vector_f dot_p_q = mu0 * q0_off_cut + mu1 * q1_off_cut + mu2 * q2_off_cut;
-    const vector_mask_f is_small = dot_p_q < 0.0f;
-    const vector_f e0 = vector_select_f(is_small, q_plus_p0_2, d0);
-    const vector_f e1 = vector_select_f(is_small, q_plus_p1_2, d1);
-    const vector_f e2 = vector_select_f(is_small, q_plus_p2_2, d2);
-    const vector_f dot_p_e = mu0 * e0 + mu1 * e1 + mu2 * e2;
-    const vector_f w0 = e0 - mu0 * dot_p_e;
-    const vector_f w1 = e1 - mu1 * dot_p_e;
-    const vector_f w2 = e2 - mu2 * dot_p_e;
-    const vector_f norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
-    const vector_f norm_w = vector_sqrt_f(vector_select_f(near, vector_of_f(1.0f), norm_w_squared));
-    const vector_f t_ratio = t / norm_w;
-    const vector_f log_det = vector_select_f(near, log_det_near, vector_log_f(t_ratio));
     const vector_f squared = mu0 * mu0;
-    const vector_mask_f is_small_2 = squared < 0.5f;
+    const vector_mask_f is_small = squared < 0.5f;
     const vector_f gap = 1.0f - squared;
-    const vector_f sine_to_axis0 = vector_sqrt_f(vector_select_f(is_small_2, gap, vector_of_f(1.0f)));
+    const vector_f sine_to_axis0 = vector_sqrt_f(vector_select_f(is_small, gap, vector_of_f(1.0f)));
     const vector_f product = mu0 * mu1;
     const vector_f gap_2 = 1.0f - mu1 * mu1;
-    const vector_f sine_to_axis1 = vector_sqrt_f(vector_select_f(is_small_2, vector_of_f(1.0f), gap_2));
-    const vector_f t_over_norm_w_near = vector_polynomial_t_over_norm_w_near_f(near_chosen);
-    const vector_f t_over_norm_w = vector_select_f(near, t_over_norm_w_near, t_ratio);
-    const vector_f chosen = vector_select_f(on_cut_locus, 3.141592653589793f * vector_select_f(is_small_2, gap
-        / sine_to_axis0, -(product / sine_to_axis1)), w0 * t_over_norm_w);
-    const vector_f chosen_2 = vector_select_f(on_cut_locus, 3.141592653589793f * vector_select_f(is_small_2,
-        -(product / sine_to_axis0), gap_2 / sine_to_axis1), w1 * t_over_norm_w);
-    const vector_f product_2 = 3.141592653589793f * vector_select_f(is_small_2, -(mu0 * mu2 / sine_to_axis0),
+    const vector_f sine_to_axis1 = vector_sqrt_f(vector_select_f(is_small, vector_of_f(1.0f), gap_2));
+    const vector_f product_2 = 3.141592653589793f * vector_select_f(is_small, gap / sine_to_axis0, -(product /
+        sine_to_axis1));
+    const vector_f product_3 = 3.141592653589793f * vector_select_f(is_small, -(product / sine_to_axis0),
+        gap_2 / sine_to_axis1);
+    const vector_f product_4 = 3.141592653589793f * vector_select_f(is_small, -(mu0 * mu2 / sine_to_axis0),
         -(mu1 * mu2 / sine_to_axis1));
-    const vector_f chosen_3 = vector_select_f(on_cut_locus, product_2, w2 * t_over_norm_w);
-    const vector_f total_2 = W0_0 * chosen + W0_1 * chosen_2 + W0_2 * chosen_3;
-    const vector_f total_3 = W1_0 * chosen + W1_1 * chosen_2 + W1_2 * chosen_3;
-    const vector_f value_on_cut_locus = vector_exp_f(vector_select_f(on_cut_locus, log_value, log_det) - 0.5f
-        * (total_2 * total_2 + total_3 * total_3));
+    const vector_f total_2 = W0_0 * product_2 + W0_1 * product_3 + W0_2 * product_4;
+    const vector_f total_3 = W1_0 * product_2 + W1_1 * product_3 + W1_2 * product_4;
+    const vector_f value_on_cut_locus = vector_exp_f(log_value - 0.5f * (total_2 * total_2 + total_3 *
+        total_3));
     S[0] = its_amplitude;
     S[1] = M0;
     S[2] = M1;
@@ -1347,8 +1057,6 @@ OUTLINE void pair_constants_vjp_f(
         by_normal_part_2 * product_4 - W1_0 * by_by_normal_part_2;
     const vector_f squared = mu0 * mu0;
     const vector_mask_f is_small = squared < 0.5f;
-    const vector_f norm_q_plus_p = vector_sqrt_f(vector_of_f(0.0f));
-    const vector_mask_f on_cut_locus = norm_q_plus_p <= 4.0f * FLT_EPSILON;
     const vector_f gap_2 = 1.0f - squared;
     const vector_f chosen = vector_select_f(is_small, gap_2, vector_of_f(1.0f));
     const vector_f sine_to_axis0 = vector_sqrt_f(chosen);
@@ -1358,151 +1066,55 @@ OUTLINE void pair_constants_vjp_f(
     const vector_f chosen_2 = vector_select_f(is_small, vector_of_f(1.0f), gap_3);
     const vector_f sine_to_axis1 = vector_sqrt_f(chosen_2);
     const vector_f ratio_2 = product_7 / sine_to_axis1;
-    const vector_f q0_off_cut = vector_select_f(on_cut_locus, mu0, -mu0);
-    const vector_f q1_off_cut = vector_select_f(on_cut_locus, mu1, -mu1);
-    const vector_f q2_off_cut = vector_select_f(on_cut_locus, mu2, -mu2);
-    const vector_f dot_p_q = mu0 * q0_off_cut + mu1 * q1_off_cut + mu2 * q2_off_cut;
-    const vector_mask_f is_small_2 = dot_p_q < 0.0f;
-    const vector_f q_plus_p0_2 = mu0 + q0_off_cut;
-    const vector_f d0 = q0_off_cut - mu0;
-    const vector_f e0 = vector_select_f(is_small_2, q_plus_p0_2, d0);
-    const vector_f q_plus_p1_2 = mu1 + q1_off_cut;
-    const vector_f d1 = q1_off_cut - mu1;
-    const vector_f e1 = vector_select_f(is_small_2, q_plus_p1_2, d1);
-    const vector_f q_plus_p2_2 = mu2 + q2_off_cut;
-    const vector_f d2 = q2_off_cut - mu2;
-    const vector_f e2 = vector_select_f(is_small_2, q_plus_p2_2, d2);
-    const vector_f dot_p_e = mu0 * e0 + mu1 * e1 + mu2 * e2;
-    const vector_f w0 = e0 - mu0 * dot_p_e;
-    const vector_f norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
-    const vector_mask_f near = norm_d_squared < 0.997515f;
-    const vector_f near_chosen = vector_select_f(near, 1.0024911906086624f * norm_d_squared,
-        vector_of_f(0.0f));
-    const vector_f t_over_norm_w_near = vector_polynomial_t_over_norm_w_near_f(near_chosen);
-    const vector_f near_chosen_2 = vector_select_f(near, vector_of_f(1.0f), norm_d_squared);
-    const vector_f norm_d = vector_sqrt_f(near_chosen_2);
-    const vector_f norm_q_plus_p_squared_2 = q_plus_p0_2 * q_plus_p0_2 + q_plus_p1_2 * q_plus_p1_2 +
-        q_plus_p2_2 * q_plus_p2_2;
-    const vector_f norm_q_plus_p_2 = vector_sqrt_f(norm_q_plus_p_squared_2);
-    const vector_f atan2_value = vector_atan2_f(norm_d, norm_q_plus_p_2);
-    const vector_f t = 2.0f * atan2_value;
-    const vector_f w1 = e1 - mu1 * dot_p_e;
-    const vector_f w2 = e2 - mu2 * dot_p_e;
-    const vector_f norm_w_squared = w0 * w0 + w1 * w1 + w2 * w2;
-    const vector_f norm_w = vector_sqrt_f(vector_select_f(near, vector_of_f(1.0f), norm_w_squared));
-    const vector_f t_ratio = t / norm_w;
-    const vector_f t_over_norm_w = vector_select_f(near, t_over_norm_w_near, t_ratio);
-    const vector_f chosen_3 = vector_select_f(on_cut_locus, 3.141592653589793f * vector_select_f(is_small,
-        ratio, -ratio_2), w0 * t_over_norm_w);
+    const vector_f product_8 = 3.141592653589793f * vector_select_f(is_small, ratio, -ratio_2);
     const vector_f ratio_3 = product_7 / sine_to_axis0;
     const vector_f ratio_4 = gap_3 / sine_to_axis1;
-    const vector_f chosen_4 = vector_select_f(on_cut_locus, 3.141592653589793f * vector_select_f(is_small,
-        -ratio_3, ratio_4), w1 * t_over_norm_w);
+    const vector_f product_9 = 3.141592653589793f * vector_select_f(is_small, -ratio_3, ratio_4);
     const vector_f ratio_5 = mu0 * mu2 / sine_to_axis0;
     const vector_f ratio_6 = mu1 * mu2 / sine_to_axis1;
-    const vector_f chosen_5 = vector_select_f(on_cut_locus, 3.141592653589793f * vector_select_f(is_small,
-        -ratio_5, -ratio_6), w2 * t_over_norm_w);
-    const vector_f total_2 = W1_0 * chosen_3 + W1_1 * chosen_4 + W1_2 * chosen_5;
+    const vector_f product_10 = 3.141592653589793f * vector_select_f(is_small, -ratio_5, -ratio_6);
+    const vector_f total_2 = W1_0 * product_8 + W1_1 * product_9 + W1_2 * product_10;
     const vector_f log_value = vector_log_f(vector_of_f(0.7853981633974483f / FLT_EPSILON));
-    const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
-    const vector_f log_det_near = norm_d_squared * log_det_series;
-    const vector_f log_det = vector_select_f(near, log_det_near, vector_log_f(t_ratio));
-    const vector_f total_3 = W0_0 * chosen_3 + W0_1 * chosen_4 + W0_2 * chosen_5;
-    const vector_f value_on_cut_locus = vector_exp_f(vector_select_f(on_cut_locus, log_value, log_det) - 0.5f
-        * (total_3 * total_3 + total_2 * total_2));
-    const vector_f product_8 = value_on_cut_locus * value_on_cut_locus_bar;
-    const vector_f product_9 = total_2 * product_8;
-    const vector_f product_10 = total_3 * product_8;
-    const vector_f gap_4 = -(W1_2 * product_9) - W0_2 * product_10;
-    const vector_f product_11 = 3.141592653589793f * vector_select_f(on_cut_locus, gap_4, vector_of_f(0.0f));
-    const vector_f ratio_7 = vector_select_f(is_small, product_11, vector_of_f(0.0f)) / sine_to_axis0;
-    const vector_f gap_5 = -(W1_1 * product_9) - W0_1 * product_10;
-    const vector_f product_12 = 3.141592653589793f * vector_select_f(on_cut_locus, gap_5, vector_of_f(0.0f));
-    const vector_f ratio_8 = vector_select_f(is_small, product_12, vector_of_f(0.0f)) / sine_to_axis0;
-    const vector_f gap_6 = -(W1_0 * product_9) - W0_0 * product_10;
-    const vector_f product_13 = 3.141592653589793f * vector_select_f(on_cut_locus, gap_6, vector_of_f(0.0f));
-    const vector_f ratio_9 = vector_select_f(is_small, vector_of_f(0.0f), product_13) / sine_to_axis1;
-    const vector_f gap_7 = -ratio_8 - ratio_9;
-    const vector_f ratio_10 = vector_select_f(is_small, product_13, vector_of_f(0.0f)) / sine_to_axis0;
-    const vector_mask_f is_small_3 = chosen == 0.0f;
+    const vector_f total_3 = W0_0 * product_8 + W0_1 * product_9 + W0_2 * product_10;
+    const vector_f value_on_cut_locus = vector_exp_f(log_value - 0.5f * (total_3 * total_3 + total_2 *
+        total_2));
+    const vector_f product_11 = value_on_cut_locus * value_on_cut_locus_bar;
+    const vector_f product_12 = total_2 * product_11;
+    const vector_f product_13 = total_3 * product_11;
+    const vector_f product_14 = 3.141592653589793f * (-(W1_2 * product_12) - W0_2 * product_13);
+    const vector_f ratio_7 = vector_select_f(is_small, product_14, vector_of_f(0.0f)) / sine_to_axis0;
+    const vector_f product_15 = 3.141592653589793f * (-(W1_1 * product_12) - W0_1 * product_13);
+    const vector_f ratio_8 = vector_select_f(is_small, product_15, vector_of_f(0.0f)) / sine_to_axis0;
+    const vector_f product_16 = 3.141592653589793f * (-(W1_0 * product_12) - W0_0 * product_13);
+    const vector_f ratio_9 = vector_select_f(is_small, vector_of_f(0.0f), product_16) / sine_to_axis1;
+    const vector_f gap_4 = -ratio_8 - ratio_9;
+    const vector_f ratio_10 = vector_select_f(is_small, product_16, vector_of_f(0.0f)) / sine_to_axis0;
+    const vector_mask_f is_small_2 = chosen == 0.0f;
     const vector_f by_sine_to_axis0 = ratio_5 * ratio_7 + ratio_3 * ratio_8 - ratio * ratio_10;
-    const vector_f chosen_6 = vector_select_f(is_small, vector_select_f(is_small_3, vector_of_f(0.0f),
-        by_sine_to_axis0 / (2.0f * vector_select_f(is_small_3, vector_of_f(1.0f), sine_to_axis0))),
+    const vector_f chosen_3 = vector_select_f(is_small, vector_select_f(is_small_2, vector_of_f(0.0f),
+        by_sine_to_axis0 / (2.0f * vector_select_f(is_small_2, vector_of_f(1.0f), sine_to_axis0))),
         vector_of_f(0.0f));
-    const vector_f chosen_7 = vector_select_f(on_cut_locus, vector_of_f(0.0f), gap_6);
-    const vector_f chosen_8 = vector_select_f(on_cut_locus, vector_of_f(0.0f), gap_4);
-    const vector_f chosen_9 = vector_select_f(on_cut_locus, vector_of_f(0.0f), gap_5);
-    const vector_f by_t_over_norm_w = w2 * chosen_8 + w1 * chosen_9 + w0 * chosen_7;
-    const vector_f by_log_det = vector_select_f(on_cut_locus, vector_of_f(0.0f), product_8);
-    const vector_f by_t = (vector_select_f(near, vector_of_f(0.0f), by_t_over_norm_w) + vector_select_f(near,
-        vector_of_f(0.0f), by_log_det) / t_ratio) / norm_w;
-    const vector_f by_norm_w_squared = vector_select_f(near, vector_of_f(0.0f), -(t_ratio * by_t / (2.0f *
-        norm_w)));
-    const vector_f product_14 = 2.0f * by_norm_w_squared;
-    const vector_f by_w0 = t_over_norm_w * chosen_7 + w0 * product_14;
-    const vector_f gap_8 = gap - mu2 * ratio_7 + mu1 * gap_7 - mu0 * (2.0f * (ratio_10 + chosen_6)) - dot_p_e
-        * by_w0;
-    const vector_f by_w2 = t_over_norm_w * chosen_8 + w2 * product_14;
-    const vector_f by_w1 = t_over_norm_w * chosen_9 + w1 * product_14;
-    const vector_f by_dot_p_e = -(mu2 * by_w2) - mu1 * by_w1 - mu0 * by_w0;
-    const vector_f by_e0 = by_w0 + mu0 * by_dot_p_e;
-    const vector_mask_f is_small_4 = norm_q_plus_p_squared_2 == 0.0f;
-    const vector_f by_atan2_value = 2.0f * by_t;
-    const vector_f ratio_11 = by_atan2_value / (near_chosen_2 + norm_q_plus_p_squared_2);
-    const vector_f by_norm_q_plus_p_squared_2 = vector_select_f(is_small_4, vector_of_f(0.0f), -(norm_d *
-        ratio_11 / (2.0f * vector_select_f(is_small_4, vector_of_f(1.0f), norm_q_plus_p_2))));
-    const vector_f product_15 = 2.0f * by_norm_q_plus_p_squared_2;
-    const vector_f by_q_plus_p0_2 = vector_select_f(is_small_2, by_e0, vector_of_f(0.0f)) + q_plus_p0_2 *
-        product_15;
-    const vector_f by_norm_d = norm_q_plus_p_2 * ratio_11;
-    const vector_f by_log_det_near = vector_select_f(near, by_log_det, vector_of_f(0.0f));
-    const vector_f by_t_over_norm_w_near = vector_select_f(near, by_t_over_norm_w, vector_of_f(0.0f));
-    const vector_f t_over_norm_w_near_slope = vector_polynomial_t_over_norm_w_near_slope_f(near_chosen);
-    const vector_f by_log_det_series = norm_d_squared * by_log_det_near;
-    const vector_f log_det_series_slope = vector_polynomial_log_det_series_slope_f(near_chosen);
-    const vector_f by_norm_d_squared = vector_select_f(near, vector_of_f(0.0f), by_norm_d / (2.0f * norm_d)) +
-        log_det_series * by_log_det_near + 1.0024911906086624f * vector_select_f(near, by_t_over_norm_w_near *
-        t_over_norm_w_near_slope + by_log_det_series * log_det_series_slope, vector_of_f(0.0f));
-    const vector_f product_16 = 2.0f * by_norm_d_squared;
-    const vector_f by_d0 = vector_select_f(is_small_2, vector_of_f(0.0f), by_e0) + d0 * product_16;
-    const vector_f by_q0_off_cut = by_q_plus_p0_2 + by_d0;
-    const vector_f total_4 = gap_8 + e0 * by_dot_p_e + by_q_plus_p0_2 - by_d0 + vector_select_f(on_cut_locus,
-        by_q0_off_cut, vector_of_f(0.0f));
-    const vector_f gap_9 = 0.5f * M1_bar + by_normal_part * product_2 - W0_1 * by_by_normal_part +
+    const vector_f gap_5 = 0.5f * M1_bar + by_normal_part * product_2 - W0_1 * by_by_normal_part +
         by_normal_part_2 * product_5 - W1_1 * by_by_normal_part_2;
-    const vector_f ratio_12 = vector_select_f(is_small, vector_of_f(0.0f), product_11) / sine_to_axis1;
-    const vector_f ratio_13 = vector_select_f(is_small, vector_of_f(0.0f), product_12) / sine_to_axis1;
-    const vector_mask_f is_small_5 = chosen_2 == 0.0f;
-    const vector_f by_sine_to_axis1 = ratio_6 * ratio_12 - ratio_4 * ratio_13 + ratio_2 * ratio_9;
-    const vector_f chosen_10 = vector_select_f(is_small, vector_of_f(0.0f), vector_select_f(is_small_5,
-        vector_of_f(0.0f), by_sine_to_axis1 / (2.0f * vector_select_f(is_small_5, vector_of_f(1.0f),
+    const vector_f ratio_11 = vector_select_f(is_small, vector_of_f(0.0f), product_14) / sine_to_axis1;
+    const vector_f ratio_12 = vector_select_f(is_small, vector_of_f(0.0f), product_15) / sine_to_axis1;
+    const vector_mask_f is_small_3 = chosen_2 == 0.0f;
+    const vector_f by_sine_to_axis1 = ratio_6 * ratio_11 - ratio_4 * ratio_12 + ratio_2 * ratio_9;
+    const vector_f chosen_4 = vector_select_f(is_small, vector_of_f(0.0f), vector_select_f(is_small_3,
+        vector_of_f(0.0f), by_sine_to_axis1 / (2.0f * vector_select_f(is_small_3, vector_of_f(1.0f),
         sine_to_axis1))));
-    const vector_f total_5 = gap_9 - mu2 * ratio_12 - mu1 * (2.0f * (ratio_13 + chosen_10)) + mu0 * gap_7;
-    const vector_f by_e1 = by_w1 + mu1 * by_dot_p_e;
-    const vector_f by_q_plus_p1_2 = vector_select_f(is_small_2, by_e1, vector_of_f(0.0f)) + q_plus_p1_2 *
-        product_15;
-    const vector_f by_d1 = vector_select_f(is_small_2, vector_of_f(0.0f), by_e1) + d1 * product_16;
-    const vector_f by_d1_gap = total_5 - dot_p_e * by_w1 + e1 * by_dot_p_e + by_q_plus_p1_2 - by_d1;
-    const vector_f by_q1_off_cut = by_q_plus_p1_2 + by_d1;
-    const vector_f gap_10 = 0.5f * M2_bar + by_normal_part * product_3 - W0_2 * by_by_normal_part +
+    const vector_f total_4 = gap_5 - mu2 * ratio_11 - mu1 * (2.0f * (ratio_12 + chosen_4)) + mu0 * gap_4;
+    const vector_f gap_6 = 0.5f * M2_bar + by_normal_part * product_3 - W0_2 * by_by_normal_part +
         by_normal_part_2 * product_6 - W1_2 * by_by_normal_part_2;
-    const vector_f total_6 = gap_10 - mu1 * ratio_12 - mu0 * ratio_7 - dot_p_e * by_w2 + e2 * by_dot_p_e;
-    const vector_f by_e2 = by_w2 + mu2 * by_dot_p_e;
-    const vector_f by_q_plus_p2_2 = vector_select_f(is_small_2, by_e2, vector_of_f(0.0f)) + q_plus_p2_2 *
-        product_15;
-    const vector_f by_d2 = vector_select_f(is_small_2, vector_of_f(0.0f), by_e2) + d2 * product_16;
-    const vector_f by_q2_off_cut = by_q_plus_p2_2 + by_d2;
-    mu_bar[0] = total_4 - vector_select_f(on_cut_locus, vector_of_f(0.0f), by_q0_off_cut);
-    mu_bar[1] = by_d1_gap + vector_select_f(on_cut_locus, by_q1_off_cut, vector_of_f(0.0f)) -
-            vector_select_f(on_cut_locus, vector_of_f(0.0f), by_q1_off_cut);
-    mu_bar[2] = total_6 + by_q_plus_p2_2 - by_d2 + vector_select_f(on_cut_locus, by_q2_off_cut,
-            vector_of_f(0.0f)) - vector_select_f(on_cut_locus, vector_of_f(0.0f), by_q2_off_cut);
-    W_bar[0] = product - mu0 * by_by_normal_part - chosen_3 * product_10;
-    W_bar[1] = product_2 - mu1 * by_by_normal_part - chosen_4 * product_10;
-    W_bar[2] = product_3 - mu2 * by_by_normal_part - chosen_5 * product_10;
-    W_bar[3] = product_4 - mu0 * by_by_normal_part_2 - chosen_3 * product_9;
-    W_bar[4] = product_5 - mu1 * by_by_normal_part_2 - chosen_4 * product_9;
-    W_bar[5] = product_6 - mu2 * by_by_normal_part_2 - chosen_5 * product_9;
+    mu_bar[0] = gap - mu2 * ratio_7 + mu1 * gap_4 - mu0 * (2.0f * (ratio_10 + chosen_3));
+    mu_bar[1] = total_4;
+    mu_bar[2] = gap_6 - mu1 * ratio_11 - mu0 * ratio_7;
+    W_bar[0] = product - mu0 * by_by_normal_part - product_8 * product_13;
+    W_bar[1] = product_2 - mu1 * by_by_normal_part - product_9 * product_13;
+    W_bar[2] = product_3 - mu2 * by_by_normal_part - product_10 * product_13;
+    W_bar[3] = product_4 - mu0 * by_by_normal_part_2 - product_8 * product_12;
+    W_bar[4] = product_5 - mu1 * by_by_normal_part_2 - product_9 * product_12;
+    W_bar[5] = product_6 - mu2 * by_by_normal_part_2 - product_10 * product_12;
     amplitude_bar[0] = its_amplitude_bar;
 }
 
