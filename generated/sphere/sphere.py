@@ -1037,11 +1037,7 @@ class Sphere:
         """The derivatives in mu, W and amplitude from those in S."""
         mu0, mu1, mu2 = mu.unbind(-1)
         W0_0, W0_1, W0_2, W1_0, W1_1, W1_2 = W.flatten(-2).unbind(-1)
-        (
-            amplitude_bar, M0_bar, M1_bar, M2_bar, R0_0_bar, R0_1_bar, R0_2_bar, R1_0_bar, R1_1_bar, R1_2_bar,
-            value_on_cut_locus_bar,
-        ) = S_bar
-        eps = torch.full_like(mu0, torch.finfo(mu0.dtype).eps)
+        amplitude_bar, M0_bar, M1_bar, M2_bar, R0_0_bar, R0_1_bar, R0_2_bar, R1_0_bar, R1_1_bar, R1_2_bar, _ = S_bar
         by_normal_part = -(mu2 * W0_2) - mu1 * W0_1 - mu0 * W0_0
         product = 1.4142135623730951 * R0_0_bar
         product_2 = 1.4142135623730951 * R0_1_bar
@@ -1056,74 +1052,22 @@ class Sphere:
             0.5 * M0_bar + by_normal_part * product - W0_0 * by_by_normal_part + by_normal_part_2 * product_4 - W1_0 *
             by_by_normal_part_2
         )
-        squared = mu0 * mu0
-        is_small = squared < 0.5
-        gap_2 = 1.0 - squared
-        chosen = torch.where(is_small, gap_2, 1.0)
-        sine_to_axis0 = _root(chosen)
-        ratio = gap_2 / sine_to_axis0
-        product_7 = mu0 * mu1
-        gap_3 = 1.0 - mu1 * mu1
-        chosen_2 = torch.where(is_small, 1.0, gap_3)
-        sine_to_axis1 = _root(chosen_2)
-        ratio_2 = product_7 / sine_to_axis1
-        product_8 = 3.141592653589793 * torch.where(is_small, ratio, -ratio_2)
-        ratio_3 = product_7 / sine_to_axis0
-        ratio_4 = gap_3 / sine_to_axis1
-        product_9 = 3.141592653589793 * torch.where(is_small, -ratio_3, ratio_4)
-        ratio_5 = mu0 * mu2 / sine_to_axis0
-        ratio_6 = mu1 * mu2 / sine_to_axis1
-        product_10 = 3.141592653589793 * torch.where(is_small, -ratio_5, -ratio_6)
-        total_2 = W1_0 * product_8 + W1_1 * product_9 + W1_2 * product_10
-        log_value = torch.log(0.7853981633974483 / eps)
-        total_3 = W0_0 * product_8 + W0_1 * product_9 + W0_2 * product_10
-        value_on_cut_locus = torch.exp(log_value - 0.5 * (total_3 * total_3 + total_2 * total_2))
-        product_11 = value_on_cut_locus * value_on_cut_locus_bar
-        product_12 = total_2 * product_11
-        product_13 = total_3 * product_11
-        product_14 = 3.141592653589793 * (-(W1_2 * product_12) - W0_2 * product_13)
-        ratio_7 = torch.where(is_small, product_14, 0.0) / sine_to_axis0
-        product_15 = 3.141592653589793 * (-(W1_1 * product_12) - W0_1 * product_13)
-        ratio_8 = torch.where(is_small, product_15, 0.0) / sine_to_axis0
-        product_16 = 3.141592653589793 * (-(W1_0 * product_12) - W0_0 * product_13)
-        ratio_9 = torch.where(is_small, 0.0, product_16) / sine_to_axis1
-        gap_4 = -ratio_8 - ratio_9
-        ratio_10 = torch.where(is_small, product_16, 0.0) / sine_to_axis0
-        is_small_2 = chosen == 0.0
-        by_sine_to_axis0 = ratio_5 * ratio_7 + ratio_3 * ratio_8 - ratio * ratio_10
-        chosen_3 = torch.where(
-            is_small, torch.where(is_small_2, 0.0, by_sine_to_axis0 / (2.0 * torch.where(is_small_2, 1.0,
-            sine_to_axis0))), 0.0
-        )
-        gap_5 = (
+        gap_2 = (
             0.5 * M1_bar + by_normal_part * product_2 - W0_1 * by_by_normal_part + by_normal_part_2 * product_5 - W1_1 *
             by_by_normal_part_2
         )
-        ratio_11 = torch.where(is_small, 0.0, product_14) / sine_to_axis1
-        ratio_12 = torch.where(is_small, 0.0, product_15) / sine_to_axis1
-        is_small_3 = chosen_2 == 0.0
-        by_sine_to_axis1 = ratio_6 * ratio_11 - ratio_4 * ratio_12 + ratio_2 * ratio_9
-        chosen_4 = torch.where(
-            is_small, 0.0, torch.where(is_small_3, 0.0, by_sine_to_axis1 / (2.0 * torch.where(is_small_3, 1.0,
-            sine_to_axis1)))
-        )
-        total_4 = gap_5 - mu2 * ratio_11 - mu1 * (2.0 * (ratio_12 + chosen_4)) + mu0 * gap_4
-        gap_6 = (
+        gap_3 = (
             0.5 * M2_bar + by_normal_part * product_3 - W0_2 * by_by_normal_part + by_normal_part_2 * product_6 - W1_2 *
             by_by_normal_part_2
         )
-        mu_bar = _stack((
-            gap - mu2 * ratio_7 + mu1 * gap_4 - mu0 * (2.0 * (ratio_10 + chosen_3)),
-            total_4,
-            gap_6 - mu1 * ratio_11 - mu0 * ratio_7,
-        ))
+        mu_bar = _stack((gap, gap_2, gap_3))
         W_bar = _stack((
-            product - mu0 * by_by_normal_part - product_8 * product_13,
-            product_2 - mu1 * by_by_normal_part - product_9 * product_13,
-            product_3 - mu2 * by_by_normal_part - product_10 * product_13,
-            product_4 - mu0 * by_by_normal_part_2 - product_8 * product_12,
-            product_5 - mu1 * by_by_normal_part_2 - product_9 * product_12,
-            product_6 - mu2 * by_by_normal_part_2 - product_10 * product_12,
+            product - mu0 * by_by_normal_part,
+            product_2 - mu1 * by_by_normal_part,
+            product_3 - mu2 * by_by_normal_part,
+            product_4 - mu0 * by_by_normal_part_2,
+            product_5 - mu1 * by_by_normal_part_2,
+            product_6 - mu2 * by_by_normal_part_2,
         ))
         return mu_bar, W_bar.unflatten(-1, (2, 3)), amplitude_bar
 

@@ -378,7 +378,6 @@ OUTLINE void pair_constants_vjp(
     const vector R1_0_bar = S_bar[7];
     const vector R1_1_bar = S_bar[8];
     const vector R1_2_bar = S_bar[9];
-    const vector value_on_cut_locus_bar = S_bar[10];
     const vector by_normal_part = -(mu2 * W0_2) - mu1 * W0_1 - mu0 * W0_0;
     const vector product = 1.4142135623730951 * R0_0_bar;
     const vector product_2 = 1.4142135623730951 * R0_1_bar;
@@ -391,63 +390,19 @@ OUTLINE void pair_constants_vjp(
     const vector by_by_normal_part_2 = mu0 * product_4 + mu1 * product_5 + mu2 * product_6;
     const vector gap = 0.5 * M0_bar + by_normal_part * product - W0_0 * by_by_normal_part + by_normal_part_2 *
         product_4 - W1_0 * by_by_normal_part_2;
-    const vector squared = mu0 * mu0;
-    const vector_mask is_small = squared < 0.5;
-    const vector gap_2 = 1.0 - squared;
-    const vector chosen = vector_select(is_small, gap_2, vector_of(1.0));
-    const vector sine_to_axis0 = vector_sqrt(chosen);
-    const vector ratio = gap_2 / sine_to_axis0;
-    const vector product_7 = mu0 * mu1;
-    const vector gap_3 = 1.0 - mu1 * mu1;
-    const vector chosen_2 = vector_select(is_small, vector_of(1.0), gap_3);
-    const vector sine_to_axis1 = vector_sqrt(chosen_2);
-    const vector ratio_2 = product_7 / sine_to_axis1;
-    const vector product_8 = 3.141592653589793 * vector_select(is_small, ratio, -ratio_2);
-    const vector ratio_3 = product_7 / sine_to_axis0;
-    const vector ratio_4 = gap_3 / sine_to_axis1;
-    const vector product_9 = 3.141592653589793 * vector_select(is_small, -ratio_3, ratio_4);
-    const vector ratio_5 = mu0 * mu2 / sine_to_axis0;
-    const vector ratio_6 = mu1 * mu2 / sine_to_axis1;
-    const vector product_10 = 3.141592653589793 * vector_select(is_small, -ratio_5, -ratio_6);
-    const vector total_2 = W1_0 * product_8 + W1_1 * product_9 + W1_2 * product_10;
-    const vector log_value = vector_log(vector_of(0.7853981633974483 / DBL_EPSILON));
-    const vector total_3 = W0_0 * product_8 + W0_1 * product_9 + W0_2 * product_10;
-    const vector value_on_cut_locus = vector_exp(log_value - 0.5 * (total_3 * total_3 + total_2 * total_2));
-    const vector product_11 = value_on_cut_locus * value_on_cut_locus_bar;
-    const vector product_12 = total_2 * product_11;
-    const vector product_13 = total_3 * product_11;
-    const vector product_14 = 3.141592653589793 * (-(W1_2 * product_12) - W0_2 * product_13);
-    const vector ratio_7 = vector_select(is_small, product_14, vector_of(0.0)) / sine_to_axis0;
-    const vector product_15 = 3.141592653589793 * (-(W1_1 * product_12) - W0_1 * product_13);
-    const vector ratio_8 = vector_select(is_small, product_15, vector_of(0.0)) / sine_to_axis0;
-    const vector product_16 = 3.141592653589793 * (-(W1_0 * product_12) - W0_0 * product_13);
-    const vector ratio_9 = vector_select(is_small, vector_of(0.0), product_16) / sine_to_axis1;
-    const vector gap_4 = -ratio_8 - ratio_9;
-    const vector ratio_10 = vector_select(is_small, product_16, vector_of(0.0)) / sine_to_axis0;
-    const vector_mask is_small_2 = chosen == 0.0;
-    const vector by_sine_to_axis0 = ratio_5 * ratio_7 + ratio_3 * ratio_8 - ratio * ratio_10;
-    const vector chosen_3 = vector_select(is_small, vector_select(is_small_2, vector_of(0.0), by_sine_to_axis0
-        / (2.0 * vector_select(is_small_2, vector_of(1.0), sine_to_axis0))), vector_of(0.0));
-    const vector gap_5 = 0.5 * M1_bar + by_normal_part * product_2 - W0_1 * by_by_normal_part +
+    const vector gap_2 = 0.5 * M1_bar + by_normal_part * product_2 - W0_1 * by_by_normal_part +
         by_normal_part_2 * product_5 - W1_1 * by_by_normal_part_2;
-    const vector ratio_11 = vector_select(is_small, vector_of(0.0), product_14) / sine_to_axis1;
-    const vector ratio_12 = vector_select(is_small, vector_of(0.0), product_15) / sine_to_axis1;
-    const vector_mask is_small_3 = chosen_2 == 0.0;
-    const vector by_sine_to_axis1 = ratio_6 * ratio_11 - ratio_4 * ratio_12 + ratio_2 * ratio_9;
-    const vector chosen_4 = vector_select(is_small, vector_of(0.0), vector_select(is_small_3, vector_of(0.0),
-        by_sine_to_axis1 / (2.0 * vector_select(is_small_3, vector_of(1.0), sine_to_axis1))));
-    const vector total_4 = gap_5 - mu2 * ratio_11 - mu1 * (2.0 * (ratio_12 + chosen_4)) + mu0 * gap_4;
-    const vector gap_6 = 0.5 * M2_bar + by_normal_part * product_3 - W0_2 * by_by_normal_part +
+    const vector gap_3 = 0.5 * M2_bar + by_normal_part * product_3 - W0_2 * by_by_normal_part +
         by_normal_part_2 * product_6 - W1_2 * by_by_normal_part_2;
-    mu_bar[0] = gap - mu2 * ratio_7 + mu1 * gap_4 - mu0 * (2.0 * (ratio_10 + chosen_3));
-    mu_bar[1] = total_4;
-    mu_bar[2] = gap_6 - mu1 * ratio_11 - mu0 * ratio_7;
-    W_bar[0] = product - mu0 * by_by_normal_part - product_8 * product_13;
-    W_bar[1] = product_2 - mu1 * by_by_normal_part - product_9 * product_13;
-    W_bar[2] = product_3 - mu2 * by_by_normal_part - product_10 * product_13;
-    W_bar[3] = product_4 - mu0 * by_by_normal_part_2 - product_8 * product_12;
-    W_bar[4] = product_5 - mu1 * by_by_normal_part_2 - product_9 * product_12;
-    W_bar[5] = product_6 - mu2 * by_by_normal_part_2 - product_10 * product_12;
+    mu_bar[0] = gap;
+    mu_bar[1] = gap_2;
+    mu_bar[2] = gap_3;
+    W_bar[0] = product - mu0 * by_by_normal_part;
+    W_bar[1] = product_2 - mu1 * by_by_normal_part;
+    W_bar[2] = product_3 - mu2 * by_by_normal_part;
+    W_bar[3] = product_4 - mu0 * by_by_normal_part_2;
+    W_bar[4] = product_5 - mu1 * by_by_normal_part_2;
+    W_bar[5] = product_6 - mu2 * by_by_normal_part_2;
     amplitude_bar[0] = its_amplitude_bar;
 }
 
@@ -1042,7 +997,6 @@ OUTLINE void pair_constants_vjp_f(
     const vector_f R1_0_bar = S_bar[7];
     const vector_f R1_1_bar = S_bar[8];
     const vector_f R1_2_bar = S_bar[9];
-    const vector_f value_on_cut_locus_bar = S_bar[10];
     const vector_f by_normal_part = -(mu2 * W0_2) - mu1 * W0_1 - mu0 * W0_0;
     const vector_f product = 1.4142135623730951f * R0_0_bar;
     const vector_f product_2 = 1.4142135623730951f * R0_1_bar;
@@ -1055,66 +1009,19 @@ OUTLINE void pair_constants_vjp_f(
     const vector_f by_by_normal_part_2 = mu0 * product_4 + mu1 * product_5 + mu2 * product_6;
     const vector_f gap = 0.5f * M0_bar + by_normal_part * product - W0_0 * by_by_normal_part +
         by_normal_part_2 * product_4 - W1_0 * by_by_normal_part_2;
-    const vector_f squared = mu0 * mu0;
-    const vector_mask_f is_small = squared < 0.5f;
-    const vector_f gap_2 = 1.0f - squared;
-    const vector_f chosen = vector_select_f(is_small, gap_2, vector_of_f(1.0f));
-    const vector_f sine_to_axis0 = vector_sqrt_f(chosen);
-    const vector_f ratio = gap_2 / sine_to_axis0;
-    const vector_f product_7 = mu0 * mu1;
-    const vector_f gap_3 = 1.0f - mu1 * mu1;
-    const vector_f chosen_2 = vector_select_f(is_small, vector_of_f(1.0f), gap_3);
-    const vector_f sine_to_axis1 = vector_sqrt_f(chosen_2);
-    const vector_f ratio_2 = product_7 / sine_to_axis1;
-    const vector_f product_8 = 3.141592653589793f * vector_select_f(is_small, ratio, -ratio_2);
-    const vector_f ratio_3 = product_7 / sine_to_axis0;
-    const vector_f ratio_4 = gap_3 / sine_to_axis1;
-    const vector_f product_9 = 3.141592653589793f * vector_select_f(is_small, -ratio_3, ratio_4);
-    const vector_f ratio_5 = mu0 * mu2 / sine_to_axis0;
-    const vector_f ratio_6 = mu1 * mu2 / sine_to_axis1;
-    const vector_f product_10 = 3.141592653589793f * vector_select_f(is_small, -ratio_5, -ratio_6);
-    const vector_f total_2 = W1_0 * product_8 + W1_1 * product_9 + W1_2 * product_10;
-    const vector_f log_value = vector_log_f(vector_of_f(0.7853981633974483f / FLT_EPSILON));
-    const vector_f total_3 = W0_0 * product_8 + W0_1 * product_9 + W0_2 * product_10;
-    const vector_f value_on_cut_locus = vector_exp_f(log_value - 0.5f * (total_3 * total_3 + total_2 *
-        total_2));
-    const vector_f product_11 = value_on_cut_locus * value_on_cut_locus_bar;
-    const vector_f product_12 = total_2 * product_11;
-    const vector_f product_13 = total_3 * product_11;
-    const vector_f product_14 = 3.141592653589793f * (-(W1_2 * product_12) - W0_2 * product_13);
-    const vector_f ratio_7 = vector_select_f(is_small, product_14, vector_of_f(0.0f)) / sine_to_axis0;
-    const vector_f product_15 = 3.141592653589793f * (-(W1_1 * product_12) - W0_1 * product_13);
-    const vector_f ratio_8 = vector_select_f(is_small, product_15, vector_of_f(0.0f)) / sine_to_axis0;
-    const vector_f product_16 = 3.141592653589793f * (-(W1_0 * product_12) - W0_0 * product_13);
-    const vector_f ratio_9 = vector_select_f(is_small, vector_of_f(0.0f), product_16) / sine_to_axis1;
-    const vector_f gap_4 = -ratio_8 - ratio_9;
-    const vector_f ratio_10 = vector_select_f(is_small, product_16, vector_of_f(0.0f)) / sine_to_axis0;
-    const vector_mask_f is_small_2 = chosen == 0.0f;
-    const vector_f by_sine_to_axis0 = ratio_5 * ratio_7 + ratio_3 * ratio_8 - ratio * ratio_10;
-    const vector_f chosen_3 = vector_select_f(is_small, vector_select_f(is_small_2, vector_of_f(0.0f),
-        by_sine_to_axis0 / (2.0f * vector_select_f(is_small_2, vector_of_f(1.0f), sine_to_axis0))),
-        vector_of_f(0.0f));
-    const vector_f gap_5 = 0.5f * M1_bar + by_normal_part * product_2 - W0_1 * by_by_normal_part +
+    const vector_f gap_2 = 0.5f * M1_bar + by_normal_part * product_2 - W0_1 * by_by_normal_part +
         by_normal_part_2 * product_5 - W1_1 * by_by_normal_part_2;
-    const vector_f ratio_11 = vector_select_f(is_small, vector_of_f(0.0f), product_14) / sine_to_axis1;
-    const vector_f ratio_12 = vector_select_f(is_small, vector_of_f(0.0f), product_15) / sine_to_axis1;
-    const vector_mask_f is_small_3 = chosen_2 == 0.0f;
-    const vector_f by_sine_to_axis1 = ratio_6 * ratio_11 - ratio_4 * ratio_12 + ratio_2 * ratio_9;
-    const vector_f chosen_4 = vector_select_f(is_small, vector_of_f(0.0f), vector_select_f(is_small_3,
-        vector_of_f(0.0f), by_sine_to_axis1 / (2.0f * vector_select_f(is_small_3, vector_of_f(1.0f),
-        sine_to_axis1))));
-    const vector_f total_4 = gap_5 - mu2 * ratio_11 - mu1 * (2.0f * (ratio_12 + chosen_4)) + mu0 * gap_4;
-    const vector_f gap_6 = 0.5f * M2_bar + by_normal_part * product_3 - W0_2 * by_by_normal_part +
+    const vector_f gap_3 = 0.5f * M2_bar + by_normal_part * product_3 - W0_2 * by_by_normal_part +
         by_normal_part_2 * product_6 - W1_2 * by_by_normal_part_2;
-    mu_bar[0] = gap - mu2 * ratio_7 + mu1 * gap_4 - mu0 * (2.0f * (ratio_10 + chosen_3));
-    mu_bar[1] = total_4;
-    mu_bar[2] = gap_6 - mu1 * ratio_11 - mu0 * ratio_7;
-    W_bar[0] = product - mu0 * by_by_normal_part - product_8 * product_13;
-    W_bar[1] = product_2 - mu1 * by_by_normal_part - product_9 * product_13;
-    W_bar[2] = product_3 - mu2 * by_by_normal_part - product_10 * product_13;
-    W_bar[3] = product_4 - mu0 * by_by_normal_part_2 - product_8 * product_12;
-    W_bar[4] = product_5 - mu1 * by_by_normal_part_2 - product_9 * product_12;
-    W_bar[5] = product_6 - mu2 * by_by_normal_part_2 - product_10 * product_12;
+    mu_bar[0] = gap;
+    mu_bar[1] = gap_2;
+    mu_bar[2] = gap_3;
+    W_bar[0] = product - mu0 * by_by_normal_part;
+    W_bar[1] = product_2 - mu1 * by_by_normal_part;
+    W_bar[2] = product_3 - mu2 * by_by_normal_part;
+    W_bar[3] = product_4 - mu0 * by_by_normal_part_2;
+    W_bar[4] = product_5 - mu1 * by_by_normal_part_2;
+    W_bar[5] = product_6 - mu2 * by_by_normal_part_2;
     amplitude_bar[0] = its_amplitude_bar;
 }
 

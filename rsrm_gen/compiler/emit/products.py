@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 from rsrm_gen.compiler.lower import Node, Routine
 
@@ -25,7 +26,7 @@ class Products:
     factors: tuple[Node, ...]
     terms: dict[int, tuple[Term, ...]]
 
-    @property
+    @cached_property
     def groups(self) -> list[list[int]]:
         """Results that are added up together: each joins the group to which it adds the fewest factors."""
         left, groups = list(self.terms), []

@@ -95,7 +95,11 @@ def pairs_of(graph: Graph, splat: SplatNodes, slope_to_gradient: Callable[[Graph
     inputs = {a: b for p, q in zip(own, parts, strict=True) for a, b in zip(p.nodes, q.nodes, strict=True)}
     again = copied(graph, splats, S_nodes, inputs)
     s_bar = _like(splats, "S_bar", s)
-    by = iter(gradient(splats, dot(splats, again, s_bar.nodes), [n for p in parts for n in p.nodes]))
+    # What nothing of a pair is differentiated in has an adjoint of zero, also where its own derivative overflows.
+    reached = [
+        (value, bar) for value, bar, of_pair in zip(again, s_bar.nodes, bars, strict=True) if not of_pair.is_number(0)
+    ]
+    by = iter(gradient(splats, dot(splats, *zip(*reached, strict=True)), [n for p in parts for n in p.nodes]))
     own_bars = {f"{p.name}_bar": [next(by) for _ in p.nodes] for p in parts}
 
     return Pairs(
