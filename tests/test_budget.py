@@ -92,7 +92,7 @@ def test_a_thread_has_no_part_in_the_budget_of_another() -> None:
 def test_bundled_manifolds_take_a_small_part_of_the_budget(name: str) -> None:
     with limited("derive", 60, budget.OPERATIONS // 100):
         geometry = derive(bundled_spec(name))
-    with limited("lower", 60, budget.OPERATIONS // 100):
+    with limited("lower", 60, budget.OPERATIONS // 40):
         lower(geometry)
 
 

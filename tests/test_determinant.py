@@ -11,7 +11,7 @@ import pytest
 from compiled import MANIFOLDS, geometry, program, spec_of
 
 from rsrm_gen.compiler.derive import Geometry, derive
-from rsrm_gen.compiler.derive.closed_form import _rational
+from rsrm_gen.compiler.derive.closed_form import rational
 from rsrm_gen.compiler.derive.numeric import run
 from rsrm_gen.compiler.lower import interpret, lower
 from rsrm_gen.errors import UserError
@@ -101,9 +101,9 @@ def test_of_equal_closed_forms_the_accurate_one_is_taken() -> None:
 
 
 def test_exponents_are_simple_fractions_or_none() -> None:
-    assert str(_rational(mp.mpf(3) / 2)) == "3/2"
-    assert _rational(mp.sqrt(2)) is None
-    assert _rational(mp.mpf(1) / 7) is None
+    assert str(rational(mp.mpf(3) / 2)) == "3/2"
+    assert rational(mp.sqrt(2)) is None
+    assert rational(mp.mpf(1) / 7) is None
 
 
 # What is eliminated.

@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from rsrm_gen.errors import Span, UserError
 
 SECONDS = 60.0
-OPERATIONS = 1_000_000  # bundled manifolds take up to 7,300 of one stage (so3_matrix, derive)
+OPERATIONS = 1_000_000  # bundled manifolds take up to 15,000 of one stage (dual_arm, lower)
 HINT = "write it with fewer operations, name parts that are used twice with `let`, give `log_det:` in closed form"
 
 

@@ -7,6 +7,7 @@ and n x n numbers whose columns are the eigenvectors.
 from __future__ import annotations
 
 import itertools
+import re
 from collections.abc import Iterable, Sequence
 
 from rsrm_gen.compiler.derive.matrix_numeric import places
@@ -60,7 +61,7 @@ def _function(name: str, n: int, order: int) -> str:
 
 def _spelled(text: str, precision: Precision) -> str:
     """The text in a precision: T is the type, @ ends the names of functions, numbers end in %."""
-    text = text.replace("T_", precision.type + " ").replace("@", precision.tag)
+    text = re.sub(r"\bT_", precision.type + " ", text).replace("@", precision.tag)
     return text.replace("%", precision.suffix).strip("\n")
 
 

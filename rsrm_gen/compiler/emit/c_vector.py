@@ -7,6 +7,7 @@ a number: only what depends on a vector is one.
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Iterable, Mapping, Sequence
 
@@ -96,7 +97,7 @@ TAKEN = {"LANES", "LANES_f", "LANE", "SELECT", "INLINE", "OUTLINE", "OMP", "ZERO
 
 def spelled(text: str, precision: Precision) -> str:
     """The text in a precision: T is the type, @ ends the names of functions, numbers end in %."""
-    text = text.replace("T_", precision.type + " ").replace("@", precision.tag)
+    text = re.sub(r"\bT_", precision.type + " ", text).replace("@", precision.tag)
     return text.replace("%", precision.suffix).strip("\n")
 
 

@@ -200,7 +200,7 @@ class Graph:
 
     def div(self, x: Node, y: Node) -> Node:
         """x / y."""
-        if y.is_constant:
+        if y.is_constant and not y.is_number(0):
             return self.mul(self.constant(1 / y.value), x)  # type: ignore[operator]
         if x.is_number(0):
             return x
