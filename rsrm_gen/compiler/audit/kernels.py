@@ -95,9 +95,8 @@ def _call(
 ) -> None:
     c_function = getattr(library, f"{name}_{function}" + ("_f" if precision == "float32" else ""))
     work = scratch(library, name, POINTS, SPLATS, 1, PRECISIONS[precision][0])
-    pointers = [*map(pointer, inputs), *map(pointer, (*outputs, work))]
-    if function in CULLED:
-        pointers.insert(4, ctypes.c_void_p())  # no width: nothing is left out
+    width = [None] if function in CULLED else []  # nothing is left out
+    pointers = map(pointer, (*inputs[:4], *width, *inputs[4:], *outputs, work))
     c_function(ctypes.c_size_t(POINTS), ctypes.c_size_t(SPLATS), *pointers, ctypes.c_int(1))
 
 

@@ -44,8 +44,8 @@ CHUNK = 1 << 17  # bytes of points that pass together backward: what stays in th
 
 PROMISES = {
     "splats_work": "How many numbers of scratch memory the functions below need, for these sizes or smaller ones.",
-    "splats_order": "An order of the points in which neighbours are near each other, for sums that leave far pairs out; returns about\n"
-    " * which part of the pairs is summed then. If that is more than `limit`, the points may be in any order.",
+    "splats_order": "An order of the points in which neighbours are near each other, for sums that leave far pairs out.\n"
+    " * Returns about which part of the pairs is summed then; if that is more than `limit`, the order may be any.",
     "splats": "The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4).$",
     "splats_value": "The values of the sums alone.$",
     "splats_vjp": "The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude.$",
@@ -295,7 +295,7 @@ def _group(products: Products, number: int, z: Sizes, over_points: bool) -> str:
     target = "total" if over_points else "S_bar"
     step = f"{call}(factor, point, sum);"
     if over_points:
-        step = f"for (size_t b = 0; b < size; ++b) {call}(factor + $nF * b, point + {z.point} * b, sum);"
+        step = f"for (size_t b = 0; b < size; ++b) {call}(factor + $nF * b, points + {z.point} * (size_t)near[b], sum);"
     adds = [f"{target}[{i}] += sum[{j}];" for j, i in enumerate(group)]
     return "{\n" + indented([f"vector@ sum[{len(group)}] = {{ZERO}};", step, *adds], 4) + "\n}"
 
