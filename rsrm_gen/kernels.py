@@ -160,12 +160,12 @@ class SplatKernel:
         if _is_traced(tensors):
             result = torch.ops.rsrm_gen.splats(self.key, *tensors)
         elif _wants_gradient(tensors):
-            result = _Splats.apply(self, self.near(*tensors, width), *tensors)  # type: ignore[no-untyped-call]
+            result = _Splats.apply(self, self.near(*tensors, width=width), *tensors)  # type: ignore[no-untyped-call]
         else:
-            result = self.forward(*tensors, near=self.near(*tensors, width))
+            result = self.forward(*tensors, near=self.near(*tensors, width=width))
         return result
 
-    def near(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, width: Tensor | None) -> Near | None:
+    def near(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, *, width: Tensor | None) -> Near | None:
         """How far pairs are left out; None where that does not pay, or nobody knows how wide the splats are.
 
         It follows from the tensors alone, whatever was summed before and however many threads there are.
@@ -215,7 +215,7 @@ class SplatKernel:
         return self.rows(*tensors)
 
     def forward(
-        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, near: Near | None = None
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, *, near: Near | None = None
     ) -> tuple[Tensor, Tensor]:
         """The C function `splats`."""
         results = x.new_empty(x.shape[0]), x.new_empty(x.shape[0], self.sizes[2])
@@ -239,6 +239,7 @@ class SplatKernel:
         amplitude: Tensor,
         value_bar: Tensor,
         gradient_bar: Tensor,
+        *,
         near: Near | None = None,
     ) -> tuple[Tensor, Tensor, Tensor]:
         """The C function `splats_vjp`."""
