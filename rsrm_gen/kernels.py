@@ -16,6 +16,7 @@ import hashlib
 import logging
 import os
 import threading
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
@@ -31,22 +32,29 @@ Choice = Literal["auto", "c", "torch"]
 
 DTYPES = {torch.float64: "", torch.float32: "_f"}  # to the ending of the C functions' names
 WORTH_A_THREAD = 2**15  # pairs of a point and a splat
+WORTH_A_LOOK = 2**16  # of them, below which nobody asks how many are far apart
+WORTH_CULLING = 0.7  # the part of the pairs that are near up to which it is faster to leave out the others
 
 log = logging.getLogger("rsrm_gen")
 
 
-def accelerated(manifold: Manifold, folder: Path, always: bool = False) -> Manifold:
+def accelerated(manifold: Manifold, folder: Path, always: bool = False, culling: str = "auto") -> Manifold:
     """The same manifold, its sums of splats by the C kernel in `folder`; the compiler runs when one is first called.
 
-    What C cannot do is done in torch, or is a `UserError` if C is wanted `always`.
+    What C cannot do is done in torch, or is a `UserError` if C is wanted `always`. `culling` says whether pairs too far apart
+    to count are left out of sums that are given widths: "on", "off", or "auto", which is where it pays.
     """
-    kernel = SplatKernel(manifold, folder)
+    kernel = SplatKernel(manifold, folder, culling)
     generated = type(manifold)
 
     class Accelerated(generated):  # type: ignore[misc,valid-type]
-        def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+        sums = kernel
+
+        def splats(
+            self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, width: Tensor | None = None
+        ) -> tuple[Tensor, Tensor]:
             if self._runs_in_c(x, mu, W, amplitude):
-                return kernel.splats(x, mu, W, amplitude)
+                return kernel.splats(x, mu, W, amplitude, width=width)
             value, gradient = super().splats(x, mu, W, amplitude)
             return value, gradient
 
@@ -92,8 +100,9 @@ def accelerated(manifold: Manifold, folder: Path, always: bool = False) -> Manif
 class SplatKernel:
     """The C functions of a manifold, called with as many threads as torch would take. Safe to call from any thread."""
 
-    def __init__(self, manifold: Manifold, folder: Path) -> None:
+    def __init__(self, manifold: Manifold, folder: Path, culling: str = "auto") -> None:
         self.name = folder.name
+        self.culling = culling
         self.sizes = manifold.point_size, manifold.dim, manifold.tangent_size
         self.files = {path.name: path.read_text(encoding="utf-8") for path in folder.glob("*.[ch]")}
         self.key = f"{self.name}_{hashlib.sha256(self.files[self.source].encode()).hexdigest()[:16]}"
@@ -101,6 +110,7 @@ class SplatKernel:
         self.compiling = threading.Lock()
         self.scratch = threading.local()  # memory of each calling thread
         self.said: set[str] = set()
+        self.decided: set[bool] = set()  # whether the log has said that far pairs were left out, and that they were not
         _KERNELS[self.key] = self
 
     @property
@@ -144,16 +154,47 @@ class SplatKernel:
                 return f"x is on the CPU and another tensor on {tensor.device}"
         return None
 
-    def splats(self, *tensors: Tensor) -> tuple[Tensor, Tensor]:
-        """Values (N,) and gradients (N, T)."""
+    def splats(self, *tensors: Tensor, width: Tensor | None = None) -> tuple[Tensor, Tensor]:
+        """Values (N,) and gradients (N, T); with widths (K,) without far pairs where that pays, but not while traced."""
         result: tuple[Tensor, Tensor]
         if _is_traced(tensors):
             result = torch.ops.rsrm_gen.splats(self.key, *tensors)
         elif _wants_gradient(tensors):
-            result = _Splats.apply(self, *tensors)  # type: ignore[no-untyped-call]
+            result = _Splats.apply(self, self.near(*tensors, width=width), *tensors)  # type: ignore[no-untyped-call]
         else:
-            result = self.forward(*tensors)
+            result = self.forward(*tensors, near=self.near(*tensors, width=width))
         return result
+
+    def near(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, *, width: Tensor | None) -> Near | None:
+        """How far pairs are left out; None where that does not pay, or nobody knows how wide the splats are.
+
+        It follows from the tensors alone, whatever was summed before and however many threads there are.
+        """
+        if width is None or self.culling == "off" or (self.culling == "auto" and len(x) * len(mu) < WORTH_A_LOOK):
+            return None
+        if width.shape != amplitude.shape:
+            raise ValueError(
+                f"width has shape {tuple(width.shape)}; with {len(mu)} splats it is {tuple(amplitude.shape)}"
+            )
+        width = width.detach().to(x).contiguous()
+        limit = 1.0 if self.culling == "on" else WORTH_CULLING
+        share, order = self.ordered(x, mu, amplitude, width, limit)
+        culls = share <= limit
+        if culls not in self.decided:
+            self.decided.add(culls)
+            pairs = f"about {share:.0%} of the pairs, the near ones" if culls else "all pairs, near and far"
+            log.info("%s: sums of splats over %s", self.name, pairs)
+        return Near(width, order) if culls else None
+
+    def ordered(self, x: Tensor, mu: Tensor, amplitude: Tensor, width: Tensor, limit: float) -> tuple[float, Tensor]:
+        """The C function `splats_order`: about which part of the pairs is near, and the order of the points (N,) for that."""
+        rows = [tensor.detach().contiguous() for tensor in (x, mu, amplitude, width)]
+        order = torch.empty(x.shape[0], dtype=torch.int64)
+        work = self.work(x.dtype, x.shape[0], mu.shape[0], 1)
+        addresses = [tensor.data_ptr() for tensor in rows]
+        function = self.function("splats_order", x.dtype)
+        share: float = function(x.shape[0], mu.shape[0], *addresses, limit, order.data_ptr(), work.data_ptr())
+        return share, order
 
     def splats_value(self, *tensors: Tensor) -> Tensor:
         """Values (N,)."""
@@ -173,24 +214,41 @@ class SplatKernel:
             return result
         return self.rows(*tensors)
 
-    def forward(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+    def forward(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, *, near: Near | None = None
+    ) -> tuple[Tensor, Tensor]:
         """The C function `splats`."""
         results = x.new_empty(x.shape[0]), x.new_empty(x.shape[0], self.sizes[2])
-        self.call("splats", (x, mu, W, amplitude), results)
-        return results
+        if near is None:
+            self.call("splats", (x, mu, W, amplitude, None), results)
+            return results
+        self.call("splats", (x[near.order], mu, W, amplitude, near.width), results)
+        return near.put_back(results[0]), near.put_back(results[1])
 
     def value(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> Tensor:
         """The C function `splats_value`."""
         result = x.new_empty(x.shape[0])
-        self.call("splats_value", (x, mu, W, amplitude), (result,))
+        self.call("splats_value", (x, mu, W, amplitude, None), (result,))
         return result
 
     def vjp(
-        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, value_bar: Tensor, gradient_bar: Tensor
+        self,
+        x: Tensor,
+        mu: Tensor,
+        W: Tensor,
+        amplitude: Tensor,
+        value_bar: Tensor,
+        gradient_bar: Tensor,
+        *,
+        near: Near | None = None,
     ) -> tuple[Tensor, Tensor, Tensor]:
         """The C function `splats_vjp`."""
         results = mu.new_empty(mu.shape), W.new_empty(W.shape), amplitude.new_empty(amplitude.shape)
-        self.call("splats_vjp", (x, mu, W, amplitude, value_bar, gradient_bar), results)
+        width = None
+        if near is not None:
+            x, value_bar, gradient_bar = (tensor[near.order] for tensor in (x, value_bar, gradient_bar))
+            width = near.width
+        self.call("splats_vjp", (x, mu, W, amplitude, width, value_bar, gradient_bar), results)
         return results
 
     def rows(
@@ -201,13 +259,16 @@ class SplatKernel:
         self.call("splats_rows", (x, mu, W, amplitude, value_bar, gradient_bar), (result,))
         return result
 
-    def call(self, name: str, inputs: tuple[Tensor, ...], results: tuple[Tensor, ...]) -> None:
-        """One C function, which fills the results; ctypes lets other Python threads run meanwhile."""
-        dtype, points, splats = inputs[0].dtype, inputs[0].shape[0], inputs[1].shape[0]
+    def call(self, name: str, inputs: tuple[Tensor | None, ...], results: tuple[Tensor, ...]) -> None:
+        """One C function, which fills the results; None is NULL. ctypes lets other Python threads run meanwhile."""
+        x, mu = inputs[:2]
+        assert x is not None
+        assert mu is not None
+        dtype, points, splats = x.dtype, x.shape[0], mu.shape[0]
         threads = _threads(points * splats)
-        rows = [tensor.contiguous() for tensor in inputs]  # kept until C is done with them
+        rows = [None if tensor is None else tensor.contiguous() for tensor in inputs]  # kept until C is done with them
         work = self.work(dtype, points, splats, threads)
-        addresses = [tensor.data_ptr() for tensor in (*rows, *results, work)]
+        addresses = [None if tensor is None else tensor.data_ptr() for tensor in (*rows, *results, work)]
         self.function(name, dtype)(points, splats, *addresses, threads)
 
     def work(self, dtype: torch.dtype, points: int, splats: int, threads: int) -> Any:
@@ -242,10 +303,27 @@ class SplatKernel:
                     function.argtypes = [size, size, *[pointer] * pointers, number]
                     function.restype = None if pointers else size
                     self.functions[name, dtype] = function
+            for dtype, ending in DTYPES.items():
+                function = getattr(library, f"{self.name}_splats_order{ending}")
+                function.argtypes = [size, size, *[pointer] * 4, ctypes.c_double, pointer, pointer]
+                function.restype = ctypes.c_double
+                self.functions["splats_order", dtype] = function
+
+
+@dataclass(frozen=True)
+class Near:
+    """What leaves far pairs out: how wide splats are (K,), and an order of the points (N,) in which neighbours are near."""
+
+    width: Tensor
+    order: Tensor
+
+    def put_back(self, rows: Tensor) -> Tensor:
+        """Rows in that order, as the points were."""
+        return torch.empty_like(rows).index_copy_(0, self.order, rows)
 
 
 # The C functions, and how many addresses each takes.
-_POINTERS = {"splats_work": 0, "splats": 7, "splats_value": 6, "splats_vjp": 10, "splats_rows": 8}
+_POINTERS = {"splats_work": 0, "splats": 8, "splats_value": 7, "splats_vjp": 11, "splats_rows": 8}
 _KERNELS: dict[str, SplatKernel] = {}  # by the keys that operations name them by
 
 
@@ -302,16 +380,16 @@ class _Splats(torch.autograd.Function):
     """The kernel under autograd; differentiable once, in mu, W and amplitude."""
 
     @staticmethod
-    def forward(ctx: Any, kernel: SplatKernel, *tensors: Tensor) -> tuple[Tensor, Tensor]:
+    def forward(ctx: Any, kernel: SplatKernel, near: Near | None, *tensors: Tensor) -> tuple[Tensor, Tensor]:
         """Values and gradients."""
-        ctx.kernel = kernel
+        ctx.kernel, ctx.near = kernel, near
         ctx.save_for_backward(*tensors)  # autograd notices when one is changed before the backward pass
-        return kernel.forward(*tensors)
+        return kernel.forward(*tensors, near=near)
 
     @staticmethod
     def backward(ctx: Any, value_bar: Tensor, gradient_bar: Tensor) -> tuple[Tensor | None, ...]:
         """The derivatives in mu, W and amplitude."""
-        return _derivatives(ctx.kernel, *ctx.saved_tensors, value_bar, gradient_bar)
+        return None, *_derivatives(ctx.kernel, ctx.near, *ctx.saved_tensors, value_bar, gradient_bar)
 
 
 class _Value(torch.autograd.Function):
@@ -328,23 +406,23 @@ class _Value(torch.autograd.Function):
     def backward(ctx: Any, value_bar: Tensor) -> tuple[Tensor | None, ...]:
         """The derivatives in mu, W and amplitude."""
         x, mu, W, amplitude = ctx.saved_tensors
-        return _derivatives(ctx.kernel, x, mu, W, amplitude, value_bar, x.new_zeros(x.shape[0], W.shape[2]))
+        return _derivatives(ctx.kernel, None, x, mu, W, amplitude, value_bar, x.new_zeros(x.shape[0], W.shape[2]))
 
 
-def _derivatives(kernel: SplatKernel, *tensors: Tensor) -> tuple[Tensor | None, ...]:
+def _derivatives(kernel: SplatKernel, near: Near | None, *tensors: Tensor) -> tuple[Tensor | None, ...]:
     """Of kernel, x, mu, W and amplitude."""
     if torch.is_grad_enabled():
-        return None, None, *_Backward.apply(kernel, *tensors)  # type: ignore[no-untyped-call]
-    return None, None, *kernel.vjp(*tensors)
+        return None, None, *_Backward.apply(kernel, near, *tensors)  # type: ignore[no-untyped-call]
+    return None, None, *kernel.vjp(*tensors, near=near)
 
 
 class _Backward(torch.autograd.Function):
     """The backward pass where somebody might differentiate it again, which is an error."""
 
     @staticmethod
-    def forward(ctx: Any, kernel: SplatKernel, *tensors: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+    def forward(ctx: Any, kernel: SplatKernel, near: Near | None, *tensors: Tensor) -> tuple[Tensor, Tensor, Tensor]:
         """The derivatives in mu, W and amplitude."""
-        return kernel.vjp(*tensors)
+        return kernel.vjp(*tensors, near=near)
 
     @staticmethod
     def backward(ctx: Any, *bars: Tensor) -> Any:

@@ -22,11 +22,14 @@ if TYPE_CHECKING:
     from rsrm_gen.compiler.spec import Spec
 
 CHOICES = ("auto", "c", "torch")
+CULLING = ("auto", "on", "off")
 
 log = logging.getLogger("rsrm_gen")
 
 
-def load(manifold: str | Path, kernels: str | None = None, **parameters: int | float | str) -> Manifold:
+def load(
+    manifold: str | Path, kernels: str | None = None, culling: str | None = None, **parameters: int | float | str
+) -> Manifold:
     """The torch object of a bundled manifold (by name) or of a manifold file (by path), its parameters overridden.
 
     Taken from the bundled generated code or from the cache where that is what the file gives today; else compiled and
@@ -34,20 +37,24 @@ def load(manifold: str | Path, kernels: str | None = None, **parameters: int | f
 
     `kernels` says what computes sums of splats: "c", "torch", or "auto", which is C for what C can do; left out, what the
     environment variable RSRM_KERNELS says, or "auto". `Manifold.kernels` tells which it is.
+
+    `culling` says whether C, in sums of splats that are given widths, leaves out the pairs that are too far apart to count:
+    "on", "off", or "auto", which is where it pays; left out, what RSRM_CULLING says, or "auto".
     """
     from rsrm_gen.compiler.spec import read_spec
 
-    choice = _choice(kernels)
+    choice = _choice("kernels", kernels, CHOICES), _choice("culling", culling, CULLING)
     path = manifold_file(manifold)
     spec = read_spec(path, parameters)
-    return _loaded(_generated(spec, path, parameters), spec.content_hash, choice)
+    return _loaded(_generated(spec, path, parameters), spec.content_hash, *choice)
 
 
-def _choice(kernels: str | None) -> str:
-    """What is to compute sums of splats."""
-    chosen, place = (kernels, "kernels") if kernels else (os.environ.get("RSRM_KERNELS") or "auto", "RSRM_KERNELS")
-    if chosen not in CHOICES:
-        raise UserError(f"{place} is `{chosen}`", hint=f"one of {', '.join(CHOICES)}")
+def _choice(name: str, given: str | None, choices: tuple[str, ...]) -> str:
+    """What is given, else what the environment says, else "auto"."""
+    place = name if given else f"RSRM_{name.upper()}"
+    chosen = given or os.environ.get(place) or "auto"
+    if chosen not in choices:
+        raise UserError(f"{place} is `{chosen}`", hint=f"one of {', '.join(choices)}")
     return chosen
 
 
@@ -55,10 +62,10 @@ def load_in_rows(manifold: str | Path, kernels: str | None = None, **parameters:
     """The same, and where no derivative of them is asked for, its functions of points run in C: see `rows.py`."""
     from rsrm_gen.compiler.spec import read_spec
 
-    choice = _choice(kernels)
+    choice = _choice("kernels", kernels, CHOICES), _choice("culling", None, CULLING)
     path = manifold_file(manifold)
     spec = read_spec(path, parameters)
-    return _loaded(_generated(spec, path, parameters), spec.content_hash, choice, in_rows=True)
+    return _loaded(_generated(spec, path, parameters), spec.content_hash, *choice, in_rows=True)
 
 
 def _generated(spec: Spec, path: Path, parameters: Mapping[str, int | float | str]) -> Path:
@@ -75,7 +82,7 @@ def _generated(spec: Spec, path: Path, parameters: Mapping[str, int | float | st
 
 
 @lru_cache
-def _loaded(folder: Path, content_hash: str, choice: str, in_rows: bool = False) -> Manifold:
+def _loaded(folder: Path, content_hash: str, choice: str, culling: str, in_rows: bool = False) -> Manifold:
     # The hash is in the key of the cache alone: a folder that was generated again is another manifold.
     from rsrm_gen.compiler.native import compiler
 
@@ -94,4 +101,4 @@ def _loaded(folder: Path, content_hash: str, choice: str, in_rows: bool = False)
         from rsrm_gen.rows import in_rows as by_rows
 
         manifold = by_rows(manifold, folder)
-    return accelerated(manifold, folder, always=choice == "c")
+    return accelerated(manifold, folder, always=choice == "c", culling=culling)

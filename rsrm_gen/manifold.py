@@ -131,12 +131,17 @@ class Manifold(Protocol):
         """
         ...
 
-    def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+    def splats(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, width: Tensor | None = None
+    ) -> tuple[Tensor, Tensor]:
         """The sum of K splats at N points and its Riemannian gradient (RSRM eq. 4), differentiable once.
 
         Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T). Any floating-point dtype; the derivatives
         are those in mu, W and amplitude. A point that is not finite spoils its own row, and the derivatives, which are
         sums over all points; a splat that is not finite spoils all rows, and of the derivatives its own.
+
+        With `width` (K), at least the largest |v| / |W v| of each splat (the largest singular value of A, if W = A^-1 E),
+        pairs too far apart to count may be left out, where that pays: see docs/kernels.md.
         """
         ...
 

@@ -84,7 +84,9 @@ class Plain:
         shape = torch.broadcast_shapes(x.shape[:-1], mu.shape[:-1], W.shape[:-2], amplitude.shape)
         return self._with_gradient(lambda y: self._splat_values(y, mu, W, amplitude), x.expand(*shape, self.point_size))
 
-    def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+    def splats(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, width: Tensor | None = None
+    ) -> tuple[Tensor, Tensor]:
         return self._with_gradient(lambda y: self._splat_values(y[:, None], mu, W, amplitude).sum(1), x)
 
     def splats_value(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> Tensor:

@@ -19,6 +19,7 @@ import pytest
 from compiled import NAMES, files, program
 
 from rsrm_gen.compiler.emit.c_precision import PRECISIONS, Precision
+from rsrm_gen.compiler.emit.c_splats import CULLED
 from rsrm_gen.compiler.emit.promises import public
 from rsrm_gen.compiler.lower import Program, Routine
 
@@ -145,11 +146,30 @@ def _sums(program: Program, routine: Routine, precision: Precision) -> str:
             "splats_vjp": [Array(r.name, r.size, True) for r in results],
             "splats_rows": [Array("rows_out", size, by_pair=True)],
         }
-    names = {f"{program.name}_{name}{precision.tag}": given for name, given in functions.items()}
     work = f"{program.name}_splats_work{precision.tag}(counts[c], splats[k], 1)"
     inputs = arrays(routine)
-    calls = (_called(name, ("counts[c]", "splats[k]"), inputs, r, precision, work) for name, r in names.items())
+    calls = []
+    for name, given in functions.items():
+        full = f"{program.name}_{name}{precision.tag}"
+        for width in ("NULL", "amplitude_part") if name in CULLED else ("",):  # any numbers will do as widths
+            calls.append(_called(full, ("counts[c]", "splats[k]"), inputs, given, precision, work, width))
+    if routine.name == "splat":
+        calls.append(_order(program, precision, inputs, work))
     return "{ " + " ".join(calls) + " }"
+
+
+def _order(program: Program, precision: Precision, inputs: list[Array], work: str) -> str:
+    """The order in which far pairs are left out, of the points and splats in the inputs."""
+    t = precision.type
+    rows = {"x": "counts[c]", "mu": "splats[k]", "amplitude": "splats[k]"}
+    parts = [a for a in inputs if a.name in rows]
+    lines = [f"{t} *{a.name}_part = ({t} *)first({a.name}, {rows[a.name]} * {a.size} * sizeof({t}));" for a in parts]
+    lines += [f"{t} *work = ({t} *)malloc({work} * sizeof({t}));"]
+    lines += ["size_t *order = (size_t *)malloc(counts[c] * sizeof(size_t));"]
+    name = f"{program.name}_splats_order{precision.tag}"
+    call = f"{name}(counts[c], splats[k], x_part, mu_part, amplitude_part, amplitude_part, 1.0, order, work);"
+    freed = [f"free({a.name}_part);" for a in parts] + ["free(work);", "free(order);"]
+    return "{ " + " ".join([*lines, call, *freed]) + " }"
 
 
 def _called(
@@ -159,6 +179,7 @@ def _called(
     results: list[Array],
     precision: Precision,
     work: str = "",
+    width: str = "",
 ) -> str:
     t = precision.type
 
@@ -169,7 +190,8 @@ def _called(
     lines = [f"{t} *{a.name}_part = ({t} *)first({a.name}, {size(a)});" for a in inputs]
     lines += [f"{t} *{r.name} = ({t} *)malloc({size(r)});" for r in results]
     lines += [f"{t} *work = ({t} *)malloc({work} * sizeof({t}));"] if work else []
-    given = ", ".join([*counts, *(f"{a.name}_part" for a in inputs), *(r.name for r in results)])
+    parts = [f"{a.name}_part" for a in inputs]
+    given = ", ".join([*counts, *parts[:4], *([width] if width else []), *parts[4:], *(r.name for r in results)])
     given += ", work, 1" if work else ""
     names = [*(f"{a.name}_part" for a in inputs), *(r.name for r in results), *(["work"] if work else [])]
     return "{ " + " ".join([*lines, f"{name}({given});", *(f"free({name});" for name in names)]) + " }"

@@ -112,7 +112,9 @@ def scratch(library: ctypes.CDLL, name: str, points: int, splats: int, threads: 
 
 
 def pointer(array: Any) -> ctypes.c_void_p:
-    """The address of a contiguous numpy array's numbers."""
+    """The address of a contiguous numpy array's numbers; NULL for None."""
+    if array is None:
+        return ctypes.c_void_p()
     assert isinstance(array, np.ndarray)
     assert array.flags.c_contiguous
     return array.ctypes.data_as(ctypes.c_void_p)

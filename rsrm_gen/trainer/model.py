@@ -18,6 +18,8 @@ from torch import Tensor
 from rsrm_gen.manifold import Manifold
 from rsrm_gen.trainer.link import Link
 
+WORTH_WIDTHS = 2**18  # pairs of a point and a splat, below which leaving far ones out gains less than widths cost
+
 
 def orthonormal(manifold: Manifold, mu: Tensor, E: Tensor) -> Tensor:
     """Frames E (K, d, T), nearly orthonormal at mu (K, D), made orthonormal there by Gram-Schmidt: (K, d, T)."""
@@ -79,6 +81,21 @@ def product(A: Tensor, B: Tensor) -> Tensor:
     return (A[:, :, None] * B[None]).sum(1)
 
 
+def width(A: Tensor) -> Tensor:
+    """At least the largest singular value of matrices A (d, d, K): (K,), at most d^(1/8) times it, itself where d <= 2.
+
+    Where d = 2 it is Q + R, see `raise_singular_pairs`; else the 8th root of the sum of the 8th powers of all.
+    """
+    if len(A) == 2:
+        (a, b), (c, d) = A
+        return (torch.hypot(a + d, c - b) + torch.hypot(a - d, c + b)) / 2
+    scale = A.abs().amax((0, 1))
+    A = A / torch.where(scale == 0, 1.0, scale)  # 8th powers of small numbers are zero
+    square = product(A.transpose(0, 1), A)
+    fourth = product(square, square)
+    return scale * (fourth * fourth).sum((0, 1)) ** 0.125
+
+
 class SplatField:
     """f and its gradient, from buffers of fixed capacity whose first `count` rows are the active splats.
 
@@ -115,17 +132,18 @@ class SplatField:
     @torch.no_grad()
     def value_and_gradient(self, x: Tensor) -> tuple[Tensor, Tensor]:
         """f (N,) and its Riemannian gradient (N, T) at x (N, D)."""
-        mu, W, amplitude = self.splats().inputs()
-        return self.manifold.splats(x, mu, W, amplitude)
+        splats = self.splats()
+        return self.manifold.splats(x, *splats.inputs(), splats.widths(len(x)))
 
     @torch.no_grad()
     def splats(self) -> Splats:
         """The active splats as the manifold takes them."""
         mu = self.mu[: self.count]
-        B, det = inverse(self._shapes())
+        A = self._shapes()
+        B, det = inverse(A)
         F = self.manifold.flat(mu[:, None], self.frame[: self.count]).movedim(0, -1).contiguous()
         per_weight = (2 * math.pi) ** (-self.manifold.dim / 2) / det.abs()
-        return Splats(mu, product(B, F), self.v[: self.count] * per_weight, B, F, per_weight)
+        return Splats(mu, product(B, F), self.v[: self.count] * per_weight, A, B, F, per_weight)
 
     def _shapes(self) -> Tensor:
         """A of the active splats, (d, d, K)."""
@@ -225,6 +243,7 @@ class Splats:
     mu: Tensor  # (K, D)
     W: Tensor  # (d, T, K), B F
     amplitude: Tensor  # (K), v times per_weight
+    A: Tensor  # (d, d, K)
     B: Tensor  # (d, d, K), A^-1
     F: Tensor  # (d, T, K), the covectors of the frame
     per_weight: Tensor  # (K), (2 pi)^(-d/2) |det B|
@@ -232,6 +251,10 @@ class Splats:
     def inputs(self) -> tuple[Tensor, Tensor, Tensor]:
         """mu, W and amplitude as the manifold takes them: (K, D), (K, d, T), (K)."""
         return self.mu, self.W.movedim(-1, 0).contiguous(), self.amplitude
+
+    def widths(self, points: int) -> Tensor | None:
+        """Beside so many points, how wide the splats are (K,); None where that is not worth knowing."""
+        return width(self.A) if points * len(self.mu) >= WORTH_WIDTHS else None
 
 
 class ArrivalTime:

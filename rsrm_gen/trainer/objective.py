@@ -61,9 +61,10 @@ class Eikonal:
         """The mean residual and its derivatives in the splats, as `SplatField.gradient` has them."""
         with one_thread():
             splats = arrival.field.splats()
-            inputs = [t.detach().requires_grad_() for t in splats.inputs()]
+            mu, W, amplitude = inputs = [t.detach().requires_grad_() for t in splats.inputs()]
+            widths = splats.widths(len(points.x))
         clock.lap("splat map")
-        f, df = arrival.manifold.splats(points.x, *inputs)
+        f, df = arrival.manifold.splats(points.x, mu, W, amplitude, widths)
         clock.lap("kernel forward")
         with one_thread():
             residual, f_bar, df_bar = self._differentiated(arrival, points, f.detach(), df.detach())

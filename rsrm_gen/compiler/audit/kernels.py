@@ -18,6 +18,7 @@ from rsrm_gen.compiler.audit.numbers import PRECISIONS, Batch, Code, Rows
 from rsrm_gen.compiler.audit.report import Check
 from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.derive.numeric import largest
+from rsrm_gen.compiler.emit.c_splats import CULLED
 from rsrm_gen.compiler.emit.promises import public
 from rsrm_gen.compiler.lower import Program, Routine, interpret
 from rsrm_gen.compiler.native import TRIED, compiled, compiler, pointer, scratch
@@ -94,7 +95,8 @@ def _call(
 ) -> None:
     c_function = getattr(library, f"{name}_{function}" + ("_f" if precision == "float32" else ""))
     work = scratch(library, name, POINTS, SPLATS, 1, PRECISIONS[precision][0])
-    pointers = map(pointer, (*inputs, *outputs, work))
+    width = [None] if function in CULLED else []  # nothing is left out
+    pointers = map(pointer, (*inputs[:4], *width, *inputs[4:], *outputs, work))
     c_function(ctypes.c_size_t(POINTS), ctypes.c_size_t(SPLATS), *pointers, ctypes.c_int(1))
 
 

@@ -8,10 +8,11 @@ of threads: forward they share the points, backward the splats.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from rsrm_gen.compiler.emit import c_matrix
+from rsrm_gen.compiler.emit import c_culling, c_matrix
 from rsrm_gen.compiler.emit.c_language import comment, restrict, wrapped
 from rsrm_gen.compiler.emit.c_precision import PRECISIONS, Precision
 from rsrm_gen.compiler.emit.c_splats_loops import (
@@ -43,13 +44,20 @@ CHUNK = 1 << 17  # bytes of points that pass together backward: what stays in th
 
 PROMISES = {
     "splats_work": "How many numbers of scratch memory the functions below need, for these sizes or smaller ones.",
-    "splats": "The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4).",
-    "splats_value": "The values of the sums alone.",
-    "splats_vjp": "The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude.",
+    "splats_order": "An order of the points in which neighbours are near each other, for sums that leave far pairs out.\n"
+    " * Returns about which part of the pairs is summed then; if that is more than `limit`, the order may be any.",
+    "splats": "The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4).$",
+    "splats_value": "The values of the sums alone.$",
+    "splats_vjp": "The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude.$",
     "splats_rows": "The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +\n"
     " * gradient_n . gradient_bar_n in its mu, W and amplitude, in this order.",
 }
+WIDTH = """
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, {far}, if the points are in such an order that far ones are rarely neighbours."""
+FAR = "of whose values each is less than |amplitude| {cut:.0e} ({cut_f:.0e} in float)"
 INPUTS = ("x", "mu", "W", "amplitude")
+CULLED = ("splats", "splats_value", "splats_vjp")  # which may leave far pairs out
 BARS = ("value_bar", "gradient_bar")
 OUTPUTS = {
     "splats": ("value", "gradient"),
@@ -83,27 +91,36 @@ class Sizes:
 
 def declarations(program: Program) -> list[str]:
     """The prototypes, for the header."""
+    cut, cut_f = (math.exp(-cut / 2) for cut in c_culling.CUT.values())
+    far = FAR.format(cut=cut, cut_f=cut_f) if program.culling else "of which there are none on this manifold"
+    width = WIDTH.format(far=far)
     return [
-        "\n".join([f"/* {promise} */", *(_signature(program, name, p) + ";" for p in PRECISIONS)])
+        "\n".join([f"/* {promise.replace('$', width)} */", *(_signature(program, name, p) + ";" for p in PRECISIONS)])
         for name, promise in PROMISES.items()
     ]
 
 
 def source(program: Program, heading: list[str]) -> str:
     """The text of NAME_splats.c."""
-    series = tables(program.pairs)
+    routines = _all(program)
+    series = tables(routines)
     top = comment(
         [heading[0], "", "Sums of splats, forward and backward. See the header for what the functions promise."]
     )
     includes = f'#include "{program.name}.h"\n\n#include <float.h>\n#include <stdint.h>\n#include <string.h>'
     parts = [top, includes, TYPES, OMP, FLUSH]
     for precision in PRECISIONS:
-        parts += [spelled(BASICS, precision), *functions(functions_of(program.pairs), precision)]
+        parts += [spelled(BASICS, precision), *functions(functions_of(routines), precision)]
         parts += [polynomial_function(name, coefficients, precision) for coefficients, name in series.items()]
-        parts += c_matrix.support(program.pairs, precision)
+        parts += c_matrix.support(routines, precision)
         parts += _routines(program, series, precision)
         parts += _loops(program, precision)
     return "\n\n".join(parts) + "\n"
+
+
+def _all(program: Program) -> list[Routine]:
+    """The routines on vectors: the pairs', and the distance by which far ones are known."""
+    return [*program.pairs, *([program["distance"]] if program.culling else [])]
 
 
 def _sizes(program: Program) -> Sizes:
@@ -118,7 +135,13 @@ def _signature(program: Program, name: str, precision: Precision) -> str:
     if name == "splats_work":
         return f"size_t {full}(size_t count, size_t splat_count, int threads)"
     t, r = precision.type, restrict(program)
-    inputs = INPUTS + (BARS if name in ("splats_vjp", "splats_rows") else ())
+    if name == "splats_order":
+        rows = ", ".join(f"const {t} *{r} {n}" for n in ("x", "mu", "amplitude", "width"))
+        return (
+            f"double {full}(\n    size_t count, size_t splat_count, {rows},\n"
+            f"    double limit, size_t *{r} order, {t} *{r} work)"
+        )
+    inputs = INPUTS + (("width",) if name in CULLED else ()) + (BARS if name in ("splats_vjp", "splats_rows") else ())
     arguments = ["size_t count", "size_t splat_count", *(f"const {t} *{r} {n}" for n in inputs)]
     arguments += [*(f"{t} *{r} {n}" for n in OUTPUTS[name]), f"{t} *{r} work", "int threads"]
     return (
@@ -137,12 +160,13 @@ ROUTINES = {
     "gradient_vjp": ("The adjoint of slope at some points, of that of the gradient.", False),
     "backward": ("Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.", True),
     "constants_vjp": ("The adjoints of some splats' parameters, of that of S.", False),
+    "distance": ("The distances of some points q from one point p.", False),
 }
 
 
 def _routines(program: Program, series: dict[Coefficients, str], precision: Precision) -> list[str]:
     pairs = program.pairs
-    texts = [_routine(routine, series, precision) for routine in pairs if routine.name != "backward"]
+    texts = [_routine(routine, series, precision) for routine in _all(program) if routine.name != "backward"]
     products = _products(pairs.backward)
     if products is None:
         return [*texts, _routine(pairs.backward, series, precision)]
@@ -206,7 +230,7 @@ def _routine(routine: Routine, series: dict[Coefficients, str], precision: Preci
     vectors: set[Node] = set()
     unread: list[str] = []
     for parameter in routine.parameters:
-        is_vector = not (of_pair and parameter.name == "S")
+        is_vector = (routine.name, parameter.name) != ("distance", "p") and not (of_pair and parameter.name == "S")
         arguments.append(f"const {v if is_vector else t} *{parameter.name}")
         inputs |= {node: f"{parameter.name}[{i}]" for i, node in enumerate(parameter.nodes)}
         vectors |= set(parameter.nodes) if is_vector else set()
@@ -234,17 +258,24 @@ def _routine(routine: Routine, series: dict[Coefficients, str], precision: Preci
 
 def _loops(program: Program, precision: Precision) -> list[str]:
     z, backward = _sizes(program), program.pairs.backward
-    products = _products(backward)
-    texts = [ROWS, WORK, CONSTANTS, FORWARD, VALUE, POINTS, SUMS if products is None else PRODUCTS, BACKWARD, ROWWISE]
+    products, culls = _products(backward), program.culling is not None
+    texts = [ROWS, WORK, c_culling.NEAR if culls else c_culling.NONE, CONSTANTS, FORWARD, VALUE, POINTS]
+    texts += [
+        SUMS if products is None else PRODUCTS,
+        BACKWARD,
+        ROWWISE,
+        c_culling.ORDER if culls else c_culling.ORDER_NONE,
+    ]
     parts: dict[str, object] = {
         "NAME": program.name,
         "nx": z.x, "nX": z.X, "nG": z.gradient, "nmu": z.mu, "nW": z.W, "nS": z.S, "nP": z.own, "nB": z.point,
-        "BLOCK": BLOCK, "CHUNK": CHUNK,
+        "BLOCK": BLOCK, "CHUNK": CHUNK, "nNEAR": z.x + 1 if culls else 0,
+        **c_culling.numbers(program.culling, precision),
     }  # fmt: skip
-    calls = [f"pair_forward@(X[{b}], constants + {z.S} * k, value_sum[{b}], slope_sum[{b}]);" for b in range(BLOCK)]
-    parts["FORWARD$"] = indented(calls, 16).strip()
-    calls = [f"pair_value@(X[{b}], constants + {z.S} * k, value_sum[{b}]);" for b in range(BLOCK)]
-    parts["VALUE$"] = indented(calls, 16).strip()
+    calls = [f"pair_forward@(X[{b}], S, value_sum[{b}], slope_sum[{b}]);" for b in range(BLOCK)]
+    parts["FORWARD$"] = indented(calls, 20).strip()
+    calls = [f"pair_value@(X[{b}], S, value_sum[{b}]);" for b in range(BLOCK)]
+    parts["VALUE$"] = indented(calls, 20).strip()
     for name in PROMISES:
         parts[f"SIGNATURE_{name}$"] = _signature(program, name, precision)
     if products is None:
@@ -264,7 +295,7 @@ def _group(products: Products, number: int, z: Sizes, over_points: bool) -> str:
     target = "total" if over_points else "S_bar"
     step = f"{call}(factor, point, sum);"
     if over_points:
-        step = f"for (size_t b = 0; b < size; ++b) {call}(factor + $nF * b, point + {z.point} * b, sum);"
+        step = f"for (size_t b = 0; b < size; ++b) {call}(factor + $nF * b, points + {z.point} * (size_t)near[b], sum);"
     adds = [f"{target}[{i}] += sum[{j}];" for j, i in enumerate(group)]
     return "{\n" + indented([f"vector@ sum[{len(group)}] = {{ZERO}};", step, *adds], 4) + "\n}"
 

@@ -61,10 +61,12 @@ OUTLINE void vector_end@(size_t count, size_t start, size_t size, vector@ *colum
 }"""
 
 WORK = """
-/* Scratch memory: $nB vectors for each block of points, then the constants of the splats. */
+/* Scratch memory: $nB vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
 $SIGNATURE_splats_work$ {
     (void)threads;
-    return ((count + LANES@ - 1) / LANES@ * $nB + 1) * LANES@ + $nS * splat_count;
+    const size_t points = (count + LANES@ - 1) / LANES@, blocks = (points + $BLOCK - 1) / $BLOCK;
+    const size_t places = $nNEAR * ((splat_count + LANES@ - 1) / LANES@ + (blocks + LANES@ - 1) / LANES@);
+    return (points * $nB + places + 1) * LANES@ + $nS * splat_count;
 }
 
 static vector@ *work_points@(T_*work) {
@@ -72,18 +74,35 @@ static vector@ *work_points@(T_*work) {
     return (vector@ *)((char *)work + ((0 - start) & (size - 1)));
 }
 
-static T_*work_constants@(T_*work, size_t count) {
-    return (T_*)(work_points@(work) + (count + LANES@ - 1) / LANES@ * $nB);
+/* Where a splat is: numbers that are LANES apart. */
+INLINE const T_*splat_at@(const vector@ *splats, size_t k) {
+    const size_t row = k / LANES@;
+    return (const T_*)(splats + $nNEAR * row) + (k - row * LANES@);
+}
+
+static vector@ *work_splats@(T_*work, size_t count) {
+    return work_points@(work) + (count + LANES@ - 1) / LANES@ * $nB;
+}
+
+static vector@ *work_blocks@(T_*work, size_t count, size_t splat_count) {
+    return work_splats@(work, count) + $nNEAR * ((splat_count + LANES@ - 1) / LANES@);
+}
+
+static T_*work_constants@(T_*work, size_t count, size_t splat_count) {
+    const size_t size = $BLOCK * LANES@, blocks = (count + size - 1) / size;
+    return (T_*)(work_blocks@(work, count, splat_count) + $nNEAR * ((blocks + LANES@ - 1) / LANES@));
 }"""
 
 CONSTANTS = """
-/* The constants of LANES splats, as rows. */
+/* The constants of LANES splats, as rows; with `width`, how far they reach. */
 OUTLINE void splat_constants@(
-    size_t splat_count, size_t start, const T_*mu, const T_*W, const T_*amplitude, T_*constants) {
+    size_t splat_count, size_t start, const T_*mu, const T_*W, const T_*amplitude, const T_*width, T_*constants,
+    vector@ *splats) {
     vector@ own_mu[$nmu], own_W[$nW], own_amplitude[1], S[$nS];
     vector_rows@(mu, splat_count, start, $nmu, own_mu);
     vector_rows@(W, splat_count, start, $nW, own_W);
     vector_rows@(amplitude, splat_count, start, 1, own_amplitude);
+    if (width) splat_reach@(own_mu, own_amplitude, width, splat_count, start, splats);
     pair_constants@(own_mu, own_W, own_amplitude, S);
     vector_to_rows@(S, constants, splat_count, start, $nS, $nS);
 }"""
@@ -92,23 +111,32 @@ FORWARD = """
 /* $BLOCK vectors of points at a time stay in registers while all splats pass. */
 $SIGNATURE_splats$ {
     (void)threads;
-    T_*constants = work_constants@(work, 0);
+    T_*constants = work_constants@(work, 0, splat_count);
+    vector@ *splats = work_splats@(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES@)
-            splat_constants@(splat_count, start, mu, W, amplitude, constants);
+            splat_constants@(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += $BLOCK * LANES@) {
             vector@ at[$BLOCK][$nx], X[$BLOCK][$nX], grad[$nG];
             vector@ value_sum[$BLOCK][1] = {{ZERO}}, slope_sum[$BLOCK][$nX] = {{ZERO}};
+            T_place[$nx + 1];
+            uint32_t near[$PART];
             for (size_t b = 0; b < $BLOCK; ++b) {
                 vector_rows@(x, count, start + b * LANES@, $nx, at[b]);
                 pair_features@(at[b], X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k) {
-                $FORWARD$
+            if (width) block_place@(x, count, start, place);
+            for (size_t first = 0; first < splat_count; first += $PART) {
+                const size_t end = splat_count - first < $PART ? splat_count : first + $PART;
+                const size_t size = splats_near@(width ? place : NULL, splats, first, end, near);
+                for (size_t i = 0; i < size; ++i) {
+                    const T_*S = constants + $nS * near[i];
+                    $FORWARD$
+                }
             }
             for (size_t b = 0; b < $BLOCK; ++b) {
                 pair_gradient@(at[b], slope_sum[b], grad);
@@ -123,22 +151,31 @@ $SIGNATURE_splats$ {
 VALUE = """
 $SIGNATURE_splats_value$ {
     (void)threads;
-    T_*constants = work_constants@(work, 0);
+    T_*constants = work_constants@(work, 0, splat_count);
+    vector@ *splats = work_splats@(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES@)
-            splat_constants@(splat_count, start, mu, W, amplitude, constants);
+            splat_constants@(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += $BLOCK * LANES@) {
             vector@ at[$nx], X[$BLOCK][$nX], value_sum[$BLOCK][1] = {{ZERO}};
+            T_place[$nx + 1];
+            uint32_t near[$PART];
             for (size_t b = 0; b < $BLOCK; ++b) {
                 vector_rows@(x, count, start + b * LANES@, $nx, at);
                 pair_features@(at, X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k) {
-                $VALUE$
+            if (width) block_place@(x, count, start, place);
+            for (size_t first = 0; first < splat_count; first += $PART) {
+                const size_t end = splat_count - first < $PART ? splat_count : first + $PART;
+                const size_t size = splats_near@(width ? place : NULL, splats, first, end, near);
+                for (size_t i = 0; i < size; ++i) {
+                    const T_*S = constants + $nS * near[i];
+                    $VALUE$
+                }
             }
             for (size_t b = 0; b < $BLOCK; ++b)
                 vector_to_rows@(value_sum[b], value, count, start + b * LANES@, 1, 1);
@@ -162,10 +199,13 @@ OUTLINE void splat_points@(
 }"""
 
 SUMS = """
-/* Adds to S_bar what some vectors of points add to it. */
-OUTLINE void splat_sums@(const vector@ *point, size_t size, const T_*S, T_*S_bar) {
+/* Adds to S_bar what some vectors of points add to it, those in the list. */
+OUTLINE void splat_sums@(const vector@ *points, const uint32_t *near, size_t size, const T_*S, T_*S_bar) {
     vector@ sum[$nS] = {ZERO};
-    for (size_t b = 0; b < size; ++b, point += $nB) pair_backward@(point, S, point + $nX, point + $nX + 1, sum);
+    for (size_t b = 0; b < size; ++b) {
+        const vector@ *point = points + $nB * (size_t)near[b];
+        pair_backward@(point, S, point + $nX, point + $nX + 1, sum);
+    }
     $SUMS$
 }"""
 
@@ -178,13 +218,16 @@ INLINE void pair_backward@(
     $GROUPS1$
 }
 
-/* Adds to S_bar what some vectors of points add to it: factors of $BUFFER vectors at a time, then their products. */
-OUTLINE void splat_sums@(const vector@ *point, size_t count, const T_*S, T_*S_bar) {
+/*
+ * Adds to S_bar what some vectors of points add to it, those in the list: factors of $BUFFER vectors at a time, then their
+ * products.
+ */
+OUTLINE void splat_sums@(const vector@ *points, const uint32_t *near, size_t count, const T_*S, T_*S_bar) {
     vector@ factor[$BUFFER * $nF], total[$nS] = {ZERO};
-    for (size_t start = 0; start < count; start += $BUFFER, point += $BUFFER * $nB) {
+    for (size_t start = 0; start < count; start += $BUFFER, near += $BUFFER) {
         const size_t size = count - start < $BUFFER ? count - start : $BUFFER;
         for (size_t b = 0; b < size; ++b) {
-            const vector@ *at = point + $nB * b;
+            const vector@ *at = points + $nB * (size_t)near[b];
             pair_factors@(at, S, at + $nX, at + $nX + 1, factor + $nF * b);
         }
         $GROUPS$
@@ -200,16 +243,30 @@ BACKWARD = """
 $SIGNATURE_splats_vjp$ {
     const size_t blocks = (count + LANES@ - 1) / LANES@;
     const size_t chunk = $CHUNK / ($nB * sizeof(vector@)) + 1;
+    const size_t rows = ((blocks + $BLOCK - 1) / $BLOCK + LANES@ - 1) / LANES@ * LANES@;
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES@ ? part : LANES@;
     vector@ *points = work_points@(work);
-    T_*constants = work_constants@(work, count);
+    vector@ *splats = work_splats@(work, count), *places = work_blocks@(work, count, splat_count);
+    T_*constants = work_constants@(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic) nowait)
         for (size_t start = 0; start < splat_count; start += LANES@)
-            splat_constants@(splat_count, start, mu, W, amplitude, constants);
+            splat_constants@(splat_count, start, mu, W, amplitude, width, constants, splats);
+        if (width) {
+            OMP(omp for schedule(dynamic, 8) nowait)
+            for (size_t block = 0; block < rows; ++block) {
+                T_place[$nx + 1];
+                const size_t last = (blocks - 1) / $BLOCK, start = (block < last ? block : last) * $BLOCK;
+                block_place@(x, count, start * LANES@, place);
+                for (int i = 0; i < $nNEAR; ++i) {
+                    T_*row = (T_*)(places + block / LANES@ * $nNEAR + i);
+                    row[block - block / LANES@ * LANES@] = place[i];
+                }
+            }
+        }
         OMP(omp for schedule(dynamic, 8))
         for (size_t block = 0; block < blocks; ++block)
             splat_points@(count, block * LANES@, x, value_bar, gradient_bar, points + $nB * block);
@@ -217,11 +274,15 @@ $SIGNATURE_splats_vjp$ {
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
             T_sums[LANES@][$nS] = {{0}};
+            uint32_t near[$CHUNK / ($nB * sizeof(vector@)) + 2];
             vector@ own_mu[$nmu], own_W[$nW], own_amplitude[1], S_bar[$nS], bars[$nP];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
-                for (size_t k = start; k < end; ++k)
-                    splat_sums@(points + $nB * first, size, constants + $nS * k, sums[k - start]);
+                for (size_t k = start; k < end; ++k) {
+                    const T_*reach = width ? splat_at@(splats, k) + $nmu * LANES@ : NULL;
+                    const size_t some = blocks_near@(mu + $nmu * k, reach, places, first, first + size, near);
+                    splat_sums@(points + $nB * first, near, some, constants + $nS * k, sums[k - start]);
+                }
             }
             vector_rows@(mu, end, start, $nmu, own_mu);
             vector_rows@(W, end, start, $nW, own_W);
@@ -241,13 +302,13 @@ ROWWISE = """
 $SIGNATURE_splats_rows$ {
     (void)threads;
     const size_t blocks = (count + LANES@ - 1) / LANES@;
-    T_*constants = work_constants@(work, 0);
+    T_*constants = work_constants@(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES@)
-            splat_constants@(splat_count, start, mu, W, amplitude, constants);
+            splat_constants@(splat_count, start, mu, W, amplitude, NULL, constants, NULL);
         OMP(omp for schedule(dynamic))
         for (size_t block = 0; block < blocks; ++block) {
             vector@ point[$nB];

@@ -330,12 +330,21 @@ class Pairs:
 
 
 @dataclass(frozen=True)
+class Culling:
+    """A bound of |det D Log_mu(x)|, so that splats too far from a point may be left out of a sum: see `culling.py`."""
+
+    log_bound: float  # the logarithm of the bound
+    radius: float  # the distance between mu and x up to which it holds; infinite on most manifolds
+
+
+@dataclass(frozen=True)
 class Program:
     """All routines of a manifold, and its splat split for sums over many points and splats."""
 
     name: str
     routines: tuple[Routine, ...]
     pairs: Pairs
+    culling: Culling | None = None  # None where nothing bounds what a far splat adds
 
     def __getitem__(self, name: str) -> Routine:
         found = next((routine for routine in self.routines if routine.name == name), None)

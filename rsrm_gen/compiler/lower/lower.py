@@ -6,6 +6,7 @@ import sympy as sp
 
 from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.derive.geometry import Function
+from rsrm_gen.compiler.lower.culling import culling
 from rsrm_gen.compiler.lower.differentiate import gradient
 from rsrm_gen.compiler.lower.from_sympy import inline
 from rsrm_gen.compiler.lower.ir import Graph, Node, Packed, Pairs, Parameter, Program, Result, Routine
@@ -31,7 +32,9 @@ def lower(geometry: Geometry) -> Program:
     """The program of a manifold: the functions of the `Manifold` protocol, one routine each."""
     routines = [routine_of(function) for function in geometry]
     splat = _Splat(geometry)
-    return Program(geometry.spec.identifier, (*routines, splat.routine(), splat.vjp()), splat.pairs())
+    return Program(
+        geometry.spec.identifier, (*routines, splat.routine(), splat.vjp()), splat.pairs(), culling(geometry)
+    )
 
 
 def routine_of(function: Function) -> Routine:

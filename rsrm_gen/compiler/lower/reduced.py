@@ -31,7 +31,7 @@ HALF = sp.Rational(1, 2)
 
 
 @dataclass(frozen=True)
-class _Part:
+class Part:
     """A factor that is no product: where its entries begin in points and in tangent vectors."""
 
     geometry: Geometry
@@ -40,24 +40,25 @@ class _Part:
     prefix: str
 
 
-def _parts(geometry: Geometry, point: int = 0, tangent: int = 0, prefix: str = "") -> Iterator[_Part]:
+def parts(geometry: Geometry, point: int = 0, tangent: int = 0, prefix: str = "") -> Iterator[Part]:
+    """The factors of a manifold, and theirs, that are no products; or itself."""
     spec = geometry.spec
     if not isinstance(spec, ProductSpec):
-        yield _Part(geometry, point, tangent, prefix)
+        yield Part(geometry, point, tangent, prefix)
         return
     known = {factor.spec.content_hash: factor for _, factor in geometry.factors}
     for factor in spec.factors:
-        yield from _parts(known[factor.spec.content_hash], point, tangent, f"{prefix}{factor.name}_")
+        yield from parts(known[factor.spec.content_hash], point, tangent, f"{prefix}{factor.name}_")
         point, tangent = point + factor.spec.point_size, tangent + factor.spec.tangent_size
 
 
 def reduced(geometry: Geometry, splat: SplatNodes, graph: Graph) -> SplatNodes | None:
     """The same splat in the reduced form; None where no part of the manifold has one."""
-    parts = list(_parts(geometry))
-    if not any(part.geometry.radial for part in parts):
+    found = list(parts(geometry))
+    if not any(part.geometry.radial for part in found):
         return None
-    form = _Form(graph, splat, geometry.spec.dim, geometry.spec.tangent_size, alone=len(parts) == 1)
-    for part in parts:
+    form = _Form(graph, splat, geometry.spec.dim, geometry.spec.tangent_size, alone=len(found) == 1)
+    for part in found:
         if part.geometry.radial:
             form.add_radial(part, part.geometry.radial)
         else:
@@ -83,17 +84,17 @@ class _Form:
             tuple[Node, Node]
         ] = []  # whether a point is on a splat's cut locus, and the splat's value there
 
-    def covector(self, i: int, part: _Part) -> Packed:
+    def covector(self, i: int, part: Part) -> Packed:
         """The entries of a row of W that belong to a part."""
         start = i * self.tangent_size + part.tangent
         return self.splat.W.nodes[start : start + part.geometry.spec.tangent_size]
 
-    def points(self, part: _Part) -> tuple[Packed, Packed]:
+    def points(self, part: Part) -> tuple[Packed, Packed]:
         """Its entries of mu and x."""
         place = slice(part.point, part.point + part.geometry.spec.point_size)
         return self.splat.mu.nodes[place], self.splat.x.nodes[place]
 
-    def add_plain(self, part: _Part) -> None:
+    def add_plain(self, part: Part) -> None:
         """A part by the author's Log and its determinant."""
         graph, (mu, x) = self.graph, self.points(part)
         v = inline(graph, part.geometry["log"], mu, x, prefix=part.prefix)
@@ -102,7 +103,7 @@ class _Form:
         self.log_dets.append(log_det)
         self.exponents.append(log_det)
 
-    def add_radial(self, part: _Part, radial: Radial) -> None:
+    def add_radial(self, part: Part, radial: Radial) -> None:
         """A part in the radial form."""
         graph, (mu, x) = self.graph, self.points(part)
         h = tuple(graph.named(f"{part.prefix}h{j}", graph.mul(graph.constant(HALF), c)) for j, c in enumerate(x))
@@ -117,7 +118,7 @@ class _Form:
         if shape.on_cut is not None:
             self.at_cut.append((shape.on_cut, self.value_at_cut(part, mu)))
 
-    def rows(self, part: _Part, h: Packed) -> Packed:
+    def rows(self, part: Part, h: Packed) -> Packed:
         """R x, or R x / sqrt(2) of the only part."""
         graph, (mu, _) = self.graph, self.points(part)
         vector = tuple(graph.input(f"{part.prefix}vector{j}") for j in range(len(mu)))
@@ -131,7 +132,7 @@ class _Form:
             products.append(graph.named(f"{part.prefix}r{i}", dot(graph, named, h)))
         return tuple(products)
 
-    def value_at_cut(self, part: _Part, mu: Packed) -> Node:
+    def value_at_cut(self, part: Part, mu: Packed) -> Node:
         """exp(log det - |z|^2 / 2) at the antipode of mu, by the author's policy: the splat's own number."""
         graph = self.graph
         antipode = tuple(map(graph.neg, mu))
