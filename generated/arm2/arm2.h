@@ -269,28 +269,43 @@ void arm2_frame_f(const float *ARM2_RESTRICT p, float *ARM2_RESTRICT frame);
 size_t arm2_splats_work(size_t count, size_t splat_count, int threads);
 size_t arm2_splats_work_f(size_t count, size_t splat_count, int threads);
 
-/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
+/* An order of the points in which neighbours are near each other, for sums that leave far pairs out.
+ * Returns about which part of the pairs is summed then; if that is more than `limit`, the order may be any. */
+double arm2_splats_order(
+    size_t count, size_t splat_count, const double *ARM2_RESTRICT x, const double *ARM2_RESTRICT mu, const double *ARM2_RESTRICT amplitude, const double *ARM2_RESTRICT width,
+    double limit, size_t *ARM2_RESTRICT order, double *ARM2_RESTRICT work);
+double arm2_splats_order_f(
+    size_t count, size_t splat_count, const float *ARM2_RESTRICT x, const float *ARM2_RESTRICT mu, const float *ARM2_RESTRICT amplitude, const float *ARM2_RESTRICT width,
+    double limit, size_t *ARM2_RESTRICT order, float *ARM2_RESTRICT work);
+
+/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4).
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of which there are none on this manifold, if the points are in such an order that far ones are rarely neighbours. */
 void arm2_splats(
-    size_t count, size_t splat_count, const double *ARM2_RESTRICT x, const double *ARM2_RESTRICT mu, const double *ARM2_RESTRICT W, const double *ARM2_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *ARM2_RESTRICT x, const double *ARM2_RESTRICT mu, const double *ARM2_RESTRICT W, const double *ARM2_RESTRICT amplitude, const double *ARM2_RESTRICT width,
     double *ARM2_RESTRICT value, double *ARM2_RESTRICT gradient, double *ARM2_RESTRICT work, int threads);
 void arm2_splats_f(
-    size_t count, size_t splat_count, const float *ARM2_RESTRICT x, const float *ARM2_RESTRICT mu, const float *ARM2_RESTRICT W, const float *ARM2_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *ARM2_RESTRICT x, const float *ARM2_RESTRICT mu, const float *ARM2_RESTRICT W, const float *ARM2_RESTRICT amplitude, const float *ARM2_RESTRICT width,
     float *ARM2_RESTRICT value, float *ARM2_RESTRICT gradient, float *ARM2_RESTRICT work, int threads);
 
-/* The values of the sums alone. */
+/* The values of the sums alone.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of which there are none on this manifold, if the points are in such an order that far ones are rarely neighbours. */
 void arm2_splats_value(
-    size_t count, size_t splat_count, const double *ARM2_RESTRICT x, const double *ARM2_RESTRICT mu, const double *ARM2_RESTRICT W, const double *ARM2_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *ARM2_RESTRICT x, const double *ARM2_RESTRICT mu, const double *ARM2_RESTRICT W, const double *ARM2_RESTRICT amplitude, const double *ARM2_RESTRICT width,
     double *ARM2_RESTRICT value, double *ARM2_RESTRICT work, int threads);
 void arm2_splats_value_f(
-    size_t count, size_t splat_count, const float *ARM2_RESTRICT x, const float *ARM2_RESTRICT mu, const float *ARM2_RESTRICT W, const float *ARM2_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *ARM2_RESTRICT x, const float *ARM2_RESTRICT mu, const float *ARM2_RESTRICT W, const float *ARM2_RESTRICT amplitude, const float *ARM2_RESTRICT width,
     float *ARM2_RESTRICT value, float *ARM2_RESTRICT work, int threads);
 
-/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
+/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of which there are none on this manifold, if the points are in such an order that far ones are rarely neighbours. */
 void arm2_splats_vjp(
-    size_t count, size_t splat_count, const double *ARM2_RESTRICT x, const double *ARM2_RESTRICT mu, const double *ARM2_RESTRICT W, const double *ARM2_RESTRICT amplitude, const double *ARM2_RESTRICT value_bar, const double *ARM2_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const double *ARM2_RESTRICT x, const double *ARM2_RESTRICT mu, const double *ARM2_RESTRICT W, const double *ARM2_RESTRICT amplitude, const double *ARM2_RESTRICT width, const double *ARM2_RESTRICT value_bar, const double *ARM2_RESTRICT gradient_bar,
     double *ARM2_RESTRICT mu_bar, double *ARM2_RESTRICT W_bar, double *ARM2_RESTRICT amplitude_bar, double *ARM2_RESTRICT work, int threads);
 void arm2_splats_vjp_f(
-    size_t count, size_t splat_count, const float *ARM2_RESTRICT x, const float *ARM2_RESTRICT mu, const float *ARM2_RESTRICT W, const float *ARM2_RESTRICT amplitude, const float *ARM2_RESTRICT value_bar, const float *ARM2_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const float *ARM2_RESTRICT x, const float *ARM2_RESTRICT mu, const float *ARM2_RESTRICT W, const float *ARM2_RESTRICT amplitude, const float *ARM2_RESTRICT width, const float *ARM2_RESTRICT value_bar, const float *ARM2_RESTRICT gradient_bar,
     float *ARM2_RESTRICT mu_bar, float *ARM2_RESTRICT W_bar, float *ARM2_RESTRICT amplitude_bar, float *ARM2_RESTRICT work, int threads);
 
 /* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +

@@ -331,28 +331,43 @@ void circle_frame_f(const float *CIRCLE_RESTRICT p, float *CIRCLE_RESTRICT frame
 size_t circle_splats_work(size_t count, size_t splat_count, int threads);
 size_t circle_splats_work_f(size_t count, size_t splat_count, int threads);
 
-/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
+/* An order of the points in which neighbours are near each other, for sums that leave far pairs out.
+ * Returns about which part of the pairs is summed then; if that is more than `limit`, the order may be any. */
+double circle_splats_order(
+    size_t count, size_t splat_count, const double *CIRCLE_RESTRICT x, const double *CIRCLE_RESTRICT mu, const double *CIRCLE_RESTRICT amplitude, const double *CIRCLE_RESTRICT width,
+    double limit, size_t *CIRCLE_RESTRICT order, double *CIRCLE_RESTRICT work);
+double circle_splats_order_f(
+    size_t count, size_t splat_count, const float *CIRCLE_RESTRICT x, const float *CIRCLE_RESTRICT mu, const float *CIRCLE_RESTRICT amplitude, const float *CIRCLE_RESTRICT width,
+    double limit, size_t *CIRCLE_RESTRICT order, float *CIRCLE_RESTRICT work);
+
+/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4).
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void circle_splats(
-    size_t count, size_t splat_count, const double *CIRCLE_RESTRICT x, const double *CIRCLE_RESTRICT mu, const double *CIRCLE_RESTRICT W, const double *CIRCLE_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *CIRCLE_RESTRICT x, const double *CIRCLE_RESTRICT mu, const double *CIRCLE_RESTRICT W, const double *CIRCLE_RESTRICT amplitude, const double *CIRCLE_RESTRICT width,
     double *CIRCLE_RESTRICT value, double *CIRCLE_RESTRICT gradient, double *CIRCLE_RESTRICT work, int threads);
 void circle_splats_f(
-    size_t count, size_t splat_count, const float *CIRCLE_RESTRICT x, const float *CIRCLE_RESTRICT mu, const float *CIRCLE_RESTRICT W, const float *CIRCLE_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *CIRCLE_RESTRICT x, const float *CIRCLE_RESTRICT mu, const float *CIRCLE_RESTRICT W, const float *CIRCLE_RESTRICT amplitude, const float *CIRCLE_RESTRICT width,
     float *CIRCLE_RESTRICT value, float *CIRCLE_RESTRICT gradient, float *CIRCLE_RESTRICT work, int threads);
 
-/* The values of the sums alone. */
+/* The values of the sums alone.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void circle_splats_value(
-    size_t count, size_t splat_count, const double *CIRCLE_RESTRICT x, const double *CIRCLE_RESTRICT mu, const double *CIRCLE_RESTRICT W, const double *CIRCLE_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *CIRCLE_RESTRICT x, const double *CIRCLE_RESTRICT mu, const double *CIRCLE_RESTRICT W, const double *CIRCLE_RESTRICT amplitude, const double *CIRCLE_RESTRICT width,
     double *CIRCLE_RESTRICT value, double *CIRCLE_RESTRICT work, int threads);
 void circle_splats_value_f(
-    size_t count, size_t splat_count, const float *CIRCLE_RESTRICT x, const float *CIRCLE_RESTRICT mu, const float *CIRCLE_RESTRICT W, const float *CIRCLE_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *CIRCLE_RESTRICT x, const float *CIRCLE_RESTRICT mu, const float *CIRCLE_RESTRICT W, const float *CIRCLE_RESTRICT amplitude, const float *CIRCLE_RESTRICT width,
     float *CIRCLE_RESTRICT value, float *CIRCLE_RESTRICT work, int threads);
 
-/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
+/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void circle_splats_vjp(
-    size_t count, size_t splat_count, const double *CIRCLE_RESTRICT x, const double *CIRCLE_RESTRICT mu, const double *CIRCLE_RESTRICT W, const double *CIRCLE_RESTRICT amplitude, const double *CIRCLE_RESTRICT value_bar, const double *CIRCLE_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const double *CIRCLE_RESTRICT x, const double *CIRCLE_RESTRICT mu, const double *CIRCLE_RESTRICT W, const double *CIRCLE_RESTRICT amplitude, const double *CIRCLE_RESTRICT width, const double *CIRCLE_RESTRICT value_bar, const double *CIRCLE_RESTRICT gradient_bar,
     double *CIRCLE_RESTRICT mu_bar, double *CIRCLE_RESTRICT W_bar, double *CIRCLE_RESTRICT amplitude_bar, double *CIRCLE_RESTRICT work, int threads);
 void circle_splats_vjp_f(
-    size_t count, size_t splat_count, const float *CIRCLE_RESTRICT x, const float *CIRCLE_RESTRICT mu, const float *CIRCLE_RESTRICT W, const float *CIRCLE_RESTRICT amplitude, const float *CIRCLE_RESTRICT value_bar, const float *CIRCLE_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const float *CIRCLE_RESTRICT x, const float *CIRCLE_RESTRICT mu, const float *CIRCLE_RESTRICT W, const float *CIRCLE_RESTRICT amplitude, const float *CIRCLE_RESTRICT width, const float *CIRCLE_RESTRICT value_bar, const float *CIRCLE_RESTRICT gradient_bar,
     float *CIRCLE_RESTRICT mu_bar, float *CIRCLE_RESTRICT W_bar, float *CIRCLE_RESTRICT amplitude_bar, float *CIRCLE_RESTRICT work, int threads);
 
 /* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +

@@ -284,28 +284,43 @@ void cylinder_frame_f(const float *CYLINDER_RESTRICT p, float *CYLINDER_RESTRICT
 size_t cylinder_splats_work(size_t count, size_t splat_count, int threads);
 size_t cylinder_splats_work_f(size_t count, size_t splat_count, int threads);
 
-/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
+/* An order of the points in which neighbours are near each other, for sums that leave far pairs out.
+ * Returns about which part of the pairs is summed then; if that is more than `limit`, the order may be any. */
+double cylinder_splats_order(
+    size_t count, size_t splat_count, const double *CYLINDER_RESTRICT x, const double *CYLINDER_RESTRICT mu, const double *CYLINDER_RESTRICT amplitude, const double *CYLINDER_RESTRICT width,
+    double limit, size_t *CYLINDER_RESTRICT order, double *CYLINDER_RESTRICT work);
+double cylinder_splats_order_f(
+    size_t count, size_t splat_count, const float *CYLINDER_RESTRICT x, const float *CYLINDER_RESTRICT mu, const float *CYLINDER_RESTRICT amplitude, const float *CYLINDER_RESTRICT width,
+    double limit, size_t *CYLINDER_RESTRICT order, float *CYLINDER_RESTRICT work);
+
+/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4).
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void cylinder_splats(
-    size_t count, size_t splat_count, const double *CYLINDER_RESTRICT x, const double *CYLINDER_RESTRICT mu, const double *CYLINDER_RESTRICT W, const double *CYLINDER_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *CYLINDER_RESTRICT x, const double *CYLINDER_RESTRICT mu, const double *CYLINDER_RESTRICT W, const double *CYLINDER_RESTRICT amplitude, const double *CYLINDER_RESTRICT width,
     double *CYLINDER_RESTRICT value, double *CYLINDER_RESTRICT gradient, double *CYLINDER_RESTRICT work, int threads);
 void cylinder_splats_f(
-    size_t count, size_t splat_count, const float *CYLINDER_RESTRICT x, const float *CYLINDER_RESTRICT mu, const float *CYLINDER_RESTRICT W, const float *CYLINDER_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *CYLINDER_RESTRICT x, const float *CYLINDER_RESTRICT mu, const float *CYLINDER_RESTRICT W, const float *CYLINDER_RESTRICT amplitude, const float *CYLINDER_RESTRICT width,
     float *CYLINDER_RESTRICT value, float *CYLINDER_RESTRICT gradient, float *CYLINDER_RESTRICT work, int threads);
 
-/* The values of the sums alone. */
+/* The values of the sums alone.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void cylinder_splats_value(
-    size_t count, size_t splat_count, const double *CYLINDER_RESTRICT x, const double *CYLINDER_RESTRICT mu, const double *CYLINDER_RESTRICT W, const double *CYLINDER_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *CYLINDER_RESTRICT x, const double *CYLINDER_RESTRICT mu, const double *CYLINDER_RESTRICT W, const double *CYLINDER_RESTRICT amplitude, const double *CYLINDER_RESTRICT width,
     double *CYLINDER_RESTRICT value, double *CYLINDER_RESTRICT work, int threads);
 void cylinder_splats_value_f(
-    size_t count, size_t splat_count, const float *CYLINDER_RESTRICT x, const float *CYLINDER_RESTRICT mu, const float *CYLINDER_RESTRICT W, const float *CYLINDER_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *CYLINDER_RESTRICT x, const float *CYLINDER_RESTRICT mu, const float *CYLINDER_RESTRICT W, const float *CYLINDER_RESTRICT amplitude, const float *CYLINDER_RESTRICT width,
     float *CYLINDER_RESTRICT value, float *CYLINDER_RESTRICT work, int threads);
 
-/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
+/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void cylinder_splats_vjp(
-    size_t count, size_t splat_count, const double *CYLINDER_RESTRICT x, const double *CYLINDER_RESTRICT mu, const double *CYLINDER_RESTRICT W, const double *CYLINDER_RESTRICT amplitude, const double *CYLINDER_RESTRICT value_bar, const double *CYLINDER_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const double *CYLINDER_RESTRICT x, const double *CYLINDER_RESTRICT mu, const double *CYLINDER_RESTRICT W, const double *CYLINDER_RESTRICT amplitude, const double *CYLINDER_RESTRICT width, const double *CYLINDER_RESTRICT value_bar, const double *CYLINDER_RESTRICT gradient_bar,
     double *CYLINDER_RESTRICT mu_bar, double *CYLINDER_RESTRICT W_bar, double *CYLINDER_RESTRICT amplitude_bar, double *CYLINDER_RESTRICT work, int threads);
 void cylinder_splats_vjp_f(
-    size_t count, size_t splat_count, const float *CYLINDER_RESTRICT x, const float *CYLINDER_RESTRICT mu, const float *CYLINDER_RESTRICT W, const float *CYLINDER_RESTRICT amplitude, const float *CYLINDER_RESTRICT value_bar, const float *CYLINDER_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const float *CYLINDER_RESTRICT x, const float *CYLINDER_RESTRICT mu, const float *CYLINDER_RESTRICT W, const float *CYLINDER_RESTRICT amplitude, const float *CYLINDER_RESTRICT width, const float *CYLINDER_RESTRICT value_bar, const float *CYLINDER_RESTRICT gradient_bar,
     float *CYLINDER_RESTRICT mu_bar, float *CYLINDER_RESTRICT W_bar, float *CYLINDER_RESTRICT amplitude_bar, float *CYLINDER_RESTRICT work, int threads);
 
 /* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +

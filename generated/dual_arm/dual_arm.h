@@ -332,28 +332,43 @@ void dual_arm_frame_f(const float *DUAL_ARM_RESTRICT p, float *DUAL_ARM_RESTRICT
 size_t dual_arm_splats_work(size_t count, size_t splat_count, int threads);
 size_t dual_arm_splats_work_f(size_t count, size_t splat_count, int threads);
 
-/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
+/* An order of the points in which neighbours are near each other, for sums that leave far pairs out.
+ * Returns about which part of the pairs is summed then; if that is more than `limit`, the order may be any. */
+double dual_arm_splats_order(
+    size_t count, size_t splat_count, const double *DUAL_ARM_RESTRICT x, const double *DUAL_ARM_RESTRICT mu, const double *DUAL_ARM_RESTRICT amplitude, const double *DUAL_ARM_RESTRICT width,
+    double limit, size_t *DUAL_ARM_RESTRICT order, double *DUAL_ARM_RESTRICT work);
+double dual_arm_splats_order_f(
+    size_t count, size_t splat_count, const float *DUAL_ARM_RESTRICT x, const float *DUAL_ARM_RESTRICT mu, const float *DUAL_ARM_RESTRICT amplitude, const float *DUAL_ARM_RESTRICT width,
+    double limit, size_t *DUAL_ARM_RESTRICT order, float *DUAL_ARM_RESTRICT work);
+
+/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4).
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void dual_arm_splats(
-    size_t count, size_t splat_count, const double *DUAL_ARM_RESTRICT x, const double *DUAL_ARM_RESTRICT mu, const double *DUAL_ARM_RESTRICT W, const double *DUAL_ARM_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *DUAL_ARM_RESTRICT x, const double *DUAL_ARM_RESTRICT mu, const double *DUAL_ARM_RESTRICT W, const double *DUAL_ARM_RESTRICT amplitude, const double *DUAL_ARM_RESTRICT width,
     double *DUAL_ARM_RESTRICT value, double *DUAL_ARM_RESTRICT gradient, double *DUAL_ARM_RESTRICT work, int threads);
 void dual_arm_splats_f(
-    size_t count, size_t splat_count, const float *DUAL_ARM_RESTRICT x, const float *DUAL_ARM_RESTRICT mu, const float *DUAL_ARM_RESTRICT W, const float *DUAL_ARM_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *DUAL_ARM_RESTRICT x, const float *DUAL_ARM_RESTRICT mu, const float *DUAL_ARM_RESTRICT W, const float *DUAL_ARM_RESTRICT amplitude, const float *DUAL_ARM_RESTRICT width,
     float *DUAL_ARM_RESTRICT value, float *DUAL_ARM_RESTRICT gradient, float *DUAL_ARM_RESTRICT work, int threads);
 
-/* The values of the sums alone. */
+/* The values of the sums alone.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void dual_arm_splats_value(
-    size_t count, size_t splat_count, const double *DUAL_ARM_RESTRICT x, const double *DUAL_ARM_RESTRICT mu, const double *DUAL_ARM_RESTRICT W, const double *DUAL_ARM_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *DUAL_ARM_RESTRICT x, const double *DUAL_ARM_RESTRICT mu, const double *DUAL_ARM_RESTRICT W, const double *DUAL_ARM_RESTRICT amplitude, const double *DUAL_ARM_RESTRICT width,
     double *DUAL_ARM_RESTRICT value, double *DUAL_ARM_RESTRICT work, int threads);
 void dual_arm_splats_value_f(
-    size_t count, size_t splat_count, const float *DUAL_ARM_RESTRICT x, const float *DUAL_ARM_RESTRICT mu, const float *DUAL_ARM_RESTRICT W, const float *DUAL_ARM_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *DUAL_ARM_RESTRICT x, const float *DUAL_ARM_RESTRICT mu, const float *DUAL_ARM_RESTRICT W, const float *DUAL_ARM_RESTRICT amplitude, const float *DUAL_ARM_RESTRICT width,
     float *DUAL_ARM_RESTRICT value, float *DUAL_ARM_RESTRICT work, int threads);
 
-/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
+/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void dual_arm_splats_vjp(
-    size_t count, size_t splat_count, const double *DUAL_ARM_RESTRICT x, const double *DUAL_ARM_RESTRICT mu, const double *DUAL_ARM_RESTRICT W, const double *DUAL_ARM_RESTRICT amplitude, const double *DUAL_ARM_RESTRICT value_bar, const double *DUAL_ARM_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const double *DUAL_ARM_RESTRICT x, const double *DUAL_ARM_RESTRICT mu, const double *DUAL_ARM_RESTRICT W, const double *DUAL_ARM_RESTRICT amplitude, const double *DUAL_ARM_RESTRICT width, const double *DUAL_ARM_RESTRICT value_bar, const double *DUAL_ARM_RESTRICT gradient_bar,
     double *DUAL_ARM_RESTRICT mu_bar, double *DUAL_ARM_RESTRICT W_bar, double *DUAL_ARM_RESTRICT amplitude_bar, double *DUAL_ARM_RESTRICT work, int threads);
 void dual_arm_splats_vjp_f(
-    size_t count, size_t splat_count, const float *DUAL_ARM_RESTRICT x, const float *DUAL_ARM_RESTRICT mu, const float *DUAL_ARM_RESTRICT W, const float *DUAL_ARM_RESTRICT amplitude, const float *DUAL_ARM_RESTRICT value_bar, const float *DUAL_ARM_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const float *DUAL_ARM_RESTRICT x, const float *DUAL_ARM_RESTRICT mu, const float *DUAL_ARM_RESTRICT W, const float *DUAL_ARM_RESTRICT amplitude, const float *DUAL_ARM_RESTRICT width, const float *DUAL_ARM_RESTRICT value_bar, const float *DUAL_ARM_RESTRICT gradient_bar,
     float *DUAL_ARM_RESTRICT mu_bar, float *DUAL_ARM_RESTRICT W_bar, float *DUAL_ARM_RESTRICT amplitude_bar, float *DUAL_ARM_RESTRICT work, int threads);
 
 /* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +

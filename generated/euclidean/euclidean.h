@@ -315,28 +315,43 @@ void euclidean_frame_f(const float *EUCLIDEAN_RESTRICT p, float *EUCLIDEAN_RESTR
 size_t euclidean_splats_work(size_t count, size_t splat_count, int threads);
 size_t euclidean_splats_work_f(size_t count, size_t splat_count, int threads);
 
-/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
+/* An order of the points in which neighbours are near each other, for sums that leave far pairs out.
+ * Returns about which part of the pairs is summed then; if that is more than `limit`, the order may be any. */
+double euclidean_splats_order(
+    size_t count, size_t splat_count, const double *EUCLIDEAN_RESTRICT x, const double *EUCLIDEAN_RESTRICT mu, const double *EUCLIDEAN_RESTRICT amplitude, const double *EUCLIDEAN_RESTRICT width,
+    double limit, size_t *EUCLIDEAN_RESTRICT order, double *EUCLIDEAN_RESTRICT work);
+double euclidean_splats_order_f(
+    size_t count, size_t splat_count, const float *EUCLIDEAN_RESTRICT x, const float *EUCLIDEAN_RESTRICT mu, const float *EUCLIDEAN_RESTRICT amplitude, const float *EUCLIDEAN_RESTRICT width,
+    double limit, size_t *EUCLIDEAN_RESTRICT order, float *EUCLIDEAN_RESTRICT work);
+
+/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4).
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void euclidean_splats(
-    size_t count, size_t splat_count, const double *EUCLIDEAN_RESTRICT x, const double *EUCLIDEAN_RESTRICT mu, const double *EUCLIDEAN_RESTRICT W, const double *EUCLIDEAN_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *EUCLIDEAN_RESTRICT x, const double *EUCLIDEAN_RESTRICT mu, const double *EUCLIDEAN_RESTRICT W, const double *EUCLIDEAN_RESTRICT amplitude, const double *EUCLIDEAN_RESTRICT width,
     double *EUCLIDEAN_RESTRICT value, double *EUCLIDEAN_RESTRICT gradient, double *EUCLIDEAN_RESTRICT work, int threads);
 void euclidean_splats_f(
-    size_t count, size_t splat_count, const float *EUCLIDEAN_RESTRICT x, const float *EUCLIDEAN_RESTRICT mu, const float *EUCLIDEAN_RESTRICT W, const float *EUCLIDEAN_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *EUCLIDEAN_RESTRICT x, const float *EUCLIDEAN_RESTRICT mu, const float *EUCLIDEAN_RESTRICT W, const float *EUCLIDEAN_RESTRICT amplitude, const float *EUCLIDEAN_RESTRICT width,
     float *EUCLIDEAN_RESTRICT value, float *EUCLIDEAN_RESTRICT gradient, float *EUCLIDEAN_RESTRICT work, int threads);
 
-/* The values of the sums alone. */
+/* The values of the sums alone.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void euclidean_splats_value(
-    size_t count, size_t splat_count, const double *EUCLIDEAN_RESTRICT x, const double *EUCLIDEAN_RESTRICT mu, const double *EUCLIDEAN_RESTRICT W, const double *EUCLIDEAN_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *EUCLIDEAN_RESTRICT x, const double *EUCLIDEAN_RESTRICT mu, const double *EUCLIDEAN_RESTRICT W, const double *EUCLIDEAN_RESTRICT amplitude, const double *EUCLIDEAN_RESTRICT width,
     double *EUCLIDEAN_RESTRICT value, double *EUCLIDEAN_RESTRICT work, int threads);
 void euclidean_splats_value_f(
-    size_t count, size_t splat_count, const float *EUCLIDEAN_RESTRICT x, const float *EUCLIDEAN_RESTRICT mu, const float *EUCLIDEAN_RESTRICT W, const float *EUCLIDEAN_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *EUCLIDEAN_RESTRICT x, const float *EUCLIDEAN_RESTRICT mu, const float *EUCLIDEAN_RESTRICT W, const float *EUCLIDEAN_RESTRICT amplitude, const float *EUCLIDEAN_RESTRICT width,
     float *EUCLIDEAN_RESTRICT value, float *EUCLIDEAN_RESTRICT work, int threads);
 
-/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
+/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void euclidean_splats_vjp(
-    size_t count, size_t splat_count, const double *EUCLIDEAN_RESTRICT x, const double *EUCLIDEAN_RESTRICT mu, const double *EUCLIDEAN_RESTRICT W, const double *EUCLIDEAN_RESTRICT amplitude, const double *EUCLIDEAN_RESTRICT value_bar, const double *EUCLIDEAN_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const double *EUCLIDEAN_RESTRICT x, const double *EUCLIDEAN_RESTRICT mu, const double *EUCLIDEAN_RESTRICT W, const double *EUCLIDEAN_RESTRICT amplitude, const double *EUCLIDEAN_RESTRICT width, const double *EUCLIDEAN_RESTRICT value_bar, const double *EUCLIDEAN_RESTRICT gradient_bar,
     double *EUCLIDEAN_RESTRICT mu_bar, double *EUCLIDEAN_RESTRICT W_bar, double *EUCLIDEAN_RESTRICT amplitude_bar, double *EUCLIDEAN_RESTRICT work, int threads);
 void euclidean_splats_vjp_f(
-    size_t count, size_t splat_count, const float *EUCLIDEAN_RESTRICT x, const float *EUCLIDEAN_RESTRICT mu, const float *EUCLIDEAN_RESTRICT W, const float *EUCLIDEAN_RESTRICT amplitude, const float *EUCLIDEAN_RESTRICT value_bar, const float *EUCLIDEAN_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const float *EUCLIDEAN_RESTRICT x, const float *EUCLIDEAN_RESTRICT mu, const float *EUCLIDEAN_RESTRICT W, const float *EUCLIDEAN_RESTRICT amplitude, const float *EUCLIDEAN_RESTRICT width, const float *EUCLIDEAN_RESTRICT value_bar, const float *EUCLIDEAN_RESTRICT gradient_bar,
     float *EUCLIDEAN_RESTRICT mu_bar, float *EUCLIDEAN_RESTRICT W_bar, float *EUCLIDEAN_RESTRICT amplitude_bar, float *EUCLIDEAN_RESTRICT work, int threads);
 
 /* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +

@@ -290,28 +290,43 @@ void half_space_frame_f(const float *HALF_SPACE_RESTRICT p, float *HALF_SPACE_RE
 size_t half_space_splats_work(size_t count, size_t splat_count, int threads);
 size_t half_space_splats_work_f(size_t count, size_t splat_count, int threads);
 
-/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
+/* An order of the points in which neighbours are near each other, for sums that leave far pairs out.
+ * Returns about which part of the pairs is summed then; if that is more than `limit`, the order may be any. */
+double half_space_splats_order(
+    size_t count, size_t splat_count, const double *HALF_SPACE_RESTRICT x, const double *HALF_SPACE_RESTRICT mu, const double *HALF_SPACE_RESTRICT amplitude, const double *HALF_SPACE_RESTRICT width,
+    double limit, size_t *HALF_SPACE_RESTRICT order, double *HALF_SPACE_RESTRICT work);
+double half_space_splats_order_f(
+    size_t count, size_t splat_count, const float *HALF_SPACE_RESTRICT x, const float *HALF_SPACE_RESTRICT mu, const float *HALF_SPACE_RESTRICT amplitude, const float *HALF_SPACE_RESTRICT width,
+    double limit, size_t *HALF_SPACE_RESTRICT order, float *HALF_SPACE_RESTRICT work);
+
+/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4).
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of which there are none on this manifold, if the points are in such an order that far ones are rarely neighbours. */
 void half_space_splats(
-    size_t count, size_t splat_count, const double *HALF_SPACE_RESTRICT x, const double *HALF_SPACE_RESTRICT mu, const double *HALF_SPACE_RESTRICT W, const double *HALF_SPACE_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *HALF_SPACE_RESTRICT x, const double *HALF_SPACE_RESTRICT mu, const double *HALF_SPACE_RESTRICT W, const double *HALF_SPACE_RESTRICT amplitude, const double *HALF_SPACE_RESTRICT width,
     double *HALF_SPACE_RESTRICT value, double *HALF_SPACE_RESTRICT gradient, double *HALF_SPACE_RESTRICT work, int threads);
 void half_space_splats_f(
-    size_t count, size_t splat_count, const float *HALF_SPACE_RESTRICT x, const float *HALF_SPACE_RESTRICT mu, const float *HALF_SPACE_RESTRICT W, const float *HALF_SPACE_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *HALF_SPACE_RESTRICT x, const float *HALF_SPACE_RESTRICT mu, const float *HALF_SPACE_RESTRICT W, const float *HALF_SPACE_RESTRICT amplitude, const float *HALF_SPACE_RESTRICT width,
     float *HALF_SPACE_RESTRICT value, float *HALF_SPACE_RESTRICT gradient, float *HALF_SPACE_RESTRICT work, int threads);
 
-/* The values of the sums alone. */
+/* The values of the sums alone.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of which there are none on this manifold, if the points are in such an order that far ones are rarely neighbours. */
 void half_space_splats_value(
-    size_t count, size_t splat_count, const double *HALF_SPACE_RESTRICT x, const double *HALF_SPACE_RESTRICT mu, const double *HALF_SPACE_RESTRICT W, const double *HALF_SPACE_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *HALF_SPACE_RESTRICT x, const double *HALF_SPACE_RESTRICT mu, const double *HALF_SPACE_RESTRICT W, const double *HALF_SPACE_RESTRICT amplitude, const double *HALF_SPACE_RESTRICT width,
     double *HALF_SPACE_RESTRICT value, double *HALF_SPACE_RESTRICT work, int threads);
 void half_space_splats_value_f(
-    size_t count, size_t splat_count, const float *HALF_SPACE_RESTRICT x, const float *HALF_SPACE_RESTRICT mu, const float *HALF_SPACE_RESTRICT W, const float *HALF_SPACE_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *HALF_SPACE_RESTRICT x, const float *HALF_SPACE_RESTRICT mu, const float *HALF_SPACE_RESTRICT W, const float *HALF_SPACE_RESTRICT amplitude, const float *HALF_SPACE_RESTRICT width,
     float *HALF_SPACE_RESTRICT value, float *HALF_SPACE_RESTRICT work, int threads);
 
-/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
+/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of which there are none on this manifold, if the points are in such an order that far ones are rarely neighbours. */
 void half_space_splats_vjp(
-    size_t count, size_t splat_count, const double *HALF_SPACE_RESTRICT x, const double *HALF_SPACE_RESTRICT mu, const double *HALF_SPACE_RESTRICT W, const double *HALF_SPACE_RESTRICT amplitude, const double *HALF_SPACE_RESTRICT value_bar, const double *HALF_SPACE_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const double *HALF_SPACE_RESTRICT x, const double *HALF_SPACE_RESTRICT mu, const double *HALF_SPACE_RESTRICT W, const double *HALF_SPACE_RESTRICT amplitude, const double *HALF_SPACE_RESTRICT width, const double *HALF_SPACE_RESTRICT value_bar, const double *HALF_SPACE_RESTRICT gradient_bar,
     double *HALF_SPACE_RESTRICT mu_bar, double *HALF_SPACE_RESTRICT W_bar, double *HALF_SPACE_RESTRICT amplitude_bar, double *HALF_SPACE_RESTRICT work, int threads);
 void half_space_splats_vjp_f(
-    size_t count, size_t splat_count, const float *HALF_SPACE_RESTRICT x, const float *HALF_SPACE_RESTRICT mu, const float *HALF_SPACE_RESTRICT W, const float *HALF_SPACE_RESTRICT amplitude, const float *HALF_SPACE_RESTRICT value_bar, const float *HALF_SPACE_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const float *HALF_SPACE_RESTRICT x, const float *HALF_SPACE_RESTRICT mu, const float *HALF_SPACE_RESTRICT W, const float *HALF_SPACE_RESTRICT amplitude, const float *HALF_SPACE_RESTRICT width, const float *HALF_SPACE_RESTRICT value_bar, const float *HALF_SPACE_RESTRICT gradient_bar,
     float *HALF_SPACE_RESTRICT mu_bar, float *HALF_SPACE_RESTRICT W_bar, float *HALF_SPACE_RESTRICT amplitude_bar, float *HALF_SPACE_RESTRICT work, int threads);
 
 /* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +

@@ -290,28 +290,43 @@ void hyperbolic_frame_f(const float *HYPERBOLIC_RESTRICT p, float *HYPERBOLIC_RE
 size_t hyperbolic_splats_work(size_t count, size_t splat_count, int threads);
 size_t hyperbolic_splats_work_f(size_t count, size_t splat_count, int threads);
 
-/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
+/* An order of the points in which neighbours are near each other, for sums that leave far pairs out.
+ * Returns about which part of the pairs is summed then; if that is more than `limit`, the order may be any. */
+double hyperbolic_splats_order(
+    size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT amplitude, const double *HYPERBOLIC_RESTRICT width,
+    double limit, size_t *HYPERBOLIC_RESTRICT order, double *HYPERBOLIC_RESTRICT work);
+double hyperbolic_splats_order_f(
+    size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT amplitude, const float *HYPERBOLIC_RESTRICT width,
+    double limit, size_t *HYPERBOLIC_RESTRICT order, float *HYPERBOLIC_RESTRICT work);
+
+/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4).
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void hyperbolic_splats(
-    size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT W, const double *HYPERBOLIC_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT W, const double *HYPERBOLIC_RESTRICT amplitude, const double *HYPERBOLIC_RESTRICT width,
     double *HYPERBOLIC_RESTRICT value, double *HYPERBOLIC_RESTRICT gradient, double *HYPERBOLIC_RESTRICT work, int threads);
 void hyperbolic_splats_f(
-    size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT W, const float *HYPERBOLIC_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT W, const float *HYPERBOLIC_RESTRICT amplitude, const float *HYPERBOLIC_RESTRICT width,
     float *HYPERBOLIC_RESTRICT value, float *HYPERBOLIC_RESTRICT gradient, float *HYPERBOLIC_RESTRICT work, int threads);
 
-/* The values of the sums alone. */
+/* The values of the sums alone.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void hyperbolic_splats_value(
-    size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT W, const double *HYPERBOLIC_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT W, const double *HYPERBOLIC_RESTRICT amplitude, const double *HYPERBOLIC_RESTRICT width,
     double *HYPERBOLIC_RESTRICT value, double *HYPERBOLIC_RESTRICT work, int threads);
 void hyperbolic_splats_value_f(
-    size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT W, const float *HYPERBOLIC_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT W, const float *HYPERBOLIC_RESTRICT amplitude, const float *HYPERBOLIC_RESTRICT width,
     float *HYPERBOLIC_RESTRICT value, float *HYPERBOLIC_RESTRICT work, int threads);
 
-/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
+/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void hyperbolic_splats_vjp(
-    size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT W, const double *HYPERBOLIC_RESTRICT amplitude, const double *HYPERBOLIC_RESTRICT value_bar, const double *HYPERBOLIC_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT W, const double *HYPERBOLIC_RESTRICT amplitude, const double *HYPERBOLIC_RESTRICT width, const double *HYPERBOLIC_RESTRICT value_bar, const double *HYPERBOLIC_RESTRICT gradient_bar,
     double *HYPERBOLIC_RESTRICT mu_bar, double *HYPERBOLIC_RESTRICT W_bar, double *HYPERBOLIC_RESTRICT amplitude_bar, double *HYPERBOLIC_RESTRICT work, int threads);
 void hyperbolic_splats_vjp_f(
-    size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT W, const float *HYPERBOLIC_RESTRICT amplitude, const float *HYPERBOLIC_RESTRICT value_bar, const float *HYPERBOLIC_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT W, const float *HYPERBOLIC_RESTRICT amplitude, const float *HYPERBOLIC_RESTRICT width, const float *HYPERBOLIC_RESTRICT value_bar, const float *HYPERBOLIC_RESTRICT gradient_bar,
     float *HYPERBOLIC_RESTRICT mu_bar, float *HYPERBOLIC_RESTRICT W_bar, float *HYPERBOLIC_RESTRICT amplitude_bar, float *HYPERBOLIC_RESTRICT work, int threads);
 
 /* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +

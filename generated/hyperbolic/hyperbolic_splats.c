@@ -121,6 +121,17 @@ INLINE vector vector_from_bits(vector_bits bits) {
     return x;
 }
 
+/* x >= 0 with the sign of another. */
+INLINE vector vector_signed(vector x, vector sign) {
+    return vector_from_bits(vector_to_bits(x) | (vector_to_bits(sign) & 0x8000000000000000));
+}
+
+/* abs of every lane; one instruction where the machine has it. */
+INLINE vector vector_abs(vector x) {
+    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
+    return x;
+}
+
 /* sqrt of every lane; one instruction where the machine has it. */
 INLINE vector vector_sqrt(vector x) {
     for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
@@ -148,6 +159,19 @@ INLINE vector vector_log(vector x) {
     const vector small = vector_select(x < 0, vector_of(NAN), vector_of(-HUGE_VAL));
     const vector finite = vector_select(x > 2.2250738585072009e-308, y, small);
     return vector_select(x <= 1.7976931348623157e308, finite, x);
+}
+
+/* log(1 + x), within 2 units in the last place. */
+INLINE vector vector_log1p(vector x) {
+    const vector u = 1 + x;
+    return vector_select(x <= 1.7976931348623157e308, vector_log(u) + (x - (u - 1)) / u, x);
+}
+
+/* asinh, within 3 units in the last place. */
+INLINE vector vector_asinh(vector x) {
+    const vector a = vector_abs(x), square = a * a;
+    const vector near = vector_log1p(a + square / (1 + vector_sqrt(1 + square)));
+    return vector_signed(vector_select(a > 134217728.0, vector_log(a) + 0.6931471805599453, near), x);
 }
 
 /* Of degree 11 on [0, 1], its relative error below 2^-56. */
@@ -386,6 +410,40 @@ OUTLINE void pair_constants_vjp(
     amplitude_bar[0] = its_amplitude_bar;
 }
 
+/* The distances of some points q from one point p. */
+OUTLINE void pair_distance(
+    const double *p, const vector *q, vector *distance) {
+    const double p1 = p[1];
+    const double p2 = p[2];
+    const vector q1 = q[1];
+    const vector q2 = q[2];
+    const vector S0 = p1 + q1;
+    const vector S1 = p2 + q2;
+    const vector dot_S_S = S0 * S0 + S1 * S1;
+    const vector D0 = q1 - p1;
+    const vector D1 = q2 - p2;
+    const vector dot_D_D = D0 * D0 + D1 * D1;
+    const vector dot_D_S = S0 * D0 + S1 * D1;
+    const double dot_ps_ps = p1 * p1 + p2 * p2;
+    const vector a = vector_sqrt(vector_of(1.0 + dot_ps_ps));
+    const vector dot_qs_qs = q1 * q1 + q2 * q2;
+    const vector b = vector_sqrt(1.0 + dot_qs_qs);
+    const vector a_total = a + b;
+    const vector e = dot_D_S / a_total;
+    const vector_mask is_small = dot_S_S < 1.0;
+    const vector dot_D_S_ratio = dot_D_S / vector_select(is_small, vector_of(1.0), dot_S_S);
+    const vector dot_ps_qs = p1 * q1 + p2 * q2;
+    const vector c = (2.0 + b * (2.0 * a) - 2.0 * dot_ps_qs) / (a_total * a_total);
+    const vector rest0 = D0 - S0 * dot_D_S_ratio;
+    const vector rest1 = D1 - S1 * dot_D_S_ratio;
+    const vector dot_rest_rest = rest0 * rest0 + rest1 * rest1;
+    const vector ww = vector_select(is_small, dot_D_D - e * e, dot_rest_rest + dot_D_S_ratio * (dot_D_S * c));
+    const vector sqrt_ww = vector_sqrt(ww);
+    const vector asinh_sqrt_ww_over_2 = vector_asinh(0.5 * sqrt_ww);
+    const vector r = 2.0 * asinh_sqrt_ww_over_2;
+    distance[0] = r;
+}
+
 /* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
 INLINE void pair_backward(
     const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
@@ -496,10 +554,12 @@ OUTLINE void vector_end(size_t count, size_t start, size_t size, vector *columns
         for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
 }
 
-/* Scratch memory: 7 vectors for each block of points, then the constants of the splats. */
+/* Scratch memory: 7 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
 size_t hyperbolic_splats_work(size_t count, size_t splat_count, int threads) {
     (void)threads;
-    return ((count + LANES - 1) / LANES * 7 + 1) * LANES + 10 * splat_count;
+    const size_t points = (count + LANES - 1) / LANES, blocks = (points + 2 - 1) / 2;
+    const size_t places = 4 * ((splat_count + LANES - 1) / LANES + (blocks + LANES - 1) / LANES);
+    return (points * 7 + places + 1) * LANES + 10 * splat_count;
 }
 
 static vector *work_points(double *work) {
@@ -507,44 +567,160 @@ static vector *work_points(double *work) {
     return (vector *)((char *)work + ((0 - start) & (size - 1)));
 }
 
-static double *work_constants(double *work, size_t count) {
-    return (double *)(work_points(work) + (count + LANES - 1) / LANES * 7);
+/* Where a splat is: numbers that are LANES apart. */
+INLINE const double *splat_at(const vector *splats, size_t k) {
+    const size_t row = k / LANES;
+    return (const double *)(splats + 4 * row) + (k - row * LANES);
 }
 
-/* The constants of LANES splats, as rows. */
+static vector *work_splats(double *work, size_t count) {
+    return work_points(work) + (count + LANES - 1) / LANES * 7;
+}
+
+static vector *work_blocks(double *work, size_t count, size_t splat_count) {
+    return work_splats(work, count) + 4 * ((splat_count + LANES - 1) / LANES);
+}
+
+static double *work_constants(double *work, size_t count, size_t splat_count) {
+    const size_t size = 2 * LANES, blocks = (count + size - 1) / size;
+    return (double *)(work_blocks(work, count, splat_count) + 4 * ((blocks + LANES - 1) / LANES));
+}
+
+/* Zero, or NaN where a number is not finite: what has one is near everything. */
+INLINE vector vector_spoilt(const vector *x, size_t size) {
+    vector sum = ZERO;
+    for (size_t i = 0; i < size; ++i) sum += x[i] - x[i];
+    return sum;
+}
+
+/* mu and reach of LANES splats, side by side. */
+OUTLINE void splat_reach(
+    const vector *mu, const vector *amplitude, const double *width, size_t splat_count, size_t start, vector *splats) {
+    vector *own = splats + start / LANES * (3 + 1);
+    vector_rows(width, splat_count, start, 1, own + 3);
+    own[3] = own[3] * 9.014149034296874 + vector_spoilt(mu, 3) + vector_spoilt(amplitude, 1);
+    for (int i = 0; i < 3; ++i) own[i] = mu[i];
+}
+
+/* The middle of a block of points and its radius; of some points that could be the middle, the one with the smallest. */
+OUTLINE void block_place(const double *x, size_t count, size_t start, double *place) {
+    const size_t size = count - start < 2 * LANES ? count - start : 2 * LANES;
+    vector at[2][3], spoilt = ZERO;
+    for (size_t b = 0; b < 2; ++b) {
+        vector_rows(x, count, start + b * LANES, 3, at[b]);
+        spoilt += vector_spoilt(at[b], 3);
+    }
+    for (size_t i = 1; i < 8; i += 2) {
+        const double *middle = x + 3 * (start + i * size / 8);
+        double radius = 0, column[LANES];
+        for (size_t b = 0; b < 2; ++b) {
+            vector distance[1];
+            pair_distance(middle, at[b], distance);
+            vector_store(column, distance[0]);
+            for (size_t lane = 0; lane < LANES; ++lane) radius = column[lane] > radius ? column[lane] : radius;
+        }
+        if (i == 1 || radius < place[3]) {
+            for (int j = 0; j < 3; ++j) place[j] = middle[j];
+            place[3] = radius;
+        }
+    }
+    place[3] = place[3] * 1.0078125 + vector_sum(spoilt);
+}
+
+/* Where a splat is too far from all of a block; never where a distance is not a number. */
+INLINE vector_mask vector_far(vector distance, vector reach, vector radius) {
+    return (distance > reach + radius);
+}
+
+/* The splats from `first` (a multiple of LANES) to `end` that are near a block, all if there is none; how many. */
+OUTLINE size_t splats_near(const double *place, const vector *splats, size_t first, size_t end, uint32_t *near) {
+    size_t size = 0;
+    if (!place) {
+        for (size_t k = first; k < end; ++k) near[size++] = (uint32_t)k;
+        return size;
+    }
+    for (size_t start = first; start < end; start += LANES) {
+        const vector *own = splats + start / LANES * (3 + 1);
+        vector distance[1];
+        pair_distance(place, own, distance);
+        const vector_mask far = vector_far(distance[0], own[3], vector_of(place[3]));
+        const size_t lanes = end - start < LANES ? end - start : LANES;
+        for (size_t lane = 0; lane < lanes; ++lane) {
+            near[size] = (uint32_t)(start + lane);
+            size += !LANE(far, lane);
+        }
+    }
+    return size;
+}
+
+/* The vectors of points from `first` to `end` whose blocks are near a splat, all if there are none, less `first`. */
+OUTLINE size_t blocks_near(
+    const double *mu, const double *reach, const vector *blocks, size_t first, size_t end, uint32_t *near) {
+    const size_t group = 2 * LANES;  // vectors of points whose middles are one vector
+    size_t size = 0;
+    if (!reach) {
+        for (size_t b = first; b < end; ++b) near[size++] = (uint32_t)(b - first);
+        return size;
+    }
+    for (size_t start = first / group * group; start < end; start += group) {
+        const vector *own = blocks + start / group * (3 + 1);
+        vector distance[1];
+        pair_distance(mu, own, distance);
+        const vector_mask far = vector_far(distance[0], vector_of(*reach), own[3]);
+        for (size_t lane = 0; lane < group; ++lane) {
+            const size_t b = start + lane;
+            near[size] = (uint32_t)(b - first);
+            size += b >= first && b < end && !LANE(far, lane / 2);
+        }
+    }
+    return size;
+}
+
+/* The constants of LANES splats, as rows; with `width`, how far they reach. */
 OUTLINE void splat_constants(
-    size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, double *constants) {
+    size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, const double *width, double *constants,
+    vector *splats) {
     vector own_mu[3], own_W[6], own_amplitude[1], S[10];
     vector_rows(mu, splat_count, start, 3, own_mu);
     vector_rows(W, splat_count, start, 6, own_W);
     vector_rows(amplitude, splat_count, start, 1, own_amplitude);
+    if (width) splat_reach(own_mu, own_amplitude, width, splat_count, start, splats);
     pair_constants(own_mu, own_W, own_amplitude, S);
     vector_to_rows(S, constants, splat_count, start, 10, 10);
 }
 
 /* 2 vectors of points at a time stay in registers while all splats pass. */
 void hyperbolic_splats(
-    size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT W, const double *HYPERBOLIC_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT W, const double *HYPERBOLIC_RESTRICT amplitude, const double *HYPERBOLIC_RESTRICT width,
     double *HYPERBOLIC_RESTRICT value, double *HYPERBOLIC_RESTRICT gradient, double *HYPERBOLIC_RESTRICT work, int threads) {
     (void)threads;
-    double *constants = work_constants(work, 0);
+    double *constants = work_constants(work, 0, splat_count);
+    vector *splats = work_splats(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES)
-            splat_constants(splat_count, start, mu, W, amplitude, constants);
+            splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
             vector at[2][3], X[2][3], grad[3];
             vector value_sum[2][1] = {{ZERO}}, slope_sum[2][3] = {{ZERO}};
+            double place[3 + 1];
+            uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 3, at[b]);
                 pair_features(at[b], X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k) {
-                pair_forward(X[0], constants + 10 * k, value_sum[0], slope_sum[0]);
-                pair_forward(X[1], constants + 10 * k, value_sum[1], slope_sum[1]);
+            if (width) block_place(x, count, start, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
+                for (size_t i = 0; i < size; ++i) {
+                    const double *S = constants + 10 * near[i];
+                    pair_forward(X[0], S, value_sum[0], slope_sum[0]);
+                    pair_forward(X[1], S, value_sum[1], slope_sum[1]);
+                }
             }
             for (size_t b = 0; b < 2; ++b) {
                 pair_gradient(at[b], slope_sum[b], grad);
@@ -557,26 +733,35 @@ void hyperbolic_splats(
 }
 
 void hyperbolic_splats_value(
-    size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT W, const double *HYPERBOLIC_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT W, const double *HYPERBOLIC_RESTRICT amplitude, const double *HYPERBOLIC_RESTRICT width,
     double *HYPERBOLIC_RESTRICT value, double *HYPERBOLIC_RESTRICT work, int threads) {
     (void)threads;
-    double *constants = work_constants(work, 0);
+    double *constants = work_constants(work, 0, splat_count);
+    vector *splats = work_splats(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES)
-            splat_constants(splat_count, start, mu, W, amplitude, constants);
+            splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
             vector at[3], X[2][3], value_sum[2][1] = {{ZERO}};
+            double place[3 + 1];
+            uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 3, at);
                 pair_features(at, X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k) {
-                pair_value(X[0], constants + 10 * k, value_sum[0]);
-                pair_value(X[1], constants + 10 * k, value_sum[1]);
+            if (width) block_place(x, count, start, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
+                for (size_t i = 0; i < size; ++i) {
+                    const double *S = constants + 10 * near[i];
+                    pair_value(X[0], S, value_sum[0]);
+                    pair_value(X[1], S, value_sum[1]);
+                }
             }
             for (size_t b = 0; b < 2; ++b)
                 vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
@@ -598,10 +783,13 @@ OUTLINE void splat_points(
     vector_end(count, start, 3 + 1, point + 3);
 }
 
-/* Adds to S_bar what some vectors of points add to it. */
-OUTLINE void splat_sums(const vector *point, size_t size, const double *S, double *S_bar) {
+/* Adds to S_bar what some vectors of points add to it, those in the list. */
+OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *S_bar) {
     vector sum[10] = {ZERO};
-    for (size_t b = 0; b < size; ++b, point += 7) pair_backward(point, S, point + 3, point + 3 + 1, sum);
+    for (size_t b = 0; b < size; ++b) {
+        const vector *point = points + 7 * (size_t)near[b];
+        pair_backward(point, S, point + 3, point + 3 + 1, sum);
+    }
     S_bar[0] += vector_sum(sum[0]);
     S_bar[1] += vector_sum(sum[1]);
     S_bar[2] += vector_sum(sum[2]);
@@ -619,20 +807,34 @@ OUTLINE void splat_sums(const vector *point, size_t size, const double *S, doubl
  * splats depends on the threads, what is summed in which order does not.
  */
 void hyperbolic_splats_vjp(
-    size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT W, const double *HYPERBOLIC_RESTRICT amplitude, const double *HYPERBOLIC_RESTRICT value_bar, const double *HYPERBOLIC_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT W, const double *HYPERBOLIC_RESTRICT amplitude, const double *HYPERBOLIC_RESTRICT width, const double *HYPERBOLIC_RESTRICT value_bar, const double *HYPERBOLIC_RESTRICT gradient_bar,
     double *HYPERBOLIC_RESTRICT mu_bar, double *HYPERBOLIC_RESTRICT W_bar, double *HYPERBOLIC_RESTRICT amplitude_bar, double *HYPERBOLIC_RESTRICT work, int threads) {
     const size_t blocks = (count + LANES - 1) / LANES;
     const size_t chunk = 131072 / (7 * sizeof(vector)) + 1;
+    const size_t rows = ((blocks + 2 - 1) / 2 + LANES - 1) / LANES * LANES;
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES ? part : LANES;
     vector *points = work_points(work);
-    double *constants = work_constants(work, count);
+    vector *splats = work_splats(work, count), *places = work_blocks(work, count, splat_count);
+    double *constants = work_constants(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic) nowait)
         for (size_t start = 0; start < splat_count; start += LANES)
-            splat_constants(splat_count, start, mu, W, amplitude, constants);
+            splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
+        if (width) {
+            OMP(omp for schedule(dynamic, 8) nowait)
+            for (size_t block = 0; block < rows; ++block) {
+                double place[3 + 1];
+                const size_t last = (blocks - 1) / 2, start = (block < last ? block : last) * 2;
+                block_place(x, count, start * LANES, place);
+                for (int i = 0; i < 4; ++i) {
+                    double *row = (double *)(places + block / LANES * 4 + i);
+                    row[block - block / LANES * LANES] = place[i];
+                }
+            }
+        }
         OMP(omp for schedule(dynamic, 8))
         for (size_t block = 0; block < blocks; ++block)
             splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 7 * block);
@@ -640,11 +842,15 @@ void hyperbolic_splats_vjp(
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
             double sums[LANES][10] = {{0}};
+            uint32_t near[131072 / (7 * sizeof(vector)) + 2];
             vector own_mu[3], own_W[6], own_amplitude[1], S_bar[10], bars[10];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
-                for (size_t k = start; k < end; ++k)
-                    splat_sums(points + 7 * first, size, constants + 10 * k, sums[k - start]);
+                for (size_t k = start; k < end; ++k) {
+                    const double *reach = width ? splat_at(splats, k) + 3 * LANES : NULL;
+                    const size_t some = blocks_near(mu + 3 * k, reach, places, first, first + size, near);
+                    splat_sums(points + 7 * first, near, some, constants + 10 * k, sums[k - start]);
+                }
             }
             vector_rows(mu, end, start, 3, own_mu);
             vector_rows(W, end, start, 6, own_W);
@@ -665,13 +871,13 @@ void hyperbolic_splats_rows(
     double *HYPERBOLIC_RESTRICT rows, double *HYPERBOLIC_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES - 1) / LANES;
-    double *constants = work_constants(work, 0);
+    double *constants = work_constants(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES)
-            splat_constants(splat_count, start, mu, W, amplitude, constants);
+            splat_constants(splat_count, start, mu, W, amplitude, NULL, constants, NULL);
         OMP(omp for schedule(dynamic))
         for (size_t block = 0; block < blocks; ++block) {
             vector point[7];
@@ -688,6 +894,104 @@ void hyperbolic_splats_rows(
         }
         restore_denormals(mode);
     }
+}
+
+/* A coordinate to sort by. */
+INLINE double order_key(const double *x, size_t row, size_t axis) {
+    const double key = x[3 * row + axis];
+    return key == key ? key : 0;
+}
+
+/* The coordinate that differs most among some points. */
+static size_t widest(const double *x, const size_t *order, size_t count) {
+    double low[3], high[3];
+    size_t widest = 0;
+    for (size_t axis = 0; axis < 3; ++axis) low[axis] = high[axis] = order_key(x, order[0], axis);
+    for (size_t i = 1; i < count; ++i)
+        for (size_t axis = 0; axis < 3; ++axis) {
+            const double key = order_key(x, order[i], axis);
+            low[axis] = key < low[axis] ? key : low[axis];
+            high[axis] = key > high[axis] ? key : high[axis];
+        }
+    for (size_t axis = 1; axis < 3; ++axis)
+        if (high[axis] - low[axis] > high[widest] - low[widest]) widest = axis;
+    return widest;
+}
+
+/* Order points and their keys such that none of the first `part` has a larger key than one of the others. */
+static void split_at(double *keys, size_t *order, size_t count, size_t part) {
+    size_t low = 0, high = count;  // the part-th smallest key is in [low, high)
+    while (high - low > 1) {
+        const double a = keys[low], b = keys[low + (high - low) / 2], c = keys[high - 1];
+        const double least = a < b ? a : b, most = a < b ? b : a, pivot = c < least ? least : c > most ? most : c;
+        size_t less = low, equal = low;
+        for (int inclusive = 0; inclusive < 2; ++inclusive) {  // without branches, which nobody can foresee
+            size_t end = equal = less;
+            for (; end < high; ++end) {
+                const double key = keys[end];
+                const size_t row = order[end];
+                keys[end] = keys[equal], order[end] = order[equal];
+                keys[equal] = key, order[equal] = row;
+                equal += inclusive ? key <= pivot : key < pivot;
+            }
+            if (!inclusive) less = equal;
+            if (part < less) break;
+        }
+        if (part < less)
+            high = less;
+        else if (part < equal)
+            return;
+        else
+            low = equal;
+    }
+}
+
+/* Halve points at their medians until they are blocks. */
+static void sorted_blocks(const double *x, size_t *order, size_t count, double *keys) {
+    const size_t block = 2 * LANES;
+    while (count > block) {
+        const size_t part = ((count + block - 1) / block + 1) / 2 * block, axis = widest(x, order, count);
+        for (size_t i = 0; i < count; ++i) keys[i] = order_key(x, order[i], axis);
+        split_at(keys, order, count, part);
+        sorted_blocks(x, order + part, count - part, keys);
+        count = part;
+    }
+}
+
+double hyperbolic_splats_order(
+    size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT amplitude, const double *HYPERBOLIC_RESTRICT width,
+    double limit, size_t *HYPERBOLIC_RESTRICT order, double *HYPERBOLIC_RESTRICT work) {
+    const size_t block = 2 * LANES;
+    vector *splats = work_splats(work, 0);
+    uint32_t near[256];
+    double share = 0;
+    for (size_t n = 0; n < count; ++n) order[n] = n;
+    if (!count || !splat_count) return 1;
+    for (size_t start = 0; start < splat_count; start += LANES) {
+        vector own_mu[3], own_amplitude[1];
+        vector_rows(mu, splat_count, start, 3, own_mu);
+        vector_rows(amplitude, splat_count, start, 1, own_amplitude);
+        splat_reach(own_mu, own_amplitude, width, splat_count, start, splats);
+    }
+    for (int sorted = 0; sorted < 2; ++sorted) {
+        size_t pairs = 0;
+        if (sorted) sorted_blocks(x, order, count, (double *)work_blocks(work, 0, splat_count));
+        for (size_t i = 1; i < 2 * 16; i += 2) {
+            double rows[2 * LANES * 3], place[3 + 1];
+            const size_t some = i * count / (2 * 16), start = sorted ? some / block * block : some;
+            const size_t size = !sorted ? 1 : count - start < block ? count - start : block;
+            for (size_t n = 0; n < size; ++n)
+                for (int j = 0; j < 3; ++j) rows[3 * n + j] = x[3 * order[start + n] + j];
+            block_place(rows, size, 0, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                pairs += splats_near(place, splats, first, end, near);
+            }
+        }
+        share = (double)pairs / ((double)splat_count * 16);
+        if (share > limit) return share;
+    }
+    return share;
 }
 
 /* The same number in all lanes. */
@@ -730,6 +1034,17 @@ INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
     return x;
 }
 
+/* x >= 0 with the sign of another. */
+INLINE vector_f vector_signed_f(vector_f x, vector_f sign) {
+    return vector_from_bits_f(vector_to_bits_f(x) | (vector_to_bits_f(sign) & 0x80000000));
+}
+
+/* abs of every lane; one instruction where the machine has it. */
+INLINE vector_f vector_abs_f(vector_f x) {
+    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
+    return x;
+}
+
 /* sqrt of every lane; one instruction where the machine has it. */
 INLINE vector_f vector_sqrt_f(vector_f x) {
     for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
@@ -757,6 +1072,19 @@ INLINE vector_f vector_log_f(vector_f x) {
     const vector_f small = vector_select_f(x < 0, vector_of_f(NAN), vector_of_f(-HUGE_VALF));
     const vector_f finite = vector_select_f(x > 1.17549421e-38f, y, small);
     return vector_select_f(x <= 3.4028234663852886e38f, finite, x);
+}
+
+/* log(1 + x), within 2 units in the last place. */
+INLINE vector_f vector_log1p_f(vector_f x) {
+    const vector_f u = 1 + x;
+    return vector_select_f(x <= 3.4028234663852886e38f, vector_log_f(u) + (x - (u - 1)) / u, x);
+}
+
+/* asinh, within 3 units in the last place. */
+INLINE vector_f vector_asinh_f(vector_f x) {
+    const vector_f a = vector_abs_f(x), square = a * a;
+    const vector_f near = vector_log1p_f(a + square / (1 + vector_sqrt_f(1 + square)));
+    return vector_signed_f(vector_select_f(a > 4096.0f, vector_log_f(a) + 0.6931471805599453f, near), x);
 }
 
 /* Of degree 5, within 2^-29 of that of double precision. */
@@ -992,6 +1320,41 @@ OUTLINE void pair_constants_vjp_f(
     amplitude_bar[0] = its_amplitude_bar;
 }
 
+/* The distances of some points q from one point p. */
+OUTLINE void pair_distance_f(
+    const float *p, const vector_f *q, vector_f *distance) {
+    const float p1 = p[1];
+    const float p2 = p[2];
+    const vector_f q1 = q[1];
+    const vector_f q2 = q[2];
+    const vector_f S0 = p1 + q1;
+    const vector_f S1 = p2 + q2;
+    const vector_f dot_S_S = S0 * S0 + S1 * S1;
+    const vector_f D0 = q1 - p1;
+    const vector_f D1 = q2 - p2;
+    const vector_f dot_D_D = D0 * D0 + D1 * D1;
+    const vector_f dot_D_S = S0 * D0 + S1 * D1;
+    const float dot_ps_ps = p1 * p1 + p2 * p2;
+    const vector_f a = vector_sqrt_f(vector_of_f(1.0f + dot_ps_ps));
+    const vector_f dot_qs_qs = q1 * q1 + q2 * q2;
+    const vector_f b = vector_sqrt_f(1.0f + dot_qs_qs);
+    const vector_f a_total = a + b;
+    const vector_f e = dot_D_S / a_total;
+    const vector_mask_f is_small = dot_S_S < 1.0f;
+    const vector_f dot_D_S_ratio = dot_D_S / vector_select_f(is_small, vector_of_f(1.0f), dot_S_S);
+    const vector_f dot_ps_qs = p1 * q1 + p2 * q2;
+    const vector_f c = (2.0f + b * (2.0f * a) - 2.0f * dot_ps_qs) / (a_total * a_total);
+    const vector_f rest0 = D0 - S0 * dot_D_S_ratio;
+    const vector_f rest1 = D1 - S1 * dot_D_S_ratio;
+    const vector_f dot_rest_rest = rest0 * rest0 + rest1 * rest1;
+    const vector_f ww = vector_select_f(is_small, dot_D_D - e * e, dot_rest_rest + dot_D_S_ratio * (dot_D_S *
+        c));
+    const vector_f sqrt_ww = vector_sqrt_f(ww);
+    const vector_f asinh_sqrt_ww_over_2 = vector_asinh_f(0.5f * sqrt_ww);
+    const vector_f r = 2.0f * asinh_sqrt_ww_over_2;
+    distance[0] = r;
+}
+
 /* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
 INLINE void pair_backward_f(
     const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
@@ -1103,10 +1466,12 @@ OUTLINE void vector_end_f(size_t count, size_t start, size_t size, vector_f *col
         for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
 }
 
-/* Scratch memory: 7 vectors for each block of points, then the constants of the splats. */
+/* Scratch memory: 7 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
 size_t hyperbolic_splats_work_f(size_t count, size_t splat_count, int threads) {
     (void)threads;
-    return ((count + LANES_f - 1) / LANES_f * 7 + 1) * LANES_f + 10 * splat_count;
+    const size_t points = (count + LANES_f - 1) / LANES_f, blocks = (points + 2 - 1) / 2;
+    const size_t places = 4 * ((splat_count + LANES_f - 1) / LANES_f + (blocks + LANES_f - 1) / LANES_f);
+    return (points * 7 + places + 1) * LANES_f + 10 * splat_count;
 }
 
 static vector_f *work_points_f(float *work) {
@@ -1114,44 +1479,160 @@ static vector_f *work_points_f(float *work) {
     return (vector_f *)((char *)work + ((0 - start) & (size - 1)));
 }
 
-static float *work_constants_f(float *work, size_t count) {
-    return (float *)(work_points_f(work) + (count + LANES_f - 1) / LANES_f * 7);
+/* Where a splat is: numbers that are LANES apart. */
+INLINE const float *splat_at_f(const vector_f *splats, size_t k) {
+    const size_t row = k / LANES_f;
+    return (const float *)(splats + 4 * row) + (k - row * LANES_f);
 }
 
-/* The constants of LANES splats, as rows. */
+static vector_f *work_splats_f(float *work, size_t count) {
+    return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 7;
+}
+
+static vector_f *work_blocks_f(float *work, size_t count, size_t splat_count) {
+    return work_splats_f(work, count) + 4 * ((splat_count + LANES_f - 1) / LANES_f);
+}
+
+static float *work_constants_f(float *work, size_t count, size_t splat_count) {
+    const size_t size = 2 * LANES_f, blocks = (count + size - 1) / size;
+    return (float *)(work_blocks_f(work, count, splat_count) + 4 * ((blocks + LANES_f - 1) / LANES_f));
+}
+
+/* Zero, or NaN where a number is not finite: what has one is near everything. */
+INLINE vector_f vector_spoilt_f(const vector_f *x, size_t size) {
+    vector_f sum = ZERO;
+    for (size_t i = 0; i < size; ++i) sum += x[i] - x[i];
+    return sum;
+}
+
+/* mu and reach of LANES splats, side by side. */
+OUTLINE void splat_reach_f(
+    const vector_f *mu, const vector_f *amplitude, const float *width, size_t splat_count, size_t start, vector_f *splats) {
+    vector_f *own = splats + start / LANES_f * (3 + 1);
+    vector_rows_f(width, splat_count, start, 1, own + 3);
+    own[3] = own[3] * 6.3739659084374996f + vector_spoilt_f(mu, 3) + vector_spoilt_f(amplitude, 1);
+    for (int i = 0; i < 3; ++i) own[i] = mu[i];
+}
+
+/* The middle of a block of points and its radius; of some points that could be the middle, the one with the smallest. */
+OUTLINE void block_place_f(const float *x, size_t count, size_t start, float *place) {
+    const size_t size = count - start < 2 * LANES_f ? count - start : 2 * LANES_f;
+    vector_f at[2][3], spoilt = ZERO;
+    for (size_t b = 0; b < 2; ++b) {
+        vector_rows_f(x, count, start + b * LANES_f, 3, at[b]);
+        spoilt += vector_spoilt_f(at[b], 3);
+    }
+    for (size_t i = 1; i < 8; i += 2) {
+        const float *middle = x + 3 * (start + i * size / 8);
+        float radius = 0, column[LANES_f];
+        for (size_t b = 0; b < 2; ++b) {
+            vector_f distance[1];
+            pair_distance_f(middle, at[b], distance);
+            vector_store_f(column, distance[0]);
+            for (size_t lane = 0; lane < LANES_f; ++lane) radius = column[lane] > radius ? column[lane] : radius;
+        }
+        if (i == 1 || radius < place[3]) {
+            for (int j = 0; j < 3; ++j) place[j] = middle[j];
+            place[3] = radius;
+        }
+    }
+    place[3] = place[3] * 1.0078125f + vector_sum_f(spoilt);
+}
+
+/* Where a splat is too far from all of a block; never where a distance is not a number. */
+INLINE vector_mask_f vector_far_f(vector_f distance, vector_f reach, vector_f radius) {
+    return (distance > reach + radius);
+}
+
+/* The splats from `first` (a multiple of LANES) to `end` that are near a block, all if there is none; how many. */
+OUTLINE size_t splats_near_f(const float *place, const vector_f *splats, size_t first, size_t end, uint32_t *near) {
+    size_t size = 0;
+    if (!place) {
+        for (size_t k = first; k < end; ++k) near[size++] = (uint32_t)k;
+        return size;
+    }
+    for (size_t start = first; start < end; start += LANES_f) {
+        const vector_f *own = splats + start / LANES_f * (3 + 1);
+        vector_f distance[1];
+        pair_distance_f(place, own, distance);
+        const vector_mask_f far = vector_far_f(distance[0], own[3], vector_of_f(place[3]));
+        const size_t lanes = end - start < LANES_f ? end - start : LANES_f;
+        for (size_t lane = 0; lane < lanes; ++lane) {
+            near[size] = (uint32_t)(start + lane);
+            size += !LANE(far, lane);
+        }
+    }
+    return size;
+}
+
+/* The vectors of points from `first` to `end` whose blocks are near a splat, all if there are none, less `first`. */
+OUTLINE size_t blocks_near_f(
+    const float *mu, const float *reach, const vector_f *blocks, size_t first, size_t end, uint32_t *near) {
+    const size_t group = 2 * LANES_f;  // vectors of points whose middles are one vector
+    size_t size = 0;
+    if (!reach) {
+        for (size_t b = first; b < end; ++b) near[size++] = (uint32_t)(b - first);
+        return size;
+    }
+    for (size_t start = first / group * group; start < end; start += group) {
+        const vector_f *own = blocks + start / group * (3 + 1);
+        vector_f distance[1];
+        pair_distance_f(mu, own, distance);
+        const vector_mask_f far = vector_far_f(distance[0], vector_of_f(*reach), own[3]);
+        for (size_t lane = 0; lane < group; ++lane) {
+            const size_t b = start + lane;
+            near[size] = (uint32_t)(b - first);
+            size += b >= first && b < end && !LANE(far, lane / 2);
+        }
+    }
+    return size;
+}
+
+/* The constants of LANES splats, as rows; with `width`, how far they reach. */
 OUTLINE void splat_constants_f(
-    size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, float *constants) {
+    size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, const float *width, float *constants,
+    vector_f *splats) {
     vector_f own_mu[3], own_W[6], own_amplitude[1], S[10];
     vector_rows_f(mu, splat_count, start, 3, own_mu);
     vector_rows_f(W, splat_count, start, 6, own_W);
     vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
+    if (width) splat_reach_f(own_mu, own_amplitude, width, splat_count, start, splats);
     pair_constants_f(own_mu, own_W, own_amplitude, S);
     vector_to_rows_f(S, constants, splat_count, start, 10, 10);
 }
 
 /* 2 vectors of points at a time stay in registers while all splats pass. */
 void hyperbolic_splats_f(
-    size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT W, const float *HYPERBOLIC_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT W, const float *HYPERBOLIC_RESTRICT amplitude, const float *HYPERBOLIC_RESTRICT width,
     float *HYPERBOLIC_RESTRICT value, float *HYPERBOLIC_RESTRICT gradient, float *HYPERBOLIC_RESTRICT work, int threads) {
     (void)threads;
-    float *constants = work_constants_f(work, 0);
+    float *constants = work_constants_f(work, 0, splat_count);
+    vector_f *splats = work_splats_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES_f)
-            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+            splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
             vector_f at[2][3], X[2][3], grad[3];
             vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][3] = {{ZERO}};
+            float place[3 + 1];
+            uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 3, at[b]);
                 pair_features_f(at[b], X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k) {
-                pair_forward_f(X[0], constants + 10 * k, value_sum[0], slope_sum[0]);
-                pair_forward_f(X[1], constants + 10 * k, value_sum[1], slope_sum[1]);
+            if (width) block_place_f(x, count, start, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
+                for (size_t i = 0; i < size; ++i) {
+                    const float *S = constants + 10 * near[i];
+                    pair_forward_f(X[0], S, value_sum[0], slope_sum[0]);
+                    pair_forward_f(X[1], S, value_sum[1], slope_sum[1]);
+                }
             }
             for (size_t b = 0; b < 2; ++b) {
                 pair_gradient_f(at[b], slope_sum[b], grad);
@@ -1164,26 +1645,35 @@ void hyperbolic_splats_f(
 }
 
 void hyperbolic_splats_value_f(
-    size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT W, const float *HYPERBOLIC_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT W, const float *HYPERBOLIC_RESTRICT amplitude, const float *HYPERBOLIC_RESTRICT width,
     float *HYPERBOLIC_RESTRICT value, float *HYPERBOLIC_RESTRICT work, int threads) {
     (void)threads;
-    float *constants = work_constants_f(work, 0);
+    float *constants = work_constants_f(work, 0, splat_count);
+    vector_f *splats = work_splats_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES_f)
-            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+            splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
             vector_f at[3], X[2][3], value_sum[2][1] = {{ZERO}};
+            float place[3 + 1];
+            uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 3, at);
                 pair_features_f(at, X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k) {
-                pair_value_f(X[0], constants + 10 * k, value_sum[0]);
-                pair_value_f(X[1], constants + 10 * k, value_sum[1]);
+            if (width) block_place_f(x, count, start, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
+                for (size_t i = 0; i < size; ++i) {
+                    const float *S = constants + 10 * near[i];
+                    pair_value_f(X[0], S, value_sum[0]);
+                    pair_value_f(X[1], S, value_sum[1]);
+                }
             }
             for (size_t b = 0; b < 2; ++b)
                 vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
@@ -1205,10 +1695,13 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 3 + 1, point + 3);
 }
 
-/* Adds to S_bar what some vectors of points add to it. */
-OUTLINE void splat_sums_f(const vector_f *point, size_t size, const float *S, float *S_bar) {
+/* Adds to S_bar what some vectors of points add to it, those in the list. */
+OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *S_bar) {
     vector_f sum[10] = {ZERO};
-    for (size_t b = 0; b < size; ++b, point += 7) pair_backward_f(point, S, point + 3, point + 3 + 1, sum);
+    for (size_t b = 0; b < size; ++b) {
+        const vector_f *point = points + 7 * (size_t)near[b];
+        pair_backward_f(point, S, point + 3, point + 3 + 1, sum);
+    }
     S_bar[0] += vector_sum_f(sum[0]);
     S_bar[1] += vector_sum_f(sum[1]);
     S_bar[2] += vector_sum_f(sum[2]);
@@ -1226,20 +1719,34 @@ OUTLINE void splat_sums_f(const vector_f *point, size_t size, const float *S, fl
  * splats depends on the threads, what is summed in which order does not.
  */
 void hyperbolic_splats_vjp_f(
-    size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT W, const float *HYPERBOLIC_RESTRICT amplitude, const float *HYPERBOLIC_RESTRICT value_bar, const float *HYPERBOLIC_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT W, const float *HYPERBOLIC_RESTRICT amplitude, const float *HYPERBOLIC_RESTRICT width, const float *HYPERBOLIC_RESTRICT value_bar, const float *HYPERBOLIC_RESTRICT gradient_bar,
     float *HYPERBOLIC_RESTRICT mu_bar, float *HYPERBOLIC_RESTRICT W_bar, float *HYPERBOLIC_RESTRICT amplitude_bar, float *HYPERBOLIC_RESTRICT work, int threads) {
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
     const size_t chunk = 131072 / (7 * sizeof(vector_f)) + 1;
+    const size_t rows = ((blocks + 2 - 1) / 2 + LANES_f - 1) / LANES_f * LANES_f;
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES_f ? part : LANES_f;
     vector_f *points = work_points_f(work);
-    float *constants = work_constants_f(work, count);
+    vector_f *splats = work_splats_f(work, count), *places = work_blocks_f(work, count, splat_count);
+    float *constants = work_constants_f(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic) nowait)
         for (size_t start = 0; start < splat_count; start += LANES_f)
-            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+            splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
+        if (width) {
+            OMP(omp for schedule(dynamic, 8) nowait)
+            for (size_t block = 0; block < rows; ++block) {
+                float place[3 + 1];
+                const size_t last = (blocks - 1) / 2, start = (block < last ? block : last) * 2;
+                block_place_f(x, count, start * LANES_f, place);
+                for (int i = 0; i < 4; ++i) {
+                    float *row = (float *)(places + block / LANES_f * 4 + i);
+                    row[block - block / LANES_f * LANES_f] = place[i];
+                }
+            }
+        }
         OMP(omp for schedule(dynamic, 8))
         for (size_t block = 0; block < blocks; ++block)
             splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 7 * block);
@@ -1247,11 +1754,15 @@ void hyperbolic_splats_vjp_f(
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
             float sums[LANES_f][10] = {{0}};
+            uint32_t near[131072 / (7 * sizeof(vector_f)) + 2];
             vector_f own_mu[3], own_W[6], own_amplitude[1], S_bar[10], bars[10];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
-                for (size_t k = start; k < end; ++k)
-                    splat_sums_f(points + 7 * first, size, constants + 10 * k, sums[k - start]);
+                for (size_t k = start; k < end; ++k) {
+                    const float *reach = width ? splat_at_f(splats, k) + 3 * LANES_f : NULL;
+                    const size_t some = blocks_near_f(mu + 3 * k, reach, places, first, first + size, near);
+                    splat_sums_f(points + 7 * first, near, some, constants + 10 * k, sums[k - start]);
+                }
             }
             vector_rows_f(mu, end, start, 3, own_mu);
             vector_rows_f(W, end, start, 6, own_W);
@@ -1272,13 +1783,13 @@ void hyperbolic_splats_rows_f(
     float *HYPERBOLIC_RESTRICT rows, float *HYPERBOLIC_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
-    float *constants = work_constants_f(work, 0);
+    float *constants = work_constants_f(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES_f)
-            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+            splat_constants_f(splat_count, start, mu, W, amplitude, NULL, constants, NULL);
         OMP(omp for schedule(dynamic))
         for (size_t block = 0; block < blocks; ++block) {
             vector_f point[7];
@@ -1295,4 +1806,102 @@ void hyperbolic_splats_rows_f(
         }
         restore_denormals(mode);
     }
+}
+
+/* A coordinate to sort by. */
+INLINE float order_key_f(const float *x, size_t row, size_t axis) {
+    const float key = x[3 * row + axis];
+    return key == key ? key : 0;
+}
+
+/* The coordinate that differs most among some points. */
+static size_t widest_f(const float *x, const size_t *order, size_t count) {
+    float low[3], high[3];
+    size_t widest = 0;
+    for (size_t axis = 0; axis < 3; ++axis) low[axis] = high[axis] = order_key_f(x, order[0], axis);
+    for (size_t i = 1; i < count; ++i)
+        for (size_t axis = 0; axis < 3; ++axis) {
+            const float key = order_key_f(x, order[i], axis);
+            low[axis] = key < low[axis] ? key : low[axis];
+            high[axis] = key > high[axis] ? key : high[axis];
+        }
+    for (size_t axis = 1; axis < 3; ++axis)
+        if (high[axis] - low[axis] > high[widest] - low[widest]) widest = axis;
+    return widest;
+}
+
+/* Order points and their keys such that none of the first `part` has a larger key than one of the others. */
+static void split_at_f(float *keys, size_t *order, size_t count, size_t part) {
+    size_t low = 0, high = count;  // the part-th smallest key is in [low, high)
+    while (high - low > 1) {
+        const float a = keys[low], b = keys[low + (high - low) / 2], c = keys[high - 1];
+        const float least = a < b ? a : b, most = a < b ? b : a, pivot = c < least ? least : c > most ? most : c;
+        size_t less = low, equal = low;
+        for (int inclusive = 0; inclusive < 2; ++inclusive) {  // without branches, which nobody can foresee
+            size_t end = equal = less;
+            for (; end < high; ++end) {
+                const float key = keys[end];
+                const size_t row = order[end];
+                keys[end] = keys[equal], order[end] = order[equal];
+                keys[equal] = key, order[equal] = row;
+                equal += inclusive ? key <= pivot : key < pivot;
+            }
+            if (!inclusive) less = equal;
+            if (part < less) break;
+        }
+        if (part < less)
+            high = less;
+        else if (part < equal)
+            return;
+        else
+            low = equal;
+    }
+}
+
+/* Halve points at their medians until they are blocks. */
+static void sorted_blocks_f(const float *x, size_t *order, size_t count, float *keys) {
+    const size_t block = 2 * LANES_f;
+    while (count > block) {
+        const size_t part = ((count + block - 1) / block + 1) / 2 * block, axis = widest_f(x, order, count);
+        for (size_t i = 0; i < count; ++i) keys[i] = order_key_f(x, order[i], axis);
+        split_at_f(keys, order, count, part);
+        sorted_blocks_f(x, order + part, count - part, keys);
+        count = part;
+    }
+}
+
+double hyperbolic_splats_order_f(
+    size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT amplitude, const float *HYPERBOLIC_RESTRICT width,
+    double limit, size_t *HYPERBOLIC_RESTRICT order, float *HYPERBOLIC_RESTRICT work) {
+    const size_t block = 2 * LANES_f;
+    vector_f *splats = work_splats_f(work, 0);
+    uint32_t near[256];
+    double share = 0;
+    for (size_t n = 0; n < count; ++n) order[n] = n;
+    if (!count || !splat_count) return 1;
+    for (size_t start = 0; start < splat_count; start += LANES_f) {
+        vector_f own_mu[3], own_amplitude[1];
+        vector_rows_f(mu, splat_count, start, 3, own_mu);
+        vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
+        splat_reach_f(own_mu, own_amplitude, width, splat_count, start, splats);
+    }
+    for (int sorted = 0; sorted < 2; ++sorted) {
+        size_t pairs = 0;
+        if (sorted) sorted_blocks_f(x, order, count, (float *)work_blocks_f(work, 0, splat_count));
+        for (size_t i = 1; i < 2 * 16; i += 2) {
+            float rows[2 * LANES_f * 3], place[3 + 1];
+            const size_t some = i * count / (2 * 16), start = sorted ? some / block * block : some;
+            const size_t size = !sorted ? 1 : count - start < block ? count - start : block;
+            for (size_t n = 0; n < size; ++n)
+                for (int j = 0; j < 3; ++j) rows[3 * n + j] = x[3 * order[start + n] + j];
+            block_place_f(rows, size, 0, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                pairs += splats_near_f(place, splats, first, end, near);
+            }
+        }
+        share = (double)pairs / ((double)splat_count * 16);
+        if (share > limit) return share;
+    }
+    return share;
 }

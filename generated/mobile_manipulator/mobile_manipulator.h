@@ -338,28 +338,43 @@ void mobile_manipulator_frame_f(const float *MOBILE_MANIPULATOR_RESTRICT p, floa
 size_t mobile_manipulator_splats_work(size_t count, size_t splat_count, int threads);
 size_t mobile_manipulator_splats_work_f(size_t count, size_t splat_count, int threads);
 
-/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
+/* An order of the points in which neighbours are near each other, for sums that leave far pairs out.
+ * Returns about which part of the pairs is summed then; if that is more than `limit`, the order may be any. */
+double mobile_manipulator_splats_order(
+    size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT amplitude, const double *MOBILE_MANIPULATOR_RESTRICT width,
+    double limit, size_t *MOBILE_MANIPULATOR_RESTRICT order, double *MOBILE_MANIPULATOR_RESTRICT work);
+double mobile_manipulator_splats_order_f(
+    size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT amplitude, const float *MOBILE_MANIPULATOR_RESTRICT width,
+    double limit, size_t *MOBILE_MANIPULATOR_RESTRICT order, float *MOBILE_MANIPULATOR_RESTRICT work);
+
+/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4).
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void mobile_manipulator_splats(
-    size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT W, const double *MOBILE_MANIPULATOR_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT W, const double *MOBILE_MANIPULATOR_RESTRICT amplitude, const double *MOBILE_MANIPULATOR_RESTRICT width,
     double *MOBILE_MANIPULATOR_RESTRICT value, double *MOBILE_MANIPULATOR_RESTRICT gradient, double *MOBILE_MANIPULATOR_RESTRICT work, int threads);
 void mobile_manipulator_splats_f(
-    size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT W, const float *MOBILE_MANIPULATOR_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT W, const float *MOBILE_MANIPULATOR_RESTRICT amplitude, const float *MOBILE_MANIPULATOR_RESTRICT width,
     float *MOBILE_MANIPULATOR_RESTRICT value, float *MOBILE_MANIPULATOR_RESTRICT gradient, float *MOBILE_MANIPULATOR_RESTRICT work, int threads);
 
-/* The values of the sums alone. */
+/* The values of the sums alone.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void mobile_manipulator_splats_value(
-    size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT W, const double *MOBILE_MANIPULATOR_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT W, const double *MOBILE_MANIPULATOR_RESTRICT amplitude, const double *MOBILE_MANIPULATOR_RESTRICT width,
     double *MOBILE_MANIPULATOR_RESTRICT value, double *MOBILE_MANIPULATOR_RESTRICT work, int threads);
 void mobile_manipulator_splats_value_f(
-    size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT W, const float *MOBILE_MANIPULATOR_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT W, const float *MOBILE_MANIPULATOR_RESTRICT amplitude, const float *MOBILE_MANIPULATOR_RESTRICT width,
     float *MOBILE_MANIPULATOR_RESTRICT value, float *MOBILE_MANIPULATOR_RESTRICT work, int threads);
 
-/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
+/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void mobile_manipulator_splats_vjp(
-    size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT W, const double *MOBILE_MANIPULATOR_RESTRICT amplitude, const double *MOBILE_MANIPULATOR_RESTRICT value_bar, const double *MOBILE_MANIPULATOR_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT W, const double *MOBILE_MANIPULATOR_RESTRICT amplitude, const double *MOBILE_MANIPULATOR_RESTRICT width, const double *MOBILE_MANIPULATOR_RESTRICT value_bar, const double *MOBILE_MANIPULATOR_RESTRICT gradient_bar,
     double *MOBILE_MANIPULATOR_RESTRICT mu_bar, double *MOBILE_MANIPULATOR_RESTRICT W_bar, double *MOBILE_MANIPULATOR_RESTRICT amplitude_bar, double *MOBILE_MANIPULATOR_RESTRICT work, int threads);
 void mobile_manipulator_splats_vjp_f(
-    size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT W, const float *MOBILE_MANIPULATOR_RESTRICT amplitude, const float *MOBILE_MANIPULATOR_RESTRICT value_bar, const float *MOBILE_MANIPULATOR_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT W, const float *MOBILE_MANIPULATOR_RESTRICT amplitude, const float *MOBILE_MANIPULATOR_RESTRICT width, const float *MOBILE_MANIPULATOR_RESTRICT value_bar, const float *MOBILE_MANIPULATOR_RESTRICT gradient_bar,
     float *MOBILE_MANIPULATOR_RESTRICT mu_bar, float *MOBILE_MANIPULATOR_RESTRICT W_bar, float *MOBILE_MANIPULATOR_RESTRICT amplitude_bar, float *MOBILE_MANIPULATOR_RESTRICT work, int threads);
 
 /* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +

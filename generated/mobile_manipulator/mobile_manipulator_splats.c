@@ -127,6 +127,12 @@ INLINE vector vector_round(vector x) {
     return x;
 }
 
+/* sqrt of every lane; one instruction where the machine has it. */
+INLINE vector vector_sqrt(vector x) {
+    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
+    return x;
+}
+
 /* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
 INLINE vector vector_exp(vector x) {
     const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
@@ -925,6 +931,65 @@ OUTLINE void pair_constants_vjp(
     amplitude_bar[0] = its_amplitude_bar;
 }
 
+/* The distances of some points q from one point p. */
+OUTLINE void pair_distance(
+    const double *p, const vector *q, vector *distance) {
+    const double p0 = p[0];
+    const double p1 = p[1];
+    const double p2 = p[2];
+    const double p3 = p[3];
+    const double p4 = p[4];
+    const double p5 = p[5];
+    const double p6 = p[6];
+    const double p7 = p[7];
+    const double p8 = p[8];
+    const vector q0 = q[0];
+    const vector q1 = q[1];
+    const vector q2 = q[2];
+    const vector q3 = q[3];
+    const vector q4 = q[4];
+    const vector q5 = q[5];
+    const vector q6 = q[6];
+    const vector q7 = q[7];
+    const vector q8 = q[8];
+    const vector base_position_log0 = q0 - p0;
+    const vector base_position_log1 = q1 - p1;
+    const vector gap = q2 - p2;
+    const vector round_2 = vector_round(0.15915494309189535 * gap);
+    const vector base_heading_log0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 -
+        3.019915981956753e-07 * round_2;
+    const vector gap_2 = q3 - p3;
+    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
+    const vector arm_log0 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 -
+        3.019915981956753e-07 * round_3;
+    const vector gap_3 = q4 - p4;
+    const vector round_4 = vector_round(0.15915494309189535 * gap_3);
+    const vector arm_log1 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 -
+        3.019915981956753e-07 * round_4;
+    const vector gap_4 = q5 - p5;
+    const vector round_5 = vector_round(0.15915494309189535 * gap_4);
+    const vector arm_log2 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 -
+        3.019915981956753e-07 * round_5;
+    const vector gap_5 = q6 - p6;
+    const vector round_6 = vector_round(0.15915494309189535 * gap_5);
+    const vector arm_log3 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 -
+        3.019915981956753e-07 * round_6;
+    const vector gap_6 = q7 - p7;
+    const vector round_7 = vector_round(0.15915494309189535 * gap_6);
+    const vector arm_log4 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 -
+        3.019915981956753e-07 * round_7;
+    const vector gap_7 = q8 - p8;
+    const vector round_8 = vector_round(0.15915494309189535 * gap_7);
+    const vector arm_log5 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 -
+        3.019915981956753e-07 * round_8;
+    const vector total_2 = base_position_log0 * base_position_log0 + base_position_log1 * base_position_log1 +
+        0.25 * (base_heading_log0 * base_heading_log0) + 0.0625 * (arm_log0 * arm_log0) + 0.0625 * (arm_log1 *
+        arm_log1);
+    const vector total_3 = total_2 + 0.0625 * (arm_log2 * arm_log2) + 0.0625 * (arm_log3 * arm_log3) + 0.0625
+        * (arm_log4 * arm_log4);
+    distance[0] = vector_sqrt(total_3 + 0.0625 * (arm_log5 * arm_log5));
+}
+
 /* The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar. */
 OUTLINE void pair_factors(
     const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *factor) {
@@ -1359,10 +1424,12 @@ OUTLINE void vector_end(size_t count, size_t start, size_t size, vector *columns
         for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
 }
 
-/* Scratch memory: 19 vectors for each block of points, then the constants of the splats. */
+/* Scratch memory: 19 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
 size_t mobile_manipulator_splats_work(size_t count, size_t splat_count, int threads) {
     (void)threads;
-    return ((count + LANES - 1) / LANES * 19 + 1) * LANES + 91 * splat_count;
+    const size_t points = (count + LANES - 1) / LANES, blocks = (points + 2 - 1) / 2;
+    const size_t places = 10 * ((splat_count + LANES - 1) / LANES + (blocks + LANES - 1) / LANES);
+    return (points * 19 + places + 1) * LANES + 91 * splat_count;
 }
 
 static vector *work_points(double *work) {
@@ -1370,44 +1437,160 @@ static vector *work_points(double *work) {
     return (vector *)((char *)work + ((0 - start) & (size - 1)));
 }
 
-static double *work_constants(double *work, size_t count) {
-    return (double *)(work_points(work) + (count + LANES - 1) / LANES * 19);
+/* Where a splat is: numbers that are LANES apart. */
+INLINE const double *splat_at(const vector *splats, size_t k) {
+    const size_t row = k / LANES;
+    return (const double *)(splats + 10 * row) + (k - row * LANES);
 }
 
-/* The constants of LANES splats, as rows. */
+static vector *work_splats(double *work, size_t count) {
+    return work_points(work) + (count + LANES - 1) / LANES * 19;
+}
+
+static vector *work_blocks(double *work, size_t count, size_t splat_count) {
+    return work_splats(work, count) + 10 * ((splat_count + LANES - 1) / LANES);
+}
+
+static double *work_constants(double *work, size_t count, size_t splat_count) {
+    const size_t size = 2 * LANES, blocks = (count + size - 1) / size;
+    return (double *)(work_blocks(work, count, splat_count) + 10 * ((blocks + LANES - 1) / LANES));
+}
+
+/* Zero, or NaN where a number is not finite: what has one is near everything. */
+INLINE vector vector_spoilt(const vector *x, size_t size) {
+    vector sum = ZERO;
+    for (size_t i = 0; i < size; ++i) sum += x[i] - x[i];
+    return sum;
+}
+
+/* mu and reach of LANES splats, side by side. */
+OUTLINE void splat_reach(
+    const vector *mu, const vector *amplitude, const double *width, size_t splat_count, size_t start, vector *splats) {
+    vector *own = splats + start / LANES * (9 + 1);
+    vector_rows(width, splat_count, start, 1, own + 9);
+    own[9] = own[9] * 9.014149034296874 + vector_spoilt(mu, 9) + vector_spoilt(amplitude, 1);
+    for (int i = 0; i < 9; ++i) own[i] = mu[i];
+}
+
+/* The middle of a block of points and its radius; of some points that could be the middle, the one with the smallest. */
+OUTLINE void block_place(const double *x, size_t count, size_t start, double *place) {
+    const size_t size = count - start < 2 * LANES ? count - start : 2 * LANES;
+    vector at[2][9], spoilt = ZERO;
+    for (size_t b = 0; b < 2; ++b) {
+        vector_rows(x, count, start + b * LANES, 9, at[b]);
+        spoilt += vector_spoilt(at[b], 9);
+    }
+    for (size_t i = 1; i < 8; i += 2) {
+        const double *middle = x + 9 * (start + i * size / 8);
+        double radius = 0, column[LANES];
+        for (size_t b = 0; b < 2; ++b) {
+            vector distance[1];
+            pair_distance(middle, at[b], distance);
+            vector_store(column, distance[0]);
+            for (size_t lane = 0; lane < LANES; ++lane) radius = column[lane] > radius ? column[lane] : radius;
+        }
+        if (i == 1 || radius < place[9]) {
+            for (int j = 0; j < 9; ++j) place[j] = middle[j];
+            place[9] = radius;
+        }
+    }
+    place[9] = place[9] * 1.0078125 + vector_sum(spoilt);
+}
+
+/* Where a splat is too far from all of a block; never where a distance is not a number. */
+INLINE vector_mask vector_far(vector distance, vector reach, vector radius) {
+    return (distance > reach + radius);
+}
+
+/* The splats from `first` (a multiple of LANES) to `end` that are near a block, all if there is none; how many. */
+OUTLINE size_t splats_near(const double *place, const vector *splats, size_t first, size_t end, uint32_t *near) {
+    size_t size = 0;
+    if (!place) {
+        for (size_t k = first; k < end; ++k) near[size++] = (uint32_t)k;
+        return size;
+    }
+    for (size_t start = first; start < end; start += LANES) {
+        const vector *own = splats + start / LANES * (9 + 1);
+        vector distance[1];
+        pair_distance(place, own, distance);
+        const vector_mask far = vector_far(distance[0], own[9], vector_of(place[9]));
+        const size_t lanes = end - start < LANES ? end - start : LANES;
+        for (size_t lane = 0; lane < lanes; ++lane) {
+            near[size] = (uint32_t)(start + lane);
+            size += !LANE(far, lane);
+        }
+    }
+    return size;
+}
+
+/* The vectors of points from `first` to `end` whose blocks are near a splat, all if there are none, less `first`. */
+OUTLINE size_t blocks_near(
+    const double *mu, const double *reach, const vector *blocks, size_t first, size_t end, uint32_t *near) {
+    const size_t group = 2 * LANES;  // vectors of points whose middles are one vector
+    size_t size = 0;
+    if (!reach) {
+        for (size_t b = first; b < end; ++b) near[size++] = (uint32_t)(b - first);
+        return size;
+    }
+    for (size_t start = first / group * group; start < end; start += group) {
+        const vector *own = blocks + start / group * (9 + 1);
+        vector distance[1];
+        pair_distance(mu, own, distance);
+        const vector_mask far = vector_far(distance[0], vector_of(*reach), own[9]);
+        for (size_t lane = 0; lane < group; ++lane) {
+            const size_t b = start + lane;
+            near[size] = (uint32_t)(b - first);
+            size += b >= first && b < end && !LANE(far, lane / 2);
+        }
+    }
+    return size;
+}
+
+/* The constants of LANES splats, as rows; with `width`, how far they reach. */
 OUTLINE void splat_constants(
-    size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, double *constants) {
+    size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, const double *width, double *constants,
+    vector *splats) {
     vector own_mu[9], own_W[81], own_amplitude[1], S[91];
     vector_rows(mu, splat_count, start, 9, own_mu);
     vector_rows(W, splat_count, start, 81, own_W);
     vector_rows(amplitude, splat_count, start, 1, own_amplitude);
+    if (width) splat_reach(own_mu, own_amplitude, width, splat_count, start, splats);
     pair_constants(own_mu, own_W, own_amplitude, S);
     vector_to_rows(S, constants, splat_count, start, 91, 91);
 }
 
 /* 2 vectors of points at a time stay in registers while all splats pass. */
 void mobile_manipulator_splats(
-    size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT W, const double *MOBILE_MANIPULATOR_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT W, const double *MOBILE_MANIPULATOR_RESTRICT amplitude, const double *MOBILE_MANIPULATOR_RESTRICT width,
     double *MOBILE_MANIPULATOR_RESTRICT value, double *MOBILE_MANIPULATOR_RESTRICT gradient, double *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
     (void)threads;
-    double *constants = work_constants(work, 0);
+    double *constants = work_constants(work, 0, splat_count);
+    vector *splats = work_splats(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES)
-            splat_constants(splat_count, start, mu, W, amplitude, constants);
+            splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
             vector at[2][9], X[2][9], grad[9];
             vector value_sum[2][1] = {{ZERO}}, slope_sum[2][9] = {{ZERO}};
+            double place[9 + 1];
+            uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 9, at[b]);
                 pair_features(at[b], X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k) {
-                pair_forward(X[0], constants + 91 * k, value_sum[0], slope_sum[0]);
-                pair_forward(X[1], constants + 91 * k, value_sum[1], slope_sum[1]);
+            if (width) block_place(x, count, start, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
+                for (size_t i = 0; i < size; ++i) {
+                    const double *S = constants + 91 * near[i];
+                    pair_forward(X[0], S, value_sum[0], slope_sum[0]);
+                    pair_forward(X[1], S, value_sum[1], slope_sum[1]);
+                }
             }
             for (size_t b = 0; b < 2; ++b) {
                 pair_gradient(at[b], slope_sum[b], grad);
@@ -1420,26 +1603,35 @@ void mobile_manipulator_splats(
 }
 
 void mobile_manipulator_splats_value(
-    size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT W, const double *MOBILE_MANIPULATOR_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT W, const double *MOBILE_MANIPULATOR_RESTRICT amplitude, const double *MOBILE_MANIPULATOR_RESTRICT width,
     double *MOBILE_MANIPULATOR_RESTRICT value, double *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
     (void)threads;
-    double *constants = work_constants(work, 0);
+    double *constants = work_constants(work, 0, splat_count);
+    vector *splats = work_splats(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES)
-            splat_constants(splat_count, start, mu, W, amplitude, constants);
+            splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
             vector at[9], X[2][9], value_sum[2][1] = {{ZERO}};
+            double place[9 + 1];
+            uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 9, at);
                 pair_features(at, X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k) {
-                pair_value(X[0], constants + 91 * k, value_sum[0]);
-                pair_value(X[1], constants + 91 * k, value_sum[1]);
+            if (width) block_place(x, count, start, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
+                for (size_t i = 0; i < size; ++i) {
+                    const double *S = constants + 91 * near[i];
+                    pair_value(X[0], S, value_sum[0]);
+                    pair_value(X[1], S, value_sum[1]);
+                }
             }
             for (size_t b = 0; b < 2; ++b)
                 vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
@@ -1591,18 +1783,21 @@ INLINE void pair_backward(
     }
 }
 
-/* Adds to S_bar what some vectors of points add to it: factors of 10 vectors at a time, then their products. */
-OUTLINE void splat_sums(const vector *point, size_t count, const double *S, double *S_bar) {
+/*
+ * Adds to S_bar what some vectors of points add to it, those in the list: factors of 10 vectors at a time, then their
+ * products.
+ */
+OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t count, const double *S, double *S_bar) {
     vector factor[10 * 37], total[91] = {ZERO};
-    for (size_t start = 0; start < count; start += 10, point += 10 * 19) {
+    for (size_t start = 0; start < count; start += 10, near += 10) {
         const size_t size = count - start < 10 ? count - start : 10;
         for (size_t b = 0; b < size; ++b) {
-            const vector *at = point + 19 * b;
+            const vector *at = points + 19 * (size_t)near[b];
             pair_factors(at, S, at + 9, at + 9 + 1, factor + 37 * b);
         }
         {
             vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_0(factor + 37 * b, point + 19 * b, sum);
+            for (size_t b = 0; b < size; ++b) pair_products_0(factor + 37 * b, points + 19 * (size_t)near[b], sum);
             total[0] += sum[0];
             total[1] += sum[1];
             total[2] += sum[2];
@@ -1618,7 +1813,7 @@ OUTLINE void splat_sums(const vector *point, size_t count, const double *S, doub
         }
         {
             vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_1(factor + 37 * b, point + 19 * b, sum);
+            for (size_t b = 0; b < size; ++b) pair_products_1(factor + 37 * b, points + 19 * (size_t)near[b], sum);
             total[11] += sum[0];
             total[12] += sum[1];
             total[13] += sum[2];
@@ -1634,7 +1829,7 @@ OUTLINE void splat_sums(const vector *point, size_t count, const double *S, doub
         }
         {
             vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_2(factor + 37 * b, point + 19 * b, sum);
+            for (size_t b = 0; b < size; ++b) pair_products_2(factor + 37 * b, points + 19 * (size_t)near[b], sum);
             total[18] += sum[0];
             total[19] += sum[1];
             total[25] += sum[2];
@@ -1650,7 +1845,7 @@ OUTLINE void splat_sums(const vector *point, size_t count, const double *S, doub
         }
         {
             vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_3(factor + 37 * b, point + 19 * b, sum);
+            for (size_t b = 0; b < size; ++b) pair_products_3(factor + 37 * b, points + 19 * (size_t)near[b], sum);
             total[33] += sum[0];
             total[42] += sum[1];
             total[36] += sum[2];
@@ -1666,7 +1861,7 @@ OUTLINE void splat_sums(const vector *point, size_t count, const double *S, doub
         }
         {
             vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_4(factor + 37 * b, point + 19 * b, sum);
+            for (size_t b = 0; b < size; ++b) pair_products_4(factor + 37 * b, points + 19 * (size_t)near[b], sum);
             total[47] += sum[0];
             total[48] += sum[1];
             total[49] += sum[2];
@@ -1682,7 +1877,7 @@ OUTLINE void splat_sums(const vector *point, size_t count, const double *S, doub
         }
         {
             vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_5(factor + 37 * b, point + 19 * b, sum);
+            for (size_t b = 0; b < size; ++b) pair_products_5(factor + 37 * b, points + 19 * (size_t)near[b], sum);
             total[54] += sum[0];
             total[55] += sum[1];
             total[61] += sum[2];
@@ -1698,7 +1893,7 @@ OUTLINE void splat_sums(const vector *point, size_t count, const double *S, doub
         }
         {
             vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_6(factor + 37 * b, point + 19 * b, sum);
+            for (size_t b = 0; b < size; ++b) pair_products_6(factor + 37 * b, points + 19 * (size_t)near[b], sum);
             total[69] += sum[0];
             total[78] += sum[1];
             total[72] += sum[2];
@@ -1714,7 +1909,7 @@ OUTLINE void splat_sums(const vector *point, size_t count, const double *S, doub
         }
         {
             vector sum[7] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_7(factor + 37 * b, point + 19 * b, sum);
+            for (size_t b = 0; b < size; ++b) pair_products_7(factor + 37 * b, points + 19 * (size_t)near[b], sum);
             total[83] += sum[0];
             total[84] += sum[1];
             total[85] += sum[2];
@@ -1732,20 +1927,34 @@ OUTLINE void splat_sums(const vector *point, size_t count, const double *S, doub
  * splats depends on the threads, what is summed in which order does not.
  */
 void mobile_manipulator_splats_vjp(
-    size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT W, const double *MOBILE_MANIPULATOR_RESTRICT amplitude, const double *MOBILE_MANIPULATOR_RESTRICT value_bar, const double *MOBILE_MANIPULATOR_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT W, const double *MOBILE_MANIPULATOR_RESTRICT amplitude, const double *MOBILE_MANIPULATOR_RESTRICT width, const double *MOBILE_MANIPULATOR_RESTRICT value_bar, const double *MOBILE_MANIPULATOR_RESTRICT gradient_bar,
     double *MOBILE_MANIPULATOR_RESTRICT mu_bar, double *MOBILE_MANIPULATOR_RESTRICT W_bar, double *MOBILE_MANIPULATOR_RESTRICT amplitude_bar, double *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
     const size_t blocks = (count + LANES - 1) / LANES;
     const size_t chunk = 131072 / (19 * sizeof(vector)) + 1;
+    const size_t rows = ((blocks + 2 - 1) / 2 + LANES - 1) / LANES * LANES;
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES ? part : LANES;
     vector *points = work_points(work);
-    double *constants = work_constants(work, count);
+    vector *splats = work_splats(work, count), *places = work_blocks(work, count, splat_count);
+    double *constants = work_constants(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic) nowait)
         for (size_t start = 0; start < splat_count; start += LANES)
-            splat_constants(splat_count, start, mu, W, amplitude, constants);
+            splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
+        if (width) {
+            OMP(omp for schedule(dynamic, 8) nowait)
+            for (size_t block = 0; block < rows; ++block) {
+                double place[9 + 1];
+                const size_t last = (blocks - 1) / 2, start = (block < last ? block : last) * 2;
+                block_place(x, count, start * LANES, place);
+                for (int i = 0; i < 10; ++i) {
+                    double *row = (double *)(places + block / LANES * 10 + i);
+                    row[block - block / LANES * LANES] = place[i];
+                }
+            }
+        }
         OMP(omp for schedule(dynamic, 8))
         for (size_t block = 0; block < blocks; ++block)
             splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 19 * block);
@@ -1753,11 +1962,15 @@ void mobile_manipulator_splats_vjp(
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
             double sums[LANES][91] = {{0}};
+            uint32_t near[131072 / (19 * sizeof(vector)) + 2];
             vector own_mu[9], own_W[81], own_amplitude[1], S_bar[91], bars[91];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
-                for (size_t k = start; k < end; ++k)
-                    splat_sums(points + 19 * first, size, constants + 91 * k, sums[k - start]);
+                for (size_t k = start; k < end; ++k) {
+                    const double *reach = width ? splat_at(splats, k) + 9 * LANES : NULL;
+                    const size_t some = blocks_near(mu + 9 * k, reach, places, first, first + size, near);
+                    splat_sums(points + 19 * first, near, some, constants + 91 * k, sums[k - start]);
+                }
             }
             vector_rows(mu, end, start, 9, own_mu);
             vector_rows(W, end, start, 81, own_W);
@@ -1778,13 +1991,13 @@ void mobile_manipulator_splats_rows(
     double *MOBILE_MANIPULATOR_RESTRICT rows, double *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES - 1) / LANES;
-    double *constants = work_constants(work, 0);
+    double *constants = work_constants(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES)
-            splat_constants(splat_count, start, mu, W, amplitude, constants);
+            splat_constants(splat_count, start, mu, W, amplitude, NULL, constants, NULL);
         OMP(omp for schedule(dynamic))
         for (size_t block = 0; block < blocks; ++block) {
             vector point[19];
@@ -1801,6 +2014,104 @@ void mobile_manipulator_splats_rows(
         }
         restore_denormals(mode);
     }
+}
+
+/* A coordinate to sort by. */
+INLINE double order_key(const double *x, size_t row, size_t axis) {
+    const double key = x[9 * row + axis];
+    return key == key ? key : 0;
+}
+
+/* The coordinate that differs most among some points. */
+static size_t widest(const double *x, const size_t *order, size_t count) {
+    double low[9], high[9];
+    size_t widest = 0;
+    for (size_t axis = 0; axis < 9; ++axis) low[axis] = high[axis] = order_key(x, order[0], axis);
+    for (size_t i = 1; i < count; ++i)
+        for (size_t axis = 0; axis < 9; ++axis) {
+            const double key = order_key(x, order[i], axis);
+            low[axis] = key < low[axis] ? key : low[axis];
+            high[axis] = key > high[axis] ? key : high[axis];
+        }
+    for (size_t axis = 1; axis < 9; ++axis)
+        if (high[axis] - low[axis] > high[widest] - low[widest]) widest = axis;
+    return widest;
+}
+
+/* Order points and their keys such that none of the first `part` has a larger key than one of the others. */
+static void split_at(double *keys, size_t *order, size_t count, size_t part) {
+    size_t low = 0, high = count;  // the part-th smallest key is in [low, high)
+    while (high - low > 1) {
+        const double a = keys[low], b = keys[low + (high - low) / 2], c = keys[high - 1];
+        const double least = a < b ? a : b, most = a < b ? b : a, pivot = c < least ? least : c > most ? most : c;
+        size_t less = low, equal = low;
+        for (int inclusive = 0; inclusive < 2; ++inclusive) {  // without branches, which nobody can foresee
+            size_t end = equal = less;
+            for (; end < high; ++end) {
+                const double key = keys[end];
+                const size_t row = order[end];
+                keys[end] = keys[equal], order[end] = order[equal];
+                keys[equal] = key, order[equal] = row;
+                equal += inclusive ? key <= pivot : key < pivot;
+            }
+            if (!inclusive) less = equal;
+            if (part < less) break;
+        }
+        if (part < less)
+            high = less;
+        else if (part < equal)
+            return;
+        else
+            low = equal;
+    }
+}
+
+/* Halve points at their medians until they are blocks. */
+static void sorted_blocks(const double *x, size_t *order, size_t count, double *keys) {
+    const size_t block = 2 * LANES;
+    while (count > block) {
+        const size_t part = ((count + block - 1) / block + 1) / 2 * block, axis = widest(x, order, count);
+        for (size_t i = 0; i < count; ++i) keys[i] = order_key(x, order[i], axis);
+        split_at(keys, order, count, part);
+        sorted_blocks(x, order + part, count - part, keys);
+        count = part;
+    }
+}
+
+double mobile_manipulator_splats_order(
+    size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT amplitude, const double *MOBILE_MANIPULATOR_RESTRICT width,
+    double limit, size_t *MOBILE_MANIPULATOR_RESTRICT order, double *MOBILE_MANIPULATOR_RESTRICT work) {
+    const size_t block = 2 * LANES;
+    vector *splats = work_splats(work, 0);
+    uint32_t near[256];
+    double share = 0;
+    for (size_t n = 0; n < count; ++n) order[n] = n;
+    if (!count || !splat_count) return 1;
+    for (size_t start = 0; start < splat_count; start += LANES) {
+        vector own_mu[9], own_amplitude[1];
+        vector_rows(mu, splat_count, start, 9, own_mu);
+        vector_rows(amplitude, splat_count, start, 1, own_amplitude);
+        splat_reach(own_mu, own_amplitude, width, splat_count, start, splats);
+    }
+    for (int sorted = 0; sorted < 2; ++sorted) {
+        size_t pairs = 0;
+        if (sorted) sorted_blocks(x, order, count, (double *)work_blocks(work, 0, splat_count));
+        for (size_t i = 1; i < 2 * 16; i += 2) {
+            double rows[2 * LANES * 9], place[9 + 1];
+            const size_t some = i * count / (2 * 16), start = sorted ? some / block * block : some;
+            const size_t size = !sorted ? 1 : count - start < block ? count - start : block;
+            for (size_t n = 0; n < size; ++n)
+                for (int j = 0; j < 9; ++j) rows[9 * n + j] = x[9 * order[start + n] + j];
+            block_place(rows, size, 0, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                pairs += splats_near(place, splats, first, end, near);
+            }
+        }
+        share = (double)pairs / ((double)splat_count * 16);
+        if (share > limit) return share;
+    }
+    return share;
 }
 
 /* The same number in all lanes. */
@@ -1846,6 +2157,12 @@ INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
 /* round of every lane; one instruction where the machine has it. */
 INLINE vector_f vector_round_f(vector_f x) {
     for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = rintf(LANE(x, i));
+    return x;
+}
+
+/* sqrt of every lane; one instruction where the machine has it. */
+INLINE vector_f vector_sqrt_f(vector_f x) {
+    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
     return x;
 }
 
@@ -2647,6 +2964,65 @@ OUTLINE void pair_constants_vjp_f(
     amplitude_bar[0] = its_amplitude_bar;
 }
 
+/* The distances of some points q from one point p. */
+OUTLINE void pair_distance_f(
+    const float *p, const vector_f *q, vector_f *distance) {
+    const float p0 = p[0];
+    const float p1 = p[1];
+    const float p2 = p[2];
+    const float p3 = p[3];
+    const float p4 = p[4];
+    const float p5 = p[5];
+    const float p6 = p[6];
+    const float p7 = p[7];
+    const float p8 = p[8];
+    const vector_f q0 = q[0];
+    const vector_f q1 = q[1];
+    const vector_f q2 = q[2];
+    const vector_f q3 = q[3];
+    const vector_f q4 = q[4];
+    const vector_f q5 = q[5];
+    const vector_f q6 = q[6];
+    const vector_f q7 = q[7];
+    const vector_f q8 = q[8];
+    const vector_f base_position_log0 = q0 - p0;
+    const vector_f base_position_log1 = q1 - p1;
+    const vector_f gap = q2 - p2;
+    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
+    const vector_f base_heading_log0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 -
+        3.019915981956753e-07f * round_2;
+    const vector_f gap_2 = q3 - p3;
+    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
+    const vector_f arm_log0 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 -
+        3.019915981956753e-07f * round_3;
+    const vector_f gap_3 = q4 - p4;
+    const vector_f round_4 = vector_round_f(0.15915494309189535f * gap_3);
+    const vector_f arm_log1 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 -
+        3.019915981956753e-07f * round_4;
+    const vector_f gap_4 = q5 - p5;
+    const vector_f round_5 = vector_round_f(0.15915494309189535f * gap_4);
+    const vector_f arm_log2 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 -
+        3.019915981956753e-07f * round_5;
+    const vector_f gap_5 = q6 - p6;
+    const vector_f round_6 = vector_round_f(0.15915494309189535f * gap_5);
+    const vector_f arm_log3 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 -
+        3.019915981956753e-07f * round_6;
+    const vector_f gap_6 = q7 - p7;
+    const vector_f round_7 = vector_round_f(0.15915494309189535f * gap_6);
+    const vector_f arm_log4 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 -
+        3.019915981956753e-07f * round_7;
+    const vector_f gap_7 = q8 - p8;
+    const vector_f round_8 = vector_round_f(0.15915494309189535f * gap_7);
+    const vector_f arm_log5 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 -
+        3.019915981956753e-07f * round_8;
+    const vector_f total_2 = base_position_log0 * base_position_log0 + base_position_log1 * base_position_log1
+        + 0.25f * (base_heading_log0 * base_heading_log0) + 0.0625f * (arm_log0 * arm_log0) + 0.0625f *
+        (arm_log1 * arm_log1);
+    const vector_f total_3 = total_2 + 0.0625f * (arm_log2 * arm_log2) + 0.0625f * (arm_log3 * arm_log3) +
+        0.0625f * (arm_log4 * arm_log4);
+    distance[0] = vector_sqrt_f(total_3 + 0.0625f * (arm_log5 * arm_log5));
+}
+
 /* The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar. */
 OUTLINE void pair_factors_f(
     const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *factor) {
@@ -3081,10 +3457,12 @@ OUTLINE void vector_end_f(size_t count, size_t start, size_t size, vector_f *col
         for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
 }
 
-/* Scratch memory: 19 vectors for each block of points, then the constants of the splats. */
+/* Scratch memory: 19 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
 size_t mobile_manipulator_splats_work_f(size_t count, size_t splat_count, int threads) {
     (void)threads;
-    return ((count + LANES_f - 1) / LANES_f * 19 + 1) * LANES_f + 91 * splat_count;
+    const size_t points = (count + LANES_f - 1) / LANES_f, blocks = (points + 2 - 1) / 2;
+    const size_t places = 10 * ((splat_count + LANES_f - 1) / LANES_f + (blocks + LANES_f - 1) / LANES_f);
+    return (points * 19 + places + 1) * LANES_f + 91 * splat_count;
 }
 
 static vector_f *work_points_f(float *work) {
@@ -3092,44 +3470,160 @@ static vector_f *work_points_f(float *work) {
     return (vector_f *)((char *)work + ((0 - start) & (size - 1)));
 }
 
-static float *work_constants_f(float *work, size_t count) {
-    return (float *)(work_points_f(work) + (count + LANES_f - 1) / LANES_f * 19);
+/* Where a splat is: numbers that are LANES apart. */
+INLINE const float *splat_at_f(const vector_f *splats, size_t k) {
+    const size_t row = k / LANES_f;
+    return (const float *)(splats + 10 * row) + (k - row * LANES_f);
 }
 
-/* The constants of LANES splats, as rows. */
+static vector_f *work_splats_f(float *work, size_t count) {
+    return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 19;
+}
+
+static vector_f *work_blocks_f(float *work, size_t count, size_t splat_count) {
+    return work_splats_f(work, count) + 10 * ((splat_count + LANES_f - 1) / LANES_f);
+}
+
+static float *work_constants_f(float *work, size_t count, size_t splat_count) {
+    const size_t size = 2 * LANES_f, blocks = (count + size - 1) / size;
+    return (float *)(work_blocks_f(work, count, splat_count) + 10 * ((blocks + LANES_f - 1) / LANES_f));
+}
+
+/* Zero, or NaN where a number is not finite: what has one is near everything. */
+INLINE vector_f vector_spoilt_f(const vector_f *x, size_t size) {
+    vector_f sum = ZERO;
+    for (size_t i = 0; i < size; ++i) sum += x[i] - x[i];
+    return sum;
+}
+
+/* mu and reach of LANES splats, side by side. */
+OUTLINE void splat_reach_f(
+    const vector_f *mu, const vector_f *amplitude, const float *width, size_t splat_count, size_t start, vector_f *splats) {
+    vector_f *own = splats + start / LANES_f * (9 + 1);
+    vector_rows_f(width, splat_count, start, 1, own + 9);
+    own[9] = own[9] * 6.3739659084374996f + vector_spoilt_f(mu, 9) + vector_spoilt_f(amplitude, 1);
+    for (int i = 0; i < 9; ++i) own[i] = mu[i];
+}
+
+/* The middle of a block of points and its radius; of some points that could be the middle, the one with the smallest. */
+OUTLINE void block_place_f(const float *x, size_t count, size_t start, float *place) {
+    const size_t size = count - start < 2 * LANES_f ? count - start : 2 * LANES_f;
+    vector_f at[2][9], spoilt = ZERO;
+    for (size_t b = 0; b < 2; ++b) {
+        vector_rows_f(x, count, start + b * LANES_f, 9, at[b]);
+        spoilt += vector_spoilt_f(at[b], 9);
+    }
+    for (size_t i = 1; i < 8; i += 2) {
+        const float *middle = x + 9 * (start + i * size / 8);
+        float radius = 0, column[LANES_f];
+        for (size_t b = 0; b < 2; ++b) {
+            vector_f distance[1];
+            pair_distance_f(middle, at[b], distance);
+            vector_store_f(column, distance[0]);
+            for (size_t lane = 0; lane < LANES_f; ++lane) radius = column[lane] > radius ? column[lane] : radius;
+        }
+        if (i == 1 || radius < place[9]) {
+            for (int j = 0; j < 9; ++j) place[j] = middle[j];
+            place[9] = radius;
+        }
+    }
+    place[9] = place[9] * 1.0078125f + vector_sum_f(spoilt);
+}
+
+/* Where a splat is too far from all of a block; never where a distance is not a number. */
+INLINE vector_mask_f vector_far_f(vector_f distance, vector_f reach, vector_f radius) {
+    return (distance > reach + radius);
+}
+
+/* The splats from `first` (a multiple of LANES) to `end` that are near a block, all if there is none; how many. */
+OUTLINE size_t splats_near_f(const float *place, const vector_f *splats, size_t first, size_t end, uint32_t *near) {
+    size_t size = 0;
+    if (!place) {
+        for (size_t k = first; k < end; ++k) near[size++] = (uint32_t)k;
+        return size;
+    }
+    for (size_t start = first; start < end; start += LANES_f) {
+        const vector_f *own = splats + start / LANES_f * (9 + 1);
+        vector_f distance[1];
+        pair_distance_f(place, own, distance);
+        const vector_mask_f far = vector_far_f(distance[0], own[9], vector_of_f(place[9]));
+        const size_t lanes = end - start < LANES_f ? end - start : LANES_f;
+        for (size_t lane = 0; lane < lanes; ++lane) {
+            near[size] = (uint32_t)(start + lane);
+            size += !LANE(far, lane);
+        }
+    }
+    return size;
+}
+
+/* The vectors of points from `first` to `end` whose blocks are near a splat, all if there are none, less `first`. */
+OUTLINE size_t blocks_near_f(
+    const float *mu, const float *reach, const vector_f *blocks, size_t first, size_t end, uint32_t *near) {
+    const size_t group = 2 * LANES_f;  // vectors of points whose middles are one vector
+    size_t size = 0;
+    if (!reach) {
+        for (size_t b = first; b < end; ++b) near[size++] = (uint32_t)(b - first);
+        return size;
+    }
+    for (size_t start = first / group * group; start < end; start += group) {
+        const vector_f *own = blocks + start / group * (9 + 1);
+        vector_f distance[1];
+        pair_distance_f(mu, own, distance);
+        const vector_mask_f far = vector_far_f(distance[0], vector_of_f(*reach), own[9]);
+        for (size_t lane = 0; lane < group; ++lane) {
+            const size_t b = start + lane;
+            near[size] = (uint32_t)(b - first);
+            size += b >= first && b < end && !LANE(far, lane / 2);
+        }
+    }
+    return size;
+}
+
+/* The constants of LANES splats, as rows; with `width`, how far they reach. */
 OUTLINE void splat_constants_f(
-    size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, float *constants) {
+    size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, const float *width, float *constants,
+    vector_f *splats) {
     vector_f own_mu[9], own_W[81], own_amplitude[1], S[91];
     vector_rows_f(mu, splat_count, start, 9, own_mu);
     vector_rows_f(W, splat_count, start, 81, own_W);
     vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
+    if (width) splat_reach_f(own_mu, own_amplitude, width, splat_count, start, splats);
     pair_constants_f(own_mu, own_W, own_amplitude, S);
     vector_to_rows_f(S, constants, splat_count, start, 91, 91);
 }
 
 /* 2 vectors of points at a time stay in registers while all splats pass. */
 void mobile_manipulator_splats_f(
-    size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT W, const float *MOBILE_MANIPULATOR_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT W, const float *MOBILE_MANIPULATOR_RESTRICT amplitude, const float *MOBILE_MANIPULATOR_RESTRICT width,
     float *MOBILE_MANIPULATOR_RESTRICT value, float *MOBILE_MANIPULATOR_RESTRICT gradient, float *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
     (void)threads;
-    float *constants = work_constants_f(work, 0);
+    float *constants = work_constants_f(work, 0, splat_count);
+    vector_f *splats = work_splats_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES_f)
-            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+            splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
             vector_f at[2][9], X[2][9], grad[9];
             vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][9] = {{ZERO}};
+            float place[9 + 1];
+            uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 9, at[b]);
                 pair_features_f(at[b], X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k) {
-                pair_forward_f(X[0], constants + 91 * k, value_sum[0], slope_sum[0]);
-                pair_forward_f(X[1], constants + 91 * k, value_sum[1], slope_sum[1]);
+            if (width) block_place_f(x, count, start, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
+                for (size_t i = 0; i < size; ++i) {
+                    const float *S = constants + 91 * near[i];
+                    pair_forward_f(X[0], S, value_sum[0], slope_sum[0]);
+                    pair_forward_f(X[1], S, value_sum[1], slope_sum[1]);
+                }
             }
             for (size_t b = 0; b < 2; ++b) {
                 pair_gradient_f(at[b], slope_sum[b], grad);
@@ -3142,26 +3636,35 @@ void mobile_manipulator_splats_f(
 }
 
 void mobile_manipulator_splats_value_f(
-    size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT W, const float *MOBILE_MANIPULATOR_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT W, const float *MOBILE_MANIPULATOR_RESTRICT amplitude, const float *MOBILE_MANIPULATOR_RESTRICT width,
     float *MOBILE_MANIPULATOR_RESTRICT value, float *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
     (void)threads;
-    float *constants = work_constants_f(work, 0);
+    float *constants = work_constants_f(work, 0, splat_count);
+    vector_f *splats = work_splats_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES_f)
-            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+            splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
             vector_f at[9], X[2][9], value_sum[2][1] = {{ZERO}};
+            float place[9 + 1];
+            uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 9, at);
                 pair_features_f(at, X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k) {
-                pair_value_f(X[0], constants + 91 * k, value_sum[0]);
-                pair_value_f(X[1], constants + 91 * k, value_sum[1]);
+            if (width) block_place_f(x, count, start, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
+                for (size_t i = 0; i < size; ++i) {
+                    const float *S = constants + 91 * near[i];
+                    pair_value_f(X[0], S, value_sum[0]);
+                    pair_value_f(X[1], S, value_sum[1]);
+                }
             }
             for (size_t b = 0; b < 2; ++b)
                 vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
@@ -3313,18 +3816,21 @@ INLINE void pair_backward_f(
     }
 }
 
-/* Adds to S_bar what some vectors of points add to it: factors of 10 vectors at a time, then their products. */
-OUTLINE void splat_sums_f(const vector_f *point, size_t count, const float *S, float *S_bar) {
+/*
+ * Adds to S_bar what some vectors of points add to it, those in the list: factors of 10 vectors at a time, then their
+ * products.
+ */
+OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t count, const float *S, float *S_bar) {
     vector_f factor[10 * 37], total[91] = {ZERO};
-    for (size_t start = 0; start < count; start += 10, point += 10 * 19) {
+    for (size_t start = 0; start < count; start += 10, near += 10) {
         const size_t size = count - start < 10 ? count - start : 10;
         for (size_t b = 0; b < size; ++b) {
-            const vector_f *at = point + 19 * b;
+            const vector_f *at = points + 19 * (size_t)near[b];
             pair_factors_f(at, S, at + 9, at + 9 + 1, factor + 37 * b);
         }
         {
             vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_0_f(factor + 37 * b, point + 19 * b, sum);
+            for (size_t b = 0; b < size; ++b) pair_products_0_f(factor + 37 * b, points + 19 * (size_t)near[b], sum);
             total[0] += sum[0];
             total[1] += sum[1];
             total[2] += sum[2];
@@ -3340,7 +3846,7 @@ OUTLINE void splat_sums_f(const vector_f *point, size_t count, const float *S, f
         }
         {
             vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_1_f(factor + 37 * b, point + 19 * b, sum);
+            for (size_t b = 0; b < size; ++b) pair_products_1_f(factor + 37 * b, points + 19 * (size_t)near[b], sum);
             total[11] += sum[0];
             total[12] += sum[1];
             total[13] += sum[2];
@@ -3356,7 +3862,7 @@ OUTLINE void splat_sums_f(const vector_f *point, size_t count, const float *S, f
         }
         {
             vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_2_f(factor + 37 * b, point + 19 * b, sum);
+            for (size_t b = 0; b < size; ++b) pair_products_2_f(factor + 37 * b, points + 19 * (size_t)near[b], sum);
             total[18] += sum[0];
             total[19] += sum[1];
             total[25] += sum[2];
@@ -3372,7 +3878,7 @@ OUTLINE void splat_sums_f(const vector_f *point, size_t count, const float *S, f
         }
         {
             vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_3_f(factor + 37 * b, point + 19 * b, sum);
+            for (size_t b = 0; b < size; ++b) pair_products_3_f(factor + 37 * b, points + 19 * (size_t)near[b], sum);
             total[33] += sum[0];
             total[42] += sum[1];
             total[36] += sum[2];
@@ -3388,7 +3894,7 @@ OUTLINE void splat_sums_f(const vector_f *point, size_t count, const float *S, f
         }
         {
             vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_4_f(factor + 37 * b, point + 19 * b, sum);
+            for (size_t b = 0; b < size; ++b) pair_products_4_f(factor + 37 * b, points + 19 * (size_t)near[b], sum);
             total[47] += sum[0];
             total[48] += sum[1];
             total[49] += sum[2];
@@ -3404,7 +3910,7 @@ OUTLINE void splat_sums_f(const vector_f *point, size_t count, const float *S, f
         }
         {
             vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_5_f(factor + 37 * b, point + 19 * b, sum);
+            for (size_t b = 0; b < size; ++b) pair_products_5_f(factor + 37 * b, points + 19 * (size_t)near[b], sum);
             total[54] += sum[0];
             total[55] += sum[1];
             total[61] += sum[2];
@@ -3420,7 +3926,7 @@ OUTLINE void splat_sums_f(const vector_f *point, size_t count, const float *S, f
         }
         {
             vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_6_f(factor + 37 * b, point + 19 * b, sum);
+            for (size_t b = 0; b < size; ++b) pair_products_6_f(factor + 37 * b, points + 19 * (size_t)near[b], sum);
             total[69] += sum[0];
             total[78] += sum[1];
             total[72] += sum[2];
@@ -3436,7 +3942,7 @@ OUTLINE void splat_sums_f(const vector_f *point, size_t count, const float *S, f
         }
         {
             vector_f sum[7] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_7_f(factor + 37 * b, point + 19 * b, sum);
+            for (size_t b = 0; b < size; ++b) pair_products_7_f(factor + 37 * b, points + 19 * (size_t)near[b], sum);
             total[83] += sum[0];
             total[84] += sum[1];
             total[85] += sum[2];
@@ -3454,20 +3960,34 @@ OUTLINE void splat_sums_f(const vector_f *point, size_t count, const float *S, f
  * splats depends on the threads, what is summed in which order does not.
  */
 void mobile_manipulator_splats_vjp_f(
-    size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT W, const float *MOBILE_MANIPULATOR_RESTRICT amplitude, const float *MOBILE_MANIPULATOR_RESTRICT value_bar, const float *MOBILE_MANIPULATOR_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT W, const float *MOBILE_MANIPULATOR_RESTRICT amplitude, const float *MOBILE_MANIPULATOR_RESTRICT width, const float *MOBILE_MANIPULATOR_RESTRICT value_bar, const float *MOBILE_MANIPULATOR_RESTRICT gradient_bar,
     float *MOBILE_MANIPULATOR_RESTRICT mu_bar, float *MOBILE_MANIPULATOR_RESTRICT W_bar, float *MOBILE_MANIPULATOR_RESTRICT amplitude_bar, float *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
     const size_t chunk = 131072 / (19 * sizeof(vector_f)) + 1;
+    const size_t rows = ((blocks + 2 - 1) / 2 + LANES_f - 1) / LANES_f * LANES_f;
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES_f ? part : LANES_f;
     vector_f *points = work_points_f(work);
-    float *constants = work_constants_f(work, count);
+    vector_f *splats = work_splats_f(work, count), *places = work_blocks_f(work, count, splat_count);
+    float *constants = work_constants_f(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic) nowait)
         for (size_t start = 0; start < splat_count; start += LANES_f)
-            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+            splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
+        if (width) {
+            OMP(omp for schedule(dynamic, 8) nowait)
+            for (size_t block = 0; block < rows; ++block) {
+                float place[9 + 1];
+                const size_t last = (blocks - 1) / 2, start = (block < last ? block : last) * 2;
+                block_place_f(x, count, start * LANES_f, place);
+                for (int i = 0; i < 10; ++i) {
+                    float *row = (float *)(places + block / LANES_f * 10 + i);
+                    row[block - block / LANES_f * LANES_f] = place[i];
+                }
+            }
+        }
         OMP(omp for schedule(dynamic, 8))
         for (size_t block = 0; block < blocks; ++block)
             splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 19 * block);
@@ -3475,11 +3995,15 @@ void mobile_manipulator_splats_vjp_f(
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
             float sums[LANES_f][91] = {{0}};
+            uint32_t near[131072 / (19 * sizeof(vector_f)) + 2];
             vector_f own_mu[9], own_W[81], own_amplitude[1], S_bar[91], bars[91];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
-                for (size_t k = start; k < end; ++k)
-                    splat_sums_f(points + 19 * first, size, constants + 91 * k, sums[k - start]);
+                for (size_t k = start; k < end; ++k) {
+                    const float *reach = width ? splat_at_f(splats, k) + 9 * LANES_f : NULL;
+                    const size_t some = blocks_near_f(mu + 9 * k, reach, places, first, first + size, near);
+                    splat_sums_f(points + 19 * first, near, some, constants + 91 * k, sums[k - start]);
+                }
             }
             vector_rows_f(mu, end, start, 9, own_mu);
             vector_rows_f(W, end, start, 81, own_W);
@@ -3500,13 +4024,13 @@ void mobile_manipulator_splats_rows_f(
     float *MOBILE_MANIPULATOR_RESTRICT rows, float *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
-    float *constants = work_constants_f(work, 0);
+    float *constants = work_constants_f(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES_f)
-            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+            splat_constants_f(splat_count, start, mu, W, amplitude, NULL, constants, NULL);
         OMP(omp for schedule(dynamic))
         for (size_t block = 0; block < blocks; ++block) {
             vector_f point[19];
@@ -3523,4 +4047,102 @@ void mobile_manipulator_splats_rows_f(
         }
         restore_denormals(mode);
     }
+}
+
+/* A coordinate to sort by. */
+INLINE float order_key_f(const float *x, size_t row, size_t axis) {
+    const float key = x[9 * row + axis];
+    return key == key ? key : 0;
+}
+
+/* The coordinate that differs most among some points. */
+static size_t widest_f(const float *x, const size_t *order, size_t count) {
+    float low[9], high[9];
+    size_t widest = 0;
+    for (size_t axis = 0; axis < 9; ++axis) low[axis] = high[axis] = order_key_f(x, order[0], axis);
+    for (size_t i = 1; i < count; ++i)
+        for (size_t axis = 0; axis < 9; ++axis) {
+            const float key = order_key_f(x, order[i], axis);
+            low[axis] = key < low[axis] ? key : low[axis];
+            high[axis] = key > high[axis] ? key : high[axis];
+        }
+    for (size_t axis = 1; axis < 9; ++axis)
+        if (high[axis] - low[axis] > high[widest] - low[widest]) widest = axis;
+    return widest;
+}
+
+/* Order points and their keys such that none of the first `part` has a larger key than one of the others. */
+static void split_at_f(float *keys, size_t *order, size_t count, size_t part) {
+    size_t low = 0, high = count;  // the part-th smallest key is in [low, high)
+    while (high - low > 1) {
+        const float a = keys[low], b = keys[low + (high - low) / 2], c = keys[high - 1];
+        const float least = a < b ? a : b, most = a < b ? b : a, pivot = c < least ? least : c > most ? most : c;
+        size_t less = low, equal = low;
+        for (int inclusive = 0; inclusive < 2; ++inclusive) {  // without branches, which nobody can foresee
+            size_t end = equal = less;
+            for (; end < high; ++end) {
+                const float key = keys[end];
+                const size_t row = order[end];
+                keys[end] = keys[equal], order[end] = order[equal];
+                keys[equal] = key, order[equal] = row;
+                equal += inclusive ? key <= pivot : key < pivot;
+            }
+            if (!inclusive) less = equal;
+            if (part < less) break;
+        }
+        if (part < less)
+            high = less;
+        else if (part < equal)
+            return;
+        else
+            low = equal;
+    }
+}
+
+/* Halve points at their medians until they are blocks. */
+static void sorted_blocks_f(const float *x, size_t *order, size_t count, float *keys) {
+    const size_t block = 2 * LANES_f;
+    while (count > block) {
+        const size_t part = ((count + block - 1) / block + 1) / 2 * block, axis = widest_f(x, order, count);
+        for (size_t i = 0; i < count; ++i) keys[i] = order_key_f(x, order[i], axis);
+        split_at_f(keys, order, count, part);
+        sorted_blocks_f(x, order + part, count - part, keys);
+        count = part;
+    }
+}
+
+double mobile_manipulator_splats_order_f(
+    size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT amplitude, const float *MOBILE_MANIPULATOR_RESTRICT width,
+    double limit, size_t *MOBILE_MANIPULATOR_RESTRICT order, float *MOBILE_MANIPULATOR_RESTRICT work) {
+    const size_t block = 2 * LANES_f;
+    vector_f *splats = work_splats_f(work, 0);
+    uint32_t near[256];
+    double share = 0;
+    for (size_t n = 0; n < count; ++n) order[n] = n;
+    if (!count || !splat_count) return 1;
+    for (size_t start = 0; start < splat_count; start += LANES_f) {
+        vector_f own_mu[9], own_amplitude[1];
+        vector_rows_f(mu, splat_count, start, 9, own_mu);
+        vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
+        splat_reach_f(own_mu, own_amplitude, width, splat_count, start, splats);
+    }
+    for (int sorted = 0; sorted < 2; ++sorted) {
+        size_t pairs = 0;
+        if (sorted) sorted_blocks_f(x, order, count, (float *)work_blocks_f(work, 0, splat_count));
+        for (size_t i = 1; i < 2 * 16; i += 2) {
+            float rows[2 * LANES_f * 9], place[9 + 1];
+            const size_t some = i * count / (2 * 16), start = sorted ? some / block * block : some;
+            const size_t size = !sorted ? 1 : count - start < block ? count - start : block;
+            for (size_t n = 0; n < size; ++n)
+                for (int j = 0; j < 9; ++j) rows[9 * n + j] = x[9 * order[start + n] + j];
+            block_place_f(rows, size, 0, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                pairs += splats_near_f(place, splats, first, end, near);
+            }
+        }
+        share = (double)pairs / ((double)splat_count * 16);
+        if (share > limit) return share;
+    }
+    return share;
 }

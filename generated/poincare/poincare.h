@@ -284,28 +284,43 @@ void poincare_frame_f(const float *POINCARE_RESTRICT p, float *POINCARE_RESTRICT
 size_t poincare_splats_work(size_t count, size_t splat_count, int threads);
 size_t poincare_splats_work_f(size_t count, size_t splat_count, int threads);
 
-/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
+/* An order of the points in which neighbours are near each other, for sums that leave far pairs out.
+ * Returns about which part of the pairs is summed then; if that is more than `limit`, the order may be any. */
+double poincare_splats_order(
+    size_t count, size_t splat_count, const double *POINCARE_RESTRICT x, const double *POINCARE_RESTRICT mu, const double *POINCARE_RESTRICT amplitude, const double *POINCARE_RESTRICT width,
+    double limit, size_t *POINCARE_RESTRICT order, double *POINCARE_RESTRICT work);
+double poincare_splats_order_f(
+    size_t count, size_t splat_count, const float *POINCARE_RESTRICT x, const float *POINCARE_RESTRICT mu, const float *POINCARE_RESTRICT amplitude, const float *POINCARE_RESTRICT width,
+    double limit, size_t *POINCARE_RESTRICT order, float *POINCARE_RESTRICT work);
+
+/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4).
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of which there are none on this manifold, if the points are in such an order that far ones are rarely neighbours. */
 void poincare_splats(
-    size_t count, size_t splat_count, const double *POINCARE_RESTRICT x, const double *POINCARE_RESTRICT mu, const double *POINCARE_RESTRICT W, const double *POINCARE_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *POINCARE_RESTRICT x, const double *POINCARE_RESTRICT mu, const double *POINCARE_RESTRICT W, const double *POINCARE_RESTRICT amplitude, const double *POINCARE_RESTRICT width,
     double *POINCARE_RESTRICT value, double *POINCARE_RESTRICT gradient, double *POINCARE_RESTRICT work, int threads);
 void poincare_splats_f(
-    size_t count, size_t splat_count, const float *POINCARE_RESTRICT x, const float *POINCARE_RESTRICT mu, const float *POINCARE_RESTRICT W, const float *POINCARE_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *POINCARE_RESTRICT x, const float *POINCARE_RESTRICT mu, const float *POINCARE_RESTRICT W, const float *POINCARE_RESTRICT amplitude, const float *POINCARE_RESTRICT width,
     float *POINCARE_RESTRICT value, float *POINCARE_RESTRICT gradient, float *POINCARE_RESTRICT work, int threads);
 
-/* The values of the sums alone. */
+/* The values of the sums alone.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of which there are none on this manifold, if the points are in such an order that far ones are rarely neighbours. */
 void poincare_splats_value(
-    size_t count, size_t splat_count, const double *POINCARE_RESTRICT x, const double *POINCARE_RESTRICT mu, const double *POINCARE_RESTRICT W, const double *POINCARE_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *POINCARE_RESTRICT x, const double *POINCARE_RESTRICT mu, const double *POINCARE_RESTRICT W, const double *POINCARE_RESTRICT amplitude, const double *POINCARE_RESTRICT width,
     double *POINCARE_RESTRICT value, double *POINCARE_RESTRICT work, int threads);
 void poincare_splats_value_f(
-    size_t count, size_t splat_count, const float *POINCARE_RESTRICT x, const float *POINCARE_RESTRICT mu, const float *POINCARE_RESTRICT W, const float *POINCARE_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *POINCARE_RESTRICT x, const float *POINCARE_RESTRICT mu, const float *POINCARE_RESTRICT W, const float *POINCARE_RESTRICT amplitude, const float *POINCARE_RESTRICT width,
     float *POINCARE_RESTRICT value, float *POINCARE_RESTRICT work, int threads);
 
-/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
+/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of which there are none on this manifold, if the points are in such an order that far ones are rarely neighbours. */
 void poincare_splats_vjp(
-    size_t count, size_t splat_count, const double *POINCARE_RESTRICT x, const double *POINCARE_RESTRICT mu, const double *POINCARE_RESTRICT W, const double *POINCARE_RESTRICT amplitude, const double *POINCARE_RESTRICT value_bar, const double *POINCARE_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const double *POINCARE_RESTRICT x, const double *POINCARE_RESTRICT mu, const double *POINCARE_RESTRICT W, const double *POINCARE_RESTRICT amplitude, const double *POINCARE_RESTRICT width, const double *POINCARE_RESTRICT value_bar, const double *POINCARE_RESTRICT gradient_bar,
     double *POINCARE_RESTRICT mu_bar, double *POINCARE_RESTRICT W_bar, double *POINCARE_RESTRICT amplitude_bar, double *POINCARE_RESTRICT work, int threads);
 void poincare_splats_vjp_f(
-    size_t count, size_t splat_count, const float *POINCARE_RESTRICT x, const float *POINCARE_RESTRICT mu, const float *POINCARE_RESTRICT W, const float *POINCARE_RESTRICT amplitude, const float *POINCARE_RESTRICT value_bar, const float *POINCARE_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const float *POINCARE_RESTRICT x, const float *POINCARE_RESTRICT mu, const float *POINCARE_RESTRICT W, const float *POINCARE_RESTRICT amplitude, const float *POINCARE_RESTRICT width, const float *POINCARE_RESTRICT value_bar, const float *POINCARE_RESTRICT gradient_bar,
     float *POINCARE_RESTRICT mu_bar, float *POINCARE_RESTRICT W_bar, float *POINCARE_RESTRICT amplitude_bar, float *POINCARE_RESTRICT work, int threads);
 
 /* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +

@@ -282,28 +282,43 @@ void se2_frame_f(const float *SE2_RESTRICT p, float *SE2_RESTRICT frame);
 size_t se2_splats_work(size_t count, size_t splat_count, int threads);
 size_t se2_splats_work_f(size_t count, size_t splat_count, int threads);
 
-/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
+/* An order of the points in which neighbours are near each other, for sums that leave far pairs out.
+ * Returns about which part of the pairs is summed then; if that is more than `limit`, the order may be any. */
+double se2_splats_order(
+    size_t count, size_t splat_count, const double *SE2_RESTRICT x, const double *SE2_RESTRICT mu, const double *SE2_RESTRICT amplitude, const double *SE2_RESTRICT width,
+    double limit, size_t *SE2_RESTRICT order, double *SE2_RESTRICT work);
+double se2_splats_order_f(
+    size_t count, size_t splat_count, const float *SE2_RESTRICT x, const float *SE2_RESTRICT mu, const float *SE2_RESTRICT amplitude, const float *SE2_RESTRICT width,
+    double limit, size_t *SE2_RESTRICT order, float *SE2_RESTRICT work);
+
+/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4).
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void se2_splats(
-    size_t count, size_t splat_count, const double *SE2_RESTRICT x, const double *SE2_RESTRICT mu, const double *SE2_RESTRICT W, const double *SE2_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *SE2_RESTRICT x, const double *SE2_RESTRICT mu, const double *SE2_RESTRICT W, const double *SE2_RESTRICT amplitude, const double *SE2_RESTRICT width,
     double *SE2_RESTRICT value, double *SE2_RESTRICT gradient, double *SE2_RESTRICT work, int threads);
 void se2_splats_f(
-    size_t count, size_t splat_count, const float *SE2_RESTRICT x, const float *SE2_RESTRICT mu, const float *SE2_RESTRICT W, const float *SE2_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *SE2_RESTRICT x, const float *SE2_RESTRICT mu, const float *SE2_RESTRICT W, const float *SE2_RESTRICT amplitude, const float *SE2_RESTRICT width,
     float *SE2_RESTRICT value, float *SE2_RESTRICT gradient, float *SE2_RESTRICT work, int threads);
 
-/* The values of the sums alone. */
+/* The values of the sums alone.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void se2_splats_value(
-    size_t count, size_t splat_count, const double *SE2_RESTRICT x, const double *SE2_RESTRICT mu, const double *SE2_RESTRICT W, const double *SE2_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *SE2_RESTRICT x, const double *SE2_RESTRICT mu, const double *SE2_RESTRICT W, const double *SE2_RESTRICT amplitude, const double *SE2_RESTRICT width,
     double *SE2_RESTRICT value, double *SE2_RESTRICT work, int threads);
 void se2_splats_value_f(
-    size_t count, size_t splat_count, const float *SE2_RESTRICT x, const float *SE2_RESTRICT mu, const float *SE2_RESTRICT W, const float *SE2_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *SE2_RESTRICT x, const float *SE2_RESTRICT mu, const float *SE2_RESTRICT W, const float *SE2_RESTRICT amplitude, const float *SE2_RESTRICT width,
     float *SE2_RESTRICT value, float *SE2_RESTRICT work, int threads);
 
-/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
+/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void se2_splats_vjp(
-    size_t count, size_t splat_count, const double *SE2_RESTRICT x, const double *SE2_RESTRICT mu, const double *SE2_RESTRICT W, const double *SE2_RESTRICT amplitude, const double *SE2_RESTRICT value_bar, const double *SE2_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const double *SE2_RESTRICT x, const double *SE2_RESTRICT mu, const double *SE2_RESTRICT W, const double *SE2_RESTRICT amplitude, const double *SE2_RESTRICT width, const double *SE2_RESTRICT value_bar, const double *SE2_RESTRICT gradient_bar,
     double *SE2_RESTRICT mu_bar, double *SE2_RESTRICT W_bar, double *SE2_RESTRICT amplitude_bar, double *SE2_RESTRICT work, int threads);
 void se2_splats_vjp_f(
-    size_t count, size_t splat_count, const float *SE2_RESTRICT x, const float *SE2_RESTRICT mu, const float *SE2_RESTRICT W, const float *SE2_RESTRICT amplitude, const float *SE2_RESTRICT value_bar, const float *SE2_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const float *SE2_RESTRICT x, const float *SE2_RESTRICT mu, const float *SE2_RESTRICT W, const float *SE2_RESTRICT amplitude, const float *SE2_RESTRICT width, const float *SE2_RESTRICT value_bar, const float *SE2_RESTRICT gradient_bar,
     float *SE2_RESTRICT mu_bar, float *SE2_RESTRICT W_bar, float *SE2_RESTRICT amplitude_bar, float *SE2_RESTRICT work, int threads);
 
 /* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +

@@ -301,28 +301,43 @@ void so2_frame_f(const float *SO2_RESTRICT p, float *SO2_RESTRICT frame);
 size_t so2_splats_work(size_t count, size_t splat_count, int threads);
 size_t so2_splats_work_f(size_t count, size_t splat_count, int threads);
 
-/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
+/* An order of the points in which neighbours are near each other, for sums that leave far pairs out.
+ * Returns about which part of the pairs is summed then; if that is more than `limit`, the order may be any. */
+double so2_splats_order(
+    size_t count, size_t splat_count, const double *SO2_RESTRICT x, const double *SO2_RESTRICT mu, const double *SO2_RESTRICT amplitude, const double *SO2_RESTRICT width,
+    double limit, size_t *SO2_RESTRICT order, double *SO2_RESTRICT work);
+double so2_splats_order_f(
+    size_t count, size_t splat_count, const float *SO2_RESTRICT x, const float *SO2_RESTRICT mu, const float *SO2_RESTRICT amplitude, const float *SO2_RESTRICT width,
+    double limit, size_t *SO2_RESTRICT order, float *SO2_RESTRICT work);
+
+/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4).
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void so2_splats(
-    size_t count, size_t splat_count, const double *SO2_RESTRICT x, const double *SO2_RESTRICT mu, const double *SO2_RESTRICT W, const double *SO2_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *SO2_RESTRICT x, const double *SO2_RESTRICT mu, const double *SO2_RESTRICT W, const double *SO2_RESTRICT amplitude, const double *SO2_RESTRICT width,
     double *SO2_RESTRICT value, double *SO2_RESTRICT gradient, double *SO2_RESTRICT work, int threads);
 void so2_splats_f(
-    size_t count, size_t splat_count, const float *SO2_RESTRICT x, const float *SO2_RESTRICT mu, const float *SO2_RESTRICT W, const float *SO2_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *SO2_RESTRICT x, const float *SO2_RESTRICT mu, const float *SO2_RESTRICT W, const float *SO2_RESTRICT amplitude, const float *SO2_RESTRICT width,
     float *SO2_RESTRICT value, float *SO2_RESTRICT gradient, float *SO2_RESTRICT work, int threads);
 
-/* The values of the sums alone. */
+/* The values of the sums alone.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void so2_splats_value(
-    size_t count, size_t splat_count, const double *SO2_RESTRICT x, const double *SO2_RESTRICT mu, const double *SO2_RESTRICT W, const double *SO2_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *SO2_RESTRICT x, const double *SO2_RESTRICT mu, const double *SO2_RESTRICT W, const double *SO2_RESTRICT amplitude, const double *SO2_RESTRICT width,
     double *SO2_RESTRICT value, double *SO2_RESTRICT work, int threads);
 void so2_splats_value_f(
-    size_t count, size_t splat_count, const float *SO2_RESTRICT x, const float *SO2_RESTRICT mu, const float *SO2_RESTRICT W, const float *SO2_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *SO2_RESTRICT x, const float *SO2_RESTRICT mu, const float *SO2_RESTRICT W, const float *SO2_RESTRICT amplitude, const float *SO2_RESTRICT width,
     float *SO2_RESTRICT value, float *SO2_RESTRICT work, int threads);
 
-/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
+/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void so2_splats_vjp(
-    size_t count, size_t splat_count, const double *SO2_RESTRICT x, const double *SO2_RESTRICT mu, const double *SO2_RESTRICT W, const double *SO2_RESTRICT amplitude, const double *SO2_RESTRICT value_bar, const double *SO2_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const double *SO2_RESTRICT x, const double *SO2_RESTRICT mu, const double *SO2_RESTRICT W, const double *SO2_RESTRICT amplitude, const double *SO2_RESTRICT width, const double *SO2_RESTRICT value_bar, const double *SO2_RESTRICT gradient_bar,
     double *SO2_RESTRICT mu_bar, double *SO2_RESTRICT W_bar, double *SO2_RESTRICT amplitude_bar, double *SO2_RESTRICT work, int threads);
 void so2_splats_vjp_f(
-    size_t count, size_t splat_count, const float *SO2_RESTRICT x, const float *SO2_RESTRICT mu, const float *SO2_RESTRICT W, const float *SO2_RESTRICT amplitude, const float *SO2_RESTRICT value_bar, const float *SO2_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const float *SO2_RESTRICT x, const float *SO2_RESTRICT mu, const float *SO2_RESTRICT W, const float *SO2_RESTRICT amplitude, const float *SO2_RESTRICT width, const float *SO2_RESTRICT value_bar, const float *SO2_RESTRICT gradient_bar,
     float *SO2_RESTRICT mu_bar, float *SO2_RESTRICT W_bar, float *SO2_RESTRICT amplitude_bar, float *SO2_RESTRICT work, int threads);
 
 /* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +

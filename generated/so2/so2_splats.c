@@ -121,6 +121,12 @@ INLINE vector vector_from_bits(vector_bits bits) {
     return x;
 }
 
+/* abs of every lane; one instruction where the machine has it. */
+INLINE vector vector_abs(vector x) {
+    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
+    return x;
+}
+
 /* round of every lane; one instruction where the machine has it. */
 INLINE vector vector_round(vector x) {
     for (size_t i = 0; i < LANES; ++i) LANE(x, i) = rint(LANE(x, i));
@@ -217,6 +223,18 @@ OUTLINE void pair_constants_vjp(
     amplitude_bar[0] = its_amplitude_bar;
 }
 
+/* The distances of some points q from one point p. */
+OUTLINE void pair_distance(
+    const double *p, const vector *q, vector *distance) {
+    const double p0 = p[0];
+    const vector q0 = q[0];
+    const vector gap = q0 - p0;
+    const vector round_2 = vector_round(0.15915494309189535 * gap);
+    const vector log0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
+        round_2;
+    distance[0] = vector_abs(log0);
+}
+
 /* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
 INLINE void pair_backward(
     const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
@@ -265,10 +283,12 @@ OUTLINE void vector_end(size_t count, size_t start, size_t size, vector *columns
         for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
 }
 
-/* Scratch memory: 3 vectors for each block of points, then the constants of the splats. */
+/* Scratch memory: 3 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
 size_t so2_splats_work(size_t count, size_t splat_count, int threads) {
     (void)threads;
-    return ((count + LANES - 1) / LANES * 3 + 1) * LANES + 3 * splat_count;
+    const size_t points = (count + LANES - 1) / LANES, blocks = (points + 2 - 1) / 2;
+    const size_t places = 2 * ((splat_count + LANES - 1) / LANES + (blocks + LANES - 1) / LANES);
+    return (points * 3 + places + 1) * LANES + 3 * splat_count;
 }
 
 static vector *work_points(double *work) {
@@ -276,44 +296,160 @@ static vector *work_points(double *work) {
     return (vector *)((char *)work + ((0 - start) & (size - 1)));
 }
 
-static double *work_constants(double *work, size_t count) {
-    return (double *)(work_points(work) + (count + LANES - 1) / LANES * 3);
+/* Where a splat is: numbers that are LANES apart. */
+INLINE const double *splat_at(const vector *splats, size_t k) {
+    const size_t row = k / LANES;
+    return (const double *)(splats + 2 * row) + (k - row * LANES);
 }
 
-/* The constants of LANES splats, as rows. */
+static vector *work_splats(double *work, size_t count) {
+    return work_points(work) + (count + LANES - 1) / LANES * 3;
+}
+
+static vector *work_blocks(double *work, size_t count, size_t splat_count) {
+    return work_splats(work, count) + 2 * ((splat_count + LANES - 1) / LANES);
+}
+
+static double *work_constants(double *work, size_t count, size_t splat_count) {
+    const size_t size = 2 * LANES, blocks = (count + size - 1) / size;
+    return (double *)(work_blocks(work, count, splat_count) + 2 * ((blocks + LANES - 1) / LANES));
+}
+
+/* Zero, or NaN where a number is not finite: what has one is near everything. */
+INLINE vector vector_spoilt(const vector *x, size_t size) {
+    vector sum = ZERO;
+    for (size_t i = 0; i < size; ++i) sum += x[i] - x[i];
+    return sum;
+}
+
+/* mu and reach of LANES splats, side by side. */
+OUTLINE void splat_reach(
+    const vector *mu, const vector *amplitude, const double *width, size_t splat_count, size_t start, vector *splats) {
+    vector *own = splats + start / LANES * (1 + 1);
+    vector_rows(width, splat_count, start, 1, own + 1);
+    own[1] = own[1] * 9.014149034296874 + vector_spoilt(mu, 1) + vector_spoilt(amplitude, 1);
+    for (int i = 0; i < 1; ++i) own[i] = mu[i];
+}
+
+/* The middle of a block of points and its radius; of some points that could be the middle, the one with the smallest. */
+OUTLINE void block_place(const double *x, size_t count, size_t start, double *place) {
+    const size_t size = count - start < 2 * LANES ? count - start : 2 * LANES;
+    vector at[2][1], spoilt = ZERO;
+    for (size_t b = 0; b < 2; ++b) {
+        vector_rows(x, count, start + b * LANES, 1, at[b]);
+        spoilt += vector_spoilt(at[b], 1);
+    }
+    for (size_t i = 1; i < 8; i += 2) {
+        const double *middle = x + 1 * (start + i * size / 8);
+        double radius = 0, column[LANES];
+        for (size_t b = 0; b < 2; ++b) {
+            vector distance[1];
+            pair_distance(middle, at[b], distance);
+            vector_store(column, distance[0]);
+            for (size_t lane = 0; lane < LANES; ++lane) radius = column[lane] > radius ? column[lane] : radius;
+        }
+        if (i == 1 || radius < place[1]) {
+            for (int j = 0; j < 1; ++j) place[j] = middle[j];
+            place[1] = radius;
+        }
+    }
+    place[1] = place[1] * 1.0078125 + vector_sum(spoilt);
+}
+
+/* Where a splat is too far from all of a block; never where a distance is not a number. */
+INLINE vector_mask vector_far(vector distance, vector reach, vector radius) {
+    return (distance > reach + radius);
+}
+
+/* The splats from `first` (a multiple of LANES) to `end` that are near a block, all if there is none; how many. */
+OUTLINE size_t splats_near(const double *place, const vector *splats, size_t first, size_t end, uint32_t *near) {
+    size_t size = 0;
+    if (!place) {
+        for (size_t k = first; k < end; ++k) near[size++] = (uint32_t)k;
+        return size;
+    }
+    for (size_t start = first; start < end; start += LANES) {
+        const vector *own = splats + start / LANES * (1 + 1);
+        vector distance[1];
+        pair_distance(place, own, distance);
+        const vector_mask far = vector_far(distance[0], own[1], vector_of(place[1]));
+        const size_t lanes = end - start < LANES ? end - start : LANES;
+        for (size_t lane = 0; lane < lanes; ++lane) {
+            near[size] = (uint32_t)(start + lane);
+            size += !LANE(far, lane);
+        }
+    }
+    return size;
+}
+
+/* The vectors of points from `first` to `end` whose blocks are near a splat, all if there are none, less `first`. */
+OUTLINE size_t blocks_near(
+    const double *mu, const double *reach, const vector *blocks, size_t first, size_t end, uint32_t *near) {
+    const size_t group = 2 * LANES;  // vectors of points whose middles are one vector
+    size_t size = 0;
+    if (!reach) {
+        for (size_t b = first; b < end; ++b) near[size++] = (uint32_t)(b - first);
+        return size;
+    }
+    for (size_t start = first / group * group; start < end; start += group) {
+        const vector *own = blocks + start / group * (1 + 1);
+        vector distance[1];
+        pair_distance(mu, own, distance);
+        const vector_mask far = vector_far(distance[0], vector_of(*reach), own[1]);
+        for (size_t lane = 0; lane < group; ++lane) {
+            const size_t b = start + lane;
+            near[size] = (uint32_t)(b - first);
+            size += b >= first && b < end && !LANE(far, lane / 2);
+        }
+    }
+    return size;
+}
+
+/* The constants of LANES splats, as rows; with `width`, how far they reach. */
 OUTLINE void splat_constants(
-    size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, double *constants) {
+    size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, const double *width, double *constants,
+    vector *splats) {
     vector own_mu[1], own_W[1], own_amplitude[1], S[3];
     vector_rows(mu, splat_count, start, 1, own_mu);
     vector_rows(W, splat_count, start, 1, own_W);
     vector_rows(amplitude, splat_count, start, 1, own_amplitude);
+    if (width) splat_reach(own_mu, own_amplitude, width, splat_count, start, splats);
     pair_constants(own_mu, own_W, own_amplitude, S);
     vector_to_rows(S, constants, splat_count, start, 3, 3);
 }
 
 /* 2 vectors of points at a time stay in registers while all splats pass. */
 void so2_splats(
-    size_t count, size_t splat_count, const double *SO2_RESTRICT x, const double *SO2_RESTRICT mu, const double *SO2_RESTRICT W, const double *SO2_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *SO2_RESTRICT x, const double *SO2_RESTRICT mu, const double *SO2_RESTRICT W, const double *SO2_RESTRICT amplitude, const double *SO2_RESTRICT width,
     double *SO2_RESTRICT value, double *SO2_RESTRICT gradient, double *SO2_RESTRICT work, int threads) {
     (void)threads;
-    double *constants = work_constants(work, 0);
+    double *constants = work_constants(work, 0, splat_count);
+    vector *splats = work_splats(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES)
-            splat_constants(splat_count, start, mu, W, amplitude, constants);
+            splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
             vector at[2][1], X[2][1], grad[1];
             vector value_sum[2][1] = {{ZERO}}, slope_sum[2][1] = {{ZERO}};
+            double place[1 + 1];
+            uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 1, at[b]);
                 pair_features(at[b], X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k) {
-                pair_forward(X[0], constants + 3 * k, value_sum[0], slope_sum[0]);
-                pair_forward(X[1], constants + 3 * k, value_sum[1], slope_sum[1]);
+            if (width) block_place(x, count, start, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
+                for (size_t i = 0; i < size; ++i) {
+                    const double *S = constants + 3 * near[i];
+                    pair_forward(X[0], S, value_sum[0], slope_sum[0]);
+                    pair_forward(X[1], S, value_sum[1], slope_sum[1]);
+                }
             }
             for (size_t b = 0; b < 2; ++b) {
                 pair_gradient(at[b], slope_sum[b], grad);
@@ -326,26 +462,35 @@ void so2_splats(
 }
 
 void so2_splats_value(
-    size_t count, size_t splat_count, const double *SO2_RESTRICT x, const double *SO2_RESTRICT mu, const double *SO2_RESTRICT W, const double *SO2_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *SO2_RESTRICT x, const double *SO2_RESTRICT mu, const double *SO2_RESTRICT W, const double *SO2_RESTRICT amplitude, const double *SO2_RESTRICT width,
     double *SO2_RESTRICT value, double *SO2_RESTRICT work, int threads) {
     (void)threads;
-    double *constants = work_constants(work, 0);
+    double *constants = work_constants(work, 0, splat_count);
+    vector *splats = work_splats(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES)
-            splat_constants(splat_count, start, mu, W, amplitude, constants);
+            splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
             vector at[1], X[2][1], value_sum[2][1] = {{ZERO}};
+            double place[1 + 1];
+            uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 1, at);
                 pair_features(at, X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k) {
-                pair_value(X[0], constants + 3 * k, value_sum[0]);
-                pair_value(X[1], constants + 3 * k, value_sum[1]);
+            if (width) block_place(x, count, start, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
+                for (size_t i = 0; i < size; ++i) {
+                    const double *S = constants + 3 * near[i];
+                    pair_value(X[0], S, value_sum[0]);
+                    pair_value(X[1], S, value_sum[1]);
+                }
             }
             for (size_t b = 0; b < 2; ++b)
                 vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
@@ -367,10 +512,13 @@ OUTLINE void splat_points(
     vector_end(count, start, 1 + 1, point + 1);
 }
 
-/* Adds to S_bar what some vectors of points add to it. */
-OUTLINE void splat_sums(const vector *point, size_t size, const double *S, double *S_bar) {
+/* Adds to S_bar what some vectors of points add to it, those in the list. */
+OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *S_bar) {
     vector sum[3] = {ZERO};
-    for (size_t b = 0; b < size; ++b, point += 3) pair_backward(point, S, point + 1, point + 1 + 1, sum);
+    for (size_t b = 0; b < size; ++b) {
+        const vector *point = points + 3 * (size_t)near[b];
+        pair_backward(point, S, point + 1, point + 1 + 1, sum);
+    }
     S_bar[0] += vector_sum(sum[0]);
     S_bar[1] += vector_sum(sum[1]);
     S_bar[2] += vector_sum(sum[2]);
@@ -381,20 +529,34 @@ OUTLINE void splat_sums(const vector *point, size_t size, const double *S, doubl
  * splats depends on the threads, what is summed in which order does not.
  */
 void so2_splats_vjp(
-    size_t count, size_t splat_count, const double *SO2_RESTRICT x, const double *SO2_RESTRICT mu, const double *SO2_RESTRICT W, const double *SO2_RESTRICT amplitude, const double *SO2_RESTRICT value_bar, const double *SO2_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const double *SO2_RESTRICT x, const double *SO2_RESTRICT mu, const double *SO2_RESTRICT W, const double *SO2_RESTRICT amplitude, const double *SO2_RESTRICT width, const double *SO2_RESTRICT value_bar, const double *SO2_RESTRICT gradient_bar,
     double *SO2_RESTRICT mu_bar, double *SO2_RESTRICT W_bar, double *SO2_RESTRICT amplitude_bar, double *SO2_RESTRICT work, int threads) {
     const size_t blocks = (count + LANES - 1) / LANES;
     const size_t chunk = 131072 / (3 * sizeof(vector)) + 1;
+    const size_t rows = ((blocks + 2 - 1) / 2 + LANES - 1) / LANES * LANES;
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES ? part : LANES;
     vector *points = work_points(work);
-    double *constants = work_constants(work, count);
+    vector *splats = work_splats(work, count), *places = work_blocks(work, count, splat_count);
+    double *constants = work_constants(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic) nowait)
         for (size_t start = 0; start < splat_count; start += LANES)
-            splat_constants(splat_count, start, mu, W, amplitude, constants);
+            splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
+        if (width) {
+            OMP(omp for schedule(dynamic, 8) nowait)
+            for (size_t block = 0; block < rows; ++block) {
+                double place[1 + 1];
+                const size_t last = (blocks - 1) / 2, start = (block < last ? block : last) * 2;
+                block_place(x, count, start * LANES, place);
+                for (int i = 0; i < 2; ++i) {
+                    double *row = (double *)(places + block / LANES * 2 + i);
+                    row[block - block / LANES * LANES] = place[i];
+                }
+            }
+        }
         OMP(omp for schedule(dynamic, 8))
         for (size_t block = 0; block < blocks; ++block)
             splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 3 * block);
@@ -402,11 +564,15 @@ void so2_splats_vjp(
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
             double sums[LANES][3] = {{0}};
+            uint32_t near[131072 / (3 * sizeof(vector)) + 2];
             vector own_mu[1], own_W[1], own_amplitude[1], S_bar[3], bars[3];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
-                for (size_t k = start; k < end; ++k)
-                    splat_sums(points + 3 * first, size, constants + 3 * k, sums[k - start]);
+                for (size_t k = start; k < end; ++k) {
+                    const double *reach = width ? splat_at(splats, k) + 1 * LANES : NULL;
+                    const size_t some = blocks_near(mu + 1 * k, reach, places, first, first + size, near);
+                    splat_sums(points + 3 * first, near, some, constants + 3 * k, sums[k - start]);
+                }
             }
             vector_rows(mu, end, start, 1, own_mu);
             vector_rows(W, end, start, 1, own_W);
@@ -427,13 +593,13 @@ void so2_splats_rows(
     double *SO2_RESTRICT rows, double *SO2_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES - 1) / LANES;
-    double *constants = work_constants(work, 0);
+    double *constants = work_constants(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES)
-            splat_constants(splat_count, start, mu, W, amplitude, constants);
+            splat_constants(splat_count, start, mu, W, amplitude, NULL, constants, NULL);
         OMP(omp for schedule(dynamic))
         for (size_t block = 0; block < blocks; ++block) {
             vector point[3];
@@ -450,6 +616,104 @@ void so2_splats_rows(
         }
         restore_denormals(mode);
     }
+}
+
+/* A coordinate to sort by. */
+INLINE double order_key(const double *x, size_t row, size_t axis) {
+    const double key = x[1 * row + axis];
+    return key == key ? key : 0;
+}
+
+/* The coordinate that differs most among some points. */
+static size_t widest(const double *x, const size_t *order, size_t count) {
+    double low[1], high[1];
+    size_t widest = 0;
+    for (size_t axis = 0; axis < 1; ++axis) low[axis] = high[axis] = order_key(x, order[0], axis);
+    for (size_t i = 1; i < count; ++i)
+        for (size_t axis = 0; axis < 1; ++axis) {
+            const double key = order_key(x, order[i], axis);
+            low[axis] = key < low[axis] ? key : low[axis];
+            high[axis] = key > high[axis] ? key : high[axis];
+        }
+    for (size_t axis = 1; axis < 1; ++axis)
+        if (high[axis] - low[axis] > high[widest] - low[widest]) widest = axis;
+    return widest;
+}
+
+/* Order points and their keys such that none of the first `part` has a larger key than one of the others. */
+static void split_at(double *keys, size_t *order, size_t count, size_t part) {
+    size_t low = 0, high = count;  // the part-th smallest key is in [low, high)
+    while (high - low > 1) {
+        const double a = keys[low], b = keys[low + (high - low) / 2], c = keys[high - 1];
+        const double least = a < b ? a : b, most = a < b ? b : a, pivot = c < least ? least : c > most ? most : c;
+        size_t less = low, equal = low;
+        for (int inclusive = 0; inclusive < 2; ++inclusive) {  // without branches, which nobody can foresee
+            size_t end = equal = less;
+            for (; end < high; ++end) {
+                const double key = keys[end];
+                const size_t row = order[end];
+                keys[end] = keys[equal], order[end] = order[equal];
+                keys[equal] = key, order[equal] = row;
+                equal += inclusive ? key <= pivot : key < pivot;
+            }
+            if (!inclusive) less = equal;
+            if (part < less) break;
+        }
+        if (part < less)
+            high = less;
+        else if (part < equal)
+            return;
+        else
+            low = equal;
+    }
+}
+
+/* Halve points at their medians until they are blocks. */
+static void sorted_blocks(const double *x, size_t *order, size_t count, double *keys) {
+    const size_t block = 2 * LANES;
+    while (count > block) {
+        const size_t part = ((count + block - 1) / block + 1) / 2 * block, axis = widest(x, order, count);
+        for (size_t i = 0; i < count; ++i) keys[i] = order_key(x, order[i], axis);
+        split_at(keys, order, count, part);
+        sorted_blocks(x, order + part, count - part, keys);
+        count = part;
+    }
+}
+
+double so2_splats_order(
+    size_t count, size_t splat_count, const double *SO2_RESTRICT x, const double *SO2_RESTRICT mu, const double *SO2_RESTRICT amplitude, const double *SO2_RESTRICT width,
+    double limit, size_t *SO2_RESTRICT order, double *SO2_RESTRICT work) {
+    const size_t block = 2 * LANES;
+    vector *splats = work_splats(work, 0);
+    uint32_t near[256];
+    double share = 0;
+    for (size_t n = 0; n < count; ++n) order[n] = n;
+    if (!count || !splat_count) return 1;
+    for (size_t start = 0; start < splat_count; start += LANES) {
+        vector own_mu[1], own_amplitude[1];
+        vector_rows(mu, splat_count, start, 1, own_mu);
+        vector_rows(amplitude, splat_count, start, 1, own_amplitude);
+        splat_reach(own_mu, own_amplitude, width, splat_count, start, splats);
+    }
+    for (int sorted = 0; sorted < 2; ++sorted) {
+        size_t pairs = 0;
+        if (sorted) sorted_blocks(x, order, count, (double *)work_blocks(work, 0, splat_count));
+        for (size_t i = 1; i < 2 * 16; i += 2) {
+            double rows[2 * LANES * 1], place[1 + 1];
+            const size_t some = i * count / (2 * 16), start = sorted ? some / block * block : some;
+            const size_t size = !sorted ? 1 : count - start < block ? count - start : block;
+            for (size_t n = 0; n < size; ++n)
+                for (int j = 0; j < 1; ++j) rows[1 * n + j] = x[1 * order[start + n] + j];
+            block_place(rows, size, 0, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                pairs += splats_near(place, splats, first, end, near);
+            }
+        }
+        share = (double)pairs / ((double)splat_count * 16);
+        if (share > limit) return share;
+    }
+    return share;
 }
 
 /* The same number in all lanes. */
@@ -489,6 +753,12 @@ INLINE vector_bits_f vector_to_bits_f(vector_f x) {
 INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
     vector_f x;
     memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* abs of every lane; one instruction where the machine has it. */
+INLINE vector_f vector_abs_f(vector_f x) {
+    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
     return x;
 }
 
@@ -588,6 +858,18 @@ OUTLINE void pair_constants_vjp_f(
     amplitude_bar[0] = its_amplitude_bar;
 }
 
+/* The distances of some points q from one point p. */
+OUTLINE void pair_distance_f(
+    const float *p, const vector_f *q, vector_f *distance) {
+    const float p0 = p[0];
+    const vector_f q0 = q[0];
+    const vector_f gap = q0 - p0;
+    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
+    const vector_f log0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f
+        * round_2;
+    distance[0] = vector_abs_f(log0);
+}
+
 /* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
 INLINE void pair_backward_f(
     const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
@@ -636,10 +918,12 @@ OUTLINE void vector_end_f(size_t count, size_t start, size_t size, vector_f *col
         for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
 }
 
-/* Scratch memory: 3 vectors for each block of points, then the constants of the splats. */
+/* Scratch memory: 3 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
 size_t so2_splats_work_f(size_t count, size_t splat_count, int threads) {
     (void)threads;
-    return ((count + LANES_f - 1) / LANES_f * 3 + 1) * LANES_f + 3 * splat_count;
+    const size_t points = (count + LANES_f - 1) / LANES_f, blocks = (points + 2 - 1) / 2;
+    const size_t places = 2 * ((splat_count + LANES_f - 1) / LANES_f + (blocks + LANES_f - 1) / LANES_f);
+    return (points * 3 + places + 1) * LANES_f + 3 * splat_count;
 }
 
 static vector_f *work_points_f(float *work) {
@@ -647,44 +931,160 @@ static vector_f *work_points_f(float *work) {
     return (vector_f *)((char *)work + ((0 - start) & (size - 1)));
 }
 
-static float *work_constants_f(float *work, size_t count) {
-    return (float *)(work_points_f(work) + (count + LANES_f - 1) / LANES_f * 3);
+/* Where a splat is: numbers that are LANES apart. */
+INLINE const float *splat_at_f(const vector_f *splats, size_t k) {
+    const size_t row = k / LANES_f;
+    return (const float *)(splats + 2 * row) + (k - row * LANES_f);
 }
 
-/* The constants of LANES splats, as rows. */
+static vector_f *work_splats_f(float *work, size_t count) {
+    return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 3;
+}
+
+static vector_f *work_blocks_f(float *work, size_t count, size_t splat_count) {
+    return work_splats_f(work, count) + 2 * ((splat_count + LANES_f - 1) / LANES_f);
+}
+
+static float *work_constants_f(float *work, size_t count, size_t splat_count) {
+    const size_t size = 2 * LANES_f, blocks = (count + size - 1) / size;
+    return (float *)(work_blocks_f(work, count, splat_count) + 2 * ((blocks + LANES_f - 1) / LANES_f));
+}
+
+/* Zero, or NaN where a number is not finite: what has one is near everything. */
+INLINE vector_f vector_spoilt_f(const vector_f *x, size_t size) {
+    vector_f sum = ZERO;
+    for (size_t i = 0; i < size; ++i) sum += x[i] - x[i];
+    return sum;
+}
+
+/* mu and reach of LANES splats, side by side. */
+OUTLINE void splat_reach_f(
+    const vector_f *mu, const vector_f *amplitude, const float *width, size_t splat_count, size_t start, vector_f *splats) {
+    vector_f *own = splats + start / LANES_f * (1 + 1);
+    vector_rows_f(width, splat_count, start, 1, own + 1);
+    own[1] = own[1] * 6.3739659084374996f + vector_spoilt_f(mu, 1) + vector_spoilt_f(amplitude, 1);
+    for (int i = 0; i < 1; ++i) own[i] = mu[i];
+}
+
+/* The middle of a block of points and its radius; of some points that could be the middle, the one with the smallest. */
+OUTLINE void block_place_f(const float *x, size_t count, size_t start, float *place) {
+    const size_t size = count - start < 2 * LANES_f ? count - start : 2 * LANES_f;
+    vector_f at[2][1], spoilt = ZERO;
+    for (size_t b = 0; b < 2; ++b) {
+        vector_rows_f(x, count, start + b * LANES_f, 1, at[b]);
+        spoilt += vector_spoilt_f(at[b], 1);
+    }
+    for (size_t i = 1; i < 8; i += 2) {
+        const float *middle = x + 1 * (start + i * size / 8);
+        float radius = 0, column[LANES_f];
+        for (size_t b = 0; b < 2; ++b) {
+            vector_f distance[1];
+            pair_distance_f(middle, at[b], distance);
+            vector_store_f(column, distance[0]);
+            for (size_t lane = 0; lane < LANES_f; ++lane) radius = column[lane] > radius ? column[lane] : radius;
+        }
+        if (i == 1 || radius < place[1]) {
+            for (int j = 0; j < 1; ++j) place[j] = middle[j];
+            place[1] = radius;
+        }
+    }
+    place[1] = place[1] * 1.0078125f + vector_sum_f(spoilt);
+}
+
+/* Where a splat is too far from all of a block; never where a distance is not a number. */
+INLINE vector_mask_f vector_far_f(vector_f distance, vector_f reach, vector_f radius) {
+    return (distance > reach + radius);
+}
+
+/* The splats from `first` (a multiple of LANES) to `end` that are near a block, all if there is none; how many. */
+OUTLINE size_t splats_near_f(const float *place, const vector_f *splats, size_t first, size_t end, uint32_t *near) {
+    size_t size = 0;
+    if (!place) {
+        for (size_t k = first; k < end; ++k) near[size++] = (uint32_t)k;
+        return size;
+    }
+    for (size_t start = first; start < end; start += LANES_f) {
+        const vector_f *own = splats + start / LANES_f * (1 + 1);
+        vector_f distance[1];
+        pair_distance_f(place, own, distance);
+        const vector_mask_f far = vector_far_f(distance[0], own[1], vector_of_f(place[1]));
+        const size_t lanes = end - start < LANES_f ? end - start : LANES_f;
+        for (size_t lane = 0; lane < lanes; ++lane) {
+            near[size] = (uint32_t)(start + lane);
+            size += !LANE(far, lane);
+        }
+    }
+    return size;
+}
+
+/* The vectors of points from `first` to `end` whose blocks are near a splat, all if there are none, less `first`. */
+OUTLINE size_t blocks_near_f(
+    const float *mu, const float *reach, const vector_f *blocks, size_t first, size_t end, uint32_t *near) {
+    const size_t group = 2 * LANES_f;  // vectors of points whose middles are one vector
+    size_t size = 0;
+    if (!reach) {
+        for (size_t b = first; b < end; ++b) near[size++] = (uint32_t)(b - first);
+        return size;
+    }
+    for (size_t start = first / group * group; start < end; start += group) {
+        const vector_f *own = blocks + start / group * (1 + 1);
+        vector_f distance[1];
+        pair_distance_f(mu, own, distance);
+        const vector_mask_f far = vector_far_f(distance[0], vector_of_f(*reach), own[1]);
+        for (size_t lane = 0; lane < group; ++lane) {
+            const size_t b = start + lane;
+            near[size] = (uint32_t)(b - first);
+            size += b >= first && b < end && !LANE(far, lane / 2);
+        }
+    }
+    return size;
+}
+
+/* The constants of LANES splats, as rows; with `width`, how far they reach. */
 OUTLINE void splat_constants_f(
-    size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, float *constants) {
+    size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, const float *width, float *constants,
+    vector_f *splats) {
     vector_f own_mu[1], own_W[1], own_amplitude[1], S[3];
     vector_rows_f(mu, splat_count, start, 1, own_mu);
     vector_rows_f(W, splat_count, start, 1, own_W);
     vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
+    if (width) splat_reach_f(own_mu, own_amplitude, width, splat_count, start, splats);
     pair_constants_f(own_mu, own_W, own_amplitude, S);
     vector_to_rows_f(S, constants, splat_count, start, 3, 3);
 }
 
 /* 2 vectors of points at a time stay in registers while all splats pass. */
 void so2_splats_f(
-    size_t count, size_t splat_count, const float *SO2_RESTRICT x, const float *SO2_RESTRICT mu, const float *SO2_RESTRICT W, const float *SO2_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *SO2_RESTRICT x, const float *SO2_RESTRICT mu, const float *SO2_RESTRICT W, const float *SO2_RESTRICT amplitude, const float *SO2_RESTRICT width,
     float *SO2_RESTRICT value, float *SO2_RESTRICT gradient, float *SO2_RESTRICT work, int threads) {
     (void)threads;
-    float *constants = work_constants_f(work, 0);
+    float *constants = work_constants_f(work, 0, splat_count);
+    vector_f *splats = work_splats_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES_f)
-            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+            splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
             vector_f at[2][1], X[2][1], grad[1];
             vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][1] = {{ZERO}};
+            float place[1 + 1];
+            uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 1, at[b]);
                 pair_features_f(at[b], X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k) {
-                pair_forward_f(X[0], constants + 3 * k, value_sum[0], slope_sum[0]);
-                pair_forward_f(X[1], constants + 3 * k, value_sum[1], slope_sum[1]);
+            if (width) block_place_f(x, count, start, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
+                for (size_t i = 0; i < size; ++i) {
+                    const float *S = constants + 3 * near[i];
+                    pair_forward_f(X[0], S, value_sum[0], slope_sum[0]);
+                    pair_forward_f(X[1], S, value_sum[1], slope_sum[1]);
+                }
             }
             for (size_t b = 0; b < 2; ++b) {
                 pair_gradient_f(at[b], slope_sum[b], grad);
@@ -697,26 +1097,35 @@ void so2_splats_f(
 }
 
 void so2_splats_value_f(
-    size_t count, size_t splat_count, const float *SO2_RESTRICT x, const float *SO2_RESTRICT mu, const float *SO2_RESTRICT W, const float *SO2_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *SO2_RESTRICT x, const float *SO2_RESTRICT mu, const float *SO2_RESTRICT W, const float *SO2_RESTRICT amplitude, const float *SO2_RESTRICT width,
     float *SO2_RESTRICT value, float *SO2_RESTRICT work, int threads) {
     (void)threads;
-    float *constants = work_constants_f(work, 0);
+    float *constants = work_constants_f(work, 0, splat_count);
+    vector_f *splats = work_splats_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES_f)
-            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+            splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
             vector_f at[1], X[2][1], value_sum[2][1] = {{ZERO}};
+            float place[1 + 1];
+            uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 1, at);
                 pair_features_f(at, X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k) {
-                pair_value_f(X[0], constants + 3 * k, value_sum[0]);
-                pair_value_f(X[1], constants + 3 * k, value_sum[1]);
+            if (width) block_place_f(x, count, start, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
+                for (size_t i = 0; i < size; ++i) {
+                    const float *S = constants + 3 * near[i];
+                    pair_value_f(X[0], S, value_sum[0]);
+                    pair_value_f(X[1], S, value_sum[1]);
+                }
             }
             for (size_t b = 0; b < 2; ++b)
                 vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
@@ -738,10 +1147,13 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 1 + 1, point + 1);
 }
 
-/* Adds to S_bar what some vectors of points add to it. */
-OUTLINE void splat_sums_f(const vector_f *point, size_t size, const float *S, float *S_bar) {
+/* Adds to S_bar what some vectors of points add to it, those in the list. */
+OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *S_bar) {
     vector_f sum[3] = {ZERO};
-    for (size_t b = 0; b < size; ++b, point += 3) pair_backward_f(point, S, point + 1, point + 1 + 1, sum);
+    for (size_t b = 0; b < size; ++b) {
+        const vector_f *point = points + 3 * (size_t)near[b];
+        pair_backward_f(point, S, point + 1, point + 1 + 1, sum);
+    }
     S_bar[0] += vector_sum_f(sum[0]);
     S_bar[1] += vector_sum_f(sum[1]);
     S_bar[2] += vector_sum_f(sum[2]);
@@ -752,20 +1164,34 @@ OUTLINE void splat_sums_f(const vector_f *point, size_t size, const float *S, fl
  * splats depends on the threads, what is summed in which order does not.
  */
 void so2_splats_vjp_f(
-    size_t count, size_t splat_count, const float *SO2_RESTRICT x, const float *SO2_RESTRICT mu, const float *SO2_RESTRICT W, const float *SO2_RESTRICT amplitude, const float *SO2_RESTRICT value_bar, const float *SO2_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const float *SO2_RESTRICT x, const float *SO2_RESTRICT mu, const float *SO2_RESTRICT W, const float *SO2_RESTRICT amplitude, const float *SO2_RESTRICT width, const float *SO2_RESTRICT value_bar, const float *SO2_RESTRICT gradient_bar,
     float *SO2_RESTRICT mu_bar, float *SO2_RESTRICT W_bar, float *SO2_RESTRICT amplitude_bar, float *SO2_RESTRICT work, int threads) {
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
     const size_t chunk = 131072 / (3 * sizeof(vector_f)) + 1;
+    const size_t rows = ((blocks + 2 - 1) / 2 + LANES_f - 1) / LANES_f * LANES_f;
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES_f ? part : LANES_f;
     vector_f *points = work_points_f(work);
-    float *constants = work_constants_f(work, count);
+    vector_f *splats = work_splats_f(work, count), *places = work_blocks_f(work, count, splat_count);
+    float *constants = work_constants_f(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic) nowait)
         for (size_t start = 0; start < splat_count; start += LANES_f)
-            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+            splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
+        if (width) {
+            OMP(omp for schedule(dynamic, 8) nowait)
+            for (size_t block = 0; block < rows; ++block) {
+                float place[1 + 1];
+                const size_t last = (blocks - 1) / 2, start = (block < last ? block : last) * 2;
+                block_place_f(x, count, start * LANES_f, place);
+                for (int i = 0; i < 2; ++i) {
+                    float *row = (float *)(places + block / LANES_f * 2 + i);
+                    row[block - block / LANES_f * LANES_f] = place[i];
+                }
+            }
+        }
         OMP(omp for schedule(dynamic, 8))
         for (size_t block = 0; block < blocks; ++block)
             splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 3 * block);
@@ -773,11 +1199,15 @@ void so2_splats_vjp_f(
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
             float sums[LANES_f][3] = {{0}};
+            uint32_t near[131072 / (3 * sizeof(vector_f)) + 2];
             vector_f own_mu[1], own_W[1], own_amplitude[1], S_bar[3], bars[3];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
-                for (size_t k = start; k < end; ++k)
-                    splat_sums_f(points + 3 * first, size, constants + 3 * k, sums[k - start]);
+                for (size_t k = start; k < end; ++k) {
+                    const float *reach = width ? splat_at_f(splats, k) + 1 * LANES_f : NULL;
+                    const size_t some = blocks_near_f(mu + 1 * k, reach, places, first, first + size, near);
+                    splat_sums_f(points + 3 * first, near, some, constants + 3 * k, sums[k - start]);
+                }
             }
             vector_rows_f(mu, end, start, 1, own_mu);
             vector_rows_f(W, end, start, 1, own_W);
@@ -798,13 +1228,13 @@ void so2_splats_rows_f(
     float *SO2_RESTRICT rows, float *SO2_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
-    float *constants = work_constants_f(work, 0);
+    float *constants = work_constants_f(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES_f)
-            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+            splat_constants_f(splat_count, start, mu, W, amplitude, NULL, constants, NULL);
         OMP(omp for schedule(dynamic))
         for (size_t block = 0; block < blocks; ++block) {
             vector_f point[3];
@@ -821,4 +1251,102 @@ void so2_splats_rows_f(
         }
         restore_denormals(mode);
     }
+}
+
+/* A coordinate to sort by. */
+INLINE float order_key_f(const float *x, size_t row, size_t axis) {
+    const float key = x[1 * row + axis];
+    return key == key ? key : 0;
+}
+
+/* The coordinate that differs most among some points. */
+static size_t widest_f(const float *x, const size_t *order, size_t count) {
+    float low[1], high[1];
+    size_t widest = 0;
+    for (size_t axis = 0; axis < 1; ++axis) low[axis] = high[axis] = order_key_f(x, order[0], axis);
+    for (size_t i = 1; i < count; ++i)
+        for (size_t axis = 0; axis < 1; ++axis) {
+            const float key = order_key_f(x, order[i], axis);
+            low[axis] = key < low[axis] ? key : low[axis];
+            high[axis] = key > high[axis] ? key : high[axis];
+        }
+    for (size_t axis = 1; axis < 1; ++axis)
+        if (high[axis] - low[axis] > high[widest] - low[widest]) widest = axis;
+    return widest;
+}
+
+/* Order points and their keys such that none of the first `part` has a larger key than one of the others. */
+static void split_at_f(float *keys, size_t *order, size_t count, size_t part) {
+    size_t low = 0, high = count;  // the part-th smallest key is in [low, high)
+    while (high - low > 1) {
+        const float a = keys[low], b = keys[low + (high - low) / 2], c = keys[high - 1];
+        const float least = a < b ? a : b, most = a < b ? b : a, pivot = c < least ? least : c > most ? most : c;
+        size_t less = low, equal = low;
+        for (int inclusive = 0; inclusive < 2; ++inclusive) {  // without branches, which nobody can foresee
+            size_t end = equal = less;
+            for (; end < high; ++end) {
+                const float key = keys[end];
+                const size_t row = order[end];
+                keys[end] = keys[equal], order[end] = order[equal];
+                keys[equal] = key, order[equal] = row;
+                equal += inclusive ? key <= pivot : key < pivot;
+            }
+            if (!inclusive) less = equal;
+            if (part < less) break;
+        }
+        if (part < less)
+            high = less;
+        else if (part < equal)
+            return;
+        else
+            low = equal;
+    }
+}
+
+/* Halve points at their medians until they are blocks. */
+static void sorted_blocks_f(const float *x, size_t *order, size_t count, float *keys) {
+    const size_t block = 2 * LANES_f;
+    while (count > block) {
+        const size_t part = ((count + block - 1) / block + 1) / 2 * block, axis = widest_f(x, order, count);
+        for (size_t i = 0; i < count; ++i) keys[i] = order_key_f(x, order[i], axis);
+        split_at_f(keys, order, count, part);
+        sorted_blocks_f(x, order + part, count - part, keys);
+        count = part;
+    }
+}
+
+double so2_splats_order_f(
+    size_t count, size_t splat_count, const float *SO2_RESTRICT x, const float *SO2_RESTRICT mu, const float *SO2_RESTRICT amplitude, const float *SO2_RESTRICT width,
+    double limit, size_t *SO2_RESTRICT order, float *SO2_RESTRICT work) {
+    const size_t block = 2 * LANES_f;
+    vector_f *splats = work_splats_f(work, 0);
+    uint32_t near[256];
+    double share = 0;
+    for (size_t n = 0; n < count; ++n) order[n] = n;
+    if (!count || !splat_count) return 1;
+    for (size_t start = 0; start < splat_count; start += LANES_f) {
+        vector_f own_mu[1], own_amplitude[1];
+        vector_rows_f(mu, splat_count, start, 1, own_mu);
+        vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
+        splat_reach_f(own_mu, own_amplitude, width, splat_count, start, splats);
+    }
+    for (int sorted = 0; sorted < 2; ++sorted) {
+        size_t pairs = 0;
+        if (sorted) sorted_blocks_f(x, order, count, (float *)work_blocks_f(work, 0, splat_count));
+        for (size_t i = 1; i < 2 * 16; i += 2) {
+            float rows[2 * LANES_f * 1], place[1 + 1];
+            const size_t some = i * count / (2 * 16), start = sorted ? some / block * block : some;
+            const size_t size = !sorted ? 1 : count - start < block ? count - start : block;
+            for (size_t n = 0; n < size; ++n)
+                for (int j = 0; j < 1; ++j) rows[1 * n + j] = x[1 * order[start + n] + j];
+            block_place_f(rows, size, 0, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                pairs += splats_near_f(place, splats, first, end, near);
+            }
+        }
+        share = (double)pairs / ((double)splat_count * 16);
+        if (share > limit) return share;
+    }
+    return share;
 }

@@ -121,9 +121,20 @@ INLINE vector vector_from_bits(vector_bits bits) {
     return x;
 }
 
+/* x >= 0 with the sign of another. */
+INLINE vector vector_signed(vector x, vector sign) {
+    return vector_from_bits(vector_to_bits(x) | (vector_to_bits(sign) & 0x8000000000000000));
+}
+
 /* abs of every lane; one instruction where the machine has it. */
 INLINE vector vector_abs(vector x) {
     for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
+    return x;
+}
+
+/* sqrt of every lane; one instruction where the machine has it. */
+INLINE vector vector_sqrt(vector x) {
+    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
     return x;
 }
 
@@ -135,6 +146,22 @@ INLINE vector vector_exp(vector x) {
     const vector scale = vector_from_bits((vector_to_bits(shifted) + 1022) << 52); /* 2^(k - 1) */
     const vector y = vector_select(x > 709.782712893384, vector_of(HUGE_VAL), (scale + scale * part) * 2);
     return vector_select(x < -707.9, vector_of(0), y);
+}
+
+/* atan2, within 3 units in the last place. */
+INLINE vector vector_atan2(vector y, vector x) {
+    const vector a = vector_abs(y), b = vector_abs(x), one = vector_of(1);
+    const vector less = vector_select(a > b, b, a), more = vector_select(a > b, a, b);
+    const vector low = vector_select(less > 1.7976931348623157e308, one, less);
+    const vector high = vector_select(less > 1.7976931348623157e308, one, vector_select(more == 0, one, more));
+    const vector top = vector_select(low > 0.4142135623730951 * high, low - high, low);
+    const vector bottom = vector_select(low > 0.4142135623730951 * high, low * 0.5 + high * 0.5, high * 0.5);
+    const vector t = top / bottom * 0.5, z = t * t;
+    const vector angle = t + t * z * (-0.3333333333333333 + z * (0.19999999999999804 + z * (-0.14285714285659806 + z * (0.11111111105153429 + z * (-0.09090908753400499 + z * (0.07692296372129964 + z * (-0.06666424833613552 + z * (0.05878928398517232 + z * (-0.052304498567092406 + z * (0.04551573086664191 + z * (-0.034570044186095536 + z * 0.016285183029865667)))))))))));
+    const vector first = vector_select(low > 0.4142135623730951 * high, 0.7853981633974483 + (angle + 3.061616997868383e-17), angle);
+    const vector second = vector_select(a > b, 1.5707963267948966 - (first - 6.123233995736766e-17), first);
+    const vector third = vector_select((vector_to_bits(x) & 0x8000000000000000) != 0, 3.141592653589793 - (second - 1.2246467991473532e-16), second);
+    return vector_signed(third, y);
 }
 
 /* Of degree 22 on [0, 1], its relative error below 2^-56. */
@@ -433,6 +460,29 @@ OUTLINE void pair_constants_vjp(
     amplitude_bar[0] = its_amplitude_bar;
 }
 
+/* The distances of some points q from one point p. */
+OUTLINE void pair_distance(
+    const double *p, const vector *q, vector *distance) {
+    const double p0 = p[0];
+    const double p1 = p[1];
+    const double p2 = p[2];
+    const double p3 = p[3];
+    const vector q0 = q[0];
+    const vector q1 = q[1];
+    const vector q2 = q[2];
+    const vector q3 = q[3];
+    const vector g0 = p0 * q0 + p1 * q1 + p2 * q2 + p3 * q3;
+    const vector g1 = p0 * q1 + p3 * q2 - p1 * q0 - p2 * q3;
+    const vector g2 = p0 * q2 + p1 * q3 - p2 * q0 - p3 * q1;
+    const vector g3 = p0 * q3 + p2 * q1 - p1 * q2 - p3 * q0;
+    const vector norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+    const vector norm_s = vector_sqrt(norm_s_squared);
+    const vector abs_g0 = vector_abs(g0);
+    const vector atan2_norm_s_abs_g0 = vector_atan2(norm_s, abs_g0);
+    const vector t = 2.0 * atan2_norm_s_abs_g0;
+    distance[0] = t;
+}
+
 /* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
 INLINE void pair_backward(
     const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
@@ -548,10 +598,12 @@ OUTLINE void vector_end(size_t count, size_t start, size_t size, vector *columns
         for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
 }
 
-/* Scratch memory: 9 vectors for each block of points, then the constants of the splats. */
+/* Scratch memory: 9 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
 size_t so3_splats_work(size_t count, size_t splat_count, int threads) {
     (void)threads;
-    return ((count + LANES - 1) / LANES * 9 + 1) * LANES + 17 * splat_count;
+    const size_t points = (count + LANES - 1) / LANES, blocks = (points + 2 - 1) / 2;
+    const size_t places = 5 * ((splat_count + LANES - 1) / LANES + (blocks + LANES - 1) / LANES);
+    return (points * 9 + places + 1) * LANES + 17 * splat_count;
 }
 
 static vector *work_points(double *work) {
@@ -559,44 +611,160 @@ static vector *work_points(double *work) {
     return (vector *)((char *)work + ((0 - start) & (size - 1)));
 }
 
-static double *work_constants(double *work, size_t count) {
-    return (double *)(work_points(work) + (count + LANES - 1) / LANES * 9);
+/* Where a splat is: numbers that are LANES apart. */
+INLINE const double *splat_at(const vector *splats, size_t k) {
+    const size_t row = k / LANES;
+    return (const double *)(splats + 5 * row) + (k - row * LANES);
 }
 
-/* The constants of LANES splats, as rows. */
+static vector *work_splats(double *work, size_t count) {
+    return work_points(work) + (count + LANES - 1) / LANES * 9;
+}
+
+static vector *work_blocks(double *work, size_t count, size_t splat_count) {
+    return work_splats(work, count) + 5 * ((splat_count + LANES - 1) / LANES);
+}
+
+static double *work_constants(double *work, size_t count, size_t splat_count) {
+    const size_t size = 2 * LANES, blocks = (count + size - 1) / size;
+    return (double *)(work_blocks(work, count, splat_count) + 5 * ((blocks + LANES - 1) / LANES));
+}
+
+/* Zero, or NaN where a number is not finite: what has one is near everything. */
+INLINE vector vector_spoilt(const vector *x, size_t size) {
+    vector sum = ZERO;
+    for (size_t i = 0; i < size; ++i) sum += x[i] - x[i];
+    return sum;
+}
+
+/* mu and reach of LANES splats, side by side. */
+OUTLINE void splat_reach(
+    const vector *mu, const vector *amplitude, const double *width, size_t splat_count, size_t start, vector *splats) {
+    vector *own = splats + start / LANES * (4 + 1);
+    vector_rows(width, splat_count, start, 1, own + 4);
+    own[4] = own[4] * 9.115346828320313 + vector_spoilt(mu, 4) + vector_spoilt(amplitude, 1);
+    for (int i = 0; i < 4; ++i) own[i] = mu[i];
+}
+
+/* The middle of a block of points and its radius; of some points that could be the middle, the one with the smallest. */
+OUTLINE void block_place(const double *x, size_t count, size_t start, double *place) {
+    const size_t size = count - start < 2 * LANES ? count - start : 2 * LANES;
+    vector at[2][4], spoilt = ZERO;
+    for (size_t b = 0; b < 2; ++b) {
+        vector_rows(x, count, start + b * LANES, 4, at[b]);
+        spoilt += vector_spoilt(at[b], 4);
+    }
+    for (size_t i = 1; i < 8; i += 2) {
+        const double *middle = x + 4 * (start + i * size / 8);
+        double radius = 0, column[LANES];
+        for (size_t b = 0; b < 2; ++b) {
+            vector distance[1];
+            pair_distance(middle, at[b], distance);
+            vector_store(column, distance[0]);
+            for (size_t lane = 0; lane < LANES; ++lane) radius = column[lane] > radius ? column[lane] : radius;
+        }
+        if (i == 1 || radius < place[4]) {
+            for (int j = 0; j < 4; ++j) place[j] = middle[j];
+            place[4] = radius;
+        }
+    }
+    place[4] = place[4] * 1.0078125 + vector_sum(spoilt);
+}
+
+/* Where a splat is too far from all of a block; never where a distance is not a number. */
+INLINE vector_mask vector_far(vector distance, vector reach, vector radius) {
+    return (distance > reach + radius);
+}
+
+/* The splats from `first` (a multiple of LANES) to `end` that are near a block, all if there is none; how many. */
+OUTLINE size_t splats_near(const double *place, const vector *splats, size_t first, size_t end, uint32_t *near) {
+    size_t size = 0;
+    if (!place) {
+        for (size_t k = first; k < end; ++k) near[size++] = (uint32_t)k;
+        return size;
+    }
+    for (size_t start = first; start < end; start += LANES) {
+        const vector *own = splats + start / LANES * (4 + 1);
+        vector distance[1];
+        pair_distance(place, own, distance);
+        const vector_mask far = vector_far(distance[0], own[4], vector_of(place[4]));
+        const size_t lanes = end - start < LANES ? end - start : LANES;
+        for (size_t lane = 0; lane < lanes; ++lane) {
+            near[size] = (uint32_t)(start + lane);
+            size += !LANE(far, lane);
+        }
+    }
+    return size;
+}
+
+/* The vectors of points from `first` to `end` whose blocks are near a splat, all if there are none, less `first`. */
+OUTLINE size_t blocks_near(
+    const double *mu, const double *reach, const vector *blocks, size_t first, size_t end, uint32_t *near) {
+    const size_t group = 2 * LANES;  // vectors of points whose middles are one vector
+    size_t size = 0;
+    if (!reach) {
+        for (size_t b = first; b < end; ++b) near[size++] = (uint32_t)(b - first);
+        return size;
+    }
+    for (size_t start = first / group * group; start < end; start += group) {
+        const vector *own = blocks + start / group * (4 + 1);
+        vector distance[1];
+        pair_distance(mu, own, distance);
+        const vector_mask far = vector_far(distance[0], vector_of(*reach), own[4]);
+        for (size_t lane = 0; lane < group; ++lane) {
+            const size_t b = start + lane;
+            near[size] = (uint32_t)(b - first);
+            size += b >= first && b < end && !LANE(far, lane / 2);
+        }
+    }
+    return size;
+}
+
+/* The constants of LANES splats, as rows; with `width`, how far they reach. */
 OUTLINE void splat_constants(
-    size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, double *constants) {
+    size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, const double *width, double *constants,
+    vector *splats) {
     vector own_mu[4], own_W[9], own_amplitude[1], S[17];
     vector_rows(mu, splat_count, start, 4, own_mu);
     vector_rows(W, splat_count, start, 9, own_W);
     vector_rows(amplitude, splat_count, start, 1, own_amplitude);
+    if (width) splat_reach(own_mu, own_amplitude, width, splat_count, start, splats);
     pair_constants(own_mu, own_W, own_amplitude, S);
     vector_to_rows(S, constants, splat_count, start, 17, 17);
 }
 
 /* 2 vectors of points at a time stay in registers while all splats pass. */
 void so3_splats(
-    size_t count, size_t splat_count, const double *SO3_RESTRICT x, const double *SO3_RESTRICT mu, const double *SO3_RESTRICT W, const double *SO3_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *SO3_RESTRICT x, const double *SO3_RESTRICT mu, const double *SO3_RESTRICT W, const double *SO3_RESTRICT amplitude, const double *SO3_RESTRICT width,
     double *SO3_RESTRICT value, double *SO3_RESTRICT gradient, double *SO3_RESTRICT work, int threads) {
     (void)threads;
-    double *constants = work_constants(work, 0);
+    double *constants = work_constants(work, 0, splat_count);
+    vector *splats = work_splats(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES)
-            splat_constants(splat_count, start, mu, W, amplitude, constants);
+            splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
             vector at[2][4], X[2][4], grad[3];
             vector value_sum[2][1] = {{ZERO}}, slope_sum[2][4] = {{ZERO}};
+            double place[4 + 1];
+            uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 4, at[b]);
                 pair_features(at[b], X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k) {
-                pair_forward(X[0], constants + 17 * k, value_sum[0], slope_sum[0]);
-                pair_forward(X[1], constants + 17 * k, value_sum[1], slope_sum[1]);
+            if (width) block_place(x, count, start, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
+                for (size_t i = 0; i < size; ++i) {
+                    const double *S = constants + 17 * near[i];
+                    pair_forward(X[0], S, value_sum[0], slope_sum[0]);
+                    pair_forward(X[1], S, value_sum[1], slope_sum[1]);
+                }
             }
             for (size_t b = 0; b < 2; ++b) {
                 pair_gradient(at[b], slope_sum[b], grad);
@@ -609,26 +777,35 @@ void so3_splats(
 }
 
 void so3_splats_value(
-    size_t count, size_t splat_count, const double *SO3_RESTRICT x, const double *SO3_RESTRICT mu, const double *SO3_RESTRICT W, const double *SO3_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *SO3_RESTRICT x, const double *SO3_RESTRICT mu, const double *SO3_RESTRICT W, const double *SO3_RESTRICT amplitude, const double *SO3_RESTRICT width,
     double *SO3_RESTRICT value, double *SO3_RESTRICT work, int threads) {
     (void)threads;
-    double *constants = work_constants(work, 0);
+    double *constants = work_constants(work, 0, splat_count);
+    vector *splats = work_splats(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES)
-            splat_constants(splat_count, start, mu, W, amplitude, constants);
+            splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
             vector at[4], X[2][4], value_sum[2][1] = {{ZERO}};
+            double place[4 + 1];
+            uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 4, at);
                 pair_features(at, X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k) {
-                pair_value(X[0], constants + 17 * k, value_sum[0]);
-                pair_value(X[1], constants + 17 * k, value_sum[1]);
+            if (width) block_place(x, count, start, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
+                for (size_t i = 0; i < size; ++i) {
+                    const double *S = constants + 17 * near[i];
+                    pair_value(X[0], S, value_sum[0]);
+                    pair_value(X[1], S, value_sum[1]);
+                }
             }
             for (size_t b = 0; b < 2; ++b)
                 vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
@@ -650,10 +827,13 @@ OUTLINE void splat_points(
     vector_end(count, start, 4 + 1, point + 4);
 }
 
-/* Adds to S_bar what some vectors of points add to it. */
-OUTLINE void splat_sums(const vector *point, size_t size, const double *S, double *S_bar) {
+/* Adds to S_bar what some vectors of points add to it, those in the list. */
+OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *S_bar) {
     vector sum[17] = {ZERO};
-    for (size_t b = 0; b < size; ++b, point += 9) pair_backward(point, S, point + 4, point + 4 + 1, sum);
+    for (size_t b = 0; b < size; ++b) {
+        const vector *point = points + 9 * (size_t)near[b];
+        pair_backward(point, S, point + 4, point + 4 + 1, sum);
+    }
     S_bar[0] += vector_sum(sum[0]);
     S_bar[1] += vector_sum(sum[1]);
     S_bar[2] += vector_sum(sum[2]);
@@ -678,20 +858,34 @@ OUTLINE void splat_sums(const vector *point, size_t size, const double *S, doubl
  * splats depends on the threads, what is summed in which order does not.
  */
 void so3_splats_vjp(
-    size_t count, size_t splat_count, const double *SO3_RESTRICT x, const double *SO3_RESTRICT mu, const double *SO3_RESTRICT W, const double *SO3_RESTRICT amplitude, const double *SO3_RESTRICT value_bar, const double *SO3_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const double *SO3_RESTRICT x, const double *SO3_RESTRICT mu, const double *SO3_RESTRICT W, const double *SO3_RESTRICT amplitude, const double *SO3_RESTRICT width, const double *SO3_RESTRICT value_bar, const double *SO3_RESTRICT gradient_bar,
     double *SO3_RESTRICT mu_bar, double *SO3_RESTRICT W_bar, double *SO3_RESTRICT amplitude_bar, double *SO3_RESTRICT work, int threads) {
     const size_t blocks = (count + LANES - 1) / LANES;
     const size_t chunk = 131072 / (9 * sizeof(vector)) + 1;
+    const size_t rows = ((blocks + 2 - 1) / 2 + LANES - 1) / LANES * LANES;
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES ? part : LANES;
     vector *points = work_points(work);
-    double *constants = work_constants(work, count);
+    vector *splats = work_splats(work, count), *places = work_blocks(work, count, splat_count);
+    double *constants = work_constants(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic) nowait)
         for (size_t start = 0; start < splat_count; start += LANES)
-            splat_constants(splat_count, start, mu, W, amplitude, constants);
+            splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
+        if (width) {
+            OMP(omp for schedule(dynamic, 8) nowait)
+            for (size_t block = 0; block < rows; ++block) {
+                double place[4 + 1];
+                const size_t last = (blocks - 1) / 2, start = (block < last ? block : last) * 2;
+                block_place(x, count, start * LANES, place);
+                for (int i = 0; i < 5; ++i) {
+                    double *row = (double *)(places + block / LANES * 5 + i);
+                    row[block - block / LANES * LANES] = place[i];
+                }
+            }
+        }
         OMP(omp for schedule(dynamic, 8))
         for (size_t block = 0; block < blocks; ++block)
             splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 9 * block);
@@ -699,11 +893,15 @@ void so3_splats_vjp(
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
             double sums[LANES][17] = {{0}};
+            uint32_t near[131072 / (9 * sizeof(vector)) + 2];
             vector own_mu[4], own_W[9], own_amplitude[1], S_bar[17], bars[14];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
-                for (size_t k = start; k < end; ++k)
-                    splat_sums(points + 9 * first, size, constants + 17 * k, sums[k - start]);
+                for (size_t k = start; k < end; ++k) {
+                    const double *reach = width ? splat_at(splats, k) + 4 * LANES : NULL;
+                    const size_t some = blocks_near(mu + 4 * k, reach, places, first, first + size, near);
+                    splat_sums(points + 9 * first, near, some, constants + 17 * k, sums[k - start]);
+                }
             }
             vector_rows(mu, end, start, 4, own_mu);
             vector_rows(W, end, start, 9, own_W);
@@ -724,13 +922,13 @@ void so3_splats_rows(
     double *SO3_RESTRICT rows, double *SO3_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES - 1) / LANES;
-    double *constants = work_constants(work, 0);
+    double *constants = work_constants(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES)
-            splat_constants(splat_count, start, mu, W, amplitude, constants);
+            splat_constants(splat_count, start, mu, W, amplitude, NULL, constants, NULL);
         OMP(omp for schedule(dynamic))
         for (size_t block = 0; block < blocks; ++block) {
             vector point[9];
@@ -747,6 +945,104 @@ void so3_splats_rows(
         }
         restore_denormals(mode);
     }
+}
+
+/* A coordinate to sort by. */
+INLINE double order_key(const double *x, size_t row, size_t axis) {
+    const double key = x[4 * row + axis];
+    return key == key ? key : 0;
+}
+
+/* The coordinate that differs most among some points. */
+static size_t widest(const double *x, const size_t *order, size_t count) {
+    double low[4], high[4];
+    size_t widest = 0;
+    for (size_t axis = 0; axis < 4; ++axis) low[axis] = high[axis] = order_key(x, order[0], axis);
+    for (size_t i = 1; i < count; ++i)
+        for (size_t axis = 0; axis < 4; ++axis) {
+            const double key = order_key(x, order[i], axis);
+            low[axis] = key < low[axis] ? key : low[axis];
+            high[axis] = key > high[axis] ? key : high[axis];
+        }
+    for (size_t axis = 1; axis < 4; ++axis)
+        if (high[axis] - low[axis] > high[widest] - low[widest]) widest = axis;
+    return widest;
+}
+
+/* Order points and their keys such that none of the first `part` has a larger key than one of the others. */
+static void split_at(double *keys, size_t *order, size_t count, size_t part) {
+    size_t low = 0, high = count;  // the part-th smallest key is in [low, high)
+    while (high - low > 1) {
+        const double a = keys[low], b = keys[low + (high - low) / 2], c = keys[high - 1];
+        const double least = a < b ? a : b, most = a < b ? b : a, pivot = c < least ? least : c > most ? most : c;
+        size_t less = low, equal = low;
+        for (int inclusive = 0; inclusive < 2; ++inclusive) {  // without branches, which nobody can foresee
+            size_t end = equal = less;
+            for (; end < high; ++end) {
+                const double key = keys[end];
+                const size_t row = order[end];
+                keys[end] = keys[equal], order[end] = order[equal];
+                keys[equal] = key, order[equal] = row;
+                equal += inclusive ? key <= pivot : key < pivot;
+            }
+            if (!inclusive) less = equal;
+            if (part < less) break;
+        }
+        if (part < less)
+            high = less;
+        else if (part < equal)
+            return;
+        else
+            low = equal;
+    }
+}
+
+/* Halve points at their medians until they are blocks. */
+static void sorted_blocks(const double *x, size_t *order, size_t count, double *keys) {
+    const size_t block = 2 * LANES;
+    while (count > block) {
+        const size_t part = ((count + block - 1) / block + 1) / 2 * block, axis = widest(x, order, count);
+        for (size_t i = 0; i < count; ++i) keys[i] = order_key(x, order[i], axis);
+        split_at(keys, order, count, part);
+        sorted_blocks(x, order + part, count - part, keys);
+        count = part;
+    }
+}
+
+double so3_splats_order(
+    size_t count, size_t splat_count, const double *SO3_RESTRICT x, const double *SO3_RESTRICT mu, const double *SO3_RESTRICT amplitude, const double *SO3_RESTRICT width,
+    double limit, size_t *SO3_RESTRICT order, double *SO3_RESTRICT work) {
+    const size_t block = 2 * LANES;
+    vector *splats = work_splats(work, 0);
+    uint32_t near[256];
+    double share = 0;
+    for (size_t n = 0; n < count; ++n) order[n] = n;
+    if (!count || !splat_count) return 1;
+    for (size_t start = 0; start < splat_count; start += LANES) {
+        vector own_mu[4], own_amplitude[1];
+        vector_rows(mu, splat_count, start, 4, own_mu);
+        vector_rows(amplitude, splat_count, start, 1, own_amplitude);
+        splat_reach(own_mu, own_amplitude, width, splat_count, start, splats);
+    }
+    for (int sorted = 0; sorted < 2; ++sorted) {
+        size_t pairs = 0;
+        if (sorted) sorted_blocks(x, order, count, (double *)work_blocks(work, 0, splat_count));
+        for (size_t i = 1; i < 2 * 16; i += 2) {
+            double rows[2 * LANES * 4], place[4 + 1];
+            const size_t some = i * count / (2 * 16), start = sorted ? some / block * block : some;
+            const size_t size = !sorted ? 1 : count - start < block ? count - start : block;
+            for (size_t n = 0; n < size; ++n)
+                for (int j = 0; j < 4; ++j) rows[4 * n + j] = x[4 * order[start + n] + j];
+            block_place(rows, size, 0, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                pairs += splats_near(place, splats, first, end, near);
+            }
+        }
+        share = (double)pairs / ((double)splat_count * 16);
+        if (share > limit) return share;
+    }
+    return share;
 }
 
 /* The same number in all lanes. */
@@ -789,9 +1085,20 @@ INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
     return x;
 }
 
+/* x >= 0 with the sign of another. */
+INLINE vector_f vector_signed_f(vector_f x, vector_f sign) {
+    return vector_from_bits_f(vector_to_bits_f(x) | (vector_to_bits_f(sign) & 0x80000000));
+}
+
 /* abs of every lane; one instruction where the machine has it. */
 INLINE vector_f vector_abs_f(vector_f x) {
     for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
+    return x;
+}
+
+/* sqrt of every lane; one instruction where the machine has it. */
+INLINE vector_f vector_sqrt_f(vector_f x) {
+    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
     return x;
 }
 
@@ -803,6 +1110,22 @@ INLINE vector_f vector_exp_f(vector_f x) {
     const vector_f scale = vector_from_bits_f((vector_to_bits_f(shifted) + 126) << 23); /* 2^(k - 1) */
     const vector_f y = vector_select_f(x > 88.722839f, vector_of_f(HUGE_VALF), (scale + scale * part) * 2);
     return vector_select_f(x < -86.9f, vector_of_f(0), y);
+}
+
+/* atan2, within 3 units in the last place. */
+INLINE vector_f vector_atan2_f(vector_f y, vector_f x) {
+    const vector_f a = vector_abs_f(y), b = vector_abs_f(x), one = vector_of_f(1);
+    const vector_f less = vector_select_f(a > b, b, a), more = vector_select_f(a > b, a, b);
+    const vector_f low = vector_select_f(less > 3.4028234663852886e38f, one, less);
+    const vector_f high = vector_select_f(less > 3.4028234663852886e38f, one, vector_select_f(more == 0, one, more));
+    const vector_f top = vector_select_f(low > 0.4142135623730951f * high, low - high, low);
+    const vector_f bottom = vector_select_f(low > 0.4142135623730951f * high, low * 0.5f + high * 0.5f, high * 0.5f);
+    const vector_f t = top / bottom * 0.5f, z = t * t;
+    const vector_f angle = t + t * z * (-0.33333333279242233f + z * (0.19999977254347343f + z * (-0.14284150959481018f + z * (0.11071360682318138f + z * (-0.08624643784438366f + z * 0.05048055010223574f)))));
+    const vector_f first = vector_select_f(low > 0.4142135623730951f * high, 0.7853981852531433f + (angle + -2.1855695000931213e-08f), angle);
+    const vector_f second = vector_select_f(a > b, 1.5707963705062866f - (first - -4.3711390001862426e-08f), first);
+    const vector_f third = vector_select_f((vector_to_bits_f(x) & 0x80000000) != 0, 3.1415927410125732f - (second - -8.742278000372485e-08f), second);
+    return vector_signed_f(third, y);
 }
 
 /* Of degree 11, within 2^-29 of that of double precision. */
@@ -1095,6 +1418,29 @@ OUTLINE void pair_constants_vjp_f(
     amplitude_bar[0] = its_amplitude_bar;
 }
 
+/* The distances of some points q from one point p. */
+OUTLINE void pair_distance_f(
+    const float *p, const vector_f *q, vector_f *distance) {
+    const float p0 = p[0];
+    const float p1 = p[1];
+    const float p2 = p[2];
+    const float p3 = p[3];
+    const vector_f q0 = q[0];
+    const vector_f q1 = q[1];
+    const vector_f q2 = q[2];
+    const vector_f q3 = q[3];
+    const vector_f g0 = p0 * q0 + p1 * q1 + p2 * q2 + p3 * q3;
+    const vector_f g1 = p0 * q1 + p3 * q2 - p1 * q0 - p2 * q3;
+    const vector_f g2 = p0 * q2 + p1 * q3 - p2 * q0 - p3 * q1;
+    const vector_f g3 = p0 * q3 + p2 * q1 - p1 * q2 - p3 * q0;
+    const vector_f norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+    const vector_f norm_s = vector_sqrt_f(norm_s_squared);
+    const vector_f abs_g0 = vector_abs_f(g0);
+    const vector_f atan2_norm_s_abs_g0 = vector_atan2_f(norm_s, abs_g0);
+    const vector_f t = 2.0f * atan2_norm_s_abs_g0;
+    distance[0] = t;
+}
+
 /* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
 INLINE void pair_backward_f(
     const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
@@ -1210,10 +1556,12 @@ OUTLINE void vector_end_f(size_t count, size_t start, size_t size, vector_f *col
         for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
 }
 
-/* Scratch memory: 9 vectors for each block of points, then the constants of the splats. */
+/* Scratch memory: 9 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
 size_t so3_splats_work_f(size_t count, size_t splat_count, int threads) {
     (void)threads;
-    return ((count + LANES_f - 1) / LANES_f * 9 + 1) * LANES_f + 17 * splat_count;
+    const size_t points = (count + LANES_f - 1) / LANES_f, blocks = (points + 2 - 1) / 2;
+    const size_t places = 5 * ((splat_count + LANES_f - 1) / LANES_f + (blocks + LANES_f - 1) / LANES_f);
+    return (points * 9 + places + 1) * LANES_f + 17 * splat_count;
 }
 
 static vector_f *work_points_f(float *work) {
@@ -1221,44 +1569,160 @@ static vector_f *work_points_f(float *work) {
     return (vector_f *)((char *)work + ((0 - start) & (size - 1)));
 }
 
-static float *work_constants_f(float *work, size_t count) {
-    return (float *)(work_points_f(work) + (count + LANES_f - 1) / LANES_f * 9);
+/* Where a splat is: numbers that are LANES apart. */
+INLINE const float *splat_at_f(const vector_f *splats, size_t k) {
+    const size_t row = k / LANES_f;
+    return (const float *)(splats + 5 * row) + (k - row * LANES_f);
 }
 
-/* The constants of LANES splats, as rows. */
+static vector_f *work_splats_f(float *work, size_t count) {
+    return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 9;
+}
+
+static vector_f *work_blocks_f(float *work, size_t count, size_t splat_count) {
+    return work_splats_f(work, count) + 5 * ((splat_count + LANES_f - 1) / LANES_f);
+}
+
+static float *work_constants_f(float *work, size_t count, size_t splat_count) {
+    const size_t size = 2 * LANES_f, blocks = (count + size - 1) / size;
+    return (float *)(work_blocks_f(work, count, splat_count) + 5 * ((blocks + LANES_f - 1) / LANES_f));
+}
+
+/* Zero, or NaN where a number is not finite: what has one is near everything. */
+INLINE vector_f vector_spoilt_f(const vector_f *x, size_t size) {
+    vector_f sum = ZERO;
+    for (size_t i = 0; i < size; ++i) sum += x[i] - x[i];
+    return sum;
+}
+
+/* mu and reach of LANES splats, side by side. */
+OUTLINE void splat_reach_f(
+    const vector_f *mu, const vector_f *amplitude, const float *width, size_t splat_count, size_t start, vector_f *splats) {
+    vector_f *own = splats + start / LANES_f * (4 + 1);
+    vector_rows_f(width, splat_count, start, 1, own + 4);
+    own[4] = own[4] * 6.516295450218751f + vector_spoilt_f(mu, 4) + vector_spoilt_f(amplitude, 1);
+    for (int i = 0; i < 4; ++i) own[i] = mu[i];
+}
+
+/* The middle of a block of points and its radius; of some points that could be the middle, the one with the smallest. */
+OUTLINE void block_place_f(const float *x, size_t count, size_t start, float *place) {
+    const size_t size = count - start < 2 * LANES_f ? count - start : 2 * LANES_f;
+    vector_f at[2][4], spoilt = ZERO;
+    for (size_t b = 0; b < 2; ++b) {
+        vector_rows_f(x, count, start + b * LANES_f, 4, at[b]);
+        spoilt += vector_spoilt_f(at[b], 4);
+    }
+    for (size_t i = 1; i < 8; i += 2) {
+        const float *middle = x + 4 * (start + i * size / 8);
+        float radius = 0, column[LANES_f];
+        for (size_t b = 0; b < 2; ++b) {
+            vector_f distance[1];
+            pair_distance_f(middle, at[b], distance);
+            vector_store_f(column, distance[0]);
+            for (size_t lane = 0; lane < LANES_f; ++lane) radius = column[lane] > radius ? column[lane] : radius;
+        }
+        if (i == 1 || radius < place[4]) {
+            for (int j = 0; j < 4; ++j) place[j] = middle[j];
+            place[4] = radius;
+        }
+    }
+    place[4] = place[4] * 1.0078125f + vector_sum_f(spoilt);
+}
+
+/* Where a splat is too far from all of a block; never where a distance is not a number. */
+INLINE vector_mask_f vector_far_f(vector_f distance, vector_f reach, vector_f radius) {
+    return (distance > reach + radius);
+}
+
+/* The splats from `first` (a multiple of LANES) to `end` that are near a block, all if there is none; how many. */
+OUTLINE size_t splats_near_f(const float *place, const vector_f *splats, size_t first, size_t end, uint32_t *near) {
+    size_t size = 0;
+    if (!place) {
+        for (size_t k = first; k < end; ++k) near[size++] = (uint32_t)k;
+        return size;
+    }
+    for (size_t start = first; start < end; start += LANES_f) {
+        const vector_f *own = splats + start / LANES_f * (4 + 1);
+        vector_f distance[1];
+        pair_distance_f(place, own, distance);
+        const vector_mask_f far = vector_far_f(distance[0], own[4], vector_of_f(place[4]));
+        const size_t lanes = end - start < LANES_f ? end - start : LANES_f;
+        for (size_t lane = 0; lane < lanes; ++lane) {
+            near[size] = (uint32_t)(start + lane);
+            size += !LANE(far, lane);
+        }
+    }
+    return size;
+}
+
+/* The vectors of points from `first` to `end` whose blocks are near a splat, all if there are none, less `first`. */
+OUTLINE size_t blocks_near_f(
+    const float *mu, const float *reach, const vector_f *blocks, size_t first, size_t end, uint32_t *near) {
+    const size_t group = 2 * LANES_f;  // vectors of points whose middles are one vector
+    size_t size = 0;
+    if (!reach) {
+        for (size_t b = first; b < end; ++b) near[size++] = (uint32_t)(b - first);
+        return size;
+    }
+    for (size_t start = first / group * group; start < end; start += group) {
+        const vector_f *own = blocks + start / group * (4 + 1);
+        vector_f distance[1];
+        pair_distance_f(mu, own, distance);
+        const vector_mask_f far = vector_far_f(distance[0], vector_of_f(*reach), own[4]);
+        for (size_t lane = 0; lane < group; ++lane) {
+            const size_t b = start + lane;
+            near[size] = (uint32_t)(b - first);
+            size += b >= first && b < end && !LANE(far, lane / 2);
+        }
+    }
+    return size;
+}
+
+/* The constants of LANES splats, as rows; with `width`, how far they reach. */
 OUTLINE void splat_constants_f(
-    size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, float *constants) {
+    size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, const float *width, float *constants,
+    vector_f *splats) {
     vector_f own_mu[4], own_W[9], own_amplitude[1], S[17];
     vector_rows_f(mu, splat_count, start, 4, own_mu);
     vector_rows_f(W, splat_count, start, 9, own_W);
     vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
+    if (width) splat_reach_f(own_mu, own_amplitude, width, splat_count, start, splats);
     pair_constants_f(own_mu, own_W, own_amplitude, S);
     vector_to_rows_f(S, constants, splat_count, start, 17, 17);
 }
 
 /* 2 vectors of points at a time stay in registers while all splats pass. */
 void so3_splats_f(
-    size_t count, size_t splat_count, const float *SO3_RESTRICT x, const float *SO3_RESTRICT mu, const float *SO3_RESTRICT W, const float *SO3_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *SO3_RESTRICT x, const float *SO3_RESTRICT mu, const float *SO3_RESTRICT W, const float *SO3_RESTRICT amplitude, const float *SO3_RESTRICT width,
     float *SO3_RESTRICT value, float *SO3_RESTRICT gradient, float *SO3_RESTRICT work, int threads) {
     (void)threads;
-    float *constants = work_constants_f(work, 0);
+    float *constants = work_constants_f(work, 0, splat_count);
+    vector_f *splats = work_splats_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES_f)
-            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+            splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
             vector_f at[2][4], X[2][4], grad[3];
             vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][4] = {{ZERO}};
+            float place[4 + 1];
+            uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 4, at[b]);
                 pair_features_f(at[b], X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k) {
-                pair_forward_f(X[0], constants + 17 * k, value_sum[0], slope_sum[0]);
-                pair_forward_f(X[1], constants + 17 * k, value_sum[1], slope_sum[1]);
+            if (width) block_place_f(x, count, start, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
+                for (size_t i = 0; i < size; ++i) {
+                    const float *S = constants + 17 * near[i];
+                    pair_forward_f(X[0], S, value_sum[0], slope_sum[0]);
+                    pair_forward_f(X[1], S, value_sum[1], slope_sum[1]);
+                }
             }
             for (size_t b = 0; b < 2; ++b) {
                 pair_gradient_f(at[b], slope_sum[b], grad);
@@ -1271,26 +1735,35 @@ void so3_splats_f(
 }
 
 void so3_splats_value_f(
-    size_t count, size_t splat_count, const float *SO3_RESTRICT x, const float *SO3_RESTRICT mu, const float *SO3_RESTRICT W, const float *SO3_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *SO3_RESTRICT x, const float *SO3_RESTRICT mu, const float *SO3_RESTRICT W, const float *SO3_RESTRICT amplitude, const float *SO3_RESTRICT width,
     float *SO3_RESTRICT value, float *SO3_RESTRICT work, int threads) {
     (void)threads;
-    float *constants = work_constants_f(work, 0);
+    float *constants = work_constants_f(work, 0, splat_count);
+    vector_f *splats = work_splats_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES_f)
-            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+            splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
             vector_f at[4], X[2][4], value_sum[2][1] = {{ZERO}};
+            float place[4 + 1];
+            uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 4, at);
                 pair_features_f(at, X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k) {
-                pair_value_f(X[0], constants + 17 * k, value_sum[0]);
-                pair_value_f(X[1], constants + 17 * k, value_sum[1]);
+            if (width) block_place_f(x, count, start, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
+                for (size_t i = 0; i < size; ++i) {
+                    const float *S = constants + 17 * near[i];
+                    pair_value_f(X[0], S, value_sum[0]);
+                    pair_value_f(X[1], S, value_sum[1]);
+                }
             }
             for (size_t b = 0; b < 2; ++b)
                 vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
@@ -1312,10 +1785,13 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 4 + 1, point + 4);
 }
 
-/* Adds to S_bar what some vectors of points add to it. */
-OUTLINE void splat_sums_f(const vector_f *point, size_t size, const float *S, float *S_bar) {
+/* Adds to S_bar what some vectors of points add to it, those in the list. */
+OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *S_bar) {
     vector_f sum[17] = {ZERO};
-    for (size_t b = 0; b < size; ++b, point += 9) pair_backward_f(point, S, point + 4, point + 4 + 1, sum);
+    for (size_t b = 0; b < size; ++b) {
+        const vector_f *point = points + 9 * (size_t)near[b];
+        pair_backward_f(point, S, point + 4, point + 4 + 1, sum);
+    }
     S_bar[0] += vector_sum_f(sum[0]);
     S_bar[1] += vector_sum_f(sum[1]);
     S_bar[2] += vector_sum_f(sum[2]);
@@ -1340,20 +1816,34 @@ OUTLINE void splat_sums_f(const vector_f *point, size_t size, const float *S, fl
  * splats depends on the threads, what is summed in which order does not.
  */
 void so3_splats_vjp_f(
-    size_t count, size_t splat_count, const float *SO3_RESTRICT x, const float *SO3_RESTRICT mu, const float *SO3_RESTRICT W, const float *SO3_RESTRICT amplitude, const float *SO3_RESTRICT value_bar, const float *SO3_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const float *SO3_RESTRICT x, const float *SO3_RESTRICT mu, const float *SO3_RESTRICT W, const float *SO3_RESTRICT amplitude, const float *SO3_RESTRICT width, const float *SO3_RESTRICT value_bar, const float *SO3_RESTRICT gradient_bar,
     float *SO3_RESTRICT mu_bar, float *SO3_RESTRICT W_bar, float *SO3_RESTRICT amplitude_bar, float *SO3_RESTRICT work, int threads) {
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
     const size_t chunk = 131072 / (9 * sizeof(vector_f)) + 1;
+    const size_t rows = ((blocks + 2 - 1) / 2 + LANES_f - 1) / LANES_f * LANES_f;
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES_f ? part : LANES_f;
     vector_f *points = work_points_f(work);
-    float *constants = work_constants_f(work, count);
+    vector_f *splats = work_splats_f(work, count), *places = work_blocks_f(work, count, splat_count);
+    float *constants = work_constants_f(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic) nowait)
         for (size_t start = 0; start < splat_count; start += LANES_f)
-            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+            splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
+        if (width) {
+            OMP(omp for schedule(dynamic, 8) nowait)
+            for (size_t block = 0; block < rows; ++block) {
+                float place[4 + 1];
+                const size_t last = (blocks - 1) / 2, start = (block < last ? block : last) * 2;
+                block_place_f(x, count, start * LANES_f, place);
+                for (int i = 0; i < 5; ++i) {
+                    float *row = (float *)(places + block / LANES_f * 5 + i);
+                    row[block - block / LANES_f * LANES_f] = place[i];
+                }
+            }
+        }
         OMP(omp for schedule(dynamic, 8))
         for (size_t block = 0; block < blocks; ++block)
             splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 9 * block);
@@ -1361,11 +1851,15 @@ void so3_splats_vjp_f(
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
             float sums[LANES_f][17] = {{0}};
+            uint32_t near[131072 / (9 * sizeof(vector_f)) + 2];
             vector_f own_mu[4], own_W[9], own_amplitude[1], S_bar[17], bars[14];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
-                for (size_t k = start; k < end; ++k)
-                    splat_sums_f(points + 9 * first, size, constants + 17 * k, sums[k - start]);
+                for (size_t k = start; k < end; ++k) {
+                    const float *reach = width ? splat_at_f(splats, k) + 4 * LANES_f : NULL;
+                    const size_t some = blocks_near_f(mu + 4 * k, reach, places, first, first + size, near);
+                    splat_sums_f(points + 9 * first, near, some, constants + 17 * k, sums[k - start]);
+                }
             }
             vector_rows_f(mu, end, start, 4, own_mu);
             vector_rows_f(W, end, start, 9, own_W);
@@ -1386,13 +1880,13 @@ void so3_splats_rows_f(
     float *SO3_RESTRICT rows, float *SO3_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
-    float *constants = work_constants_f(work, 0);
+    float *constants = work_constants_f(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES_f)
-            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+            splat_constants_f(splat_count, start, mu, W, amplitude, NULL, constants, NULL);
         OMP(omp for schedule(dynamic))
         for (size_t block = 0; block < blocks; ++block) {
             vector_f point[9];
@@ -1409,4 +1903,102 @@ void so3_splats_rows_f(
         }
         restore_denormals(mode);
     }
+}
+
+/* A coordinate to sort by. */
+INLINE float order_key_f(const float *x, size_t row, size_t axis) {
+    const float key = x[4 * row + axis];
+    return key == key ? key : 0;
+}
+
+/* The coordinate that differs most among some points. */
+static size_t widest_f(const float *x, const size_t *order, size_t count) {
+    float low[4], high[4];
+    size_t widest = 0;
+    for (size_t axis = 0; axis < 4; ++axis) low[axis] = high[axis] = order_key_f(x, order[0], axis);
+    for (size_t i = 1; i < count; ++i)
+        for (size_t axis = 0; axis < 4; ++axis) {
+            const float key = order_key_f(x, order[i], axis);
+            low[axis] = key < low[axis] ? key : low[axis];
+            high[axis] = key > high[axis] ? key : high[axis];
+        }
+    for (size_t axis = 1; axis < 4; ++axis)
+        if (high[axis] - low[axis] > high[widest] - low[widest]) widest = axis;
+    return widest;
+}
+
+/* Order points and their keys such that none of the first `part` has a larger key than one of the others. */
+static void split_at_f(float *keys, size_t *order, size_t count, size_t part) {
+    size_t low = 0, high = count;  // the part-th smallest key is in [low, high)
+    while (high - low > 1) {
+        const float a = keys[low], b = keys[low + (high - low) / 2], c = keys[high - 1];
+        const float least = a < b ? a : b, most = a < b ? b : a, pivot = c < least ? least : c > most ? most : c;
+        size_t less = low, equal = low;
+        for (int inclusive = 0; inclusive < 2; ++inclusive) {  // without branches, which nobody can foresee
+            size_t end = equal = less;
+            for (; end < high; ++end) {
+                const float key = keys[end];
+                const size_t row = order[end];
+                keys[end] = keys[equal], order[end] = order[equal];
+                keys[equal] = key, order[equal] = row;
+                equal += inclusive ? key <= pivot : key < pivot;
+            }
+            if (!inclusive) less = equal;
+            if (part < less) break;
+        }
+        if (part < less)
+            high = less;
+        else if (part < equal)
+            return;
+        else
+            low = equal;
+    }
+}
+
+/* Halve points at their medians until they are blocks. */
+static void sorted_blocks_f(const float *x, size_t *order, size_t count, float *keys) {
+    const size_t block = 2 * LANES_f;
+    while (count > block) {
+        const size_t part = ((count + block - 1) / block + 1) / 2 * block, axis = widest_f(x, order, count);
+        for (size_t i = 0; i < count; ++i) keys[i] = order_key_f(x, order[i], axis);
+        split_at_f(keys, order, count, part);
+        sorted_blocks_f(x, order + part, count - part, keys);
+        count = part;
+    }
+}
+
+double so3_splats_order_f(
+    size_t count, size_t splat_count, const float *SO3_RESTRICT x, const float *SO3_RESTRICT mu, const float *SO3_RESTRICT amplitude, const float *SO3_RESTRICT width,
+    double limit, size_t *SO3_RESTRICT order, float *SO3_RESTRICT work) {
+    const size_t block = 2 * LANES_f;
+    vector_f *splats = work_splats_f(work, 0);
+    uint32_t near[256];
+    double share = 0;
+    for (size_t n = 0; n < count; ++n) order[n] = n;
+    if (!count || !splat_count) return 1;
+    for (size_t start = 0; start < splat_count; start += LANES_f) {
+        vector_f own_mu[4], own_amplitude[1];
+        vector_rows_f(mu, splat_count, start, 4, own_mu);
+        vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
+        splat_reach_f(own_mu, own_amplitude, width, splat_count, start, splats);
+    }
+    for (int sorted = 0; sorted < 2; ++sorted) {
+        size_t pairs = 0;
+        if (sorted) sorted_blocks_f(x, order, count, (float *)work_blocks_f(work, 0, splat_count));
+        for (size_t i = 1; i < 2 * 16; i += 2) {
+            float rows[2 * LANES_f * 4], place[4 + 1];
+            const size_t some = i * count / (2 * 16), start = sorted ? some / block * block : some;
+            const size_t size = !sorted ? 1 : count - start < block ? count - start : block;
+            for (size_t n = 0; n < size; ++n)
+                for (int j = 0; j < 4; ++j) rows[4 * n + j] = x[4 * order[start + n] + j];
+            block_place_f(rows, size, 0, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                pairs += splats_near_f(place, splats, first, end, near);
+            }
+        }
+        share = (double)pairs / ((double)splat_count * 16);
+        if (share > limit) return share;
+    }
+    return share;
 }

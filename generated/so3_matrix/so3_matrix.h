@@ -337,28 +337,43 @@ void so3_matrix_frame_f(const float *SO3_MATRIX_RESTRICT p, float *SO3_MATRIX_RE
 size_t so3_matrix_splats_work(size_t count, size_t splat_count, int threads);
 size_t so3_matrix_splats_work_f(size_t count, size_t splat_count, int threads);
 
-/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
+/* An order of the points in which neighbours are near each other, for sums that leave far pairs out.
+ * Returns about which part of the pairs is summed then; if that is more than `limit`, the order may be any. */
+double so3_matrix_splats_order(
+    size_t count, size_t splat_count, const double *SO3_MATRIX_RESTRICT x, const double *SO3_MATRIX_RESTRICT mu, const double *SO3_MATRIX_RESTRICT amplitude, const double *SO3_MATRIX_RESTRICT width,
+    double limit, size_t *SO3_MATRIX_RESTRICT order, double *SO3_MATRIX_RESTRICT work);
+double so3_matrix_splats_order_f(
+    size_t count, size_t splat_count, const float *SO3_MATRIX_RESTRICT x, const float *SO3_MATRIX_RESTRICT mu, const float *SO3_MATRIX_RESTRICT amplitude, const float *SO3_MATRIX_RESTRICT width,
+    double limit, size_t *SO3_MATRIX_RESTRICT order, float *SO3_MATRIX_RESTRICT work);
+
+/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4).
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of which there are none on this manifold, if the points are in such an order that far ones are rarely neighbours. */
 void so3_matrix_splats(
-    size_t count, size_t splat_count, const double *SO3_MATRIX_RESTRICT x, const double *SO3_MATRIX_RESTRICT mu, const double *SO3_MATRIX_RESTRICT W, const double *SO3_MATRIX_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *SO3_MATRIX_RESTRICT x, const double *SO3_MATRIX_RESTRICT mu, const double *SO3_MATRIX_RESTRICT W, const double *SO3_MATRIX_RESTRICT amplitude, const double *SO3_MATRIX_RESTRICT width,
     double *SO3_MATRIX_RESTRICT value, double *SO3_MATRIX_RESTRICT gradient, double *SO3_MATRIX_RESTRICT work, int threads);
 void so3_matrix_splats_f(
-    size_t count, size_t splat_count, const float *SO3_MATRIX_RESTRICT x, const float *SO3_MATRIX_RESTRICT mu, const float *SO3_MATRIX_RESTRICT W, const float *SO3_MATRIX_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *SO3_MATRIX_RESTRICT x, const float *SO3_MATRIX_RESTRICT mu, const float *SO3_MATRIX_RESTRICT W, const float *SO3_MATRIX_RESTRICT amplitude, const float *SO3_MATRIX_RESTRICT width,
     float *SO3_MATRIX_RESTRICT value, float *SO3_MATRIX_RESTRICT gradient, float *SO3_MATRIX_RESTRICT work, int threads);
 
-/* The values of the sums alone. */
+/* The values of the sums alone.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of which there are none on this manifold, if the points are in such an order that far ones are rarely neighbours. */
 void so3_matrix_splats_value(
-    size_t count, size_t splat_count, const double *SO3_MATRIX_RESTRICT x, const double *SO3_MATRIX_RESTRICT mu, const double *SO3_MATRIX_RESTRICT W, const double *SO3_MATRIX_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *SO3_MATRIX_RESTRICT x, const double *SO3_MATRIX_RESTRICT mu, const double *SO3_MATRIX_RESTRICT W, const double *SO3_MATRIX_RESTRICT amplitude, const double *SO3_MATRIX_RESTRICT width,
     double *SO3_MATRIX_RESTRICT value, double *SO3_MATRIX_RESTRICT work, int threads);
 void so3_matrix_splats_value_f(
-    size_t count, size_t splat_count, const float *SO3_MATRIX_RESTRICT x, const float *SO3_MATRIX_RESTRICT mu, const float *SO3_MATRIX_RESTRICT W, const float *SO3_MATRIX_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *SO3_MATRIX_RESTRICT x, const float *SO3_MATRIX_RESTRICT mu, const float *SO3_MATRIX_RESTRICT W, const float *SO3_MATRIX_RESTRICT amplitude, const float *SO3_MATRIX_RESTRICT width,
     float *SO3_MATRIX_RESTRICT value, float *SO3_MATRIX_RESTRICT work, int threads);
 
-/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
+/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of which there are none on this manifold, if the points are in such an order that far ones are rarely neighbours. */
 void so3_matrix_splats_vjp(
-    size_t count, size_t splat_count, const double *SO3_MATRIX_RESTRICT x, const double *SO3_MATRIX_RESTRICT mu, const double *SO3_MATRIX_RESTRICT W, const double *SO3_MATRIX_RESTRICT amplitude, const double *SO3_MATRIX_RESTRICT value_bar, const double *SO3_MATRIX_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const double *SO3_MATRIX_RESTRICT x, const double *SO3_MATRIX_RESTRICT mu, const double *SO3_MATRIX_RESTRICT W, const double *SO3_MATRIX_RESTRICT amplitude, const double *SO3_MATRIX_RESTRICT width, const double *SO3_MATRIX_RESTRICT value_bar, const double *SO3_MATRIX_RESTRICT gradient_bar,
     double *SO3_MATRIX_RESTRICT mu_bar, double *SO3_MATRIX_RESTRICT W_bar, double *SO3_MATRIX_RESTRICT amplitude_bar, double *SO3_MATRIX_RESTRICT work, int threads);
 void so3_matrix_splats_vjp_f(
-    size_t count, size_t splat_count, const float *SO3_MATRIX_RESTRICT x, const float *SO3_MATRIX_RESTRICT mu, const float *SO3_MATRIX_RESTRICT W, const float *SO3_MATRIX_RESTRICT amplitude, const float *SO3_MATRIX_RESTRICT value_bar, const float *SO3_MATRIX_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const float *SO3_MATRIX_RESTRICT x, const float *SO3_MATRIX_RESTRICT mu, const float *SO3_MATRIX_RESTRICT W, const float *SO3_MATRIX_RESTRICT amplitude, const float *SO3_MATRIX_RESTRICT width, const float *SO3_MATRIX_RESTRICT value_bar, const float *SO3_MATRIX_RESTRICT gradient_bar,
     float *SO3_MATRIX_RESTRICT mu_bar, float *SO3_MATRIX_RESTRICT W_bar, float *SO3_MATRIX_RESTRICT amplitude_bar, float *SO3_MATRIX_RESTRICT work, int threads);
 
 /* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +

@@ -1174,10 +1174,13 @@ class So3Matrix:
 
         return _rejection(propose, count, generator, center)
 
-    def splats(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
+    def splats(
+        self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor, width: Tensor | None = None
+    ) -> tuple[Tensor, Tensor]:
         """The sum of K splats at N points, and its Riemannian gradient (RSRM eq. 4).
 
-        Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T).
+        Shapes: x (N, D), mu (K, D), W (K, d, T), amplitude (K) to (N), (N, T). `width` (K) is for kernels that leave far
+        pairs out; here all are summed.
         Differentiable once in mu, W and amplitude, with nothing of size N x K kept. Where x requires a gradient too, autograd
         differentiates the formula of every pair, as often as is wanted, and keeps all of them.
         """

@@ -1093,10 +1093,12 @@ OUTLINE void vector_end(size_t count, size_t start, size_t size, vector *columns
         for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
 }
 
-/* Scratch memory: 19 vectors for each block of points, then the constants of the splats. */
+/* Scratch memory: 19 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
 size_t so3_matrix_splats_work(size_t count, size_t splat_count, int threads) {
     (void)threads;
-    return ((count + LANES - 1) / LANES * 19 + 1) * LANES + 19 * splat_count;
+    const size_t points = (count + LANES - 1) / LANES, blocks = (points + 2 - 1) / 2;
+    const size_t places = 0 * ((splat_count + LANES - 1) / LANES + (blocks + LANES - 1) / LANES);
+    return (points * 19 + places + 1) * LANES + 19 * splat_count;
 }
 
 static vector *work_points(double *work) {
@@ -1104,44 +1106,90 @@ static vector *work_points(double *work) {
     return (vector *)((char *)work + ((0 - start) & (size - 1)));
 }
 
-static double *work_constants(double *work, size_t count) {
-    return (double *)(work_points(work) + (count + LANES - 1) / LANES * 19);
+/* Where a splat is: numbers that are LANES apart. */
+INLINE const double *splat_at(const vector *splats, size_t k) {
+    const size_t row = k / LANES;
+    return (const double *)(splats + 0 * row) + (k - row * LANES);
 }
 
-/* The constants of LANES splats, as rows. */
+static vector *work_splats(double *work, size_t count) {
+    return work_points(work) + (count + LANES - 1) / LANES * 19;
+}
+
+static vector *work_blocks(double *work, size_t count, size_t splat_count) {
+    return work_splats(work, count) + 0 * ((splat_count + LANES - 1) / LANES);
+}
+
+static double *work_constants(double *work, size_t count, size_t splat_count) {
+    const size_t size = 2 * LANES, blocks = (count + size - 1) / size;
+    return (double *)(work_blocks(work, count, splat_count) + 0 * ((blocks + LANES - 1) / LANES));
+}
+
+/* Nothing bounds what a far splat adds on this manifold: all are near. */
+static void splat_reach(
+    const vector *mu, const vector *amplitude, const double *width, size_t splat_count, size_t start, vector *splats) {
+    (void)mu, (void)amplitude, (void)width, (void)splat_count, (void)start, (void)splats;
+}
+static void block_place(const double *x, size_t count, size_t start, double *place) {
+    (void)x, (void)count, (void)start, (void)place;
+}
+static size_t splats_near(const double *place, const vector *splats, size_t first, size_t end, uint32_t *near) {
+    (void)place, (void)splats;
+    for (size_t k = first; k < end; ++k) near[k - first] = (uint32_t)k;
+    return end - first;
+}
+static size_t blocks_near(
+    const double *mu, const double *reach, const vector *blocks, size_t first, size_t end, uint32_t *near) {
+    (void)mu, (void)reach, (void)blocks;
+    for (size_t b = first; b < end; ++b) near[b - first] = (uint32_t)(b - first);
+    return end - first;
+}
+
+/* The constants of LANES splats, as rows; with `width`, how far they reach. */
 OUTLINE void splat_constants(
-    size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, double *constants) {
+    size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, const double *width, double *constants,
+    vector *splats) {
     vector own_mu[9], own_W[9], own_amplitude[1], S[19];
     vector_rows(mu, splat_count, start, 9, own_mu);
     vector_rows(W, splat_count, start, 9, own_W);
     vector_rows(amplitude, splat_count, start, 1, own_amplitude);
+    if (width) splat_reach(own_mu, own_amplitude, width, splat_count, start, splats);
     pair_constants(own_mu, own_W, own_amplitude, S);
     vector_to_rows(S, constants, splat_count, start, 19, 19);
 }
 
 /* 2 vectors of points at a time stay in registers while all splats pass. */
 void so3_matrix_splats(
-    size_t count, size_t splat_count, const double *SO3_MATRIX_RESTRICT x, const double *SO3_MATRIX_RESTRICT mu, const double *SO3_MATRIX_RESTRICT W, const double *SO3_MATRIX_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *SO3_MATRIX_RESTRICT x, const double *SO3_MATRIX_RESTRICT mu, const double *SO3_MATRIX_RESTRICT W, const double *SO3_MATRIX_RESTRICT amplitude, const double *SO3_MATRIX_RESTRICT width,
     double *SO3_MATRIX_RESTRICT value, double *SO3_MATRIX_RESTRICT gradient, double *SO3_MATRIX_RESTRICT work, int threads) {
     (void)threads;
-    double *constants = work_constants(work, 0);
+    double *constants = work_constants(work, 0, splat_count);
+    vector *splats = work_splats(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES)
-            splat_constants(splat_count, start, mu, W, amplitude, constants);
+            splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
             vector at[2][9], X[2][9], grad[3];
             vector value_sum[2][1] = {{ZERO}}, slope_sum[2][9] = {{ZERO}};
+            double place[9 + 1];
+            uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 9, at[b]);
                 pair_features(at[b], X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k) {
-                pair_forward(X[0], constants + 19 * k, value_sum[0], slope_sum[0]);
-                pair_forward(X[1], constants + 19 * k, value_sum[1], slope_sum[1]);
+            if (width) block_place(x, count, start, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
+                for (size_t i = 0; i < size; ++i) {
+                    const double *S = constants + 19 * near[i];
+                    pair_forward(X[0], S, value_sum[0], slope_sum[0]);
+                    pair_forward(X[1], S, value_sum[1], slope_sum[1]);
+                }
             }
             for (size_t b = 0; b < 2; ++b) {
                 pair_gradient(at[b], slope_sum[b], grad);
@@ -1154,26 +1202,35 @@ void so3_matrix_splats(
 }
 
 void so3_matrix_splats_value(
-    size_t count, size_t splat_count, const double *SO3_MATRIX_RESTRICT x, const double *SO3_MATRIX_RESTRICT mu, const double *SO3_MATRIX_RESTRICT W, const double *SO3_MATRIX_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *SO3_MATRIX_RESTRICT x, const double *SO3_MATRIX_RESTRICT mu, const double *SO3_MATRIX_RESTRICT W, const double *SO3_MATRIX_RESTRICT amplitude, const double *SO3_MATRIX_RESTRICT width,
     double *SO3_MATRIX_RESTRICT value, double *SO3_MATRIX_RESTRICT work, int threads) {
     (void)threads;
-    double *constants = work_constants(work, 0);
+    double *constants = work_constants(work, 0, splat_count);
+    vector *splats = work_splats(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES)
-            splat_constants(splat_count, start, mu, W, amplitude, constants);
+            splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
             vector at[9], X[2][9], value_sum[2][1] = {{ZERO}};
+            double place[9 + 1];
+            uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 9, at);
                 pair_features(at, X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k) {
-                pair_value(X[0], constants + 19 * k, value_sum[0]);
-                pair_value(X[1], constants + 19 * k, value_sum[1]);
+            if (width) block_place(x, count, start, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
+                for (size_t i = 0; i < size; ++i) {
+                    const double *S = constants + 19 * near[i];
+                    pair_value(X[0], S, value_sum[0]);
+                    pair_value(X[1], S, value_sum[1]);
+                }
             }
             for (size_t b = 0; b < 2; ++b)
                 vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
@@ -1195,10 +1252,13 @@ OUTLINE void splat_points(
     vector_end(count, start, 9 + 1, point + 9);
 }
 
-/* Adds to S_bar what some vectors of points add to it. */
-OUTLINE void splat_sums(const vector *point, size_t size, const double *S, double *S_bar) {
+/* Adds to S_bar what some vectors of points add to it, those in the list. */
+OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *S_bar) {
     vector sum[19] = {ZERO};
-    for (size_t b = 0; b < size; ++b, point += 19) pair_backward(point, S, point + 9, point + 9 + 1, sum);
+    for (size_t b = 0; b < size; ++b) {
+        const vector *point = points + 19 * (size_t)near[b];
+        pair_backward(point, S, point + 9, point + 9 + 1, sum);
+    }
     S_bar[0] += vector_sum(sum[0]);
     S_bar[1] += vector_sum(sum[1]);
     S_bar[2] += vector_sum(sum[2]);
@@ -1225,20 +1285,34 @@ OUTLINE void splat_sums(const vector *point, size_t size, const double *S, doubl
  * splats depends on the threads, what is summed in which order does not.
  */
 void so3_matrix_splats_vjp(
-    size_t count, size_t splat_count, const double *SO3_MATRIX_RESTRICT x, const double *SO3_MATRIX_RESTRICT mu, const double *SO3_MATRIX_RESTRICT W, const double *SO3_MATRIX_RESTRICT amplitude, const double *SO3_MATRIX_RESTRICT value_bar, const double *SO3_MATRIX_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const double *SO3_MATRIX_RESTRICT x, const double *SO3_MATRIX_RESTRICT mu, const double *SO3_MATRIX_RESTRICT W, const double *SO3_MATRIX_RESTRICT amplitude, const double *SO3_MATRIX_RESTRICT width, const double *SO3_MATRIX_RESTRICT value_bar, const double *SO3_MATRIX_RESTRICT gradient_bar,
     double *SO3_MATRIX_RESTRICT mu_bar, double *SO3_MATRIX_RESTRICT W_bar, double *SO3_MATRIX_RESTRICT amplitude_bar, double *SO3_MATRIX_RESTRICT work, int threads) {
     const size_t blocks = (count + LANES - 1) / LANES;
     const size_t chunk = 131072 / (19 * sizeof(vector)) + 1;
+    const size_t rows = ((blocks + 2 - 1) / 2 + LANES - 1) / LANES * LANES;
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES ? part : LANES;
     vector *points = work_points(work);
-    double *constants = work_constants(work, count);
+    vector *splats = work_splats(work, count), *places = work_blocks(work, count, splat_count);
+    double *constants = work_constants(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic) nowait)
         for (size_t start = 0; start < splat_count; start += LANES)
-            splat_constants(splat_count, start, mu, W, amplitude, constants);
+            splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
+        if (width) {
+            OMP(omp for schedule(dynamic, 8) nowait)
+            for (size_t block = 0; block < rows; ++block) {
+                double place[9 + 1];
+                const size_t last = (blocks - 1) / 2, start = (block < last ? block : last) * 2;
+                block_place(x, count, start * LANES, place);
+                for (int i = 0; i < 0; ++i) {
+                    double *row = (double *)(places + block / LANES * 0 + i);
+                    row[block - block / LANES * LANES] = place[i];
+                }
+            }
+        }
         OMP(omp for schedule(dynamic, 8))
         for (size_t block = 0; block < blocks; ++block)
             splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 19 * block);
@@ -1246,11 +1320,15 @@ void so3_matrix_splats_vjp(
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
             double sums[LANES][19] = {{0}};
+            uint32_t near[131072 / (19 * sizeof(vector)) + 2];
             vector own_mu[9], own_W[9], own_amplitude[1], S_bar[19], bars[19];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
-                for (size_t k = start; k < end; ++k)
-                    splat_sums(points + 19 * first, size, constants + 19 * k, sums[k - start]);
+                for (size_t k = start; k < end; ++k) {
+                    const double *reach = width ? splat_at(splats, k) + 9 * LANES : NULL;
+                    const size_t some = blocks_near(mu + 9 * k, reach, places, first, first + size, near);
+                    splat_sums(points + 19 * first, near, some, constants + 19 * k, sums[k - start]);
+                }
             }
             vector_rows(mu, end, start, 9, own_mu);
             vector_rows(W, end, start, 9, own_W);
@@ -1271,13 +1349,13 @@ void so3_matrix_splats_rows(
     double *SO3_MATRIX_RESTRICT rows, double *SO3_MATRIX_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES - 1) / LANES;
-    double *constants = work_constants(work, 0);
+    double *constants = work_constants(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES)
-            splat_constants(splat_count, start, mu, W, amplitude, constants);
+            splat_constants(splat_count, start, mu, W, amplitude, NULL, constants, NULL);
         OMP(omp for schedule(dynamic))
         for (size_t block = 0; block < blocks; ++block) {
             vector point[19];
@@ -1294,6 +1372,15 @@ void so3_matrix_splats_rows(
         }
         restore_denormals(mode);
     }
+}
+
+double so3_matrix_splats_order(
+    size_t count, size_t splat_count, const double *SO3_MATRIX_RESTRICT x, const double *SO3_MATRIX_RESTRICT mu, const double *SO3_MATRIX_RESTRICT amplitude, const double *SO3_MATRIX_RESTRICT width,
+    double limit, size_t *SO3_MATRIX_RESTRICT order, double *SO3_MATRIX_RESTRICT work) {
+    (void)x, (void)mu, (void)amplitude, (void)width, (void)limit, (void)work;
+    (void)splat_count;
+    for (size_t n = 0; n < count; ++n) order[n] = n;
+    return 1;
 }
 
 /* The same number in all lanes. */
@@ -2305,10 +2392,12 @@ OUTLINE void vector_end_f(size_t count, size_t start, size_t size, vector_f *col
         for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
 }
 
-/* Scratch memory: 19 vectors for each block of points, then the constants of the splats. */
+/* Scratch memory: 19 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
 size_t so3_matrix_splats_work_f(size_t count, size_t splat_count, int threads) {
     (void)threads;
-    return ((count + LANES_f - 1) / LANES_f * 19 + 1) * LANES_f + 19 * splat_count;
+    const size_t points = (count + LANES_f - 1) / LANES_f, blocks = (points + 2 - 1) / 2;
+    const size_t places = 0 * ((splat_count + LANES_f - 1) / LANES_f + (blocks + LANES_f - 1) / LANES_f);
+    return (points * 19 + places + 1) * LANES_f + 19 * splat_count;
 }
 
 static vector_f *work_points_f(float *work) {
@@ -2316,44 +2405,90 @@ static vector_f *work_points_f(float *work) {
     return (vector_f *)((char *)work + ((0 - start) & (size - 1)));
 }
 
-static float *work_constants_f(float *work, size_t count) {
-    return (float *)(work_points_f(work) + (count + LANES_f - 1) / LANES_f * 19);
+/* Where a splat is: numbers that are LANES apart. */
+INLINE const float *splat_at_f(const vector_f *splats, size_t k) {
+    const size_t row = k / LANES_f;
+    return (const float *)(splats + 0 * row) + (k - row * LANES_f);
 }
 
-/* The constants of LANES splats, as rows. */
+static vector_f *work_splats_f(float *work, size_t count) {
+    return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 19;
+}
+
+static vector_f *work_blocks_f(float *work, size_t count, size_t splat_count) {
+    return work_splats_f(work, count) + 0 * ((splat_count + LANES_f - 1) / LANES_f);
+}
+
+static float *work_constants_f(float *work, size_t count, size_t splat_count) {
+    const size_t size = 2 * LANES_f, blocks = (count + size - 1) / size;
+    return (float *)(work_blocks_f(work, count, splat_count) + 0 * ((blocks + LANES_f - 1) / LANES_f));
+}
+
+/* Nothing bounds what a far splat adds on this manifold: all are near. */
+static void splat_reach_f(
+    const vector_f *mu, const vector_f *amplitude, const float *width, size_t splat_count, size_t start, vector_f *splats) {
+    (void)mu, (void)amplitude, (void)width, (void)splat_count, (void)start, (void)splats;
+}
+static void block_place_f(const float *x, size_t count, size_t start, float *place) {
+    (void)x, (void)count, (void)start, (void)place;
+}
+static size_t splats_near_f(const float *place, const vector_f *splats, size_t first, size_t end, uint32_t *near) {
+    (void)place, (void)splats;
+    for (size_t k = first; k < end; ++k) near[k - first] = (uint32_t)k;
+    return end - first;
+}
+static size_t blocks_near_f(
+    const float *mu, const float *reach, const vector_f *blocks, size_t first, size_t end, uint32_t *near) {
+    (void)mu, (void)reach, (void)blocks;
+    for (size_t b = first; b < end; ++b) near[b - first] = (uint32_t)(b - first);
+    return end - first;
+}
+
+/* The constants of LANES splats, as rows; with `width`, how far they reach. */
 OUTLINE void splat_constants_f(
-    size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, float *constants) {
+    size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, const float *width, float *constants,
+    vector_f *splats) {
     vector_f own_mu[9], own_W[9], own_amplitude[1], S[19];
     vector_rows_f(mu, splat_count, start, 9, own_mu);
     vector_rows_f(W, splat_count, start, 9, own_W);
     vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
+    if (width) splat_reach_f(own_mu, own_amplitude, width, splat_count, start, splats);
     pair_constants_f(own_mu, own_W, own_amplitude, S);
     vector_to_rows_f(S, constants, splat_count, start, 19, 19);
 }
 
 /* 2 vectors of points at a time stay in registers while all splats pass. */
 void so3_matrix_splats_f(
-    size_t count, size_t splat_count, const float *SO3_MATRIX_RESTRICT x, const float *SO3_MATRIX_RESTRICT mu, const float *SO3_MATRIX_RESTRICT W, const float *SO3_MATRIX_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *SO3_MATRIX_RESTRICT x, const float *SO3_MATRIX_RESTRICT mu, const float *SO3_MATRIX_RESTRICT W, const float *SO3_MATRIX_RESTRICT amplitude, const float *SO3_MATRIX_RESTRICT width,
     float *SO3_MATRIX_RESTRICT value, float *SO3_MATRIX_RESTRICT gradient, float *SO3_MATRIX_RESTRICT work, int threads) {
     (void)threads;
-    float *constants = work_constants_f(work, 0);
+    float *constants = work_constants_f(work, 0, splat_count);
+    vector_f *splats = work_splats_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES_f)
-            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+            splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
             vector_f at[2][9], X[2][9], grad[3];
             vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][9] = {{ZERO}};
+            float place[9 + 1];
+            uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 9, at[b]);
                 pair_features_f(at[b], X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k) {
-                pair_forward_f(X[0], constants + 19 * k, value_sum[0], slope_sum[0]);
-                pair_forward_f(X[1], constants + 19 * k, value_sum[1], slope_sum[1]);
+            if (width) block_place_f(x, count, start, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
+                for (size_t i = 0; i < size; ++i) {
+                    const float *S = constants + 19 * near[i];
+                    pair_forward_f(X[0], S, value_sum[0], slope_sum[0]);
+                    pair_forward_f(X[1], S, value_sum[1], slope_sum[1]);
+                }
             }
             for (size_t b = 0; b < 2; ++b) {
                 pair_gradient_f(at[b], slope_sum[b], grad);
@@ -2366,26 +2501,35 @@ void so3_matrix_splats_f(
 }
 
 void so3_matrix_splats_value_f(
-    size_t count, size_t splat_count, const float *SO3_MATRIX_RESTRICT x, const float *SO3_MATRIX_RESTRICT mu, const float *SO3_MATRIX_RESTRICT W, const float *SO3_MATRIX_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *SO3_MATRIX_RESTRICT x, const float *SO3_MATRIX_RESTRICT mu, const float *SO3_MATRIX_RESTRICT W, const float *SO3_MATRIX_RESTRICT amplitude, const float *SO3_MATRIX_RESTRICT width,
     float *SO3_MATRIX_RESTRICT value, float *SO3_MATRIX_RESTRICT work, int threads) {
     (void)threads;
-    float *constants = work_constants_f(work, 0);
+    float *constants = work_constants_f(work, 0, splat_count);
+    vector_f *splats = work_splats_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES_f)
-            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+            splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
             vector_f at[9], X[2][9], value_sum[2][1] = {{ZERO}};
+            float place[9 + 1];
+            uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 9, at);
                 pair_features_f(at, X[b]);
             }
-            for (size_t k = 0; k < splat_count; ++k) {
-                pair_value_f(X[0], constants + 19 * k, value_sum[0]);
-                pair_value_f(X[1], constants + 19 * k, value_sum[1]);
+            if (width) block_place_f(x, count, start, place);
+            for (size_t first = 0; first < splat_count; first += 256) {
+                const size_t end = splat_count - first < 256 ? splat_count : first + 256;
+                const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
+                for (size_t i = 0; i < size; ++i) {
+                    const float *S = constants + 19 * near[i];
+                    pair_value_f(X[0], S, value_sum[0]);
+                    pair_value_f(X[1], S, value_sum[1]);
+                }
             }
             for (size_t b = 0; b < 2; ++b)
                 vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
@@ -2407,10 +2551,13 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 9 + 1, point + 9);
 }
 
-/* Adds to S_bar what some vectors of points add to it. */
-OUTLINE void splat_sums_f(const vector_f *point, size_t size, const float *S, float *S_bar) {
+/* Adds to S_bar what some vectors of points add to it, those in the list. */
+OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *S_bar) {
     vector_f sum[19] = {ZERO};
-    for (size_t b = 0; b < size; ++b, point += 19) pair_backward_f(point, S, point + 9, point + 9 + 1, sum);
+    for (size_t b = 0; b < size; ++b) {
+        const vector_f *point = points + 19 * (size_t)near[b];
+        pair_backward_f(point, S, point + 9, point + 9 + 1, sum);
+    }
     S_bar[0] += vector_sum_f(sum[0]);
     S_bar[1] += vector_sum_f(sum[1]);
     S_bar[2] += vector_sum_f(sum[2]);
@@ -2437,20 +2584,34 @@ OUTLINE void splat_sums_f(const vector_f *point, size_t size, const float *S, fl
  * splats depends on the threads, what is summed in which order does not.
  */
 void so3_matrix_splats_vjp_f(
-    size_t count, size_t splat_count, const float *SO3_MATRIX_RESTRICT x, const float *SO3_MATRIX_RESTRICT mu, const float *SO3_MATRIX_RESTRICT W, const float *SO3_MATRIX_RESTRICT amplitude, const float *SO3_MATRIX_RESTRICT value_bar, const float *SO3_MATRIX_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const float *SO3_MATRIX_RESTRICT x, const float *SO3_MATRIX_RESTRICT mu, const float *SO3_MATRIX_RESTRICT W, const float *SO3_MATRIX_RESTRICT amplitude, const float *SO3_MATRIX_RESTRICT width, const float *SO3_MATRIX_RESTRICT value_bar, const float *SO3_MATRIX_RESTRICT gradient_bar,
     float *SO3_MATRIX_RESTRICT mu_bar, float *SO3_MATRIX_RESTRICT W_bar, float *SO3_MATRIX_RESTRICT amplitude_bar, float *SO3_MATRIX_RESTRICT work, int threads) {
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
     const size_t chunk = 131072 / (19 * sizeof(vector_f)) + 1;
+    const size_t rows = ((blocks + 2 - 1) / 2 + LANES_f - 1) / LANES_f * LANES_f;
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES_f ? part : LANES_f;
     vector_f *points = work_points_f(work);
-    float *constants = work_constants_f(work, count);
+    vector_f *splats = work_splats_f(work, count), *places = work_blocks_f(work, count, splat_count);
+    float *constants = work_constants_f(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic) nowait)
         for (size_t start = 0; start < splat_count; start += LANES_f)
-            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+            splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
+        if (width) {
+            OMP(omp for schedule(dynamic, 8) nowait)
+            for (size_t block = 0; block < rows; ++block) {
+                float place[9 + 1];
+                const size_t last = (blocks - 1) / 2, start = (block < last ? block : last) * 2;
+                block_place_f(x, count, start * LANES_f, place);
+                for (int i = 0; i < 0; ++i) {
+                    float *row = (float *)(places + block / LANES_f * 0 + i);
+                    row[block - block / LANES_f * LANES_f] = place[i];
+                }
+            }
+        }
         OMP(omp for schedule(dynamic, 8))
         for (size_t block = 0; block < blocks; ++block)
             splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 19 * block);
@@ -2458,11 +2619,15 @@ void so3_matrix_splats_vjp_f(
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
             float sums[LANES_f][19] = {{0}};
+            uint32_t near[131072 / (19 * sizeof(vector_f)) + 2];
             vector_f own_mu[9], own_W[9], own_amplitude[1], S_bar[19], bars[19];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
-                for (size_t k = start; k < end; ++k)
-                    splat_sums_f(points + 19 * first, size, constants + 19 * k, sums[k - start]);
+                for (size_t k = start; k < end; ++k) {
+                    const float *reach = width ? splat_at_f(splats, k) + 9 * LANES_f : NULL;
+                    const size_t some = blocks_near_f(mu + 9 * k, reach, places, first, first + size, near);
+                    splat_sums_f(points + 19 * first, near, some, constants + 19 * k, sums[k - start]);
+                }
             }
             vector_rows_f(mu, end, start, 9, own_mu);
             vector_rows_f(W, end, start, 9, own_W);
@@ -2483,13 +2648,13 @@ void so3_matrix_splats_rows_f(
     float *SO3_MATRIX_RESTRICT rows, float *SO3_MATRIX_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
-    float *constants = work_constants_f(work, 0);
+    float *constants = work_constants_f(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += LANES_f)
-            splat_constants_f(splat_count, start, mu, W, amplitude, constants);
+            splat_constants_f(splat_count, start, mu, W, amplitude, NULL, constants, NULL);
         OMP(omp for schedule(dynamic))
         for (size_t block = 0; block < blocks; ++block) {
             vector_f point[19];
@@ -2506,4 +2671,13 @@ void so3_matrix_splats_rows_f(
         }
         restore_denormals(mode);
     }
+}
+
+double so3_matrix_splats_order_f(
+    size_t count, size_t splat_count, const float *SO3_MATRIX_RESTRICT x, const float *SO3_MATRIX_RESTRICT mu, const float *SO3_MATRIX_RESTRICT amplitude, const float *SO3_MATRIX_RESTRICT width,
+    double limit, size_t *SO3_MATRIX_RESTRICT order, float *SO3_MATRIX_RESTRICT work) {
+    (void)x, (void)mu, (void)amplitude, (void)width, (void)limit, (void)work;
+    (void)splat_count;
+    for (size_t n = 0; n < count; ++n) order[n] = n;
+    return 1;
 }

@@ -279,28 +279,43 @@ void spd_frame_f(const float *SPD_RESTRICT p, float *SPD_RESTRICT frame);
 size_t spd_splats_work(size_t count, size_t splat_count, int threads);
 size_t spd_splats_work_f(size_t count, size_t splat_count, int threads);
 
-/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
+/* An order of the points in which neighbours are near each other, for sums that leave far pairs out.
+ * Returns about which part of the pairs is summed then; if that is more than `limit`, the order may be any. */
+double spd_splats_order(
+    size_t count, size_t splat_count, const double *SPD_RESTRICT x, const double *SPD_RESTRICT mu, const double *SPD_RESTRICT amplitude, const double *SPD_RESTRICT width,
+    double limit, size_t *SPD_RESTRICT order, double *SPD_RESTRICT work);
+double spd_splats_order_f(
+    size_t count, size_t splat_count, const float *SPD_RESTRICT x, const float *SPD_RESTRICT mu, const float *SPD_RESTRICT amplitude, const float *SPD_RESTRICT width,
+    double limit, size_t *SPD_RESTRICT order, float *SPD_RESTRICT work);
+
+/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4).
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of which there are none on this manifold, if the points are in such an order that far ones are rarely neighbours. */
 void spd_splats(
-    size_t count, size_t splat_count, const double *SPD_RESTRICT x, const double *SPD_RESTRICT mu, const double *SPD_RESTRICT W, const double *SPD_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *SPD_RESTRICT x, const double *SPD_RESTRICT mu, const double *SPD_RESTRICT W, const double *SPD_RESTRICT amplitude, const double *SPD_RESTRICT width,
     double *SPD_RESTRICT value, double *SPD_RESTRICT gradient, double *SPD_RESTRICT work, int threads);
 void spd_splats_f(
-    size_t count, size_t splat_count, const float *SPD_RESTRICT x, const float *SPD_RESTRICT mu, const float *SPD_RESTRICT W, const float *SPD_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *SPD_RESTRICT x, const float *SPD_RESTRICT mu, const float *SPD_RESTRICT W, const float *SPD_RESTRICT amplitude, const float *SPD_RESTRICT width,
     float *SPD_RESTRICT value, float *SPD_RESTRICT gradient, float *SPD_RESTRICT work, int threads);
 
-/* The values of the sums alone. */
+/* The values of the sums alone.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of which there are none on this manifold, if the points are in such an order that far ones are rarely neighbours. */
 void spd_splats_value(
-    size_t count, size_t splat_count, const double *SPD_RESTRICT x, const double *SPD_RESTRICT mu, const double *SPD_RESTRICT W, const double *SPD_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *SPD_RESTRICT x, const double *SPD_RESTRICT mu, const double *SPD_RESTRICT W, const double *SPD_RESTRICT amplitude, const double *SPD_RESTRICT width,
     double *SPD_RESTRICT value, double *SPD_RESTRICT work, int threads);
 void spd_splats_value_f(
-    size_t count, size_t splat_count, const float *SPD_RESTRICT x, const float *SPD_RESTRICT mu, const float *SPD_RESTRICT W, const float *SPD_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *SPD_RESTRICT x, const float *SPD_RESTRICT mu, const float *SPD_RESTRICT W, const float *SPD_RESTRICT amplitude, const float *SPD_RESTRICT width,
     float *SPD_RESTRICT value, float *SPD_RESTRICT work, int threads);
 
-/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
+/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of which there are none on this manifold, if the points are in such an order that far ones are rarely neighbours. */
 void spd_splats_vjp(
-    size_t count, size_t splat_count, const double *SPD_RESTRICT x, const double *SPD_RESTRICT mu, const double *SPD_RESTRICT W, const double *SPD_RESTRICT amplitude, const double *SPD_RESTRICT value_bar, const double *SPD_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const double *SPD_RESTRICT x, const double *SPD_RESTRICT mu, const double *SPD_RESTRICT W, const double *SPD_RESTRICT amplitude, const double *SPD_RESTRICT width, const double *SPD_RESTRICT value_bar, const double *SPD_RESTRICT gradient_bar,
     double *SPD_RESTRICT mu_bar, double *SPD_RESTRICT W_bar, double *SPD_RESTRICT amplitude_bar, double *SPD_RESTRICT work, int threads);
 void spd_splats_vjp_f(
-    size_t count, size_t splat_count, const float *SPD_RESTRICT x, const float *SPD_RESTRICT mu, const float *SPD_RESTRICT W, const float *SPD_RESTRICT amplitude, const float *SPD_RESTRICT value_bar, const float *SPD_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const float *SPD_RESTRICT x, const float *SPD_RESTRICT mu, const float *SPD_RESTRICT W, const float *SPD_RESTRICT amplitude, const float *SPD_RESTRICT width, const float *SPD_RESTRICT value_bar, const float *SPD_RESTRICT gradient_bar,
     float *SPD_RESTRICT mu_bar, float *SPD_RESTRICT W_bar, float *SPD_RESTRICT amplitude_bar, float *SPD_RESTRICT work, int threads);
 
 /* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +

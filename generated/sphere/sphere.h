@@ -331,28 +331,43 @@ void sphere_frame_f(const float *SPHERE_RESTRICT p, float *SPHERE_RESTRICT frame
 size_t sphere_splats_work(size_t count, size_t splat_count, int threads);
 size_t sphere_splats_work_f(size_t count, size_t splat_count, int threads);
 
-/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
+/* An order of the points in which neighbours are near each other, for sums that leave far pairs out.
+ * Returns about which part of the pairs is summed then; if that is more than `limit`, the order may be any. */
+double sphere_splats_order(
+    size_t count, size_t splat_count, const double *SPHERE_RESTRICT x, const double *SPHERE_RESTRICT mu, const double *SPHERE_RESTRICT amplitude, const double *SPHERE_RESTRICT width,
+    double limit, size_t *SPHERE_RESTRICT order, double *SPHERE_RESTRICT work);
+double sphere_splats_order_f(
+    size_t count, size_t splat_count, const float *SPHERE_RESTRICT x, const float *SPHERE_RESTRICT mu, const float *SPHERE_RESTRICT amplitude, const float *SPHERE_RESTRICT width,
+    double limit, size_t *SPHERE_RESTRICT order, float *SPHERE_RESTRICT work);
+
+/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4).
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void sphere_splats(
-    size_t count, size_t splat_count, const double *SPHERE_RESTRICT x, const double *SPHERE_RESTRICT mu, const double *SPHERE_RESTRICT W, const double *SPHERE_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *SPHERE_RESTRICT x, const double *SPHERE_RESTRICT mu, const double *SPHERE_RESTRICT W, const double *SPHERE_RESTRICT amplitude, const double *SPHERE_RESTRICT width,
     double *SPHERE_RESTRICT value, double *SPHERE_RESTRICT gradient, double *SPHERE_RESTRICT work, int threads);
 void sphere_splats_f(
-    size_t count, size_t splat_count, const float *SPHERE_RESTRICT x, const float *SPHERE_RESTRICT mu, const float *SPHERE_RESTRICT W, const float *SPHERE_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *SPHERE_RESTRICT x, const float *SPHERE_RESTRICT mu, const float *SPHERE_RESTRICT W, const float *SPHERE_RESTRICT amplitude, const float *SPHERE_RESTRICT width,
     float *SPHERE_RESTRICT value, float *SPHERE_RESTRICT gradient, float *SPHERE_RESTRICT work, int threads);
 
-/* The values of the sums alone. */
+/* The values of the sums alone.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void sphere_splats_value(
-    size_t count, size_t splat_count, const double *SPHERE_RESTRICT x, const double *SPHERE_RESTRICT mu, const double *SPHERE_RESTRICT W, const double *SPHERE_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *SPHERE_RESTRICT x, const double *SPHERE_RESTRICT mu, const double *SPHERE_RESTRICT W, const double *SPHERE_RESTRICT amplitude, const double *SPHERE_RESTRICT width,
     double *SPHERE_RESTRICT value, double *SPHERE_RESTRICT work, int threads);
 void sphere_splats_value_f(
-    size_t count, size_t splat_count, const float *SPHERE_RESTRICT x, const float *SPHERE_RESTRICT mu, const float *SPHERE_RESTRICT W, const float *SPHERE_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *SPHERE_RESTRICT x, const float *SPHERE_RESTRICT mu, const float *SPHERE_RESTRICT W, const float *SPHERE_RESTRICT amplitude, const float *SPHERE_RESTRICT width,
     float *SPHERE_RESTRICT value, float *SPHERE_RESTRICT work, int threads);
 
-/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
+/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void sphere_splats_vjp(
-    size_t count, size_t splat_count, const double *SPHERE_RESTRICT x, const double *SPHERE_RESTRICT mu, const double *SPHERE_RESTRICT W, const double *SPHERE_RESTRICT amplitude, const double *SPHERE_RESTRICT value_bar, const double *SPHERE_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const double *SPHERE_RESTRICT x, const double *SPHERE_RESTRICT mu, const double *SPHERE_RESTRICT W, const double *SPHERE_RESTRICT amplitude, const double *SPHERE_RESTRICT width, const double *SPHERE_RESTRICT value_bar, const double *SPHERE_RESTRICT gradient_bar,
     double *SPHERE_RESTRICT mu_bar, double *SPHERE_RESTRICT W_bar, double *SPHERE_RESTRICT amplitude_bar, double *SPHERE_RESTRICT work, int threads);
 void sphere_splats_vjp_f(
-    size_t count, size_t splat_count, const float *SPHERE_RESTRICT x, const float *SPHERE_RESTRICT mu, const float *SPHERE_RESTRICT W, const float *SPHERE_RESTRICT amplitude, const float *SPHERE_RESTRICT value_bar, const float *SPHERE_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const float *SPHERE_RESTRICT x, const float *SPHERE_RESTRICT mu, const float *SPHERE_RESTRICT W, const float *SPHERE_RESTRICT amplitude, const float *SPHERE_RESTRICT width, const float *SPHERE_RESTRICT value_bar, const float *SPHERE_RESTRICT gradient_bar,
     float *SPHERE_RESTRICT mu_bar, float *SPHERE_RESTRICT W_bar, float *SPHERE_RESTRICT amplitude_bar, float *SPHERE_RESTRICT work, int threads);
 
 /* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +

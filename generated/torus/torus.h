@@ -319,28 +319,43 @@ void torus_frame_f(const float *TORUS_RESTRICT p, float *TORUS_RESTRICT frame);
 size_t torus_splats_work(size_t count, size_t splat_count, int threads);
 size_t torus_splats_work_f(size_t count, size_t splat_count, int threads);
 
-/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4). */
+/* An order of the points in which neighbours are near each other, for sums that leave far pairs out.
+ * Returns about which part of the pairs is summed then; if that is more than `limit`, the order may be any. */
+double torus_splats_order(
+    size_t count, size_t splat_count, const double *TORUS_RESTRICT x, const double *TORUS_RESTRICT mu, const double *TORUS_RESTRICT amplitude, const double *TORUS_RESTRICT width,
+    double limit, size_t *TORUS_RESTRICT order, double *TORUS_RESTRICT work);
+double torus_splats_order_f(
+    size_t count, size_t splat_count, const float *TORUS_RESTRICT x, const float *TORUS_RESTRICT mu, const float *TORUS_RESTRICT amplitude, const float *TORUS_RESTRICT width,
+    double limit, size_t *TORUS_RESTRICT order, float *TORUS_RESTRICT work);
+
+/* The sums of `splat_count` splats and their gradients at `count` points (RSRM eq. 4).
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void torus_splats(
-    size_t count, size_t splat_count, const double *TORUS_RESTRICT x, const double *TORUS_RESTRICT mu, const double *TORUS_RESTRICT W, const double *TORUS_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *TORUS_RESTRICT x, const double *TORUS_RESTRICT mu, const double *TORUS_RESTRICT W, const double *TORUS_RESTRICT amplitude, const double *TORUS_RESTRICT width,
     double *TORUS_RESTRICT value, double *TORUS_RESTRICT gradient, double *TORUS_RESTRICT work, int threads);
 void torus_splats_f(
-    size_t count, size_t splat_count, const float *TORUS_RESTRICT x, const float *TORUS_RESTRICT mu, const float *TORUS_RESTRICT W, const float *TORUS_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *TORUS_RESTRICT x, const float *TORUS_RESTRICT mu, const float *TORUS_RESTRICT W, const float *TORUS_RESTRICT amplitude, const float *TORUS_RESTRICT width,
     float *TORUS_RESTRICT value, float *TORUS_RESTRICT gradient, float *TORUS_RESTRICT work, int threads);
 
-/* The values of the sums alone. */
+/* The values of the sums alone.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void torus_splats_value(
-    size_t count, size_t splat_count, const double *TORUS_RESTRICT x, const double *TORUS_RESTRICT mu, const double *TORUS_RESTRICT W, const double *TORUS_RESTRICT amplitude,
+    size_t count, size_t splat_count, const double *TORUS_RESTRICT x, const double *TORUS_RESTRICT mu, const double *TORUS_RESTRICT W, const double *TORUS_RESTRICT amplitude, const double *TORUS_RESTRICT width,
     double *TORUS_RESTRICT value, double *TORUS_RESTRICT work, int threads);
 void torus_splats_value_f(
-    size_t count, size_t splat_count, const float *TORUS_RESTRICT x, const float *TORUS_RESTRICT mu, const float *TORUS_RESTRICT W, const float *TORUS_RESTRICT amplitude,
+    size_t count, size_t splat_count, const float *TORUS_RESTRICT x, const float *TORUS_RESTRICT mu, const float *TORUS_RESTRICT W, const float *TORUS_RESTRICT amplitude, const float *TORUS_RESTRICT width,
     float *TORUS_RESTRICT value, float *TORUS_RESTRICT work, int threads);
 
-/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude. */
+/* The derivatives of sum_n value_n value_bar_n + gradient_n . gradient_bar_n in mu, W and amplitude.
+ * `width` is NULL or has for each splat at least the largest |v| / |W v| of tangent vectors v: pairs that are too far apart
+ * are then left out, of whose values each is less than |amplitude| 4e-18 (2e-09 in float), if the points are in such an order that far ones are rarely neighbours. */
 void torus_splats_vjp(
-    size_t count, size_t splat_count, const double *TORUS_RESTRICT x, const double *TORUS_RESTRICT mu, const double *TORUS_RESTRICT W, const double *TORUS_RESTRICT amplitude, const double *TORUS_RESTRICT value_bar, const double *TORUS_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const double *TORUS_RESTRICT x, const double *TORUS_RESTRICT mu, const double *TORUS_RESTRICT W, const double *TORUS_RESTRICT amplitude, const double *TORUS_RESTRICT width, const double *TORUS_RESTRICT value_bar, const double *TORUS_RESTRICT gradient_bar,
     double *TORUS_RESTRICT mu_bar, double *TORUS_RESTRICT W_bar, double *TORUS_RESTRICT amplitude_bar, double *TORUS_RESTRICT work, int threads);
 void torus_splats_vjp_f(
-    size_t count, size_t splat_count, const float *TORUS_RESTRICT x, const float *TORUS_RESTRICT mu, const float *TORUS_RESTRICT W, const float *TORUS_RESTRICT amplitude, const float *TORUS_RESTRICT value_bar, const float *TORUS_RESTRICT gradient_bar,
+    size_t count, size_t splat_count, const float *TORUS_RESTRICT x, const float *TORUS_RESTRICT mu, const float *TORUS_RESTRICT W, const float *TORUS_RESTRICT amplitude, const float *TORUS_RESTRICT width, const float *TORUS_RESTRICT value_bar, const float *TORUS_RESTRICT gradient_bar,
     float *TORUS_RESTRICT mu_bar, float *TORUS_RESTRICT W_bar, float *TORUS_RESTRICT amplitude_bar, float *TORUS_RESTRICT work, int threads);
 
 /* The summands of `splats_vjp`: for each point and splat, the derivatives of value_n value_bar_n +
