@@ -97,7 +97,7 @@ class _Library:
         if first.dtype not in SUFFIX:
             return None
         rows = [(t if t.shape[:-1] == leading else t.expand(*leading, t.shape[-1])).contiguous() for t in arguments]
-        result = first.new_empty(*leading, *given)
+        result = first.new_empty((*leading, *given))
         addresses = [t.data_ptr() for t in rows]
         self.function(name, first.dtype)(math.prod(leading), *addresses, result.data_ptr())
         return result
