@@ -11,7 +11,6 @@ from torch import Tensor
 
 from rsrm_gen.load import load_in_rows
 from rsrm_gen.manifold import Manifold
-from rsrm_gen.trainer.model import inverse
 
 MANIFOLDS = {
     "sphere": [0.0, 0.6, 0.8],
@@ -60,11 +59,3 @@ def test_written_out_derivatives_are_those_of_autograd(name: str) -> None:
     by_center = M.inner(mu.detach()[:, None], field.frame[:6], gradient[:, None])
     truth = torch.cat((by_v[None], by_A.flatten(1).T, by_center.T))
     assert float((ours - truth).abs().max()) < 1e-10 * float(truth.abs().max())
-
-
-@pytest.mark.parametrize("d", [1, 2, 3, 4])
-def test_small_inverses_and_determinants_are_those_of_lapack(d: int) -> None:
-    A = torch.randn(50, d, d, generator=seeded(d), dtype=torch.float64)
-    ours, det = inverse(A.movedim(0, -1))
-    assert torch.allclose(det, torch.linalg.det(A), rtol=1e-12)
-    assert torch.allclose(ours.movedim(-1, 0) @ A, torch.eye(d, dtype=A.dtype).expand_as(A), atol=1e-10)

@@ -29,7 +29,7 @@ MAY_IMPORT = {
     "kernels": {*INPUT, "manifold", "native"},
     "rows": {*INPUT, "manifold", "native"},
     "load": {*INPUT, "version", "manifold", "spec", "driver", "native", "kernels", "rows"},
-    "trainer": {*INPUT, "version", "manifold", "load", "package", "bench"},
+    "trainer": {*INPUT, "version", "manifold", "load", "native", "rows", "package", "bench"},
     "bench": {*INPUT, "version", "manifold", "load", "native", "driver", *STAGES, "trainer"},
     "testing": {*INPUT, "driver", "cli", "spec", "audit"},
     "package": {"errors", "version", "manifold", "load"},

@@ -64,10 +64,10 @@ def test_a_training_that_was_interrupted_goes_on_exactly(tmp_path: Path) -> None
     assert resumed.summary is not None
 
     assert same(straight.restore(), broken.restore())
-    assert len(straight.restore()["v"]) != 8
     losses = [[(m.step, m.loss, m.splats) for m in folder.read_metrics()] for folder in (straight, broken)]
     assert losses[0] == losses[1]
     assert [step for step, _, _ in losses[0]] == [10, 20, 30, 40]
+    assert len({splats for _, _, splats in losses[0]}) > 1
 
 
 def test_steps_past_the_checkpoint_are_forgotten_and_made_again(tmp_path: Path) -> None:
@@ -117,12 +117,12 @@ def test_a_loss_that_is_not_finite_names_its_step_and_keeps_the_last_checkpoint(
         if metric.step == 17:
             scene.radii.fill_(float("nan"))
 
-    with pytest.raises(UserError, match="step 25: the loss is nan") as caught:
+    with pytest.raises(UserError, match="step 33: the loss is nan") as caught:
         train(scene, folder, progress=spoil)
     assert "the checkpoint in" in str(caught.value)
-    assert len(losses) == 24  # the points of steps 17 to 24 had been drawn
+    assert len(losses) == 32  # the points of steps 17 to 32 had been drawn
     arrays = folder.restore()
-    assert int(arrays["step"]) == 15
+    assert int(arrays["step"]) == 30
     assert all(np.isfinite(rows).all() for rows in arrays.values())
 
 

@@ -184,14 +184,14 @@ def test_a_missing_optional_package_names_its_extra(
 
 def test_the_phases_of_a_step_add_up_to_it(tmp_path: Path) -> None:
     watch = StopWatch(warm=2)
-    scene = small_scene(tmp_path, "S2", "{steps: 18, points: 32, splats: {initial: 5, add: 0, prune_below: 0}}")
+    scene = small_scene(tmp_path, "S2", "{steps: 34, points: 32, splats: {initial: 5, add: 0, prune_below: 0}}")
     folder = RunFolder(tmp_path / "run")
     folder.create(scene)
     train(scene, folder, clock=watch)
     phases = watch.typical()
     assert {"sampling", "splat map", "kernel forward", "kernel backward", "optimiser", "logging"} <= phases.keys()
-    assert watch.steps == 16
-    assert phases["sampling"].frequency == 2 / 16
+    assert watch.steps == 32
+    assert phases["sampling"].frequency == 2 / 32
     assert phases["loss"].frequency == 1
     shares = [cells for column in table(watch).columns if column.header == "share" for cells in column.cells]
     assert shares[-2] == "100.0 %"

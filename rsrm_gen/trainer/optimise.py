@@ -6,16 +6,12 @@ frame it carries along, and it moves by Exp. So the training does not depend on 
 
 from __future__ import annotations
 
-import math
-
 import torch
 from torch import Tensor
 
 from rsrm_gen.trainer.clock import NO_CLOCK, Clock
 from rsrm_gen.trainer.density import Change
 from rsrm_gen.trainer.model import SplatField
-
-BETA1, BETA2, EPSILON = 0.9, 0.999, 1e-8
 
 
 class AdamW:
@@ -30,38 +26,24 @@ class AdamW:
         # A splat that came late has its own, and is not thrown by its first steps.
         self.first = field.numbers.new_zeros(len(field.numbers) + field.manifold.dim + 1, field.capacity)
         self.second = torch.zeros_like(self.first)
-        self._clipped = torch.ones_like(self.first)
 
     def buffers_of_splats(self) -> dict[str, Tensor]:
         """The buffers whose rows are splats, by name."""
         return {"first": self.first.T, "second": self.second.T}
 
-    @torch.no_grad()
     def step(self, gradient: Tensor, learning_rate: float, clock: Clock = NO_CLOCK) -> None:
         """One step along a gradient (1 + d^2 + d, K), as `SplatField.gradient` has it.
 
         A gradient that is not finite is a `FloatingPointError`, and nothing has moved.
         """
-        field, count = self.field, self.field.count
-        g = self._clip(gradient)
-        m = self.first[:, :count].lerp_(g, 1 - BETA1)
-        s = self.second[:, :count].mul_(BETA2).addcmul_(g, g, value=1 - BETA2)
-        root = (s[:-1] / s[-1]).sqrt_().add_(EPSILON)
-        moves = (m[:-1] / m[-1]).div_(root).mul_(-learning_rate)
-        numbers = field.numbers[:, :count].mul_(1 - learning_rate * self.weight_decay)
-        numbers += moves[: len(numbers)]
+        field = self.field
+        moments = self.first, self.second
+        steps = field.arithmetic.adam(
+            gradient, self.gradient_clip, learning_rate, self.weight_decay, *moments, field.numbers
+        )
         clock.lap("optimiser")
-        field.move_centers(moves[len(numbers) :].T)
+        field.move_centers(steps)
         clock.lap("projection")
-
-    def _clip(self, gradient: Tensor) -> Tensor:
-        """The gradient, not longer than the clip, and a row of ones below it: (1 + d^2 + d + 1, K)."""
-        norm = float(gradient.norm())
-        if not math.isfinite(norm):
-            raise FloatingPointError("the gradient is not finite")
-        clipped = self._clipped[:, : gradient.shape[1]]
-        torch.mul(gradient, min(1.0, self.gradient_clip / max(norm, 1e-30)), out=clipped[:-1])
-        return clipped
 
     @torch.no_grad()
     def follow(self, change: Change) -> None:

@@ -54,10 +54,13 @@ class Scene:
         """min_i d(x, c_i) - r_i: negative inside an obstacle, inf where there is none; (...)."""
         if not len(self.radii):
             return x.new_full(x.shape[:-1], math.inf)
-        # Obstacles first, points last: numbers that are treated alike lie side by side.
-        ahead = (-1, *[1] * (x.dim() - 1))
-        distances: Tensor = self.manifold.distance(x, self.centers.view(*ahead, x.shape[-1]))
-        return (distances - self.radii.view(ahead)).amin(0)
+        radii = self.radii.view(-1, *[1] * (x.dim() - 1))
+        return (self.obstacle_distances(x) - radii).amin(0)
+
+    def obstacle_distances(self, x: Tensor) -> Tensor:
+        """d(x, c_i): (m, ...), points last, where numbers that are treated alike lie side by side."""
+        distances: Tensor = self.manifold.distance(x, self.centers.view(-1, *[1] * (x.dim() - 1), x.shape[-1]))
+        return distances
 
     def in_double(self) -> Scene:
         """The same scene in float64, its points put back exactly onto the manifold."""

@@ -22,15 +22,16 @@ from torch import Tensor
 
 from rsrm_gen.errors import UserError
 from rsrm_gen.manifold import not_finite
+from rsrm_gen.trainer.arithmetic import Points
 from rsrm_gen.trainer.clock import NO_CLOCK, Clock
 from rsrm_gen.trainer.density import make_density, pick_apart, pick_spread
-from rsrm_gen.trainer.objective import Eikonal, Points
+from rsrm_gen.trainer.objective import Eikonal
 from rsrm_gen.trainer.optimise import AdamW
 from rsrm_gen.trainer.run import Arrays, Metric, RunFolder, Summary, fill_rows, new_arrival
 from rsrm_gen.trainer.scene import Scene
 from rsrm_gen.trainer.threads import one_thread
 
-BLOCK = 8  # steps whose points are drawn together
+BLOCK = 16  # steps whose points are drawn together
 RECORD_EVERY = 10  # steps between two lines of metrics
 POOL = 4096  # points at which the residual is looked at for new splats
 FINAL_POINTS = 16384  # points of the final loss
@@ -77,48 +78,46 @@ class Trainer:
         if not self._points:
             self._points = self._block()
         loss, gradient = self.objective.loss_and_gradient(self.arrival, self._points[0], self.clock)
-        value = float(loss)
-        if not math.isfinite(value):
+        if not math.isfinite(loss):
             splats = {name: rows[: self.field.count] for name, rows in self.field.buffers_of_splats().items()}
             culprit = not_finite(points=self._points[0].x, **splats)
-            raise FloatingPointError(f"the loss is {value}" + (f", and {culprit}" if culprit else ""))
-        with one_thread():
-            self.adam.step(gradient, self.learning_rate(), self.clock)
-            self.field.clamp_shapes(self.settings.splats.min_singular)
-            self.clock.lap("clamp")
-            if (self.step + 1) % BLOCK == 0:
-                self.field.project_centers()
+            raise FloatingPointError(f"the loss is {loss}" + (f", and {culprit}" if culprit else ""))
+        self.adam.step(gradient, self.learning_rate(), self.clock)
+        self.field.clamp_shapes(self.settings.splats.min_singular)
+        self.clock.lap("clamp")
+        if (self.step + 1) % BLOCK == 0:
+            self.field.project_centers()
         del self._points[0]
         self.step += 1
         change = self.density.update(self.step, self.field, self.propose)
         if change:
             self.adam.follow(change)
             self.clock.lap("density control")
-        return value
+        return loss
 
     def _block(self) -> list[Points]:
         """What the steps of this block that are still to come learn from; the same wherever in it one begins."""
         begun = self.step % BLOCK
         with one_thread():
-            x, kept = self._sample(BLOCK * self.settings.points, self.generator("points", self.step - begun))
-            counts = kept.view(BLOCK, -1).sum(1).tolist()
+            x = self.scene.sample(BLOCK * self.settings.points, self.generator("points", self.step - begun))
             self.clock.lap("sampling")
-            points = self.objective.at(self.arrival, x[kept])
+            points = self.objective.at_each(self.arrival, x, BLOCK, self.settings.goal_exclusion)
         self.clock.lap("geometry of the points")
-        return points.split(counts)[begun:]
+        if not any(len(part.x) for part in points):
+            raise self._nothing_is_far()
+        return points[begun:]
 
     def points(self, count: int, purpose: Purpose) -> Tensor:
         """Fresh points of the domain, uniform in volume, without those near the goal: (at most `count`, D)."""
-        x, kept = self._sample(count, self.generator(purpose, self.step))
-        return x[kept]
-
-    def _sample(self, count: int, generator: torch.Generator) -> tuple[Tensor, Tensor]:
-        """Points (count, D) and which are far enough from the goal, (count)."""
-        x = self.scene.sample(count, generator)
+        x = self.scene.sample(count, self.generator(purpose, self.step))
         far = self.scene.manifold.distance(x, self.scene.goal) > self.settings.goal_exclusion
         if not far.any():
-            raise UserError(f"no point of the domain is farther than {self.settings.goal_exclusion:g} from the goal")
-        return x, far
+            raise self._nothing_is_far()
+        return x[far]
+
+    def _nothing_is_far(self) -> UserError:
+        limit = self.settings.goal_exclusion
+        return UserError(f"no point of the domain is farther than {limit:g} from the goal")
 
     def generator(self, purpose: Purpose, step: int = 0) -> torch.Generator:
         """The random numbers of this training for one purpose at one step."""
