@@ -265,7 +265,7 @@ OUTLINE void pair_constants_vjp(
 }
 
 /* The distances of some points q from one point p. */
-OUTLINE void pair_distance(
+OUTLINE void pair_distances(
     const double *p, const vector *q, vector *distance) {
     const double p0 = p[0];
     const double p1 = p[1];
@@ -405,7 +405,7 @@ OUTLINE void block_place(const double *x, size_t count, size_t start, double *pl
         double radius = 0, column[LANES];
         for (size_t b = 0; b < 2; ++b) {
             vector distance[1];
-            pair_distance(middle, at[b], distance);
+            pair_distances(middle, at[b], distance);
             vector_store(column, distance[0]);
             for (size_t lane = 0; lane < LANES; ++lane) radius = column[lane] > radius ? column[lane] : radius;
         }
@@ -432,7 +432,7 @@ OUTLINE size_t splats_near(const double *place, const vector *splats, size_t fir
     for (size_t start = first; start < end; start += LANES) {
         const vector *own = splats + start / LANES * (2 + 1);
         vector distance[1];
-        pair_distance(place, own, distance);
+        pair_distances(place, own, distance);
         const vector_mask far = vector_far(distance[0], own[2], vector_of(place[2]));
         const size_t lanes = end - start < LANES ? end - start : LANES;
         for (size_t lane = 0; lane < lanes; ++lane) {
@@ -455,7 +455,7 @@ OUTLINE size_t blocks_near(
     for (size_t start = first / group * group; start < end; start += group) {
         const vector *own = blocks + start / group * (2 + 1);
         vector distance[1];
-        pair_distance(mu, own, distance);
+        pair_distances(mu, own, distance);
         const vector_mask far = vector_far(distance[0], vector_of(*reach), own[2]);
         for (size_t lane = 0; lane < group; ++lane) {
             const size_t b = start + lane;
@@ -965,7 +965,7 @@ OUTLINE void pair_constants_vjp_f(
 }
 
 /* The distances of some points q from one point p. */
-OUTLINE void pair_distance_f(
+OUTLINE void pair_distances_f(
     const float *p, const vector_f *q, vector_f *distance) {
     const float p0 = p[0];
     const float p1 = p[1];
@@ -1105,7 +1105,7 @@ OUTLINE void block_place_f(const float *x, size_t count, size_t start, float *pl
         float radius = 0, column[LANES_f];
         for (size_t b = 0; b < 2; ++b) {
             vector_f distance[1];
-            pair_distance_f(middle, at[b], distance);
+            pair_distances_f(middle, at[b], distance);
             vector_store_f(column, distance[0]);
             for (size_t lane = 0; lane < LANES_f; ++lane) radius = column[lane] > radius ? column[lane] : radius;
         }
@@ -1132,7 +1132,7 @@ OUTLINE size_t splats_near_f(const float *place, const vector_f *splats, size_t 
     for (size_t start = first; start < end; start += LANES_f) {
         const vector_f *own = splats + start / LANES_f * (2 + 1);
         vector_f distance[1];
-        pair_distance_f(place, own, distance);
+        pair_distances_f(place, own, distance);
         const vector_mask_f far = vector_far_f(distance[0], own[2], vector_of_f(place[2]));
         const size_t lanes = end - start < LANES_f ? end - start : LANES_f;
         for (size_t lane = 0; lane < lanes; ++lane) {
@@ -1155,7 +1155,7 @@ OUTLINE size_t blocks_near_f(
     for (size_t start = first / group * group; start < end; start += group) {
         const vector_f *own = blocks + start / group * (2 + 1);
         vector_f distance[1];
-        pair_distance_f(mu, own, distance);
+        pair_distances_f(mu, own, distance);
         const vector_mask_f far = vector_far_f(distance[0], vector_of_f(*reach), own[2]);
         for (size_t lane = 0; lane < group; ++lane) {
             const size_t b = start + lane;

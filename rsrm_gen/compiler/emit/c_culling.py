@@ -88,7 +88,7 @@ OUTLINE void block_place@(const T_*x, size_t count, size_t start, T_*place) {
         T_radius = 0, column[LANES@];
         for (size_t b = 0; b < $BLOCK; ++b) {
             vector@ distance[1];
-            pair_distance@(middle, at[b], distance);
+            pair_distances@(middle, at[b], distance);
             vector_store@(column, distance[0]);
             for (size_t lane = 0; lane < LANES@; ++lane) radius = column[lane] > radius ? column[lane] : radius;
         }
@@ -115,7 +115,7 @@ OUTLINE size_t splats_near@(const T_*place, const vector@ *splats, size_t first,
     for (size_t start = first; start < end; start += LANES@) {
         const vector@ *own = splats + start / LANES@ * ($nx + 1);
         vector@ distance[1];
-        pair_distance@(place, own, distance);
+        pair_distances@(place, own, distance);
         const vector_mask@ far = vector_far@(distance[0], own[$nx], vector_of@(place[$nx]));
         const size_t lanes = end - start < LANES@ ? end - start : LANES@;
         for (size_t lane = 0; lane < lanes; ++lane) {
@@ -138,7 +138,7 @@ OUTLINE size_t blocks_near@(
     for (size_t start = first / group * group; start < end; start += group) {
         const vector@ *own = blocks + start / group * ($nx + 1);
         vector@ distance[1];
-        pair_distance@(mu, own, distance);
+        pair_distances@(mu, own, distance);
         const vector_mask@ far = vector_far@(distance[0], vector_of@(*reach), own[$nx]);
         for (size_t lane = 0; lane < group; ++lane) {
             const size_t b = start + lane;

@@ -252,7 +252,8 @@ def _routine(routine: Routine, series: dict[Coefficients, str], precision: Preci
             unread.append(f"(void){result.name};")
     lines = indented([*unread, *body.lines, *stores], 4)
     kind = "INLINE" if of_pair and routine.operations <= INLINED else "OUTLINE"
-    head = f"{kind} void pair_{routine.name}{precision.tag}("
+    name = "distances" if routine.name == "distance" else routine.name  # `pair_distance` is public on a manifold `pair`
+    head = f"{kind} void pair_{name}{precision.tag}("
     return f"/* {title} */\n{head}\n    {', '.join(arguments)}) {{\n{lines}\n}}"
 
 
