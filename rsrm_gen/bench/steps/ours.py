@@ -3,29 +3,49 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, cast
 
 import torch
 
 from rsrm_gen.bench.steps.problem import Problem
 from rsrm_gen.manifold import Manifold
+from rsrm_gen.trainer.arithmetic import Points
 from rsrm_gen.trainer.link import Exponential
-from rsrm_gen.trainer.model import SplatField
+from rsrm_gen.trainer.model import ArrivalTime, SplatField
+from rsrm_gen.trainer.objective import Eikonal
+from rsrm_gen.trainer.scene import Scene
 
 Step = Callable[[], tuple[Any, tuple[Any, ...]]]
 
 
+class _AtCenters:
+    """The derivatives in the centres, which the trainer has as components in their frames; as an array, partial ones."""
+
+    def __init__(self, field: SplatField, components: torch.Tensor) -> None:
+        self.field = field
+        self.components = components  # (d, K)
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Any:
+        """Partial derivatives (K, D) whose Riemannian gradient this is."""
+        mu, E = self.field.mu.double(), self.field.frame.double()
+        gradient = (self.components.T.double()[:, None] @ E)[:, 0]
+        unit = torch.eye(mu.shape[1], dtype=torch.float64)[:, None].expand(-1, *mu.shape)
+        matrix = self.field.manifold.riemannian_gradient(mu, unit).permute(1, 2, 0)  # (K, T, D): what partials become
+        return (torch.linalg.pinv(matrix) @ gradient[..., None])[..., 0].numpy()
+
+
 def whole(manifold: Manifold, problem: Problem) -> Step:
-    """The loss and its gradient by the trainer's own model."""
-    field, link = _field(manifold, problem), Exponential()
-    x, d, away, slowness = map(torch.from_numpy, problem.points)
+    """The loss and its gradient by the trainer's own model and objective."""
+    field, d = _field(manifold, problem), manifold.dim
+    arrival = ArrivalTime(field, Exponential(), manifold, field.mu[0])
+    # The points know all that the objective asks of the scene.
+    objective = Eikonal(cast(Scene, None), "squared")
+    points = Points(*map(torch.from_numpy, problem.points))
 
     def step() -> tuple[Any, tuple[Any, ...]]:
-        f, df = field.value_and_gradient(x)
-        by_d, by_f = link.partials(d, f)
-        slope = manifold.norm(x, by_d[:, None] * away + by_f[:, None] * df)
-        loss = ((slope - slowness) ** 2).mean()
-        return loss.detach(), torch.autograd.grad(loss, (field.v, field.mu, field.A))
+        loss, gradient = objective.loss_and_gradient(arrival, points)
+        A = gradient[1 : 1 + d * d].view(d, d, -1).movedim(-1, 0)
+        return loss, (gradient[0], _AtCenters(field, gradient[1 + d * d :]), A)
 
     return step
 
