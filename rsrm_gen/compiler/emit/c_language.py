@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Callable
 
 from rsrm_gen.compiler.emit import c_matrix
 from rsrm_gen.compiler.emit.c_precision import FLOAT, Precision
@@ -55,15 +56,18 @@ def series_function(name: str, coefficients: Coefficients, precision: Precision)
     return f"/* {title} */\nstatic inline {t} {series_name(name, precision)}({t} x) {{\n{body}\n}}"
 
 
-def series_body(name: str, coefficients: Coefficients, precision: Precision) -> tuple[str, str]:
-    """What a polynomial's comment says, and its body by Horner's rule."""
+def series_body(
+    name: str, coefficients: Coefficients, precision: Precision, body: Callable[[list[str]], str] | None = None
+) -> tuple[str, str]:
+    """What a polynomial's comment says, and its body: by Horner's rule, or as `body` makes it of the coefficients."""
     numbers, title = in_double(coefficients), described(name, coefficients)
     if precision is FLOAT:
         single = in_single(coefficients)
         if single.degree < len(numbers) - 1:
             title = f"of degree {single.degree}, within {single.bits} of that of double precision"
         numbers = single.coefficients
-    return f"{title[0].upper()}{title[1:]}.", wrapped(f"return {horner(spelled(numbers, precision.suffix), 'x')};")
+    texts = spelled(numbers, precision.suffix)
+    return f"{title[0].upper()}{title[1:]}.", body(texts) if body else wrapped(f"return {horner(texts, 'x')};")
 
 
 def horner(coefficients: list[str], x: str) -> str:

@@ -7,12 +7,13 @@ a number: only what depends on a vector is one.
 
 from __future__ import annotations
 
+import itertools
 import re
 import textwrap
 from collections.abc import Iterable, Mapping, Sequence
 
 from rsrm_gen.compiler.emit import c_matrix
-from rsrm_gen.compiler.emit.c_language import WIDTH, series_body, spelling
+from rsrm_gen.compiler.emit.c_language import WIDTH, series_body, spelling, wrapped
 from rsrm_gen.compiler.emit.c_precision import Precision
 from rsrm_gen.compiler.emit.expression import ATOM, COMPARISONS, PRODUCT, SUM, UNARY, Printer
 from rsrm_gen.compiler.emit.series import Coefficients
@@ -107,10 +108,28 @@ def polynomial_name(table: str, precision: Precision) -> str:
 
 
 def polynomial_function(name: str, coefficients: Coefficients, precision: Precision) -> str:
-    """A polynomial by Horner's rule."""
+    """A polynomial by Estrin's scheme: a chain of log n multiply-adds, where Horner's rule is one of n."""
     v = f"vector{precision.tag}"
-    title, body = series_body(name, coefficients, precision)
+    title, body = series_body(name, coefficients, precision, lambda texts: _estrin_body(texts, v))
     return f"/* {title} */\nINLINE {v} {polynomial_name(name, precision)}({v} x) {{\n{body}\n}}"
+
+
+def _estrin_body(coefficients: list[str], vector: str) -> str:
+    powers = [2**k for k in range(1, len(coefficients).bit_length()) if 2**k < len(coefficients)]
+    names = ["x", *(f"x{power}" for power in powers)]
+    squares = ", ".join(f"{new} = {old} * {old}" for old, new in itertools.pairwise(names))
+    lines = [wrapped(f"const {vector} {squares};")] if squares else []
+    return "\n".join([*lines, wrapped(f"return {_estrin(coefficients)};")])
+
+
+def _estrin(coefficients: list[str]) -> str:
+    """(c0 + c1 x) + x2 (c2 + c3 x) + x4 (...)."""
+    if len(coefficients) == 1:
+        return coefficients[0]
+    half = 1 << ((len(coefficients) - 1).bit_length() - 1)
+    low, high = _estrin(coefficients[:half]), _estrin(coefficients[half:])
+    x = "x" if half == 1 else f"x{half}"
+    return f"{low} + {x} * ({high})" if len(coefficients) - half > 1 else f"{low} + {x} * {high}"
 
 
 def functions_of(routines: Iterable[Routine]) -> set[str]:
