@@ -38,7 +38,7 @@ def draw(result: Kernels, path: Path) -> None:
                 _panel(axes, result, precision, threads, size)
             row[0].set_ylabel("ms a step")
         handles, labels = panels[0][0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncols=4, frameon=False)
+        figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False)
         write_whole(path, lambda file: figure.savefig(file, format=path.suffix.lstrip(".") or "png", dpi=160))
 
 
