@@ -171,7 +171,11 @@ OUTLINE void pair_constants(
     S[6] = its_amplitude;
 }
 
-/* Adds the values phi of a splat at some points. */
+/*
+ * Adds the values phi of a splat at some points.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 INLINE void pair_value(
     const vector *X, const double *S, vector *value) {
     const vector x0 = X[0];
@@ -194,7 +198,11 @@ INLINE void pair_value(
     value[0] = value[0] + amplitude * exp_2;
 }
 
-/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+/*
+ * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 INLINE void pair_forward(
     const vector *X, const double *S, vector *value, vector *slope) {
     const vector x0 = X[0];
@@ -279,7 +287,11 @@ OUTLINE void pair_distances(
     distance[0] = vector_sqrt(log0 * log0 + log1 * log1);
 }
 
-/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+/*
+ * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 INLINE void pair_backward(
     const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
     const vector x0 = X[0];
@@ -871,7 +883,11 @@ OUTLINE void pair_constants_f(
     S[6] = its_amplitude;
 }
 
-/* Adds the values phi of a splat at some points. */
+/*
+ * Adds the values phi of a splat at some points.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 INLINE void pair_value_f(
     const vector_f *X, const float *S, vector_f *value) {
     const vector_f x0 = X[0];
@@ -894,7 +910,11 @@ INLINE void pair_value_f(
     value[0] = value[0] + amplitude * exp_2;
 }
 
-/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+/*
+ * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 INLINE void pair_forward_f(
     const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
     const vector_f x0 = X[0];
@@ -979,7 +999,11 @@ OUTLINE void pair_distances_f(
     distance[0] = vector_sqrt_f(log0 * log0 + log1 * log1);
 }
 
-/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+/*
+ * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 INLINE void pair_backward_f(
     const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
     const vector_f x0 = X[0];

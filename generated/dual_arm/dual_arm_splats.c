@@ -603,7 +603,11 @@ OUTLINE void pair_constants(
     S[210] = its_amplitude;
 }
 
-/* Adds the values phi of a splat at some points. */
+/*
+ * Adds the values phi of a splat at some points.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 OUTLINE void pair_value(
     const vector *X, const double *S, vector *value) {
     const vector x0 = X[0];
@@ -950,7 +954,11 @@ OUTLINE void pair_value(
     value[0] = value[0] + amplitude * exp_2;
 }
 
-/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+/*
+ * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 OUTLINE void pair_forward(
     const vector *X, const double *S, vector *value, vector *slope) {
     const vector x0 = X[0];
@@ -1962,7 +1970,11 @@ OUTLINE void pair_distances(
     distance[0] = vector_sqrt(total_4 + arm2_log6 * arm2_log6);
 }
 
-/* The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar. */
+/*
+ * The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 OUTLINE void pair_factors(
     const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *factor) {
     const vector x0 = X[0];
@@ -4405,7 +4417,11 @@ OUTLINE void pair_constants_f(
     S[210] = its_amplitude;
 }
 
-/* Adds the values phi of a splat at some points. */
+/*
+ * Adds the values phi of a splat at some points.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 OUTLINE void pair_value_f(
     const vector_f *X, const float *S, vector_f *value) {
     const vector_f x0 = X[0];
@@ -4752,7 +4768,11 @@ OUTLINE void pair_value_f(
     value[0] = value[0] + amplitude * exp_2;
 }
 
-/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+/*
+ * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 OUTLINE void pair_forward_f(
     const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
     const vector_f x0 = X[0];
@@ -5764,7 +5784,11 @@ OUTLINE void pair_distances_f(
     distance[0] = vector_sqrt_f(total_4 + arm2_log6 * arm2_log6);
 }
 
-/* The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar. */
+/*
+ * The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 OUTLINE void pair_factors_f(
     const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *factor) {
     const vector_f x0 = X[0];

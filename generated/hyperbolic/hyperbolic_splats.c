@@ -242,7 +242,15 @@ OUTLINE void pair_constants(
     S[9] = R1_2;
 }
 
-/* Adds the values phi of a splat at some points. */
+/*
+ * Adds the values phi of a splat at some points.
+ *
+ * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
+ * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
+ * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
+ * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ */
 INLINE void pair_value(
     const vector *X, const double *S, vector *value) {
     const vector h0 = X[0];
@@ -280,7 +288,15 @@ INLINE void pair_value(
     value[0] = value[0] + amplitude * (a * gaussian);
 }
 
-/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+/*
+ * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ *
+ * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
+ * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
+ * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
+ * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ */
 INLINE void pair_forward(
     const vector *X, const double *S, vector *value, vector *slope) {
     const vector h0 = X[0];
@@ -446,7 +462,15 @@ OUTLINE void pair_distances(
     distance[0] = r;
 }
 
-/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+/*
+ * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ *
+ * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
+ * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
+ * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
+ * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ */
 INLINE void pair_backward(
     const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
     const vector h0 = X[0];
@@ -1154,7 +1178,15 @@ OUTLINE void pair_constants_f(
     S[9] = R1_2;
 }
 
-/* Adds the values phi of a splat at some points. */
+/*
+ * Adds the values phi of a splat at some points.
+ *
+ * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
+ * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
+ * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
+ * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ */
 INLINE void pair_value_f(
     const vector_f *X, const float *S, vector_f *value) {
     const vector_f h0 = X[0];
@@ -1192,7 +1224,15 @@ INLINE void pair_value_f(
     value[0] = value[0] + amplitude * (a * gaussian);
 }
 
-/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+/*
+ * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ *
+ * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
+ * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
+ * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
+ * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ */
 INLINE void pair_forward_f(
     const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
     const vector_f h0 = X[0];
@@ -1359,7 +1399,15 @@ OUTLINE void pair_distances_f(
     distance[0] = r;
 }
 
-/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+/*
+ * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ *
+ * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
+ * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
+ * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
+ * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ */
 INLINE void pair_backward_f(
     const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
     const vector_f h0 = X[0];

@@ -353,7 +353,11 @@ OUTLINE void pair_constants(
     S[90] = its_amplitude;
 }
 
-/* Adds the values phi of a splat at some points. */
+/*
+ * Adds the values phi of a splat at some points.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 INLINE void pair_value(
     const vector *X, const double *S, vector *value) {
     const vector x0 = X[0];
@@ -509,7 +513,11 @@ INLINE void pair_value(
     value[0] = value[0] + amplitude * vector_exp(-0.5 * total_12);
 }
 
-/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+/*
+ * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 OUTLINE void pair_forward(
     const vector *X, const double *S, vector *value, vector *slope) {
     const vector x0 = X[0];
@@ -990,7 +998,11 @@ OUTLINE void pair_distances(
     distance[0] = vector_sqrt(total_3 + 0.0625 * (arm_log5 * arm_log5));
 }
 
-/* The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar. */
+/*
+ * The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 OUTLINE void pair_factors(
     const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *factor) {
     const vector x0 = X[0];
@@ -2386,7 +2398,11 @@ OUTLINE void pair_constants_f(
     S[90] = its_amplitude;
 }
 
-/* Adds the values phi of a splat at some points. */
+/*
+ * Adds the values phi of a splat at some points.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 INLINE void pair_value_f(
     const vector_f *X, const float *S, vector_f *value) {
     const vector_f x0 = X[0];
@@ -2542,7 +2558,11 @@ INLINE void pair_value_f(
     value[0] = value[0] + amplitude * vector_exp_f(-0.5f * total_12);
 }
 
-/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+/*
+ * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 OUTLINE void pair_forward_f(
     const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
     const vector_f x0 = X[0];
@@ -3023,7 +3043,11 @@ OUTLINE void pair_distances_f(
     distance[0] = vector_sqrt_f(total_3 + 0.0625f * (arm_log5 * arm_log5));
 }
 
-/* The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar. */
+/*
+ * The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 OUTLINE void pair_factors_f(
     const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *factor) {
     const vector_f x0 = X[0];

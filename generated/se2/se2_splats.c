@@ -185,7 +185,11 @@ OUTLINE void pair_constants(
     S[12] = its_amplitude;
 }
 
-/* Adds the values phi of a splat at some points. */
+/*
+ * Adds the values phi of a splat at some points.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 INLINE void pair_value(
     const vector *X, const double *S, vector *value) {
     const vector x0 = X[0];
@@ -217,7 +221,11 @@ INLINE void pair_value(
     value[0] = value[0] + amplitude * vector_exp(minus);
 }
 
-/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+/*
+ * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 INLINE void pair_forward(
     const vector *X, const double *S, vector *value, vector *slope) {
     const vector x0 = X[0];
@@ -333,7 +341,11 @@ OUTLINE void pair_distances(
             position_log1);
 }
 
-/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+/*
+ * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 INLINE void pair_backward(
     const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
     const vector x0 = X[0];
@@ -965,7 +977,11 @@ OUTLINE void pair_constants_f(
     S[12] = its_amplitude;
 }
 
-/* Adds the values phi of a splat at some points. */
+/*
+ * Adds the values phi of a splat at some points.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 INLINE void pair_value_f(
     const vector_f *X, const float *S, vector_f *value) {
     const vector_f x0 = X[0];
@@ -997,7 +1013,11 @@ INLINE void pair_value_f(
     value[0] = value[0] + amplitude * vector_exp_f(minus);
 }
 
-/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+/*
+ * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 INLINE void pair_forward_f(
     const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
     const vector_f x0 = X[0];
@@ -1113,7 +1133,11 @@ OUTLINE void pair_distances_f(
             position_log1);
 }
 
-/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+/*
+ * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 INLINE void pair_backward_f(
     const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
     const vector_f x0 = X[0];

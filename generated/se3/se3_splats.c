@@ -340,7 +340,15 @@ OUTLINE void pair_constants(
     S[49] = rotation_R5_3;
 }
 
-/* Adds the values phi of a splat at some points. */
+/*
+ * Adds the values phi of a splat at some points.
+ *
+ * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
+ * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
+ * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
+ * r = R h = W (tangent part of x), z = a r + what other factors add, phi = amplitude a^k exp(-|z|^2 / 2)
+ */
 INLINE void pair_value(
     const vector *X, const double *S, vector *value) {
     const vector x0 = X[0];
@@ -433,7 +441,15 @@ INLINE void pair_value(
     value[0] = value[0] + amplitude * (rotation_a * (rotation_a * gaussian));
 }
 
-/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+/*
+ * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ *
+ * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
+ * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
+ * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
+ * r = R h = W (tangent part of x), z = a r + what other factors add, phi = amplitude a^k exp(-|z|^2 / 2)
+ */
 INLINE void pair_forward(
     const vector *X, const double *S, vector *value, vector *slope) {
     const vector x0 = X[0];
@@ -855,7 +871,15 @@ OUTLINE void pair_distances(
     distance[0] = length;
 }
 
-/* The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar. */
+/*
+ * The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar.
+ *
+ * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
+ * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
+ * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
+ * r = R h = W (tangent part of x), z = a r + what other factors add, phi = amplitude a^k exp(-|z|^2 / 2)
+ */
 OUTLINE void pair_factors(
     const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *factor) {
     const vector x0 = X[0];
@@ -2011,7 +2035,15 @@ OUTLINE void pair_constants_f(
     S[49] = rotation_R5_3;
 }
 
-/* Adds the values phi of a splat at some points. */
+/*
+ * Adds the values phi of a splat at some points.
+ *
+ * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
+ * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
+ * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
+ * r = R h = W (tangent part of x), z = a r + what other factors add, phi = amplitude a^k exp(-|z|^2 / 2)
+ */
 INLINE void pair_value_f(
     const vector_f *X, const float *S, vector_f *value) {
     const vector_f x0 = X[0];
@@ -2104,7 +2136,15 @@ INLINE void pair_value_f(
     value[0] = value[0] + amplitude * (rotation_a * (rotation_a * gaussian));
 }
 
-/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+/*
+ * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ *
+ * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
+ * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
+ * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
+ * r = R h = W (tangent part of x), z = a r + what other factors add, phi = amplitude a^k exp(-|z|^2 / 2)
+ */
 INLINE void pair_forward_f(
     const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
     const vector_f x0 = X[0];
@@ -2527,7 +2567,15 @@ OUTLINE void pair_distances_f(
     distance[0] = length;
 }
 
-/* The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar. */
+/*
+ * The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar.
+ *
+ * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
+ * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
+ * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
+ * r = R h = W (tangent part of x), z = a r + what other factors add, phi = amplitude a^k exp(-|z|^2 / 2)
+ */
 OUTLINE void pair_factors_f(
     const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *factor) {
     const vector_f x0 = X[0];

@@ -161,7 +161,11 @@ OUTLINE void pair_constants(
     S[2] = its_amplitude;
 }
 
-/* Adds the values phi of a splat at some points. */
+/*
+ * Adds the values phi of a splat at some points.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 INLINE void pair_value(
     const vector *X, const double *S, vector *value) {
     const vector x0 = X[0];
@@ -176,7 +180,11 @@ INLINE void pair_value(
     value[0] = value[0] + amplitude * vector_exp(-0.5 * (z0 * z0));
 }
 
-/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+/*
+ * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 INLINE void pair_forward(
     const vector *X, const double *S, vector *value, vector *slope) {
     const vector x0 = X[0];
@@ -235,7 +243,11 @@ OUTLINE void pair_distances(
     distance[0] = vector_abs(log0);
 }
 
-/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+/*
+ * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 INLINE void pair_backward(
     const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
     const vector x0 = X[0];
@@ -796,7 +808,11 @@ OUTLINE void pair_constants_f(
     S[2] = its_amplitude;
 }
 
-/* Adds the values phi of a splat at some points. */
+/*
+ * Adds the values phi of a splat at some points.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 INLINE void pair_value_f(
     const vector_f *X, const float *S, vector_f *value) {
     const vector_f x0 = X[0];
@@ -811,7 +827,11 @@ INLINE void pair_value_f(
     value[0] = value[0] + amplitude * vector_exp_f(-0.5f * (z0 * z0));
 }
 
-/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+/*
+ * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 INLINE void pair_forward_f(
     const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
     const vector_f x0 = X[0];
@@ -870,7 +890,11 @@ OUTLINE void pair_distances_f(
     distance[0] = vector_abs_f(log0);
 }
 
-/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+/*
+ * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 INLINE void pair_backward_f(
     const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
     const vector_f x0 = X[0];

@@ -301,7 +301,11 @@ OUTLINE void pair_constants(
     S[18] = its_amplitude;
 }
 
-/* Adds the values phi of a splat at some points. */
+/*
+ * Adds the values phi of a splat at some points.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 INLINE void pair_value(
     const vector *X, const double *S, vector *value) {
     const vector x0 = X[0];
@@ -399,7 +403,11 @@ INLINE void pair_value(
     value[0] = value[0] + amplitude * vector_exp(log_det_gap);
 }
 
-/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+/*
+ * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 OUTLINE void pair_forward(
     const vector *X, const double *S, vector *value, vector *slope) {
     const vector x0 = X[0];
@@ -686,7 +694,11 @@ OUTLINE void pair_constants_vjp(
     amplitude_bar[0] = its_amplitude_bar;
 }
 
-/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+/*
+ * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 OUTLINE void pair_backward(
     const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
     const vector x0 = X[0];
@@ -1598,7 +1610,11 @@ OUTLINE void pair_constants_f(
     S[18] = its_amplitude;
 }
 
-/* Adds the values phi of a splat at some points. */
+/*
+ * Adds the values phi of a splat at some points.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 INLINE void pair_value_f(
     const vector_f *X, const float *S, vector_f *value) {
     const vector_f x0 = X[0];
@@ -1697,7 +1713,11 @@ INLINE void pair_value_f(
     value[0] = value[0] + amplitude * vector_exp_f(log_det_gap);
 }
 
-/* Adds the values phi of a splat at some points, and slope = d phi / d X. */
+/*
+ * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 OUTLINE void pair_forward_f(
     const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
     const vector_f x0 = X[0];
@@ -1986,7 +2006,11 @@ OUTLINE void pair_constants_vjp_f(
     amplitude_bar[0] = its_amplitude_bar;
 }
 
-/* Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points. */
+/*
+ * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
 OUTLINE void pair_backward_f(
     const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
     const vector_f x0 = X[0];

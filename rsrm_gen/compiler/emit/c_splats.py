@@ -254,7 +254,8 @@ def _routine(routine: Routine, series: dict[Coefficients, str], precision: Preci
     kind = "INLINE" if of_pair and routine.operations <= INLINED else "OUTLINE"
     name = "distances" if routine.name == "distance" else routine.name  # `pair_distance` is public on a manifold `pair`
     head = f"{kind} void pair_{name}{precision.tag}("
-    return f"/* {title} */\n{head}\n    {', '.join(arguments)}) {{\n{lines}\n}}"
+    says = comment([title, "", *routine.formula.splitlines()]) if of_pair else f"/* {title} */"
+    return f"{says}\n{head}\n    {', '.join(arguments)}) {{\n{lines}\n}}"
 
 
 def _loops(program: Program, precision: Precision) -> list[str]:

@@ -50,6 +50,7 @@ class SplatNodes:
     phi: Node
     exponent: Node
     by_exponent: Node
+    formula: str = "phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)"
 
 
 X, S = 1, 2  # what a node depends on: the point, the splat, or both
@@ -105,11 +106,11 @@ def pairs_of(graph: Graph, splat: SplatNodes, slope_to_gradient: Callable[[Graph
     return Pairs(
         features,
         constants,
-        _routine(pair, "value", (x, s), {"value": [phi]}),
-        _routine(pair, "forward", (x, s), {"value": [phi], "slope": slopes}),
+        _routine(pair, "value", (x, s), {"value": [phi]}, splat.formula),
+        _routine(pair, "forward", (x, s), {"value": [phi], "slope": slopes}, splat.formula),
         _routine(finish, "gradient", (at, slope), {"gradient": grad}),
         _routine(finish, "gradient_vjp", (at, gradient_bar), {"slope_bar": back}),
-        _routine(pair, "backward", (x, s, value_bar, slope_bar), {"S_bar": bars}),
+        _routine(pair, "backward", (x, s, value_bar, slope_bar), {"S_bar": bars}, splat.formula),
         _routine(splats, "constants_vjp", (*parts, s_bar), own_bars),
     )
 
@@ -181,14 +182,18 @@ def undeclared(source: Graph, roots: Sequence[Node], inputs: Sequence[Node]) -> 
 
 
 def _routine(
-    graph: Graph, name: str, parameters: Sequence[Parameter], results: Mapping[str, Sequence[Node]]
+    graph: Graph,
+    name: str,
+    parameters: Sequence[Parameter],
+    results: Mapping[str, Sequence[Node]],
+    formula: str = "",
 ) -> Routine:
     target, done = undeclared(
         graph, [n for nodes in results.values() for n in nodes], [n for p in parameters for n in p.nodes]
     )
     moved = tuple(Parameter(p.name, p.shape, tuple(done[n] for n in p.nodes)) for p in parameters)
     found = tuple(Result(key, (len(nodes),), tuple(done[n] for n in nodes)) for key, nodes in results.items())
-    return schedule(target, name, moved, found, "")
+    return schedule(target, name, moved, found, formula)
 
 
 def _parameter(graph: Graph, name: str, entries: Sequence[str]) -> Parameter:

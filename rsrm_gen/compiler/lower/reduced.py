@@ -29,6 +29,15 @@ from rsrm_gen.compiler.spec import ProductSpec
 
 HALF = sp.Rational(1, 2)
 
+# What is said of a pair's function in generated code.
+FORMULA = """h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
+eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
+Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
+"""
+ALONE = "r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)"
+SEVERAL_PARTS = "r = R h = W (tangent part of x), z = a r + what other factors add, phi = amplitude a^k exp(-|z|^2 / 2)"
+
 
 @dataclass(frozen=True)
 class Part:
@@ -173,7 +182,9 @@ class _Form:
         graph.slopes[value] = graph.slopes[slope] = (slope,)
         amplitude = self.splat.amplitude.nodes[0]
         phi = graph.named("phi", graph.mul(amplitude, value))
-        return replace(self.splat, phi=phi, exponent=exponent, by_exponent=graph.mul(amplitude, slope))
+        by_exponent = graph.mul(amplitude, slope)
+        formula = FORMULA + (ALONE if self.alone else SEVERAL_PARTS)
+        return replace(self.splat, phi=phi, exponent=exponent, by_exponent=by_exponent, formula=formula)
 
 
 class _Profile:
