@@ -18,7 +18,7 @@ import os
 import threading
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import torch
 from torch import Tensor, nn
@@ -27,8 +27,6 @@ from torch.utils._python_dispatch import is_in_torch_dispatch_mode
 from rsrm_gen.compiler.native import FAST, compiled, vector_unit
 from rsrm_gen.errors import UserError
 from rsrm_gen.manifold import Manifold
-
-Choice = Literal["auto", "c", "torch"]
 
 DTYPES = {torch.float64: "", torch.float32: "_f"}  # to the ending of the C functions' names
 WORTH_A_THREAD = 2**15  # pairs of a point and a splat

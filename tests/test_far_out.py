@@ -21,13 +21,14 @@ def on_hyperboloid(rho: float, beside: Tensor) -> Tensor:
 
 
 @needs_compiler
-@pytest.mark.parametrize("dtype", [torch.float64, torch.float32])
-@pytest.mark.parametrize("rho", [0.5, 1.0, 3.0, 5.0, 8.0])
+@pytest.mark.parametrize(
+    ("dtype", "rho"),
+    [(torch.float64, 0.5), (torch.float64, 1), (torch.float64, 3), (torch.float64, 5), (torch.float64, 8),
+     (torch.float32, 0.5), (torch.float32, 1), (torch.float32, 3), (torch.float32, 5)],
+)  # fmt: skip
 def test_sums_far_out_lose_what_coordinates_lose(dtype: torch.dtype, rho: float) -> None:
     """Tangent vectors and covectors are as long as exp(rho) in coordinates: their products keep eps exp(2 rho)."""
     tolerance = 4 * torch.finfo(dtype).eps * math.exp(2 * rho)
-    if tolerance > 0.1:
-        return
     m = load("hyperbolic")
     generator = torch.Generator().manual_seed(8)
     x = on_hyperboloid(rho, torch.randn(5, 2, generator=generator, dtype=torch.float64)).to(dtype)

@@ -100,7 +100,8 @@ def test_angles_and_powers_are_mpmaths(a: Any, b: Any) -> None:
 @settings(max_examples=300, deadline=None)
 @given(st.lists(ANY, min_size=3, max_size=6))
 def test_sums_and_products_are_mpmaths(terms: list[Any]) -> None:
-    assert alike(on_a_tape("sum", *terms), mp.make_mpf(libmp.mpf_sum(terms, BITS, "n")), 2)
+    exactly = libmp.mpf_sum(terms)  # rounded on the way, it drops small terms that outlive large ones
+    assert alike(on_a_tape("sum", *terms), mp.make_mpf(libmp.mpf_pos(exactly, BITS, "n")), 0)
     product = terms[0]
     for factor in terms[1:]:
         product = libmp.mpf_mul(product, factor, BITS, "n")

@@ -18,8 +18,8 @@ inner                         13
 norm                          14
 flat                          10
 exp                           18      <= 1     <= 1
-log                           18      <= 2     <= 1
-distance                      32      <= 2     <= 1
+log                           18      <= 1     <= 1
+distance                      32      <= 1     <= 1
 log_abs_det                   16      <= 2     <= 1
 riemannian_gradient           18
 gradient_norm                 31

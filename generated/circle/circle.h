@@ -12,7 +12,7 @@
  * norm                           1
  * flat                           0
  * exp                            8      <= 1     <= 1
- * log                            9      <= 1     <= 1
+ * log                            9      <= 1     <= 4
  * distance                      10      <= 1     <= 1
  * log_abs_det                    0      <= 1     <= 1
  * riemannian_gradient            3

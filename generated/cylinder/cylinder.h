@@ -13,8 +13,8 @@
  * norm                           4
  * flat                           0
  * exp                           10      <= 1     <= 1
- * log                           10      <= 2     <= 2
- * distance                      14      <= 2     <= 2
+ * log                           10      <= 1     <= 1
+ * distance                      14      <= 1     <= 1
  * log_abs_det                    0      <= 1     <= 1
  * riemannian_gradient            0
  * gradient_norm                  4

@@ -12,7 +12,7 @@ inner                         27
 norm                          28
 flat                           0
 exp                          126      <= 1     <= 1
-log                          126      <= 1     <= 2
+log                          126      <= 1     <= 1
 distance                     154      <= 1     <= 1
 log_abs_det                    0      <= 1     <= 1
 riemannian_gradient            0

@@ -12,10 +12,10 @@
  * inner                          5
  * norm                          28
  * flat                           1
- * exp                           89      <= 2     <= 4
+ * exp                           89      <= 1     <= 2
  * log                           96     <= 16     <= 8
  * distance                      55      <= 2     <= 2
- * log_abs_det                   88      <= 4     <= 4
+ * log_abs_det                   88      <= 2     <= 2
  * riemannian_gradient           11
  * gradient_norm                 37
  * splat                        315

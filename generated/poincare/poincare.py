@@ -14,7 +14,7 @@ flat                           9
 exp                           82      <= 2     <= 1
 log                           63      <= 1     <= 1
 distance                      21      <= 1     <= 1
-log_abs_det                   53      <= 8     <= 2
+log_abs_det                   53      <= 8     <= 4
 riemannian_gradient            9
 gradient_norm                 18
 splat                        229

@@ -17,8 +17,8 @@
  * flat                           0
  * exp                           82      <= 1     <= 1
  * log                           78      <= 1     <= 1
- * distance                      48      <= 1     <= 1
- * log_abs_det                   73      <= 4     <= 4
+ * distance                      48      <= 1     <= 2
+ * log_abs_det                   73      <= 8    <= 16
  * riemannian_gradient           25
  * gradient_norm                 37
  * transport                     87

@@ -14,7 +14,7 @@ flat                           0
 exp                           79      <= 1     <= 1
 log                           75      <= 1     <= 1
 distance                      37      <= 2     <= 1
-log_abs_det                   73      <= 4     <= 8
+log_abs_det                   73      <= 4     <= 4
 riemannian_gradient           25
 gradient_norm                 31
 other_name                     4

@@ -14,7 +14,7 @@
  * exp                          121      <= 2     <= 2
  * log                          138      <= 1     <= 1
  * distance                     100      <= 1     <= 1
- * log_abs_det                  136     <= 16    <= 16
+ * log_abs_det                  136      <= 8    <= 16
  * riemannian_gradient           33
  * gradient_norm                 39
  * transport                    155

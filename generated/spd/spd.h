@@ -12,9 +12,9 @@
  * norm                           6
  * flat                           0
  * exp                          739      <= 2     <= 4
- * log                          744      <= 4     <= 2
- * distance                     750      <= 2     <= 2
- * log_abs_det                  795      <= 4     <= 4
+ * log                          744      <= 2     <= 2
+ * distance                     750      <= 2     <= 4
+ * log_abs_det                  795      <= 2     <= 8
  * riemannian_gradient          396
  * gradient_norm                402
  * transport                   1550

@@ -12,8 +12,8 @@
  * norm                           4
  * flat                           0
  * exp                           18      <= 1     <= 1
- * log                           18      <= 2     <= 2
- * distance                      22      <= 2     <= 2
+ * log                           18      <= 1     <= 1
+ * distance                      22      <= 1     <= 1
  * log_abs_det                    0      <= 1     <= 1
  * riemannian_gradient            0
  * gradient_norm                  4

@@ -20,7 +20,7 @@ from rsrm_gen.compiler.derive import Geometry
 from rsrm_gen.compiler.derive.geometry import Function, argument
 from rsrm_gen.compiler.derive.numeric import determinant, largest, run, value
 from rsrm_gen.compiler.derive.sampling import Sampler, sampler_of
-from rsrm_gen.compiler.derive.scalarise import scalarised
+from rsrm_gen.compiler.derive.scalarise import constraint_of, scalarised
 from rsrm_gen.compiler.lower import Program, interpret
 from rsrm_gen.compiler.spec import ManifoldSpec, Map
 from rsrm_gen.errors import Span
@@ -365,8 +365,7 @@ class Laws:
     @cached_property
     def constraint_function(self) -> Function:
         """The constraint as a staged function, read once."""
-        assert self.spec.constraint is not None
-        return scalarised(self.spec, "constraint", self.spec.constraint, (argument("p", self.spec.point_size),), ())
+        return constraint_of(self.spec)
 
     def other_name(self, q: Sequence[Any]) -> Numbers:
         """The equivalent point."""

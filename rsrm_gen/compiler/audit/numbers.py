@@ -7,6 +7,7 @@ of the result itself. A row passes if its error is at most 64 such units.
 from __future__ import annotations
 
 import ctypes
+import itertools
 import random
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
@@ -219,7 +220,7 @@ class Place:
     """The inputs that a row's rounded numbers stand for, in high precision, and those of its neighbours."""
 
     inputs: Sequence[Sequence[Any]]
-    neighbours: Sequence[Sequence[Sequence[Any]]]
+    neighbours: Sequence[tuple[int, Sequence[Sequence[Any]]]]  # with how many roundings they are away
 
 
 def places(geometry: Geometry, names: Sequence[str], rows: Rows, precision: str) -> list[Place]:
@@ -230,19 +231,20 @@ def places(geometry: Geometry, names: Sequence[str], rows: Rows, precision: str)
     """
     eps, whole = PRECISIONS[precision][2], matrices(geometry.spec)
     project = geometry["project"] if geometry.spec.embedded else None
-    rng = random.Random(13)
+    shakers = [random.Random(name) for name in names]  # so that a point is shaken alike whatever comes with it
     found = []
     for kind, *inputs in zip(rows.kinds, *(getattr(rows, name) for name in names), strict=True):
         given = [[mp.mpf(float(c)) for c in x] for x in inputs]
         entries = [grain(x, whole if name != "v" else ()) for name, x in zip(names, given, strict=True)]
         neighbours = []
-        for shake in SHAKES * (4 if kind == NEAR_CUT else 1):  # the cut locus may run between a row and its neighbours
+        far = 4 if kind == NEAR_CUT else 1  # the cut locus may run between a row and its neighbours
+        for away, shake in itertools.product(range(1, far + 1), SHAKES):
             with mp.workdps(DIGITS):
                 near = [
-                    [c + s * eps * size * rng.choice((-1, 1)) for c, size in zip(x, sizes, strict=True)]
-                    for x, sizes, s in zip(given, entries, shake, strict=True)
+                    [c + s * away * eps * size * rng.choice((-1, 1)) for c, size in zip(x, sizes, strict=True)]
+                    for x, sizes, s, rng in zip(given, entries, shake, shakers, strict=True)
                 ]
-            neighbours.append(_meant(project, names, near))
+            neighbours.append((away, _meant(project, names, near)))
         found.append(Place(_meant(project, names, given), neighbours))
     return found
 
@@ -253,8 +255,8 @@ def truths(function: Function, routine: Routine, where: Sequence[Place], precisi
     results, units = [], []
     for place in where:
         exact = _exact(function, routine, place.inputs, eps)
-        there = [_exact(function, routine, inputs, eps) for inputs in place.neighbours]
-        moved = max(_largest(a - b for a, b in zip(result, exact, strict=True)) for result in there)
+        there = [(away, _exact(function, routine, inputs, eps)) for away, inputs in place.neighbours]
+        moved = max(_largest(a - b for a, b in zip(result, exact, strict=True)) / away for away, result in there)
         results.append(exact)
         units.append(moved + 2 * eps * _largest(exact) + tiny)
     return results, np.array(units)

@@ -30,7 +30,7 @@ from rsrm_gen.compiler.derive.operators import Operators
 from rsrm_gen.compiler.derive.product import product, scaled
 from rsrm_gen.compiler.derive.radial import radial
 from rsrm_gen.compiler.derive.sampling import Sampler, is_free, reach_of, truth
-from rsrm_gen.compiler.derive.scalarise import Reading, number, scalarised
+from rsrm_gen.compiler.derive.scalarise import Reading, constraint_of, number, scalarised
 from rsrm_gen.compiler.derive.singularities import Ray, exp_ray, guarded, log_ray, remove, smooth_squares
 from rsrm_gen.compiler.derive.trace import Trace
 from rsrm_gen.compiler.derive.values import Truth
@@ -131,7 +131,7 @@ class _Derivation:
             raise UserError("no point satisfies `domain`", spec.domain.value.span)
         if spec.constraint is None or spec.project is None:
             return
-        constraint = scalarised(spec, "constraint", spec.constraint, (self.p,), ())
+        constraint = constraint_of(spec)
         errors = [abs(c) for p in points for c in run(constraint, p)[0]]
         if not all(e < TINY for e in errors):
             message = "`project` does not map onto the manifold: its points do not satisfy `constraint`"

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Any
 
 import mpmath as mp
@@ -45,10 +46,14 @@ def staged_jacobian(log: Function) -> StagedJacobian:
 
     sizes = Sizes()
 
+    @cache
+    def partial(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:  # the same for every column of the Jacobian
+        return sp.diff(expression, symbol)
+
     def chain(expression: sp.Expr, j: int) -> sp.Expr:
         spend(sizes.of(expression).operations)
         parts = ((s, derivative[j][s]) for s in sorted(expression.free_symbols & derivative[j].keys(), key=str))
-        return sp.Add(*(sp.diff(expression, s) * ds for s, ds in parts if ds != 0))
+        return sp.Add(*(partial(expression, s) * ds for s, ds in parts if ds != 0))
 
     for a in log.assignments:
         assignments.append(a)

@@ -21,10 +21,10 @@ import mpmath as mp
 import sympy as sp
 
 from rsrm_gen.compiler.derive.closed_form import rational
-from rsrm_gen.compiler.derive.geometry import Function, Geometry, Radial, argument
+from rsrm_gen.compiler.derive.geometry import Function, Geometry, Radial
 from rsrm_gen.compiler.derive.numeric import DIGITS, TINY, largest, run
 from rsrm_gen.compiler.derive.sampling import Sampler, sampler_of
-from rsrm_gen.compiler.derive.scalarise import scalarised
+from rsrm_gen.compiler.derive.scalarise import constraint_of
 from rsrm_gen.compiler.derive.series import ERROR, interpolated
 from rsrm_gen.compiler.spec import ManifoldSpec
 
@@ -38,8 +38,7 @@ def radial(geometry: Geometry) -> Radial | None:
     if not isinstance(spec, ManifoldSpec) or spec.constraint is None:
         return None
     with mp.workdps(DIGITS):
-        constraint = scalarised(spec, "constraint", spec.constraint, (argument("p", spec.point_size),), ())
-        form = _form(constraint, spec.point_size)
+        form = _form(constraint_of(spec), spec.point_size)
         return _Search(geometry, form).found() if form else None
 
 

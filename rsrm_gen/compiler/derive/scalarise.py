@@ -26,6 +26,7 @@ from rsrm_gen.compiler.derive.geometry import (
     Function,
     Guard,
     Wrap,
+    argument,
 )
 from rsrm_gen.compiler.derive.matrix_functions import Eigenvalue
 from rsrm_gen.compiler.derive.matrix_words import SYMMETRIC, MatrixWords
@@ -34,7 +35,7 @@ from rsrm_gen.compiler.derive.numeric import value
 from rsrm_gen.compiler.derive.series import even_series
 from rsrm_gen.compiler.derive.trace import Trace
 from rsrm_gen.compiler.derive.values import Truth, Vector, choose
-from rsrm_gen.compiler.spec import Map, Spec
+from rsrm_gen.compiler.spec import ManifoldSpec, Map, Spec
 from rsrm_gen.compiler.spec import formula as f
 from rsrm_gen.compiler.spec.shapes import bounds, constant, unit_size
 from rsrm_gen.compiler.spec.vocabulary import Shape
@@ -429,6 +430,12 @@ def scalarised(spec: Spec, name: str, chart_map: Map, arguments: Sequence[Argume
     trace = Trace(arguments)
     results = Reading(spec, trace).entries(chart_map)
     return Function(name, tuple(arguments), tuple(trace.assignments), results, shape, chart_map.value.text).pruned()
+
+
+def constraint_of(spec: ManifoldSpec) -> Function:
+    """The constraints c(p) of an embedded manifold as a staged function."""
+    assert spec.constraint is not None
+    return scalarised(spec, "constraint", spec.constraint, (argument("p", spec.point_size),), ())
 
 
 def number(spec: Spec, chart_map: Map | None) -> sp.Expr:

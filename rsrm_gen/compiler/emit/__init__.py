@@ -17,5 +17,5 @@ def emit(geometry: Geometry, program: Program, measured: tuple[Measurement, ...]
         f"{program.name}.py": torch.module(geometry, program, lines),
         f"{program.name}.h": c.header(geometry, program, lines),
         f"{program.name}.c": c.source(geometry, program, lines),
-        f"{program.name}_splats.c": c_splats.source(program, lines),
+        f"{program.name}_splats.c": c_splats.source(program, lines[0]),
     }

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from rsrm_gen.compiler.emit import c_culling, c_matrix
 from rsrm_gen.compiler.emit.c_language import comment, restrict, wrapped
@@ -100,13 +101,12 @@ def declarations(program: Program) -> list[str]:
     ]
 
 
-def source(program: Program, heading: list[str]) -> str:
-    """The text of NAME_splats.c."""
+@lru_cache(maxsize=8)
+def source(program: Program, title: str) -> str:
+    """The text of NAME_splats.c; asked for twice, before the audit and, with its figures in the other files, after it."""
     routines = _all(program)
     series = tables(routines)
-    top = comment(
-        [heading[0], "", "Sums of splats, forward and backward. See the header for what the functions promise."]
-    )
+    top = comment([title, "", "Sums of splats, forward and backward. See the header for what the functions promise."])
     includes = f'#include "{program.name}.h"\n\n#include <float.h>\n#include <stdint.h>\n#include <string.h>'
     parts = [top, includes, TYPES, OMP, FLUSH]
     for precision in PRECISIONS:

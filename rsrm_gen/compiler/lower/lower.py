@@ -9,7 +9,7 @@ from rsrm_gen.compiler.derive.geometry import Function
 from rsrm_gen.compiler.lower.culling import culling
 from rsrm_gen.compiler.lower.differentiate import gradient
 from rsrm_gen.compiler.lower.from_sympy import inline
-from rsrm_gen.compiler.lower.ir import Graph, Node, Packed, Pairs, Parameter, Program, Result, Routine
+from rsrm_gen.compiler.lower.ir import Graph, Node, Packed, Pairs, Parameter, Program, Result, Routine, dot
 from rsrm_gen.compiler.lower.pairs import SplatNodes, pairs_of
 from rsrm_gen.compiler.lower.reduced import reduced
 from rsrm_gen.compiler.lower.schedule import schedule
@@ -61,8 +61,9 @@ class _Splat:
         self.amplitude = _parameter(graph, "amplitude", (), ("amplitude",))
         log = _named(graph, "v", inline(graph, geometry["log"], self.mu.nodes, self.x.nodes))
         (log_det,) = inline(graph, geometry["log_abs_det"], self.mu.nodes, self.x.nodes)
-        z = _named(graph, "z", tuple(_dot(graph, self.W.nodes[i * self.size :], log) for i in range(spec.dim)))
-        exponent = graph.sub(log_det, graph.mul(graph.constant(sp.Rational(1, 2)), _dot(graph, z, z)))
+        rows = [self.W.nodes[i * self.size : (i + 1) * self.size] for i in range(spec.dim)]
+        z = _named(graph, "z", tuple(dot(graph, row, log) for row in rows))
+        exponent = graph.sub(log_det, graph.mul(graph.constant(sp.Rational(1, 2)), dot(graph, z, z)))
         self.exponent, self.geometry = exponent, geometry
         self.value = graph.named("phi", graph.mul(self.amplitude.nodes[0], graph.function("exp", exponent)))
         partials = _named(graph, "exponent_by_x", gradient(graph, exponent, self.x.nodes))
@@ -90,7 +91,7 @@ class _Splat:
         graph = self.graph
         value_bar = _parameter(graph, "value_bar", (), ("value_bar",))
         gradient_bar = _vector(graph, "gradient_bar", self.size)
-        total = _dot(graph, (self.value, *self.gradient), (*value_bar.nodes, *gradient_bar.nodes))
+        total = dot(graph, (self.value, *self.gradient), (*value_bar.nodes, *gradient_bar.nodes))
         parameters = (self.mu, self.W, self.amplitude)
         adjoints = iter(gradient(graph, total, [node for p in parameters for node in p.nodes]))
         results = tuple(Result(f"{p.name}_bar", p.shape, tuple(next(adjoints) for _ in p.nodes)) for p in parameters)
@@ -100,14 +101,6 @@ class _Splat:
 
 def _named(graph: Graph, name: str, nodes: tuple[Node, ...]) -> tuple[Node, ...]:
     return tuple(graph.named(f"{name}{i}", node) for i, node in enumerate(nodes))
-
-
-def _dot(graph: Graph, x: tuple[Node, ...], y: tuple[Node, ...]) -> Node:
-    """The sum of products, over the shorter of the two."""
-    total = graph.constant(0)
-    for a, b in zip(x, y, strict=False):
-        total = graph.add(total, graph.mul(a, b))
-    return total
 
 
 def _vector(graph: Graph, name: str, size: int) -> Parameter:
