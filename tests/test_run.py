@@ -13,9 +13,10 @@ from scenes import seeded, small_scene
 
 from rsrm_gen.errors import UserError
 from rsrm_gen.manifold import Manifold
+from rsrm_gen.trainer.objectives.eikonal import Eikonal
 from rsrm_gen.trainer.run import Metric, RunFolder, load_run
 from rsrm_gen.trainer.scene import read_scene
-from rsrm_gen.trainer.train import Trainer, train
+from rsrm_gen.trainer.train import train
 
 TINY = "{steps: 6, points: 32, splats: {initial: 5, add: 0}, link: {kind: quotient, floor: 0.1}}"
 
@@ -31,13 +32,13 @@ def trained(folder: Path, name: str = "S2") -> RunFolder:
 @pytest.mark.parametrize("name", PLAIN)
 def test_a_loaded_field_is_the_trained_one(tmp_path: Path, name: str) -> None:
     scene = small_scene(tmp_path, name, TINY)
-    trainer = Trainer(scene)
-    trainer.place_first_splats()
+    trainer = Eikonal(scene)
+    trainer.begin()
     for _ in range(3):
         trainer.advance()
     folder = RunFolder(tmp_path / "run")
     folder.create(scene)
-    folder.save(trainer.arrays(1.5))
+    folder.save(trainer.arrays())
     run = load_run(tmp_path / "run", PLAIN[name])
     x = scene.sample(20, seeded())
     for ours, theirs in zip(run.arrival.evaluate(x), trainer.arrival.evaluate(x), strict=True):

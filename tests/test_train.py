@@ -12,11 +12,12 @@ from plain_manifolds import PLAIN
 from scenes import random_field, seeded, small_scene
 
 from rsrm_gen.errors import UserError
-from rsrm_gen.trainer.objective import Eikonal
+from rsrm_gen.trainer.objectives.eikonal import Eikonal
+from rsrm_gen.trainer.objectives.residual import Residual
 from rsrm_gen.trainer.optimise import AdamW
 from rsrm_gen.trainer.run import Arrays, Metric, RunFolder
 from rsrm_gen.trainer.scene import Scene
-from rsrm_gen.trainer.train import Outcome, Trainer, train
+from rsrm_gen.trainer.train import Outcome, train
 
 # Changes at steps 10, 20 and 30 of 40: the interruption at 15 lies between two of them.
 SHORT = "{steps: 40, points: 64, checkpoint_every: 15, splats: {initial: 8, add: 4, every: 10, prune_below: 0.02}}"
@@ -44,13 +45,13 @@ def same(a: Arrays, b: Arrays) -> bool:
 @pytest.mark.parametrize("name", PLAIN)
 def test_training_lowers_the_residual(tmp_path: Path, name: str) -> None:
     scene = small_scene(tmp_path, name, "{steps: 60, points: 128, splats: {initial: 12, shape: 0.6}}")
-    trainer = Trainer(scene)
-    trainer.place_first_splats()
+    trainer = Eikonal(scene)
+    trainer.begin()
     x = scene.sample(500, seeded())
-    before = Eikonal(scene).loss(trainer.arrival, x)[1].mean()
+    before = Residual(scene).loss(trainer.arrival, x)[1].mean()
     for _ in range(60):
         trainer.advance()
-    assert Eikonal(scene).loss(trainer.arrival, x)[1].mean() < 0.8 * before
+    assert Residual(scene).loss(trainer.arrival, x)[1].mean() < 0.8 * before
 
 
 def test_a_training_that_was_interrupted_goes_on_exactly(tmp_path: Path) -> None:
@@ -153,20 +154,20 @@ def test_the_summary_says_what_was_trained(tmp_path: Path) -> None:
 
 def test_no_point_near_the_goal_is_trained_on(tmp_path: Path) -> None:
     scene = small_scene(tmp_path, "H2", "{goal_exclusion: 1.0}")
-    x = Trainer(scene).points(500, "points")
+    x = Eikonal(scene).points(500, "points")
     assert scene.manifold.distance(x, scene.goal).min() > 1
     assert 0 < len(x) < 500
     with pytest.raises(UserError, match="no point of the domain is farther than 3"):
-        Trainer(small_scene(tmp_path, "H2", "{goal_exclusion: 3}")).points(50, "points")
+        Eikonal(small_scene(tmp_path, "H2", "{goal_exclusion: 3}")).points(50, "points")
 
 
 def test_the_learning_rate_falls_to_its_final_value(tmp_path: Path) -> None:
-    trainer = Trainer(small_scene(tmp_path, "R2", "{steps: 100, learning_rate: 0.02, final_learning_rate: 0.001}"))
+    trainer = Eikonal(small_scene(tmp_path, "R2", "{steps: 100, learning_rate: 0.02, final_learning_rate: 0.001}"))
     rates = []
     for trainer.step in (0, 50, 100):
         rates.append(trainer.learning_rate())
     assert rates == pytest.approx([0.02, 0.0105, 0.001])
-    assert Trainer(small_scene(tmp_path, "R2")).learning_rate() == 0.01
+    assert Eikonal(small_scene(tmp_path, "R2")).learning_rate() == 0.01
 
 
 def test_adam_is_torchs_where_nothing_is_curved(tmp_path: Path) -> None:

@@ -3,7 +3,7 @@
 RUN/scene.yaml       the scene as given (a relative path of the manifold rewritten to lead there from RUN)
 RUN/settings.json    every training setting as resolved, and the versions that ran
 RUN/checkpoint.npz   all that is needed to go on, as plain arrays
-RUN/metrics.jsonl    one line every few steps: step, loss, splats, seconds
+RUN/metrics.jsonl    one line every few steps: step, loss, splats, seconds, phase
 RUN/summary.json     written at the end: loss, steps, splats, stored parameters, ms per step, seconds
 """
 
@@ -42,6 +42,7 @@ class Metric:
     loss: float
     splats: int
     seconds: float
+    phase: str = "descent"
 
 
 @dataclass(frozen=True)

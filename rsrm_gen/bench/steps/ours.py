@@ -12,7 +12,7 @@ from rsrm_gen.manifold import Manifold
 from rsrm_gen.trainer.arithmetic import Points
 from rsrm_gen.trainer.link import Exponential
 from rsrm_gen.trainer.model import ArrivalTime, SplatField
-from rsrm_gen.trainer.objective import Eikonal
+from rsrm_gen.trainer.objectives.residual import Residual
 from rsrm_gen.trainer.scene import Scene
 
 Step = Callable[[], tuple[Any, tuple[Any, ...]]]
@@ -35,15 +35,15 @@ class _AtCenters:
 
 
 def whole(manifold: Manifold, problem: Problem) -> Step:
-    """The loss and its gradient by the trainer's own model and objective."""
+    """The loss and its gradient by the trainer's own model and residual."""
     field, d = _field(manifold, problem), manifold.dim
     arrival = ArrivalTime(field, Exponential(), manifold, field.mu[0])
-    # The points know all that the objective asks of the scene.
-    objective = Eikonal(cast(Scene, None), "squared")
+    # The points know all that the residual asks of the scene.
+    residual = Residual(cast(Scene, None), "squared")
     points = Points(*map(torch.from_numpy, problem.points))
 
     def step() -> tuple[Any, tuple[Any, ...]]:
-        loss, gradient = objective.loss_and_gradient(arrival, points)
+        loss, gradient = residual.loss_and_gradient(arrival, points)
         A = gradient[1 : 1 + d * d].view(d, d, -1).movedim(-1, 0)
         return loss, (gradient[0], _AtCenters(field, gradient[1 + d * d :]), A)
 

@@ -1,4 +1,4 @@
-"""The Eikonal objective |grad T|_g = s at sampled points (RSRM eq. 8).
+"""The residual of |grad T|_g = s at sampled points (RSRM eq. 8) and its derivative in the splats, around the kernel.
 
 A small residual does not make T the arrival time: the equation has many solutions almost everywhere, and only the
 viscosity solution is the one. How right a field is, `evaluate.py` says.
@@ -19,12 +19,12 @@ from rsrm_gen.trainer.scene import Scene
 
 
 @dataclass(frozen=True)
-class Eikonal:
+class Residual:
     """The mean over points of |1 - sqrt q| + |1 - 1 / sqrt q| (`ratio`), q = |grad T|_g / s, or of
     (|grad T|_g - s)^2 (`squared`)."""
 
     scene: Scene
-    residual: Literal["ratio", "squared"] = "ratio"
+    kind: Literal["ratio", "squared"] = "ratio"
     rows: dict[int, Tensor] = field(default_factory=dict, repr=False, compare=False)  # what `_centers` last gave
 
     def at(self, arrival: ArrivalTime, x: Tensor) -> Points:
@@ -75,4 +75,4 @@ class Eikonal:
         arithmetic, df = arrival.field.arithmetic, df.contiguous()
         slope = arithmetic.slope(arrival.link, points, f, df)
         covector = arrival.field.flat(points.x, slope.gradient)
-        return arithmetic.eikonal(self.residual == "squared", points, slope, covector, df)
+        return arithmetic.eikonal(self.kind == "squared", points, slope, covector, df)

@@ -17,7 +17,7 @@ from rsrm_gen.load import load
 from rsrm_gen.manifold import Manifold
 from rsrm_gen.trainer.link import Exponential, Link, Quotient
 from rsrm_gen.trainer.model import ArrivalTime, SplatField
-from rsrm_gen.trainer.objective import Eikonal
+from rsrm_gen.trainer.objectives.residual import Residual
 from rsrm_gen.trainer.scene import Scene
 
 
@@ -57,7 +57,7 @@ def test_the_closed_forms_are_the_gradients_of_double_differentiation(
     field = random_field(scene.manifold, scene.sample(6, seeded()), seeded(1))
     arrival = ArrivalTime(field, LINKS[link], scene.manifold, scene.goal)
     x = scene.sample(30, seeded(2))
-    eikonal = Eikonal(scene, residual)
+    eikonal = Residual(scene, residual)
     loss, columns = eikonal.loss_and_gradient(arrival, eikonal.at(arrival, x))
     assert loss == eikonal.loss(arrival, x)[0]
 
@@ -92,7 +92,7 @@ def test_generated_code_gives_the_gradients_of_double_differentiation_by_hand(tm
     field = random_field(scene.manifold, plain.sample(6, seeded()), seeded(1))
     arrival = ArrivalTime(field, Exponential(), scene.manifold, scene.goal)
     x = plain.sample(30, seeded(2))
-    eikonal = Eikonal(scene, "ratio")
+    eikonal = Residual(scene, "ratio")
     loss, columns = eikonal.loss_and_gradient(arrival, eikonal.at(arrival, x))
 
     truth, gradients = doubly_differentiated(plain, field, "exponential", "ratio", x)
@@ -126,7 +126,7 @@ def test_the_distance_itself_has_no_residual_in_free_space(
     with torch.no_grad():
         field.v.zero_()
     arrival = ArrivalTime(field, Exponential(), manifold, scene.goal)
-    loss, residuals = Eikonal(scene, residual).loss(arrival, scene.sample(50, seeded(2)))
+    loss, residuals = Residual(scene, residual).loss(arrival, scene.sample(50, seeded(2)))
     assert loss < 1e-9
     assert residuals.shape == (50,)
 
@@ -144,7 +144,7 @@ def test_a_slope_twice_or_half_the_slowness_is_equally_wrong_by_the_ratio(tmp_pa
 
     for factor in (2.0, 0.5):
         arrival = ArrivalTime(field, Scaled(), scene.manifold, scene.goal)
-        ratio, _ = Eikonal(scene, "ratio").loss(arrival, x)
-        squared, _ = Eikonal(scene, "squared").loss(arrival, x)
+        ratio, _ = Residual(scene, "ratio").loss(arrival, x)
+        squared, _ = Residual(scene, "squared").loss(arrival, x)
         assert float(ratio) == pytest.approx(math.sqrt(2) - 1 / math.sqrt(2))
         assert float(squared) == pytest.approx((factor - 1) ** 2)
