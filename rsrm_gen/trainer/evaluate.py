@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 import torch
@@ -20,6 +20,7 @@ from torch import Generator, Tensor
 from rsrm_gen.errors import UserError
 from rsrm_gen.files import write_text_whole
 from rsrm_gen.manifold import Manifold
+from rsrm_gen.trainer.planning import Planning, planning
 from rsrm_gen.trainer.reference import Reference, solve_reference
 from rsrm_gen.trainer.run import load_run
 from rsrm_gen.trainer.scene import Scene
@@ -58,6 +59,7 @@ class Evaluation:
     reference_rms: float
     reference_maximum: float
     reference: str
+    planning: Planning | None = None
 
 
 def evaluate_run(
@@ -70,6 +72,7 @@ def evaluate_run(
     run = load_run(path, manifold)
     reference = solve_reference(run.scene, cells, console)
     evaluation = evaluate_all(run.scene, {"field": run.arrival.time}, reference)
+    evaluation = replace(evaluation, planning=planning(run.arrival, run.scene, reference.time))
     write_text_whole(path / "evaluation.json", json.dumps(asdict(evaluation), indent=2) + "\n")
     return evaluation
 
@@ -167,3 +170,22 @@ def print_evaluation(evaluation: Evaluation, console: Console) -> None:
     table.add_row("reference's own error", "", *own, style="dim")
     console.print(table)
     console.print(f"[dim]reference: {evaluation.reference}[/dim]", highlight=False)
+    if evaluation.planning:
+        _print_planning(evaluation.planning, console)
+
+
+def _print_planning(found: Planning, console: Console) -> None:
+    title = "descent of T from free starts; cost of the paths over the reference's"
+    table = Table(title=title, title_justify="left", box=None, pad_edge=False, header_style="dim", title_style="")
+    table.add_column("")
+    for heading in ("starts", "reach the goal", "enter an obstacle", "mean", "median", "p95", "worst"):
+        table.add_column(heading, justify="right", no_wrap=True)
+    for row in found.rows:
+        shares = (f"{100 * share:.1f} %" for share in (row.reached, row.entered))
+        ratios = ("-" if r is None else f"{r:.4f}" for r in (row.mean, row.median, row.p95, row.worst))
+        table.add_row(row.kind, str(row.starts), *shares, *ratios)
+    console.print(table)
+    times = f"{found.microseconds:.0f} us for one point, {found.microseconds_in_batches:.2f} us in batches"
+    console.print(
+        f"[dim]valleys without the goal: {found.valleys}; T and its gradient take {times}[/dim]", highlight=False
+    )
