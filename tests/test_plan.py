@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -57,6 +58,13 @@ def test_a_path_through_an_obstacle_costs_the_integral_of_the_slowness(tmp_path:
     assert float(paths.cost[0]) == pytest.approx(1.9 + 9 * slow, abs=1e-3)
     assert paths.entered.all()
     assert float(paths.clearance[0]) == pytest.approx(-0.4, abs=5e-3)
+
+
+def test_a_path_through_an_obstacle_is_refused_where_the_scene_forbids_it(tmp_path: Path) -> None:
+    scene = replace(small_scene(tmp_path, "R2"), forbid_obstacles=True)
+    c = scene.centers[0]
+    starts = torch.stack([1.9 * c / c.norm(), scene.goal.new_tensor([-1.5, 0.2])])
+    assert plan(free_arrival(scene), scene, starts).refused.tolist() == [True, False]
 
 
 def test_paths_that_pass_an_obstacle_by_do_not_enter_it(tmp_path: Path) -> None:

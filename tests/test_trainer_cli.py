@@ -97,6 +97,19 @@ def test_a_plan_says_what_the_path_costs(rsrm: Rsrm, capsys: Capture) -> None:
     assert paths[1]["points"][-1] == pytest.approx(ORIGIN["S2"])
 
 
+def test_a_plan_through_an_obstacle_is_refused_where_the_scene_forbids_it(rsrm: Rsrm, capsys: Capture) -> None:
+    forbidding = SCENE.replace("obstacles:", "forbid_obstacles: true\nobstacles:")
+    Path("scene.yaml").write_text(forbidding.replace("[0.8, 0, 0.6]", "[0, 0, 1]"))
+    assert rsrm("train", "scene.yaml", "-o", "run", "--no-picture", "--steps", "2") == 0
+    assert rsrm("plan", "run", "--from=0,0,1", "--from=0.8,0,0.6", "-o", "paths.json") == 1
+    printed = capsys.readouterr()
+    assert "refused: through an obstacle" in printed.out
+    assert "which the scene forbids" in printed.err
+    paths = json.loads(Path("paths.json").read_text())
+    assert [path["refused"] for path in paths] == [True, False]
+    assert paths[0]["points"] is None
+
+
 def test_ctrl_c_says_what_is_kept_and_how_to_go_on(
     rsrm: Rsrm, capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:

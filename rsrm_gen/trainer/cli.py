@@ -233,6 +233,9 @@ def _plan(
     if not bool(paths.reached.all()):
         typer.echo("not every path reached the goal: the field's T has a valley elsewhere", err=True)
         raise typer.Exit(1)
+    if bool(paths.refused.any()):
+        typer.echo("a path leads through an obstacle, which the scene forbids; it is refused", err=True)
+        raise typer.Exit(1)
 
 
 def _start(run: Run, text: str) -> torch.Tensor:
@@ -253,6 +256,8 @@ def _table(starts: Sequence[str], paths: Paths) -> Table:
     columns = (paths.value, paths.cost, paths.length, paths.clearance)
     for i, start in enumerate(starts):
         said = "yes, through an obstacle" if paths.entered[i] else "yes"
+        if paths.refused[i]:
+            said = "refused: through an obstacle"
         if not paths.reached[i]:
             said = "no"
         table.add_row(start.replace("[", r"\["), *[f"{float(column[i]):.4f}" for column in columns], said)
@@ -265,11 +270,12 @@ def _write_paths(file: Path, starts: Sequence[str], paths: Paths) -> None:
             "from": start,
             "reached": bool(paths.reached[i]),
             "entered_obstacle": bool(paths.entered[i]),
+            "refused": bool(paths.refused[i]),
             "time_by_field": float(paths.value[i]),
             "cost": float(paths.cost[i]) if paths.reached[i] else None,
             "length": float(paths.length[i]),
             "clearance": float(paths.clearance[i]) if torch.isfinite(paths.clearance[i]) else None,
-            "points": paths.points[i].tolist(),
+            "points": None if paths.refused[i] else paths.points[i].tolist(),
         }
         for i, start in enumerate(starts)
     ]

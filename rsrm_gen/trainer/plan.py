@@ -29,6 +29,7 @@ class Paths:
     value: Tensor  # (B,) T(start), what the field says it costs
     reached: Tensor  # (B,) bool
     entered: Tensor  # (B,) bool: whether the path goes through an obstacle
+    refused: Tensor  # (B,) bool: those that do, where the scene forbids it
     clearance: Tensor  # (B,) the least signed distance along the path; a length
     length: Tensor  # (B,) of the path
 
@@ -43,7 +44,8 @@ def plan(arrival: ArrivalTime, scene: Scene, starts: Tensor, step: float = 0.02)
     measured = torch.stack([_measure(scene, path) for path in points]) if points else starts.new_zeros(0, 3)
     cost, length, clearance = measured.unbind(1)
     cost = torch.where(reached, cost, math.inf)
-    return Paths(tuple(points), cost, value, reached, clearance < 0, clearance, length)
+    entered = clearance < 0
+    return Paths(tuple(points), cost, value, reached, entered, entered & scene.forbid_obstacles, clearance, length)
 
 
 @torch.no_grad()

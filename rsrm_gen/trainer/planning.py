@@ -85,7 +85,7 @@ def _of_kind(kinds: list[str], kind: str) -> list[int]:
 
 
 def _row(kind: str, paths: Paths, ratio: Tensor, rows: list[int]) -> PlanningRow:
-    reached, entered, ratio = paths.reached[rows], paths.entered[rows], ratio[rows]
+    reached, entered, ratio = (paths.reached & ~paths.refused)[rows], paths.entered[rows], ratio[rows]
     ratio = ratio[reached & ratio.isfinite()].sort().values
     if not len(ratio):
         return PlanningRow(kind, len(rows), 0.0, 0.0, None, None, None, None)

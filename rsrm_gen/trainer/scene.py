@@ -44,6 +44,7 @@ class Scene:
     goal: Tensor  # (D,)
     centers: Tensor  # (m, D)
     radii: Tensor  # (m,)
+    forbid_obstacles: bool  # whether a path through one is no path
     law: Slowness
     domain: Ball | None  # None: the whole, compact manifold
     evaluation: Evaluation
@@ -153,6 +154,7 @@ class _Reader:
             goal=goal,
             centers=torch.stack(centers) if centers else goal.new_zeros(0, len(goal)),
             radii=goal.new_tensor([ball.radius for ball in written.obstacles]),
+            forbid_obstacles=written.forbid_obstacles,
             law=written.slowness,
             domain=self.domain(),
             evaluation=written.evaluation,

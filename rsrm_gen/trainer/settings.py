@@ -161,6 +161,7 @@ class SceneDocument(_Part):
     manifold: ManifoldChoice
     goal: Numbers
     obstacles: list[Obstacle] = []
+    forbid_obstacles: bool = False  # whether `rsrm plan` refuses paths that enter one; else they are only slow
     slowness: Slowness = Slowness()
     domain: Domain | None = None
     evaluation: Evaluation = Evaluation()
