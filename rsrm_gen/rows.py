@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import ctypes
 import math
-from collections.abc import Callable
+import re
+import sys
+from collections.abc import Callable, Iterable
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -16,6 +18,7 @@ import torch
 from torch import Tensor
 
 from rsrm_gen.compiler.native import FAST, compiled
+from rsrm_gen.errors import UserError
 from rsrm_gen.manifold import Manifold
 
 # By this name alone glibc's headers declare exp, atan2 and so on for vectors, wrong by less than 4 units in the last
@@ -39,6 +42,11 @@ SIGNATURES = {
     "riemannian_gradient": ("point", "point", "tangent"),
 }
 
+# What the loop over rows of such a function calls becomes part of it, however long: it could not be vectorised around
+# calls. gcc and clang know the attribute.
+LOOP = re.compile(rf"^(?=void \w+_({'|'.join(SIGNATURES)}|norm)_batch(_f)?\()", re.MULTILINE)
+WHOLE = "__attribute__((flatten)) "
+
 
 def in_rows(manifold: Manifold, folder: Path) -> Manifold:
     """The same manifold, its functions of points by the C code in `folder`; the compiler runs at the first call."""
@@ -60,6 +68,32 @@ def in_rows(manifold: Manifold, folder: Path) -> Manifold:
     return made
 
 
+def addresses(manifold: Manifold, names: Iterable[str]) -> dict[str, int]:
+    """Where generated C functions of a manifold lie in memory, for C code that calls them: their addresses by name.
+
+    The names are those in the manifold's header without its own: "exp_batch", "frame", "inner_f". The code stays in memory as
+    long as the process. Raises `UserError` where there is no C compiler, and for a manifold that was not generated.
+    """
+    folder = _generated_folder(manifold)
+    library = _compiled(folder)
+    return {name: ctypes.cast(library[f"{folder.name}_{name}"], ctypes.c_void_p).value or 0 for name in names}
+
+
+def _generated_folder(manifold: Manifold) -> Path:
+    """Where the generated code of a manifold is, whatever it was wrapped into."""
+    for cls in type(manifold).__mro__:
+        file = getattr(sys.modules.get(cls.__module__), "__file__", None)
+        if file and Path(file).with_suffix(".c").is_file():
+            return Path(file).parent
+    raise UserError(f"there is no generated C code of {manifold.name}")
+
+
+def _compiled(folder: Path) -> ctypes.CDLL:
+    files = {path.name: path.read_text(encoding="utf-8") for path in folder.glob("*.[ch]")}
+    source = f"{folder.name}.c"
+    return compiled({**files, source: LOOP.sub(WHOLE, files[source])}, source, FLAGS)
+
+
 class _Library:
     """The C functions of a manifold that take rows."""
 
@@ -71,8 +105,7 @@ class _Library:
 
     @cached_property
     def library(self) -> ctypes.CDLL:
-        files = {path.name: path.read_text(encoding="utf-8") for path in self.folder.glob("*.[ch]")}
-        return compiled(files, f"{self.folder.name}.c", FLAGS)
+        return _compiled(self.folder)
 
     def function(self, name: str, dtype: torch.dtype) -> Any:
         """name(count, argument, ..., result) on addresses."""
