@@ -1,5 +1,7 @@
 """How the arrival time T depends on the distance d to the goal and on the field f: two forms with one interface.
 
+What stands for the distance (base.py) takes the place of d.
+
 The partial derivatives are written out, so that grad T = dT/dd grad d + dT/df grad f needs no differentiation by the
 framework; the second ones, so that the derivative of the loss needs none either.
 """
@@ -22,6 +24,10 @@ class Link(Protocol):
         """T: (...)."""
         ...
 
+    def field(self, d: Tensor, time: Tensor) -> Tensor:
+        """The f with T(d, f) = time: (...). Not a number at d = 0; the nearest that is finite where no f gives it."""
+        ...
+
     def partials(self, d: Tensor, f: Tensor) -> tuple[Tensor, Tensor]:
         """dT/dd and dT/df: (...), (...)."""
         ...
@@ -38,6 +44,10 @@ class Exponential:
     def value(self, d: Tensor, f: Tensor) -> Tensor:
         """T: (...)."""
         return d * torch.exp(f)
+
+    def field(self, d: Tensor, time: Tensor) -> Tensor:
+        """log(time / d): (...)."""
+        return torch.log(time / d)
 
     def partials(self, d: Tensor, f: Tensor) -> tuple[Tensor, Tensor]:
         """dT/dd and dT/df: (...), (...)."""
@@ -65,6 +75,11 @@ class Quotient:
     def value(self, d: Tensor, f: Tensor) -> Tensor:
         """T: (...)."""
         return d / self._speed(f)[0]
+
+    def field(self, d: Tensor, time: Tensor) -> Tensor:
+        """From the sigmoid, which is kept 1e-6 away from 0 and 1: (...)."""
+        sigmoid = (d / time - self.floor) / (1 - self.floor)
+        return torch.logit(sigmoid, eps=1e-6) - self.offset
 
     def partials(self, d: Tensor, f: Tensor) -> tuple[Tensor, Tensor]:
         """dT/dd and dT/df: (...), (...)."""

@@ -17,6 +17,7 @@ from torch import Tensor
 
 from rsrm_gen.manifold import Manifold
 from rsrm_gen.trainer.arithmetic import Splats, arithmetic
+from rsrm_gen.trainer.base import Base, Distance
 from rsrm_gen.trainer.link import Link
 
 WORTH_WIDTHS = 2**18  # pairs of a point and a splat, below which leaving far ones out gains less than widths cost
@@ -174,14 +175,17 @@ class SplatField:
 
 
 class ArrivalTime:
-    """T(x) = link(d(x, goal), f(x)) and its Riemannian gradient."""
+    """T(x) = link(b(x), f(x)) and its Riemannian gradient, with b the distance to the goal or what stands for it."""
 
-    def __init__(self, field: SplatField, link: Link, manifold: Manifold, goal: Tensor) -> None:
-        """The goal is a point (D,)."""
+    def __init__(
+        self, field: SplatField, link: Link, manifold: Manifold, goal: Tensor, base: Base | None = None
+    ) -> None:
+        """The goal is a point (D,); without a base, b is the distance to it."""
         self.field = field
         self.link = link
         self.manifold = manifold
         self.goal = goal
+        self.base = base or Distance(manifold, goal)
 
     def time(self, x: Tensor) -> Tensor:
         """T (N,) at x (N, D)."""
@@ -191,16 +195,9 @@ class ArrivalTime:
     def time_and_gradient(self, x: Tensor) -> tuple[Tensor, Tensor]:
         """T (N,) and grad T (N, T) as a tangent vector at x (N, D); zero at the goal itself, where T has a cone."""
         f, df = self.field.value_and_gradient(x)
-        d, away = self.from_goal(x)
-        by_d, by_f = self.link.partials(d, f)
-        return self.link.value(d, f), by_d[:, None] * away + by_f[:, None] * df
-
-    @torch.no_grad()
-    def from_goal(self, x: Tensor) -> tuple[Tensor, Tensor]:
-        """The distance d (N,) of x (N, D) to the goal and grad d (N, T), zero at the goal itself."""
-        d = self.manifold.distance(x, self.goal.expand_as(x))
-        toward = self.manifold.log(x, self.goal.expand_as(x))
-        return d, toward / -torch.where(d > 0, d, 1.0)[:, None]
+        b, away = self.base.value_and_gradient(x)
+        by_b, by_f = self.link.partials(b, f)
+        return self.link.value(b, f), by_b[:, None] * away + by_f[:, None] * df
 
     def evaluate(self, x: Tensor, chunk: int = 8192) -> tuple[Tensor, Tensor]:
         """T (N,) and grad T (N, T) at any number of points, in chunks that fit in memory."""

@@ -1,0 +1,239 @@
+"""Fit a field to values at points, or an arrival time to labels: all that shapes its splats, by damped Gauss-Newton.
+
+    first splats    well spread over the points, round, as wide as their neighbours are far; weights by linear least squares
+    every iteration a step of Gauss-Newton (gauss_newton.py), damped as Marquardt has it; one that does not lower the cost is
+                    refused and damped more
+    now and then    the splats that are needed least go to where the residuals are largest, and all weights are solved again
+
+What is minimised is sum_n w_n (y(x_n) - value_n)^2, y the field or the arrival time made of it (response.py). Everything
+runs over blocks of points: a million of them need no more memory than their own numbers.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from rsrm_gen.trainer.density import pick_apart, pick_spread
+from rsrm_gen.trainer.gauss_newton import (
+    NormalEquations,
+    Sample,
+    amplitudes,
+    amplitudes_alone,
+    apply,
+    bounded,
+    effective_map,
+    normal_equations,
+    sample,
+    set_amplitudes,
+    solve,
+)
+from rsrm_gen.trainer.model import SplatField
+from rsrm_gen.trainer.response import Response
+from rsrm_gen.trainer.run import Arrays, fill_rows
+
+CANDIDATES = 16  # points looked at for each centre that is chosen
+OVERLAP = 1.24  # standard deviations of a first splat for each distance to a neighbour
+RIDGE = 1e-7  # of the mean square of the rows, on amplitudes of about 1
+FIRST_DAMPING, EASE, RAISE = 1e-2, 0.4, 4.0
+LEAST_DAMPING, LARGEST_DAMPING = 1e-7, 1e6
+FREE = 0.999  # of the largest weight: what counts as free space in the report
+
+
+@dataclass(frozen=True)
+class Targets:
+    """What a field is to give: N points, the values there, and how much each counts."""
+
+    x: Tensor  # (N, D)
+    value: Tensor  # (N,)
+    weight: Tensor  # (N,), not negative
+
+
+@dataclass(frozen=True)
+class Schedule:
+    """How long, and after which iterations (from 1) what share of the splats is moved to where it is needed more."""
+
+    iterations: int = 30
+    relocate: dict[int, float] = field(default_factory=dict)
+    bounds: tuple[float, float] = (1e-3, math.inf)  # of the singular values of A
+
+
+@dataclass(frozen=True)
+class Record:
+    """One iteration: RMS of the residuals by weight, and where the weight is largest; seconds of this iteration."""
+
+    iteration: int
+    rms: float
+    free_rms: float
+    damping: float
+    accepted: bool
+    relocated: int
+    seconds: float
+
+
+class Fit:
+    """A field on its way to its targets. Deterministic; `arrays` is all that is needed to go on."""
+
+    def __init__(self, field: SplatField, response: Response, targets: Targets, schedule: Schedule) -> None:
+        """A field without splats gets its first ones from `place`; targets in the field's dtype."""
+        self.field = field
+        self.response = response
+        self.iteration = 0
+        self.damping = FIRST_DAMPING
+        self.aim(targets, schedule)
+
+    def aim(self, targets: Targets, schedule: Schedule) -> None:
+        """Take other targets and begin a new phase; the splats and the damping stay."""
+        x = targets.x
+        self.targets = targets
+        self.schedule = schedule
+        self.sample: Sample = sample(self.field, x)
+        self.known = self.response.at(x)
+        self.weight = targets.weight.sqrt()
+        self.phase_start = self.iteration
+
+    @property
+    def done(self) -> bool:
+        """Whether the schedule is at its end, or no step helps any more."""
+        return self.iteration - self.phase_start >= self.schedule.iterations or self.damping > LARGEST_DAMPING
+
+    def place(self, count: int) -> None:
+        """The first splats, at so many of the points, well spread; their weights solved."""
+        targets, manifold = self.targets, self.field.manifold
+        x = targets.x[targets.weight > 0.05 * targets.weight.amax()]
+        stride = max(len(x) // (CANDIDATES * count), 1)
+        centers = pick_spread(manifold, x[::stride], min(count, len(x)))
+        self.field.append(centers, 1.0)
+        self.field.A[: len(centers)] *= self._spacing(centers)[:, None, None] * OVERLAP
+        self._bound()
+        self.solve_amplitudes()
+
+    def _spacing(self, centers: Tensor, others: Tensor | None = None) -> Tensor:
+        """The mean distance of each centre (k, D) to its nearest neighbours among the others (K, D): (k,)."""
+        manifold = self.field.manifold
+        among = centers if others is None else others
+        distance = manifold.distance(centers[:, None], among[None])
+        count = min(2 * (manifold.dim + 1) + (others is None), len(among))
+        nearest = distance.topk(count, dim=1, largest=False).values
+        return nearest.sum(1) / max(count - (others is None), 1)
+
+    def _bound(self) -> None:
+        A = self.field.A[: self.field.count]
+        A.copy_(bounded(A, *self.schedule.bounds))
+
+    def solve_amplitudes(self) -> None:
+        """All weights by linear least squares, to f = what gives the values, in the metric of y: rows times dy/df there."""
+        wanted = self.response.field(self.known, self.targets.value)
+        row = self.weight * self.response.slope(self.known, wanted)
+        usable = wanted.isfinite() & row.isfinite()
+        wanted, row = torch.where(usable, wanted, 0.0), torch.where(usable, row, 0.0)
+        equations = self._amplitude_equations(row, -row * wanted)
+        matrix = equations.matrix
+        matrix.diagonal().add_(RIDGE * float(row.double().square().sum()))
+        factor = torch.linalg.cholesky(matrix)
+        solution = torch.cholesky_solve(-equations.gradient[:, None], factor)[:, 0]
+        set_amplitudes(self.field, equations.per_splat(solution)[:, 0].to(self.field.v.dtype))
+
+    def _amplitude_equations(self, row: Tensor, residual: Tensor) -> NormalEquations:
+        return normal_equations(self.field, self.sample, row, residual, amplitudes_alone(self.field), torch.float64)
+
+    def advance(self) -> Record:
+        """One iteration."""
+        start = time.perf_counter()
+        f = self.values(self.targets.x)
+        cost = self._cost(f)
+        row = self.weight * self.response.slope(self.known, f)
+        residual = self._residual(f)
+        to_effective = effective_map(self.field, self.field.splats())
+        equations = normal_equations(self.field, self.sample, row, residual, to_effective, row.dtype)
+        accepted = self._step(equations, cost)
+        self.iteration += 1
+        relocated = self._relocate(self.schedule.relocate.get(self.iteration - self.phase_start, 0.0))
+        rms, free = self.errors()
+        seconds = time.perf_counter() - start
+        return Record(self.iteration, rms, free, self.damping, accepted, relocated, seconds)
+
+    def _step(self, equations: NormalEquations, cost: float) -> bool:
+        """Try steps, each damped more than the last, until one lowers the cost."""
+        before = {name: rows.clone() for name, rows in self.field.buffers_of_splats().items()}
+        for _ in range(6):
+            step = solve(equations, self.damping)
+            if step is not None:
+                apply(self.field, step, self.schedule.bounds)
+                if self._cost(self.values(self.targets.x)) < cost:  # false where it is not a number
+                    self.damping = max(self.damping * EASE, LEAST_DAMPING)
+                    return True
+                for name, rows in self.field.buffers_of_splats().items():
+                    rows.copy_(before[name])
+            self.damping *= RAISE
+        return False
+
+    def values(self, x: Tensor) -> Tensor:
+        """f (N,) at x (N, D)."""
+        mu, W, amplitude = self.field.splats().inputs()
+        return self.field.manifold.splats_value(x, mu, W, amplitude)
+
+    def _residual(self, f: Tensor) -> Tensor:
+        """The weighted residuals (N,)."""
+        return self.weight * (self.response.value(self.known, f) - self.targets.value)
+
+    def _cost(self, f: Tensor) -> float:
+        return float(self._residual(f).double().square().sum())
+
+    def errors(self) -> tuple[float, float]:
+        """RMS of the residuals by weight, and of those whose weight is the largest."""
+        residual = self._residual(self.values(self.targets.x)).double().square()
+        weight = self.targets.weight.double()
+        free = weight >= FREE * weight.amax()
+        return math.sqrt(residual.sum() / weight.sum()), math.sqrt(residual[free].sum() / weight[free].sum())
+
+    def _relocate(self, share: float) -> int:
+        """Move that share of the splats, those that could be missed best, to the largest residuals; how many."""
+        count = int(share * self.field.count)
+        if count == 0:
+            return 0
+        f = self.values(self.targets.x)
+        row = self.weight * self.response.slope(self.known, f)
+        # What the cost would rise by if a splat went and the weights of the others made up for it: a^2 / (G^-1)_kk.
+        equations = self._amplitude_equations(row, torch.zeros_like(row))
+        matrix = equations.matrix
+        matrix.diagonal().add_(RIDGE * float(row.double().square().sum()))
+        inverse = torch.cholesky_inverse(torch.linalg.cholesky(matrix)).diagonal()
+        missed = amplitudes(self.field).double().square() / equations.per_splat(inverse)[:, 0]
+        centers = self._worst(f, count)
+        gone = missed.argsort(stable=True)[: len(centers)]
+        kept = torch.ones(self.field.count, dtype=torch.bool)
+        kept[gone] = False
+        self.field.keep(torch.nonzero(kept)[:, 0])
+        first = self.field.count
+        spacing = self._spacing(centers, self.field.mu[:first])
+        self.field.append(centers, 1.0)
+        self.field.A[first : self.field.count] *= spacing[:, None, None] * (OVERLAP / 2)
+        self._bound()
+        self.solve_amplitudes()
+        return len(centers)
+
+    def _worst(self, f: Tensor, count: int) -> Tensor:
+        """Points of the largest weighted residuals, not close to one another: (k, D)."""
+        mu = self.field.mu[: self.field.count]
+        apart = float(self._spacing(mu).median()) / 2
+        return pick_apart(self.field.manifold, self.targets.x, self._residual(f).abs(), count, apart)
+
+    def arrays(self) -> Arrays:
+        """All that changes, as plain arrays."""
+        buffers = self.field.buffers_of_splats()
+        arrays: Arrays = {name: rows[: self.field.count].numpy().copy() for name, rows in buffers.items()}
+        numbers = {"iteration": self.iteration, "phase_start": self.phase_start, "damping": self.damping}
+        return {**arrays, **{name: np.array(number) for name, number in numbers.items()}}
+
+    def restore(self, arrays: Arrays, path: Path) -> None:
+        """Go back to what `arrays` gave, after `aim` at the targets of its phase; `path` is where they were kept."""
+        self.field.count = fill_rows(self.field.buffers_of_splats(), arrays, path)
+        self.iteration, self.phase_start = int(arrays["iteration"]), int(arrays["phase_start"])
+        self.damping = float(arrays["damping"])
