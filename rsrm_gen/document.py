@@ -7,12 +7,13 @@ few of them can stand for more data than a machine holds.
 from __future__ import annotations
 
 import difflib
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, get_args
 
 import yaml
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel, Tag, ValidationError
 
 from rsrm_gen.errors import Source, Span, UserError, did_you_mean
 
@@ -207,8 +208,7 @@ def _schema_error(document: Document, model: type[BaseModel], error: Any, kinds:
             path = (*path, part)
     name = ".".join(str(part) for part in path)
     if error["type"] == "extra_forbidden":
-        known = _fields_at(model, path[len(at) : -1])
-        return UserError(f"unknown key `{path[-1]}`", document.key_span(path), did_you_mean(str(path[-1]), known))
+        return UserError(f"unknown key `{path[-1]}`", document.key_span(path), _unknown_hint(model, error["loc"]))
     if error["type"] == "missing":
         return UserError(f"`{name}` is missing", document.key_span(path[:-1]), f"add a line `{path[-1]}: ...`")
     if error["type"] == "string_pattern_mismatch":
@@ -255,13 +255,34 @@ def _pattern_hint(error: Any) -> str:
     return f"write `{words}`" if words.isalpha() else "use letters, digits and underscores, a letter first"
 
 
-def _fields_at(model: type[BaseModel], path: Path_) -> list[str]:
-    """The keys that the schema knows at a path, as far as plain nested models tell."""
-    for part in path:
-        field_info = model.model_fields.get(str(part))
-        arguments = getattr(field_info.annotation, "__args__", (field_info.annotation,)) if field_info else ()
-        nested = [a for a in arguments if isinstance(a, type) and issubclass(a, BaseModel)]
-        if not nested:
-            return []
-        model = nested[0]
+def _unknown_hint(model: type[BaseModel], loc: tuple[int | str, ...]) -> str | None:
+    """What else an unknown key may mean; pydantic puts the tags of union members into its `loc`."""
+    models: dict[str | None, type[BaseModel]] = {None: model}
+    for part in loc[:-1]:
+        if len(models) > 1 and part in models:
+            models = {str(part): models[str(part)], **{tag: m for tag, m in models.items() if tag != part}}
+            continue
+        field_info = next(iter(models.values())).model_fields.get(str(part))
+        if field_info is None:
+            continue  # an index, a key of the user's own, or what pydantic calls a member without a tag
+        models = _members(field_info.annotation, field_info.metadata)
+        if not models:
+            return None
+    known, key = [_keys(m) for m in models.values()], str(loc[-1])
+    others = [tag for tag, keys in zip(models, known, strict=True) if key in keys]
+    return f"it belongs to `{others[0]}`" if others else did_you_mean(key, known[0])
+
+
+def _members(annotation: Any, metadata: Sequence[Any] = ()) -> dict[str | None, type[BaseModel]]:
+    """The nested models of a field, by their tags where they have some."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return {next((m.tag for m in metadata if isinstance(m, Tag)), None): annotation}
+    found: dict[str | None, type[BaseModel]] = {}
+    inner = getattr(annotation, "__metadata__", ())
+    for argument in get_args(annotation)[: 1 if inner else None]:
+        found |= _members(argument, inner)
+    return found
+
+
+def _keys(model: type[BaseModel]) -> list[str]:
     return [info.alias or name for name, info in model.model_fields.items()]

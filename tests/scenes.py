@@ -32,7 +32,9 @@ CENTER = {
 
 
 def small_scene(folder: Path, name: str, training: str = "{dtype: float64}", obstacles: bool = True) -> Scene:
-    """One obstacle near the goal, a ball of radius 2 as domain; `training` is YAML in flow style."""
+    """One obstacle near the goal, a ball of radius 2 as domain; `training` is YAML in flow style, of `eikonal` unless it says."""
+    if "objective" not in training:
+        training = training.replace("{", "{objective: eikonal, ", 1)
     path = folder / "scene.yaml"
     lines = [
         f"scene: small {name}",

@@ -13,7 +13,7 @@ from torch import Tensor
 from rsrm_gen.trainer.density import Change, Fixed, PruneAndAdd, make_density, pick_apart, pick_spread
 from rsrm_gen.trainer.model import SplatField
 from rsrm_gen.trainer.optimise import AdamW
-from rsrm_gen.trainer.settings import Training
+from rsrm_gen.trainer.settings import EikonalTraining
 
 PAPER = PruneAndAdd(every=10, add=2, prune_below=0.1, shape=0.4, last=90)
 
@@ -64,7 +64,7 @@ def test_one_splat_stays_when_all_are_light() -> None:
 
 
 def test_settings_without_change_give_the_fixed_strategy() -> None:
-    fixed = make_density(Training.model_validate({"splats": {"add": 0, "prune_below": 0}}))
+    fixed = make_density(EikonalTraining.model_validate({"splats": {"add": 0, "prune_below": 0}}))
     assert fixed == Fixed()
     field = six_splats()
     assert fixed.update(400, field, propose) is None
@@ -72,7 +72,7 @@ def test_settings_without_change_give_the_fixed_strategy() -> None:
 
 
 def test_the_papers_recipe_has_room_for_all_it_can_add() -> None:
-    training = Training()
+    training = EikonalTraining()
     assert training.last_change == 3600
     assert training.capacity == 128 + 9 * 48
 

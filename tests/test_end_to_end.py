@@ -72,6 +72,7 @@ evaluation: {cells: 30}
 """
 TRAINING = """\
 training:
+  objective: eikonal
   steps: 150
   points: 256
   link: {kind: quotient, offset: 2}

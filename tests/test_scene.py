@@ -97,15 +97,29 @@ MISTAKES = {
     "unknown key": ("goal:", "gaol: 1\ngoal:", "scene.yaml:3:1", "did you mean `goal`?"),
     "no goal": ("goal: [0, 0, 1]", "", "scene.yaml", "`goal` is missing"),
     "manifold is a number": ("manifold: round", "manifold: 3", "scene.yaml:2:11", "`manifold`"),
-    "unknown residual": ("steps: 9", "objective: {residual: cubed}", "scene.yaml:6:34", "`ratio` or `squared`"),
+    "unknown residual": (
+        "steps: 9",
+        "objective: {kind: eikonal, residual: cubed}",
+        "scene.yaml:6:49",
+        "`ratio` or `squared`",
+    ),
+    "unknown objective": ("steps: 9", "objective: magic", "scene.yaml:6:23", "write `paths`, `bellman` or `eikonal`"),
+    "residual of paths": ("steps: 9", "objective: {kind: paths, residual: ratio}", "scene.yaml:6:37", "unknown key"),
+    "another's setting": ("steps: 9", "learning_rate: 0.1", "scene.yaml:6:12", "it belongs to `eikonal`"),
     "unknown setting": ("steps: 9", "stepz: 9", "scene.yaml:6:12", "did you mean `steps`?"),
-    "nested unknown": ("steps: 9", "splats: {inital: 9}", "scene.yaml:6:21", "did you mean `initial`?"),
+    "nested unknown": ("steps: 9", "splats: {cuont: 9}", "scene.yaml:6:21", "did you mean `count`?"),
     "zero steps": ("steps: 9", "steps: 0", "scene.yaml:6:19", "greater than or equal to 1"),
     "half a step": ("steps: 9", "steps: 1.5", "scene.yaml:6:19", "integer"),
     "floor of 1": ("steps: 9", "link: {kind: quotient, floor: 1}", "scene.yaml:6:42", "less than 1"),
     "floor without quotient": ("steps: 9", "link: {floor: 0.2}", "scene.yaml:6:18", "kind: quotient"),
-    "small capacity": ("steps: 9", "splats: {initial: 9, capacity: 3}", "scene.yaml:6:20", "capacity of 3"),
-    "thin shape": ("steps: 9", "splats: {shape: 0.01}", "scene.yaml:6:20", "min_singular"),
+    "small capacity": (
+        "steps: 9",
+        "objective: eikonal, splats: {initial: 9, capacity: 3}",
+        "scene.yaml:6:40",
+        "capacity of 3",
+    ),
+    "thin shape": ("steps: 9", "objective: eikonal, splats: {shape: 0.01}", "scene.yaml:6:40", "min_singular"),
+    "widths in no order": ("steps: 9", "splats: {max_width: 0.01}", "scene.yaml:6:20", "less than min_width"),
     "too wide a domain": (
         "training",
         "domain: {center: [0, 0, 1], radius: 4}\ntraining",
@@ -194,4 +208,4 @@ def test_the_papers_scenes_lie_on_their_manifolds_and_leave_the_goal_free(name: 
 def test_the_demonstration_is_a_scene_that_can_be_trained() -> None:
     scene = read_scene(EXAMPLES / "torus.yaml", PLAIN["T2"])
     assert scene.signed_distance(scene.goal) > 0
-    assert scene.training.splats.initial <= scene.training.capacity
+    assert 0 < scene.training.capacity < 2000

@@ -26,7 +26,7 @@ scene: a small scene
 manifold: S2
 goal: {ORIGIN["S2"]}
 obstacles: [{{center: [0.8, 0, 0.6], radius: 0.3}}]
-training: {{steps: 20, points: 64, splats: {{initial: 6, add: 0}}}}
+training: {{objective: eikonal, steps: 20, points: 64, splats: {{initial: 6, add: 0}}}}
 """
 
 

@@ -11,7 +11,7 @@ from torch import Tensor
 
 from rsrm_gen.manifold import Manifold
 from rsrm_gen.trainer.model import SplatField
-from rsrm_gen.trainer.settings import Training
+from rsrm_gen.trainer.settings import EikonalTraining
 
 Propose = Callable[[int], Tensor]  # a number k of new splats to at most k centres (k, D), the most needed first
 
@@ -65,7 +65,7 @@ class PruneAndAdd:
         return Change(kept, added)
 
 
-def make_density(training: Training) -> DensityControl:
+def make_density(training: EikonalTraining) -> DensityControl:
     """The strategy that the settings describe."""
     s = training.splats
     if s.add == 0 and s.prune_below == 0:

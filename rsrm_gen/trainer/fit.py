@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -97,6 +97,10 @@ class Fit:
         self.known = self.response.at(x)
         self.weight = targets.weight.sqrt()
         self.phase_start = self.iteration
+
+    def revalue(self, value: Tensor) -> None:
+        """Take other values (N,) at the same points; the phase goes on."""
+        self.targets = replace(self.targets, value=value)
 
     @property
     def done(self) -> bool:

@@ -26,10 +26,11 @@ import rsrm_gen
 from rsrm_gen.errors import UserError
 from rsrm_gen.files import write_text_whole, write_whole
 from rsrm_gen.manifold import Manifold
+from rsrm_gen.trainer.base import Distance, smooth_base
 from rsrm_gen.trainer.link import make_link
 from rsrm_gen.trainer.model import ArrivalTime, SplatField
 from rsrm_gen.trainer.scene import Scene, read_scene
-from rsrm_gen.trainer.settings import Training
+from rsrm_gen.trainer.settings import BasedLink, training_of
 
 Arrays = dict[str, npt.NDArray[Any]]
 
@@ -122,7 +123,7 @@ class RunFolder:
         try:
             settings = json.loads((self.path / "settings.json").read_text(encoding="utf-8"))
             trained_on = settings["content_hash"]
-            prepared = replace(scene, training=Training.model_validate(settings["training"]))
+            prepared = replace(scene, training=training_of(settings["training"]))
         except (OSError, ValueError, KeyError, TypeError, ValidationError) as error:
             raise UserError(f"{self.path / 'settings.json'} cannot be read: {_first_line(error)}") from None
         if trained_on != scene.manifold.content_hash:
@@ -187,7 +188,10 @@ class RunFolder:
 def new_arrival(scene: Scene, capacity: int) -> ArrivalTime:
     """The arrival time of a scene with no splats yet."""
     field = SplatField(scene.manifold, capacity, scene.goal.dtype)
-    return ArrivalTime(field, make_link(scene.training.link), scene.manifold, scene.goal)
+    link = scene.training.link
+    smooth = isinstance(link, BasedLink) and link.base == "smooth"
+    base = smooth_base(scene.manifold, scene.goal) if smooth else Distance(scene.manifold, scene.goal)
+    return ArrivalTime(field, make_link(link), scene.manifold, scene.goal, base)
 
 
 def fill_rows(buffers: dict[str, torch.Tensor], arrays: Arrays, path: Path) -> int:

@@ -18,7 +18,15 @@ from rsrm_gen.document import Document, Path_, read_document, validate
 from rsrm_gen.errors import Source, Span, UserError
 from rsrm_gen.load import load_in_rows as load
 from rsrm_gen.manifold import Manifold
-from rsrm_gen.trainer.settings import Evaluation, ManifoldChoice, Picture, SceneDocument, Slowness, Training
+from rsrm_gen.trainer.settings import (
+    Evaluation,
+    ManifoldChoice,
+    Picture,
+    SceneDocument,
+    Slowness,
+    Training,
+    training_of,
+)
 
 # How far from the manifold a written point may lie: six digits are what a person types.
 ON_MANIFOLD = 1e-6
@@ -104,7 +112,7 @@ class Scene:
 
     def with_training(self, **changes: Any) -> Scene:
         """The same scene with other training settings, checked again; not for a change of dtype."""
-        training = Training.model_validate({**self.training.model_dump(), **changes})
+        training = training_of({**self.training.model_dump(), **changes})
         return replace(self, training=training)
 
     def with_kernels(self, kernels: str) -> Scene:

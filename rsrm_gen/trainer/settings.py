@@ -1,4 +1,4 @@
-"""What a scene file may say: its schema, and the training settings with the defaults of the RSRM paper's recipe.
+"""What a scene file may say: its schema, and the training settings of each objective.
 
 Lengths are in the units of the manifold's metric. Everything is frozen; nothing here knows a manifold.
 """
@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Field, Tag, TypeAdapter, model_validator
 
 
 def _not_a_bool(value: Any) -> Any:
@@ -81,13 +81,6 @@ class Picture(_Part):
     view: Literal["chart", "disk", "surface"] | None = None
 
 
-class Objective(_Part):
-    """The Eikonal residual with q = |grad T|_g / s: `ratio` is |1 - sqrt q| + |1 - 1 / sqrt q|, `squared` is
-    (|grad T|_g - s)^2."""
-
-    residual: Literal["ratio", "squared"] = "ratio"
-
-
 class LinkChoice(_Part):
     """T from the distance d and the field f: `exponential` is d exp(f); `quotient` is d / tau with
     tau = floor + (1 - floor) sigmoid(f + offset)."""
@@ -103,8 +96,33 @@ class LinkChoice(_Part):
         return self
 
 
+class BasedLink(LinkChoice):
+    """The same with b in place of d: `smooth`, a base that is smooth where geodesics meet, if one is known; or `distance`."""
+
+    base: Literal["smooth", "distance"] = "smooth"
+
+
 class Splats(_Part):
-    """How many splats there are, and when they come and go."""
+    """How many splats there are, and how wide one may be: bounds of the singular values of A."""
+
+    count: Count = 256
+    min_width: Positive = 0.03  # a length
+    max_width: Positive | None = None  # a length; left out: a quarter of the diameter
+
+    @model_validator(mode="before")
+    @classmethod
+    def _count_alone(cls, value: Any) -> Any:
+        return {"count": value} if isinstance(value, int) and not isinstance(value, bool) else value
+
+    @model_validator(mode="after")
+    def _bounds_are_in_order(self) -> Splats:
+        if self.max_width is not None and self.max_width < self.min_width:
+            raise ValueError(f"max_width {self.max_width} is less than min_width, {self.min_width}")
+        return self
+
+
+class GrowingSplats(_Part):
+    """How many splats there are at first, and when they come and go."""
 
     initial: Count = 128
     add: Annotated[int, BeforeValidator(_not_a_bool), Field(ge=0)] = 48  # at each change, at the largest residuals
@@ -115,7 +133,7 @@ class Splats(_Part):
     capacity: Count | None = None  # left out: room for all that can be added
 
     @model_validator(mode="after")
-    def _start_fits(self) -> Splats:
+    def _start_fits(self) -> GrowingSplats:
         if self.capacity is not None and self.capacity < self.initial:
             raise ValueError(f"the capacity of {self.capacity} is less than the {self.initial} splats at first")
         if self.shape < self.min_singular:
@@ -123,23 +141,79 @@ class Splats(_Part):
         return self
 
 
-class Training(_Part):
-    """How a field is trained; the defaults are the paper's recipe."""
+class ObjectiveChoice(_Part):
+    """What is trained for, by its kind alone (see `rsrm_gen.trainer.objectives`)."""
+
+    kind: Literal["paths", "bellman", "eikonal"]
+
+    @model_validator(mode="before")
+    @classmethod
+    def _kind_alone(cls, value: Any) -> Any:
+        return {"kind": value} if isinstance(value, str) else value
+
+
+class EikonalChoice(ObjectiveChoice):
+    """The Eikonal residual with q = |grad T|_g / s: `ratio` is |1 - sqrt q| + |1 - 1 / sqrt q|, `squared` is
+    (|grad T|_g - s)^2."""
+
+    residual: Literal["ratio", "squared"] = "ratio"
+
+
+class _AnyTraining(_Part):
+    """What all objectives have."""
 
     seed: Annotated[int, BeforeValidator(_not_a_bool), Field(ge=0, lt=2**63)] = 1
+    dtype: Literal["float32", "float64"] = "float32"
+    threads: Count | None = None  # of torch; left out: its own choice
+    kernels: Literal["auto", "c", "torch"] | None = None  # what sums splats; left out: RSRM_KERNELS, or what is fastest
+
+
+class PathsTraining(_AnyTraining):
+    """Labels from paths, then Gauss-Newton: the first part on half of the points, the rest on all of them."""
+
+    objective: ObjectiveChoice = ObjectiveChoice(kind="paths")
+    link: BasedLink = BasedLink()
+    steps: Count = 34  # iterations of Gauss-Newton
+    points: Count = 48_000  # that get labels
+    splats: Splats = Splats()
+    checkpoint_every: Count = 5  # steps
+
+    @property
+    def capacity(self) -> int:
+        """How many splats the buffers hold."""
+        return self.splats.count
+
+
+class BellmanTraining(_AnyTraining):
+    """Sweeps of the dynamic programming principle, then Gauss-Newton on the costs of the field's own paths."""
+
+    objective: ObjectiveChoice = ObjectiveChoice(kind="bellman")
+    link: BasedLink = BasedLink()
+    steps: Count = 60  # sweeps
+    points: Count = 8_000  # at which each sweep asks for the best step
+    reach: Positive = 0.3  # the longest step; a length
+    splats: Splats = Splats()
+    checkpoint_every: Count = 10  # steps
+
+    @property
+    def capacity(self) -> int:
+        """How many splats the buffers hold."""
+        return self.splats.count
+
+
+class EikonalTraining(_AnyTraining):
+    """The residual at fresh points, by AdamW; the defaults are the paper's recipe."""
+
+    objective: EikonalChoice = EikonalChoice(kind="eikonal")
+    link: LinkChoice = LinkChoice()
     steps: Count = 4000
     points: Count = 2048  # fresh points a step, uniform in volume
-    objective: Objective = Objective()
-    link: LinkChoice = LinkChoice()
     learning_rate: Positive = 1e-2
     final_learning_rate: Positive | None = None  # left out: constant; else a half cosine from the first to this one
     weight_decay: Annotated[Number, Field(ge=0)] = 1e-4  # of v and A; a centre has no origin to decay to
     gradient_clip: Positive = 1.0  # the largest norm of the gradient of all parameters together
-    splats: Splats = Splats()
+    splats: GrowingSplats = GrowingSplats()
     goal_exclusion: Annotated[Number, Field(ge=0)] = 0.25  # points nearer to the goal are left out; a length
-    dtype: Literal["float32", "float64"] = "float32"
-    threads: Count | None = None  # of torch; left out: its own choice
-    kernels: Literal["auto", "c", "torch"] | None = None  # what sums splats; left out: RSRM_KERNELS, or what is fastest
     checkpoint_every: Count = 500  # steps
 
     @property
@@ -154,6 +228,27 @@ class Training(_Part):
         return self.splats.capacity or grown
 
 
+def _kind_of(training: Any) -> str:
+    objective = training.get("objective") if isinstance(training, dict) else getattr(training, "objective", None)
+    kind = objective.get("kind") if isinstance(objective, dict) else getattr(objective, "kind", objective)
+    return kind if kind in ("bellman", "eikonal") else "paths"  # whose schema says what else could be meant
+
+
+Training = PathsTraining | BellmanTraining | EikonalTraining
+_Tagged = Annotated[
+    Annotated[PathsTraining, Tag("paths")]
+    | Annotated[BellmanTraining, Tag("bellman")]
+    | Annotated[EikonalTraining, Tag("eikonal")],
+    Discriminator(_kind_of),
+]
+
+
+def training_of(settings: Any) -> Training:
+    """Training settings from plain data, checked against the schema of their objective."""
+    made: Training = TypeAdapter(_Tagged).validate_python(settings)
+    return made
+
+
 class SceneDocument(_Part):
     """A scene file."""
 
@@ -166,4 +261,4 @@ class SceneDocument(_Part):
     domain: Domain | None = None
     evaluation: Evaluation = Evaluation()
     picture: Picture = Picture()
-    training: Training = Training()
+    training: _Tagged = PathsTraining()

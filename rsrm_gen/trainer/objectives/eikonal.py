@@ -23,6 +23,7 @@ from rsrm_gen.trainer.objectives.residual import Residual
 from rsrm_gen.trainer.optimise import AdamW
 from rsrm_gen.trainer.run import Arrays, fill_rows, new_arrival
 from rsrm_gen.trainer.scene import Scene
+from rsrm_gen.trainer.settings import EikonalTraining
 from rsrm_gen.trainer.threads import one_thread
 
 BLOCK = 16  # steps whose points are drawn together
@@ -38,6 +39,7 @@ class Eikonal:
 
     def __init__(self, scene: Scene, clock: Clock = NO_CLOCK) -> None:
         """At step 0 and without splats: place the first ones, or restore a checkpoint."""
+        assert isinstance(scene.training, EikonalTraining)
         settings = scene.training
         self.scene = scene
         self.settings = settings

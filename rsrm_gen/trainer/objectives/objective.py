@@ -1,0 +1,53 @@
+"""What the training loop asks of an objective, and what several objectives share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Protocol
+
+from rsrm_gen.trainer.model import ArrivalTime
+from rsrm_gen.trainer.run import Arrays
+from rsrm_gen.trainer.scene import Scene
+from rsrm_gen.trainer.settings import Splats
+
+WIDEST = 0.25  # of the injectivity radius or of the domain's: how wide a splat may be
+
+Tell = Callable[[str, float], None]  # what is being done within a step, and which part of it is done
+
+
+class Objective(Protocol):
+    """How a field is brought closer to the arrival time: begun once, advanced step by step, kept and restored exactly."""
+
+    arrival: ArrivalTime
+    step: int  # how many were made
+    steps: int  # how many there are in all
+    phase: str  # what the last step was part of
+
+    def begin(self) -> None:
+        """At step 0: place the first splats."""
+        ...
+
+    def advance(self) -> float:
+        """One step: its loss. What is not finite is a `FloatingPointError`, and nothing moved."""
+        ...
+
+    def final_loss(self) -> float:
+        """The loss of the field as it is, at many points."""
+        ...
+
+    def arrays(self) -> Arrays:
+        """Everything that changes, as plain arrays; `step` and the splats' `v`, `mu`, `A`, `frame` among them."""
+        ...
+
+    def restore(self, arrays: Arrays, path: Path) -> None:
+        """Go back to what `arrays` gave; it was read from `path`."""
+        ...
+
+
+def width_bounds(scene: Scene, splats: Splats) -> tuple[float, float]:
+    """The least and the largest singular value that a splat's A may have; lengths."""
+    if splats.max_width is not None:
+        return splats.min_width, splats.max_width
+    sizes = [scene.manifold.injectivity_radius, *([scene.domain.radius] if scene.domain else [])]
+    return splats.min_width, max(WIDEST * min(sizes), splats.min_width)
