@@ -108,11 +108,12 @@ class Reference:
         copies = self.place.chart.preimages(self.place.chart.coordinates(x))
         inside = self.grid.contains(copies)
         times = torch.full(copies.shape[:-1], torch.inf, dtype=torch.float64)
-        times[inside] = self._in_chart(copies[inside])
+        times[inside] = self.in_chart(copies[inside])
         time, sheet = times.min(0)
         return time, copies[sheet, torch.arange(len(x))]
 
-    def _in_chart(self, y: Tensor) -> Tensor:
+    def in_chart(self, y: Tensor) -> Tensor:
+        """T (N) at coordinates (N, d) in the box."""
         away: Tensor = (y - self.goal).norm(dim=-1)
         return _spline(self.coefficients, self.grid.index(y)) * away
 
@@ -128,7 +129,7 @@ class Reference:
     def _from_rim(self, direction: Tensor, x: Tensor) -> Tensor:
         """T at the rim in these directions (n, d), and on by geodesics to x (..., D)."""
         y = direction * self.place.reach.min() * (1 - 1e-12)
-        return self._in_chart(y) + _geodesic_cost(self.scene, self.place.chart.point(y), x)
+        return self.in_chart(y) + _geodesic_cost(self.scene, self.place.chart.point(y), x)
 
 
 def _rim(dim: int) -> Tensor:
