@@ -111,6 +111,10 @@ class Job:
         """Its result, where there is one."""
         return read_row(self.row_file) if self.row_file.exists() and self.is_asked_for() else None
 
+    def kept(self) -> Row | None:
+        """The result that its folder holds, whatever was asked for."""
+        return read_row(self.row_file) if self.row_file.exists() else None
+
     def keep(self, row: Row) -> None:
         """The result; whoever reads meanwhile sees none or all of it."""
         write_text_whole(self.row_file, json.dumps(asdict(row), indent=1) + "\n")

@@ -33,6 +33,7 @@ class NetworkShape(_Part):
 
     width: int
     depth: int
+    learning_rate: float
     frequency: float | None = None  # of sin and cos of each coordinate; None: the coordinates themselves
 
     def inputs(self, point_size: int) -> int:

@@ -57,7 +57,7 @@ def selected(
 
 def finished(jobs: Sequence[Job]) -> Result:
     """What earlier runs have left; nothing is trained."""
-    rows = [row for job in jobs if (row := job.finished())]
+    rows = [row for job in jobs if (row := job.kept())]
     return Result(tuple(rows), (), len(jobs) - len(rows), False)
 
 
@@ -76,7 +76,7 @@ def run(jobs: Sequence[Job], say: Say, console: Console | None = None) -> Result
         except KeyboardInterrupt:
             row = None
         if row is None:
-            rows += [kept for later in jobs[number:] if (kept := later.finished())]
+            rows += [kept for later in jobs[number:] if (kept := later.kept())]
             return Result(tuple(rows), tuple(failures), len(jobs) - len(rows), True)
         rows.append(row)
     return Result(tuple(rows), tuple(failures), len(jobs) - len(rows), False)
