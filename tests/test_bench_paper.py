@@ -16,15 +16,16 @@ from plain_manifolds import PLAIN
 from scenes import CENTER, ORIGIN, seeded, small_scene
 
 from rsrm_gen.bench.cli import PAPER_METHODS
-from rsrm_gen.bench.paper import judge, runner
+from rsrm_gen.bench.paper import euclidean, judge, runner
 from rsrm_gen.bench.paper.descent import NetworkDescent, fill, network_arrival
+from rsrm_gen.bench.paper.euclidean import collected_plane, plane_jobs, plane_table
 from rsrm_gen.bench.paper.jobs import Job, scene_files
 from rsrm_gen.bench.paper.methods import BY_KEY, METHODS, QUICK, Method
 from rsrm_gen.bench.paper.network import Network
 from rsrm_gen.bench.paper.published import NetworkShape, published
-from rsrm_gen.bench.paper.rows import Row, collected, grouped, read_rows, spread
+from rsrm_gen.bench.paper.rows import Row, collected, grouped, spread
 from rsrm_gen.bench.paper.runner import finished, run, selected
-from rsrm_gen.bench.paper.tables import foot, tables, write_all
+from rsrm_gen.bench.paper.tables import foot, read_rows, tables, write_all
 from rsrm_gen.bench.table import latex_text
 from rsrm_gen.errors import UserError
 from rsrm_gen.manifold import Manifold
@@ -337,6 +338,7 @@ def test_the_spread_is_that_of_a_sample() -> None:
     assert str(found) == "2.00 ± 1.41"
     assert str(spread([0.000523])) == "0.000523"
     assert str(spread([1234.5])) == "1234"
+    assert str(spread([0.0, 0.0])) == "0 ± 0"
     assert spread([None]) is None
 
 
@@ -351,7 +353,8 @@ def test_rows_come_back_from_the_file_and_tables_of_them_are_the_same(tmp_path: 
         folder.mkdir(parents=True)
         (folder / "row.json").write_text(json.dumps(row.__dict__))
     write_all(tmp_path, "rsrm bench paper")
-    again = read_rows(tmp_path / "paper.json")
+    again, plane = read_rows(tmp_path / "paper.json")
+    assert plane == []
     assert {(g.method, len(g.rows)) for g in grouped(again)} == {("recipe", 2), ("mlp", 1)}
     assert tables(again) == tables(collected(tmp_path))
     assert "| RSRM, the paper's recipe | 0.0200 ± 0.0000 |" in (tmp_path / "paper.md").read_text()
@@ -411,3 +414,32 @@ def test_a_finished_training_becomes_a_row(benchmark: Path, tmp_path: Path) -> N
     assert row.loss == pytest.approx(judge.residual(job.scene, judge.trained(job)))
     fresh = network_arrival(job.scene, Network(job.scene.manifold, SMALL, job.scene.goal.dtype))
     assert row.loss != pytest.approx(judge.residual(job.scene, fresh))
+
+
+# The plane.
+
+
+def test_splats_learn_the_published_regression_case(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (job,) = [replace(job, count=20, steps=300) for job in plane_jobs(tmp_path, (), quick=True)]
+    result = run([], lambda words: None, plane=[job])
+    (row,) = result.plane
+    assert row.parameters == 20 * 7
+    before = euclidean.fitted(20, 1, 1)
+    assert row.test_error < 0.5 * before.test_error
+    assert row.test_error > euclidean.NOISE**2 / 2  # nothing predicts the noise
+    monkeypatch.setattr(euclidean, "fitted", None)
+    assert run([], lambda words: None, plane=[job]).plane == (row,)
+    assert replace(job, steps=301).kept() is None
+    assert collected_plane(tmp_path) == [row]
+    table = plane_table([row, replace(row, seed=2, test_error=row.test_error)])
+    assert table.rows[0][:3] == ("20 splats", "140", "300")
+    assert "±" in table.rows[0][3]
+
+
+def test_the_samples_are_of_the_function_with_the_noise() -> None:
+    given = euclidean.data(7)
+    assert given.x.shape == (1000, 2)
+    assert float((given.value - euclidean.target(given.x)).std()) == pytest.approx(0.01, rel=0.1)
+    assert torch.equal(given.dense_value, euclidean.target(given.dense_x))
+    assert torch.equal(euclidean.data(7).test_value, given.test_value)
+    assert float(euclidean.target(torch.tensor([[0.25, 1.0]]))) == pytest.approx(1.0)  # sin(3 pi / 2) cos(3 pi)

@@ -235,21 +235,24 @@ def paper_command(
     OUT/paper.json, paper.md and paper.tex hold all rows and the tables, as --markdown and --latex do elsewhere.
     """
     from rsrm_gen.bench.paper import methods
-    from rsrm_gen.bench.paper.rows import read_rows
+    from rsrm_gen.bench.paper.euclidean import plane_jobs
     from rsrm_gen.bench.paper.runner import Result, finished, run, selected
-    from rsrm_gen.bench.paper.tables import foot, tables, write_all
+    from rsrm_gen.bench.paper.tables import foot, read_rows, tables, write_all
     from rsrm_gen.bench.table import write_latex, write_markdown
 
     console = _console()
     if rows is not None:
-        result = Result(tuple(read_rows(rows)), (), 0, False)
+        read, read_plane = read_rows(rows)
+        result = Result(tuple(read), tuple(read_plane))
     else:
         output = output or Path("runs/bench-paper-quick" if quick else "runs/bench-paper")
         keys = _chosen(method, list(methods.QUICK) if quick else PAPER_METHODS, "method")
-        jobs = selected(output, scenes, keys, manifold or (), seed or (), quick)
+        curved = [name for name in manifold or () if name != "euclidean"]
+        jobs = selected(output, scenes, keys, curved, seed or (), quick) if curved or not manifold else []
+        plane = plane_jobs(output, seed or (), quick) if _with_the_plane(method, manifold, scenes) else []
         with _progress() as say:
-            result = finished(jobs) if only_tables else run(jobs, say)
-    shown = tables(result.rows)
+            result = finished(jobs, plane) if only_tables else run(jobs, say, plane=plane)
+    shown = tables(result.rows, result.plane)
     for table in shown:
         console.print(table.rich())
         console.print()
@@ -266,6 +269,11 @@ def paper_command(
         raise typer.Exit(130)
     if result.failures:
         raise typer.Exit(1)
+
+
+def _with_the_plane(methods: list[str] | None, manifolds: list[str] | None, scenes: Path | None) -> bool:
+    """Whether the case in the Euclidean plane is wanted too: where it is named, and where nothing is chosen."""
+    return "euclidean" in manifolds if manifolds else methods is None and scenes is None
 
 
 def _size(text: str) -> tuple[int, int]:

@@ -5,9 +5,8 @@ from __future__ import annotations
 import json
 import statistics
 from collections.abc import Callable, Iterable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from rsrm_gen.errors import UserError
 
@@ -58,9 +57,7 @@ class Spread:
 
     def __str__(self) -> str:
         """Three digits of the mean, and the deviation to the same place."""
-        if self.mean == 0:
-            return "0"
-        places = max(0, 2 - int(f"{self.mean:.2e}".split("e")[1]))
+        places = max(0, 2 - int(f"{self.mean:.2e}".split("e")[1])) if self.mean else 0
         text = f"{self.mean:.{places}f}"
         return text if self.deviation is None else f"{text} ± {self.deviation:.{places}f}"
 
@@ -97,16 +94,3 @@ def grouped(rows: Iterable[Row]) -> list[Group]:
 def collected(output: Path) -> list[Row]:
     """Every row in the folder of a benchmark."""
     return [read_row(path) for path in sorted(output.glob("*/*/row.json"))]
-
-
-def read_rows(path: Path) -> list[Row]:
-    """The rows of a JSON file that the benchmark wrote."""
-    try:
-        return [Row(**row) for row in json.loads(path.read_text(encoding="utf-8"))["rows"]]
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise UserError(f"{path} holds no rows of this benchmark: {error}") from None
-
-
-def document(rows: Iterable[Row]) -> dict[str, Any]:
-    """What `read_rows` reads."""
-    return {"version": VERSION, "rows": [asdict(row) for row in rows]}

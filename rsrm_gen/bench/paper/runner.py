@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
@@ -11,6 +11,7 @@ import torch
 from rich.console import Console
 
 from rsrm_gen.bench.paper.descent import NetworkDescent
+from rsrm_gen.bench.paper.euclidean import PlaneJob, PlaneRow
 from rsrm_gen.bench.paper.jobs import Job, scene_files
 from rsrm_gen.bench.paper.judge import judged
 from rsrm_gen.bench.paper.methods import BY_KEY
@@ -32,9 +33,10 @@ class Result:
     """What there is after a run of the benchmark."""
 
     rows: tuple[Row, ...]
-    failures: tuple[str, ...]  # jobs that could not be trained, and why
-    missing: int  # jobs that are not finished
-    interrupted: bool
+    plane: tuple[PlaneRow, ...] = ()
+    failures: tuple[str, ...] = ()  # jobs that could not be trained, and why
+    missing: int = 0  # jobs that are not finished
+    interrupted: bool = False
 
 
 def selected(
@@ -55,47 +57,55 @@ def selected(
     return [Job(BY_KEY[key], file, output, quick) for file in files for key in methods]
 
 
-def finished(jobs: Sequence[Job]) -> Result:
+def finished(jobs: Sequence[Job], plane: Sequence[PlaneJob] = ()) -> Result:
     """What earlier runs have left; nothing is trained."""
-    rows = [row for job in jobs if (row := job.kept())]
-    return Result(tuple(rows), (), len(jobs) - len(rows), False)
+    rows = tuple(row for job in jobs if (row := job.kept()))
+    fits = tuple(fit for job in plane if (fit := job.kept()))
+    return Result(rows, fits, missing=len(jobs) + len(plane) - len(rows) - len(fits))
 
 
-def run(jobs: Sequence[Job], say: Say, console: Console | None = None) -> Result:
-    """Do what is not done, in order."""
-    rows: list[Row] = []
-    failures: list[str] = []
-    for number, job in enumerate(jobs, 1):
-        label = f"{job.name} ({number} of {len(jobs)})"
-        try:
-            row = job.finished() or _made(job, partial(_say_of, say, label), console)
-        except UserError as error:
-            failures.append(f"{job.name}: {error.message}")
-            say(f"{label}: {error.message}")
-            continue
-        except KeyboardInterrupt:
-            row = None
-        if row is None:
-            rows += [kept for later in jobs[number:] if (kept := later.kept())]
-            return Result(tuple(rows), tuple(failures), len(jobs) - len(rows), True)
-        rows.append(row)
-    return Result(tuple(rows), tuple(failures), len(jobs) - len(rows), False)
+def run(jobs: Sequence[Job], say: Say, console: Console | None = None, plane: Sequence[PlaneJob] = ()) -> Result:
+    """Do what is not done, in order; Ctrl-C ends it, and what was done is kept."""
+    failures: dict[str, str] = {}
+    interrupted = False
+    try:
+        for number, job in enumerate(jobs, 1):
+            _do(job, partial(_say_of, say, f"{job.name} ({number} of {len(jobs)})"), failures, console)
+        for fit in plane:
+            if not fit.kept():
+                say(f"{fit.count} splats in the Euclidean plane, seed {fit.seed}")
+                fit.made()
+    except KeyboardInterrupt:
+        interrupted = True
+    done = [
+        job for job in jobs if job.name not in failures
+    ]  # what an older run has left of a failed one is not its result
+    found = finished(done, plane)
+    words = tuple(f"{name}: {why}" for name, why in failures.items())
+    return replace(found, failures=words, missing=found.missing + len(failures), interrupted=interrupted)
+
+
+def _do(job: Job, say: Say, failures: dict[str, str], console: Console | None) -> None:
+    try:
+        if not job.finished():
+            _make(job, say, console)
+    except UserError as error:
+        failures[job.name] = error.message
+        say(error.message)
 
 
 def _say_of(say: Say, label: str, words: str) -> None:
     say(f"{label}: {words}")
 
 
-def _made(job: Job, say: Say, console: Console | None) -> Row | None:
-    """Train, or go on training, then judge; None when it was interrupted."""
+def _make(job: Job, say: Say, console: Console | None) -> None:
+    """Train, or go on training, then judge; `KeyboardInterrupt` when the training ended before its time."""
     others = busy_cores()
     summary = _trained(job, say)
     if summary is None:
-        return None
+        raise KeyboardInterrupt
     say("judged")
-    row = judged(job, summary, others, console)
-    job.keep(row)
-    return row
+    job.keep(judged(job, summary, others, console))
 
 
 def _trained(job: Job, say: Say) -> Summary | None:

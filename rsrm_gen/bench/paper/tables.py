@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
+from rsrm_gen.bench.paper.euclidean import PlaneRow, collected_plane, plane_table
 from rsrm_gen.bench.paper.methods import BY_KEY, METHODS
 from rsrm_gen.bench.paper.published import Published, published
-from rsrm_gen.bench.paper.rows import Group, Row, Spread, collected, document, grouped
+from rsrm_gen.bench.paper.rows import VERSION, Group, Row, Spread, collected, grouped
 from rsrm_gen.bench.quiet import LOUD
 from rsrm_gen.bench.table import Table, machine, write_json, write_latex, write_markdown
+from rsrm_gen.errors import UserError
 
 NONE = "-"
 ORDER = {method.key: i for i, method in enumerate(METHODS)}
 
 
-def tables(rows: Sequence[Row]) -> list[Table]:
-    """Two for each manifold: the paper's table, then errors by volume and what planning with the field is worth."""
+def tables(rows: Sequence[Row], plane: Sequence[PlaneRow] = ()) -> list[Table]:
+    """Two for each manifold: the paper's table, then errors by volume and what planning with the field is worth; one
+    for the plane."""
     groups: dict[str, list[Group]] = {}
     for group in grouped(rows):
         groups.setdefault(group.manifold, []).append(group)
@@ -24,7 +30,7 @@ def tables(rows: Sequence[Row]) -> list[Table]:
     for manifold, members in groups.items():
         members.sort(key=lambda group: ORDER.get(group.method, len(ORDER)))
         made += [_paper(manifold, members), _beyond(manifold, members)]
-    return made
+    return [*made, *([plane_table(plane)] if plane else [])]
 
 
 def _paper(manifold: str, groups: list[Group]) -> Table:
@@ -97,11 +103,25 @@ def _seeds(groups: list[Group]) -> str:
 
 def write_all(output: Path, command: str) -> None:
     """All rows in the folder of a benchmark as JSON there, and their tables as Markdown and LaTeX."""
-    rows = collected(output)
-    words = foot(rows, (), 0, command)
-    write_json(output / "paper.json", document(rows))
-    write_markdown(output / "paper.md", tables(rows), words)
-    write_latex(output / "paper.tex", tables(rows), words)
+    rows, plane = collected(output), collected_plane(output)
+    shown, words = tables(rows, plane), foot(rows, (), 0, command)
+    write_json(output / "paper.json", document(rows, plane))
+    write_markdown(output / "paper.md", shown, words)
+    write_latex(output / "paper.tex", shown, words)
+
+
+def document(rows: Sequence[Row], plane: Sequence[PlaneRow]) -> dict[str, Any]:
+    """All figures; `read_rows` reads them."""
+    return {"version": VERSION, "rows": [asdict(row) for row in rows], "plane": [asdict(row) for row in plane]}
+
+
+def read_rows(path: Path) -> tuple[list[Row], list[PlaneRow]]:
+    """The rows of a JSON file that the benchmark wrote."""
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+        return [Row(**row) for row in found["rows"]], [PlaneRow(**row) for row in found["plane"]]
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise UserError(f"{path} holds no rows of this benchmark: {error}") from None
 
 
 def foot(rows: Sequence[Row], failures: Iterable[str], missing: int, command: str) -> str:
