@@ -37,7 +37,7 @@ from rsrm_gen.trainer.train import train
 
 SMALL = NetworkShape(width=6, depth=2, learning_rate=0.01, frequency=1.5)
 POINT_SIZES = {"torus": 2, "sphere": 3, "hyperbolic": 3}
-TINY = "{steps: 40, points: 32, checkpoint_every: 10, splats: {initial: 5, add: 0}}"
+TINY = "{objective: eikonal, steps: 40, points: 32, checkpoint_every: 10, splats: {initial: 5, add: 0}}"
 
 
 def small_network(manifold: Manifold, shape: NetworkShape = SMALL) -> Network:
@@ -83,7 +83,7 @@ def test_the_gradient_written_out_is_autograds(name: str, frequency: float | Non
 
 
 def test_t_of_a_network_has_the_gradient_that_differences_have(tmp_path: Path) -> None:
-    scene = small_scene(tmp_path, "S2", "{dtype: float64, link: {kind: quotient, floor: 0.1}}")
+    scene = small_scene(tmp_path, "S2", "{dtype: float64, link: {kind: quotient, floor: 0.1}, objective: eikonal}")
     arrival, x = network_arrival(scene, small_network(scene.manifold)), scene.sample(5, seeded())
     gradient, v, h = arrival.time_and_gradient(x)[1], scene.manifold.frame(x)[:, 0], 1e-6
     ahead, behind = (arrival.time(scene.manifold.exp(x, side * h * v)) for side in (1, -1))

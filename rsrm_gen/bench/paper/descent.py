@@ -20,6 +20,7 @@ from rsrm_gen.trainer.objectives.eikonal import FINAL_POINTS, POOL
 from rsrm_gen.trainer.objectives.residual import Residual
 from rsrm_gen.trainer.run import Arrays
 from rsrm_gen.trainer.scene import Scene
+from rsrm_gen.trainer.settings import EikonalTraining
 
 
 class NetworkDescent:
@@ -28,11 +29,12 @@ class NetworkDescent:
     def __init__(self, scene: Scene, shape: NetworkShape, clock: Clock = NO_CLOCK) -> None:
         """At step 0; `begin` or `restore` gives the network its weights."""
         settings = scene.training
+        assert isinstance(settings, EikonalTraining)
         self.settings = settings
         self.network = Network(scene.manifold, shape, scene.goal.dtype)
         self.arrival = network_arrival(scene, self.network)
         self.residual = Residual(scene, settings.objective.residual)
-        self.collocation = Collocation(scene, self.residual, clock)
+        self.collocation = Collocation(scene, settings, self.residual, clock)
         self.adam = torch.optim.AdamW(
             self.network.parameters,
             lr=settings.learning_rate,

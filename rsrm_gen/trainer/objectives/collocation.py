@@ -31,9 +31,7 @@ PURPOSES = get_args(Purpose)
 class Collocation:
     """The points of a training on a scene."""
 
-    def __init__(
-        self, scene: Scene, settings: EikonalTraining, residual: Residual, clock: Clock = NO_CLOCK
-    ) -> None:
+    def __init__(self, scene: Scene, settings: EikonalTraining, residual: Residual, clock: Clock = NO_CLOCK) -> None:
         """The residual knows what the loss needs of a point."""
         self.scene = scene
         self.settings = settings
