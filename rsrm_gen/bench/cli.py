@@ -51,6 +51,7 @@ STEP_CASES: tuple[tuple[str, Parameters], ...] = (
 )
 STEP_SIZES = ((1024, 128), (4096, 512), (16384, 2048))
 CONTENDER_KEYS = ["eager", "analytic", "compiled", "jax", "jax-analytic", "ours", "kernel"]
+PAPER_METHODS = ["recipe", "mlp", "mlp-small", "ours", "ours-half", "ours-quarter"]
 
 Manifolds = Annotated[
     list[str] | None, typer.Argument(metavar="[MANIFOLD...]", help="Bundled manifolds or files.", show_default=False)
@@ -201,6 +202,80 @@ def kernels_command(
         draw(result, plot)
 
 
+@app.command("paper")
+def paper_command(
+    method: Annotated[
+        list[str] | None, typer.Option(help=f"{', '.join(PAPER_METHODS)}; several times; all.", show_default=False)
+    ] = None,
+    manifold: Annotated[
+        list[str] | None, typer.Option(help="As the scene files are named; several times; all.")
+    ] = None,
+    seed: Annotated[list[int] | None, typer.Option(help="As the scene files are named; several times; all.")] = None,
+    output: Annotated[Path | None, typer.Option("-o", metavar="OUT", help="Folder; runs/bench-paper.")] = None,
+    scenes: Annotated[
+        Path | None, typer.Option(metavar="FOLDER", help="Scenes named like torus-1.yaml; the paper's fifteen.")
+    ] = None,
+    quick: Annotated[
+        bool, typer.Option("--quick", help="One seed, 400 steps of the recipe, our smallest: minutes.")
+    ] = False,
+    only_tables: Annotated[bool, typer.Option("--tables", help="Of what is there; train nothing.")] = False,
+    rows: Annotated[Path | None, typer.Option(metavar="FILE", help="Tables of a JSON file; train nothing.")] = None,
+    markdown: Markdown = None,
+    latex: Annotated[Path | None, typer.Option("--latex", metavar="FILE", help="Write the tables as LaTeX.")] = None,
+) -> None:
+    """The experiments of the RSRM paper: its recipe, its networks and our default on its fifteen scenes.
+
+    \b
+    rsrm bench paper                             all of it, into runs/bench-paper: hours; Ctrl-C keeps what is done
+    rsrm bench paper                             again: goes on where it was
+    rsrm bench paper --quick                     one seed, shortened: minutes
+    rsrm bench paper --method ours --manifold torus --seed 1
+    rsrm bench paper --tables                    the tables of what is done
+
+    OUT/paper.json, paper.md and paper.tex hold all rows and the tables, as --markdown and --latex do elsewhere.
+    """
+    from rsrm_gen.bench.paper import methods
+    from rsrm_gen.bench.paper.euclidean import plane_jobs
+    from rsrm_gen.bench.paper.runner import Result, finished, run, selected
+    from rsrm_gen.bench.paper.tables import foot, read_rows, tables, write_all
+    from rsrm_gen.bench.table import write_latex, write_markdown
+
+    console = _console()
+    if rows is not None:
+        read, read_plane = read_rows(rows)
+        result = Result(tuple(read), tuple(read_plane))
+    else:
+        output = output or Path("runs/bench-paper-quick" if quick else "runs/bench-paper")
+        keys = _chosen(method, list(methods.QUICK) if quick else PAPER_METHODS, "method")
+        curved = [name for name in manifold or () if name != "euclidean"]
+        jobs = selected(output, scenes, keys, curved, seed or (), quick) if curved or not manifold else []
+        plane = plane_jobs(output, seed or (), quick) if _with_the_plane(method, manifold, scenes) else []
+        with _progress() as say:
+            result = finished(jobs, plane) if only_tables else run(jobs, say, plane=plane)
+    shown = tables(result.rows, result.plane)
+    for table in shown:
+        console.print(table.rich())
+        console.print()
+    command = "rsrm bench paper" + (" --quick" if quick else "")
+    words = foot(result.rows, result.failures, result.missing, command)
+    console.print(words, style="dim", highlight=False, markup=False)
+    if output is not None and rows is None:
+        write_all(output, command)
+    if markdown is not None:
+        write_markdown(markdown, shown, words)
+    if latex is not None:
+        write_latex(latex, shown, words)
+    if result.interrupted:
+        raise typer.Exit(130)
+    if result.failures:
+        raise typer.Exit(1)
+
+
+def _with_the_plane(methods: list[str] | None, manifolds: list[str] | None, scenes: Path | None) -> bool:
+    """Whether the case in the Euclidean plane is wanted too: where it is named, and where nothing is chosen."""
+    return "euclidean" in manifolds if manifolds else methods is None and scenes is None
+
+
 def _size(text: str) -> tuple[int, int]:
     """`4096,512` as two numbers."""
     points, _, splats = text.partition(",")
@@ -211,7 +286,7 @@ def _size(text: str) -> tuple[int, int]:
 
 def _chosen(given: list[str] | None, default: list[str], what: str) -> list[str]:
     """What was given, each one of those there are."""
-    known = {"precision": ["float32", "float64"], "contender": CONTENDER_KEYS}[what]
+    known = {"precision": ["float32", "float64"], "contender": CONTENDER_KEYS, "method": PAPER_METHODS}[what]
     for word in given or ():
         if word not in known:
             raise UserError(f"`{word}` is no {what}", hint=f"one of {', '.join(known)}")

@@ -1,4 +1,4 @@
-"""Tables with one content and three forms: on a screen, in Markdown, in JSON."""
+"""Tables with one content and four forms: on a screen, in Markdown, in LaTeX, in JSON."""
 
 from __future__ import annotations
 
@@ -39,6 +39,48 @@ class Table:
         rule = ["---"] * self.labels + ["--:"] * (len(self.headings) - self.labels)
         lines = [_line(self.headings), _line(rule), *map(_line, self.rows)]
         return f"### {self.title}\n\n" + "\n".join(lines) + "\n"
+
+    def latex(self) -> str:
+        """For a paper: a `table` with the rules of booktabs; the title is its caption."""
+        columns = "l" * self.labels + "r" * (len(self.headings) - self.labels)
+        rows = [" & ".join(map(latex_text, row)) + r" \\" for row in (self.headings, *self.rows)]
+        lines = [
+            r"\begin{table}",
+            r"\centering",
+            rf"\caption{{{latex_text(self.title)}}}",
+            rf"\begin{{tabular}}{{{columns}}}",
+            r"\toprule",
+            rows[0],
+            r"\midrule",
+            *rows[1:],
+            r"\bottomrule",
+            r"\end{tabular}",
+            r"\end{table}",
+        ]
+        return "\n".join(lines) + "\n"
+
+
+# What LaTeX would obey.
+LATEX = {c: rf"\{c}" for c in "&%$#_{}"} | {
+    "\\": r"\textbackslash{}",
+    "~": r"\textasciitilde{}",
+    "^": r"\textasciicircum{}",
+    "<": "$<$",
+    ">": "$>$",
+    "|": "$|$",
+    "±": r"$\pm$",
+}
+
+
+def latex_text(text: str) -> str:
+    """The text as LaTeX prints it."""
+    return "".join(LATEX.get(c, c) for c in text)
+
+
+def write_latex(file: Path, tables: Sequence[Table], foot: str) -> None:
+    """All tables and a paragraph below them, to be read by \\input into a document that uses booktabs."""
+    head = r"% \usepackage{booktabs}"
+    write_text_whole(file, "\n".join([head, *(table.latex() for table in tables), latex_text(foot) + "\n"]))
 
 
 def _line(cells: Sequence[str]) -> str:

@@ -24,6 +24,7 @@ from rsrm_gen.trainer.scene import Scene
 RECORD_EVERY = 10  # steps between two lines of metrics
 
 Progress = Callable[[Metric], None]
+MakeObjective = Callable[[Scene, Clock, Tell], Objective]
 
 
 @dataclass(frozen=True)
@@ -46,11 +47,12 @@ def train(
     progress: Progress = lambda metric: None,
     tell: Tell = lambda what, part: None,
     clock: Clock = NO_CLOCK,
+    make: MakeObjective = make_objective,
 ) -> Outcome:
     """Train a scene's field into a run folder that `create` has made; `resume` goes on from its checkpoint.
 
     `progress` is called after every step, `tell` within long ones. Ctrl-C ends the training after the step it is in, or, where
-    that step is a long one, before it; with a checkpoint.
+    that step is a long one, before it; with a checkpoint. `make` gives another objective than the one that the settings name.
     """
     with _ctrl_c_noted() as stopped:
 
@@ -59,7 +61,7 @@ def train(
                 raise _InterruptedError
             tell(what, part)
 
-        objective, before = make_objective(scene, clock, tell_or_stop), 0.0
+        objective, before = make(scene, clock, tell_or_stop), 0.0
         if resume:
             arrays = folder.restore()
             objective.restore(arrays, folder.checkpoint)

@@ -51,7 +51,7 @@ class Residual:
 
     def loss(self, arrival: ArrivalTime, x: Tensor) -> tuple[float, Tensor]:
         """The mean residual and the residual of each point (N,); x is (N, D)."""
-        loss = self._loss(arrival, self.at(arrival, x), *arrival.field.value_and_gradient(x))
+        loss = self.given(arrival, self.at(arrival, x), *arrival.field.value_and_gradient(x))
         return loss.mean, loss.residual
 
     def loss_and_gradient(self, arrival: ArrivalTime, points: Points, clock: Clock = NO_CLOCK) -> tuple[float, Tensor]:
@@ -62,7 +62,7 @@ class Residual:
         clock.lap("splat map")
         f, df = arrival.manifold.splats(points.x, mu, W, amplitude, width)
         clock.lap("kernel forward")
-        loss = self._loss(arrival, points, f.detach(), df.detach())
+        loss = self.given(arrival, points, f.detach(), df.detach())
         clock.lap("loss")
         bars = torch.autograd.grad((f, df), inputs, (loss.f_bar, loss.df_bar))
         clock.lap("kernel backward")
@@ -70,8 +70,8 @@ class Residual:
         clock.lap("splat map")
         return loss.mean, gradient
 
-    def _loss(self, arrival: ArrivalTime, points: Points, f: Tensor, df: Tensor) -> Loss:
-        """From f (N,) and grad f (N, T)."""
+    def given(self, arrival: ArrivalTime, points: Points, f: Tensor, df: Tensor) -> Loss:
+        """The loss, from f (N,) and grad f (N, T), whatever they come from."""
         arithmetic, df = arrival.field.arithmetic, df.contiguous()
         slope = arithmetic.slope(arrival.link, points, f, df)
         covector = arrival.field.flat(points.x, slope.gradient)
