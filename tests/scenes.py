@@ -8,6 +8,7 @@ import torch
 from plain_manifolds import PLAIN
 from torch import Generator, Tensor
 
+from rsrm_gen.load import load_in_rows
 from rsrm_gen.manifold import Manifold
 from rsrm_gen.trainer.model import SplatField
 from rsrm_gen.trainer.scene import Scene, read_scene
@@ -22,6 +23,13 @@ ORIGIN = {
     "H2": [1.25, 0.75, 0.0],
     "SO3": [0.8, 0.0, 0.6, 0.0],
 }
+GENERATED: dict[str, tuple[str, dict[str, int]]] = {
+    "R2": ("euclidean", {"n": 2}),
+    "T2": ("torus", {}),
+    "S2": ("sphere", {}),
+    "H2": ("hyperbolic", {}),
+    "SO3": ("so3", {}),
+}
 CENTER = {
     "R2": [1.0, 0.3],
     "T2": [1.4, -0.2],
@@ -31,7 +39,19 @@ CENTER = {
 }
 
 
-def small_scene(folder: Path, name: str, training: str = "{dtype: float64}", obstacles: bool = True) -> Scene:
+def generated(name: str) -> Manifold:
+    """The bundled manifold that a plain one stands for."""
+    spec, parameters = GENERATED[name]
+    return load_in_rows(spec, None, **parameters)
+
+
+def small_scene(
+    folder: Path,
+    name: str,
+    training: str = "{dtype: float64}",
+    obstacles: bool = True,
+    manifold: Manifold | None = None,
+) -> Scene:
     """One obstacle near the goal, a ball of radius 2 as domain; `training` is YAML in flow style, of `eikonal` unless it says."""
     if "objective" not in training:
         training = training.replace("{", "{objective: eikonal, ", 1)
@@ -45,7 +65,7 @@ def small_scene(folder: Path, name: str, training: str = "{dtype: float64}", obs
         f"training: {training}",
     ]
     path.write_text("\n".join(lines) + "\n")
-    return read_scene(path, PLAIN[name])
+    return read_scene(path, manifold or PLAIN[name])
 
 
 def random_field(manifold: Manifold, centers: Tensor, generator: Generator) -> SplatField:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 import torch
 from plain_manifolds import PLAIN
-from scenes import seeded, small_scene
+from scenes import generated, seeded, small_scene
 
 from rsrm_gen.trainer.objectives.bellman import Bellman, fan
 
@@ -16,7 +16,8 @@ SHORT = "{objective: bellman, dtype: float64, steps: 12, points: 400, splats: 30
 
 
 def bellman(folder: Path, name: str, training: str = SHORT, obstacles: bool = True) -> Bellman:
-    made = Bellman(small_scene(folder, name, training, obstacles), lambda what, part: None)
+    scene = small_scene(folder, name, training, obstacles, generated(name))
+    made = Bellman(scene, lambda what, part: None)
     made.begin()
     return made
 

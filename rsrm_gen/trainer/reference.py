@@ -305,16 +305,19 @@ def _geodesic_cost(scene: Scene, start: Tensor, end: Tensor) -> Tensor:
 
 def _key(scene: Scene, grid: Grid) -> str:
     """A hash of all that the solution depends on."""
-    said = {
-        "version": VERSION,
+    said = {"version": VERSION, **scene_key(scene), "grid": [grid.low, grid.step, grid.shape]}
+    return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()[:32]
+
+
+def scene_key(scene: Scene) -> dict[str, Any]:
+    """All of a scene that its arrival time depends on, as plain data."""
+    return {
         "manifold": [scene.manifold.name, scene.manifold.content_hash],
         "goal": scene.goal.tolist(),
         "obstacles": [scene.centers.tolist(), scene.radii.tolist()],
         "slowness": scene.law.model_dump(),
         "domain": scene.domain and [scene.domain.center.tolist(), scene.domain.radius],
-        "grid": [grid.low, grid.step, grid.shape],
     }
-    return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()[:32]
 
 
 def _read(path: Path) -> tuple[Array, Array] | None:
