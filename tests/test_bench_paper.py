@@ -18,7 +18,7 @@ from scenes import CENTER, ORIGIN, seeded, small_scene
 from rsrm_gen.bench.cli import PAPER_METHODS
 from rsrm_gen.bench.paper import euclidean, judge, runner
 from rsrm_gen.bench.paper.descent import NetworkDescent, fill, network_arrival
-from rsrm_gen.bench.paper.euclidean import collected_plane, plane_jobs, plane_table
+from rsrm_gen.bench.paper.euclidean import PlaneJob, collected_plane, plane_jobs, plane_table
 from rsrm_gen.bench.paper.jobs import Job, scene_files
 from rsrm_gen.bench.paper.methods import BY_KEY, METHODS, QUICK, Method
 from rsrm_gen.bench.paper.network import Network
@@ -320,7 +320,7 @@ def test_means_deviations_and_the_papers_figures_stand_side_by_side() -> None:
     assert cells == {"method": "RSRM, the paper's recipe", "final error": "0.250 ± 0.071", "paper": "0.276"}
     assert paper.rows[0][9:] == ("3550", "3534")
     assert paper.rows[1][7:9] == ("0.400", "0.324")
-    assert paper.rows[-1][:1] + paper.rows[-1][7:9] == ("T = d", "0.450 ± 0.000", "0.53")
+    assert paper.rows[-1][:1] + paper.rows[-1][7:9] == ("T = d", "0.450 ± 0.000", "0.530")
     assert beyond.rows[0][4:7] == ("100.0 %", "1.0500", "1.2000")
     words = foot(ROWS, (), 2, "rsrm bench paper")
     assert "Fewer seeds than 2: mlp on torus (1)" in words
@@ -419,21 +419,31 @@ def test_a_finished_training_becomes_a_row(benchmark: Path, tmp_path: Path) -> N
 # The plane.
 
 
-def test_splats_learn_the_published_regression_case(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (job,) = [replace(job, count=20, steps=300) for job in plane_jobs(tmp_path, (), quick=True)]
+@pytest.mark.parametrize(("method", "steps"), [("recipe", 300), ("ours", 12)])
+def test_splats_learn_the_published_regression_case(
+    method: str, steps: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    job = PlaneJob(tmp_path, method, 20, 1, steps)
     result = run([], lambda words: None, plane=[job])
     (row,) = result.plane
     assert row.parameters == 20 * 7
-    before = euclidean.fitted(20, 1, 1)
-    assert row.test_error < 0.5 * before.test_error
-    assert row.test_error > euclidean.NOISE**2 / 2  # nothing predicts the noise
+    assert row.test_error < 0.5 * float(euclidean.data(1).test_value.square().mean())
+    assert row.train_error < row.test_error * 2
+    assert row.rms**2 == pytest.approx(row.test_error, rel=0.5)  # 200 points beside 10 000
     monkeypatch.setattr(euclidean, "fitted", None)
     assert run([], lambda words: None, plane=[job]).plane == (row,)
-    assert replace(job, steps=301).kept() is None
+    assert replace(job, steps=steps + 1).kept() is None
     assert collected_plane(tmp_path) == [row]
     table = plane_table([row, replace(row, seed=2, test_error=row.test_error)])
-    assert table.rows[0][:3] == ("20 splats", "140", "300")
-    assert "±" in table.rows[0][3]
+    assert table.rows[0][1:3] == ("140", str(steps))
+    assert "±" in table.rows[0][4]
+
+
+def test_the_plane_is_fitted_by_both_methods() -> None:
+    jobs = plane_jobs(Path("out"), (), quick=False)
+    assert len(jobs) == len(set(jobs)) == 2 * 4 * 5
+    assert {(job.method, job.steps) for job in jobs} == {("recipe", 20_000), ("ours", 60)}
+    assert {job.seed for job in plane_jobs(Path("out"), (), quick=True)} == {1}
 
 
 def test_the_samples_are_of_the_function_with_the_noise() -> None:

@@ -38,7 +38,7 @@ def _paper(manifold: str, groups: list[Group]) -> Table:
     known = published().get(manifold)
     rows = [_paper_row(group, known) for group in groups]
     distance = _shown(_first_of_each_seed(groups).spread(lambda row: row.distance_error))
-    rows.append(("T = d", *[NONE] * 6, distance, f"{known.distance_error:g}" if known else NONE, "0", NONE))
+    rows.append(("T = d", *[NONE] * 6, distance, str(Spread(known.distance_error, None)) if known else NONE, "0", NONE))
     return Table(
         f"{manifold}, {_seeds(groups)}", (*headings, "final error", "paper", "parameters", "paper"), tuple(rows)
     )
@@ -56,7 +56,7 @@ def _paper_row(group: Group, known: Published | None) -> tuple[str, ...]:
     ]
     theirs = [figures.loss, figures.milliseconds, figures.seconds, figures.error] if figures else [None] * 4
     for figure, paper in zip(ours, theirs, strict=True):
-        cells += [_shown(group.spread(figure)), NONE if paper is None else f"{paper:g}"]
+        cells += [_shown(group.spread(figure)), NONE if paper is None else str(Spread(paper, None))]
     parameters = group.spread(lambda row: row.parameters)
     return (*cells, f"{parameters.mean:.0f}" if parameters else NONE, str(figures.parameters) if figures else NONE)
 
