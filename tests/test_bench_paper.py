@@ -8,6 +8,7 @@ import re
 import signal
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -25,7 +26,7 @@ from rsrm_gen.bench.paper.network import Network
 from rsrm_gen.bench.paper.published import NetworkShape, published
 from rsrm_gen.bench.paper.rows import Row, collected, grouped, spread
 from rsrm_gen.bench.paper.runner import finished, run, selected
-from rsrm_gen.bench.paper.tables import foot, read_rows, tables, write_all
+from rsrm_gen.bench.paper.tables import notes, read_rows, tables, write_all
 from rsrm_gen.bench.table import latex_text
 from rsrm_gen.errors import UserError
 from rsrm_gen.manifold import Manifold
@@ -244,7 +245,7 @@ def test_a_job_that_fails_is_said_and_the_others_are_done(
     result = run(jobs(benchmark, tmp_path / "out", "mlp", "recipe", seeds=(1,)), lambda words: None)
     assert [row.method for row in result.rows] == ["recipe"]
     assert result.failures == ("T2-1 by mlp: the network is not itself",)
-    assert "Failed: T2-1 by mlp: the network is not itself." in foot(result.rows, result.failures, 1, "rsrm")
+    assert "Failed: T2-1 by mlp: the network is not itself." in foot_of(result.rows, result.failures, 1, "rsrm")
 
 
 def test_scenes_are_found_by_manifold_and_seed(benchmark: Path) -> None:
@@ -269,8 +270,18 @@ def test_methods_are_settings(benchmark: Path, tmp_path: Path) -> None:
     assert recipe.scene.training.steps == mlp.scene.training.steps == 40
     assert recipe.network is None
     assert mlp.network == SMALL
-    assert BY_KEY["recipe"].training({"seed": 3}, PLAIN["T2"], 3, quick=True) == {"seed": 3, "steps": 400}
+    assert BY_KEY["recipe"].training({"seed": 3}, PLAIN["T2"], 3, quick=True) == {
+        "objective": "eikonal",
+        "seed": 3,
+        "steps": 400,
+    }
     assert mlp.scene.training.learning_rate == SMALL.learning_rate
+
+
+def test_a_scene_with_another_objective_is_no_scene_for_the_recipe(benchmark: Path, tmp_path: Path) -> None:
+    (benchmark / "T2-1.yaml").write_text(SCENE.replace(TINY, "{objective: bellman}"))
+    result = run(jobs(benchmark, tmp_path / "out", "recipe", seeds=(1,)), lambda words: None)
+    assert "T2-1.yaml is no scene for the paper's recipe" in result.failures[0]
 
 
 @pytest.mark.parametrize(("share", "count"), [(1, 504), (1 / 2, 252), (1 / 4, 126)])
@@ -285,6 +296,10 @@ def test_ours_stores_no_more_numbers_than_its_share(
 
 
 # Tables.
+
+
+def foot_of(*arguments: Any) -> str:
+    return " ".join(notes(*arguments))
 
 
 ROW = Row(
@@ -322,13 +337,13 @@ def test_means_deviations_and_the_papers_figures_stand_side_by_side() -> None:
     assert paper.rows[1][7:9] == ("0.400", "0.324")
     assert paper.rows[-1][:1] + paper.rows[-1][7:9] == ("T = d", "0.450 ± 0.000", "0.530")
     assert beyond.rows[0][4:7] == ("100.0 %", "1.0500", "1.2000")
-    words = foot(ROWS, (), 2, "rsrm bench paper")
+    words = foot_of(ROWS, (), 2, "rsrm bench paper")
     assert "Fewer seeds than 2: mlp on torus (1)" in words
     assert "NOT FINISHED: 2 trainings" in words
     assert "SHORTENED" not in words
     assert "DISTURBED" not in words
-    assert "SHORTENED" in foot([replace(ROW, steps=400)], (), 0, "rsrm")
-    assert "up to 1.5 cores" in foot([replace(ROW, others=1.5)], (), 0, "rsrm")
+    assert "SHORTENED" in foot_of([replace(ROW, steps=400)], (), 0, "rsrm")
+    assert "up to 1.5 cores" in foot_of([replace(ROW, others=1.5)], (), 0, "rsrm")
 
 
 def test_the_spread_is_that_of_a_sample() -> None:
