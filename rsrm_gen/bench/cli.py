@@ -237,8 +237,8 @@ def paper_command(
     from rsrm_gen.bench.paper import methods
     from rsrm_gen.bench.paper.euclidean import plane_jobs
     from rsrm_gen.bench.paper.runner import Result, finished, run, selected
-    from rsrm_gen.bench.paper.tables import foot, read_rows, tables, write_all
-    from rsrm_gen.bench.table import write_latex, write_markdown
+    from rsrm_gen.bench.paper.tables import notes, read_rows, tables, write_all, write_page
+    from rsrm_gen.bench.table import write_latex
 
     console = _console()
     if rows is not None:
@@ -257,14 +257,15 @@ def paper_command(
         console.print(table.rich())
         console.print()
     command = "rsrm bench paper" + (" --quick" if quick else "")
-    words = foot(result.rows, result.failures, result.missing, command)
-    console.print(words, style="dim", highlight=False, markup=False)
+    words = notes(result.rows, result.failures, result.missing, command)
+    for word in words:
+        console.print(f"- {word}", style="dim", highlight=False, markup=False)
     if output is not None and rows is None:
         write_all(output, command)
     if markdown is not None:
-        write_markdown(markdown, shown, words)
+        write_page(markdown, shown, words)
     if latex is not None:
-        write_latex(latex, shown, words)
+        write_latex(latex, shown, " ".join(words))
     if result.interrupted:
         raise typer.Exit(130)
     if result.failures:

@@ -26,6 +26,7 @@ from rsrm_gen.errors import UserError
 from rsrm_gen.files import bundled, write_text_whole
 from rsrm_gen.trainer.run import RunFolder
 from rsrm_gen.trainer.scene import Scene, read_scene
+from rsrm_gen.trainer.settings import EikonalTraining
 
 NAME = re.compile(r"(?P<manifold>\w+)-(?P<seed>\d+)")
 
@@ -75,7 +76,11 @@ class Job:
         )
         path = self.output / self.method.key / f"{self.file.path.stem}.yaml"
         write_text_whole(path, yaml.safe_dump(document, sort_keys=False, allow_unicode=True))
-        return read_scene(path, given.manifold)
+        scene = read_scene(path, given.manifold)
+        if self.method.recipe and not isinstance(scene.training, EikonalTraining):
+            hint = "give it `objective: eikonal`, or choose --method ours"
+            raise UserError(f"{self.file.path} is no scene for the paper's recipe: it has another objective", hint=hint)
+        return scene
 
     def _beside_the_scene(self, scene: Scene) -> str:
         return str((self.file.path.parent / scene.manifold_choice.spec).resolve())

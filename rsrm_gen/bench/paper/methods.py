@@ -42,7 +42,12 @@ class Method:
         """The `training` of a scene file, from the one `written` there."""
         if self.recipe:
             network, shortened = self.network(manifold), {"steps": QUICK_STEPS} if quick else {}
-            return {**written, **shortened, **({"learning_rate": network.learning_rate} if network else {})}
+            return {
+                "objective": "eikonal",
+                **written,
+                **shortened,
+                **({"learning_rate": network.learning_rate} if network else {}),
+            }
         assert self.share is not None
         budget = self.share * published_on(manifold.name).rsrm.parameters
         count = int(budget / (1 + manifold.point_size + manifold.dim**2))

@@ -73,7 +73,7 @@ def run(jobs: Sequence[Job], say: Say, console: Console | None = None, plane: Se
             _do(job, partial(_say_of, say, f"{job.name} ({number} of {len(jobs)})"), failures, console)
         for fit in plane:
             if not fit.kept():
-                say(f"{fit.count} splats in the Euclidean plane, seed {fit.seed}")
+                say(f"{fit.count} splats in the Euclidean plane by {fit.method}, seed {fit.seed}")
                 fit.made()
     except KeyboardInterrupt:
         interrupted = True

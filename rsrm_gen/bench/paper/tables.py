@@ -13,8 +13,9 @@ from rsrm_gen.bench.paper.methods import BY_KEY, METHODS
 from rsrm_gen.bench.paper.published import Published, published
 from rsrm_gen.bench.paper.rows import VERSION, Group, Row, Spread, collected, grouped
 from rsrm_gen.bench.quiet import LOUD
-from rsrm_gen.bench.table import Table, machine, write_json, write_latex, write_markdown
+from rsrm_gen.bench.table import Table, machine, write_json, write_latex
 from rsrm_gen.errors import UserError
+from rsrm_gen.files import write_text_whole
 
 NONE = "-"
 ORDER = {method.key: i for i, method in enumerate(METHODS)}
@@ -38,7 +39,7 @@ def _paper(manifold: str, groups: list[Group]) -> Table:
     known = published().get(manifold)
     rows = [_paper_row(group, known) for group in groups]
     distance = _shown(_first_of_each_seed(groups).spread(lambda row: row.distance_error))
-    rows.append(("T = d", *[NONE] * 6, distance, f"{known.distance_error:g}" if known else NONE, "0", NONE))
+    rows.append(("T = d", *[NONE] * 6, distance, str(Spread(known.distance_error, None)) if known else NONE, "0", NONE))
     return Table(
         f"{manifold}, {_seeds(groups)}", (*headings, "final error", "paper", "parameters", "paper"), tuple(rows)
     )
@@ -56,7 +57,7 @@ def _paper_row(group: Group, known: Published | None) -> tuple[str, ...]:
     ]
     theirs = [figures.loss, figures.milliseconds, figures.seconds, figures.error] if figures else [None] * 4
     for figure, paper in zip(ours, theirs, strict=True):
-        cells += [_shown(group.spread(figure)), NONE if paper is None else f"{paper:g}"]
+        cells += [_shown(group.spread(figure)), NONE if paper is None else str(Spread(paper, None))]
     parameters = group.spread(lambda row: row.parameters)
     return (*cells, f"{parameters.mean:.0f}" if parameters else NONE, str(figures.parameters) if figures else NONE)
 
@@ -104,10 +105,10 @@ def _seeds(groups: list[Group]) -> str:
 def write_all(output: Path, command: str) -> None:
     """All rows in the folder of a benchmark as JSON there, and their tables as Markdown and LaTeX."""
     rows, plane = collected(output), collected_plane(output)
-    shown, words = tables(rows, plane), foot(rows, (), 0, command)
+    shown, words = tables(rows, plane), notes(rows, (), 0, command)
     write_json(output / "paper.json", document(rows, plane))
-    write_markdown(output / "paper.md", shown, words)
-    write_latex(output / "paper.tex", shown, words)
+    write_page(output / "paper.md", shown, words)
+    write_latex(output / "paper.tex", shown, " ".join(words))
 
 
 def document(rows: Sequence[Row], plane: Sequence[PlaneRow]) -> dict[str, Any]:
@@ -124,7 +125,7 @@ def read_rows(path: Path) -> tuple[list[Row], list[PlaneRow]]:
         raise UserError(f"{path} holds no rows of this benchmark: {error}") from None
 
 
-def foot(rows: Sequence[Row], failures: Iterable[str], missing: int, command: str) -> str:
+def notes(rows: Sequence[Row], failures: Iterable[str], missing: int, command: str) -> list[str]:
     """What stands below the tables: how to make them again, where, and what they are not."""
     threads = " or ".join(map(str, sorted({row.threads for row in rows}))) or "no"
     words = [
@@ -152,4 +153,10 @@ def foot(rows: Sequence[Row], failures: Iterable[str], missing: int, command: st
         words.append(
             f"DISTURBED: other programs used up to {loudest:.1f} cores when trainings began; times are too long."
         )
-    return " ".join(words)
+    return words
+
+
+def write_page(file: Path, shown: Sequence[Table], words: Iterable[str]) -> None:
+    """The tables as a page in Markdown."""
+    text = "\n".join(["# The experiments of the RSRM paper, made again", "", *(table.markdown() for table in shown)])
+    write_text_whole(file, text + "\n## Notes\n\n" + "".join(f"- {word}\n" for word in words))
