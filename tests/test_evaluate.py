@@ -142,6 +142,6 @@ def test_a_run_is_judged_and_the_verdict_kept(tmp_path: Path) -> None:
     console = Console(file=io.StringIO(), width=100)
     print_evaluation(evaluation, console)
     said = console.file.getvalue()
-    assert f"{evaluation.rows[0].paper:.4f}" in said
+    assert f"{evaluation.rows[0].paper:.5f}" in said
     for line in ("small H2", "field", "T = d", "reference's own error"):
         assert line in said

@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
+from typing import Protocol
 
 import torch
 from rich.console import Console
@@ -21,9 +22,9 @@ from rsrm_gen.errors import UserError
 from rsrm_gen.files import write_text_whole
 from rsrm_gen.manifold import Manifold
 from rsrm_gen.trainer.planning import Planning, planning
-from rsrm_gen.trainer.reference import Reference, solve_reference
 from rsrm_gen.trainer.run import load_run
 from rsrm_gen.trainer.scene import Scene
+from rsrm_gen.trainer.truth import solve_truth
 
 BATCH = 2048
 
@@ -70,19 +71,42 @@ def evaluate_run(
     `manifold` stands in for the one the scene names, `cells` for the reference's resolution.
     """
     run = load_run(path, manifold)
-    reference = solve_reference(run.scene, cells, console)
-    evaluation = evaluate_all(run.scene, {"field": run.arrival.time}, reference)
-    evaluation = replace(evaluation, planning=planning(run.arrival, run.scene, reference.time))
+    truth = solve_truth(run.scene, cells, console)
+    evaluation = evaluate_all(run.scene, {"field": run.arrival.time}, truth)
+    evaluation = replace(evaluation, planning=planning(run.arrival, run.scene, truth.time))
     write_text_whole(path / "evaluation.json", json.dumps(asdict(evaluation), indent=2) + "\n")
     return evaluation
 
 
-def evaluate(scene: Scene, time: TimeFunction, reference: Reference, name: str = "field") -> ErrorRow:
+class Solution(Protocol):
+    """What fields are judged by: `truth.Truth`, or a grid's solution alone."""
+
+    @property
+    def error(self) -> float:
+        """RMS of its own error over free space, by its own account."""
+        ...
+
+    @property
+    def max_error(self) -> float:
+        """The largest of these errors."""
+        ...
+
+    @property
+    def note(self) -> str:
+        """What it is."""
+        ...
+
+    def time(self, x: Tensor) -> Tensor:
+        """T (N) in float64 at points (N, D)."""
+        ...
+
+
+def evaluate(scene: Scene, time: TimeFunction, reference: Solution, name: str = "field") -> ErrorRow:
     """The errors of one field: `time` takes points (N, D) of the scene's dtype to T (N)."""
     return evaluate_all(scene, {name: time}, reference).rows[0]
 
 
-def evaluate_all(scene: Scene, fields: dict[str, TimeFunction], reference: Reference) -> Evaluation:
+def evaluate_all(scene: Scene, fields: dict[str, TimeFunction], reference: Solution) -> Evaluation:
     """The errors of several fields on the same cells, and of T = d after them."""
     cells = free_cells(scene)
     truth = reference.time(cells.points)
@@ -165,8 +189,8 @@ def print_evaluation(evaluation: Evaluation, console: Console) -> None:
     for heading in ("RMS (paper)", "RMS (volume)", "p95", "max"):
         table.add_column(heading, justify="right")
     for row in evaluation.rows:
-        table.add_row(row.name, *(f"{value:.4f}" for value in (row.paper, row.rms, row.p95, row.maximum)))
-    own = f"{evaluation.reference_rms:.4f}", "", f"{evaluation.reference_maximum:.4f}"
+        table.add_row(row.name, *(f"{value:.5f}" for value in (row.paper, row.rms, row.p95, row.maximum)))
+    own = f"{evaluation.reference_rms:.5f}", "", f"{evaluation.reference_maximum:.5f}"
     table.add_row("reference's own error", "", *own, style="dim")
     console.print(table)
     console.print(f"[dim]reference: {evaluation.reference}[/dim]", highlight=False)
@@ -177,7 +201,7 @@ def print_evaluation(evaluation: Evaluation, console: Console) -> None:
 def _print_planning(found: Planning, console: Console) -> None:
     title = "descent of T from free starts; cost of the paths over the reference's"
     table = Table(title=title, title_justify="left", box=None, pad_edge=False, header_style="dim", title_style="")
-    table.add_column("")
+    table.add_column("", no_wrap=True)
     for heading in ("starts", "reach the goal", "enter an obstacle", "mean", "median", "p95", "worst"):
         table.add_column(heading, justify="right", no_wrap=True)
     for row in found.rows:

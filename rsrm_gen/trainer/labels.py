@@ -77,7 +77,7 @@ def label(terrain: Terrain, x: Tensor, progress: Progress = silent) -> Labels:
     """Labels of the points x (N, D)."""
     x = terrain.manifold.project(x.detach().double().cpu()).contiguous()
     found = roadmap(terrain, x)
-    labels = _relaxed(terrain, ways(found, x.numpy(), terrain.scene.goal.numpy()), "relax", progress)
+    labels = labels_of(terrain, ways(found, x.numpy(), terrain.scene.goal.numpy()), "relax", progress)
     nearby = found.index[:, :NEIGHBOURS], found.through[:, :NEIGHBOURS]
     return _exchanged(terrain, labels, *nearby, np.ones(len(x), bool), progress)
 
@@ -86,7 +86,7 @@ def offered(terrain: Terrain, labels: Labels, rows: Array, curves: Curves, progr
     """The same labels, or cheaper ones at the points with indices `rows` (R,), each at most once, after R curves from
     elsewhere have been relaxed; these may begin and end a little off, and are led to the point and to the goal."""
     x, goal = labels.x[rows], terrain.scene.goal.numpy()
-    candidates = _relaxed(terrain, _pinned(curves, x, goal), "relax offered curves", progress)
+    candidates = labels_of(terrain, _pinned(curves, x, goal), "relax offered curves", progress)
     better = candidates.time < labels.time[rows]
     return _replaced(labels, rows[better], candidates.take(np.flatnonzero(better)))
 
@@ -101,7 +101,7 @@ def extended(terrain: Terrain, labels: Labels, x: Tensor, progress: Progress = s
     through = terrain.segments(p, labels.x[index.reshape(-1)])[0].reshape(index.shape)
     whole = through + labels.time[index]
     best = index[np.arange(len(x)), np.where(np.isfinite(whole), whole, np.inf).argmin(1)]
-    new = _relaxed(terrain, labels.curves.take(best).from_(x.numpy()), "relax more points", progress)
+    new = labels_of(terrain, labels.curves.take(best).from_(x.numpy()), "relax more points", progress)
     is_new = np.arange(len(labels) + len(x)) >= len(labels)
     return exchanged(terrain, labels.joined(new), is_new, progress)
 
@@ -112,7 +112,7 @@ def exchanged(terrain: Terrain, labels: Labels, changed: Array, progress: Progre
     return _exchanged(terrain, labels, index, segment_costs(terrain, labels.x, index), changed, progress)
 
 
-def _relaxed(terrain: Terrain, curves: Curves, what: str, progress: Progress) -> Labels:
+def labels_of(terrain: Terrain, curves: Curves, what: str, progress: Progress) -> Labels:
     """Labels of the first nodes of curves."""
     parts = []
     for start in range(0, len(curves), CHUNK):
@@ -166,7 +166,7 @@ def _exchanged(
         changed = np.zeros(len(labels), bool)
         if not len(rows):
             break
-        candidates = _relaxed(
+        candidates = labels_of(
             terrain, labels.curves.take(neighbours).from_(labels.x[rows]), f"exchange, round {number}", progress
         )
         better = candidates.time < labels.time[rows]

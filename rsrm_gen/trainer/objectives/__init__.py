@@ -11,8 +11,9 @@ from rsrm_gen.trainer.clock import NO_CLOCK, Clock
 from rsrm_gen.trainer.objectives.bellman import Bellman
 from rsrm_gen.trainer.objectives.eikonal import Eikonal
 from rsrm_gen.trainer.objectives.objective import Objective, Tell
+from rsrm_gen.trainer.objectives.paths import Paths
 from rsrm_gen.trainer.scene import Scene
-from rsrm_gen.trainer.settings import BellmanTraining
+from rsrm_gen.trainer.settings import BellmanTraining, EikonalTraining
 
 __all__ = ["Objective", "Tell", "make_objective"]
 
@@ -21,4 +22,6 @@ def make_objective(scene: Scene, clock: Clock = NO_CLOCK, tell: Tell = lambda wh
     """The objective that the scene's settings name, at step 0 and without splats."""
     if isinstance(scene.training, BellmanTraining):
         return Bellman(scene, tell)
-    return Eikonal(scene, clock)
+    if isinstance(scene.training, EikonalTraining):
+        return Eikonal(scene, clock)
+    return Paths(scene, tell)

@@ -1,0 +1,150 @@
+"""`objective: paths`, the default: labels, which are costs of real paths to the goal, and Gauss-Newton on the splats.
+
+    labels     half of the points get labels (labels.py)
+    fit        the first part of the iterations brings the splats to them (fit.py), some moved to where they are needed more
+    refine     the other points get labels too, beginning with their neighbours' paths; in more than two dimensions, where a
+               roadmap of so many points is coarse, the field leads the way and its paths are relaxed as well
+    fit        the other iterations use all labels
+
+Neither the residual of the equation nor a reference solution enters.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from rsrm_gen.trainer.curves import Array, Curves, Terrain
+from rsrm_gen.trainer.fit import Fit, Schedule, Targets
+from rsrm_gen.trainer.labels import Labels, extended, label, offered, weighed
+from rsrm_gen.trainer.objectives.objective import Tell, width_bounds
+from rsrm_gen.trainer.plan import plan
+from rsrm_gen.trainer.response import Arrival
+from rsrm_gen.trainer.run import Arrays, new_arrival
+from rsrm_gen.trainer.sampling import sample_points
+from rsrm_gen.trainer.scene import Scene
+from rsrm_gen.trainer.settings import PathsTraining
+
+FIRST = 0.4  # part of the iterations on half of the points
+# Iterations of a part, as parts of it, after which this share of the splats is moved.
+MOVED_FIRST = {0.14: 0.1, 0.28: 0.08, 0.42: 0.07, 0.56: 0.06, 0.7: 0.05, 0.85: 0.04}
+MOVED_THEN = {0.1: 0.04, 0.3: 0.03, 0.5: 0.02}
+STEP = 0.1  # of a descent whose path is relaxed afterwards; a length
+LED = 4096  # descents at a time
+
+
+class Paths:
+    """The labels, the field, and one iteration of the fit."""
+
+    def __init__(self, scene: Scene, tell: Tell) -> None:
+        """At step 0, without labels and splats."""
+        assert isinstance(scene.training, PathsTraining)
+        self.scene = scene
+        self.settings = scene.training
+        self.tell = tell
+        self.step, self.steps = 0, scene.training.steps
+        self.phase = "labels"
+        self.terrain = Terrain(scene)
+        self.arrival = new_arrival(scene, scene.training.capacity)
+        self.labels: Labels | None = None
+        self.fit: Fit | None = None
+
+    @property
+    def first(self) -> int:
+        """How many iterations the first part has."""
+        return math.ceil(FIRST * self.steps)
+
+    def begin(self) -> None:
+        """Nothing yet: labels take long, and belong to the first step."""
+
+    def advance(self) -> float:
+        """One iteration, after the labels that it needs: the RMS error of the labels in the open."""
+        if self.labels is None:
+            x = self._points()
+            self.labels = label(self.terrain, x[: len(x) // 2], self._progress)
+        elif self.step == self.first:
+            self.labels = self._refined(self.labels, self._points()[len(self.labels) :])
+            self._fit().aim(self._targets(), self._schedule(self.step))
+        fit = self._fit()
+        if not self.arrival.field.count:
+            fit.place(self.settings.splats.count)
+        self.tell("fit", self.step / self.steps)
+        record = fit.advance()
+        if not math.isfinite(record.free_rms):
+            raise FloatingPointError(f"the error of the labels is {record.free_rms}")
+        self.step += 1
+        self.phase = "fit"
+        return record.free_rms
+
+    def _fit(self) -> Fit:
+        if self.fit is None:
+            self.fit = Fit(self.arrival.field, Arrival(self.arrival), self._targets(), self._schedule(self.step))
+        return self.fit
+
+    def _targets(self) -> Targets:
+        assert self.labels is not None
+        x = torch.from_numpy(self.labels.x)
+        weight = torch.from_numpy(weighed(self.terrain, x))
+        return Targets(*(t.to(self.scene.goal.dtype) for t in (x, torch.from_numpy(self.labels.time), weight)))
+
+    def _schedule(self, step: int) -> Schedule:
+        first = step < self.first
+        count = self.first if first else self.steps - self.first
+        moved = MOVED_FIRST if first else MOVED_THEN
+        relocate = {max(round(part * count), 1): share for part, share in moved.items()}
+        return Schedule(count, relocate, width_bounds(self.scene, self.settings.splats))
+
+    def _points(self) -> Tensor:
+        """All points that get labels, in an order of which every part is spread out."""
+        state = np.random.SeedSequence(self.settings.seed).generate_state(1, np.uint64)
+        generator = torch.Generator().manual_seed(int(state[0]))
+        x = sample_points(self.scene, self.settings.points, generator)
+        return x[torch.randperm(len(x), generator=generator)]
+
+    def _refined(self, labels: Labels, x: Tensor) -> Labels:
+        self.phase = "labels"
+        if self.scene.manifold.dim > 2:
+            labels = self._led(labels)
+        return extended(self.terrain, labels, x, self._progress)
+
+    def _led(self, labels: Labels) -> Labels:
+        """The labels, after the paths on which the field leads to the goal were relaxed and offered."""
+        for start in range(0, len(labels), LED):
+            self._progress("paths of the field", start, len(labels))
+            rows = np.arange(start, min(start + LED, len(labels)))
+            paths = plan(self.arrival, self.scene, torch.from_numpy(labels.x[rows]).to(self.scene.goal.dtype), STEP)
+            reached = np.flatnonzero(paths.reached.numpy())
+            if len(reached):
+                curves = Curves.of([paths.points[i].double().numpy() for i in reached.tolist()])
+                labels = offered(self.terrain, labels, rows[reached], curves)
+        return labels
+
+    def _progress(self, what: str, done: int, whole: int) -> None:
+        self.tell(what, done / max(whole, 1))
+
+    def final_loss(self) -> float:
+        """The RMS error of the labels in the open."""
+        return self._fit().errors()[1]
+
+    def arrays(self) -> Arrays:
+        """The splats, the damping, and the labels with their paths."""
+        buffers = self.arrival.field.buffers_of_splats()
+        splats: dict[str, Array] = {name: rows[: self.arrival.field.count].numpy() for name, rows in buffers.items()}
+        fit = self.fit.arrays() if self.fit else splats
+        labels = {f"label_{name}": rows for name, rows in self.labels.arrays().items()} if self.labels else {}
+        return {**fit, **labels, "step": np.array(self.step)}
+
+    def restore(self, arrays: Arrays, path: Path) -> None:
+        """Go back to what `arrays` gave; it was read from `path`."""
+        self.step = int(arrays["step"])
+        if self.step == 0:
+            return
+        known = {name.removeprefix("label_"): rows for name, rows in arrays.items() if name.startswith("label_")}
+        self.labels = Labels.from_arrays(known)
+        # The phase of the fit that the last iteration belonged to; the next one may begin another.
+        self.fit = Fit(self.arrival.field, Arrival(self.arrival), self._targets(), self._schedule(self.step - 1))
+        self.fit.restore(arrays, path)
