@@ -9,53 +9,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import torch
+from curve_scenes import GOALS, around, curve_scene
 from scenes import seeded
 from scipy.integrate import quad
 
 from rsrm_gen.errors import UserError
 from rsrm_gen.trainer import curves as module
 from rsrm_gen.trainer.curves import Curves, Relaxation, Terrain
-from rsrm_gen.trainer.scene import Scene, read_scene
-
-GOALS = {
-    "euclidean": [0.3, -0.4],
-    "torus": [-1.5, -1.5],
-    "sphere": [0.0, 0.6, 0.8],
-    "hyperbolic": [1.25, 0.75, 0.0],
-    "so3": [0.8, 0.0, 0.6, 0.0],
-    "se3": [0.3, -0.2, 0.1, 0.8, 0.0, 0.6, 0.0],
-    "arm2": [0.3, 0.5],
-    "circle": [1.0, 0.0],
-}
-PARAMETERS = {"euclidean": "{n: 2}"}
-
-
-def scene(
-    folder: Path, name: str, obstacles: str = "[]", slowness: str = "{}", goal: list[float] | None = None
-) -> Scene:
-    parameters = PARAMETERS.get(name)
-    lines = [
-        f"scene: {name}",
-        f"manifold: {{spec: {name}, parameters: {parameters}}}" if parameters else f"manifold: {name}",
-        f"goal: {goal or GOALS[name]}",
-        f"obstacles: {obstacles}",
-        f"slowness: {slowness}",
-        "training: {dtype: float64}",
-    ]
-    if name in ("euclidean", "hyperbolic", "se3", "arm2"):
-        lines.append(f"domain: {{center: {goal or GOALS[name]}, radius: {0.75 if name == 'arm2' else 3}}}")
-    path = folder / "scene.yaml"
-    path.write_text("\n".join(lines) + "\n")
-    return read_scene(path).in_double()
-
-
-def around(scene: Scene, radius: float, count: int, seed: int = 0) -> torch.Tensor:
-    """Points (count, D) within a radius of the goal."""
-    M = scene.manifold
-    components = torch.randn(count, M.dim, generator=seeded(seed), dtype=torch.float64)
-    reach = radius * torch.rand(count, 1, generator=seeded(seed + 1), dtype=torch.float64) ** (1 / M.dim)
-    v = (reach * components / components.norm(dim=1, keepdim=True))[:, None] @ M.frame(scene.goal)
-    return M.project(M.exp(scene.goal.expand(count, -1), v[:, 0]))
 
 
 def crooked(terrain: Terrain, starts: torch.Tensor, by: float, seed: int = 0) -> Curves:
@@ -70,7 +30,7 @@ def crooked(terrain: Terrain, starts: torch.Tensor, by: float, seed: int = 0) ->
 
 @pytest.mark.parametrize("name", ["torus", "sphere", "hyperbolic", "so3", "se3"])
 def test_where_the_slowness_is_constant_a_relaxed_curve_is_a_geodesic(name: str, tmp_path: Path) -> None:
-    terrain = Terrain(scene(tmp_path, name, slowness="{free: 2}"))
+    terrain = Terrain(curve_scene(tmp_path, name, slowness="{free: 2}"))
     x = around(terrain.scene, 2.0, 12)
     distance = terrain.manifold.distance(x, terrain.scene.goal).numpy()
     curves = crooked(terrain, x, 0.03)
@@ -81,7 +41,7 @@ def test_where_the_slowness_is_constant_a_relaxed_curve_is_a_geodesic(name: str,
 
 
 def test_on_a_retraction_curves_are_shorter_than_its_own_lines(tmp_path: Path) -> None:
-    terrain = Terrain(scene(tmp_path, "arm2"))
+    terrain = Terrain(curve_scene(tmp_path, "arm2"))
     x = around(terrain.scene, 1.5, 20)
     lines = Curves.between(x.numpy(), terrain.scene.goal.numpy())
     relaxed, fine = (
@@ -96,7 +56,7 @@ def test_on_a_retraction_curves_are_shorter_than_its_own_lines(tmp_path: Path) -
 
 
 def test_the_length_of_a_segment_of_a_retraction_is_by_the_metric_along_it(tmp_path: Path) -> None:
-    terrain = Terrain(scene(tmp_path, "arm2"))
+    terrain = Terrain(curve_scene(tmp_path, "arm2"))
     p, q = np.array([[0.3, 0.5]]), np.array([[1.1, -0.9]])
     M, v = terrain.manifold, torch.from_numpy(q - p)
 
@@ -148,7 +108,7 @@ def at_polar(terrain: Terrain, center: torch.Tensor, r: float, angle: float) -> 
 @pytest.mark.parametrize("name", AREAS)
 def test_curves_obey_snells_law_around_an_obstacle(name: str, tmp_path: Path) -> None:
     obstacle = f"[{{center: {GOALS[name]}, radius: {RADIUS}}}]"
-    terrain = Terrain(scene(tmp_path, name, obstacle, MILD))
+    terrain = Terrain(curve_scene(tmp_path, name, obstacle, MILD))
     center = terrain.scene.goal
     time, angle = bent_ray(name, 0.75, 1.1)
     start, end = (at_polar(terrain, center, 1.1, side * angle / 2).numpy() for side in (1, -1))
@@ -166,7 +126,7 @@ def test_curves_obey_snells_law_around_an_obstacle(name: str, tmp_path: Path) ->
 
 def test_the_error_falls_with_the_square_of_the_spacing_and_is_what_is_said(tmp_path: Path) -> None:
     obstacle = f"[{{center: {GOALS['euclidean']}, radius: {RADIUS}}}]"
-    terrain = Terrain(scene(tmp_path, "euclidean", obstacle, MILD))
+    terrain = Terrain(curve_scene(tmp_path, "euclidean", obstacle, MILD))
     time, angle = bent_ray("euclidean", 0.7, 1.4)
     nodes = [at_polar(terrain, terrain.scene.goal, r, a) for r, a in ((1.4, angle / 2), (0.8, 0.0), (1.4, -angle / 2))]
     curve = Curves.of([torch.stack(nodes).numpy()])
@@ -181,7 +141,7 @@ def test_the_error_falls_with_the_square_of_the_spacing_and_is_what_is_said(tmp_
 
 
 def test_curves_find_the_floor_of_a_valley_with_a_kink(tmp_path: Path) -> None:
-    terrain = Terrain(scene(tmp_path, "euclidean", "[{center: [0, 1], radius: 0.6}, {center: [0, -1], radius: 0.6}]",
+    terrain = Terrain(curve_scene(tmp_path, "euclidean", "[{center: [0, 1], radius: 0.6}, {center: [0, -1], radius: 0.6}]",
                             goal=[1.5, 0.0]))  # fmt: skip
     curve = np.array([[-1.5, 0.0], [-0.5, 0.25], [0.3, -0.2], [1.5, 0.0]])
     relaxed = terrain.relaxed(Curves.of([curve]))
@@ -192,10 +152,10 @@ def test_curves_find_the_floor_of_a_valley_with_a_kink(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", ["torus", "sphere", "hyperbolic", "so3", "arm2"])
 def test_the_gradient_is_that_of_the_cost_of_relaxed_curves(name: str, tmp_path: Path) -> None:
-    plain = scene(tmp_path, name)
+    plain = curve_scene(tmp_path, name)
     M = plain.manifold
     center = M.exp(plain.goal, 0.8 * M.frame(plain.goal)[0])
-    terrain = Terrain(scene(tmp_path, name, f"[{{center: {center.tolist()}, radius: 0.3}}]"))
+    terrain = Terrain(curve_scene(tmp_path, name, f"[{{center: {center.tolist()}, radius: 0.3}}]"))
     tight = replace(terrain.usual, tolerance=1e-11, iterations=60)
     x = M.exp(plain.goal, M.frame(plain.goal)[0] * 1.5 + M.frame(plain.goal)[1] * 0.3)
     frame, h = M.frame(x), 1e-3
@@ -214,7 +174,7 @@ def many(terrain: Terrain, count: int = 40) -> Curves:
 @pytest.fixture
 def terrain(tmp_path: Path) -> Terrain:
     return Terrain(
-        scene(tmp_path, "torus", "[{center: [-0.3, -0.6], radius: 0.5}, {center: [0.4, -1.6], radius: 0.4}]")
+        curve_scene(tmp_path, "torus", "[{center: [-0.3, -0.6], radius: 0.5}, {center: [0.4, -1.6], radius: 0.4}]")
     )
 
 
@@ -243,6 +203,17 @@ def test_a_curve_that_is_not_finite_stays_as_it_is_and_spoils_no_other(terrain: 
     assert not np.isfinite(relaxed.cost[[3, 7]]).any()
 
 
+def test_what_is_taken_off_is_never_more_than_polygons_can_cost(terrain: Terrain) -> None:
+    """A curve still on its way when its nodes are doubled gains much more by that than its sides' length explains."""
+    starts = around(terrain.scene, 2.5, 60).numpy()
+    detours = Curves.between(np.broadcast_to([0.5, -0.2], starts.shape), terrain.scene.goal.numpy()).from_(starts)
+    relaxed = terrain.relaxed(detours)
+    finer = terrain.resampled(relaxed.curves, 2 * relaxed.curves.counts - 1)
+    finest = terrain.cost(terrain.settled(finer, terrain.usual.fine))
+    assert (relaxed.cost > 0.995 * finest).all()
+    assert np.median(np.abs(relaxed.cost - finest)) < 1e-3
+
+
 def test_the_number_of_threads_changes_no_bit(terrain: Terrain) -> None:
     curves = many(terrain)
     one = terrain.relaxed(curves)
@@ -260,7 +231,7 @@ def test_a_start_at_the_goal_costs_nothing(terrain: Terrain) -> None:
 
 
 def test_in_one_dimension_there_is_nothing_to_relax(tmp_path: Path) -> None:
-    terrain = Terrain(scene(tmp_path, "circle", "[{center: [0, 1], radius: 0.3}]"))
+    terrain = Terrain(curve_scene(tmp_path, "circle", "[{center: [0, 1], radius: 0.3}]"))
     start = np.array([[math.cos(2.5), math.sin(2.5)]])
     relaxed = terrain.relaxed(Curves.between(start, terrain.scene.goal.numpy()))
 

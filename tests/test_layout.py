@@ -113,7 +113,11 @@ def test_imports_name_modules_that_exist() -> None:
     assert {pair for pair in wanted if pair[1] not in MODULES} == set()
 
 
-@pytest.mark.parametrize("module", ["train", "objectives", "model", "density", "optimise", "link", "scene", "settings"])
+LEARNING = ["train", "objectives", "model", "density", "optimise", "link", "scene", "settings"]
+LABELLING = ["curves", "roadmap", "labels", "sampling"]
+
+
+@pytest.mark.parametrize("module", LEARNING + LABELLING)
 def test_training_cannot_reach_the_reference(module: str) -> None:
     reached = loaded_by(f"{PACKAGE}.trainer.{module}")
     assert f"{PACKAGE}.trainer.{module}" in reached

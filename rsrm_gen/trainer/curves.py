@@ -32,6 +32,10 @@ SOURCE = Path(__file__).with_name("curves.c")
 BLOCK = 64  # as in curves.c
 FEWEST = 4  # segments of a curve that is relaxed
 MOST = 2000  # segments of one
+MOVED = (
+    0.02  # part of a cost: what doubling the nodes gains beyond is no error of polygons, the curve was still on its way
+)
+REPEATS = 3  # of the relaxation of such curves
 GAUSS = np.polynomial.legendre.leggauss(5)
 
 # A scene of the paper: what lengths below are in units of.
@@ -260,13 +264,23 @@ class Terrain:
     def relaxed(self, curves: Curves, settings: Relaxation | None = None) -> Relaxed:
         """Curves respaced and relaxed, then with twice the nodes again: the cost that this leads to, and its error."""
         settings = settings or self.usual
-        coarse = self.settled(self.spaced(curves, settings.spacing), settings.coarse, settings)
-        doubled = self.resampled(coarse, 2 * coarse.counts - 1)
-        fine = self.settled(doubled, settings.fine, settings)
-        cost = self.cost(fine)
+        fine, cost, gain = self._doubled(curves, settings)
+        for _ in range(REPEATS):
+            again = np.flatnonzero(gain > MOVED * cost)
+            if not len(again):
+                break
+            others, cost[again], gain[again] = self._doubled(fine.take(again), settings)
+            fine = fine.replaced(again, others)
         # The cost of a polygon falls with the square of its sides: a third of what the last doubling gained is left.
-        error = np.clip((self.cost(coarse) - cost) / 3, 0.0, None)
+        error = np.clip(gain, 0.0, MOVED * cost) / 3
         return Relaxed(fine, cost - error, error)
+
+    def _doubled(self, curves: Curves, settings: Relaxation) -> tuple[Curves, Array, Array]:
+        """Curves relaxed with few nodes, then with twice as many; their exact cost, and what the doubling gained."""
+        coarse = self.settled(self.spaced(curves, settings.spacing), settings.coarse, settings)
+        fine = self.settled(self.resampled(coarse, 2 * coarse.counts - 1), settings.fine, settings)
+        cost = self.cost(fine)
+        return fine, cost, self.cost(coarse) - cost
 
     def gradients(self, curves: Curves) -> Array:
         """The gradients of the arrival time at the curves' first nodes, (B, T), as they have it: with their other nodes
