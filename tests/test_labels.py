@@ -144,7 +144,8 @@ def test_the_same_points_give_the_same_labels_on_any_number_of_threads(terrain: 
 def test_progress_is_told_to_the_end(terrain: Terrain) -> None:
     told: list[tuple[str, int, int]] = []
     label(terrain, around(terrain.scene, 2.0, 50), lambda *said: told.append(said))
-    assert told[:2] == [("relax", 0, 50), ("relax", 50, 50)]
+    assert told[0] == ("relax", 0, 50)
+    assert ("relax", 50, 50) in told
     assert all(done <= whole for _, done, whole in told)
 
 

@@ -11,7 +11,7 @@ from curve_scenes import around, curve_scene
 from scenes import seeded
 
 from rsrm_gen.trainer.curves import Terrain
-from rsrm_gen.trainer.roadmap import Neighbourhood, roadmap, ways
+from rsrm_gen.trainer.roadmap import Neighbourhood, roadmap
 
 
 @pytest.mark.parametrize("name", ["torus", "sphere", "hyperbolic", "so3", "se3", "arm2", "circle"])
@@ -47,12 +47,15 @@ def test_ways_lead_from_every_point_to_the_goal_at_the_cost_that_is_said(name: s
     terrain = Terrain(curve_scene(tmp_path, name, f"[{{center: {center.tolist()}, radius: 0.3}}]"))
     x = around(plain, 2.0, 500)
     found = roadmap(terrain, x, 12)
-    curves = ways(found, x.numpy(), plain.goal.numpy())
-    assert np.array_equal(curves.starts, x.numpy())
-    ends = curves.nodes[curves.offsets[1:] - 1]
-    assert np.array_equal(ends, np.broadcast_to(plain.goal.numpy(), ends.shape))
-    assert terrain.cost(curves) == pytest.approx(found.cost, rel=2e-3)
-    lengths = terrain.measure(curves)[1]
+    points, goal = x.numpy(), plain.goal.numpy()
+    assert sorted(np.concatenate(list(found.levels())).tolist()) == list(range(500))
+    costs = np.append(found.cost, 0.0)
+    step, length = terrain.segments(points, np.concatenate([points, goal[None]])[found.next])
+    assert found.cost == pytest.approx(step + costs[found.next], rel=2e-3)
+    lengths = np.zeros(501)
+    for rows in found.levels():
+        lengths[rows] = length[rows] + lengths[found.next[rows]]
+    lengths = lengths[:500]
     assert (found.cost > lengths * (1 - 1e-9)).all()  # the free slowness is 1, the least there is
     if name != "arm2":
         assert (lengths >= plain.manifold.distance(x, plain.goal).numpy() - 1e-12).all()

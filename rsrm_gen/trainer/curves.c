@@ -12,6 +12,7 @@
 #define NORMALS (DIM > 1 ? DIM - 1 : 1)   /* directions across a curve */
 #define VARIANTS (NORMALS * (NORMALS + 1)) /* of a node: both ways along each direction and along each pair of them */
 #define HALVINGS 6                        /* of a step that does not make the curve cheaper */
+#define ROUGHLY 10                         /* times the tolerance do for all steps of differences but the last */
 #define STEEP 0.2                         /* the part of a carried vector that must be across the curve */
 
 typedef void (*rows)(size_t, const double *, const double *, double *);
@@ -465,9 +466,9 @@ static double newton(const struct geometry *g, const struct medium *m, const str
     return cost;
 }
 
-/* Relax one curve with one difference step; x never becomes dearer. */
+/* Relax one curve with one difference step, until a step gains less than the tolerance; x never becomes dearer. */
 static void stage(const struct geometry *g, const struct medium *m, const struct settings *settings, struct work *w,
-                  size_t n, double *x, double h) {
+                  size_t n, double *x, double h, double tolerance) {
     double cost = curve_cost(g, m, w, n, x), least = cost;
     if (!isfinite(cost)) return;
     memcpy(w->best, x, n * POINT * sizeof(double));
@@ -485,7 +486,7 @@ static void stage(const struct geometry *g, const struct medium *m, const struct
             least = cost;
             memcpy(w->best, x, n * POINT * sizeof(double));
         }
-        if (!(spaced - cost > settings->tolerance * before)) break;
+        if (!(spaced - cost > tolerance * before)) break;
     }
     memcpy(x, w->best, n * POINT * sizeof(double));
 }
@@ -511,7 +512,10 @@ int relax(size_t curves, const size_t *offsets, double *nodes, size_t most, cons
             if (!ready || DIM < 2 || n < 3) continue;
             double *x = nodes + offsets[b] * POINT;
             if (!(arc_lengths(g, n, x, w.arc) > 0)) continue;
-            for (size_t k = 0; k < steps; ++k) stage(g, m, settings, &w, n, x, differences[k]);
+            for (size_t k = 0; k < steps; ++k) { /* the earlier steps only lead to where the last one begins */
+                const double tolerance = settings->tolerance * (k + 1 < steps ? ROUGHLY : 1);
+                stage(g, m, settings, &w, n, x, differences[k], tolerance);
+            }
         }
         if (ready) free(w.all);
     }

@@ -12,7 +12,7 @@ from __future__ import annotations
 import ctypes
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -118,6 +118,11 @@ class Relaxation:
     resample_every: int = 4  # iterations
     tolerance: float = 1e-6  # a decrease, relative to the cost, below which a step is done
     reach: float = 0.3  # the longest displacement of a node in an iteration
+
+    @property
+    def quick(self) -> Relaxation:
+        """The last of the steps alone, for curves that are nearly relaxed."""
+        return replace(self, coarse=self.coarse[-1:], fine=self.fine[-1:])
 
     @classmethod
     def of(cls, scene: Scene) -> Relaxation:

@@ -15,8 +15,8 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from rsrm_gen.trainer.curves import Array, Curves, Terrain
-from rsrm_gen.trainer.roadmap import Neighbourhood, roadmap, segment_costs, ways
+from rsrm_gen.trainer.curves import Array, Curves, Relaxation, Terrain
+from rsrm_gen.trainer.roadmap import Neighbourhood, Roadmap, roadmap, segment_costs
 
 # Lengths and times in units of the spacing of the curves, and of what it takes along it in the open.
 APART = 1.2  # farther from one another than their starts, two curves are ways round different sides
@@ -26,6 +26,7 @@ NEIGHBOURS = 8  # that curves are exchanged with
 ROUNDS = 8  # of the exchange, at most
 SETTLED = 5e-4  # part of the labels; when a round changes fewer, the exchange ends
 PLACES = 9  # along two curves at which they are compared
+THOROUGH = 4  # every so many levels of the roadmap's tree are relaxed with all steps of differences
 CHUNK = 4096  # curves between two signs of progress
 
 Progress = Callable[[str, int, int], None]  # what is done, how many of how many
@@ -77,7 +78,7 @@ def label(terrain: Terrain, x: Tensor, progress: Progress = silent) -> Labels:
     """Labels of the points x (N, D)."""
     x = terrain.manifold.project(x.detach().double().cpu()).contiguous()
     found = roadmap(terrain, x)
-    labels = labels_of(terrain, ways(found, x.numpy(), terrain.scene.goal.numpy()), "relax", progress)
+    labels = _along(terrain, found, x.numpy(), progress)
     nearby = found.index[:, :NEIGHBOURS], found.through[:, :NEIGHBOURS]
     return _exchanged(terrain, labels, *nearby, np.ones(len(x), bool), progress)
 
@@ -101,7 +102,8 @@ def extended(terrain: Terrain, labels: Labels, x: Tensor, progress: Progress = s
     through = terrain.segments(p, labels.x[index.reshape(-1)])[0].reshape(index.shape)
     whole = through + labels.time[index]
     best = index[np.arange(len(x)), np.where(np.isfinite(whole), whole, np.inf).argmin(1)]
-    new = labels_of(terrain, labels.curves.take(best).from_(x.numpy()), "relax more points", progress)
+    curves = labels.curves.take(best).from_(x.numpy())
+    new = labels_of(terrain, curves, "relax more points", progress, terrain.usual.quick)
     is_new = np.arange(len(labels) + len(x)) >= len(labels)
     return exchanged(terrain, labels.joined(new), is_new, progress)
 
@@ -112,21 +114,44 @@ def exchanged(terrain: Terrain, labels: Labels, changed: Array, progress: Progre
     return _exchanged(terrain, labels, index, segment_costs(terrain, labels.x, index), changed, progress)
 
 
-def labels_of(terrain: Terrain, curves: Curves, what: str, progress: Progress) -> Labels:
+def _along(terrain: Terrain, found: Roadmap, x: Array, progress: Progress) -> Labels:
+    """Labels of the roadmap's points x (N, D). The curve of a point starts as the relaxed one of the point that its way goes
+    to next: little of it is left to relax, so that all steps of differences are gone through at some levels only."""
+    parts: list[Labels] = []
+    order, done = [], 0
+    position = np.empty(len(x), np.int64)
+    for level, rows in enumerate(found.levels()):
+        progress("relax", done, len(x))
+        if level:
+            curves = parts[-1].curves.take(position[found.next[rows]]).from_(x[rows])
+        else:
+            curves = Curves.between(x[rows], terrain.scene.goal.numpy())
+        usual = terrain.usual
+        parts.append(_labelled(terrain, curves, usual.quick if level % THOROUGH else usual))
+        order.append(rows)
+        position[rows] = np.arange(len(rows))
+        done += len(rows)
+    progress("relax", done, len(x))
+    return _joined(parts).take(np.argsort(np.concatenate(order)))
+
+
+def labels_of(
+    terrain: Terrain, curves: Curves, what: str, progress: Progress, settings: Relaxation | None = None
+) -> Labels:
     """Labels of the first nodes of curves."""
     parts = []
-    for start in range(0, len(curves), CHUNK):
+    for start in range(0, max(len(curves), 1), CHUNK):
         progress(what, start, len(curves))
-        relaxed = terrain.relaxed(curves.take(np.arange(start, min(start + CHUNK, len(curves)))))
-        gradient = terrain.gradients(relaxed.curves)
-        parts.append(Labels(relaxed.curves.starts, relaxed.cost, gradient, relaxed.error, relaxed.curves))
+        part = curves.take(np.arange(start, min(start + CHUNK, len(curves))))
+        parts.append(_labelled(terrain, part, settings))
     progress(what, len(curves), len(curves))
-    return _joined(parts) if parts else _none(terrain, curves)
+    return _joined(parts)
 
 
-def _none(terrain: Terrain, curves: Curves) -> Labels:
-    nothing = np.empty(0)
-    return Labels(curves.starts, nothing, np.empty((0, terrain.manifold.tangent_size)), nothing, curves)
+def _labelled(terrain: Terrain, curves: Curves, settings: Relaxation | None) -> Labels:
+    relaxed = terrain.relaxed(curves, settings)
+    gradient = terrain.gradients(relaxed.curves)
+    return Labels(relaxed.curves.starts, relaxed.cost, gradient, relaxed.error, relaxed.curves)
 
 
 def _joined(parts: list[Labels]) -> Labels:

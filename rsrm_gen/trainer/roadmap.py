@@ -7,6 +7,7 @@ candidates so found are then measured with the manifold's own distance.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,7 +18,7 @@ from scipy.spatial import cKDTree
 from torch import Tensor
 
 from rsrm_gen.manifold import Manifold
-from rsrm_gen.trainer.curves import Array, Curves, Terrain
+from rsrm_gen.trainer.curves import Array, Terrain
 
 CANDIDATES = 3  # times as many as neighbours: nearness to landmarks is not the distance
 AROUND = 4  # landmarks, and two more for each dimension
@@ -80,6 +81,14 @@ class Roadmap:
     index: Array  # (N, k) of int64: the neighbours of each
     through: Array  # (N, k), what the segments to them cost
 
+    def levels(self) -> Iterator[Array]:
+        """The indices (n,) of the points from which the goal is one segment away, then of those from which it is two, ..."""
+        within = np.append(np.zeros(len(self.cost), bool), True)  # at first the goal alone
+        while len(rows := np.flatnonzero(within[self.next])):
+            yield rows
+            within[:] = False
+            within[rows] = True
+
 
 def roadmap(terrain: Terrain, x: Tensor, neighbours: int = 24) -> Roadmap:
     """The shortest ways from x (N, D) over segments to so many neighbours each. All reach the goal: points that the graph
@@ -123,21 +132,3 @@ def _shortest(through: Array, index: Array, rows: Array, at_goal: Array) -> tupl
     graph = coo_array((costs[first], (low[first], high[first])), shape=(count + 1, count + 1)).tocsr()
     cost, before = dijkstra(graph, directed=False, indices=count, return_predecessors=True)
     return cost[:count], np.where(before[:count] == UNREACHED, count, before[:count]).astype(np.int64)
-
-
-def ways(roadmap: Roadmap, x: Array, goal: Array) -> Curves:
-    """The roadmap's ways from its points x (N, D) as curves to the goal (D,)."""
-    count = len(x)
-    nodes = np.concatenate([x, goal[None]])
-    rows, steps, at = [np.arange(count)], [np.arange(count)], np.arange(count)
-    here = np.arange(count)
-    while len(here):
-        at = roadmap.next[at]
-        rows.append(here)
-        steps.append(at)
-        going = at < count
-        here, at = here[going], at[going]
-    order = np.argsort(np.concatenate(rows), kind="stable")
-    index = np.concatenate(steps)[order]
-    counts = np.bincount(np.concatenate(rows), minlength=count)
-    return Curves(nodes[index], np.concatenate([np.zeros(1, np.int64), np.cumsum(counts)]))

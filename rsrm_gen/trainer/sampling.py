@@ -20,7 +20,7 @@ SHELL = 0.1  # to this depth obstacles are drawn from like the open
 
 DEEPER = 0.1  # part of the points deeper than that which is kept
 DRAWN = 2  # times as many points are drawn as are wanted; the most crowded ones go
-CROWD = 12  # neighbours by which a crowd is told
+CROWD = 8  # neighbours by which a crowd is told
 SHARPNESS = 8  # of the weight of a neighbour, as its distance falls
 
 
