@@ -17,16 +17,18 @@ from rsrm_gen.manifold import Manifold
 
 @dataclass(frozen=True)
 class Block:
-    """Some of the points: their indices (n,), one of them in the middle (D,), and how far the others are at most."""
+    """Some of the points."""
 
-    index: Tensor
-    center: Tensor
-    radius: float
+    index: Tensor  # (n,), which
+    center: Tensor  # (D,), one in the middle
+    radius: float  # how far the others are from it at most
+    probes: Tensor  # (m, D), some that stand for all
+    cover: float  # how far any is from the nearest probe
 
 
-def blocks(manifold: Manifold, x: Tensor, size: int) -> list[Block]:
-    """The points x (N, D) in blocks of at most `size`, all of about the same size."""
-    return [_block(manifold, x, index) for index in halves(x, size)]
+def blocks(manifold: Manifold, x: Tensor, size: int, probes: int) -> list[Block]:
+    """The points x (N, D) in blocks of at most `size`, all of about the same size, each with about so many probes."""
+    return [_block(manifold, x, index, probes) for index in halves(x, size)]
 
 
 def halves(x: Tensor, size: int) -> Iterator[Tensor]:
@@ -44,8 +46,11 @@ def halves(x: Tensor, size: int) -> Iterator[Tensor]:
         waiting += [index[order[middle:]], index[order[:middle]]]
 
 
-def _block(manifold: Manifold, x: Tensor, index: Tensor) -> Block:
+def _block(manifold: Manifold, x: Tensor, index: Tensor, count: int) -> Block:
     part = x[index]
     center = part[int((part - part.mean(0)).square().sum(-1).argmin())]
     radius = float(manifold.distance(part, center.expand_as(part)).amax())
-    return Block(index, center, radius)
+    smaller = halves(part, max(len(part) // count, 1))
+    probes = torch.stack([part[int(some[len(some) // 2])] for some in smaller])
+    cover = float(manifold.distance(part[:, None], probes[None]).amin(1).amax())
+    return Block(index, center, radius, probes, cover)

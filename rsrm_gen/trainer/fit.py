@@ -22,17 +22,18 @@ from torch import Tensor
 
 from rsrm_gen.trainer.density import pick_apart, pick_spread
 from rsrm_gen.trainer.gauss_newton import (
+    WHOLE,
     NormalEquations,
     Sample,
     amplitudes,
     amplitudes_alone,
     apply,
     bounded,
+    curvature,
     effective_map,
-    normal_equations,
+    gradient,
     sample,
     set_amplitudes,
-    solve,
 )
 from rsrm_gen.trainer.model import SplatField
 from rsrm_gen.trainer.response import Response
@@ -133,15 +134,15 @@ class Fit:
         row = self.weight * self.response.slope(self.known, wanted)
         usable = wanted.isfinite() & row.isfinite()
         wanted, row = torch.where(usable, wanted, 0.0), torch.where(usable, row, 0.0)
-        equations = self._amplitude_equations(row, -row * wanted)
-        matrix = equations.matrix
-        matrix.diagonal().add_(RIDGE * float(row.double().square().sum()))
-        factor = torch.linalg.cholesky(matrix)
-        solution = torch.cholesky_solve(-equations.gradient[:, None], factor)[:, 0]
-        set_amplitudes(self.field, equations.per_splat(solution)[:, 0].to(self.field.v.dtype))
+        alone = amplitudes_alone(self.field)
+        matrix = self._ridged(curvature(self.field, self.sample, row, alone, torch.float64, WHOLE), row)
+        right = gradient(self.field, self.targets.x, row, row * wanted, alone)
+        solution = torch.cholesky_solve(right[:, None], torch.linalg.cholesky(matrix))[:, 0]
+        set_amplitudes(self.field, solution.to(self.field.v.dtype))
 
-    def _amplitude_equations(self, row: Tensor, residual: Tensor) -> NormalEquations:
-        return normal_equations(self.field, self.sample, row, residual, amplitudes_alone(self.field), torch.float64)
+    def _ridged(self, matrix: Tensor, row: Tensor) -> Tensor:
+        matrix.diagonal().add_(RIDGE * float(row.double().square().sum()))
+        return matrix
 
     def advance(self) -> Record:
         """One iteration."""
@@ -151,8 +152,9 @@ class Fit:
         row = self.weight * self.response.slope(self.known, f)
         residual = self._residual(f)
         to_effective = effective_map(self.field, self.field.splats())
-        equations = normal_equations(self.field, self.sample, row, residual, to_effective, row.dtype)
-        accepted = self._step(equations, cost)
+        matrix = curvature(self.field, self.sample, row, to_effective, row.dtype)
+        right = gradient(self.field, self.targets.x, row, residual, to_effective)
+        accepted = self._step(NormalEquations.of(matrix, right), cost)
         self.iteration += 1
         relocated = self._relocate(self.schedule.relocate.get(self.iteration - self.phase_start, 0.0))
         rms, free = self.errors()
@@ -163,7 +165,7 @@ class Fit:
         """Try steps, each damped more than the last, until one lowers the cost."""
         before = {name: rows.clone() for name, rows in self.field.buffers_of_splats().items()}
         for _ in range(6):
-            step = solve(equations, self.damping)
+            step = equations.step(self.damping)
             if step is not None:
                 apply(self.field, step, self.schedule.bounds)
                 if self._cost(self.values(self.targets.x)) < cost:  # false where it is not a number
@@ -201,11 +203,9 @@ class Fit:
         f = self.values(self.targets.x)
         row = self.weight * self.response.slope(self.known, f)
         # What the cost would rise by if a splat went and the weights of the others made up for it: a^2 / (G^-1)_kk.
-        equations = self._amplitude_equations(row, torch.zeros_like(row))
-        matrix = equations.matrix
-        matrix.diagonal().add_(RIDGE * float(row.double().square().sum()))
-        inverse = torch.cholesky_inverse(torch.linalg.cholesky(matrix)).diagonal()
-        missed = amplitudes(self.field).double().square() / equations.per_splat(inverse)[:, 0]
+        matrix = curvature(self.field, self.sample, row, amplitudes_alone(self.field), torch.float64)
+        inverse = torch.cholesky_inverse(torch.linalg.cholesky(self._ridged(matrix, row))).diagonal()
+        missed = amplitudes(self.field).double().square() / inverse
         centers = self._worst(f, count)
         gone = missed.argsort(stable=True)[: len(centers)]
         kept = torch.ones(self.field.count, dtype=torch.bool)

@@ -9,28 +9,36 @@ A splat has Q = 1 + d + d (d + 1) / 2 effective parameters, and only they are mo
 What turns A's image, A Q for a rotation Q, changes no splat, and S spans all the rest. Both u and S are free of units.
 
 Rows of the Jacobian come from the generated kernel in its own variables (mu, W, amplitude), and a small matrix a splat takes
-them to the effective ones. The matrix of the normal equations (P, P), P = K Q, is summed over blocks of points, and in each
-block over those pairs of splats only that both reach it: nothing of size N x P is ever there.
+them to the effective ones. The matrix of the normal equations (P, P), P = K Q, is summed over compact blocks of points, and in
+each block over the splats alone that reach it: nothing of size N x P is ever there. The gradient is that of all splats at all
+points, by the kernel's backward pass, so that what is left out bends a step but not the point that steps lead to.
 """
 
 from __future__ import annotations
 
-import itertools
+import ctypes
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
 
 import torch
 from torch import Tensor
 
-from rsrm_gen.trainer.arithmetic import Splats
-from rsrm_gen.trainer.blocks import Block, blocks, halves
+from rsrm_gen.compiler.native import FAST, compiled, compiler
+from rsrm_gen.trainer.arithmetic import REALS, Splats
+from rsrm_gen.trainer.blocks import Block, blocks
 from rsrm_gen.trainer.model import SplatField, width
 
-TILE = 64  # splats whose columns of the Jacobian are multiplied at once
-WIDEST_TILE = 384  # columns, or those of 8 splats
-BLOCK = 1024  # points of which rows of the Jacobian are there at the same time
+SOURCE = Path(__file__).with_suffix(".c")
+BLOCK = 512  # points of which rows of the Jacobian are there at the same time
 BLOCK_NUMBERS = 2**24  # and how many numbers these rows may be
-REACH = 6.0  # standard deviations, beyond which a splat's derivatives are below rounding: exp(-18) is 1.5e-8
+PROBES = 32  # points of a block at which is looked whether a splat reaches it
+CHUNK = 4096  # points whose derivatives are summed in the field's own dtype
+REACH = 4.0  # standard deviations, beyond which curvature is left out: a splat is 3e-4 of its height there
+WHOLE = 6.5  # the same where a linear problem is solved at once and nothing may be missing: 1e-9
 LARGEST_MOVE = 1.0  # of a centre, in standard deviations
 LARGEST_STRETCH = math.log(2)  # of a shape, in the logarithm of its singular values
 
@@ -84,94 +92,115 @@ def sample(field: SplatField, x: Tensor) -> Sample:
     """The points x (N, D) in blocks for a field of that capacity."""
     manifold = field.manifold
     numbers = field.capacity * (manifold.point_size + manifold.dim * manifold.tangent_size + 1)
-    return Sample(x, blocks(manifold, x, min(BLOCK, max(BLOCK_NUMBERS // numbers, 64))))
+    return Sample(x, blocks(manifold, x, min(BLOCK, max(BLOCK_NUMBERS // numbers, 64)), PROBES))
 
 
-@dataclass(frozen=True)
-class NormalEquations:
-    """J^T J and J^T r of residuals r (N,) with the Jacobian J (N, P), Q parameters of a splat side by side."""
-
-    order: Tensor  # (K,), the splats in the order of their parameters
-    matrix: Tensor  # (P, P), its lower triangle
-    gradient: Tensor  # (P,), float64
-
-    def per_splat(self, numbers: Tensor) -> Tensor:
-        """Numbers (P,) that belong to the parameters, as the splats are ordered in their field: (K, Q)."""
-        rows = numbers.view(len(self.order), -1)
-        return torch.empty_like(rows).index_copy_(0, self.order, rows)
-
-
-def normal_equations(
-    field: SplatField, at: Sample, slope: Tensor, residual: Tensor, to_parameters: Tensor, dtype: torch.dtype
-) -> NormalEquations:
-    """Of N points with residuals (N,) and their derivatives in f, `slope` (N,).
+def curvature(
+    field: SplatField, at: Sample, slope: Tensor, to_parameters: Tensor, dtype: torch.dtype, reach: float = REACH
+) -> Tensor:
+    """J^T J (P, P) of N values with the derivatives `slope` (N,) in f, Q parameters of a splat side by side.
 
     `to_parameters` (K, D + d T + 1, Q) says which parameters, as `effective_map` does. Products are summed in `dtype`.
     """
     splats, Q = field.splats(), to_parameters.shape[-1]
-    tiles = list(halves(splats.mu, min(TILE, max(WIDEST_TILE // Q, 8))))
-    ends = torch.tensor([0] + [len(tile) * Q for tile in tiles]).cumsum(0).tolist()
-    columns = [slice(a, b) for a, b in itertools.pairwise(ends)]
-    reach = REACH * width(field.A[: field.count].movedim(0, -1))
-    matrix = torch.zeros(ends[-1], ends[-1], dtype=dtype)
-    gradient = torch.zeros(ends[-1], dtype=torch.float64)
+    widths = width(field.A[: field.count].movedim(0, -1))
+    matrix = torch.zeros(field.count * Q, field.count * Q, dtype=dtype)
+    parameters = torch.arange(field.count * Q).view(-1, Q)
+    add = adder(dtype)
     for part in at.parts:
-        near = _near(field, part, tiles, reach)
-        if not near:
-            continue
-        kept = torch.cat([tiles[i] for i in near])
-        J = _rows(field, splats, at.x[part.index], slope[part.index], kept, to_parameters).to(dtype)
-        r = residual[part.index].to(dtype)
-        J_of = dict(zip(near, torch.split(J, [len(tiles[i]) * Q for i in near], 1), strict=True))
-        for i, J_i in J_of.items():
-            gradient[columns[i]] += (J_i.T @ r).double()
-            for j, J_j in J_of.items():
-                if j <= i:
-                    matrix[columns[i], columns[j]].addmm_(J_i.T, J_j)
-    return NormalEquations(torch.cat(tiles), matrix, gradient)
+        x = at.x[part.index]
+        near = _near(field, splats, widths, part, reach)
+        J = _rows(field, splats, x, slope[part.index], near, to_parameters).to(dtype)
+        add(matrix, parameters[near].flatten(), J.T @ J)
+    return matrix.tril_() + matrix.tril(-1).T
 
 
-def _near(field: SplatField, part: Block, tiles: list[Tensor], reach: Tensor) -> list[int]:
-    """The tiles with a splat that reaches the block; all where distances are not those of a metric."""
-    if field.manifold.maps != "geodesic":
-        return list(range(len(tiles)))
-    centers = field.mu[: field.count]
-    distance = field.manifold.distance(part.center.expand_as(centers), centers)
-    # A distance that is not finite is not known to be far.
-    near = ~(distance - part.radius > reach)
-    return [i for i, tile in enumerate(tiles) if bool(near[tile].any())]
+@lru_cache
+def adder(dtype: torch.dtype) -> Callable[[Tensor, Tensor, Tensor], None]:
+    """A function that adds a block (n, n) to the rows and columns of a matrix that are given (n,), rising: to the lower
+    triangle at least."""
+    if compiler() is None or dtype not in REALS:
+        return _add_block
+    text = SOURCE.read_text(encoding="utf-8")
+    function: Any = compiled({SOURCE.name: text}, SOURCE.name, (*FAST, f"-DREAL={REALS[dtype]}")).add_block
+    function.argtypes = [ctypes.c_size_t] * 2 + [ctypes.c_void_p] * 3
+
+    def add(matrix: Tensor, columns: Tensor, block: Tensor) -> None:
+        block = block.contiguous()
+        function(len(matrix), len(columns), columns.data_ptr(), block.data_ptr(), matrix.data_ptr())
+
+    return add
 
 
-def _rows(field: SplatField, splats: Splats, x: Tensor, slope: Tensor, kept: Tensor, to_parameters: Tensor) -> Tensor:
-    """The Jacobian (n, k Q) at x (n, D) of the kept splats (k,)."""
-    mu, W, amplitude = (rows[kept] for rows in splats.inputs())
+def _add_block(matrix: Tensor, columns: Tensor, block: Tensor) -> None:
+    matrix[columns[:, None], columns] += block
+
+
+def gradient(field: SplatField, x: Tensor, slope: Tensor, residual: Tensor, to_parameters: Tensor) -> Tensor:
+    """J^T r of residuals r (N,) at x (N, D): (P,), in float64."""
+    inputs = [rows.detach().requires_grad_() for rows in field.splats().inputs()]
+    total = torch.zeros(to_parameters.shape[:2], dtype=torch.float64)
+    for part, bar in zip(torch.split(x, CHUNK), torch.split(slope * residual, CHUNK), strict=True):
+        with torch.enable_grad():
+            f = field.manifold.splats_value(part, *inputs)
+        bars = torch.autograd.grad(f, inputs, bar)
+        total += torch.cat([rows.flatten(1) for rows in (*bars[:2], bars[2][:, None])], 1)
+    return torch.einsum("kr,krq->kq", total, to_parameters.double()).flatten()
+
+
+def _near(field: SplatField, splats: Splats, widths: Tensor, part: Block, reach: float) -> Tensor:
+    """The splats (k,) that come within so many standard deviations of a block's points."""
+    manifold = field.manifold
+    near = torch.arange(field.count)
+    if manifold.maps == "geodesic":  # else distances need not be those of a metric
+        distance = manifold.distance(part.center.expand_as(splats.mu), splats.mu)
+        near = near[~(distance - part.radius > reach * widths)]  # one that is not finite is not known to be far
+    size = len(near), len(part.probes), manifold.point_size
+    toward = manifold.log(splats.mu[near][:, None].expand(size), part.probes.expand(size))
+    z = (splats.W[near] @ toward.mT).square().sum(1).amin(1).sqrt()
+    return near[~(z > reach + part.cover / widths[near])]
+
+
+def _rows(field: SplatField, splats: Splats, x: Tensor, slope: Tensor, near: Tensor, to_parameters: Tensor) -> Tensor:
+    """The Jacobian (n, k Q) at x (n, D) of some splats (k,)."""
+    mu, W, amplitude = (rows[near] for rows in splats.inputs())
     nothing = x.new_zeros(len(x), field.manifold.tangent_size)
     rows = field.manifold.splats_rows(x, mu, W, amplitude, slope, nothing)
-    return torch.einsum("nkr,krq->nkq", rows, to_parameters[kept]).flatten(1)
+    return torch.einsum("nkr,krq->nkq", rows, to_parameters[near]).flatten(1)
 
 
-def solve(equations: NormalEquations, damping: float) -> Tensor | None:
-    """The step (K, Q) to the minimum of |J step + r|^2 + damping |step|^2, each parameter in units of its column's length.
+@dataclass(frozen=True)
+class NormalEquations:
+    """What a step solves: J^T J, each parameter in units of its column's length, and J^T r in the same."""
 
-    None where the matrix, with rounding, is not positive definite.
-    """
-    matrix = equations.matrix.double()
-    length = matrix.diagonal().sqrt()
-    scale = 1 / torch.where(length > 0, length, 1.0)
-    matrix.mul_(scale).mul_(scale[:, None])
-    matrix.diagonal().fill_(1 + damping)  # also of columns that are zero, which stay where they are
-    factor, failed = torch.linalg.cholesky_ex(matrix)
-    if int(failed):
-        return None
-    step = torch.cholesky_solve((-scale * equations.gradient)[:, None], factor)[:, 0] * scale
-    return equations.per_splat(step) if bool(step.isfinite().all()) else None
+    matrix: Tensor  # (P, P), float64
+    gradient: Tensor  # (P,)
+    scale: Tensor  # (P,), one over the length; 0 for parameters that change nothing, which then stay
+
+    @staticmethod
+    def of(matrix: Tensor, gradient: Tensor) -> NormalEquations:
+        """From J^T J (P, P) and J^T r (P,)."""
+        matrix = matrix.double()
+        length = matrix.diagonal().sqrt()
+        scale = torch.where(length > 0, 1 / length, 0.0)
+        return NormalEquations(matrix * scale * scale[:, None], gradient * scale, scale)
+
+    def step(self, damping: float) -> Tensor | None:
+        """The minimum (P,) of |J step + r|^2 + damping |step|^2; None where the matrix is not positive definite."""
+        matrix = self.matrix.clone()
+        matrix.diagonal().fill_(1 + damping)
+        factor, failed = torch.linalg.cholesky_ex(matrix)
+        if int(failed):
+            return None
+        step = torch.cholesky_solve(-self.gradient[:, None], factor)[:, 0] * self.scale
+        return step if bool(step.isfinite().all()) else None
 
 
 @torch.no_grad()
 def apply(field: SplatField, step: Tensor, bounds: tuple[float, float]) -> None:
-    """Move the splats by a step (K, Q), shortened where it goes too far; singular values of A stay within the bounds."""
+    """Move the splats by a step (K Q), shortened where it goes too far; singular values of A stay within the bounds."""
     count, d = field.count, field.manifold.dim
-    step = step.to(field.mu.dtype)
+    step = step.to(field.mu.dtype).view(count, -1)
     A, amplitude = field.A[:count], amplitudes(field) + step[:, 0]
     move, S = step[:, 1 : 1 + d], _symmetric(step[:, 1 + d :], d)
     length = move.norm(dim=1, keepdim=True)
