@@ -25,7 +25,7 @@ from rsrm_gen.trainer.gauss_newton import (
 )
 from rsrm_gen.trainer.link import Exponential, Quotient
 from rsrm_gen.trainer.model import ArrivalTime, SplatField
-from rsrm_gen.trainer.response import Arrival, Itself
+from rsrm_gen.trainer.response import Affine, Arrival
 
 # Ambient vectors, components in a frame, a metric that varies, products, a retraction.
 MANIFOLDS = ["sphere", "hyperbolic", "torus", "so3", "so3_matrix", "poincare", "se2", "se3", "spd", "arm2", "so2"]
@@ -126,7 +126,7 @@ def test_a_field_made_of_splats_is_found_again(name: str) -> None:
     field = copy_of(truth)
     Q = effective_count(manifold.dim)
     apply(field, 0.1 * torch.randn(4, Q, generator=seeded(5), dtype=torch.float64), UNBOUNDED)
-    fit = Fit(field, Itself(), Targets(x, values(truth, x), torch.ones(400).double()), Schedule(40))
+    fit = Fit(field, Affine(), Targets(x, values(truth, x), torch.ones(400).double()), Schedule(40))
     assert fit.errors()[0] > 1e-3
     while not fit.done and fit.errors()[0] > 1e-9:
         fit.advance()
