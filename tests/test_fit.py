@@ -206,6 +206,26 @@ def test_a_step_that_helps_nothing_leaves_the_splats_alone() -> None:
     assert torch.equal(before, arrival.field.mu)
 
 
+def test_more_targets_are_wanted_where_residuals_are_large() -> None:
+    arrival, targets = arrival_targets("sphere", 600, 1)
+    fit = Fit(arrival.field, Arrival(arrival), targets, Schedule(5))
+    fit.place(12)
+    worst = fit.worst(3)
+    error = (arrival.time(targets.x) - targets.value).abs()
+    assert torch.equal(worst[0], targets.x[int(error.argmax())])
+    distance = fit.field.manifold.distance(worst[:, None], worst[None])
+    assert float((distance + torch.eye(3)).min()) > 0.05
+
+
+def test_targets_that_say_nothing_give_a_field_of_zero() -> None:
+    arrival, targets = arrival_targets("torus", 100, 1)
+    nowhere = Targets(arrival.goal.expand(100, -1).contiguous(), torch.zeros(100), torch.ones(100))
+    fit = Fit(arrival.field, Arrival(arrival), nowhere, Schedule(2))
+    arrival.field.append(targets.x[:5], 0.3)
+    fit.solve_amplitudes()
+    assert not arrival.field.v.any()
+
+
 def test_shapes_stay_within_their_bounds() -> None:
     arrival, targets = arrival_targets("sphere", 600, 1)
     fit = Fit(arrival.field, Arrival(arrival), targets, Schedule(5, {2: 0.2}, (0.2, 0.3)))
