@@ -25,7 +25,7 @@ from rsrm_gen.trainer.gauss_newton import (
 )
 from rsrm_gen.trainer.link import Exponential, Quotient
 from rsrm_gen.trainer.model import ArrivalTime, SplatField
-from rsrm_gen.trainer.response import Arrival, Itself
+from rsrm_gen.trainer.response import Affine, Arrival
 
 # Ambient vectors, components in a frame, a metric that varies, products, a retraction.
 MANIFOLDS = ["sphere", "hyperbolic", "torus", "so3", "so3_matrix", "poincare", "se2", "se3", "spd", "arm2", "so2"]
@@ -126,7 +126,7 @@ def test_a_field_made_of_splats_is_found_again(name: str) -> None:
     field = copy_of(truth)
     Q = effective_count(manifold.dim)
     apply(field, 0.1 * torch.randn(4, Q, generator=seeded(5), dtype=torch.float64), UNBOUNDED)
-    fit = Fit(field, Itself(), Targets(x, values(truth, x), torch.ones(400).double()), Schedule(40))
+    fit = Fit(field, Affine(), Targets(x, values(truth, x), torch.ones(400).double()), Schedule(40))
     assert fit.errors()[0] > 1e-3
     while not fit.done and fit.errors()[0] > 1e-9:
         fit.advance()
@@ -204,6 +204,26 @@ def test_a_step_that_helps_nothing_leaves_the_splats_alone() -> None:
     before = arrival.field.mu.clone()
     assert not fit.advance().accepted
     assert torch.equal(before, arrival.field.mu)
+
+
+def test_more_targets_are_wanted_where_residuals_are_large() -> None:
+    arrival, targets = arrival_targets("sphere", 600, 1)
+    fit = Fit(arrival.field, Arrival(arrival), targets, Schedule(5))
+    fit.place(12)
+    worst = fit.worst(3)
+    error = (arrival.time(targets.x) - targets.value).abs()
+    assert torch.equal(worst[0], targets.x[int(error.argmax())])
+    distance = fit.field.manifold.distance(worst[:, None], worst[None])
+    assert float((distance + torch.eye(3)).min()) > 0.05
+
+
+def test_targets_that_say_nothing_give_a_field_of_zero() -> None:
+    arrival, targets = arrival_targets("torus", 100, 1)
+    nowhere = Targets(arrival.goal.expand(100, -1).contiguous(), torch.zeros(100), torch.ones(100))
+    fit = Fit(arrival.field, Arrival(arrival), nowhere, Schedule(2))
+    arrival.field.append(targets.x[:5], 0.3)
+    fit.solve_amplitudes()
+    assert not arrival.field.v.any()
 
 
 def test_shapes_stay_within_their_bounds() -> None:

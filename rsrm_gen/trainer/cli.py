@@ -22,6 +22,7 @@ from rsrm_gen.load import CHOICES
 from rsrm_gen.trainer.clock import StopWatch, table
 from rsrm_gen.trainer.plan import Paths, plan
 from rsrm_gen.trainer.progress import show_progress
+from rsrm_gen.trainer.regression_cli import fit
 from rsrm_gen.trainer.run import Run, RunFolder, load_run
 from rsrm_gen.trainer.scene import Scene, read_scene
 from rsrm_gen.trainer.train import Outcome, train
@@ -39,10 +40,12 @@ app = typer.Typer(
     "\b\n"
     "  rsrm train scene.yaml                 train into runs/scene\n"
     "  rsrm eval runs/scene                  errors against a reference solution\n"
-    "  rsrm plan runs/scene --from 1.0,2.0   a path to the goal and its true cost",
+    "  rsrm plan runs/scene --from 1.0,2.0   a path to the goal and its true cost\n"
+    "  rsrm fit samples.csv -m MANIFOLD      any function on a manifold, from samples",
 )
 
 app.add_typer(bench, name="bench")
+app.command("fit")(fit)
 
 RunArgument = Annotated[Path, typer.Argument(metavar="RUN", help="A folder that `rsrm train` made.")]
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
+import torch
 from torch import Tensor
 
 from rsrm_gen.trainer.model import ArrivalTime
@@ -31,24 +32,27 @@ class Response(Protocol):
 
 
 @dataclass(frozen=True)
-class Itself:
-    """y = f."""
+class Affine:
+    """y = offset + scale f: f itself, or so that it is of size 1."""
+
+    offset: float = 0.0
+    scale: float = 1.0
 
     def at(self, x: Tensor) -> Tensor:
         """Nothing."""
         return x.new_zeros(len(x))
 
     def value(self, known: Tensor, f: Tensor) -> Tensor:
-        """f."""
-        return f
+        """y."""
+        return self.offset + self.scale * f
 
     def slope(self, known: Tensor, f: Tensor) -> Tensor:
-        """1."""
-        return f.new_ones(f.shape)
+        """The scale."""
+        return torch.full_like(f, self.scale)
 
     def field(self, known: Tensor, value: Tensor) -> Tensor:
-        """The value."""
-        return value
+        """f."""
+        return (value - self.offset) / self.scale
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,7 @@ from rsrm_gen.load import load
 from rsrm_gen.trainer.fit import Fit, Schedule, Targets
 from rsrm_gen.trainer.model import SplatField
 from rsrm_gen.trainer.optimise import AdamW
-from rsrm_gen.trainer.response import Itself
+from rsrm_gen.trainer.response import Affine
 
 SAMPLES, TESTS, NOISE = 1000, 200, 0.01
 STEPS, RATE, SHAPE = 20_000, 1e-4, 0.1
@@ -115,7 +115,7 @@ def _by_recipe(field: SplatField, given: Data, seed: int, steps: int) -> None:
 
 def _by_gauss_newton(field: SplatField, given: Data, seed: int, steps: int) -> None:
     targets = Targets(given.x, given.value, torch.ones_like(given.value))
-    fit = Fit(field, Itself(), targets, Schedule(steps, RELOCATED, WIDTHS))
+    fit = Fit(field, Affine(), targets, Schedule(steps, RELOCATED, WIDTHS))
     fit.place(field.capacity)
     while not fit.done:
         fit.advance()
