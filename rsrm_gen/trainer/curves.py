@@ -35,6 +35,8 @@ MOST = 2000  # segments of one
 MOVED = (
     0.02  # part of a cost: what doubling the nodes gains beyond is no error of polygons, the curve was still on its way
 )
+EVALUATIONS = 64  # of a segment while its curve is relaxed, at least
+WORTH_WAKING = 4096  # segments to evaluate, for more than one thread
 REPEATS = 3  # of the relaxation of such curves
 GAUSS = np.polynomial.legendre.leggauss(5)
 
@@ -205,6 +207,10 @@ class Terrain:
             len(self._radii), _address(self._centers), _address(self._radii), law.free, law.obstacle, law.width
         )
 
+    def _for(self, segments: int) -> int:
+        """The threads that pay for so many segments: waking others takes as long as hundreds of them."""
+        return self.threads if segments >= WORTH_WAKING else 1
+
     def segments(self, p: Array, q: Array) -> tuple[Array, Array]:
         """The costs (N,) and the lengths (N,) of the segments between the points p and q, (N, D), by Gauss's quadrature."""
         p, q = (np.ascontiguousarray(a, np.float64) for a in np.broadcast_arrays(p, q))
@@ -212,7 +218,7 @@ class Terrain:
         cost, length = np.empty(len(p)), np.empty(len(p))
         self._library.segments(
             len(p), *map(_address, (p, q)), self._geometry, self._medium, len(node), *map(_address, (node, weight)),
-            3 * self.usual.spacing, self.threads, *map(_address, (cost, length)),
+            3 * self.usual.spacing, self._for(len(p)), *map(_address, (cost, length)),
         )  # fmt: skip
         return cost, length
 
@@ -244,7 +250,7 @@ class Terrain:
         given = [np.ascontiguousarray(a) for a in (curves.offsets, curves.nodes)]
         most = int(max(curves.counts.max(initial=0), 1))
         complete = self._library.resample(
-            len(curves), *map(_address, (*given, offsets, nodes)), most, self._geometry, self.threads
+            len(curves), *map(_address, (*given, offsets, nodes)), most, self._geometry, self._for(len(nodes))
         )
         _require(complete)
         return Curves(nodes, offsets)
@@ -261,7 +267,7 @@ class Terrain:
         chosen = _Settings(settings.iterations, settings.resample_every, settings.tolerance, settings.reach)
         complete = self._library.relax(
             len(curves), *map(_address, (offsets, nodes)), most, self._geometry, self._medium,
-            len(steps), _address(steps), chosen, self.threads,
+            len(steps), _address(steps), chosen, self._for(len(nodes) * EVALUATIONS),
         )  # fmt: skip
         _require(complete)
         return Curves(nodes, curves.offsets)

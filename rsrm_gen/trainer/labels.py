@@ -17,6 +17,7 @@ from torch import Tensor
 
 from rsrm_gen.trainer.curves import Array, Curves, Relaxation, Terrain
 from rsrm_gen.trainer.roadmap import Neighbourhood, Roadmap, roadmap, segment_costs
+from rsrm_gen.trainer.threads import one_thread
 
 # Lengths and times in units of the spacing of the curves, and of what it takes along it in the open.
 APART = 1.2  # farther from one another than their starts, two curves are ways round different sides
@@ -74,6 +75,7 @@ class Labels:
         return Labels(**joined, curves=self.curves.joined(others.curves))
 
 
+@one_thread()
 def label(terrain: Terrain, x: Tensor, progress: Progress = silent) -> Labels:
     """Labels of the points x (N, D)."""
     x = terrain.manifold.project(x.detach().double().cpu()).contiguous()
@@ -83,6 +85,7 @@ def label(terrain: Terrain, x: Tensor, progress: Progress = silent) -> Labels:
     return _exchanged(terrain, labels, *nearby, np.ones(len(x), bool), progress)
 
 
+@one_thread()
 def offered(terrain: Terrain, labels: Labels, rows: Array, curves: Curves, progress: Progress = silent) -> Labels:
     """The same labels, or cheaper ones at the points with indices `rows` (R,), each at most once, after R curves from
     elsewhere have been relaxed; these may begin and end a little off, and are led to the point and to the goal."""
@@ -92,6 +95,7 @@ def offered(terrain: Terrain, labels: Labels, rows: Array, curves: Curves, progr
     return _replaced(labels, rows[better], candidates.take(np.flatnonzero(better)))
 
 
+@one_thread()
 def extended(terrain: Terrain, labels: Labels, x: Tensor, progress: Progress = silent) -> Labels:
     """The same labels with those of more points x (M, D) after them, whose curves start with their neighbours'. Where the
     new points show the old ones a cheaper way, these fall."""
@@ -108,6 +112,7 @@ def extended(terrain: Terrain, labels: Labels, x: Tensor, progress: Progress = s
     return exchanged(terrain, labels.joined(new), is_new, progress)
 
 
+@one_thread()
 def exchanged(terrain: Terrain, labels: Labels, changed: Array, progress: Progress = silent) -> Labels:
     """The same labels, after neighbours have exchanged their curves where one of the two has `changed` (N,) of bool."""
     index, _ = Neighbourhood(terrain.manifold, torch.from_numpy(labels.x)).nearest_others(NEIGHBOURS)
