@@ -20,6 +20,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from rsrm_gen.manifold import Manifold
 from rsrm_gen.trainer.density import pick_apart, pick_spread
 from rsrm_gen.trainer.gauss_newton import (
     WHOLE,
@@ -42,6 +43,8 @@ from rsrm_gen.trainer.run import Arrays, fill_rows
 CANDIDATES = 16  # points looked at for each centre that is chosen
 OVERLAP = 1.24  # standard deviations of a first splat for each distance to a neighbour
 RIDGE = 1e-7  # of the mean square of the rows, on amplitudes of about 1
+NEAREST = 0.5  # of the distance to the next point: narrower splats would follow single points
+WIDEST = 0.22  # of the injectivity radius, on a compact manifold: little is left of a splat at its cut locus
 SMALLEST = 1e-30  # where no row says anything
 FIRST_DAMPING, EASE, RAISE = 1e-2, 0.4, 4.0
 LEAST_DAMPING, LARGEST_DAMPING = 1e-7, 1e6
@@ -70,6 +73,18 @@ def two_phases(bounds: tuple[float, float]) -> tuple[Schedule, Schedule]:
     """To shape splats on some of the points, then on more of them: measured to be worth what it costs in two dimensions."""
     first = Schedule(14, dict.fromkeys((2, 4, 6, 8, 10, 12), 0.06), bounds)
     return first, Schedule(20, {2: 0.04, 6: 0.03, 10: 0.02}, bounds)
+
+
+def shape_bounds(manifold: Manifold, x: Tensor) -> tuple[float, float]:
+    """How narrow and how wide splats may be that are fitted to values at points x (N, D)."""
+    some = x[:: max(len(x) // 512, 1)][:512]
+    distance = manifold.distance(some[:, None], x[None, : 1 << 14])
+    largest = float(distance.amax())
+    apart = torch.where(distance > 0, distance, torch.inf).amin(1)
+    least = NEAREST * float(apart[apart.isfinite()].median()) if bool(apart.isfinite().any()) else 1e-3
+    if math.isfinite(manifold.diameter):
+        largest = min(largest, WIDEST * manifold.injectivity_radius)
+    return min(least, largest), max(largest, least)
 
 
 @dataclass(frozen=True)

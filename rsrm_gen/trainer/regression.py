@@ -30,7 +30,7 @@ from rsrm_gen.errors import UserError
 from rsrm_gen.files import write_text_whole
 from rsrm_gen.load import load_in_rows
 from rsrm_gen.manifold import Manifold
-from rsrm_gen.trainer.fit import Fit, Schedule, Targets
+from rsrm_gen.trainer.fit import Fit, Schedule, Targets, shape_bounds
 from rsrm_gen.trainer.gauss_newton import effective_count
 from rsrm_gen.trainer.model import SplatField
 from rsrm_gen.trainer.response import Affine
@@ -40,8 +40,6 @@ from rsrm_gen.trainer.train import Progress
 
 MOST_SPLATS = 500  # by default
 SAMPLES_A_NUMBER = 4  # by default there are so many samples for each number that is fitted
-WIDEST = 0.22  # of the injectivity radius, on a compact manifold: what is left at the cut locus is below rounding
-NEAREST = 0.5  # of the distance to the next sample: narrower splats would follow single samples
 
 
 @dataclass(frozen=True)
@@ -226,7 +224,7 @@ def _new_fit(learnt: Targets, manifold: Manifold, settings: Regression) -> tuple
     field = SplatField(manifold, _splat_count(len(learnt.x), manifold, settings), learnt.x.dtype)
     response = Affine(*spread(learnt.value.double(), learnt.weight.double()))
     moves = range(2, settings.iterations * 3 // 5 + 1, 2)
-    schedule = Schedule(settings.iterations, dict.fromkeys(moves, 0.05), _bounds(manifold, learnt.x))
+    schedule = Schedule(settings.iterations, dict.fromkeys(moves, 0.05), shape_bounds(manifold, learnt.x))
     return Fit(field, response, learnt, schedule), response
 
 
@@ -234,18 +232,6 @@ def _splat_count(samples: int, manifold: Manifold, settings: Regression) -> int:
     if settings.splats is not None:
         return min(settings.splats, samples)
     return max(1, min(MOST_SPLATS, samples // (SAMPLES_A_NUMBER * effective_count(manifold.dim))))
-
-
-def _bounds(manifold: Manifold, x: Tensor) -> tuple[float, float]:
-    """How narrow and how wide splats may be."""
-    some = x[:: max(len(x) // 512, 1)][:512]
-    distance = manifold.distance(some[:, None], x[None, : 1 << 14])
-    largest = float(distance.amax())
-    apart = torch.where(distance > 0, distance, torch.inf).amin(1)
-    least = NEAREST * float(apart[apart.isfinite()].median()) if bool(apart.isfinite().any()) else 1e-3
-    if math.isfinite(manifold.diameter):
-        largest = min(largest, WIDEST * manifold.injectivity_radius)
-    return min(least, largest), max(largest, least)
 
 
 def _report(fit: Fit, function: Function, kept_back: Targets, seconds: float) -> Report:
