@@ -103,11 +103,14 @@ class BasedLink(LinkChoice):
 
 
 class Splats(_Part):
-    """How many splats there are, and how wide one may be: bounds of the singular values of A."""
+    """How many splats there are, and how wide one may be: bounds of the singular values of A.
+
+    What is left out of the bounds follows from how near to each other the points are, and how far the manifold goes.
+    """
 
     count: Count = 256
-    min_width: Positive = 0.03  # a length
-    max_width: Positive | None = None  # a length; left out: a quarter of the diameter
+    min_width: Positive | None = None  # a length
+    max_width: Positive | None = None  # a length
 
     @model_validator(mode="before")
     @classmethod
@@ -116,7 +119,7 @@ class Splats(_Part):
 
     @model_validator(mode="after")
     def _bounds_are_in_order(self) -> Splats:
-        if self.max_width is not None and self.max_width < self.min_width:
+        if self.min_width and self.max_width and self.max_width < self.min_width:
             raise ValueError(f"max_width {self.max_width} is less than min_width, {self.min_width}")
         return self
 
@@ -168,13 +171,16 @@ class _AnyTraining(_Part):
     kernels: Literal["auto", "c", "torch"] | None = None  # what sums splats; left out: RSRM_KERNELS, or what is fastest
 
 
+POINTS_A_SPLAT = 100  # of fewer, splats become needles between them
+
+
 class PathsTraining(_AnyTraining):
     """Labels from paths, then Gauss-Newton: the first part on half of the points, the rest on all of them."""
 
     objective: ObjectiveChoice = ObjectiveChoice(kind="paths")
     link: BasedLink = BasedLink()
     steps: Count = 34  # iterations of Gauss-Newton
-    points: Count = 48_000  # that get labels
+    points: Count | None = None  # that get labels; left out: 100 for each splat
     splats: Splats = Splats()
     checkpoint_every: Count = 5  # steps
 
@@ -182,6 +188,11 @@ class PathsTraining(_AnyTraining):
     def capacity(self) -> int:
         """How many splats the buffers hold."""
         return self.splats.count
+
+    @property
+    def labelled(self) -> int:
+        """How many points get labels."""
+        return self.points or POINTS_A_SPLAT * self.splats.count
 
 
 class BellmanTraining(_AnyTraining):

@@ -52,7 +52,7 @@ class Bellman:
         self.costs = self._cost(self.ends)
         self.direct = self._cost(scene.goal.expand_as(self.x)[:, None])[:, 0]
         weight = (scene.law.free / scene.slowness(self.x)).square()
-        schedule = Schedule(iterations=self.steps, bounds=width_bounds(scene, scene.training.splats))
+        schedule = Schedule(iterations=self.steps, bounds=width_bounds(scene.manifold, scene.training.splats, self.x))
         self.fit = Fit(self.arrival.field, Arrival(self.arrival), Targets(self.x, self.direct, weight), schedule)
         self.paid = torch.full_like(
             self.direct, math.inf

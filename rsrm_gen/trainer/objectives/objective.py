@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Protocol
 
+from torch import Tensor
+
+from rsrm_gen.manifold import Manifold
+from rsrm_gen.trainer.fit import shape_bounds
 from rsrm_gen.trainer.model import ArrivalTime
 from rsrm_gen.trainer.run import Arrays
-from rsrm_gen.trainer.scene import Scene
 from rsrm_gen.trainer.settings import Splats
-
-WIDEST = 0.25  # of the injectivity radius or of the domain's: how wide a splat may be
 
 Tell = Callable[[str, float], None]  # what is being done within a step, and which part of it is done
 
@@ -45,9 +47,8 @@ class Objective(Protocol):
         ...
 
 
-def width_bounds(scene: Scene, splats: Splats) -> tuple[float, float]:
-    """The least and the largest singular value that a splat's A may have; lengths."""
-    if splats.max_width is not None:
-        return splats.min_width, splats.max_width
-    sizes = [scene.manifold.injectivity_radius, *([scene.domain.radius] if scene.domain else [])]
-    return splats.min_width, max(WIDEST * min(sizes), splats.min_width)
+def width_bounds(manifold: Manifold, splats: Splats, x: Tensor) -> tuple[float, float]:
+    """The least and the largest singular value that a splat's A may have, for a fit at points x (N, D); lengths."""
+    least, largest = shape_bounds(manifold, x)
+    least = splats.min_width or min(least, splats.max_width or math.inf)
+    return least, max(splats.max_width or largest, least)

@@ -12,6 +12,7 @@ Neither the residual of the equation nor a reference solution enters.
 from __future__ import annotations
 
 import math
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +21,7 @@ from torch import Tensor
 
 from rsrm_gen.trainer.curves import Array, Curves, Terrain
 from rsrm_gen.trainer.fit import Fit, Schedule, Targets
-from rsrm_gen.trainer.labels import Labels, extended, label, offered, weighed
+from rsrm_gen.trainer.labels import Labels, exchanged, extended, label, offered, weighed
 from rsrm_gen.trainer.objectives.objective import Tell, width_bounds
 from rsrm_gen.trainer.plan import plan
 from rsrm_gen.trainer.response import Arrival
@@ -64,10 +65,9 @@ class Paths:
     def advance(self) -> float:
         """One iteration, after the labels that it needs: the RMS error of the labels in the open."""
         if self.labels is None:
-            x = self._points()
-            self.labels = label(self.terrain, x[: len(x) // 2], self._progress)
+            self.labels = label(self.terrain, self.points[: len(self.points) // 2], self._progress)
         elif self.step == self.first:
-            self.labels = self._refined(self.labels, self._points()[len(self.labels) :])
+            self.labels = self._refined(self.labels, self.points[len(self.labels) :])
             self._fit().aim(self._targets(), self._schedule(self.step))
         fit = self._fit()
         if not self.arrival.field.count:
@@ -96,13 +96,14 @@ class Paths:
         count = self.first if first else self.steps - self.first
         moved = MOVED_FIRST if first else MOVED_THEN
         relocate = {max(round(part * count), 1): share for part, share in moved.items()}
-        return Schedule(count, relocate, width_bounds(self.scene, self.settings.splats))
+        return Schedule(count, relocate, width_bounds(self.scene.manifold, self.settings.splats, self._targets().x))
 
-    def _points(self) -> Tensor:
-        """All points that get labels, in an order of which every part is spread out."""
+    @cached_property
+    def points(self) -> Tensor:
+        """All points that get labels, in an order of which every part is spread out: (N, D), float64."""
         state = np.random.SeedSequence(self.settings.seed).generate_state(1, np.uint64)
         generator = torch.Generator().manual_seed(int(state[0]))
-        x = sample_points(self.scene, self.settings.points, generator)
+        x = sample_points(self.scene, self.settings.labelled, generator)
         return x[torch.randperm(len(x), generator=generator)]
 
     def _refined(self, labels: Labels, x: Tensor) -> Labels:
@@ -113,6 +114,7 @@ class Paths:
 
     def _led(self, labels: Labels) -> Labels:
         """The labels, after the paths on which the field leads to the goal were relaxed and offered."""
+        before = labels.time
         for start in range(0, len(labels), LED):
             self._progress("paths of the field", start, len(labels))
             rows = np.arange(start, min(start + LED, len(labels)))
@@ -121,7 +123,7 @@ class Paths:
             if len(reached):
                 curves = Curves.of([paths.points[i].double().numpy() for i in reached.tolist()])
                 labels = offered(self.terrain, labels, rows[reached], curves)
-        return labels
+        return exchanged(self.terrain, labels, labels.time < before, self._progress)
 
     def _progress(self, what: str, done: int, whole: int) -> None:
         self.tell(what, done / max(whole, 1))
