@@ -93,8 +93,8 @@ def _train(
     console.print(f"{prepared.title}: {prepared.manifold.name}, into {folder.path}", highlight=False, markup=False)
     console.print(f"kernels: {prepared.manifold.kernels(prepared.goal)}", highlight=False, markup=False)
     first = int(folder.restore()["step"]) if resume else 0
-    with show_progress(console, first, prepared.training.steps) as progress:
-        outcome = train(prepared, folder, resume is not None, progress)
+    with show_progress(console, first, prepared.training.steps) as (progress, tell):
+        outcome = train(prepared, folder, resume is not None, progress, tell)
     _report(console, folder, prepared, outcome)
     if not no_picture:
         _picture(console, folder.path)
@@ -186,7 +186,7 @@ def _report(console: Console, folder: RunFolder, scene: Scene, outcome: Outcome)
         typer.echo(f"go on with: rsrm train --resume {folder.path}")
         raise typer.Exit(INTERRUPTED)
     size = f"{s.splats} splats ({s.parameters} numbers)"
-    console.print(f"loss {s.loss:.4f}, {size}, {s.ms_per_step:.2f} ms a step, {s.seconds:.0f} s", highlight=False)
+    console.print(f"loss {s.loss:.5f}, {size}, {s.ms_per_step:.2f} ms a step, {s.seconds:.0f} s", highlight=False)
 
 
 def _picture(console: Console, run: Path) -> None:

@@ -106,7 +106,7 @@ def _run(settings: Regression, folder: RunFolder, resume: bool, console: Console
     console.print(f"{len(samples.x)} samples on {manifold.name}, into {folder.path}", highlight=False, markup=False)
     first = int(folder.restore()["step"]) if resume else 0
     try:
-        with show_progress(console, first, settings.iterations) as progress:
+        with show_progress(console, first, settings.iterations) as (progress, _):
             report = regress(samples, manifold, settings, folder, resume, progress)
     except KeyboardInterrupt:
         if not folder.checkpoint.exists():

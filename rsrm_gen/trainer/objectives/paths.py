@@ -72,7 +72,7 @@ class Paths:
         fit = self._fit()
         if not self.arrival.field.count:
             fit.place(self.settings.splats.count)
-        self.tell("fit", self.step / self.steps)
+        self.tell("fit", 0.0)
         record = fit.advance()
         if not math.isfinite(record.free_rms):
             raise FloatingPointError(f"the error of the labels is {record.free_rms}")
