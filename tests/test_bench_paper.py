@@ -58,6 +58,7 @@ def test_the_networks_have_the_papers_numbers_of_parameters(name: str) -> None:
     assert known.network.parameters(size) == known.mlp.parameters
     small = known.network.shrunk_to(known.rsrm.parameters, size)
     assert small.depth == known.network.depth
+    assert (known.network.divisor, small.divisor) == (30, 1)
     assert abs(small.parameters(size) / known.rsrm.parameters - 1) < 0.03
 
 
@@ -270,11 +271,7 @@ def test_methods_are_settings(benchmark: Path, tmp_path: Path) -> None:
     assert recipe.scene.training.steps == mlp.scene.training.steps == 40
     assert recipe.network is None
     assert mlp.network == SMALL
-    assert BY_KEY["recipe"].training({"seed": 3}, PLAIN["T2"], 3, quick=True) == {
-        "objective": "eikonal",
-        "seed": 3,
-        "steps": 400,
-    }
+    assert BY_KEY["recipe"].training({"seed": 3}, PLAIN["T2"], 3, quick=True) == {"seed": 3, "steps": 400}
     assert mlp.scene.training.learning_rate == SMALL.learning_rate
 
 

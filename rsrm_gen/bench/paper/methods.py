@@ -43,7 +43,6 @@ class Method:
         if self.recipe:
             network, shortened = self.network(manifold), {"steps": QUICK_STEPS} if quick else {}
             return {
-                "objective": "eikonal",
                 **written,
                 **shortened,
                 **({"learning_rate": network.learning_rate} if network else {}),
@@ -58,7 +57,7 @@ METHODS = (
     Method("recipe", "RSRM, the paper's recipe", published="rsrm"),
     Method("mlp", "MLP, the paper's", model="network", published="mlp"),
     Method("mlp-small", "MLP with the RSRM's parameters", model="network", share=1),
-    Method("ours", "ours", share=1, recipe=False),
+    Method("ours", "ours", share=1, published="rsrm", recipe=False),
     Method("ours-half", "ours, half the parameters", share=1 / 2, recipe=False),
     Method("ours-quarter", "ours, a quarter", share=1 / 4, recipe=False),
 )
