@@ -415,6 +415,28 @@ def test_the_command_trains_writes_and_makes_tables_again(
     assert "`magic` is no method" in capsys.readouterr().err
 
 
+def test_an_interrupted_command_shows_what_is_done_and_says_how_it_ended(
+    benchmark: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def impatient(*arguments: object, **named: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(runner, "train", impatient)
+    with pytest.raises(SystemExit) as done:
+        cli.main(["bench", "paper", "--scenes", str(benchmark), "-o", str(tmp_path / "out"), "--method", "mlp"])
+    assert done.value.code == cli.INTERRUPTED
+    assert "NOT FINISHED: 3 trainings are missing; the same command goes on." in capsys.readouterr().out
+
+
+def test_progress_is_said_seldom(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock, said = [0.0], []
+    monkeypatch.setattr("time.monotonic", lambda: clock[0])
+    say = runner._seldom(said.append)
+    for clock[0] in (1.0, 9.0, 11.0, 12.0, 22.0):
+        say(f"at {clock[0]:g}")
+    assert said == ["at 11", "at 22"]
+
+
 def test_a_finished_training_becomes_a_row(benchmark: Path, tmp_path: Path) -> None:
     (job,) = jobs(benchmark, tmp_path / "out", "mlp", seeds=(1,))
     (row,) = run([job], lambda words: None).rows

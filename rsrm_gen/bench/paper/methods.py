@@ -41,12 +41,10 @@ class Method:
     def training(self, written: Settings, manifold: Manifold, seed: int, quick: bool) -> Settings:
         """The `training` of a scene file, from the one `written` there."""
         if self.recipe:
-            network, shortened = self.network(manifold), {"steps": QUICK_STEPS} if quick else {}
-            return {
-                **written,
-                **shortened,
-                **({"learning_rate": network.learning_rate} if network else {}),
-            }
+            changes: dict[str, Any] = {"steps": QUICK_STEPS} if quick else {}
+            if network := self.network(manifold):
+                changes["learning_rate"] = network.learning_rate
+            return {**written, **changes}
         assert self.share is not None
         budget = self.share * published_on(manifold.name).rsrm.parameters
         count = int(budget / (1 + manifold.point_size + manifold.dim**2))
