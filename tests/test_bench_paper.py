@@ -343,6 +343,15 @@ def test_means_deviations_and_the_papers_figures_stand_side_by_side() -> None:
     assert "up to 1.5 cores" in foot_of([replace(ROW, others=1.5)], (), 0, "rsrm")
 
 
+def test_manifolds_stand_in_the_papers_order_and_methods_in_ours() -> None:
+    rows = [replace(ROW, manifold=m, method=k) for m in ("circle", "sphere", "torus") for k in ("ours", "recipe")]
+    shown = tables(rows)
+    assert [table.title.split(",")[0] for table in shown[::2]] == ["torus", "sphere", "circle"]
+    assert [row[0] for row in shown[0].rows] == ["RSRM, the paper's recipe", "ours", "T = d"]
+    assert shown[0].rows[1][8] == "0.276"  # of as many parameters
+    assert shown[4].rows[0][8] == "-"  # the paper has no circle
+
+
 def test_the_spread_is_that_of_a_sample() -> None:
     found = spread([1.0, None, 3.0])
     assert found is not None

@@ -76,3 +76,9 @@ def published_on(manifold: str) -> Published:
     if manifold not in known:
         raise UserError(f"the paper has no experiment on `{manifold}`", hint=did_you_mean(manifold, known))
     return known[manifold]
+
+
+def place(manifold: str) -> tuple[int, str]:
+    """By which manifolds are sorted: as in the paper, others after them."""
+    order = list(published())
+    return (order.index(manifold) if manifold in order else len(order), manifold)

@@ -10,7 +10,7 @@ from typing import Any
 
 from rsrm_gen.bench.paper.euclidean import PlaneRow, collected_plane, plane_table
 from rsrm_gen.bench.paper.methods import BY_KEY, METHODS
-from rsrm_gen.bench.paper.published import Published, published
+from rsrm_gen.bench.paper.published import Published, place, published
 from rsrm_gen.bench.paper.rows import VERSION, Group, Row, Spread, collected, grouped
 from rsrm_gen.bench.quiet import LOUD
 from rsrm_gen.bench.table import Table, machine, write_json, write_latex
@@ -28,7 +28,8 @@ def tables(rows: Sequence[Row], plane: Sequence[PlaneRow] = ()) -> list[Table]:
     for group in grouped(rows):
         groups.setdefault(group.manifold, []).append(group)
     made: list[Table] = []
-    for manifold, members in groups.items():
+    for manifold in sorted(groups, key=place):
+        members = groups[manifold]
         members.sort(key=lambda group: ORDER.get(group.method, len(ORDER)))
         made += [_paper(manifold, members), _beyond(manifold, members)]
     return [*made, *([plane_table(plane)] if plane else [])]
