@@ -139,7 +139,10 @@ def scene_files(folder: Path | None, manifolds: Sequence[str], seeds: Sequence[i
     ):
         for choice in chosen:
             if choice not in known:
-                there = ", ".join(map(str, sorted(known, key=str))) or "none named like torus-1.yaml"
+                there = (
+                    ", ".join(sorted(map(str, known), key=lambda word: (len(word), word)))
+                    or "none named like torus-1.yaml"
+                )
                 raise UserError(f"no scene in {folder} has the {what} {choice}", hint=f"there are: {there}")
     if not found:
         raise UserError(
