@@ -50,11 +50,8 @@ def selected(
 ) -> list[Job]:
     """The jobs that are asked for, scene by scene; none of `manifolds` or `seeds` means all, but one seed when quick."""
     files = scene_files(scenes, manifolds, seeds)
-    if quick and not seeds:
-        first = {
-            manifold: min(f.seed for f in files if f.manifold == manifold) for manifold in {f.manifold for f in files}
-        }
-        files = [file for file in files if file.seed == first[file.manifold]]
+    if quick and not seeds:  # they come sorted
+        files = list({file.manifold: file for file in reversed(files)}.values())[::-1]
     return [Job(BY_KEY[key], file, output, quick) for file in files for key in methods]
 
 
@@ -78,9 +75,8 @@ def run(jobs: Sequence[Job], say: Say, console: Console | None = None, plane: Se
                 fit.made()
     except KeyboardInterrupt:
         interrupted = True
-    done = [
-        job for job in jobs if job.name not in failures
-    ]  # what an older run has left of a failed one is not its result
+    # What an older run has left of a job that failed now is not its result.
+    done = [job for job in jobs if job.name not in failures]
     found = finished(done, plane)
     words = tuple(f"{name}: {why}" for name, why in failures.items())
     return replace(found, failures=words, missing=found.missing + len(failures), interrupted=interrupted)
