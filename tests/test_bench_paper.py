@@ -414,6 +414,7 @@ def test_the_command_trains_writes_and_makes_tables_again(
     shown = capsys.readouterr()
     assert "MLP with the RSRM's parameters" in shown.out
     assert "T2-2 by mlp-small (1 of 1): trained" in shown.err
+    assert f"`rsrm bench paper --method mlp-small --seed 2 --scenes {benchmark}`" in shown.out.replace("\n", "")
     assert all((out / name).exists() for name in ("paper.json", "paper.md", "paper.tex"))
     assert r"\toprule" in table.read_text()
     monkeypatch.setattr(runner, "train", None)
