@@ -58,6 +58,7 @@ def test_the_networks_have_the_papers_numbers_of_parameters(name: str) -> None:
     assert known.network.parameters(size) == known.mlp.parameters
     small = known.network.shrunk_to(known.rsrm.parameters, size)
     assert small.depth == known.network.depth
+    assert (known.network.divisor, small.divisor) == (30, 1)
     assert abs(small.parameters(size) / known.rsrm.parameters - 1) < 0.03
 
 
@@ -270,11 +271,7 @@ def test_methods_are_settings(benchmark: Path, tmp_path: Path) -> None:
     assert recipe.scene.training.steps == mlp.scene.training.steps == 40
     assert recipe.network is None
     assert mlp.network == SMALL
-    assert BY_KEY["recipe"].training({"seed": 3}, PLAIN["T2"], 3, quick=True) == {
-        "objective": "eikonal",
-        "seed": 3,
-        "steps": 400,
-    }
+    assert BY_KEY["recipe"].training({"seed": 3}, PLAIN["T2"], 3, quick=True) == {"seed": 3, "steps": 400}
     assert mlp.scene.training.learning_rate == SMALL.learning_rate
 
 
@@ -346,6 +343,15 @@ def test_means_deviations_and_the_papers_figures_stand_side_by_side() -> None:
     assert "up to 1.5 cores" in foot_of([replace(ROW, others=1.5)], (), 0, "rsrm")
 
 
+def test_manifolds_stand_in_the_papers_order_and_methods_in_ours() -> None:
+    rows = [replace(ROW, manifold=m, method=k) for m in ("circle", "sphere", "torus") for k in ("ours", "recipe")]
+    shown = tables(rows)
+    assert [table.title.split(",")[0] for table in shown[::2]] == ["torus", "sphere", "circle"]
+    assert [row[0] for row in shown[0].rows] == ["RSRM, the paper's recipe", "ours", "T = d"]
+    assert shown[0].rows[1][8] == "0.276"  # of as many parameters
+    assert shown[4].rows[0][8] == "-"  # the paper has no circle
+
+
 def test_the_spread_is_that_of_a_sample() -> None:
     found = spread([1.0, None, 3.0])
     assert found is not None
@@ -408,6 +414,7 @@ def test_the_command_trains_writes_and_makes_tables_again(
     shown = capsys.readouterr()
     assert "MLP with the RSRM's parameters" in shown.out
     assert "T2-2 by mlp-small (1 of 1): trained" in shown.err
+    assert f"`rsrm bench paper --method mlp-small --seed 2 --scenes {benchmark}`" in shown.out.replace("\n", "")
     assert all((out / name).exists() for name in ("paper.json", "paper.md", "paper.tex"))
     assert r"\toprule" in table.read_text()
     monkeypatch.setattr(runner, "train", None)
@@ -416,6 +423,28 @@ def test_the_command_trains_writes_and_makes_tables_again(
     assert capsys.readouterr().out.count("MLP with the RSRM's parameters") == 4
     assert rsrm("--method", "magic") == 2
     assert "`magic` is no method" in capsys.readouterr().err
+
+
+def test_an_interrupted_command_shows_what_is_done_and_says_how_it_ended(
+    benchmark: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def impatient(*arguments: object, **named: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(runner, "train", impatient)
+    with pytest.raises(SystemExit) as done:
+        cli.main(["bench", "paper", "--scenes", str(benchmark), "-o", str(tmp_path / "out"), "--method", "mlp"])
+    assert done.value.code == cli.INTERRUPTED
+    assert "NOT FINISHED: 3 trainings are missing; the same command goes on." in capsys.readouterr().out
+
+
+def test_progress_is_said_seldom(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock, said = [0.0], []
+    monkeypatch.setattr("time.monotonic", lambda: clock[0])
+    say = runner._seldom(said.append)
+    for clock[0] in (1.0, 9.0, 11.0, 12.0, 22.0):
+        say(f"at {clock[0]:g}")
+    assert said == ["at 11", "at 22"]
 
 
 def test_a_finished_training_becomes_a_row(benchmark: Path, tmp_path: Path) -> None:

@@ -256,7 +256,9 @@ def paper_command(
     for table in shown:
         console.print(table.rich())
         console.print()
-    command = "rsrm bench paper" + (" --quick" if quick else "")
+    given = {"--method": method, "--manifold": manifold, "--seed": seed, "--scenes": [scenes] if scenes else []}
+    chosen = [f" {option} {value}" for option, values in given.items() for value in values or ()]
+    command = "rsrm bench paper" + "".join(chosen) + (" --quick" if quick else "")
     words = notes(result.rows, result.failures, result.missing, command)
     for word in words:
         console.print(f"- {word}", style="dim", highlight=False, markup=False)

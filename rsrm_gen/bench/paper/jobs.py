@@ -19,7 +19,7 @@ from typing import Any
 import yaml
 
 from rsrm_gen.bench.paper.methods import Method
-from rsrm_gen.bench.paper.published import NetworkShape
+from rsrm_gen.bench.paper.published import NetworkShape, place
 from rsrm_gen.bench.paper.rows import VERSION, Row, read_row
 from rsrm_gen.document import read_document
 from rsrm_gen.errors import UserError
@@ -139,12 +139,14 @@ def scene_files(folder: Path | None, manifolds: Sequence[str], seeds: Sequence[i
     ):
         for choice in chosen:
             if choice not in known:
-                there = ", ".join(map(str, sorted(known, key=str))) or "none named like torus-1.yaml"
+                there = (
+                    ", ".join(sorted(map(str, known), key=lambda word: (len(word), word)))
+                    or "none named like torus-1.yaml"
+                )
                 raise UserError(f"no scene in {folder} has the {what} {choice}", hint=f"there are: {there}")
     if not found:
         raise UserError(
             f"{folder} holds no scenes", hint="they are named like torus-1.yaml; give a folder with --scenes"
         )
     kept = [f for f in found if (not manifolds or f.manifold in manifolds) and (not seeds or f.seed in seeds)]
-    order = {name: i for i, name in enumerate(("torus", "sphere", "hyperbolic"))}  # as in the paper's table
-    return sorted(kept, key=lambda f: (order.get(f.manifold, len(order)), f.manifold, f.seed))
+    return sorted(kept, key=lambda f: (place(f.manifold), f.seed))

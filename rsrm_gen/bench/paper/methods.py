@@ -41,13 +41,10 @@ class Method:
     def training(self, written: Settings, manifold: Manifold, seed: int, quick: bool) -> Settings:
         """The `training` of a scene file, from the one `written` there."""
         if self.recipe:
-            network, shortened = self.network(manifold), {"steps": QUICK_STEPS} if quick else {}
-            return {
-                "objective": "eikonal",
-                **written,
-                **shortened,
-                **({"learning_rate": network.learning_rate} if network else {}),
-            }
+            changes: dict[str, Any] = {"steps": QUICK_STEPS} if quick else {}
+            if network := self.network(manifold):
+                changes["learning_rate"] = network.learning_rate
+            return {**written, **changes}
         assert self.share is not None
         budget = self.share * published_on(manifold.name).rsrm.parameters
         count = int(budget / (1 + manifold.point_size + manifold.dim**2))
@@ -58,7 +55,7 @@ METHODS = (
     Method("recipe", "RSRM, the paper's recipe", published="rsrm"),
     Method("mlp", "MLP, the paper's", model="network", published="mlp"),
     Method("mlp-small", "MLP with the RSRM's parameters", model="network", share=1),
-    Method("ours", "ours", share=1, recipe=False),
+    Method("ours", "ours", share=1, published="rsrm", recipe=False),
     Method("ours-half", "ours, half the parameters", share=1 / 2, recipe=False),
     Method("ours-quarter", "ours, a quarter", share=1 / 4, recipe=False),
 )

@@ -16,8 +16,6 @@ from rsrm_gen.bench.paper.published import NetworkShape
 from rsrm_gen.manifold import Manifold
 from rsrm_gen.trainer.model import SplatField
 
-OMEGA = 30.0  # by which the weights behind the first layer are smaller than sqrt(6 / fan-in), as in the authors' code
-
 
 class Network(SplatField):
     """f(x) by an MLP, behind the interface of a field: one of no splats."""
@@ -45,7 +43,7 @@ class Network(SplatField):
         """Random weights, uniform within a bound for each layer; biases stay zero."""
         for layer, weight in enumerate(self.weights):
             fan_in = len(weight)
-            bound = math.sqrt(6 / fan_in) / OMEGA if layer else 1 / fan_in
+            bound = math.sqrt(6 / fan_in) / self.shape.divisor if layer else 1 / fan_in
             weight.uniform_(-bound, bound, generator=generator)
 
     def value_and_partials(self, x: Tensor) -> tuple[Tensor, Tensor]:

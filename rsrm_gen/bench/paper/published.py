@@ -34,6 +34,7 @@ class NetworkShape(_Part):
     width: int
     depth: int
     learning_rate: float
+    divisor: float = 30  # of the first weights sqrt(6 / fan-in), as in the authors' released code
     frequency: float | None = None  # of sin and cos of each coordinate; None: the coordinates themselves
 
     def inputs(self, point_size: int) -> int:
@@ -46,8 +47,11 @@ class NetworkShape(_Part):
         return sum((before + 1) * after for before, after in pairwise(sizes))
 
     def shrunk_to(self, parameters: int, point_size: int) -> NetworkShape:
-        """The same depth with the width whose number of parameters is closest."""
-        candidates = (self.model_copy(update={"width": width}) for width in range(1, self.width + 1))
+        """The same depth with the width whose number of parameters is closest.
+
+        With the first weights undivided: divided by 30, so narrow a network does not get away from T = d.
+        """
+        candidates = (self.model_copy(update={"width": width, "divisor": 1}) for width in range(1, self.width + 1))
         return min(candidates, key=lambda shape: abs(shape.parameters(point_size) - parameters))
 
 
@@ -72,3 +76,9 @@ def published_on(manifold: str) -> Published:
     if manifold not in known:
         raise UserError(f"the paper has no experiment on `{manifold}`", hint=did_you_mean(manifold, known))
     return known[manifold]
+
+
+def place(manifold: str) -> tuple[int, str]:
+    """By which manifolds are sorted: as in the paper, others after them."""
+    order = list(published())
+    return (order.index(manifold) if manifold in order else len(order), manifold)

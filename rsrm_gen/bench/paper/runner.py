@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -25,7 +26,7 @@ from rsrm_gen.trainer.scene import Scene
 from rsrm_gen.trainer.train import Progress, train
 
 Say = Callable[[str], None]
-PAUSE = 10  # seconds between two reports of a training
+PAUSE = 10  # seconds, at least, between two reports of a training
 
 
 @dataclass(frozen=True)
@@ -49,11 +50,8 @@ def selected(
 ) -> list[Job]:
     """The jobs that are asked for, scene by scene; none of `manifolds` or `seeds` means all, but one seed when quick."""
     files = scene_files(scenes, manifolds, seeds)
-    if quick and not seeds:
-        first = {
-            manifold: min(f.seed for f in files if f.manifold == manifold) for manifold in {f.manifold for f in files}
-        }
-        files = [file for file in files if file.seed == first[file.manifold]]
+    if quick and not seeds:  # they come sorted
+        files = list({file.manifold: file for file in reversed(files)}.values())[::-1]
     return [Job(BY_KEY[key], file, output, quick) for file in files for key in methods]
 
 
@@ -77,9 +75,8 @@ def run(jobs: Sequence[Job], say: Say, console: Console | None = None, plane: Se
                 fit.made()
     except KeyboardInterrupt:
         interrupted = True
-    done = [
-        job for job in jobs if job.name not in failures
-    ]  # what an older run has left of a failed one is not its result
+    # What an older run has left of a job that failed now is not its result.
+    done = [job for job in jobs if job.name not in failures]
     found = finished(done, plane)
     words = tuple(f"{name}: {why}" for name, why in failures.items())
     return replace(found, failures=words, missing=found.missing + len(failures), interrupted=interrupted)
@@ -121,7 +118,8 @@ def _trained(job: Job, say: Say) -> Summary | None:
         folder.create(scene, force=True)
         job.note_asked()
     say("trained further" if resume else "trained")
-    return train(scene, folder, resume, _progress(say), make=_objective_of(job)).summary
+    seldom = _seldom(say)
+    return train(scene, folder, resume, _progress(seldom), _tell(seldom), make=_objective_of(job)).summary
 
 
 def _objective_of(job: Job) -> Callable[[Scene, Clock, Tell], Objective]:
@@ -131,14 +129,25 @@ def _objective_of(job: Job) -> Callable[[Scene, Clock, Tell], Objective]:
     return lambda scene, clock, tell: NetworkDescent(scene, shape, clock)
 
 
-def _progress(say: Say) -> Progress:
-    """Says how far a training is, some times."""
-    last = 0.0
+def _seldom(say: Say) -> Say:
+    """Says what it is told when there was a pause before."""
+    last = time.monotonic()
 
-    def update(metric: Metric) -> None:
+    def now_and_then(words: str) -> None:
         nonlocal last
-        if metric.seconds > last + PAUSE:
-            last = metric.seconds
-            say(f"step {metric.step}, loss {metric.loss:.4f}, {metric.seconds:.0f} s")
+        if time.monotonic() > last + PAUSE:
+            last = time.monotonic()
+            say(words)
+
+    return now_and_then
+
+
+def _progress(say: Say) -> Progress:
+    def update(metric: Metric) -> None:
+        say(f"step {metric.step}, {metric.phase}, loss {metric.loss:.4g}, {metric.seconds:.0f} s")
 
     return update
+
+
+def _tell(say: Say) -> Tell:
+    return lambda what, part: say(f"{what}, {100 * part:.0f} %")

@@ -10,7 +10,7 @@ from typing import Any
 
 from rsrm_gen.bench.paper.euclidean import PlaneRow, collected_plane, plane_table
 from rsrm_gen.bench.paper.methods import BY_KEY, METHODS
-from rsrm_gen.bench.paper.published import Published, published
+from rsrm_gen.bench.paper.published import Published, place, published
 from rsrm_gen.bench.paper.rows import VERSION, Group, Row, Spread, collected, grouped
 from rsrm_gen.bench.quiet import LOUD
 from rsrm_gen.bench.table import Table, machine, write_json, write_latex
@@ -18,6 +18,7 @@ from rsrm_gen.errors import UserError
 from rsrm_gen.files import write_text_whole
 
 NONE = "-"
+PAPER_STEPS = 4000
 ORDER = {method.key: i for i, method in enumerate(METHODS)}
 
 
@@ -28,7 +29,8 @@ def tables(rows: Sequence[Row], plane: Sequence[PlaneRow] = ()) -> list[Table]:
     for group in grouped(rows):
         groups.setdefault(group.manifold, []).append(group)
     made: list[Table] = []
-    for manifold, members in groups.items():
+    for manifold in sorted(groups, key=place):
+        members = groups[manifold]
         members.sort(key=lambda group: ORDER.get(group.method, len(ORDER)))
         made += [_paper(manifold, members), _beyond(manifold, members)]
     return [*made, *([plane_table(plane)] if plane else [])]
@@ -126,33 +128,43 @@ def read_rows(path: Path) -> tuple[list[Row], list[PlaneRow]]:
 
 
 def notes(rows: Sequence[Row], failures: Iterable[str], missing: int, command: str) -> list[str]:
-    """What stands below the tables: how to make them again, where, and what they are not."""
-    threads = " or ".join(map(str, sorted({row.threads for row in rows}))) or "no"
-    words = [
-        f"`{command}`; {machine()}, {threads} threads of torch.",
-        "Mean and standard deviation over the seeds; the paper's columns are its means over five, on a GPU.",
-        "Final loss: the mean of |1 - sqrt q| + |1 - 1 / sqrt q|, q = |grad T| / s, at 16384 fresh points, for every"
-        " method, also for ours, which does not minimise it.",
-        "Final error: RMS of T over the free cells of the paper's grid, against our reference (the paper's own was wrong"
-        " by 0.065, 0.035 and 0.118 on torus, sphere and hyperbolic plane).",
-        "Ours is trained by few long steps (labels, then Gauss-Newton); training seconds include the labels.",
-        "Path cost: true cost of the descents that reach the goal, over the reference's.",
-    ]
+    """What stands below the tables: how to make them again, where, what they are, and what they are not."""
+    threads = " or ".join(map(str, sorted({row.threads for row in rows})))
+    words = [f"`{command}`; {machine()}{f', {threads} threads of torch' if threads else ''}."]
+    words += READING if rows else ()
+    words += _shortcomings(rows)
+    if missing:
+        words.append(f"NOT FINISHED: {missing} trainings are missing; the same command goes on.")
+    return [*words, *(f"Failed: {failure}." for failure in failures)]
+
+
+READING = (
+    "Mean and standard deviation over the seeds; the paper's columns are its means over five, on a GPU.",
+    "Final loss: the mean of |1 - sqrt q| + |1 - 1 / sqrt q|, q = |grad T| / s, at 16384 fresh points, for every method,"
+    " also for ours, which does not minimise it.",
+    "Final error: RMS of T over the free cells of the paper's grid, against our reference (the paper's own was wrong by"
+    " 0.065, 0.035 and 0.118 on torus, sphere and hyperbolic plane).",
+    "Ours is trained by few long steps (labels, then Gauss-Newton); training seconds include the labels.",
+    "The networks are the paper's in size; what the paper does not say of them (rate, features, first weights) is what"
+    " served them best on other scenes.",
+    "Path cost: true cost of the descents that reach the goal, over the reference's.",
+)
+
+
+def _shortcomings(rows: Sequence[Row]) -> list[str]:
+    """What is wrong with these rows."""
+    words = []
     counts = {group: len(group.rows) for group in grouped(rows)}
     most = max(counts.values(), default=0)
     short = [f"{group.method} on {group.manifold} ({count})" for group, count in counts.items() if count < most]
     if short:
         words.append(f"Fewer seeds than {most}: {', '.join(short)}.")
-    if missing:
-        words.append(f"NOT FINISHED: {missing} trainings are missing; the same command goes on.")
-    if any(row.steps < 4000 for row in rows if BY_KEY[row.method].recipe):
-        words.append("SHORTENED: some of the paper's trainings are shorter than its 4000 steps.")
-    words += [f"Failed: {failure}." for failure in failures]
+    if any(row.steps < PAPER_STEPS for row in rows if BY_KEY[row.method].recipe):
+        words.append(f"SHORTENED: some of the paper's trainings are shorter than its {PAPER_STEPS} steps.")
     loudest = max((row.others for row in rows if row.others is not None), default=0.0)
     if loudest > LOUD:
-        words.append(
-            f"DISTURBED: other programs used up to {loudest:.1f} cores when trainings began; times are too long."
-        )
+        busy = f"other programs used up to {loudest:.1f} cores when trainings began"
+        words.append(f"DISTURBED: {busy}; times are too long.")
     return words
 
 
