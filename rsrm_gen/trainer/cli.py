@@ -39,7 +39,8 @@ app = typer.Typer(
     "\b\n"
     "  rsrm train scene.yaml                 train into runs/scene\n"
     "  rsrm eval runs/scene                  errors against a reference solution\n"
-    "  rsrm plan runs/scene --from 1.0,2.0   a path to the goal and its true cost",
+    "  rsrm plan runs/scene --from 1.0,2.0   a path to the goal and its true cost\n"
+    "  rsrm report runs/scene                a page to look at: runs/scene/report.html",
 )
 
 app.add_typer(bench, name="bench")
@@ -283,6 +284,24 @@ def _write_paths(file: Path, starts: Sequence[str], paths: Paths) -> None:
         file.write_text(json.dumps(rows, indent=1) + "\n")
     except OSError as error:
         raise UserError(f"cannot write {file}: {error.strerror}") from None
+
+
+@app.command("report")
+def _report_page(
+    run: RunArgument,
+    output: Annotated[Path | None, typer.Option("-o", metavar="FILE", help="File to write; RUN/report.html.")] = None,
+    paths: Annotated[int, typer.Option(min=0, help="Paths to draw, from starts far apart.")] = 6,
+) -> None:
+    """Write all that is known of a run on one page, with the field to be turned; it needs no network.
+
+    \b
+    rsrm report runs/scene
+    rsrm report runs/scene -o scene.html
+    """
+    with _extra("a report", "pictures"):
+        from rsrm_gen.trainer.report import write_report
+
+        typer.echo(f"report: {write_report(run, output, paths)}")
 
 
 @contextmanager
