@@ -8,19 +8,15 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
-from typing import Any
 
 import matplotlib.image
 import numpy as np
-import torch
-from contourpy import FillType, contour_generator
 from matplotlib.ticker import LogLocator, MaxNLocator
-from torch import Tensor
 
 from rsrm_gen.trainer.model import SplatField
 from rsrm_gen.trainer.views.drawing import Drawing, Sheet, splat_outlines
 from rsrm_gen.trainer.views.plane import Array
-from rsrm_gen.trainer.views.render import colours
+from rsrm_gen.trainer.views.render import flat_image
 
 SIZE = 520.0  # of a flat view's longer side
 MARGIN = 30  # around a disc, for what is written at its rim
@@ -61,9 +57,9 @@ def flat_view(drawing: Drawing, number: int, field: SplatField) -> str:
         '<rect width="7" height="7" class="stone"/><path d="M0 0V7" class="hatching"/></pattern></defs>',
         f'<g clip-path="url(#{clip})">',
         f'<image width="{frame.width:.1f}" height="{frame.height:.1f}" preserveAspectRatio="none" '
-        f'href="{png(_colours(drawing, sheet))}"/>',
+        f'href="{png(flat_image(drawing, sheet, PIXELS))}"/>',
         f'<path class="levels" d="{frame.path(sheet.level_lines(drawing.scene, drawing.levels))}"/>',
-        f'<path class="obstacle" d="{frame.path(_filled(sheet))}"/>',
+        f'<path class="obstacle" d="{frame.path(sheet.areas())}"/>',
         f'<path class="edge" d="{frame.path(sheet.outlines())}"/>',
     ]
     if not plane.section:
@@ -97,35 +93,6 @@ class _Frame:
         return "".join("M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in self.at(line)) for line in lines)
 
 
-def _colours(drawing: Drawing, sheet: Sheet) -> Array:
-    plane = sheet.mesh.plane
-    a, b = (torch.linspace(-side, side, PIXELS + 1, dtype=torch.float64) for side in plane.half)
-    y = torch.stack(torch.meshgrid((a[1:] + a[:-1]) / 2, (b[1:] + b[:-1]) / 2, indexing="xy"), -1)
-    if plane.round:
-        y = y * (plane.half[0] / y.norm(dim=-1, keepdim=True).clamp_min(plane.half[0]))
-    x: Tensor = plane.point(y)
-    time = drawing.time(x.reshape(-1, x.shape[-1])).reshape(x.shape[:2])
-    # Beside the boundary of an obstacle, which is drawn by its line, the colours go on.
-    image = colours(time.numpy(), np.ones(time.shape), drawing.top)
-    outside = ~drawing.scene.inside_domain(x)[..., None].numpy() & plane.section
-    return np.concatenate([image, np.where(outside, 0.0, 1.0)], -1)
-
-
-def _filled(sheet: Sheet) -> list[Array]:
-    """The obstacles as areas: polygons (k, 2)."""
-    if not bool((sheet.distance < 0).any()):
-        return []
-    across, up = sheet.mesh.y.unbind(-1)
-    distance = sheet.distance.clamp_max(1e6)
-    found = contour_generator(across.numpy(), up.numpy(), distance.numpy(), fill_type=FillType.OuterOffset)
-    polygons: Any = found.filled(-1e6, 0.0)
-    return [
-        part
-        for polygon, starts in zip(*polygons, strict=True)
-        for part in np.split(np.asarray(polygon), starts[1:-1].astype(int))
-    ]
-
-
 def _splats(drawing: Drawing, sheet: Sheet, field: SplatField, frame: _Frame) -> str:
     """Outlines of splats and their centres, fainter the smaller their weight."""
     outlines = splat_outlines(field)[:, 0]
@@ -147,11 +114,8 @@ def _starts(drawing: Drawing, sheet: Sheet, frame: _Frame) -> str:
         return ""
     marks = []
     for points, cost, reached in zip(paths.points, paths.cost.tolist(), paths.reached.tolist(), strict=True):
-        y = plane.coordinates(points[:1].double()).numpy()[0]
-        at, away = frame.at(y), y / max(plane.half)
-        if not plane.round or np.linalg.norm(away) < 0.85:  # at the rim of a disc it is written outside
-            away = np.array([-0.7 if away[0] > 0.75 else 0.7, -0.5 if away[1] > 0.9 else 0.5])
-        away = away / np.linalg.norm(away)
+        y, away = plane.beside(points.double())
+        at = frame.at(y)
         x, down = at + np.array([10 * away[0], -12 * away[1] + 4])
         anchor = "start" if away[0] > 0.35 else "end" if away[0] < -0.35 else "middle"
         said = f"{cost:.2f}" if reached else "stuck"

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import torch
+from contourpy import FillType, contour_generator
 from matplotlib.ticker import MaxNLocator
 from torch import Generator, Tensor
 
@@ -47,6 +49,20 @@ class Sheet:
         if not bool((self.distance < 0).any()):
             return []
         return self.mesh.level_lines(self.distance.clamp_max(1e6), [0.0])
+
+    def areas(self) -> list[Array]:
+        """The obstacles: polygons (k, 2) in the plane, holes among them, to be filled by the even-odd rule."""
+        if not bool((self.distance < 0).any()):
+            return []
+        across, up = self.mesh.y.unbind(-1)
+        distance = self.distance.clamp_max(1e6)
+        found = contour_generator(across.numpy(), up.numpy(), distance.numpy(), fill_type=FillType.OuterOffset)
+        polygons: Any = found.filled(-1e6, 0.0)
+        return [
+            part
+            for polygon, starts in zip(*polygons, strict=True)
+            for part in np.split(np.asarray(polygon), starts[1:-1].astype(int))
+        ]
 
 
 @dataclass(frozen=True)

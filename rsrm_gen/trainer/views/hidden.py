@@ -57,8 +57,12 @@ class Sight:
         """Whether positions (..., 3) on the screen are in sight: (...) of bool."""
         cell = np.floor((seen[..., :2] - self.low) / self.pixel).astype(np.int64)
         height, width = self.depth.shape
-        cell = np.clip(cell, 0, [width - 1, height - 1])
-        visible: Array = seen[..., 2] >= self.depth[cell[..., 1], cell[..., 0]] - BEHIND
+        # Where the surface turns away, depth changes much from a pixel to the next: the deepest of the neighbours counts.
+        steps = [np.array([i, j]) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+        around = [np.clip(cell + step, 0, [width - 1, height - 1]) for step in steps]
+        there = np.where(np.isfinite(self.depth), self.depth, np.inf)
+        deepest = np.min([there[at[..., 1], at[..., 0]] for at in around], axis=0)
+        visible: Array = seen[..., 2] >= deepest - BEHIND
         return visible
 
 

@@ -24,6 +24,8 @@ Array = np.ndarray[Any, Any]
 PointMap = Callable[[Tensor], Tensor]
 Kind = Literal["chart", "disk"]
 
+NEAR_RIM = 0.85  # of the way there; texts are written outside a disc, and inside a rectangle
+AHEAD = 10  # points of a path that tell where it goes
 RUNS_AWAY = 4.0  # isothermal coordinates this much larger than distances show the middle as a dot
 
 
@@ -47,6 +49,32 @@ class Plane:
             return self.half[0] * np.stack([np.cos(angle), np.sin(angle)], -1)
         a, b = self.half
         return np.array([[-a, -b], [a, -b], [a, b], [-a, b], [-a, -b]])
+
+    def pixels(self, count: int) -> Tensor:
+        """The middles of pixels, `count` on the longer side, the first row below: (H, W, 2)."""
+        size = 2 * max(self.half) / count
+        across, up = (torch.arange(round(2 * side / size)) for side in self.half)
+        grid = torch.stack(torch.meshgrid(across, up, indexing="xy"), -1)
+        return (grid + 0.5) * size - torch.tensor(self.half, dtype=torch.float64)
+
+    def into(self, y: Tensor) -> Tensor:
+        """Positions (..., 2) as they are in the disc, else at its rim."""
+        if not self.round:
+            return y
+        inside: Tensor = y * (self.half[0] / y.norm(dim=-1, keepdim=True).clamp_min(self.half[0]))
+        return inside
+
+    def beside(self, path: Tensor) -> tuple[Array, Array]:
+        """Where a path (m, D) starts, and the unit vector from there to where a text is not in its way: (2,) each."""
+        y = self.lines(path)[0]
+        start, away = y[0], y[0] - y[min(AHEAD, len(y) - 1)]
+        place = start / np.array(self.half)
+        if self.round and np.linalg.norm(place) > NEAR_RIM:
+            away = start
+        elif not self.round:
+            away = np.where((np.abs(place) > NEAR_RIM) & (away * place > 0), -away, away)
+        length = float(np.linalg.norm(away))
+        return start, away / length if length else np.array([1.0, 0.0])
 
     def lines(self, points: Tensor) -> list[Array]:
         """A curve through points (m, D) as pieces (k, 2), cut where it leaves one side to come in at another."""

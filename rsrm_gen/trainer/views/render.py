@@ -8,7 +8,7 @@ import matplotlib
 import numpy as np
 from matplotlib.colors import to_rgb
 
-from rsrm_gen.trainer.views.drawing import Sheet
+from rsrm_gen.trainer.views.drawing import Drawing, Sheet
 from rsrm_gen.trainer.views.hidden import Eye, Sight, look
 from rsrm_gen.trainer.views.plane import Array
 from rsrm_gen.trainer.views.shape import Shape, normals
@@ -50,6 +50,18 @@ def render(sheet: Sheet, shape: Shape, eye: Eye, top: float, pixels: int) -> Ren
     side = SAMPLES * sight.pixel
     left, bottom = sight.low
     return Rendering(image, sight, (left, left + width * side, bottom, bottom + height * side))
+
+
+def flat_image(drawing: Drawing, sheet: Sheet, pixels: int) -> Array:
+    """T over the rectangle of a plane in colours, the first row below: (H, W, 4); transparent outside the domain."""
+    plane = sheet.mesh.plane
+    y = plane.pixels(pixels)
+    x = plane.point(plane.into(y))
+    time = drawing.time(x.reshape(-1, x.shape[-1])).reshape(x.shape[:2])
+    # Beside the boundary of an obstacle, which is drawn by its line, the colours go on.
+    image = colours(time.numpy(), np.ones(time.shape), drawing.top)
+    outside = plane.section & ~drawing.scene.inside_domain(x)[..., None].numpy()
+    return np.concatenate([image, np.where(outside, 0.0, 1.0)], -1)
 
 
 def _light(normal: Array, eye: Eye) -> Array:
