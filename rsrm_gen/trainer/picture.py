@@ -86,7 +86,7 @@ def draw_field(scene: Scene, time: TimeFunction, paths: Paths | None = None) -> 
 
 def _figure(drawing: Drawing) -> Figure:
     view = drawing.scene.picture.view
-    natural = [(shape, eye) for shape, eye in drawing.shapes if not shape.torn and view in (None, "surface")]
+    natural = [drawing.own_shape] if drawing.own_shape and view in (None, "surface") else []
     if view == "surface" and not natural:
         raise UserError(f"a `surface` view needs a surface in space; {drawing.scene.manifold.name} has none")
     sheets = () if view == "surface" else drawing.sheets

@@ -25,7 +25,8 @@ from rsrm_gen.trainer.views.shape import Shape, graph_shape, natural_shape
 LEVELS = 16
 ROUGH = 36  # steps of the mesh that is looked at from all sides
 FROM_ABOVE = (0.95,)  # the elevation from which an open surface is looked into
-FROM_THE_SIDE = (0.6, 0.9, 0.3)
+FROM_THE_SIDE = (0.6, 0.9)  # from which a closed one is looked at
+BESIDE = 0.15  # of an obstacle, a length
 
 
 @dataclass(frozen=True)
@@ -85,21 +86,25 @@ class Drawing:
         return level_values(self.top)
 
     @cached_property
+    def own_shape(self) -> tuple[Shape, Eye] | None:
+        """The surface as it is in space, with the eye on it; None where there is no such shape."""
+        shape = natural_shape(self.sheets[0].mesh, self.scene.manifold, self.scene.goal) if self.sheets else None
+        return shape and (shape, self._eye(shape))
+
+    @cached_property
     def shapes(self) -> tuple[tuple[Shape, Eye], ...]:
-        """The shapes of a surface in space, its own first, each with the eye on it."""
+        """All shapes of a surface in space: its own first, and the graph of T."""
         if not self.sheets or self.sheets[0].mesh.plane.section:
             return ()
-        mesh = self.sheets[0].mesh
-        own = natural_shape(mesh, self.scene.manifold, self.scene.goal)
-        graph = graph_shape(mesh, self.time, self.top)
-        return tuple((shape, self._eye(shape)) for shape in (own, graph) if shape is not None)
+        graph = graph_shape(self.sheets[0].mesh, self.time, self.top)
+        return (*([self.own_shape] if self.own_shape else []), (graph, self._eye(graph)))
 
     def _eye(self, shape: Shape) -> Eye:
         """From where the goal is well in sight, and of the obstacles as much as can be."""
         mesh = mesh_of(self.sheets[0].mesh.plane, ROUGH)
         points = mesh.points.reshape(-1, mesh.points.shape[-1])
-        covered = points[self.scene.signed_distance(points) < 0.1]
-        wanted = torch.cat([self.scene.goal[None], covered])
+        beside = points[self.scene.signed_distance(points).abs() < BESIDE]
+        wanted = torch.cat([self.scene.goal[None], beside])
         elevations = FROM_THE_SIDE if shape.closed else FROM_ABOVE
         return best_eye(shape.embed(points).numpy(), mesh.triangles, shape.embed(wanted).numpy(), elevations)
 
