@@ -89,7 +89,7 @@ class Drawing:
     def own_shape(self) -> tuple[Shape, Eye] | None:
         """The surface as it is in space, with the eye on it; None where there is no such shape."""
         shape = natural_shape(self.sheets[0].mesh, self.scene.manifold, self.scene.goal) if self.sheets else None
-        return shape and (shape, self._eye(shape))
+        return (shape, self._eye(shape)) if shape is not None else None
 
     @cached_property
     def shapes(self) -> tuple[tuple[Shape, Eye], ...]:
