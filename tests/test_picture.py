@@ -211,7 +211,7 @@ def test_every_view_is_drawn_without_a_warning(tmp_path: Path, name: str, ball: 
     way = torch.linspace(1, 0, 30, dtype=torch.float64)[:, None]
     path = scene.manifold.exp(scene.goal.expand(30, -1), way * 1.5 * scene.manifold.frame(scene.goal)[0])
     one, yes = torch.ones(1, dtype=torch.float64), torch.ones(1, dtype=torch.bool)
-    paths = Paths((path,), 1.5 * one, 1.4 * one, yes, ~yes, one, 1.5 * one)
+    paths = Paths((path,), 1.5 * one, 1.4 * one, yes, ~yes, ~yes, one, 1.5 * one)
     figure = draw_field(scene, distance_to_goal(scene), paths)
     texts = [text.get_text() for ax in figure.axes for text in ax.texts]
     assert len(figure.axes) == {"R2": 2, "SO3": 4}.get(name, 3), "in space, flat, and the bar"

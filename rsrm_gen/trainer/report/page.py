@@ -6,7 +6,7 @@ The page's script and style are the files beside this one, written into it; its 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 from html import escape
 from pathlib import Path
@@ -30,6 +30,15 @@ from rsrm_gen.trainer.views.render import COLOURS, render
 
 FINENESS = 160  # steps of the mesh from side to side
 STILL = 560  # pixels of the picture where nothing can be turned
+TOLD = ("title", "cells", "rows", "reference", "reference_rms", "reference_maximum", "planning")
+ERRORS = {"name": "", "paper": "RMS, by cells", "rms": "RMS, by volume", "p95": "95 %", "maximum": "largest"}
+DESCENTS = {
+    "kind": "starts",
+    "starts": "how many",
+    "reached": "reach the goal",
+    "entered": "enter an obstacle",
+    "p95": "95 %",
+}
 HERE = Path(__file__).parent
 POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'"
 
@@ -120,7 +129,8 @@ def _parts(report: Report) -> Iterator[str]:
     yield _heading(report)
     yield _field(report)
     yield _training(report)
-    yield _errors(report)
+    yield _errors(report.evaluation)
+    yield _planning(report.evaluation)
     yield _paths(report.drawing.paths)
     yield _settings(report)
     yield _audit(report.audit)
@@ -141,12 +151,16 @@ def _heading(report: Report) -> str:
 
 def _headlines(report: Report) -> Iterator[tuple[str, str, str]]:
     summary, paths = report.run.summary, report.drawing.paths
-    rows = {row.get("name"): row for row in (report.evaluation or {}).get("rows", ())}
+    rows = {row.get("name"): row for row in _rows(report.evaluation)}
     if "field" in rows:
         beside = f"T = d alone: {number(rows['T = d']['rms'], 3)}" if "T = d" in rows else ""
         yield "RMS error of T", number(rows["field"]["rms"], 3), beside
         yield "largest error", number(rows["field"]["maximum"], 3), f"95 % below {number(rows['field']['p95'], 3)}"
-    if paths:
+    descents = next(iter(_rows((report.evaluation or {}).get("planning"))), None)
+    if descents and "reached" in descents:
+        ratio = f"cost over the least: 95 % below {number(descents.get('p95'))}" if descents.get("p95") else ""
+        yield f"of {number(descents.get('starts'))} descents arrive", f"{100 * descents['reached']:.1f} %", ratio
+    elif paths:
         yield "paths that arrive", f"{int(paths.reached.sum())} of {len(paths.reached)}", "from far-off free starts"
     if summary:
         yield "final loss", number(summary.loss, 3), "at fresh points"
@@ -257,28 +271,40 @@ def _plot(metrics: list[Metric], name: str, across: str, log: bool = False) -> s
     return plot(curves, across, name, log)
 
 
-def _errors(report: Report) -> str:
-    if report.evaluation is None:
+def _rows(document: Any) -> list[Mapping[str, Any]]:
+    """The rows of a table that a JSON document holds."""
+    found = document.get("rows", ()) if isinstance(document, Mapping) else ()
+    return [row for row in found if isinstance(row, Mapping)]
+
+
+def _table_of(rows: Sequence[Mapping[str, Any]], names: Mapping[str, str]) -> str:
+    """Rows with the columns that they have, by other names where those are given."""
+    columns = list(dict.fromkeys(key for row in rows for key in row))
+    return table([names.get(column, column) for column in columns], [[row.get(c) for c in columns] for row in rows])
+
+
+def _errors(evaluation: Mapping[str, Any] | None) -> str:
+    if evaluation is None:
         return (
             '<section><h2>Errors</h2><p class="soft">Not evaluated yet: <code>rsrm eval</code> does, and then this page can be '
             "written again.</p></section>"
         )
-    found = dict(report.evaluation)
-    rows = [row for row in found.pop("rows", ()) if isinstance(row, dict)]
-    columns = ["name", *(key for key in dict.fromkeys(key for row in rows for key in row) if key != "name")]
-    names = {"name": "", "paper": "RMS, by cells", "rms": "RMS, by volume", "p95": "95 %", "maximum": "largest"}
-    own = {
-        "name": "the reference's own",
-        "paper": found.get("reference_rms"),
-        "maximum": found.get("reference_maximum"),
-    }
-    body = [[row.get(column) for column in columns] for row in [*rows, own]]
-    note, cells = escape(str(found.get("reference", ""))), escape(number(found.get("cells")))
-    told = ("title", "cells", "reference", "reference_rms", "reference_maximum")
-    said = {key: value for key, value in found.items() if key not in told}
+    own = {"paper": evaluation.get("reference_rms"), "maximum": evaluation.get("reference_maximum")}
+    rows = [*_rows(evaluation), {"name": "the reference's own", **own}]
+    note, cells = escape(str(evaluation.get("reference", ""))), escape(number(evaluation.get("cells")))
+    said = {key: value for key, value in evaluation.items() if key not in TOLD}
     intro = f"T less the reference solution's in {cells} free cells, in units of T. Reference: {note}."
-    drawn = table([names.get(column, column) for column in columns], body)
-    return f'<section><h2>Errors</h2><p class="soft">{intro}</p>{drawn}{facts(said)}</section>'
+    return f'<section><h2>Errors</h2><p class="soft">{intro}</p>{_table_of(rows, ERRORS)}{facts(said)}</section>'
+
+
+def _planning(evaluation: Mapping[str, Any] | None) -> str:
+    found = (evaluation or {}).get("planning")
+    if not isinstance(found, Mapping):
+        return ""
+    rest = {name: value for name, value in found.items() if name != "rows"}
+    intro = "Descents of T from fresh free starts, by kind; costs are those of the paths over the reference's."
+    drawn = _table_of(_rows(found), DESCENTS) if _rows(found) else ""
+    return f'<section><h2>Planning</h2><p class="soft">{intro}</p>{drawn}{facts(rest)}</section>'
 
 
 def _paths(paths: Paths | None) -> str:
