@@ -23,6 +23,7 @@ class Plain:
     injectivity_radius: float
     diameter: float
     periods: tuple[float | None, ...] | None = None
+    maps: str = "geodesic"
 
     @property
     def content_hash(self) -> str:

@@ -38,10 +38,10 @@ app = typer.Typer(
     "A scene file names a manifold, a goal and obstacles:\n\n"
     "\b\n"
     "  rsrm train scene.yaml                 train into runs/scene\n"
-    "  rsrm eval runs/scene                  errors against a reference solution\n"
-    "  rsrm plan runs/scene --from 1.0,2.0   a path to the goal and its true cost\n"
     "  rsrm figure runs/scene -o field.pdf   the field as a figure\n"
-    "  rsrm report runs/scene                a page to look at: runs/scene/report.html",
+    "  rsrm report runs/scene                all of it on a page that can be turned: runs/scene/report.html\n"
+    "  rsrm eval runs/scene                  errors against a reference solution\n"
+    "  rsrm plan runs/scene --from 1.0,2.0   a path to the goal and its true cost",
 )
 
 app.add_typer(bench, name="bench")
