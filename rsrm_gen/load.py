@@ -11,9 +11,9 @@ import os
 from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from rsrm_gen.compiler.output import contents, generator, staleness, write
+from rsrm_gen.compiler.output import contents, generator, manifest, staleness, write
 from rsrm_gen.errors import UserError
 from rsrm_gen.files import bundled, cache_folder, imported, manifold_file
 from rsrm_gen.manifold import Manifold
@@ -66,6 +66,17 @@ def load_in_rows(manifold: str | Path, kernels: str | None = None, **parameters:
     path = manifold_file(manifold)
     spec = read_spec(path, parameters)
     return _loaded(_generated(spec, path, parameters), spec.content_hash, *choice, in_rows=True)
+
+
+def read_audit(manifold: str | Path, **parameters: int | float | str) -> dict[str, Any]:
+    """What the audit of a manifold's generated code found, as its audit.json says; compiled first when it was not yet."""
+    from rsrm_gen.compiler.spec import read_spec
+
+    path = manifold_file(manifold)
+    found = manifest(_generated(read_spec(path, parameters), path, parameters))
+    if isinstance(found, str):
+        raise UserError(f"there is no audit of {manifold}: {found}")
+    return found
 
 
 def _generated(spec: Spec, path: Path, parameters: Mapping[str, int | float | str]) -> Path:

@@ -39,6 +39,8 @@ app = typer.Typer(
     "A scene file names a manifold, a goal and obstacles:\n\n"
     "\b\n"
     "  rsrm train scene.yaml                 train into runs/scene\n"
+    "  rsrm figure runs/scene -o field.pdf   the field as a figure\n"
+    "  rsrm report runs/scene                all of it on a page that can be turned: runs/scene/report.html\n"
     "  rsrm eval runs/scene                  errors against a reference solution\n"
     "  rsrm plan runs/scene --from 1.0,2.0   a path to the goal and its true cost\n"
     "  rsrm fit samples.csv -m MANIFOLD      any function on a manifold, from samples",
@@ -286,6 +288,44 @@ def _write_paths(file: Path, starts: Sequence[str], paths: Paths) -> None:
         file.write_text(json.dumps(rows, indent=1) + "\n")
     except OSError as error:
         raise UserError(f"cannot write {file}: {error.strerror}") from None
+
+
+@app.command("figure")
+def _figure(
+    run: RunArgument,
+    output: Annotated[Path | None, typer.Option("-o", metavar="FILE", help="A .pdf, .png or .svg file.")] = None,
+    paths: Annotated[int, typer.Option(min=0, help="Paths to draw, from starts far apart.")] = 6,
+) -> None:
+    """Draw a field as a figure: the surface in space, and flat, with level lines, obstacles, paths and their cost.
+
+    Left out, the file is RUN/field.pdf and RUN/field.png, which a training draws too.
+
+    \b
+    rsrm figure runs/scene
+    rsrm figure runs/scene -o scene.pdf --paths 4
+    """
+    with _extra("a figure", "pictures"):
+        from rsrm_gen.trainer.picture import draw_run
+
+        typer.echo(f"figure: {draw_run(run, output, paths)}")
+
+
+@app.command("report")
+def _report_page(
+    run: RunArgument,
+    output: Annotated[Path | None, typer.Option("-o", metavar="FILE", help="File to write; RUN/report.html.")] = None,
+    paths: Annotated[int, typer.Option(min=0, help="Paths to draw, from starts far apart.")] = 6,
+) -> None:
+    """Write all that is known of a run on one page, with the field to be turned; it needs no network.
+
+    \b
+    rsrm report runs/scene
+    rsrm report runs/scene -o scene.html
+    """
+    with _extra("a report", "pictures"):
+        from rsrm_gen.trainer.report import write_report
+
+        typer.echo(f"report: {write_report(run, output, paths)}")
 
 
 @contextmanager

@@ -76,7 +76,7 @@ class Evaluation(_Part):
 
 
 class Picture(_Part):
-    """How the field is drawn; left out: as fits the manifold."""
+    """How the field is drawn: flat as a `chart` or a `disk`, or in space, `surface`; left out: in space and flat, as fits."""
 
     view: Literal["chart", "disk", "surface"] | None = None
 
