@@ -70,7 +70,7 @@ OUTPUTS = {
 
 @dataclass(frozen=True)
 class Sizes:
-    """How many numbers belong to a point (x, its features X, its gradient) and to a splat (its parameters, constants S)."""
+    """How many numbers belong to a point (x, its features X, its gradient) and to a splat (its parameters, constants S, sums)."""
 
     x: int
     X: int
@@ -78,6 +78,7 @@ class Sizes:
     mu: int
     W: int
     S: int
+    sums: int
 
     @property
     def point(self) -> int:
@@ -127,7 +128,15 @@ def _sizes(program: Program) -> Sizes:
     pairs = program.pairs
     x, (mu, W, _) = pairs.features.parameters[0], pairs.constants.parameters
     size = [len(p.nodes) for p in (x, pairs.forward.parameters[0], pairs.gradient.results[0], mu, W)]
-    return Sizes(size[0], size[1], size[2], size[3], size[4], len(pairs.forward.parameters[1].nodes))
+    return Sizes(
+        size[0],
+        size[1],
+        size[2],
+        size[3],
+        size[4],
+        len(pairs.forward.parameters[1].nodes),
+        len(pairs.backward.results[0].nodes),
+    )
 
 
 def _signature(program: Program, name: str, precision: Precision) -> str:
@@ -156,10 +165,13 @@ ROUTINES = {
     "value": ("Adds the values phi of a splat at some points.", True),
     "forward": ("Adds the values phi of a splat at some points, and slope = d phi / d X.", True),
     "gradient": ("The Riemannian gradient at some points, of the sums of slopes.", False),
-    "factors": ("The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar.", False),
+    "factors": ("The factors of whose products are what is summed over the points.", False),
     "gradient_vjp": ("The adjoint of slope at some points, of that of the gradient.", False),
-    "backward": ("Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.", True),
-    "constants_vjp": ("The adjoints of some splats' parameters, of that of S.", False),
+    "backward": (
+        "Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.",
+        True,
+    ),
+    "constants_vjp": ("The adjoints of some splats' parameters, of their sums over the points.", False),
     "distance": ("The distances of some points q from one point p.", False),
 }
 
@@ -200,7 +212,7 @@ def _factored(routine: Routine, products: Products, series: dict[Coefficients, s
     for number, group in enumerate(products.groups):
         sums = [f"sum[{j}] = sum[{j}]{_sum_of(products.terms[i], names)};" for j, i in enumerate(group)]
         texts.append(
-            f"/* Adds some of the derivatives, as products. */\nINLINE void pair_products_{number}{precision.tag}("
+            f"/* Adds some of the sums, as products. */\nINLINE void pair_products_{number}{precision.tag}("
             f"const {v} *factor, const {v} *point, {v} *sum) {{\n    (void)factor;\n    (void)point;\n{indented(sums, 4)}\n}}"
         )
     return texts
@@ -270,7 +282,7 @@ def _loops(program: Program, precision: Precision) -> list[str]:
     ]
     parts: dict[str, object] = {
         "NAME": program.name,
-        "nx": z.x, "nX": z.X, "nG": z.gradient, "nmu": z.mu, "nW": z.W, "nS": z.S, "nP": z.own, "nB": z.point,
+        "nx": z.x, "nX": z.X, "nG": z.gradient, "nmu": z.mu, "nW": z.W, "nS": z.S, "nP": z.own, "nB": z.point, "nU": z.sums,
         "BLOCK": BLOCK, "CHUNK": CHUNK, "nNEAR": z.x + 1 if culls else 0,
         **c_culling.numbers(program.culling, precision),
     }  # fmt: skip
@@ -281,7 +293,7 @@ def _loops(program: Program, precision: Precision) -> list[str]:
     for name in PROMISES:
         parts[f"SIGNATURE_{name}$"] = _signature(program, name, precision)
     if products is None:
-        sums = [f"S_bar[{i}] += vector_sum@(sum[{i}]);" for i in _kept(backward.results[0])]
+        sums = [f"sums[{i}] += vector_sum@(sum[{i}]);" for i in _kept(backward.results[0])]
         parts["SUMS$"] = indented(sums, 4).strip()
     else:
         size = len(products.factors)
@@ -294,7 +306,7 @@ def _loops(program: Program, precision: Precision) -> list[str]:
 def _group(products: Products, number: int, z: Sizes, over_points: bool) -> str:
     """The sums of a group of products over a buffer of points, or the products of one."""
     group, call = products.groups[number], f"pair_products_{number}@"
-    target = "total" if over_points else "S_bar"
+    target = "total" if over_points else "sums"
     step = f"{call}(factor, point, sum);"
     if over_points:
         step = f"for (size_t b = 0; b < size; ++b) {call}(factor + $nF * b, points + {z.point} * (size_t)near[b], sum);"

@@ -38,6 +38,11 @@ INLINE vector@ vector_from_bits@(vector_bits@ bits) {
     return x;
 }"""
 
+# Two additions, of which the first often is one with a multiplication, where the machine's own instruction is two more.
+ROUND = """
+/* round to even, of numbers below $ENOUGH; of larger ones, a whole number close by. */
+INLINE vector@ vector_round@(vector@ x) { return (x + $MAGIC%) - $MAGIC%; }"""
+
 # 2^k: k is the last bits of x / log 2 + magic, where magic is so large that nothing is left behind the point. It is
 # made as twice 2^(k - 1), which is finite wherever the result is.
 EXP = """
@@ -49,6 +54,18 @@ INLINE vector@ vector_exp@(vector@ x) {
     const vector@ scale = vector_from_bits@((vector_to_bits@(shifted) + $BIAS) << $BITS); /* 2^(k - 1) */
     const vector@ y = vector_select@(x > $LARGEST%, vector_of@($INFINITY), (scale + scale * part) * 2);
     return vector_select@(x < $SMALLEST%, vector_of@(0), y);
+}"""
+
+# The same where the argument is -s / 2 and never above 0: no overflow, and 2^k at once. The bias of exponents is in the
+# magic number; what is rounded is r = -2 (argument - k log 2).
+GAUSSIAN = """
+/* exp(-s / 2) of s >= 0, as 2^k exp(-r / 2), |r| <= log(2), within 1 unit in the last place; below $TINY it is 0. */
+INLINE vector@ vector_gaussian@(vector@ s) {
+    const vector@ shifted = s * $HALFINVERSE% + $MAGIC%, k = shifted - $MAGIC%;
+    const vector@ r = (s + k * $HIGH%) + k * $LOW%;
+    const vector@ part = r * ($POLYNOMIAL);
+    const vector@ scale = vector_from_bits@(vector_to_bits@(shifted) << $BITS); /* 2^k */
+    return vector_select@(s > $FAR%, vector_of@(0), scale + scale * part);
 }"""
 
 # As fdlibm writes it: log(1 + f) = f - (f^2 / 2 - s (f^2 / 2 + R(s^2))) with s = f / (2 + f). The exponent of x / sqrt(1/2)
@@ -258,6 +275,29 @@ def _exp(precision: Precision, text: str = EXP) -> str:
     )
 
 
+def _gaussian(precision: Precision) -> str:
+    single = precision is FLOAT
+    with mp.workdps(DIGITS):
+        high, low = _split(2 * mp.log(2), 15 if single else 40)
+        inverse = repr(float(-1 / (2 * mp.log(2))))
+    rest = fitted(_gaussian_rest, 4 if single else 9, "-0.6932", "0.6932")
+    return _replaced(
+        GAUSSIAN,
+        precision,
+        TINY="1.8e-38" if single else "3.8e-308",
+        HALFINVERSE=inverse,
+        MAGIC="12583039.0" if single else "6755399441056767.0",
+        HIGH=high,
+        LOW=low,
+        POLYNOMIAL=horner([repr(c) + precision.suffix for c in (-0.5, *rest)], "r"),
+        FAR="173.8" if single else "1415.8",
+    )
+
+
+def _gaussian_rest(r: mp.mpf) -> mp.mpf:
+    return mp.hyp1f1(1, 3, -r / 2) / 8  # (exp(-r / 2) - 1 + r / 2) / r^2
+
+
 def _exp_rest(r: mp.mpf) -> mp.mpf:
     return mp.hyp1f1(1, 3, r) / 2  # (exp(r) - 1 - r) / r^2
 
@@ -358,6 +398,7 @@ NEEDS = {
     "exp": ("bits",),
     "log": ("bits",),
     "log1p": ("log",),
+    "gaussian": ("bits",),
     "expm1": ("bits",),
     "signed": ("bits",),
     "sinh": ("abs", "exp", "expm1", "signed"),
@@ -374,9 +415,12 @@ ORDER: dict[str, Callable[[Precision], str]] = {
     "bits": lambda precision: BITS,
     "signed": lambda precision: _replaced(SIGNED, precision),
     "abs": _lanes("abs", "fabs"),
-    "round": _lanes("round", "rint"),
+    "round": _plain(
+        ROUND, {"MAGIC": "12582912.0", "ENOUGH": "2^22"}, {"MAGIC": "6755399441055744.0", "ENOUGH": "2^51"}
+    ),
     "sqrt": _lanes("sqrt", "sqrt"),
     "exp": _exp,
+    "gaussian": _gaussian,
     "expm1": lambda precision: _exp(precision, EXPM1),
     "log": _log,
     "log1p": lambda precision: _replaced(LOG1P, precision),
