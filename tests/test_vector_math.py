@@ -25,7 +25,7 @@ HEAD = "#include <math.h>\n#include <stddef.h>\n#include <stdint.h>\n#include <s
 RUN = """
 void run_{name}@(T_*x, const T_*y, size_t n) {{
     (void)y;
-    for (size_t i = 0; i < n; i += LANES@) vector_store@(x + i, vector_{name}@({arguments}));
+    for (size_t i = 0; i < n; i += LANES@) vector_store@(x + i, {name}_each@({arguments}));
 }}"""
 FLAGS = ("-O2", "-ffp-contract=fast", "-fno-math-errno", "-fno-trapping-math", "-Wall", "-Wextra", "-Werror")
 NATIVE = ("-march=native",)

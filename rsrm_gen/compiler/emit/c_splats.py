@@ -43,6 +43,9 @@ BUFFER = 24576  # bytes of factors that stay in the first cache
 BLOCK = 2  # vectors of points that pass together forward, so that one waits while the other computes
 CHUNK = 1 << 17  # bytes of points that pass together backward: what stays in the second cache with room to spare
 
+# With one of these defined, the functions of the other precision are left out: who wants one need not wait for both.
+OTHER_ALONE = {"": "RSRM_ONLY_FLOAT", "_f": "RSRM_ONLY_DOUBLE"}
+
 PROMISES = {
     "splats_work": "How many numbers of scratch memory the functions below need, for these sizes or smaller ones.",
     "splats_order": "An order of the points in which neighbours are near each other, for sums that leave far pairs out.\n"
@@ -111,11 +114,12 @@ def source(program: Program, title: str) -> str:
     includes = f'#include "{program.name}.h"\n\n#include <float.h>\n#include <stdint.h>\n#include <string.h>'
     parts = [top, includes, TYPES, OMP, FLUSH]
     for precision in PRECISIONS:
+        parts += [f"#if !defined({OTHER_ALONE[precision.tag]}) /* {precision.type} */"]
         parts += [spelled(BASICS, precision), *functions(functions_of(routines), precision)]
         parts += [polynomial_function(name, coefficients, precision) for coefficients, name in series.items()]
         parts += c_matrix.support(routines, precision)
         parts += _routines(program, series, precision)
-        parts += _loops(program, precision)
+        parts += [*_loops(program, precision), f"#endif /* {precision.type} */"]
     return "\n\n".join(parts) + "\n"
 
 

@@ -80,12 +80,12 @@ INLINE const T_*splat_at@(const vector@ *splats, size_t k) {
     return (const T_*)(splats + $nNEAR * row) + (k - row * LANES@);
 }
 
-static vector@ *work_splats@(T_*work, size_t count) {
+static vector@ *work_reaches@(T_*work, size_t count) {
     return work_points@(work) + (count + LANES@ - 1) / LANES@ * $nB;
 }
 
 static vector@ *work_blocks@(T_*work, size_t count, size_t splat_count) {
-    return work_splats@(work, count) + $nNEAR * ((splat_count + LANES@ - 1) / LANES@);
+    return work_reaches@(work, count) + $nNEAR * ((splat_count + LANES@ - 1) / LANES@);
 }
 
 static T_*work_constants@(T_*work, size_t count, size_t splat_count) {
@@ -112,7 +112,7 @@ FORWARD = """
 $SIGNATURE_splats$ {
     (void)threads;
     T_*constants = work_constants@(work, 0, splat_count);
-    vector@ *splats = work_splats@(work, 0);
+    vector@ *splats = work_reaches@(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -152,7 +152,7 @@ VALUE = """
 $SIGNATURE_splats_value$ {
     (void)threads;
     T_*constants = work_constants@(work, 0, splat_count);
-    vector@ *splats = work_splats@(work, 0);
+    vector@ *splats = work_reaches@(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -199,10 +199,16 @@ OUTLINE void splat_points@(
 }"""
 
 SUMS = """
-/* Adds to sums what some vectors of points add to it, those in the list. */
+/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
 OUTLINE void splat_sums@(const vector@ *points, const uint32_t *near, size_t size, const T_*S, T_*sums) {
     vector@ sum[$nU] = {ZERO};
-    for (size_t b = 0; b < size; ++b) {
+    size_t b = 0;
+    for (; b + 1 < size; b += 2) {
+        const vector@ *point = points + $nB * (size_t)near[b], *other = points + $nB * (size_t)near[b + 1];
+        pair_backward@(point, S, point + $nX, point + $nX + 1, sum);
+        pair_backward@(other, S, other + $nX, other + $nX + 1, sum);
+    }
+    if (b < size) {
         const vector@ *point = points + $nB * (size_t)near[b];
         pair_backward@(point, S, point + $nX, point + $nX + 1, sum);
     }
@@ -247,7 +253,7 @@ $SIGNATURE_splats_vjp$ {
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES@ ? part : LANES@;
     vector@ *points = work_points@(work);
-    vector@ *splats = work_splats@(work, count), *places = work_blocks@(work, count, splat_count);
+    vector@ *splats = work_reaches@(work, count), *places = work_blocks@(work, count, splat_count);
     T_*constants = work_constants@(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {

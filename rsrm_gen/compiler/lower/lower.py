@@ -91,9 +91,12 @@ class _Splat:
         return min((pairs_of(self.graph, form, to_gradient) for form in forms if form), key=lambda pairs: pairs.work)
 
     def by_matrix(self, plain: SplatNodes) -> SplatNodes | None:
-        """The same splat as a function of W^T W, where that has fewer entries than W."""
+        """The same splat as a function of W^T W, where that has fewer entries than W.
+
+        Not of ambient vectors, whose entries may be much larger than they are long: there W^T W loses digits.
+        """
         graph = self.graph
-        if not pays(len(self.rows), self.size):
+        if self.size > len(self.rows) or not pays(len(self.rows), self.size):
             return None
         half_square = graph.mul(graph.constant(sp.Rational(1, 2)), quadratic(graph, self.rows, self.log))
         exponent = graph.sub(self.log_det, half_square)

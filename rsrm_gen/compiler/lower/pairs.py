@@ -67,8 +67,6 @@ def pairs_of(graph: Graph, splat: SplatNodes, slope_to_gradient: Callable[[Graph
     point, own = (splat.x,), (splat.mu, splat.W, splat.amplitude)
 
     features = _routine(graph, "features", point, {"X": X_nodes})
-    constants = _routine(graph, "constants", own, {"S": S_nodes})
-
     pair = Graph()
     names = _Names(graph)
     x = _parameter(pair, "X", [names.of(n) for n in X_nodes])
@@ -86,6 +84,13 @@ def pairs_of(graph: Graph, splat: SplatNodes, slope_to_gradient: Callable[[Graph
     unit = dict(zip(S_nodes, s.nodes, strict=True))[splat.amplitude.nodes[0]]
     bars = copied(pair, pair, gradient(pair, total, s.nodes), {unit: pair.constant(1)})
     sums = factored(pair, bars, s.nodes, pair.forms)
+    read = _read(
+        pair, (phi, *slopes, *sums.parts), s.nodes
+    )  # other constants count once a splat, in what is done after
+    s_read = Parameter(s.name, (len(read),), tuple(read))
+
+    S_read = [source for source, node in zip(S_nodes, s.nodes, strict=True) if node in read]
+    constants = _routine(graph, "constants", own, {"S": S_read})
 
     finish = Graph()
     at = _copied_parameter(finish, splat.x)
@@ -112,11 +117,11 @@ def pairs_of(graph: Graph, splat: SplatNodes, slope_to_gradient: Callable[[Graph
     return Pairs(
         features,
         constants,
-        _routine(pair, "value", (x, s), {"value": [phi]}, splat.formula),
-        _routine(pair, "forward", (x, s), {"value": [phi], "slope": slopes}, splat.formula),
+        _routine(pair, "value", (x, s_read), {"value": [phi]}, splat.formula),
+        _routine(pair, "forward", (x, s_read), {"value": [phi], "slope": slopes}, splat.formula),
         _routine(finish, "gradient", (at, slope), {"gradient": grad}),
         _routine(finish, "gradient_vjp", (at, gradient_bar), {"slope_bar": back}),
-        _routine(pair, "backward", (x, s, value_bar, slope_bar), {"sums": sums.parts}, splat.formula),
+        _routine(pair, "backward", (x, s_read, value_bar, slope_bar), {"sums": sums.parts}, splat.formula),
         _routine(splats, "constants_vjp", (*parts, summed), own_bars),
     )
 
@@ -195,10 +200,9 @@ def undeclared(source: Graph, roots: Sequence[Node], inputs: Sequence[Node]) -> 
     """The same nodes without declared derivatives, which have served once everything is differentiated."""
     target = Graph()
     done = {node: target.input(str(node.value)) for node in inputs}
-    needed: Callable[[Node], Sequence[Node]] = lambda n: n.arguments[:1] if n.op == "declared" else n.arguments  # noqa: E731
     for root in roots:
-        for node in arguments_first(root, needed, done):
-            parts = [done[a] for a in needed(node)]
+        for node in arguments_first(root, _computes, done):
+            parts = [done[a] for a in _computes(node)]
             done[node] = parts[0] if node.op == "declared" else target.node(node.op, *parts, value=node.value)
             if node in source.names:
                 target.named(source.names[node], done[node])
@@ -218,6 +222,20 @@ def _routine(
     moved = tuple(Parameter(p.name, p.shape, tuple(done[n] for n in p.nodes)) for p in parameters)
     found = tuple(Result(key, (len(nodes),), tuple(done[n] for n in nodes)) for key, nodes in results.items())
     return schedule(target, name, moved, found, formula)
+
+
+def _read(graph: Graph, roots: Sequence[Node], inputs: Sequence[Node]) -> list[Node]:
+    """The inputs that are read to compute the roots, not merely to differentiate them."""
+    found: dict[Node, None] = {}
+    for root in roots:
+        for node in arguments_first(root, _computes, found):
+            found[node] = None
+    return [node for node in inputs if node in found]
+
+
+def _computes(node: Node) -> Sequence[Node]:
+    """What a node is computed from."""
+    return node.arguments[:1] if node.op == "declared" else node.arguments
 
 
 def _parameter(graph: Graph, name: str, entries: Sequence[str]) -> Parameter:

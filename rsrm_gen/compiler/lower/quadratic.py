@@ -13,10 +13,12 @@ import sympy as sp
 
 from rsrm_gen.compiler.lower.ir import Graph, Node, Packed, dot
 
+LARGEST = 8  # columns of R, beyond which what is done once a splat, d n^2 products, takes the C compiler seconds
+
 
 def pays(rows: int, columns: int) -> bool:
-    """Whether M has fewer entries than R."""
-    return (columns + 1) < 2 * rows
+    """Whether M has fewer entries than R, and is no large matrix."""
+    return columns + 1 < 2 * rows and columns <= LARGEST
 
 
 def quadratic(graph: Graph, R: Sequence[Packed], v: Packed) -> Node:

@@ -67,7 +67,8 @@ def reduced(geometry: Geometry, splat: SplatNodes, graph: Graph) -> SplatNodes |
     found = list(parts(geometry))
     if not any(part.geometry.radial for part in found):
         return None
-    form = _Form(graph, splat, geometry.spec.dim, geometry.spec.tangent_size, alone=len(found) == 1)
+    far_out = any(part.geometry.radial and part.geometry.radial.unbounded for part in found)
+    form = _Form(graph, splat, geometry.spec.dim, geometry.spec.tangent_size, len(found) == 1, far_out)
     for part in found:
         if part.geometry.radial:
             form.add_radial(part, part.geometry.radial)
@@ -79,11 +80,14 @@ def reduced(geometry: Geometry, splat: SplatNodes, graph: Graph) -> SplatNodes |
 class _Form:
     """Gathers what the parts of a manifold give to z = W Log_mu(x), to log |det D Log| and to the splat."""
 
-    def __init__(self, graph: Graph, splat: SplatNodes, dim: int, tangent_size: int, alone: bool) -> None:
+    def __init__(
+        self, graph: Graph, splat: SplatNodes, dim: int, tangent_size: int, alone: bool, far_out: bool
+    ) -> None:
         self.graph = graph
         self.splat = splat
         self.dim = dim
         self.tangent_size = tangent_size
+        self.far_out = far_out  # whether a part reaches far out in its coordinates
         self.alone = alone  # whether there is one part only
         self.half_square: Node = graph.constant(0)  # |z|^2 / 2, of the only part
         self.z: list[Packed] = []  # what each part adds to z, of several
@@ -126,7 +130,7 @@ class _Form:
         R = self.rows(part)
         r = [graph.named(f"{part.prefix}r{i}", dot(graph, row, h)) for i, row in enumerate(R)]
         if self.alone:
-            square = quadratic(graph, R, h) if pays(self.dim, len(h)) else dot(graph, r, r)
+            square = quadratic(graph, R, h) if self.by_matrix(len(h)) else dot(graph, r, r)
             self.half_square = shape.times_square(square)
         else:
             self.z.append(tuple(graph.mul(shape.signed_a, e) for e in r))
@@ -160,11 +164,15 @@ class _Form:
         exponent = graph.sub(log_det, graph.mul(graph.constant(HALF), dot(graph, z, z)))
         return graph.named(f"{part.prefix}value_on_cut_locus", graph.function("exp", exponent))
 
+    def by_matrix(self, columns: int) -> bool:
+        """Whether sums are by R^T R: not with hyperboloids, far out on which R is large, and its square loses digits."""
+        return pays(self.dim, columns) and not self.far_out
+
     def half_square_of_all(self) -> Node:
         """|z|^2 / 2, z the sum of what the parts add."""
         graph = self.graph
         v = tuple(c for columns in self.columns_of for c in columns)
-        if pays(self.dim, len(v)):
+        if self.by_matrix(len(v)):
             rows = [tuple(c for part in parts for c in part) for parts in zip(*self.rows_of, strict=True)]
             return graph.mul(graph.constant(HALF), quadratic(graph, rows, v))
         z = []

@@ -52,9 +52,11 @@ def _connected(found: Mapping[Node, Mapping[Node | None, Node]]) -> list[list[No
 
 
 def _is_worth_it(group: Sequence[Node], found: Mapping[Node, Mapping[Node | None, Node]]) -> bool:
-    """Whether all have factors, and their parts are no more than they are."""
+    """Whether all have factors, their parts are no more than they are, and are less to compute."""
     parts = {part for node in group for part in found[node].values()}
-    return len(parts) <= len(group) and all(None not in found[node] for node in group)
+    if len(parts) > len(group) or any(None in found[node] for node in group):
+        return False
+    return len(reachable(parts)) < len(reachable(group))
 
 
 class _Linear:
