@@ -29,6 +29,7 @@ from rsrm_gen.errors import UserError
 from rsrm_gen.manifold import Manifold
 
 DTYPES = {torch.float64: "", torch.float32: "_f"}  # to the ending of the C functions' names
+ONLY = {torch.float64: "RSRM_ONLY_DOUBLE", torch.float32: "RSRM_ONLY_FLOAT"}  # the other is compiled when it is wanted
 WORTH_A_THREAD = 2**15  # pairs of a point and a splat
 WORTH_A_LOOK = 2**16  # of them, below which nobody asks how many are far apart
 WORTH_CULLING = 0.7  # the part of the pairs that are near up to which it is faster to leave out the others
@@ -286,26 +287,25 @@ class SplatKernel:
         found = self.functions.get((name, dtype))
         if found is None:
             self.say(self.described())
-            self.compile()
+            self.compile(dtype)
             found = self.functions[name, dtype]
         return found
 
-    def compile(self) -> None:
-        """Compile the C code, or take what was compiled before."""
+    def compile(self, dtype: torch.dtype) -> None:
+        """Compile the C code of a precision, or take what was compiled before."""
+        ending, macro = DTYPES[dtype], ONLY[dtype]
         with self.compiling:
-            library = compiled(self.files, self.source, FAST)
+            library = compiled(self.files, self.source, FAST, macro)
             size, pointer, number = ctypes.c_size_t, ctypes.c_void_p, ctypes.c_int
             for name, pointers in _POINTERS.items():
-                for dtype, ending in DTYPES.items():
-                    function = getattr(library, f"{self.name}_{name}{ending}")
-                    function.argtypes = [size, size, *[pointer] * pointers, number]
-                    function.restype = None if pointers else size
-                    self.functions[name, dtype] = function
-            for dtype, ending in DTYPES.items():
-                function = getattr(library, f"{self.name}_splats_order{ending}")
-                function.argtypes = [size, size, *[pointer] * 4, ctypes.c_double, pointer, pointer]
-                function.restype = ctypes.c_double
-                self.functions["splats_order", dtype] = function
+                function = getattr(library, f"{self.name}_{name}{ending}")
+                function.argtypes = [size, size, *[pointer] * pointers, number]
+                function.restype = None if pointers else size
+                self.functions[name, dtype] = function
+            function = getattr(library, f"{self.name}_splats_order{ending}")
+            function.argtypes = [size, size, *[pointer] * 4, ctypes.c_double, pointer, pointer]
+            function.restype = ctypes.c_double
+            self.functions["splats_order", dtype] = function
 
 
 @dataclass(frozen=True)

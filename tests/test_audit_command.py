@@ -132,7 +132,7 @@ TORUS = "generated/torus/torus"
 EDITS: dict[str, tuple[Callable[[Path], None], str]] = {
     "torch": (lambda f: edit(f / f"{TORUS}.py", "p0 + v0", "p0 + 1.001 * v0"), "exp torch float64"),
     "C": (lambda f: edit(f / f"{TORUS}.c", "p[0] + v[0]", "p[0] + 1.001 * v[0]"), "exp C float64"),
-    "the sums in C": (lambda f: edit(f / f"{TORUS}_splats.c", "= vector_exp(", "= 1.01 * vector_exp("), "sums C float64"),
+    "the sums in C": (lambda f: edit(f / f"{TORUS}_splats.c", "= gaussian_each(", "= 1.01 * gaussian_each("), "sums C float64"),
 }  # fmt: skip
 
 

@@ -38,6 +38,7 @@ from rsrm_gen.compiler.emit import Measurement, emit
 from rsrm_gen.compiler.lower import Node, Parameter, Routine, interpret, lower
 from rsrm_gen.compiler.lower.ir import CONDITIONS, FUNCTIONS, Graph, Result, reachable
 from rsrm_gen.compiler.lower.schedule import schedule
+from rsrm_gen.compiler.spec import read_spec
 from rsrm_gen.manifold import Manifold
 from rsrm_gen.version import __version__
 
@@ -359,3 +360,15 @@ def test_whatever_a_doc_says_stays_in_its_comment(doc: str, tmp_path: Path) -> N
     assert float(module.manifold.distance(torch.zeros(3), torch.tensor([3.0, 4.0, 0.0]))) == 5
     if CC:
         shared_library(texts, "euclidean", tmp_path)
+
+
+@needs_compiler
+@pytest.mark.parametrize("name", ["vector", "work", "pair", "splat", "splats", "block", "exp", "gaussian", "order"])
+def test_no_name_of_a_manifold_is_in_the_way_of_what_the_sums_are_made_of(name: str, tmp_path: Path) -> None:
+    text = (MANIFOLDS / "torus.yaml").read_text(encoding="utf-8").replace("manifold: torus", f"manifold: {name}")
+    (tmp_path / f"{name}.yaml").write_text(text, encoding="utf-8")
+    geometry = derive(read_spec(tmp_path / f"{name}.yaml"))
+    for file, content in emit(geometry, lower(geometry)).items():
+        (tmp_path / file).write_text(content, encoding="utf-8")
+    command = [str(CC), "-std=c99", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", f"{name}_splats.c"]
+    subprocess.run(command, cwd=tmp_path, check=True)

@@ -74,8 +74,8 @@ def split(name: str, parameters: dict[str, Any], at: Place) -> dict[str, list[An
     assert interpret(pairs.value, X, S) == [value]
     (gradient,) = interpret(pairs.gradient, at.x, slope)
     (slope_bar,) = interpret(pairs.gradient_vjp, at.x, at.gradient_bar)
-    (S_bar,) = interpret(pairs.backward, X, S, at.value_bar, slope_bar)
-    mu_bar, W_bar, amplitude_bar = interpret(pairs.constants_vjp, *own, S_bar)
+    (sums,) = interpret(pairs.backward, X, S, at.value_bar, slope_bar)
+    mu_bar, W_bar, amplitude_bar = interpret(pairs.constants_vjp, *own, sums)
     return {"value": value, "gradient": gradient, "mu": mu_bar, "W": W_bar, "amplitude": amplitude_bar}
 
 

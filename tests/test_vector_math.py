@@ -25,7 +25,7 @@ HEAD = "#include <math.h>\n#include <stddef.h>\n#include <stdint.h>\n#include <s
 RUN = """
 void run_{name}@(T_*x, const T_*y, size_t n) {{
     (void)y;
-    for (size_t i = 0; i < n; i += LANES@) vector_store@(x + i, vector_{name}@({arguments}));
+    for (size_t i = 0; i < n; i += LANES@) vector_store@(x + i, {name}_each@({arguments}));
 }}"""
 FLAGS = ("-O2", "-ffp-contract=fast", "-fno-math-errno", "-fno-trapping-math", "-Wall", "-Wextra", "-Werror")
 NATIVE = ("-march=native",)
@@ -71,6 +71,10 @@ def samples(name: str, precision: Precision) -> Any:
     sizes = np.exp(rng.uniform(-30, 30, 600)) * rng.choice([-1.0, 1.0], 600)
     if name in ("exp", "sinh", "cosh"):
         return np.concatenate([rng.uniform(-top, top, 600), rng.uniform(-2, 2, 600), np.exp(rng.uniform(-30, 0, 99))])
+    if name == "gaussian":
+        return np.concatenate([rng.uniform(0, 2 * top, 600), rng.uniform(0, 4, 600), np.exp(rng.uniform(-30, 0, 99))])
+    if name == "round":
+        return sizes[abs(sizes) < (2.0**22 if precision is FLOAT else 2.0**51)]
     if name in ("log", "sqrt"):
         return np.concatenate([abs(sizes), rng.uniform(0.5, 2, 600)])
     if name == "acosh":
@@ -83,7 +87,7 @@ def samples(name: str, precision: Precision) -> Any:
     return np.concatenate([sizes, rng.uniform(-3, 3, 600)])
 
 
-EXACT = {"abs": mp.fabs, "round": mp.nint}
+EXACT = {"abs": mp.fabs, "round": mp.nint, "gaussian": lambda s: mp.exp(-s / 2)}
 
 
 @needs_compiler
@@ -111,6 +115,8 @@ def test_functions_are_exact_to_a_few_units(
 
 ENDS = {
     "exp": [(0, 1), (-np.inf, 0), (np.inf, np.inf), (1e4, np.inf), (-1e4, 0)],
+    "gaussian": [(0, 1), (np.inf, 0), (1e4, 0), (1e30, 0)],
+    "round": [(0, 0), (np.inf, np.inf), (-np.inf, -np.inf), (2.5, 2), (-3.5, -4)],
     "log": [(0, -np.inf), (np.inf, np.inf), (-1, np.nan), (1, 0)],
     "sqrt": [(0, 0), (np.inf, np.inf), (-1, np.nan)],
     "sin": [(0, 0), (np.inf, np.nan)],

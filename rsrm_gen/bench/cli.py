@@ -50,7 +50,7 @@ STEP_CASES: tuple[tuple[str, Parameters], ...] = (
     ("se3", {}),
 )
 STEP_SIZES = ((1024, 128), (4096, 512), (16384, 2048))
-CONTENDER_KEYS = ["eager", "analytic", "compiled", "jax", "jax-analytic", "ours", "kernel"]
+CONTENDER_KEYS = ["eager", "analytic", "compiled", "jax", "jax-analytic", "ours", "kernel", "culled"]
 PAPER_METHODS = ["recipe", "mlp", "mlp-small", "ours", "ours-half", "ours-quarter"]
 
 Manifolds = Annotated[
@@ -146,7 +146,10 @@ def kernels_command(
     precision: Annotated[list[str] | None, typer.Option(help="float32 or float64; several times.")] = None,
     contender: Annotated[
         list[str] | None,
-        typer.Option(help="eager, analytic, compiled, jax, jax-analytic, ours or kernel; several times."),
+        typer.Option(help="eager, analytic, compiled, jax, jax-analytic, ours, kernel or culled; several times."),
+    ] = None,
+    sigma: Annotated[
+        float | None, typer.Option(min=0.001, help="How wide the splats are; narrow ones leave out far pairs.")
     ] = None,
     rounds: Annotated[int, typer.Option(min=1, help="Samples of each, one a round; the tables have medians.")] = 7,
     compile_budget: Annotated[float, typer.Option(help="Seconds that torch.compile may take for a size.")] = 120,
@@ -164,6 +167,7 @@ def kernels_command(
     \b
     rsrm bench kernels                           T^2, S^2, H^2, SO(3), T^6, S^5, SE(3): an hour or more
     rsrm bench kernels sphere --size 4096,512 --threads 2 --precision float32
+    rsrm bench kernels sphere --size 4096,512 --sigma 0.05 --contender kernel --contender culled
     rsrm bench kernels --markdown kernels.md --json kernels.json --plot kernels.png
 
     JAX is timed where it is installed: pip install 'rsrm-gen[jax]'.
@@ -184,6 +188,7 @@ def kernels_command(
         contenders=tuple(c for c in CONTENDERS if c.key in keys),
         rounds=min(rounds, 3) if quick else rounds,
         compile_budget=compile_budget,
+        sigma=sigma,
     )
     with _progress() as say:
         result = kernels(plan, say)

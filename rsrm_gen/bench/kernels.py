@@ -56,6 +56,7 @@ class Plan:
     rounds: int = 7
     limit: float = 90.0
     compile_budget: float = 120.0  # seconds that torch.compile may take for one size
+    sigma: float | None = None  # the width of the splats, where it is not that of the manifold
 
 
 @dataclass(frozen=True)
@@ -166,7 +167,8 @@ def kernels(plan: Plan, say: Callable[[str], None] = lambda words: None) -> Kern
     entries: list[Entry] = []
     with tempfile.TemporaryDirectory() as folder:
         scenes = [
-            _Scene(spec, *case, max(plan.sizes), Path(folder)) for spec, case in zip(specs, plan.cases, strict=True)
+            _Scene(spec, *case, max(plan.sizes), Path(folder), plan.sigma)
+            for spec, case in zip(specs, plan.cases, strict=True)
         ]
         try:
             for threads in plan.threads:
@@ -194,14 +196,17 @@ def kernels(plan: Plan, say: Callable[[str], None] = lambda words: None) -> Kern
 class _Scene:
     """The points and splats of one manifold, in files for the workers, and what is right on those compared."""
 
-    def __init__(self, spec: Spec, file: Path, parameters: Mapping[str, Any], largest: Size, folder: Path) -> None:
+    def __init__(
+        self, spec: Spec, file: Path, parameters: Mapping[str, Any], largest: Size, folder: Path, sigma: float | None
+    ) -> None:
         self.identifier = spec.identifier
         known = bundled_name(spec)
         self.formulas = known in FORMULAS
         self.name = spec.name
         self.manifold: Manifold = load(file, **parameters)
         self.folder = folder
-        self.problem = problem(self.manifold, self.name, *(max(a, b) for a, b in zip(largest, COMPARED, strict=True)))
+        points, splats = (max(a, b) for a, b in zip(largest, COMPARED, strict=True))
+        self.problem = problem(self.manifold, self.name, points, splats, sigma)
         self.request = {"manifold": str(file.resolve()), "name": self.name, "parameters": dict(parameters)}
         self.truth = self._truth() if self.formulas else None
 

@@ -31,7 +31,13 @@ QUICK = (
 )  # never -ffast-math, which reorders sums and forgets NaN; and with threads, where the compiler has OpenMP
 FAST = ("-O3", *QUICK)  # what trains
 TRIED = ("-Og", *QUICK)  # the same for the audit, products fused alike, compiled in a third of the time
-OPENMP = "-fopenmp"
+OPENMP = ("-fopenmp",)
+# What is independent among a pair's hundred operations is mixed before registers are given out.
+SCHEDULED = ("-fschedule-insns", "-fsched-pressure")
+WHERE_KNOWN: dict[tuple[str, ...], tuple[tuple[str, ...], ...]] = {
+    FAST: (SCHEDULED, OPENMP),
+    TRIED: (OPENMP,),
+}  # flags that not every compiler has
 
 
 @lru_cache
@@ -41,13 +47,13 @@ def compiler() -> tuple[str, ...] | None:
     return tuple(command) if command and shutil.which(command[0]) else None
 
 
-def compiled(files: Mapping[str, str], source: str, flags: tuple[str, ...]) -> ctypes.CDLL:
+def compiled(files: Mapping[str, str], source: str, flags: tuple[str, ...], *macros: str) -> ctypes.CDLL:
     """One of some C files as a library, compiled unless the same text was compiled before with the same flags."""
     cc = compiler()
     if cc is None:
         raise UserError("no C compiler found", hint="install one, or name it in CC; torch code needs none")
-    if flags in (FAST, TRIED) and _takes(cc, OPENMP):
-        flags = (*flags, OPENMP)
+    known = (flag for some in WHERE_KNOWN.get(flags, ()) if _takes(cc, *some) for flag in some)
+    flags = (*flags, *known, *(f"-D{macro}" for macro in macros))
     headers = [text for name, text in sorted(files.items()) if name.endswith(".h")]
     key = "\0".join([*cc, *COMMON, *flags, _processor(), source, files[source], *headers])
     name = Path(source).stem + "-" + hashlib.sha256(key.encode()).hexdigest()[:32] + ".so"
@@ -79,11 +85,11 @@ def _compile(cc: tuple[str, ...], files: Mapping[str, str], source: str, flags: 
 
 
 @lru_cache
-def _takes(cc: tuple[str, ...], flag: str) -> bool:
-    """Whether the compiler makes a library with a flag: it may know OpenMP and yet lack its library."""
+def _takes(cc: tuple[str, ...], *flags: str) -> bool:
+    """Whether the compiler makes a library with some flags: it may know OpenMP and yet lack its library."""
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "empty.c").write_text("extern int nothing;\n", encoding="utf-8")
-        command = [*cc, *COMMON, flag, "empty.c", "-o", "library.so"]
+        command = [*cc, *COMMON, *flags, "empty.c", "-o", "library.so"]
         return not subprocess.run(command, cwd=folder, capture_output=True, check=False).returncode
 
 

@@ -37,5 +37,6 @@ CONTENDERS = (
     Contender("jax-analytic", "JAX jit, analytic", "jax"),
     Contender("ours", "rsrm-gen", chunked=False, needs_formulas=False),
     Contender("kernel", "its kernel alone", chunked=False, whole=False, needs_formulas=False),
+    Contender("culled", "its kernel, told the widths", chunked=False, whole=False, needs_formulas=False),
 )
 FORMULAS = ("torus", "sphere", "hyperbolic", "so3", "se3")  # bundled manifolds, in any dimension `n`

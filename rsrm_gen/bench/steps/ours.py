@@ -52,6 +52,15 @@ def whole(manifold: Manifold, problem: Problem) -> Step:
 
 def kernel(manifold: Manifold, problem: Problem) -> Step:
     """The sum of splats, forward and backward, without what is done once a point or a splat."""
+    return _kernel(manifold, problem, None)
+
+
+def culled(manifold: Manifold, problem: Problem) -> Step:
+    """The same told how wide the splats are, so that pairs too far apart may be left out where that pays."""
+    return _kernel(manifold, problem, torch.linalg.matrix_norm(torch.from_numpy(problem.A), 2))
+
+
+def _kernel(manifold: Manifold, problem: Problem, width: torch.Tensor | None) -> Step:
     x, v, mu, A, E = map(torch.from_numpy, (problem.x, problem.v, problem.mu, problem.A, problem.flat_frame))
     inverse = torch.linalg.inv(A)
     leaves = mu.clone(), inverse @ E, v * torch.linalg.det(inverse).abs()
@@ -60,7 +69,7 @@ def kernel(manifold: Manifold, problem: Problem) -> Step:
     value_bar, gradient_bar = torch.ones_like(x[:, 0]), torch.from_numpy(problem.away)
 
     def step() -> tuple[Any, tuple[Any, ...]]:
-        results = manifold.splats(x, *leaves)
+        results = manifold.splats(x, *leaves, width=width)
         return results[0].detach().sum(), torch.autograd.grad(results, leaves, (value_bar, gradient_bar))
 
     return step

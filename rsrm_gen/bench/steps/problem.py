@@ -57,8 +57,8 @@ def read_problem(path: Path, precision: str) -> Problem:
         return Problem(**{field.name: arrays[field.name].astype(precision) for field in fields(Problem)})
 
 
-def problem(manifold: Manifold, name: str, points: int, splats: int) -> Problem:
-    """Points and splats in a ball of a manifold with that name in its file, in float64."""
+def problem(manifold: Manifold, name: str, points: int, splats: int, width: float | None = None) -> Problem:
+    """Points and splats in a ball of a manifold with that name in its file, in float64; `width` of the splats, or ours."""
     import torch
 
     generator = torch.Generator().manual_seed(SEED)
@@ -69,6 +69,7 @@ def problem(manifold: Manifold, name: str, points: int, splats: int) -> Problem:
     d = manifold.dim
     middle = manifold.project(0.3 * draw(manifold.point_size))
     radius, sigma = RADII.get(name, RADIUS), SIGMAS.get(name, SIGMA) if d == 2 else SIGMA
+    sigma = width or sigma
     mu = manifold.sample_ball(middle, radius, splats, generator)
     x = manifold.sample_ball(middle, radius, points, generator)
     A = sigma * (torch.eye(d, dtype=torch.float64) + 0.2 * draw(splats, d, d))

@@ -111,7 +111,7 @@ def timed(step: Step, steps: int) -> float:
 def maker(key: str, request: Mapping[str, Any]) -> Make:
     """What makes a contender's step of a problem and a chunk."""
     name = request["name"]
-    if key in ("ours", "kernel"):
+    if key in ("ours", "kernel", "culled"):
         from rsrm_gen.bench.steps import ours
         from rsrm_gen.load import load
 
@@ -133,6 +133,7 @@ _FUNCTIONS = {
     "jax-analytic": "analytic",
     "ours": "whole",
     "kernel": "kernel",
+    "culled": "culled",
 }
 
 

@@ -222,7 +222,7 @@ static void sorted_blocks@(const T_*x, size_t *order, size_t count, T_*keys) {
 
 $SIGNATURE_splats_order$ {
     const size_t block = $BLOCK * LANES@;
-    vector@ *splats = work_splats@(work, 0);
+    vector@ *splats = work_reaches@(work, 0);
     uint32_t near[$PART];
     double share = 0;
     for (size_t n = 0; n < count; ++n) order[n] = n;

@@ -43,6 +43,9 @@ BUFFER = 24576  # bytes of factors that stay in the first cache
 BLOCK = 2  # vectors of points that pass together forward, so that one waits while the other computes
 CHUNK = 1 << 17  # bytes of points that pass together backward: what stays in the second cache with room to spare
 
+# With one of these defined, the functions of the other precision are left out: who wants one need not wait for both.
+OTHER_ALONE = {"": "RSRM_ONLY_FLOAT", "_f": "RSRM_ONLY_DOUBLE"}
+
 PROMISES = {
     "splats_work": "How many numbers of scratch memory the functions below need, for these sizes or smaller ones.",
     "splats_order": "An order of the points in which neighbours are near each other, for sums that leave far pairs out.\n"
@@ -70,7 +73,7 @@ OUTPUTS = {
 
 @dataclass(frozen=True)
 class Sizes:
-    """How many numbers belong to a point (x, its features X, its gradient) and to a splat (its parameters, constants S)."""
+    """How many numbers belong to a point (x, its features X, its gradient) and to a splat (its parameters, constants S, sums)."""
 
     x: int
     X: int
@@ -78,6 +81,7 @@ class Sizes:
     mu: int
     W: int
     S: int
+    sums: int
 
     @property
     def point(self) -> int:
@@ -110,11 +114,12 @@ def source(program: Program, title: str) -> str:
     includes = f'#include "{program.name}.h"\n\n#include <float.h>\n#include <stdint.h>\n#include <string.h>'
     parts = [top, includes, TYPES, OMP, FLUSH]
     for precision in PRECISIONS:
+        parts += [f"#if !defined({OTHER_ALONE[precision.tag]}) /* {precision.type} */"]
         parts += [spelled(BASICS, precision), *functions(functions_of(routines), precision)]
         parts += [polynomial_function(name, coefficients, precision) for coefficients, name in series.items()]
         parts += c_matrix.support(routines, precision)
         parts += _routines(program, series, precision)
-        parts += _loops(program, precision)
+        parts += [*_loops(program, precision), f"#endif /* {precision.type} */"]
     return "\n\n".join(parts) + "\n"
 
 
@@ -127,7 +132,15 @@ def _sizes(program: Program) -> Sizes:
     pairs = program.pairs
     x, (mu, W, _) = pairs.features.parameters[0], pairs.constants.parameters
     size = [len(p.nodes) for p in (x, pairs.forward.parameters[0], pairs.gradient.results[0], mu, W)]
-    return Sizes(size[0], size[1], size[2], size[3], size[4], len(pairs.forward.parameters[1].nodes))
+    return Sizes(
+        size[0],
+        size[1],
+        size[2],
+        size[3],
+        size[4],
+        len(pairs.forward.parameters[1].nodes),
+        len(pairs.backward.results[0].nodes),
+    )
 
 
 def _signature(program: Program, name: str, precision: Precision) -> str:
@@ -156,10 +169,13 @@ ROUTINES = {
     "value": ("Adds the values phi of a splat at some points.", True),
     "forward": ("Adds the values phi of a splat at some points, and slope = d phi / d X.", True),
     "gradient": ("The Riemannian gradient at some points, of the sums of slopes.", False),
-    "factors": ("The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar.", False),
+    "factors": ("The factors of whose products are what is summed over the points.", False),
     "gradient_vjp": ("The adjoint of slope at some points, of that of the gradient.", False),
-    "backward": ("Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.", True),
-    "constants_vjp": ("The adjoints of some splats' parameters, of that of S.", False),
+    "backward": (
+        "Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.",
+        True,
+    ),
+    "constants_vjp": ("The adjoints of some splats' parameters, of their sums over the points.", False),
     "distance": ("The distances of some points q from one point p.", False),
 }
 
@@ -200,7 +216,7 @@ def _factored(routine: Routine, products: Products, series: dict[Coefficients, s
     for number, group in enumerate(products.groups):
         sums = [f"sum[{j}] = sum[{j}]{_sum_of(products.terms[i], names)};" for j, i in enumerate(group)]
         texts.append(
-            f"/* Adds some of the derivatives, as products. */\nINLINE void pair_products_{number}{precision.tag}("
+            f"/* Adds some of the sums, as products. */\nINLINE void pair_products_{number}{precision.tag}("
             f"const {v} *factor, const {v} *point, {v} *sum) {{\n    (void)factor;\n    (void)point;\n{indented(sums, 4)}\n}}"
         )
     return texts
@@ -270,7 +286,7 @@ def _loops(program: Program, precision: Precision) -> list[str]:
     ]
     parts: dict[str, object] = {
         "NAME": program.name,
-        "nx": z.x, "nX": z.X, "nG": z.gradient, "nmu": z.mu, "nW": z.W, "nS": z.S, "nP": z.own, "nB": z.point,
+        "nx": z.x, "nX": z.X, "nG": z.gradient, "nmu": z.mu, "nW": z.W, "nS": z.S, "nP": z.own, "nB": z.point, "nU": z.sums,
         "BLOCK": BLOCK, "CHUNK": CHUNK, "nNEAR": z.x + 1 if culls else 0,
         **c_culling.numbers(program.culling, precision),
     }  # fmt: skip
@@ -281,7 +297,7 @@ def _loops(program: Program, precision: Precision) -> list[str]:
     for name in PROMISES:
         parts[f"SIGNATURE_{name}$"] = _signature(program, name, precision)
     if products is None:
-        sums = [f"S_bar[{i}] += vector_sum@(sum[{i}]);" for i in _kept(backward.results[0])]
+        sums = [f"sums[{i}] += vector_sum@(sum[{i}]);" for i in _kept(backward.results[0])]
         parts["SUMS$"] = indented(sums, 4).strip()
     else:
         size = len(products.factors)
@@ -294,7 +310,7 @@ def _loops(program: Program, precision: Precision) -> list[str]:
 def _group(products: Products, number: int, z: Sizes, over_points: bool) -> str:
     """The sums of a group of products over a buffer of points, or the products of one."""
     group, call = products.groups[number], f"pair_products_{number}@"
-    target = "total" if over_points else "S_bar"
+    target = "total" if over_points else "sums"
     step = f"{call}(factor, point, sum);"
     if over_points:
         step = f"for (size_t b = 0; b < size; ++b) {call}(factor + $nF * b, points + {z.point} * (size_t)near[b], sum);"

@@ -1,8 +1,8 @@
 """The loops over points and splats in generated C, as templates.
 
 $name stands for a part that differs between manifolds: $nx, $nX, $nG, $nB numbers of a point (x, its features X, its
-gradient, all that backward reads), $nmu, $nW, $nS, $nP of a splat (mu, W, its constants S, all its parameters), $nF the
-factors of a pair. T_ is the type of numbers, @ ends the names of a precision.
+gradient, all that backward reads), $nmu, $nW, $nS, $nP of a splat (mu, W, its constants S, all its parameters), $nU the
+sums over the points for a splat, $nF the factors of a pair. T_ is the type of numbers, @ ends the names of a precision.
 """
 
 # Far splats are denormal numbers, on which processors are ten times slower; here they are zero.
@@ -80,12 +80,12 @@ INLINE const T_*splat_at@(const vector@ *splats, size_t k) {
     return (const T_*)(splats + $nNEAR * row) + (k - row * LANES@);
 }
 
-static vector@ *work_splats@(T_*work, size_t count) {
+static vector@ *work_reaches@(T_*work, size_t count) {
     return work_points@(work) + (count + LANES@ - 1) / LANES@ * $nB;
 }
 
 static vector@ *work_blocks@(T_*work, size_t count, size_t splat_count) {
-    return work_splats@(work, count) + $nNEAR * ((splat_count + LANES@ - 1) / LANES@);
+    return work_reaches@(work, count) + $nNEAR * ((splat_count + LANES@ - 1) / LANES@);
 }
 
 static T_*work_constants@(T_*work, size_t count, size_t splat_count) {
@@ -112,7 +112,7 @@ FORWARD = """
 $SIGNATURE_splats$ {
     (void)threads;
     T_*constants = work_constants@(work, 0, splat_count);
-    vector@ *splats = work_splats@(work, 0);
+    vector@ *splats = work_reaches@(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -152,7 +152,7 @@ VALUE = """
 $SIGNATURE_splats_value$ {
     (void)threads;
     T_*constants = work_constants@(work, 0, splat_count);
-    vector@ *splats = work_splats@(work, 0);
+    vector@ *splats = work_reaches@(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -199,10 +199,16 @@ OUTLINE void splat_points@(
 }"""
 
 SUMS = """
-/* Adds to S_bar what some vectors of points add to it, those in the list. */
-OUTLINE void splat_sums@(const vector@ *points, const uint32_t *near, size_t size, const T_*S, T_*S_bar) {
-    vector@ sum[$nS] = {ZERO};
-    for (size_t b = 0; b < size; ++b) {
+/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+OUTLINE void splat_sums@(const vector@ *points, const uint32_t *near, size_t size, const T_*S, T_*sums) {
+    vector@ sum[$nU] = {ZERO};
+    size_t b = 0;
+    for (; b + 1 < size; b += 2) {
+        const vector@ *point = points + $nB * (size_t)near[b], *other = points + $nB * (size_t)near[b + 1];
+        pair_backward@(point, S, point + $nX, point + $nX + 1, sum);
+        pair_backward@(other, S, other + $nX, other + $nX + 1, sum);
+    }
+    if (b < size) {
         const vector@ *point = points + $nB * (size_t)near[b];
         pair_backward@(point, S, point + $nX, point + $nX + 1, sum);
     }
@@ -210,20 +216,20 @@ OUTLINE void splat_sums@(const vector@ *points, const uint32_t *near, size_t siz
 }"""
 
 PRODUCTS = """
-/* Adds to S_bar what one vector of points adds to it. */
+/* Adds to sums what one vector of points adds to it. */
 INLINE void pair_backward@(
-    const vector@ *point, const T_*S, const vector@ *value_bar, const vector@ *slope_bar, vector@ *S_bar) {
+    const vector@ *point, const T_*S, const vector@ *value_bar, const vector@ *slope_bar, vector@ *sums) {
     vector@ factor[$nF];
     pair_factors@(point, S, value_bar, slope_bar, factor);
     $GROUPS1$
 }
 
 /*
- * Adds to S_bar what some vectors of points add to it, those in the list: factors of $BUFFER vectors at a time, then their
+ * Adds to sums what some vectors of points add to it, those in the list: factors of $BUFFER vectors at a time, then their
  * products.
  */
-OUTLINE void splat_sums@(const vector@ *points, const uint32_t *near, size_t count, const T_*S, T_*S_bar) {
-    vector@ factor[$BUFFER * $nF], total[$nS] = {ZERO};
+OUTLINE void splat_sums@(const vector@ *points, const uint32_t *near, size_t count, const T_*S, T_*sums) {
+    vector@ factor[$BUFFER * $nF], total[$nU] = {ZERO};
     for (size_t start = 0; start < count; start += $BUFFER, near += $BUFFER) {
         const size_t size = count - start < $BUFFER ? count - start : $BUFFER;
         for (size_t b = 0; b < size; ++b) {
@@ -232,7 +238,7 @@ OUTLINE void splat_sums@(const vector@ *points, const uint32_t *near, size_t cou
         }
         $GROUPS$
     }
-    for (size_t i = 0; i < $nS; ++i) S_bar[i] += vector_sum@(total[i]);
+    for (size_t i = 0; i < $nU; ++i) sums[i] += vector_sum@(total[i]);
 }"""
 
 BACKWARD = """
@@ -247,7 +253,7 @@ $SIGNATURE_splats_vjp$ {
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES@ ? part : LANES@;
     vector@ *points = work_points@(work);
-    vector@ *splats = work_splats@(work, count), *places = work_blocks@(work, count, splat_count);
+    vector@ *splats = work_reaches@(work, count), *places = work_blocks@(work, count, splat_count);
     T_*constants = work_constants@(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -273,9 +279,9 @@ $SIGNATURE_splats_vjp$ {
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
-            T_sums[LANES@][$nS] = {{0}};
+            T_sums[LANES@][$nU] = {{0}};
             uint32_t near[$CHUNK / ($nB * sizeof(vector@)) + 2];
-            vector@ own_mu[$nmu], own_W[$nW], own_amplitude[1], S_bar[$nS], bars[$nP];
+            vector@ own_mu[$nmu], own_W[$nW], own_amplitude[1], own_sums[$nU], bars[$nP];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
@@ -287,8 +293,8 @@ $SIGNATURE_splats_vjp$ {
             vector_rows@(mu, end, start, $nmu, own_mu);
             vector_rows@(W, end, start, $nW, own_W);
             vector_rows@(amplitude, end, start, 1, own_amplitude);
-            vector_rows@(sums[0], LANES@, 0, $nS, S_bar);
-            pair_constants_vjp@(own_mu, own_W, own_amplitude, S_bar, bars, bars + $nmu, bars + $nmu + $nW);
+            vector_rows@(sums[0], LANES@, 0, $nU, own_sums);
+            pair_constants_vjp@(own_mu, own_W, own_amplitude, own_sums, bars, bars + $nmu, bars + $nmu + $nW);
             vector_to_rows@(bars, mu_bar, end, start, $nmu, $nmu);
             vector_to_rows@(bars + $nmu, W_bar, end, start, $nW, $nW);
             vector_to_rows@(bars + $nmu + $nW, amplitude_bar, end, start, 1, 1);
@@ -314,12 +320,12 @@ $SIGNATURE_splats_rows$ {
             vector@ point[$nB];
             splat_points@(count, block * LANES@, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector@ own_mu[$nmu], own_W[$nW], own_amplitude[1], S_bar[$nS] = {ZERO}, bars[$nP];
+                vector@ own_mu[$nmu], own_W[$nW], own_amplitude[1], own_sums[$nU] = {ZERO}, bars[$nP];
                 for (int i = 0; i < $nmu; ++i) own_mu[i] = vector_of@(mu[$nmu * k + i]);
                 for (int i = 0; i < $nW; ++i) own_W[i] = vector_of@(W[$nW * k + i]);
                 own_amplitude[0] = vector_of@(amplitude[k]);
-                pair_backward@(point, constants + $nS * k, point + $nX, point + $nX + 1, S_bar);
-                pair_constants_vjp@(own_mu, own_W, own_amplitude, S_bar, bars, bars + $nmu, bars + $nmu + $nW);
+                pair_backward@(point, constants + $nS * k, point + $nX, point + $nX + 1, own_sums);
+                pair_constants_vjp@(own_mu, own_W, own_amplitude, own_sums, bars, bars + $nmu, bars + $nmu + $nW);
                 vector_to_rows@(bars, rows + $nP * k, count, block * LANES@, $nP, $nP * splat_count);
             }
         }

@@ -12,6 +12,8 @@ import re
 import textwrap
 from collections.abc import Iterable, Mapping, Sequence
 
+import sympy as sp
+
 from rsrm_gen.compiler.emit import c_matrix
 from rsrm_gen.compiler.emit.c_language import WIDTH, series_body, spelling, wrapped
 from rsrm_gen.compiler.emit.c_precision import Precision
@@ -19,6 +21,7 @@ from rsrm_gen.compiler.emit.expression import ATOM, COMPARISONS, PRODUCT, SUM, U
 from rsrm_gen.compiler.emit.series import Coefficients
 from rsrm_gen.compiler.lower import Node, Routine
 from rsrm_gen.compiler.lower.ir import CONDITIONS, FUNCTIONS, SEVERAL
+from rsrm_gen.compiler.lower.protect import arguments_first, never_negative
 
 TYPES = """/*
  * A vector is as wide as the machine's registers, or one number where the compiler has no vectors (or is asked for none
@@ -134,7 +137,28 @@ def _estrin(coefficients: list[str]) -> str:
 
 def functions_of(routines: Iterable[Routine]) -> set[str]:
     """The functions of vectors that some routines call."""
-    return {node.op for routine in routines for node in routine.nodes if node.op in FUNCTIONS}
+    return {function_of(node)[0] for routine in routines for node in routine.nodes if node.op in FUNCTIONS}
+
+
+def function_of(node: Node) -> tuple[str, Sequence[Node]]:
+    """Which function of vectors computes a node, of what; that of e to minus half a sum of squares is simpler than exp."""
+    if node.op == "exp" and (square := _negative_half(node.arguments[0])) is not None and never_negative(square):
+        return "gaussian", (square,)
+    return {"root": "sqrt"}.get(node.op, node.op), node.arguments
+
+
+def _reads(node: Node) -> Sequence[Node]:
+    """What the function or the operation of a node reads."""
+    return function_of(node)[1] if node.op in FUNCTIONS else node.arguments
+
+
+def _negative_half(node: Node) -> Node | None:
+    """s of -s / 2."""
+    if node.op == "neg":
+        node, half = node.arguments[0], sp.Rational(1, 2)
+    else:
+        half = sp.Rational(-1, 2)
+    return node.arguments[1] if node.op == "mul" and node.arguments[0].value == half else None
 
 
 class VectorPrinter(Printer):
@@ -171,8 +195,8 @@ class VectorPrinter(Printer):
                 return f"{self.vector(a[0])} {sign} {self.text(a[1], SUM)}", self.spelling.compare_binds
             return f"{self.text(a[0], SUM)} {sign} {self.text(a[1], SUM)}", self.spelling.compare_binds
         if node.op in FUNCTIONS:
-            name = {"root": "sqrt"}.get(node.op, node.op)
-            return f"vector_{name}{self.tag}({', '.join(self.vector(x) for x in a)})", ATOM
+            name, arguments = function_of(node)
+            return f"{name}_each{self.tag}({', '.join(self.vector(x) for x in arguments)})", ATOM
         return super().definition(node)
 
 
@@ -196,8 +220,13 @@ class Body:
                 kind = self._kind(node)
                 self.lines.append(f"const {kind} {name} = {text};")
                 self.printer.names[node] = name
+        needed: dict[Node, None] = {}
+        for root in (node for result in routine.results for node in result.nodes):
+            for node in arguments_first(root, _reads, needed):
+                needed[node] = None
         for name, node in routine.body:
-            self._statement(self._fresh(name), node)
+            if node in needed:
+                self._statement(self._fresh(name), node)
 
     def result(self, node: Node) -> str:
         """A result as a vector."""
@@ -266,7 +295,7 @@ class Body:
 
     def _fresh(self, hint: str) -> str:
         name, count = hint, 1
-        while name in self.taken or name.startswith("vector_"):
+        while name in self.taken or name.startswith("vector_") or "_each" in name:
             count += 1
             name = f"its_{hint}" if count == 2 else f"its_{hint}_{count}"
         self.taken.add(name)

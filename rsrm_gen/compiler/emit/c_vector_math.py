@@ -20,7 +20,7 @@ DIGITS = 40
 
 BY_LANES = """
 /* {name} of every lane; one instruction where the machine has it. */
-INLINE vector@ vector_{name}@(vector@ x) {{
+INLINE vector@ {name}_each@(vector@ x) {{
     for (size_t i = 0; i < LANES@; ++i) LANE(x, i) = {function}%(LANE(x, i));
     return x;
 }}"""
@@ -38,11 +38,16 @@ INLINE vector@ vector_from_bits@(vector_bits@ bits) {
     return x;
 }"""
 
+# Two additions, of which the first often is one with a multiplication, where the machine's own instruction is two more.
+ROUND = """
+/* round to even, of numbers below $ENOUGH; of larger ones, a whole number close by. */
+INLINE vector@ round_each@(vector@ x) { return (x + $MAGIC%) - $MAGIC%; }"""
+
 # 2^k: k is the last bits of x / log 2 + magic, where magic is so large that nothing is left behind the point. It is
 # made as twice 2^(k - 1), which is finite wherever the result is.
 EXP = """
 /* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below $TINY it is 0. */
-INLINE vector@ vector_exp@(vector@ x) {
+INLINE vector@ exp_each@(vector@ x) {
     const vector@ shifted = x * $INVERSE% + $MAGIC%, k = shifted - $MAGIC%;
     const vector@ r = (x - k * $HIGH%) - k * $LOW%;
     const vector@ part = r + r * r * ($POLYNOMIAL);
@@ -51,11 +56,23 @@ INLINE vector@ vector_exp@(vector@ x) {
     return vector_select@(x < $SMALLEST%, vector_of@(0), y);
 }"""
 
+# The same where the argument is -s / 2 and never above 0: no overflow, and 2^k at once. The bias of exponents is in the
+# magic number; what is rounded is r = -2 (argument - k log 2).
+GAUSSIAN = """
+/* exp(-s / 2) of s >= 0, as 2^k exp(-r / 2), |r| <= log(2), within 1 unit in the last place; below $TINY it is 0. */
+INLINE vector@ gaussian_each@(vector@ s) {
+    const vector@ shifted = s * $HALFINVERSE% + $MAGIC%, k = shifted - $MAGIC%;
+    const vector@ r = (s + k * $HIGH%) + k * $LOW%;
+    const vector@ part = r * ($POLYNOMIAL);
+    const vector@ scale = vector_from_bits@(vector_to_bits@(shifted) << $BITS); /* 2^k */
+    return vector_select@(s > $FAR%, vector_of@(0), scale + scale * part);
+}"""
+
 # As fdlibm writes it: log(1 + f) = f - (f^2 / 2 - s (f^2 / 2 + R(s^2))) with s = f / (2 + f). The exponent of x / sqrt(1/2)
 # is read from bits.
 LOG = """
 /* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
-INLINE vector@ vector_log@(vector@ x) {
+INLINE vector@ log_each@(vector@ x) {
     const vector_bits@ bits = vector_to_bits@(x), biased = (bits + $SHIFT) >> $BITS; /* k + $BIAS */
     const vector@ k = vector_from_bits@(biased + $MAGICBITS) - $MAGICBIAS%;
     const vector@ f = vector_from_bits@(bits - (biased << $BITS) + $ONE) - 1, s = f / (2 + f), z = s * s;
@@ -71,14 +88,14 @@ INLINE vector@ vector_log@(vector@ x) {
 # 1 + x is rounded; what that loses is put back: log(1 + x) = log(u) + (x - (u - 1)) / u.
 LOG1P = """
 /* log(1 + x), within 2 units in the last place. */
-INLINE vector@ vector_log1p@(vector@ x) {
+INLINE vector@ log1p_each@(vector@ x) {
     const vector@ u = 1 + x;
-    return vector_select@(x <= $LARGEST%, vector_log@(u) + (x - (u - 1)) / u, x);
+    return vector_select@(x <= $LARGEST%, log_each@(u) + (x - (u - 1)) / u, x);
 }"""
 
 EXPM1 = """
 /* exp(x) - 1 = (2^k - 1) + 2^k (exp(r) - 1) for |x| < $LIMIT, within 2 units in the last place. */
-INLINE vector@ vector_expm1@(vector@ x) {
+INLINE vector@ expm1_each@(vector@ x) {
     const vector@ shifted = x * $INVERSE% + $MAGIC%, k = shifted - $MAGIC%;
     const vector@ r = (x - k * $HIGH%) - k * $LOW%;
     const vector@ part = r + r * r * ($POLYNOMIAL);
@@ -88,60 +105,60 @@ INLINE vector@ vector_expm1@(vector@ x) {
 
 SIGNED = """
 /* x >= 0 with the sign of another. */
-INLINE vector@ vector_signed@(vector@ x, vector@ sign) {
+INLINE vector@ signed_each@(vector@ x, vector@ sign) {
     return vector_from_bits@(vector_to_bits@(x) | (vector_to_bits@(sign) & $SIGN));
 }"""
 
 # What is large is exp(|x| / 2)^2 / 2, in two steps that do not overflow before the result does.
 SINH = """
 /* sinh, within 3 units in the last place. */
-INLINE vector@ vector_sinh@(vector@ x) {
-    const vector@ a = vector_abs@(x), half = vector_exp@(a * 0.5%);
-    const vector@ e = vector_expm1@(vector_select@(a > $FAR%, vector_of@($FAR%), a));
-    return vector_signed@(vector_select@(a > $FAR%, half * 0.5% * half, (e + e / (e + 1)) * 0.5%), x);
+INLINE vector@ sinh_each@(vector@ x) {
+    const vector@ a = abs_each@(x), half = exp_each@(a * 0.5%);
+    const vector@ e = expm1_each@(vector_select@(a > $FAR%, vector_of@($FAR%), a));
+    return signed_each@(vector_select@(a > $FAR%, half * 0.5% * half, (e + e / (e + 1)) * 0.5%), x);
 }"""
 
 COSH = """
 /* cosh, within 3 units in the last place. */
-INLINE vector@ vector_cosh@(vector@ x) {
-    const vector@ a = vector_abs@(x), half = vector_exp@(a * 0.5%);
-    const vector@ e = vector_exp@(a);
+INLINE vector@ cosh_each@(vector@ x) {
+    const vector@ a = abs_each@(x), half = exp_each@(a * 0.5%);
+    const vector@ e = exp_each@(a);
     return vector_select@(a > $FAR%, half * 0.5% * half, e * 0.5% + 0.5% / e);
 }"""
 
 TANH = """
 /* tanh, within 3 units in the last place. */
-INLINE vector@ vector_tanh@(vector@ x) {
-    const vector@ a = vector_abs@(x), e = vector_expm1@(vector_select@(a > $ONE%, vector_of@($ONE%), a) * 2);
-    return vector_signed@(vector_select@(a > $ONE%, vector_of@(1), e / (e + 2)), x);
+INLINE vector@ tanh_each@(vector@ x) {
+    const vector@ a = abs_each@(x), e = expm1_each@(vector_select@(a > $ONE%, vector_of@($ONE%), a) * 2);
+    return signed_each@(vector_select@(a > $ONE%, vector_of@(1), e / (e + 2)), x);
 }"""
 
 ASINH = """
 /* asinh, within 3 units in the last place. */
-INLINE vector@ vector_asinh@(vector@ x) {
-    const vector@ a = vector_abs@(x), square = a * a;
-    const vector@ near = vector_log1p@(a + square / (1 + vector_sqrt@(1 + square)));
-    return vector_signed@(vector_select@(a > $FAR%, vector_log@(a) + $LOG2%, near), x);
+INLINE vector@ asinh_each@(vector@ x) {
+    const vector@ a = abs_each@(x), square = a * a;
+    const vector@ near = log1p_each@(a + square / (1 + sqrt_each@(1 + square)));
+    return signed_each@(vector_select@(a > $FAR%, log_each@(a) + $LOG2%, near), x);
 }"""
 
 ACOSH = """
 /* acosh, within 3 units in the last place. */
-INLINE vector@ vector_acosh@(vector@ x) {
-    const vector@ t = x - 1, near = vector_log1p@(t + vector_sqrt@(2 * t + t * t));
-    return vector_select@(x > $FAR%, vector_log@(x) + $LOG2%, near);
+INLINE vector@ acosh_each@(vector@ x) {
+    const vector@ t = x - 1, near = log1p_each@(t + sqrt_each@(2 * t + t * t));
+    return vector_select@(x > $FAR%, log_each@(x) + $LOG2%, near);
 }"""
 
 ATANH = """
 /* atanh, within 3 units in the last place. */
-INLINE vector@ vector_atanh@(vector@ x) {
-    const vector@ a = vector_abs@(x);
-    return vector_signed@(0.5% * vector_log1p@(2 * a / (1 - a)), x);
+INLINE vector@ atanh_each@(vector@ x) {
+    const vector@ a = abs_each@(x);
+    return signed_each@(0.5% * log1p_each@(2 * a / (1 - a)), x);
 }"""
 
 # Cody and Waite: pi/2 in three parts, of which integers up to the limit multiply the first two exactly.
 SINCOS = """
 /* $NAME: x = k pi/2 + r, |r| <= pi/4, within 2 units in the last place; beyond $LIMIT, by the library. */
-INLINE vector@ vector_$NAME@(vector@ x) {
+INLINE vector@ $NAME_each@(vector@ x) {
     const vector@ shifted = x * $INVERSE% + $MAGIC%, k = shifted - $MAGIC%;
     const vector@ r = ((x - k * $HIGH%) - k * $MIDDLE%) - k * $LOW%, z = r * r;
     const vector_bits@ quarter = vector_to_bits@(shifted)$ADD;
@@ -159,8 +176,8 @@ INLINE vector@ vector_$NAME@(vector@ x) {
 # atan(t) for t = min / max of |x|, |y|, by pi/4 - atan((1 - t) / (1 + t)) where t is large; then by octants.
 ATAN2 = """
 /* atan2, within 3 units in the last place. */
-INLINE vector@ vector_atan2@(vector@ y, vector@ x) {
-    const vector@ a = vector_abs@(y), b = vector_abs@(x), one = vector_of@(1);
+INLINE vector@ atan2_each@(vector@ y, vector@ x) {
+    const vector@ a = abs_each@(y), b = abs_each@(x), one = vector_of@(1);
     const vector@ less = vector_select@(a > b, b, a), more = vector_select@(a > b, a, b);
     const vector@ low = vector_select@(less > $LARGEST%, one, less);
     const vector@ high = vector_select@(less > $LARGEST%, one, vector_select@(more == 0, one, more));
@@ -171,7 +188,7 @@ INLINE vector@ vector_atan2@(vector@ y, vector@ x) {
     const vector@ first = vector_select@(low > $TANGENT% * high, $QUARTER% + (angle + $QUARTERLOW%), angle);
     const vector@ second = vector_select@(a > b, $HALF% - (first - $HALFLOW%), first);
     const vector@ third = vector_select@((vector_to_bits@(x) & $SIGN) != 0, $WHOLE% - (second - $WHOLELOW%), second);
-    return vector_signed@(third, y);
+    return signed_each@(third, y);
 }"""
 
 
@@ -256,6 +273,29 @@ def _exp(precision: Precision, text: str = EXP) -> str:
         LARGEST="88.722839" if single else "709.782712893384",
         SMALLEST="-86.9" if single else "-707.9",
     )
+
+
+def _gaussian(precision: Precision) -> str:
+    single = precision is FLOAT
+    with mp.workdps(DIGITS):
+        high, low = _split(2 * mp.log(2), 15 if single else 40)
+        inverse = repr(float(-1 / (2 * mp.log(2))))
+    rest = fitted(_gaussian_rest, 4 if single else 9, "-0.6932", "0.6932")
+    return _replaced(
+        GAUSSIAN,
+        precision,
+        TINY="1.8e-38" if single else "3.8e-308",
+        HALFINVERSE=inverse,
+        MAGIC="12583039.0" if single else "6755399441056767.0",
+        HIGH=high,
+        LOW=low,
+        POLYNOMIAL=horner([repr(c) + precision.suffix for c in (-0.5, *rest)], "r"),
+        FAR="173.8" if single else "1415.8",
+    )
+
+
+def _gaussian_rest(r: mp.mpf) -> mp.mpf:
+    return mp.hyp1f1(1, 3, -r / 2) / 8  # (exp(-r / 2) - 1 + r / 2) / r^2
 
 
 def _exp_rest(r: mp.mpf) -> mp.mpf:
@@ -358,6 +398,7 @@ NEEDS = {
     "exp": ("bits",),
     "log": ("bits",),
     "log1p": ("log",),
+    "gaussian": ("bits",),
     "expm1": ("bits",),
     "signed": ("bits",),
     "sinh": ("abs", "exp", "expm1", "signed"),
@@ -374,9 +415,12 @@ ORDER: dict[str, Callable[[Precision], str]] = {
     "bits": lambda precision: BITS,
     "signed": lambda precision: _replaced(SIGNED, precision),
     "abs": _lanes("abs", "fabs"),
-    "round": _lanes("round", "rint"),
+    "round": _plain(
+        ROUND, {"MAGIC": "12582912.0", "ENOUGH": "2^22"}, {"MAGIC": "6755399441055744.0", "ENOUGH": "2^51"}
+    ),
     "sqrt": _lanes("sqrt", "sqrt"),
     "exp": _exp,
+    "gaussian": _gaussian,
     "expm1": lambda precision: _exp(precision, EXPM1),
     "log": _log,
     "log1p": lambda precision: _replaced(LOG1P, precision),

@@ -149,7 +149,7 @@ def _splats_vjp(
 ) -> tuple[Tensor, Tensor, Tensor]:
     """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu (K, D), W (K, d, T) and amplitude (K)."""
     S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
-    total = torch.zeros((len(S), len(mu)), dtype=x.dtype, device=x.device)
+    total = torch.zeros((), dtype=x.dtype, device=x.device)
     parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
     for part, *bars in zip(*parts, strict=True):
         total = total + torch.stack(_sums(self._pair_bars(part, S, *bars), len(part), len(mu), 0))
@@ -163,15 +163,15 @@ def _splats_rows(
     parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
     rows = []
     for part, *bars in zip(*parts, strict=True):
-        S_bar = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
-        by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, S_bar)
+        sums = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
+        by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, sums)
         rows.append(torch.cat([by_mu, by_W.flatten(-2), by_amplitude.unsqueeze(-1)], -1))
     return torch.cat(rows)
 
 def _pair_bars(
     self, x: Tensor, S: Sequence[Tensor], value_bar: Tensor, gradient_bar: Tensor
 ) -> tuple[Tensor, ...]:
-    """The derivatives in S of every pair, from those in the sums."""
+    """What every pair adds to the sums of its splat, from the derivatives in values and gradients."""
     X = [entry.unsqueeze(-1) for entry in self._point_features(x)]
     slope_bar = [entry.unsqueeze(-1) for entry in self._point_gradient_vjp(x, gradient_bar)]
     return self._pair_vjp(X, S, value_bar.unsqueeze(-1), slope_bar)
@@ -185,10 +185,13 @@ PROMISES = {
     "forward": ("_pair", "The value of a splat at a point, and the slope, its derivatives in X."),
     "gradient": ("_point_gradient", "The Riemannian gradient of a function whose derivatives in X are `slope`."),
     "gradient_vjp": ("_point_gradient_vjp", "The derivatives of gradient . gradient_bar in `slope`."),
-    "backward": ("_pair_vjp", "The derivatives of value value_bar + slope . slope_bar in S."),
-    "constants_vjp": ("_splat_constants_vjp", "The derivatives in mu, W and amplitude from those in S."),
+    "backward": (
+        "_pair_vjp",
+        "What, summed over the points, makes the derivatives of value value_bar + slope . slope_bar.",
+    ),
+    "constants_vjp": ("_splat_constants_vjp", "The derivatives in mu, W and amplitude from those sums."),
 }
-APART = {"X", "S", "slope", "slope_bar", "S_bar"}  # sequences of tensors, one an entry
+APART = {"X", "S", "slope", "slope_bar", "sums"}  # sequences of tensors, one an entry
 
 
 def methods(geometry: Geometry, pairs: Pairs, series: dict[Coefficients, str]) -> list[str]:

@@ -113,6 +113,7 @@ class Graph:
         self.nodes: dict[tuple[str, tuple[Node, ...], object], Node] = {}
         self.names: dict[Node, str] = {}  # what a person would call a node
         self.slopes: dict[Node, tuple[Node, ...]] = {}  # the derivatives of declared nodes in their variables
+        self.forms: dict[Node, Node] = {}  # of some declared nodes, what they are said to be, in their variables
 
     def node(self, op: str, *arguments: Node, value: object = None) -> Node:
         """The node of an operation, without simplification."""
@@ -196,6 +197,10 @@ class Graph:
             return x.arguments[0]
         if x.is_constant and y.op == "mul" and y.arguments[0].is_constant:
             return self.mul(self.constant(x.value * y.arguments[0].value), y.arguments[1])  # type: ignore[operator]
+        if x.op == "mul" and y.op == "mul" and x.arguments[0].is_constant and y.arguments[0].is_constant:
+            product = x.arguments[0].value * y.arguments[0].value  # type: ignore[operator]
+            if product in (1, -1):  # the numbers cancel
+                return self.mul(self.constant(product), self.mul(x.arguments[1], y.arguments[1]))
         return self.node("mul", x, y)
 
     def div(self, x: Node, y: Node) -> Node:

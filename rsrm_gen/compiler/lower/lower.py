@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import sympy as sp
 
 from rsrm_gen.compiler.derive import Geometry
@@ -11,6 +13,7 @@ from rsrm_gen.compiler.lower.differentiate import gradient
 from rsrm_gen.compiler.lower.from_sympy import inline
 from rsrm_gen.compiler.lower.ir import Graph, Node, Packed, Pairs, Parameter, Program, Result, Routine, dot
 from rsrm_gen.compiler.lower.pairs import SplatNodes, pairs_of
+from rsrm_gen.compiler.lower.quadratic import pays, quadratic
 from rsrm_gen.compiler.lower.reduced import reduced
 from rsrm_gen.compiler.lower.schedule import schedule
 from rsrm_gen.compiler.spec.vocabulary import Shape
@@ -65,6 +68,7 @@ class _Splat:
         z = _named(graph, "z", tuple(dot(graph, row, log) for row in rows))
         exponent = graph.sub(log_det, graph.mul(graph.constant(sp.Rational(1, 2)), dot(graph, z, z)))
         self.exponent, self.geometry = exponent, geometry
+        self.rows, self.log, self.log_det = rows, log, log_det
         self.value = graph.named("phi", graph.mul(self.amplitude.nodes[0], graph.function("exp", exponent)))
         partials = _named(graph, "exponent_by_x", gradient(graph, exponent, self.x.nodes))
         df = _named(graph, "df", tuple(graph.mul(self.value, partial) for partial in partials))
@@ -83,8 +87,21 @@ class _Splat:
         def to_gradient(graph: Graph, x: Packed, df: Packed) -> Packed:
             return inline(graph, self.geometry["riemannian_gradient"], x, df)
 
-        forms = [plain, reduced(self.geometry, plain, self.graph)]
+        forms = [plain, self.by_matrix(plain), reduced(self.geometry, plain, self.graph)]
         return min((pairs_of(self.graph, form, to_gradient) for form in forms if form), key=lambda pairs: pairs.work)
+
+    def by_matrix(self, plain: SplatNodes) -> SplatNodes | None:
+        """The same splat as a function of W^T W, where that has fewer entries than W.
+
+        Not of ambient vectors, whose entries may be much larger than they are long: there W^T W loses digits.
+        """
+        graph = self.graph
+        if self.size > len(self.rows) or not pays(len(self.rows), self.size):
+            return None
+        half_square = graph.mul(graph.constant(sp.Rational(1, 2)), quadratic(graph, self.rows, self.log))
+        exponent = graph.sub(self.log_det, half_square)
+        phi = graph.named("phi", graph.mul(self.amplitude.nodes[0], graph.function("exp", exponent)))
+        return replace(plain, phi=phi, exponent=exponent, by_exponent=phi)
 
     def vjp(self) -> Routine:
         """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu, W and amplitude."""

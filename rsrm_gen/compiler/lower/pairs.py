@@ -6,11 +6,12 @@
     forward       of a pair:          (X, S) -> phi, slope = d phi / d X        N K times; both are summed over the splats
     gradient      of a point alone:   (x, sum of slopes) -> grad f              N times
     gradient_vjp  of a point alone:   (x, gradient_bar) -> slope_bar            N times
-    backward      of a pair:          (X, S, value_bar, slope_bar) -> S_bar     N K times; summed over the points
-    constants_vjp of a splat alone:   (mu, W, amplitude, S_bar) -> mu_bar, W_bar, amplitude_bar   K times
+    backward      of a pair:          (X, S, value_bar, slope_bar) -> sums      N K times; summed over the points
+    constants_vjp of a splat alone:   (mu, W, amplitude, sums) -> mu_bar, W_bar, amplitude_bar   K times
 
 What depends on the point alone, or on the splat alone, and is read by something that depends on both, is an entry of X or
-of S. `backward` is the reverse sweep over value_bar phi + slope_bar . slope, with nothing stored for a pair.
+of S. `backward` is the reverse sweep over value_bar phi + slope_bar . slope, with nothing stored for a pair. All of that is
+proportional to the amplitude, which therefore counts once a splat, as do other factors of it (see `sums.py`).
 """
 
 from __future__ import annotations
@@ -34,6 +35,7 @@ from rsrm_gen.compiler.lower.ir import (
 )
 from rsrm_gen.compiler.lower.protect import arguments_first
 from rsrm_gen.compiler.lower.schedule import schedule
+from rsrm_gen.compiler.lower.sums import Sums, factored
 
 
 @dataclass(frozen=True)
@@ -65,8 +67,6 @@ def pairs_of(graph: Graph, splat: SplatNodes, slope_to_gradient: Callable[[Graph
     point, own = (splat.x,), (splat.mu, splat.W, splat.amplitude)
 
     features = _routine(graph, "features", point, {"X": X_nodes})
-    constants = _routine(graph, "constants", own, {"S": S_nodes})
-
     pair = Graph()
     names = _Names(graph)
     x = _parameter(pair, "X", [names.of(n) for n in X_nodes])
@@ -80,7 +80,17 @@ def pairs_of(graph: Graph, splat: SplatNodes, slope_to_gradient: Callable[[Graph
     total = pair.mul(phi, value_bar.nodes[0])
     for a, b in zip(slopes, slope_bar.nodes, strict=True):
         total = pair.add(total, pair.mul(a, b))
-    bars = gradient(pair, total, s.nodes)
+    # The amplitude is a factor of all but its own derivative.
+    unit = dict(zip(S_nodes, s.nodes, strict=True))[splat.amplitude.nodes[0]]
+    bars = copied(pair, pair, gradient(pair, total, s.nodes), {unit: pair.constant(1)})
+    sums = factored(pair, bars, s.nodes, pair.forms)
+    read = _read(
+        pair, (phi, *slopes, *sums.parts), s.nodes
+    )  # other constants count once a splat, in what is done after
+    s_read = Parameter(s.name, (len(read),), tuple(read))
+
+    S_read = [source for source, node in zip(S_nodes, s.nodes, strict=True) if node in read]
+    constants = _routine(graph, "constants", own, {"S": S_read})
 
     finish = Graph()
     at = _copied_parameter(finish, splat.x)
@@ -95,24 +105,39 @@ def pairs_of(graph: Graph, splat: SplatNodes, slope_to_gradient: Callable[[Graph
     parts = tuple(_copied_parameter(splats, p) for p in own)
     inputs = {a: b for p, q in zip(own, parts, strict=True) for a, b in zip(p.nodes, q.nodes, strict=True)}
     again = copied(graph, splats, S_nodes, inputs)
-    s_bar = _like(splats, "S_bar", s)
+    summed = _parameter(splats, "sums", [f"sum{i}" for i in range(len(sums.parts))])
+    s_bar = _wanted(splats, sums, pair, dict(zip(s.nodes, again, strict=True)), summed.nodes)
     # What nothing of a pair is differentiated in has an adjoint of zero, also where its own derivative overflows.
-    reached = [
-        (value, bar) for value, bar, of_pair in zip(again, s_bar.nodes, bars, strict=True) if not of_pair.is_number(0)
-    ]
-    by = iter(gradient(splats, dot(splats, *zip(*reached, strict=True)), [n for p in parts for n in p.nodes]))
-    own_bars = {f"{p.name}_bar": [next(by) for _ in p.nodes] for p in parts}
+    reached = [(value, bar) for value, bar in zip(again, s_bar, strict=True) if not bar.is_number(0)]
+    entries = [node for p in parts for node in p.nodes]
+    *by, by_amplitude = gradient(splats, dot(splats, *zip(*reached, strict=True)), entries)
+    by_entries = iter([*(splats.mul(parts[2].nodes[0], bar) for bar in by), by_amplitude])
+    own_bars = {f"{p.name}_bar": [next(by_entries) for _ in p.nodes] for p in parts}
 
     return Pairs(
         features,
         constants,
-        _routine(pair, "value", (x, s), {"value": [phi]}, splat.formula),
-        _routine(pair, "forward", (x, s), {"value": [phi], "slope": slopes}, splat.formula),
+        _routine(pair, "value", (x, s_read), {"value": [phi]}, splat.formula),
+        _routine(pair, "forward", (x, s_read), {"value": [phi], "slope": slopes}, splat.formula),
         _routine(finish, "gradient", (at, slope), {"gradient": grad}),
         _routine(finish, "gradient_vjp", (at, gradient_bar), {"slope_bar": back}),
-        _routine(pair, "backward", (x, s, value_bar, slope_bar), {"S_bar": bars}, splat.formula),
-        _routine(splats, "constants_vjp", (*parts, s_bar), own_bars),
+        _routine(pair, "backward", (x, s_read, value_bar, slope_bar), {"sums": sums.parts}, splat.formula),
+        _routine(splats, "constants_vjp", (*parts, summed), own_bars),
     )
+
+
+def _wanted(
+    splats: Graph, sums: Sums, pair: Graph, known: Mapping[Node, Node], summed: Sequence[Node]
+) -> Iterator[Node]:
+    """The sums that were wanted, of those that were made; nothing else depends on their factors."""
+    for recipe in sums.wanted:
+        total = splats.constant(0)
+        for index, factor in recipe.items():
+            by = copied(pair, splats, [factor], known)[0] if factor else splats.constant(1)
+            total = splats.add(total, splats.mul(by, summed[index]))
+        fixed = total if total.is_number(0) else splats.declared(total)
+        splats.slopes[fixed] = ()
+        yield fixed
 
 
 def _dependence(graph: Graph, roots: Sequence[Node], splat: SplatNodes) -> dict[Node, int]:
@@ -153,16 +178,20 @@ def _numbers(node: Node, depends: dict[Node, int]) -> Iterator[Node]:
 
 
 def copied(source: Graph, target: Graph, roots: Sequence[Node], known: Mapping[Node, Node]) -> tuple[Node, ...]:
-    """Nodes of one graph in another, where some are known already; names and declared derivatives go along."""
+    """Nodes of one graph in another, where some are known already; names, declared derivatives and forms go along."""
     done, declared, waiting = dict(known), [], list(roots)
     while waiting:
         for node in arguments_first(waiting.pop(), lambda n: n.arguments, done):
-            done[node] = target.node(node.op, *(done[a] for a in node.arguments), value=node.value)
+            parts = tuple(done[a] for a in node.arguments)
+            is_trivial = node.op == "mul" and any(part.is_number(1) for part in parts)
+            done[node] = target.mul(*parts) if is_trivial else target.node(node.op, *parts, value=node.value)
             if node in source.names:
                 target.named(source.names[node], done[node])
             if node.op == "declared":
                 declared.append(node)
                 waiting += source.slopes[node]
+                waiting += [source.forms[node]] if node in source.forms else []
+    target.forms.update({done[node]: done[source.forms[node]] for node in declared if node in source.forms})
     target.slopes.update({done[node]: tuple(done[slope] for slope in source.slopes[node]) for node in declared})
     return tuple(done[root] for root in roots)
 
@@ -171,10 +200,9 @@ def undeclared(source: Graph, roots: Sequence[Node], inputs: Sequence[Node]) -> 
     """The same nodes without declared derivatives, which have served once everything is differentiated."""
     target = Graph()
     done = {node: target.input(str(node.value)) for node in inputs}
-    needed: Callable[[Node], Sequence[Node]] = lambda n: n.arguments[:1] if n.op == "declared" else n.arguments  # noqa: E731
     for root in roots:
-        for node in arguments_first(root, needed, done):
-            parts = [done[a] for a in needed(node)]
+        for node in arguments_first(root, _computes, done):
+            parts = [done[a] for a in _computes(node)]
             done[node] = parts[0] if node.op == "declared" else target.node(node.op, *parts, value=node.value)
             if node in source.names:
                 target.named(source.names[node], done[node])
@@ -194,6 +222,20 @@ def _routine(
     moved = tuple(Parameter(p.name, p.shape, tuple(done[n] for n in p.nodes)) for p in parameters)
     found = tuple(Result(key, (len(nodes),), tuple(done[n] for n in nodes)) for key, nodes in results.items())
     return schedule(target, name, moved, found, formula)
+
+
+def _read(graph: Graph, roots: Sequence[Node], inputs: Sequence[Node]) -> list[Node]:
+    """The inputs that are read to compute the roots, not merely to differentiate them."""
+    found: dict[Node, None] = {}
+    for root in roots:
+        for node in arguments_first(root, _computes, found):
+            found[node] = None
+    return [node for node in inputs if node in found]
+
+
+def _computes(node: Node) -> Sequence[Node]:
+    """What a node is computed from."""
+    return node.arguments[:1] if node.op == "declared" else node.arguments
 
 
 def _parameter(graph: Graph, name: str, entries: Sequence[str]) -> Parameter:

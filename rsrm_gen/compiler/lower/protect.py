@@ -112,6 +112,11 @@ def cannot_overflow(op: str, x: Node, signs: Positivity) -> bool:
     return x.is_constant or (op == "exp" and x.op == "neg" and signs.is_not_negative(x.arguments[0]))
 
 
+def never_negative(node: Node) -> bool:
+    """Whether a node is not below zero by its form, as a sum of squares is."""
+    return Positivity(node, True, underflow=True).is_not_negative(node)
+
+
 class Positivity:
     """What is known of the signs of nodes by their form, where the condition is `when`.
 

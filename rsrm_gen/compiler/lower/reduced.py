@@ -25,6 +25,7 @@ from rsrm_gen.compiler.lower.differentiate import gradient
 from rsrm_gen.compiler.lower.from_sympy import inline
 from rsrm_gen.compiler.lower.ir import Graph, Node, Packed, dot
 from rsrm_gen.compiler.lower.pairs import SplatNodes
+from rsrm_gen.compiler.lower.quadratic import pays, quadratic
 from rsrm_gen.compiler.spec import ProductSpec
 
 HALF = sp.Rational(1, 2)
@@ -66,7 +67,8 @@ def reduced(geometry: Geometry, splat: SplatNodes, graph: Graph) -> SplatNodes |
     found = list(parts(geometry))
     if not any(part.geometry.radial for part in found):
         return None
-    form = _Form(graph, splat, geometry.spec.dim, geometry.spec.tangent_size, alone=len(found) == 1)
+    far_out = any(part.geometry.radial and part.geometry.radial.unbounded for part in found)
+    form = _Form(graph, splat, geometry.spec.dim, geometry.spec.tangent_size, len(found) == 1, far_out)
     for part in found:
         if part.geometry.radial:
             form.add_radial(part, part.geometry.radial)
@@ -78,14 +80,19 @@ def reduced(geometry: Geometry, splat: SplatNodes, graph: Graph) -> SplatNodes |
 class _Form:
     """Gathers what the parts of a manifold give to z = W Log_mu(x), to log |det D Log| and to the splat."""
 
-    def __init__(self, graph: Graph, splat: SplatNodes, dim: int, tangent_size: int, alone: bool) -> None:
+    def __init__(
+        self, graph: Graph, splat: SplatNodes, dim: int, tangent_size: int, alone: bool, far_out: bool
+    ) -> None:
         self.graph = graph
         self.splat = splat
         self.dim = dim
         self.tangent_size = tangent_size
+        self.far_out = far_out  # whether a part reaches far out in its coordinates
         self.alone = alone  # whether there is one part only
         self.half_square: Node = graph.constant(0)  # |z|^2 / 2, of the only part
         self.z: list[Packed] = []  # what each part adds to z, of several
+        self.rows_of: list[list[Packed]] = []  # what of W, or R, each of several parts is multiplied by,
+        self.columns_of: list[Packed] = []  # and what it multiplies, so that both give z
         self.log_dets: list[Node] = []
         self.factors: list[Node] = []  # the determinants of radial parts, which are powers
         self.exponents: list[Node] = []  # the logarithms of the others
@@ -108,7 +115,10 @@ class _Form:
         graph, (mu, x) = self.graph, self.points(part)
         v = inline(graph, part.geometry["log"], mu, x, prefix=part.prefix)
         (log_det,) = inline(graph, part.geometry["log_abs_det"], mu, x, prefix=part.prefix)
-        self.z.append(tuple(dot(graph, self.covector(i, part), v) for i in range(self.dim)))
+        rows = [self.covector(i, part) for i in range(self.dim)]
+        self.z.append(tuple(dot(graph, row, v) for row in rows))
+        self.rows_of.append(rows)
+        self.columns_of.append(tuple(v))
         self.log_dets.append(log_det)
         self.exponents.append(log_det)
 
@@ -117,29 +127,32 @@ class _Form:
         graph, (mu, x) = self.graph, self.points(part)
         h = tuple(graph.named(f"{part.prefix}h{j}", graph.mul(graph.constant(HALF), c)) for j, c in enumerate(x))
         shape = _Profile(graph, radial, part.prefix, mu, h)
-        rows = self.rows(part, h)
+        R = self.rows(part)
+        r = [graph.named(f"{part.prefix}r{i}", dot(graph, row, h)) for i, row in enumerate(R)]
         if self.alone:
-            self.half_square = shape.times_square(dot(graph, rows, rows))
+            square = quadratic(graph, R, h) if self.by_matrix(len(h)) else dot(graph, r, r)
+            self.half_square = shape.times_square(square)
         else:
-            self.z.append(tuple(graph.mul(shape.signed_a, r) for r in rows))
+            self.z.append(tuple(graph.mul(shape.signed_a, e) for e in r))
+            self.rows_of.append(R)
+            self.columns_of.append(tuple(graph.mul(shape.signed_a, c) for c in h))
         self.log_dets.append(graph.mul(graph.constant(radial.power), shape.log_a))
         self.factors += [shape.a] * radial.power
         if shape.on_cut is not None:
             self.at_cut.append((shape.on_cut, self.value_at_cut(part, mu)))
 
-    def rows(self, part: Part, h: Packed) -> Packed:
-        """R x, or R x / sqrt(2) of the only part."""
+    def rows(self, part: Part) -> list[Packed]:
+        """R, or R / sqrt(2) of the only part."""
         graph, (mu, _) = self.graph, self.points(part)
         vector = tuple(graph.input(f"{part.prefix}vector{j}") for j in range(len(mu)))
         tangent = inline(graph, part.geometry["to_tangent"], mu, vector, prefix=part.prefix)
         scale = graph.constant(sp.sqrt(2) if self.alone else 2)
-        products = []
+        rows = []
         for i in range(self.dim):
             # The covector of a vector's tangent part; by the adjoint of the map, whose matrix loses digits far out.
             row = gradient(graph, dot(graph, self.covector(i, part), tangent), vector)
-            named = tuple(graph.named(f"{part.prefix}R{i}_{j}", graph.mul(scale, e)) for j, e in enumerate(row))
-            products.append(graph.named(f"{part.prefix}r{i}", dot(graph, named, h)))
-        return tuple(products)
+            rows.append(tuple(graph.named(f"{part.prefix}R{i}_{j}", graph.mul(scale, e)) for j, e in enumerate(row)))
+        return rows
 
     def value_at_cut(self, part: Part, mu: Packed) -> Node:
         """exp(log det - |z|^2 / 2) at the antipode of mu, by the author's policy: the splat's own number."""
@@ -151,9 +164,17 @@ class _Form:
         exponent = graph.sub(log_det, graph.mul(graph.constant(HALF), dot(graph, z, z)))
         return graph.named(f"{part.prefix}value_on_cut_locus", graph.function("exp", exponent))
 
+    def by_matrix(self, columns: int) -> bool:
+        """Whether sums are by R^T R: not with hyperboloids, far out on which R is large, and its square loses digits."""
+        return pays(self.dim, columns) and not self.far_out
+
     def half_square_of_all(self) -> Node:
         """|z|^2 / 2, z the sum of what the parts add."""
         graph = self.graph
+        v = tuple(c for columns in self.columns_of for c in columns)
+        if self.by_matrix(len(v)):
+            rows = [tuple(c for part in parts for c in part) for parts in zip(*self.rows_of, strict=True)]
+            return graph.mul(graph.constant(HALF), quadratic(graph, rows, v))
         z = []
         for i, (first, *others) in enumerate(zip(*self.z, strict=True)):
             for other in others:
@@ -164,7 +185,7 @@ class _Form:
     def splat_nodes(self) -> SplatNodes:
         """phi, the exponent whose derivatives give phi's, and the factor between them."""
         graph = self.graph
-        half_square = graph.named("half_square", self.half_square if self.alone else self.half_square_of_all())
+        half_square = graph.named("half_square", self.half_square) if self.alone else self.half_square_of_all()
         exponent = inside = graph.neg(half_square)
         for log_det in self.log_dets:
             exponent = graph.add(exponent, log_det)
