@@ -208,3 +208,21 @@ def test_the_phases_of_a_step_add_up_to_it(tmp_path: Path) -> None:
     assert phases["loss"].frequency == 1
     shares = [cells for column in table(watch).columns if column.header == "share" for cells in column.cells]
     assert shares[-2] == "100.0 %"
+
+
+def test_a_run_is_drawn_and_reported(rsrm: Rsrm, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("rsrm_gen.trainer.report.page.read_audit", lambda name: {"checks": [], "files": {}})
+    assert rsrm("train", "scene.yaml", "-o", "run", "--no-picture", "--steps", "2") == 0
+    RunFolder(Path("run")).forget_results()
+    assert rsrm("figure", "run", "-o", "drawn.svg", "--paths", "1") == 0
+    assert "figure: drawn.svg" in capsys.readouterr().out
+    assert Path("drawn.svg").read_text().startswith("<?xml")
+    assert rsrm("figure", "run", "-o", "drawn.gif") == 2
+    assert ".pdf, .png, .svg" in capsys.readouterr().err
+    assert rsrm("figure", "nowhere") == 2
+    assert rsrm("report", "nowhere") == 2
+    assert rsrm("report", "run", "--paths", "1") == 0
+    assert "report: run/report.html" in capsys.readouterr().out
+    Path("file").write_text("")
+    assert rsrm("report", "run", "--paths", "0", "-o", "file/report.html") == 2
+    assert "cannot write file/report.html" in capsys.readouterr().err

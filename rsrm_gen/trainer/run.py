@@ -96,7 +96,7 @@ class RunFolder:
 
     def forget_results(self) -> None:
         """Remove what was said and drawn of a field that is about to change."""
-        for name in ("summary.json", "evaluation.json", "field.png", "field.pdf"):
+        for name in ("summary.json", "evaluation.json", "field.png", "field.pdf", "report.html"):
             (self.path / name).unlink(missing_ok=True)
 
     def write_settings(self, scene: Scene) -> None:

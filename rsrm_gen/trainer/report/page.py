@@ -202,7 +202,11 @@ def _space(report: Report) -> str:
     """The panel of the viewer, with a picture where there is no script."""
     drawing = report.drawing
     if drawing.sheets[0].mesh.plane.section:
-        shapes = ["normal coordinates at the goal, the three directions in which most obstacles are"]
+        shapes = ["normal coordinates at the goal"]
+        if drawing.scene.manifold.dim > 3:
+            shapes = [
+                "section through the goal, the three directions in which most obstacles are; paths are projected onto it"
+            ]
         still, why = "", "It is turned by a script; sections of it are below."
         checks = [("cut", "cut open", True)]
     else:

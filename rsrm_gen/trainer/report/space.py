@@ -97,7 +97,12 @@ def _cloud_points(scene: Scene) -> Tensor:
 
 
 def _obstacle_outlines(scene: Scene) -> list[Tensor]:
-    """Of each ball, where planes of three orthonormal directions at its centre cut its surface: (n, D) each."""
+    """Of each ball, where planes of three orthonormal directions at its centre cut its surface: (n, D) each.
+
+    In more dimensions these would lie beside the section that is shown; the points in obstacles show them there.
+    """
+    if scene.manifold.dim > 3:
+        return []
     angle = torch.linspace(0, 2 * torch.pi, 73, dtype=torch.float64)
     around = torch.stack([angle.cos(), angle.sin()], -1)
     found = []
