@@ -11,11 +11,9 @@
 /* x, periodic coordinates wrapped */
 void arm2_project(const double *ARM2_RESTRICT x, double *ARM2_RESTRICT p_out) {
     const double round_2 = rint(0.15915494309189535 * x[0]);
-    const double p0 = x[0] - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double p0 = x[0] - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double round_3 = rint(0.15915494309189535 * x[1]);
-    const double p1 = x[1] - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const double p1 = x[1] - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     p_out[0] = p0;
     p_out[1] = p1;
 }
@@ -102,12 +100,10 @@ void arm2_flat_batch(
 void arm2_exp(const double *ARM2_RESTRICT p, const double *ARM2_RESTRICT v, double *ARM2_RESTRICT q_out) {
     const double total_2 = p[0] + v[0];
     const double round_2 = rint(0.15915494309189535 * total_2);
-    const double q0 = total_2 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double q0 = total_2 - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double total_3 = p[1] + v[1];
     const double round_3 = rint(0.15915494309189535 * total_3);
-    const double q1 = total_3 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const double q1 = total_3 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     q_out[0] = q0;
     q_out[1] = q1;
 }
@@ -124,12 +120,10 @@ void arm2_exp_batch(
 void arm2_log(const double *ARM2_RESTRICT p, const double *ARM2_RESTRICT q, double *ARM2_RESTRICT v_out) {
     const double gap = q[0] - p[0];
     const double round_2 = rint(0.15915494309189535 * gap);
-    const double v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double gap_2 = q[1] - p[1];
     const double round_3 = rint(0.15915494309189535 * gap_2);
-    const double v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const double v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     v_out[0] = v0;
     v_out[1] = v1;
 }
@@ -146,12 +140,10 @@ void arm2_log_batch(
 double arm2_distance(const double *ARM2_RESTRICT p, const double *ARM2_RESTRICT q) {
     const double gap = q[0] - p[0];
     const double round_2 = rint(0.15915494309189535 * gap);
-    const double log0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double log0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double gap_2 = q[1] - p[1];
     const double round_3 = rint(0.15915494309189535 * gap_2);
-    const double log1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const double log1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const double cos_2 = cos(p[1]);
     const double total_2 = 0.3333333333333333 + 0.5 * cos_2;
     const double total_3 = log0 * (log0 * (1.6666666666666667 + cos_2) + log1 * total_2) + log1 *
@@ -240,12 +232,10 @@ void arm2_splat(
     double *ARM2_RESTRICT gradient_out) {
     const double gap = x[0] - mu[0];
     const double round_2 = rint(0.15915494309189535 * gap);
-    const double v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double gap_2 = x[1] - mu[1];
     const double round_3 = rint(0.15915494309189535 * gap_2);
-    const double v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const double v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const double gap_3 = mu[1] - x[1];
     const double sin_p1_minus_q1 = sin(gap_3);
     const double total_2 = x[1] + mu[1];
@@ -318,11 +308,9 @@ void arm2_frame(const double *ARM2_RESTRICT p, double *ARM2_RESTRICT frame) {
 /* x, periodic coordinates wrapped */
 void arm2_project_f(const float *ARM2_RESTRICT x, float *ARM2_RESTRICT p_out) {
     const float round_2 = rintf(0.15915494309189535f * x[0]);
-    const float p0 = x[0] - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float p0 = x[0] - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float round_3 = rintf(0.15915494309189535f * x[1]);
-    const float p1 = x[1] - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f *
-        round_3;
+    const float p1 = x[1] - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     p_out[0] = p0;
     p_out[1] = p1;
 }
@@ -406,12 +394,10 @@ void arm2_flat_batch_f(
 void arm2_exp_f(const float *ARM2_RESTRICT p, const float *ARM2_RESTRICT v, float *ARM2_RESTRICT q_out) {
     const float total_2 = p[0] + v[0];
     const float round_2 = rintf(0.15915494309189535f * total_2);
-    const float q0 = total_2 - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f
-        * round_2;
+    const float q0 = total_2 - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float total_3 = p[1] + v[1];
     const float round_3 = rintf(0.15915494309189535f * total_3);
-    const float q1 = total_3 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
-        * round_3;
+    const float q1 = total_3 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     q_out[0] = q0;
     q_out[1] = q1;
 }
@@ -428,12 +414,10 @@ void arm2_exp_batch_f(
 void arm2_log_f(const float *ARM2_RESTRICT p, const float *ARM2_RESTRICT q, float *ARM2_RESTRICT v_out) {
     const float gap = q[0] - p[0];
     const float round_2 = rintf(0.15915494309189535f * gap);
-    const float v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float gap_2 = q[1] - p[1];
     const float round_3 = rintf(0.15915494309189535f * gap_2);
-    const float v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f *
-        round_3;
+    const float v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     v_out[0] = v0;
     v_out[1] = v1;
 }
@@ -450,12 +434,10 @@ void arm2_log_batch_f(
 float arm2_distance_f(const float *ARM2_RESTRICT p, const float *ARM2_RESTRICT q) {
     const float gap = q[0] - p[0];
     const float round_2 = rintf(0.15915494309189535f * gap);
-    const float log0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float log0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float gap_2 = q[1] - p[1];
     const float round_3 = rintf(0.15915494309189535f * gap_2);
-    const float log1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
-        * round_3;
+    const float log1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const float cos_2 = cosf(p[1]);
     const float total_2 = 0.3333333333333333f + 0.5f * cos_2;
     const float total_3 = log0 * (log0 * (1.6666666666666667f + cos_2) + log1 * total_2) + log1 *
@@ -544,12 +526,10 @@ void arm2_splat_f(
     float *ARM2_RESTRICT gradient_out) {
     const float gap = x[0] - mu[0];
     const float round_2 = rintf(0.15915494309189535f * gap);
-    const float v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float gap_2 = x[1] - mu[1];
     const float round_3 = rintf(0.15915494309189535f * gap_2);
-    const float v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f *
-        round_3;
+    const float v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const float gap_3 = mu[1] - x[1];
     const float sin_p1_minus_q1 = sinf(gap_3);
     const float total_2 = x[1] + mu[1];

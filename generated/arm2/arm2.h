@@ -13,19 +13,19 @@
  * log |det D Log|: the closed form in the manifold file.
  *
  *                       operations   float64  float32
- * project                       16
+ * project                       12
  * to_tangent                     0
  * inner                         13
  * norm                          14
  * flat                          10
- * exp                           18      <= 1     <= 1
- * log                           18      <= 1     <= 1
- * distance                      32      <= 1     <= 1
+ * exp                           14      <= 1     <= 1
+ * log                           14      <= 1     <= 1
+ * distance                      28      <= 1     <= 1
  * log_abs_det                   16      <= 2     <= 1
  * riemannian_gradient           18
  * gradient_norm                 31
- * splat                         92
- * splat_vjp                    175
+ * splat                         88
+ * splat_vjp                    171
  *
  * Errors are the worst of 36 points against 60 digits, in units of the error that rounding the
  * inputs and the output to the precision alone would cause.

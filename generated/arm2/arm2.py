@@ -12,19 +12,19 @@ Do not edit: change the manifold file and generate again.
 log |det D Log|: the closed form in the manifold file.
 
                       operations   float64  float32
-project                       16
+project                       12
 to_tangent                     0
 inner                         13
 norm                          14
 flat                          10
-exp                           18      <= 1     <= 1
-log                           18      <= 1     <= 1
-distance                      32      <= 1     <= 1
+exp                           14      <= 1     <= 1
+log                           14      <= 1     <= 1
+distance                      28      <= 1     <= 1
 log_abs_det                   16      <= 2     <= 1
 riemannian_gradient           18
 gradient_norm                 31
-splat                         92
-splat_vjp                    175
+splat                         88
+splat_vjp                    171
 
 Errors are the worst of 36 points against 60 digits, in units of the error that rounding the
 inputs and the output to the precision alone would cause.
@@ -192,9 +192,9 @@ class Arm2:
         """
         x0, x1 = x.unbind(-1)
         round_2 = torch.round(0.15915494309189535 * x0)
-        p0 = x0 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        p0 = x0 - 6.28125 * round_2 - 0.001935307179586477 * round_2
         round_3 = torch.round(0.15915494309189535 * x1)
-        p1 = x1 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        p1 = x1 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         return _stack((p0, p1))
 
     def to_tangent(self, p: Tensor, x: Tensor) -> Tensor:
@@ -261,10 +261,10 @@ class Arm2:
         v0, v1 = v.unbind(-1)
         total_2 = p0 + v0
         round_2 = torch.round(0.15915494309189535 * total_2)
-        q0 = total_2 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        q0 = total_2 - 6.28125 * round_2 - 0.001935307179586477 * round_2
         total_3 = p1 + v1
         round_3 = torch.round(0.15915494309189535 * total_3)
-        q1 = total_3 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        q1 = total_3 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         return _stack((q0, q1))
 
     def log(self, p: Tensor, q: Tensor) -> Tensor:
@@ -277,10 +277,10 @@ class Arm2:
         q0, q1 = q.unbind(-1)
         gap = q0 - p0
         round_2 = torch.round(0.15915494309189535 * gap)
-        v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2
         gap_2 = q1 - p1
         round_3 = torch.round(0.15915494309189535 * gap_2)
-        v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         return _stack((v0, v1))
 
     def distance(self, p: Tensor, q: Tensor) -> Tensor:
@@ -293,10 +293,10 @@ class Arm2:
         q0, q1 = q.unbind(-1)
         gap = q0 - p0
         round_2 = torch.round(0.15915494309189535 * gap)
-        log0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        log0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2
         gap_2 = q1 - p1
         round_3 = torch.round(0.15915494309189535 * gap_2)
-        log1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        log1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         cos_2 = torch.cos(p1)
         total_2 = 0.3333333333333333 + 0.5 * cos_2
         total_3 = (
@@ -373,10 +373,10 @@ class Arm2:
         W0_0, W0_1, W1_0, W1_1 = W.flatten(-2).unbind(-1)
         gap = x0 - mu0
         round_2 = torch.round(0.15915494309189535 * gap)
-        v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2
         gap_2 = x1 - mu1
         round_3 = torch.round(0.15915494309189535 * gap_2)
-        v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         gap_3 = mu1 - x1
         sin_p1_minus_q1 = torch.sin(gap_3)
         total_2 = x1 + mu1
@@ -529,7 +529,7 @@ class Arm2:
     ) -> tuple[Tensor, Tensor, Tensor]:
         """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu (K, D), W (K, d, T) and amplitude (K)."""
         S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
-        total = torch.zeros((len(S), len(mu)), dtype=x.dtype, device=x.device)
+        total = torch.zeros((), dtype=x.dtype, device=x.device)
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         for part, *bars in zip(*parts, strict=True):
             total = total + torch.stack(_sums(self._pair_bars(part, S, *bars), len(part), len(mu), 0))
@@ -543,15 +543,15 @@ class Arm2:
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         rows = []
         for part, *bars in zip(*parts, strict=True):
-            S_bar = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
-            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, S_bar)
+            sums = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
+            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, sums)
             rows.append(torch.cat([by_mu, by_W.flatten(-2), by_amplitude.unsqueeze(-1)], -1))
         return torch.cat(rows)
 
     def _pair_bars(
         self, x: Tensor, S: Sequence[Tensor], value_bar: Tensor, gradient_bar: Tensor
     ) -> tuple[Tensor, ...]:
-        """The derivatives in S of every pair, from those in the sums."""
+        """What every pair adds to the sums of its splat, from the derivatives in values and gradients."""
         X = [entry.unsqueeze(-1) for entry in self._point_features(x)]
         slope_bar = [entry.unsqueeze(-1) for entry in self._point_gradient_vjp(x, gradient_bar)]
         return self._pair_vjp(X, S, value_bar.unsqueeze(-1), slope_bar)
@@ -567,12 +567,27 @@ class Arm2:
         mu0, mu1 = mu.unbind(-1)
         W0_0, W0_1, W1_0, W1_1 = W.flatten(-2).unbind(-1)
         cos_p1 = torch.cos(mu1)
-        return (mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude, 0.8888888888888888 - 0.25 * (cos_p1 * cos_p1))
+        M0_0 = W0_0 * W0_0 + W1_0 * W1_0
+        M0_1 = W0_0 * W0_1 + W1_0 * W1_1
+        M1_1 = W0_1 * W0_1 + W1_1 * W1_1
+        return (
+            mu0,
+            mu1,
+            W0_0,
+            W0_1,
+            W1_0,
+            W1_1,
+            amplitude,
+            0.8888888888888888 - 0.25 * (cos_p1 * cos_p1),
+            M0_0,
+            M0_1,
+            M1_1,
+        )
 
     def _pair_value(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
         """The value of a splat at a point."""
         x0, x1, mul_of_one = X
-        mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude, sub_of_one = S
+        mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude, sub_of_one, _, _, _ = S
         sin_p1_plus_q1 = torch.sin(x1 + mu1)
         sin_p1_minus_q1 = torch.sin(mu1 - x1)
         difference = sin_p1_plus_q1 * (0.25 * sin_p1_minus_q1)
@@ -580,20 +595,20 @@ class Arm2:
         atanh_value = torch.atanh(difference / total_2)
         gap = x0 - mu0
         round_2 = torch.round(0.15915494309189535 * gap)
-        v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2
         gap_2 = x1 - mu1
         round_3 = torch.round(0.15915494309189535 * gap_2)
-        v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         z0 = W0_0 * v0 + W0_1 * v1
         z1 = W1_0 * v0 + W1_1 * v1
-        exp_2 = torch.exp(atanh_value - 0.5 * (z0 * z0 + z1 * z1))
-        phi = amplitude * exp_2
-        return (phi,)
+        phi = torch.exp(atanh_value - 0.5 * (z0 * z0 + z1 * z1))
+        phi_2 = amplitude * phi
+        return (phi_2,)
 
     def _pair(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
         """The value of a splat at a point, and the slope, its derivatives in X."""
         x0, x1, mul_of_one = X
-        mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude, sub_of_one = S
+        mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude, sub_of_one, _, _, _ = S
         total_2 = x1 + mu1
         sin_p1_plus_q1 = torch.sin(total_2)
         gap = mu1 - x1
@@ -605,24 +620,22 @@ class Arm2:
         atanh_value = torch.atanh(difference_ratio)
         gap_2 = x0 - mu0
         round_2 = torch.round(0.15915494309189535 * gap_2)
-        v0 = gap_2 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        v0 = gap_2 - 6.28125 * round_2 - 0.001935307179586477 * round_2
         gap_3 = x1 - mu1
         round_3 = torch.round(0.15915494309189535 * gap_3)
-        v1 = gap_3 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        v1 = gap_3 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         z0 = W0_0 * v0 + W0_1 * v1
         z1 = W1_0 * v0 + W1_1 * v1
-        exp_2 = torch.exp(atanh_value - 0.5 * (z0 * z0 + z1 * z1))
-        phi = amplitude * exp_2
-        z1_product = z1 * phi
-        z0_product = z0 * phi
-        by_v0 = -(W1_0 * z1_product) - W0_0 * z0_product
-        by_v1 = -(W1_1 * z1_product) - W0_1 * z0_product
-        by_difference = phi / (1.0 - difference_ratio * difference_ratio) / total_3
+        phi = torch.exp(atanh_value - 0.5 * (z0 * z0 + z1 * z1))
+        phi_2 = amplitude * phi
+        by_v0 = -(phi_2 * (W1_0 * z1 + W0_0 * z0))
+        by_v1 = -(phi_2 * (W1_1 * z1 + W0_1 * z0))
+        by_difference = phi_2 / (1.0 - difference_ratio * difference_ratio) / total_3
         by_sin_p1_minus_q1 = 0.25 * (sin_p1_plus_q1 * by_difference)
         by_sin_p1_plus_q1 = product * by_difference
         by_x1 = by_v1 - by_sin_p1_minus_q1 * torch.cos(gap) + by_sin_p1_plus_q1 * torch.cos(total_2)
         by_mul_of_one = difference_ratio * by_difference
-        return (phi, by_v0, by_x1, by_mul_of_one)
+        return (phi_2, by_v0, by_x1, by_mul_of_one)
 
     def _point_gradient(self, x: Tensor, slope: Sequence[Tensor]) -> Tensor:
         """The Riemannian gradient of a function whose derivatives in X are `slope`."""
@@ -652,85 +665,91 @@ class Arm2:
     def _pair_vjp(
         self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
     ) -> tuple[Tensor, ...]:
-        """The derivatives of value value_bar + slope . slope_bar in S."""
+        """What, summed over the points, makes the derivatives of value value_bar + slope . slope_bar."""
         x0, x1, mul_of_one = X
-        mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude, sub_of_one = S
+        mu0, mu1, W0_0, W0_1, W1_0, W1_1, _, sub_of_one, M0_0, M0_1, M1_1 = S
         x0_bar, x1_bar, mul_of_one_bar = slope_bar
-        total_2 = x1 + mu1
-        sin_p1_plus_q1 = torch.sin(total_2)
-        gap = mu1 - x1
-        sin_p1_minus_q1 = torch.sin(gap)
+        gap = x0 - mu0
+        round_2 = torch.round(0.15915494309189535 * gap)
+        v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2
+        gap_2 = x1 - mu1
+        round_3 = torch.round(0.15915494309189535 * gap_2)
+        v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3
+        z1 = W1_0 * v0 + W1_1 * v1
+        z0 = W0_0 * v0 + W0_1 * v1
+        total_2 = W1_0 * z1 + W0_0 * z0
+        total_3 = x1 + mu1
+        sin_p1_plus_q1 = torch.sin(total_3)
+        gap_3 = mu1 - x1
+        sin_p1_minus_q1 = torch.sin(gap_3)
         product = 0.25 * sin_p1_minus_q1
         difference = sin_p1_plus_q1 * product
-        total_3 = sub_of_one - mul_of_one
-        difference_ratio = difference / total_3
+        total_4 = sub_of_one - mul_of_one
+        difference_ratio = difference / total_4
         atanh_value = torch.atanh(difference_ratio)
-        gap_2 = x0 - mu0
-        round_2 = torch.round(0.15915494309189535 * gap_2)
-        v0 = gap_2 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
-        gap_3 = x1 - mu1
-        round_3 = torch.round(0.15915494309189535 * gap_3)
-        v1 = gap_3 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
-        z0 = W0_0 * v0 + W0_1 * v1
-        z1 = W1_0 * v0 + W1_1 * v1
-        exp_2 = torch.exp(atanh_value - 0.5 * (z0 * z0 + z1 * z1))
-        phi = amplitude * exp_2
-        gap_4 = -(W1_0 * x0_bar) - W1_1 * x1_bar
-        cos_2 = torch.cos(total_2)
+        phi = torch.exp(atanh_value - 0.5 * (z0 * z0 + z1 * z1))
+        cos_2 = torch.cos(total_3)
         by_by_sin_p1_plus_q1 = cos_2 * x1_bar
-        cos_3 = torch.cos(gap)
+        cos_3 = torch.cos(gap_3)
         product_2 = 0.25 * (cos_3 * x1_bar)
         by_by_difference = (
             product * by_by_sin_p1_plus_q1 - sin_p1_plus_q1 * product_2 + difference_ratio * mul_of_one_bar
         )
-        ratio = by_by_difference / total_3
-        gap_5 = 1.0 - difference_ratio * difference_ratio
-        ratio_2 = ratio / gap_5
-        gap_6 = -(W0_0 * x0_bar) - W0_1 * x1_bar
-        by_phi = value_bar + ratio_2 + z0 * gap_6 + z1 * gap_4
-        by_atanh_value = exp_2 * (amplitude * by_phi)
-        by_z1 = phi * gap_4 - z1 * by_atanh_value
-        by_z0 = phi * gap_6 - z0 * by_atanh_value
-        by_v0 = W1_0 * by_z1 + W0_0 * by_z0
-        phi_ratio = phi / gap_5
-        by_difference = phi_ratio / total_3
+        ratio = by_by_difference / total_4
+        gap_4 = 1.0 - difference_ratio * difference_ratio
+        ratio_2 = ratio / gap_4
+        total_5 = W1_1 * z1 + W0_1 * z0
+        by_phi = value_bar + ratio_2 - total_5 * x1_bar - total_2 * x0_bar
+        by_atanh_value = phi * by_phi
+        phi_product = phi * x0_bar
+        phi_product_2 = phi * x1_bar
+        phi_ratio = phi / gap_4
+        by_difference = phi_ratio / total_4
         by_sin_p1_minus_q1 = 0.25 * (sin_p1_plus_q1 * by_difference)
-        total_4 = (
-            by_difference * mul_of_one_bar + difference_ratio * (2.0 * (phi_ratio * ratio_2)) + by_atanh_value / gap_5
+        total_6 = (
+            by_difference * mul_of_one_bar + difference_ratio * (2.0 * (phi_ratio * ratio_2)) + by_atanh_value / gap_4
         )
-        by_difference_2 = total_4 / total_3
+        by_difference_2 = total_6 / total_4
         by_sin_p1_minus_q1_2 = 0.25 * (by_difference * by_by_sin_p1_plus_q1 + sin_p1_plus_q1 * by_difference_2)
-        by_v1 = W1_1 * by_z1 + W0_1 * by_z0
+        total_7 = (
+            total_5 * by_atanh_value - (-(M0_1 * phi_product) - M1_1 * phi_product_2) + (sin_p1_minus_q1 *
+            (by_sin_p1_minus_q1 * x1_bar) + cos_3 * by_sin_p1_minus_q1_2)
+        )
         by_sin_p1_plus_q1 = product * by_difference_2 - by_difference * product_2
         by_sin_p1_plus_q1_2 = product * by_difference
-        total_5 = (
-            sin_p1_minus_q1 * (by_sin_p1_minus_q1 * x1_bar) + cos_3 * by_sin_p1_minus_q1_2 - by_v1 + (cos_2 *
-            by_sin_p1_plus_q1 - sin_p1_plus_q1 * (by_sin_p1_plus_q1_2 * x1_bar))
-        )
-        z0_product = z0 * phi
-        z1_product = z1 * phi
         by_total = -(by_difference * ratio) - difference_ratio * by_difference_2
+        product_3 = 0.5 * by_atanh_value
+        gap_5 = -phi_product - v0 * product_3
+        gap_6 = -phi_product_2 - v1 * product_3
         return (
-            -by_v0,
-            total_5,
-            v0 * by_z0 - z0_product * x0_bar,
-            v1 * by_z0 - z0_product * x1_bar,
-            v0 * by_z1 - z1_product * x0_bar,
-            v1 * by_z1 - z1_product * x1_bar,
-            exp_2 * by_phi,
+            total_2 * by_atanh_value - (-(M0_0 * phi_product) - M0_1 * phi_product_2),
+            total_7 + (cos_2 * by_sin_p1_plus_q1 - sin_p1_plus_q1 * (by_sin_p1_plus_q1_2 * x1_bar)),
+            by_atanh_value,
             by_total,
+            v0 * gap_5,
+            v0 * gap_6 + v1 * gap_5,
+            v1 * gap_6,
         )
 
     def _splat_constants_vjp(
-        self, mu: Tensor, W: Tensor, amplitude: Tensor, S_bar: Sequence[Tensor]
+        self, mu: Tensor, W: Tensor, amplitude: Tensor, sums: Sequence[Tensor]
     ) -> tuple[Tensor, Tensor, Tensor]:
-        """The derivatives in mu, W and amplitude from those in S."""
+        """The derivatives in mu, W and amplitude from those sums."""
         _, mu1 = mu.unbind(-1)
-        mu0_bar, mu1_bar, W0_0_bar, W0_1_bar, W1_0_bar, W1_1_bar, amplitude_bar, sub_of_one_bar = S_bar
+        W0_0, W0_1, W1_0, W1_1 = W.flatten(-2).unbind(-1)
+        sum0, sum1, sum2, sum3, sum4, sum5, sum6 = sums
         cos_p1 = torch.cos(mu1)
-        mu_bar = _stack((mu0_bar, mu1_bar + cos_p1 * (0.5 * sub_of_one_bar) * torch.sin(mu1)))
-        W_bar = _stack((W0_0_bar, W0_1_bar, W1_0_bar, W1_1_bar))
-        return mu_bar, W_bar.unflatten(-1, (2, 2)), amplitude_bar
+        product = amplitude * (sum1 + cos_p1 * (0.5 * sum3) * torch.sin(mu1))
+        product_2 = 2.0 * sum4
+        product_3 = 2.0 * sum6
+        mu_bar = _stack((amplitude * sum0, product))
+        W_bar = _stack((
+            amplitude * (W0_0 * product_2 + W0_1 * sum5),
+            amplitude * (W0_0 * sum5 + W0_1 * product_3),
+            amplitude * (W1_0 * product_2 + W1_1 * sum5),
+            amplitude * (W1_0 * sum5 + W1_1 * product_3),
+        ))
+        return mu_bar, W_bar.unflatten(-1, (2, 2)), sum2
 
 
 manifold = Arm2()

@@ -81,6 +81,8 @@ INLINE uint64_t flush_denormals(void) { return 0; }
 INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
 
+#if !defined(RSRM_ONLY_FLOAT) /* double */
+
 /* The same number in all lanes. */
 INLINE vector vector_of(double x) {
     const vector zero = ZERO;
@@ -122,24 +124,21 @@ INLINE vector vector_from_bits(vector_bits bits) {
 }
 
 /* x >= 0 with the sign of another. */
-INLINE vector vector_signed(vector x, vector sign) {
+INLINE vector signed_each(vector x, vector sign) {
     return vector_from_bits(vector_to_bits(x) | (vector_to_bits(sign) & 0x8000000000000000));
 }
 
 /* abs of every lane; one instruction where the machine has it. */
-INLINE vector vector_abs(vector x) {
+INLINE vector abs_each(vector x) {
     for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
     return x;
 }
 
-/* round of every lane; one instruction where the machine has it. */
-INLINE vector vector_round(vector x) {
-    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = rint(LANE(x, i));
-    return x;
-}
+/* round to even, of numbers below 2^51; of larger ones, a whole number close by. */
+INLINE vector round_each(vector x) { return (x + 6755399441055744.0) - 6755399441055744.0; }
 
 /* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
-INLINE vector vector_exp(vector x) {
+INLINE vector exp_each(vector x) {
     const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
     const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
     const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
@@ -149,7 +148,7 @@ INLINE vector vector_exp(vector x) {
 }
 
 /* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
-INLINE vector vector_log(vector x) {
+INLINE vector log_each(vector x) {
     const vector_bits bits = vector_to_bits(x), biased = (bits + 0x95f619980c433) >> 52; /* k + 1023 */
     const vector k = vector_from_bits(biased + 0x4338000000000000) - 6755399441056767.0;
     const vector f = vector_from_bits(bits - (biased << 52) + 0x3ff0000000000000) - 1, s = f / (2 + f), z = s * s;
@@ -162,19 +161,19 @@ INLINE vector vector_log(vector x) {
 }
 
 /* log(1 + x), within 2 units in the last place. */
-INLINE vector vector_log1p(vector x) {
+INLINE vector log1p_each(vector x) {
     const vector u = 1 + x;
-    return vector_select(x <= 1.7976931348623157e308, vector_log(u) + (x - (u - 1)) / u, x);
+    return vector_select(x <= 1.7976931348623157e308, log_each(u) + (x - (u - 1)) / u, x);
 }
 
 /* atanh, within 3 units in the last place. */
-INLINE vector vector_atanh(vector x) {
-    const vector a = vector_abs(x);
-    return vector_signed(0.5 * vector_log1p(2 * a / (1 - a)), x);
+INLINE vector atanh_each(vector x) {
+    const vector a = abs_each(x);
+    return signed_each(0.5 * log1p_each(2 * a / (1 - a)), x);
 }
 
 /* sin: x = k pi/2 + r, |r| <= pi/4, within 2 units in the last place; beyond 1e5, by the library. */
-INLINE vector vector_sin(vector x) {
+INLINE vector sin_each(vector x) {
     const vector shifted = x * 0.6366197723675814 + 6755399441055744.0, k = shifted - 6755399441055744.0;
     const vector r = ((x - k * 1.5707963267923333) - k * 2.5633441515839558e-12) - k * 1.0562999066987428e-23, z = r * r;
     const vector_bits quarter = vector_to_bits(shifted);
@@ -190,7 +189,7 @@ INLINE vector vector_sin(vector x) {
 }
 
 /* cos: x = k pi/2 + r, |r| <= pi/4, within 2 units in the last place; beyond 1e5, by the library. */
-INLINE vector vector_cos(vector x) {
+INLINE vector cos_each(vector x) {
     const vector shifted = x * 0.6366197723675814 + 6755399441055744.0, k = shifted - 6755399441055744.0;
     const vector r = ((x - k * 1.5707963267923333) - k * 2.5633441515839558e-12) - k * 1.0562999066987428e-23, z = r * r;
     const vector_bits quarter = vector_to_bits(shifted) + 1;
@@ -210,7 +209,7 @@ OUTLINE void pair_features(
     const vector *x, vector *X) {
     const vector x0 = x[0];
     const vector x1 = x[1];
-    const vector cos_q1 = vector_cos(x1);
+    const vector cos_q1 = cos_each(x1);
     X[0] = x0;
     X[1] = x1;
     X[2] = 0.25 * (cos_q1 * cos_q1);
@@ -226,7 +225,10 @@ OUTLINE void pair_constants(
     const vector W1_0 = W[2];
     const vector W1_1 = W[3];
     const vector its_amplitude = amplitude[0];
-    const vector cos_p1 = vector_cos(mu1);
+    const vector cos_p1 = cos_each(mu1);
+    const vector M0_0 = W0_0 * W0_0 + W1_0 * W1_0;
+    const vector M0_1 = W0_0 * W0_1 + W1_0 * W1_1;
+    const vector M1_1 = W0_1 * W0_1 + W1_1 * W1_1;
     S[0] = mu0;
     S[1] = mu1;
     S[2] = W0_0;
@@ -235,6 +237,9 @@ OUTLINE void pair_constants(
     S[5] = W1_1;
     S[6] = its_amplitude;
     S[7] = 0.8888888888888888 - 0.25 * (cos_p1 * cos_p1);
+    S[8] = M0_0;
+    S[9] = M0_1;
+    S[10] = M1_1;
 }
 
 /*
@@ -255,23 +260,21 @@ INLINE void pair_value(
     const double W1_1 = S[5];
     const double amplitude = S[6];
     const double sub_of_one = S[7];
-    const vector sin_p1_plus_q1 = vector_sin(x1 + mu1);
-    const vector sin_p1_minus_q1 = vector_sin(mu1 - x1);
+    const vector sin_p1_plus_q1 = sin_each(x1 + mu1);
+    const vector sin_p1_minus_q1 = sin_each(mu1 - x1);
     const vector difference = sin_p1_plus_q1 * (0.25 * sin_p1_minus_q1);
     const vector total_2 = sub_of_one - mul_of_one;
-    const vector atanh_value = vector_atanh(difference / total_2);
+    const vector atanh_value = atanh_each(difference / total_2);
     const vector gap = x0 - mu0;
-    const vector round_2 = vector_round(0.15915494309189535 * gap);
-    const vector v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const vector round_2 = round_each(0.15915494309189535 * gap);
+    const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const vector gap_2 = x1 - mu1;
-    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
-    const vector v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const vector round_3 = round_each(0.15915494309189535 * gap_2);
+    const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const vector z0 = W0_0 * v0 + W0_1 * v1;
     const vector z1 = W1_0 * v0 + W1_1 * v1;
-    const vector exp_2 = vector_exp(atanh_value - 0.5 * (z0 * z0 + z1 * z1));
-    value[0] = value[0] + amplitude * exp_2;
+    const vector phi = exp_each(atanh_value - 0.5 * (z0 * z0 + z1 * z1));
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -293,35 +296,31 @@ INLINE void pair_forward(
     const double amplitude = S[6];
     const double sub_of_one = S[7];
     const vector total_2 = x1 + mu1;
-    const vector sin_p1_plus_q1 = vector_sin(total_2);
+    const vector sin_p1_plus_q1 = sin_each(total_2);
     const vector gap = mu1 - x1;
-    const vector sin_p1_minus_q1 = vector_sin(gap);
+    const vector sin_p1_minus_q1 = sin_each(gap);
     const vector product = 0.25 * sin_p1_minus_q1;
     const vector difference = sin_p1_plus_q1 * product;
     const vector total_3 = sub_of_one - mul_of_one;
     const vector difference_ratio = difference / total_3;
-    const vector atanh_value = vector_atanh(difference_ratio);
+    const vector atanh_value = atanh_each(difference_ratio);
     const vector gap_2 = x0 - mu0;
-    const vector round_2 = vector_round(0.15915494309189535 * gap_2);
-    const vector v0 = gap_2 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const vector round_2 = round_each(0.15915494309189535 * gap_2);
+    const vector v0 = gap_2 - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const vector gap_3 = x1 - mu1;
-    const vector round_3 = vector_round(0.15915494309189535 * gap_3);
-    const vector v1 = gap_3 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const vector round_3 = round_each(0.15915494309189535 * gap_3);
+    const vector v1 = gap_3 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const vector z0 = W0_0 * v0 + W0_1 * v1;
     const vector z1 = W1_0 * v0 + W1_1 * v1;
-    const vector exp_2 = vector_exp(atanh_value - 0.5 * (z0 * z0 + z1 * z1));
-    const vector phi = amplitude * exp_2;
-    const vector z1_product = z1 * phi;
-    const vector z0_product = z0 * phi;
-    const vector by_difference = phi / (1.0 - difference_ratio * difference_ratio) / total_3;
+    const vector phi = exp_each(atanh_value - 0.5 * (z0 * z0 + z1 * z1));
+    const vector phi_2 = amplitude * phi;
+    const vector by_difference = phi_2 / (1.0 - difference_ratio * difference_ratio) / total_3;
     const vector by_sin_p1_minus_q1 = 0.25 * (sin_p1_plus_q1 * by_difference);
     const vector by_sin_p1_plus_q1 = product * by_difference;
-    value[0] = value[0] + phi;
-    slope[0] = slope[0] - W1_0 * z1_product - W0_0 * z0_product;
-    slope[1] = slope[1] - W1_1 * z1_product - W0_1 * z0_product - by_sin_p1_minus_q1 * vector_cos(gap) +
-            by_sin_p1_plus_q1 * vector_cos(total_2);
+    value[0] = value[0] + phi_2;
+    slope[0] = slope[0] - phi_2 * (W1_0 * z1 + W0_0 * z0);
+    slope[1] = slope[1] - phi_2 * (W1_1 * z1 + W0_1 * z0) - by_sin_p1_minus_q1 * cos_each(gap) +
+            by_sin_p1_plus_q1 * cos_each(total_2);
     slope[2] = slope[2] + difference_ratio * by_difference;
 }
 
@@ -332,9 +331,9 @@ OUTLINE void pair_gradient(
     const vector slope_x0 = slope[0];
     const vector slope_x1 = slope[1];
     const vector slope_mul_of_one = slope[2];
-    const vector cos_q1 = vector_cos(x1);
+    const vector cos_q1 = cos_each(x1);
     const vector by_cos_q1 = cos_q1 * (0.5 * slope_mul_of_one);
-    const vector gap = slope_x1 - by_cos_q1 * vector_sin(x1);
+    const vector gap = slope_x1 - by_cos_q1 * sin_each(x1);
     const vector total_2 = 12.0 + 18.0 * cos_q1;
     const vector gap_2 = 9.0 * (cos_q1 * cos_q1) - 16.0;
     const vector total_3 = slope_x0 * total_2 / gap_2 + gap * (-60.0 - 36.0 * cos_q1) / gap_2;
@@ -348,49 +347,54 @@ OUTLINE void pair_gradient_vjp(
     const vector x1 = x[1];
     const vector gradient_bar0 = gradient_bar[0];
     const vector gradient_bar1 = gradient_bar[1];
-    const vector cos_q1 = vector_cos(x1);
+    const vector cos_q1 = cos_each(x1);
     const vector total_2 = 12.0 + 18.0 * cos_q1;
     const vector gap = 9.0 * (cos_q1 * cos_q1) - 16.0;
     const vector ratio = gradient_bar1 / gap;
     const vector ratio_2 = gradient_bar0 / gap;
     const vector total_3 = (-60.0 - 36.0 * cos_q1) * ratio + total_2 * ratio_2;
-    const vector minus = -0.5 * (cos_q1 * (vector_sin(x1) * total_3));
+    const vector minus = -0.5 * (cos_q1 * (sin_each(x1) * total_3));
     slope_bar[0] = total_2 * ratio - 12.0 * ratio_2;
     slope_bar[1] = total_3;
     slope_bar[2] = minus;
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp(
-    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
-    (void)W;
-    (void)amplitude;
+    const vector *mu, const vector *W, const vector *amplitude, const vector *sums, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
     const vector mu1 = mu[1];
-    const vector mu0_bar = S_bar[0];
-    const vector mu1_bar = S_bar[1];
-    const vector W0_0_bar = S_bar[2];
-    const vector W0_1_bar = S_bar[3];
-    const vector W1_0_bar = S_bar[4];
-    const vector W1_1_bar = S_bar[5];
-    const vector its_amplitude_bar = S_bar[6];
-    const vector sub_of_one_bar = S_bar[7];
-    const vector cos_p1 = vector_cos(mu1);
-    mu_bar[0] = mu0_bar;
-    mu_bar[1] = mu1_bar + cos_p1 * (0.5 * sub_of_one_bar) * vector_sin(mu1);
-    W_bar[0] = W0_0_bar;
-    W_bar[1] = W0_1_bar;
-    W_bar[2] = W1_0_bar;
-    W_bar[3] = W1_1_bar;
-    amplitude_bar[0] = its_amplitude_bar;
+    const vector W0_0 = W[0];
+    const vector W0_1 = W[1];
+    const vector W1_0 = W[2];
+    const vector W1_1 = W[3];
+    const vector its_amplitude = amplitude[0];
+    const vector sum0 = sums[0];
+    const vector sum1 = sums[1];
+    const vector sum2 = sums[2];
+    const vector sum3 = sums[3];
+    const vector sum4 = sums[4];
+    const vector sum5 = sums[5];
+    const vector sum6 = sums[6];
+    const vector cos_p1 = cos_each(mu1);
+    const vector product = its_amplitude * (sum1 + cos_p1 * (0.5 * sum3) * sin_each(mu1));
+    const vector product_2 = 2.0 * sum4;
+    const vector product_3 = 2.0 * sum6;
+    mu_bar[0] = its_amplitude * sum0;
+    mu_bar[1] = product;
+    W_bar[0] = its_amplitude * (W0_0 * product_2 + W0_1 * sum5);
+    W_bar[1] = its_amplitude * (W0_0 * sum5 + W0_1 * product_3);
+    W_bar[2] = its_amplitude * (W1_0 * product_2 + W1_1 * sum5);
+    W_bar[3] = its_amplitude * (W1_0 * sum5 + W1_1 * product_3);
+    amplitude_bar[0] = sum2;
 }
 
 /*
- * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_backward(
-    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
+    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
     const vector x0 = X[0];
     const vector x1 = X[1];
     const vector mul_of_one = X[2];
@@ -400,70 +404,69 @@ INLINE void pair_backward(
     const double W0_1 = S[3];
     const double W1_0 = S[4];
     const double W1_1 = S[5];
-    const double amplitude = S[6];
     const double sub_of_one = S[7];
+    const double M0_0 = S[8];
+    const double M0_1 = S[9];
+    const double M1_1 = S[10];
     const vector its_value_bar = value_bar[0];
     const vector x0_bar = slope_bar[0];
     const vector x1_bar = slope_bar[1];
     const vector mul_of_one_bar = slope_bar[2];
-    const vector total_2 = x1 + mu1;
-    const vector sin_p1_plus_q1 = vector_sin(total_2);
-    const vector gap = mu1 - x1;
-    const vector sin_p1_minus_q1 = vector_sin(gap);
+    const vector gap = x0 - mu0;
+    const vector round_2 = round_each(0.15915494309189535 * gap);
+    const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
+    const vector gap_2 = x1 - mu1;
+    const vector round_3 = round_each(0.15915494309189535 * gap_2);
+    const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
+    const vector z1 = W1_0 * v0 + W1_1 * v1;
+    const vector z0 = W0_0 * v0 + W0_1 * v1;
+    const vector total_2 = W1_0 * z1 + W0_0 * z0;
+    const vector total_3 = x1 + mu1;
+    const vector sin_p1_plus_q1 = sin_each(total_3);
+    const vector gap_3 = mu1 - x1;
+    const vector sin_p1_minus_q1 = sin_each(gap_3);
     const vector product = 0.25 * sin_p1_minus_q1;
     const vector difference = sin_p1_plus_q1 * product;
-    const vector total_3 = sub_of_one - mul_of_one;
-    const vector difference_ratio = difference / total_3;
-    const vector atanh_value = vector_atanh(difference_ratio);
-    const vector gap_2 = x0 - mu0;
-    const vector round_2 = vector_round(0.15915494309189535 * gap_2);
-    const vector v0 = gap_2 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
-    const vector gap_3 = x1 - mu1;
-    const vector round_3 = vector_round(0.15915494309189535 * gap_3);
-    const vector v1 = gap_3 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
-    const vector z0 = W0_0 * v0 + W0_1 * v1;
-    const vector z1 = W1_0 * v0 + W1_1 * v1;
-    const vector exp_2 = vector_exp(atanh_value - 0.5 * (z0 * z0 + z1 * z1));
-    const vector phi = amplitude * exp_2;
-    const vector gap_4 = -(W1_0 * x0_bar) - W1_1 * x1_bar;
-    const vector cos_2 = vector_cos(total_2);
+    const vector total_4 = sub_of_one - mul_of_one;
+    const vector difference_ratio = difference / total_4;
+    const vector atanh_value = atanh_each(difference_ratio);
+    const vector phi = exp_each(atanh_value - 0.5 * (z0 * z0 + z1 * z1));
+    const vector cos_2 = cos_each(total_3);
     const vector by_by_sin_p1_plus_q1 = cos_2 * x1_bar;
-    const vector cos_3 = vector_cos(gap);
+    const vector cos_3 = cos_each(gap_3);
     const vector product_2 = 0.25 * (cos_3 * x1_bar);
     const vector by_by_difference = product * by_by_sin_p1_plus_q1 - sin_p1_plus_q1 * product_2 +
         difference_ratio * mul_of_one_bar;
-    const vector ratio = by_by_difference / total_3;
-    const vector gap_5 = 1.0 - difference_ratio * difference_ratio;
-    const vector ratio_2 = ratio / gap_5;
-    const vector gap_6 = -(W0_0 * x0_bar) - W0_1 * x1_bar;
-    const vector by_phi = its_value_bar + ratio_2 + z0 * gap_6 + z1 * gap_4;
-    const vector by_atanh_value = exp_2 * (amplitude * by_phi);
-    const vector by_z1 = phi * gap_4 - z1 * by_atanh_value;
-    const vector by_z0 = phi * gap_6 - z0 * by_atanh_value;
-    const vector phi_ratio = phi / gap_5;
-    const vector by_difference = phi_ratio / total_3;
+    const vector ratio = by_by_difference / total_4;
+    const vector gap_4 = 1.0 - difference_ratio * difference_ratio;
+    const vector ratio_2 = ratio / gap_4;
+    const vector total_5 = W1_1 * z1 + W0_1 * z0;
+    const vector by_phi = its_value_bar + ratio_2 - total_5 * x1_bar - total_2 * x0_bar;
+    const vector by_atanh_value = phi * by_phi;
+    const vector phi_product = phi * x0_bar;
+    const vector phi_product_2 = phi * x1_bar;
+    const vector phi_ratio = phi / gap_4;
+    const vector by_difference = phi_ratio / total_4;
     const vector by_sin_p1_minus_q1 = 0.25 * (sin_p1_plus_q1 * by_difference);
-    const vector total_4 = by_difference * mul_of_one_bar + difference_ratio * (2.0 * (phi_ratio * ratio_2)) +
-        by_atanh_value / gap_5;
-    const vector by_difference_2 = total_4 / total_3;
+    const vector total_6 = by_difference * mul_of_one_bar + difference_ratio * (2.0 * (phi_ratio * ratio_2)) +
+        by_atanh_value / gap_4;
+    const vector by_difference_2 = total_6 / total_4;
     const vector by_sin_p1_minus_q1_2 = 0.25 * (by_difference * by_by_sin_p1_plus_q1 + sin_p1_plus_q1 *
         by_difference_2);
     const vector by_sin_p1_plus_q1 = product * by_difference_2 - by_difference * product_2;
     const vector by_sin_p1_plus_q1_2 = product * by_difference;
-    const vector z0_product = z0 * phi;
-    const vector z1_product = z1 * phi;
-    S_bar[0] = S_bar[0] - W1_0 * by_z1 - W0_0 * by_z0;
-    S_bar[1] = S_bar[1] + sin_p1_minus_q1 * (by_sin_p1_minus_q1 * x1_bar) + cos_3 * by_sin_p1_minus_q1_2 -
-            W1_1 * by_z1 - W0_1 * by_z0 + cos_2 * by_sin_p1_plus_q1 - sin_p1_plus_q1 * (by_sin_p1_plus_q1_2 *
-            x1_bar);
-    S_bar[2] = S_bar[2] + v0 * by_z0 - z0_product * x0_bar;
-    S_bar[3] = S_bar[3] + v1 * by_z0 - z0_product * x1_bar;
-    S_bar[4] = S_bar[4] + v0 * by_z1 - z1_product * x0_bar;
-    S_bar[5] = S_bar[5] + v1 * by_z1 - z1_product * x1_bar;
-    S_bar[6] = S_bar[6] + exp_2 * by_phi;
-    S_bar[7] = S_bar[7] - by_difference * ratio - difference_ratio * by_difference_2;
+    const vector product_3 = 0.5 * by_atanh_value;
+    const vector gap_5 = -phi_product - v0 * product_3;
+    const vector gap_6 = -phi_product_2 - v1 * product_3;
+    sums[0] = sums[0] + total_2 * by_atanh_value + M0_0 * phi_product + M0_1 * phi_product_2;
+    sums[1] = sums[1] + total_5 * by_atanh_value + M0_1 * phi_product + M1_1 * phi_product_2 + sin_p1_minus_q1
+            * (by_sin_p1_minus_q1 * x1_bar) + cos_3 * by_sin_p1_minus_q1_2 + cos_2 * by_sin_p1_plus_q1 -
+            sin_p1_plus_q1 * (by_sin_p1_plus_q1_2 * x1_bar);
+    sums[2] = sums[2] + by_atanh_value;
+    sums[3] = sums[3] - by_difference * ratio - difference_ratio * by_difference_2;
+    sums[4] = sums[4] + v0 * gap_5;
+    sums[5] = sums[5] + v0 * gap_6 + v1 * gap_5;
+    sums[6] = sums[6] + v1 * gap_6;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -495,7 +498,7 @@ size_t arm2_splats_work(size_t count, size_t splat_count, int threads) {
     (void)threads;
     const size_t points = (count + LANES - 1) / LANES, blocks = (points + 2 - 1) / 2;
     const size_t places = 0 * ((splat_count + LANES - 1) / LANES + (blocks + LANES - 1) / LANES);
-    return (points * 7 + places + 1) * LANES + 8 * splat_count;
+    return (points * 7 + places + 1) * LANES + 11 * splat_count;
 }
 
 static vector *work_points(double *work) {
@@ -509,12 +512,12 @@ INLINE const double *splat_at(const vector *splats, size_t k) {
     return (const double *)(splats + 0 * row) + (k - row * LANES);
 }
 
-static vector *work_splats(double *work, size_t count) {
+static vector *work_reaches(double *work, size_t count) {
     return work_points(work) + (count + LANES - 1) / LANES * 7;
 }
 
 static vector *work_blocks(double *work, size_t count, size_t splat_count) {
-    return work_splats(work, count) + 0 * ((splat_count + LANES - 1) / LANES);
+    return work_reaches(work, count) + 0 * ((splat_count + LANES - 1) / LANES);
 }
 
 static double *work_constants(double *work, size_t count, size_t splat_count) {
@@ -546,13 +549,13 @@ static size_t blocks_near(
 OUTLINE void splat_constants(
     size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, const double *width, double *constants,
     vector *splats) {
-    vector own_mu[2], own_W[4], own_amplitude[1], S[8];
+    vector own_mu[2], own_W[4], own_amplitude[1], S[11];
     vector_rows(mu, splat_count, start, 2, own_mu);
     vector_rows(W, splat_count, start, 4, own_W);
     vector_rows(amplitude, splat_count, start, 1, own_amplitude);
     if (width) splat_reach(own_mu, own_amplitude, width, splat_count, start, splats);
     pair_constants(own_mu, own_W, own_amplitude, S);
-    vector_to_rows(S, constants, splat_count, start, 8, 8);
+    vector_to_rows(S, constants, splat_count, start, 11, 11);
 }
 
 /* 2 vectors of points at a time stay in registers while all splats pass. */
@@ -561,7 +564,7 @@ void arm2_splats(
     double *ARM2_RESTRICT value, double *ARM2_RESTRICT gradient, double *ARM2_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -583,7 +586,7 @@ void arm2_splats(
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
                 for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 8 * near[i];
+                    const double *S = constants + 11 * near[i];
                     pair_forward(X[0], S, value_sum[0], slope_sum[0]);
                     pair_forward(X[1], S, value_sum[1], slope_sum[1]);
                 }
@@ -603,7 +606,7 @@ void arm2_splats_value(
     double *ARM2_RESTRICT value, double *ARM2_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -624,7 +627,7 @@ void arm2_splats_value(
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
                 for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 8 * near[i];
+                    const double *S = constants + 11 * near[i];
                     pair_value(X[0], S, value_sum[0]);
                     pair_value(X[1], S, value_sum[1]);
                 }
@@ -649,21 +652,26 @@ OUTLINE void splat_points(
     vector_end(count, start, 3 + 1, point + 3);
 }
 
-/* Adds to S_bar what some vectors of points add to it, those in the list. */
-OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *S_bar) {
-    vector sum[8] = {ZERO};
-    for (size_t b = 0; b < size; ++b) {
+/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *sums) {
+    vector sum[7] = {ZERO};
+    size_t b = 0;
+    for (; b + 1 < size; b += 2) {
+        const vector *point = points + 7 * (size_t)near[b], *other = points + 7 * (size_t)near[b + 1];
+        pair_backward(point, S, point + 3, point + 3 + 1, sum);
+        pair_backward(other, S, other + 3, other + 3 + 1, sum);
+    }
+    if (b < size) {
         const vector *point = points + 7 * (size_t)near[b];
         pair_backward(point, S, point + 3, point + 3 + 1, sum);
     }
-    S_bar[0] += vector_sum(sum[0]);
-    S_bar[1] += vector_sum(sum[1]);
-    S_bar[2] += vector_sum(sum[2]);
-    S_bar[3] += vector_sum(sum[3]);
-    S_bar[4] += vector_sum(sum[4]);
-    S_bar[5] += vector_sum(sum[5]);
-    S_bar[6] += vector_sum(sum[6]);
-    S_bar[7] += vector_sum(sum[7]);
+    sums[0] += vector_sum(sum[0]);
+    sums[1] += vector_sum(sum[1]);
+    sums[2] += vector_sum(sum[2]);
+    sums[3] += vector_sum(sum[3]);
+    sums[4] += vector_sum(sum[4]);
+    sums[5] += vector_sum(sum[5]);
+    sums[6] += vector_sum(sum[6]);
 }
 
 /*
@@ -679,7 +687,7 @@ void arm2_splats_vjp(
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES ? part : LANES;
     vector *points = work_points(work);
-    vector *splats = work_splats(work, count), *places = work_blocks(work, count, splat_count);
+    vector *splats = work_reaches(work, count), *places = work_blocks(work, count, splat_count);
     double *constants = work_constants(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -705,22 +713,22 @@ void arm2_splats_vjp(
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
-            double sums[LANES][8] = {{0}};
+            double sums[LANES][7] = {{0}};
             uint32_t near[131072 / (7 * sizeof(vector)) + 2];
-            vector own_mu[2], own_W[4], own_amplitude[1], S_bar[8], bars[7];
+            vector own_mu[2], own_W[4], own_amplitude[1], own_sums[7], bars[7];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
                     const double *reach = width ? splat_at(splats, k) + 2 * LANES : NULL;
                     const size_t some = blocks_near(mu + 2 * k, reach, places, first, first + size, near);
-                    splat_sums(points + 7 * first, near, some, constants + 8 * k, sums[k - start]);
+                    splat_sums(points + 7 * first, near, some, constants + 11 * k, sums[k - start]);
                 }
             }
             vector_rows(mu, end, start, 2, own_mu);
             vector_rows(W, end, start, 4, own_W);
             vector_rows(amplitude, end, start, 1, own_amplitude);
-            vector_rows(sums[0], LANES, 0, 8, S_bar);
-            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+            vector_rows(sums[0], LANES, 0, 7, own_sums);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 4);
             vector_to_rows(bars, mu_bar, end, start, 2, 2);
             vector_to_rows(bars + 2, W_bar, end, start, 4, 4);
             vector_to_rows(bars + 2 + 4, amplitude_bar, end, start, 1, 1);
@@ -747,12 +755,12 @@ void arm2_splats_rows(
             vector point[7];
             splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector own_mu[2], own_W[4], own_amplitude[1], S_bar[8] = {ZERO}, bars[7];
+                vector own_mu[2], own_W[4], own_amplitude[1], own_sums[7] = {ZERO}, bars[7];
                 for (int i = 0; i < 2; ++i) own_mu[i] = vector_of(mu[2 * k + i]);
                 for (int i = 0; i < 4; ++i) own_W[i] = vector_of(W[4 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 8 * k, point + 3, point + 3 + 1, S_bar);
-                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+                pair_backward(point, constants + 11 * k, point + 3, point + 3 + 1, own_sums);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 4);
                 vector_to_rows(bars, rows + 7 * k, count, block * LANES, 7, 7 * splat_count);
             }
         }
@@ -768,6 +776,10 @@ double arm2_splats_order(
     for (size_t n = 0; n < count; ++n) order[n] = n;
     return 1;
 }
+
+#endif /* double */
+
+#if !defined(RSRM_ONLY_DOUBLE) /* float */
 
 /* The same number in all lanes. */
 INLINE vector_f vector_of_f(float x) {
@@ -810,24 +822,21 @@ INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
 }
 
 /* x >= 0 with the sign of another. */
-INLINE vector_f vector_signed_f(vector_f x, vector_f sign) {
+INLINE vector_f signed_each_f(vector_f x, vector_f sign) {
     return vector_from_bits_f(vector_to_bits_f(x) | (vector_to_bits_f(sign) & 0x80000000));
 }
 
 /* abs of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_abs_f(vector_f x) {
+INLINE vector_f abs_each_f(vector_f x) {
     for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
     return x;
 }
 
-/* round of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_round_f(vector_f x) {
-    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = rintf(LANE(x, i));
-    return x;
-}
+/* round to even, of numbers below 2^22; of larger ones, a whole number close by. */
+INLINE vector_f round_each_f(vector_f x) { return (x + 12582912.0f) - 12582912.0f; }
 
 /* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
-INLINE vector_f vector_exp_f(vector_f x) {
+INLINE vector_f exp_each_f(vector_f x) {
     const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
     const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
     const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
@@ -837,7 +846,7 @@ INLINE vector_f vector_exp_f(vector_f x) {
 }
 
 /* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
-INLINE vector_f vector_log_f(vector_f x) {
+INLINE vector_f log_each_f(vector_f x) {
     const vector_bits_f bits = vector_to_bits_f(x), biased = (bits + 0x4afb0d) >> 23; /* k + 127 */
     const vector_f k = vector_from_bits_f(biased + 0x4b400000) - 12583039.0f;
     const vector_f f = vector_from_bits_f(bits - (biased << 23) + 0x3f800000) - 1, s = f / (2 + f), z = s * s;
@@ -850,19 +859,19 @@ INLINE vector_f vector_log_f(vector_f x) {
 }
 
 /* log(1 + x), within 2 units in the last place. */
-INLINE vector_f vector_log1p_f(vector_f x) {
+INLINE vector_f log1p_each_f(vector_f x) {
     const vector_f u = 1 + x;
-    return vector_select_f(x <= 3.4028234663852886e38f, vector_log_f(u) + (x - (u - 1)) / u, x);
+    return vector_select_f(x <= 3.4028234663852886e38f, log_each_f(u) + (x - (u - 1)) / u, x);
 }
 
 /* atanh, within 3 units in the last place. */
-INLINE vector_f vector_atanh_f(vector_f x) {
-    const vector_f a = vector_abs_f(x);
-    return vector_signed_f(0.5f * vector_log1p_f(2 * a / (1 - a)), x);
+INLINE vector_f atanh_each_f(vector_f x) {
+    const vector_f a = abs_each_f(x);
+    return signed_each_f(0.5f * log1p_each_f(2 * a / (1 - a)), x);
 }
 
 /* sin: x = k pi/2 + r, |r| <= pi/4, within 2 units in the last place; beyond 100.0, by the library. */
-INLINE vector_f vector_sin_f(vector_f x) {
+INLINE vector_f sin_each_f(vector_f x) {
     const vector_f shifted = x * 0.6366197723675814f + 12582912.0f, k = shifted - 12582912.0f;
     const vector_f r = ((x - k * 1.57080078125f) - k * -4.45445766672492e-06f) - k * 2.563344151594519e-12f, z = r * r;
     const vector_bits_f quarter = vector_to_bits_f(shifted);
@@ -878,7 +887,7 @@ INLINE vector_f vector_sin_f(vector_f x) {
 }
 
 /* cos: x = k pi/2 + r, |r| <= pi/4, within 2 units in the last place; beyond 100.0, by the library. */
-INLINE vector_f vector_cos_f(vector_f x) {
+INLINE vector_f cos_each_f(vector_f x) {
     const vector_f shifted = x * 0.6366197723675814f + 12582912.0f, k = shifted - 12582912.0f;
     const vector_f r = ((x - k * 1.57080078125f) - k * -4.45445766672492e-06f) - k * 2.563344151594519e-12f, z = r * r;
     const vector_bits_f quarter = vector_to_bits_f(shifted) + 1;
@@ -898,7 +907,7 @@ OUTLINE void pair_features_f(
     const vector_f *x, vector_f *X) {
     const vector_f x0 = x[0];
     const vector_f x1 = x[1];
-    const vector_f cos_q1 = vector_cos_f(x1);
+    const vector_f cos_q1 = cos_each_f(x1);
     X[0] = x0;
     X[1] = x1;
     X[2] = 0.25f * (cos_q1 * cos_q1);
@@ -914,7 +923,10 @@ OUTLINE void pair_constants_f(
     const vector_f W1_0 = W[2];
     const vector_f W1_1 = W[3];
     const vector_f its_amplitude = amplitude[0];
-    const vector_f cos_p1 = vector_cos_f(mu1);
+    const vector_f cos_p1 = cos_each_f(mu1);
+    const vector_f M0_0 = W0_0 * W0_0 + W1_0 * W1_0;
+    const vector_f M0_1 = W0_0 * W0_1 + W1_0 * W1_1;
+    const vector_f M1_1 = W0_1 * W0_1 + W1_1 * W1_1;
     S[0] = mu0;
     S[1] = mu1;
     S[2] = W0_0;
@@ -923,6 +935,9 @@ OUTLINE void pair_constants_f(
     S[5] = W1_1;
     S[6] = its_amplitude;
     S[7] = 0.8888888888888888f - 0.25f * (cos_p1 * cos_p1);
+    S[8] = M0_0;
+    S[9] = M0_1;
+    S[10] = M1_1;
 }
 
 /*
@@ -943,23 +958,21 @@ INLINE void pair_value_f(
     const float W1_1 = S[5];
     const float amplitude = S[6];
     const float sub_of_one = S[7];
-    const vector_f sin_p1_plus_q1 = vector_sin_f(x1 + mu1);
-    const vector_f sin_p1_minus_q1 = vector_sin_f(mu1 - x1);
+    const vector_f sin_p1_plus_q1 = sin_each_f(x1 + mu1);
+    const vector_f sin_p1_minus_q1 = sin_each_f(mu1 - x1);
     const vector_f difference = sin_p1_plus_q1 * (0.25f * sin_p1_minus_q1);
     const vector_f total_2 = sub_of_one - mul_of_one;
-    const vector_f atanh_value = vector_atanh_f(difference / total_2);
+    const vector_f atanh_value = atanh_each_f(difference / total_2);
     const vector_f gap = x0 - mu0;
-    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
-    const vector_f v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+    const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const vector_f gap_2 = x1 - mu1;
-    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
-    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
-        * round_3;
+    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const vector_f z0 = W0_0 * v0 + W0_1 * v1;
     const vector_f z1 = W1_0 * v0 + W1_1 * v1;
-    const vector_f exp_2 = vector_exp_f(atanh_value - 0.5f * (z0 * z0 + z1 * z1));
-    value[0] = value[0] + amplitude * exp_2;
+    const vector_f phi = exp_each_f(atanh_value - 0.5f * (z0 * z0 + z1 * z1));
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -981,35 +994,31 @@ INLINE void pair_forward_f(
     const float amplitude = S[6];
     const float sub_of_one = S[7];
     const vector_f total_2 = x1 + mu1;
-    const vector_f sin_p1_plus_q1 = vector_sin_f(total_2);
+    const vector_f sin_p1_plus_q1 = sin_each_f(total_2);
     const vector_f gap = mu1 - x1;
-    const vector_f sin_p1_minus_q1 = vector_sin_f(gap);
+    const vector_f sin_p1_minus_q1 = sin_each_f(gap);
     const vector_f product = 0.25f * sin_p1_minus_q1;
     const vector_f difference = sin_p1_plus_q1 * product;
     const vector_f total_3 = sub_of_one - mul_of_one;
     const vector_f difference_ratio = difference / total_3;
-    const vector_f atanh_value = vector_atanh_f(difference_ratio);
+    const vector_f atanh_value = atanh_each_f(difference_ratio);
     const vector_f gap_2 = x0 - mu0;
-    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap_2);
-    const vector_f v0 = gap_2 - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f
-        * round_2;
+    const vector_f round_2 = round_each_f(0.15915494309189535f * gap_2);
+    const vector_f v0 = gap_2 - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const vector_f gap_3 = x1 - mu1;
-    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_3);
-    const vector_f v1 = gap_3 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
-        * round_3;
+    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_3);
+    const vector_f v1 = gap_3 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const vector_f z0 = W0_0 * v0 + W0_1 * v1;
     const vector_f z1 = W1_0 * v0 + W1_1 * v1;
-    const vector_f exp_2 = vector_exp_f(atanh_value - 0.5f * (z0 * z0 + z1 * z1));
-    const vector_f phi = amplitude * exp_2;
-    const vector_f z1_product = z1 * phi;
-    const vector_f z0_product = z0 * phi;
-    const vector_f by_difference = phi / (1.0f - difference_ratio * difference_ratio) / total_3;
+    const vector_f phi = exp_each_f(atanh_value - 0.5f * (z0 * z0 + z1 * z1));
+    const vector_f phi_2 = amplitude * phi;
+    const vector_f by_difference = phi_2 / (1.0f - difference_ratio * difference_ratio) / total_3;
     const vector_f by_sin_p1_minus_q1 = 0.25f * (sin_p1_plus_q1 * by_difference);
     const vector_f by_sin_p1_plus_q1 = product * by_difference;
-    value[0] = value[0] + phi;
-    slope[0] = slope[0] - W1_0 * z1_product - W0_0 * z0_product;
-    slope[1] = slope[1] - W1_1 * z1_product - W0_1 * z0_product - by_sin_p1_minus_q1 * vector_cos_f(gap) +
-            by_sin_p1_plus_q1 * vector_cos_f(total_2);
+    value[0] = value[0] + phi_2;
+    slope[0] = slope[0] - phi_2 * (W1_0 * z1 + W0_0 * z0);
+    slope[1] = slope[1] - phi_2 * (W1_1 * z1 + W0_1 * z0) - by_sin_p1_minus_q1 * cos_each_f(gap) +
+            by_sin_p1_plus_q1 * cos_each_f(total_2);
     slope[2] = slope[2] + difference_ratio * by_difference;
 }
 
@@ -1020,9 +1029,9 @@ OUTLINE void pair_gradient_f(
     const vector_f slope_x0 = slope[0];
     const vector_f slope_x1 = slope[1];
     const vector_f slope_mul_of_one = slope[2];
-    const vector_f cos_q1 = vector_cos_f(x1);
+    const vector_f cos_q1 = cos_each_f(x1);
     const vector_f by_cos_q1 = cos_q1 * (0.5f * slope_mul_of_one);
-    const vector_f gap = slope_x1 - by_cos_q1 * vector_sin_f(x1);
+    const vector_f gap = slope_x1 - by_cos_q1 * sin_each_f(x1);
     const vector_f total_2 = 12.0f + 18.0f * cos_q1;
     const vector_f gap_2 = 9.0f * (cos_q1 * cos_q1) - 16.0f;
     const vector_f total_3 = slope_x0 * total_2 / gap_2 + gap * (-60.0f - 36.0f * cos_q1) / gap_2;
@@ -1036,49 +1045,54 @@ OUTLINE void pair_gradient_vjp_f(
     const vector_f x1 = x[1];
     const vector_f gradient_bar0 = gradient_bar[0];
     const vector_f gradient_bar1 = gradient_bar[1];
-    const vector_f cos_q1 = vector_cos_f(x1);
+    const vector_f cos_q1 = cos_each_f(x1);
     const vector_f total_2 = 12.0f + 18.0f * cos_q1;
     const vector_f gap = 9.0f * (cos_q1 * cos_q1) - 16.0f;
     const vector_f ratio = gradient_bar1 / gap;
     const vector_f ratio_2 = gradient_bar0 / gap;
     const vector_f total_3 = (-60.0f - 36.0f * cos_q1) * ratio + total_2 * ratio_2;
-    const vector_f minus = -0.5f * (cos_q1 * (vector_sin_f(x1) * total_3));
+    const vector_f minus = -0.5f * (cos_q1 * (sin_each_f(x1) * total_3));
     slope_bar[0] = total_2 * ratio - 12.0f * ratio_2;
     slope_bar[1] = total_3;
     slope_bar[2] = minus;
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp_f(
-    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
-    (void)W;
-    (void)amplitude;
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *sums, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
     const vector_f mu1 = mu[1];
-    const vector_f mu0_bar = S_bar[0];
-    const vector_f mu1_bar = S_bar[1];
-    const vector_f W0_0_bar = S_bar[2];
-    const vector_f W0_1_bar = S_bar[3];
-    const vector_f W1_0_bar = S_bar[4];
-    const vector_f W1_1_bar = S_bar[5];
-    const vector_f its_amplitude_bar = S_bar[6];
-    const vector_f sub_of_one_bar = S_bar[7];
-    const vector_f cos_p1 = vector_cos_f(mu1);
-    mu_bar[0] = mu0_bar;
-    mu_bar[1] = mu1_bar + cos_p1 * (0.5f * sub_of_one_bar) * vector_sin_f(mu1);
-    W_bar[0] = W0_0_bar;
-    W_bar[1] = W0_1_bar;
-    W_bar[2] = W1_0_bar;
-    W_bar[3] = W1_1_bar;
-    amplitude_bar[0] = its_amplitude_bar;
+    const vector_f W0_0 = W[0];
+    const vector_f W0_1 = W[1];
+    const vector_f W1_0 = W[2];
+    const vector_f W1_1 = W[3];
+    const vector_f its_amplitude = amplitude[0];
+    const vector_f sum0 = sums[0];
+    const vector_f sum1 = sums[1];
+    const vector_f sum2 = sums[2];
+    const vector_f sum3 = sums[3];
+    const vector_f sum4 = sums[4];
+    const vector_f sum5 = sums[5];
+    const vector_f sum6 = sums[6];
+    const vector_f cos_p1 = cos_each_f(mu1);
+    const vector_f product = its_amplitude * (sum1 + cos_p1 * (0.5f * sum3) * sin_each_f(mu1));
+    const vector_f product_2 = 2.0f * sum4;
+    const vector_f product_3 = 2.0f * sum6;
+    mu_bar[0] = its_amplitude * sum0;
+    mu_bar[1] = product;
+    W_bar[0] = its_amplitude * (W0_0 * product_2 + W0_1 * sum5);
+    W_bar[1] = its_amplitude * (W0_0 * sum5 + W0_1 * product_3);
+    W_bar[2] = its_amplitude * (W1_0 * product_2 + W1_1 * sum5);
+    W_bar[3] = its_amplitude * (W1_0 * sum5 + W1_1 * product_3);
+    amplitude_bar[0] = sum2;
 }
 
 /*
- * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_backward_f(
-    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
+    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
     const vector_f x0 = X[0];
     const vector_f x1 = X[1];
     const vector_f mul_of_one = X[2];
@@ -1088,70 +1102,69 @@ INLINE void pair_backward_f(
     const float W0_1 = S[3];
     const float W1_0 = S[4];
     const float W1_1 = S[5];
-    const float amplitude = S[6];
     const float sub_of_one = S[7];
+    const float M0_0 = S[8];
+    const float M0_1 = S[9];
+    const float M1_1 = S[10];
     const vector_f its_value_bar = value_bar[0];
     const vector_f x0_bar = slope_bar[0];
     const vector_f x1_bar = slope_bar[1];
     const vector_f mul_of_one_bar = slope_bar[2];
-    const vector_f total_2 = x1 + mu1;
-    const vector_f sin_p1_plus_q1 = vector_sin_f(total_2);
-    const vector_f gap = mu1 - x1;
-    const vector_f sin_p1_minus_q1 = vector_sin_f(gap);
+    const vector_f gap = x0 - mu0;
+    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+    const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
+    const vector_f gap_2 = x1 - mu1;
+    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
+    const vector_f z1 = W1_0 * v0 + W1_1 * v1;
+    const vector_f z0 = W0_0 * v0 + W0_1 * v1;
+    const vector_f total_2 = W1_0 * z1 + W0_0 * z0;
+    const vector_f total_3 = x1 + mu1;
+    const vector_f sin_p1_plus_q1 = sin_each_f(total_3);
+    const vector_f gap_3 = mu1 - x1;
+    const vector_f sin_p1_minus_q1 = sin_each_f(gap_3);
     const vector_f product = 0.25f * sin_p1_minus_q1;
     const vector_f difference = sin_p1_plus_q1 * product;
-    const vector_f total_3 = sub_of_one - mul_of_one;
-    const vector_f difference_ratio = difference / total_3;
-    const vector_f atanh_value = vector_atanh_f(difference_ratio);
-    const vector_f gap_2 = x0 - mu0;
-    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap_2);
-    const vector_f v0 = gap_2 - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f
-        * round_2;
-    const vector_f gap_3 = x1 - mu1;
-    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_3);
-    const vector_f v1 = gap_3 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
-        * round_3;
-    const vector_f z0 = W0_0 * v0 + W0_1 * v1;
-    const vector_f z1 = W1_0 * v0 + W1_1 * v1;
-    const vector_f exp_2 = vector_exp_f(atanh_value - 0.5f * (z0 * z0 + z1 * z1));
-    const vector_f phi = amplitude * exp_2;
-    const vector_f gap_4 = -(W1_0 * x0_bar) - W1_1 * x1_bar;
-    const vector_f cos_2 = vector_cos_f(total_2);
+    const vector_f total_4 = sub_of_one - mul_of_one;
+    const vector_f difference_ratio = difference / total_4;
+    const vector_f atanh_value = atanh_each_f(difference_ratio);
+    const vector_f phi = exp_each_f(atanh_value - 0.5f * (z0 * z0 + z1 * z1));
+    const vector_f cos_2 = cos_each_f(total_3);
     const vector_f by_by_sin_p1_plus_q1 = cos_2 * x1_bar;
-    const vector_f cos_3 = vector_cos_f(gap);
+    const vector_f cos_3 = cos_each_f(gap_3);
     const vector_f product_2 = 0.25f * (cos_3 * x1_bar);
     const vector_f by_by_difference = product * by_by_sin_p1_plus_q1 - sin_p1_plus_q1 * product_2 +
         difference_ratio * mul_of_one_bar;
-    const vector_f ratio = by_by_difference / total_3;
-    const vector_f gap_5 = 1.0f - difference_ratio * difference_ratio;
-    const vector_f ratio_2 = ratio / gap_5;
-    const vector_f gap_6 = -(W0_0 * x0_bar) - W0_1 * x1_bar;
-    const vector_f by_phi = its_value_bar + ratio_2 + z0 * gap_6 + z1 * gap_4;
-    const vector_f by_atanh_value = exp_2 * (amplitude * by_phi);
-    const vector_f by_z1 = phi * gap_4 - z1 * by_atanh_value;
-    const vector_f by_z0 = phi * gap_6 - z0 * by_atanh_value;
-    const vector_f phi_ratio = phi / gap_5;
-    const vector_f by_difference = phi_ratio / total_3;
+    const vector_f ratio = by_by_difference / total_4;
+    const vector_f gap_4 = 1.0f - difference_ratio * difference_ratio;
+    const vector_f ratio_2 = ratio / gap_4;
+    const vector_f total_5 = W1_1 * z1 + W0_1 * z0;
+    const vector_f by_phi = its_value_bar + ratio_2 - total_5 * x1_bar - total_2 * x0_bar;
+    const vector_f by_atanh_value = phi * by_phi;
+    const vector_f phi_product = phi * x0_bar;
+    const vector_f phi_product_2 = phi * x1_bar;
+    const vector_f phi_ratio = phi / gap_4;
+    const vector_f by_difference = phi_ratio / total_4;
     const vector_f by_sin_p1_minus_q1 = 0.25f * (sin_p1_plus_q1 * by_difference);
-    const vector_f total_4 = by_difference * mul_of_one_bar + difference_ratio * (2.0f * (phi_ratio *
-        ratio_2)) + by_atanh_value / gap_5;
-    const vector_f by_difference_2 = total_4 / total_3;
+    const vector_f total_6 = by_difference * mul_of_one_bar + difference_ratio * (2.0f * (phi_ratio *
+        ratio_2)) + by_atanh_value / gap_4;
+    const vector_f by_difference_2 = total_6 / total_4;
     const vector_f by_sin_p1_minus_q1_2 = 0.25f * (by_difference * by_by_sin_p1_plus_q1 + sin_p1_plus_q1 *
         by_difference_2);
     const vector_f by_sin_p1_plus_q1 = product * by_difference_2 - by_difference * product_2;
     const vector_f by_sin_p1_plus_q1_2 = product * by_difference;
-    const vector_f z0_product = z0 * phi;
-    const vector_f z1_product = z1 * phi;
-    S_bar[0] = S_bar[0] - W1_0 * by_z1 - W0_0 * by_z0;
-    S_bar[1] = S_bar[1] + sin_p1_minus_q1 * (by_sin_p1_minus_q1 * x1_bar) + cos_3 * by_sin_p1_minus_q1_2 -
-            W1_1 * by_z1 - W0_1 * by_z0 + cos_2 * by_sin_p1_plus_q1 - sin_p1_plus_q1 * (by_sin_p1_plus_q1_2 *
-            x1_bar);
-    S_bar[2] = S_bar[2] + v0 * by_z0 - z0_product * x0_bar;
-    S_bar[3] = S_bar[3] + v1 * by_z0 - z0_product * x1_bar;
-    S_bar[4] = S_bar[4] + v0 * by_z1 - z1_product * x0_bar;
-    S_bar[5] = S_bar[5] + v1 * by_z1 - z1_product * x1_bar;
-    S_bar[6] = S_bar[6] + exp_2 * by_phi;
-    S_bar[7] = S_bar[7] - by_difference * ratio - difference_ratio * by_difference_2;
+    const vector_f product_3 = 0.5f * by_atanh_value;
+    const vector_f gap_5 = -phi_product - v0 * product_3;
+    const vector_f gap_6 = -phi_product_2 - v1 * product_3;
+    sums[0] = sums[0] + total_2 * by_atanh_value + M0_0 * phi_product + M0_1 * phi_product_2;
+    sums[1] = sums[1] + total_5 * by_atanh_value + M0_1 * phi_product + M1_1 * phi_product_2 + sin_p1_minus_q1
+            * (by_sin_p1_minus_q1 * x1_bar) + cos_3 * by_sin_p1_minus_q1_2 + cos_2 * by_sin_p1_plus_q1 -
+            sin_p1_plus_q1 * (by_sin_p1_plus_q1_2 * x1_bar);
+    sums[2] = sums[2] + by_atanh_value;
+    sums[3] = sums[3] - by_difference * ratio - difference_ratio * by_difference_2;
+    sums[4] = sums[4] + v0 * gap_5;
+    sums[5] = sums[5] + v0 * gap_6 + v1 * gap_5;
+    sums[6] = sums[6] + v1 * gap_6;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -1183,7 +1196,7 @@ size_t arm2_splats_work_f(size_t count, size_t splat_count, int threads) {
     (void)threads;
     const size_t points = (count + LANES_f - 1) / LANES_f, blocks = (points + 2 - 1) / 2;
     const size_t places = 0 * ((splat_count + LANES_f - 1) / LANES_f + (blocks + LANES_f - 1) / LANES_f);
-    return (points * 7 + places + 1) * LANES_f + 8 * splat_count;
+    return (points * 7 + places + 1) * LANES_f + 11 * splat_count;
 }
 
 static vector_f *work_points_f(float *work) {
@@ -1197,12 +1210,12 @@ INLINE const float *splat_at_f(const vector_f *splats, size_t k) {
     return (const float *)(splats + 0 * row) + (k - row * LANES_f);
 }
 
-static vector_f *work_splats_f(float *work, size_t count) {
+static vector_f *work_reaches_f(float *work, size_t count) {
     return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 7;
 }
 
 static vector_f *work_blocks_f(float *work, size_t count, size_t splat_count) {
-    return work_splats_f(work, count) + 0 * ((splat_count + LANES_f - 1) / LANES_f);
+    return work_reaches_f(work, count) + 0 * ((splat_count + LANES_f - 1) / LANES_f);
 }
 
 static float *work_constants_f(float *work, size_t count, size_t splat_count) {
@@ -1234,13 +1247,13 @@ static size_t blocks_near_f(
 OUTLINE void splat_constants_f(
     size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, const float *width, float *constants,
     vector_f *splats) {
-    vector_f own_mu[2], own_W[4], own_amplitude[1], S[8];
+    vector_f own_mu[2], own_W[4], own_amplitude[1], S[11];
     vector_rows_f(mu, splat_count, start, 2, own_mu);
     vector_rows_f(W, splat_count, start, 4, own_W);
     vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
     if (width) splat_reach_f(own_mu, own_amplitude, width, splat_count, start, splats);
     pair_constants_f(own_mu, own_W, own_amplitude, S);
-    vector_to_rows_f(S, constants, splat_count, start, 8, 8);
+    vector_to_rows_f(S, constants, splat_count, start, 11, 11);
 }
 
 /* 2 vectors of points at a time stay in registers while all splats pass. */
@@ -1249,7 +1262,7 @@ void arm2_splats_f(
     float *ARM2_RESTRICT value, float *ARM2_RESTRICT gradient, float *ARM2_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1271,7 +1284,7 @@ void arm2_splats_f(
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
                 for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 8 * near[i];
+                    const float *S = constants + 11 * near[i];
                     pair_forward_f(X[0], S, value_sum[0], slope_sum[0]);
                     pair_forward_f(X[1], S, value_sum[1], slope_sum[1]);
                 }
@@ -1291,7 +1304,7 @@ void arm2_splats_value_f(
     float *ARM2_RESTRICT value, float *ARM2_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1312,7 +1325,7 @@ void arm2_splats_value_f(
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
                 for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 8 * near[i];
+                    const float *S = constants + 11 * near[i];
                     pair_value_f(X[0], S, value_sum[0]);
                     pair_value_f(X[1], S, value_sum[1]);
                 }
@@ -1337,21 +1350,26 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 3 + 1, point + 3);
 }
 
-/* Adds to S_bar what some vectors of points add to it, those in the list. */
-OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *S_bar) {
-    vector_f sum[8] = {ZERO};
-    for (size_t b = 0; b < size; ++b) {
+/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *sums) {
+    vector_f sum[7] = {ZERO};
+    size_t b = 0;
+    for (; b + 1 < size; b += 2) {
+        const vector_f *point = points + 7 * (size_t)near[b], *other = points + 7 * (size_t)near[b + 1];
+        pair_backward_f(point, S, point + 3, point + 3 + 1, sum);
+        pair_backward_f(other, S, other + 3, other + 3 + 1, sum);
+    }
+    if (b < size) {
         const vector_f *point = points + 7 * (size_t)near[b];
         pair_backward_f(point, S, point + 3, point + 3 + 1, sum);
     }
-    S_bar[0] += vector_sum_f(sum[0]);
-    S_bar[1] += vector_sum_f(sum[1]);
-    S_bar[2] += vector_sum_f(sum[2]);
-    S_bar[3] += vector_sum_f(sum[3]);
-    S_bar[4] += vector_sum_f(sum[4]);
-    S_bar[5] += vector_sum_f(sum[5]);
-    S_bar[6] += vector_sum_f(sum[6]);
-    S_bar[7] += vector_sum_f(sum[7]);
+    sums[0] += vector_sum_f(sum[0]);
+    sums[1] += vector_sum_f(sum[1]);
+    sums[2] += vector_sum_f(sum[2]);
+    sums[3] += vector_sum_f(sum[3]);
+    sums[4] += vector_sum_f(sum[4]);
+    sums[5] += vector_sum_f(sum[5]);
+    sums[6] += vector_sum_f(sum[6]);
 }
 
 /*
@@ -1367,7 +1385,7 @@ void arm2_splats_vjp_f(
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES_f ? part : LANES_f;
     vector_f *points = work_points_f(work);
-    vector_f *splats = work_splats_f(work, count), *places = work_blocks_f(work, count, splat_count);
+    vector_f *splats = work_reaches_f(work, count), *places = work_blocks_f(work, count, splat_count);
     float *constants = work_constants_f(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -1393,22 +1411,22 @@ void arm2_splats_vjp_f(
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
-            float sums[LANES_f][8] = {{0}};
+            float sums[LANES_f][7] = {{0}};
             uint32_t near[131072 / (7 * sizeof(vector_f)) + 2];
-            vector_f own_mu[2], own_W[4], own_amplitude[1], S_bar[8], bars[7];
+            vector_f own_mu[2], own_W[4], own_amplitude[1], own_sums[7], bars[7];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
                     const float *reach = width ? splat_at_f(splats, k) + 2 * LANES_f : NULL;
                     const size_t some = blocks_near_f(mu + 2 * k, reach, places, first, first + size, near);
-                    splat_sums_f(points + 7 * first, near, some, constants + 8 * k, sums[k - start]);
+                    splat_sums_f(points + 7 * first, near, some, constants + 11 * k, sums[k - start]);
                 }
             }
             vector_rows_f(mu, end, start, 2, own_mu);
             vector_rows_f(W, end, start, 4, own_W);
             vector_rows_f(amplitude, end, start, 1, own_amplitude);
-            vector_rows_f(sums[0], LANES_f, 0, 8, S_bar);
-            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+            vector_rows_f(sums[0], LANES_f, 0, 7, own_sums);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 4);
             vector_to_rows_f(bars, mu_bar, end, start, 2, 2);
             vector_to_rows_f(bars + 2, W_bar, end, start, 4, 4);
             vector_to_rows_f(bars + 2 + 4, amplitude_bar, end, start, 1, 1);
@@ -1435,12 +1453,12 @@ void arm2_splats_rows_f(
             vector_f point[7];
             splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector_f own_mu[2], own_W[4], own_amplitude[1], S_bar[8] = {ZERO}, bars[7];
+                vector_f own_mu[2], own_W[4], own_amplitude[1], own_sums[7] = {ZERO}, bars[7];
                 for (int i = 0; i < 2; ++i) own_mu[i] = vector_of_f(mu[2 * k + i]);
                 for (int i = 0; i < 4; ++i) own_W[i] = vector_of_f(W[4 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 8 * k, point + 3, point + 3 + 1, S_bar);
-                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+                pair_backward_f(point, constants + 11 * k, point + 3, point + 3 + 1, own_sums);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 4);
                 vector_to_rows_f(bars, rows + 7 * k, count, block * LANES_f, 7, 7 * splat_count);
             }
         }
@@ -1456,3 +1474,5 @@ double arm2_splats_order_f(
     for (size_t n = 0; n < count; ++n) order[n] = n;
     return 1;
 }
+
+#endif /* float */

@@ -462,7 +462,7 @@ class Circle:
     ) -> tuple[Tensor, Tensor, Tensor]:
         """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu (K, D), W (K, d, T) and amplitude (K)."""
         S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
-        total = torch.zeros((len(S), len(mu)), dtype=x.dtype, device=x.device)
+        total = torch.zeros((), dtype=x.dtype, device=x.device)
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         for part, *bars in zip(*parts, strict=True):
             total = total + torch.stack(_sums(self._pair_bars(part, S, *bars), len(part), len(mu), 0))
@@ -476,15 +476,15 @@ class Circle:
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         rows = []
         for part, *bars in zip(*parts, strict=True):
-            S_bar = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
-            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, S_bar)
+            sums = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
+            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, sums)
             rows.append(torch.cat([by_mu, by_W.flatten(-2), by_amplitude.unsqueeze(-1)], -1))
         return torch.cat(rows)
 
     def _pair_bars(
         self, x: Tensor, S: Sequence[Tensor], value_bar: Tensor, gradient_bar: Tensor
     ) -> tuple[Tensor, ...]:
-        """The derivatives in S of every pair, from those in the sums."""
+        """What every pair adds to the sums of its splat, from the derivatives in values and gradients."""
         X = [entry.unsqueeze(-1) for entry in self._point_features(x)]
         slope_bar = [entry.unsqueeze(-1) for entry in self._point_gradient_vjp(x, gradient_bar)]
         return self._pair_vjp(X, S, value_bar.unsqueeze(-1), slope_bar)
@@ -510,8 +510,9 @@ class Circle:
         dot_p_q = x0 * mu0 + x1 * mu1
         t = torch.atan2(s, dot_p_q)
         z0 = W0_0 * t
-        phi = amplitude * torch.exp(-(0.5 * (z0 * z0)))
-        return (phi,)
+        phi = torch.exp(-(0.5 * (z0 * z0)))
+        phi_2 = amplitude * phi
+        return (phi_2,)
 
     def _pair(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
         """The value of a splat at a point, and the slope, its derivatives in X."""
@@ -523,14 +524,15 @@ class Circle:
         dot_p_q = x0 * mu0 + x1 * mu1
         t = torch.atan2(s, dot_p_q)
         z0 = W0_0 * t
-        phi = amplitude * torch.exp(-(0.5 * (z0 * z0)))
-        ratio = W0_0 * (z0 * phi) / (dot_p_q * dot_p_q + s * s)
+        phi = torch.exp(-(0.5 * (z0 * z0)))
+        phi_2 = amplitude * phi
+        ratio = W0_0 * (z0 * phi_2) / (dot_p_q * dot_p_q + s * s)
         by_dot_p_q = s * ratio
         dot_p_q_product = dot_p_q * ratio
         by_d0 = mu1 * dot_p_q_product
         by_x0 = mu0 * by_dot_p_q + by_d0
         by_x1 = mu1 * by_dot_p_q - mu0 * dot_p_q_product
-        return (phi, by_x0, by_x1)
+        return (phi_2, by_x0, by_x1)
 
     def _point_gradient(self, x: Tensor, slope: Sequence[Tensor]) -> Tensor:
         """The Riemannian gradient of a function whose derivatives in X are `slope`."""
@@ -547,9 +549,9 @@ class Circle:
     def _pair_vjp(
         self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
     ) -> tuple[Tensor, ...]:
-        """The derivatives of value value_bar + slope . slope_bar in S."""
+        """What, summed over the points, makes the derivatives of value value_bar + slope . slope_bar."""
         x0, x1 = X
-        mu0, mu1, W0_0, amplitude = S
+        mu0, mu1, W0_0, _ = S
         x0_bar, x1_bar = slope_bar
         d1 = x1 - mu1
         d0 = x0 - mu0
@@ -557,8 +559,7 @@ class Circle:
         dot_p_q = x0 * mu0 + x1 * mu1
         t = torch.atan2(s, dot_p_q)
         z0 = W0_0 * t
-        exp_2 = torch.exp(-(0.5 * (z0 * z0)))
-        phi = amplitude * exp_2
+        phi = torch.exp(-(0.5 * (z0 * z0)))
         z0_product = z0 * phi
         total_2 = dot_p_q * dot_p_q + s * s
         ratio = W0_0 * z0_product / total_2
@@ -570,7 +571,8 @@ class Circle:
         product = 2.0 * (ratio * ratio_2)
         product_2 = W0_0 * ratio_2
         by_phi = value_bar + z0 * product_2
-        by_z0 = phi * product_2 - z0 * (exp_2 * (amplitude * by_phi))
+        phi_product = phi * by_phi
+        by_z0 = phi * product_2 - z0 * phi_product
         by_t = W0_0 * by_z0
         by_t_ratio = by_t / total_2
         by_dot_p_q_2 = ratio * gap - dot_p_q * product - s * by_t_ratio
@@ -578,16 +580,16 @@ class Circle:
         total_3 = by_dot_p_q * x0_bar - dot_p_q_product * x1_bar + x0 * by_dot_p_q_2 + mu1 * by_s + d1 * by_s
         by_d1 = mu0 * by_s
         by_d1_gap = dot_p_q_product * x0_bar + by_dot_p_q * x1_bar + x1 * by_dot_p_q_2 - d0 * by_s - by_d1
-        return (total_3, by_d1_gap, z0_product * ratio_2 + t * by_z0, exp_2 * by_phi)
+        return (total_3, by_d1_gap, z0_product * ratio_2 + t * by_z0, phi_product)
 
     def _splat_constants_vjp(
-        self, mu: Tensor, W: Tensor, amplitude: Tensor, S_bar: Sequence[Tensor]
+        self, mu: Tensor, W: Tensor, amplitude: Tensor, sums: Sequence[Tensor]
     ) -> tuple[Tensor, Tensor, Tensor]:
-        """The derivatives in mu, W and amplitude from those in S."""
-        mu0_bar, mu1_bar, W0_0_bar, amplitude_bar = S_bar
-        mu_bar = _stack((mu0_bar, mu1_bar))
-        W_bar = _stack((W0_0_bar,))
-        return mu_bar, W_bar.unflatten(-1, (1, 1)), amplitude_bar
+        """The derivatives in mu, W and amplitude from those sums."""
+        sum0, sum1, sum2, sum3 = sums
+        mu_bar = _stack((amplitude * sum0, amplitude * sum1))
+        W_bar = _stack((amplitude * sum2,))
+        return mu_bar, W_bar.unflatten(-1, (1, 1)), sum3
 
 
 manifold = Circle()

@@ -81,6 +81,8 @@ INLINE uint64_t flush_denormals(void) { return 0; }
 INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
 
+#if !defined(RSRM_ONLY_FLOAT) /* double */
+
 /* The same number in all lanes. */
 INLINE vector vector_of(double x) {
     const vector zero = ZERO;
@@ -122,29 +124,28 @@ INLINE vector vector_from_bits(vector_bits bits) {
 }
 
 /* x >= 0 with the sign of another. */
-INLINE vector vector_signed(vector x, vector sign) {
+INLINE vector signed_each(vector x, vector sign) {
     return vector_from_bits(vector_to_bits(x) | (vector_to_bits(sign) & 0x8000000000000000));
 }
 
 /* abs of every lane; one instruction where the machine has it. */
-INLINE vector vector_abs(vector x) {
+INLINE vector abs_each(vector x) {
     for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
     return x;
 }
 
-/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
-INLINE vector vector_exp(vector x) {
-    const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
-    const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
-    const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
-    const vector scale = vector_from_bits((vector_to_bits(shifted) + 1022) << 52); /* 2^(k - 1) */
-    const vector y = vector_select(x > 709.782712893384, vector_of(HUGE_VAL), (scale + scale * part) * 2);
-    return vector_select(x < -707.9, vector_of(0), y);
+/* exp(-s / 2) of s >= 0, as 2^k exp(-r / 2), |r| <= log(2), within 1 unit in the last place; below 3.8e-308 it is 0. */
+INLINE vector gaussian_each(vector s) {
+    const vector shifted = s * -0.7213475204444817 + 6755399441056767.0, k = shifted - 6755399441056767.0;
+    const vector r = (s + k * 1.3862943611202354) + k * -3.447888905122967e-13;
+    const vector part = r * (-0.5 + r * (0.12500000000000003 + r * (-0.020833333333333336 + r * (0.0026041666666640085 + r * (-0.0002604166666665645 + r * (2.170138893314011e-05 + r * (-1.5500992080508208e-06 + r * (9.688094258687923e-08 + r * (-5.382278997037427e-09 + r * (2.697273970216642e-10 + r * -1.2256046482356944e-11))))))))));
+    const vector scale = vector_from_bits(vector_to_bits(shifted) << 52); /* 2^k */
+    return vector_select(s > 1415.8, vector_of(0), scale + scale * part);
 }
 
 /* atan2, within 3 units in the last place. */
-INLINE vector vector_atan2(vector y, vector x) {
-    const vector a = vector_abs(y), b = vector_abs(x), one = vector_of(1);
+INLINE vector atan2_each(vector y, vector x) {
+    const vector a = abs_each(y), b = abs_each(x), one = vector_of(1);
     const vector less = vector_select(a > b, b, a), more = vector_select(a > b, a, b);
     const vector low = vector_select(less > 1.7976931348623157e308, one, less);
     const vector high = vector_select(less > 1.7976931348623157e308, one, vector_select(more == 0, one, more));
@@ -155,7 +156,7 @@ INLINE vector vector_atan2(vector y, vector x) {
     const vector first = vector_select(low > 0.4142135623730951 * high, 0.7853981633974483 + (angle + 3.061616997868383e-17), angle);
     const vector second = vector_select(a > b, 1.5707963267948966 - (first - 6.123233995736766e-17), first);
     const vector third = vector_select((vector_to_bits(x) & 0x8000000000000000) != 0, 3.141592653589793 - (second - 1.2246467991473532e-16), second);
-    return vector_signed(third, y);
+    return signed_each(third, y);
 }
 
 /* What pairs read of points x. */
@@ -197,9 +198,10 @@ INLINE void pair_value(
     const vector d0 = x0 - mu0;
     const vector s = mu0 * d1 - mu1 * d0;
     const vector dot_p_q = x0 * mu0 + x1 * mu1;
-    const vector t = vector_atan2(s, dot_p_q);
+    const vector t = atan2_each(s, dot_p_q);
     const vector z0 = W0_0 * t;
-    value[0] = value[0] + amplitude * vector_exp(-0.5 * (z0 * z0));
+    const vector phi = gaussian_each(z0 * z0);
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -219,13 +221,14 @@ INLINE void pair_forward(
     const vector d0 = x0 - mu0;
     const vector s = mu0 * d1 - mu1 * d0;
     const vector dot_p_q = x0 * mu0 + x1 * mu1;
-    const vector t = vector_atan2(s, dot_p_q);
+    const vector t = atan2_each(s, dot_p_q);
     const vector z0 = W0_0 * t;
-    const vector phi = amplitude * vector_exp(-0.5 * (z0 * z0));
-    const vector ratio = W0_0 * (z0 * phi) / (dot_p_q * dot_p_q + s * s);
+    const vector phi = gaussian_each(z0 * z0);
+    const vector phi_2 = amplitude * phi;
+    const vector ratio = W0_0 * (z0 * phi_2) / (dot_p_q * dot_p_q + s * s);
     const vector by_dot_p_q = s * ratio;
     const vector dot_p_q_product = dot_p_q * ratio;
-    value[0] = value[0] + phi;
+    value[0] = value[0] + phi_2;
     slope[0] = slope[0] + mu0 * by_dot_p_q + mu1 * dot_p_q_product;
     slope[1] = slope[1] + mu1 * by_dot_p_q - mu0 * dot_p_q_product;
 }
@@ -250,20 +253,20 @@ OUTLINE void pair_gradient_vjp(
     slope_bar[1] = x0 * gradient_bar0;
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp(
-    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
+    const vector *mu, const vector *W, const vector *amplitude, const vector *sums, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
     (void)mu;
     (void)W;
-    (void)amplitude;
-    const vector mu0_bar = S_bar[0];
-    const vector mu1_bar = S_bar[1];
-    const vector W0_0_bar = S_bar[2];
-    const vector its_amplitude_bar = S_bar[3];
-    mu_bar[0] = mu0_bar;
-    mu_bar[1] = mu1_bar;
-    W_bar[0] = W0_0_bar;
-    amplitude_bar[0] = its_amplitude_bar;
+    const vector its_amplitude = amplitude[0];
+    const vector sum0 = sums[0];
+    const vector sum1 = sums[1];
+    const vector sum2 = sums[2];
+    const vector sum3 = sums[3];
+    mu_bar[0] = its_amplitude * sum0;
+    mu_bar[1] = its_amplitude * sum1;
+    W_bar[0] = its_amplitude * sum2;
+    amplitude_bar[0] = sum3;
 }
 
 /* The distances of some points q from one point p. */
@@ -277,24 +280,23 @@ OUTLINE void pair_distances(
     const vector d1 = q1 - p1;
     const vector s = p0 * d1 - p1 * d0;
     const vector dot_p_q = p0 * q0 + p1 * q1;
-    const vector t = vector_atan2(s, dot_p_q);
-    const vector abs_t = vector_abs(t);
+    const vector t = atan2_each(s, dot_p_q);
+    const vector abs_t = abs_each(t);
     distance[0] = abs_t;
 }
 
 /*
- * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_backward(
-    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
+    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
     const vector x0 = X[0];
     const vector x1 = X[1];
     const double mu0 = S[0];
     const double mu1 = S[1];
     const double W0_0 = S[2];
-    const double amplitude = S[3];
     const vector its_value_bar = value_bar[0];
     const vector x0_bar = slope_bar[0];
     const vector x1_bar = slope_bar[1];
@@ -302,10 +304,9 @@ INLINE void pair_backward(
     const vector d0 = x0 - mu0;
     const vector s = mu0 * d1 - mu1 * d0;
     const vector dot_p_q = x0 * mu0 + x1 * mu1;
-    const vector t = vector_atan2(s, dot_p_q);
+    const vector t = atan2_each(s, dot_p_q);
     const vector z0 = W0_0 * t;
-    const vector exp_2 = vector_exp(-0.5 * (z0 * z0));
-    const vector phi = amplitude * exp_2;
+    const vector phi = gaussian_each(z0 * z0);
     const vector z0_product = z0 * phi;
     const vector total_2 = dot_p_q * dot_p_q + s * s;
     const vector ratio = W0_0 * z0_product / total_2;
@@ -317,17 +318,18 @@ INLINE void pair_backward(
     const vector product = 2.0 * (ratio * ratio_2);
     const vector product_2 = W0_0 * ratio_2;
     const vector by_phi = its_value_bar + z0 * product_2;
-    const vector by_z0 = phi * product_2 - z0 * (exp_2 * (amplitude * by_phi));
+    const vector phi_product = phi * by_phi;
+    const vector by_z0 = phi * product_2 - z0 * phi_product;
     const vector by_t = W0_0 * by_z0;
     const vector by_t_ratio = by_t / total_2;
     const vector by_dot_p_q_2 = ratio * gap - dot_p_q * product - s * by_t_ratio;
     const vector by_s = ratio * by_by_dot_p_q - s * product + dot_p_q * by_t_ratio;
-    S_bar[0] = S_bar[0] + by_dot_p_q * x0_bar - dot_p_q_product * x1_bar + x0 * by_dot_p_q_2 + mu1 * by_s + d1
-            * by_s;
-    S_bar[1] = S_bar[1] + dot_p_q_product * x0_bar + by_dot_p_q * x1_bar + x1 * by_dot_p_q_2 - d0 * by_s - mu0
-            * by_s;
-    S_bar[2] = S_bar[2] + z0_product * ratio_2 + t * by_z0;
-    S_bar[3] = S_bar[3] + exp_2 * by_phi;
+    sums[0] = sums[0] + by_dot_p_q * x0_bar - dot_p_q_product * x1_bar + x0 * by_dot_p_q_2 + mu1 * by_s + d1 *
+            by_s;
+    sums[1] = sums[1] + dot_p_q_product * x0_bar + by_dot_p_q * x1_bar + x1 * by_dot_p_q_2 - d0 * by_s - mu0 *
+            by_s;
+    sums[2] = sums[2] + z0_product * ratio_2 + t * by_z0;
+    sums[3] = sums[3] + phi_product;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -373,12 +375,12 @@ INLINE const double *splat_at(const vector *splats, size_t k) {
     return (const double *)(splats + 3 * row) + (k - row * LANES);
 }
 
-static vector *work_splats(double *work, size_t count) {
+static vector *work_reaches(double *work, size_t count) {
     return work_points(work) + (count + LANES - 1) / LANES * 5;
 }
 
 static vector *work_blocks(double *work, size_t count, size_t splat_count) {
-    return work_splats(work, count) + 3 * ((splat_count + LANES - 1) / LANES);
+    return work_reaches(work, count) + 3 * ((splat_count + LANES - 1) / LANES);
 }
 
 static double *work_constants(double *work, size_t count, size_t splat_count) {
@@ -495,7 +497,7 @@ void circle_splats(
     double *CIRCLE_RESTRICT value, double *CIRCLE_RESTRICT gradient, double *CIRCLE_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -537,7 +539,7 @@ void circle_splats_value(
     double *CIRCLE_RESTRICT value, double *CIRCLE_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -583,17 +585,23 @@ OUTLINE void splat_points(
     vector_end(count, start, 2 + 1, point + 2);
 }
 
-/* Adds to S_bar what some vectors of points add to it, those in the list. */
-OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *S_bar) {
+/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *sums) {
     vector sum[4] = {ZERO};
-    for (size_t b = 0; b < size; ++b) {
+    size_t b = 0;
+    for (; b + 1 < size; b += 2) {
+        const vector *point = points + 5 * (size_t)near[b], *other = points + 5 * (size_t)near[b + 1];
+        pair_backward(point, S, point + 2, point + 2 + 1, sum);
+        pair_backward(other, S, other + 2, other + 2 + 1, sum);
+    }
+    if (b < size) {
         const vector *point = points + 5 * (size_t)near[b];
         pair_backward(point, S, point + 2, point + 2 + 1, sum);
     }
-    S_bar[0] += vector_sum(sum[0]);
-    S_bar[1] += vector_sum(sum[1]);
-    S_bar[2] += vector_sum(sum[2]);
-    S_bar[3] += vector_sum(sum[3]);
+    sums[0] += vector_sum(sum[0]);
+    sums[1] += vector_sum(sum[1]);
+    sums[2] += vector_sum(sum[2]);
+    sums[3] += vector_sum(sum[3]);
 }
 
 /*
@@ -609,7 +617,7 @@ void circle_splats_vjp(
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES ? part : LANES;
     vector *points = work_points(work);
-    vector *splats = work_splats(work, count), *places = work_blocks(work, count, splat_count);
+    vector *splats = work_reaches(work, count), *places = work_blocks(work, count, splat_count);
     double *constants = work_constants(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -637,7 +645,7 @@ void circle_splats_vjp(
             const size_t end = start + share < splat_count ? start + share : splat_count;
             double sums[LANES][4] = {{0}};
             uint32_t near[131072 / (5 * sizeof(vector)) + 2];
-            vector own_mu[2], own_W[1], own_amplitude[1], S_bar[4], bars[4];
+            vector own_mu[2], own_W[1], own_amplitude[1], own_sums[4], bars[4];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
@@ -649,8 +657,8 @@ void circle_splats_vjp(
             vector_rows(mu, end, start, 2, own_mu);
             vector_rows(W, end, start, 1, own_W);
             vector_rows(amplitude, end, start, 1, own_amplitude);
-            vector_rows(sums[0], LANES, 0, 4, S_bar);
-            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 1);
+            vector_rows(sums[0], LANES, 0, 4, own_sums);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 1);
             vector_to_rows(bars, mu_bar, end, start, 2, 2);
             vector_to_rows(bars + 2, W_bar, end, start, 1, 1);
             vector_to_rows(bars + 2 + 1, amplitude_bar, end, start, 1, 1);
@@ -677,12 +685,12 @@ void circle_splats_rows(
             vector point[5];
             splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector own_mu[2], own_W[1], own_amplitude[1], S_bar[4] = {ZERO}, bars[4];
+                vector own_mu[2], own_W[1], own_amplitude[1], own_sums[4] = {ZERO}, bars[4];
                 for (int i = 0; i < 2; ++i) own_mu[i] = vector_of(mu[2 * k + i]);
                 for (int i = 0; i < 1; ++i) own_W[i] = vector_of(W[1 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 4 * k, point + 2, point + 2 + 1, S_bar);
-                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 1);
+                pair_backward(point, constants + 4 * k, point + 2, point + 2 + 1, own_sums);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 1);
                 vector_to_rows(bars, rows + 4 * k, count, block * LANES, 4, 4 * splat_count);
             }
         }
@@ -756,7 +764,7 @@ double circle_splats_order(
     size_t count, size_t splat_count, const double *CIRCLE_RESTRICT x, const double *CIRCLE_RESTRICT mu, const double *CIRCLE_RESTRICT amplitude, const double *CIRCLE_RESTRICT width,
     double limit, size_t *CIRCLE_RESTRICT order, double *CIRCLE_RESTRICT work) {
     const size_t block = 2 * LANES;
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     uint32_t near[256];
     double share = 0;
     for (size_t n = 0; n < count; ++n) order[n] = n;
@@ -787,6 +795,10 @@ double circle_splats_order(
     }
     return share;
 }
+
+#endif /* double */
+
+#if !defined(RSRM_ONLY_DOUBLE) /* float */
 
 /* The same number in all lanes. */
 INLINE vector_f vector_of_f(float x) {
@@ -829,29 +841,28 @@ INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
 }
 
 /* x >= 0 with the sign of another. */
-INLINE vector_f vector_signed_f(vector_f x, vector_f sign) {
+INLINE vector_f signed_each_f(vector_f x, vector_f sign) {
     return vector_from_bits_f(vector_to_bits_f(x) | (vector_to_bits_f(sign) & 0x80000000));
 }
 
 /* abs of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_abs_f(vector_f x) {
+INLINE vector_f abs_each_f(vector_f x) {
     for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
     return x;
 }
 
-/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
-INLINE vector_f vector_exp_f(vector_f x) {
-    const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
-    const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
-    const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
-    const vector_f scale = vector_from_bits_f((vector_to_bits_f(shifted) + 126) << 23); /* 2^(k - 1) */
-    const vector_f y = vector_select_f(x > 88.722839f, vector_of_f(HUGE_VALF), (scale + scale * part) * 2);
-    return vector_select_f(x < -86.9f, vector_of_f(0), y);
+/* exp(-s / 2) of s >= 0, as 2^k exp(-r / 2), |r| <= log(2), within 1 unit in the last place; below 1.8e-38 it is 0. */
+INLINE vector_f gaussian_each_f(vector_f s) {
+    const vector_f shifted = s * -0.7213475204444817f + 12583039.0f, k = shifted - 12583039.0f;
+    const vector_f r = (s + k * 1.38629150390625f) + k * 2.8572136406188345e-06f;
+    const vector_f part = r * (-0.5f + r * (0.125f + r * (-0.020833221247803655f + r * (0.0026041596642423803f + r * (-0.0002613493009373264f + r * 2.1759659078889598e-05f)))));
+    const vector_f scale = vector_from_bits_f(vector_to_bits_f(shifted) << 23); /* 2^k */
+    return vector_select_f(s > 173.8f, vector_of_f(0), scale + scale * part);
 }
 
 /* atan2, within 3 units in the last place. */
-INLINE vector_f vector_atan2_f(vector_f y, vector_f x) {
-    const vector_f a = vector_abs_f(y), b = vector_abs_f(x), one = vector_of_f(1);
+INLINE vector_f atan2_each_f(vector_f y, vector_f x) {
+    const vector_f a = abs_each_f(y), b = abs_each_f(x), one = vector_of_f(1);
     const vector_f less = vector_select_f(a > b, b, a), more = vector_select_f(a > b, a, b);
     const vector_f low = vector_select_f(less > 3.4028234663852886e38f, one, less);
     const vector_f high = vector_select_f(less > 3.4028234663852886e38f, one, vector_select_f(more == 0, one, more));
@@ -862,7 +873,7 @@ INLINE vector_f vector_atan2_f(vector_f y, vector_f x) {
     const vector_f first = vector_select_f(low > 0.4142135623730951f * high, 0.7853981852531433f + (angle + -2.1855695000931213e-08f), angle);
     const vector_f second = vector_select_f(a > b, 1.5707963705062866f - (first - -4.3711390001862426e-08f), first);
     const vector_f third = vector_select_f((vector_to_bits_f(x) & 0x80000000) != 0, 3.1415927410125732f - (second - -8.742278000372485e-08f), second);
-    return vector_signed_f(third, y);
+    return signed_each_f(third, y);
 }
 
 /* What pairs read of points x. */
@@ -904,9 +915,10 @@ INLINE void pair_value_f(
     const vector_f d0 = x0 - mu0;
     const vector_f s = mu0 * d1 - mu1 * d0;
     const vector_f dot_p_q = x0 * mu0 + x1 * mu1;
-    const vector_f t = vector_atan2_f(s, dot_p_q);
+    const vector_f t = atan2_each_f(s, dot_p_q);
     const vector_f z0 = W0_0 * t;
-    value[0] = value[0] + amplitude * vector_exp_f(-0.5f * (z0 * z0));
+    const vector_f phi = gaussian_each_f(z0 * z0);
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -926,13 +938,14 @@ INLINE void pair_forward_f(
     const vector_f d0 = x0 - mu0;
     const vector_f s = mu0 * d1 - mu1 * d0;
     const vector_f dot_p_q = x0 * mu0 + x1 * mu1;
-    const vector_f t = vector_atan2_f(s, dot_p_q);
+    const vector_f t = atan2_each_f(s, dot_p_q);
     const vector_f z0 = W0_0 * t;
-    const vector_f phi = amplitude * vector_exp_f(-0.5f * (z0 * z0));
-    const vector_f ratio = W0_0 * (z0 * phi) / (dot_p_q * dot_p_q + s * s);
+    const vector_f phi = gaussian_each_f(z0 * z0);
+    const vector_f phi_2 = amplitude * phi;
+    const vector_f ratio = W0_0 * (z0 * phi_2) / (dot_p_q * dot_p_q + s * s);
     const vector_f by_dot_p_q = s * ratio;
     const vector_f dot_p_q_product = dot_p_q * ratio;
-    value[0] = value[0] + phi;
+    value[0] = value[0] + phi_2;
     slope[0] = slope[0] + mu0 * by_dot_p_q + mu1 * dot_p_q_product;
     slope[1] = slope[1] + mu1 * by_dot_p_q - mu0 * dot_p_q_product;
 }
@@ -957,20 +970,20 @@ OUTLINE void pair_gradient_vjp_f(
     slope_bar[1] = x0 * gradient_bar0;
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp_f(
-    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *sums, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
     (void)mu;
     (void)W;
-    (void)amplitude;
-    const vector_f mu0_bar = S_bar[0];
-    const vector_f mu1_bar = S_bar[1];
-    const vector_f W0_0_bar = S_bar[2];
-    const vector_f its_amplitude_bar = S_bar[3];
-    mu_bar[0] = mu0_bar;
-    mu_bar[1] = mu1_bar;
-    W_bar[0] = W0_0_bar;
-    amplitude_bar[0] = its_amplitude_bar;
+    const vector_f its_amplitude = amplitude[0];
+    const vector_f sum0 = sums[0];
+    const vector_f sum1 = sums[1];
+    const vector_f sum2 = sums[2];
+    const vector_f sum3 = sums[3];
+    mu_bar[0] = its_amplitude * sum0;
+    mu_bar[1] = its_amplitude * sum1;
+    W_bar[0] = its_amplitude * sum2;
+    amplitude_bar[0] = sum3;
 }
 
 /* The distances of some points q from one point p. */
@@ -984,24 +997,23 @@ OUTLINE void pair_distances_f(
     const vector_f d1 = q1 - p1;
     const vector_f s = p0 * d1 - p1 * d0;
     const vector_f dot_p_q = p0 * q0 + p1 * q1;
-    const vector_f t = vector_atan2_f(s, dot_p_q);
-    const vector_f abs_t = vector_abs_f(t);
+    const vector_f t = atan2_each_f(s, dot_p_q);
+    const vector_f abs_t = abs_each_f(t);
     distance[0] = abs_t;
 }
 
 /*
- * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_backward_f(
-    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
+    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
     const vector_f x0 = X[0];
     const vector_f x1 = X[1];
     const float mu0 = S[0];
     const float mu1 = S[1];
     const float W0_0 = S[2];
-    const float amplitude = S[3];
     const vector_f its_value_bar = value_bar[0];
     const vector_f x0_bar = slope_bar[0];
     const vector_f x1_bar = slope_bar[1];
@@ -1009,10 +1021,9 @@ INLINE void pair_backward_f(
     const vector_f d0 = x0 - mu0;
     const vector_f s = mu0 * d1 - mu1 * d0;
     const vector_f dot_p_q = x0 * mu0 + x1 * mu1;
-    const vector_f t = vector_atan2_f(s, dot_p_q);
+    const vector_f t = atan2_each_f(s, dot_p_q);
     const vector_f z0 = W0_0 * t;
-    const vector_f exp_2 = vector_exp_f(-0.5f * (z0 * z0));
-    const vector_f phi = amplitude * exp_2;
+    const vector_f phi = gaussian_each_f(z0 * z0);
     const vector_f z0_product = z0 * phi;
     const vector_f total_2 = dot_p_q * dot_p_q + s * s;
     const vector_f ratio = W0_0 * z0_product / total_2;
@@ -1024,17 +1035,18 @@ INLINE void pair_backward_f(
     const vector_f product = 2.0f * (ratio * ratio_2);
     const vector_f product_2 = W0_0 * ratio_2;
     const vector_f by_phi = its_value_bar + z0 * product_2;
-    const vector_f by_z0 = phi * product_2 - z0 * (exp_2 * (amplitude * by_phi));
+    const vector_f phi_product = phi * by_phi;
+    const vector_f by_z0 = phi * product_2 - z0 * phi_product;
     const vector_f by_t = W0_0 * by_z0;
     const vector_f by_t_ratio = by_t / total_2;
     const vector_f by_dot_p_q_2 = ratio * gap - dot_p_q * product - s * by_t_ratio;
     const vector_f by_s = ratio * by_by_dot_p_q - s * product + dot_p_q * by_t_ratio;
-    S_bar[0] = S_bar[0] + by_dot_p_q * x0_bar - dot_p_q_product * x1_bar + x0 * by_dot_p_q_2 + mu1 * by_s + d1
-            * by_s;
-    S_bar[1] = S_bar[1] + dot_p_q_product * x0_bar + by_dot_p_q * x1_bar + x1 * by_dot_p_q_2 - d0 * by_s - mu0
-            * by_s;
-    S_bar[2] = S_bar[2] + z0_product * ratio_2 + t * by_z0;
-    S_bar[3] = S_bar[3] + exp_2 * by_phi;
+    sums[0] = sums[0] + by_dot_p_q * x0_bar - dot_p_q_product * x1_bar + x0 * by_dot_p_q_2 + mu1 * by_s + d1 *
+            by_s;
+    sums[1] = sums[1] + dot_p_q_product * x0_bar + by_dot_p_q * x1_bar + x1 * by_dot_p_q_2 - d0 * by_s - mu0 *
+            by_s;
+    sums[2] = sums[2] + z0_product * ratio_2 + t * by_z0;
+    sums[3] = sums[3] + phi_product;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -1080,12 +1092,12 @@ INLINE const float *splat_at_f(const vector_f *splats, size_t k) {
     return (const float *)(splats + 3 * row) + (k - row * LANES_f);
 }
 
-static vector_f *work_splats_f(float *work, size_t count) {
+static vector_f *work_reaches_f(float *work, size_t count) {
     return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 5;
 }
 
 static vector_f *work_blocks_f(float *work, size_t count, size_t splat_count) {
-    return work_splats_f(work, count) + 3 * ((splat_count + LANES_f - 1) / LANES_f);
+    return work_reaches_f(work, count) + 3 * ((splat_count + LANES_f - 1) / LANES_f);
 }
 
 static float *work_constants_f(float *work, size_t count, size_t splat_count) {
@@ -1202,7 +1214,7 @@ void circle_splats_f(
     float *CIRCLE_RESTRICT value, float *CIRCLE_RESTRICT gradient, float *CIRCLE_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1244,7 +1256,7 @@ void circle_splats_value_f(
     float *CIRCLE_RESTRICT value, float *CIRCLE_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1290,17 +1302,23 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 2 + 1, point + 2);
 }
 
-/* Adds to S_bar what some vectors of points add to it, those in the list. */
-OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *S_bar) {
+/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *sums) {
     vector_f sum[4] = {ZERO};
-    for (size_t b = 0; b < size; ++b) {
+    size_t b = 0;
+    for (; b + 1 < size; b += 2) {
+        const vector_f *point = points + 5 * (size_t)near[b], *other = points + 5 * (size_t)near[b + 1];
+        pair_backward_f(point, S, point + 2, point + 2 + 1, sum);
+        pair_backward_f(other, S, other + 2, other + 2 + 1, sum);
+    }
+    if (b < size) {
         const vector_f *point = points + 5 * (size_t)near[b];
         pair_backward_f(point, S, point + 2, point + 2 + 1, sum);
     }
-    S_bar[0] += vector_sum_f(sum[0]);
-    S_bar[1] += vector_sum_f(sum[1]);
-    S_bar[2] += vector_sum_f(sum[2]);
-    S_bar[3] += vector_sum_f(sum[3]);
+    sums[0] += vector_sum_f(sum[0]);
+    sums[1] += vector_sum_f(sum[1]);
+    sums[2] += vector_sum_f(sum[2]);
+    sums[3] += vector_sum_f(sum[3]);
 }
 
 /*
@@ -1316,7 +1334,7 @@ void circle_splats_vjp_f(
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES_f ? part : LANES_f;
     vector_f *points = work_points_f(work);
-    vector_f *splats = work_splats_f(work, count), *places = work_blocks_f(work, count, splat_count);
+    vector_f *splats = work_reaches_f(work, count), *places = work_blocks_f(work, count, splat_count);
     float *constants = work_constants_f(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -1344,7 +1362,7 @@ void circle_splats_vjp_f(
             const size_t end = start + share < splat_count ? start + share : splat_count;
             float sums[LANES_f][4] = {{0}};
             uint32_t near[131072 / (5 * sizeof(vector_f)) + 2];
-            vector_f own_mu[2], own_W[1], own_amplitude[1], S_bar[4], bars[4];
+            vector_f own_mu[2], own_W[1], own_amplitude[1], own_sums[4], bars[4];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
@@ -1356,8 +1374,8 @@ void circle_splats_vjp_f(
             vector_rows_f(mu, end, start, 2, own_mu);
             vector_rows_f(W, end, start, 1, own_W);
             vector_rows_f(amplitude, end, start, 1, own_amplitude);
-            vector_rows_f(sums[0], LANES_f, 0, 4, S_bar);
-            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 1);
+            vector_rows_f(sums[0], LANES_f, 0, 4, own_sums);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 1);
             vector_to_rows_f(bars, mu_bar, end, start, 2, 2);
             vector_to_rows_f(bars + 2, W_bar, end, start, 1, 1);
             vector_to_rows_f(bars + 2 + 1, amplitude_bar, end, start, 1, 1);
@@ -1384,12 +1402,12 @@ void circle_splats_rows_f(
             vector_f point[5];
             splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector_f own_mu[2], own_W[1], own_amplitude[1], S_bar[4] = {ZERO}, bars[4];
+                vector_f own_mu[2], own_W[1], own_amplitude[1], own_sums[4] = {ZERO}, bars[4];
                 for (int i = 0; i < 2; ++i) own_mu[i] = vector_of_f(mu[2 * k + i]);
                 for (int i = 0; i < 1; ++i) own_W[i] = vector_of_f(W[1 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 4 * k, point + 2, point + 2 + 1, S_bar);
-                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 1);
+                pair_backward_f(point, constants + 4 * k, point + 2, point + 2 + 1, own_sums);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 1);
                 vector_to_rows_f(bars, rows + 4 * k, count, block * LANES_f, 4, 4 * splat_count);
             }
         }
@@ -1463,7 +1481,7 @@ double circle_splats_order_f(
     size_t count, size_t splat_count, const float *CIRCLE_RESTRICT x, const float *CIRCLE_RESTRICT mu, const float *CIRCLE_RESTRICT amplitude, const float *CIRCLE_RESTRICT width,
     double limit, size_t *CIRCLE_RESTRICT order, float *CIRCLE_RESTRICT work) {
     const size_t block = 2 * LANES_f;
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     uint32_t near[256];
     double share = 0;
     for (size_t n = 0; n < count; ++n) order[n] = n;
@@ -1494,3 +1512,5 @@ double circle_splats_order_f(
     }
     return share;
 }
+
+#endif /* float */

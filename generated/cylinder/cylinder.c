@@ -11,8 +11,7 @@
 /* x, periodic coordinates wrapped */
 void cylinder_project(const double *CYLINDER_RESTRICT x, double *CYLINDER_RESTRICT p_out) {
     const double round_2 = rint(0.15915494309189535 * x[0]);
-    const double p0 = x[0] - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double p0 = x[0] - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     p_out[0] = p0;
     p_out[1] = x[1];
 }
@@ -96,8 +95,7 @@ void cylinder_exp(
     double *CYLINDER_RESTRICT q_out) {
     const double total_2 = p[0] + v[0];
     const double round_2 = rint(0.15915494309189535 * total_2);
-    const double q0 = total_2 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double q0 = total_2 - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double q1 = p[1] + v[1];
     q_out[0] = q0;
     q_out[1] = q1;
@@ -118,8 +116,7 @@ void cylinder_log(
     double *CYLINDER_RESTRICT v_out) {
     const double gap = q[0] - p[0];
     const double round_2 = rint(0.15915494309189535 * gap);
-    const double v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double v1 = q[1] - p[1];
     v_out[0] = v0;
     v_out[1] = v1;
@@ -137,8 +134,7 @@ void cylinder_log_batch(
 double cylinder_distance(const double *CYLINDER_RESTRICT p, const double *CYLINDER_RESTRICT q) {
     const double gap = q[0] - p[0];
     const double round_2 = rint(0.15915494309189535 * gap);
-    const double log0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double log0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double log1 = q[1] - p[1];
     return sqrt(log0 * log0 + log1 * log1);
 }
@@ -208,8 +204,7 @@ void cylinder_splat(
     double *CYLINDER_RESTRICT gradient_out) {
     const double gap = x[0] - mu[0];
     const double round_2 = rint(0.15915494309189535 * gap);
-    const double v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double v1 = x[1] - mu[1];
     const double z0 = W[0] * v0 + W[1] * v1;
     const double z1 = W[2] * v0 + W[3] * v1;
@@ -261,8 +256,7 @@ void cylinder_frame(const double *CYLINDER_RESTRICT p, double *CYLINDER_RESTRICT
 /* x, periodic coordinates wrapped */
 void cylinder_project_f(const float *CYLINDER_RESTRICT x, float *CYLINDER_RESTRICT p_out) {
     const float round_2 = rintf(0.15915494309189535f * x[0]);
-    const float p0 = x[0] - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float p0 = x[0] - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     p_out[0] = p0;
     p_out[1] = x[1];
 }
@@ -346,8 +340,7 @@ void cylinder_exp_f(
     float *CYLINDER_RESTRICT q_out) {
     const float total_2 = p[0] + v[0];
     const float round_2 = rintf(0.15915494309189535f * total_2);
-    const float q0 = total_2 - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f
-        * round_2;
+    const float q0 = total_2 - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float q1 = p[1] + v[1];
     q_out[0] = q0;
     q_out[1] = q1;
@@ -368,8 +361,7 @@ void cylinder_log_f(
     float *CYLINDER_RESTRICT v_out) {
     const float gap = q[0] - p[0];
     const float round_2 = rintf(0.15915494309189535f * gap);
-    const float v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float v1 = q[1] - p[1];
     v_out[0] = v0;
     v_out[1] = v1;
@@ -387,8 +379,7 @@ void cylinder_log_batch_f(
 float cylinder_distance_f(const float *CYLINDER_RESTRICT p, const float *CYLINDER_RESTRICT q) {
     const float gap = q[0] - p[0];
     const float round_2 = rintf(0.15915494309189535f * gap);
-    const float log0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float log0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float log1 = q[1] - p[1];
     return sqrtf(log0 * log0 + log1 * log1);
 }
@@ -458,8 +449,7 @@ void cylinder_splat_f(
     float *CYLINDER_RESTRICT gradient_out) {
     const float gap = x[0] - mu[0];
     const float round_2 = rintf(0.15915494309189535f * gap);
-    const float v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float v1 = x[1] - mu[1];
     const float z0 = W[0] * v0 + W[1] * v1;
     const float z1 = W[2] * v0 + W[3] * v1;

@@ -7,19 +7,19 @@
  * log |det D Log|: found to be 0, checked against the determinant.
  *
  *                       operations   float64  float32
- * project                        8
+ * project                        6
  * to_tangent                     0
  * inner                          3
  * norm                           4
  * flat                           0
- * exp                           10      <= 1     <= 1
- * log                           10      <= 1     <= 1
- * distance                      14      <= 1     <= 1
+ * exp                            8      <= 1     <= 1
+ * log                            8      <= 1     <= 1
+ * distance                      12      <= 1     <= 1
  * log_abs_det                    0      <= 1     <= 1
  * riemannian_gradient            0
  * gradient_norm                  4
- * splat                         33
- * splat_vjp                     72
+ * splat                         31
+ * splat_vjp                     70
  *
  * Errors are the worst of 36 points against 60 digits, in units of the error that rounding the
  * inputs and the output to the precision alone would cause.

@@ -11,47 +11,33 @@
 /* arm1: x, periodic coordinates wrapped, arm2: x, periodic coordinates wrapped */
 void dual_arm_project(const double *DUAL_ARM_RESTRICT x, double *DUAL_ARM_RESTRICT p_out) {
     const double round_2 = rint(0.15915494309189535 * x[0]);
-    const double p0 = x[0] - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double p0 = x[0] - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double round_3 = rint(0.15915494309189535 * x[1]);
-    const double p1 = x[1] - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const double p1 = x[1] - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const double round_4 = rint(0.15915494309189535 * x[2]);
-    const double p2 = x[2] - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
-        round_4;
+    const double p2 = x[2] - 6.28125 * round_4 - 0.001935307179586477 * round_4;
     const double round_5 = rint(0.15915494309189535 * x[3]);
-    const double p3 = x[3] - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
-        round_5;
+    const double p3 = x[3] - 6.28125 * round_5 - 0.001935307179586477 * round_5;
     const double round_6 = rint(0.15915494309189535 * x[4]);
-    const double p4 = x[4] - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
-        round_6;
+    const double p4 = x[4] - 6.28125 * round_6 - 0.001935307179586477 * round_6;
     const double round_7 = rint(0.15915494309189535 * x[5]);
-    const double p5 = x[5] - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
-        round_7;
+    const double p5 = x[5] - 6.28125 * round_7 - 0.001935307179586477 * round_7;
     const double round_8 = rint(0.15915494309189535 * x[6]);
-    const double p6 = x[6] - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
-        round_8;
+    const double p6 = x[6] - 6.28125 * round_8 - 0.001935307179586477 * round_8;
     const double round_9 = rint(0.15915494309189535 * x[7]);
-    const double p7 = x[7] - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 *
-        round_9;
+    const double p7 = x[7] - 6.28125 * round_9 - 0.001935307179586477 * round_9;
     const double round_10 = rint(0.15915494309189535 * x[8]);
-    const double p8 = x[8] - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07 *
-        round_10;
+    const double p8 = x[8] - 6.28125 * round_10 - 0.001935307179586477 * round_10;
     const double round_11 = rint(0.15915494309189535 * x[9]);
-    const double p9 = x[9] - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07 *
-        round_11;
+    const double p9 = x[9] - 6.28125 * round_11 - 0.001935307179586477 * round_11;
     const double round_12 = rint(0.15915494309189535 * x[10]);
-    const double p10 = x[10] - 6.28125 * round_12 - 0.0019350051879882812 * round_12 - 3.019915981956753e-07 *
-        round_12;
+    const double p10 = x[10] - 6.28125 * round_12 - 0.001935307179586477 * round_12;
     const double round_13 = rint(0.15915494309189535 * x[11]);
-    const double p11 = x[11] - 6.28125 * round_13 - 0.0019350051879882812 * round_13 - 3.019915981956753e-07 *
-        round_13;
+    const double p11 = x[11] - 6.28125 * round_13 - 0.001935307179586477 * round_13;
     const double round_14 = rint(0.15915494309189535 * x[12]);
-    const double p12 = x[12] - 6.28125 * round_14 - 0.0019350051879882812 * round_14 - 3.019915981956753e-07 *
-        round_14;
+    const double p12 = x[12] - 6.28125 * round_14 - 0.001935307179586477 * round_14;
     const double round_15 = rint(0.15915494309189535 * x[13]);
-    const double p13 = x[13] - 6.28125 * round_15 - 0.0019350051879882812 * round_15 - 3.019915981956753e-07 *
-        round_15;
+    const double p13 = x[13] - 6.28125 * round_15 - 0.001935307179586477 * round_15;
     p_out[0] = p0;
     p_out[1] = p1;
     p_out[2] = p2;
@@ -177,60 +163,46 @@ void dual_arm_exp(
     double *DUAL_ARM_RESTRICT q_out) {
     const double total_2 = p[0] + v[0];
     const double round_2 = rint(0.15915494309189535 * total_2);
-    const double q0 = total_2 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double q0 = total_2 - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double total_3 = p[1] + v[1];
     const double round_3 = rint(0.15915494309189535 * total_3);
-    const double q1 = total_3 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const double q1 = total_3 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const double total_4 = p[2] + v[2];
     const double round_4 = rint(0.15915494309189535 * total_4);
-    const double q2 = total_4 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
-        round_4;
+    const double q2 = total_4 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
     const double total_5 = p[3] + v[3];
     const double round_5 = rint(0.15915494309189535 * total_5);
-    const double q3 = total_5 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
-        round_5;
+    const double q3 = total_5 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
     const double total_6 = p[4] + v[4];
     const double round_6 = rint(0.15915494309189535 * total_6);
-    const double q4 = total_6 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
-        round_6;
+    const double q4 = total_6 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
     const double total_7 = p[5] + v[5];
     const double round_7 = rint(0.15915494309189535 * total_7);
-    const double q5 = total_7 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
-        round_7;
+    const double q5 = total_7 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
     const double total_8 = p[6] + v[6];
     const double round_8 = rint(0.15915494309189535 * total_8);
-    const double q6 = total_8 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
-        round_8;
+    const double q6 = total_8 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
     const double total_9 = p[7] + v[7];
     const double round_9 = rint(0.15915494309189535 * total_9);
-    const double q7 = total_9 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 *
-        round_9;
+    const double q7 = total_9 - 6.28125 * round_9 - 0.001935307179586477 * round_9;
     const double total_10 = p[8] + v[8];
     const double round_10 = rint(0.15915494309189535 * total_10);
-    const double q8 = total_10 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07
-        * round_10;
+    const double q8 = total_10 - 6.28125 * round_10 - 0.001935307179586477 * round_10;
     const double total_11 = p[9] + v[9];
     const double round_11 = rint(0.15915494309189535 * total_11);
-    const double q9 = total_11 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07
-        * round_11;
+    const double q9 = total_11 - 6.28125 * round_11 - 0.001935307179586477 * round_11;
     const double total_12 = p[10] + v[10];
     const double round_12 = rint(0.15915494309189535 * total_12);
-    const double q10 = total_12 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 -
-        3.019915981956753e-07 * round_12;
+    const double q10 = total_12 - 6.28125 * round_12 - 0.001935307179586477 * round_12;
     const double total_13 = p[11] + v[11];
     const double round_13 = rint(0.15915494309189535 * total_13);
-    const double q11 = total_13 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 -
-        3.019915981956753e-07 * round_13;
+    const double q11 = total_13 - 6.28125 * round_13 - 0.001935307179586477 * round_13;
     const double total_14 = p[12] + v[12];
     const double round_14 = rint(0.15915494309189535 * total_14);
-    const double q12 = total_14 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 -
-        3.019915981956753e-07 * round_14;
+    const double q12 = total_14 - 6.28125 * round_14 - 0.001935307179586477 * round_14;
     const double total_15 = p[13] + v[13];
     const double round_15 = rint(0.15915494309189535 * total_15);
-    const double q13 = total_15 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 -
-        3.019915981956753e-07 * round_15;
+    const double q13 = total_15 - 6.28125 * round_15 - 0.001935307179586477 * round_15;
     q_out[0] = q0;
     q_out[1] = q1;
     q_out[2] = q2;
@@ -262,60 +234,46 @@ void dual_arm_log(
     double *DUAL_ARM_RESTRICT v_out) {
     const double gap = q[0] - p[0];
     const double round_2 = rint(0.15915494309189535 * gap);
-    const double v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double gap_2 = q[1] - p[1];
     const double round_3 = rint(0.15915494309189535 * gap_2);
-    const double v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const double v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const double gap_3 = q[2] - p[2];
     const double round_4 = rint(0.15915494309189535 * gap_3);
-    const double v2 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
-        round_4;
+    const double v2 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
     const double gap_4 = q[3] - p[3];
     const double round_5 = rint(0.15915494309189535 * gap_4);
-    const double v3 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
-        round_5;
+    const double v3 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
     const double gap_5 = q[4] - p[4];
     const double round_6 = rint(0.15915494309189535 * gap_5);
-    const double v4 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
-        round_6;
+    const double v4 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
     const double gap_6 = q[5] - p[5];
     const double round_7 = rint(0.15915494309189535 * gap_6);
-    const double v5 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
-        round_7;
+    const double v5 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
     const double gap_7 = q[6] - p[6];
     const double round_8 = rint(0.15915494309189535 * gap_7);
-    const double v6 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
-        round_8;
+    const double v6 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
     const double gap_8 = q[7] - p[7];
     const double round_9 = rint(0.15915494309189535 * gap_8);
-    const double v7 = gap_8 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 *
-        round_9;
+    const double v7 = gap_8 - 6.28125 * round_9 - 0.001935307179586477 * round_9;
     const double gap_9 = q[8] - p[8];
     const double round_10 = rint(0.15915494309189535 * gap_9);
-    const double v8 = gap_9 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07 *
-        round_10;
+    const double v8 = gap_9 - 6.28125 * round_10 - 0.001935307179586477 * round_10;
     const double gap_10 = q[9] - p[9];
     const double round_11 = rint(0.15915494309189535 * gap_10);
-    const double v9 = gap_10 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07 *
-        round_11;
+    const double v9 = gap_10 - 6.28125 * round_11 - 0.001935307179586477 * round_11;
     const double gap_11 = q[10] - p[10];
     const double round_12 = rint(0.15915494309189535 * gap_11);
-    const double v10 = gap_11 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 - 3.019915981956753e-07
-        * round_12;
+    const double v10 = gap_11 - 6.28125 * round_12 - 0.001935307179586477 * round_12;
     const double gap_12 = q[11] - p[11];
     const double round_13 = rint(0.15915494309189535 * gap_12);
-    const double v11 = gap_12 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 - 3.019915981956753e-07
-        * round_13;
+    const double v11 = gap_12 - 6.28125 * round_13 - 0.001935307179586477 * round_13;
     const double gap_13 = q[12] - p[12];
     const double round_14 = rint(0.15915494309189535 * gap_13);
-    const double v12 = gap_13 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 - 3.019915981956753e-07
-        * round_14;
+    const double v12 = gap_13 - 6.28125 * round_14 - 0.001935307179586477 * round_14;
     const double gap_14 = q[13] - p[13];
     const double round_15 = rint(0.15915494309189535 * gap_14);
-    const double v13 = gap_14 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 - 3.019915981956753e-07
-        * round_15;
+    const double v13 = gap_14 - 6.28125 * round_15 - 0.001935307179586477 * round_15;
     v_out[0] = v0;
     v_out[1] = v1;
     v_out[2] = v2;
@@ -344,60 +302,46 @@ void dual_arm_log_batch(
 double dual_arm_distance(const double *DUAL_ARM_RESTRICT p, const double *DUAL_ARM_RESTRICT q) {
     const double gap = q[0] - p[0];
     const double round_2 = rint(0.15915494309189535 * gap);
-    const double arm1_log0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07
-        * round_2;
+    const double arm1_log0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double gap_2 = q[1] - p[1];
     const double round_3 = rint(0.15915494309189535 * gap_2);
-    const double arm1_log1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 -
-        3.019915981956753e-07 * round_3;
+    const double arm1_log1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const double gap_3 = q[2] - p[2];
     const double round_4 = rint(0.15915494309189535 * gap_3);
-    const double arm1_log2 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 -
-        3.019915981956753e-07 * round_4;
+    const double arm1_log2 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
     const double gap_4 = q[3] - p[3];
     const double round_5 = rint(0.15915494309189535 * gap_4);
-    const double arm1_log3 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 -
-        3.019915981956753e-07 * round_5;
+    const double arm1_log3 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
     const double gap_5 = q[4] - p[4];
     const double round_6 = rint(0.15915494309189535 * gap_5);
-    const double arm1_log4 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 -
-        3.019915981956753e-07 * round_6;
+    const double arm1_log4 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
     const double gap_6 = q[5] - p[5];
     const double round_7 = rint(0.15915494309189535 * gap_6);
-    const double arm1_log5 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 -
-        3.019915981956753e-07 * round_7;
+    const double arm1_log5 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
     const double gap_7 = q[6] - p[6];
     const double round_8 = rint(0.15915494309189535 * gap_7);
-    const double arm1_log6 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 -
-        3.019915981956753e-07 * round_8;
+    const double arm1_log6 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
     const double gap_8 = q[7] - p[7];
     const double round_9 = rint(0.15915494309189535 * gap_8);
-    const double arm2_log0 = gap_8 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 -
-        3.019915981956753e-07 * round_9;
+    const double arm2_log0 = gap_8 - 6.28125 * round_9 - 0.001935307179586477 * round_9;
     const double gap_9 = q[8] - p[8];
     const double round_10 = rint(0.15915494309189535 * gap_9);
-    const double arm2_log1 = gap_9 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 -
-        3.019915981956753e-07 * round_10;
+    const double arm2_log1 = gap_9 - 6.28125 * round_10 - 0.001935307179586477 * round_10;
     const double gap_10 = q[9] - p[9];
     const double round_11 = rint(0.15915494309189535 * gap_10);
-    const double arm2_log2 = gap_10 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 -
-        3.019915981956753e-07 * round_11;
+    const double arm2_log2 = gap_10 - 6.28125 * round_11 - 0.001935307179586477 * round_11;
     const double gap_11 = q[10] - p[10];
     const double round_12 = rint(0.15915494309189535 * gap_11);
-    const double arm2_log3 = gap_11 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 -
-        3.019915981956753e-07 * round_12;
+    const double arm2_log3 = gap_11 - 6.28125 * round_12 - 0.001935307179586477 * round_12;
     const double gap_12 = q[11] - p[11];
     const double round_13 = rint(0.15915494309189535 * gap_12);
-    const double arm2_log4 = gap_12 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 -
-        3.019915981956753e-07 * round_13;
+    const double arm2_log4 = gap_12 - 6.28125 * round_13 - 0.001935307179586477 * round_13;
     const double gap_13 = q[12] - p[12];
     const double round_14 = rint(0.15915494309189535 * gap_13);
-    const double arm2_log5 = gap_13 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 -
-        3.019915981956753e-07 * round_14;
+    const double arm2_log5 = gap_13 - 6.28125 * round_14 - 0.001935307179586477 * round_14;
     const double gap_14 = q[13] - p[13];
     const double round_15 = rint(0.15915494309189535 * gap_14);
-    const double arm2_log6 = gap_14 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 -
-        3.019915981956753e-07 * round_15;
+    const double arm2_log6 = gap_14 - 6.28125 * round_15 - 0.001935307179586477 * round_15;
     const double total_2 = arm1_log0 * arm1_log0 + arm1_log1 * arm1_log1 + arm1_log2 * arm1_log2 + arm1_log3 *
         arm1_log3 + arm1_log4 * arm1_log4;
     const double total_3 = total_2 + arm1_log5 * arm1_log5 + arm1_log6 * arm1_log6 + arm2_log0 * arm2_log0 +
@@ -518,47 +462,33 @@ void dual_arm_sample(
     double *DUAL_ARM_RESTRICT p_out) {
     (void)normal;
     const double round_2 = rint(uniform[0]);
-    const double p0 = 6.283185307179586 * uniform[0] - 6.28125 * round_2 - 0.0019350051879882812 * round_2 -
-        3.019915981956753e-07 * round_2;
+    const double p0 = 6.283185307179586 * uniform[0] - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double round_3 = rint(uniform[1]);
-    const double p1 = 6.283185307179586 * uniform[1] - 6.28125 * round_3 - 0.0019350051879882812 * round_3 -
-        3.019915981956753e-07 * round_3;
+    const double p1 = 6.283185307179586 * uniform[1] - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const double round_4 = rint(uniform[2]);
-    const double p2 = 6.283185307179586 * uniform[2] - 6.28125 * round_4 - 0.0019350051879882812 * round_4 -
-        3.019915981956753e-07 * round_4;
+    const double p2 = 6.283185307179586 * uniform[2] - 6.28125 * round_4 - 0.001935307179586477 * round_4;
     const double round_5 = rint(uniform[3]);
-    const double p3 = 6.283185307179586 * uniform[3] - 6.28125 * round_5 - 0.0019350051879882812 * round_5 -
-        3.019915981956753e-07 * round_5;
+    const double p3 = 6.283185307179586 * uniform[3] - 6.28125 * round_5 - 0.001935307179586477 * round_5;
     const double round_6 = rint(uniform[4]);
-    const double p4 = 6.283185307179586 * uniform[4] - 6.28125 * round_6 - 0.0019350051879882812 * round_6 -
-        3.019915981956753e-07 * round_6;
+    const double p4 = 6.283185307179586 * uniform[4] - 6.28125 * round_6 - 0.001935307179586477 * round_6;
     const double round_7 = rint(uniform[5]);
-    const double p5 = 6.283185307179586 * uniform[5] - 6.28125 * round_7 - 0.0019350051879882812 * round_7 -
-        3.019915981956753e-07 * round_7;
+    const double p5 = 6.283185307179586 * uniform[5] - 6.28125 * round_7 - 0.001935307179586477 * round_7;
     const double round_8 = rint(uniform[6]);
-    const double p6 = 6.283185307179586 * uniform[6] - 6.28125 * round_8 - 0.0019350051879882812 * round_8 -
-        3.019915981956753e-07 * round_8;
+    const double p6 = 6.283185307179586 * uniform[6] - 6.28125 * round_8 - 0.001935307179586477 * round_8;
     const double round_9 = rint(uniform[7]);
-    const double p7 = 6.283185307179586 * uniform[7] - 6.28125 * round_9 - 0.0019350051879882812 * round_9 -
-        3.019915981956753e-07 * round_9;
+    const double p7 = 6.283185307179586 * uniform[7] - 6.28125 * round_9 - 0.001935307179586477 * round_9;
     const double round_10 = rint(uniform[8]);
-    const double p8 = 6.283185307179586 * uniform[8] - 6.28125 * round_10 - 0.0019350051879882812 * round_10 -
-        3.019915981956753e-07 * round_10;
+    const double p8 = 6.283185307179586 * uniform[8] - 6.28125 * round_10 - 0.001935307179586477 * round_10;
     const double round_11 = rint(uniform[9]);
-    const double p9 = 6.283185307179586 * uniform[9] - 6.28125 * round_11 - 0.0019350051879882812 * round_11 -
-        3.019915981956753e-07 * round_11;
+    const double p9 = 6.283185307179586 * uniform[9] - 6.28125 * round_11 - 0.001935307179586477 * round_11;
     const double round_12 = rint(uniform[10]);
-    const double p10 = 6.283185307179586 * uniform[10] - 6.28125 * round_12 - 0.0019350051879882812 * round_12
-        - 3.019915981956753e-07 * round_12;
+    const double p10 = 6.283185307179586 * uniform[10] - 6.28125 * round_12 - 0.001935307179586477 * round_12;
     const double round_13 = rint(uniform[11]);
-    const double p11 = 6.283185307179586 * uniform[11] - 6.28125 * round_13 - 0.0019350051879882812 * round_13
-        - 3.019915981956753e-07 * round_13;
+    const double p11 = 6.283185307179586 * uniform[11] - 6.28125 * round_13 - 0.001935307179586477 * round_13;
     const double round_14 = rint(uniform[12]);
-    const double p12 = 6.283185307179586 * uniform[12] - 6.28125 * round_14 - 0.0019350051879882812 * round_14
-        - 3.019915981956753e-07 * round_14;
+    const double p12 = 6.283185307179586 * uniform[12] - 6.28125 * round_14 - 0.001935307179586477 * round_14;
     const double round_15 = rint(uniform[13]);
-    const double p13 = 6.283185307179586 * uniform[13] - 6.28125 * round_15 - 0.0019350051879882812 * round_15
-        - 3.019915981956753e-07 * round_15;
+    const double p13 = 6.283185307179586 * uniform[13] - 6.28125 * round_15 - 0.001935307179586477 * round_15;
     p_out[0] = p0;
     p_out[1] = p1;
     p_out[2] = p2;
@@ -593,60 +523,46 @@ void dual_arm_splat(
     double *DUAL_ARM_RESTRICT gradient_out) {
     const double gap = x[0] - mu[0];
     const double round_2 = rint(0.15915494309189535 * gap);
-    const double v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double gap_2 = x[1] - mu[1];
     const double round_3 = rint(0.15915494309189535 * gap_2);
-    const double v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const double v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const double gap_3 = x[2] - mu[2];
     const double round_4 = rint(0.15915494309189535 * gap_3);
-    const double v2 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
-        round_4;
+    const double v2 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
     const double gap_4 = x[3] - mu[3];
     const double round_5 = rint(0.15915494309189535 * gap_4);
-    const double v3 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
-        round_5;
+    const double v3 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
     const double gap_5 = x[4] - mu[4];
     const double round_6 = rint(0.15915494309189535 * gap_5);
-    const double v4 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
-        round_6;
+    const double v4 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
     const double gap_6 = x[5] - mu[5];
     const double round_7 = rint(0.15915494309189535 * gap_6);
-    const double v5 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
-        round_7;
+    const double v5 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
     const double gap_7 = x[6] - mu[6];
     const double round_8 = rint(0.15915494309189535 * gap_7);
-    const double v6 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
-        round_8;
+    const double v6 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
     const double gap_8 = x[7] - mu[7];
     const double round_9 = rint(0.15915494309189535 * gap_8);
-    const double v7 = gap_8 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 *
-        round_9;
+    const double v7 = gap_8 - 6.28125 * round_9 - 0.001935307179586477 * round_9;
     const double gap_9 = x[8] - mu[8];
     const double round_10 = rint(0.15915494309189535 * gap_9);
-    const double v8 = gap_9 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07 *
-        round_10;
+    const double v8 = gap_9 - 6.28125 * round_10 - 0.001935307179586477 * round_10;
     const double gap_10 = x[9] - mu[9];
     const double round_11 = rint(0.15915494309189535 * gap_10);
-    const double v9 = gap_10 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07 *
-        round_11;
+    const double v9 = gap_10 - 6.28125 * round_11 - 0.001935307179586477 * round_11;
     const double gap_11 = x[10] - mu[10];
     const double round_12 = rint(0.15915494309189535 * gap_11);
-    const double v10 = gap_11 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 - 3.019915981956753e-07
-        * round_12;
+    const double v10 = gap_11 - 6.28125 * round_12 - 0.001935307179586477 * round_12;
     const double gap_12 = x[11] - mu[11];
     const double round_13 = rint(0.15915494309189535 * gap_12);
-    const double v11 = gap_12 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 - 3.019915981956753e-07
-        * round_13;
+    const double v11 = gap_12 - 6.28125 * round_13 - 0.001935307179586477 * round_13;
     const double gap_13 = x[12] - mu[12];
     const double round_14 = rint(0.15915494309189535 * gap_13);
-    const double v12 = gap_13 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 - 3.019915981956753e-07
-        * round_14;
+    const double v12 = gap_13 - 6.28125 * round_14 - 0.001935307179586477 * round_14;
     const double gap_14 = x[13] - mu[13];
     const double round_15 = rint(0.15915494309189535 * gap_14);
-    const double v13 = gap_14 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 - 3.019915981956753e-07
-        * round_15;
+    const double v13 = gap_14 - 6.28125 * round_15 - 0.001935307179586477 * round_15;
     const double total_2 = W[0] * v0 + W[1] * v1 + W[2] * v2 + W[3] * v3 + W[4] * v4;
     const double total_3 = total_2 + W[5] * v5 + W[6] * v6 + W[7] * v7 + W[8] * v8;
     const double total_4 = total_3 + W[9] * v9 + W[10] * v10 + W[11] * v11 + W[12] * v12;
@@ -832,47 +748,33 @@ void dual_arm_frame(const double *DUAL_ARM_RESTRICT p, double *DUAL_ARM_RESTRICT
 /* arm1: x, periodic coordinates wrapped, arm2: x, periodic coordinates wrapped */
 void dual_arm_project_f(const float *DUAL_ARM_RESTRICT x, float *DUAL_ARM_RESTRICT p_out) {
     const float round_2 = rintf(0.15915494309189535f * x[0]);
-    const float p0 = x[0] - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float p0 = x[0] - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float round_3 = rintf(0.15915494309189535f * x[1]);
-    const float p1 = x[1] - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f *
-        round_3;
+    const float p1 = x[1] - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const float round_4 = rintf(0.15915494309189535f * x[2]);
-    const float p2 = x[2] - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f *
-        round_4;
+    const float p2 = x[2] - 6.28125f * round_4 - 0.001935307179586477f * round_4;
     const float round_5 = rintf(0.15915494309189535f * x[3]);
-    const float p3 = x[3] - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f *
-        round_5;
+    const float p3 = x[3] - 6.28125f * round_5 - 0.001935307179586477f * round_5;
     const float round_6 = rintf(0.15915494309189535f * x[4]);
-    const float p4 = x[4] - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f *
-        round_6;
+    const float p4 = x[4] - 6.28125f * round_6 - 0.001935307179586477f * round_6;
     const float round_7 = rintf(0.15915494309189535f * x[5]);
-    const float p5 = x[5] - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f *
-        round_7;
+    const float p5 = x[5] - 6.28125f * round_7 - 0.001935307179586477f * round_7;
     const float round_8 = rintf(0.15915494309189535f * x[6]);
-    const float p6 = x[6] - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f *
-        round_8;
+    const float p6 = x[6] - 6.28125f * round_8 - 0.001935307179586477f * round_8;
     const float round_9 = rintf(0.15915494309189535f * x[7]);
-    const float p7 = x[7] - 6.28125f * round_9 - 0.0019350051879882812f * round_9 - 3.019915981956753e-07f *
-        round_9;
+    const float p7 = x[7] - 6.28125f * round_9 - 0.001935307179586477f * round_9;
     const float round_10 = rintf(0.15915494309189535f * x[8]);
-    const float p8 = x[8] - 6.28125f * round_10 - 0.0019350051879882812f * round_10 - 3.019915981956753e-07f *
-        round_10;
+    const float p8 = x[8] - 6.28125f * round_10 - 0.001935307179586477f * round_10;
     const float round_11 = rintf(0.15915494309189535f * x[9]);
-    const float p9 = x[9] - 6.28125f * round_11 - 0.0019350051879882812f * round_11 - 3.019915981956753e-07f *
-        round_11;
+    const float p9 = x[9] - 6.28125f * round_11 - 0.001935307179586477f * round_11;
     const float round_12 = rintf(0.15915494309189535f * x[10]);
-    const float p10 = x[10] - 6.28125f * round_12 - 0.0019350051879882812f * round_12 - 3.019915981956753e-07f
-        * round_12;
+    const float p10 = x[10] - 6.28125f * round_12 - 0.001935307179586477f * round_12;
     const float round_13 = rintf(0.15915494309189535f * x[11]);
-    const float p11 = x[11] - 6.28125f * round_13 - 0.0019350051879882812f * round_13 - 3.019915981956753e-07f
-        * round_13;
+    const float p11 = x[11] - 6.28125f * round_13 - 0.001935307179586477f * round_13;
     const float round_14 = rintf(0.15915494309189535f * x[12]);
-    const float p12 = x[12] - 6.28125f * round_14 - 0.0019350051879882812f * round_14 - 3.019915981956753e-07f
-        * round_14;
+    const float p12 = x[12] - 6.28125f * round_14 - 0.001935307179586477f * round_14;
     const float round_15 = rintf(0.15915494309189535f * x[13]);
-    const float p13 = x[13] - 6.28125f * round_15 - 0.0019350051879882812f * round_15 - 3.019915981956753e-07f
-        * round_15;
+    const float p13 = x[13] - 6.28125f * round_15 - 0.001935307179586477f * round_15;
     p_out[0] = p0;
     p_out[1] = p1;
     p_out[2] = p2;
@@ -998,60 +900,46 @@ void dual_arm_exp_f(
     float *DUAL_ARM_RESTRICT q_out) {
     const float total_2 = p[0] + v[0];
     const float round_2 = rintf(0.15915494309189535f * total_2);
-    const float q0 = total_2 - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f
-        * round_2;
+    const float q0 = total_2 - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float total_3 = p[1] + v[1];
     const float round_3 = rintf(0.15915494309189535f * total_3);
-    const float q1 = total_3 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
-        * round_3;
+    const float q1 = total_3 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const float total_4 = p[2] + v[2];
     const float round_4 = rintf(0.15915494309189535f * total_4);
-    const float q2 = total_4 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f
-        * round_4;
+    const float q2 = total_4 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
     const float total_5 = p[3] + v[3];
     const float round_5 = rintf(0.15915494309189535f * total_5);
-    const float q3 = total_5 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f
-        * round_5;
+    const float q3 = total_5 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
     const float total_6 = p[4] + v[4];
     const float round_6 = rintf(0.15915494309189535f * total_6);
-    const float q4 = total_6 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f
-        * round_6;
+    const float q4 = total_6 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
     const float total_7 = p[5] + v[5];
     const float round_7 = rintf(0.15915494309189535f * total_7);
-    const float q5 = total_7 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f
-        * round_7;
+    const float q5 = total_7 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
     const float total_8 = p[6] + v[6];
     const float round_8 = rintf(0.15915494309189535f * total_8);
-    const float q6 = total_8 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f
-        * round_8;
+    const float q6 = total_8 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
     const float total_9 = p[7] + v[7];
     const float round_9 = rintf(0.15915494309189535f * total_9);
-    const float q7 = total_9 - 6.28125f * round_9 - 0.0019350051879882812f * round_9 - 3.019915981956753e-07f
-        * round_9;
+    const float q7 = total_9 - 6.28125f * round_9 - 0.001935307179586477f * round_9;
     const float total_10 = p[8] + v[8];
     const float round_10 = rintf(0.15915494309189535f * total_10);
-    const float q8 = total_10 - 6.28125f * round_10 - 0.0019350051879882812f * round_10 -
-        3.019915981956753e-07f * round_10;
+    const float q8 = total_10 - 6.28125f * round_10 - 0.001935307179586477f * round_10;
     const float total_11 = p[9] + v[9];
     const float round_11 = rintf(0.15915494309189535f * total_11);
-    const float q9 = total_11 - 6.28125f * round_11 - 0.0019350051879882812f * round_11 -
-        3.019915981956753e-07f * round_11;
+    const float q9 = total_11 - 6.28125f * round_11 - 0.001935307179586477f * round_11;
     const float total_12 = p[10] + v[10];
     const float round_12 = rintf(0.15915494309189535f * total_12);
-    const float q10 = total_12 - 6.28125f * round_12 - 0.0019350051879882812f * round_12 -
-        3.019915981956753e-07f * round_12;
+    const float q10 = total_12 - 6.28125f * round_12 - 0.001935307179586477f * round_12;
     const float total_13 = p[11] + v[11];
     const float round_13 = rintf(0.15915494309189535f * total_13);
-    const float q11 = total_13 - 6.28125f * round_13 - 0.0019350051879882812f * round_13 -
-        3.019915981956753e-07f * round_13;
+    const float q11 = total_13 - 6.28125f * round_13 - 0.001935307179586477f * round_13;
     const float total_14 = p[12] + v[12];
     const float round_14 = rintf(0.15915494309189535f * total_14);
-    const float q12 = total_14 - 6.28125f * round_14 - 0.0019350051879882812f * round_14 -
-        3.019915981956753e-07f * round_14;
+    const float q12 = total_14 - 6.28125f * round_14 - 0.001935307179586477f * round_14;
     const float total_15 = p[13] + v[13];
     const float round_15 = rintf(0.15915494309189535f * total_15);
-    const float q13 = total_15 - 6.28125f * round_15 - 0.0019350051879882812f * round_15 -
-        3.019915981956753e-07f * round_15;
+    const float q13 = total_15 - 6.28125f * round_15 - 0.001935307179586477f * round_15;
     q_out[0] = q0;
     q_out[1] = q1;
     q_out[2] = q2;
@@ -1083,60 +971,46 @@ void dual_arm_log_f(
     float *DUAL_ARM_RESTRICT v_out) {
     const float gap = q[0] - p[0];
     const float round_2 = rintf(0.15915494309189535f * gap);
-    const float v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float gap_2 = q[1] - p[1];
     const float round_3 = rintf(0.15915494309189535f * gap_2);
-    const float v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f *
-        round_3;
+    const float v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const float gap_3 = q[2] - p[2];
     const float round_4 = rintf(0.15915494309189535f * gap_3);
-    const float v2 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f *
-        round_4;
+    const float v2 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
     const float gap_4 = q[3] - p[3];
     const float round_5 = rintf(0.15915494309189535f * gap_4);
-    const float v3 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f *
-        round_5;
+    const float v3 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
     const float gap_5 = q[4] - p[4];
     const float round_6 = rintf(0.15915494309189535f * gap_5);
-    const float v4 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f *
-        round_6;
+    const float v4 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
     const float gap_6 = q[5] - p[5];
     const float round_7 = rintf(0.15915494309189535f * gap_6);
-    const float v5 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f *
-        round_7;
+    const float v5 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
     const float gap_7 = q[6] - p[6];
     const float round_8 = rintf(0.15915494309189535f * gap_7);
-    const float v6 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f *
-        round_8;
+    const float v6 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
     const float gap_8 = q[7] - p[7];
     const float round_9 = rintf(0.15915494309189535f * gap_8);
-    const float v7 = gap_8 - 6.28125f * round_9 - 0.0019350051879882812f * round_9 - 3.019915981956753e-07f *
-        round_9;
+    const float v7 = gap_8 - 6.28125f * round_9 - 0.001935307179586477f * round_9;
     const float gap_9 = q[8] - p[8];
     const float round_10 = rintf(0.15915494309189535f * gap_9);
-    const float v8 = gap_9 - 6.28125f * round_10 - 0.0019350051879882812f * round_10 - 3.019915981956753e-07f
-        * round_10;
+    const float v8 = gap_9 - 6.28125f * round_10 - 0.001935307179586477f * round_10;
     const float gap_10 = q[9] - p[9];
     const float round_11 = rintf(0.15915494309189535f * gap_10);
-    const float v9 = gap_10 - 6.28125f * round_11 - 0.0019350051879882812f * round_11 - 3.019915981956753e-07f
-        * round_11;
+    const float v9 = gap_10 - 6.28125f * round_11 - 0.001935307179586477f * round_11;
     const float gap_11 = q[10] - p[10];
     const float round_12 = rintf(0.15915494309189535f * gap_11);
-    const float v10 = gap_11 - 6.28125f * round_12 - 0.0019350051879882812f * round_12 -
-        3.019915981956753e-07f * round_12;
+    const float v10 = gap_11 - 6.28125f * round_12 - 0.001935307179586477f * round_12;
     const float gap_12 = q[11] - p[11];
     const float round_13 = rintf(0.15915494309189535f * gap_12);
-    const float v11 = gap_12 - 6.28125f * round_13 - 0.0019350051879882812f * round_13 -
-        3.019915981956753e-07f * round_13;
+    const float v11 = gap_12 - 6.28125f * round_13 - 0.001935307179586477f * round_13;
     const float gap_13 = q[12] - p[12];
     const float round_14 = rintf(0.15915494309189535f * gap_13);
-    const float v12 = gap_13 - 6.28125f * round_14 - 0.0019350051879882812f * round_14 -
-        3.019915981956753e-07f * round_14;
+    const float v12 = gap_13 - 6.28125f * round_14 - 0.001935307179586477f * round_14;
     const float gap_14 = q[13] - p[13];
     const float round_15 = rintf(0.15915494309189535f * gap_14);
-    const float v13 = gap_14 - 6.28125f * round_15 - 0.0019350051879882812f * round_15 -
-        3.019915981956753e-07f * round_15;
+    const float v13 = gap_14 - 6.28125f * round_15 - 0.001935307179586477f * round_15;
     v_out[0] = v0;
     v_out[1] = v1;
     v_out[2] = v2;
@@ -1165,60 +1039,46 @@ void dual_arm_log_batch_f(
 float dual_arm_distance_f(const float *DUAL_ARM_RESTRICT p, const float *DUAL_ARM_RESTRICT q) {
     const float gap = q[0] - p[0];
     const float round_2 = rintf(0.15915494309189535f * gap);
-    const float arm1_log0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 -
-        3.019915981956753e-07f * round_2;
+    const float arm1_log0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float gap_2 = q[1] - p[1];
     const float round_3 = rintf(0.15915494309189535f * gap_2);
-    const float arm1_log1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 -
-        3.019915981956753e-07f * round_3;
+    const float arm1_log1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const float gap_3 = q[2] - p[2];
     const float round_4 = rintf(0.15915494309189535f * gap_3);
-    const float arm1_log2 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 -
-        3.019915981956753e-07f * round_4;
+    const float arm1_log2 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
     const float gap_4 = q[3] - p[3];
     const float round_5 = rintf(0.15915494309189535f * gap_4);
-    const float arm1_log3 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 -
-        3.019915981956753e-07f * round_5;
+    const float arm1_log3 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
     const float gap_5 = q[4] - p[4];
     const float round_6 = rintf(0.15915494309189535f * gap_5);
-    const float arm1_log4 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 -
-        3.019915981956753e-07f * round_6;
+    const float arm1_log4 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
     const float gap_6 = q[5] - p[5];
     const float round_7 = rintf(0.15915494309189535f * gap_6);
-    const float arm1_log5 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 -
-        3.019915981956753e-07f * round_7;
+    const float arm1_log5 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
     const float gap_7 = q[6] - p[6];
     const float round_8 = rintf(0.15915494309189535f * gap_7);
-    const float arm1_log6 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 -
-        3.019915981956753e-07f * round_8;
+    const float arm1_log6 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
     const float gap_8 = q[7] - p[7];
     const float round_9 = rintf(0.15915494309189535f * gap_8);
-    const float arm2_log0 = gap_8 - 6.28125f * round_9 - 0.0019350051879882812f * round_9 -
-        3.019915981956753e-07f * round_9;
+    const float arm2_log0 = gap_8 - 6.28125f * round_9 - 0.001935307179586477f * round_9;
     const float gap_9 = q[8] - p[8];
     const float round_10 = rintf(0.15915494309189535f * gap_9);
-    const float arm2_log1 = gap_9 - 6.28125f * round_10 - 0.0019350051879882812f * round_10 -
-        3.019915981956753e-07f * round_10;
+    const float arm2_log1 = gap_9 - 6.28125f * round_10 - 0.001935307179586477f * round_10;
     const float gap_10 = q[9] - p[9];
     const float round_11 = rintf(0.15915494309189535f * gap_10);
-    const float arm2_log2 = gap_10 - 6.28125f * round_11 - 0.0019350051879882812f * round_11 -
-        3.019915981956753e-07f * round_11;
+    const float arm2_log2 = gap_10 - 6.28125f * round_11 - 0.001935307179586477f * round_11;
     const float gap_11 = q[10] - p[10];
     const float round_12 = rintf(0.15915494309189535f * gap_11);
-    const float arm2_log3 = gap_11 - 6.28125f * round_12 - 0.0019350051879882812f * round_12 -
-        3.019915981956753e-07f * round_12;
+    const float arm2_log3 = gap_11 - 6.28125f * round_12 - 0.001935307179586477f * round_12;
     const float gap_12 = q[11] - p[11];
     const float round_13 = rintf(0.15915494309189535f * gap_12);
-    const float arm2_log4 = gap_12 - 6.28125f * round_13 - 0.0019350051879882812f * round_13 -
-        3.019915981956753e-07f * round_13;
+    const float arm2_log4 = gap_12 - 6.28125f * round_13 - 0.001935307179586477f * round_13;
     const float gap_13 = q[12] - p[12];
     const float round_14 = rintf(0.15915494309189535f * gap_13);
-    const float arm2_log5 = gap_13 - 6.28125f * round_14 - 0.0019350051879882812f * round_14 -
-        3.019915981956753e-07f * round_14;
+    const float arm2_log5 = gap_13 - 6.28125f * round_14 - 0.001935307179586477f * round_14;
     const float gap_14 = q[13] - p[13];
     const float round_15 = rintf(0.15915494309189535f * gap_14);
-    const float arm2_log6 = gap_14 - 6.28125f * round_15 - 0.0019350051879882812f * round_15 -
-        3.019915981956753e-07f * round_15;
+    const float arm2_log6 = gap_14 - 6.28125f * round_15 - 0.001935307179586477f * round_15;
     const float total_2 = arm1_log0 * arm1_log0 + arm1_log1 * arm1_log1 + arm1_log2 * arm1_log2 + arm1_log3 *
         arm1_log3 + arm1_log4 * arm1_log4;
     const float total_3 = total_2 + arm1_log5 * arm1_log5 + arm1_log6 * arm1_log6 + arm2_log0 * arm2_log0 +
@@ -1338,47 +1198,37 @@ void dual_arm_sample_f(
     float *DUAL_ARM_RESTRICT p_out) {
     (void)normal;
     const float round_2 = rintf(uniform[0]);
-    const float p0 = 6.283185307179586f * uniform[0] - 6.28125f * round_2 - 0.0019350051879882812f * round_2 -
-        3.019915981956753e-07f * round_2;
+    const float p0 = 6.283185307179586f * uniform[0] - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float round_3 = rintf(uniform[1]);
-    const float p1 = 6.283185307179586f * uniform[1] - 6.28125f * round_3 - 0.0019350051879882812f * round_3 -
-        3.019915981956753e-07f * round_3;
+    const float p1 = 6.283185307179586f * uniform[1] - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const float round_4 = rintf(uniform[2]);
-    const float p2 = 6.283185307179586f * uniform[2] - 6.28125f * round_4 - 0.0019350051879882812f * round_4 -
-        3.019915981956753e-07f * round_4;
+    const float p2 = 6.283185307179586f * uniform[2] - 6.28125f * round_4 - 0.001935307179586477f * round_4;
     const float round_5 = rintf(uniform[3]);
-    const float p3 = 6.283185307179586f * uniform[3] - 6.28125f * round_5 - 0.0019350051879882812f * round_5 -
-        3.019915981956753e-07f * round_5;
+    const float p3 = 6.283185307179586f * uniform[3] - 6.28125f * round_5 - 0.001935307179586477f * round_5;
     const float round_6 = rintf(uniform[4]);
-    const float p4 = 6.283185307179586f * uniform[4] - 6.28125f * round_6 - 0.0019350051879882812f * round_6 -
-        3.019915981956753e-07f * round_6;
+    const float p4 = 6.283185307179586f * uniform[4] - 6.28125f * round_6 - 0.001935307179586477f * round_6;
     const float round_7 = rintf(uniform[5]);
-    const float p5 = 6.283185307179586f * uniform[5] - 6.28125f * round_7 - 0.0019350051879882812f * round_7 -
-        3.019915981956753e-07f * round_7;
+    const float p5 = 6.283185307179586f * uniform[5] - 6.28125f * round_7 - 0.001935307179586477f * round_7;
     const float round_8 = rintf(uniform[6]);
-    const float p6 = 6.283185307179586f * uniform[6] - 6.28125f * round_8 - 0.0019350051879882812f * round_8 -
-        3.019915981956753e-07f * round_8;
+    const float p6 = 6.283185307179586f * uniform[6] - 6.28125f * round_8 - 0.001935307179586477f * round_8;
     const float round_9 = rintf(uniform[7]);
-    const float p7 = 6.283185307179586f * uniform[7] - 6.28125f * round_9 - 0.0019350051879882812f * round_9 -
-        3.019915981956753e-07f * round_9;
+    const float p7 = 6.283185307179586f * uniform[7] - 6.28125f * round_9 - 0.001935307179586477f * round_9;
     const float round_10 = rintf(uniform[8]);
-    const float p8 = 6.283185307179586f * uniform[8] - 6.28125f * round_10 - 0.0019350051879882812f * round_10
-        - 3.019915981956753e-07f * round_10;
+    const float p8 = 6.283185307179586f * uniform[8] - 6.28125f * round_10 - 0.001935307179586477f * round_10;
     const float round_11 = rintf(uniform[9]);
-    const float p9 = 6.283185307179586f * uniform[9] - 6.28125f * round_11 - 0.0019350051879882812f * round_11
-        - 3.019915981956753e-07f * round_11;
+    const float p9 = 6.283185307179586f * uniform[9] - 6.28125f * round_11 - 0.001935307179586477f * round_11;
     const float round_12 = rintf(uniform[10]);
-    const float p10 = 6.283185307179586f * uniform[10] - 6.28125f * round_12 - 0.0019350051879882812f *
-        round_12 - 3.019915981956753e-07f * round_12;
+    const float p10 = 6.283185307179586f * uniform[10] - 6.28125f * round_12 - 0.001935307179586477f *
+        round_12;
     const float round_13 = rintf(uniform[11]);
-    const float p11 = 6.283185307179586f * uniform[11] - 6.28125f * round_13 - 0.0019350051879882812f *
-        round_13 - 3.019915981956753e-07f * round_13;
+    const float p11 = 6.283185307179586f * uniform[11] - 6.28125f * round_13 - 0.001935307179586477f *
+        round_13;
     const float round_14 = rintf(uniform[12]);
-    const float p12 = 6.283185307179586f * uniform[12] - 6.28125f * round_14 - 0.0019350051879882812f *
-        round_14 - 3.019915981956753e-07f * round_14;
+    const float p12 = 6.283185307179586f * uniform[12] - 6.28125f * round_14 - 0.001935307179586477f *
+        round_14;
     const float round_15 = rintf(uniform[13]);
-    const float p13 = 6.283185307179586f * uniform[13] - 6.28125f * round_15 - 0.0019350051879882812f *
-        round_15 - 3.019915981956753e-07f * round_15;
+    const float p13 = 6.283185307179586f * uniform[13] - 6.28125f * round_15 - 0.001935307179586477f *
+        round_15;
     p_out[0] = p0;
     p_out[1] = p1;
     p_out[2] = p2;
@@ -1413,60 +1263,46 @@ void dual_arm_splat_f(
     float *DUAL_ARM_RESTRICT gradient_out) {
     const float gap = x[0] - mu[0];
     const float round_2 = rintf(0.15915494309189535f * gap);
-    const float v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float gap_2 = x[1] - mu[1];
     const float round_3 = rintf(0.15915494309189535f * gap_2);
-    const float v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f *
-        round_3;
+    const float v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const float gap_3 = x[2] - mu[2];
     const float round_4 = rintf(0.15915494309189535f * gap_3);
-    const float v2 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f *
-        round_4;
+    const float v2 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
     const float gap_4 = x[3] - mu[3];
     const float round_5 = rintf(0.15915494309189535f * gap_4);
-    const float v3 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f *
-        round_5;
+    const float v3 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
     const float gap_5 = x[4] - mu[4];
     const float round_6 = rintf(0.15915494309189535f * gap_5);
-    const float v4 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f *
-        round_6;
+    const float v4 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
     const float gap_6 = x[5] - mu[5];
     const float round_7 = rintf(0.15915494309189535f * gap_6);
-    const float v5 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f *
-        round_7;
+    const float v5 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
     const float gap_7 = x[6] - mu[6];
     const float round_8 = rintf(0.15915494309189535f * gap_7);
-    const float v6 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f *
-        round_8;
+    const float v6 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
     const float gap_8 = x[7] - mu[7];
     const float round_9 = rintf(0.15915494309189535f * gap_8);
-    const float v7 = gap_8 - 6.28125f * round_9 - 0.0019350051879882812f * round_9 - 3.019915981956753e-07f *
-        round_9;
+    const float v7 = gap_8 - 6.28125f * round_9 - 0.001935307179586477f * round_9;
     const float gap_9 = x[8] - mu[8];
     const float round_10 = rintf(0.15915494309189535f * gap_9);
-    const float v8 = gap_9 - 6.28125f * round_10 - 0.0019350051879882812f * round_10 - 3.019915981956753e-07f
-        * round_10;
+    const float v8 = gap_9 - 6.28125f * round_10 - 0.001935307179586477f * round_10;
     const float gap_10 = x[9] - mu[9];
     const float round_11 = rintf(0.15915494309189535f * gap_10);
-    const float v9 = gap_10 - 6.28125f * round_11 - 0.0019350051879882812f * round_11 - 3.019915981956753e-07f
-        * round_11;
+    const float v9 = gap_10 - 6.28125f * round_11 - 0.001935307179586477f * round_11;
     const float gap_11 = x[10] - mu[10];
     const float round_12 = rintf(0.15915494309189535f * gap_11);
-    const float v10 = gap_11 - 6.28125f * round_12 - 0.0019350051879882812f * round_12 -
-        3.019915981956753e-07f * round_12;
+    const float v10 = gap_11 - 6.28125f * round_12 - 0.001935307179586477f * round_12;
     const float gap_12 = x[11] - mu[11];
     const float round_13 = rintf(0.15915494309189535f * gap_12);
-    const float v11 = gap_12 - 6.28125f * round_13 - 0.0019350051879882812f * round_13 -
-        3.019915981956753e-07f * round_13;
+    const float v11 = gap_12 - 6.28125f * round_13 - 0.001935307179586477f * round_13;
     const float gap_13 = x[12] - mu[12];
     const float round_14 = rintf(0.15915494309189535f * gap_13);
-    const float v12 = gap_13 - 6.28125f * round_14 - 0.0019350051879882812f * round_14 -
-        3.019915981956753e-07f * round_14;
+    const float v12 = gap_13 - 6.28125f * round_14 - 0.001935307179586477f * round_14;
     const float gap_14 = x[13] - mu[13];
     const float round_15 = rintf(0.15915494309189535f * gap_14);
-    const float v13 = gap_14 - 6.28125f * round_15 - 0.0019350051879882812f * round_15 -
-        3.019915981956753e-07f * round_15;
+    const float v13 = gap_14 - 6.28125f * round_15 - 0.001935307179586477f * round_15;
     const float total_2 = W[0] * v0 + W[1] * v1 + W[2] * v2 + W[3] * v3 + W[4] * v4;
     const float total_3 = total_2 + W[5] * v5 + W[6] * v6 + W[7] * v7 + W[8] * v8;
     const float total_4 = total_3 + W[9] * v9 + W[10] * v10 + W[11] * v11 + W[12] * v12;

@@ -7,21 +7,21 @@
  * log |det D Log|: the sum of those of the factors.
  *
  *                       operations   float64  float32
- * project                      112
+ * project                       84
  * to_tangent                     0
  * inner                         27
  * norm                          28
  * flat                           0
- * exp                          126      <= 1     <= 1
- * log                          126      <= 1     <= 1
- * distance                     154      <= 1     <= 1
+ * exp                           98      <= 1     <= 1
+ * log                           98      <= 1     <= 1
+ * distance                     126      <= 1     <= 1
  * log_abs_det                    0      <= 1     <= 1
  * riemannian_gradient            0
  * gradient_norm                 28
  * transport                      0
- * sample                       112
- * splat                        941
- * splat_vjp                   2372
+ * sample                        84
+ * splat                        913
+ * splat_vjp                   2344
  *
  * Errors are the worst of 36 points against 60 digits, in units of the error that rounding the
  * inputs and the output to the precision alone would cause.

@@ -6,21 +6,21 @@ Do not edit: change the manifold file and generate again.
 log |det D Log|: the sum of those of the factors.
 
                       operations   float64  float32
-project                      112
+project                       84
 to_tangent                     0
 inner                         27
 norm                          28
 flat                           0
-exp                          126      <= 1     <= 1
-log                          126      <= 1     <= 1
-distance                     154      <= 1     <= 1
+exp                           98      <= 1     <= 1
+log                           98      <= 1     <= 1
+distance                     126      <= 1     <= 1
 log_abs_det                    0      <= 1     <= 1
 riemannian_gradient            0
 gradient_norm                 28
 transport                      0
-sample                       112
-splat                        941
-splat_vjp                   2372
+sample                        84
+splat                        913
+splat_vjp                   2344
 
 Errors are the worst of 36 points against 60 digits, in units of the error that rounding the
 inputs and the output to the precision alone would cause.
@@ -182,33 +182,33 @@ class DualArm:
         """
         x0, x1, x2, x3, x4, x5, x6, x7, x8, x9, x10, x11, x12, x13 = x.unbind(-1)
         round_2 = torch.round(0.15915494309189535 * x0)
-        p0 = x0 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        p0 = x0 - 6.28125 * round_2 - 0.001935307179586477 * round_2
         round_3 = torch.round(0.15915494309189535 * x1)
-        p1 = x1 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        p1 = x1 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         round_4 = torch.round(0.15915494309189535 * x2)
-        p2 = x2 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 * round_4
+        p2 = x2 - 6.28125 * round_4 - 0.001935307179586477 * round_4
         round_5 = torch.round(0.15915494309189535 * x3)
-        p3 = x3 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 * round_5
+        p3 = x3 - 6.28125 * round_5 - 0.001935307179586477 * round_5
         round_6 = torch.round(0.15915494309189535 * x4)
-        p4 = x4 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 * round_6
+        p4 = x4 - 6.28125 * round_6 - 0.001935307179586477 * round_6
         round_7 = torch.round(0.15915494309189535 * x5)
-        p5 = x5 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 * round_7
+        p5 = x5 - 6.28125 * round_7 - 0.001935307179586477 * round_7
         round_8 = torch.round(0.15915494309189535 * x6)
-        p6 = x6 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 * round_8
+        p6 = x6 - 6.28125 * round_8 - 0.001935307179586477 * round_8
         round_9 = torch.round(0.15915494309189535 * x7)
-        p7 = x7 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 * round_9
+        p7 = x7 - 6.28125 * round_9 - 0.001935307179586477 * round_9
         round_10 = torch.round(0.15915494309189535 * x8)
-        p8 = x8 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07 * round_10
+        p8 = x8 - 6.28125 * round_10 - 0.001935307179586477 * round_10
         round_11 = torch.round(0.15915494309189535 * x9)
-        p9 = x9 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07 * round_11
+        p9 = x9 - 6.28125 * round_11 - 0.001935307179586477 * round_11
         round_12 = torch.round(0.15915494309189535 * x10)
-        p10 = x10 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 - 3.019915981956753e-07 * round_12
+        p10 = x10 - 6.28125 * round_12 - 0.001935307179586477 * round_12
         round_13 = torch.round(0.15915494309189535 * x11)
-        p11 = x11 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 - 3.019915981956753e-07 * round_13
+        p11 = x11 - 6.28125 * round_13 - 0.001935307179586477 * round_13
         round_14 = torch.round(0.15915494309189535 * x12)
-        p12 = x12 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 - 3.019915981956753e-07 * round_14
+        p12 = x12 - 6.28125 * round_14 - 0.001935307179586477 * round_14
         round_15 = torch.round(0.15915494309189535 * x13)
-        p13 = x13 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 - 3.019915981956753e-07 * round_15
+        p13 = x13 - 6.28125 * round_15 - 0.001935307179586477 * round_15
         return _stack((p0, p1, p2, p3, p4, p5, p6, p7, p8, p9, p10, p11, p12, p13))
 
     def to_tangent(self, p: Tensor, x: Tensor) -> Tensor:
@@ -264,46 +264,46 @@ class DualArm:
         v0, v1, v2, v3, v4, v5, v6, v7, v8, v9, v10, v11, v12, v13 = v.unbind(-1)
         total_2 = p0 + v0
         round_2 = torch.round(0.15915494309189535 * total_2)
-        q0 = total_2 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        q0 = total_2 - 6.28125 * round_2 - 0.001935307179586477 * round_2
         total_3 = p1 + v1
         round_3 = torch.round(0.15915494309189535 * total_3)
-        q1 = total_3 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        q1 = total_3 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         total_4 = p2 + v2
         round_4 = torch.round(0.15915494309189535 * total_4)
-        q2 = total_4 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 * round_4
+        q2 = total_4 - 6.28125 * round_4 - 0.001935307179586477 * round_4
         total_5 = p3 + v3
         round_5 = torch.round(0.15915494309189535 * total_5)
-        q3 = total_5 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 * round_5
+        q3 = total_5 - 6.28125 * round_5 - 0.001935307179586477 * round_5
         total_6 = p4 + v4
         round_6 = torch.round(0.15915494309189535 * total_6)
-        q4 = total_6 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 * round_6
+        q4 = total_6 - 6.28125 * round_6 - 0.001935307179586477 * round_6
         total_7 = p5 + v5
         round_7 = torch.round(0.15915494309189535 * total_7)
-        q5 = total_7 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 * round_7
+        q5 = total_7 - 6.28125 * round_7 - 0.001935307179586477 * round_7
         total_8 = p6 + v6
         round_8 = torch.round(0.15915494309189535 * total_8)
-        q6 = total_8 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 * round_8
+        q6 = total_8 - 6.28125 * round_8 - 0.001935307179586477 * round_8
         total_9 = p7 + v7
         round_9 = torch.round(0.15915494309189535 * total_9)
-        q7 = total_9 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 * round_9
+        q7 = total_9 - 6.28125 * round_9 - 0.001935307179586477 * round_9
         total_10 = p8 + v8
         round_10 = torch.round(0.15915494309189535 * total_10)
-        q8 = total_10 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07 * round_10
+        q8 = total_10 - 6.28125 * round_10 - 0.001935307179586477 * round_10
         total_11 = p9 + v9
         round_11 = torch.round(0.15915494309189535 * total_11)
-        q9 = total_11 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07 * round_11
+        q9 = total_11 - 6.28125 * round_11 - 0.001935307179586477 * round_11
         total_12 = p10 + v10
         round_12 = torch.round(0.15915494309189535 * total_12)
-        q10 = total_12 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 - 3.019915981956753e-07 * round_12
+        q10 = total_12 - 6.28125 * round_12 - 0.001935307179586477 * round_12
         total_13 = p11 + v11
         round_13 = torch.round(0.15915494309189535 * total_13)
-        q11 = total_13 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 - 3.019915981956753e-07 * round_13
+        q11 = total_13 - 6.28125 * round_13 - 0.001935307179586477 * round_13
         total_14 = p12 + v12
         round_14 = torch.round(0.15915494309189535 * total_14)
-        q12 = total_14 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 - 3.019915981956753e-07 * round_14
+        q12 = total_14 - 6.28125 * round_14 - 0.001935307179586477 * round_14
         total_15 = p13 + v13
         round_15 = torch.round(0.15915494309189535 * total_15)
-        q13 = total_15 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 - 3.019915981956753e-07 * round_15
+        q13 = total_15 - 6.28125 * round_15 - 0.001935307179586477 * round_15
         return _stack((q0, q1, q2, q3, q4, q5, q6, q7, q8, q9, q10, q11, q12, q13))
 
     def log(self, p: Tensor, q: Tensor) -> Tensor:
@@ -316,46 +316,46 @@ class DualArm:
         q0, q1, q2, q3, q4, q5, q6, q7, q8, q9, q10, q11, q12, q13 = q.unbind(-1)
         gap = q0 - p0
         round_2 = torch.round(0.15915494309189535 * gap)
-        v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2
         gap_2 = q1 - p1
         round_3 = torch.round(0.15915494309189535 * gap_2)
-        v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         gap_3 = q2 - p2
         round_4 = torch.round(0.15915494309189535 * gap_3)
-        v2 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 * round_4
+        v2 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4
         gap_4 = q3 - p3
         round_5 = torch.round(0.15915494309189535 * gap_4)
-        v3 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 * round_5
+        v3 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5
         gap_5 = q4 - p4
         round_6 = torch.round(0.15915494309189535 * gap_5)
-        v4 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 * round_6
+        v4 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6
         gap_6 = q5 - p5
         round_7 = torch.round(0.15915494309189535 * gap_6)
-        v5 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 * round_7
+        v5 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7
         gap_7 = q6 - p6
         round_8 = torch.round(0.15915494309189535 * gap_7)
-        v6 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 * round_8
+        v6 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8
         gap_8 = q7 - p7
         round_9 = torch.round(0.15915494309189535 * gap_8)
-        v7 = gap_8 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 * round_9
+        v7 = gap_8 - 6.28125 * round_9 - 0.001935307179586477 * round_9
         gap_9 = q8 - p8
         round_10 = torch.round(0.15915494309189535 * gap_9)
-        v8 = gap_9 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07 * round_10
+        v8 = gap_9 - 6.28125 * round_10 - 0.001935307179586477 * round_10
         gap_10 = q9 - p9
         round_11 = torch.round(0.15915494309189535 * gap_10)
-        v9 = gap_10 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07 * round_11
+        v9 = gap_10 - 6.28125 * round_11 - 0.001935307179586477 * round_11
         gap_11 = q10 - p10
         round_12 = torch.round(0.15915494309189535 * gap_11)
-        v10 = gap_11 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 - 3.019915981956753e-07 * round_12
+        v10 = gap_11 - 6.28125 * round_12 - 0.001935307179586477 * round_12
         gap_12 = q11 - p11
         round_13 = torch.round(0.15915494309189535 * gap_12)
-        v11 = gap_12 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 - 3.019915981956753e-07 * round_13
+        v11 = gap_12 - 6.28125 * round_13 - 0.001935307179586477 * round_13
         gap_13 = q12 - p12
         round_14 = torch.round(0.15915494309189535 * gap_13)
-        v12 = gap_13 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 - 3.019915981956753e-07 * round_14
+        v12 = gap_13 - 6.28125 * round_14 - 0.001935307179586477 * round_14
         gap_14 = q13 - p13
         round_15 = torch.round(0.15915494309189535 * gap_14)
-        v13 = gap_14 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 - 3.019915981956753e-07 * round_15
+        v13 = gap_14 - 6.28125 * round_15 - 0.001935307179586477 * round_15
         return _stack((v0, v1, v2, v3, v4, v5, v6, v7, v8, v9, v10, v11, v12, v13))
 
     def distance(self, p: Tensor, q: Tensor) -> Tensor:
@@ -368,46 +368,46 @@ class DualArm:
         q0, q1, q2, q3, q4, q5, q6, q7, q8, q9, q10, q11, q12, q13 = q.unbind(-1)
         gap = q0 - p0
         round_2 = torch.round(0.15915494309189535 * gap)
-        arm1_log0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        arm1_log0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2
         gap_2 = q1 - p1
         round_3 = torch.round(0.15915494309189535 * gap_2)
-        arm1_log1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        arm1_log1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         gap_3 = q2 - p2
         round_4 = torch.round(0.15915494309189535 * gap_3)
-        arm1_log2 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 * round_4
+        arm1_log2 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4
         gap_4 = q3 - p3
         round_5 = torch.round(0.15915494309189535 * gap_4)
-        arm1_log3 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 * round_5
+        arm1_log3 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5
         gap_5 = q4 - p4
         round_6 = torch.round(0.15915494309189535 * gap_5)
-        arm1_log4 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 * round_6
+        arm1_log4 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6
         gap_6 = q5 - p5
         round_7 = torch.round(0.15915494309189535 * gap_6)
-        arm1_log5 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 * round_7
+        arm1_log5 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7
         gap_7 = q6 - p6
         round_8 = torch.round(0.15915494309189535 * gap_7)
-        arm1_log6 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 * round_8
+        arm1_log6 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8
         gap_8 = q7 - p7
         round_9 = torch.round(0.15915494309189535 * gap_8)
-        arm2_log0 = gap_8 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 * round_9
+        arm2_log0 = gap_8 - 6.28125 * round_9 - 0.001935307179586477 * round_9
         gap_9 = q8 - p8
         round_10 = torch.round(0.15915494309189535 * gap_9)
-        arm2_log1 = gap_9 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07 * round_10
+        arm2_log1 = gap_9 - 6.28125 * round_10 - 0.001935307179586477 * round_10
         gap_10 = q9 - p9
         round_11 = torch.round(0.15915494309189535 * gap_10)
-        arm2_log2 = gap_10 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07 * round_11
+        arm2_log2 = gap_10 - 6.28125 * round_11 - 0.001935307179586477 * round_11
         gap_11 = q10 - p10
         round_12 = torch.round(0.15915494309189535 * gap_11)
-        arm2_log3 = gap_11 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 - 3.019915981956753e-07 * round_12
+        arm2_log3 = gap_11 - 6.28125 * round_12 - 0.001935307179586477 * round_12
         gap_12 = q11 - p11
         round_13 = torch.round(0.15915494309189535 * gap_12)
-        arm2_log4 = gap_12 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 - 3.019915981956753e-07 * round_13
+        arm2_log4 = gap_12 - 6.28125 * round_13 - 0.001935307179586477 * round_13
         gap_13 = q12 - p12
         round_14 = torch.round(0.15915494309189535 * gap_13)
-        arm2_log5 = gap_13 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 - 3.019915981956753e-07 * round_14
+        arm2_log5 = gap_13 - 6.28125 * round_14 - 0.001935307179586477 * round_14
         gap_14 = q13 - p13
         round_15 = torch.round(0.15915494309189535 * gap_14)
-        arm2_log6 = gap_14 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 - 3.019915981956753e-07 * round_15
+        arm2_log6 = gap_14 - 6.28125 * round_15 - 0.001935307179586477 * round_15
         total_2 = (
             arm1_log0 * arm1_log0 + arm1_log1 * arm1_log1 + arm1_log2 * arm1_log2 + arm1_log3 * arm1_log3 + arm1_log4 *
             arm1_log4
@@ -469,75 +469,33 @@ class DualArm:
             uniform10, uniform11, uniform12, uniform13,
         ) = uniform.unbind(-1)
         round_2 = torch.round(uniform0)
-        p0 = (
-            6.283185307179586 * uniform0 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-            round_2
-        )
+        p0 = 6.283185307179586 * uniform0 - 6.28125 * round_2 - 0.001935307179586477 * round_2
         round_3 = torch.round(uniform1)
-        p1 = (
-            6.283185307179586 * uniform1 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-            round_3
-        )
+        p1 = 6.283185307179586 * uniform1 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         round_4 = torch.round(uniform2)
-        p2 = (
-            6.283185307179586 * uniform2 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
-            round_4
-        )
+        p2 = 6.283185307179586 * uniform2 - 6.28125 * round_4 - 0.001935307179586477 * round_4
         round_5 = torch.round(uniform3)
-        p3 = (
-            6.283185307179586 * uniform3 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
-            round_5
-        )
+        p3 = 6.283185307179586 * uniform3 - 6.28125 * round_5 - 0.001935307179586477 * round_5
         round_6 = torch.round(uniform4)
-        p4 = (
-            6.283185307179586 * uniform4 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
-            round_6
-        )
+        p4 = 6.283185307179586 * uniform4 - 6.28125 * round_6 - 0.001935307179586477 * round_6
         round_7 = torch.round(uniform5)
-        p5 = (
-            6.283185307179586 * uniform5 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
-            round_7
-        )
+        p5 = 6.283185307179586 * uniform5 - 6.28125 * round_7 - 0.001935307179586477 * round_7
         round_8 = torch.round(uniform6)
-        p6 = (
-            6.283185307179586 * uniform6 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
-            round_8
-        )
+        p6 = 6.283185307179586 * uniform6 - 6.28125 * round_8 - 0.001935307179586477 * round_8
         round_9 = torch.round(uniform7)
-        p7 = (
-            6.283185307179586 * uniform7 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 *
-            round_9
-        )
+        p7 = 6.283185307179586 * uniform7 - 6.28125 * round_9 - 0.001935307179586477 * round_9
         round_10 = torch.round(uniform8)
-        p8 = (
-            6.283185307179586 * uniform8 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07
-            * round_10
-        )
+        p8 = 6.283185307179586 * uniform8 - 6.28125 * round_10 - 0.001935307179586477 * round_10
         round_11 = torch.round(uniform9)
-        p9 = (
-            6.283185307179586 * uniform9 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07
-            * round_11
-        )
+        p9 = 6.283185307179586 * uniform9 - 6.28125 * round_11 - 0.001935307179586477 * round_11
         round_12 = torch.round(uniform10)
-        p10 = (
-            6.283185307179586 * uniform10 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 -
-            3.019915981956753e-07 * round_12
-        )
+        p10 = 6.283185307179586 * uniform10 - 6.28125 * round_12 - 0.001935307179586477 * round_12
         round_13 = torch.round(uniform11)
-        p11 = (
-            6.283185307179586 * uniform11 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 -
-            3.019915981956753e-07 * round_13
-        )
+        p11 = 6.283185307179586 * uniform11 - 6.28125 * round_13 - 0.001935307179586477 * round_13
         round_14 = torch.round(uniform12)
-        p12 = (
-            6.283185307179586 * uniform12 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 -
-            3.019915981956753e-07 * round_14
-        )
+        p12 = 6.283185307179586 * uniform12 - 6.28125 * round_14 - 0.001935307179586477 * round_14
         round_15 = torch.round(uniform13)
-        p13 = (
-            6.283185307179586 * uniform13 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 -
-            3.019915981956753e-07 * round_15
-        )
+        p13 = 6.283185307179586 * uniform13 - 6.28125 * round_15 - 0.001935307179586477 * round_15
         return _stack((_rows(p0, normal, uniform), p1, p2, p3, p4, p5, p6, p7, p8, p9, p10, p11, p12, p13))
 
     def splat(self, x: Tensor, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, Tensor]:
@@ -570,46 +528,46 @@ class DualArm:
         ) = W.flatten(-2).unbind(-1)
         gap = x0 - mu0
         round_2 = torch.round(0.15915494309189535 * gap)
-        v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2
         gap_2 = x1 - mu1
         round_3 = torch.round(0.15915494309189535 * gap_2)
-        v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         gap_3 = x2 - mu2
         round_4 = torch.round(0.15915494309189535 * gap_3)
-        v2 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 * round_4
+        v2 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4
         gap_4 = x3 - mu3
         round_5 = torch.round(0.15915494309189535 * gap_4)
-        v3 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 * round_5
+        v3 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5
         gap_5 = x4 - mu4
         round_6 = torch.round(0.15915494309189535 * gap_5)
-        v4 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 * round_6
+        v4 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6
         gap_6 = x5 - mu5
         round_7 = torch.round(0.15915494309189535 * gap_6)
-        v5 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 * round_7
+        v5 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7
         gap_7 = x6 - mu6
         round_8 = torch.round(0.15915494309189535 * gap_7)
-        v6 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 * round_8
+        v6 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8
         gap_8 = x7 - mu7
         round_9 = torch.round(0.15915494309189535 * gap_8)
-        v7 = gap_8 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 * round_9
+        v7 = gap_8 - 6.28125 * round_9 - 0.001935307179586477 * round_9
         gap_9 = x8 - mu8
         round_10 = torch.round(0.15915494309189535 * gap_9)
-        v8 = gap_9 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07 * round_10
+        v8 = gap_9 - 6.28125 * round_10 - 0.001935307179586477 * round_10
         gap_10 = x9 - mu9
         round_11 = torch.round(0.15915494309189535 * gap_10)
-        v9 = gap_10 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07 * round_11
+        v9 = gap_10 - 6.28125 * round_11 - 0.001935307179586477 * round_11
         gap_11 = x10 - mu10
         round_12 = torch.round(0.15915494309189535 * gap_11)
-        v10 = gap_11 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 - 3.019915981956753e-07 * round_12
+        v10 = gap_11 - 6.28125 * round_12 - 0.001935307179586477 * round_12
         gap_12 = x11 - mu11
         round_13 = torch.round(0.15915494309189535 * gap_12)
-        v11 = gap_12 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 - 3.019915981956753e-07 * round_13
+        v11 = gap_12 - 6.28125 * round_13 - 0.001935307179586477 * round_13
         gap_13 = x12 - mu12
         round_14 = torch.round(0.15915494309189535 * gap_13)
-        v12 = gap_13 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 - 3.019915981956753e-07 * round_14
+        v12 = gap_13 - 6.28125 * round_14 - 0.001935307179586477 * round_14
         gap_14 = x13 - mu13
         round_15 = torch.round(0.15915494309189535 * gap_14)
-        v13 = gap_14 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 - 3.019915981956753e-07 * round_15
+        v13 = gap_14 - 6.28125 * round_15 - 0.001935307179586477 * round_15
         total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4
         total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8
         total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12
@@ -852,7 +810,7 @@ class DualArm:
     ) -> tuple[Tensor, Tensor, Tensor]:
         """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu (K, D), W (K, d, T) and amplitude (K)."""
         S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
-        total = torch.zeros((len(S), len(mu)), dtype=x.dtype, device=x.device)
+        total = torch.zeros((), dtype=x.dtype, device=x.device)
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         for part, *bars in zip(*parts, strict=True):
             total = total + torch.stack(_sums(self._pair_bars(part, S, *bars), len(part), len(mu), 0))
@@ -866,15 +824,15 @@ class DualArm:
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         rows = []
         for part, *bars in zip(*parts, strict=True):
-            S_bar = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
-            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, S_bar)
+            sums = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
+            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, sums)
             rows.append(torch.cat([by_mu, by_W.flatten(-2), by_amplitude.unsqueeze(-1)], -1))
         return torch.cat(rows)
 
     def _pair_bars(
         self, x: Tensor, S: Sequence[Tensor], value_bar: Tensor, gradient_bar: Tensor
     ) -> tuple[Tensor, ...]:
-        """The derivatives in S of every pair, from those in the sums."""
+        """What every pair adds to the sums of its splat, from the derivatives in values and gradients."""
         X = [entry.unsqueeze(-1) for entry in self._point_features(x)]
         slope_bar = [entry.unsqueeze(-1) for entry in self._point_gradient_vjp(x, gradient_bar)]
         return self._pair_vjp(X, S, value_bar.unsqueeze(-1), slope_bar)
@@ -1136,49 +1094,49 @@ class DualArm:
         ) = S
         gap = x0 - mu0
         round_2 = torch.round(0.15915494309189535 * gap)
-        v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2
         gap_2 = x1 - mu1
         round_3 = torch.round(0.15915494309189535 * gap_2)
-        v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         gap_3 = x2 - mu2
         round_4 = torch.round(0.15915494309189535 * gap_3)
-        v2 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 * round_4
+        v2 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4
         gap_4 = x3 - mu3
         round_5 = torch.round(0.15915494309189535 * gap_4)
-        v3 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 * round_5
+        v3 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5
         gap_5 = x4 - mu4
         round_6 = torch.round(0.15915494309189535 * gap_5)
-        v4 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 * round_6
+        v4 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6
         total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4
         gap_6 = x5 - mu5
         round_7 = torch.round(0.15915494309189535 * gap_6)
-        v5 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 * round_7
+        v5 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7
         gap_7 = x6 - mu6
         round_8 = torch.round(0.15915494309189535 * gap_7)
-        v6 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 * round_8
+        v6 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8
         gap_8 = x7 - mu7
         round_9 = torch.round(0.15915494309189535 * gap_8)
-        v7 = gap_8 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 * round_9
+        v7 = gap_8 - 6.28125 * round_9 - 0.001935307179586477 * round_9
         gap_9 = x8 - mu8
         round_10 = torch.round(0.15915494309189535 * gap_9)
-        v8 = gap_9 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07 * round_10
+        v8 = gap_9 - 6.28125 * round_10 - 0.001935307179586477 * round_10
         total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8
         gap_10 = x9 - mu9
         round_11 = torch.round(0.15915494309189535 * gap_10)
-        v9 = gap_10 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07 * round_11
+        v9 = gap_10 - 6.28125 * round_11 - 0.001935307179586477 * round_11
         gap_11 = x10 - mu10
         round_12 = torch.round(0.15915494309189535 * gap_11)
-        v10 = gap_11 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 - 3.019915981956753e-07 * round_12
+        v10 = gap_11 - 6.28125 * round_12 - 0.001935307179586477 * round_12
         gap_12 = x11 - mu11
         round_13 = torch.round(0.15915494309189535 * gap_12)
-        v11 = gap_12 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 - 3.019915981956753e-07 * round_13
+        v11 = gap_12 - 6.28125 * round_13 - 0.001935307179586477 * round_13
         gap_13 = x12 - mu12
         round_14 = torch.round(0.15915494309189535 * gap_13)
-        v12 = gap_13 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 - 3.019915981956753e-07 * round_14
+        v12 = gap_13 - 6.28125 * round_14 - 0.001935307179586477 * round_14
         total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12
         gap_14 = x13 - mu13
         round_15 = torch.round(0.15915494309189535 * gap_14)
-        v13 = gap_14 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 - 3.019915981956753e-07 * round_15
+        v13 = gap_14 - 6.28125 * round_15 - 0.001935307179586477 * round_15
         z0 = total_4 + W0_13 * v13
         total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4
         total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8
@@ -1235,9 +1193,9 @@ class DualArm:
         total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8
         total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12
         z13 = total_46 + W13_13 * v13
-        exp_2 = torch.exp(-(0.5 * (total_43 + z13 * z13)))
-        phi = amplitude * exp_2
-        return (phi,)
+        phi = torch.exp(-(0.5 * (total_43 + z13 * z13)))
+        phi_2 = amplitude * phi
+        return (phi_2,)
 
     def _pair(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
         """The value of a splat at a point, and the slope, its derivatives in X."""
@@ -1259,49 +1217,49 @@ class DualArm:
         ) = S
         gap = x0 - mu0
         round_2 = torch.round(0.15915494309189535 * gap)
-        v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2
         gap_2 = x1 - mu1
         round_3 = torch.round(0.15915494309189535 * gap_2)
-        v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         gap_3 = x2 - mu2
         round_4 = torch.round(0.15915494309189535 * gap_3)
-        v2 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 * round_4
+        v2 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4
         gap_4 = x3 - mu3
         round_5 = torch.round(0.15915494309189535 * gap_4)
-        v3 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 * round_5
+        v3 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5
         gap_5 = x4 - mu4
         round_6 = torch.round(0.15915494309189535 * gap_5)
-        v4 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 * round_6
+        v4 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6
         total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4
         gap_6 = x5 - mu5
         round_7 = torch.round(0.15915494309189535 * gap_6)
-        v5 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 * round_7
+        v5 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7
         gap_7 = x6 - mu6
         round_8 = torch.round(0.15915494309189535 * gap_7)
-        v6 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 * round_8
+        v6 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8
         gap_8 = x7 - mu7
         round_9 = torch.round(0.15915494309189535 * gap_8)
-        v7 = gap_8 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 * round_9
+        v7 = gap_8 - 6.28125 * round_9 - 0.001935307179586477 * round_9
         gap_9 = x8 - mu8
         round_10 = torch.round(0.15915494309189535 * gap_9)
-        v8 = gap_9 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07 * round_10
+        v8 = gap_9 - 6.28125 * round_10 - 0.001935307179586477 * round_10
         total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8
         gap_10 = x9 - mu9
         round_11 = torch.round(0.15915494309189535 * gap_10)
-        v9 = gap_10 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07 * round_11
+        v9 = gap_10 - 6.28125 * round_11 - 0.001935307179586477 * round_11
         gap_11 = x10 - mu10
         round_12 = torch.round(0.15915494309189535 * gap_11)
-        v10 = gap_11 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 - 3.019915981956753e-07 * round_12
+        v10 = gap_11 - 6.28125 * round_12 - 0.001935307179586477 * round_12
         gap_12 = x11 - mu11
         round_13 = torch.round(0.15915494309189535 * gap_12)
-        v11 = gap_12 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 - 3.019915981956753e-07 * round_13
+        v11 = gap_12 - 6.28125 * round_13 - 0.001935307179586477 * round_13
         gap_13 = x12 - mu12
         round_14 = torch.round(0.15915494309189535 * gap_13)
-        v12 = gap_13 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 - 3.019915981956753e-07 * round_14
+        v12 = gap_13 - 6.28125 * round_14 - 0.001935307179586477 * round_14
         total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12
         gap_14 = x13 - mu13
         round_15 = torch.round(0.15915494309189535 * gap_14)
-        v13 = gap_14 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 - 3.019915981956753e-07 * round_15
+        v13 = gap_14 - 6.28125 * round_15 - 0.001935307179586477 * round_15
         z0 = total_4 + W0_13 * v13
         total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4
         total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8
@@ -1358,25 +1316,25 @@ class DualArm:
         total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8
         total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12
         z13 = total_46 + W13_13 * v13
-        exp_2 = torch.exp(-(0.5 * (total_43 + z13 * z13)))
-        phi = amplitude * exp_2
-        z13_product = z13 * phi
-        z12_product = z12 * phi
-        z11_product = z11 * phi
-        z10_product = z10 * phi
+        phi = torch.exp(-(0.5 * (total_43 + z13 * z13)))
+        phi_2 = amplitude * phi
+        z13_product = z13 * phi_2
+        z12_product = z12 * phi_2
+        z11_product = z11 * phi_2
+        z10_product = z10 * phi_2
         gap_15 = -(W13_0 * z13_product) - W12_0 * z12_product - W11_0 * z11_product - W10_0 * z10_product
-        z9_product = z9 * phi
-        z8_product = z8 * phi
-        z7_product = z7 * phi
-        z6_product = z6 * phi
+        z9_product = z9 * phi_2
+        z8_product = z8 * phi_2
+        z7_product = z7 * phi_2
+        z6_product = z6 * phi_2
         gap_16 = gap_15 - W9_0 * z9_product - W8_0 * z8_product - W7_0 * z7_product - W6_0 * z6_product
-        z5_product = z5 * phi
-        z4_product = z4 * phi
-        z3_product = z3 * phi
-        z2_product = z2 * phi
+        z5_product = z5 * phi_2
+        z4_product = z4 * phi_2
+        z3_product = z3 * phi_2
+        z2_product = z2 * phi_2
         gap_17 = gap_16 - W5_0 * z5_product - W4_0 * z4_product - W3_0 * z3_product - W2_0 * z2_product
-        z1_product = z1 * phi
-        z0_product = z0 * phi
+        z1_product = z1 * phi_2
+        z0_product = z0 * phi_2
         by_v0 = gap_17 - W1_0 * z1_product - W0_0 * z0_product
         gap_18 = -(W13_1 * z13_product) - W12_1 * z12_product - W11_1 * z11_product - W10_1 * z10_product
         gap_19 = gap_18 - W9_1 * z9_product - W8_1 * z8_product - W7_1 * z7_product - W6_1 * z6_product
@@ -1431,7 +1389,7 @@ class DualArm:
         gap_56 = gap_55 - W5_13 * z5_product - W4_13 * z4_product - W3_13 * z3_product - W2_13 * z2_product
         by_v13 = gap_56 - W1_13 * z1_product - W0_13 * z0_product
         return (
-            phi,
+            phi_2,
             by_v0,
             by_v1,
             by_v2,
@@ -1497,7 +1455,7 @@ class DualArm:
     def _pair_vjp(
         self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
     ) -> tuple[Tensor, ...]:
-        """The derivatives of value value_bar + slope . slope_bar in S."""
+        """What, summed over the points, makes the derivatives of value value_bar + slope . slope_bar."""
         x0, x1, x2, x3, x4, x5, x6, x7, x8, x9, x10, x11, x12, x13 = X
         (
             mu0, mu1, mu2, mu3, mu4, mu5, mu6, mu7, mu8, mu9, mu10, mu11, mu12, mu13, W0_0, W0_1, W0_2, W0_3, W0_4,
@@ -1512,7 +1470,7 @@ class DualArm:
             W10_1, W10_2, W10_3, W10_4, W10_5, W10_6, W10_7, W10_8, W10_9, W10_10, W10_11, W10_12, W10_13, W11_0, W11_1,
             W11_2, W11_3, W11_4, W11_5, W11_6, W11_7, W11_8, W11_9, W11_10, W11_11, W11_12, W11_13, W12_0, W12_1, W12_2,
             W12_3, W12_4, W12_5, W12_6, W12_7, W12_8, W12_9, W12_10, W12_11, W12_12, W12_13, W13_0, W13_1, W13_2, W13_3,
-            W13_4, W13_5, W13_6, W13_7, W13_8, W13_9, W13_10, W13_11, W13_12, W13_13, amplitude,
+            W13_4, W13_5, W13_6, W13_7, W13_8, W13_9, W13_10, W13_11, W13_12, W13_13, _,
         ) = S
         (
             x0_bar, x1_bar, x2_bar, x3_bar, x4_bar, x5_bar, x6_bar, x7_bar, x8_bar, x9_bar, x10_bar, x11_bar, x12_bar,
@@ -1520,49 +1478,49 @@ class DualArm:
         ) = slope_bar
         gap = x0 - mu0
         round_2 = torch.round(0.15915494309189535 * gap)
-        v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2
         gap_2 = x1 - mu1
         round_3 = torch.round(0.15915494309189535 * gap_2)
-        v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         gap_3 = x2 - mu2
         round_4 = torch.round(0.15915494309189535 * gap_3)
-        v2 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 * round_4
+        v2 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4
         gap_4 = x3 - mu3
         round_5 = torch.round(0.15915494309189535 * gap_4)
-        v3 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 * round_5
+        v3 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5
         gap_5 = x4 - mu4
         round_6 = torch.round(0.15915494309189535 * gap_5)
-        v4 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 * round_6
+        v4 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6
         total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4
         gap_6 = x5 - mu5
         round_7 = torch.round(0.15915494309189535 * gap_6)
-        v5 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 * round_7
+        v5 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7
         gap_7 = x6 - mu6
         round_8 = torch.round(0.15915494309189535 * gap_7)
-        v6 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 * round_8
+        v6 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8
         gap_8 = x7 - mu7
         round_9 = torch.round(0.15915494309189535 * gap_8)
-        v7 = gap_8 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 * round_9
+        v7 = gap_8 - 6.28125 * round_9 - 0.001935307179586477 * round_9
         gap_9 = x8 - mu8
         round_10 = torch.round(0.15915494309189535 * gap_9)
-        v8 = gap_9 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07 * round_10
+        v8 = gap_9 - 6.28125 * round_10 - 0.001935307179586477 * round_10
         total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8
         gap_10 = x9 - mu9
         round_11 = torch.round(0.15915494309189535 * gap_10)
-        v9 = gap_10 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07 * round_11
+        v9 = gap_10 - 6.28125 * round_11 - 0.001935307179586477 * round_11
         gap_11 = x10 - mu10
         round_12 = torch.round(0.15915494309189535 * gap_11)
-        v10 = gap_11 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 - 3.019915981956753e-07 * round_12
+        v10 = gap_11 - 6.28125 * round_12 - 0.001935307179586477 * round_12
         gap_12 = x11 - mu11
         round_13 = torch.round(0.15915494309189535 * gap_12)
-        v11 = gap_12 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 - 3.019915981956753e-07 * round_13
+        v11 = gap_12 - 6.28125 * round_13 - 0.001935307179586477 * round_13
         gap_13 = x12 - mu12
         round_14 = torch.round(0.15915494309189535 * gap_13)
-        v12 = gap_13 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 - 3.019915981956753e-07 * round_14
+        v12 = gap_13 - 6.28125 * round_14 - 0.001935307179586477 * round_14
         total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12
         gap_14 = x13 - mu13
         round_15 = torch.round(0.15915494309189535 * gap_14)
-        v13 = gap_14 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 - 3.019915981956753e-07 * round_15
+        v13 = gap_14 - 6.28125 * round_15 - 0.001935307179586477 * round_15
         z0 = total_4 + W0_13 * v13
         total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4
         total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8
@@ -1619,8 +1577,7 @@ class DualArm:
         total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8
         total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12
         z13 = total_46 + W13_13 * v13
-        exp_2 = torch.exp(-(0.5 * (total_43 + z13 * z13)))
-        phi = amplitude * exp_2
+        phi = torch.exp(-(0.5 * (total_43 + z13 * z13)))
         gap_15 = -(W13_0 * x0_bar) - W13_1 * x1_bar - W13_2 * x2_bar - W13_3 * x3_bar
         gap_16 = gap_15 - W13_4 * x4_bar - W13_5 * x5_bar - W13_6 * x6_bar - W13_7 * x7_bar
         gap_17 = gap_16 - W13_8 * x8_bar - W13_9 * x9_bar - W13_10 * x10_bar - W13_11 * x11_bar
@@ -1681,24 +1638,24 @@ class DualArm:
         gap_69 = gap_68 - W12_8 * x8_bar - W12_9 * x9_bar - W12_10 * x10_bar - W12_11 * x11_bar
         gap_70 = gap_69 - W12_12 * x12_bar - W12_13 * x13_bar
         by_phi = total_49 + z12 * gap_70 + z13 * gap_18
-        product = exp_2 * (amplitude * by_phi)
-        by_z13 = phi * gap_18 - z13 * product
-        by_z12 = phi * gap_70 - z12 * product
-        by_z11 = phi * gap_66 - z11 * product
-        by_z10 = phi * gap_62 - z10 * product
-        by_z9 = phi * gap_58 - z9 * product
+        phi_product = phi * by_phi
+        by_z13 = phi * gap_18 - z13 * phi_product
+        by_z12 = phi * gap_70 - z12 * phi_product
+        by_z11 = phi * gap_66 - z11 * phi_product
+        by_z10 = phi * gap_62 - z10 * phi_product
+        by_z9 = phi * gap_58 - z9 * phi_product
         total_50 = W13_0 * by_z13 + W12_0 * by_z12 + W11_0 * by_z11 + W10_0 * by_z10 + W9_0 * by_z9
-        by_z8 = phi * gap_54 - z8 * product
-        by_z7 = phi * gap_50 - z7 * product
-        by_z6 = phi * gap_46 - z6 * product
-        by_z5 = phi * gap_42 - z5 * product
+        by_z8 = phi * gap_54 - z8 * phi_product
+        by_z7 = phi * gap_50 - z7 * phi_product
+        by_z6 = phi * gap_46 - z6 * phi_product
+        by_z5 = phi * gap_42 - z5 * phi_product
         total_51 = total_50 + W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5
-        by_z4 = phi * gap_38 - z4 * product
-        by_z3 = phi * gap_34 - z3 * product
-        by_z2 = phi * gap_30 - z2 * product
-        by_z1 = phi * gap_26 - z1 * product
+        by_z4 = phi * gap_38 - z4 * phi_product
+        by_z3 = phi * gap_34 - z3 * phi_product
+        by_z2 = phi * gap_30 - z2 * phi_product
+        by_z1 = phi * gap_26 - z1 * phi_product
         total_52 = total_51 + W4_0 * by_z4 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1
-        by_z0 = phi * gap_22 - z0 * product
+        by_z0 = phi * gap_22 - z0 * phi_product
         by_v0 = total_52 + W0_0 * by_z0
         total_53 = W13_1 * by_z13 + W12_1 * by_z12 + W11_1 * by_z11 + W10_1 * by_z10 + W9_1 * by_z9
         total_54 = total_53 + W8_1 * by_z8 + W7_1 * by_z7 + W6_1 * by_z6 + W5_1 * by_z5
@@ -1977,252 +1934,246 @@ class DualArm:
             v11 * by_z13 - z13_product * x11_bar,
             v12 * by_z13 - z13_product * x12_bar,
             v13 * by_z13 - z13_product * x13_bar,
-            exp_2 * by_phi,
+            phi_product,
         )
 
     def _splat_constants_vjp(
-        self, mu: Tensor, W: Tensor, amplitude: Tensor, S_bar: Sequence[Tensor]
+        self, mu: Tensor, W: Tensor, amplitude: Tensor, sums: Sequence[Tensor]
     ) -> tuple[Tensor, Tensor, Tensor]:
-        """The derivatives in mu, W and amplitude from those in S."""
+        """The derivatives in mu, W and amplitude from those sums."""
         (
-            mu0_bar, mu1_bar, mu2_bar, mu3_bar, mu4_bar, mu5_bar, mu6_bar, mu7_bar, mu8_bar, mu9_bar, mu10_bar,
-            mu11_bar, mu12_bar, mu13_bar, W0_0_bar, W0_1_bar, W0_2_bar, W0_3_bar, W0_4_bar, W0_5_bar, W0_6_bar,
-            W0_7_bar, W0_8_bar, W0_9_bar, W0_10_bar, W0_11_bar, W0_12_bar, W0_13_bar, W1_0_bar, W1_1_bar, W1_2_bar,
-            W1_3_bar, W1_4_bar, W1_5_bar, W1_6_bar, W1_7_bar, W1_8_bar, W1_9_bar, W1_10_bar, W1_11_bar, W1_12_bar,
-            W1_13_bar, W2_0_bar, W2_1_bar, W2_2_bar, W2_3_bar, W2_4_bar, W2_5_bar, W2_6_bar, W2_7_bar, W2_8_bar,
-            W2_9_bar, W2_10_bar, W2_11_bar, W2_12_bar, W2_13_bar, W3_0_bar, W3_1_bar, W3_2_bar, W3_3_bar, W3_4_bar,
-            W3_5_bar, W3_6_bar, W3_7_bar, W3_8_bar, W3_9_bar, W3_10_bar, W3_11_bar, W3_12_bar, W3_13_bar, W4_0_bar,
-            W4_1_bar, W4_2_bar, W4_3_bar, W4_4_bar, W4_5_bar, W4_6_bar, W4_7_bar, W4_8_bar, W4_9_bar, W4_10_bar,
-            W4_11_bar, W4_12_bar, W4_13_bar, W5_0_bar, W5_1_bar, W5_2_bar, W5_3_bar, W5_4_bar, W5_5_bar, W5_6_bar,
-            W5_7_bar, W5_8_bar, W5_9_bar, W5_10_bar, W5_11_bar, W5_12_bar, W5_13_bar, W6_0_bar, W6_1_bar, W6_2_bar,
-            W6_3_bar, W6_4_bar, W6_5_bar, W6_6_bar, W6_7_bar, W6_8_bar, W6_9_bar, W6_10_bar, W6_11_bar, W6_12_bar,
-            W6_13_bar, W7_0_bar, W7_1_bar, W7_2_bar, W7_3_bar, W7_4_bar, W7_5_bar, W7_6_bar, W7_7_bar, W7_8_bar,
-            W7_9_bar, W7_10_bar, W7_11_bar, W7_12_bar, W7_13_bar, W8_0_bar, W8_1_bar, W8_2_bar, W8_3_bar, W8_4_bar,
-            W8_5_bar, W8_6_bar, W8_7_bar, W8_8_bar, W8_9_bar, W8_10_bar, W8_11_bar, W8_12_bar, W8_13_bar, W9_0_bar,
-            W9_1_bar, W9_2_bar, W9_3_bar, W9_4_bar, W9_5_bar, W9_6_bar, W9_7_bar, W9_8_bar, W9_9_bar, W9_10_bar,
-            W9_11_bar, W9_12_bar, W9_13_bar, W10_0_bar, W10_1_bar, W10_2_bar, W10_3_bar, W10_4_bar, W10_5_bar,
-            W10_6_bar, W10_7_bar, W10_8_bar, W10_9_bar, W10_10_bar, W10_11_bar, W10_12_bar, W10_13_bar, W11_0_bar,
-            W11_1_bar, W11_2_bar, W11_3_bar, W11_4_bar, W11_5_bar, W11_6_bar, W11_7_bar, W11_8_bar, W11_9_bar,
-            W11_10_bar, W11_11_bar, W11_12_bar, W11_13_bar, W12_0_bar, W12_1_bar, W12_2_bar, W12_3_bar, W12_4_bar,
-            W12_5_bar, W12_6_bar, W12_7_bar, W12_8_bar, W12_9_bar, W12_10_bar, W12_11_bar, W12_12_bar, W12_13_bar,
-            W13_0_bar, W13_1_bar, W13_2_bar, W13_3_bar, W13_4_bar, W13_5_bar, W13_6_bar, W13_7_bar, W13_8_bar,
-            W13_9_bar, W13_10_bar, W13_11_bar, W13_12_bar, W13_13_bar, amplitude_bar,
-        ) = S_bar
+            sum0, sum1, sum2, sum3, sum4, sum5, sum6, sum7, sum8, sum9, sum10, sum11, sum12, sum13, sum14, sum15, sum16,
+            sum17, sum18, sum19, sum20, sum21, sum22, sum23, sum24, sum25, sum26, sum27, sum28, sum29, sum30, sum31,
+            sum32, sum33, sum34, sum35, sum36, sum37, sum38, sum39, sum40, sum41, sum42, sum43, sum44, sum45, sum46,
+            sum47, sum48, sum49, sum50, sum51, sum52, sum53, sum54, sum55, sum56, sum57, sum58, sum59, sum60, sum61,
+            sum62, sum63, sum64, sum65, sum66, sum67, sum68, sum69, sum70, sum71, sum72, sum73, sum74, sum75, sum76,
+            sum77, sum78, sum79, sum80, sum81, sum82, sum83, sum84, sum85, sum86, sum87, sum88, sum89, sum90, sum91,
+            sum92, sum93, sum94, sum95, sum96, sum97, sum98, sum99, sum100, sum101, sum102, sum103, sum104, sum105,
+            sum106, sum107, sum108, sum109, sum110, sum111, sum112, sum113, sum114, sum115, sum116, sum117, sum118,
+            sum119, sum120, sum121, sum122, sum123, sum124, sum125, sum126, sum127, sum128, sum129, sum130, sum131,
+            sum132, sum133, sum134, sum135, sum136, sum137, sum138, sum139, sum140, sum141, sum142, sum143, sum144,
+            sum145, sum146, sum147, sum148, sum149, sum150, sum151, sum152, sum153, sum154, sum155, sum156, sum157,
+            sum158, sum159, sum160, sum161, sum162, sum163, sum164, sum165, sum166, sum167, sum168, sum169, sum170,
+            sum171, sum172, sum173, sum174, sum175, sum176, sum177, sum178, sum179, sum180, sum181, sum182, sum183,
+            sum184, sum185, sum186, sum187, sum188, sum189, sum190, sum191, sum192, sum193, sum194, sum195, sum196,
+            sum197, sum198, sum199, sum200, sum201, sum202, sum203, sum204, sum205, sum206, sum207, sum208, sum209,
+            sum210,
+        ) = sums
         mu_bar = _stack((
-            mu0_bar,
-            mu1_bar,
-            mu2_bar,
-            mu3_bar,
-            mu4_bar,
-            mu5_bar,
-            mu6_bar,
-            mu7_bar,
-            mu8_bar,
-            mu9_bar,
-            mu10_bar,
-            mu11_bar,
-            mu12_bar,
-            mu13_bar,
+            amplitude * sum0,
+            amplitude * sum1,
+            amplitude * sum2,
+            amplitude * sum3,
+            amplitude * sum4,
+            amplitude * sum5,
+            amplitude * sum6,
+            amplitude * sum7,
+            amplitude * sum8,
+            amplitude * sum9,
+            amplitude * sum10,
+            amplitude * sum11,
+            amplitude * sum12,
+            amplitude * sum13,
         ))
         W_bar = _stack((
-            W0_0_bar,
-            W0_1_bar,
-            W0_2_bar,
-            W0_3_bar,
-            W0_4_bar,
-            W0_5_bar,
-            W0_6_bar,
-            W0_7_bar,
-            W0_8_bar,
-            W0_9_bar,
-            W0_10_bar,
-            W0_11_bar,
-            W0_12_bar,
-            W0_13_bar,
-            W1_0_bar,
-            W1_1_bar,
-            W1_2_bar,
-            W1_3_bar,
-            W1_4_bar,
-            W1_5_bar,
-            W1_6_bar,
-            W1_7_bar,
-            W1_8_bar,
-            W1_9_bar,
-            W1_10_bar,
-            W1_11_bar,
-            W1_12_bar,
-            W1_13_bar,
-            W2_0_bar,
-            W2_1_bar,
-            W2_2_bar,
-            W2_3_bar,
-            W2_4_bar,
-            W2_5_bar,
-            W2_6_bar,
-            W2_7_bar,
-            W2_8_bar,
-            W2_9_bar,
-            W2_10_bar,
-            W2_11_bar,
-            W2_12_bar,
-            W2_13_bar,
-            W3_0_bar,
-            W3_1_bar,
-            W3_2_bar,
-            W3_3_bar,
-            W3_4_bar,
-            W3_5_bar,
-            W3_6_bar,
-            W3_7_bar,
-            W3_8_bar,
-            W3_9_bar,
-            W3_10_bar,
-            W3_11_bar,
-            W3_12_bar,
-            W3_13_bar,
-            W4_0_bar,
-            W4_1_bar,
-            W4_2_bar,
-            W4_3_bar,
-            W4_4_bar,
-            W4_5_bar,
-            W4_6_bar,
-            W4_7_bar,
-            W4_8_bar,
-            W4_9_bar,
-            W4_10_bar,
-            W4_11_bar,
-            W4_12_bar,
-            W4_13_bar,
-            W5_0_bar,
-            W5_1_bar,
-            W5_2_bar,
-            W5_3_bar,
-            W5_4_bar,
-            W5_5_bar,
-            W5_6_bar,
-            W5_7_bar,
-            W5_8_bar,
-            W5_9_bar,
-            W5_10_bar,
-            W5_11_bar,
-            W5_12_bar,
-            W5_13_bar,
-            W6_0_bar,
-            W6_1_bar,
-            W6_2_bar,
-            W6_3_bar,
-            W6_4_bar,
-            W6_5_bar,
-            W6_6_bar,
-            W6_7_bar,
-            W6_8_bar,
-            W6_9_bar,
-            W6_10_bar,
-            W6_11_bar,
-            W6_12_bar,
-            W6_13_bar,
-            W7_0_bar,
-            W7_1_bar,
-            W7_2_bar,
-            W7_3_bar,
-            W7_4_bar,
-            W7_5_bar,
-            W7_6_bar,
-            W7_7_bar,
-            W7_8_bar,
-            W7_9_bar,
-            W7_10_bar,
-            W7_11_bar,
-            W7_12_bar,
-            W7_13_bar,
-            W8_0_bar,
-            W8_1_bar,
-            W8_2_bar,
-            W8_3_bar,
-            W8_4_bar,
-            W8_5_bar,
-            W8_6_bar,
-            W8_7_bar,
-            W8_8_bar,
-            W8_9_bar,
-            W8_10_bar,
-            W8_11_bar,
-            W8_12_bar,
-            W8_13_bar,
-            W9_0_bar,
-            W9_1_bar,
-            W9_2_bar,
-            W9_3_bar,
-            W9_4_bar,
-            W9_5_bar,
-            W9_6_bar,
-            W9_7_bar,
-            W9_8_bar,
-            W9_9_bar,
-            W9_10_bar,
-            W9_11_bar,
-            W9_12_bar,
-            W9_13_bar,
-            W10_0_bar,
-            W10_1_bar,
-            W10_2_bar,
-            W10_3_bar,
-            W10_4_bar,
-            W10_5_bar,
-            W10_6_bar,
-            W10_7_bar,
-            W10_8_bar,
-            W10_9_bar,
-            W10_10_bar,
-            W10_11_bar,
-            W10_12_bar,
-            W10_13_bar,
-            W11_0_bar,
-            W11_1_bar,
-            W11_2_bar,
-            W11_3_bar,
-            W11_4_bar,
-            W11_5_bar,
-            W11_6_bar,
-            W11_7_bar,
-            W11_8_bar,
-            W11_9_bar,
-            W11_10_bar,
-            W11_11_bar,
-            W11_12_bar,
-            W11_13_bar,
-            W12_0_bar,
-            W12_1_bar,
-            W12_2_bar,
-            W12_3_bar,
-            W12_4_bar,
-            W12_5_bar,
-            W12_6_bar,
-            W12_7_bar,
-            W12_8_bar,
-            W12_9_bar,
-            W12_10_bar,
-            W12_11_bar,
-            W12_12_bar,
-            W12_13_bar,
-            W13_0_bar,
-            W13_1_bar,
-            W13_2_bar,
-            W13_3_bar,
-            W13_4_bar,
-            W13_5_bar,
-            W13_6_bar,
-            W13_7_bar,
-            W13_8_bar,
-            W13_9_bar,
-            W13_10_bar,
-            W13_11_bar,
-            W13_12_bar,
-            W13_13_bar,
+            amplitude * sum14,
+            amplitude * sum15,
+            amplitude * sum16,
+            amplitude * sum17,
+            amplitude * sum18,
+            amplitude * sum19,
+            amplitude * sum20,
+            amplitude * sum21,
+            amplitude * sum22,
+            amplitude * sum23,
+            amplitude * sum24,
+            amplitude * sum25,
+            amplitude * sum26,
+            amplitude * sum27,
+            amplitude * sum28,
+            amplitude * sum29,
+            amplitude * sum30,
+            amplitude * sum31,
+            amplitude * sum32,
+            amplitude * sum33,
+            amplitude * sum34,
+            amplitude * sum35,
+            amplitude * sum36,
+            amplitude * sum37,
+            amplitude * sum38,
+            amplitude * sum39,
+            amplitude * sum40,
+            amplitude * sum41,
+            amplitude * sum42,
+            amplitude * sum43,
+            amplitude * sum44,
+            amplitude * sum45,
+            amplitude * sum46,
+            amplitude * sum47,
+            amplitude * sum48,
+            amplitude * sum49,
+            amplitude * sum50,
+            amplitude * sum51,
+            amplitude * sum52,
+            amplitude * sum53,
+            amplitude * sum54,
+            amplitude * sum55,
+            amplitude * sum56,
+            amplitude * sum57,
+            amplitude * sum58,
+            amplitude * sum59,
+            amplitude * sum60,
+            amplitude * sum61,
+            amplitude * sum62,
+            amplitude * sum63,
+            amplitude * sum64,
+            amplitude * sum65,
+            amplitude * sum66,
+            amplitude * sum67,
+            amplitude * sum68,
+            amplitude * sum69,
+            amplitude * sum70,
+            amplitude * sum71,
+            amplitude * sum72,
+            amplitude * sum73,
+            amplitude * sum74,
+            amplitude * sum75,
+            amplitude * sum76,
+            amplitude * sum77,
+            amplitude * sum78,
+            amplitude * sum79,
+            amplitude * sum80,
+            amplitude * sum81,
+            amplitude * sum82,
+            amplitude * sum83,
+            amplitude * sum84,
+            amplitude * sum85,
+            amplitude * sum86,
+            amplitude * sum87,
+            amplitude * sum88,
+            amplitude * sum89,
+            amplitude * sum90,
+            amplitude * sum91,
+            amplitude * sum92,
+            amplitude * sum93,
+            amplitude * sum94,
+            amplitude * sum95,
+            amplitude * sum96,
+            amplitude * sum97,
+            amplitude * sum98,
+            amplitude * sum99,
+            amplitude * sum100,
+            amplitude * sum101,
+            amplitude * sum102,
+            amplitude * sum103,
+            amplitude * sum104,
+            amplitude * sum105,
+            amplitude * sum106,
+            amplitude * sum107,
+            amplitude * sum108,
+            amplitude * sum109,
+            amplitude * sum110,
+            amplitude * sum111,
+            amplitude * sum112,
+            amplitude * sum113,
+            amplitude * sum114,
+            amplitude * sum115,
+            amplitude * sum116,
+            amplitude * sum117,
+            amplitude * sum118,
+            amplitude * sum119,
+            amplitude * sum120,
+            amplitude * sum121,
+            amplitude * sum122,
+            amplitude * sum123,
+            amplitude * sum124,
+            amplitude * sum125,
+            amplitude * sum126,
+            amplitude * sum127,
+            amplitude * sum128,
+            amplitude * sum129,
+            amplitude * sum130,
+            amplitude * sum131,
+            amplitude * sum132,
+            amplitude * sum133,
+            amplitude * sum134,
+            amplitude * sum135,
+            amplitude * sum136,
+            amplitude * sum137,
+            amplitude * sum138,
+            amplitude * sum139,
+            amplitude * sum140,
+            amplitude * sum141,
+            amplitude * sum142,
+            amplitude * sum143,
+            amplitude * sum144,
+            amplitude * sum145,
+            amplitude * sum146,
+            amplitude * sum147,
+            amplitude * sum148,
+            amplitude * sum149,
+            amplitude * sum150,
+            amplitude * sum151,
+            amplitude * sum152,
+            amplitude * sum153,
+            amplitude * sum154,
+            amplitude * sum155,
+            amplitude * sum156,
+            amplitude * sum157,
+            amplitude * sum158,
+            amplitude * sum159,
+            amplitude * sum160,
+            amplitude * sum161,
+            amplitude * sum162,
+            amplitude * sum163,
+            amplitude * sum164,
+            amplitude * sum165,
+            amplitude * sum166,
+            amplitude * sum167,
+            amplitude * sum168,
+            amplitude * sum169,
+            amplitude * sum170,
+            amplitude * sum171,
+            amplitude * sum172,
+            amplitude * sum173,
+            amplitude * sum174,
+            amplitude * sum175,
+            amplitude * sum176,
+            amplitude * sum177,
+            amplitude * sum178,
+            amplitude * sum179,
+            amplitude * sum180,
+            amplitude * sum181,
+            amplitude * sum182,
+            amplitude * sum183,
+            amplitude * sum184,
+            amplitude * sum185,
+            amplitude * sum186,
+            amplitude * sum187,
+            amplitude * sum188,
+            amplitude * sum189,
+            amplitude * sum190,
+            amplitude * sum191,
+            amplitude * sum192,
+            amplitude * sum193,
+            amplitude * sum194,
+            amplitude * sum195,
+            amplitude * sum196,
+            amplitude * sum197,
+            amplitude * sum198,
+            amplitude * sum199,
+            amplitude * sum200,
+            amplitude * sum201,
+            amplitude * sum202,
+            amplitude * sum203,
+            amplitude * sum204,
+            amplitude * sum205,
+            amplitude * sum206,
+            amplitude * sum207,
+            amplitude * sum208,
+            amplitude * sum209,
         ))
-        return mu_bar, W_bar.unflatten(-1, (14, 14)), amplitude_bar
+        return mu_bar, W_bar.unflatten(-1, (14, 14)), sum210
 
 
 manifold = DualArm()

@@ -81,6 +81,8 @@ INLINE uint64_t flush_denormals(void) { return 0; }
 INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
 
+#if !defined(RSRM_ONLY_FLOAT) /* double */
+
 /* The same number in all lanes. */
 INLINE vector vector_of(double x) {
     const vector zero = ZERO;
@@ -121,26 +123,22 @@ INLINE vector vector_from_bits(vector_bits bits) {
     return x;
 }
 
-/* round of every lane; one instruction where the machine has it. */
-INLINE vector vector_round(vector x) {
-    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = rint(LANE(x, i));
-    return x;
-}
+/* round to even, of numbers below 2^51; of larger ones, a whole number close by. */
+INLINE vector round_each(vector x) { return (x + 6755399441055744.0) - 6755399441055744.0; }
 
 /* sqrt of every lane; one instruction where the machine has it. */
-INLINE vector vector_sqrt(vector x) {
+INLINE vector sqrt_each(vector x) {
     for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
     return x;
 }
 
-/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
-INLINE vector vector_exp(vector x) {
-    const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
-    const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
-    const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
-    const vector scale = vector_from_bits((vector_to_bits(shifted) + 1022) << 52); /* 2^(k - 1) */
-    const vector y = vector_select(x > 709.782712893384, vector_of(HUGE_VAL), (scale + scale * part) * 2);
-    return vector_select(x < -707.9, vector_of(0), y);
+/* exp(-s / 2) of s >= 0, as 2^k exp(-r / 2), |r| <= log(2), within 1 unit in the last place; below 3.8e-308 it is 0. */
+INLINE vector gaussian_each(vector s) {
+    const vector shifted = s * -0.7213475204444817 + 6755399441056767.0, k = shifted - 6755399441056767.0;
+    const vector r = (s + k * 1.3862943611202354) + k * -3.447888905122967e-13;
+    const vector part = r * (-0.5 + r * (0.12500000000000003 + r * (-0.020833333333333336 + r * (0.0026041666666640085 + r * (-0.0002604166666665645 + r * (2.170138893314011e-05 + r * (-1.5500992080508208e-06 + r * (9.688094258687923e-08 + r * (-5.382278997037427e-09 + r * (2.697273970216642e-10 + r * -1.2256046482356944e-11))))))))));
+    const vector scale = vector_from_bits(vector_to_bits(shifted) << 52); /* 2^k */
+    return vector_select(s > 1415.8, vector_of(0), scale + scale * part);
 }
 
 /* What pairs read of points x. */
@@ -836,64 +834,50 @@ OUTLINE void pair_value(
     const double W13_13 = S[209];
     const double amplitude = S[210];
     const vector gap = x0 - mu0;
-    const vector round_2 = vector_round(0.15915494309189535 * gap);
-    const vector v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const vector round_2 = round_each(0.15915494309189535 * gap);
+    const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const vector gap_2 = x1 - mu1;
-    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
-    const vector v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const vector round_3 = round_each(0.15915494309189535 * gap_2);
+    const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const vector gap_3 = x2 - mu2;
-    const vector round_4 = vector_round(0.15915494309189535 * gap_3);
-    const vector v2 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
-        round_4;
+    const vector round_4 = round_each(0.15915494309189535 * gap_3);
+    const vector v2 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
     const vector gap_4 = x3 - mu3;
-    const vector round_5 = vector_round(0.15915494309189535 * gap_4);
-    const vector v3 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
-        round_5;
+    const vector round_5 = round_each(0.15915494309189535 * gap_4);
+    const vector v3 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
     const vector gap_5 = x4 - mu4;
-    const vector round_6 = vector_round(0.15915494309189535 * gap_5);
-    const vector v4 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
-        round_6;
+    const vector round_6 = round_each(0.15915494309189535 * gap_5);
+    const vector v4 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
     const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
     const vector gap_6 = x5 - mu5;
-    const vector round_7 = vector_round(0.15915494309189535 * gap_6);
-    const vector v5 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
-        round_7;
+    const vector round_7 = round_each(0.15915494309189535 * gap_6);
+    const vector v5 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
     const vector gap_7 = x6 - mu6;
-    const vector round_8 = vector_round(0.15915494309189535 * gap_7);
-    const vector v6 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
-        round_8;
+    const vector round_8 = round_each(0.15915494309189535 * gap_7);
+    const vector v6 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
     const vector gap_8 = x7 - mu7;
-    const vector round_9 = vector_round(0.15915494309189535 * gap_8);
-    const vector v7 = gap_8 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 *
-        round_9;
+    const vector round_9 = round_each(0.15915494309189535 * gap_8);
+    const vector v7 = gap_8 - 6.28125 * round_9 - 0.001935307179586477 * round_9;
     const vector gap_9 = x8 - mu8;
-    const vector round_10 = vector_round(0.15915494309189535 * gap_9);
-    const vector v8 = gap_9 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07 *
-        round_10;
+    const vector round_10 = round_each(0.15915494309189535 * gap_9);
+    const vector v8 = gap_9 - 6.28125 * round_10 - 0.001935307179586477 * round_10;
     const vector total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
     const vector gap_10 = x9 - mu9;
-    const vector round_11 = vector_round(0.15915494309189535 * gap_10);
-    const vector v9 = gap_10 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07 *
-        round_11;
+    const vector round_11 = round_each(0.15915494309189535 * gap_10);
+    const vector v9 = gap_10 - 6.28125 * round_11 - 0.001935307179586477 * round_11;
     const vector gap_11 = x10 - mu10;
-    const vector round_12 = vector_round(0.15915494309189535 * gap_11);
-    const vector v10 = gap_11 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 - 3.019915981956753e-07
-        * round_12;
+    const vector round_12 = round_each(0.15915494309189535 * gap_11);
+    const vector v10 = gap_11 - 6.28125 * round_12 - 0.001935307179586477 * round_12;
     const vector gap_12 = x11 - mu11;
-    const vector round_13 = vector_round(0.15915494309189535 * gap_12);
-    const vector v11 = gap_12 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 - 3.019915981956753e-07
-        * round_13;
+    const vector round_13 = round_each(0.15915494309189535 * gap_12);
+    const vector v11 = gap_12 - 6.28125 * round_13 - 0.001935307179586477 * round_13;
     const vector gap_13 = x12 - mu12;
-    const vector round_14 = vector_round(0.15915494309189535 * gap_13);
-    const vector v12 = gap_13 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 - 3.019915981956753e-07
-        * round_14;
+    const vector round_14 = round_each(0.15915494309189535 * gap_13);
+    const vector v12 = gap_13 - 6.28125 * round_14 - 0.001935307179586477 * round_14;
     const vector total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
     const vector gap_14 = x13 - mu13;
-    const vector round_15 = vector_round(0.15915494309189535 * gap_14);
-    const vector v13 = gap_14 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 - 3.019915981956753e-07
-        * round_15;
+    const vector round_15 = round_each(0.15915494309189535 * gap_14);
+    const vector v13 = gap_14 - 6.28125 * round_15 - 0.001935307179586477 * round_15;
     const vector z0 = total_4 + W0_13 * v13;
     const vector total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
     const vector total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
@@ -950,8 +934,8 @@ OUTLINE void pair_value(
     const vector total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
     const vector total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
     const vector z13 = total_46 + W13_13 * v13;
-    const vector exp_2 = vector_exp(-0.5 * (total_43 + z13 * z13));
-    value[0] = value[0] + amplitude * exp_2;
+    const vector phi = gaussian_each(total_43 + z13 * z13);
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -1187,64 +1171,50 @@ OUTLINE void pair_forward(
     const double W13_13 = S[209];
     const double amplitude = S[210];
     const vector gap = x0 - mu0;
-    const vector round_2 = vector_round(0.15915494309189535 * gap);
-    const vector v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const vector round_2 = round_each(0.15915494309189535 * gap);
+    const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const vector gap_2 = x1 - mu1;
-    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
-    const vector v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const vector round_3 = round_each(0.15915494309189535 * gap_2);
+    const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const vector gap_3 = x2 - mu2;
-    const vector round_4 = vector_round(0.15915494309189535 * gap_3);
-    const vector v2 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
-        round_4;
+    const vector round_4 = round_each(0.15915494309189535 * gap_3);
+    const vector v2 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
     const vector gap_4 = x3 - mu3;
-    const vector round_5 = vector_round(0.15915494309189535 * gap_4);
-    const vector v3 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
-        round_5;
+    const vector round_5 = round_each(0.15915494309189535 * gap_4);
+    const vector v3 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
     const vector gap_5 = x4 - mu4;
-    const vector round_6 = vector_round(0.15915494309189535 * gap_5);
-    const vector v4 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
-        round_6;
+    const vector round_6 = round_each(0.15915494309189535 * gap_5);
+    const vector v4 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
     const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
     const vector gap_6 = x5 - mu5;
-    const vector round_7 = vector_round(0.15915494309189535 * gap_6);
-    const vector v5 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
-        round_7;
+    const vector round_7 = round_each(0.15915494309189535 * gap_6);
+    const vector v5 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
     const vector gap_7 = x6 - mu6;
-    const vector round_8 = vector_round(0.15915494309189535 * gap_7);
-    const vector v6 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
-        round_8;
+    const vector round_8 = round_each(0.15915494309189535 * gap_7);
+    const vector v6 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
     const vector gap_8 = x7 - mu7;
-    const vector round_9 = vector_round(0.15915494309189535 * gap_8);
-    const vector v7 = gap_8 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 *
-        round_9;
+    const vector round_9 = round_each(0.15915494309189535 * gap_8);
+    const vector v7 = gap_8 - 6.28125 * round_9 - 0.001935307179586477 * round_9;
     const vector gap_9 = x8 - mu8;
-    const vector round_10 = vector_round(0.15915494309189535 * gap_9);
-    const vector v8 = gap_9 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07 *
-        round_10;
+    const vector round_10 = round_each(0.15915494309189535 * gap_9);
+    const vector v8 = gap_9 - 6.28125 * round_10 - 0.001935307179586477 * round_10;
     const vector total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
     const vector gap_10 = x9 - mu9;
-    const vector round_11 = vector_round(0.15915494309189535 * gap_10);
-    const vector v9 = gap_10 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07 *
-        round_11;
+    const vector round_11 = round_each(0.15915494309189535 * gap_10);
+    const vector v9 = gap_10 - 6.28125 * round_11 - 0.001935307179586477 * round_11;
     const vector gap_11 = x10 - mu10;
-    const vector round_12 = vector_round(0.15915494309189535 * gap_11);
-    const vector v10 = gap_11 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 - 3.019915981956753e-07
-        * round_12;
+    const vector round_12 = round_each(0.15915494309189535 * gap_11);
+    const vector v10 = gap_11 - 6.28125 * round_12 - 0.001935307179586477 * round_12;
     const vector gap_12 = x11 - mu11;
-    const vector round_13 = vector_round(0.15915494309189535 * gap_12);
-    const vector v11 = gap_12 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 - 3.019915981956753e-07
-        * round_13;
+    const vector round_13 = round_each(0.15915494309189535 * gap_12);
+    const vector v11 = gap_12 - 6.28125 * round_13 - 0.001935307179586477 * round_13;
     const vector gap_13 = x12 - mu12;
-    const vector round_14 = vector_round(0.15915494309189535 * gap_13);
-    const vector v12 = gap_13 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 - 3.019915981956753e-07
-        * round_14;
+    const vector round_14 = round_each(0.15915494309189535 * gap_13);
+    const vector v12 = gap_13 - 6.28125 * round_14 - 0.001935307179586477 * round_14;
     const vector total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
     const vector gap_14 = x13 - mu13;
-    const vector round_15 = vector_round(0.15915494309189535 * gap_14);
-    const vector v13 = gap_14 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 - 3.019915981956753e-07
-        * round_15;
+    const vector round_15 = round_each(0.15915494309189535 * gap_14);
+    const vector v13 = gap_14 - 6.28125 * round_15 - 0.001935307179586477 * round_15;
     const vector z0 = total_4 + W0_13 * v13;
     const vector total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
     const vector total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
@@ -1301,23 +1271,23 @@ OUTLINE void pair_forward(
     const vector total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
     const vector total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
     const vector z13 = total_46 + W13_13 * v13;
-    const vector exp_2 = vector_exp(-0.5 * (total_43 + z13 * z13));
-    const vector phi = amplitude * exp_2;
-    const vector z13_product = z13 * phi;
-    const vector z12_product = z12 * phi;
-    const vector z11_product = z11 * phi;
-    const vector z10_product = z10 * phi;
-    const vector z9_product = z9 * phi;
-    const vector z8_product = z8 * phi;
-    const vector z7_product = z7 * phi;
-    const vector z6_product = z6 * phi;
-    const vector z5_product = z5 * phi;
-    const vector z4_product = z4 * phi;
-    const vector z3_product = z3 * phi;
-    const vector z2_product = z2 * phi;
-    const vector z1_product = z1 * phi;
-    const vector z0_product = z0 * phi;
-    value[0] = value[0] + phi;
+    const vector phi = gaussian_each(total_43 + z13 * z13);
+    const vector phi_2 = amplitude * phi;
+    const vector z13_product = z13 * phi_2;
+    const vector z12_product = z12 * phi_2;
+    const vector z11_product = z11 * phi_2;
+    const vector z10_product = z10 * phi_2;
+    const vector z9_product = z9 * phi_2;
+    const vector z8_product = z8 * phi_2;
+    const vector z7_product = z7 * phi_2;
+    const vector z6_product = z6 * phi_2;
+    const vector z5_product = z5 * phi_2;
+    const vector z4_product = z4 * phi_2;
+    const vector z3_product = z3 * phi_2;
+    const vector z2_product = z2 * phi_2;
+    const vector z1_product = z1 * phi_2;
+    const vector z0_product = z0 * phi_2;
+    value[0] = value[0] + phi_2;
     slope[0] = slope[0] - W13_0 * z13_product - W12_0 * z12_product - W11_0 * z11_product - W10_0 *
             z10_product - W9_0 * z9_product - W8_0 * z8_product - W7_0 * z7_product - W6_0 * z6_product - W5_0 *
             z5_product - W4_0 * z4_product - W3_0 * z3_product - W2_0 * z2_product - W1_0 * z1_product - W0_0 *
@@ -1444,434 +1414,434 @@ OUTLINE void pair_gradient_vjp(
     slope_bar[13] = gradient_bar13;
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp(
-    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
+    const vector *mu, const vector *W, const vector *amplitude, const vector *sums, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
     (void)mu;
     (void)W;
-    (void)amplitude;
-    const vector mu0_bar = S_bar[0];
-    const vector mu1_bar = S_bar[1];
-    const vector mu2_bar = S_bar[2];
-    const vector mu3_bar = S_bar[3];
-    const vector mu4_bar = S_bar[4];
-    const vector mu5_bar = S_bar[5];
-    const vector mu6_bar = S_bar[6];
-    const vector mu7_bar = S_bar[7];
-    const vector mu8_bar = S_bar[8];
-    const vector mu9_bar = S_bar[9];
-    const vector mu10_bar = S_bar[10];
-    const vector mu11_bar = S_bar[11];
-    const vector mu12_bar = S_bar[12];
-    const vector mu13_bar = S_bar[13];
-    const vector W0_0_bar = S_bar[14];
-    const vector W0_1_bar = S_bar[15];
-    const vector W0_2_bar = S_bar[16];
-    const vector W0_3_bar = S_bar[17];
-    const vector W0_4_bar = S_bar[18];
-    const vector W0_5_bar = S_bar[19];
-    const vector W0_6_bar = S_bar[20];
-    const vector W0_7_bar = S_bar[21];
-    const vector W0_8_bar = S_bar[22];
-    const vector W0_9_bar = S_bar[23];
-    const vector W0_10_bar = S_bar[24];
-    const vector W0_11_bar = S_bar[25];
-    const vector W0_12_bar = S_bar[26];
-    const vector W0_13_bar = S_bar[27];
-    const vector W1_0_bar = S_bar[28];
-    const vector W1_1_bar = S_bar[29];
-    const vector W1_2_bar = S_bar[30];
-    const vector W1_3_bar = S_bar[31];
-    const vector W1_4_bar = S_bar[32];
-    const vector W1_5_bar = S_bar[33];
-    const vector W1_6_bar = S_bar[34];
-    const vector W1_7_bar = S_bar[35];
-    const vector W1_8_bar = S_bar[36];
-    const vector W1_9_bar = S_bar[37];
-    const vector W1_10_bar = S_bar[38];
-    const vector W1_11_bar = S_bar[39];
-    const vector W1_12_bar = S_bar[40];
-    const vector W1_13_bar = S_bar[41];
-    const vector W2_0_bar = S_bar[42];
-    const vector W2_1_bar = S_bar[43];
-    const vector W2_2_bar = S_bar[44];
-    const vector W2_3_bar = S_bar[45];
-    const vector W2_4_bar = S_bar[46];
-    const vector W2_5_bar = S_bar[47];
-    const vector W2_6_bar = S_bar[48];
-    const vector W2_7_bar = S_bar[49];
-    const vector W2_8_bar = S_bar[50];
-    const vector W2_9_bar = S_bar[51];
-    const vector W2_10_bar = S_bar[52];
-    const vector W2_11_bar = S_bar[53];
-    const vector W2_12_bar = S_bar[54];
-    const vector W2_13_bar = S_bar[55];
-    const vector W3_0_bar = S_bar[56];
-    const vector W3_1_bar = S_bar[57];
-    const vector W3_2_bar = S_bar[58];
-    const vector W3_3_bar = S_bar[59];
-    const vector W3_4_bar = S_bar[60];
-    const vector W3_5_bar = S_bar[61];
-    const vector W3_6_bar = S_bar[62];
-    const vector W3_7_bar = S_bar[63];
-    const vector W3_8_bar = S_bar[64];
-    const vector W3_9_bar = S_bar[65];
-    const vector W3_10_bar = S_bar[66];
-    const vector W3_11_bar = S_bar[67];
-    const vector W3_12_bar = S_bar[68];
-    const vector W3_13_bar = S_bar[69];
-    const vector W4_0_bar = S_bar[70];
-    const vector W4_1_bar = S_bar[71];
-    const vector W4_2_bar = S_bar[72];
-    const vector W4_3_bar = S_bar[73];
-    const vector W4_4_bar = S_bar[74];
-    const vector W4_5_bar = S_bar[75];
-    const vector W4_6_bar = S_bar[76];
-    const vector W4_7_bar = S_bar[77];
-    const vector W4_8_bar = S_bar[78];
-    const vector W4_9_bar = S_bar[79];
-    const vector W4_10_bar = S_bar[80];
-    const vector W4_11_bar = S_bar[81];
-    const vector W4_12_bar = S_bar[82];
-    const vector W4_13_bar = S_bar[83];
-    const vector W5_0_bar = S_bar[84];
-    const vector W5_1_bar = S_bar[85];
-    const vector W5_2_bar = S_bar[86];
-    const vector W5_3_bar = S_bar[87];
-    const vector W5_4_bar = S_bar[88];
-    const vector W5_5_bar = S_bar[89];
-    const vector W5_6_bar = S_bar[90];
-    const vector W5_7_bar = S_bar[91];
-    const vector W5_8_bar = S_bar[92];
-    const vector W5_9_bar = S_bar[93];
-    const vector W5_10_bar = S_bar[94];
-    const vector W5_11_bar = S_bar[95];
-    const vector W5_12_bar = S_bar[96];
-    const vector W5_13_bar = S_bar[97];
-    const vector W6_0_bar = S_bar[98];
-    const vector W6_1_bar = S_bar[99];
-    const vector W6_2_bar = S_bar[100];
-    const vector W6_3_bar = S_bar[101];
-    const vector W6_4_bar = S_bar[102];
-    const vector W6_5_bar = S_bar[103];
-    const vector W6_6_bar = S_bar[104];
-    const vector W6_7_bar = S_bar[105];
-    const vector W6_8_bar = S_bar[106];
-    const vector W6_9_bar = S_bar[107];
-    const vector W6_10_bar = S_bar[108];
-    const vector W6_11_bar = S_bar[109];
-    const vector W6_12_bar = S_bar[110];
-    const vector W6_13_bar = S_bar[111];
-    const vector W7_0_bar = S_bar[112];
-    const vector W7_1_bar = S_bar[113];
-    const vector W7_2_bar = S_bar[114];
-    const vector W7_3_bar = S_bar[115];
-    const vector W7_4_bar = S_bar[116];
-    const vector W7_5_bar = S_bar[117];
-    const vector W7_6_bar = S_bar[118];
-    const vector W7_7_bar = S_bar[119];
-    const vector W7_8_bar = S_bar[120];
-    const vector W7_9_bar = S_bar[121];
-    const vector W7_10_bar = S_bar[122];
-    const vector W7_11_bar = S_bar[123];
-    const vector W7_12_bar = S_bar[124];
-    const vector W7_13_bar = S_bar[125];
-    const vector W8_0_bar = S_bar[126];
-    const vector W8_1_bar = S_bar[127];
-    const vector W8_2_bar = S_bar[128];
-    const vector W8_3_bar = S_bar[129];
-    const vector W8_4_bar = S_bar[130];
-    const vector W8_5_bar = S_bar[131];
-    const vector W8_6_bar = S_bar[132];
-    const vector W8_7_bar = S_bar[133];
-    const vector W8_8_bar = S_bar[134];
-    const vector W8_9_bar = S_bar[135];
-    const vector W8_10_bar = S_bar[136];
-    const vector W8_11_bar = S_bar[137];
-    const vector W8_12_bar = S_bar[138];
-    const vector W8_13_bar = S_bar[139];
-    const vector W9_0_bar = S_bar[140];
-    const vector W9_1_bar = S_bar[141];
-    const vector W9_2_bar = S_bar[142];
-    const vector W9_3_bar = S_bar[143];
-    const vector W9_4_bar = S_bar[144];
-    const vector W9_5_bar = S_bar[145];
-    const vector W9_6_bar = S_bar[146];
-    const vector W9_7_bar = S_bar[147];
-    const vector W9_8_bar = S_bar[148];
-    const vector W9_9_bar = S_bar[149];
-    const vector W9_10_bar = S_bar[150];
-    const vector W9_11_bar = S_bar[151];
-    const vector W9_12_bar = S_bar[152];
-    const vector W9_13_bar = S_bar[153];
-    const vector W10_0_bar = S_bar[154];
-    const vector W10_1_bar = S_bar[155];
-    const vector W10_2_bar = S_bar[156];
-    const vector W10_3_bar = S_bar[157];
-    const vector W10_4_bar = S_bar[158];
-    const vector W10_5_bar = S_bar[159];
-    const vector W10_6_bar = S_bar[160];
-    const vector W10_7_bar = S_bar[161];
-    const vector W10_8_bar = S_bar[162];
-    const vector W10_9_bar = S_bar[163];
-    const vector W10_10_bar = S_bar[164];
-    const vector W10_11_bar = S_bar[165];
-    const vector W10_12_bar = S_bar[166];
-    const vector W10_13_bar = S_bar[167];
-    const vector W11_0_bar = S_bar[168];
-    const vector W11_1_bar = S_bar[169];
-    const vector W11_2_bar = S_bar[170];
-    const vector W11_3_bar = S_bar[171];
-    const vector W11_4_bar = S_bar[172];
-    const vector W11_5_bar = S_bar[173];
-    const vector W11_6_bar = S_bar[174];
-    const vector W11_7_bar = S_bar[175];
-    const vector W11_8_bar = S_bar[176];
-    const vector W11_9_bar = S_bar[177];
-    const vector W11_10_bar = S_bar[178];
-    const vector W11_11_bar = S_bar[179];
-    const vector W11_12_bar = S_bar[180];
-    const vector W11_13_bar = S_bar[181];
-    const vector W12_0_bar = S_bar[182];
-    const vector W12_1_bar = S_bar[183];
-    const vector W12_2_bar = S_bar[184];
-    const vector W12_3_bar = S_bar[185];
-    const vector W12_4_bar = S_bar[186];
-    const vector W12_5_bar = S_bar[187];
-    const vector W12_6_bar = S_bar[188];
-    const vector W12_7_bar = S_bar[189];
-    const vector W12_8_bar = S_bar[190];
-    const vector W12_9_bar = S_bar[191];
-    const vector W12_10_bar = S_bar[192];
-    const vector W12_11_bar = S_bar[193];
-    const vector W12_12_bar = S_bar[194];
-    const vector W12_13_bar = S_bar[195];
-    const vector W13_0_bar = S_bar[196];
-    const vector W13_1_bar = S_bar[197];
-    const vector W13_2_bar = S_bar[198];
-    const vector W13_3_bar = S_bar[199];
-    const vector W13_4_bar = S_bar[200];
-    const vector W13_5_bar = S_bar[201];
-    const vector W13_6_bar = S_bar[202];
-    const vector W13_7_bar = S_bar[203];
-    const vector W13_8_bar = S_bar[204];
-    const vector W13_9_bar = S_bar[205];
-    const vector W13_10_bar = S_bar[206];
-    const vector W13_11_bar = S_bar[207];
-    const vector W13_12_bar = S_bar[208];
-    const vector W13_13_bar = S_bar[209];
-    const vector its_amplitude_bar = S_bar[210];
-    mu_bar[0] = mu0_bar;
-    mu_bar[1] = mu1_bar;
-    mu_bar[2] = mu2_bar;
-    mu_bar[3] = mu3_bar;
-    mu_bar[4] = mu4_bar;
-    mu_bar[5] = mu5_bar;
-    mu_bar[6] = mu6_bar;
-    mu_bar[7] = mu7_bar;
-    mu_bar[8] = mu8_bar;
-    mu_bar[9] = mu9_bar;
-    mu_bar[10] = mu10_bar;
-    mu_bar[11] = mu11_bar;
-    mu_bar[12] = mu12_bar;
-    mu_bar[13] = mu13_bar;
-    W_bar[0] = W0_0_bar;
-    W_bar[1] = W0_1_bar;
-    W_bar[2] = W0_2_bar;
-    W_bar[3] = W0_3_bar;
-    W_bar[4] = W0_4_bar;
-    W_bar[5] = W0_5_bar;
-    W_bar[6] = W0_6_bar;
-    W_bar[7] = W0_7_bar;
-    W_bar[8] = W0_8_bar;
-    W_bar[9] = W0_9_bar;
-    W_bar[10] = W0_10_bar;
-    W_bar[11] = W0_11_bar;
-    W_bar[12] = W0_12_bar;
-    W_bar[13] = W0_13_bar;
-    W_bar[14] = W1_0_bar;
-    W_bar[15] = W1_1_bar;
-    W_bar[16] = W1_2_bar;
-    W_bar[17] = W1_3_bar;
-    W_bar[18] = W1_4_bar;
-    W_bar[19] = W1_5_bar;
-    W_bar[20] = W1_6_bar;
-    W_bar[21] = W1_7_bar;
-    W_bar[22] = W1_8_bar;
-    W_bar[23] = W1_9_bar;
-    W_bar[24] = W1_10_bar;
-    W_bar[25] = W1_11_bar;
-    W_bar[26] = W1_12_bar;
-    W_bar[27] = W1_13_bar;
-    W_bar[28] = W2_0_bar;
-    W_bar[29] = W2_1_bar;
-    W_bar[30] = W2_2_bar;
-    W_bar[31] = W2_3_bar;
-    W_bar[32] = W2_4_bar;
-    W_bar[33] = W2_5_bar;
-    W_bar[34] = W2_6_bar;
-    W_bar[35] = W2_7_bar;
-    W_bar[36] = W2_8_bar;
-    W_bar[37] = W2_9_bar;
-    W_bar[38] = W2_10_bar;
-    W_bar[39] = W2_11_bar;
-    W_bar[40] = W2_12_bar;
-    W_bar[41] = W2_13_bar;
-    W_bar[42] = W3_0_bar;
-    W_bar[43] = W3_1_bar;
-    W_bar[44] = W3_2_bar;
-    W_bar[45] = W3_3_bar;
-    W_bar[46] = W3_4_bar;
-    W_bar[47] = W3_5_bar;
-    W_bar[48] = W3_6_bar;
-    W_bar[49] = W3_7_bar;
-    W_bar[50] = W3_8_bar;
-    W_bar[51] = W3_9_bar;
-    W_bar[52] = W3_10_bar;
-    W_bar[53] = W3_11_bar;
-    W_bar[54] = W3_12_bar;
-    W_bar[55] = W3_13_bar;
-    W_bar[56] = W4_0_bar;
-    W_bar[57] = W4_1_bar;
-    W_bar[58] = W4_2_bar;
-    W_bar[59] = W4_3_bar;
-    W_bar[60] = W4_4_bar;
-    W_bar[61] = W4_5_bar;
-    W_bar[62] = W4_6_bar;
-    W_bar[63] = W4_7_bar;
-    W_bar[64] = W4_8_bar;
-    W_bar[65] = W4_9_bar;
-    W_bar[66] = W4_10_bar;
-    W_bar[67] = W4_11_bar;
-    W_bar[68] = W4_12_bar;
-    W_bar[69] = W4_13_bar;
-    W_bar[70] = W5_0_bar;
-    W_bar[71] = W5_1_bar;
-    W_bar[72] = W5_2_bar;
-    W_bar[73] = W5_3_bar;
-    W_bar[74] = W5_4_bar;
-    W_bar[75] = W5_5_bar;
-    W_bar[76] = W5_6_bar;
-    W_bar[77] = W5_7_bar;
-    W_bar[78] = W5_8_bar;
-    W_bar[79] = W5_9_bar;
-    W_bar[80] = W5_10_bar;
-    W_bar[81] = W5_11_bar;
-    W_bar[82] = W5_12_bar;
-    W_bar[83] = W5_13_bar;
-    W_bar[84] = W6_0_bar;
-    W_bar[85] = W6_1_bar;
-    W_bar[86] = W6_2_bar;
-    W_bar[87] = W6_3_bar;
-    W_bar[88] = W6_4_bar;
-    W_bar[89] = W6_5_bar;
-    W_bar[90] = W6_6_bar;
-    W_bar[91] = W6_7_bar;
-    W_bar[92] = W6_8_bar;
-    W_bar[93] = W6_9_bar;
-    W_bar[94] = W6_10_bar;
-    W_bar[95] = W6_11_bar;
-    W_bar[96] = W6_12_bar;
-    W_bar[97] = W6_13_bar;
-    W_bar[98] = W7_0_bar;
-    W_bar[99] = W7_1_bar;
-    W_bar[100] = W7_2_bar;
-    W_bar[101] = W7_3_bar;
-    W_bar[102] = W7_4_bar;
-    W_bar[103] = W7_5_bar;
-    W_bar[104] = W7_6_bar;
-    W_bar[105] = W7_7_bar;
-    W_bar[106] = W7_8_bar;
-    W_bar[107] = W7_9_bar;
-    W_bar[108] = W7_10_bar;
-    W_bar[109] = W7_11_bar;
-    W_bar[110] = W7_12_bar;
-    W_bar[111] = W7_13_bar;
-    W_bar[112] = W8_0_bar;
-    W_bar[113] = W8_1_bar;
-    W_bar[114] = W8_2_bar;
-    W_bar[115] = W8_3_bar;
-    W_bar[116] = W8_4_bar;
-    W_bar[117] = W8_5_bar;
-    W_bar[118] = W8_6_bar;
-    W_bar[119] = W8_7_bar;
-    W_bar[120] = W8_8_bar;
-    W_bar[121] = W8_9_bar;
-    W_bar[122] = W8_10_bar;
-    W_bar[123] = W8_11_bar;
-    W_bar[124] = W8_12_bar;
-    W_bar[125] = W8_13_bar;
-    W_bar[126] = W9_0_bar;
-    W_bar[127] = W9_1_bar;
-    W_bar[128] = W9_2_bar;
-    W_bar[129] = W9_3_bar;
-    W_bar[130] = W9_4_bar;
-    W_bar[131] = W9_5_bar;
-    W_bar[132] = W9_6_bar;
-    W_bar[133] = W9_7_bar;
-    W_bar[134] = W9_8_bar;
-    W_bar[135] = W9_9_bar;
-    W_bar[136] = W9_10_bar;
-    W_bar[137] = W9_11_bar;
-    W_bar[138] = W9_12_bar;
-    W_bar[139] = W9_13_bar;
-    W_bar[140] = W10_0_bar;
-    W_bar[141] = W10_1_bar;
-    W_bar[142] = W10_2_bar;
-    W_bar[143] = W10_3_bar;
-    W_bar[144] = W10_4_bar;
-    W_bar[145] = W10_5_bar;
-    W_bar[146] = W10_6_bar;
-    W_bar[147] = W10_7_bar;
-    W_bar[148] = W10_8_bar;
-    W_bar[149] = W10_9_bar;
-    W_bar[150] = W10_10_bar;
-    W_bar[151] = W10_11_bar;
-    W_bar[152] = W10_12_bar;
-    W_bar[153] = W10_13_bar;
-    W_bar[154] = W11_0_bar;
-    W_bar[155] = W11_1_bar;
-    W_bar[156] = W11_2_bar;
-    W_bar[157] = W11_3_bar;
-    W_bar[158] = W11_4_bar;
-    W_bar[159] = W11_5_bar;
-    W_bar[160] = W11_6_bar;
-    W_bar[161] = W11_7_bar;
-    W_bar[162] = W11_8_bar;
-    W_bar[163] = W11_9_bar;
-    W_bar[164] = W11_10_bar;
-    W_bar[165] = W11_11_bar;
-    W_bar[166] = W11_12_bar;
-    W_bar[167] = W11_13_bar;
-    W_bar[168] = W12_0_bar;
-    W_bar[169] = W12_1_bar;
-    W_bar[170] = W12_2_bar;
-    W_bar[171] = W12_3_bar;
-    W_bar[172] = W12_4_bar;
-    W_bar[173] = W12_5_bar;
-    W_bar[174] = W12_6_bar;
-    W_bar[175] = W12_7_bar;
-    W_bar[176] = W12_8_bar;
-    W_bar[177] = W12_9_bar;
-    W_bar[178] = W12_10_bar;
-    W_bar[179] = W12_11_bar;
-    W_bar[180] = W12_12_bar;
-    W_bar[181] = W12_13_bar;
-    W_bar[182] = W13_0_bar;
-    W_bar[183] = W13_1_bar;
-    W_bar[184] = W13_2_bar;
-    W_bar[185] = W13_3_bar;
-    W_bar[186] = W13_4_bar;
-    W_bar[187] = W13_5_bar;
-    W_bar[188] = W13_6_bar;
-    W_bar[189] = W13_7_bar;
-    W_bar[190] = W13_8_bar;
-    W_bar[191] = W13_9_bar;
-    W_bar[192] = W13_10_bar;
-    W_bar[193] = W13_11_bar;
-    W_bar[194] = W13_12_bar;
-    W_bar[195] = W13_13_bar;
-    amplitude_bar[0] = its_amplitude_bar;
+    const vector its_amplitude = amplitude[0];
+    const vector sum0 = sums[0];
+    const vector sum1 = sums[1];
+    const vector sum2 = sums[2];
+    const vector sum3 = sums[3];
+    const vector sum4 = sums[4];
+    const vector sum5 = sums[5];
+    const vector sum6 = sums[6];
+    const vector sum7 = sums[7];
+    const vector sum8 = sums[8];
+    const vector sum9 = sums[9];
+    const vector sum10 = sums[10];
+    const vector sum11 = sums[11];
+    const vector sum12 = sums[12];
+    const vector sum13 = sums[13];
+    const vector sum14 = sums[14];
+    const vector sum15 = sums[15];
+    const vector sum16 = sums[16];
+    const vector sum17 = sums[17];
+    const vector sum18 = sums[18];
+    const vector sum19 = sums[19];
+    const vector sum20 = sums[20];
+    const vector sum21 = sums[21];
+    const vector sum22 = sums[22];
+    const vector sum23 = sums[23];
+    const vector sum24 = sums[24];
+    const vector sum25 = sums[25];
+    const vector sum26 = sums[26];
+    const vector sum27 = sums[27];
+    const vector sum28 = sums[28];
+    const vector sum29 = sums[29];
+    const vector sum30 = sums[30];
+    const vector sum31 = sums[31];
+    const vector sum32 = sums[32];
+    const vector sum33 = sums[33];
+    const vector sum34 = sums[34];
+    const vector sum35 = sums[35];
+    const vector sum36 = sums[36];
+    const vector sum37 = sums[37];
+    const vector sum38 = sums[38];
+    const vector sum39 = sums[39];
+    const vector sum40 = sums[40];
+    const vector sum41 = sums[41];
+    const vector sum42 = sums[42];
+    const vector sum43 = sums[43];
+    const vector sum44 = sums[44];
+    const vector sum45 = sums[45];
+    const vector sum46 = sums[46];
+    const vector sum47 = sums[47];
+    const vector sum48 = sums[48];
+    const vector sum49 = sums[49];
+    const vector sum50 = sums[50];
+    const vector sum51 = sums[51];
+    const vector sum52 = sums[52];
+    const vector sum53 = sums[53];
+    const vector sum54 = sums[54];
+    const vector sum55 = sums[55];
+    const vector sum56 = sums[56];
+    const vector sum57 = sums[57];
+    const vector sum58 = sums[58];
+    const vector sum59 = sums[59];
+    const vector sum60 = sums[60];
+    const vector sum61 = sums[61];
+    const vector sum62 = sums[62];
+    const vector sum63 = sums[63];
+    const vector sum64 = sums[64];
+    const vector sum65 = sums[65];
+    const vector sum66 = sums[66];
+    const vector sum67 = sums[67];
+    const vector sum68 = sums[68];
+    const vector sum69 = sums[69];
+    const vector sum70 = sums[70];
+    const vector sum71 = sums[71];
+    const vector sum72 = sums[72];
+    const vector sum73 = sums[73];
+    const vector sum74 = sums[74];
+    const vector sum75 = sums[75];
+    const vector sum76 = sums[76];
+    const vector sum77 = sums[77];
+    const vector sum78 = sums[78];
+    const vector sum79 = sums[79];
+    const vector sum80 = sums[80];
+    const vector sum81 = sums[81];
+    const vector sum82 = sums[82];
+    const vector sum83 = sums[83];
+    const vector sum84 = sums[84];
+    const vector sum85 = sums[85];
+    const vector sum86 = sums[86];
+    const vector sum87 = sums[87];
+    const vector sum88 = sums[88];
+    const vector sum89 = sums[89];
+    const vector sum90 = sums[90];
+    const vector sum91 = sums[91];
+    const vector sum92 = sums[92];
+    const vector sum93 = sums[93];
+    const vector sum94 = sums[94];
+    const vector sum95 = sums[95];
+    const vector sum96 = sums[96];
+    const vector sum97 = sums[97];
+    const vector sum98 = sums[98];
+    const vector sum99 = sums[99];
+    const vector sum100 = sums[100];
+    const vector sum101 = sums[101];
+    const vector sum102 = sums[102];
+    const vector sum103 = sums[103];
+    const vector sum104 = sums[104];
+    const vector sum105 = sums[105];
+    const vector sum106 = sums[106];
+    const vector sum107 = sums[107];
+    const vector sum108 = sums[108];
+    const vector sum109 = sums[109];
+    const vector sum110 = sums[110];
+    const vector sum111 = sums[111];
+    const vector sum112 = sums[112];
+    const vector sum113 = sums[113];
+    const vector sum114 = sums[114];
+    const vector sum115 = sums[115];
+    const vector sum116 = sums[116];
+    const vector sum117 = sums[117];
+    const vector sum118 = sums[118];
+    const vector sum119 = sums[119];
+    const vector sum120 = sums[120];
+    const vector sum121 = sums[121];
+    const vector sum122 = sums[122];
+    const vector sum123 = sums[123];
+    const vector sum124 = sums[124];
+    const vector sum125 = sums[125];
+    const vector sum126 = sums[126];
+    const vector sum127 = sums[127];
+    const vector sum128 = sums[128];
+    const vector sum129 = sums[129];
+    const vector sum130 = sums[130];
+    const vector sum131 = sums[131];
+    const vector sum132 = sums[132];
+    const vector sum133 = sums[133];
+    const vector sum134 = sums[134];
+    const vector sum135 = sums[135];
+    const vector sum136 = sums[136];
+    const vector sum137 = sums[137];
+    const vector sum138 = sums[138];
+    const vector sum139 = sums[139];
+    const vector sum140 = sums[140];
+    const vector sum141 = sums[141];
+    const vector sum142 = sums[142];
+    const vector sum143 = sums[143];
+    const vector sum144 = sums[144];
+    const vector sum145 = sums[145];
+    const vector sum146 = sums[146];
+    const vector sum147 = sums[147];
+    const vector sum148 = sums[148];
+    const vector sum149 = sums[149];
+    const vector sum150 = sums[150];
+    const vector sum151 = sums[151];
+    const vector sum152 = sums[152];
+    const vector sum153 = sums[153];
+    const vector sum154 = sums[154];
+    const vector sum155 = sums[155];
+    const vector sum156 = sums[156];
+    const vector sum157 = sums[157];
+    const vector sum158 = sums[158];
+    const vector sum159 = sums[159];
+    const vector sum160 = sums[160];
+    const vector sum161 = sums[161];
+    const vector sum162 = sums[162];
+    const vector sum163 = sums[163];
+    const vector sum164 = sums[164];
+    const vector sum165 = sums[165];
+    const vector sum166 = sums[166];
+    const vector sum167 = sums[167];
+    const vector sum168 = sums[168];
+    const vector sum169 = sums[169];
+    const vector sum170 = sums[170];
+    const vector sum171 = sums[171];
+    const vector sum172 = sums[172];
+    const vector sum173 = sums[173];
+    const vector sum174 = sums[174];
+    const vector sum175 = sums[175];
+    const vector sum176 = sums[176];
+    const vector sum177 = sums[177];
+    const vector sum178 = sums[178];
+    const vector sum179 = sums[179];
+    const vector sum180 = sums[180];
+    const vector sum181 = sums[181];
+    const vector sum182 = sums[182];
+    const vector sum183 = sums[183];
+    const vector sum184 = sums[184];
+    const vector sum185 = sums[185];
+    const vector sum186 = sums[186];
+    const vector sum187 = sums[187];
+    const vector sum188 = sums[188];
+    const vector sum189 = sums[189];
+    const vector sum190 = sums[190];
+    const vector sum191 = sums[191];
+    const vector sum192 = sums[192];
+    const vector sum193 = sums[193];
+    const vector sum194 = sums[194];
+    const vector sum195 = sums[195];
+    const vector sum196 = sums[196];
+    const vector sum197 = sums[197];
+    const vector sum198 = sums[198];
+    const vector sum199 = sums[199];
+    const vector sum200 = sums[200];
+    const vector sum201 = sums[201];
+    const vector sum202 = sums[202];
+    const vector sum203 = sums[203];
+    const vector sum204 = sums[204];
+    const vector sum205 = sums[205];
+    const vector sum206 = sums[206];
+    const vector sum207 = sums[207];
+    const vector sum208 = sums[208];
+    const vector sum209 = sums[209];
+    const vector sum210 = sums[210];
+    mu_bar[0] = its_amplitude * sum0;
+    mu_bar[1] = its_amplitude * sum1;
+    mu_bar[2] = its_amplitude * sum2;
+    mu_bar[3] = its_amplitude * sum3;
+    mu_bar[4] = its_amplitude * sum4;
+    mu_bar[5] = its_amplitude * sum5;
+    mu_bar[6] = its_amplitude * sum6;
+    mu_bar[7] = its_amplitude * sum7;
+    mu_bar[8] = its_amplitude * sum8;
+    mu_bar[9] = its_amplitude * sum9;
+    mu_bar[10] = its_amplitude * sum10;
+    mu_bar[11] = its_amplitude * sum11;
+    mu_bar[12] = its_amplitude * sum12;
+    mu_bar[13] = its_amplitude * sum13;
+    W_bar[0] = its_amplitude * sum14;
+    W_bar[1] = its_amplitude * sum15;
+    W_bar[2] = its_amplitude * sum16;
+    W_bar[3] = its_amplitude * sum17;
+    W_bar[4] = its_amplitude * sum18;
+    W_bar[5] = its_amplitude * sum19;
+    W_bar[6] = its_amplitude * sum20;
+    W_bar[7] = its_amplitude * sum21;
+    W_bar[8] = its_amplitude * sum22;
+    W_bar[9] = its_amplitude * sum23;
+    W_bar[10] = its_amplitude * sum24;
+    W_bar[11] = its_amplitude * sum25;
+    W_bar[12] = its_amplitude * sum26;
+    W_bar[13] = its_amplitude * sum27;
+    W_bar[14] = its_amplitude * sum28;
+    W_bar[15] = its_amplitude * sum29;
+    W_bar[16] = its_amplitude * sum30;
+    W_bar[17] = its_amplitude * sum31;
+    W_bar[18] = its_amplitude * sum32;
+    W_bar[19] = its_amplitude * sum33;
+    W_bar[20] = its_amplitude * sum34;
+    W_bar[21] = its_amplitude * sum35;
+    W_bar[22] = its_amplitude * sum36;
+    W_bar[23] = its_amplitude * sum37;
+    W_bar[24] = its_amplitude * sum38;
+    W_bar[25] = its_amplitude * sum39;
+    W_bar[26] = its_amplitude * sum40;
+    W_bar[27] = its_amplitude * sum41;
+    W_bar[28] = its_amplitude * sum42;
+    W_bar[29] = its_amplitude * sum43;
+    W_bar[30] = its_amplitude * sum44;
+    W_bar[31] = its_amplitude * sum45;
+    W_bar[32] = its_amplitude * sum46;
+    W_bar[33] = its_amplitude * sum47;
+    W_bar[34] = its_amplitude * sum48;
+    W_bar[35] = its_amplitude * sum49;
+    W_bar[36] = its_amplitude * sum50;
+    W_bar[37] = its_amplitude * sum51;
+    W_bar[38] = its_amplitude * sum52;
+    W_bar[39] = its_amplitude * sum53;
+    W_bar[40] = its_amplitude * sum54;
+    W_bar[41] = its_amplitude * sum55;
+    W_bar[42] = its_amplitude * sum56;
+    W_bar[43] = its_amplitude * sum57;
+    W_bar[44] = its_amplitude * sum58;
+    W_bar[45] = its_amplitude * sum59;
+    W_bar[46] = its_amplitude * sum60;
+    W_bar[47] = its_amplitude * sum61;
+    W_bar[48] = its_amplitude * sum62;
+    W_bar[49] = its_amplitude * sum63;
+    W_bar[50] = its_amplitude * sum64;
+    W_bar[51] = its_amplitude * sum65;
+    W_bar[52] = its_amplitude * sum66;
+    W_bar[53] = its_amplitude * sum67;
+    W_bar[54] = its_amplitude * sum68;
+    W_bar[55] = its_amplitude * sum69;
+    W_bar[56] = its_amplitude * sum70;
+    W_bar[57] = its_amplitude * sum71;
+    W_bar[58] = its_amplitude * sum72;
+    W_bar[59] = its_amplitude * sum73;
+    W_bar[60] = its_amplitude * sum74;
+    W_bar[61] = its_amplitude * sum75;
+    W_bar[62] = its_amplitude * sum76;
+    W_bar[63] = its_amplitude * sum77;
+    W_bar[64] = its_amplitude * sum78;
+    W_bar[65] = its_amplitude * sum79;
+    W_bar[66] = its_amplitude * sum80;
+    W_bar[67] = its_amplitude * sum81;
+    W_bar[68] = its_amplitude * sum82;
+    W_bar[69] = its_amplitude * sum83;
+    W_bar[70] = its_amplitude * sum84;
+    W_bar[71] = its_amplitude * sum85;
+    W_bar[72] = its_amplitude * sum86;
+    W_bar[73] = its_amplitude * sum87;
+    W_bar[74] = its_amplitude * sum88;
+    W_bar[75] = its_amplitude * sum89;
+    W_bar[76] = its_amplitude * sum90;
+    W_bar[77] = its_amplitude * sum91;
+    W_bar[78] = its_amplitude * sum92;
+    W_bar[79] = its_amplitude * sum93;
+    W_bar[80] = its_amplitude * sum94;
+    W_bar[81] = its_amplitude * sum95;
+    W_bar[82] = its_amplitude * sum96;
+    W_bar[83] = its_amplitude * sum97;
+    W_bar[84] = its_amplitude * sum98;
+    W_bar[85] = its_amplitude * sum99;
+    W_bar[86] = its_amplitude * sum100;
+    W_bar[87] = its_amplitude * sum101;
+    W_bar[88] = its_amplitude * sum102;
+    W_bar[89] = its_amplitude * sum103;
+    W_bar[90] = its_amplitude * sum104;
+    W_bar[91] = its_amplitude * sum105;
+    W_bar[92] = its_amplitude * sum106;
+    W_bar[93] = its_amplitude * sum107;
+    W_bar[94] = its_amplitude * sum108;
+    W_bar[95] = its_amplitude * sum109;
+    W_bar[96] = its_amplitude * sum110;
+    W_bar[97] = its_amplitude * sum111;
+    W_bar[98] = its_amplitude * sum112;
+    W_bar[99] = its_amplitude * sum113;
+    W_bar[100] = its_amplitude * sum114;
+    W_bar[101] = its_amplitude * sum115;
+    W_bar[102] = its_amplitude * sum116;
+    W_bar[103] = its_amplitude * sum117;
+    W_bar[104] = its_amplitude * sum118;
+    W_bar[105] = its_amplitude * sum119;
+    W_bar[106] = its_amplitude * sum120;
+    W_bar[107] = its_amplitude * sum121;
+    W_bar[108] = its_amplitude * sum122;
+    W_bar[109] = its_amplitude * sum123;
+    W_bar[110] = its_amplitude * sum124;
+    W_bar[111] = its_amplitude * sum125;
+    W_bar[112] = its_amplitude * sum126;
+    W_bar[113] = its_amplitude * sum127;
+    W_bar[114] = its_amplitude * sum128;
+    W_bar[115] = its_amplitude * sum129;
+    W_bar[116] = its_amplitude * sum130;
+    W_bar[117] = its_amplitude * sum131;
+    W_bar[118] = its_amplitude * sum132;
+    W_bar[119] = its_amplitude * sum133;
+    W_bar[120] = its_amplitude * sum134;
+    W_bar[121] = its_amplitude * sum135;
+    W_bar[122] = its_amplitude * sum136;
+    W_bar[123] = its_amplitude * sum137;
+    W_bar[124] = its_amplitude * sum138;
+    W_bar[125] = its_amplitude * sum139;
+    W_bar[126] = its_amplitude * sum140;
+    W_bar[127] = its_amplitude * sum141;
+    W_bar[128] = its_amplitude * sum142;
+    W_bar[129] = its_amplitude * sum143;
+    W_bar[130] = its_amplitude * sum144;
+    W_bar[131] = its_amplitude * sum145;
+    W_bar[132] = its_amplitude * sum146;
+    W_bar[133] = its_amplitude * sum147;
+    W_bar[134] = its_amplitude * sum148;
+    W_bar[135] = its_amplitude * sum149;
+    W_bar[136] = its_amplitude * sum150;
+    W_bar[137] = its_amplitude * sum151;
+    W_bar[138] = its_amplitude * sum152;
+    W_bar[139] = its_amplitude * sum153;
+    W_bar[140] = its_amplitude * sum154;
+    W_bar[141] = its_amplitude * sum155;
+    W_bar[142] = its_amplitude * sum156;
+    W_bar[143] = its_amplitude * sum157;
+    W_bar[144] = its_amplitude * sum158;
+    W_bar[145] = its_amplitude * sum159;
+    W_bar[146] = its_amplitude * sum160;
+    W_bar[147] = its_amplitude * sum161;
+    W_bar[148] = its_amplitude * sum162;
+    W_bar[149] = its_amplitude * sum163;
+    W_bar[150] = its_amplitude * sum164;
+    W_bar[151] = its_amplitude * sum165;
+    W_bar[152] = its_amplitude * sum166;
+    W_bar[153] = its_amplitude * sum167;
+    W_bar[154] = its_amplitude * sum168;
+    W_bar[155] = its_amplitude * sum169;
+    W_bar[156] = its_amplitude * sum170;
+    W_bar[157] = its_amplitude * sum171;
+    W_bar[158] = its_amplitude * sum172;
+    W_bar[159] = its_amplitude * sum173;
+    W_bar[160] = its_amplitude * sum174;
+    W_bar[161] = its_amplitude * sum175;
+    W_bar[162] = its_amplitude * sum176;
+    W_bar[163] = its_amplitude * sum177;
+    W_bar[164] = its_amplitude * sum178;
+    W_bar[165] = its_amplitude * sum179;
+    W_bar[166] = its_amplitude * sum180;
+    W_bar[167] = its_amplitude * sum181;
+    W_bar[168] = its_amplitude * sum182;
+    W_bar[169] = its_amplitude * sum183;
+    W_bar[170] = its_amplitude * sum184;
+    W_bar[171] = its_amplitude * sum185;
+    W_bar[172] = its_amplitude * sum186;
+    W_bar[173] = its_amplitude * sum187;
+    W_bar[174] = its_amplitude * sum188;
+    W_bar[175] = its_amplitude * sum189;
+    W_bar[176] = its_amplitude * sum190;
+    W_bar[177] = its_amplitude * sum191;
+    W_bar[178] = its_amplitude * sum192;
+    W_bar[179] = its_amplitude * sum193;
+    W_bar[180] = its_amplitude * sum194;
+    W_bar[181] = its_amplitude * sum195;
+    W_bar[182] = its_amplitude * sum196;
+    W_bar[183] = its_amplitude * sum197;
+    W_bar[184] = its_amplitude * sum198;
+    W_bar[185] = its_amplitude * sum199;
+    W_bar[186] = its_amplitude * sum200;
+    W_bar[187] = its_amplitude * sum201;
+    W_bar[188] = its_amplitude * sum202;
+    W_bar[189] = its_amplitude * sum203;
+    W_bar[190] = its_amplitude * sum204;
+    W_bar[191] = its_amplitude * sum205;
+    W_bar[192] = its_amplitude * sum206;
+    W_bar[193] = its_amplitude * sum207;
+    W_bar[194] = its_amplitude * sum208;
+    W_bar[195] = its_amplitude * sum209;
+    amplitude_bar[0] = sum210;
 }
 
 /* The distances of some points q from one point p. */
@@ -1906,72 +1876,58 @@ OUTLINE void pair_distances(
     const vector q12 = q[12];
     const vector q13 = q[13];
     const vector gap = q0 - p0;
-    const vector round_2 = vector_round(0.15915494309189535 * gap);
-    const vector arm1_log0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07
-        * round_2;
+    const vector round_2 = round_each(0.15915494309189535 * gap);
+    const vector arm1_log0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const vector gap_2 = q1 - p1;
-    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
-    const vector arm1_log1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 -
-        3.019915981956753e-07 * round_3;
+    const vector round_3 = round_each(0.15915494309189535 * gap_2);
+    const vector arm1_log1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const vector gap_3 = q2 - p2;
-    const vector round_4 = vector_round(0.15915494309189535 * gap_3);
-    const vector arm1_log2 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 -
-        3.019915981956753e-07 * round_4;
+    const vector round_4 = round_each(0.15915494309189535 * gap_3);
+    const vector arm1_log2 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
     const vector gap_4 = q3 - p3;
-    const vector round_5 = vector_round(0.15915494309189535 * gap_4);
-    const vector arm1_log3 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 -
-        3.019915981956753e-07 * round_5;
+    const vector round_5 = round_each(0.15915494309189535 * gap_4);
+    const vector arm1_log3 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
     const vector gap_5 = q4 - p4;
-    const vector round_6 = vector_round(0.15915494309189535 * gap_5);
-    const vector arm1_log4 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 -
-        3.019915981956753e-07 * round_6;
+    const vector round_6 = round_each(0.15915494309189535 * gap_5);
+    const vector arm1_log4 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
     const vector gap_6 = q5 - p5;
-    const vector round_7 = vector_round(0.15915494309189535 * gap_6);
-    const vector arm1_log5 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 -
-        3.019915981956753e-07 * round_7;
+    const vector round_7 = round_each(0.15915494309189535 * gap_6);
+    const vector arm1_log5 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
     const vector gap_7 = q6 - p6;
-    const vector round_8 = vector_round(0.15915494309189535 * gap_7);
-    const vector arm1_log6 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 -
-        3.019915981956753e-07 * round_8;
+    const vector round_8 = round_each(0.15915494309189535 * gap_7);
+    const vector arm1_log6 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
     const vector gap_8 = q7 - p7;
-    const vector round_9 = vector_round(0.15915494309189535 * gap_8);
-    const vector arm2_log0 = gap_8 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 -
-        3.019915981956753e-07 * round_9;
+    const vector round_9 = round_each(0.15915494309189535 * gap_8);
+    const vector arm2_log0 = gap_8 - 6.28125 * round_9 - 0.001935307179586477 * round_9;
     const vector gap_9 = q8 - p8;
-    const vector round_10 = vector_round(0.15915494309189535 * gap_9);
-    const vector arm2_log1 = gap_9 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 -
-        3.019915981956753e-07 * round_10;
+    const vector round_10 = round_each(0.15915494309189535 * gap_9);
+    const vector arm2_log1 = gap_9 - 6.28125 * round_10 - 0.001935307179586477 * round_10;
     const vector gap_10 = q9 - p9;
-    const vector round_11 = vector_round(0.15915494309189535 * gap_10);
-    const vector arm2_log2 = gap_10 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 -
-        3.019915981956753e-07 * round_11;
+    const vector round_11 = round_each(0.15915494309189535 * gap_10);
+    const vector arm2_log2 = gap_10 - 6.28125 * round_11 - 0.001935307179586477 * round_11;
     const vector gap_11 = q10 - p10;
-    const vector round_12 = vector_round(0.15915494309189535 * gap_11);
-    const vector arm2_log3 = gap_11 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 -
-        3.019915981956753e-07 * round_12;
+    const vector round_12 = round_each(0.15915494309189535 * gap_11);
+    const vector arm2_log3 = gap_11 - 6.28125 * round_12 - 0.001935307179586477 * round_12;
     const vector gap_12 = q11 - p11;
-    const vector round_13 = vector_round(0.15915494309189535 * gap_12);
-    const vector arm2_log4 = gap_12 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 -
-        3.019915981956753e-07 * round_13;
+    const vector round_13 = round_each(0.15915494309189535 * gap_12);
+    const vector arm2_log4 = gap_12 - 6.28125 * round_13 - 0.001935307179586477 * round_13;
     const vector gap_13 = q12 - p12;
-    const vector round_14 = vector_round(0.15915494309189535 * gap_13);
-    const vector arm2_log5 = gap_13 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 -
-        3.019915981956753e-07 * round_14;
+    const vector round_14 = round_each(0.15915494309189535 * gap_13);
+    const vector arm2_log5 = gap_13 - 6.28125 * round_14 - 0.001935307179586477 * round_14;
     const vector gap_14 = q13 - p13;
-    const vector round_15 = vector_round(0.15915494309189535 * gap_14);
-    const vector arm2_log6 = gap_14 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 -
-        3.019915981956753e-07 * round_15;
+    const vector round_15 = round_each(0.15915494309189535 * gap_14);
+    const vector arm2_log6 = gap_14 - 6.28125 * round_15 - 0.001935307179586477 * round_15;
     const vector total_2 = arm1_log0 * arm1_log0 + arm1_log1 * arm1_log1 + arm1_log2 * arm1_log2 + arm1_log3 *
         arm1_log3 + arm1_log4 * arm1_log4;
     const vector total_3 = total_2 + arm1_log5 * arm1_log5 + arm1_log6 * arm1_log6 + arm2_log0 * arm2_log0 +
         arm2_log1 * arm2_log1;
     const vector total_4 = total_3 + arm2_log2 * arm2_log2 + arm2_log3 * arm2_log3 + arm2_log4 * arm2_log4 +
         arm2_log5 * arm2_log5;
-    distance[0] = vector_sqrt(total_4 + arm2_log6 * arm2_log6);
+    distance[0] = sqrt_each(total_4 + arm2_log6 * arm2_log6);
 }
 
 /*
- * The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar.
+ * The factors of whose products are what is summed over the points.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
@@ -2201,7 +2157,6 @@ OUTLINE void pair_factors(
     const double W13_11 = S[207];
     const double W13_12 = S[208];
     const double W13_13 = S[209];
-    const double amplitude = S[210];
     const vector its_value_bar = value_bar[0];
     const vector x0_bar = slope_bar[0];
     const vector x1_bar = slope_bar[1];
@@ -2218,64 +2173,50 @@ OUTLINE void pair_factors(
     const vector x12_bar = slope_bar[12];
     const vector x13_bar = slope_bar[13];
     const vector gap = x0 - mu0;
-    const vector round_2 = vector_round(0.15915494309189535 * gap);
-    const vector v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const vector round_2 = round_each(0.15915494309189535 * gap);
+    const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const vector gap_2 = x1 - mu1;
-    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
-    const vector v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const vector round_3 = round_each(0.15915494309189535 * gap_2);
+    const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const vector gap_3 = x2 - mu2;
-    const vector round_4 = vector_round(0.15915494309189535 * gap_3);
-    const vector v2 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
-        round_4;
+    const vector round_4 = round_each(0.15915494309189535 * gap_3);
+    const vector v2 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
     const vector gap_4 = x3 - mu3;
-    const vector round_5 = vector_round(0.15915494309189535 * gap_4);
-    const vector v3 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
-        round_5;
+    const vector round_5 = round_each(0.15915494309189535 * gap_4);
+    const vector v3 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
     const vector gap_5 = x4 - mu4;
-    const vector round_6 = vector_round(0.15915494309189535 * gap_5);
-    const vector v4 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
-        round_6;
+    const vector round_6 = round_each(0.15915494309189535 * gap_5);
+    const vector v4 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
     const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
     const vector gap_6 = x5 - mu5;
-    const vector round_7 = vector_round(0.15915494309189535 * gap_6);
-    const vector v5 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
-        round_7;
+    const vector round_7 = round_each(0.15915494309189535 * gap_6);
+    const vector v5 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
     const vector gap_7 = x6 - mu6;
-    const vector round_8 = vector_round(0.15915494309189535 * gap_7);
-    const vector v6 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
-        round_8;
+    const vector round_8 = round_each(0.15915494309189535 * gap_7);
+    const vector v6 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
     const vector gap_8 = x7 - mu7;
-    const vector round_9 = vector_round(0.15915494309189535 * gap_8);
-    const vector v7 = gap_8 - 6.28125 * round_9 - 0.0019350051879882812 * round_9 - 3.019915981956753e-07 *
-        round_9;
+    const vector round_9 = round_each(0.15915494309189535 * gap_8);
+    const vector v7 = gap_8 - 6.28125 * round_9 - 0.001935307179586477 * round_9;
     const vector gap_9 = x8 - mu8;
-    const vector round_10 = vector_round(0.15915494309189535 * gap_9);
-    const vector v8 = gap_9 - 6.28125 * round_10 - 0.0019350051879882812 * round_10 - 3.019915981956753e-07 *
-        round_10;
+    const vector round_10 = round_each(0.15915494309189535 * gap_9);
+    const vector v8 = gap_9 - 6.28125 * round_10 - 0.001935307179586477 * round_10;
     const vector total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
     const vector gap_10 = x9 - mu9;
-    const vector round_11 = vector_round(0.15915494309189535 * gap_10);
-    const vector v9 = gap_10 - 6.28125 * round_11 - 0.0019350051879882812 * round_11 - 3.019915981956753e-07 *
-        round_11;
+    const vector round_11 = round_each(0.15915494309189535 * gap_10);
+    const vector v9 = gap_10 - 6.28125 * round_11 - 0.001935307179586477 * round_11;
     const vector gap_11 = x10 - mu10;
-    const vector round_12 = vector_round(0.15915494309189535 * gap_11);
-    const vector v10 = gap_11 - 6.28125 * round_12 - 0.0019350051879882812 * round_12 - 3.019915981956753e-07
-        * round_12;
+    const vector round_12 = round_each(0.15915494309189535 * gap_11);
+    const vector v10 = gap_11 - 6.28125 * round_12 - 0.001935307179586477 * round_12;
     const vector gap_12 = x11 - mu11;
-    const vector round_13 = vector_round(0.15915494309189535 * gap_12);
-    const vector v11 = gap_12 - 6.28125 * round_13 - 0.0019350051879882812 * round_13 - 3.019915981956753e-07
-        * round_13;
+    const vector round_13 = round_each(0.15915494309189535 * gap_12);
+    const vector v11 = gap_12 - 6.28125 * round_13 - 0.001935307179586477 * round_13;
     const vector gap_13 = x12 - mu12;
-    const vector round_14 = vector_round(0.15915494309189535 * gap_13);
-    const vector v12 = gap_13 - 6.28125 * round_14 - 0.0019350051879882812 * round_14 - 3.019915981956753e-07
-        * round_14;
+    const vector round_14 = round_each(0.15915494309189535 * gap_13);
+    const vector v12 = gap_13 - 6.28125 * round_14 - 0.001935307179586477 * round_14;
     const vector total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
     const vector gap_14 = x13 - mu13;
-    const vector round_15 = vector_round(0.15915494309189535 * gap_14);
-    const vector v13 = gap_14 - 6.28125 * round_15 - 0.0019350051879882812 * round_15 - 3.019915981956753e-07
-        * round_15;
+    const vector round_15 = round_each(0.15915494309189535 * gap_14);
+    const vector v13 = gap_14 - 6.28125 * round_15 - 0.001935307179586477 * round_15;
     const vector z0 = total_4 + W0_13 * v13;
     const vector total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
     const vector total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
@@ -2332,8 +2273,7 @@ OUTLINE void pair_factors(
     const vector total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
     const vector total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
     const vector z13 = total_46 + W13_13 * v13;
-    const vector exp_2 = vector_exp(-0.5 * (total_43 + z13 * z13));
-    const vector phi = amplitude * exp_2;
+    const vector phi = gaussian_each(total_43 + z13 * z13);
     const vector gap_15 = -(W13_0 * x0_bar) - W13_1 * x1_bar - W13_2 * x2_bar - W13_3 * x3_bar;
     const vector gap_16 = gap_15 - W13_4 * x4_bar - W13_5 * x5_bar - W13_6 * x6_bar - W13_7 * x7_bar;
     const vector gap_17 = gap_16 - W13_8 * x8_bar - W13_9 * x9_bar - W13_10 * x10_bar - W13_11 * x11_bar;
@@ -2394,24 +2334,24 @@ OUTLINE void pair_factors(
     const vector gap_69 = gap_68 - W12_8 * x8_bar - W12_9 * x9_bar - W12_10 * x10_bar - W12_11 * x11_bar;
     const vector gap_70 = gap_69 - W12_12 * x12_bar - W12_13 * x13_bar;
     const vector by_phi = total_49 + z12 * gap_70 + z13 * gap_18;
-    const vector product = exp_2 * (amplitude * by_phi);
-    const vector by_z13 = phi * gap_18 - z13 * product;
-    const vector by_z12 = phi * gap_70 - z12 * product;
-    const vector by_z11 = phi * gap_66 - z11 * product;
-    const vector by_z10 = phi * gap_62 - z10 * product;
-    const vector by_z9 = phi * gap_58 - z9 * product;
+    const vector phi_product = phi * by_phi;
+    const vector by_z13 = phi * gap_18 - z13 * phi_product;
+    const vector by_z12 = phi * gap_70 - z12 * phi_product;
+    const vector by_z11 = phi * gap_66 - z11 * phi_product;
+    const vector by_z10 = phi * gap_62 - z10 * phi_product;
+    const vector by_z9 = phi * gap_58 - z9 * phi_product;
     const vector total_50 = W13_0 * by_z13 + W12_0 * by_z12 + W11_0 * by_z11 + W10_0 * by_z10 + W9_0 * by_z9;
-    const vector by_z8 = phi * gap_54 - z8 * product;
-    const vector by_z7 = phi * gap_50 - z7 * product;
-    const vector by_z6 = phi * gap_46 - z6 * product;
-    const vector by_z5 = phi * gap_42 - z5 * product;
+    const vector by_z8 = phi * gap_54 - z8 * phi_product;
+    const vector by_z7 = phi * gap_50 - z7 * phi_product;
+    const vector by_z6 = phi * gap_46 - z6 * phi_product;
+    const vector by_z5 = phi * gap_42 - z5 * phi_product;
     const vector total_51 = total_50 + W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5;
-    const vector by_z4 = phi * gap_38 - z4 * product;
-    const vector by_z3 = phi * gap_34 - z3 * product;
-    const vector by_z2 = phi * gap_30 - z2 * product;
-    const vector by_z1 = phi * gap_26 - z1 * product;
+    const vector by_z4 = phi * gap_38 - z4 * phi_product;
+    const vector by_z3 = phi * gap_34 - z3 * phi_product;
+    const vector by_z2 = phi * gap_30 - z2 * phi_product;
+    const vector by_z1 = phi * gap_26 - z1 * phi_product;
     const vector total_52 = total_51 + W4_0 * by_z4 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1;
-    const vector by_z0 = phi * gap_22 - z0 * product;
+    const vector by_z0 = phi * gap_22 - z0 * phi_product;
     const vector by_v0 = total_52 + W0_0 * by_z0;
     const vector total_53 = W13_1 * by_z13 + W12_1 * by_z12 + W11_1 * by_z11 + W10_1 * by_z10 + W9_1 * by_z9;
     const vector total_54 = total_53 + W8_1 * by_z8 + W7_1 * by_z7 + W6_1 * by_z6 + W5_1 * by_z5;
@@ -2497,368 +2437,368 @@ OUTLINE void pair_factors(
     factor[11] = v11;
     factor[12] = v12;
     factor[13] = v13;
-    factor[14] = by_z13;
-    factor[15] = by_z12;
-    factor[16] = by_z11;
-    factor[17] = by_z10;
-    factor[18] = by_z9;
-    factor[19] = by_z8;
-    factor[20] = by_z7;
-    factor[21] = by_z6;
-    factor[22] = by_z5;
-    factor[23] = by_z4;
-    factor[24] = by_z3;
-    factor[25] = by_z2;
-    factor[26] = by_z1;
-    factor[27] = by_z0;
-    factor[28] = -by_v0;
-    factor[29] = -by_v1;
-    factor[30] = -by_v2;
-    factor[31] = -by_v3;
-    factor[32] = -by_v4;
-    factor[33] = -by_v5;
-    factor[34] = -by_v6;
-    factor[35] = -by_v7;
-    factor[36] = -by_v8;
-    factor[37] = -by_v9;
-    factor[38] = -by_v10;
-    factor[39] = -by_v11;
-    factor[40] = -by_v12;
-    factor[41] = -by_v13;
-    factor[42] = z0_product;
-    factor[43] = z1_product;
-    factor[44] = z2_product;
-    factor[45] = z3_product;
-    factor[46] = z4_product;
-    factor[47] = z5_product;
-    factor[48] = z6_product;
-    factor[49] = z7_product;
-    factor[50] = z8_product;
-    factor[51] = z9_product;
-    factor[52] = z10_product;
-    factor[53] = z11_product;
-    factor[54] = z12_product;
-    factor[55] = z13_product;
-    factor[56] = exp_2 * by_phi;
+    factor[14] = phi_product;
+    factor[15] = by_z13;
+    factor[16] = by_z12;
+    factor[17] = by_z11;
+    factor[18] = by_z10;
+    factor[19] = by_z9;
+    factor[20] = by_z8;
+    factor[21] = by_z7;
+    factor[22] = by_z6;
+    factor[23] = by_z5;
+    factor[24] = by_z4;
+    factor[25] = by_z3;
+    factor[26] = by_z2;
+    factor[27] = by_z1;
+    factor[28] = by_z0;
+    factor[29] = -by_v0;
+    factor[30] = -by_v1;
+    factor[31] = -by_v2;
+    factor[32] = -by_v3;
+    factor[33] = -by_v4;
+    factor[34] = -by_v5;
+    factor[35] = -by_v6;
+    factor[36] = -by_v7;
+    factor[37] = -by_v8;
+    factor[38] = -by_v9;
+    factor[39] = -by_v10;
+    factor[40] = -by_v11;
+    factor[41] = -by_v12;
+    factor[42] = -by_v13;
+    factor[43] = z0_product;
+    factor[44] = z1_product;
+    factor[45] = z2_product;
+    factor[46] = z3_product;
+    factor[47] = z4_product;
+    factor[48] = z5_product;
+    factor[49] = z6_product;
+    factor[50] = z7_product;
+    factor[51] = z8_product;
+    factor[52] = z9_product;
+    factor[53] = z10_product;
+    factor[54] = z11_product;
+    factor[55] = z12_product;
+    factor[56] = z13_product;
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_0(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[28];
-    sum[1] = sum[1] + factor[29];
-    sum[2] = sum[2] + factor[30];
-    sum[3] = sum[3] + factor[31];
-    sum[4] = sum[4] + factor[32];
-    sum[5] = sum[5] + factor[33];
-    sum[6] = sum[6] + factor[34];
-    sum[7] = sum[7] + factor[35];
-    sum[8] = sum[8] + factor[36];
-    sum[9] = sum[9] + factor[37];
-    sum[10] = sum[10] + factor[38];
-    sum[11] = sum[11] + factor[39];
+    sum[0] = sum[0] + factor[29];
+    sum[1] = sum[1] + factor[30];
+    sum[2] = sum[2] + factor[31];
+    sum[3] = sum[3] + factor[32];
+    sum[4] = sum[4] + factor[33];
+    sum[5] = sum[5] + factor[34];
+    sum[6] = sum[6] + factor[35];
+    sum[7] = sum[7] + factor[36];
+    sum[8] = sum[8] + factor[37];
+    sum[9] = sum[9] + factor[38];
+    sum[10] = sum[10] + factor[39];
+    sum[11] = sum[11] + factor[40];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_1(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[40];
-    sum[1] = sum[1] + factor[41];
-    sum[2] = sum[2] + factor[56];
-    sum[3] = sum[3] + factor[0] * factor[27] - factor[42] * point[15];
-    sum[4] = sum[4] + factor[1] * factor[27] - factor[42] * point[16];
-    sum[5] = sum[5] + factor[2] * factor[27] - factor[42] * point[17];
-    sum[6] = sum[6] + factor[3] * factor[27] - factor[42] * point[18];
-    sum[7] = sum[7] + factor[4] * factor[27] - factor[42] * point[19];
-    sum[8] = sum[8] + factor[5] * factor[27] - factor[42] * point[20];
-    sum[9] = sum[9] + factor[6] * factor[27] - factor[42] * point[21];
-    sum[10] = sum[10] + factor[7] * factor[27] - factor[42] * point[22];
-    sum[11] = sum[11] + factor[8] * factor[27] - factor[42] * point[23];
+    sum[0] = sum[0] + factor[41];
+    sum[1] = sum[1] + factor[42];
+    sum[2] = sum[2] + factor[14];
+    sum[3] = sum[3] + factor[0] * factor[28] - factor[43] * point[15];
+    sum[4] = sum[4] + factor[1] * factor[28] - factor[43] * point[16];
+    sum[5] = sum[5] + factor[2] * factor[28] - factor[43] * point[17];
+    sum[6] = sum[6] + factor[3] * factor[28] - factor[43] * point[18];
+    sum[7] = sum[7] + factor[4] * factor[28] - factor[43] * point[19];
+    sum[8] = sum[8] + factor[5] * factor[28] - factor[43] * point[20];
+    sum[9] = sum[9] + factor[6] * factor[28] - factor[43] * point[21];
+    sum[10] = sum[10] + factor[7] * factor[28] - factor[43] * point[22];
+    sum[11] = sum[11] + factor[8] * factor[28] - factor[43] * point[23];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_2(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[9] * factor[27] - factor[42] * point[24];
-    sum[1] = sum[1] + factor[10] * factor[27] - factor[42] * point[25];
-    sum[2] = sum[2] + factor[11] * factor[27] - factor[42] * point[26];
-    sum[3] = sum[3] + factor[12] * factor[27] - factor[42] * point[27];
-    sum[4] = sum[4] + factor[13] * factor[27] - factor[42] * point[28];
-    sum[5] = sum[5] + factor[9] * factor[26] - factor[43] * point[24];
-    sum[6] = sum[6] + factor[10] * factor[26] - factor[43] * point[25];
-    sum[7] = sum[7] + factor[11] * factor[26] - factor[43] * point[26];
-    sum[8] = sum[8] + factor[12] * factor[26] - factor[43] * point[27];
-    sum[9] = sum[9] + factor[13] * factor[26] - factor[43] * point[28];
-    sum[10] = sum[10] + factor[0] * factor[26] - factor[43] * point[15];
-    sum[11] = sum[11] + factor[1] * factor[26] - factor[43] * point[16];
+    sum[0] = sum[0] + factor[9] * factor[28] - factor[43] * point[24];
+    sum[1] = sum[1] + factor[10] * factor[28] - factor[43] * point[25];
+    sum[2] = sum[2] + factor[11] * factor[28] - factor[43] * point[26];
+    sum[3] = sum[3] + factor[12] * factor[28] - factor[43] * point[27];
+    sum[4] = sum[4] + factor[13] * factor[28] - factor[43] * point[28];
+    sum[5] = sum[5] + factor[9] * factor[27] - factor[44] * point[24];
+    sum[6] = sum[6] + factor[10] * factor[27] - factor[44] * point[25];
+    sum[7] = sum[7] + factor[11] * factor[27] - factor[44] * point[26];
+    sum[8] = sum[8] + factor[12] * factor[27] - factor[44] * point[27];
+    sum[9] = sum[9] + factor[13] * factor[27] - factor[44] * point[28];
+    sum[10] = sum[10] + factor[0] * factor[27] - factor[44] * point[15];
+    sum[11] = sum[11] + factor[1] * factor[27] - factor[44] * point[16];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_3(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[2] * factor[26] - factor[43] * point[17];
-    sum[1] = sum[1] + factor[3] * factor[26] - factor[43] * point[18];
-    sum[2] = sum[2] + factor[4] * factor[26] - factor[43] * point[19];
-    sum[3] = sum[3] + factor[5] * factor[26] - factor[43] * point[20];
-    sum[4] = sum[4] + factor[6] * factor[26] - factor[43] * point[21];
-    sum[5] = sum[5] + factor[7] * factor[26] - factor[43] * point[22];
-    sum[6] = sum[6] + factor[8] * factor[26] - factor[43] * point[23];
-    sum[7] = sum[7] + factor[2] * factor[25] - factor[44] * point[17];
-    sum[8] = sum[8] + factor[3] * factor[25] - factor[44] * point[18];
-    sum[9] = sum[9] + factor[4] * factor[25] - factor[44] * point[19];
-    sum[10] = sum[10] + factor[5] * factor[25] - factor[44] * point[20];
-    sum[11] = sum[11] + factor[6] * factor[25] - factor[44] * point[21];
+    sum[0] = sum[0] + factor[2] * factor[27] - factor[44] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[27] - factor[44] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[27] - factor[44] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[27] - factor[44] * point[20];
+    sum[4] = sum[4] + factor[6] * factor[27] - factor[44] * point[21];
+    sum[5] = sum[5] + factor[7] * factor[27] - factor[44] * point[22];
+    sum[6] = sum[6] + factor[8] * factor[27] - factor[44] * point[23];
+    sum[7] = sum[7] + factor[2] * factor[26] - factor[45] * point[17];
+    sum[8] = sum[8] + factor[3] * factor[26] - factor[45] * point[18];
+    sum[9] = sum[9] + factor[4] * factor[26] - factor[45] * point[19];
+    sum[10] = sum[10] + factor[5] * factor[26] - factor[45] * point[20];
+    sum[11] = sum[11] + factor[6] * factor[26] - factor[45] * point[21];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_4(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[0] * factor[25] - factor[44] * point[15];
-    sum[1] = sum[1] + factor[1] * factor[25] - factor[44] * point[16];
-    sum[2] = sum[2] + factor[7] * factor[25] - factor[44] * point[22];
-    sum[3] = sum[3] + factor[8] * factor[25] - factor[44] * point[23];
-    sum[4] = sum[4] + factor[9] * factor[25] - factor[44] * point[24];
-    sum[5] = sum[5] + factor[10] * factor[25] - factor[44] * point[25];
-    sum[6] = sum[6] + factor[11] * factor[25] - factor[44] * point[26];
-    sum[7] = sum[7] + factor[12] * factor[25] - factor[44] * point[27];
-    sum[8] = sum[8] + factor[13] * factor[25] - factor[44] * point[28];
-    sum[9] = sum[9] + factor[0] * factor[24] - factor[45] * point[15];
-    sum[10] = sum[10] + factor[1] * factor[24] - factor[45] * point[16];
-    sum[11] = sum[11] + factor[7] * factor[24] - factor[45] * point[22];
+    sum[0] = sum[0] + factor[0] * factor[26] - factor[45] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[26] - factor[45] * point[16];
+    sum[2] = sum[2] + factor[7] * factor[26] - factor[45] * point[22];
+    sum[3] = sum[3] + factor[8] * factor[26] - factor[45] * point[23];
+    sum[4] = sum[4] + factor[9] * factor[26] - factor[45] * point[24];
+    sum[5] = sum[5] + factor[10] * factor[26] - factor[45] * point[25];
+    sum[6] = sum[6] + factor[11] * factor[26] - factor[45] * point[26];
+    sum[7] = sum[7] + factor[12] * factor[26] - factor[45] * point[27];
+    sum[8] = sum[8] + factor[13] * factor[26] - factor[45] * point[28];
+    sum[9] = sum[9] + factor[0] * factor[25] - factor[46] * point[15];
+    sum[10] = sum[10] + factor[1] * factor[25] - factor[46] * point[16];
+    sum[11] = sum[11] + factor[7] * factor[25] - factor[46] * point[22];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_5(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[2] * factor[24] - factor[45] * point[17];
-    sum[1] = sum[1] + factor[3] * factor[24] - factor[45] * point[18];
-    sum[2] = sum[2] + factor[4] * factor[24] - factor[45] * point[19];
-    sum[3] = sum[3] + factor[5] * factor[24] - factor[45] * point[20];
-    sum[4] = sum[4] + factor[6] * factor[24] - factor[45] * point[21];
-    sum[5] = sum[5] + factor[8] * factor[24] - factor[45] * point[23];
-    sum[6] = sum[6] + factor[9] * factor[24] - factor[45] * point[24];
-    sum[7] = sum[7] + factor[10] * factor[24] - factor[45] * point[25];
-    sum[8] = sum[8] + factor[11] * factor[24] - factor[45] * point[26];
-    sum[9] = sum[9] + factor[12] * factor[24] - factor[45] * point[27];
-    sum[10] = sum[10] + factor[13] * factor[24] - factor[45] * point[28];
-    sum[11] = sum[11] + factor[2] * factor[23] - factor[46] * point[17];
+    sum[0] = sum[0] + factor[2] * factor[25] - factor[46] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[25] - factor[46] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[25] - factor[46] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[25] - factor[46] * point[20];
+    sum[4] = sum[4] + factor[6] * factor[25] - factor[46] * point[21];
+    sum[5] = sum[5] + factor[8] * factor[25] - factor[46] * point[23];
+    sum[6] = sum[6] + factor[9] * factor[25] - factor[46] * point[24];
+    sum[7] = sum[7] + factor[10] * factor[25] - factor[46] * point[25];
+    sum[8] = sum[8] + factor[11] * factor[25] - factor[46] * point[26];
+    sum[9] = sum[9] + factor[12] * factor[25] - factor[46] * point[27];
+    sum[10] = sum[10] + factor[13] * factor[25] - factor[46] * point[28];
+    sum[11] = sum[11] + factor[2] * factor[24] - factor[47] * point[17];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_6(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[0] * factor[23] - factor[46] * point[15];
-    sum[1] = sum[1] + factor[1] * factor[23] - factor[46] * point[16];
-    sum[2] = sum[2] + factor[3] * factor[23] - factor[46] * point[18];
-    sum[3] = sum[3] + factor[4] * factor[23] - factor[46] * point[19];
-    sum[4] = sum[4] + factor[5] * factor[23] - factor[46] * point[20];
-    sum[5] = sum[5] + factor[6] * factor[23] - factor[46] * point[21];
-    sum[6] = sum[6] + factor[7] * factor[23] - factor[46] * point[22];
-    sum[7] = sum[7] + factor[8] * factor[23] - factor[46] * point[23];
-    sum[8] = sum[8] + factor[9] * factor[23] - factor[46] * point[24];
-    sum[9] = sum[9] + factor[10] * factor[23] - factor[46] * point[25];
-    sum[10] = sum[10] + factor[11] * factor[23] - factor[46] * point[26];
-    sum[11] = sum[11] + factor[12] * factor[23] - factor[46] * point[27];
+    sum[0] = sum[0] + factor[0] * factor[24] - factor[47] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[24] - factor[47] * point[16];
+    sum[2] = sum[2] + factor[3] * factor[24] - factor[47] * point[18];
+    sum[3] = sum[3] + factor[4] * factor[24] - factor[47] * point[19];
+    sum[4] = sum[4] + factor[5] * factor[24] - factor[47] * point[20];
+    sum[5] = sum[5] + factor[6] * factor[24] - factor[47] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[24] - factor[47] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[24] - factor[47] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[24] - factor[47] * point[24];
+    sum[9] = sum[9] + factor[10] * factor[24] - factor[47] * point[25];
+    sum[10] = sum[10] + factor[11] * factor[24] - factor[47] * point[26];
+    sum[11] = sum[11] + factor[12] * factor[24] - factor[47] * point[27];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_7(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[13] * factor[23] - factor[46] * point[28];
-    sum[1] = sum[1] + factor[13] * factor[22] - factor[47] * point[28];
-    sum[2] = sum[2] + factor[0] * factor[22] - factor[47] * point[15];
-    sum[3] = sum[3] + factor[1] * factor[22] - factor[47] * point[16];
-    sum[4] = sum[4] + factor[2] * factor[22] - factor[47] * point[17];
-    sum[5] = sum[5] + factor[3] * factor[22] - factor[47] * point[18];
-    sum[6] = sum[6] + factor[4] * factor[22] - factor[47] * point[19];
-    sum[7] = sum[7] + factor[5] * factor[22] - factor[47] * point[20];
-    sum[8] = sum[8] + factor[6] * factor[22] - factor[47] * point[21];
-    sum[9] = sum[9] + factor[7] * factor[22] - factor[47] * point[22];
-    sum[10] = sum[10] + factor[8] * factor[22] - factor[47] * point[23];
-    sum[11] = sum[11] + factor[9] * factor[22] - factor[47] * point[24];
+    sum[0] = sum[0] + factor[13] * factor[24] - factor[47] * point[28];
+    sum[1] = sum[1] + factor[13] * factor[23] - factor[48] * point[28];
+    sum[2] = sum[2] + factor[0] * factor[23] - factor[48] * point[15];
+    sum[3] = sum[3] + factor[1] * factor[23] - factor[48] * point[16];
+    sum[4] = sum[4] + factor[2] * factor[23] - factor[48] * point[17];
+    sum[5] = sum[5] + factor[3] * factor[23] - factor[48] * point[18];
+    sum[6] = sum[6] + factor[4] * factor[23] - factor[48] * point[19];
+    sum[7] = sum[7] + factor[5] * factor[23] - factor[48] * point[20];
+    sum[8] = sum[8] + factor[6] * factor[23] - factor[48] * point[21];
+    sum[9] = sum[9] + factor[7] * factor[23] - factor[48] * point[22];
+    sum[10] = sum[10] + factor[8] * factor[23] - factor[48] * point[23];
+    sum[11] = sum[11] + factor[9] * factor[23] - factor[48] * point[24];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_8(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[10] * factor[22] - factor[47] * point[25];
-    sum[1] = sum[1] + factor[11] * factor[22] - factor[47] * point[26];
-    sum[2] = sum[2] + factor[12] * factor[22] - factor[47] * point[27];
-    sum[3] = sum[3] + factor[10] * factor[21] - factor[48] * point[25];
-    sum[4] = sum[4] + factor[11] * factor[21] - factor[48] * point[26];
-    sum[5] = sum[5] + factor[12] * factor[21] - factor[48] * point[27];
-    sum[6] = sum[6] + factor[0] * factor[21] - factor[48] * point[15];
-    sum[7] = sum[7] + factor[1] * factor[21] - factor[48] * point[16];
-    sum[8] = sum[8] + factor[2] * factor[21] - factor[48] * point[17];
-    sum[9] = sum[9] + factor[3] * factor[21] - factor[48] * point[18];
-    sum[10] = sum[10] + factor[4] * factor[21] - factor[48] * point[19];
-    sum[11] = sum[11] + factor[5] * factor[21] - factor[48] * point[20];
+    sum[0] = sum[0] + factor[10] * factor[23] - factor[48] * point[25];
+    sum[1] = sum[1] + factor[11] * factor[23] - factor[48] * point[26];
+    sum[2] = sum[2] + factor[12] * factor[23] - factor[48] * point[27];
+    sum[3] = sum[3] + factor[10] * factor[22] - factor[49] * point[25];
+    sum[4] = sum[4] + factor[11] * factor[22] - factor[49] * point[26];
+    sum[5] = sum[5] + factor[12] * factor[22] - factor[49] * point[27];
+    sum[6] = sum[6] + factor[0] * factor[22] - factor[49] * point[15];
+    sum[7] = sum[7] + factor[1] * factor[22] - factor[49] * point[16];
+    sum[8] = sum[8] + factor[2] * factor[22] - factor[49] * point[17];
+    sum[9] = sum[9] + factor[3] * factor[22] - factor[49] * point[18];
+    sum[10] = sum[10] + factor[4] * factor[22] - factor[49] * point[19];
+    sum[11] = sum[11] + factor[5] * factor[22] - factor[49] * point[20];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_9(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[6] * factor[21] - factor[48] * point[21];
-    sum[1] = sum[1] + factor[7] * factor[21] - factor[48] * point[22];
-    sum[2] = sum[2] + factor[8] * factor[21] - factor[48] * point[23];
-    sum[3] = sum[3] + factor[9] * factor[21] - factor[48] * point[24];
-    sum[4] = sum[4] + factor[13] * factor[21] - factor[48] * point[28];
-    sum[5] = sum[5] + factor[6] * factor[20] - factor[49] * point[21];
-    sum[6] = sum[6] + factor[7] * factor[20] - factor[49] * point[22];
-    sum[7] = sum[7] + factor[8] * factor[20] - factor[49] * point[23];
-    sum[8] = sum[8] + factor[9] * factor[20] - factor[49] * point[24];
-    sum[9] = sum[9] + factor[13] * factor[20] - factor[49] * point[28];
-    sum[10] = sum[10] + factor[0] * factor[20] - factor[49] * point[15];
-    sum[11] = sum[11] + factor[1] * factor[20] - factor[49] * point[16];
+    sum[0] = sum[0] + factor[6] * factor[22] - factor[49] * point[21];
+    sum[1] = sum[1] + factor[7] * factor[22] - factor[49] * point[22];
+    sum[2] = sum[2] + factor[8] * factor[22] - factor[49] * point[23];
+    sum[3] = sum[3] + factor[9] * factor[22] - factor[49] * point[24];
+    sum[4] = sum[4] + factor[13] * factor[22] - factor[49] * point[28];
+    sum[5] = sum[5] + factor[6] * factor[21] - factor[50] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[21] - factor[50] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[21] - factor[50] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[21] - factor[50] * point[24];
+    sum[9] = sum[9] + factor[13] * factor[21] - factor[50] * point[28];
+    sum[10] = sum[10] + factor[0] * factor[21] - factor[50] * point[15];
+    sum[11] = sum[11] + factor[1] * factor[21] - factor[50] * point[16];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_10(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[2] * factor[20] - factor[49] * point[17];
-    sum[1] = sum[1] + factor[3] * factor[20] - factor[49] * point[18];
-    sum[2] = sum[2] + factor[4] * factor[20] - factor[49] * point[19];
-    sum[3] = sum[3] + factor[5] * factor[20] - factor[49] * point[20];
-    sum[4] = sum[4] + factor[10] * factor[20] - factor[49] * point[25];
-    sum[5] = sum[5] + factor[11] * factor[20] - factor[49] * point[26];
-    sum[6] = sum[6] + factor[12] * factor[20] - factor[49] * point[27];
-    sum[7] = sum[7] + factor[2] * factor[19] - factor[50] * point[17];
-    sum[8] = sum[8] + factor[3] * factor[19] - factor[50] * point[18];
-    sum[9] = sum[9] + factor[4] * factor[19] - factor[50] * point[19];
-    sum[10] = sum[10] + factor[5] * factor[19] - factor[50] * point[20];
-    sum[11] = sum[11] + factor[10] * factor[19] - factor[50] * point[25];
+    sum[0] = sum[0] + factor[2] * factor[21] - factor[50] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[21] - factor[50] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[21] - factor[50] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[21] - factor[50] * point[20];
+    sum[4] = sum[4] + factor[10] * factor[21] - factor[50] * point[25];
+    sum[5] = sum[5] + factor[11] * factor[21] - factor[50] * point[26];
+    sum[6] = sum[6] + factor[12] * factor[21] - factor[50] * point[27];
+    sum[7] = sum[7] + factor[2] * factor[20] - factor[51] * point[17];
+    sum[8] = sum[8] + factor[3] * factor[20] - factor[51] * point[18];
+    sum[9] = sum[9] + factor[4] * factor[20] - factor[51] * point[19];
+    sum[10] = sum[10] + factor[5] * factor[20] - factor[51] * point[20];
+    sum[11] = sum[11] + factor[10] * factor[20] - factor[51] * point[25];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_11(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[0] * factor[19] - factor[50] * point[15];
-    sum[1] = sum[1] + factor[1] * factor[19] - factor[50] * point[16];
-    sum[2] = sum[2] + factor[6] * factor[19] - factor[50] * point[21];
-    sum[3] = sum[3] + factor[7] * factor[19] - factor[50] * point[22];
-    sum[4] = sum[4] + factor[8] * factor[19] - factor[50] * point[23];
-    sum[5] = sum[5] + factor[9] * factor[19] - factor[50] * point[24];
-    sum[6] = sum[6] + factor[11] * factor[19] - factor[50] * point[26];
-    sum[7] = sum[7] + factor[12] * factor[19] - factor[50] * point[27];
-    sum[8] = sum[8] + factor[13] * factor[19] - factor[50] * point[28];
-    sum[9] = sum[9] + factor[0] * factor[18] - factor[51] * point[15];
-    sum[10] = sum[10] + factor[1] * factor[18] - factor[51] * point[16];
-    sum[11] = sum[11] + factor[6] * factor[18] - factor[51] * point[21];
+    sum[0] = sum[0] + factor[0] * factor[20] - factor[51] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[20] - factor[51] * point[16];
+    sum[2] = sum[2] + factor[6] * factor[20] - factor[51] * point[21];
+    sum[3] = sum[3] + factor[7] * factor[20] - factor[51] * point[22];
+    sum[4] = sum[4] + factor[8] * factor[20] - factor[51] * point[23];
+    sum[5] = sum[5] + factor[9] * factor[20] - factor[51] * point[24];
+    sum[6] = sum[6] + factor[11] * factor[20] - factor[51] * point[26];
+    sum[7] = sum[7] + factor[12] * factor[20] - factor[51] * point[27];
+    sum[8] = sum[8] + factor[13] * factor[20] - factor[51] * point[28];
+    sum[9] = sum[9] + factor[0] * factor[19] - factor[52] * point[15];
+    sum[10] = sum[10] + factor[1] * factor[19] - factor[52] * point[16];
+    sum[11] = sum[11] + factor[6] * factor[19] - factor[52] * point[21];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_12(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[2] * factor[18] - factor[51] * point[17];
-    sum[1] = sum[1] + factor[3] * factor[18] - factor[51] * point[18];
-    sum[2] = sum[2] + factor[4] * factor[18] - factor[51] * point[19];
-    sum[3] = sum[3] + factor[5] * factor[18] - factor[51] * point[20];
-    sum[4] = sum[4] + factor[7] * factor[18] - factor[51] * point[22];
-    sum[5] = sum[5] + factor[8] * factor[18] - factor[51] * point[23];
-    sum[6] = sum[6] + factor[9] * factor[18] - factor[51] * point[24];
-    sum[7] = sum[7] + factor[10] * factor[18] - factor[51] * point[25];
-    sum[8] = sum[8] + factor[11] * factor[18] - factor[51] * point[26];
-    sum[9] = sum[9] + factor[12] * factor[18] - factor[51] * point[27];
-    sum[10] = sum[10] + factor[13] * factor[18] - factor[51] * point[28];
-    sum[11] = sum[11] + factor[2] * factor[17] - factor[52] * point[17];
+    sum[0] = sum[0] + factor[2] * factor[19] - factor[52] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[19] - factor[52] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[19] - factor[52] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[19] - factor[52] * point[20];
+    sum[4] = sum[4] + factor[7] * factor[19] - factor[52] * point[22];
+    sum[5] = sum[5] + factor[8] * factor[19] - factor[52] * point[23];
+    sum[6] = sum[6] + factor[9] * factor[19] - factor[52] * point[24];
+    sum[7] = sum[7] + factor[10] * factor[19] - factor[52] * point[25];
+    sum[8] = sum[8] + factor[11] * factor[19] - factor[52] * point[26];
+    sum[9] = sum[9] + factor[12] * factor[19] - factor[52] * point[27];
+    sum[10] = sum[10] + factor[13] * factor[19] - factor[52] * point[28];
+    sum[11] = sum[11] + factor[2] * factor[18] - factor[53] * point[17];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_13(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[0] * factor[17] - factor[52] * point[15];
-    sum[1] = sum[1] + factor[1] * factor[17] - factor[52] * point[16];
-    sum[2] = sum[2] + factor[3] * factor[17] - factor[52] * point[18];
-    sum[3] = sum[3] + factor[4] * factor[17] - factor[52] * point[19];
-    sum[4] = sum[4] + factor[5] * factor[17] - factor[52] * point[20];
-    sum[5] = sum[5] + factor[6] * factor[17] - factor[52] * point[21];
-    sum[6] = sum[6] + factor[7] * factor[17] - factor[52] * point[22];
-    sum[7] = sum[7] + factor[8] * factor[17] - factor[52] * point[23];
-    sum[8] = sum[8] + factor[9] * factor[17] - factor[52] * point[24];
-    sum[9] = sum[9] + factor[10] * factor[17] - factor[52] * point[25];
-    sum[10] = sum[10] + factor[11] * factor[17] - factor[52] * point[26];
-    sum[11] = sum[11] + factor[12] * factor[17] - factor[52] * point[27];
+    sum[0] = sum[0] + factor[0] * factor[18] - factor[53] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[18] - factor[53] * point[16];
+    sum[2] = sum[2] + factor[3] * factor[18] - factor[53] * point[18];
+    sum[3] = sum[3] + factor[4] * factor[18] - factor[53] * point[19];
+    sum[4] = sum[4] + factor[5] * factor[18] - factor[53] * point[20];
+    sum[5] = sum[5] + factor[6] * factor[18] - factor[53] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[18] - factor[53] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[18] - factor[53] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[18] - factor[53] * point[24];
+    sum[9] = sum[9] + factor[10] * factor[18] - factor[53] * point[25];
+    sum[10] = sum[10] + factor[11] * factor[18] - factor[53] * point[26];
+    sum[11] = sum[11] + factor[12] * factor[18] - factor[53] * point[27];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_14(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[13] * factor[17] - factor[52] * point[28];
-    sum[1] = sum[1] + factor[13] * factor[16] - factor[53] * point[28];
-    sum[2] = sum[2] + factor[0] * factor[16] - factor[53] * point[15];
-    sum[3] = sum[3] + factor[1] * factor[16] - factor[53] * point[16];
-    sum[4] = sum[4] + factor[2] * factor[16] - factor[53] * point[17];
-    sum[5] = sum[5] + factor[3] * factor[16] - factor[53] * point[18];
-    sum[6] = sum[6] + factor[4] * factor[16] - factor[53] * point[19];
-    sum[7] = sum[7] + factor[5] * factor[16] - factor[53] * point[20];
-    sum[8] = sum[8] + factor[6] * factor[16] - factor[53] * point[21];
-    sum[9] = sum[9] + factor[7] * factor[16] - factor[53] * point[22];
-    sum[10] = sum[10] + factor[8] * factor[16] - factor[53] * point[23];
-    sum[11] = sum[11] + factor[9] * factor[16] - factor[53] * point[24];
+    sum[0] = sum[0] + factor[13] * factor[18] - factor[53] * point[28];
+    sum[1] = sum[1] + factor[13] * factor[17] - factor[54] * point[28];
+    sum[2] = sum[2] + factor[0] * factor[17] - factor[54] * point[15];
+    sum[3] = sum[3] + factor[1] * factor[17] - factor[54] * point[16];
+    sum[4] = sum[4] + factor[2] * factor[17] - factor[54] * point[17];
+    sum[5] = sum[5] + factor[3] * factor[17] - factor[54] * point[18];
+    sum[6] = sum[6] + factor[4] * factor[17] - factor[54] * point[19];
+    sum[7] = sum[7] + factor[5] * factor[17] - factor[54] * point[20];
+    sum[8] = sum[8] + factor[6] * factor[17] - factor[54] * point[21];
+    sum[9] = sum[9] + factor[7] * factor[17] - factor[54] * point[22];
+    sum[10] = sum[10] + factor[8] * factor[17] - factor[54] * point[23];
+    sum[11] = sum[11] + factor[9] * factor[17] - factor[54] * point[24];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_15(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[10] * factor[16] - factor[53] * point[25];
-    sum[1] = sum[1] + factor[11] * factor[16] - factor[53] * point[26];
-    sum[2] = sum[2] + factor[12] * factor[16] - factor[53] * point[27];
-    sum[3] = sum[3] + factor[10] * factor[15] - factor[54] * point[25];
-    sum[4] = sum[4] + factor[11] * factor[15] - factor[54] * point[26];
-    sum[5] = sum[5] + factor[12] * factor[15] - factor[54] * point[27];
-    sum[6] = sum[6] + factor[0] * factor[15] - factor[54] * point[15];
-    sum[7] = sum[7] + factor[1] * factor[15] - factor[54] * point[16];
-    sum[8] = sum[8] + factor[2] * factor[15] - factor[54] * point[17];
-    sum[9] = sum[9] + factor[3] * factor[15] - factor[54] * point[18];
-    sum[10] = sum[10] + factor[4] * factor[15] - factor[54] * point[19];
-    sum[11] = sum[11] + factor[5] * factor[15] - factor[54] * point[20];
+    sum[0] = sum[0] + factor[10] * factor[17] - factor[54] * point[25];
+    sum[1] = sum[1] + factor[11] * factor[17] - factor[54] * point[26];
+    sum[2] = sum[2] + factor[12] * factor[17] - factor[54] * point[27];
+    sum[3] = sum[3] + factor[10] * factor[16] - factor[55] * point[25];
+    sum[4] = sum[4] + factor[11] * factor[16] - factor[55] * point[26];
+    sum[5] = sum[5] + factor[12] * factor[16] - factor[55] * point[27];
+    sum[6] = sum[6] + factor[0] * factor[16] - factor[55] * point[15];
+    sum[7] = sum[7] + factor[1] * factor[16] - factor[55] * point[16];
+    sum[8] = sum[8] + factor[2] * factor[16] - factor[55] * point[17];
+    sum[9] = sum[9] + factor[3] * factor[16] - factor[55] * point[18];
+    sum[10] = sum[10] + factor[4] * factor[16] - factor[55] * point[19];
+    sum[11] = sum[11] + factor[5] * factor[16] - factor[55] * point[20];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_16(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[6] * factor[15] - factor[54] * point[21];
-    sum[1] = sum[1] + factor[7] * factor[15] - factor[54] * point[22];
-    sum[2] = sum[2] + factor[8] * factor[15] - factor[54] * point[23];
-    sum[3] = sum[3] + factor[9] * factor[15] - factor[54] * point[24];
-    sum[4] = sum[4] + factor[13] * factor[15] - factor[54] * point[28];
-    sum[5] = sum[5] + factor[6] * factor[14] - factor[55] * point[21];
-    sum[6] = sum[6] + factor[7] * factor[14] - factor[55] * point[22];
-    sum[7] = sum[7] + factor[8] * factor[14] - factor[55] * point[23];
-    sum[8] = sum[8] + factor[9] * factor[14] - factor[55] * point[24];
-    sum[9] = sum[9] + factor[13] * factor[14] - factor[55] * point[28];
-    sum[10] = sum[10] + factor[0] * factor[14] - factor[55] * point[15];
-    sum[11] = sum[11] + factor[1] * factor[14] - factor[55] * point[16];
+    sum[0] = sum[0] + factor[6] * factor[16] - factor[55] * point[21];
+    sum[1] = sum[1] + factor[7] * factor[16] - factor[55] * point[22];
+    sum[2] = sum[2] + factor[8] * factor[16] - factor[55] * point[23];
+    sum[3] = sum[3] + factor[9] * factor[16] - factor[55] * point[24];
+    sum[4] = sum[4] + factor[13] * factor[16] - factor[55] * point[28];
+    sum[5] = sum[5] + factor[6] * factor[15] - factor[56] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[15] - factor[56] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[15] - factor[56] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[15] - factor[56] * point[24];
+    sum[9] = sum[9] + factor[13] * factor[15] - factor[56] * point[28];
+    sum[10] = sum[10] + factor[0] * factor[15] - factor[56] * point[15];
+    sum[11] = sum[11] + factor[1] * factor[15] - factor[56] * point[16];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_17(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[2] * factor[14] - factor[55] * point[17];
-    sum[1] = sum[1] + factor[3] * factor[14] - factor[55] * point[18];
-    sum[2] = sum[2] + factor[4] * factor[14] - factor[55] * point[19];
-    sum[3] = sum[3] + factor[5] * factor[14] - factor[55] * point[20];
-    sum[4] = sum[4] + factor[10] * factor[14] - factor[55] * point[25];
-    sum[5] = sum[5] + factor[11] * factor[14] - factor[55] * point[26];
-    sum[6] = sum[6] + factor[12] * factor[14] - factor[55] * point[27];
+    sum[0] = sum[0] + factor[2] * factor[15] - factor[56] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[15] - factor[56] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[15] - factor[56] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[15] - factor[56] * point[20];
+    sum[4] = sum[4] + factor[10] * factor[15] - factor[56] * point[25];
+    sum[5] = sum[5] + factor[11] * factor[15] - factor[56] * point[26];
+    sum[6] = sum[6] + factor[12] * factor[15] - factor[56] * point[27];
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -2904,12 +2844,12 @@ INLINE const double *splat_at(const vector *splats, size_t k) {
     return (const double *)(splats + 15 * row) + (k - row * LANES);
 }
 
-static vector *work_splats(double *work, size_t count) {
+static vector *work_reaches(double *work, size_t count) {
     return work_points(work) + (count + LANES - 1) / LANES * 29;
 }
 
 static vector *work_blocks(double *work, size_t count, size_t splat_count) {
-    return work_splats(work, count) + 15 * ((splat_count + LANES - 1) / LANES);
+    return work_reaches(work, count) + 15 * ((splat_count + LANES - 1) / LANES);
 }
 
 static double *work_constants(double *work, size_t count, size_t splat_count) {
@@ -3026,7 +2966,7 @@ void dual_arm_splats(
     double *DUAL_ARM_RESTRICT value, double *DUAL_ARM_RESTRICT gradient, double *DUAL_ARM_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -3068,7 +3008,7 @@ void dual_arm_splats_value(
     double *DUAL_ARM_RESTRICT value, double *DUAL_ARM_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -3114,301 +3054,301 @@ OUTLINE void splat_points(
     vector_end(count, start, 14 + 1, point + 14);
 }
 
-/* Adds to S_bar what one vector of points adds to it. */
+/* Adds to sums what one vector of points adds to it. */
 INLINE void pair_backward(
-    const vector *point, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
+    const vector *point, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
     vector factor[57];
     pair_factors(point, S, value_bar, slope_bar, factor);
     {
         vector sum[12] = {ZERO};
         pair_products_0(factor, point, sum);
-        S_bar[0] += sum[0];
-        S_bar[1] += sum[1];
-        S_bar[2] += sum[2];
-        S_bar[3] += sum[3];
-        S_bar[4] += sum[4];
-        S_bar[5] += sum[5];
-        S_bar[6] += sum[6];
-        S_bar[7] += sum[7];
-        S_bar[8] += sum[8];
-        S_bar[9] += sum[9];
-        S_bar[10] += sum[10];
-        S_bar[11] += sum[11];
+        sums[0] += sum[0];
+        sums[1] += sum[1];
+        sums[2] += sum[2];
+        sums[3] += sum[3];
+        sums[4] += sum[4];
+        sums[5] += sum[5];
+        sums[6] += sum[6];
+        sums[7] += sum[7];
+        sums[8] += sum[8];
+        sums[9] += sum[9];
+        sums[10] += sum[10];
+        sums[11] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_1(factor, point, sum);
-        S_bar[12] += sum[0];
-        S_bar[13] += sum[1];
-        S_bar[210] += sum[2];
-        S_bar[14] += sum[3];
-        S_bar[15] += sum[4];
-        S_bar[16] += sum[5];
-        S_bar[17] += sum[6];
-        S_bar[18] += sum[7];
-        S_bar[19] += sum[8];
-        S_bar[20] += sum[9];
-        S_bar[21] += sum[10];
-        S_bar[22] += sum[11];
+        sums[12] += sum[0];
+        sums[13] += sum[1];
+        sums[210] += sum[2];
+        sums[14] += sum[3];
+        sums[15] += sum[4];
+        sums[16] += sum[5];
+        sums[17] += sum[6];
+        sums[18] += sum[7];
+        sums[19] += sum[8];
+        sums[20] += sum[9];
+        sums[21] += sum[10];
+        sums[22] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_2(factor, point, sum);
-        S_bar[23] += sum[0];
-        S_bar[24] += sum[1];
-        S_bar[25] += sum[2];
-        S_bar[26] += sum[3];
-        S_bar[27] += sum[4];
-        S_bar[37] += sum[5];
-        S_bar[38] += sum[6];
-        S_bar[39] += sum[7];
-        S_bar[40] += sum[8];
-        S_bar[41] += sum[9];
-        S_bar[28] += sum[10];
-        S_bar[29] += sum[11];
+        sums[23] += sum[0];
+        sums[24] += sum[1];
+        sums[25] += sum[2];
+        sums[26] += sum[3];
+        sums[27] += sum[4];
+        sums[37] += sum[5];
+        sums[38] += sum[6];
+        sums[39] += sum[7];
+        sums[40] += sum[8];
+        sums[41] += sum[9];
+        sums[28] += sum[10];
+        sums[29] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_3(factor, point, sum);
-        S_bar[30] += sum[0];
-        S_bar[31] += sum[1];
-        S_bar[32] += sum[2];
-        S_bar[33] += sum[3];
-        S_bar[34] += sum[4];
-        S_bar[35] += sum[5];
-        S_bar[36] += sum[6];
-        S_bar[44] += sum[7];
-        S_bar[45] += sum[8];
-        S_bar[46] += sum[9];
-        S_bar[47] += sum[10];
-        S_bar[48] += sum[11];
+        sums[30] += sum[0];
+        sums[31] += sum[1];
+        sums[32] += sum[2];
+        sums[33] += sum[3];
+        sums[34] += sum[4];
+        sums[35] += sum[5];
+        sums[36] += sum[6];
+        sums[44] += sum[7];
+        sums[45] += sum[8];
+        sums[46] += sum[9];
+        sums[47] += sum[10];
+        sums[48] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_4(factor, point, sum);
-        S_bar[42] += sum[0];
-        S_bar[43] += sum[1];
-        S_bar[49] += sum[2];
-        S_bar[50] += sum[3];
-        S_bar[51] += sum[4];
-        S_bar[52] += sum[5];
-        S_bar[53] += sum[6];
-        S_bar[54] += sum[7];
-        S_bar[55] += sum[8];
-        S_bar[56] += sum[9];
-        S_bar[57] += sum[10];
-        S_bar[63] += sum[11];
+        sums[42] += sum[0];
+        sums[43] += sum[1];
+        sums[49] += sum[2];
+        sums[50] += sum[3];
+        sums[51] += sum[4];
+        sums[52] += sum[5];
+        sums[53] += sum[6];
+        sums[54] += sum[7];
+        sums[55] += sum[8];
+        sums[56] += sum[9];
+        sums[57] += sum[10];
+        sums[63] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_5(factor, point, sum);
-        S_bar[58] += sum[0];
-        S_bar[59] += sum[1];
-        S_bar[60] += sum[2];
-        S_bar[61] += sum[3];
-        S_bar[62] += sum[4];
-        S_bar[64] += sum[5];
-        S_bar[65] += sum[6];
-        S_bar[66] += sum[7];
-        S_bar[67] += sum[8];
-        S_bar[68] += sum[9];
-        S_bar[69] += sum[10];
-        S_bar[72] += sum[11];
+        sums[58] += sum[0];
+        sums[59] += sum[1];
+        sums[60] += sum[2];
+        sums[61] += sum[3];
+        sums[62] += sum[4];
+        sums[64] += sum[5];
+        sums[65] += sum[6];
+        sums[66] += sum[7];
+        sums[67] += sum[8];
+        sums[68] += sum[9];
+        sums[69] += sum[10];
+        sums[72] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_6(factor, point, sum);
-        S_bar[70] += sum[0];
-        S_bar[71] += sum[1];
-        S_bar[73] += sum[2];
-        S_bar[74] += sum[3];
-        S_bar[75] += sum[4];
-        S_bar[76] += sum[5];
-        S_bar[77] += sum[6];
-        S_bar[78] += sum[7];
-        S_bar[79] += sum[8];
-        S_bar[80] += sum[9];
-        S_bar[81] += sum[10];
-        S_bar[82] += sum[11];
+        sums[70] += sum[0];
+        sums[71] += sum[1];
+        sums[73] += sum[2];
+        sums[74] += sum[3];
+        sums[75] += sum[4];
+        sums[76] += sum[5];
+        sums[77] += sum[6];
+        sums[78] += sum[7];
+        sums[79] += sum[8];
+        sums[80] += sum[9];
+        sums[81] += sum[10];
+        sums[82] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_7(factor, point, sum);
-        S_bar[83] += sum[0];
-        S_bar[97] += sum[1];
-        S_bar[84] += sum[2];
-        S_bar[85] += sum[3];
-        S_bar[86] += sum[4];
-        S_bar[87] += sum[5];
-        S_bar[88] += sum[6];
-        S_bar[89] += sum[7];
-        S_bar[90] += sum[8];
-        S_bar[91] += sum[9];
-        S_bar[92] += sum[10];
-        S_bar[93] += sum[11];
+        sums[83] += sum[0];
+        sums[97] += sum[1];
+        sums[84] += sum[2];
+        sums[85] += sum[3];
+        sums[86] += sum[4];
+        sums[87] += sum[5];
+        sums[88] += sum[6];
+        sums[89] += sum[7];
+        sums[90] += sum[8];
+        sums[91] += sum[9];
+        sums[92] += sum[10];
+        sums[93] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_8(factor, point, sum);
-        S_bar[94] += sum[0];
-        S_bar[95] += sum[1];
-        S_bar[96] += sum[2];
-        S_bar[108] += sum[3];
-        S_bar[109] += sum[4];
-        S_bar[110] += sum[5];
-        S_bar[98] += sum[6];
-        S_bar[99] += sum[7];
-        S_bar[100] += sum[8];
-        S_bar[101] += sum[9];
-        S_bar[102] += sum[10];
-        S_bar[103] += sum[11];
+        sums[94] += sum[0];
+        sums[95] += sum[1];
+        sums[96] += sum[2];
+        sums[108] += sum[3];
+        sums[109] += sum[4];
+        sums[110] += sum[5];
+        sums[98] += sum[6];
+        sums[99] += sum[7];
+        sums[100] += sum[8];
+        sums[101] += sum[9];
+        sums[102] += sum[10];
+        sums[103] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_9(factor, point, sum);
-        S_bar[104] += sum[0];
-        S_bar[105] += sum[1];
-        S_bar[106] += sum[2];
-        S_bar[107] += sum[3];
-        S_bar[111] += sum[4];
-        S_bar[118] += sum[5];
-        S_bar[119] += sum[6];
-        S_bar[120] += sum[7];
-        S_bar[121] += sum[8];
-        S_bar[125] += sum[9];
-        S_bar[112] += sum[10];
-        S_bar[113] += sum[11];
+        sums[104] += sum[0];
+        sums[105] += sum[1];
+        sums[106] += sum[2];
+        sums[107] += sum[3];
+        sums[111] += sum[4];
+        sums[118] += sum[5];
+        sums[119] += sum[6];
+        sums[120] += sum[7];
+        sums[121] += sum[8];
+        sums[125] += sum[9];
+        sums[112] += sum[10];
+        sums[113] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_10(factor, point, sum);
-        S_bar[114] += sum[0];
-        S_bar[115] += sum[1];
-        S_bar[116] += sum[2];
-        S_bar[117] += sum[3];
-        S_bar[122] += sum[4];
-        S_bar[123] += sum[5];
-        S_bar[124] += sum[6];
-        S_bar[128] += sum[7];
-        S_bar[129] += sum[8];
-        S_bar[130] += sum[9];
-        S_bar[131] += sum[10];
-        S_bar[136] += sum[11];
+        sums[114] += sum[0];
+        sums[115] += sum[1];
+        sums[116] += sum[2];
+        sums[117] += sum[3];
+        sums[122] += sum[4];
+        sums[123] += sum[5];
+        sums[124] += sum[6];
+        sums[128] += sum[7];
+        sums[129] += sum[8];
+        sums[130] += sum[9];
+        sums[131] += sum[10];
+        sums[136] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_11(factor, point, sum);
-        S_bar[126] += sum[0];
-        S_bar[127] += sum[1];
-        S_bar[132] += sum[2];
-        S_bar[133] += sum[3];
-        S_bar[134] += sum[4];
-        S_bar[135] += sum[5];
-        S_bar[137] += sum[6];
-        S_bar[138] += sum[7];
-        S_bar[139] += sum[8];
-        S_bar[140] += sum[9];
-        S_bar[141] += sum[10];
-        S_bar[146] += sum[11];
+        sums[126] += sum[0];
+        sums[127] += sum[1];
+        sums[132] += sum[2];
+        sums[133] += sum[3];
+        sums[134] += sum[4];
+        sums[135] += sum[5];
+        sums[137] += sum[6];
+        sums[138] += sum[7];
+        sums[139] += sum[8];
+        sums[140] += sum[9];
+        sums[141] += sum[10];
+        sums[146] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_12(factor, point, sum);
-        S_bar[142] += sum[0];
-        S_bar[143] += sum[1];
-        S_bar[144] += sum[2];
-        S_bar[145] += sum[3];
-        S_bar[147] += sum[4];
-        S_bar[148] += sum[5];
-        S_bar[149] += sum[6];
-        S_bar[150] += sum[7];
-        S_bar[151] += sum[8];
-        S_bar[152] += sum[9];
-        S_bar[153] += sum[10];
-        S_bar[156] += sum[11];
+        sums[142] += sum[0];
+        sums[143] += sum[1];
+        sums[144] += sum[2];
+        sums[145] += sum[3];
+        sums[147] += sum[4];
+        sums[148] += sum[5];
+        sums[149] += sum[6];
+        sums[150] += sum[7];
+        sums[151] += sum[8];
+        sums[152] += sum[9];
+        sums[153] += sum[10];
+        sums[156] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_13(factor, point, sum);
-        S_bar[154] += sum[0];
-        S_bar[155] += sum[1];
-        S_bar[157] += sum[2];
-        S_bar[158] += sum[3];
-        S_bar[159] += sum[4];
-        S_bar[160] += sum[5];
-        S_bar[161] += sum[6];
-        S_bar[162] += sum[7];
-        S_bar[163] += sum[8];
-        S_bar[164] += sum[9];
-        S_bar[165] += sum[10];
-        S_bar[166] += sum[11];
+        sums[154] += sum[0];
+        sums[155] += sum[1];
+        sums[157] += sum[2];
+        sums[158] += sum[3];
+        sums[159] += sum[4];
+        sums[160] += sum[5];
+        sums[161] += sum[6];
+        sums[162] += sum[7];
+        sums[163] += sum[8];
+        sums[164] += sum[9];
+        sums[165] += sum[10];
+        sums[166] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_14(factor, point, sum);
-        S_bar[167] += sum[0];
-        S_bar[181] += sum[1];
-        S_bar[168] += sum[2];
-        S_bar[169] += sum[3];
-        S_bar[170] += sum[4];
-        S_bar[171] += sum[5];
-        S_bar[172] += sum[6];
-        S_bar[173] += sum[7];
-        S_bar[174] += sum[8];
-        S_bar[175] += sum[9];
-        S_bar[176] += sum[10];
-        S_bar[177] += sum[11];
+        sums[167] += sum[0];
+        sums[181] += sum[1];
+        sums[168] += sum[2];
+        sums[169] += sum[3];
+        sums[170] += sum[4];
+        sums[171] += sum[5];
+        sums[172] += sum[6];
+        sums[173] += sum[7];
+        sums[174] += sum[8];
+        sums[175] += sum[9];
+        sums[176] += sum[10];
+        sums[177] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_15(factor, point, sum);
-        S_bar[178] += sum[0];
-        S_bar[179] += sum[1];
-        S_bar[180] += sum[2];
-        S_bar[192] += sum[3];
-        S_bar[193] += sum[4];
-        S_bar[194] += sum[5];
-        S_bar[182] += sum[6];
-        S_bar[183] += sum[7];
-        S_bar[184] += sum[8];
-        S_bar[185] += sum[9];
-        S_bar[186] += sum[10];
-        S_bar[187] += sum[11];
+        sums[178] += sum[0];
+        sums[179] += sum[1];
+        sums[180] += sum[2];
+        sums[192] += sum[3];
+        sums[193] += sum[4];
+        sums[194] += sum[5];
+        sums[182] += sum[6];
+        sums[183] += sum[7];
+        sums[184] += sum[8];
+        sums[185] += sum[9];
+        sums[186] += sum[10];
+        sums[187] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_16(factor, point, sum);
-        S_bar[188] += sum[0];
-        S_bar[189] += sum[1];
-        S_bar[190] += sum[2];
-        S_bar[191] += sum[3];
-        S_bar[195] += sum[4];
-        S_bar[202] += sum[5];
-        S_bar[203] += sum[6];
-        S_bar[204] += sum[7];
-        S_bar[205] += sum[8];
-        S_bar[209] += sum[9];
-        S_bar[196] += sum[10];
-        S_bar[197] += sum[11];
+        sums[188] += sum[0];
+        sums[189] += sum[1];
+        sums[190] += sum[2];
+        sums[191] += sum[3];
+        sums[195] += sum[4];
+        sums[202] += sum[5];
+        sums[203] += sum[6];
+        sums[204] += sum[7];
+        sums[205] += sum[8];
+        sums[209] += sum[9];
+        sums[196] += sum[10];
+        sums[197] += sum[11];
     }
     {
         vector sum[7] = {ZERO};
         pair_products_17(factor, point, sum);
-        S_bar[198] += sum[0];
-        S_bar[199] += sum[1];
-        S_bar[200] += sum[2];
-        S_bar[201] += sum[3];
-        S_bar[206] += sum[4];
-        S_bar[207] += sum[5];
-        S_bar[208] += sum[6];
+        sums[198] += sum[0];
+        sums[199] += sum[1];
+        sums[200] += sum[2];
+        sums[201] += sum[3];
+        sums[206] += sum[4];
+        sums[207] += sum[5];
+        sums[208] += sum[6];
     }
 }
 
 /*
- * Adds to S_bar what some vectors of points add to it, those in the list: factors of 6 vectors at a time, then their
+ * Adds to sums what some vectors of points add to it, those in the list: factors of 6 vectors at a time, then their
  * products.
  */
-OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t count, const double *S, double *S_bar) {
+OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t count, const double *S, double *sums) {
     vector factor[6 * 57], total[211] = {ZERO};
     for (size_t start = 0; start < count; start += 6, near += 6) {
         const size_t size = count - start < 6 ? count - start : 6;
@@ -3700,7 +3640,7 @@ OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t count
             total[208] += sum[6];
         }
     }
-    for (size_t i = 0; i < 211; ++i) S_bar[i] += vector_sum(total[i]);
+    for (size_t i = 0; i < 211; ++i) sums[i] += vector_sum(total[i]);
 }
 
 /*
@@ -3716,7 +3656,7 @@ void dual_arm_splats_vjp(
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES ? part : LANES;
     vector *points = work_points(work);
-    vector *splats = work_splats(work, count), *places = work_blocks(work, count, splat_count);
+    vector *splats = work_reaches(work, count), *places = work_blocks(work, count, splat_count);
     double *constants = work_constants(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -3744,7 +3684,7 @@ void dual_arm_splats_vjp(
             const size_t end = start + share < splat_count ? start + share : splat_count;
             double sums[LANES][211] = {{0}};
             uint32_t near[131072 / (29 * sizeof(vector)) + 2];
-            vector own_mu[14], own_W[196], own_amplitude[1], S_bar[211], bars[211];
+            vector own_mu[14], own_W[196], own_amplitude[1], own_sums[211], bars[211];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
@@ -3756,8 +3696,8 @@ void dual_arm_splats_vjp(
             vector_rows(mu, end, start, 14, own_mu);
             vector_rows(W, end, start, 196, own_W);
             vector_rows(amplitude, end, start, 1, own_amplitude);
-            vector_rows(sums[0], LANES, 0, 211, S_bar);
-            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 14, bars + 14 + 196);
+            vector_rows(sums[0], LANES, 0, 211, own_sums);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 14, bars + 14 + 196);
             vector_to_rows(bars, mu_bar, end, start, 14, 14);
             vector_to_rows(bars + 14, W_bar, end, start, 196, 196);
             vector_to_rows(bars + 14 + 196, amplitude_bar, end, start, 1, 1);
@@ -3784,12 +3724,12 @@ void dual_arm_splats_rows(
             vector point[29];
             splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector own_mu[14], own_W[196], own_amplitude[1], S_bar[211] = {ZERO}, bars[211];
+                vector own_mu[14], own_W[196], own_amplitude[1], own_sums[211] = {ZERO}, bars[211];
                 for (int i = 0; i < 14; ++i) own_mu[i] = vector_of(mu[14 * k + i]);
                 for (int i = 0; i < 196; ++i) own_W[i] = vector_of(W[196 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 211 * k, point + 14, point + 14 + 1, S_bar);
-                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 14, bars + 14 + 196);
+                pair_backward(point, constants + 211 * k, point + 14, point + 14 + 1, own_sums);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 14, bars + 14 + 196);
                 vector_to_rows(bars, rows + 211 * k, count, block * LANES, 211, 211 * splat_count);
             }
         }
@@ -3863,7 +3803,7 @@ double dual_arm_splats_order(
     size_t count, size_t splat_count, const double *DUAL_ARM_RESTRICT x, const double *DUAL_ARM_RESTRICT mu, const double *DUAL_ARM_RESTRICT amplitude, const double *DUAL_ARM_RESTRICT width,
     double limit, size_t *DUAL_ARM_RESTRICT order, double *DUAL_ARM_RESTRICT work) {
     const size_t block = 2 * LANES;
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     uint32_t near[256];
     double share = 0;
     for (size_t n = 0; n < count; ++n) order[n] = n;
@@ -3894,6 +3834,10 @@ double dual_arm_splats_order(
     }
     return share;
 }
+
+#endif /* double */
+
+#if !defined(RSRM_ONLY_DOUBLE) /* float */
 
 /* The same number in all lanes. */
 INLINE vector_f vector_of_f(float x) {
@@ -3935,26 +3879,22 @@ INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
     return x;
 }
 
-/* round of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_round_f(vector_f x) {
-    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = rintf(LANE(x, i));
-    return x;
-}
+/* round to even, of numbers below 2^22; of larger ones, a whole number close by. */
+INLINE vector_f round_each_f(vector_f x) { return (x + 12582912.0f) - 12582912.0f; }
 
 /* sqrt of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_sqrt_f(vector_f x) {
+INLINE vector_f sqrt_each_f(vector_f x) {
     for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
     return x;
 }
 
-/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
-INLINE vector_f vector_exp_f(vector_f x) {
-    const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
-    const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
-    const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
-    const vector_f scale = vector_from_bits_f((vector_to_bits_f(shifted) + 126) << 23); /* 2^(k - 1) */
-    const vector_f y = vector_select_f(x > 88.722839f, vector_of_f(HUGE_VALF), (scale + scale * part) * 2);
-    return vector_select_f(x < -86.9f, vector_of_f(0), y);
+/* exp(-s / 2) of s >= 0, as 2^k exp(-r / 2), |r| <= log(2), within 1 unit in the last place; below 1.8e-38 it is 0. */
+INLINE vector_f gaussian_each_f(vector_f s) {
+    const vector_f shifted = s * -0.7213475204444817f + 12583039.0f, k = shifted - 12583039.0f;
+    const vector_f r = (s + k * 1.38629150390625f) + k * 2.8572136406188345e-06f;
+    const vector_f part = r * (-0.5f + r * (0.125f + r * (-0.020833221247803655f + r * (0.0026041596642423803f + r * (-0.0002613493009373264f + r * 2.1759659078889598e-05f)))));
+    const vector_f scale = vector_from_bits_f(vector_to_bits_f(shifted) << 23); /* 2^k */
+    return vector_select_f(s > 173.8f, vector_of_f(0), scale + scale * part);
 }
 
 /* What pairs read of points x. */
@@ -4650,64 +4590,50 @@ OUTLINE void pair_value_f(
     const float W13_13 = S[209];
     const float amplitude = S[210];
     const vector_f gap = x0 - mu0;
-    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
-    const vector_f v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+    const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const vector_f gap_2 = x1 - mu1;
-    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
-    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
-        * round_3;
+    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const vector_f gap_3 = x2 - mu2;
-    const vector_f round_4 = vector_round_f(0.15915494309189535f * gap_3);
-    const vector_f v2 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f
-        * round_4;
+    const vector_f round_4 = round_each_f(0.15915494309189535f * gap_3);
+    const vector_f v2 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
     const vector_f gap_4 = x3 - mu3;
-    const vector_f round_5 = vector_round_f(0.15915494309189535f * gap_4);
-    const vector_f v3 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f
-        * round_5;
+    const vector_f round_5 = round_each_f(0.15915494309189535f * gap_4);
+    const vector_f v3 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
     const vector_f gap_5 = x4 - mu4;
-    const vector_f round_6 = vector_round_f(0.15915494309189535f * gap_5);
-    const vector_f v4 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f
-        * round_6;
+    const vector_f round_6 = round_each_f(0.15915494309189535f * gap_5);
+    const vector_f v4 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
     const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
     const vector_f gap_6 = x5 - mu5;
-    const vector_f round_7 = vector_round_f(0.15915494309189535f * gap_6);
-    const vector_f v5 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f
-        * round_7;
+    const vector_f round_7 = round_each_f(0.15915494309189535f * gap_6);
+    const vector_f v5 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
     const vector_f gap_7 = x6 - mu6;
-    const vector_f round_8 = vector_round_f(0.15915494309189535f * gap_7);
-    const vector_f v6 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f
-        * round_8;
+    const vector_f round_8 = round_each_f(0.15915494309189535f * gap_7);
+    const vector_f v6 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
     const vector_f gap_8 = x7 - mu7;
-    const vector_f round_9 = vector_round_f(0.15915494309189535f * gap_8);
-    const vector_f v7 = gap_8 - 6.28125f * round_9 - 0.0019350051879882812f * round_9 - 3.019915981956753e-07f
-        * round_9;
+    const vector_f round_9 = round_each_f(0.15915494309189535f * gap_8);
+    const vector_f v7 = gap_8 - 6.28125f * round_9 - 0.001935307179586477f * round_9;
     const vector_f gap_9 = x8 - mu8;
-    const vector_f round_10 = vector_round_f(0.15915494309189535f * gap_9);
-    const vector_f v8 = gap_9 - 6.28125f * round_10 - 0.0019350051879882812f * round_10 -
-        3.019915981956753e-07f * round_10;
+    const vector_f round_10 = round_each_f(0.15915494309189535f * gap_9);
+    const vector_f v8 = gap_9 - 6.28125f * round_10 - 0.001935307179586477f * round_10;
     const vector_f total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
     const vector_f gap_10 = x9 - mu9;
-    const vector_f round_11 = vector_round_f(0.15915494309189535f * gap_10);
-    const vector_f v9 = gap_10 - 6.28125f * round_11 - 0.0019350051879882812f * round_11 -
-        3.019915981956753e-07f * round_11;
+    const vector_f round_11 = round_each_f(0.15915494309189535f * gap_10);
+    const vector_f v9 = gap_10 - 6.28125f * round_11 - 0.001935307179586477f * round_11;
     const vector_f gap_11 = x10 - mu10;
-    const vector_f round_12 = vector_round_f(0.15915494309189535f * gap_11);
-    const vector_f v10 = gap_11 - 6.28125f * round_12 - 0.0019350051879882812f * round_12 -
-        3.019915981956753e-07f * round_12;
+    const vector_f round_12 = round_each_f(0.15915494309189535f * gap_11);
+    const vector_f v10 = gap_11 - 6.28125f * round_12 - 0.001935307179586477f * round_12;
     const vector_f gap_12 = x11 - mu11;
-    const vector_f round_13 = vector_round_f(0.15915494309189535f * gap_12);
-    const vector_f v11 = gap_12 - 6.28125f * round_13 - 0.0019350051879882812f * round_13 -
-        3.019915981956753e-07f * round_13;
+    const vector_f round_13 = round_each_f(0.15915494309189535f * gap_12);
+    const vector_f v11 = gap_12 - 6.28125f * round_13 - 0.001935307179586477f * round_13;
     const vector_f gap_13 = x12 - mu12;
-    const vector_f round_14 = vector_round_f(0.15915494309189535f * gap_13);
-    const vector_f v12 = gap_13 - 6.28125f * round_14 - 0.0019350051879882812f * round_14 -
-        3.019915981956753e-07f * round_14;
+    const vector_f round_14 = round_each_f(0.15915494309189535f * gap_13);
+    const vector_f v12 = gap_13 - 6.28125f * round_14 - 0.001935307179586477f * round_14;
     const vector_f total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
     const vector_f gap_14 = x13 - mu13;
-    const vector_f round_15 = vector_round_f(0.15915494309189535f * gap_14);
-    const vector_f v13 = gap_14 - 6.28125f * round_15 - 0.0019350051879882812f * round_15 -
-        3.019915981956753e-07f * round_15;
+    const vector_f round_15 = round_each_f(0.15915494309189535f * gap_14);
+    const vector_f v13 = gap_14 - 6.28125f * round_15 - 0.001935307179586477f * round_15;
     const vector_f z0 = total_4 + W0_13 * v13;
     const vector_f total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
     const vector_f total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
@@ -4764,8 +4690,8 @@ OUTLINE void pair_value_f(
     const vector_f total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
     const vector_f total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
     const vector_f z13 = total_46 + W13_13 * v13;
-    const vector_f exp_2 = vector_exp_f(-0.5f * (total_43 + z13 * z13));
-    value[0] = value[0] + amplitude * exp_2;
+    const vector_f phi = gaussian_each_f(total_43 + z13 * z13);
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -5001,64 +4927,50 @@ OUTLINE void pair_forward_f(
     const float W13_13 = S[209];
     const float amplitude = S[210];
     const vector_f gap = x0 - mu0;
-    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
-    const vector_f v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+    const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const vector_f gap_2 = x1 - mu1;
-    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
-    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
-        * round_3;
+    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const vector_f gap_3 = x2 - mu2;
-    const vector_f round_4 = vector_round_f(0.15915494309189535f * gap_3);
-    const vector_f v2 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f
-        * round_4;
+    const vector_f round_4 = round_each_f(0.15915494309189535f * gap_3);
+    const vector_f v2 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
     const vector_f gap_4 = x3 - mu3;
-    const vector_f round_5 = vector_round_f(0.15915494309189535f * gap_4);
-    const vector_f v3 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f
-        * round_5;
+    const vector_f round_5 = round_each_f(0.15915494309189535f * gap_4);
+    const vector_f v3 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
     const vector_f gap_5 = x4 - mu4;
-    const vector_f round_6 = vector_round_f(0.15915494309189535f * gap_5);
-    const vector_f v4 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f
-        * round_6;
+    const vector_f round_6 = round_each_f(0.15915494309189535f * gap_5);
+    const vector_f v4 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
     const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
     const vector_f gap_6 = x5 - mu5;
-    const vector_f round_7 = vector_round_f(0.15915494309189535f * gap_6);
-    const vector_f v5 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f
-        * round_7;
+    const vector_f round_7 = round_each_f(0.15915494309189535f * gap_6);
+    const vector_f v5 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
     const vector_f gap_7 = x6 - mu6;
-    const vector_f round_8 = vector_round_f(0.15915494309189535f * gap_7);
-    const vector_f v6 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f
-        * round_8;
+    const vector_f round_8 = round_each_f(0.15915494309189535f * gap_7);
+    const vector_f v6 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
     const vector_f gap_8 = x7 - mu7;
-    const vector_f round_9 = vector_round_f(0.15915494309189535f * gap_8);
-    const vector_f v7 = gap_8 - 6.28125f * round_9 - 0.0019350051879882812f * round_9 - 3.019915981956753e-07f
-        * round_9;
+    const vector_f round_9 = round_each_f(0.15915494309189535f * gap_8);
+    const vector_f v7 = gap_8 - 6.28125f * round_9 - 0.001935307179586477f * round_9;
     const vector_f gap_9 = x8 - mu8;
-    const vector_f round_10 = vector_round_f(0.15915494309189535f * gap_9);
-    const vector_f v8 = gap_9 - 6.28125f * round_10 - 0.0019350051879882812f * round_10 -
-        3.019915981956753e-07f * round_10;
+    const vector_f round_10 = round_each_f(0.15915494309189535f * gap_9);
+    const vector_f v8 = gap_9 - 6.28125f * round_10 - 0.001935307179586477f * round_10;
     const vector_f total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
     const vector_f gap_10 = x9 - mu9;
-    const vector_f round_11 = vector_round_f(0.15915494309189535f * gap_10);
-    const vector_f v9 = gap_10 - 6.28125f * round_11 - 0.0019350051879882812f * round_11 -
-        3.019915981956753e-07f * round_11;
+    const vector_f round_11 = round_each_f(0.15915494309189535f * gap_10);
+    const vector_f v9 = gap_10 - 6.28125f * round_11 - 0.001935307179586477f * round_11;
     const vector_f gap_11 = x10 - mu10;
-    const vector_f round_12 = vector_round_f(0.15915494309189535f * gap_11);
-    const vector_f v10 = gap_11 - 6.28125f * round_12 - 0.0019350051879882812f * round_12 -
-        3.019915981956753e-07f * round_12;
+    const vector_f round_12 = round_each_f(0.15915494309189535f * gap_11);
+    const vector_f v10 = gap_11 - 6.28125f * round_12 - 0.001935307179586477f * round_12;
     const vector_f gap_12 = x11 - mu11;
-    const vector_f round_13 = vector_round_f(0.15915494309189535f * gap_12);
-    const vector_f v11 = gap_12 - 6.28125f * round_13 - 0.0019350051879882812f * round_13 -
-        3.019915981956753e-07f * round_13;
+    const vector_f round_13 = round_each_f(0.15915494309189535f * gap_12);
+    const vector_f v11 = gap_12 - 6.28125f * round_13 - 0.001935307179586477f * round_13;
     const vector_f gap_13 = x12 - mu12;
-    const vector_f round_14 = vector_round_f(0.15915494309189535f * gap_13);
-    const vector_f v12 = gap_13 - 6.28125f * round_14 - 0.0019350051879882812f * round_14 -
-        3.019915981956753e-07f * round_14;
+    const vector_f round_14 = round_each_f(0.15915494309189535f * gap_13);
+    const vector_f v12 = gap_13 - 6.28125f * round_14 - 0.001935307179586477f * round_14;
     const vector_f total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
     const vector_f gap_14 = x13 - mu13;
-    const vector_f round_15 = vector_round_f(0.15915494309189535f * gap_14);
-    const vector_f v13 = gap_14 - 6.28125f * round_15 - 0.0019350051879882812f * round_15 -
-        3.019915981956753e-07f * round_15;
+    const vector_f round_15 = round_each_f(0.15915494309189535f * gap_14);
+    const vector_f v13 = gap_14 - 6.28125f * round_15 - 0.001935307179586477f * round_15;
     const vector_f z0 = total_4 + W0_13 * v13;
     const vector_f total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
     const vector_f total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
@@ -5115,23 +5027,23 @@ OUTLINE void pair_forward_f(
     const vector_f total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
     const vector_f total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
     const vector_f z13 = total_46 + W13_13 * v13;
-    const vector_f exp_2 = vector_exp_f(-0.5f * (total_43 + z13 * z13));
-    const vector_f phi = amplitude * exp_2;
-    const vector_f z13_product = z13 * phi;
-    const vector_f z12_product = z12 * phi;
-    const vector_f z11_product = z11 * phi;
-    const vector_f z10_product = z10 * phi;
-    const vector_f z9_product = z9 * phi;
-    const vector_f z8_product = z8 * phi;
-    const vector_f z7_product = z7 * phi;
-    const vector_f z6_product = z6 * phi;
-    const vector_f z5_product = z5 * phi;
-    const vector_f z4_product = z4 * phi;
-    const vector_f z3_product = z3 * phi;
-    const vector_f z2_product = z2 * phi;
-    const vector_f z1_product = z1 * phi;
-    const vector_f z0_product = z0 * phi;
-    value[0] = value[0] + phi;
+    const vector_f phi = gaussian_each_f(total_43 + z13 * z13);
+    const vector_f phi_2 = amplitude * phi;
+    const vector_f z13_product = z13 * phi_2;
+    const vector_f z12_product = z12 * phi_2;
+    const vector_f z11_product = z11 * phi_2;
+    const vector_f z10_product = z10 * phi_2;
+    const vector_f z9_product = z9 * phi_2;
+    const vector_f z8_product = z8 * phi_2;
+    const vector_f z7_product = z7 * phi_2;
+    const vector_f z6_product = z6 * phi_2;
+    const vector_f z5_product = z5 * phi_2;
+    const vector_f z4_product = z4 * phi_2;
+    const vector_f z3_product = z3 * phi_2;
+    const vector_f z2_product = z2 * phi_2;
+    const vector_f z1_product = z1 * phi_2;
+    const vector_f z0_product = z0 * phi_2;
+    value[0] = value[0] + phi_2;
     slope[0] = slope[0] - W13_0 * z13_product - W12_0 * z12_product - W11_0 * z11_product - W10_0 *
             z10_product - W9_0 * z9_product - W8_0 * z8_product - W7_0 * z7_product - W6_0 * z6_product - W5_0 *
             z5_product - W4_0 * z4_product - W3_0 * z3_product - W2_0 * z2_product - W1_0 * z1_product - W0_0 *
@@ -5258,434 +5170,434 @@ OUTLINE void pair_gradient_vjp_f(
     slope_bar[13] = gradient_bar13;
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp_f(
-    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *sums, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
     (void)mu;
     (void)W;
-    (void)amplitude;
-    const vector_f mu0_bar = S_bar[0];
-    const vector_f mu1_bar = S_bar[1];
-    const vector_f mu2_bar = S_bar[2];
-    const vector_f mu3_bar = S_bar[3];
-    const vector_f mu4_bar = S_bar[4];
-    const vector_f mu5_bar = S_bar[5];
-    const vector_f mu6_bar = S_bar[6];
-    const vector_f mu7_bar = S_bar[7];
-    const vector_f mu8_bar = S_bar[8];
-    const vector_f mu9_bar = S_bar[9];
-    const vector_f mu10_bar = S_bar[10];
-    const vector_f mu11_bar = S_bar[11];
-    const vector_f mu12_bar = S_bar[12];
-    const vector_f mu13_bar = S_bar[13];
-    const vector_f W0_0_bar = S_bar[14];
-    const vector_f W0_1_bar = S_bar[15];
-    const vector_f W0_2_bar = S_bar[16];
-    const vector_f W0_3_bar = S_bar[17];
-    const vector_f W0_4_bar = S_bar[18];
-    const vector_f W0_5_bar = S_bar[19];
-    const vector_f W0_6_bar = S_bar[20];
-    const vector_f W0_7_bar = S_bar[21];
-    const vector_f W0_8_bar = S_bar[22];
-    const vector_f W0_9_bar = S_bar[23];
-    const vector_f W0_10_bar = S_bar[24];
-    const vector_f W0_11_bar = S_bar[25];
-    const vector_f W0_12_bar = S_bar[26];
-    const vector_f W0_13_bar = S_bar[27];
-    const vector_f W1_0_bar = S_bar[28];
-    const vector_f W1_1_bar = S_bar[29];
-    const vector_f W1_2_bar = S_bar[30];
-    const vector_f W1_3_bar = S_bar[31];
-    const vector_f W1_4_bar = S_bar[32];
-    const vector_f W1_5_bar = S_bar[33];
-    const vector_f W1_6_bar = S_bar[34];
-    const vector_f W1_7_bar = S_bar[35];
-    const vector_f W1_8_bar = S_bar[36];
-    const vector_f W1_9_bar = S_bar[37];
-    const vector_f W1_10_bar = S_bar[38];
-    const vector_f W1_11_bar = S_bar[39];
-    const vector_f W1_12_bar = S_bar[40];
-    const vector_f W1_13_bar = S_bar[41];
-    const vector_f W2_0_bar = S_bar[42];
-    const vector_f W2_1_bar = S_bar[43];
-    const vector_f W2_2_bar = S_bar[44];
-    const vector_f W2_3_bar = S_bar[45];
-    const vector_f W2_4_bar = S_bar[46];
-    const vector_f W2_5_bar = S_bar[47];
-    const vector_f W2_6_bar = S_bar[48];
-    const vector_f W2_7_bar = S_bar[49];
-    const vector_f W2_8_bar = S_bar[50];
-    const vector_f W2_9_bar = S_bar[51];
-    const vector_f W2_10_bar = S_bar[52];
-    const vector_f W2_11_bar = S_bar[53];
-    const vector_f W2_12_bar = S_bar[54];
-    const vector_f W2_13_bar = S_bar[55];
-    const vector_f W3_0_bar = S_bar[56];
-    const vector_f W3_1_bar = S_bar[57];
-    const vector_f W3_2_bar = S_bar[58];
-    const vector_f W3_3_bar = S_bar[59];
-    const vector_f W3_4_bar = S_bar[60];
-    const vector_f W3_5_bar = S_bar[61];
-    const vector_f W3_6_bar = S_bar[62];
-    const vector_f W3_7_bar = S_bar[63];
-    const vector_f W3_8_bar = S_bar[64];
-    const vector_f W3_9_bar = S_bar[65];
-    const vector_f W3_10_bar = S_bar[66];
-    const vector_f W3_11_bar = S_bar[67];
-    const vector_f W3_12_bar = S_bar[68];
-    const vector_f W3_13_bar = S_bar[69];
-    const vector_f W4_0_bar = S_bar[70];
-    const vector_f W4_1_bar = S_bar[71];
-    const vector_f W4_2_bar = S_bar[72];
-    const vector_f W4_3_bar = S_bar[73];
-    const vector_f W4_4_bar = S_bar[74];
-    const vector_f W4_5_bar = S_bar[75];
-    const vector_f W4_6_bar = S_bar[76];
-    const vector_f W4_7_bar = S_bar[77];
-    const vector_f W4_8_bar = S_bar[78];
-    const vector_f W4_9_bar = S_bar[79];
-    const vector_f W4_10_bar = S_bar[80];
-    const vector_f W4_11_bar = S_bar[81];
-    const vector_f W4_12_bar = S_bar[82];
-    const vector_f W4_13_bar = S_bar[83];
-    const vector_f W5_0_bar = S_bar[84];
-    const vector_f W5_1_bar = S_bar[85];
-    const vector_f W5_2_bar = S_bar[86];
-    const vector_f W5_3_bar = S_bar[87];
-    const vector_f W5_4_bar = S_bar[88];
-    const vector_f W5_5_bar = S_bar[89];
-    const vector_f W5_6_bar = S_bar[90];
-    const vector_f W5_7_bar = S_bar[91];
-    const vector_f W5_8_bar = S_bar[92];
-    const vector_f W5_9_bar = S_bar[93];
-    const vector_f W5_10_bar = S_bar[94];
-    const vector_f W5_11_bar = S_bar[95];
-    const vector_f W5_12_bar = S_bar[96];
-    const vector_f W5_13_bar = S_bar[97];
-    const vector_f W6_0_bar = S_bar[98];
-    const vector_f W6_1_bar = S_bar[99];
-    const vector_f W6_2_bar = S_bar[100];
-    const vector_f W6_3_bar = S_bar[101];
-    const vector_f W6_4_bar = S_bar[102];
-    const vector_f W6_5_bar = S_bar[103];
-    const vector_f W6_6_bar = S_bar[104];
-    const vector_f W6_7_bar = S_bar[105];
-    const vector_f W6_8_bar = S_bar[106];
-    const vector_f W6_9_bar = S_bar[107];
-    const vector_f W6_10_bar = S_bar[108];
-    const vector_f W6_11_bar = S_bar[109];
-    const vector_f W6_12_bar = S_bar[110];
-    const vector_f W6_13_bar = S_bar[111];
-    const vector_f W7_0_bar = S_bar[112];
-    const vector_f W7_1_bar = S_bar[113];
-    const vector_f W7_2_bar = S_bar[114];
-    const vector_f W7_3_bar = S_bar[115];
-    const vector_f W7_4_bar = S_bar[116];
-    const vector_f W7_5_bar = S_bar[117];
-    const vector_f W7_6_bar = S_bar[118];
-    const vector_f W7_7_bar = S_bar[119];
-    const vector_f W7_8_bar = S_bar[120];
-    const vector_f W7_9_bar = S_bar[121];
-    const vector_f W7_10_bar = S_bar[122];
-    const vector_f W7_11_bar = S_bar[123];
-    const vector_f W7_12_bar = S_bar[124];
-    const vector_f W7_13_bar = S_bar[125];
-    const vector_f W8_0_bar = S_bar[126];
-    const vector_f W8_1_bar = S_bar[127];
-    const vector_f W8_2_bar = S_bar[128];
-    const vector_f W8_3_bar = S_bar[129];
-    const vector_f W8_4_bar = S_bar[130];
-    const vector_f W8_5_bar = S_bar[131];
-    const vector_f W8_6_bar = S_bar[132];
-    const vector_f W8_7_bar = S_bar[133];
-    const vector_f W8_8_bar = S_bar[134];
-    const vector_f W8_9_bar = S_bar[135];
-    const vector_f W8_10_bar = S_bar[136];
-    const vector_f W8_11_bar = S_bar[137];
-    const vector_f W8_12_bar = S_bar[138];
-    const vector_f W8_13_bar = S_bar[139];
-    const vector_f W9_0_bar = S_bar[140];
-    const vector_f W9_1_bar = S_bar[141];
-    const vector_f W9_2_bar = S_bar[142];
-    const vector_f W9_3_bar = S_bar[143];
-    const vector_f W9_4_bar = S_bar[144];
-    const vector_f W9_5_bar = S_bar[145];
-    const vector_f W9_6_bar = S_bar[146];
-    const vector_f W9_7_bar = S_bar[147];
-    const vector_f W9_8_bar = S_bar[148];
-    const vector_f W9_9_bar = S_bar[149];
-    const vector_f W9_10_bar = S_bar[150];
-    const vector_f W9_11_bar = S_bar[151];
-    const vector_f W9_12_bar = S_bar[152];
-    const vector_f W9_13_bar = S_bar[153];
-    const vector_f W10_0_bar = S_bar[154];
-    const vector_f W10_1_bar = S_bar[155];
-    const vector_f W10_2_bar = S_bar[156];
-    const vector_f W10_3_bar = S_bar[157];
-    const vector_f W10_4_bar = S_bar[158];
-    const vector_f W10_5_bar = S_bar[159];
-    const vector_f W10_6_bar = S_bar[160];
-    const vector_f W10_7_bar = S_bar[161];
-    const vector_f W10_8_bar = S_bar[162];
-    const vector_f W10_9_bar = S_bar[163];
-    const vector_f W10_10_bar = S_bar[164];
-    const vector_f W10_11_bar = S_bar[165];
-    const vector_f W10_12_bar = S_bar[166];
-    const vector_f W10_13_bar = S_bar[167];
-    const vector_f W11_0_bar = S_bar[168];
-    const vector_f W11_1_bar = S_bar[169];
-    const vector_f W11_2_bar = S_bar[170];
-    const vector_f W11_3_bar = S_bar[171];
-    const vector_f W11_4_bar = S_bar[172];
-    const vector_f W11_5_bar = S_bar[173];
-    const vector_f W11_6_bar = S_bar[174];
-    const vector_f W11_7_bar = S_bar[175];
-    const vector_f W11_8_bar = S_bar[176];
-    const vector_f W11_9_bar = S_bar[177];
-    const vector_f W11_10_bar = S_bar[178];
-    const vector_f W11_11_bar = S_bar[179];
-    const vector_f W11_12_bar = S_bar[180];
-    const vector_f W11_13_bar = S_bar[181];
-    const vector_f W12_0_bar = S_bar[182];
-    const vector_f W12_1_bar = S_bar[183];
-    const vector_f W12_2_bar = S_bar[184];
-    const vector_f W12_3_bar = S_bar[185];
-    const vector_f W12_4_bar = S_bar[186];
-    const vector_f W12_5_bar = S_bar[187];
-    const vector_f W12_6_bar = S_bar[188];
-    const vector_f W12_7_bar = S_bar[189];
-    const vector_f W12_8_bar = S_bar[190];
-    const vector_f W12_9_bar = S_bar[191];
-    const vector_f W12_10_bar = S_bar[192];
-    const vector_f W12_11_bar = S_bar[193];
-    const vector_f W12_12_bar = S_bar[194];
-    const vector_f W12_13_bar = S_bar[195];
-    const vector_f W13_0_bar = S_bar[196];
-    const vector_f W13_1_bar = S_bar[197];
-    const vector_f W13_2_bar = S_bar[198];
-    const vector_f W13_3_bar = S_bar[199];
-    const vector_f W13_4_bar = S_bar[200];
-    const vector_f W13_5_bar = S_bar[201];
-    const vector_f W13_6_bar = S_bar[202];
-    const vector_f W13_7_bar = S_bar[203];
-    const vector_f W13_8_bar = S_bar[204];
-    const vector_f W13_9_bar = S_bar[205];
-    const vector_f W13_10_bar = S_bar[206];
-    const vector_f W13_11_bar = S_bar[207];
-    const vector_f W13_12_bar = S_bar[208];
-    const vector_f W13_13_bar = S_bar[209];
-    const vector_f its_amplitude_bar = S_bar[210];
-    mu_bar[0] = mu0_bar;
-    mu_bar[1] = mu1_bar;
-    mu_bar[2] = mu2_bar;
-    mu_bar[3] = mu3_bar;
-    mu_bar[4] = mu4_bar;
-    mu_bar[5] = mu5_bar;
-    mu_bar[6] = mu6_bar;
-    mu_bar[7] = mu7_bar;
-    mu_bar[8] = mu8_bar;
-    mu_bar[9] = mu9_bar;
-    mu_bar[10] = mu10_bar;
-    mu_bar[11] = mu11_bar;
-    mu_bar[12] = mu12_bar;
-    mu_bar[13] = mu13_bar;
-    W_bar[0] = W0_0_bar;
-    W_bar[1] = W0_1_bar;
-    W_bar[2] = W0_2_bar;
-    W_bar[3] = W0_3_bar;
-    W_bar[4] = W0_4_bar;
-    W_bar[5] = W0_5_bar;
-    W_bar[6] = W0_6_bar;
-    W_bar[7] = W0_7_bar;
-    W_bar[8] = W0_8_bar;
-    W_bar[9] = W0_9_bar;
-    W_bar[10] = W0_10_bar;
-    W_bar[11] = W0_11_bar;
-    W_bar[12] = W0_12_bar;
-    W_bar[13] = W0_13_bar;
-    W_bar[14] = W1_0_bar;
-    W_bar[15] = W1_1_bar;
-    W_bar[16] = W1_2_bar;
-    W_bar[17] = W1_3_bar;
-    W_bar[18] = W1_4_bar;
-    W_bar[19] = W1_5_bar;
-    W_bar[20] = W1_6_bar;
-    W_bar[21] = W1_7_bar;
-    W_bar[22] = W1_8_bar;
-    W_bar[23] = W1_9_bar;
-    W_bar[24] = W1_10_bar;
-    W_bar[25] = W1_11_bar;
-    W_bar[26] = W1_12_bar;
-    W_bar[27] = W1_13_bar;
-    W_bar[28] = W2_0_bar;
-    W_bar[29] = W2_1_bar;
-    W_bar[30] = W2_2_bar;
-    W_bar[31] = W2_3_bar;
-    W_bar[32] = W2_4_bar;
-    W_bar[33] = W2_5_bar;
-    W_bar[34] = W2_6_bar;
-    W_bar[35] = W2_7_bar;
-    W_bar[36] = W2_8_bar;
-    W_bar[37] = W2_9_bar;
-    W_bar[38] = W2_10_bar;
-    W_bar[39] = W2_11_bar;
-    W_bar[40] = W2_12_bar;
-    W_bar[41] = W2_13_bar;
-    W_bar[42] = W3_0_bar;
-    W_bar[43] = W3_1_bar;
-    W_bar[44] = W3_2_bar;
-    W_bar[45] = W3_3_bar;
-    W_bar[46] = W3_4_bar;
-    W_bar[47] = W3_5_bar;
-    W_bar[48] = W3_6_bar;
-    W_bar[49] = W3_7_bar;
-    W_bar[50] = W3_8_bar;
-    W_bar[51] = W3_9_bar;
-    W_bar[52] = W3_10_bar;
-    W_bar[53] = W3_11_bar;
-    W_bar[54] = W3_12_bar;
-    W_bar[55] = W3_13_bar;
-    W_bar[56] = W4_0_bar;
-    W_bar[57] = W4_1_bar;
-    W_bar[58] = W4_2_bar;
-    W_bar[59] = W4_3_bar;
-    W_bar[60] = W4_4_bar;
-    W_bar[61] = W4_5_bar;
-    W_bar[62] = W4_6_bar;
-    W_bar[63] = W4_7_bar;
-    W_bar[64] = W4_8_bar;
-    W_bar[65] = W4_9_bar;
-    W_bar[66] = W4_10_bar;
-    W_bar[67] = W4_11_bar;
-    W_bar[68] = W4_12_bar;
-    W_bar[69] = W4_13_bar;
-    W_bar[70] = W5_0_bar;
-    W_bar[71] = W5_1_bar;
-    W_bar[72] = W5_2_bar;
-    W_bar[73] = W5_3_bar;
-    W_bar[74] = W5_4_bar;
-    W_bar[75] = W5_5_bar;
-    W_bar[76] = W5_6_bar;
-    W_bar[77] = W5_7_bar;
-    W_bar[78] = W5_8_bar;
-    W_bar[79] = W5_9_bar;
-    W_bar[80] = W5_10_bar;
-    W_bar[81] = W5_11_bar;
-    W_bar[82] = W5_12_bar;
-    W_bar[83] = W5_13_bar;
-    W_bar[84] = W6_0_bar;
-    W_bar[85] = W6_1_bar;
-    W_bar[86] = W6_2_bar;
-    W_bar[87] = W6_3_bar;
-    W_bar[88] = W6_4_bar;
-    W_bar[89] = W6_5_bar;
-    W_bar[90] = W6_6_bar;
-    W_bar[91] = W6_7_bar;
-    W_bar[92] = W6_8_bar;
-    W_bar[93] = W6_9_bar;
-    W_bar[94] = W6_10_bar;
-    W_bar[95] = W6_11_bar;
-    W_bar[96] = W6_12_bar;
-    W_bar[97] = W6_13_bar;
-    W_bar[98] = W7_0_bar;
-    W_bar[99] = W7_1_bar;
-    W_bar[100] = W7_2_bar;
-    W_bar[101] = W7_3_bar;
-    W_bar[102] = W7_4_bar;
-    W_bar[103] = W7_5_bar;
-    W_bar[104] = W7_6_bar;
-    W_bar[105] = W7_7_bar;
-    W_bar[106] = W7_8_bar;
-    W_bar[107] = W7_9_bar;
-    W_bar[108] = W7_10_bar;
-    W_bar[109] = W7_11_bar;
-    W_bar[110] = W7_12_bar;
-    W_bar[111] = W7_13_bar;
-    W_bar[112] = W8_0_bar;
-    W_bar[113] = W8_1_bar;
-    W_bar[114] = W8_2_bar;
-    W_bar[115] = W8_3_bar;
-    W_bar[116] = W8_4_bar;
-    W_bar[117] = W8_5_bar;
-    W_bar[118] = W8_6_bar;
-    W_bar[119] = W8_7_bar;
-    W_bar[120] = W8_8_bar;
-    W_bar[121] = W8_9_bar;
-    W_bar[122] = W8_10_bar;
-    W_bar[123] = W8_11_bar;
-    W_bar[124] = W8_12_bar;
-    W_bar[125] = W8_13_bar;
-    W_bar[126] = W9_0_bar;
-    W_bar[127] = W9_1_bar;
-    W_bar[128] = W9_2_bar;
-    W_bar[129] = W9_3_bar;
-    W_bar[130] = W9_4_bar;
-    W_bar[131] = W9_5_bar;
-    W_bar[132] = W9_6_bar;
-    W_bar[133] = W9_7_bar;
-    W_bar[134] = W9_8_bar;
-    W_bar[135] = W9_9_bar;
-    W_bar[136] = W9_10_bar;
-    W_bar[137] = W9_11_bar;
-    W_bar[138] = W9_12_bar;
-    W_bar[139] = W9_13_bar;
-    W_bar[140] = W10_0_bar;
-    W_bar[141] = W10_1_bar;
-    W_bar[142] = W10_2_bar;
-    W_bar[143] = W10_3_bar;
-    W_bar[144] = W10_4_bar;
-    W_bar[145] = W10_5_bar;
-    W_bar[146] = W10_6_bar;
-    W_bar[147] = W10_7_bar;
-    W_bar[148] = W10_8_bar;
-    W_bar[149] = W10_9_bar;
-    W_bar[150] = W10_10_bar;
-    W_bar[151] = W10_11_bar;
-    W_bar[152] = W10_12_bar;
-    W_bar[153] = W10_13_bar;
-    W_bar[154] = W11_0_bar;
-    W_bar[155] = W11_1_bar;
-    W_bar[156] = W11_2_bar;
-    W_bar[157] = W11_3_bar;
-    W_bar[158] = W11_4_bar;
-    W_bar[159] = W11_5_bar;
-    W_bar[160] = W11_6_bar;
-    W_bar[161] = W11_7_bar;
-    W_bar[162] = W11_8_bar;
-    W_bar[163] = W11_9_bar;
-    W_bar[164] = W11_10_bar;
-    W_bar[165] = W11_11_bar;
-    W_bar[166] = W11_12_bar;
-    W_bar[167] = W11_13_bar;
-    W_bar[168] = W12_0_bar;
-    W_bar[169] = W12_1_bar;
-    W_bar[170] = W12_2_bar;
-    W_bar[171] = W12_3_bar;
-    W_bar[172] = W12_4_bar;
-    W_bar[173] = W12_5_bar;
-    W_bar[174] = W12_6_bar;
-    W_bar[175] = W12_7_bar;
-    W_bar[176] = W12_8_bar;
-    W_bar[177] = W12_9_bar;
-    W_bar[178] = W12_10_bar;
-    W_bar[179] = W12_11_bar;
-    W_bar[180] = W12_12_bar;
-    W_bar[181] = W12_13_bar;
-    W_bar[182] = W13_0_bar;
-    W_bar[183] = W13_1_bar;
-    W_bar[184] = W13_2_bar;
-    W_bar[185] = W13_3_bar;
-    W_bar[186] = W13_4_bar;
-    W_bar[187] = W13_5_bar;
-    W_bar[188] = W13_6_bar;
-    W_bar[189] = W13_7_bar;
-    W_bar[190] = W13_8_bar;
-    W_bar[191] = W13_9_bar;
-    W_bar[192] = W13_10_bar;
-    W_bar[193] = W13_11_bar;
-    W_bar[194] = W13_12_bar;
-    W_bar[195] = W13_13_bar;
-    amplitude_bar[0] = its_amplitude_bar;
+    const vector_f its_amplitude = amplitude[0];
+    const vector_f sum0 = sums[0];
+    const vector_f sum1 = sums[1];
+    const vector_f sum2 = sums[2];
+    const vector_f sum3 = sums[3];
+    const vector_f sum4 = sums[4];
+    const vector_f sum5 = sums[5];
+    const vector_f sum6 = sums[6];
+    const vector_f sum7 = sums[7];
+    const vector_f sum8 = sums[8];
+    const vector_f sum9 = sums[9];
+    const vector_f sum10 = sums[10];
+    const vector_f sum11 = sums[11];
+    const vector_f sum12 = sums[12];
+    const vector_f sum13 = sums[13];
+    const vector_f sum14 = sums[14];
+    const vector_f sum15 = sums[15];
+    const vector_f sum16 = sums[16];
+    const vector_f sum17 = sums[17];
+    const vector_f sum18 = sums[18];
+    const vector_f sum19 = sums[19];
+    const vector_f sum20 = sums[20];
+    const vector_f sum21 = sums[21];
+    const vector_f sum22 = sums[22];
+    const vector_f sum23 = sums[23];
+    const vector_f sum24 = sums[24];
+    const vector_f sum25 = sums[25];
+    const vector_f sum26 = sums[26];
+    const vector_f sum27 = sums[27];
+    const vector_f sum28 = sums[28];
+    const vector_f sum29 = sums[29];
+    const vector_f sum30 = sums[30];
+    const vector_f sum31 = sums[31];
+    const vector_f sum32 = sums[32];
+    const vector_f sum33 = sums[33];
+    const vector_f sum34 = sums[34];
+    const vector_f sum35 = sums[35];
+    const vector_f sum36 = sums[36];
+    const vector_f sum37 = sums[37];
+    const vector_f sum38 = sums[38];
+    const vector_f sum39 = sums[39];
+    const vector_f sum40 = sums[40];
+    const vector_f sum41 = sums[41];
+    const vector_f sum42 = sums[42];
+    const vector_f sum43 = sums[43];
+    const vector_f sum44 = sums[44];
+    const vector_f sum45 = sums[45];
+    const vector_f sum46 = sums[46];
+    const vector_f sum47 = sums[47];
+    const vector_f sum48 = sums[48];
+    const vector_f sum49 = sums[49];
+    const vector_f sum50 = sums[50];
+    const vector_f sum51 = sums[51];
+    const vector_f sum52 = sums[52];
+    const vector_f sum53 = sums[53];
+    const vector_f sum54 = sums[54];
+    const vector_f sum55 = sums[55];
+    const vector_f sum56 = sums[56];
+    const vector_f sum57 = sums[57];
+    const vector_f sum58 = sums[58];
+    const vector_f sum59 = sums[59];
+    const vector_f sum60 = sums[60];
+    const vector_f sum61 = sums[61];
+    const vector_f sum62 = sums[62];
+    const vector_f sum63 = sums[63];
+    const vector_f sum64 = sums[64];
+    const vector_f sum65 = sums[65];
+    const vector_f sum66 = sums[66];
+    const vector_f sum67 = sums[67];
+    const vector_f sum68 = sums[68];
+    const vector_f sum69 = sums[69];
+    const vector_f sum70 = sums[70];
+    const vector_f sum71 = sums[71];
+    const vector_f sum72 = sums[72];
+    const vector_f sum73 = sums[73];
+    const vector_f sum74 = sums[74];
+    const vector_f sum75 = sums[75];
+    const vector_f sum76 = sums[76];
+    const vector_f sum77 = sums[77];
+    const vector_f sum78 = sums[78];
+    const vector_f sum79 = sums[79];
+    const vector_f sum80 = sums[80];
+    const vector_f sum81 = sums[81];
+    const vector_f sum82 = sums[82];
+    const vector_f sum83 = sums[83];
+    const vector_f sum84 = sums[84];
+    const vector_f sum85 = sums[85];
+    const vector_f sum86 = sums[86];
+    const vector_f sum87 = sums[87];
+    const vector_f sum88 = sums[88];
+    const vector_f sum89 = sums[89];
+    const vector_f sum90 = sums[90];
+    const vector_f sum91 = sums[91];
+    const vector_f sum92 = sums[92];
+    const vector_f sum93 = sums[93];
+    const vector_f sum94 = sums[94];
+    const vector_f sum95 = sums[95];
+    const vector_f sum96 = sums[96];
+    const vector_f sum97 = sums[97];
+    const vector_f sum98 = sums[98];
+    const vector_f sum99 = sums[99];
+    const vector_f sum100 = sums[100];
+    const vector_f sum101 = sums[101];
+    const vector_f sum102 = sums[102];
+    const vector_f sum103 = sums[103];
+    const vector_f sum104 = sums[104];
+    const vector_f sum105 = sums[105];
+    const vector_f sum106 = sums[106];
+    const vector_f sum107 = sums[107];
+    const vector_f sum108 = sums[108];
+    const vector_f sum109 = sums[109];
+    const vector_f sum110 = sums[110];
+    const vector_f sum111 = sums[111];
+    const vector_f sum112 = sums[112];
+    const vector_f sum113 = sums[113];
+    const vector_f sum114 = sums[114];
+    const vector_f sum115 = sums[115];
+    const vector_f sum116 = sums[116];
+    const vector_f sum117 = sums[117];
+    const vector_f sum118 = sums[118];
+    const vector_f sum119 = sums[119];
+    const vector_f sum120 = sums[120];
+    const vector_f sum121 = sums[121];
+    const vector_f sum122 = sums[122];
+    const vector_f sum123 = sums[123];
+    const vector_f sum124 = sums[124];
+    const vector_f sum125 = sums[125];
+    const vector_f sum126 = sums[126];
+    const vector_f sum127 = sums[127];
+    const vector_f sum128 = sums[128];
+    const vector_f sum129 = sums[129];
+    const vector_f sum130 = sums[130];
+    const vector_f sum131 = sums[131];
+    const vector_f sum132 = sums[132];
+    const vector_f sum133 = sums[133];
+    const vector_f sum134 = sums[134];
+    const vector_f sum135 = sums[135];
+    const vector_f sum136 = sums[136];
+    const vector_f sum137 = sums[137];
+    const vector_f sum138 = sums[138];
+    const vector_f sum139 = sums[139];
+    const vector_f sum140 = sums[140];
+    const vector_f sum141 = sums[141];
+    const vector_f sum142 = sums[142];
+    const vector_f sum143 = sums[143];
+    const vector_f sum144 = sums[144];
+    const vector_f sum145 = sums[145];
+    const vector_f sum146 = sums[146];
+    const vector_f sum147 = sums[147];
+    const vector_f sum148 = sums[148];
+    const vector_f sum149 = sums[149];
+    const vector_f sum150 = sums[150];
+    const vector_f sum151 = sums[151];
+    const vector_f sum152 = sums[152];
+    const vector_f sum153 = sums[153];
+    const vector_f sum154 = sums[154];
+    const vector_f sum155 = sums[155];
+    const vector_f sum156 = sums[156];
+    const vector_f sum157 = sums[157];
+    const vector_f sum158 = sums[158];
+    const vector_f sum159 = sums[159];
+    const vector_f sum160 = sums[160];
+    const vector_f sum161 = sums[161];
+    const vector_f sum162 = sums[162];
+    const vector_f sum163 = sums[163];
+    const vector_f sum164 = sums[164];
+    const vector_f sum165 = sums[165];
+    const vector_f sum166 = sums[166];
+    const vector_f sum167 = sums[167];
+    const vector_f sum168 = sums[168];
+    const vector_f sum169 = sums[169];
+    const vector_f sum170 = sums[170];
+    const vector_f sum171 = sums[171];
+    const vector_f sum172 = sums[172];
+    const vector_f sum173 = sums[173];
+    const vector_f sum174 = sums[174];
+    const vector_f sum175 = sums[175];
+    const vector_f sum176 = sums[176];
+    const vector_f sum177 = sums[177];
+    const vector_f sum178 = sums[178];
+    const vector_f sum179 = sums[179];
+    const vector_f sum180 = sums[180];
+    const vector_f sum181 = sums[181];
+    const vector_f sum182 = sums[182];
+    const vector_f sum183 = sums[183];
+    const vector_f sum184 = sums[184];
+    const vector_f sum185 = sums[185];
+    const vector_f sum186 = sums[186];
+    const vector_f sum187 = sums[187];
+    const vector_f sum188 = sums[188];
+    const vector_f sum189 = sums[189];
+    const vector_f sum190 = sums[190];
+    const vector_f sum191 = sums[191];
+    const vector_f sum192 = sums[192];
+    const vector_f sum193 = sums[193];
+    const vector_f sum194 = sums[194];
+    const vector_f sum195 = sums[195];
+    const vector_f sum196 = sums[196];
+    const vector_f sum197 = sums[197];
+    const vector_f sum198 = sums[198];
+    const vector_f sum199 = sums[199];
+    const vector_f sum200 = sums[200];
+    const vector_f sum201 = sums[201];
+    const vector_f sum202 = sums[202];
+    const vector_f sum203 = sums[203];
+    const vector_f sum204 = sums[204];
+    const vector_f sum205 = sums[205];
+    const vector_f sum206 = sums[206];
+    const vector_f sum207 = sums[207];
+    const vector_f sum208 = sums[208];
+    const vector_f sum209 = sums[209];
+    const vector_f sum210 = sums[210];
+    mu_bar[0] = its_amplitude * sum0;
+    mu_bar[1] = its_amplitude * sum1;
+    mu_bar[2] = its_amplitude * sum2;
+    mu_bar[3] = its_amplitude * sum3;
+    mu_bar[4] = its_amplitude * sum4;
+    mu_bar[5] = its_amplitude * sum5;
+    mu_bar[6] = its_amplitude * sum6;
+    mu_bar[7] = its_amplitude * sum7;
+    mu_bar[8] = its_amplitude * sum8;
+    mu_bar[9] = its_amplitude * sum9;
+    mu_bar[10] = its_amplitude * sum10;
+    mu_bar[11] = its_amplitude * sum11;
+    mu_bar[12] = its_amplitude * sum12;
+    mu_bar[13] = its_amplitude * sum13;
+    W_bar[0] = its_amplitude * sum14;
+    W_bar[1] = its_amplitude * sum15;
+    W_bar[2] = its_amplitude * sum16;
+    W_bar[3] = its_amplitude * sum17;
+    W_bar[4] = its_amplitude * sum18;
+    W_bar[5] = its_amplitude * sum19;
+    W_bar[6] = its_amplitude * sum20;
+    W_bar[7] = its_amplitude * sum21;
+    W_bar[8] = its_amplitude * sum22;
+    W_bar[9] = its_amplitude * sum23;
+    W_bar[10] = its_amplitude * sum24;
+    W_bar[11] = its_amplitude * sum25;
+    W_bar[12] = its_amplitude * sum26;
+    W_bar[13] = its_amplitude * sum27;
+    W_bar[14] = its_amplitude * sum28;
+    W_bar[15] = its_amplitude * sum29;
+    W_bar[16] = its_amplitude * sum30;
+    W_bar[17] = its_amplitude * sum31;
+    W_bar[18] = its_amplitude * sum32;
+    W_bar[19] = its_amplitude * sum33;
+    W_bar[20] = its_amplitude * sum34;
+    W_bar[21] = its_amplitude * sum35;
+    W_bar[22] = its_amplitude * sum36;
+    W_bar[23] = its_amplitude * sum37;
+    W_bar[24] = its_amplitude * sum38;
+    W_bar[25] = its_amplitude * sum39;
+    W_bar[26] = its_amplitude * sum40;
+    W_bar[27] = its_amplitude * sum41;
+    W_bar[28] = its_amplitude * sum42;
+    W_bar[29] = its_amplitude * sum43;
+    W_bar[30] = its_amplitude * sum44;
+    W_bar[31] = its_amplitude * sum45;
+    W_bar[32] = its_amplitude * sum46;
+    W_bar[33] = its_amplitude * sum47;
+    W_bar[34] = its_amplitude * sum48;
+    W_bar[35] = its_amplitude * sum49;
+    W_bar[36] = its_amplitude * sum50;
+    W_bar[37] = its_amplitude * sum51;
+    W_bar[38] = its_amplitude * sum52;
+    W_bar[39] = its_amplitude * sum53;
+    W_bar[40] = its_amplitude * sum54;
+    W_bar[41] = its_amplitude * sum55;
+    W_bar[42] = its_amplitude * sum56;
+    W_bar[43] = its_amplitude * sum57;
+    W_bar[44] = its_amplitude * sum58;
+    W_bar[45] = its_amplitude * sum59;
+    W_bar[46] = its_amplitude * sum60;
+    W_bar[47] = its_amplitude * sum61;
+    W_bar[48] = its_amplitude * sum62;
+    W_bar[49] = its_amplitude * sum63;
+    W_bar[50] = its_amplitude * sum64;
+    W_bar[51] = its_amplitude * sum65;
+    W_bar[52] = its_amplitude * sum66;
+    W_bar[53] = its_amplitude * sum67;
+    W_bar[54] = its_amplitude * sum68;
+    W_bar[55] = its_amplitude * sum69;
+    W_bar[56] = its_amplitude * sum70;
+    W_bar[57] = its_amplitude * sum71;
+    W_bar[58] = its_amplitude * sum72;
+    W_bar[59] = its_amplitude * sum73;
+    W_bar[60] = its_amplitude * sum74;
+    W_bar[61] = its_amplitude * sum75;
+    W_bar[62] = its_amplitude * sum76;
+    W_bar[63] = its_amplitude * sum77;
+    W_bar[64] = its_amplitude * sum78;
+    W_bar[65] = its_amplitude * sum79;
+    W_bar[66] = its_amplitude * sum80;
+    W_bar[67] = its_amplitude * sum81;
+    W_bar[68] = its_amplitude * sum82;
+    W_bar[69] = its_amplitude * sum83;
+    W_bar[70] = its_amplitude * sum84;
+    W_bar[71] = its_amplitude * sum85;
+    W_bar[72] = its_amplitude * sum86;
+    W_bar[73] = its_amplitude * sum87;
+    W_bar[74] = its_amplitude * sum88;
+    W_bar[75] = its_amplitude * sum89;
+    W_bar[76] = its_amplitude * sum90;
+    W_bar[77] = its_amplitude * sum91;
+    W_bar[78] = its_amplitude * sum92;
+    W_bar[79] = its_amplitude * sum93;
+    W_bar[80] = its_amplitude * sum94;
+    W_bar[81] = its_amplitude * sum95;
+    W_bar[82] = its_amplitude * sum96;
+    W_bar[83] = its_amplitude * sum97;
+    W_bar[84] = its_amplitude * sum98;
+    W_bar[85] = its_amplitude * sum99;
+    W_bar[86] = its_amplitude * sum100;
+    W_bar[87] = its_amplitude * sum101;
+    W_bar[88] = its_amplitude * sum102;
+    W_bar[89] = its_amplitude * sum103;
+    W_bar[90] = its_amplitude * sum104;
+    W_bar[91] = its_amplitude * sum105;
+    W_bar[92] = its_amplitude * sum106;
+    W_bar[93] = its_amplitude * sum107;
+    W_bar[94] = its_amplitude * sum108;
+    W_bar[95] = its_amplitude * sum109;
+    W_bar[96] = its_amplitude * sum110;
+    W_bar[97] = its_amplitude * sum111;
+    W_bar[98] = its_amplitude * sum112;
+    W_bar[99] = its_amplitude * sum113;
+    W_bar[100] = its_amplitude * sum114;
+    W_bar[101] = its_amplitude * sum115;
+    W_bar[102] = its_amplitude * sum116;
+    W_bar[103] = its_amplitude * sum117;
+    W_bar[104] = its_amplitude * sum118;
+    W_bar[105] = its_amplitude * sum119;
+    W_bar[106] = its_amplitude * sum120;
+    W_bar[107] = its_amplitude * sum121;
+    W_bar[108] = its_amplitude * sum122;
+    W_bar[109] = its_amplitude * sum123;
+    W_bar[110] = its_amplitude * sum124;
+    W_bar[111] = its_amplitude * sum125;
+    W_bar[112] = its_amplitude * sum126;
+    W_bar[113] = its_amplitude * sum127;
+    W_bar[114] = its_amplitude * sum128;
+    W_bar[115] = its_amplitude * sum129;
+    W_bar[116] = its_amplitude * sum130;
+    W_bar[117] = its_amplitude * sum131;
+    W_bar[118] = its_amplitude * sum132;
+    W_bar[119] = its_amplitude * sum133;
+    W_bar[120] = its_amplitude * sum134;
+    W_bar[121] = its_amplitude * sum135;
+    W_bar[122] = its_amplitude * sum136;
+    W_bar[123] = its_amplitude * sum137;
+    W_bar[124] = its_amplitude * sum138;
+    W_bar[125] = its_amplitude * sum139;
+    W_bar[126] = its_amplitude * sum140;
+    W_bar[127] = its_amplitude * sum141;
+    W_bar[128] = its_amplitude * sum142;
+    W_bar[129] = its_amplitude * sum143;
+    W_bar[130] = its_amplitude * sum144;
+    W_bar[131] = its_amplitude * sum145;
+    W_bar[132] = its_amplitude * sum146;
+    W_bar[133] = its_amplitude * sum147;
+    W_bar[134] = its_amplitude * sum148;
+    W_bar[135] = its_amplitude * sum149;
+    W_bar[136] = its_amplitude * sum150;
+    W_bar[137] = its_amplitude * sum151;
+    W_bar[138] = its_amplitude * sum152;
+    W_bar[139] = its_amplitude * sum153;
+    W_bar[140] = its_amplitude * sum154;
+    W_bar[141] = its_amplitude * sum155;
+    W_bar[142] = its_amplitude * sum156;
+    W_bar[143] = its_amplitude * sum157;
+    W_bar[144] = its_amplitude * sum158;
+    W_bar[145] = its_amplitude * sum159;
+    W_bar[146] = its_amplitude * sum160;
+    W_bar[147] = its_amplitude * sum161;
+    W_bar[148] = its_amplitude * sum162;
+    W_bar[149] = its_amplitude * sum163;
+    W_bar[150] = its_amplitude * sum164;
+    W_bar[151] = its_amplitude * sum165;
+    W_bar[152] = its_amplitude * sum166;
+    W_bar[153] = its_amplitude * sum167;
+    W_bar[154] = its_amplitude * sum168;
+    W_bar[155] = its_amplitude * sum169;
+    W_bar[156] = its_amplitude * sum170;
+    W_bar[157] = its_amplitude * sum171;
+    W_bar[158] = its_amplitude * sum172;
+    W_bar[159] = its_amplitude * sum173;
+    W_bar[160] = its_amplitude * sum174;
+    W_bar[161] = its_amplitude * sum175;
+    W_bar[162] = its_amplitude * sum176;
+    W_bar[163] = its_amplitude * sum177;
+    W_bar[164] = its_amplitude * sum178;
+    W_bar[165] = its_amplitude * sum179;
+    W_bar[166] = its_amplitude * sum180;
+    W_bar[167] = its_amplitude * sum181;
+    W_bar[168] = its_amplitude * sum182;
+    W_bar[169] = its_amplitude * sum183;
+    W_bar[170] = its_amplitude * sum184;
+    W_bar[171] = its_amplitude * sum185;
+    W_bar[172] = its_amplitude * sum186;
+    W_bar[173] = its_amplitude * sum187;
+    W_bar[174] = its_amplitude * sum188;
+    W_bar[175] = its_amplitude * sum189;
+    W_bar[176] = its_amplitude * sum190;
+    W_bar[177] = its_amplitude * sum191;
+    W_bar[178] = its_amplitude * sum192;
+    W_bar[179] = its_amplitude * sum193;
+    W_bar[180] = its_amplitude * sum194;
+    W_bar[181] = its_amplitude * sum195;
+    W_bar[182] = its_amplitude * sum196;
+    W_bar[183] = its_amplitude * sum197;
+    W_bar[184] = its_amplitude * sum198;
+    W_bar[185] = its_amplitude * sum199;
+    W_bar[186] = its_amplitude * sum200;
+    W_bar[187] = its_amplitude * sum201;
+    W_bar[188] = its_amplitude * sum202;
+    W_bar[189] = its_amplitude * sum203;
+    W_bar[190] = its_amplitude * sum204;
+    W_bar[191] = its_amplitude * sum205;
+    W_bar[192] = its_amplitude * sum206;
+    W_bar[193] = its_amplitude * sum207;
+    W_bar[194] = its_amplitude * sum208;
+    W_bar[195] = its_amplitude * sum209;
+    amplitude_bar[0] = sum210;
 }
 
 /* The distances of some points q from one point p. */
@@ -5720,72 +5632,58 @@ OUTLINE void pair_distances_f(
     const vector_f q12 = q[12];
     const vector_f q13 = q[13];
     const vector_f gap = q0 - p0;
-    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
-    const vector_f arm1_log0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 -
-        3.019915981956753e-07f * round_2;
+    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+    const vector_f arm1_log0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const vector_f gap_2 = q1 - p1;
-    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
-    const vector_f arm1_log1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 -
-        3.019915981956753e-07f * round_3;
+    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+    const vector_f arm1_log1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const vector_f gap_3 = q2 - p2;
-    const vector_f round_4 = vector_round_f(0.15915494309189535f * gap_3);
-    const vector_f arm1_log2 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 -
-        3.019915981956753e-07f * round_4;
+    const vector_f round_4 = round_each_f(0.15915494309189535f * gap_3);
+    const vector_f arm1_log2 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
     const vector_f gap_4 = q3 - p3;
-    const vector_f round_5 = vector_round_f(0.15915494309189535f * gap_4);
-    const vector_f arm1_log3 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 -
-        3.019915981956753e-07f * round_5;
+    const vector_f round_5 = round_each_f(0.15915494309189535f * gap_4);
+    const vector_f arm1_log3 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
     const vector_f gap_5 = q4 - p4;
-    const vector_f round_6 = vector_round_f(0.15915494309189535f * gap_5);
-    const vector_f arm1_log4 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 -
-        3.019915981956753e-07f * round_6;
+    const vector_f round_6 = round_each_f(0.15915494309189535f * gap_5);
+    const vector_f arm1_log4 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
     const vector_f gap_6 = q5 - p5;
-    const vector_f round_7 = vector_round_f(0.15915494309189535f * gap_6);
-    const vector_f arm1_log5 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 -
-        3.019915981956753e-07f * round_7;
+    const vector_f round_7 = round_each_f(0.15915494309189535f * gap_6);
+    const vector_f arm1_log5 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
     const vector_f gap_7 = q6 - p6;
-    const vector_f round_8 = vector_round_f(0.15915494309189535f * gap_7);
-    const vector_f arm1_log6 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 -
-        3.019915981956753e-07f * round_8;
+    const vector_f round_8 = round_each_f(0.15915494309189535f * gap_7);
+    const vector_f arm1_log6 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
     const vector_f gap_8 = q7 - p7;
-    const vector_f round_9 = vector_round_f(0.15915494309189535f * gap_8);
-    const vector_f arm2_log0 = gap_8 - 6.28125f * round_9 - 0.0019350051879882812f * round_9 -
-        3.019915981956753e-07f * round_9;
+    const vector_f round_9 = round_each_f(0.15915494309189535f * gap_8);
+    const vector_f arm2_log0 = gap_8 - 6.28125f * round_9 - 0.001935307179586477f * round_9;
     const vector_f gap_9 = q8 - p8;
-    const vector_f round_10 = vector_round_f(0.15915494309189535f * gap_9);
-    const vector_f arm2_log1 = gap_9 - 6.28125f * round_10 - 0.0019350051879882812f * round_10 -
-        3.019915981956753e-07f * round_10;
+    const vector_f round_10 = round_each_f(0.15915494309189535f * gap_9);
+    const vector_f arm2_log1 = gap_9 - 6.28125f * round_10 - 0.001935307179586477f * round_10;
     const vector_f gap_10 = q9 - p9;
-    const vector_f round_11 = vector_round_f(0.15915494309189535f * gap_10);
-    const vector_f arm2_log2 = gap_10 - 6.28125f * round_11 - 0.0019350051879882812f * round_11 -
-        3.019915981956753e-07f * round_11;
+    const vector_f round_11 = round_each_f(0.15915494309189535f * gap_10);
+    const vector_f arm2_log2 = gap_10 - 6.28125f * round_11 - 0.001935307179586477f * round_11;
     const vector_f gap_11 = q10 - p10;
-    const vector_f round_12 = vector_round_f(0.15915494309189535f * gap_11);
-    const vector_f arm2_log3 = gap_11 - 6.28125f * round_12 - 0.0019350051879882812f * round_12 -
-        3.019915981956753e-07f * round_12;
+    const vector_f round_12 = round_each_f(0.15915494309189535f * gap_11);
+    const vector_f arm2_log3 = gap_11 - 6.28125f * round_12 - 0.001935307179586477f * round_12;
     const vector_f gap_12 = q11 - p11;
-    const vector_f round_13 = vector_round_f(0.15915494309189535f * gap_12);
-    const vector_f arm2_log4 = gap_12 - 6.28125f * round_13 - 0.0019350051879882812f * round_13 -
-        3.019915981956753e-07f * round_13;
+    const vector_f round_13 = round_each_f(0.15915494309189535f * gap_12);
+    const vector_f arm2_log4 = gap_12 - 6.28125f * round_13 - 0.001935307179586477f * round_13;
     const vector_f gap_13 = q12 - p12;
-    const vector_f round_14 = vector_round_f(0.15915494309189535f * gap_13);
-    const vector_f arm2_log5 = gap_13 - 6.28125f * round_14 - 0.0019350051879882812f * round_14 -
-        3.019915981956753e-07f * round_14;
+    const vector_f round_14 = round_each_f(0.15915494309189535f * gap_13);
+    const vector_f arm2_log5 = gap_13 - 6.28125f * round_14 - 0.001935307179586477f * round_14;
     const vector_f gap_14 = q13 - p13;
-    const vector_f round_15 = vector_round_f(0.15915494309189535f * gap_14);
-    const vector_f arm2_log6 = gap_14 - 6.28125f * round_15 - 0.0019350051879882812f * round_15 -
-        3.019915981956753e-07f * round_15;
+    const vector_f round_15 = round_each_f(0.15915494309189535f * gap_14);
+    const vector_f arm2_log6 = gap_14 - 6.28125f * round_15 - 0.001935307179586477f * round_15;
     const vector_f total_2 = arm1_log0 * arm1_log0 + arm1_log1 * arm1_log1 + arm1_log2 * arm1_log2 + arm1_log3
         * arm1_log3 + arm1_log4 * arm1_log4;
     const vector_f total_3 = total_2 + arm1_log5 * arm1_log5 + arm1_log6 * arm1_log6 + arm2_log0 * arm2_log0 +
         arm2_log1 * arm2_log1;
     const vector_f total_4 = total_3 + arm2_log2 * arm2_log2 + arm2_log3 * arm2_log3 + arm2_log4 * arm2_log4 +
         arm2_log5 * arm2_log5;
-    distance[0] = vector_sqrt_f(total_4 + arm2_log6 * arm2_log6);
+    distance[0] = sqrt_each_f(total_4 + arm2_log6 * arm2_log6);
 }
 
 /*
- * The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar.
+ * The factors of whose products are what is summed over the points.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
@@ -6015,7 +5913,6 @@ OUTLINE void pair_factors_f(
     const float W13_11 = S[207];
     const float W13_12 = S[208];
     const float W13_13 = S[209];
-    const float amplitude = S[210];
     const vector_f its_value_bar = value_bar[0];
     const vector_f x0_bar = slope_bar[0];
     const vector_f x1_bar = slope_bar[1];
@@ -6032,64 +5929,50 @@ OUTLINE void pair_factors_f(
     const vector_f x12_bar = slope_bar[12];
     const vector_f x13_bar = slope_bar[13];
     const vector_f gap = x0 - mu0;
-    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
-    const vector_f v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+    const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const vector_f gap_2 = x1 - mu1;
-    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
-    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
-        * round_3;
+    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const vector_f gap_3 = x2 - mu2;
-    const vector_f round_4 = vector_round_f(0.15915494309189535f * gap_3);
-    const vector_f v2 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f
-        * round_4;
+    const vector_f round_4 = round_each_f(0.15915494309189535f * gap_3);
+    const vector_f v2 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
     const vector_f gap_4 = x3 - mu3;
-    const vector_f round_5 = vector_round_f(0.15915494309189535f * gap_4);
-    const vector_f v3 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f
-        * round_5;
+    const vector_f round_5 = round_each_f(0.15915494309189535f * gap_4);
+    const vector_f v3 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
     const vector_f gap_5 = x4 - mu4;
-    const vector_f round_6 = vector_round_f(0.15915494309189535f * gap_5);
-    const vector_f v4 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f
-        * round_6;
+    const vector_f round_6 = round_each_f(0.15915494309189535f * gap_5);
+    const vector_f v4 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
     const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
     const vector_f gap_6 = x5 - mu5;
-    const vector_f round_7 = vector_round_f(0.15915494309189535f * gap_6);
-    const vector_f v5 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f
-        * round_7;
+    const vector_f round_7 = round_each_f(0.15915494309189535f * gap_6);
+    const vector_f v5 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
     const vector_f gap_7 = x6 - mu6;
-    const vector_f round_8 = vector_round_f(0.15915494309189535f * gap_7);
-    const vector_f v6 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f
-        * round_8;
+    const vector_f round_8 = round_each_f(0.15915494309189535f * gap_7);
+    const vector_f v6 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
     const vector_f gap_8 = x7 - mu7;
-    const vector_f round_9 = vector_round_f(0.15915494309189535f * gap_8);
-    const vector_f v7 = gap_8 - 6.28125f * round_9 - 0.0019350051879882812f * round_9 - 3.019915981956753e-07f
-        * round_9;
+    const vector_f round_9 = round_each_f(0.15915494309189535f * gap_8);
+    const vector_f v7 = gap_8 - 6.28125f * round_9 - 0.001935307179586477f * round_9;
     const vector_f gap_9 = x8 - mu8;
-    const vector_f round_10 = vector_round_f(0.15915494309189535f * gap_9);
-    const vector_f v8 = gap_9 - 6.28125f * round_10 - 0.0019350051879882812f * round_10 -
-        3.019915981956753e-07f * round_10;
+    const vector_f round_10 = round_each_f(0.15915494309189535f * gap_9);
+    const vector_f v8 = gap_9 - 6.28125f * round_10 - 0.001935307179586477f * round_10;
     const vector_f total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
     const vector_f gap_10 = x9 - mu9;
-    const vector_f round_11 = vector_round_f(0.15915494309189535f * gap_10);
-    const vector_f v9 = gap_10 - 6.28125f * round_11 - 0.0019350051879882812f * round_11 -
-        3.019915981956753e-07f * round_11;
+    const vector_f round_11 = round_each_f(0.15915494309189535f * gap_10);
+    const vector_f v9 = gap_10 - 6.28125f * round_11 - 0.001935307179586477f * round_11;
     const vector_f gap_11 = x10 - mu10;
-    const vector_f round_12 = vector_round_f(0.15915494309189535f * gap_11);
-    const vector_f v10 = gap_11 - 6.28125f * round_12 - 0.0019350051879882812f * round_12 -
-        3.019915981956753e-07f * round_12;
+    const vector_f round_12 = round_each_f(0.15915494309189535f * gap_11);
+    const vector_f v10 = gap_11 - 6.28125f * round_12 - 0.001935307179586477f * round_12;
     const vector_f gap_12 = x11 - mu11;
-    const vector_f round_13 = vector_round_f(0.15915494309189535f * gap_12);
-    const vector_f v11 = gap_12 - 6.28125f * round_13 - 0.0019350051879882812f * round_13 -
-        3.019915981956753e-07f * round_13;
+    const vector_f round_13 = round_each_f(0.15915494309189535f * gap_12);
+    const vector_f v11 = gap_12 - 6.28125f * round_13 - 0.001935307179586477f * round_13;
     const vector_f gap_13 = x12 - mu12;
-    const vector_f round_14 = vector_round_f(0.15915494309189535f * gap_13);
-    const vector_f v12 = gap_13 - 6.28125f * round_14 - 0.0019350051879882812f * round_14 -
-        3.019915981956753e-07f * round_14;
+    const vector_f round_14 = round_each_f(0.15915494309189535f * gap_13);
+    const vector_f v12 = gap_13 - 6.28125f * round_14 - 0.001935307179586477f * round_14;
     const vector_f total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
     const vector_f gap_14 = x13 - mu13;
-    const vector_f round_15 = vector_round_f(0.15915494309189535f * gap_14);
-    const vector_f v13 = gap_14 - 6.28125f * round_15 - 0.0019350051879882812f * round_15 -
-        3.019915981956753e-07f * round_15;
+    const vector_f round_15 = round_each_f(0.15915494309189535f * gap_14);
+    const vector_f v13 = gap_14 - 6.28125f * round_15 - 0.001935307179586477f * round_15;
     const vector_f z0 = total_4 + W0_13 * v13;
     const vector_f total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
     const vector_f total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
@@ -6146,8 +6029,7 @@ OUTLINE void pair_factors_f(
     const vector_f total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
     const vector_f total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
     const vector_f z13 = total_46 + W13_13 * v13;
-    const vector_f exp_2 = vector_exp_f(-0.5f * (total_43 + z13 * z13));
-    const vector_f phi = amplitude * exp_2;
+    const vector_f phi = gaussian_each_f(total_43 + z13 * z13);
     const vector_f gap_15 = -(W13_0 * x0_bar) - W13_1 * x1_bar - W13_2 * x2_bar - W13_3 * x3_bar;
     const vector_f gap_16 = gap_15 - W13_4 * x4_bar - W13_5 * x5_bar - W13_6 * x6_bar - W13_7 * x7_bar;
     const vector_f gap_17 = gap_16 - W13_8 * x8_bar - W13_9 * x9_bar - W13_10 * x10_bar - W13_11 * x11_bar;
@@ -6208,25 +6090,25 @@ OUTLINE void pair_factors_f(
     const vector_f gap_69 = gap_68 - W12_8 * x8_bar - W12_9 * x9_bar - W12_10 * x10_bar - W12_11 * x11_bar;
     const vector_f gap_70 = gap_69 - W12_12 * x12_bar - W12_13 * x13_bar;
     const vector_f by_phi = total_49 + z12 * gap_70 + z13 * gap_18;
-    const vector_f product = exp_2 * (amplitude * by_phi);
-    const vector_f by_z13 = phi * gap_18 - z13 * product;
-    const vector_f by_z12 = phi * gap_70 - z12 * product;
-    const vector_f by_z11 = phi * gap_66 - z11 * product;
-    const vector_f by_z10 = phi * gap_62 - z10 * product;
-    const vector_f by_z9 = phi * gap_58 - z9 * product;
+    const vector_f phi_product = phi * by_phi;
+    const vector_f by_z13 = phi * gap_18 - z13 * phi_product;
+    const vector_f by_z12 = phi * gap_70 - z12 * phi_product;
+    const vector_f by_z11 = phi * gap_66 - z11 * phi_product;
+    const vector_f by_z10 = phi * gap_62 - z10 * phi_product;
+    const vector_f by_z9 = phi * gap_58 - z9 * phi_product;
     const vector_f total_50 = W13_0 * by_z13 + W12_0 * by_z12 + W11_0 * by_z11 + W10_0 * by_z10 + W9_0 *
         by_z9;
-    const vector_f by_z8 = phi * gap_54 - z8 * product;
-    const vector_f by_z7 = phi * gap_50 - z7 * product;
-    const vector_f by_z6 = phi * gap_46 - z6 * product;
-    const vector_f by_z5 = phi * gap_42 - z5 * product;
+    const vector_f by_z8 = phi * gap_54 - z8 * phi_product;
+    const vector_f by_z7 = phi * gap_50 - z7 * phi_product;
+    const vector_f by_z6 = phi * gap_46 - z6 * phi_product;
+    const vector_f by_z5 = phi * gap_42 - z5 * phi_product;
     const vector_f total_51 = total_50 + W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5;
-    const vector_f by_z4 = phi * gap_38 - z4 * product;
-    const vector_f by_z3 = phi * gap_34 - z3 * product;
-    const vector_f by_z2 = phi * gap_30 - z2 * product;
-    const vector_f by_z1 = phi * gap_26 - z1 * product;
+    const vector_f by_z4 = phi * gap_38 - z4 * phi_product;
+    const vector_f by_z3 = phi * gap_34 - z3 * phi_product;
+    const vector_f by_z2 = phi * gap_30 - z2 * phi_product;
+    const vector_f by_z1 = phi * gap_26 - z1 * phi_product;
     const vector_f total_52 = total_51 + W4_0 * by_z4 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1;
-    const vector_f by_z0 = phi * gap_22 - z0 * product;
+    const vector_f by_z0 = phi * gap_22 - z0 * phi_product;
     const vector_f by_v0 = total_52 + W0_0 * by_z0;
     const vector_f total_53 = W13_1 * by_z13 + W12_1 * by_z12 + W11_1 * by_z11 + W10_1 * by_z10 + W9_1 *
         by_z9;
@@ -6321,368 +6203,368 @@ OUTLINE void pair_factors_f(
     factor[11] = v11;
     factor[12] = v12;
     factor[13] = v13;
-    factor[14] = by_z13;
-    factor[15] = by_z12;
-    factor[16] = by_z11;
-    factor[17] = by_z10;
-    factor[18] = by_z9;
-    factor[19] = by_z8;
-    factor[20] = by_z7;
-    factor[21] = by_z6;
-    factor[22] = by_z5;
-    factor[23] = by_z4;
-    factor[24] = by_z3;
-    factor[25] = by_z2;
-    factor[26] = by_z1;
-    factor[27] = by_z0;
-    factor[28] = -by_v0;
-    factor[29] = -by_v1;
-    factor[30] = -by_v2;
-    factor[31] = -by_v3;
-    factor[32] = -by_v4;
-    factor[33] = -by_v5;
-    factor[34] = -by_v6;
-    factor[35] = -by_v7;
-    factor[36] = -by_v8;
-    factor[37] = -by_v9;
-    factor[38] = -by_v10;
-    factor[39] = -by_v11;
-    factor[40] = -by_v12;
-    factor[41] = -by_v13;
-    factor[42] = z0_product;
-    factor[43] = z1_product;
-    factor[44] = z2_product;
-    factor[45] = z3_product;
-    factor[46] = z4_product;
-    factor[47] = z5_product;
-    factor[48] = z6_product;
-    factor[49] = z7_product;
-    factor[50] = z8_product;
-    factor[51] = z9_product;
-    factor[52] = z10_product;
-    factor[53] = z11_product;
-    factor[54] = z12_product;
-    factor[55] = z13_product;
-    factor[56] = exp_2 * by_phi;
+    factor[14] = phi_product;
+    factor[15] = by_z13;
+    factor[16] = by_z12;
+    factor[17] = by_z11;
+    factor[18] = by_z10;
+    factor[19] = by_z9;
+    factor[20] = by_z8;
+    factor[21] = by_z7;
+    factor[22] = by_z6;
+    factor[23] = by_z5;
+    factor[24] = by_z4;
+    factor[25] = by_z3;
+    factor[26] = by_z2;
+    factor[27] = by_z1;
+    factor[28] = by_z0;
+    factor[29] = -by_v0;
+    factor[30] = -by_v1;
+    factor[31] = -by_v2;
+    factor[32] = -by_v3;
+    factor[33] = -by_v4;
+    factor[34] = -by_v5;
+    factor[35] = -by_v6;
+    factor[36] = -by_v7;
+    factor[37] = -by_v8;
+    factor[38] = -by_v9;
+    factor[39] = -by_v10;
+    factor[40] = -by_v11;
+    factor[41] = -by_v12;
+    factor[42] = -by_v13;
+    factor[43] = z0_product;
+    factor[44] = z1_product;
+    factor[45] = z2_product;
+    factor[46] = z3_product;
+    factor[47] = z4_product;
+    factor[48] = z5_product;
+    factor[49] = z6_product;
+    factor[50] = z7_product;
+    factor[51] = z8_product;
+    factor[52] = z9_product;
+    factor[53] = z10_product;
+    factor[54] = z11_product;
+    factor[55] = z12_product;
+    factor[56] = z13_product;
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_0_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[28];
-    sum[1] = sum[1] + factor[29];
-    sum[2] = sum[2] + factor[30];
-    sum[3] = sum[3] + factor[31];
-    sum[4] = sum[4] + factor[32];
-    sum[5] = sum[5] + factor[33];
-    sum[6] = sum[6] + factor[34];
-    sum[7] = sum[7] + factor[35];
-    sum[8] = sum[8] + factor[36];
-    sum[9] = sum[9] + factor[37];
-    sum[10] = sum[10] + factor[38];
-    sum[11] = sum[11] + factor[39];
+    sum[0] = sum[0] + factor[29];
+    sum[1] = sum[1] + factor[30];
+    sum[2] = sum[2] + factor[31];
+    sum[3] = sum[3] + factor[32];
+    sum[4] = sum[4] + factor[33];
+    sum[5] = sum[5] + factor[34];
+    sum[6] = sum[6] + factor[35];
+    sum[7] = sum[7] + factor[36];
+    sum[8] = sum[8] + factor[37];
+    sum[9] = sum[9] + factor[38];
+    sum[10] = sum[10] + factor[39];
+    sum[11] = sum[11] + factor[40];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_1_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[40];
-    sum[1] = sum[1] + factor[41];
-    sum[2] = sum[2] + factor[56];
-    sum[3] = sum[3] + factor[0] * factor[27] - factor[42] * point[15];
-    sum[4] = sum[4] + factor[1] * factor[27] - factor[42] * point[16];
-    sum[5] = sum[5] + factor[2] * factor[27] - factor[42] * point[17];
-    sum[6] = sum[6] + factor[3] * factor[27] - factor[42] * point[18];
-    sum[7] = sum[7] + factor[4] * factor[27] - factor[42] * point[19];
-    sum[8] = sum[8] + factor[5] * factor[27] - factor[42] * point[20];
-    sum[9] = sum[9] + factor[6] * factor[27] - factor[42] * point[21];
-    sum[10] = sum[10] + factor[7] * factor[27] - factor[42] * point[22];
-    sum[11] = sum[11] + factor[8] * factor[27] - factor[42] * point[23];
+    sum[0] = sum[0] + factor[41];
+    sum[1] = sum[1] + factor[42];
+    sum[2] = sum[2] + factor[14];
+    sum[3] = sum[3] + factor[0] * factor[28] - factor[43] * point[15];
+    sum[4] = sum[4] + factor[1] * factor[28] - factor[43] * point[16];
+    sum[5] = sum[5] + factor[2] * factor[28] - factor[43] * point[17];
+    sum[6] = sum[6] + factor[3] * factor[28] - factor[43] * point[18];
+    sum[7] = sum[7] + factor[4] * factor[28] - factor[43] * point[19];
+    sum[8] = sum[8] + factor[5] * factor[28] - factor[43] * point[20];
+    sum[9] = sum[9] + factor[6] * factor[28] - factor[43] * point[21];
+    sum[10] = sum[10] + factor[7] * factor[28] - factor[43] * point[22];
+    sum[11] = sum[11] + factor[8] * factor[28] - factor[43] * point[23];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_2_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[9] * factor[27] - factor[42] * point[24];
-    sum[1] = sum[1] + factor[10] * factor[27] - factor[42] * point[25];
-    sum[2] = sum[2] + factor[11] * factor[27] - factor[42] * point[26];
-    sum[3] = sum[3] + factor[12] * factor[27] - factor[42] * point[27];
-    sum[4] = sum[4] + factor[13] * factor[27] - factor[42] * point[28];
-    sum[5] = sum[5] + factor[9] * factor[26] - factor[43] * point[24];
-    sum[6] = sum[6] + factor[10] * factor[26] - factor[43] * point[25];
-    sum[7] = sum[7] + factor[11] * factor[26] - factor[43] * point[26];
-    sum[8] = sum[8] + factor[12] * factor[26] - factor[43] * point[27];
-    sum[9] = sum[9] + factor[13] * factor[26] - factor[43] * point[28];
-    sum[10] = sum[10] + factor[0] * factor[26] - factor[43] * point[15];
-    sum[11] = sum[11] + factor[1] * factor[26] - factor[43] * point[16];
+    sum[0] = sum[0] + factor[9] * factor[28] - factor[43] * point[24];
+    sum[1] = sum[1] + factor[10] * factor[28] - factor[43] * point[25];
+    sum[2] = sum[2] + factor[11] * factor[28] - factor[43] * point[26];
+    sum[3] = sum[3] + factor[12] * factor[28] - factor[43] * point[27];
+    sum[4] = sum[4] + factor[13] * factor[28] - factor[43] * point[28];
+    sum[5] = sum[5] + factor[9] * factor[27] - factor[44] * point[24];
+    sum[6] = sum[6] + factor[10] * factor[27] - factor[44] * point[25];
+    sum[7] = sum[7] + factor[11] * factor[27] - factor[44] * point[26];
+    sum[8] = sum[8] + factor[12] * factor[27] - factor[44] * point[27];
+    sum[9] = sum[9] + factor[13] * factor[27] - factor[44] * point[28];
+    sum[10] = sum[10] + factor[0] * factor[27] - factor[44] * point[15];
+    sum[11] = sum[11] + factor[1] * factor[27] - factor[44] * point[16];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_3_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[2] * factor[26] - factor[43] * point[17];
-    sum[1] = sum[1] + factor[3] * factor[26] - factor[43] * point[18];
-    sum[2] = sum[2] + factor[4] * factor[26] - factor[43] * point[19];
-    sum[3] = sum[3] + factor[5] * factor[26] - factor[43] * point[20];
-    sum[4] = sum[4] + factor[6] * factor[26] - factor[43] * point[21];
-    sum[5] = sum[5] + factor[7] * factor[26] - factor[43] * point[22];
-    sum[6] = sum[6] + factor[8] * factor[26] - factor[43] * point[23];
-    sum[7] = sum[7] + factor[2] * factor[25] - factor[44] * point[17];
-    sum[8] = sum[8] + factor[3] * factor[25] - factor[44] * point[18];
-    sum[9] = sum[9] + factor[4] * factor[25] - factor[44] * point[19];
-    sum[10] = sum[10] + factor[5] * factor[25] - factor[44] * point[20];
-    sum[11] = sum[11] + factor[6] * factor[25] - factor[44] * point[21];
+    sum[0] = sum[0] + factor[2] * factor[27] - factor[44] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[27] - factor[44] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[27] - factor[44] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[27] - factor[44] * point[20];
+    sum[4] = sum[4] + factor[6] * factor[27] - factor[44] * point[21];
+    sum[5] = sum[5] + factor[7] * factor[27] - factor[44] * point[22];
+    sum[6] = sum[6] + factor[8] * factor[27] - factor[44] * point[23];
+    sum[7] = sum[7] + factor[2] * factor[26] - factor[45] * point[17];
+    sum[8] = sum[8] + factor[3] * factor[26] - factor[45] * point[18];
+    sum[9] = sum[9] + factor[4] * factor[26] - factor[45] * point[19];
+    sum[10] = sum[10] + factor[5] * factor[26] - factor[45] * point[20];
+    sum[11] = sum[11] + factor[6] * factor[26] - factor[45] * point[21];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_4_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[0] * factor[25] - factor[44] * point[15];
-    sum[1] = sum[1] + factor[1] * factor[25] - factor[44] * point[16];
-    sum[2] = sum[2] + factor[7] * factor[25] - factor[44] * point[22];
-    sum[3] = sum[3] + factor[8] * factor[25] - factor[44] * point[23];
-    sum[4] = sum[4] + factor[9] * factor[25] - factor[44] * point[24];
-    sum[5] = sum[5] + factor[10] * factor[25] - factor[44] * point[25];
-    sum[6] = sum[6] + factor[11] * factor[25] - factor[44] * point[26];
-    sum[7] = sum[7] + factor[12] * factor[25] - factor[44] * point[27];
-    sum[8] = sum[8] + factor[13] * factor[25] - factor[44] * point[28];
-    sum[9] = sum[9] + factor[0] * factor[24] - factor[45] * point[15];
-    sum[10] = sum[10] + factor[1] * factor[24] - factor[45] * point[16];
-    sum[11] = sum[11] + factor[7] * factor[24] - factor[45] * point[22];
+    sum[0] = sum[0] + factor[0] * factor[26] - factor[45] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[26] - factor[45] * point[16];
+    sum[2] = sum[2] + factor[7] * factor[26] - factor[45] * point[22];
+    sum[3] = sum[3] + factor[8] * factor[26] - factor[45] * point[23];
+    sum[4] = sum[4] + factor[9] * factor[26] - factor[45] * point[24];
+    sum[5] = sum[5] + factor[10] * factor[26] - factor[45] * point[25];
+    sum[6] = sum[6] + factor[11] * factor[26] - factor[45] * point[26];
+    sum[7] = sum[7] + factor[12] * factor[26] - factor[45] * point[27];
+    sum[8] = sum[8] + factor[13] * factor[26] - factor[45] * point[28];
+    sum[9] = sum[9] + factor[0] * factor[25] - factor[46] * point[15];
+    sum[10] = sum[10] + factor[1] * factor[25] - factor[46] * point[16];
+    sum[11] = sum[11] + factor[7] * factor[25] - factor[46] * point[22];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_5_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[2] * factor[24] - factor[45] * point[17];
-    sum[1] = sum[1] + factor[3] * factor[24] - factor[45] * point[18];
-    sum[2] = sum[2] + factor[4] * factor[24] - factor[45] * point[19];
-    sum[3] = sum[3] + factor[5] * factor[24] - factor[45] * point[20];
-    sum[4] = sum[4] + factor[6] * factor[24] - factor[45] * point[21];
-    sum[5] = sum[5] + factor[8] * factor[24] - factor[45] * point[23];
-    sum[6] = sum[6] + factor[9] * factor[24] - factor[45] * point[24];
-    sum[7] = sum[7] + factor[10] * factor[24] - factor[45] * point[25];
-    sum[8] = sum[8] + factor[11] * factor[24] - factor[45] * point[26];
-    sum[9] = sum[9] + factor[12] * factor[24] - factor[45] * point[27];
-    sum[10] = sum[10] + factor[13] * factor[24] - factor[45] * point[28];
-    sum[11] = sum[11] + factor[2] * factor[23] - factor[46] * point[17];
+    sum[0] = sum[0] + factor[2] * factor[25] - factor[46] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[25] - factor[46] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[25] - factor[46] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[25] - factor[46] * point[20];
+    sum[4] = sum[4] + factor[6] * factor[25] - factor[46] * point[21];
+    sum[5] = sum[5] + factor[8] * factor[25] - factor[46] * point[23];
+    sum[6] = sum[6] + factor[9] * factor[25] - factor[46] * point[24];
+    sum[7] = sum[7] + factor[10] * factor[25] - factor[46] * point[25];
+    sum[8] = sum[8] + factor[11] * factor[25] - factor[46] * point[26];
+    sum[9] = sum[9] + factor[12] * factor[25] - factor[46] * point[27];
+    sum[10] = sum[10] + factor[13] * factor[25] - factor[46] * point[28];
+    sum[11] = sum[11] + factor[2] * factor[24] - factor[47] * point[17];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_6_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[0] * factor[23] - factor[46] * point[15];
-    sum[1] = sum[1] + factor[1] * factor[23] - factor[46] * point[16];
-    sum[2] = sum[2] + factor[3] * factor[23] - factor[46] * point[18];
-    sum[3] = sum[3] + factor[4] * factor[23] - factor[46] * point[19];
-    sum[4] = sum[4] + factor[5] * factor[23] - factor[46] * point[20];
-    sum[5] = sum[5] + factor[6] * factor[23] - factor[46] * point[21];
-    sum[6] = sum[6] + factor[7] * factor[23] - factor[46] * point[22];
-    sum[7] = sum[7] + factor[8] * factor[23] - factor[46] * point[23];
-    sum[8] = sum[8] + factor[9] * factor[23] - factor[46] * point[24];
-    sum[9] = sum[9] + factor[10] * factor[23] - factor[46] * point[25];
-    sum[10] = sum[10] + factor[11] * factor[23] - factor[46] * point[26];
-    sum[11] = sum[11] + factor[12] * factor[23] - factor[46] * point[27];
+    sum[0] = sum[0] + factor[0] * factor[24] - factor[47] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[24] - factor[47] * point[16];
+    sum[2] = sum[2] + factor[3] * factor[24] - factor[47] * point[18];
+    sum[3] = sum[3] + factor[4] * factor[24] - factor[47] * point[19];
+    sum[4] = sum[4] + factor[5] * factor[24] - factor[47] * point[20];
+    sum[5] = sum[5] + factor[6] * factor[24] - factor[47] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[24] - factor[47] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[24] - factor[47] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[24] - factor[47] * point[24];
+    sum[9] = sum[9] + factor[10] * factor[24] - factor[47] * point[25];
+    sum[10] = sum[10] + factor[11] * factor[24] - factor[47] * point[26];
+    sum[11] = sum[11] + factor[12] * factor[24] - factor[47] * point[27];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_7_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[13] * factor[23] - factor[46] * point[28];
-    sum[1] = sum[1] + factor[13] * factor[22] - factor[47] * point[28];
-    sum[2] = sum[2] + factor[0] * factor[22] - factor[47] * point[15];
-    sum[3] = sum[3] + factor[1] * factor[22] - factor[47] * point[16];
-    sum[4] = sum[4] + factor[2] * factor[22] - factor[47] * point[17];
-    sum[5] = sum[5] + factor[3] * factor[22] - factor[47] * point[18];
-    sum[6] = sum[6] + factor[4] * factor[22] - factor[47] * point[19];
-    sum[7] = sum[7] + factor[5] * factor[22] - factor[47] * point[20];
-    sum[8] = sum[8] + factor[6] * factor[22] - factor[47] * point[21];
-    sum[9] = sum[9] + factor[7] * factor[22] - factor[47] * point[22];
-    sum[10] = sum[10] + factor[8] * factor[22] - factor[47] * point[23];
-    sum[11] = sum[11] + factor[9] * factor[22] - factor[47] * point[24];
+    sum[0] = sum[0] + factor[13] * factor[24] - factor[47] * point[28];
+    sum[1] = sum[1] + factor[13] * factor[23] - factor[48] * point[28];
+    sum[2] = sum[2] + factor[0] * factor[23] - factor[48] * point[15];
+    sum[3] = sum[3] + factor[1] * factor[23] - factor[48] * point[16];
+    sum[4] = sum[4] + factor[2] * factor[23] - factor[48] * point[17];
+    sum[5] = sum[5] + factor[3] * factor[23] - factor[48] * point[18];
+    sum[6] = sum[6] + factor[4] * factor[23] - factor[48] * point[19];
+    sum[7] = sum[7] + factor[5] * factor[23] - factor[48] * point[20];
+    sum[8] = sum[8] + factor[6] * factor[23] - factor[48] * point[21];
+    sum[9] = sum[9] + factor[7] * factor[23] - factor[48] * point[22];
+    sum[10] = sum[10] + factor[8] * factor[23] - factor[48] * point[23];
+    sum[11] = sum[11] + factor[9] * factor[23] - factor[48] * point[24];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_8_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[10] * factor[22] - factor[47] * point[25];
-    sum[1] = sum[1] + factor[11] * factor[22] - factor[47] * point[26];
-    sum[2] = sum[2] + factor[12] * factor[22] - factor[47] * point[27];
-    sum[3] = sum[3] + factor[10] * factor[21] - factor[48] * point[25];
-    sum[4] = sum[4] + factor[11] * factor[21] - factor[48] * point[26];
-    sum[5] = sum[5] + factor[12] * factor[21] - factor[48] * point[27];
-    sum[6] = sum[6] + factor[0] * factor[21] - factor[48] * point[15];
-    sum[7] = sum[7] + factor[1] * factor[21] - factor[48] * point[16];
-    sum[8] = sum[8] + factor[2] * factor[21] - factor[48] * point[17];
-    sum[9] = sum[9] + factor[3] * factor[21] - factor[48] * point[18];
-    sum[10] = sum[10] + factor[4] * factor[21] - factor[48] * point[19];
-    sum[11] = sum[11] + factor[5] * factor[21] - factor[48] * point[20];
+    sum[0] = sum[0] + factor[10] * factor[23] - factor[48] * point[25];
+    sum[1] = sum[1] + factor[11] * factor[23] - factor[48] * point[26];
+    sum[2] = sum[2] + factor[12] * factor[23] - factor[48] * point[27];
+    sum[3] = sum[3] + factor[10] * factor[22] - factor[49] * point[25];
+    sum[4] = sum[4] + factor[11] * factor[22] - factor[49] * point[26];
+    sum[5] = sum[5] + factor[12] * factor[22] - factor[49] * point[27];
+    sum[6] = sum[6] + factor[0] * factor[22] - factor[49] * point[15];
+    sum[7] = sum[7] + factor[1] * factor[22] - factor[49] * point[16];
+    sum[8] = sum[8] + factor[2] * factor[22] - factor[49] * point[17];
+    sum[9] = sum[9] + factor[3] * factor[22] - factor[49] * point[18];
+    sum[10] = sum[10] + factor[4] * factor[22] - factor[49] * point[19];
+    sum[11] = sum[11] + factor[5] * factor[22] - factor[49] * point[20];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_9_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[6] * factor[21] - factor[48] * point[21];
-    sum[1] = sum[1] + factor[7] * factor[21] - factor[48] * point[22];
-    sum[2] = sum[2] + factor[8] * factor[21] - factor[48] * point[23];
-    sum[3] = sum[3] + factor[9] * factor[21] - factor[48] * point[24];
-    sum[4] = sum[4] + factor[13] * factor[21] - factor[48] * point[28];
-    sum[5] = sum[5] + factor[6] * factor[20] - factor[49] * point[21];
-    sum[6] = sum[6] + factor[7] * factor[20] - factor[49] * point[22];
-    sum[7] = sum[7] + factor[8] * factor[20] - factor[49] * point[23];
-    sum[8] = sum[8] + factor[9] * factor[20] - factor[49] * point[24];
-    sum[9] = sum[9] + factor[13] * factor[20] - factor[49] * point[28];
-    sum[10] = sum[10] + factor[0] * factor[20] - factor[49] * point[15];
-    sum[11] = sum[11] + factor[1] * factor[20] - factor[49] * point[16];
+    sum[0] = sum[0] + factor[6] * factor[22] - factor[49] * point[21];
+    sum[1] = sum[1] + factor[7] * factor[22] - factor[49] * point[22];
+    sum[2] = sum[2] + factor[8] * factor[22] - factor[49] * point[23];
+    sum[3] = sum[3] + factor[9] * factor[22] - factor[49] * point[24];
+    sum[4] = sum[4] + factor[13] * factor[22] - factor[49] * point[28];
+    sum[5] = sum[5] + factor[6] * factor[21] - factor[50] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[21] - factor[50] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[21] - factor[50] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[21] - factor[50] * point[24];
+    sum[9] = sum[9] + factor[13] * factor[21] - factor[50] * point[28];
+    sum[10] = sum[10] + factor[0] * factor[21] - factor[50] * point[15];
+    sum[11] = sum[11] + factor[1] * factor[21] - factor[50] * point[16];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_10_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[2] * factor[20] - factor[49] * point[17];
-    sum[1] = sum[1] + factor[3] * factor[20] - factor[49] * point[18];
-    sum[2] = sum[2] + factor[4] * factor[20] - factor[49] * point[19];
-    sum[3] = sum[3] + factor[5] * factor[20] - factor[49] * point[20];
-    sum[4] = sum[4] + factor[10] * factor[20] - factor[49] * point[25];
-    sum[5] = sum[5] + factor[11] * factor[20] - factor[49] * point[26];
-    sum[6] = sum[6] + factor[12] * factor[20] - factor[49] * point[27];
-    sum[7] = sum[7] + factor[2] * factor[19] - factor[50] * point[17];
-    sum[8] = sum[8] + factor[3] * factor[19] - factor[50] * point[18];
-    sum[9] = sum[9] + factor[4] * factor[19] - factor[50] * point[19];
-    sum[10] = sum[10] + factor[5] * factor[19] - factor[50] * point[20];
-    sum[11] = sum[11] + factor[10] * factor[19] - factor[50] * point[25];
+    sum[0] = sum[0] + factor[2] * factor[21] - factor[50] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[21] - factor[50] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[21] - factor[50] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[21] - factor[50] * point[20];
+    sum[4] = sum[4] + factor[10] * factor[21] - factor[50] * point[25];
+    sum[5] = sum[5] + factor[11] * factor[21] - factor[50] * point[26];
+    sum[6] = sum[6] + factor[12] * factor[21] - factor[50] * point[27];
+    sum[7] = sum[7] + factor[2] * factor[20] - factor[51] * point[17];
+    sum[8] = sum[8] + factor[3] * factor[20] - factor[51] * point[18];
+    sum[9] = sum[9] + factor[4] * factor[20] - factor[51] * point[19];
+    sum[10] = sum[10] + factor[5] * factor[20] - factor[51] * point[20];
+    sum[11] = sum[11] + factor[10] * factor[20] - factor[51] * point[25];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_11_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[0] * factor[19] - factor[50] * point[15];
-    sum[1] = sum[1] + factor[1] * factor[19] - factor[50] * point[16];
-    sum[2] = sum[2] + factor[6] * factor[19] - factor[50] * point[21];
-    sum[3] = sum[3] + factor[7] * factor[19] - factor[50] * point[22];
-    sum[4] = sum[4] + factor[8] * factor[19] - factor[50] * point[23];
-    sum[5] = sum[5] + factor[9] * factor[19] - factor[50] * point[24];
-    sum[6] = sum[6] + factor[11] * factor[19] - factor[50] * point[26];
-    sum[7] = sum[7] + factor[12] * factor[19] - factor[50] * point[27];
-    sum[8] = sum[8] + factor[13] * factor[19] - factor[50] * point[28];
-    sum[9] = sum[9] + factor[0] * factor[18] - factor[51] * point[15];
-    sum[10] = sum[10] + factor[1] * factor[18] - factor[51] * point[16];
-    sum[11] = sum[11] + factor[6] * factor[18] - factor[51] * point[21];
+    sum[0] = sum[0] + factor[0] * factor[20] - factor[51] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[20] - factor[51] * point[16];
+    sum[2] = sum[2] + factor[6] * factor[20] - factor[51] * point[21];
+    sum[3] = sum[3] + factor[7] * factor[20] - factor[51] * point[22];
+    sum[4] = sum[4] + factor[8] * factor[20] - factor[51] * point[23];
+    sum[5] = sum[5] + factor[9] * factor[20] - factor[51] * point[24];
+    sum[6] = sum[6] + factor[11] * factor[20] - factor[51] * point[26];
+    sum[7] = sum[7] + factor[12] * factor[20] - factor[51] * point[27];
+    sum[8] = sum[8] + factor[13] * factor[20] - factor[51] * point[28];
+    sum[9] = sum[9] + factor[0] * factor[19] - factor[52] * point[15];
+    sum[10] = sum[10] + factor[1] * factor[19] - factor[52] * point[16];
+    sum[11] = sum[11] + factor[6] * factor[19] - factor[52] * point[21];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_12_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[2] * factor[18] - factor[51] * point[17];
-    sum[1] = sum[1] + factor[3] * factor[18] - factor[51] * point[18];
-    sum[2] = sum[2] + factor[4] * factor[18] - factor[51] * point[19];
-    sum[3] = sum[3] + factor[5] * factor[18] - factor[51] * point[20];
-    sum[4] = sum[4] + factor[7] * factor[18] - factor[51] * point[22];
-    sum[5] = sum[5] + factor[8] * factor[18] - factor[51] * point[23];
-    sum[6] = sum[6] + factor[9] * factor[18] - factor[51] * point[24];
-    sum[7] = sum[7] + factor[10] * factor[18] - factor[51] * point[25];
-    sum[8] = sum[8] + factor[11] * factor[18] - factor[51] * point[26];
-    sum[9] = sum[9] + factor[12] * factor[18] - factor[51] * point[27];
-    sum[10] = sum[10] + factor[13] * factor[18] - factor[51] * point[28];
-    sum[11] = sum[11] + factor[2] * factor[17] - factor[52] * point[17];
+    sum[0] = sum[0] + factor[2] * factor[19] - factor[52] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[19] - factor[52] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[19] - factor[52] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[19] - factor[52] * point[20];
+    sum[4] = sum[4] + factor[7] * factor[19] - factor[52] * point[22];
+    sum[5] = sum[5] + factor[8] * factor[19] - factor[52] * point[23];
+    sum[6] = sum[6] + factor[9] * factor[19] - factor[52] * point[24];
+    sum[7] = sum[7] + factor[10] * factor[19] - factor[52] * point[25];
+    sum[8] = sum[8] + factor[11] * factor[19] - factor[52] * point[26];
+    sum[9] = sum[9] + factor[12] * factor[19] - factor[52] * point[27];
+    sum[10] = sum[10] + factor[13] * factor[19] - factor[52] * point[28];
+    sum[11] = sum[11] + factor[2] * factor[18] - factor[53] * point[17];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_13_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[0] * factor[17] - factor[52] * point[15];
-    sum[1] = sum[1] + factor[1] * factor[17] - factor[52] * point[16];
-    sum[2] = sum[2] + factor[3] * factor[17] - factor[52] * point[18];
-    sum[3] = sum[3] + factor[4] * factor[17] - factor[52] * point[19];
-    sum[4] = sum[4] + factor[5] * factor[17] - factor[52] * point[20];
-    sum[5] = sum[5] + factor[6] * factor[17] - factor[52] * point[21];
-    sum[6] = sum[6] + factor[7] * factor[17] - factor[52] * point[22];
-    sum[7] = sum[7] + factor[8] * factor[17] - factor[52] * point[23];
-    sum[8] = sum[8] + factor[9] * factor[17] - factor[52] * point[24];
-    sum[9] = sum[9] + factor[10] * factor[17] - factor[52] * point[25];
-    sum[10] = sum[10] + factor[11] * factor[17] - factor[52] * point[26];
-    sum[11] = sum[11] + factor[12] * factor[17] - factor[52] * point[27];
+    sum[0] = sum[0] + factor[0] * factor[18] - factor[53] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[18] - factor[53] * point[16];
+    sum[2] = sum[2] + factor[3] * factor[18] - factor[53] * point[18];
+    sum[3] = sum[3] + factor[4] * factor[18] - factor[53] * point[19];
+    sum[4] = sum[4] + factor[5] * factor[18] - factor[53] * point[20];
+    sum[5] = sum[5] + factor[6] * factor[18] - factor[53] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[18] - factor[53] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[18] - factor[53] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[18] - factor[53] * point[24];
+    sum[9] = sum[9] + factor[10] * factor[18] - factor[53] * point[25];
+    sum[10] = sum[10] + factor[11] * factor[18] - factor[53] * point[26];
+    sum[11] = sum[11] + factor[12] * factor[18] - factor[53] * point[27];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_14_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[13] * factor[17] - factor[52] * point[28];
-    sum[1] = sum[1] + factor[13] * factor[16] - factor[53] * point[28];
-    sum[2] = sum[2] + factor[0] * factor[16] - factor[53] * point[15];
-    sum[3] = sum[3] + factor[1] * factor[16] - factor[53] * point[16];
-    sum[4] = sum[4] + factor[2] * factor[16] - factor[53] * point[17];
-    sum[5] = sum[5] + factor[3] * factor[16] - factor[53] * point[18];
-    sum[6] = sum[6] + factor[4] * factor[16] - factor[53] * point[19];
-    sum[7] = sum[7] + factor[5] * factor[16] - factor[53] * point[20];
-    sum[8] = sum[8] + factor[6] * factor[16] - factor[53] * point[21];
-    sum[9] = sum[9] + factor[7] * factor[16] - factor[53] * point[22];
-    sum[10] = sum[10] + factor[8] * factor[16] - factor[53] * point[23];
-    sum[11] = sum[11] + factor[9] * factor[16] - factor[53] * point[24];
+    sum[0] = sum[0] + factor[13] * factor[18] - factor[53] * point[28];
+    sum[1] = sum[1] + factor[13] * factor[17] - factor[54] * point[28];
+    sum[2] = sum[2] + factor[0] * factor[17] - factor[54] * point[15];
+    sum[3] = sum[3] + factor[1] * factor[17] - factor[54] * point[16];
+    sum[4] = sum[4] + factor[2] * factor[17] - factor[54] * point[17];
+    sum[5] = sum[5] + factor[3] * factor[17] - factor[54] * point[18];
+    sum[6] = sum[6] + factor[4] * factor[17] - factor[54] * point[19];
+    sum[7] = sum[7] + factor[5] * factor[17] - factor[54] * point[20];
+    sum[8] = sum[8] + factor[6] * factor[17] - factor[54] * point[21];
+    sum[9] = sum[9] + factor[7] * factor[17] - factor[54] * point[22];
+    sum[10] = sum[10] + factor[8] * factor[17] - factor[54] * point[23];
+    sum[11] = sum[11] + factor[9] * factor[17] - factor[54] * point[24];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_15_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[10] * factor[16] - factor[53] * point[25];
-    sum[1] = sum[1] + factor[11] * factor[16] - factor[53] * point[26];
-    sum[2] = sum[2] + factor[12] * factor[16] - factor[53] * point[27];
-    sum[3] = sum[3] + factor[10] * factor[15] - factor[54] * point[25];
-    sum[4] = sum[4] + factor[11] * factor[15] - factor[54] * point[26];
-    sum[5] = sum[5] + factor[12] * factor[15] - factor[54] * point[27];
-    sum[6] = sum[6] + factor[0] * factor[15] - factor[54] * point[15];
-    sum[7] = sum[7] + factor[1] * factor[15] - factor[54] * point[16];
-    sum[8] = sum[8] + factor[2] * factor[15] - factor[54] * point[17];
-    sum[9] = sum[9] + factor[3] * factor[15] - factor[54] * point[18];
-    sum[10] = sum[10] + factor[4] * factor[15] - factor[54] * point[19];
-    sum[11] = sum[11] + factor[5] * factor[15] - factor[54] * point[20];
+    sum[0] = sum[0] + factor[10] * factor[17] - factor[54] * point[25];
+    sum[1] = sum[1] + factor[11] * factor[17] - factor[54] * point[26];
+    sum[2] = sum[2] + factor[12] * factor[17] - factor[54] * point[27];
+    sum[3] = sum[3] + factor[10] * factor[16] - factor[55] * point[25];
+    sum[4] = sum[4] + factor[11] * factor[16] - factor[55] * point[26];
+    sum[5] = sum[5] + factor[12] * factor[16] - factor[55] * point[27];
+    sum[6] = sum[6] + factor[0] * factor[16] - factor[55] * point[15];
+    sum[7] = sum[7] + factor[1] * factor[16] - factor[55] * point[16];
+    sum[8] = sum[8] + factor[2] * factor[16] - factor[55] * point[17];
+    sum[9] = sum[9] + factor[3] * factor[16] - factor[55] * point[18];
+    sum[10] = sum[10] + factor[4] * factor[16] - factor[55] * point[19];
+    sum[11] = sum[11] + factor[5] * factor[16] - factor[55] * point[20];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_16_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[6] * factor[15] - factor[54] * point[21];
-    sum[1] = sum[1] + factor[7] * factor[15] - factor[54] * point[22];
-    sum[2] = sum[2] + factor[8] * factor[15] - factor[54] * point[23];
-    sum[3] = sum[3] + factor[9] * factor[15] - factor[54] * point[24];
-    sum[4] = sum[4] + factor[13] * factor[15] - factor[54] * point[28];
-    sum[5] = sum[5] + factor[6] * factor[14] - factor[55] * point[21];
-    sum[6] = sum[6] + factor[7] * factor[14] - factor[55] * point[22];
-    sum[7] = sum[7] + factor[8] * factor[14] - factor[55] * point[23];
-    sum[8] = sum[8] + factor[9] * factor[14] - factor[55] * point[24];
-    sum[9] = sum[9] + factor[13] * factor[14] - factor[55] * point[28];
-    sum[10] = sum[10] + factor[0] * factor[14] - factor[55] * point[15];
-    sum[11] = sum[11] + factor[1] * factor[14] - factor[55] * point[16];
+    sum[0] = sum[0] + factor[6] * factor[16] - factor[55] * point[21];
+    sum[1] = sum[1] + factor[7] * factor[16] - factor[55] * point[22];
+    sum[2] = sum[2] + factor[8] * factor[16] - factor[55] * point[23];
+    sum[3] = sum[3] + factor[9] * factor[16] - factor[55] * point[24];
+    sum[4] = sum[4] + factor[13] * factor[16] - factor[55] * point[28];
+    sum[5] = sum[5] + factor[6] * factor[15] - factor[56] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[15] - factor[56] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[15] - factor[56] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[15] - factor[56] * point[24];
+    sum[9] = sum[9] + factor[13] * factor[15] - factor[56] * point[28];
+    sum[10] = sum[10] + factor[0] * factor[15] - factor[56] * point[15];
+    sum[11] = sum[11] + factor[1] * factor[15] - factor[56] * point[16];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_17_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[2] * factor[14] - factor[55] * point[17];
-    sum[1] = sum[1] + factor[3] * factor[14] - factor[55] * point[18];
-    sum[2] = sum[2] + factor[4] * factor[14] - factor[55] * point[19];
-    sum[3] = sum[3] + factor[5] * factor[14] - factor[55] * point[20];
-    sum[4] = sum[4] + factor[10] * factor[14] - factor[55] * point[25];
-    sum[5] = sum[5] + factor[11] * factor[14] - factor[55] * point[26];
-    sum[6] = sum[6] + factor[12] * factor[14] - factor[55] * point[27];
+    sum[0] = sum[0] + factor[2] * factor[15] - factor[56] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[15] - factor[56] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[15] - factor[56] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[15] - factor[56] * point[20];
+    sum[4] = sum[4] + factor[10] * factor[15] - factor[56] * point[25];
+    sum[5] = sum[5] + factor[11] * factor[15] - factor[56] * point[26];
+    sum[6] = sum[6] + factor[12] * factor[15] - factor[56] * point[27];
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -6728,12 +6610,12 @@ INLINE const float *splat_at_f(const vector_f *splats, size_t k) {
     return (const float *)(splats + 15 * row) + (k - row * LANES_f);
 }
 
-static vector_f *work_splats_f(float *work, size_t count) {
+static vector_f *work_reaches_f(float *work, size_t count) {
     return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 29;
 }
 
 static vector_f *work_blocks_f(float *work, size_t count, size_t splat_count) {
-    return work_splats_f(work, count) + 15 * ((splat_count + LANES_f - 1) / LANES_f);
+    return work_reaches_f(work, count) + 15 * ((splat_count + LANES_f - 1) / LANES_f);
 }
 
 static float *work_constants_f(float *work, size_t count, size_t splat_count) {
@@ -6850,7 +6732,7 @@ void dual_arm_splats_f(
     float *DUAL_ARM_RESTRICT value, float *DUAL_ARM_RESTRICT gradient, float *DUAL_ARM_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -6892,7 +6774,7 @@ void dual_arm_splats_value_f(
     float *DUAL_ARM_RESTRICT value, float *DUAL_ARM_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -6938,301 +6820,301 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 14 + 1, point + 14);
 }
 
-/* Adds to S_bar what one vector of points adds to it. */
+/* Adds to sums what one vector of points adds to it. */
 INLINE void pair_backward_f(
-    const vector_f *point, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
+    const vector_f *point, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
     vector_f factor[57];
     pair_factors_f(point, S, value_bar, slope_bar, factor);
     {
         vector_f sum[12] = {ZERO};
         pair_products_0_f(factor, point, sum);
-        S_bar[0] += sum[0];
-        S_bar[1] += sum[1];
-        S_bar[2] += sum[2];
-        S_bar[3] += sum[3];
-        S_bar[4] += sum[4];
-        S_bar[5] += sum[5];
-        S_bar[6] += sum[6];
-        S_bar[7] += sum[7];
-        S_bar[8] += sum[8];
-        S_bar[9] += sum[9];
-        S_bar[10] += sum[10];
-        S_bar[11] += sum[11];
+        sums[0] += sum[0];
+        sums[1] += sum[1];
+        sums[2] += sum[2];
+        sums[3] += sum[3];
+        sums[4] += sum[4];
+        sums[5] += sum[5];
+        sums[6] += sum[6];
+        sums[7] += sum[7];
+        sums[8] += sum[8];
+        sums[9] += sum[9];
+        sums[10] += sum[10];
+        sums[11] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_1_f(factor, point, sum);
-        S_bar[12] += sum[0];
-        S_bar[13] += sum[1];
-        S_bar[210] += sum[2];
-        S_bar[14] += sum[3];
-        S_bar[15] += sum[4];
-        S_bar[16] += sum[5];
-        S_bar[17] += sum[6];
-        S_bar[18] += sum[7];
-        S_bar[19] += sum[8];
-        S_bar[20] += sum[9];
-        S_bar[21] += sum[10];
-        S_bar[22] += sum[11];
+        sums[12] += sum[0];
+        sums[13] += sum[1];
+        sums[210] += sum[2];
+        sums[14] += sum[3];
+        sums[15] += sum[4];
+        sums[16] += sum[5];
+        sums[17] += sum[6];
+        sums[18] += sum[7];
+        sums[19] += sum[8];
+        sums[20] += sum[9];
+        sums[21] += sum[10];
+        sums[22] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_2_f(factor, point, sum);
-        S_bar[23] += sum[0];
-        S_bar[24] += sum[1];
-        S_bar[25] += sum[2];
-        S_bar[26] += sum[3];
-        S_bar[27] += sum[4];
-        S_bar[37] += sum[5];
-        S_bar[38] += sum[6];
-        S_bar[39] += sum[7];
-        S_bar[40] += sum[8];
-        S_bar[41] += sum[9];
-        S_bar[28] += sum[10];
-        S_bar[29] += sum[11];
+        sums[23] += sum[0];
+        sums[24] += sum[1];
+        sums[25] += sum[2];
+        sums[26] += sum[3];
+        sums[27] += sum[4];
+        sums[37] += sum[5];
+        sums[38] += sum[6];
+        sums[39] += sum[7];
+        sums[40] += sum[8];
+        sums[41] += sum[9];
+        sums[28] += sum[10];
+        sums[29] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_3_f(factor, point, sum);
-        S_bar[30] += sum[0];
-        S_bar[31] += sum[1];
-        S_bar[32] += sum[2];
-        S_bar[33] += sum[3];
-        S_bar[34] += sum[4];
-        S_bar[35] += sum[5];
-        S_bar[36] += sum[6];
-        S_bar[44] += sum[7];
-        S_bar[45] += sum[8];
-        S_bar[46] += sum[9];
-        S_bar[47] += sum[10];
-        S_bar[48] += sum[11];
+        sums[30] += sum[0];
+        sums[31] += sum[1];
+        sums[32] += sum[2];
+        sums[33] += sum[3];
+        sums[34] += sum[4];
+        sums[35] += sum[5];
+        sums[36] += sum[6];
+        sums[44] += sum[7];
+        sums[45] += sum[8];
+        sums[46] += sum[9];
+        sums[47] += sum[10];
+        sums[48] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_4_f(factor, point, sum);
-        S_bar[42] += sum[0];
-        S_bar[43] += sum[1];
-        S_bar[49] += sum[2];
-        S_bar[50] += sum[3];
-        S_bar[51] += sum[4];
-        S_bar[52] += sum[5];
-        S_bar[53] += sum[6];
-        S_bar[54] += sum[7];
-        S_bar[55] += sum[8];
-        S_bar[56] += sum[9];
-        S_bar[57] += sum[10];
-        S_bar[63] += sum[11];
+        sums[42] += sum[0];
+        sums[43] += sum[1];
+        sums[49] += sum[2];
+        sums[50] += sum[3];
+        sums[51] += sum[4];
+        sums[52] += sum[5];
+        sums[53] += sum[6];
+        sums[54] += sum[7];
+        sums[55] += sum[8];
+        sums[56] += sum[9];
+        sums[57] += sum[10];
+        sums[63] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_5_f(factor, point, sum);
-        S_bar[58] += sum[0];
-        S_bar[59] += sum[1];
-        S_bar[60] += sum[2];
-        S_bar[61] += sum[3];
-        S_bar[62] += sum[4];
-        S_bar[64] += sum[5];
-        S_bar[65] += sum[6];
-        S_bar[66] += sum[7];
-        S_bar[67] += sum[8];
-        S_bar[68] += sum[9];
-        S_bar[69] += sum[10];
-        S_bar[72] += sum[11];
+        sums[58] += sum[0];
+        sums[59] += sum[1];
+        sums[60] += sum[2];
+        sums[61] += sum[3];
+        sums[62] += sum[4];
+        sums[64] += sum[5];
+        sums[65] += sum[6];
+        sums[66] += sum[7];
+        sums[67] += sum[8];
+        sums[68] += sum[9];
+        sums[69] += sum[10];
+        sums[72] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_6_f(factor, point, sum);
-        S_bar[70] += sum[0];
-        S_bar[71] += sum[1];
-        S_bar[73] += sum[2];
-        S_bar[74] += sum[3];
-        S_bar[75] += sum[4];
-        S_bar[76] += sum[5];
-        S_bar[77] += sum[6];
-        S_bar[78] += sum[7];
-        S_bar[79] += sum[8];
-        S_bar[80] += sum[9];
-        S_bar[81] += sum[10];
-        S_bar[82] += sum[11];
+        sums[70] += sum[0];
+        sums[71] += sum[1];
+        sums[73] += sum[2];
+        sums[74] += sum[3];
+        sums[75] += sum[4];
+        sums[76] += sum[5];
+        sums[77] += sum[6];
+        sums[78] += sum[7];
+        sums[79] += sum[8];
+        sums[80] += sum[9];
+        sums[81] += sum[10];
+        sums[82] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_7_f(factor, point, sum);
-        S_bar[83] += sum[0];
-        S_bar[97] += sum[1];
-        S_bar[84] += sum[2];
-        S_bar[85] += sum[3];
-        S_bar[86] += sum[4];
-        S_bar[87] += sum[5];
-        S_bar[88] += sum[6];
-        S_bar[89] += sum[7];
-        S_bar[90] += sum[8];
-        S_bar[91] += sum[9];
-        S_bar[92] += sum[10];
-        S_bar[93] += sum[11];
+        sums[83] += sum[0];
+        sums[97] += sum[1];
+        sums[84] += sum[2];
+        sums[85] += sum[3];
+        sums[86] += sum[4];
+        sums[87] += sum[5];
+        sums[88] += sum[6];
+        sums[89] += sum[7];
+        sums[90] += sum[8];
+        sums[91] += sum[9];
+        sums[92] += sum[10];
+        sums[93] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_8_f(factor, point, sum);
-        S_bar[94] += sum[0];
-        S_bar[95] += sum[1];
-        S_bar[96] += sum[2];
-        S_bar[108] += sum[3];
-        S_bar[109] += sum[4];
-        S_bar[110] += sum[5];
-        S_bar[98] += sum[6];
-        S_bar[99] += sum[7];
-        S_bar[100] += sum[8];
-        S_bar[101] += sum[9];
-        S_bar[102] += sum[10];
-        S_bar[103] += sum[11];
+        sums[94] += sum[0];
+        sums[95] += sum[1];
+        sums[96] += sum[2];
+        sums[108] += sum[3];
+        sums[109] += sum[4];
+        sums[110] += sum[5];
+        sums[98] += sum[6];
+        sums[99] += sum[7];
+        sums[100] += sum[8];
+        sums[101] += sum[9];
+        sums[102] += sum[10];
+        sums[103] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_9_f(factor, point, sum);
-        S_bar[104] += sum[0];
-        S_bar[105] += sum[1];
-        S_bar[106] += sum[2];
-        S_bar[107] += sum[3];
-        S_bar[111] += sum[4];
-        S_bar[118] += sum[5];
-        S_bar[119] += sum[6];
-        S_bar[120] += sum[7];
-        S_bar[121] += sum[8];
-        S_bar[125] += sum[9];
-        S_bar[112] += sum[10];
-        S_bar[113] += sum[11];
+        sums[104] += sum[0];
+        sums[105] += sum[1];
+        sums[106] += sum[2];
+        sums[107] += sum[3];
+        sums[111] += sum[4];
+        sums[118] += sum[5];
+        sums[119] += sum[6];
+        sums[120] += sum[7];
+        sums[121] += sum[8];
+        sums[125] += sum[9];
+        sums[112] += sum[10];
+        sums[113] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_10_f(factor, point, sum);
-        S_bar[114] += sum[0];
-        S_bar[115] += sum[1];
-        S_bar[116] += sum[2];
-        S_bar[117] += sum[3];
-        S_bar[122] += sum[4];
-        S_bar[123] += sum[5];
-        S_bar[124] += sum[6];
-        S_bar[128] += sum[7];
-        S_bar[129] += sum[8];
-        S_bar[130] += sum[9];
-        S_bar[131] += sum[10];
-        S_bar[136] += sum[11];
+        sums[114] += sum[0];
+        sums[115] += sum[1];
+        sums[116] += sum[2];
+        sums[117] += sum[3];
+        sums[122] += sum[4];
+        sums[123] += sum[5];
+        sums[124] += sum[6];
+        sums[128] += sum[7];
+        sums[129] += sum[8];
+        sums[130] += sum[9];
+        sums[131] += sum[10];
+        sums[136] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_11_f(factor, point, sum);
-        S_bar[126] += sum[0];
-        S_bar[127] += sum[1];
-        S_bar[132] += sum[2];
-        S_bar[133] += sum[3];
-        S_bar[134] += sum[4];
-        S_bar[135] += sum[5];
-        S_bar[137] += sum[6];
-        S_bar[138] += sum[7];
-        S_bar[139] += sum[8];
-        S_bar[140] += sum[9];
-        S_bar[141] += sum[10];
-        S_bar[146] += sum[11];
+        sums[126] += sum[0];
+        sums[127] += sum[1];
+        sums[132] += sum[2];
+        sums[133] += sum[3];
+        sums[134] += sum[4];
+        sums[135] += sum[5];
+        sums[137] += sum[6];
+        sums[138] += sum[7];
+        sums[139] += sum[8];
+        sums[140] += sum[9];
+        sums[141] += sum[10];
+        sums[146] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_12_f(factor, point, sum);
-        S_bar[142] += sum[0];
-        S_bar[143] += sum[1];
-        S_bar[144] += sum[2];
-        S_bar[145] += sum[3];
-        S_bar[147] += sum[4];
-        S_bar[148] += sum[5];
-        S_bar[149] += sum[6];
-        S_bar[150] += sum[7];
-        S_bar[151] += sum[8];
-        S_bar[152] += sum[9];
-        S_bar[153] += sum[10];
-        S_bar[156] += sum[11];
+        sums[142] += sum[0];
+        sums[143] += sum[1];
+        sums[144] += sum[2];
+        sums[145] += sum[3];
+        sums[147] += sum[4];
+        sums[148] += sum[5];
+        sums[149] += sum[6];
+        sums[150] += sum[7];
+        sums[151] += sum[8];
+        sums[152] += sum[9];
+        sums[153] += sum[10];
+        sums[156] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_13_f(factor, point, sum);
-        S_bar[154] += sum[0];
-        S_bar[155] += sum[1];
-        S_bar[157] += sum[2];
-        S_bar[158] += sum[3];
-        S_bar[159] += sum[4];
-        S_bar[160] += sum[5];
-        S_bar[161] += sum[6];
-        S_bar[162] += sum[7];
-        S_bar[163] += sum[8];
-        S_bar[164] += sum[9];
-        S_bar[165] += sum[10];
-        S_bar[166] += sum[11];
+        sums[154] += sum[0];
+        sums[155] += sum[1];
+        sums[157] += sum[2];
+        sums[158] += sum[3];
+        sums[159] += sum[4];
+        sums[160] += sum[5];
+        sums[161] += sum[6];
+        sums[162] += sum[7];
+        sums[163] += sum[8];
+        sums[164] += sum[9];
+        sums[165] += sum[10];
+        sums[166] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_14_f(factor, point, sum);
-        S_bar[167] += sum[0];
-        S_bar[181] += sum[1];
-        S_bar[168] += sum[2];
-        S_bar[169] += sum[3];
-        S_bar[170] += sum[4];
-        S_bar[171] += sum[5];
-        S_bar[172] += sum[6];
-        S_bar[173] += sum[7];
-        S_bar[174] += sum[8];
-        S_bar[175] += sum[9];
-        S_bar[176] += sum[10];
-        S_bar[177] += sum[11];
+        sums[167] += sum[0];
+        sums[181] += sum[1];
+        sums[168] += sum[2];
+        sums[169] += sum[3];
+        sums[170] += sum[4];
+        sums[171] += sum[5];
+        sums[172] += sum[6];
+        sums[173] += sum[7];
+        sums[174] += sum[8];
+        sums[175] += sum[9];
+        sums[176] += sum[10];
+        sums[177] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_15_f(factor, point, sum);
-        S_bar[178] += sum[0];
-        S_bar[179] += sum[1];
-        S_bar[180] += sum[2];
-        S_bar[192] += sum[3];
-        S_bar[193] += sum[4];
-        S_bar[194] += sum[5];
-        S_bar[182] += sum[6];
-        S_bar[183] += sum[7];
-        S_bar[184] += sum[8];
-        S_bar[185] += sum[9];
-        S_bar[186] += sum[10];
-        S_bar[187] += sum[11];
+        sums[178] += sum[0];
+        sums[179] += sum[1];
+        sums[180] += sum[2];
+        sums[192] += sum[3];
+        sums[193] += sum[4];
+        sums[194] += sum[5];
+        sums[182] += sum[6];
+        sums[183] += sum[7];
+        sums[184] += sum[8];
+        sums[185] += sum[9];
+        sums[186] += sum[10];
+        sums[187] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_16_f(factor, point, sum);
-        S_bar[188] += sum[0];
-        S_bar[189] += sum[1];
-        S_bar[190] += sum[2];
-        S_bar[191] += sum[3];
-        S_bar[195] += sum[4];
-        S_bar[202] += sum[5];
-        S_bar[203] += sum[6];
-        S_bar[204] += sum[7];
-        S_bar[205] += sum[8];
-        S_bar[209] += sum[9];
-        S_bar[196] += sum[10];
-        S_bar[197] += sum[11];
+        sums[188] += sum[0];
+        sums[189] += sum[1];
+        sums[190] += sum[2];
+        sums[191] += sum[3];
+        sums[195] += sum[4];
+        sums[202] += sum[5];
+        sums[203] += sum[6];
+        sums[204] += sum[7];
+        sums[205] += sum[8];
+        sums[209] += sum[9];
+        sums[196] += sum[10];
+        sums[197] += sum[11];
     }
     {
         vector_f sum[7] = {ZERO};
         pair_products_17_f(factor, point, sum);
-        S_bar[198] += sum[0];
-        S_bar[199] += sum[1];
-        S_bar[200] += sum[2];
-        S_bar[201] += sum[3];
-        S_bar[206] += sum[4];
-        S_bar[207] += sum[5];
-        S_bar[208] += sum[6];
+        sums[198] += sum[0];
+        sums[199] += sum[1];
+        sums[200] += sum[2];
+        sums[201] += sum[3];
+        sums[206] += sum[4];
+        sums[207] += sum[5];
+        sums[208] += sum[6];
     }
 }
 
 /*
- * Adds to S_bar what some vectors of points add to it, those in the list: factors of 6 vectors at a time, then their
+ * Adds to sums what some vectors of points add to it, those in the list: factors of 6 vectors at a time, then their
  * products.
  */
-OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t count, const float *S, float *S_bar) {
+OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t count, const float *S, float *sums) {
     vector_f factor[6 * 57], total[211] = {ZERO};
     for (size_t start = 0; start < count; start += 6, near += 6) {
         const size_t size = count - start < 6 ? count - start : 6;
@@ -7524,7 +7406,7 @@ OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t c
             total[208] += sum[6];
         }
     }
-    for (size_t i = 0; i < 211; ++i) S_bar[i] += vector_sum_f(total[i]);
+    for (size_t i = 0; i < 211; ++i) sums[i] += vector_sum_f(total[i]);
 }
 
 /*
@@ -7540,7 +7422,7 @@ void dual_arm_splats_vjp_f(
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES_f ? part : LANES_f;
     vector_f *points = work_points_f(work);
-    vector_f *splats = work_splats_f(work, count), *places = work_blocks_f(work, count, splat_count);
+    vector_f *splats = work_reaches_f(work, count), *places = work_blocks_f(work, count, splat_count);
     float *constants = work_constants_f(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -7568,7 +7450,7 @@ void dual_arm_splats_vjp_f(
             const size_t end = start + share < splat_count ? start + share : splat_count;
             float sums[LANES_f][211] = {{0}};
             uint32_t near[131072 / (29 * sizeof(vector_f)) + 2];
-            vector_f own_mu[14], own_W[196], own_amplitude[1], S_bar[211], bars[211];
+            vector_f own_mu[14], own_W[196], own_amplitude[1], own_sums[211], bars[211];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
@@ -7580,8 +7462,8 @@ void dual_arm_splats_vjp_f(
             vector_rows_f(mu, end, start, 14, own_mu);
             vector_rows_f(W, end, start, 196, own_W);
             vector_rows_f(amplitude, end, start, 1, own_amplitude);
-            vector_rows_f(sums[0], LANES_f, 0, 211, S_bar);
-            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 14, bars + 14 + 196);
+            vector_rows_f(sums[0], LANES_f, 0, 211, own_sums);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 14, bars + 14 + 196);
             vector_to_rows_f(bars, mu_bar, end, start, 14, 14);
             vector_to_rows_f(bars + 14, W_bar, end, start, 196, 196);
             vector_to_rows_f(bars + 14 + 196, amplitude_bar, end, start, 1, 1);
@@ -7608,12 +7490,12 @@ void dual_arm_splats_rows_f(
             vector_f point[29];
             splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector_f own_mu[14], own_W[196], own_amplitude[1], S_bar[211] = {ZERO}, bars[211];
+                vector_f own_mu[14], own_W[196], own_amplitude[1], own_sums[211] = {ZERO}, bars[211];
                 for (int i = 0; i < 14; ++i) own_mu[i] = vector_of_f(mu[14 * k + i]);
                 for (int i = 0; i < 196; ++i) own_W[i] = vector_of_f(W[196 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 211 * k, point + 14, point + 14 + 1, S_bar);
-                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 14, bars + 14 + 196);
+                pair_backward_f(point, constants + 211 * k, point + 14, point + 14 + 1, own_sums);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 14, bars + 14 + 196);
                 vector_to_rows_f(bars, rows + 211 * k, count, block * LANES_f, 211, 211 * splat_count);
             }
         }
@@ -7687,7 +7569,7 @@ double dual_arm_splats_order_f(
     size_t count, size_t splat_count, const float *DUAL_ARM_RESTRICT x, const float *DUAL_ARM_RESTRICT mu, const float *DUAL_ARM_RESTRICT amplitude, const float *DUAL_ARM_RESTRICT width,
     double limit, size_t *DUAL_ARM_RESTRICT order, float *DUAL_ARM_RESTRICT work) {
     const size_t block = 2 * LANES_f;
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     uint32_t near[256];
     double share = 0;
     for (size_t n = 0; n < count; ++n) order[n] = n;
@@ -7718,3 +7600,5 @@ double dual_arm_splats_order_f(
     }
     return share;
 }
+
+#endif /* float */

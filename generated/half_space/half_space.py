@@ -693,7 +693,7 @@ class HalfSpace:
     ) -> tuple[Tensor, Tensor, Tensor]:
         """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu (K, D), W (K, d, T) and amplitude (K)."""
         S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
-        total = torch.zeros((len(S), len(mu)), dtype=x.dtype, device=x.device)
+        total = torch.zeros((), dtype=x.dtype, device=x.device)
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         for part, *bars in zip(*parts, strict=True):
             total = total + torch.stack(_sums(self._pair_bars(part, S, *bars), len(part), len(mu), 0))
@@ -707,15 +707,15 @@ class HalfSpace:
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         rows = []
         for part, *bars in zip(*parts, strict=True):
-            S_bar = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
-            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, S_bar)
+            sums = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
+            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, sums)
             rows.append(torch.cat([by_mu, by_W.flatten(-2), by_amplitude.unsqueeze(-1)], -1))
         return torch.cat(rows)
 
     def _pair_bars(
         self, x: Tensor, S: Sequence[Tensor], value_bar: Tensor, gradient_bar: Tensor
     ) -> tuple[Tensor, ...]:
-        """The derivatives in S of every pair, from those in the sums."""
+        """What every pair adds to the sums of its splat, from the derivatives in values and gradients."""
         X = [entry.unsqueeze(-1) for entry in self._point_features(x)]
         slope_bar = [entry.unsqueeze(-1) for entry in self._point_gradient_vjp(x, gradient_bar)]
         return self._pair_vjp(X, S, value_bar.unsqueeze(-1), slope_bar)
@@ -729,12 +729,15 @@ class HalfSpace:
         """S, what the pairs need of a splat alone."""
         mu0, mu1 = mu.unbind(-1)
         W0_0, W0_1, W1_0, W1_1 = W.flatten(-2).unbind(-1)
-        return (mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude)
+        M0_0 = W0_0 * W0_0 + W1_0 * W1_0
+        M0_1 = W0_0 * W0_1 + W1_0 * W1_1
+        M1_1 = W0_1 * W0_1 + W1_1 * W1_1
+        return (mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude, M0_0, M0_1, M1_1)
 
     def _pair_value(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
         """The value of a splat at a point."""
         x0, x1 = X
-        mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude = S
+        mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude, _, _, _ = S
         d0 = x0 - mu0
         sqrt_value = 2.0 * _root(x1 * mu1)
         scale = 1.0 / sqrt_value
@@ -762,14 +765,14 @@ class HalfSpace:
         v1 = up * scale_2
         z0 = W0_0 * v0 + W0_1 * v1
         z1 = W1_0 * v0 + W1_1 * v1
-        exp_2 = torch.exp(log_det - 0.5 * (z0 * z0 + z1 * z1))
-        phi = amplitude * exp_2
-        return (phi,)
+        phi = torch.exp(log_det - 0.5 * (z0 * z0 + z1 * z1))
+        phi_2 = amplitude * phi
+        return (phi_2,)
 
     def _pair(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
         """The value of a splat at a point, and the slope, its derivatives in X."""
         x0, x1 = X
-        mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude = S
+        mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude, _, _, _ = S
         d0 = x0 - mu0
         product = x1 * mu1
         length = _root(product)
@@ -805,24 +808,22 @@ class HalfSpace:
         v1 = up * scale_2
         z0 = W0_0 * v0 + W0_1 * v1
         z1 = W1_0 * v0 + W1_1 * v1
-        exp_2 = torch.exp(log_det - 0.5 * (z0 * z0 + z1 * z1))
-        phi = amplitude * exp_2
-        z1_product = z1 * phi
-        z0_product = z0 * phi
-        by_v1 = -(W1_1 * z1_product) - W0_1 * z0_product
-        by_up = scale_2 * by_v1
-        by_v0 = -(W1_0 * z1_product) - W0_0 * z0_product
+        phi = torch.exp(log_det - 0.5 * (z0 * z0 + z1 * z1))
+        phi_2 = amplitude * phi
+        phi_product = phi_2 * (W1_1 * z1 + W0_1 * z0)
+        scale_2_product = scale_2 * phi_product
+        phi_product_2 = phi_2 * (W1_0 * z1 + W0_0 * z0)
         is_small = h_squared_total == 0.0
-        by_scale_2 = up * by_v1 + d0_product * by_v0
+        by_scale_2 = -(up * phi_product) - d0_product * phi_product_2
         by_t_over_sinh_t = by_scale_2 / x1
-        by_t = (torch.where(near, 0.0, by_t_over_sinh_t) + torch.where(near, 0.0, phi) / t_ratio) / sinh_t
+        by_t = (torch.where(near, 0.0, by_t_over_sinh_t) + torch.where(near, 0.0, phi_2) / t_ratio) / sinh_t
         by_t_product = t_ratio * by_t
         chosen = torch.where(
             is_small, 0.0, -(h_product * by_t_product / (2.0 * torch.where(is_small, 1.0, sqrt_1_plus_h_to_2)))
         )
         by_asinh_h = 2.0 * by_t
         by_h = by_asinh_h / torch.sqrt(1.0 + near_chosen_2) - 2.0 * (sqrt_1_plus_h_to_2 * by_t_product)
-        by_log_det_near = torch.where(near, phi, 0.0)
+        by_log_det_near = torch.where(near, phi_2, 0.0)
         by_t_over_sinh_t_near = torch.where(near, by_t_over_sinh_t, 0.0)
         t_over_sinh_t_near_slope = _polynomial(near_chosen, _T_OVER_SINH_T_NEAR_SLOPE)
         by_log_det_series = h_squared * by_log_det_near
@@ -834,14 +835,17 @@ class HalfSpace:
         )
         product_2 = 2.0 * by_h_squared
         by_part0 = part0 * product_2
-        by_d0 = d0 * by_up + mu1 * (scale_2 * by_v0) + scale * by_part0
+        by_d0 = -(d0 * scale_2_product) - mu1 * (scale_2 * phi_product_2) + scale * by_part0
         by_part1 = part1 * product_2
-        by_d1 = 0.5 * (total_2 * by_up) + scale * by_part1
+        by_d1 = scale * by_part1 - 0.5 * (total_2 * scale_2_product)
         is_small_2 = product == 0.0
         by_scale = d1 * by_part1 + d0 * by_part0
         minus = -(2.0 * (scale * (by_scale / sqrt_value)) / (2.0 * torch.where(is_small_2, 1.0, length)))
-        by_x1 = d1_product * by_up - scale_2 * by_t_over_sinh_t + by_d1 + mu1 * torch.where(is_small_2, 0.0, minus)
-        return (phi, by_d0, by_x1)
+        by_x1 = (
+            -(d1_product * scale_2_product) - scale_2 * by_t_over_sinh_t + by_d1 + mu1 * torch.where(is_small_2, 0.0,
+            minus)
+        )
+        return (phi_2, by_d0, by_x1)
 
     def _point_gradient(self, x: Tensor, slope: Sequence[Tensor]) -> Tensor:
         """The Riemannian gradient of a function whose derivatives in X are `slope`."""
@@ -860,9 +864,9 @@ class HalfSpace:
     def _pair_vjp(
         self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
     ) -> tuple[Tensor, ...]:
-        """The derivatives of value value_bar + slope . slope_bar in S."""
+        """What, summed over the points, makes the derivatives of value value_bar + slope . slope_bar."""
         x0, x1 = X
-        mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude = S
+        mu0, mu1, W0_0, W0_1, W1_0, W1_1, _, M0_0, M0_1, M1_1 = S
         x0_bar, x1_bar = slope_bar
         d0 = x0 - mu0
         product = x1 * mu1
@@ -873,41 +877,39 @@ class HalfSpace:
         d1 = x1 - mu1
         part1 = d1 * scale
         h_squared = part0 * part0 + part1 * part1
+        h_squared_total = 1.0 + h_squared
+        is_small = h_squared_total == 0.0
         near = h_squared < 0.11468
-        near_chosen = torch.where(near, 8.719916288803628 * h_squared, 0.0)
-        t_over_sinh_t_near = _polynomial(near_chosen, _T_OVER_SINH_T_NEAR)
-        near_chosen_2 = torch.where(near, 1.0, h_squared)
-        h = torch.sqrt(near_chosen_2)
+        near_chosen = torch.where(near, 1.0, h_squared)
+        h = torch.sqrt(near_chosen)
+        h_product = 2.0 * h
         asinh_h = torch.asinh(h)
         t = 2.0 * asinh_h
-        h_squared_total = 1.0 + h_squared
         sqrt_1_plus_h_to_2 = _root(h_squared_total)
-        h_product = 2.0 * h
         sinh_t = sqrt_1_plus_h_to_2 * h_product
         t_ratio = t / sinh_t
-        t_over_sinh_t = torch.where(near, t_over_sinh_t_near, t_ratio)
-        scale_2 = t_over_sinh_t / x1
-        d0_product = mu1 * d0
-        v0 = scale_2 * d0_product
         dot_ds_ds = d0 * d0
         d1_product = 0.5 * d1
         total_2 = x1 + mu1
         up = 0.5 * dot_ds_ds + d1_product * total_2
-        v1 = up * scale_2
-        z1 = W1_0 * v0 + W1_1 * v1
-        log_det_series = _polynomial(near_chosen, _LOG_DET_SERIES)
+        near_chosen_2 = torch.where(near, 8.719916288803628 * h_squared, 0.0)
+        log_det_series = _polynomial(near_chosen_2, _LOG_DET_SERIES)
         log_det_near = h_squared * log_det_series
         log_det = torch.where(near, log_det_near, torch.log(t_ratio))
+        t_over_sinh_t_near = _polynomial(near_chosen_2, _T_OVER_SINH_T_NEAR)
+        t_over_sinh_t = torch.where(near, t_over_sinh_t_near, t_ratio)
+        scale_2 = t_over_sinh_t / x1
+        d0_product = mu1 * d0
+        v0 = scale_2 * d0_product
+        v1 = up * scale_2
         z0 = W0_0 * v0 + W0_1 * v1
-        exp_2 = torch.exp(log_det - 0.5 * (z0 * z0 + z1 * z1))
-        phi = amplitude * exp_2
-        z1_product = z1 * phi
-        z0_product = z0 * phi
-        by_v1 = -(W1_1 * z1_product) - W0_1 * z0_product
-        by_up = scale_2 * by_v1
-        is_small = h_squared_total == 0.0
-        by_v0 = -(W1_0 * z1_product) - W0_0 * z0_product
-        by_scale_2 = up * by_v1 + d0_product * by_v0
+        z1 = W1_0 * v0 + W1_1 * v1
+        phi = torch.exp(log_det - 0.5 * (z0 * z0 + z1 * z1))
+        total_3 = W1_1 * z1 + W0_1 * z0
+        phi_product = phi * total_3
+        total_4 = W1_0 * z1 + W0_0 * z0
+        phi_product_2 = phi * total_4
+        by_scale_2 = -(up * phi_product) - d0_product * phi_product_2
         by_t_over_sinh_t = by_scale_2 / x1
         ratio = torch.where(near, 0.0, phi) / t_ratio
         by_t = (torch.where(near, 0.0, by_t_over_sinh_t) + ratio) / sinh_t
@@ -915,15 +917,15 @@ class HalfSpace:
         product_2 = 2.0 * torch.where(is_small, 1.0, sqrt_1_plus_h_to_2)
         ratio_2 = h_product * by_t_product / product_2
         by_asinh_h = 2.0 * by_t
-        sqrt_2 = torch.sqrt(1.0 + near_chosen_2)
+        sqrt_2 = torch.sqrt(1.0 + near_chosen)
         by_asinh_h_ratio = by_asinh_h / sqrt_2
         by_h = by_asinh_h_ratio - 2.0 * (sqrt_1_plus_h_to_2 * by_t_product)
         by_h_ratio = by_h / h_product
         by_log_det_near = torch.where(near, phi, 0.0)
         by_t_over_sinh_t_near = torch.where(near, by_t_over_sinh_t, 0.0)
-        t_over_sinh_t_near_slope = _polynomial(near_chosen, _T_OVER_SINH_T_NEAR_SLOPE)
+        t_over_sinh_t_near_slope = _polynomial(near_chosen_2, _T_OVER_SINH_T_NEAR_SLOPE)
         by_log_det_series = h_squared * by_log_det_near
-        log_det_series_slope = _polynomial(near_chosen, _LOG_DET_SERIES_SLOPE)
+        log_det_series_slope = _polynomial(near_chosen_2, _LOG_DET_SERIES_SLOPE)
         by_h_squared = (
             torch.where(is_small, 0.0, -ratio_2) + torch.where(near, 0.0, by_h_ratio) + log_det_series * by_log_det_near
             + 8.719916288803628 * torch.where(near, by_t_over_sinh_t_near * t_over_sinh_t_near_slope + by_log_det_series
@@ -936,10 +938,12 @@ class HalfSpace:
         ratio_3 = torch.where(is_small_2, 0.0, mu1 * x1_bar) / product_4
         product_5 = 2.0 * ratio_3
         sqrt_value_ratio = scale * product_5 / sqrt_value
+        scale_2_product = scale_2 * phi_product
+        product_6 = mu1 * x0_bar
         by_by_part0 = scale * x0_bar - d0 * sqrt_value_ratio
         by_by_part1 = scale * x1_bar - d1 * sqrt_value_ratio
-        total_3 = part0 * by_by_part0 + part1 * by_by_part1
-        by_by_h_squared = 2.0 * total_3
+        total_5 = part0 * by_by_part0 + part1 * by_by_part1
+        by_by_h_squared = 2.0 * total_5
         by_by_h = torch.where(near, 0.0, by_by_h_squared) / h_product
         by_by_asinh_h = by_by_h / sqrt_2
         by_by_h_product = 2.0 * by_by_h
@@ -947,36 +951,33 @@ class HalfSpace:
         gap = -(sqrt_1_plus_h_to_2 * by_by_h_product) - h_product * ratio_4
         by_by_t = 2.0 * by_by_asinh_h + t_ratio * gap
         by_by_t_ratio = by_by_t / sinh_t
-        near_chosen_3 = torch.where(near, 17.439832577607255 * total_3, 0.0)
+        near_chosen_3 = torch.where(near, 17.439832577607255 * total_5, 0.0)
         by_by_t_over_sinh_t_near = t_over_sinh_t_near_slope * near_chosen_3
         by_by_t_over_sinh_t = (
             torch.where(near, 0.0, by_by_t_ratio) + torch.where(near, by_by_t_over_sinh_t_near, 0.0) - scale_2 * x1_bar
         )
         by_by_scale_2 = by_by_t_over_sinh_t / x1
-        product_6 = mu1 * x0_bar
-        by_by_v0 = scale_2 * product_6 + d0_product * by_by_scale_2
+        gap_2 = -(scale_2 * product_6) - d0_product * by_by_scale_2
+        phi_product_3 = phi * gap_2
         product_7 = 0.5 * x1_bar
-        by_by_up = d0 * x0_bar + d1_product * x1_bar + total_2 * product_7
-        by_by_v1 = up * by_by_scale_2 + scale_2 * by_by_up
-        gap_2 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1
+        gap_3 = -(d0 * x0_bar) - d1_product * x1_bar - total_2 * product_7
+        gap_4 = scale_2 * gap_3 - up * by_by_scale_2
+        phi_product_4 = phi * gap_4
         ratio_5 = by_by_t_ratio / t_ratio
         by_by_log_det_series = log_det_series_slope * near_chosen_3
         by_by_log_det_near = h_squared * by_by_log_det_series + log_det_series * by_by_h_squared
-        gap_3 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1
         by_phi = (
-            value_bar + torch.where(near, 0.0, ratio_5) + torch.where(near, by_by_log_det_near, 0.0) + z0 * gap_3 + z1 *
-            gap_2
+            value_bar + torch.where(near, 0.0, ratio_5) + torch.where(near, by_by_log_det_near, 0.0) + total_3 * gap_4 +
+            total_4 * gap_2
         )
-        by_log_det = exp_2 * (amplitude * by_phi)
-        by_z1 = phi * gap_2 - z1 * by_log_det
-        by_z0 = phi * gap_3 - z0 * by_log_det
-        by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0
-        by_up_2 = by_v1 * by_by_scale_2 + scale_2 * by_v1_2
-        by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0
-        total_4 = by_v0 * by_by_scale_2 + scale_2 * by_v0_2
-        by_scale_2_2 = (
-            by_v0 * product_6 - by_t_over_sinh_t * x1_bar + by_v1 * by_by_up + up * by_v1_2 + d0_product * by_v0_2
-        )
+        by_log_det = phi * by_phi
+        by_v1 = M0_1 * phi_product_3 + M1_1 * phi_product_4 - total_3 * by_log_det
+        by_up = scale_2 * by_v1 - phi_product * by_by_scale_2
+        by_v0 = M0_0 * phi_product_3 + M0_1 * phi_product_4 - total_4 * by_log_det
+        gap_5 = scale_2 * by_v0 - phi_product_2 * by_by_scale_2
+        total_6 = -(by_part0 * sqrt_value_ratio) - scale_2_product * x0_bar + d0 * by_up + mu1 * gap_5
+        total_7 = -(by_t_over_sinh_t * x1_bar) - phi_product_2 * product_6 + phi_product * gap_3 + up * by_v1
+        by_scale_2_2 = total_7 + d0_product * by_v0
         by_t_over_sinh_t_2 = by_scale_2_2 / x1
         by_t_2 = (
             (by_t * gap - ratio * ratio_5 + torch.where(near, 0.0, by_t_over_sinh_t_2) + torch.where(near, 0.0,
@@ -990,15 +991,15 @@ class HalfSpace:
         product_8 = 2.0 * (-(by_h_ratio * by_by_h) - by_t_product * ratio_4 + sqrt_1_plus_h_to_2 * by_sinh_t)
         by_asinh_h_2 = 2.0 * by_t_2
         by_h_2 = product_8 + by_asinh_h_2 / sqrt_2
-        total_5 = (
+        total_8 = (
             by_log_det_near * by_by_log_det_series + torch.where(is_small, 0.0, by_sqrt_1_plus_h_to_2 / product_2) +
             torch.where(near, 0.0, by_h_2 / h_product - by_asinh_h_ratio * by_by_asinh_h / (2.0 * sqrt_2))
         )
         by_log_det_near_2 = torch.where(near, by_log_det, 0.0)
         by_log_det_series_slope = by_log_det_series * near_chosen_3
-        log_det_series_slope_slope = _polynomial(near_chosen, _LOG_DET_SERIES_SLOPE_SLOPE)
+        log_det_series_slope_slope = _polynomial(near_chosen_2, _LOG_DET_SERIES_SLOPE_SLOPE)
         by_t_over_sinh_t_near_slope = by_t_over_sinh_t_near * near_chosen_3
-        t_over_sinh_t_near_slope_slope = _polynomial(near_chosen, _T_OVER_SINH_T_NEAR_SLOPE_SLOPE)
+        t_over_sinh_t_near_slope_slope = _polynomial(near_chosen_2, _T_OVER_SINH_T_NEAR_SLOPE_SLOPE)
         by_t_over_sinh_t_near_2 = torch.where(near, by_t_over_sinh_t_2, 0.0)
         by_log_det_series_2 = by_log_det_near * by_by_h_squared + h_squared * by_log_det_near_2
         near_chosen_4 = torch.where(
@@ -1006,43 +1007,53 @@ class HalfSpace:
             t_over_sinh_t_near_slope_slope + t_over_sinh_t_near_slope * by_t_over_sinh_t_near_2 + log_det_series_slope *
             by_log_det_series_2, 0.0
         )
-        by_h_squared_2 = total_5 + log_det_series * by_log_det_near_2 + 8.719916288803628 * near_chosen_4
+        by_h_squared_2 = total_8 + log_det_series * by_log_det_near_2 + 8.719916288803628 * near_chosen_4
         product_9 = 2.0 * by_h_squared_2
         by_part0_2 = product_3 * by_by_part0 + part0 * product_9
-        by_d0 = by_up * x0_bar - by_part0 * sqrt_value_ratio + d0 * by_up_2 + mu1 * total_4 + scale * by_part0_2
+        by_d0 = total_6 + scale * by_part0_2
         by_part1 = part1 * product_3
         by_scale = d1 * by_part1 + d0 * by_part0
         by_scale_ratio = by_scale / sqrt_value
         ratio_6 = 2.0 * (scale * by_scale_ratio) / product_4
-        total_6 = (
-            torch.where(is_small_2, 0.0, -ratio_6) * x1_bar + scale_2 * by_v0 * x0_bar + (by_up * product_7 + d1_product
-            * by_up_2)
+        total_9 = (
+            torch.where(is_small_2, 0.0, -ratio_6) * x1_bar - scale_2 * phi_product_2 * x0_bar + (d1_product * by_up -
+            scale_2_product * product_7)
         )
         by_part1_2 = product_3 * by_by_part1 + part1 * product_9
-        by_d1 = 0.5 * (by_up * x1_bar + total_2 * by_up_2) - by_part1 * sqrt_value_ratio + scale * by_part1_2
+        by_d1 = 0.5 * (total_2 * by_up - scale_2_product * x1_bar) - by_part1 * sqrt_value_ratio + scale * by_part1_2
         by_scale_3 = (
             by_part0 * x0_bar - by_scale_ratio * product_5 + by_part1 * x1_bar + d1 * by_part1_2 + d0 * by_part0_2
         )
         by_sqrt_value = by_scale_ratio * sqrt_value_ratio - scale * (by_scale_3 / sqrt_value)
         ratio_7 = (torch.where(is_small_2, 0.0, 2.0 * (ratio_6 * ratio_3)) + 2.0 * by_sqrt_value) / product_4
+        by_log_det_product = 0.5 * by_log_det
+        gap_6 = phi_product_3 - v0 * by_log_det_product
+        gap_7 = phi_product_4 - v1 * by_log_det_product
         return (
             -by_d0,
-            total_6 + d0 * total_4 - by_d1 + x1 * torch.where(is_small_2, 0.0, ratio_7),
-            v0 * by_z0 - z0_product * by_by_v0,
-            v1 * by_z0 - z0_product * by_by_v1,
-            v0 * by_z1 - z1_product * by_by_v0,
-            v1 * by_z1 - z1_product * by_by_v1,
-            exp_2 * by_phi,
+            total_9 + d0 * gap_5 - by_d1 + x1 * torch.where(is_small_2, 0.0, ratio_7),
+            by_log_det,
+            v0 * gap_6,
+            v0 * gap_7 + v1 * gap_6,
+            v1 * gap_7,
         )
 
     def _splat_constants_vjp(
-        self, mu: Tensor, W: Tensor, amplitude: Tensor, S_bar: Sequence[Tensor]
+        self, mu: Tensor, W: Tensor, amplitude: Tensor, sums: Sequence[Tensor]
     ) -> tuple[Tensor, Tensor, Tensor]:
-        """The derivatives in mu, W and amplitude from those in S."""
-        mu0_bar, mu1_bar, W0_0_bar, W0_1_bar, W1_0_bar, W1_1_bar, amplitude_bar = S_bar
-        mu_bar = _stack((mu0_bar, mu1_bar))
-        W_bar = _stack((W0_0_bar, W0_1_bar, W1_0_bar, W1_1_bar))
-        return mu_bar, W_bar.unflatten(-1, (2, 2)), amplitude_bar
+        """The derivatives in mu, W and amplitude from those sums."""
+        W0_0, W0_1, W1_0, W1_1 = W.flatten(-2).unbind(-1)
+        sum0, sum1, sum2, sum3, sum4, sum5 = sums
+        product = 2.0 * sum3
+        product_2 = 2.0 * sum5
+        mu_bar = _stack((amplitude * sum0, amplitude * sum1))
+        W_bar = _stack((
+            amplitude * (W0_0 * product + W0_1 * sum4),
+            amplitude * (W0_0 * sum4 + W0_1 * product_2),
+            amplitude * (W1_0 * product + W1_1 * sum4),
+            amplitude * (W1_0 * sum4 + W1_1 * product_2),
+        ))
+        return mu_bar, W_bar.unflatten(-1, (2, 2)), sum2
 
 
 manifold = HalfSpace()

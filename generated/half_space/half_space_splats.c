@@ -81,6 +81,8 @@ INLINE uint64_t flush_denormals(void) { return 0; }
 INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
 
+#if !defined(RSRM_ONLY_FLOAT) /* double */
+
 /* The same number in all lanes. */
 INLINE vector vector_of(double x) {
     const vector zero = ZERO;
@@ -122,24 +124,24 @@ INLINE vector vector_from_bits(vector_bits bits) {
 }
 
 /* x >= 0 with the sign of another. */
-INLINE vector vector_signed(vector x, vector sign) {
+INLINE vector signed_each(vector x, vector sign) {
     return vector_from_bits(vector_to_bits(x) | (vector_to_bits(sign) & 0x8000000000000000));
 }
 
 /* abs of every lane; one instruction where the machine has it. */
-INLINE vector vector_abs(vector x) {
+INLINE vector abs_each(vector x) {
     for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
     return x;
 }
 
 /* sqrt of every lane; one instruction where the machine has it. */
-INLINE vector vector_sqrt(vector x) {
+INLINE vector sqrt_each(vector x) {
     for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
     return x;
 }
 
 /* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
-INLINE vector vector_exp(vector x) {
+INLINE vector exp_each(vector x) {
     const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
     const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
     const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
@@ -149,7 +151,7 @@ INLINE vector vector_exp(vector x) {
 }
 
 /* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
-INLINE vector vector_log(vector x) {
+INLINE vector log_each(vector x) {
     const vector_bits bits = vector_to_bits(x), biased = (bits + 0x95f619980c433) >> 52; /* k + 1023 */
     const vector k = vector_from_bits(biased + 0x4338000000000000) - 6755399441056767.0;
     const vector f = vector_from_bits(bits - (biased << 52) + 0x3ff0000000000000) - 1, s = f / (2 + f), z = s * s;
@@ -162,16 +164,16 @@ INLINE vector vector_log(vector x) {
 }
 
 /* log(1 + x), within 2 units in the last place. */
-INLINE vector vector_log1p(vector x) {
+INLINE vector log1p_each(vector x) {
     const vector u = 1 + x;
-    return vector_select(x <= 1.7976931348623157e308, vector_log(u) + (x - (u - 1)) / u, x);
+    return vector_select(x <= 1.7976931348623157e308, log_each(u) + (x - (u - 1)) / u, x);
 }
 
 /* asinh, within 3 units in the last place. */
-INLINE vector vector_asinh(vector x) {
-    const vector a = vector_abs(x), square = a * a;
-    const vector near = vector_log1p(a + square / (1 + vector_sqrt(1 + square)));
-    return vector_signed(vector_select(a > 134217728.0, vector_log(a) + 0.6931471805599453, near), x);
+INLINE vector asinh_each(vector x) {
+    const vector a = abs_each(x), square = a * a;
+    const vector near = log1p_each(a + square / (1 + sqrt_each(1 + square)));
+    return signed_each(vector_select(a > 134217728.0, log_each(a) + 0.6931471805599453, near), x);
 }
 
 /* Of degree 10 on [0, 1], its relative error below 2^-56. */
@@ -245,6 +247,9 @@ OUTLINE void pair_constants(
     const vector W1_0 = W[2];
     const vector W1_1 = W[3];
     const vector its_amplitude = amplitude[0];
+    const vector M0_0 = W0_0 * W0_0 + W1_0 * W1_0;
+    const vector M0_1 = W0_0 * W0_1 + W1_0 * W1_1;
+    const vector M1_1 = W0_1 * W0_1 + W1_1 * W1_1;
     S[0] = mu0;
     S[1] = mu1;
     S[2] = W0_0;
@@ -252,6 +257,9 @@ OUTLINE void pair_constants(
     S[4] = W1_0;
     S[5] = W1_1;
     S[6] = its_amplitude;
+    S[7] = M0_0;
+    S[8] = M0_1;
+    S[9] = M1_1;
 }
 
 /*
@@ -271,7 +279,7 @@ INLINE void pair_value(
     const double W1_1 = S[5];
     const double amplitude = S[6];
     const vector d0 = x0 - mu0;
-    const vector sqrt_value = 2.0 * vector_sqrt(x1 * mu1);
+    const vector sqrt_value = 2.0 * sqrt_each(x1 * mu1);
     const vector scale = 1.0 / sqrt_value;
     const vector part0 = d0 * scale;
     const vector d1 = x1 - mu1;
@@ -281,13 +289,13 @@ INLINE void pair_value(
     const vector near_chosen = vector_select(near, 8.719916288803628 * h_squared, vector_of(0.0));
     const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
     const vector log_det_near = h_squared * log_det_series;
-    const vector h = vector_sqrt(vector_select(near, vector_of(1.0), h_squared));
-    const vector asinh_h = vector_asinh(h);
+    const vector h = sqrt_each(vector_select(near, vector_of(1.0), h_squared));
+    const vector asinh_h = asinh_each(h);
     const vector t = 2.0 * asinh_h;
-    const vector sqrt_1_plus_h_to_2 = vector_sqrt(1.0 + h_squared);
+    const vector sqrt_1_plus_h_to_2 = sqrt_each(1.0 + h_squared);
     const vector sinh_t = sqrt_1_plus_h_to_2 * (2.0 * h);
     const vector t_ratio = t / sinh_t;
-    const vector log_det = vector_select(near, log_det_near, vector_log(t_ratio));
+    const vector log_det = vector_select(near, log_det_near, log_each(t_ratio));
     const vector t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near(near_chosen);
     const vector t_over_sinh_t = vector_select(near, t_over_sinh_t_near, t_ratio);
     const vector scale_2 = t_over_sinh_t / x1;
@@ -297,8 +305,8 @@ INLINE void pair_value(
     const vector v1 = up * scale_2;
     const vector z0 = W0_0 * v0 + W0_1 * v1;
     const vector z1 = W1_0 * v0 + W1_1 * v1;
-    const vector exp_2 = vector_exp(log_det - 0.5 * (z0 * z0 + z1 * z1));
-    value[0] = value[0] + amplitude * exp_2;
+    const vector phi = exp_each(log_det - 0.5 * (z0 * z0 + z1 * z1));
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -319,7 +327,7 @@ INLINE void pair_forward(
     const double amplitude = S[6];
     const vector d0 = x0 - mu0;
     const vector product = x1 * mu1;
-    const vector length = vector_sqrt(product);
+    const vector length = sqrt_each(product);
     const vector sqrt_value = 2.0 * length;
     const vector scale = 1.0 / sqrt_value;
     const vector part0 = d0 * scale;
@@ -331,15 +339,15 @@ INLINE void pair_forward(
     const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
     const vector log_det_near = h_squared * log_det_series;
     const vector near_chosen_2 = vector_select(near, vector_of(1.0), h_squared);
-    const vector h = vector_sqrt(near_chosen_2);
-    const vector asinh_h = vector_asinh(h);
+    const vector h = sqrt_each(near_chosen_2);
+    const vector asinh_h = asinh_each(h);
     const vector t = 2.0 * asinh_h;
     const vector h_squared_total = 1.0 + h_squared;
-    const vector sqrt_1_plus_h_to_2 = vector_sqrt(h_squared_total);
+    const vector sqrt_1_plus_h_to_2 = sqrt_each(h_squared_total);
     const vector h_product = 2.0 * h;
     const vector sinh_t = sqrt_1_plus_h_to_2 * h_product;
     const vector t_ratio = t / sinh_t;
-    const vector log_det = vector_select(near, log_det_near, vector_log(t_ratio));
+    const vector log_det = vector_select(near, log_det_near, log_each(t_ratio));
     const vector t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near(near_chosen);
     const vector t_over_sinh_t = vector_select(near, t_over_sinh_t_near, t_ratio);
     const vector scale_2 = t_over_sinh_t / x1;
@@ -352,25 +360,23 @@ INLINE void pair_forward(
     const vector v1 = up * scale_2;
     const vector z0 = W0_0 * v0 + W0_1 * v1;
     const vector z1 = W1_0 * v0 + W1_1 * v1;
-    const vector exp_2 = vector_exp(log_det - 0.5 * (z0 * z0 + z1 * z1));
-    const vector phi = amplitude * exp_2;
-    const vector z1_product = z1 * phi;
-    const vector z0_product = z0 * phi;
-    const vector by_v1 = -(W1_1 * z1_product) - W0_1 * z0_product;
-    const vector by_up = scale_2 * by_v1;
-    const vector by_v0 = -(W1_0 * z1_product) - W0_0 * z0_product;
+    const vector phi = exp_each(log_det - 0.5 * (z0 * z0 + z1 * z1));
+    const vector phi_2 = amplitude * phi;
+    const vector phi_product = phi_2 * (W1_1 * z1 + W0_1 * z0);
+    const vector scale_2_product = scale_2 * phi_product;
+    const vector phi_product_2 = phi_2 * (W1_0 * z1 + W0_0 * z0);
     const vector_mask is_small = h_squared_total == 0.0;
-    const vector by_scale_2 = up * by_v1 + d0_product * by_v0;
+    const vector by_scale_2 = -(up * phi_product) - d0_product * phi_product_2;
     const vector by_t_over_sinh_t = by_scale_2 / x1;
     const vector by_t = (vector_select(near, vector_of(0.0), by_t_over_sinh_t) + vector_select(near,
-        vector_of(0.0), phi) / t_ratio) / sinh_t;
+        vector_of(0.0), phi_2) / t_ratio) / sinh_t;
     const vector by_t_product = t_ratio * by_t;
     const vector chosen = vector_select(is_small, vector_of(0.0), -(h_product * by_t_product / (2.0 *
         vector_select(is_small, vector_of(1.0), sqrt_1_plus_h_to_2))));
     const vector by_asinh_h = 2.0 * by_t;
-    const vector by_h = by_asinh_h / vector_sqrt(1.0 + near_chosen_2) - 2.0 * (sqrt_1_plus_h_to_2 *
+    const vector by_h = by_asinh_h / sqrt_each(1.0 + near_chosen_2) - 2.0 * (sqrt_1_plus_h_to_2 *
         by_t_product);
-    const vector by_log_det_near = vector_select(near, phi, vector_of(0.0));
+    const vector by_log_det_near = vector_select(near, phi_2, vector_of(0.0));
     const vector by_t_over_sinh_t_near = vector_select(near, by_t_over_sinh_t, vector_of(0.0));
     const vector t_over_sinh_t_near_slope = vector_polynomial_t_over_sinh_t_near_slope(near_chosen);
     const vector by_log_det_series = h_squared * by_log_det_near;
@@ -385,10 +391,10 @@ INLINE void pair_forward(
     const vector by_scale = d1 * by_part1 + d0 * by_part0;
     const vector minus = -(2.0 * (scale * (by_scale / sqrt_value)) / (2.0 * vector_select(is_small_2,
         vector_of(1.0), length)));
-    value[0] = value[0] + phi;
-    slope[0] = slope[0] + d0 * by_up + mu1 * (scale_2 * by_v0) + scale * by_part0;
-    slope[1] = slope[1] + d1_product * by_up - scale_2 * by_t_over_sinh_t + 0.5 * (total_2 * by_up) + scale *
-            by_part1 + mu1 * vector_select(is_small_2, vector_of(0.0), minus);
+    value[0] = value[0] + phi_2;
+    slope[0] = slope[0] - d0 * scale_2_product - mu1 * (scale_2 * phi_product_2) + scale * by_part0;
+    slope[1] = slope[1] - d1_product * scale_2_product - scale_2 * by_t_over_sinh_t + scale * by_part1 - 0.5 *
+            (total_2 * scale_2_product) + mu1 * vector_select(is_small_2, vector_of(0.0), minus);
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -413,35 +419,39 @@ OUTLINE void pair_gradient_vjp(
     slope_bar[1] = squared * gradient_bar1;
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp(
-    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
+    const vector *mu, const vector *W, const vector *amplitude, const vector *sums, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
     (void)mu;
-    (void)W;
-    (void)amplitude;
-    const vector mu0_bar = S_bar[0];
-    const vector mu1_bar = S_bar[1];
-    const vector W0_0_bar = S_bar[2];
-    const vector W0_1_bar = S_bar[3];
-    const vector W1_0_bar = S_bar[4];
-    const vector W1_1_bar = S_bar[5];
-    const vector its_amplitude_bar = S_bar[6];
-    mu_bar[0] = mu0_bar;
-    mu_bar[1] = mu1_bar;
-    W_bar[0] = W0_0_bar;
-    W_bar[1] = W0_1_bar;
-    W_bar[2] = W1_0_bar;
-    W_bar[3] = W1_1_bar;
-    amplitude_bar[0] = its_amplitude_bar;
+    const vector W0_0 = W[0];
+    const vector W0_1 = W[1];
+    const vector W1_0 = W[2];
+    const vector W1_1 = W[3];
+    const vector its_amplitude = amplitude[0];
+    const vector sum0 = sums[0];
+    const vector sum1 = sums[1];
+    const vector sum2 = sums[2];
+    const vector sum3 = sums[3];
+    const vector sum4 = sums[4];
+    const vector sum5 = sums[5];
+    const vector product = 2.0 * sum3;
+    const vector product_2 = 2.0 * sum5;
+    mu_bar[0] = its_amplitude * sum0;
+    mu_bar[1] = its_amplitude * sum1;
+    W_bar[0] = its_amplitude * (W0_0 * product + W0_1 * sum4);
+    W_bar[1] = its_amplitude * (W0_0 * sum4 + W0_1 * product_2);
+    W_bar[2] = its_amplitude * (W1_0 * product + W1_1 * sum4);
+    W_bar[3] = its_amplitude * (W1_0 * sum4 + W1_1 * product_2);
+    amplitude_bar[0] = sum2;
 }
 
 /*
- * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 OUTLINE void pair_backward(
-    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
+    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
     const vector x0 = X[0];
     const vector x1 = X[1];
     const double mu0 = S[0];
@@ -450,54 +460,54 @@ OUTLINE void pair_backward(
     const double W0_1 = S[3];
     const double W1_0 = S[4];
     const double W1_1 = S[5];
-    const double amplitude = S[6];
+    const double M0_0 = S[7];
+    const double M0_1 = S[8];
+    const double M1_1 = S[9];
     const vector its_value_bar = value_bar[0];
     const vector x0_bar = slope_bar[0];
     const vector x1_bar = slope_bar[1];
     const vector d0 = x0 - mu0;
     const vector product = x1 * mu1;
-    const vector length = vector_sqrt(product);
+    const vector length = sqrt_each(product);
     const vector sqrt_value = 2.0 * length;
     const vector scale = 1.0 / sqrt_value;
     const vector part0 = d0 * scale;
     const vector d1 = x1 - mu1;
     const vector part1 = d1 * scale;
     const vector h_squared = part0 * part0 + part1 * part1;
-    const vector_mask near = h_squared < 0.11468;
-    const vector near_chosen = vector_select(near, 8.719916288803628 * h_squared, vector_of(0.0));
-    const vector t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near(near_chosen);
-    const vector near_chosen_2 = vector_select(near, vector_of(1.0), h_squared);
-    const vector h = vector_sqrt(near_chosen_2);
-    const vector asinh_h = vector_asinh(h);
-    const vector t = 2.0 * asinh_h;
     const vector h_squared_total = 1.0 + h_squared;
-    const vector sqrt_1_plus_h_to_2 = vector_sqrt(h_squared_total);
+    const vector_mask is_small = h_squared_total == 0.0;
+    const vector_mask near = h_squared < 0.11468;
+    const vector near_chosen = vector_select(near, vector_of(1.0), h_squared);
+    const vector h = sqrt_each(near_chosen);
     const vector h_product = 2.0 * h;
+    const vector asinh_h = asinh_each(h);
+    const vector t = 2.0 * asinh_h;
+    const vector sqrt_1_plus_h_to_2 = sqrt_each(h_squared_total);
     const vector sinh_t = sqrt_1_plus_h_to_2 * h_product;
     const vector t_ratio = t / sinh_t;
-    const vector t_over_sinh_t = vector_select(near, t_over_sinh_t_near, t_ratio);
-    const vector scale_2 = t_over_sinh_t / x1;
-    const vector d0_product = mu1 * d0;
-    const vector v0 = scale_2 * d0_product;
     const vector dot_ds_ds = d0 * d0;
     const vector d1_product = 0.5 * d1;
     const vector total_2 = x1 + mu1;
     const vector up = 0.5 * dot_ds_ds + d1_product * total_2;
-    const vector v1 = up * scale_2;
-    const vector z1 = W1_0 * v0 + W1_1 * v1;
-    const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
+    const vector near_chosen_2 = vector_select(near, 8.719916288803628 * h_squared, vector_of(0.0));
+    const vector log_det_series = vector_polynomial_log_det_series(near_chosen_2);
     const vector log_det_near = h_squared * log_det_series;
-    const vector log_det = vector_select(near, log_det_near, vector_log(t_ratio));
+    const vector log_det = vector_select(near, log_det_near, log_each(t_ratio));
+    const vector t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near(near_chosen_2);
+    const vector t_over_sinh_t = vector_select(near, t_over_sinh_t_near, t_ratio);
+    const vector scale_2 = t_over_sinh_t / x1;
+    const vector d0_product = mu1 * d0;
+    const vector v0 = scale_2 * d0_product;
+    const vector v1 = up * scale_2;
     const vector z0 = W0_0 * v0 + W0_1 * v1;
-    const vector exp_2 = vector_exp(log_det - 0.5 * (z0 * z0 + z1 * z1));
-    const vector phi = amplitude * exp_2;
-    const vector z1_product = z1 * phi;
-    const vector z0_product = z0 * phi;
-    const vector by_v1 = -(W1_1 * z1_product) - W0_1 * z0_product;
-    const vector by_up = scale_2 * by_v1;
-    const vector_mask is_small = h_squared_total == 0.0;
-    const vector by_v0 = -(W1_0 * z1_product) - W0_0 * z0_product;
-    const vector by_scale_2 = up * by_v1 + d0_product * by_v0;
+    const vector z1 = W1_0 * v0 + W1_1 * v1;
+    const vector phi = exp_each(log_det - 0.5 * (z0 * z0 + z1 * z1));
+    const vector total_3 = W1_1 * z1 + W0_1 * z0;
+    const vector phi_product = phi * total_3;
+    const vector total_4 = W1_0 * z1 + W0_0 * z0;
+    const vector phi_product_2 = phi * total_4;
+    const vector by_scale_2 = -(up * phi_product) - d0_product * phi_product_2;
     const vector by_t_over_sinh_t = by_scale_2 / x1;
     const vector ratio = vector_select(near, vector_of(0.0), phi) / t_ratio;
     const vector by_t = (vector_select(near, vector_of(0.0), by_t_over_sinh_t) + ratio) / sinh_t;
@@ -505,15 +515,15 @@ OUTLINE void pair_backward(
     const vector product_2 = 2.0 * vector_select(is_small, vector_of(1.0), sqrt_1_plus_h_to_2);
     const vector ratio_2 = h_product * by_t_product / product_2;
     const vector by_asinh_h = 2.0 * by_t;
-    const vector sqrt_2 = vector_sqrt(1.0 + near_chosen_2);
+    const vector sqrt_2 = sqrt_each(1.0 + near_chosen);
     const vector by_asinh_h_ratio = by_asinh_h / sqrt_2;
     const vector by_h = by_asinh_h_ratio - 2.0 * (sqrt_1_plus_h_to_2 * by_t_product);
     const vector by_h_ratio = by_h / h_product;
     const vector by_log_det_near = vector_select(near, phi, vector_of(0.0));
     const vector by_t_over_sinh_t_near = vector_select(near, by_t_over_sinh_t, vector_of(0.0));
-    const vector t_over_sinh_t_near_slope = vector_polynomial_t_over_sinh_t_near_slope(near_chosen);
+    const vector t_over_sinh_t_near_slope = vector_polynomial_t_over_sinh_t_near_slope(near_chosen_2);
     const vector by_log_det_series = h_squared * by_log_det_near;
-    const vector log_det_series_slope = vector_polynomial_log_det_series_slope(near_chosen);
+    const vector log_det_series_slope = vector_polynomial_log_det_series_slope(near_chosen_2);
     const vector by_h_squared = vector_select(is_small, vector_of(0.0), -ratio_2) + vector_select(near,
         vector_of(0.0), by_h_ratio) + log_det_series * by_log_det_near + 8.719916288803628 *
         vector_select(near, by_t_over_sinh_t_near * t_over_sinh_t_near_slope + by_log_det_series *
@@ -525,10 +535,12 @@ OUTLINE void pair_backward(
     const vector ratio_3 = vector_select(is_small_2, vector_of(0.0), mu1 * x1_bar) / product_4;
     const vector product_5 = 2.0 * ratio_3;
     const vector sqrt_value_ratio = scale * product_5 / sqrt_value;
+    const vector scale_2_product = scale_2 * phi_product;
+    const vector product_6 = mu1 * x0_bar;
     const vector by_by_part0 = scale * x0_bar - d0 * sqrt_value_ratio;
     const vector by_by_part1 = scale * x1_bar - d1 * sqrt_value_ratio;
-    const vector total_3 = part0 * by_by_part0 + part1 * by_by_part1;
-    const vector by_by_h_squared = 2.0 * total_3;
+    const vector total_5 = part0 * by_by_part0 + part1 * by_by_part1;
+    const vector by_by_h_squared = 2.0 * total_5;
     const vector by_by_h = vector_select(near, vector_of(0.0), by_by_h_squared) / h_product;
     const vector by_by_asinh_h = by_by_h / sqrt_2;
     const vector by_by_h_product = 2.0 * by_by_h;
@@ -536,32 +548,30 @@ OUTLINE void pair_backward(
     const vector gap = -(sqrt_1_plus_h_to_2 * by_by_h_product) - h_product * ratio_4;
     const vector by_by_t = 2.0 * by_by_asinh_h + t_ratio * gap;
     const vector by_by_t_ratio = by_by_t / sinh_t;
-    const vector near_chosen_3 = vector_select(near, 17.439832577607255 * total_3, vector_of(0.0));
+    const vector near_chosen_3 = vector_select(near, 17.439832577607255 * total_5, vector_of(0.0));
     const vector by_by_t_over_sinh_t_near = t_over_sinh_t_near_slope * near_chosen_3;
     const vector by_by_t_over_sinh_t = vector_select(near, vector_of(0.0), by_by_t_ratio) +
         vector_select(near, by_by_t_over_sinh_t_near, vector_of(0.0)) - scale_2 * x1_bar;
     const vector by_by_scale_2 = by_by_t_over_sinh_t / x1;
-    const vector product_6 = mu1 * x0_bar;
-    const vector by_by_v0 = scale_2 * product_6 + d0_product * by_by_scale_2;
+    const vector gap_2 = -(scale_2 * product_6) - d0_product * by_by_scale_2;
+    const vector phi_product_3 = phi * gap_2;
     const vector product_7 = 0.5 * x1_bar;
-    const vector by_by_up = d0 * x0_bar + d1_product * x1_bar + total_2 * product_7;
-    const vector by_by_v1 = up * by_by_scale_2 + scale_2 * by_by_up;
-    const vector gap_2 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1;
+    const vector gap_3 = -(d0 * x0_bar) - d1_product * x1_bar - total_2 * product_7;
+    const vector gap_4 = scale_2 * gap_3 - up * by_by_scale_2;
+    const vector phi_product_4 = phi * gap_4;
     const vector ratio_5 = by_by_t_ratio / t_ratio;
     const vector by_by_log_det_series = log_det_series_slope * near_chosen_3;
     const vector by_by_log_det_near = h_squared * by_by_log_det_series + log_det_series * by_by_h_squared;
-    const vector gap_3 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1;
     const vector by_phi = its_value_bar + vector_select(near, vector_of(0.0), ratio_5) + vector_select(near,
-        by_by_log_det_near, vector_of(0.0)) + z0 * gap_3 + z1 * gap_2;
-    const vector by_log_det = exp_2 * (amplitude * by_phi);
-    const vector by_z1 = phi * gap_2 - z1 * by_log_det;
-    const vector by_z0 = phi * gap_3 - z0 * by_log_det;
-    const vector by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0;
-    const vector by_up_2 = by_v1 * by_by_scale_2 + scale_2 * by_v1_2;
-    const vector by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0;
-    const vector total_4 = by_v0 * by_by_scale_2 + scale_2 * by_v0_2;
-    const vector by_scale_2_2 = by_v0 * product_6 - by_t_over_sinh_t * x1_bar + by_v1 * by_by_up + up *
-        by_v1_2 + d0_product * by_v0_2;
+        by_by_log_det_near, vector_of(0.0)) + total_3 * gap_4 + total_4 * gap_2;
+    const vector by_log_det = phi * by_phi;
+    const vector by_v1 = M0_1 * phi_product_3 + M1_1 * phi_product_4 - total_3 * by_log_det;
+    const vector by_up = scale_2 * by_v1 - phi_product * by_by_scale_2;
+    const vector by_v0 = M0_0 * phi_product_3 + M0_1 * phi_product_4 - total_4 * by_log_det;
+    const vector gap_5 = scale_2 * by_v0 - phi_product_2 * by_by_scale_2;
+    const vector total_7 = -(by_t_over_sinh_t * x1_bar) - phi_product_2 * product_6 + phi_product * gap_3 + up
+        * by_v1;
+    const vector by_scale_2_2 = total_7 + d0_product * by_v0;
     const vector by_t_over_sinh_t_2 = by_scale_2_2 / x1;
     const vector by_t_2 = (by_t * gap - ratio * ratio_5 + vector_select(near, vector_of(0.0),
         by_t_over_sinh_t_2) + vector_select(near, vector_of(0.0), by_log_det) / t_ratio) / sinh_t;
@@ -572,21 +582,21 @@ OUTLINE void pair_backward(
         by_sinh_t);
     const vector by_asinh_h_2 = 2.0 * by_t_2;
     const vector by_h_2 = product_8 + by_asinh_h_2 / sqrt_2;
-    const vector total_5 = by_log_det_near * by_by_log_det_series + vector_select(is_small, vector_of(0.0),
+    const vector total_8 = by_log_det_near * by_by_log_det_series + vector_select(is_small, vector_of(0.0),
         by_sqrt_1_plus_h_to_2 / product_2) + vector_select(near, vector_of(0.0), by_h_2 / h_product -
         by_asinh_h_ratio * by_by_asinh_h / (2.0 * sqrt_2));
     const vector by_log_det_near_2 = vector_select(near, by_log_det, vector_of(0.0));
     const vector by_log_det_series_slope = by_log_det_series * near_chosen_3;
-    const vector log_det_series_slope_slope = vector_polynomial_log_det_series_slope_slope(near_chosen);
+    const vector log_det_series_slope_slope = vector_polynomial_log_det_series_slope_slope(near_chosen_2);
     const vector by_t_over_sinh_t_near_slope = by_t_over_sinh_t_near * near_chosen_3;
     const vector t_over_sinh_t_near_slope_slope =
-        vector_polynomial_t_over_sinh_t_near_slope_slope(near_chosen);
+        vector_polynomial_t_over_sinh_t_near_slope_slope(near_chosen_2);
     const vector by_t_over_sinh_t_near_2 = vector_select(near, by_t_over_sinh_t_2, vector_of(0.0));
     const vector by_log_det_series_2 = by_log_det_near * by_by_h_squared + h_squared * by_log_det_near_2;
     const vector near_chosen_4 = vector_select(near, by_log_det_series_slope * log_det_series_slope_slope +
         by_t_over_sinh_t_near_slope * t_over_sinh_t_near_slope_slope + t_over_sinh_t_near_slope *
         by_t_over_sinh_t_near_2 + log_det_series_slope * by_log_det_series_2, vector_of(0.0));
-    const vector by_h_squared_2 = total_5 + log_det_series * by_log_det_near_2 + 8.719916288803628 *
+    const vector by_h_squared_2 = total_8 + log_det_series * by_log_det_near_2 + 8.719916288803628 *
         near_chosen_4;
     const vector product_9 = 2.0 * by_h_squared_2;
     const vector by_part0_2 = product_3 * by_by_part0 + part0 * product_9;
@@ -600,17 +610,19 @@ OUTLINE void pair_backward(
     const vector by_sqrt_value = by_scale_ratio * sqrt_value_ratio - scale * (by_scale_3 / sqrt_value);
     const vector ratio_7 = (vector_select(is_small_2, vector_of(0.0), 2.0 * (ratio_6 * ratio_3)) + 2.0 *
         by_sqrt_value) / product_4;
-    S_bar[0] = S_bar[0] - by_up * x0_bar + by_part0 * sqrt_value_ratio - d0 * by_up_2 - mu1 * total_4 - scale
-            * by_part0_2;
-    S_bar[1] = S_bar[1] + vector_select(is_small_2, vector_of(0.0), -ratio_6) * x1_bar + (scale_2 * by_v0) *
-            x0_bar + by_up * product_7 + d1_product * by_up_2 + d0 * total_4 - 0.5 * (by_up * x1_bar + total_2 *
-            by_up_2) + by_part1 * sqrt_value_ratio - scale * by_part1_2 + x1 * vector_select(is_small_2,
-            vector_of(0.0), ratio_7);
-    S_bar[2] = S_bar[2] + v0 * by_z0 - z0_product * by_by_v0;
-    S_bar[3] = S_bar[3] + v1 * by_z0 - z0_product * by_by_v1;
-    S_bar[4] = S_bar[4] + v0 * by_z1 - z1_product * by_by_v0;
-    S_bar[5] = S_bar[5] + v1 * by_z1 - z1_product * by_by_v1;
-    S_bar[6] = S_bar[6] + exp_2 * by_phi;
+    const vector by_log_det_product = 0.5 * by_log_det;
+    const vector gap_6 = phi_product_3 - v0 * by_log_det_product;
+    const vector gap_7 = phi_product_4 - v1 * by_log_det_product;
+    sums[0] = sums[0] + by_part0 * sqrt_value_ratio + scale_2_product * x0_bar - d0 * by_up - mu1 * gap_5 -
+            scale * by_part0_2;
+    sums[1] = sums[1] + vector_select(is_small_2, vector_of(0.0), -ratio_6) * x1_bar - (scale_2 *
+            phi_product_2) * x0_bar + d1_product * by_up - scale_2_product * product_7 + d0 * gap_5 - 0.5 *
+            (total_2 * by_up - scale_2_product * x1_bar) + by_part1 * sqrt_value_ratio - scale * by_part1_2 + x1 *
+            vector_select(is_small_2, vector_of(0.0), ratio_7);
+    sums[2] = sums[2] + by_log_det;
+    sums[3] = sums[3] + v0 * gap_6;
+    sums[4] = sums[4] + v0 * gap_7 + v1 * gap_6;
+    sums[5] = sums[5] + v1 * gap_7;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -642,7 +654,7 @@ size_t half_space_splats_work(size_t count, size_t splat_count, int threads) {
     (void)threads;
     const size_t points = (count + LANES - 1) / LANES, blocks = (points + 2 - 1) / 2;
     const size_t places = 0 * ((splat_count + LANES - 1) / LANES + (blocks + LANES - 1) / LANES);
-    return (points * 5 + places + 1) * LANES + 7 * splat_count;
+    return (points * 5 + places + 1) * LANES + 10 * splat_count;
 }
 
 static vector *work_points(double *work) {
@@ -656,12 +668,12 @@ INLINE const double *splat_at(const vector *splats, size_t k) {
     return (const double *)(splats + 0 * row) + (k - row * LANES);
 }
 
-static vector *work_splats(double *work, size_t count) {
+static vector *work_reaches(double *work, size_t count) {
     return work_points(work) + (count + LANES - 1) / LANES * 5;
 }
 
 static vector *work_blocks(double *work, size_t count, size_t splat_count) {
-    return work_splats(work, count) + 0 * ((splat_count + LANES - 1) / LANES);
+    return work_reaches(work, count) + 0 * ((splat_count + LANES - 1) / LANES);
 }
 
 static double *work_constants(double *work, size_t count, size_t splat_count) {
@@ -693,13 +705,13 @@ static size_t blocks_near(
 OUTLINE void splat_constants(
     size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, const double *width, double *constants,
     vector *splats) {
-    vector own_mu[2], own_W[4], own_amplitude[1], S[7];
+    vector own_mu[2], own_W[4], own_amplitude[1], S[10];
     vector_rows(mu, splat_count, start, 2, own_mu);
     vector_rows(W, splat_count, start, 4, own_W);
     vector_rows(amplitude, splat_count, start, 1, own_amplitude);
     if (width) splat_reach(own_mu, own_amplitude, width, splat_count, start, splats);
     pair_constants(own_mu, own_W, own_amplitude, S);
-    vector_to_rows(S, constants, splat_count, start, 7, 7);
+    vector_to_rows(S, constants, splat_count, start, 10, 10);
 }
 
 /* 2 vectors of points at a time stay in registers while all splats pass. */
@@ -708,7 +720,7 @@ void half_space_splats(
     double *HALF_SPACE_RESTRICT value, double *HALF_SPACE_RESTRICT gradient, double *HALF_SPACE_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -730,7 +742,7 @@ void half_space_splats(
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
                 for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 7 * near[i];
+                    const double *S = constants + 10 * near[i];
                     pair_forward(X[0], S, value_sum[0], slope_sum[0]);
                     pair_forward(X[1], S, value_sum[1], slope_sum[1]);
                 }
@@ -750,7 +762,7 @@ void half_space_splats_value(
     double *HALF_SPACE_RESTRICT value, double *HALF_SPACE_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -771,7 +783,7 @@ void half_space_splats_value(
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
                 for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 7 * near[i];
+                    const double *S = constants + 10 * near[i];
                     pair_value(X[0], S, value_sum[0]);
                     pair_value(X[1], S, value_sum[1]);
                 }
@@ -796,20 +808,25 @@ OUTLINE void splat_points(
     vector_end(count, start, 2 + 1, point + 2);
 }
 
-/* Adds to S_bar what some vectors of points add to it, those in the list. */
-OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *S_bar) {
-    vector sum[7] = {ZERO};
-    for (size_t b = 0; b < size; ++b) {
+/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *sums) {
+    vector sum[6] = {ZERO};
+    size_t b = 0;
+    for (; b + 1 < size; b += 2) {
+        const vector *point = points + 5 * (size_t)near[b], *other = points + 5 * (size_t)near[b + 1];
+        pair_backward(point, S, point + 2, point + 2 + 1, sum);
+        pair_backward(other, S, other + 2, other + 2 + 1, sum);
+    }
+    if (b < size) {
         const vector *point = points + 5 * (size_t)near[b];
         pair_backward(point, S, point + 2, point + 2 + 1, sum);
     }
-    S_bar[0] += vector_sum(sum[0]);
-    S_bar[1] += vector_sum(sum[1]);
-    S_bar[2] += vector_sum(sum[2]);
-    S_bar[3] += vector_sum(sum[3]);
-    S_bar[4] += vector_sum(sum[4]);
-    S_bar[5] += vector_sum(sum[5]);
-    S_bar[6] += vector_sum(sum[6]);
+    sums[0] += vector_sum(sum[0]);
+    sums[1] += vector_sum(sum[1]);
+    sums[2] += vector_sum(sum[2]);
+    sums[3] += vector_sum(sum[3]);
+    sums[4] += vector_sum(sum[4]);
+    sums[5] += vector_sum(sum[5]);
 }
 
 /*
@@ -825,7 +842,7 @@ void half_space_splats_vjp(
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES ? part : LANES;
     vector *points = work_points(work);
-    vector *splats = work_splats(work, count), *places = work_blocks(work, count, splat_count);
+    vector *splats = work_reaches(work, count), *places = work_blocks(work, count, splat_count);
     double *constants = work_constants(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -851,22 +868,22 @@ void half_space_splats_vjp(
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
-            double sums[LANES][7] = {{0}};
+            double sums[LANES][6] = {{0}};
             uint32_t near[131072 / (5 * sizeof(vector)) + 2];
-            vector own_mu[2], own_W[4], own_amplitude[1], S_bar[7], bars[7];
+            vector own_mu[2], own_W[4], own_amplitude[1], own_sums[6], bars[7];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
                     const double *reach = width ? splat_at(splats, k) + 2 * LANES : NULL;
                     const size_t some = blocks_near(mu + 2 * k, reach, places, first, first + size, near);
-                    splat_sums(points + 5 * first, near, some, constants + 7 * k, sums[k - start]);
+                    splat_sums(points + 5 * first, near, some, constants + 10 * k, sums[k - start]);
                 }
             }
             vector_rows(mu, end, start, 2, own_mu);
             vector_rows(W, end, start, 4, own_W);
             vector_rows(amplitude, end, start, 1, own_amplitude);
-            vector_rows(sums[0], LANES, 0, 7, S_bar);
-            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+            vector_rows(sums[0], LANES, 0, 6, own_sums);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 4);
             vector_to_rows(bars, mu_bar, end, start, 2, 2);
             vector_to_rows(bars + 2, W_bar, end, start, 4, 4);
             vector_to_rows(bars + 2 + 4, amplitude_bar, end, start, 1, 1);
@@ -893,12 +910,12 @@ void half_space_splats_rows(
             vector point[5];
             splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector own_mu[2], own_W[4], own_amplitude[1], S_bar[7] = {ZERO}, bars[7];
+                vector own_mu[2], own_W[4], own_amplitude[1], own_sums[6] = {ZERO}, bars[7];
                 for (int i = 0; i < 2; ++i) own_mu[i] = vector_of(mu[2 * k + i]);
                 for (int i = 0; i < 4; ++i) own_W[i] = vector_of(W[4 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 7 * k, point + 2, point + 2 + 1, S_bar);
-                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+                pair_backward(point, constants + 10 * k, point + 2, point + 2 + 1, own_sums);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 4);
                 vector_to_rows(bars, rows + 7 * k, count, block * LANES, 7, 7 * splat_count);
             }
         }
@@ -914,6 +931,10 @@ double half_space_splats_order(
     for (size_t n = 0; n < count; ++n) order[n] = n;
     return 1;
 }
+
+#endif /* double */
+
+#if !defined(RSRM_ONLY_DOUBLE) /* float */
 
 /* The same number in all lanes. */
 INLINE vector_f vector_of_f(float x) {
@@ -956,24 +977,24 @@ INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
 }
 
 /* x >= 0 with the sign of another. */
-INLINE vector_f vector_signed_f(vector_f x, vector_f sign) {
+INLINE vector_f signed_each_f(vector_f x, vector_f sign) {
     return vector_from_bits_f(vector_to_bits_f(x) | (vector_to_bits_f(sign) & 0x80000000));
 }
 
 /* abs of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_abs_f(vector_f x) {
+INLINE vector_f abs_each_f(vector_f x) {
     for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
     return x;
 }
 
 /* sqrt of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_sqrt_f(vector_f x) {
+INLINE vector_f sqrt_each_f(vector_f x) {
     for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
     return x;
 }
 
 /* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
-INLINE vector_f vector_exp_f(vector_f x) {
+INLINE vector_f exp_each_f(vector_f x) {
     const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
     const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
     const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
@@ -983,7 +1004,7 @@ INLINE vector_f vector_exp_f(vector_f x) {
 }
 
 /* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
-INLINE vector_f vector_log_f(vector_f x) {
+INLINE vector_f log_each_f(vector_f x) {
     const vector_bits_f bits = vector_to_bits_f(x), biased = (bits + 0x4afb0d) >> 23; /* k + 127 */
     const vector_f k = vector_from_bits_f(biased + 0x4b400000) - 12583039.0f;
     const vector_f f = vector_from_bits_f(bits - (biased << 23) + 0x3f800000) - 1, s = f / (2 + f), z = s * s;
@@ -996,16 +1017,16 @@ INLINE vector_f vector_log_f(vector_f x) {
 }
 
 /* log(1 + x), within 2 units in the last place. */
-INLINE vector_f vector_log1p_f(vector_f x) {
+INLINE vector_f log1p_each_f(vector_f x) {
     const vector_f u = 1 + x;
-    return vector_select_f(x <= 3.4028234663852886e38f, vector_log_f(u) + (x - (u - 1)) / u, x);
+    return vector_select_f(x <= 3.4028234663852886e38f, log_each_f(u) + (x - (u - 1)) / u, x);
 }
 
 /* asinh, within 3 units in the last place. */
-INLINE vector_f vector_asinh_f(vector_f x) {
-    const vector_f a = vector_abs_f(x), square = a * a;
-    const vector_f near = vector_log1p_f(a + square / (1 + vector_sqrt_f(1 + square)));
-    return vector_signed_f(vector_select_f(a > 4096.0f, vector_log_f(a) + 0.6931471805599453f, near), x);
+INLINE vector_f asinh_each_f(vector_f x) {
+    const vector_f a = abs_each_f(x), square = a * a;
+    const vector_f near = log1p_each_f(a + square / (1 + sqrt_each_f(1 + square)));
+    return signed_each_f(vector_select_f(a > 4096.0f, log_each_f(a) + 0.6931471805599453f, near), x);
 }
 
 /* Of degree 4, within 2^-27 of that of double precision. */
@@ -1071,6 +1092,9 @@ OUTLINE void pair_constants_f(
     const vector_f W1_0 = W[2];
     const vector_f W1_1 = W[3];
     const vector_f its_amplitude = amplitude[0];
+    const vector_f M0_0 = W0_0 * W0_0 + W1_0 * W1_0;
+    const vector_f M0_1 = W0_0 * W0_1 + W1_0 * W1_1;
+    const vector_f M1_1 = W0_1 * W0_1 + W1_1 * W1_1;
     S[0] = mu0;
     S[1] = mu1;
     S[2] = W0_0;
@@ -1078,6 +1102,9 @@ OUTLINE void pair_constants_f(
     S[4] = W1_0;
     S[5] = W1_1;
     S[6] = its_amplitude;
+    S[7] = M0_0;
+    S[8] = M0_1;
+    S[9] = M1_1;
 }
 
 /*
@@ -1097,7 +1124,7 @@ INLINE void pair_value_f(
     const float W1_1 = S[5];
     const float amplitude = S[6];
     const vector_f d0 = x0 - mu0;
-    const vector_f sqrt_value = 2.0f * vector_sqrt_f(x1 * mu1);
+    const vector_f sqrt_value = 2.0f * sqrt_each_f(x1 * mu1);
     const vector_f scale = 1.0f / sqrt_value;
     const vector_f part0 = d0 * scale;
     const vector_f d1 = x1 - mu1;
@@ -1107,13 +1134,13 @@ INLINE void pair_value_f(
     const vector_f near_chosen = vector_select_f(near, 8.719916288803628f * h_squared, vector_of_f(0.0f));
     const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
     const vector_f log_det_near = h_squared * log_det_series;
-    const vector_f h = vector_sqrt_f(vector_select_f(near, vector_of_f(1.0f), h_squared));
-    const vector_f asinh_h = vector_asinh_f(h);
+    const vector_f h = sqrt_each_f(vector_select_f(near, vector_of_f(1.0f), h_squared));
+    const vector_f asinh_h = asinh_each_f(h);
     const vector_f t = 2.0f * asinh_h;
-    const vector_f sqrt_1_plus_h_to_2 = vector_sqrt_f(1.0f + h_squared);
+    const vector_f sqrt_1_plus_h_to_2 = sqrt_each_f(1.0f + h_squared);
     const vector_f sinh_t = sqrt_1_plus_h_to_2 * (2.0f * h);
     const vector_f t_ratio = t / sinh_t;
-    const vector_f log_det = vector_select_f(near, log_det_near, vector_log_f(t_ratio));
+    const vector_f log_det = vector_select_f(near, log_det_near, log_each_f(t_ratio));
     const vector_f t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near_f(near_chosen);
     const vector_f t_over_sinh_t = vector_select_f(near, t_over_sinh_t_near, t_ratio);
     const vector_f scale_2 = t_over_sinh_t / x1;
@@ -1123,8 +1150,8 @@ INLINE void pair_value_f(
     const vector_f v1 = up * scale_2;
     const vector_f z0 = W0_0 * v0 + W0_1 * v1;
     const vector_f z1 = W1_0 * v0 + W1_1 * v1;
-    const vector_f exp_2 = vector_exp_f(log_det - 0.5f * (z0 * z0 + z1 * z1));
-    value[0] = value[0] + amplitude * exp_2;
+    const vector_f phi = exp_each_f(log_det - 0.5f * (z0 * z0 + z1 * z1));
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -1145,7 +1172,7 @@ INLINE void pair_forward_f(
     const float amplitude = S[6];
     const vector_f d0 = x0 - mu0;
     const vector_f product = x1 * mu1;
-    const vector_f length = vector_sqrt_f(product);
+    const vector_f length = sqrt_each_f(product);
     const vector_f sqrt_value = 2.0f * length;
     const vector_f scale = 1.0f / sqrt_value;
     const vector_f part0 = d0 * scale;
@@ -1157,15 +1184,15 @@ INLINE void pair_forward_f(
     const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
     const vector_f log_det_near = h_squared * log_det_series;
     const vector_f near_chosen_2 = vector_select_f(near, vector_of_f(1.0f), h_squared);
-    const vector_f h = vector_sqrt_f(near_chosen_2);
-    const vector_f asinh_h = vector_asinh_f(h);
+    const vector_f h = sqrt_each_f(near_chosen_2);
+    const vector_f asinh_h = asinh_each_f(h);
     const vector_f t = 2.0f * asinh_h;
     const vector_f h_squared_total = 1.0f + h_squared;
-    const vector_f sqrt_1_plus_h_to_2 = vector_sqrt_f(h_squared_total);
+    const vector_f sqrt_1_plus_h_to_2 = sqrt_each_f(h_squared_total);
     const vector_f h_product = 2.0f * h;
     const vector_f sinh_t = sqrt_1_plus_h_to_2 * h_product;
     const vector_f t_ratio = t / sinh_t;
-    const vector_f log_det = vector_select_f(near, log_det_near, vector_log_f(t_ratio));
+    const vector_f log_det = vector_select_f(near, log_det_near, log_each_f(t_ratio));
     const vector_f t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near_f(near_chosen);
     const vector_f t_over_sinh_t = vector_select_f(near, t_over_sinh_t_near, t_ratio);
     const vector_f scale_2 = t_over_sinh_t / x1;
@@ -1178,25 +1205,23 @@ INLINE void pair_forward_f(
     const vector_f v1 = up * scale_2;
     const vector_f z0 = W0_0 * v0 + W0_1 * v1;
     const vector_f z1 = W1_0 * v0 + W1_1 * v1;
-    const vector_f exp_2 = vector_exp_f(log_det - 0.5f * (z0 * z0 + z1 * z1));
-    const vector_f phi = amplitude * exp_2;
-    const vector_f z1_product = z1 * phi;
-    const vector_f z0_product = z0 * phi;
-    const vector_f by_v1 = -(W1_1 * z1_product) - W0_1 * z0_product;
-    const vector_f by_up = scale_2 * by_v1;
-    const vector_f by_v0 = -(W1_0 * z1_product) - W0_0 * z0_product;
+    const vector_f phi = exp_each_f(log_det - 0.5f * (z0 * z0 + z1 * z1));
+    const vector_f phi_2 = amplitude * phi;
+    const vector_f phi_product = phi_2 * (W1_1 * z1 + W0_1 * z0);
+    const vector_f scale_2_product = scale_2 * phi_product;
+    const vector_f phi_product_2 = phi_2 * (W1_0 * z1 + W0_0 * z0);
     const vector_mask_f is_small = h_squared_total == 0.0f;
-    const vector_f by_scale_2 = up * by_v1 + d0_product * by_v0;
+    const vector_f by_scale_2 = -(up * phi_product) - d0_product * phi_product_2;
     const vector_f by_t_over_sinh_t = by_scale_2 / x1;
     const vector_f by_t = (vector_select_f(near, vector_of_f(0.0f), by_t_over_sinh_t) + vector_select_f(near,
-        vector_of_f(0.0f), phi) / t_ratio) / sinh_t;
+        vector_of_f(0.0f), phi_2) / t_ratio) / sinh_t;
     const vector_f by_t_product = t_ratio * by_t;
     const vector_f chosen = vector_select_f(is_small, vector_of_f(0.0f), -(h_product * by_t_product / (2.0f *
         vector_select_f(is_small, vector_of_f(1.0f), sqrt_1_plus_h_to_2))));
     const vector_f by_asinh_h = 2.0f * by_t;
-    const vector_f by_h = by_asinh_h / vector_sqrt_f(1.0f + near_chosen_2) - 2.0f * (sqrt_1_plus_h_to_2 *
+    const vector_f by_h = by_asinh_h / sqrt_each_f(1.0f + near_chosen_2) - 2.0f * (sqrt_1_plus_h_to_2 *
         by_t_product);
-    const vector_f by_log_det_near = vector_select_f(near, phi, vector_of_f(0.0f));
+    const vector_f by_log_det_near = vector_select_f(near, phi_2, vector_of_f(0.0f));
     const vector_f by_t_over_sinh_t_near = vector_select_f(near, by_t_over_sinh_t, vector_of_f(0.0f));
     const vector_f t_over_sinh_t_near_slope = vector_polynomial_t_over_sinh_t_near_slope_f(near_chosen);
     const vector_f by_log_det_series = h_squared * by_log_det_near;
@@ -1211,10 +1236,10 @@ INLINE void pair_forward_f(
     const vector_f by_scale = d1 * by_part1 + d0 * by_part0;
     const vector_f minus = -(2.0f * (scale * (by_scale / sqrt_value)) / (2.0f * vector_select_f(is_small_2,
         vector_of_f(1.0f), length)));
-    value[0] = value[0] + phi;
-    slope[0] = slope[0] + d0 * by_up + mu1 * (scale_2 * by_v0) + scale * by_part0;
-    slope[1] = slope[1] + d1_product * by_up - scale_2 * by_t_over_sinh_t + 0.5f * (total_2 * by_up) + scale *
-            by_part1 + mu1 * vector_select_f(is_small_2, vector_of_f(0.0f), minus);
+    value[0] = value[0] + phi_2;
+    slope[0] = slope[0] - d0 * scale_2_product - mu1 * (scale_2 * phi_product_2) + scale * by_part0;
+    slope[1] = slope[1] - d1_product * scale_2_product - scale_2 * by_t_over_sinh_t + scale * by_part1 - 0.5f
+            * (total_2 * scale_2_product) + mu1 * vector_select_f(is_small_2, vector_of_f(0.0f), minus);
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -1239,35 +1264,39 @@ OUTLINE void pair_gradient_vjp_f(
     slope_bar[1] = squared * gradient_bar1;
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp_f(
-    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *sums, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
     (void)mu;
-    (void)W;
-    (void)amplitude;
-    const vector_f mu0_bar = S_bar[0];
-    const vector_f mu1_bar = S_bar[1];
-    const vector_f W0_0_bar = S_bar[2];
-    const vector_f W0_1_bar = S_bar[3];
-    const vector_f W1_0_bar = S_bar[4];
-    const vector_f W1_1_bar = S_bar[5];
-    const vector_f its_amplitude_bar = S_bar[6];
-    mu_bar[0] = mu0_bar;
-    mu_bar[1] = mu1_bar;
-    W_bar[0] = W0_0_bar;
-    W_bar[1] = W0_1_bar;
-    W_bar[2] = W1_0_bar;
-    W_bar[3] = W1_1_bar;
-    amplitude_bar[0] = its_amplitude_bar;
+    const vector_f W0_0 = W[0];
+    const vector_f W0_1 = W[1];
+    const vector_f W1_0 = W[2];
+    const vector_f W1_1 = W[3];
+    const vector_f its_amplitude = amplitude[0];
+    const vector_f sum0 = sums[0];
+    const vector_f sum1 = sums[1];
+    const vector_f sum2 = sums[2];
+    const vector_f sum3 = sums[3];
+    const vector_f sum4 = sums[4];
+    const vector_f sum5 = sums[5];
+    const vector_f product = 2.0f * sum3;
+    const vector_f product_2 = 2.0f * sum5;
+    mu_bar[0] = its_amplitude * sum0;
+    mu_bar[1] = its_amplitude * sum1;
+    W_bar[0] = its_amplitude * (W0_0 * product + W0_1 * sum4);
+    W_bar[1] = its_amplitude * (W0_0 * sum4 + W0_1 * product_2);
+    W_bar[2] = its_amplitude * (W1_0 * product + W1_1 * sum4);
+    W_bar[3] = its_amplitude * (W1_0 * sum4 + W1_1 * product_2);
+    amplitude_bar[0] = sum2;
 }
 
 /*
- * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 OUTLINE void pair_backward_f(
-    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
+    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
     const vector_f x0 = X[0];
     const vector_f x1 = X[1];
     const float mu0 = S[0];
@@ -1276,54 +1305,54 @@ OUTLINE void pair_backward_f(
     const float W0_1 = S[3];
     const float W1_0 = S[4];
     const float W1_1 = S[5];
-    const float amplitude = S[6];
+    const float M0_0 = S[7];
+    const float M0_1 = S[8];
+    const float M1_1 = S[9];
     const vector_f its_value_bar = value_bar[0];
     const vector_f x0_bar = slope_bar[0];
     const vector_f x1_bar = slope_bar[1];
     const vector_f d0 = x0 - mu0;
     const vector_f product = x1 * mu1;
-    const vector_f length = vector_sqrt_f(product);
+    const vector_f length = sqrt_each_f(product);
     const vector_f sqrt_value = 2.0f * length;
     const vector_f scale = 1.0f / sqrt_value;
     const vector_f part0 = d0 * scale;
     const vector_f d1 = x1 - mu1;
     const vector_f part1 = d1 * scale;
     const vector_f h_squared = part0 * part0 + part1 * part1;
-    const vector_mask_f near = h_squared < 0.11468f;
-    const vector_f near_chosen = vector_select_f(near, 8.719916288803628f * h_squared, vector_of_f(0.0f));
-    const vector_f t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near_f(near_chosen);
-    const vector_f near_chosen_2 = vector_select_f(near, vector_of_f(1.0f), h_squared);
-    const vector_f h = vector_sqrt_f(near_chosen_2);
-    const vector_f asinh_h = vector_asinh_f(h);
-    const vector_f t = 2.0f * asinh_h;
     const vector_f h_squared_total = 1.0f + h_squared;
-    const vector_f sqrt_1_plus_h_to_2 = vector_sqrt_f(h_squared_total);
+    const vector_mask_f is_small = h_squared_total == 0.0f;
+    const vector_mask_f near = h_squared < 0.11468f;
+    const vector_f near_chosen = vector_select_f(near, vector_of_f(1.0f), h_squared);
+    const vector_f h = sqrt_each_f(near_chosen);
     const vector_f h_product = 2.0f * h;
+    const vector_f asinh_h = asinh_each_f(h);
+    const vector_f t = 2.0f * asinh_h;
+    const vector_f sqrt_1_plus_h_to_2 = sqrt_each_f(h_squared_total);
     const vector_f sinh_t = sqrt_1_plus_h_to_2 * h_product;
     const vector_f t_ratio = t / sinh_t;
-    const vector_f t_over_sinh_t = vector_select_f(near, t_over_sinh_t_near, t_ratio);
-    const vector_f scale_2 = t_over_sinh_t / x1;
-    const vector_f d0_product = mu1 * d0;
-    const vector_f v0 = scale_2 * d0_product;
     const vector_f dot_ds_ds = d0 * d0;
     const vector_f d1_product = 0.5f * d1;
     const vector_f total_2 = x1 + mu1;
     const vector_f up = 0.5f * dot_ds_ds + d1_product * total_2;
-    const vector_f v1 = up * scale_2;
-    const vector_f z1 = W1_0 * v0 + W1_1 * v1;
-    const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
+    const vector_f near_chosen_2 = vector_select_f(near, 8.719916288803628f * h_squared, vector_of_f(0.0f));
+    const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen_2);
     const vector_f log_det_near = h_squared * log_det_series;
-    const vector_f log_det = vector_select_f(near, log_det_near, vector_log_f(t_ratio));
+    const vector_f log_det = vector_select_f(near, log_det_near, log_each_f(t_ratio));
+    const vector_f t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near_f(near_chosen_2);
+    const vector_f t_over_sinh_t = vector_select_f(near, t_over_sinh_t_near, t_ratio);
+    const vector_f scale_2 = t_over_sinh_t / x1;
+    const vector_f d0_product = mu1 * d0;
+    const vector_f v0 = scale_2 * d0_product;
+    const vector_f v1 = up * scale_2;
     const vector_f z0 = W0_0 * v0 + W0_1 * v1;
-    const vector_f exp_2 = vector_exp_f(log_det - 0.5f * (z0 * z0 + z1 * z1));
-    const vector_f phi = amplitude * exp_2;
-    const vector_f z1_product = z1 * phi;
-    const vector_f z0_product = z0 * phi;
-    const vector_f by_v1 = -(W1_1 * z1_product) - W0_1 * z0_product;
-    const vector_f by_up = scale_2 * by_v1;
-    const vector_mask_f is_small = h_squared_total == 0.0f;
-    const vector_f by_v0 = -(W1_0 * z1_product) - W0_0 * z0_product;
-    const vector_f by_scale_2 = up * by_v1 + d0_product * by_v0;
+    const vector_f z1 = W1_0 * v0 + W1_1 * v1;
+    const vector_f phi = exp_each_f(log_det - 0.5f * (z0 * z0 + z1 * z1));
+    const vector_f total_3 = W1_1 * z1 + W0_1 * z0;
+    const vector_f phi_product = phi * total_3;
+    const vector_f total_4 = W1_0 * z1 + W0_0 * z0;
+    const vector_f phi_product_2 = phi * total_4;
+    const vector_f by_scale_2 = -(up * phi_product) - d0_product * phi_product_2;
     const vector_f by_t_over_sinh_t = by_scale_2 / x1;
     const vector_f ratio = vector_select_f(near, vector_of_f(0.0f), phi) / t_ratio;
     const vector_f by_t = (vector_select_f(near, vector_of_f(0.0f), by_t_over_sinh_t) + ratio) / sinh_t;
@@ -1331,15 +1360,15 @@ OUTLINE void pair_backward_f(
     const vector_f product_2 = 2.0f * vector_select_f(is_small, vector_of_f(1.0f), sqrt_1_plus_h_to_2);
     const vector_f ratio_2 = h_product * by_t_product / product_2;
     const vector_f by_asinh_h = 2.0f * by_t;
-    const vector_f sqrt_2 = vector_sqrt_f(1.0f + near_chosen_2);
+    const vector_f sqrt_2 = sqrt_each_f(1.0f + near_chosen);
     const vector_f by_asinh_h_ratio = by_asinh_h / sqrt_2;
     const vector_f by_h = by_asinh_h_ratio - 2.0f * (sqrt_1_plus_h_to_2 * by_t_product);
     const vector_f by_h_ratio = by_h / h_product;
     const vector_f by_log_det_near = vector_select_f(near, phi, vector_of_f(0.0f));
     const vector_f by_t_over_sinh_t_near = vector_select_f(near, by_t_over_sinh_t, vector_of_f(0.0f));
-    const vector_f t_over_sinh_t_near_slope = vector_polynomial_t_over_sinh_t_near_slope_f(near_chosen);
+    const vector_f t_over_sinh_t_near_slope = vector_polynomial_t_over_sinh_t_near_slope_f(near_chosen_2);
     const vector_f by_log_det_series = h_squared * by_log_det_near;
-    const vector_f log_det_series_slope = vector_polynomial_log_det_series_slope_f(near_chosen);
+    const vector_f log_det_series_slope = vector_polynomial_log_det_series_slope_f(near_chosen_2);
     const vector_f by_h_squared = vector_select_f(is_small, vector_of_f(0.0f), -ratio_2) +
         vector_select_f(near, vector_of_f(0.0f), by_h_ratio) + log_det_series * by_log_det_near +
         8.719916288803628f * vector_select_f(near, by_t_over_sinh_t_near * t_over_sinh_t_near_slope +
@@ -1351,10 +1380,12 @@ OUTLINE void pair_backward_f(
     const vector_f ratio_3 = vector_select_f(is_small_2, vector_of_f(0.0f), mu1 * x1_bar) / product_4;
     const vector_f product_5 = 2.0f * ratio_3;
     const vector_f sqrt_value_ratio = scale * product_5 / sqrt_value;
+    const vector_f scale_2_product = scale_2 * phi_product;
+    const vector_f product_6 = mu1 * x0_bar;
     const vector_f by_by_part0 = scale * x0_bar - d0 * sqrt_value_ratio;
     const vector_f by_by_part1 = scale * x1_bar - d1 * sqrt_value_ratio;
-    const vector_f total_3 = part0 * by_by_part0 + part1 * by_by_part1;
-    const vector_f by_by_h_squared = 2.0f * total_3;
+    const vector_f total_5 = part0 * by_by_part0 + part1 * by_by_part1;
+    const vector_f by_by_h_squared = 2.0f * total_5;
     const vector_f by_by_h = vector_select_f(near, vector_of_f(0.0f), by_by_h_squared) / h_product;
     const vector_f by_by_asinh_h = by_by_h / sqrt_2;
     const vector_f by_by_h_product = 2.0f * by_by_h;
@@ -1362,32 +1393,30 @@ OUTLINE void pair_backward_f(
     const vector_f gap = -(sqrt_1_plus_h_to_2 * by_by_h_product) - h_product * ratio_4;
     const vector_f by_by_t = 2.0f * by_by_asinh_h + t_ratio * gap;
     const vector_f by_by_t_ratio = by_by_t / sinh_t;
-    const vector_f near_chosen_3 = vector_select_f(near, 17.439832577607255f * total_3, vector_of_f(0.0f));
+    const vector_f near_chosen_3 = vector_select_f(near, 17.439832577607255f * total_5, vector_of_f(0.0f));
     const vector_f by_by_t_over_sinh_t_near = t_over_sinh_t_near_slope * near_chosen_3;
     const vector_f by_by_t_over_sinh_t = vector_select_f(near, vector_of_f(0.0f), by_by_t_ratio) +
         vector_select_f(near, by_by_t_over_sinh_t_near, vector_of_f(0.0f)) - scale_2 * x1_bar;
     const vector_f by_by_scale_2 = by_by_t_over_sinh_t / x1;
-    const vector_f product_6 = mu1 * x0_bar;
-    const vector_f by_by_v0 = scale_2 * product_6 + d0_product * by_by_scale_2;
+    const vector_f gap_2 = -(scale_2 * product_6) - d0_product * by_by_scale_2;
+    const vector_f phi_product_3 = phi * gap_2;
     const vector_f product_7 = 0.5f * x1_bar;
-    const vector_f by_by_up = d0 * x0_bar + d1_product * x1_bar + total_2 * product_7;
-    const vector_f by_by_v1 = up * by_by_scale_2 + scale_2 * by_by_up;
-    const vector_f gap_2 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1;
+    const vector_f gap_3 = -(d0 * x0_bar) - d1_product * x1_bar - total_2 * product_7;
+    const vector_f gap_4 = scale_2 * gap_3 - up * by_by_scale_2;
+    const vector_f phi_product_4 = phi * gap_4;
     const vector_f ratio_5 = by_by_t_ratio / t_ratio;
     const vector_f by_by_log_det_series = log_det_series_slope * near_chosen_3;
     const vector_f by_by_log_det_near = h_squared * by_by_log_det_series + log_det_series * by_by_h_squared;
-    const vector_f gap_3 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1;
     const vector_f by_phi = its_value_bar + vector_select_f(near, vector_of_f(0.0f), ratio_5) +
-        vector_select_f(near, by_by_log_det_near, vector_of_f(0.0f)) + z0 * gap_3 + z1 * gap_2;
-    const vector_f by_log_det = exp_2 * (amplitude * by_phi);
-    const vector_f by_z1 = phi * gap_2 - z1 * by_log_det;
-    const vector_f by_z0 = phi * gap_3 - z0 * by_log_det;
-    const vector_f by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0;
-    const vector_f by_up_2 = by_v1 * by_by_scale_2 + scale_2 * by_v1_2;
-    const vector_f by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0;
-    const vector_f total_4 = by_v0 * by_by_scale_2 + scale_2 * by_v0_2;
-    const vector_f by_scale_2_2 = by_v0 * product_6 - by_t_over_sinh_t * x1_bar + by_v1 * by_by_up + up *
-        by_v1_2 + d0_product * by_v0_2;
+        vector_select_f(near, by_by_log_det_near, vector_of_f(0.0f)) + total_3 * gap_4 + total_4 * gap_2;
+    const vector_f by_log_det = phi * by_phi;
+    const vector_f by_v1 = M0_1 * phi_product_3 + M1_1 * phi_product_4 - total_3 * by_log_det;
+    const vector_f by_up = scale_2 * by_v1 - phi_product * by_by_scale_2;
+    const vector_f by_v0 = M0_0 * phi_product_3 + M0_1 * phi_product_4 - total_4 * by_log_det;
+    const vector_f gap_5 = scale_2 * by_v0 - phi_product_2 * by_by_scale_2;
+    const vector_f total_7 = -(by_t_over_sinh_t * x1_bar) - phi_product_2 * product_6 + phi_product * gap_3 +
+        up * by_v1;
+    const vector_f by_scale_2_2 = total_7 + d0_product * by_v0;
     const vector_f by_t_over_sinh_t_2 = by_scale_2_2 / x1;
     const vector_f by_t_2 = (by_t * gap - ratio * ratio_5 + vector_select_f(near, vector_of_f(0.0f),
         by_t_over_sinh_t_2) + vector_select_f(near, vector_of_f(0.0f), by_log_det) / t_ratio) / sinh_t;
@@ -1398,21 +1427,21 @@ OUTLINE void pair_backward_f(
         by_sinh_t);
     const vector_f by_asinh_h_2 = 2.0f * by_t_2;
     const vector_f by_h_2 = product_8 + by_asinh_h_2 / sqrt_2;
-    const vector_f total_5 = by_log_det_near * by_by_log_det_series + vector_select_f(is_small,
+    const vector_f total_8 = by_log_det_near * by_by_log_det_series + vector_select_f(is_small,
         vector_of_f(0.0f), by_sqrt_1_plus_h_to_2 / product_2) + vector_select_f(near, vector_of_f(0.0f),
         by_h_2 / h_product - by_asinh_h_ratio * by_by_asinh_h / (2.0f * sqrt_2));
     const vector_f by_log_det_near_2 = vector_select_f(near, by_log_det, vector_of_f(0.0f));
     const vector_f by_log_det_series_slope = by_log_det_series * near_chosen_3;
-    const vector_f log_det_series_slope_slope = vector_polynomial_log_det_series_slope_slope_f(near_chosen);
+    const vector_f log_det_series_slope_slope = vector_polynomial_log_det_series_slope_slope_f(near_chosen_2);
     const vector_f by_t_over_sinh_t_near_slope = by_t_over_sinh_t_near * near_chosen_3;
     const vector_f t_over_sinh_t_near_slope_slope =
-        vector_polynomial_t_over_sinh_t_near_slope_slope_f(near_chosen);
+        vector_polynomial_t_over_sinh_t_near_slope_slope_f(near_chosen_2);
     const vector_f by_t_over_sinh_t_near_2 = vector_select_f(near, by_t_over_sinh_t_2, vector_of_f(0.0f));
     const vector_f by_log_det_series_2 = by_log_det_near * by_by_h_squared + h_squared * by_log_det_near_2;
     const vector_f near_chosen_4 = vector_select_f(near, by_log_det_series_slope * log_det_series_slope_slope
         + by_t_over_sinh_t_near_slope * t_over_sinh_t_near_slope_slope + t_over_sinh_t_near_slope *
         by_t_over_sinh_t_near_2 + log_det_series_slope * by_log_det_series_2, vector_of_f(0.0f));
-    const vector_f by_h_squared_2 = total_5 + log_det_series * by_log_det_near_2 + 8.719916288803628f *
+    const vector_f by_h_squared_2 = total_8 + log_det_series * by_log_det_near_2 + 8.719916288803628f *
         near_chosen_4;
     const vector_f product_9 = 2.0f * by_h_squared_2;
     const vector_f by_part0_2 = product_3 * by_by_part0 + part0 * product_9;
@@ -1426,17 +1455,19 @@ OUTLINE void pair_backward_f(
     const vector_f by_sqrt_value = by_scale_ratio * sqrt_value_ratio - scale * (by_scale_3 / sqrt_value);
     const vector_f ratio_7 = (vector_select_f(is_small_2, vector_of_f(0.0f), 2.0f * (ratio_6 * ratio_3)) +
         2.0f * by_sqrt_value) / product_4;
-    S_bar[0] = S_bar[0] - by_up * x0_bar + by_part0 * sqrt_value_ratio - d0 * by_up_2 - mu1 * total_4 - scale
-            * by_part0_2;
-    S_bar[1] = S_bar[1] + vector_select_f(is_small_2, vector_of_f(0.0f), -ratio_6) * x1_bar + (scale_2 *
-            by_v0) * x0_bar + by_up * product_7 + d1_product * by_up_2 + d0 * total_4 - 0.5f * (by_up * x1_bar +
-            total_2 * by_up_2) + by_part1 * sqrt_value_ratio - scale * by_part1_2 + x1 *
+    const vector_f by_log_det_product = 0.5f * by_log_det;
+    const vector_f gap_6 = phi_product_3 - v0 * by_log_det_product;
+    const vector_f gap_7 = phi_product_4 - v1 * by_log_det_product;
+    sums[0] = sums[0] + by_part0 * sqrt_value_ratio + scale_2_product * x0_bar - d0 * by_up - mu1 * gap_5 -
+            scale * by_part0_2;
+    sums[1] = sums[1] + vector_select_f(is_small_2, vector_of_f(0.0f), -ratio_6) * x1_bar - (scale_2 *
+            phi_product_2) * x0_bar + d1_product * by_up - scale_2_product * product_7 + d0 * gap_5 - 0.5f *
+            (total_2 * by_up - scale_2_product * x1_bar) + by_part1 * sqrt_value_ratio - scale * by_part1_2 + x1 *
             vector_select_f(is_small_2, vector_of_f(0.0f), ratio_7);
-    S_bar[2] = S_bar[2] + v0 * by_z0 - z0_product * by_by_v0;
-    S_bar[3] = S_bar[3] + v1 * by_z0 - z0_product * by_by_v1;
-    S_bar[4] = S_bar[4] + v0 * by_z1 - z1_product * by_by_v0;
-    S_bar[5] = S_bar[5] + v1 * by_z1 - z1_product * by_by_v1;
-    S_bar[6] = S_bar[6] + exp_2 * by_phi;
+    sums[2] = sums[2] + by_log_det;
+    sums[3] = sums[3] + v0 * gap_6;
+    sums[4] = sums[4] + v0 * gap_7 + v1 * gap_6;
+    sums[5] = sums[5] + v1 * gap_7;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -1468,7 +1499,7 @@ size_t half_space_splats_work_f(size_t count, size_t splat_count, int threads) {
     (void)threads;
     const size_t points = (count + LANES_f - 1) / LANES_f, blocks = (points + 2 - 1) / 2;
     const size_t places = 0 * ((splat_count + LANES_f - 1) / LANES_f + (blocks + LANES_f - 1) / LANES_f);
-    return (points * 5 + places + 1) * LANES_f + 7 * splat_count;
+    return (points * 5 + places + 1) * LANES_f + 10 * splat_count;
 }
 
 static vector_f *work_points_f(float *work) {
@@ -1482,12 +1513,12 @@ INLINE const float *splat_at_f(const vector_f *splats, size_t k) {
     return (const float *)(splats + 0 * row) + (k - row * LANES_f);
 }
 
-static vector_f *work_splats_f(float *work, size_t count) {
+static vector_f *work_reaches_f(float *work, size_t count) {
     return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 5;
 }
 
 static vector_f *work_blocks_f(float *work, size_t count, size_t splat_count) {
-    return work_splats_f(work, count) + 0 * ((splat_count + LANES_f - 1) / LANES_f);
+    return work_reaches_f(work, count) + 0 * ((splat_count + LANES_f - 1) / LANES_f);
 }
 
 static float *work_constants_f(float *work, size_t count, size_t splat_count) {
@@ -1519,13 +1550,13 @@ static size_t blocks_near_f(
 OUTLINE void splat_constants_f(
     size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, const float *width, float *constants,
     vector_f *splats) {
-    vector_f own_mu[2], own_W[4], own_amplitude[1], S[7];
+    vector_f own_mu[2], own_W[4], own_amplitude[1], S[10];
     vector_rows_f(mu, splat_count, start, 2, own_mu);
     vector_rows_f(W, splat_count, start, 4, own_W);
     vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
     if (width) splat_reach_f(own_mu, own_amplitude, width, splat_count, start, splats);
     pair_constants_f(own_mu, own_W, own_amplitude, S);
-    vector_to_rows_f(S, constants, splat_count, start, 7, 7);
+    vector_to_rows_f(S, constants, splat_count, start, 10, 10);
 }
 
 /* 2 vectors of points at a time stay in registers while all splats pass. */
@@ -1534,7 +1565,7 @@ void half_space_splats_f(
     float *HALF_SPACE_RESTRICT value, float *HALF_SPACE_RESTRICT gradient, float *HALF_SPACE_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1556,7 +1587,7 @@ void half_space_splats_f(
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
                 for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 7 * near[i];
+                    const float *S = constants + 10 * near[i];
                     pair_forward_f(X[0], S, value_sum[0], slope_sum[0]);
                     pair_forward_f(X[1], S, value_sum[1], slope_sum[1]);
                 }
@@ -1576,7 +1607,7 @@ void half_space_splats_value_f(
     float *HALF_SPACE_RESTRICT value, float *HALF_SPACE_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1597,7 +1628,7 @@ void half_space_splats_value_f(
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
                 for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 7 * near[i];
+                    const float *S = constants + 10 * near[i];
                     pair_value_f(X[0], S, value_sum[0]);
                     pair_value_f(X[1], S, value_sum[1]);
                 }
@@ -1622,20 +1653,25 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 2 + 1, point + 2);
 }
 
-/* Adds to S_bar what some vectors of points add to it, those in the list. */
-OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *S_bar) {
-    vector_f sum[7] = {ZERO};
-    for (size_t b = 0; b < size; ++b) {
+/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *sums) {
+    vector_f sum[6] = {ZERO};
+    size_t b = 0;
+    for (; b + 1 < size; b += 2) {
+        const vector_f *point = points + 5 * (size_t)near[b], *other = points + 5 * (size_t)near[b + 1];
+        pair_backward_f(point, S, point + 2, point + 2 + 1, sum);
+        pair_backward_f(other, S, other + 2, other + 2 + 1, sum);
+    }
+    if (b < size) {
         const vector_f *point = points + 5 * (size_t)near[b];
         pair_backward_f(point, S, point + 2, point + 2 + 1, sum);
     }
-    S_bar[0] += vector_sum_f(sum[0]);
-    S_bar[1] += vector_sum_f(sum[1]);
-    S_bar[2] += vector_sum_f(sum[2]);
-    S_bar[3] += vector_sum_f(sum[3]);
-    S_bar[4] += vector_sum_f(sum[4]);
-    S_bar[5] += vector_sum_f(sum[5]);
-    S_bar[6] += vector_sum_f(sum[6]);
+    sums[0] += vector_sum_f(sum[0]);
+    sums[1] += vector_sum_f(sum[1]);
+    sums[2] += vector_sum_f(sum[2]);
+    sums[3] += vector_sum_f(sum[3]);
+    sums[4] += vector_sum_f(sum[4]);
+    sums[5] += vector_sum_f(sum[5]);
 }
 
 /*
@@ -1651,7 +1687,7 @@ void half_space_splats_vjp_f(
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES_f ? part : LANES_f;
     vector_f *points = work_points_f(work);
-    vector_f *splats = work_splats_f(work, count), *places = work_blocks_f(work, count, splat_count);
+    vector_f *splats = work_reaches_f(work, count), *places = work_blocks_f(work, count, splat_count);
     float *constants = work_constants_f(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -1677,22 +1713,22 @@ void half_space_splats_vjp_f(
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
-            float sums[LANES_f][7] = {{0}};
+            float sums[LANES_f][6] = {{0}};
             uint32_t near[131072 / (5 * sizeof(vector_f)) + 2];
-            vector_f own_mu[2], own_W[4], own_amplitude[1], S_bar[7], bars[7];
+            vector_f own_mu[2], own_W[4], own_amplitude[1], own_sums[6], bars[7];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
                     const float *reach = width ? splat_at_f(splats, k) + 2 * LANES_f : NULL;
                     const size_t some = blocks_near_f(mu + 2 * k, reach, places, first, first + size, near);
-                    splat_sums_f(points + 5 * first, near, some, constants + 7 * k, sums[k - start]);
+                    splat_sums_f(points + 5 * first, near, some, constants + 10 * k, sums[k - start]);
                 }
             }
             vector_rows_f(mu, end, start, 2, own_mu);
             vector_rows_f(W, end, start, 4, own_W);
             vector_rows_f(amplitude, end, start, 1, own_amplitude);
-            vector_rows_f(sums[0], LANES_f, 0, 7, S_bar);
-            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+            vector_rows_f(sums[0], LANES_f, 0, 6, own_sums);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 4);
             vector_to_rows_f(bars, mu_bar, end, start, 2, 2);
             vector_to_rows_f(bars + 2, W_bar, end, start, 4, 4);
             vector_to_rows_f(bars + 2 + 4, amplitude_bar, end, start, 1, 1);
@@ -1719,12 +1755,12 @@ void half_space_splats_rows_f(
             vector_f point[5];
             splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector_f own_mu[2], own_W[4], own_amplitude[1], S_bar[7] = {ZERO}, bars[7];
+                vector_f own_mu[2], own_W[4], own_amplitude[1], own_sums[6] = {ZERO}, bars[7];
                 for (int i = 0; i < 2; ++i) own_mu[i] = vector_of_f(mu[2 * k + i]);
                 for (int i = 0; i < 4; ++i) own_W[i] = vector_of_f(W[4 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 7 * k, point + 2, point + 2 + 1, S_bar);
-                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+                pair_backward_f(point, constants + 10 * k, point + 2, point + 2 + 1, own_sums);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 4);
                 vector_to_rows_f(bars, rows + 7 * k, count, block * LANES_f, 7, 7 * splat_count);
             }
         }
@@ -1740,3 +1776,5 @@ double half_space_splats_order_f(
     for (size_t n = 0; n < count; ++n) order[n] = n;
     return 1;
 }
+
+#endif /* float */

@@ -19,7 +19,7 @@
  * riemannian_gradient           11
  * gradient_norm                 37
  * splat                        315
- * splat_vjp                    733
+ * splat_vjp                    732
  *
  * Errors are the worst of 33 points against 60 digits, in units of the error that rounding the
  * inputs and the output to the precision alone would cause.

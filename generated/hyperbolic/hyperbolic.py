@@ -18,7 +18,7 @@ log_abs_det                   88      <= 2     <= 2
 riemannian_gradient           11
 gradient_norm                 37
 splat                        315
-splat_vjp                    733
+splat_vjp                    732
 
 Errors are the worst of 33 points against 60 digits, in units of the error that rounding the
 inputs and the output to the precision alone would cause.
@@ -765,7 +765,7 @@ class Hyperbolic:
     ) -> tuple[Tensor, Tensor, Tensor]:
         """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu (K, D), W (K, d, T) and amplitude (K)."""
         S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
-        total = torch.zeros((len(S), len(mu)), dtype=x.dtype, device=x.device)
+        total = torch.zeros((), dtype=x.dtype, device=x.device)
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         for part, *bars in zip(*parts, strict=True):
             total = total + torch.stack(_sums(self._pair_bars(part, S, *bars), len(part), len(mu), 0))
@@ -779,15 +779,15 @@ class Hyperbolic:
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         rows = []
         for part, *bars in zip(*parts, strict=True):
-            S_bar = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
-            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, S_bar)
+            sums = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
+            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, sums)
             rows.append(torch.cat([by_mu, by_W.flatten(-2), by_amplitude.unsqueeze(-1)], -1))
         return torch.cat(rows)
 
     def _pair_bars(
         self, x: Tensor, S: Sequence[Tensor], value_bar: Tensor, gradient_bar: Tensor
     ) -> tuple[Tensor, ...]:
-        """The derivatives in S of every pair, from those in the sums."""
+        """What every pair adds to the sums of its splat, from the derivatives in values and gradients."""
         X = [entry.unsqueeze(-1) for entry in self._point_features(x)]
         slope_bar = [entry.unsqueeze(-1) for entry in self._point_gradient_vjp(x, gradient_bar)]
         return self._pair_vjp(X, S, value_bar.unsqueeze(-1), slope_bar)
@@ -839,8 +839,9 @@ class Hyperbolic:
         r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2
         half_square = a_squared * (r0 * r0 + r1 * r1)
         gaussian = torch.exp(-half_square)
-        phi = amplitude * (a * gaussian)
-        return (phi,)
+        phi = a * gaussian
+        phi_2 = amplitude * phi
+        return (phi_2,)
 
     def _pair(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
         """The value of a splat at a point, and the slope, its derivatives in X."""
@@ -865,16 +866,17 @@ class Hyperbolic:
         r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2
         half_square = a_squared * (r0 * r0 + r1 * r1)
         gaussian = torch.exp(-half_square)
-        phi = amplitude * (a * gaussian)
-        product = 2.0 * (phi * a_squared)
+        phi = a * gaussian
+        phi_2 = amplitude * phi
+        product = 2.0 * (phi_2 * a_squared)
         r1_product = r1 * product
         r0_product = r0 * product
         over_w = w_total * a
-        over_w_product = over_w * ((near_chosen_2 - over_w) * (phi - phi * (2.0 * half_square)))
+        over_w_product = over_w * ((near_chosen_2 - over_w) * (phi_2 - phi_2 * (2.0 * half_square)))
         by_h0 = -(R1_0 * r1_product) - R0_0 * r0_product + M0 * over_w_product
         by_h1 = -(R1_1 * r1_product) - R0_1 * r0_product - M1 * over_w_product
         by_h2 = -(R1_2 * r1_product) - R0_2 * r0_product - M2 * over_w_product
-        return (phi, by_h0, by_h1, by_h2)
+        return (phi_2, by_h0, by_h1, by_h2)
 
     def _point_gradient(self, x: Tensor, slope: Sequence[Tensor]) -> Tensor:
         """The Riemannian gradient of a function whose derivatives in X are `slope`."""
@@ -900,9 +902,9 @@ class Hyperbolic:
     def _pair_vjp(
         self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
     ) -> tuple[Tensor, ...]:
-        """The derivatives of value value_bar + slope . slope_bar in S."""
+        """What, summed over the points, makes the derivatives of value value_bar + slope . slope_bar."""
         h0, h1, h2 = X
-        amplitude, M0, M1, M2, R0_0, R0_1, R0_2, R1_0, R1_1, R1_2 = S
+        _, M0, M1, M2, R0_0, R0_1, R0_2, R1_0, R1_1, R1_2 = S
         h0_bar, h1_bar, h2_bar = slope_bar
         gap = h0 - M0
         minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2))
@@ -927,7 +929,7 @@ class Hyperbolic:
         r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2
         half_square = a_squared * (r0 * r0 + r1 * r1)
         gaussian = torch.exp(-half_square)
-        a_product = a * gaussian
+        phi = a * gaussian
         over_w = w_total * a
         over_w_gap = near_chosen_2 - over_w
         gap_2 = M0 * h0_bar - M1 * h1_bar - M2 * h2_bar
@@ -938,7 +940,7 @@ class Hyperbolic:
         product_5 = 2.0 * (r0 * gap_3 + r1 * gap_4)
         half_square_product = 2.0 * half_square
         by_phi = value_bar + product_4 + a_squared * product_5 - half_square_product * product_4
-        phi = amplitude * a_product
+        phi_product = phi * by_phi
         phi_gap = phi - phi * half_square_product
         product_6 = over_w_gap * phi_gap
         over_w_product_2 = over_w * product_6
@@ -948,21 +950,20 @@ class Hyperbolic:
             torch.where(near, eta_slope, (2.0 + near_chosen) * (product_3 * product_3) - product_2 * (product_2 +
             w_product)) * product_7
         )
-        product_9 = a_product * (amplitude * by_phi)
-        by_half_square = -(2.0 * (phi * product_4)) - product_9
-        product_10 = (
-            over_w_gap * (2.0 * a_squared * (phi * product_5) + product_9 + half_square_product * by_half_square)
+        by_half_square = -(2.0 * (phi * product_4)) - phi_product
+        product_9 = (
+            over_w_gap * (2.0 * a_squared * (phi * product_5) + phi_product + half_square_product * by_half_square)
         )
-        total_2 = product_8 - over_w * over_w * (product_6 * gap_2 - product_7) + product_10
+        total_2 = product_8 - over_w * over_w * (product_6 * gap_2 - product_7) + product_9
         over_w_product_3 = over_w * total_2
-        product_11 = 2.0 * (phi * a_squared)
-        product_12 = 2.0 * (a_squared * by_half_square)
-        by_r0 = product_11 * gap_3 + r0 * product_12
-        r0_product = r0 * product_11
-        by_r1 = product_11 * gap_4 + r1 * product_12
-        r1_product = r1 * product_11
+        product_10 = 2.0 * (phi * a_squared)
+        product_11 = 2.0 * (a_squared * by_half_square)
+        by_r0 = product_10 * gap_3 + r0 * product_11
+        r0_product = r0 * product_10
+        by_r1 = product_10 * gap_4 + r1 * product_11
+        r1_product = r1 * product_10
         return (
-            a_product * by_phi,
+            phi_product,
             over_w_product_2 * h0_bar + h0 * over_w_product_3,
             -(over_w_product_2 * h1_bar) - h1 * over_w_product_3,
             -(over_w_product_2 * h2_bar) - h2 * over_w_product_3,
@@ -975,44 +976,44 @@ class Hyperbolic:
         )
 
     def _splat_constants_vjp(
-        self, mu: Tensor, W: Tensor, amplitude: Tensor, S_bar: Sequence[Tensor]
+        self, mu: Tensor, W: Tensor, amplitude: Tensor, sums: Sequence[Tensor]
     ) -> tuple[Tensor, Tensor, Tensor]:
-        """The derivatives in mu, W and amplitude from those in S."""
+        """The derivatives in mu, W and amplitude from those sums."""
         mu0, mu1, mu2 = mu.unbind(-1)
         W0_0, W0_1, W0_2, W1_0, W1_1, W1_2 = W.flatten(-2).unbind(-1)
-        amplitude_bar, M0_bar, M1_bar, M2_bar, R0_0_bar, R0_1_bar, R0_2_bar, R1_0_bar, R1_1_bar, R1_2_bar = S_bar
+        sum0, sum1, sum2, sum3, sum4, sum5, sum6, sum7, sum8, sum9 = sums
         by_normal_part = mu2 * W0_2 + mu1 * W0_1 + mu0 * W0_0
-        product = 1.4142135623730951 * R0_0_bar
-        product_2 = 1.4142135623730951 * R0_1_bar
-        product_3 = 1.4142135623730951 * R0_2_bar
+        product = 1.4142135623730951 * sum4
+        product_2 = 1.4142135623730951 * sum5
+        product_3 = 1.4142135623730951 * sum6
         by_by_normal_part = mu1 * product_2 - mu0 * product + mu2 * product_3
         by_normal_part_2 = mu2 * W1_2 + mu1 * W1_1 + mu0 * W1_0
-        product_4 = 1.4142135623730951 * R1_0_bar
-        product_5 = 1.4142135623730951 * R1_1_bar
-        product_6 = 1.4142135623730951 * R1_2_bar
+        product_4 = 1.4142135623730951 * sum7
+        product_5 = 1.4142135623730951 * sum8
+        product_6 = 1.4142135623730951 * sum9
         by_by_normal_part_2 = mu1 * product_5 - mu0 * product_4 + mu2 * product_6
         total_2 = (
-            0.5 * M0_bar - by_normal_part * product + W0_0 * by_by_normal_part - by_normal_part_2 * product_4 + W1_0 *
+            0.5 * sum1 - by_normal_part * product + W0_0 * by_by_normal_part - by_normal_part_2 * product_4 + W1_0 *
             by_by_normal_part_2
         )
         total_3 = (
-            0.5 * M1_bar + by_normal_part * product_2 + W0_1 * by_by_normal_part + by_normal_part_2 * product_5 + W1_1 *
+            0.5 * sum2 + by_normal_part * product_2 + W0_1 * by_by_normal_part + by_normal_part_2 * product_5 + W1_1 *
             by_by_normal_part_2
         )
         total_4 = (
-            0.5 * M2_bar + by_normal_part * product_3 + W0_2 * by_by_normal_part + by_normal_part_2 * product_6 + W1_2 *
+            0.5 * sum3 + by_normal_part * product_3 + W0_2 * by_by_normal_part + by_normal_part_2 * product_6 + W1_2 *
             by_by_normal_part_2
         )
-        mu_bar = _stack((total_2, total_3, total_4))
+        mu_bar = _stack((amplitude * total_2, amplitude * total_3, amplitude * total_4))
         W_bar = _stack((
-            product + mu0 * by_by_normal_part,
-            product_2 + mu1 * by_by_normal_part,
-            product_3 + mu2 * by_by_normal_part,
-            product_4 + mu0 * by_by_normal_part_2,
-            product_5 + mu1 * by_by_normal_part_2,
-            product_6 + mu2 * by_by_normal_part_2,
+            amplitude * (product + mu0 * by_by_normal_part),
+            amplitude * (product_2 + mu1 * by_by_normal_part),
+            amplitude * (product_3 + mu2 * by_by_normal_part),
+            amplitude * (product_4 + mu0 * by_by_normal_part_2),
+            amplitude * (product_5 + mu1 * by_by_normal_part_2),
+            amplitude * (product_6 + mu2 * by_by_normal_part_2),
         ))
-        return mu_bar, W_bar.unflatten(-1, (2, 3)), amplitude_bar
+        return mu_bar, W_bar.unflatten(-1, (2, 3)), sum0
 
 
 manifold = Hyperbolic()

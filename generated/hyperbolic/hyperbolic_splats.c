@@ -81,6 +81,8 @@ INLINE uint64_t flush_denormals(void) { return 0; }
 INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
 
+#if !defined(RSRM_ONLY_FLOAT) /* double */
+
 /* The same number in all lanes. */
 INLINE vector vector_of(double x) {
     const vector zero = ZERO;
@@ -122,24 +124,24 @@ INLINE vector vector_from_bits(vector_bits bits) {
 }
 
 /* x >= 0 with the sign of another. */
-INLINE vector vector_signed(vector x, vector sign) {
+INLINE vector signed_each(vector x, vector sign) {
     return vector_from_bits(vector_to_bits(x) | (vector_to_bits(sign) & 0x8000000000000000));
 }
 
 /* abs of every lane; one instruction where the machine has it. */
-INLINE vector vector_abs(vector x) {
+INLINE vector abs_each(vector x) {
     for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
     return x;
 }
 
 /* sqrt of every lane; one instruction where the machine has it. */
-INLINE vector vector_sqrt(vector x) {
+INLINE vector sqrt_each(vector x) {
     for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
     return x;
 }
 
 /* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
-INLINE vector vector_exp(vector x) {
+INLINE vector exp_each(vector x) {
     const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
     const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
     const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
@@ -149,7 +151,7 @@ INLINE vector vector_exp(vector x) {
 }
 
 /* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
-INLINE vector vector_log(vector x) {
+INLINE vector log_each(vector x) {
     const vector_bits bits = vector_to_bits(x), biased = (bits + 0x95f619980c433) >> 52; /* k + 1023 */
     const vector k = vector_from_bits(biased + 0x4338000000000000) - 6755399441056767.0;
     const vector f = vector_from_bits(bits - (biased << 52) + 0x3ff0000000000000) - 1, s = f / (2 + f), z = s * s;
@@ -162,16 +164,16 @@ INLINE vector vector_log(vector x) {
 }
 
 /* log(1 + x), within 2 units in the last place. */
-INLINE vector vector_log1p(vector x) {
+INLINE vector log1p_each(vector x) {
     const vector u = 1 + x;
-    return vector_select(x <= 1.7976931348623157e308, vector_log(u) + (x - (u - 1)) / u, x);
+    return vector_select(x <= 1.7976931348623157e308, log_each(u) + (x - (u - 1)) / u, x);
 }
 
 /* asinh, within 3 units in the last place. */
-INLINE vector vector_asinh(vector x) {
-    const vector a = vector_abs(x), square = a * a;
-    const vector near = vector_log1p(a + square / (1 + vector_sqrt(1 + square)));
-    return vector_signed(vector_select(a > 134217728.0, vector_log(a) + 0.6931471805599453, near), x);
+INLINE vector asinh_each(vector x) {
+    const vector a = abs_each(x), square = a * a;
+    const vector near = log1p_each(a + square / (1 + sqrt_each(1 + square)));
+    return signed_each(vector_select(a > 134217728.0, log_each(a) + 0.6931471805599453, near), x);
 }
 
 /* Of degree 11 on [0, 1], its relative error below 2^-56. */
@@ -269,12 +271,12 @@ INLINE void pair_value(
     const vector gap = h0 - M0;
     const vector minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
     const vector u = vector_select(minus < 0.0, vector_of(0.0), minus);
-    const vector w = vector_sqrt(1.0 + u);
+    const vector w = sqrt_each(1.0 + u);
     const vector_mask near = w < 1.25;
     const vector eta = vector_polynomial_eta(4.0 * vector_select(near, w - 1.0, vector_of(0.0)));
     const vector near_chosen = vector_select(near, vector_of(1.0), u);
-    const vector sqrt_2 = vector_sqrt(near_chosen);
-    const vector half_angle = vector_log(w + sqrt_2);
+    const vector sqrt_2 = sqrt_each(near_chosen);
+    const vector half_angle = log_each(w + sqrt_2);
     const vector half_angle_product = sqrt_2 * half_angle;
     const vector ratio = 1.0 / (near_chosen * half_angle_product);
     const vector u_product = u * vector_select(near, eta, near_chosen * ratio - w * (half_angle_product *
@@ -284,8 +286,9 @@ INLINE void pair_value(
     const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
     const vector half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector gaussian = vector_exp(-half_square);
-    value[0] = value[0] + amplitude * (a * gaussian);
+    const vector gaussian = exp_each(-half_square);
+    const vector phi = a * gaussian;
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -315,12 +318,12 @@ INLINE void pair_forward(
     const vector gap = h0 - M0;
     const vector minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
     const vector u = vector_select(minus < 0.0, vector_of(0.0), minus);
-    const vector w = vector_sqrt(1.0 + u);
+    const vector w = sqrt_each(1.0 + u);
     const vector_mask near = w < 1.25;
     const vector eta = vector_polynomial_eta(4.0 * vector_select(near, w - 1.0, vector_of(0.0)));
     const vector near_chosen = vector_select(near, vector_of(1.0), u);
-    const vector sqrt_2 = vector_sqrt(near_chosen);
-    const vector half_angle = vector_log(w + sqrt_2);
+    const vector sqrt_2 = sqrt_each(near_chosen);
+    const vector half_angle = log_each(w + sqrt_2);
     const vector half_angle_product = sqrt_2 * half_angle;
     const vector ratio = 1.0 / (near_chosen * half_angle_product);
     const vector near_chosen_2 = vector_select(near, eta, near_chosen * ratio - w * (half_angle_product *
@@ -331,14 +334,15 @@ INLINE void pair_forward(
     const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
     const vector half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector gaussian = vector_exp(-half_square);
-    const vector phi = amplitude * (a * gaussian);
-    const vector product = 2.0 * (phi * a_squared);
+    const vector gaussian = exp_each(-half_square);
+    const vector phi = a * gaussian;
+    const vector phi_2 = amplitude * phi;
+    const vector product = 2.0 * (phi_2 * a_squared);
     const vector r1_product = r1 * product;
     const vector r0_product = r0 * product;
     const vector over_w = w_total * a;
-    const vector over_w_product = over_w * ((near_chosen_2 - over_w) * (phi - phi * (2.0 * half_square)));
-    value[0] = value[0] + phi;
+    const vector over_w_product = over_w * ((near_chosen_2 - over_w) * (phi_2 - phi_2 * (2.0 * half_square)));
+    value[0] = value[0] + phi_2;
     slope[0] = slope[0] - R1_0 * r1_product - R0_0 * r0_product + M0 * over_w_product;
     slope[1] = slope[1] - R1_1 * r1_product - R0_1 * r0_product - M1 * over_w_product;
     slope[2] = slope[2] - R1_2 * r1_product - R0_2 * r0_product - M2 * over_w_product;
@@ -377,10 +381,9 @@ OUTLINE void pair_gradient_vjp(
     slope_bar[2] = 0.5 * (gradient_bar2 + x2 * by_normal_part);
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp(
-    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
-    (void)amplitude;
+    const vector *mu, const vector *W, const vector *amplitude, const vector *sums, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
     const vector mu0 = mu[0];
     const vector mu1 = mu[1];
     const vector mu2 = mu[2];
@@ -390,42 +393,43 @@ OUTLINE void pair_constants_vjp(
     const vector W1_0 = W[3];
     const vector W1_1 = W[4];
     const vector W1_2 = W[5];
-    const vector its_amplitude_bar = S_bar[0];
-    const vector M0_bar = S_bar[1];
-    const vector M1_bar = S_bar[2];
-    const vector M2_bar = S_bar[3];
-    const vector R0_0_bar = S_bar[4];
-    const vector R0_1_bar = S_bar[5];
-    const vector R0_2_bar = S_bar[6];
-    const vector R1_0_bar = S_bar[7];
-    const vector R1_1_bar = S_bar[8];
-    const vector R1_2_bar = S_bar[9];
+    const vector its_amplitude = amplitude[0];
+    const vector sum0 = sums[0];
+    const vector sum1 = sums[1];
+    const vector sum2 = sums[2];
+    const vector sum3 = sums[3];
+    const vector sum4 = sums[4];
+    const vector sum5 = sums[5];
+    const vector sum6 = sums[6];
+    const vector sum7 = sums[7];
+    const vector sum8 = sums[8];
+    const vector sum9 = sums[9];
     const vector by_normal_part = mu2 * W0_2 + mu1 * W0_1 + mu0 * W0_0;
-    const vector product = 1.4142135623730951 * R0_0_bar;
-    const vector product_2 = 1.4142135623730951 * R0_1_bar;
-    const vector product_3 = 1.4142135623730951 * R0_2_bar;
+    const vector product = 1.4142135623730951 * sum4;
+    const vector product_2 = 1.4142135623730951 * sum5;
+    const vector product_3 = 1.4142135623730951 * sum6;
     const vector by_by_normal_part = mu1 * product_2 - mu0 * product + mu2 * product_3;
     const vector by_normal_part_2 = mu2 * W1_2 + mu1 * W1_1 + mu0 * W1_0;
-    const vector product_4 = 1.4142135623730951 * R1_0_bar;
-    const vector product_5 = 1.4142135623730951 * R1_1_bar;
-    const vector product_6 = 1.4142135623730951 * R1_2_bar;
+    const vector product_4 = 1.4142135623730951 * sum7;
+    const vector product_5 = 1.4142135623730951 * sum8;
+    const vector product_6 = 1.4142135623730951 * sum9;
     const vector by_by_normal_part_2 = mu1 * product_5 - mu0 * product_4 + mu2 * product_6;
-    const vector total_2 = 0.5 * M0_bar - by_normal_part * product + W0_0 * by_by_normal_part -
-        by_normal_part_2 * product_4 + W1_0 * by_by_normal_part_2;
-    const vector total_3 = 0.5 * M1_bar + by_normal_part * product_2 + W0_1 * by_by_normal_part +
+    const vector total_2 = 0.5 * sum1 - by_normal_part * product + W0_0 * by_by_normal_part - by_normal_part_2
+        * product_4 + W1_0 * by_by_normal_part_2;
+    const vector total_3 = 0.5 * sum2 + by_normal_part * product_2 + W0_1 * by_by_normal_part +
         by_normal_part_2 * product_5 + W1_1 * by_by_normal_part_2;
-    const vector total_4 = 0.5 * M2_bar + by_normal_part * product_3 + W0_2 * by_by_normal_part +
+    const vector total_4 = 0.5 * sum3 + by_normal_part * product_3 + W0_2 * by_by_normal_part +
         by_normal_part_2 * product_6 + W1_2 * by_by_normal_part_2;
-    mu_bar[0] = total_2;
-    mu_bar[1] = total_3;
-    mu_bar[2] = total_4;
-    W_bar[0] = product + mu0 * by_by_normal_part;
-    W_bar[1] = product_2 + mu1 * by_by_normal_part;
-    W_bar[2] = product_3 + mu2 * by_by_normal_part;
-    W_bar[3] = product_4 + mu0 * by_by_normal_part_2;
-    W_bar[4] = product_5 + mu1 * by_by_normal_part_2;
-    W_bar[5] = product_6 + mu2 * by_by_normal_part_2;
-    amplitude_bar[0] = its_amplitude_bar;
+    mu_bar[0] = its_amplitude * total_2;
+    mu_bar[1] = its_amplitude * total_3;
+    mu_bar[2] = its_amplitude * total_4;
+    W_bar[0] = its_amplitude * (product + mu0 * by_by_normal_part);
+    W_bar[1] = its_amplitude * (product_2 + mu1 * by_by_normal_part);
+    W_bar[2] = its_amplitude * (product_3 + mu2 * by_by_normal_part);
+    W_bar[3] = its_amplitude * (product_4 + mu0 * by_by_normal_part_2);
+    W_bar[4] = its_amplitude * (product_5 + mu1 * by_by_normal_part_2);
+    W_bar[5] = its_amplitude * (product_6 + mu2 * by_by_normal_part_2);
+    amplitude_bar[0] = sum0;
 }
 
 /* The distances of some points q from one point p. */
@@ -443,9 +447,9 @@ OUTLINE void pair_distances(
     const vector dot_D_D = D0 * D0 + D1 * D1;
     const vector dot_D_S = S0 * D0 + S1 * D1;
     const double dot_ps_ps = p1 * p1 + p2 * p2;
-    const vector a = vector_sqrt(vector_of(1.0 + dot_ps_ps));
+    const vector a = sqrt_each(vector_of(1.0 + dot_ps_ps));
     const vector dot_qs_qs = q1 * q1 + q2 * q2;
-    const vector b = vector_sqrt(1.0 + dot_qs_qs);
+    const vector b = sqrt_each(1.0 + dot_qs_qs);
     const vector a_total = a + b;
     const vector e = dot_D_S / a_total;
     const vector_mask is_small = dot_S_S < 1.0;
@@ -456,14 +460,14 @@ OUTLINE void pair_distances(
     const vector rest1 = D1 - S1 * dot_D_S_ratio;
     const vector dot_rest_rest = rest0 * rest0 + rest1 * rest1;
     const vector ww = vector_select(is_small, dot_D_D - e * e, dot_rest_rest + dot_D_S_ratio * (dot_D_S * c));
-    const vector sqrt_ww = vector_sqrt(ww);
-    const vector asinh_sqrt_ww_over_2 = vector_asinh(0.5 * sqrt_ww);
+    const vector sqrt_ww = sqrt_each(ww);
+    const vector asinh_sqrt_ww_over_2 = asinh_each(0.5 * sqrt_ww);
     const vector r = 2.0 * asinh_sqrt_ww_over_2;
     distance[0] = r;
 }
 
 /*
- * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
  * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
@@ -472,11 +476,10 @@ OUTLINE void pair_distances(
  * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
  */
 INLINE void pair_backward(
-    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
+    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
     const vector h0 = X[0];
     const vector h1 = X[1];
     const vector h2 = X[2];
-    const double amplitude = S[0];
     const double M0 = S[1];
     const double M1 = S[2];
     const double M2 = S[3];
@@ -493,13 +496,13 @@ INLINE void pair_backward(
     const vector gap = h0 - M0;
     const vector minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
     const vector u = vector_select(minus < 0.0, vector_of(0.0), minus);
-    const vector w = vector_sqrt(1.0 + u);
+    const vector w = sqrt_each(1.0 + u);
     const vector_mask near = w < 1.25;
     const vector product = 4.0 * vector_select(near, w - 1.0, vector_of(0.0));
     const vector eta = vector_polynomial_eta(product);
     const vector near_chosen = vector_select(near, vector_of(1.0), u);
-    const vector sqrt_2 = vector_sqrt(near_chosen);
-    const vector half_angle = vector_log(w + sqrt_2);
+    const vector sqrt_2 = sqrt_each(near_chosen);
+    const vector half_angle = log_each(w + sqrt_2);
     const vector half_angle_product = sqrt_2 * half_angle;
     const vector ratio = 1.0 / (near_chosen * half_angle_product);
     const vector product_2 = near_chosen * ratio;
@@ -512,8 +515,8 @@ INLINE void pair_backward(
     const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
     const vector half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector gaussian = vector_exp(-half_square);
-    const vector a_product = a * gaussian;
+    const vector gaussian = exp_each(-half_square);
+    const vector phi = a * gaussian;
     const vector over_w = w_total * a;
     const vector over_w_gap = near_chosen_2 - over_w;
     const vector gap_2 = M0 * h0_bar - M1 * h1_bar - M2 * h2_bar;
@@ -524,7 +527,7 @@ INLINE void pair_backward(
     const vector product_5 = 2.0 * (r0 * gap_3 + r1 * gap_4);
     const vector half_square_product = 2.0 * half_square;
     const vector by_phi = its_value_bar + product_4 + a_squared * product_5 - half_square_product * product_4;
-    const vector phi = amplitude * a_product;
+    const vector phi_product = phi * by_phi;
     const vector phi_gap = phi - phi * half_square_product;
     const vector product_6 = over_w_gap * phi_gap;
     const vector over_w_product_2 = over_w * product_6;
@@ -532,28 +535,27 @@ INLINE void pair_backward(
     const vector product_7 = phi_gap * over_w_product;
     const vector product_8 = vector_select(near, eta_slope, (2.0 + near_chosen) * (product_3 * product_3) -
         product_2 * (product_2 + w_product)) * product_7;
-    const vector product_9 = a_product * (amplitude * by_phi);
-    const vector by_half_square = -2.0 * (phi * product_4) - product_9;
-    const vector product_10 = over_w_gap * (2.0 * a_squared * (phi * product_5) + product_9 +
+    const vector by_half_square = -2.0 * (phi * product_4) - phi_product;
+    const vector product_9 = over_w_gap * (2.0 * a_squared * (phi * product_5) + phi_product +
         half_square_product * by_half_square);
-    const vector total_2 = product_8 - over_w * over_w * (product_6 * gap_2 - product_7) + product_10;
+    const vector total_2 = product_8 - over_w * over_w * (product_6 * gap_2 - product_7) + product_9;
     const vector over_w_product_3 = over_w * total_2;
-    const vector product_11 = 2.0 * (phi * a_squared);
-    const vector product_12 = 2.0 * (a_squared * by_half_square);
-    const vector by_r0 = product_11 * gap_3 + r0 * product_12;
-    const vector r0_product = r0 * product_11;
-    const vector by_r1 = product_11 * gap_4 + r1 * product_12;
-    const vector r1_product = r1 * product_11;
-    S_bar[0] = S_bar[0] + a_product * by_phi;
-    S_bar[1] = S_bar[1] + over_w_product_2 * h0_bar + h0 * over_w_product_3;
-    S_bar[2] = S_bar[2] - over_w_product_2 * h1_bar - h1 * over_w_product_3;
-    S_bar[3] = S_bar[3] - over_w_product_2 * h2_bar - h2 * over_w_product_3;
-    S_bar[4] = S_bar[4] + h0 * by_r0 - r0_product * h0_bar;
-    S_bar[5] = S_bar[5] + h1 * by_r0 - r0_product * h1_bar;
-    S_bar[6] = S_bar[6] + h2 * by_r0 - r0_product * h2_bar;
-    S_bar[7] = S_bar[7] + h0 * by_r1 - r1_product * h0_bar;
-    S_bar[8] = S_bar[8] + h1 * by_r1 - r1_product * h1_bar;
-    S_bar[9] = S_bar[9] + h2 * by_r1 - r1_product * h2_bar;
+    const vector product_10 = 2.0 * (phi * a_squared);
+    const vector product_11 = 2.0 * (a_squared * by_half_square);
+    const vector by_r0 = product_10 * gap_3 + r0 * product_11;
+    const vector r0_product = r0 * product_10;
+    const vector by_r1 = product_10 * gap_4 + r1 * product_11;
+    const vector r1_product = r1 * product_10;
+    sums[0] = sums[0] + phi_product;
+    sums[1] = sums[1] + over_w_product_2 * h0_bar + h0 * over_w_product_3;
+    sums[2] = sums[2] - over_w_product_2 * h1_bar - h1 * over_w_product_3;
+    sums[3] = sums[3] - over_w_product_2 * h2_bar - h2 * over_w_product_3;
+    sums[4] = sums[4] + h0 * by_r0 - r0_product * h0_bar;
+    sums[5] = sums[5] + h1 * by_r0 - r0_product * h1_bar;
+    sums[6] = sums[6] + h2 * by_r0 - r0_product * h2_bar;
+    sums[7] = sums[7] + h0 * by_r1 - r1_product * h0_bar;
+    sums[8] = sums[8] + h1 * by_r1 - r1_product * h1_bar;
+    sums[9] = sums[9] + h2 * by_r1 - r1_product * h2_bar;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -599,12 +601,12 @@ INLINE const double *splat_at(const vector *splats, size_t k) {
     return (const double *)(splats + 4 * row) + (k - row * LANES);
 }
 
-static vector *work_splats(double *work, size_t count) {
+static vector *work_reaches(double *work, size_t count) {
     return work_points(work) + (count + LANES - 1) / LANES * 7;
 }
 
 static vector *work_blocks(double *work, size_t count, size_t splat_count) {
-    return work_splats(work, count) + 4 * ((splat_count + LANES - 1) / LANES);
+    return work_reaches(work, count) + 4 * ((splat_count + LANES - 1) / LANES);
 }
 
 static double *work_constants(double *work, size_t count, size_t splat_count) {
@@ -721,7 +723,7 @@ void hyperbolic_splats(
     double *HYPERBOLIC_RESTRICT value, double *HYPERBOLIC_RESTRICT gradient, double *HYPERBOLIC_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -763,7 +765,7 @@ void hyperbolic_splats_value(
     double *HYPERBOLIC_RESTRICT value, double *HYPERBOLIC_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -809,23 +811,29 @@ OUTLINE void splat_points(
     vector_end(count, start, 3 + 1, point + 3);
 }
 
-/* Adds to S_bar what some vectors of points add to it, those in the list. */
-OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *S_bar) {
+/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *sums) {
     vector sum[10] = {ZERO};
-    for (size_t b = 0; b < size; ++b) {
+    size_t b = 0;
+    for (; b + 1 < size; b += 2) {
+        const vector *point = points + 7 * (size_t)near[b], *other = points + 7 * (size_t)near[b + 1];
+        pair_backward(point, S, point + 3, point + 3 + 1, sum);
+        pair_backward(other, S, other + 3, other + 3 + 1, sum);
+    }
+    if (b < size) {
         const vector *point = points + 7 * (size_t)near[b];
         pair_backward(point, S, point + 3, point + 3 + 1, sum);
     }
-    S_bar[0] += vector_sum(sum[0]);
-    S_bar[1] += vector_sum(sum[1]);
-    S_bar[2] += vector_sum(sum[2]);
-    S_bar[3] += vector_sum(sum[3]);
-    S_bar[4] += vector_sum(sum[4]);
-    S_bar[5] += vector_sum(sum[5]);
-    S_bar[6] += vector_sum(sum[6]);
-    S_bar[7] += vector_sum(sum[7]);
-    S_bar[8] += vector_sum(sum[8]);
-    S_bar[9] += vector_sum(sum[9]);
+    sums[0] += vector_sum(sum[0]);
+    sums[1] += vector_sum(sum[1]);
+    sums[2] += vector_sum(sum[2]);
+    sums[3] += vector_sum(sum[3]);
+    sums[4] += vector_sum(sum[4]);
+    sums[5] += vector_sum(sum[5]);
+    sums[6] += vector_sum(sum[6]);
+    sums[7] += vector_sum(sum[7]);
+    sums[8] += vector_sum(sum[8]);
+    sums[9] += vector_sum(sum[9]);
 }
 
 /*
@@ -841,7 +849,7 @@ void hyperbolic_splats_vjp(
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES ? part : LANES;
     vector *points = work_points(work);
-    vector *splats = work_splats(work, count), *places = work_blocks(work, count, splat_count);
+    vector *splats = work_reaches(work, count), *places = work_blocks(work, count, splat_count);
     double *constants = work_constants(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -869,7 +877,7 @@ void hyperbolic_splats_vjp(
             const size_t end = start + share < splat_count ? start + share : splat_count;
             double sums[LANES][10] = {{0}};
             uint32_t near[131072 / (7 * sizeof(vector)) + 2];
-            vector own_mu[3], own_W[6], own_amplitude[1], S_bar[10], bars[10];
+            vector own_mu[3], own_W[6], own_amplitude[1], own_sums[10], bars[10];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
@@ -881,8 +889,8 @@ void hyperbolic_splats_vjp(
             vector_rows(mu, end, start, 3, own_mu);
             vector_rows(W, end, start, 6, own_W);
             vector_rows(amplitude, end, start, 1, own_amplitude);
-            vector_rows(sums[0], LANES, 0, 10, S_bar);
-            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 3, bars + 3 + 6);
+            vector_rows(sums[0], LANES, 0, 10, own_sums);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 3, bars + 3 + 6);
             vector_to_rows(bars, mu_bar, end, start, 3, 3);
             vector_to_rows(bars + 3, W_bar, end, start, 6, 6);
             vector_to_rows(bars + 3 + 6, amplitude_bar, end, start, 1, 1);
@@ -909,12 +917,12 @@ void hyperbolic_splats_rows(
             vector point[7];
             splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector own_mu[3], own_W[6], own_amplitude[1], S_bar[10] = {ZERO}, bars[10];
+                vector own_mu[3], own_W[6], own_amplitude[1], own_sums[10] = {ZERO}, bars[10];
                 for (int i = 0; i < 3; ++i) own_mu[i] = vector_of(mu[3 * k + i]);
                 for (int i = 0; i < 6; ++i) own_W[i] = vector_of(W[6 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 10 * k, point + 3, point + 3 + 1, S_bar);
-                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 3, bars + 3 + 6);
+                pair_backward(point, constants + 10 * k, point + 3, point + 3 + 1, own_sums);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 3, bars + 3 + 6);
                 vector_to_rows(bars, rows + 10 * k, count, block * LANES, 10, 10 * splat_count);
             }
         }
@@ -988,7 +996,7 @@ double hyperbolic_splats_order(
     size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT amplitude, const double *HYPERBOLIC_RESTRICT width,
     double limit, size_t *HYPERBOLIC_RESTRICT order, double *HYPERBOLIC_RESTRICT work) {
     const size_t block = 2 * LANES;
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     uint32_t near[256];
     double share = 0;
     for (size_t n = 0; n < count; ++n) order[n] = n;
@@ -1019,6 +1027,10 @@ double hyperbolic_splats_order(
     }
     return share;
 }
+
+#endif /* double */
+
+#if !defined(RSRM_ONLY_DOUBLE) /* float */
 
 /* The same number in all lanes. */
 INLINE vector_f vector_of_f(float x) {
@@ -1061,24 +1073,24 @@ INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
 }
 
 /* x >= 0 with the sign of another. */
-INLINE vector_f vector_signed_f(vector_f x, vector_f sign) {
+INLINE vector_f signed_each_f(vector_f x, vector_f sign) {
     return vector_from_bits_f(vector_to_bits_f(x) | (vector_to_bits_f(sign) & 0x80000000));
 }
 
 /* abs of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_abs_f(vector_f x) {
+INLINE vector_f abs_each_f(vector_f x) {
     for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
     return x;
 }
 
 /* sqrt of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_sqrt_f(vector_f x) {
+INLINE vector_f sqrt_each_f(vector_f x) {
     for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
     return x;
 }
 
 /* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
-INLINE vector_f vector_exp_f(vector_f x) {
+INLINE vector_f exp_each_f(vector_f x) {
     const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
     const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
     const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
@@ -1088,7 +1100,7 @@ INLINE vector_f vector_exp_f(vector_f x) {
 }
 
 /* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
-INLINE vector_f vector_log_f(vector_f x) {
+INLINE vector_f log_each_f(vector_f x) {
     const vector_bits_f bits = vector_to_bits_f(x), biased = (bits + 0x4afb0d) >> 23; /* k + 127 */
     const vector_f k = vector_from_bits_f(biased + 0x4b400000) - 12583039.0f;
     const vector_f f = vector_from_bits_f(bits - (biased << 23) + 0x3f800000) - 1, s = f / (2 + f), z = s * s;
@@ -1101,16 +1113,16 @@ INLINE vector_f vector_log_f(vector_f x) {
 }
 
 /* log(1 + x), within 2 units in the last place. */
-INLINE vector_f vector_log1p_f(vector_f x) {
+INLINE vector_f log1p_each_f(vector_f x) {
     const vector_f u = 1 + x;
-    return vector_select_f(x <= 3.4028234663852886e38f, vector_log_f(u) + (x - (u - 1)) / u, x);
+    return vector_select_f(x <= 3.4028234663852886e38f, log_each_f(u) + (x - (u - 1)) / u, x);
 }
 
 /* asinh, within 3 units in the last place. */
-INLINE vector_f vector_asinh_f(vector_f x) {
-    const vector_f a = vector_abs_f(x), square = a * a;
-    const vector_f near = vector_log1p_f(a + square / (1 + vector_sqrt_f(1 + square)));
-    return vector_signed_f(vector_select_f(a > 4096.0f, vector_log_f(a) + 0.6931471805599453f, near), x);
+INLINE vector_f asinh_each_f(vector_f x) {
+    const vector_f a = abs_each_f(x), square = a * a;
+    const vector_f near = log1p_each_f(a + square / (1 + sqrt_each_f(1 + square)));
+    return signed_each_f(vector_select_f(a > 4096.0f, log_each_f(a) + 0.6931471805599453f, near), x);
 }
 
 /* Of degree 5, within 2^-29 of that of double precision. */
@@ -1205,12 +1217,12 @@ INLINE void pair_value_f(
     const vector_f gap = h0 - M0;
     const vector_f minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
     const vector_f u = vector_select_f(minus < 0.0f, vector_of_f(0.0f), minus);
-    const vector_f w = vector_sqrt_f(1.0f + u);
+    const vector_f w = sqrt_each_f(1.0f + u);
     const vector_mask_f near = w < 1.25f;
     const vector_f eta = vector_polynomial_eta_f(4.0f * vector_select_f(near, w - 1.0f, vector_of_f(0.0f)));
     const vector_f near_chosen = vector_select_f(near, vector_of_f(1.0f), u);
-    const vector_f sqrt_2 = vector_sqrt_f(near_chosen);
-    const vector_f half_angle = vector_log_f(w + sqrt_2);
+    const vector_f sqrt_2 = sqrt_each_f(near_chosen);
+    const vector_f half_angle = log_each_f(w + sqrt_2);
     const vector_f half_angle_product = sqrt_2 * half_angle;
     const vector_f ratio = 1.0f / (near_chosen * half_angle_product);
     const vector_f u_product = u * vector_select_f(near, eta, near_chosen * ratio - w * (half_angle_product *
@@ -1220,8 +1232,9 @@ INLINE void pair_value_f(
     const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
     const vector_f half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector_f gaussian = vector_exp_f(-half_square);
-    value[0] = value[0] + amplitude * (a * gaussian);
+    const vector_f gaussian = exp_each_f(-half_square);
+    const vector_f phi = a * gaussian;
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -1251,12 +1264,12 @@ INLINE void pair_forward_f(
     const vector_f gap = h0 - M0;
     const vector_f minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
     const vector_f u = vector_select_f(minus < 0.0f, vector_of_f(0.0f), minus);
-    const vector_f w = vector_sqrt_f(1.0f + u);
+    const vector_f w = sqrt_each_f(1.0f + u);
     const vector_mask_f near = w < 1.25f;
     const vector_f eta = vector_polynomial_eta_f(4.0f * vector_select_f(near, w - 1.0f, vector_of_f(0.0f)));
     const vector_f near_chosen = vector_select_f(near, vector_of_f(1.0f), u);
-    const vector_f sqrt_2 = vector_sqrt_f(near_chosen);
-    const vector_f half_angle = vector_log_f(w + sqrt_2);
+    const vector_f sqrt_2 = sqrt_each_f(near_chosen);
+    const vector_f half_angle = log_each_f(w + sqrt_2);
     const vector_f half_angle_product = sqrt_2 * half_angle;
     const vector_f ratio = 1.0f / (near_chosen * half_angle_product);
     const vector_f near_chosen_2 = vector_select_f(near, eta, near_chosen * ratio - w * (half_angle_product *
@@ -1267,14 +1280,16 @@ INLINE void pair_forward_f(
     const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
     const vector_f half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector_f gaussian = vector_exp_f(-half_square);
-    const vector_f phi = amplitude * (a * gaussian);
-    const vector_f product = 2.0f * (phi * a_squared);
+    const vector_f gaussian = exp_each_f(-half_square);
+    const vector_f phi = a * gaussian;
+    const vector_f phi_2 = amplitude * phi;
+    const vector_f product = 2.0f * (phi_2 * a_squared);
     const vector_f r1_product = r1 * product;
     const vector_f r0_product = r0 * product;
     const vector_f over_w = w_total * a;
-    const vector_f over_w_product = over_w * ((near_chosen_2 - over_w) * (phi - phi * (2.0f * half_square)));
-    value[0] = value[0] + phi;
+    const vector_f over_w_product = over_w * ((near_chosen_2 - over_w) * (phi_2 - phi_2 * (2.0f *
+        half_square)));
+    value[0] = value[0] + phi_2;
     slope[0] = slope[0] - R1_0 * r1_product - R0_0 * r0_product + M0 * over_w_product;
     slope[1] = slope[1] - R1_1 * r1_product - R0_1 * r0_product - M1 * over_w_product;
     slope[2] = slope[2] - R1_2 * r1_product - R0_2 * r0_product - M2 * over_w_product;
@@ -1313,10 +1328,9 @@ OUTLINE void pair_gradient_vjp_f(
     slope_bar[2] = 0.5f * (gradient_bar2 + x2 * by_normal_part);
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp_f(
-    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
-    (void)amplitude;
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *sums, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
     const vector_f mu0 = mu[0];
     const vector_f mu1 = mu[1];
     const vector_f mu2 = mu[2];
@@ -1326,42 +1340,43 @@ OUTLINE void pair_constants_vjp_f(
     const vector_f W1_0 = W[3];
     const vector_f W1_1 = W[4];
     const vector_f W1_2 = W[5];
-    const vector_f its_amplitude_bar = S_bar[0];
-    const vector_f M0_bar = S_bar[1];
-    const vector_f M1_bar = S_bar[2];
-    const vector_f M2_bar = S_bar[3];
-    const vector_f R0_0_bar = S_bar[4];
-    const vector_f R0_1_bar = S_bar[5];
-    const vector_f R0_2_bar = S_bar[6];
-    const vector_f R1_0_bar = S_bar[7];
-    const vector_f R1_1_bar = S_bar[8];
-    const vector_f R1_2_bar = S_bar[9];
+    const vector_f its_amplitude = amplitude[0];
+    const vector_f sum0 = sums[0];
+    const vector_f sum1 = sums[1];
+    const vector_f sum2 = sums[2];
+    const vector_f sum3 = sums[3];
+    const vector_f sum4 = sums[4];
+    const vector_f sum5 = sums[5];
+    const vector_f sum6 = sums[6];
+    const vector_f sum7 = sums[7];
+    const vector_f sum8 = sums[8];
+    const vector_f sum9 = sums[9];
     const vector_f by_normal_part = mu2 * W0_2 + mu1 * W0_1 + mu0 * W0_0;
-    const vector_f product = 1.4142135623730951f * R0_0_bar;
-    const vector_f product_2 = 1.4142135623730951f * R0_1_bar;
-    const vector_f product_3 = 1.4142135623730951f * R0_2_bar;
+    const vector_f product = 1.4142135623730951f * sum4;
+    const vector_f product_2 = 1.4142135623730951f * sum5;
+    const vector_f product_3 = 1.4142135623730951f * sum6;
     const vector_f by_by_normal_part = mu1 * product_2 - mu0 * product + mu2 * product_3;
     const vector_f by_normal_part_2 = mu2 * W1_2 + mu1 * W1_1 + mu0 * W1_0;
-    const vector_f product_4 = 1.4142135623730951f * R1_0_bar;
-    const vector_f product_5 = 1.4142135623730951f * R1_1_bar;
-    const vector_f product_6 = 1.4142135623730951f * R1_2_bar;
+    const vector_f product_4 = 1.4142135623730951f * sum7;
+    const vector_f product_5 = 1.4142135623730951f * sum8;
+    const vector_f product_6 = 1.4142135623730951f * sum9;
     const vector_f by_by_normal_part_2 = mu1 * product_5 - mu0 * product_4 + mu2 * product_6;
-    const vector_f total_2 = 0.5f * M0_bar - by_normal_part * product + W0_0 * by_by_normal_part -
+    const vector_f total_2 = 0.5f * sum1 - by_normal_part * product + W0_0 * by_by_normal_part -
         by_normal_part_2 * product_4 + W1_0 * by_by_normal_part_2;
-    const vector_f total_3 = 0.5f * M1_bar + by_normal_part * product_2 + W0_1 * by_by_normal_part +
+    const vector_f total_3 = 0.5f * sum2 + by_normal_part * product_2 + W0_1 * by_by_normal_part +
         by_normal_part_2 * product_5 + W1_1 * by_by_normal_part_2;
-    const vector_f total_4 = 0.5f * M2_bar + by_normal_part * product_3 + W0_2 * by_by_normal_part +
+    const vector_f total_4 = 0.5f * sum3 + by_normal_part * product_3 + W0_2 * by_by_normal_part +
         by_normal_part_2 * product_6 + W1_2 * by_by_normal_part_2;
-    mu_bar[0] = total_2;
-    mu_bar[1] = total_3;
-    mu_bar[2] = total_4;
-    W_bar[0] = product + mu0 * by_by_normal_part;
-    W_bar[1] = product_2 + mu1 * by_by_normal_part;
-    W_bar[2] = product_3 + mu2 * by_by_normal_part;
-    W_bar[3] = product_4 + mu0 * by_by_normal_part_2;
-    W_bar[4] = product_5 + mu1 * by_by_normal_part_2;
-    W_bar[5] = product_6 + mu2 * by_by_normal_part_2;
-    amplitude_bar[0] = its_amplitude_bar;
+    mu_bar[0] = its_amplitude * total_2;
+    mu_bar[1] = its_amplitude * total_3;
+    mu_bar[2] = its_amplitude * total_4;
+    W_bar[0] = its_amplitude * (product + mu0 * by_by_normal_part);
+    W_bar[1] = its_amplitude * (product_2 + mu1 * by_by_normal_part);
+    W_bar[2] = its_amplitude * (product_3 + mu2 * by_by_normal_part);
+    W_bar[3] = its_amplitude * (product_4 + mu0 * by_by_normal_part_2);
+    W_bar[4] = its_amplitude * (product_5 + mu1 * by_by_normal_part_2);
+    W_bar[5] = its_amplitude * (product_6 + mu2 * by_by_normal_part_2);
+    amplitude_bar[0] = sum0;
 }
 
 /* The distances of some points q from one point p. */
@@ -1379,9 +1394,9 @@ OUTLINE void pair_distances_f(
     const vector_f dot_D_D = D0 * D0 + D1 * D1;
     const vector_f dot_D_S = S0 * D0 + S1 * D1;
     const float dot_ps_ps = p1 * p1 + p2 * p2;
-    const vector_f a = vector_sqrt_f(vector_of_f(1.0f + dot_ps_ps));
+    const vector_f a = sqrt_each_f(vector_of_f(1.0f + dot_ps_ps));
     const vector_f dot_qs_qs = q1 * q1 + q2 * q2;
-    const vector_f b = vector_sqrt_f(1.0f + dot_qs_qs);
+    const vector_f b = sqrt_each_f(1.0f + dot_qs_qs);
     const vector_f a_total = a + b;
     const vector_f e = dot_D_S / a_total;
     const vector_mask_f is_small = dot_S_S < 1.0f;
@@ -1393,14 +1408,14 @@ OUTLINE void pair_distances_f(
     const vector_f dot_rest_rest = rest0 * rest0 + rest1 * rest1;
     const vector_f ww = vector_select_f(is_small, dot_D_D - e * e, dot_rest_rest + dot_D_S_ratio * (dot_D_S *
         c));
-    const vector_f sqrt_ww = vector_sqrt_f(ww);
-    const vector_f asinh_sqrt_ww_over_2 = vector_asinh_f(0.5f * sqrt_ww);
+    const vector_f sqrt_ww = sqrt_each_f(ww);
+    const vector_f asinh_sqrt_ww_over_2 = asinh_each_f(0.5f * sqrt_ww);
     const vector_f r = 2.0f * asinh_sqrt_ww_over_2;
     distance[0] = r;
 }
 
 /*
- * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
  * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
@@ -1409,11 +1424,10 @@ OUTLINE void pair_distances_f(
  * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
  */
 INLINE void pair_backward_f(
-    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
+    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
     const vector_f h0 = X[0];
     const vector_f h1 = X[1];
     const vector_f h2 = X[2];
-    const float amplitude = S[0];
     const float M0 = S[1];
     const float M1 = S[2];
     const float M2 = S[3];
@@ -1430,13 +1444,13 @@ INLINE void pair_backward_f(
     const vector_f gap = h0 - M0;
     const vector_f minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
     const vector_f u = vector_select_f(minus < 0.0f, vector_of_f(0.0f), minus);
-    const vector_f w = vector_sqrt_f(1.0f + u);
+    const vector_f w = sqrt_each_f(1.0f + u);
     const vector_mask_f near = w < 1.25f;
     const vector_f product = 4.0f * vector_select_f(near, w - 1.0f, vector_of_f(0.0f));
     const vector_f eta = vector_polynomial_eta_f(product);
     const vector_f near_chosen = vector_select_f(near, vector_of_f(1.0f), u);
-    const vector_f sqrt_2 = vector_sqrt_f(near_chosen);
-    const vector_f half_angle = vector_log_f(w + sqrt_2);
+    const vector_f sqrt_2 = sqrt_each_f(near_chosen);
+    const vector_f half_angle = log_each_f(w + sqrt_2);
     const vector_f half_angle_product = sqrt_2 * half_angle;
     const vector_f ratio = 1.0f / (near_chosen * half_angle_product);
     const vector_f product_2 = near_chosen * ratio;
@@ -1449,8 +1463,8 @@ INLINE void pair_backward_f(
     const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
     const vector_f half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector_f gaussian = vector_exp_f(-half_square);
-    const vector_f a_product = a * gaussian;
+    const vector_f gaussian = exp_each_f(-half_square);
+    const vector_f phi = a * gaussian;
     const vector_f over_w = w_total * a;
     const vector_f over_w_gap = near_chosen_2 - over_w;
     const vector_f gap_2 = M0 * h0_bar - M1 * h1_bar - M2 * h2_bar;
@@ -1462,7 +1476,7 @@ INLINE void pair_backward_f(
     const vector_f half_square_product = 2.0f * half_square;
     const vector_f by_phi = its_value_bar + product_4 + a_squared * product_5 - half_square_product *
         product_4;
-    const vector_f phi = amplitude * a_product;
+    const vector_f phi_product = phi * by_phi;
     const vector_f phi_gap = phi - phi * half_square_product;
     const vector_f product_6 = over_w_gap * phi_gap;
     const vector_f over_w_product_2 = over_w * product_6;
@@ -1470,28 +1484,27 @@ INLINE void pair_backward_f(
     const vector_f product_7 = phi_gap * over_w_product;
     const vector_f product_8 = vector_select_f(near, eta_slope, (2.0f + near_chosen) * (product_3 * product_3)
         - product_2 * (product_2 + w_product)) * product_7;
-    const vector_f product_9 = a_product * (amplitude * by_phi);
-    const vector_f by_half_square = -2.0f * (phi * product_4) - product_9;
-    const vector_f product_10 = over_w_gap * (2.0f * a_squared * (phi * product_5) + product_9 +
+    const vector_f by_half_square = -2.0f * (phi * product_4) - phi_product;
+    const vector_f product_9 = over_w_gap * (2.0f * a_squared * (phi * product_5) + phi_product +
         half_square_product * by_half_square);
-    const vector_f total_2 = product_8 - over_w * over_w * (product_6 * gap_2 - product_7) + product_10;
+    const vector_f total_2 = product_8 - over_w * over_w * (product_6 * gap_2 - product_7) + product_9;
     const vector_f over_w_product_3 = over_w * total_2;
-    const vector_f product_11 = 2.0f * (phi * a_squared);
-    const vector_f product_12 = 2.0f * (a_squared * by_half_square);
-    const vector_f by_r0 = product_11 * gap_3 + r0 * product_12;
-    const vector_f r0_product = r0 * product_11;
-    const vector_f by_r1 = product_11 * gap_4 + r1 * product_12;
-    const vector_f r1_product = r1 * product_11;
-    S_bar[0] = S_bar[0] + a_product * by_phi;
-    S_bar[1] = S_bar[1] + over_w_product_2 * h0_bar + h0 * over_w_product_3;
-    S_bar[2] = S_bar[2] - over_w_product_2 * h1_bar - h1 * over_w_product_3;
-    S_bar[3] = S_bar[3] - over_w_product_2 * h2_bar - h2 * over_w_product_3;
-    S_bar[4] = S_bar[4] + h0 * by_r0 - r0_product * h0_bar;
-    S_bar[5] = S_bar[5] + h1 * by_r0 - r0_product * h1_bar;
-    S_bar[6] = S_bar[6] + h2 * by_r0 - r0_product * h2_bar;
-    S_bar[7] = S_bar[7] + h0 * by_r1 - r1_product * h0_bar;
-    S_bar[8] = S_bar[8] + h1 * by_r1 - r1_product * h1_bar;
-    S_bar[9] = S_bar[9] + h2 * by_r1 - r1_product * h2_bar;
+    const vector_f product_10 = 2.0f * (phi * a_squared);
+    const vector_f product_11 = 2.0f * (a_squared * by_half_square);
+    const vector_f by_r0 = product_10 * gap_3 + r0 * product_11;
+    const vector_f r0_product = r0 * product_10;
+    const vector_f by_r1 = product_10 * gap_4 + r1 * product_11;
+    const vector_f r1_product = r1 * product_10;
+    sums[0] = sums[0] + phi_product;
+    sums[1] = sums[1] + over_w_product_2 * h0_bar + h0 * over_w_product_3;
+    sums[2] = sums[2] - over_w_product_2 * h1_bar - h1 * over_w_product_3;
+    sums[3] = sums[3] - over_w_product_2 * h2_bar - h2 * over_w_product_3;
+    sums[4] = sums[4] + h0 * by_r0 - r0_product * h0_bar;
+    sums[5] = sums[5] + h1 * by_r0 - r0_product * h1_bar;
+    sums[6] = sums[6] + h2 * by_r0 - r0_product * h2_bar;
+    sums[7] = sums[7] + h0 * by_r1 - r1_product * h0_bar;
+    sums[8] = sums[8] + h1 * by_r1 - r1_product * h1_bar;
+    sums[9] = sums[9] + h2 * by_r1 - r1_product * h2_bar;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -1537,12 +1550,12 @@ INLINE const float *splat_at_f(const vector_f *splats, size_t k) {
     return (const float *)(splats + 4 * row) + (k - row * LANES_f);
 }
 
-static vector_f *work_splats_f(float *work, size_t count) {
+static vector_f *work_reaches_f(float *work, size_t count) {
     return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 7;
 }
 
 static vector_f *work_blocks_f(float *work, size_t count, size_t splat_count) {
-    return work_splats_f(work, count) + 4 * ((splat_count + LANES_f - 1) / LANES_f);
+    return work_reaches_f(work, count) + 4 * ((splat_count + LANES_f - 1) / LANES_f);
 }
 
 static float *work_constants_f(float *work, size_t count, size_t splat_count) {
@@ -1659,7 +1672,7 @@ void hyperbolic_splats_f(
     float *HYPERBOLIC_RESTRICT value, float *HYPERBOLIC_RESTRICT gradient, float *HYPERBOLIC_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1701,7 +1714,7 @@ void hyperbolic_splats_value_f(
     float *HYPERBOLIC_RESTRICT value, float *HYPERBOLIC_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1747,23 +1760,29 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 3 + 1, point + 3);
 }
 
-/* Adds to S_bar what some vectors of points add to it, those in the list. */
-OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *S_bar) {
+/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *sums) {
     vector_f sum[10] = {ZERO};
-    for (size_t b = 0; b < size; ++b) {
+    size_t b = 0;
+    for (; b + 1 < size; b += 2) {
+        const vector_f *point = points + 7 * (size_t)near[b], *other = points + 7 * (size_t)near[b + 1];
+        pair_backward_f(point, S, point + 3, point + 3 + 1, sum);
+        pair_backward_f(other, S, other + 3, other + 3 + 1, sum);
+    }
+    if (b < size) {
         const vector_f *point = points + 7 * (size_t)near[b];
         pair_backward_f(point, S, point + 3, point + 3 + 1, sum);
     }
-    S_bar[0] += vector_sum_f(sum[0]);
-    S_bar[1] += vector_sum_f(sum[1]);
-    S_bar[2] += vector_sum_f(sum[2]);
-    S_bar[3] += vector_sum_f(sum[3]);
-    S_bar[4] += vector_sum_f(sum[4]);
-    S_bar[5] += vector_sum_f(sum[5]);
-    S_bar[6] += vector_sum_f(sum[6]);
-    S_bar[7] += vector_sum_f(sum[7]);
-    S_bar[8] += vector_sum_f(sum[8]);
-    S_bar[9] += vector_sum_f(sum[9]);
+    sums[0] += vector_sum_f(sum[0]);
+    sums[1] += vector_sum_f(sum[1]);
+    sums[2] += vector_sum_f(sum[2]);
+    sums[3] += vector_sum_f(sum[3]);
+    sums[4] += vector_sum_f(sum[4]);
+    sums[5] += vector_sum_f(sum[5]);
+    sums[6] += vector_sum_f(sum[6]);
+    sums[7] += vector_sum_f(sum[7]);
+    sums[8] += vector_sum_f(sum[8]);
+    sums[9] += vector_sum_f(sum[9]);
 }
 
 /*
@@ -1779,7 +1798,7 @@ void hyperbolic_splats_vjp_f(
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES_f ? part : LANES_f;
     vector_f *points = work_points_f(work);
-    vector_f *splats = work_splats_f(work, count), *places = work_blocks_f(work, count, splat_count);
+    vector_f *splats = work_reaches_f(work, count), *places = work_blocks_f(work, count, splat_count);
     float *constants = work_constants_f(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -1807,7 +1826,7 @@ void hyperbolic_splats_vjp_f(
             const size_t end = start + share < splat_count ? start + share : splat_count;
             float sums[LANES_f][10] = {{0}};
             uint32_t near[131072 / (7 * sizeof(vector_f)) + 2];
-            vector_f own_mu[3], own_W[6], own_amplitude[1], S_bar[10], bars[10];
+            vector_f own_mu[3], own_W[6], own_amplitude[1], own_sums[10], bars[10];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
@@ -1819,8 +1838,8 @@ void hyperbolic_splats_vjp_f(
             vector_rows_f(mu, end, start, 3, own_mu);
             vector_rows_f(W, end, start, 6, own_W);
             vector_rows_f(amplitude, end, start, 1, own_amplitude);
-            vector_rows_f(sums[0], LANES_f, 0, 10, S_bar);
-            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 3, bars + 3 + 6);
+            vector_rows_f(sums[0], LANES_f, 0, 10, own_sums);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 3, bars + 3 + 6);
             vector_to_rows_f(bars, mu_bar, end, start, 3, 3);
             vector_to_rows_f(bars + 3, W_bar, end, start, 6, 6);
             vector_to_rows_f(bars + 3 + 6, amplitude_bar, end, start, 1, 1);
@@ -1847,12 +1866,12 @@ void hyperbolic_splats_rows_f(
             vector_f point[7];
             splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector_f own_mu[3], own_W[6], own_amplitude[1], S_bar[10] = {ZERO}, bars[10];
+                vector_f own_mu[3], own_W[6], own_amplitude[1], own_sums[10] = {ZERO}, bars[10];
                 for (int i = 0; i < 3; ++i) own_mu[i] = vector_of_f(mu[3 * k + i]);
                 for (int i = 0; i < 6; ++i) own_W[i] = vector_of_f(W[6 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 10 * k, point + 3, point + 3 + 1, S_bar);
-                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 3, bars + 3 + 6);
+                pair_backward_f(point, constants + 10 * k, point + 3, point + 3 + 1, own_sums);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 3, bars + 3 + 6);
                 vector_to_rows_f(bars, rows + 10 * k, count, block * LANES_f, 10, 10 * splat_count);
             }
         }
@@ -1926,7 +1945,7 @@ double hyperbolic_splats_order_f(
     size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT amplitude, const float *HYPERBOLIC_RESTRICT width,
     double limit, size_t *HYPERBOLIC_RESTRICT order, float *HYPERBOLIC_RESTRICT work) {
     const size_t block = 2 * LANES_f;
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     uint32_t near[256];
     double share = 0;
     for (size_t n = 0; n < count; ++n) order[n] = n;
@@ -1957,3 +1976,5 @@ double hyperbolic_splats_order_f(
     }
     return share;
 }
+
+#endif /* float */

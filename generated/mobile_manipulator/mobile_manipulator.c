@@ -13,26 +13,19 @@ void mobile_manipulator_project(
     const double *MOBILE_MANIPULATOR_RESTRICT x,
     double *MOBILE_MANIPULATOR_RESTRICT p_out) {
     const double round_2 = rint(0.15915494309189535 * x[2]);
-    const double p2 = x[2] - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double p2 = x[2] - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double round_3 = rint(0.15915494309189535 * x[3]);
-    const double p3 = x[3] - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const double p3 = x[3] - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const double round_4 = rint(0.15915494309189535 * x[4]);
-    const double p4 = x[4] - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
-        round_4;
+    const double p4 = x[4] - 6.28125 * round_4 - 0.001935307179586477 * round_4;
     const double round_5 = rint(0.15915494309189535 * x[5]);
-    const double p5 = x[5] - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
-        round_5;
+    const double p5 = x[5] - 6.28125 * round_5 - 0.001935307179586477 * round_5;
     const double round_6 = rint(0.15915494309189535 * x[6]);
-    const double p6 = x[6] - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
-        round_6;
+    const double p6 = x[6] - 6.28125 * round_6 - 0.001935307179586477 * round_6;
     const double round_7 = rint(0.15915494309189535 * x[7]);
-    const double p7 = x[7] - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
-        round_7;
+    const double p7 = x[7] - 6.28125 * round_7 - 0.001935307179586477 * round_7;
     const double round_8 = rint(0.15915494309189535 * x[8]);
-    const double p8 = x[8] - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
-        round_8;
+    const double p8 = x[8] - 6.28125 * round_8 - 0.001935307179586477 * round_8;
     p_out[0] = x[0];
     p_out[1] = x[1];
     p_out[2] = p2;
@@ -157,32 +150,25 @@ void mobile_manipulator_exp(
     const double q1 = p[1] + v[1];
     const double total_2 = p[2] + v[2];
     const double round_2 = rint(0.15915494309189535 * total_2);
-    const double q2 = total_2 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double q2 = total_2 - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double total_3 = p[3] + v[3];
     const double round_3 = rint(0.15915494309189535 * total_3);
-    const double q3 = total_3 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const double q3 = total_3 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const double total_4 = p[4] + v[4];
     const double round_4 = rint(0.15915494309189535 * total_4);
-    const double q4 = total_4 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
-        round_4;
+    const double q4 = total_4 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
     const double total_5 = p[5] + v[5];
     const double round_5 = rint(0.15915494309189535 * total_5);
-    const double q5 = total_5 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
-        round_5;
+    const double q5 = total_5 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
     const double total_6 = p[6] + v[6];
     const double round_6 = rint(0.15915494309189535 * total_6);
-    const double q6 = total_6 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
-        round_6;
+    const double q6 = total_6 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
     const double total_7 = p[7] + v[7];
     const double round_7 = rint(0.15915494309189535 * total_7);
-    const double q7 = total_7 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
-        round_7;
+    const double q7 = total_7 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
     const double total_8 = p[8] + v[8];
     const double round_8 = rint(0.15915494309189535 * total_8);
-    const double q8 = total_8 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
-        round_8;
+    const double q8 = total_8 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
     q_out[0] = q0;
     q_out[1] = q1;
     q_out[2] = q2;
@@ -211,32 +197,25 @@ void mobile_manipulator_log(
     const double v1 = q[1] - p[1];
     const double gap = q[2] - p[2];
     const double round_2 = rint(0.15915494309189535 * gap);
-    const double v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double gap_2 = q[3] - p[3];
     const double round_3 = rint(0.15915494309189535 * gap_2);
-    const double v3 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const double v3 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const double gap_3 = q[4] - p[4];
     const double round_4 = rint(0.15915494309189535 * gap_3);
-    const double v4 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
-        round_4;
+    const double v4 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
     const double gap_4 = q[5] - p[5];
     const double round_5 = rint(0.15915494309189535 * gap_4);
-    const double v5 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
-        round_5;
+    const double v5 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
     const double gap_5 = q[6] - p[6];
     const double round_6 = rint(0.15915494309189535 * gap_5);
-    const double v6 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
-        round_6;
+    const double v6 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
     const double gap_6 = q[7] - p[7];
     const double round_7 = rint(0.15915494309189535 * gap_6);
-    const double v7 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
-        round_7;
+    const double v7 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
     const double gap_7 = q[8] - p[8];
     const double round_8 = rint(0.15915494309189535 * gap_7);
-    const double v8 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
-        round_8;
+    const double v8 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
     v_out[0] = v0;
     v_out[1] = v1;
     v_out[2] = v2;
@@ -264,32 +243,25 @@ double mobile_manipulator_distance(
     const double base_position_log1 = q[1] - p[1];
     const double gap = q[2] - p[2];
     const double round_2 = rint(0.15915494309189535 * gap);
-    const double base_heading_log0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 -
-        3.019915981956753e-07 * round_2;
+    const double base_heading_log0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double gap_2 = q[3] - p[3];
     const double round_3 = rint(0.15915494309189535 * gap_2);
-    const double arm_log0 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 -
-        3.019915981956753e-07 * round_3;
+    const double arm_log0 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const double gap_3 = q[4] - p[4];
     const double round_4 = rint(0.15915494309189535 * gap_3);
-    const double arm_log1 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 -
-        3.019915981956753e-07 * round_4;
+    const double arm_log1 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
     const double gap_4 = q[5] - p[5];
     const double round_5 = rint(0.15915494309189535 * gap_4);
-    const double arm_log2 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 -
-        3.019915981956753e-07 * round_5;
+    const double arm_log2 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
     const double gap_5 = q[6] - p[6];
     const double round_6 = rint(0.15915494309189535 * gap_5);
-    const double arm_log3 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 -
-        3.019915981956753e-07 * round_6;
+    const double arm_log3 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
     const double gap_6 = q[7] - p[7];
     const double round_7 = rint(0.15915494309189535 * gap_6);
-    const double arm_log4 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 -
-        3.019915981956753e-07 * round_7;
+    const double arm_log4 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
     const double gap_7 = q[8] - p[8];
     const double round_8 = rint(0.15915494309189535 * gap_7);
-    const double arm_log5 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 -
-        3.019915981956753e-07 * round_8;
+    const double arm_log5 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
     const double total_2 = base_position_log0 * base_position_log0 + base_position_log1 * base_position_log1 +
         0.25 * (base_heading_log0 * base_heading_log0) + 0.0625 * (arm_log0 * arm_log0) + 0.0625 * (arm_log1 *
         arm_log1);
@@ -414,32 +386,25 @@ void mobile_manipulator_splat(
     const double v1 = x[1] - mu[1];
     const double gap = x[2] - mu[2];
     const double round_2 = rint(0.15915494309189535 * gap);
-    const double v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double gap_2 = x[3] - mu[3];
     const double round_3 = rint(0.15915494309189535 * gap_2);
-    const double v3 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const double v3 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const double gap_3 = x[4] - mu[4];
     const double round_4 = rint(0.15915494309189535 * gap_3);
-    const double v4 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
-        round_4;
+    const double v4 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
     const double gap_4 = x[5] - mu[5];
     const double round_5 = rint(0.15915494309189535 * gap_4);
-    const double v5 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
-        round_5;
+    const double v5 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
     const double gap_5 = x[6] - mu[6];
     const double round_6 = rint(0.15915494309189535 * gap_5);
-    const double v6 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
-        round_6;
+    const double v6 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
     const double gap_6 = x[7] - mu[7];
     const double round_7 = rint(0.15915494309189535 * gap_6);
-    const double v7 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
-        round_7;
+    const double v7 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
     const double gap_7 = x[8] - mu[8];
     const double round_8 = rint(0.15915494309189535 * gap_7);
-    const double v8 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
-        round_8;
+    const double v8 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
     const double total_2 = W[0] * v0 + W[1] * v1 + W[2] * v2 + W[3] * v3 + W[4] * v4;
     const double z0 = total_2 + W[5] * v5 + W[6] * v6 + W[7] * v7 + W[8] * v8;
     const double total_3 = W[9] * v0 + W[10] * v1 + W[11] * v2 + W[12] * v3 + W[13] * v4;
@@ -555,26 +520,19 @@ void mobile_manipulator_project_f(
     const float *MOBILE_MANIPULATOR_RESTRICT x,
     float *MOBILE_MANIPULATOR_RESTRICT p_out) {
     const float round_2 = rintf(0.15915494309189535f * x[2]);
-    const float p2 = x[2] - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float p2 = x[2] - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float round_3 = rintf(0.15915494309189535f * x[3]);
-    const float p3 = x[3] - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f *
-        round_3;
+    const float p3 = x[3] - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const float round_4 = rintf(0.15915494309189535f * x[4]);
-    const float p4 = x[4] - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f *
-        round_4;
+    const float p4 = x[4] - 6.28125f * round_4 - 0.001935307179586477f * round_4;
     const float round_5 = rintf(0.15915494309189535f * x[5]);
-    const float p5 = x[5] - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f *
-        round_5;
+    const float p5 = x[5] - 6.28125f * round_5 - 0.001935307179586477f * round_5;
     const float round_6 = rintf(0.15915494309189535f * x[6]);
-    const float p6 = x[6] - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f *
-        round_6;
+    const float p6 = x[6] - 6.28125f * round_6 - 0.001935307179586477f * round_6;
     const float round_7 = rintf(0.15915494309189535f * x[7]);
-    const float p7 = x[7] - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f *
-        round_7;
+    const float p7 = x[7] - 6.28125f * round_7 - 0.001935307179586477f * round_7;
     const float round_8 = rintf(0.15915494309189535f * x[8]);
-    const float p8 = x[8] - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f *
-        round_8;
+    const float p8 = x[8] - 6.28125f * round_8 - 0.001935307179586477f * round_8;
     p_out[0] = x[0];
     p_out[1] = x[1];
     p_out[2] = p2;
@@ -701,32 +659,25 @@ void mobile_manipulator_exp_f(
     const float q1 = p[1] + v[1];
     const float total_2 = p[2] + v[2];
     const float round_2 = rintf(0.15915494309189535f * total_2);
-    const float q2 = total_2 - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f
-        * round_2;
+    const float q2 = total_2 - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float total_3 = p[3] + v[3];
     const float round_3 = rintf(0.15915494309189535f * total_3);
-    const float q3 = total_3 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
-        * round_3;
+    const float q3 = total_3 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const float total_4 = p[4] + v[4];
     const float round_4 = rintf(0.15915494309189535f * total_4);
-    const float q4 = total_4 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f
-        * round_4;
+    const float q4 = total_4 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
     const float total_5 = p[5] + v[5];
     const float round_5 = rintf(0.15915494309189535f * total_5);
-    const float q5 = total_5 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f
-        * round_5;
+    const float q5 = total_5 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
     const float total_6 = p[6] + v[6];
     const float round_6 = rintf(0.15915494309189535f * total_6);
-    const float q6 = total_6 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f
-        * round_6;
+    const float q6 = total_6 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
     const float total_7 = p[7] + v[7];
     const float round_7 = rintf(0.15915494309189535f * total_7);
-    const float q7 = total_7 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f
-        * round_7;
+    const float q7 = total_7 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
     const float total_8 = p[8] + v[8];
     const float round_8 = rintf(0.15915494309189535f * total_8);
-    const float q8 = total_8 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f
-        * round_8;
+    const float q8 = total_8 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
     q_out[0] = q0;
     q_out[1] = q1;
     q_out[2] = q2;
@@ -755,32 +706,25 @@ void mobile_manipulator_log_f(
     const float v1 = q[1] - p[1];
     const float gap = q[2] - p[2];
     const float round_2 = rintf(0.15915494309189535f * gap);
-    const float v2 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float v2 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float gap_2 = q[3] - p[3];
     const float round_3 = rintf(0.15915494309189535f * gap_2);
-    const float v3 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f *
-        round_3;
+    const float v3 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const float gap_3 = q[4] - p[4];
     const float round_4 = rintf(0.15915494309189535f * gap_3);
-    const float v4 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f *
-        round_4;
+    const float v4 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
     const float gap_4 = q[5] - p[5];
     const float round_5 = rintf(0.15915494309189535f * gap_4);
-    const float v5 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f *
-        round_5;
+    const float v5 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
     const float gap_5 = q[6] - p[6];
     const float round_6 = rintf(0.15915494309189535f * gap_5);
-    const float v6 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f *
-        round_6;
+    const float v6 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
     const float gap_6 = q[7] - p[7];
     const float round_7 = rintf(0.15915494309189535f * gap_6);
-    const float v7 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f *
-        round_7;
+    const float v7 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
     const float gap_7 = q[8] - p[8];
     const float round_8 = rintf(0.15915494309189535f * gap_7);
-    const float v8 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f *
-        round_8;
+    const float v8 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
     v_out[0] = v0;
     v_out[1] = v1;
     v_out[2] = v2;
@@ -808,32 +752,25 @@ float mobile_manipulator_distance_f(
     const float base_position_log1 = q[1] - p[1];
     const float gap = q[2] - p[2];
     const float round_2 = rintf(0.15915494309189535f * gap);
-    const float base_heading_log0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 -
-        3.019915981956753e-07f * round_2;
+    const float base_heading_log0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float gap_2 = q[3] - p[3];
     const float round_3 = rintf(0.15915494309189535f * gap_2);
-    const float arm_log0 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 -
-        3.019915981956753e-07f * round_3;
+    const float arm_log0 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const float gap_3 = q[4] - p[4];
     const float round_4 = rintf(0.15915494309189535f * gap_3);
-    const float arm_log1 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 -
-        3.019915981956753e-07f * round_4;
+    const float arm_log1 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
     const float gap_4 = q[5] - p[5];
     const float round_5 = rintf(0.15915494309189535f * gap_4);
-    const float arm_log2 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 -
-        3.019915981956753e-07f * round_5;
+    const float arm_log2 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
     const float gap_5 = q[6] - p[6];
     const float round_6 = rintf(0.15915494309189535f * gap_5);
-    const float arm_log3 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 -
-        3.019915981956753e-07f * round_6;
+    const float arm_log3 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
     const float gap_6 = q[7] - p[7];
     const float round_7 = rintf(0.15915494309189535f * gap_6);
-    const float arm_log4 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 -
-        3.019915981956753e-07f * round_7;
+    const float arm_log4 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
     const float gap_7 = q[8] - p[8];
     const float round_8 = rintf(0.15915494309189535f * gap_7);
-    const float arm_log5 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 -
-        3.019915981956753e-07f * round_8;
+    const float arm_log5 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
     const float total_2 = base_position_log0 * base_position_log0 + base_position_log1 * base_position_log1 +
         0.25f * (base_heading_log0 * base_heading_log0) + 0.0625f * (arm_log0 * arm_log0) + 0.0625f *
         (arm_log1 * arm_log1);
@@ -959,32 +896,25 @@ void mobile_manipulator_splat_f(
     const float v1 = x[1] - mu[1];
     const float gap = x[2] - mu[2];
     const float round_2 = rintf(0.15915494309189535f * gap);
-    const float v2 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float v2 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float gap_2 = x[3] - mu[3];
     const float round_3 = rintf(0.15915494309189535f * gap_2);
-    const float v3 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f *
-        round_3;
+    const float v3 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const float gap_3 = x[4] - mu[4];
     const float round_4 = rintf(0.15915494309189535f * gap_3);
-    const float v4 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f *
-        round_4;
+    const float v4 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
     const float gap_4 = x[5] - mu[5];
     const float round_5 = rintf(0.15915494309189535f * gap_4);
-    const float v5 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f *
-        round_5;
+    const float v5 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
     const float gap_5 = x[6] - mu[6];
     const float round_6 = rintf(0.15915494309189535f * gap_5);
-    const float v6 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f *
-        round_6;
+    const float v6 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
     const float gap_6 = x[7] - mu[7];
     const float round_7 = rintf(0.15915494309189535f * gap_6);
-    const float v7 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f *
-        round_7;
+    const float v7 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
     const float gap_7 = x[8] - mu[8];
     const float round_8 = rintf(0.15915494309189535f * gap_7);
-    const float v8 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f *
-        round_8;
+    const float v8 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
     const float total_2 = W[0] * v0 + W[1] * v1 + W[2] * v2 + W[3] * v3 + W[4] * v4;
     const float z0 = total_2 + W[5] * v5 + W[6] * v6 + W[7] * v7 + W[8] * v8;
     const float total_3 = W[9] * v0 + W[10] * v1 + W[11] * v2 + W[12] * v3 + W[13] * v4;

@@ -9,20 +9,20 @@
  * log |det D Log|: the sum of those of the factors.
  *
  *                       operations   float64  float32
- * project                       56
+ * project                       42
  * to_tangent                     0
  * inner                         24
  * norm                          25
  * flat                           7
- * exp                           65      <= 1     <= 1
- * log                           65      <= 1     <= 1
- * distance                      90      <= 1     <= 1
+ * exp                           51      <= 1     <= 1
+ * log                           51      <= 1     <= 1
+ * distance                      76      <= 1     <= 1
  * log_abs_det                    0      <= 1     <= 1
  * riemannian_gradient            7
  * gradient_norm                 25
  * transport                      0
- * splat                        417
- * splat_vjp                   1023
+ * splat                        403
+ * splat_vjp                   1009
  *
  * Errors are the worst of 36 points against 60 digits, in units of the error that rounding the
  * inputs and the output to the precision alone would cause.

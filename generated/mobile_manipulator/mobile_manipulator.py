@@ -8,20 +8,20 @@ Do not edit: change the manifold file and generate again.
 log |det D Log|: the sum of those of the factors.
 
                       operations   float64  float32
-project                       56
+project                       42
 to_tangent                     0
 inner                         24
 norm                          25
 flat                           7
-exp                           65      <= 1     <= 1
-log                           65      <= 1     <= 1
-distance                      90      <= 1     <= 1
+exp                           51      <= 1     <= 1
+log                           51      <= 1     <= 1
+distance                      76      <= 1     <= 1
 log_abs_det                    0      <= 1     <= 1
 riemannian_gradient            7
 gradient_norm                 25
 transport                      0
-splat                        417
-splat_vjp                   1023
+splat                        403
+splat_vjp                   1009
 
 Errors are the worst of 36 points against 60 digits, in units of the error that rounding the
 inputs and the output to the precision alone would cause.
@@ -185,19 +185,19 @@ class MobileManipulator:
         """
         x0, x1, x2, x3, x4, x5, x6, x7, x8 = x.unbind(-1)
         round_2 = torch.round(0.15915494309189535 * x2)
-        p2 = x2 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        p2 = x2 - 6.28125 * round_2 - 0.001935307179586477 * round_2
         round_3 = torch.round(0.15915494309189535 * x3)
-        p3 = x3 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        p3 = x3 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         round_4 = torch.round(0.15915494309189535 * x4)
-        p4 = x4 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 * round_4
+        p4 = x4 - 6.28125 * round_4 - 0.001935307179586477 * round_4
         round_5 = torch.round(0.15915494309189535 * x5)
-        p5 = x5 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 * round_5
+        p5 = x5 - 6.28125 * round_5 - 0.001935307179586477 * round_5
         round_6 = torch.round(0.15915494309189535 * x6)
-        p6 = x6 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 * round_6
+        p6 = x6 - 6.28125 * round_6 - 0.001935307179586477 * round_6
         round_7 = torch.round(0.15915494309189535 * x7)
-        p7 = x7 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 * round_7
+        p7 = x7 - 6.28125 * round_7 - 0.001935307179586477 * round_7
         round_8 = torch.round(0.15915494309189535 * x8)
-        p8 = x8 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 * round_8
+        p8 = x8 - 6.28125 * round_8 - 0.001935307179586477 * round_8
         return _stack((x0, x1, p2, p3, p4, p5, p6, p7, p8))
 
     def to_tangent(self, p: Tensor, x: Tensor) -> Tensor:
@@ -270,25 +270,25 @@ class MobileManipulator:
         q1 = p1 + v1
         total_2 = p2 + v2
         round_2 = torch.round(0.15915494309189535 * total_2)
-        q2 = total_2 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        q2 = total_2 - 6.28125 * round_2 - 0.001935307179586477 * round_2
         total_3 = p3 + v3
         round_3 = torch.round(0.15915494309189535 * total_3)
-        q3 = total_3 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        q3 = total_3 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         total_4 = p4 + v4
         round_4 = torch.round(0.15915494309189535 * total_4)
-        q4 = total_4 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 * round_4
+        q4 = total_4 - 6.28125 * round_4 - 0.001935307179586477 * round_4
         total_5 = p5 + v5
         round_5 = torch.round(0.15915494309189535 * total_5)
-        q5 = total_5 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 * round_5
+        q5 = total_5 - 6.28125 * round_5 - 0.001935307179586477 * round_5
         total_6 = p6 + v6
         round_6 = torch.round(0.15915494309189535 * total_6)
-        q6 = total_6 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 * round_6
+        q6 = total_6 - 6.28125 * round_6 - 0.001935307179586477 * round_6
         total_7 = p7 + v7
         round_7 = torch.round(0.15915494309189535 * total_7)
-        q7 = total_7 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 * round_7
+        q7 = total_7 - 6.28125 * round_7 - 0.001935307179586477 * round_7
         total_8 = p8 + v8
         round_8 = torch.round(0.15915494309189535 * total_8)
-        q8 = total_8 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 * round_8
+        q8 = total_8 - 6.28125 * round_8 - 0.001935307179586477 * round_8
         return _stack((q0, q1, q2, q3, q4, q5, q6, q7, q8))
 
     def log(self, p: Tensor, q: Tensor) -> Tensor:
@@ -303,25 +303,25 @@ class MobileManipulator:
         v1 = q1 - p1
         gap = q2 - p2
         round_2 = torch.round(0.15915494309189535 * gap)
-        v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2
         gap_2 = q3 - p3
         round_3 = torch.round(0.15915494309189535 * gap_2)
-        v3 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        v3 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         gap_3 = q4 - p4
         round_4 = torch.round(0.15915494309189535 * gap_3)
-        v4 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 * round_4
+        v4 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4
         gap_4 = q5 - p5
         round_5 = torch.round(0.15915494309189535 * gap_4)
-        v5 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 * round_5
+        v5 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5
         gap_5 = q6 - p6
         round_6 = torch.round(0.15915494309189535 * gap_5)
-        v6 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 * round_6
+        v6 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6
         gap_6 = q7 - p7
         round_7 = torch.round(0.15915494309189535 * gap_6)
-        v7 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 * round_7
+        v7 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7
         gap_7 = q8 - p8
         round_8 = torch.round(0.15915494309189535 * gap_7)
-        v8 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 * round_8
+        v8 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8
         return _stack((v0, v1, v2, v3, v4, v5, v6, v7, v8))
 
     def distance(self, p: Tensor, q: Tensor) -> Tensor:
@@ -336,25 +336,25 @@ class MobileManipulator:
         base_position_log1 = q1 - p1
         gap = q2 - p2
         round_2 = torch.round(0.15915494309189535 * gap)
-        base_heading_log0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        base_heading_log0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2
         gap_2 = q3 - p3
         round_3 = torch.round(0.15915494309189535 * gap_2)
-        arm_log0 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        arm_log0 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         gap_3 = q4 - p4
         round_4 = torch.round(0.15915494309189535 * gap_3)
-        arm_log1 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 * round_4
+        arm_log1 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4
         gap_4 = q5 - p5
         round_5 = torch.round(0.15915494309189535 * gap_4)
-        arm_log2 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 * round_5
+        arm_log2 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5
         gap_5 = q6 - p6
         round_6 = torch.round(0.15915494309189535 * gap_5)
-        arm_log3 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 * round_6
+        arm_log3 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6
         gap_6 = q7 - p7
         round_7 = torch.round(0.15915494309189535 * gap_6)
-        arm_log4 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 * round_7
+        arm_log4 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7
         gap_7 = q8 - p8
         round_8 = torch.round(0.15915494309189535 * gap_7)
-        arm_log5 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 * round_8
+        arm_log5 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8
         total_2 = (
             base_position_log0 * base_position_log0 + base_position_log1 * base_position_log1 + 0.25 *
             (base_heading_log0 * base_heading_log0) + 0.0625 * (arm_log0 * arm_log0) + 0.0625 * (arm_log1 * arm_log1)
@@ -442,25 +442,25 @@ class MobileManipulator:
         v1 = x1 - mu1
         gap = x2 - mu2
         round_2 = torch.round(0.15915494309189535 * gap)
-        v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2
         gap_2 = x3 - mu3
         round_3 = torch.round(0.15915494309189535 * gap_2)
-        v3 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        v3 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         gap_3 = x4 - mu4
         round_4 = torch.round(0.15915494309189535 * gap_3)
-        v4 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 * round_4
+        v4 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4
         gap_4 = x5 - mu5
         round_5 = torch.round(0.15915494309189535 * gap_4)
-        v5 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 * round_5
+        v5 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5
         gap_5 = x6 - mu6
         round_6 = torch.round(0.15915494309189535 * gap_5)
-        v6 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 * round_6
+        v6 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6
         gap_6 = x7 - mu7
         round_7 = torch.round(0.15915494309189535 * gap_6)
-        v7 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 * round_7
+        v7 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7
         gap_7 = x8 - mu8
         round_8 = torch.round(0.15915494309189535 * gap_7)
-        v8 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 * round_8
+        v8 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8
         total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4
         z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8
         total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4
@@ -633,7 +633,7 @@ class MobileManipulator:
     ) -> tuple[Tensor, Tensor, Tensor]:
         """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu (K, D), W (K, d, T) and amplitude (K)."""
         S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
-        total = torch.zeros((len(S), len(mu)), dtype=x.dtype, device=x.device)
+        total = torch.zeros((), dtype=x.dtype, device=x.device)
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         for part, *bars in zip(*parts, strict=True):
             total = total + torch.stack(_sums(self._pair_bars(part, S, *bars), len(part), len(mu), 0))
@@ -647,15 +647,15 @@ class MobileManipulator:
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         rows = []
         for part, *bars in zip(*parts, strict=True):
-            S_bar = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
-            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, S_bar)
+            sums = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
+            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, sums)
             rows.append(torch.cat([by_mu, by_W.flatten(-2), by_amplitude.unsqueeze(-1)], -1))
         return torch.cat(rows)
 
     def _pair_bars(
         self, x: Tensor, S: Sequence[Tensor], value_bar: Tensor, gradient_bar: Tensor
     ) -> tuple[Tensor, ...]:
-        """The derivatives in S of every pair, from those in the sums."""
+        """What every pair adds to the sums of its splat, from the derivatives in values and gradients."""
         X = [entry.unsqueeze(-1) for entry in self._point_features(x)]
         slope_bar = [entry.unsqueeze(-1) for entry in self._point_gradient_vjp(x, gradient_bar)]
         return self._pair_vjp(X, S, value_bar.unsqueeze(-1), slope_bar)
@@ -784,26 +784,26 @@ class MobileManipulator:
         v1 = x1 - mu1
         gap = x2 - mu2
         round_2 = torch.round(0.15915494309189535 * gap)
-        v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2
         gap_2 = x3 - mu3
         round_3 = torch.round(0.15915494309189535 * gap_2)
-        v3 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        v3 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         gap_3 = x4 - mu4
         round_4 = torch.round(0.15915494309189535 * gap_3)
-        v4 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 * round_4
+        v4 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4
         total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4
         gap_4 = x5 - mu5
         round_5 = torch.round(0.15915494309189535 * gap_4)
-        v5 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 * round_5
+        v5 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5
         gap_5 = x6 - mu6
         round_6 = torch.round(0.15915494309189535 * gap_5)
-        v6 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 * round_6
+        v6 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6
         gap_6 = x7 - mu7
         round_7 = torch.round(0.15915494309189535 * gap_6)
-        v7 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 * round_7
+        v7 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7
         gap_7 = x8 - mu8
         round_8 = torch.round(0.15915494309189535 * gap_7)
-        v8 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 * round_8
+        v8 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8
         z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8
         total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4
         z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8
@@ -823,8 +823,9 @@ class MobileManipulator:
         total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4
         z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8
         total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8
-        phi = amplitude * torch.exp(-(0.5 * total_12))
-        return (phi,)
+        phi = torch.exp(-(0.5 * total_12))
+        phi_2 = amplitude * phi
+        return (phi_2,)
 
     def _pair(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
         """The value of a splat at a point, and the slope, its derivatives in X."""
@@ -841,26 +842,26 @@ class MobileManipulator:
         v1 = x1 - mu1
         gap = x2 - mu2
         round_2 = torch.round(0.15915494309189535 * gap)
-        v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2
         gap_2 = x3 - mu3
         round_3 = torch.round(0.15915494309189535 * gap_2)
-        v3 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        v3 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         gap_3 = x4 - mu4
         round_4 = torch.round(0.15915494309189535 * gap_3)
-        v4 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 * round_4
+        v4 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4
         total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4
         gap_4 = x5 - mu5
         round_5 = torch.round(0.15915494309189535 * gap_4)
-        v5 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 * round_5
+        v5 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5
         gap_5 = x6 - mu6
         round_6 = torch.round(0.15915494309189535 * gap_5)
-        v6 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 * round_6
+        v6 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6
         gap_6 = x7 - mu7
         round_7 = torch.round(0.15915494309189535 * gap_6)
-        v7 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 * round_7
+        v7 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7
         gap_7 = x8 - mu8
         round_8 = torch.round(0.15915494309189535 * gap_7)
-        v8 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 * round_8
+        v8 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8
         z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8
         total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4
         z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8
@@ -880,18 +881,19 @@ class MobileManipulator:
         total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4
         z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8
         total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8
-        phi = amplitude * torch.exp(-(0.5 * total_12))
-        z8_product = z8 * phi
-        z7_product = z7 * phi
-        z6_product = z6 * phi
-        z5_product = z5 * phi
+        phi = torch.exp(-(0.5 * total_12))
+        phi_2 = amplitude * phi
+        z8_product = z8 * phi_2
+        z7_product = z7 * phi_2
+        z6_product = z6 * phi_2
+        z5_product = z5 * phi_2
         gap_8 = -(W8_0 * z8_product) - W7_0 * z7_product - W6_0 * z6_product - W5_0 * z5_product
-        z4_product = z4 * phi
-        z3_product = z3 * phi
-        z2_product = z2 * phi
-        z1_product = z1 * phi
+        z4_product = z4 * phi_2
+        z3_product = z3 * phi_2
+        z2_product = z2 * phi_2
+        z1_product = z1 * phi_2
         gap_9 = gap_8 - W4_0 * z4_product - W3_0 * z3_product - W2_0 * z2_product - W1_0 * z1_product
-        z0_product = z0 * phi
+        z0_product = z0 * phi_2
         by_v0 = gap_9 - W0_0 * z0_product
         gap_10 = -(W8_1 * z8_product) - W7_1 * z7_product - W6_1 * z6_product - W5_1 * z5_product
         gap_11 = gap_10 - W4_1 * z4_product - W3_1 * z3_product - W2_1 * z2_product - W1_1 * z1_product
@@ -917,7 +919,7 @@ class MobileManipulator:
         gap_24 = -(W8_8 * z8_product) - W7_8 * z7_product - W6_8 * z6_product - W5_8 * z5_product
         gap_25 = gap_24 - W4_8 * z4_product - W3_8 * z3_product - W2_8 * z2_product - W1_8 * z1_product
         by_v8 = gap_25 - W0_8 * z0_product
-        return (phi, by_v0, by_v1, by_v2, by_v3, by_v4, by_v5, by_v6, by_v7, by_v8)
+        return (phi_2, by_v0, by_v1, by_v2, by_v3, by_v4, by_v5, by_v6, by_v7, by_v8)
 
     def _point_gradient(self, x: Tensor, slope: Sequence[Tensor]) -> Tensor:
         """The Riemannian gradient of a function whose derivatives in X are `slope`."""
@@ -955,41 +957,40 @@ class MobileManipulator:
     def _pair_vjp(
         self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
     ) -> tuple[Tensor, ...]:
-        """The derivatives of value value_bar + slope . slope_bar in S."""
+        """What, summed over the points, makes the derivatives of value value_bar + slope . slope_bar."""
         x0, x1, x2, x3, x4, x5, x6, x7, x8 = X
         (
             mu0, mu1, mu2, mu3, mu4, mu5, mu6, mu7, mu8, W0_0, W0_1, W0_2, W0_3, W0_4, W0_5, W0_6, W0_7, W0_8, W1_0,
             W1_1, W1_2, W1_3, W1_4, W1_5, W1_6, W1_7, W1_8, W2_0, W2_1, W2_2, W2_3, W2_4, W2_5, W2_6, W2_7, W2_8, W3_0,
             W3_1, W3_2, W3_3, W3_4, W3_5, W3_6, W3_7, W3_8, W4_0, W4_1, W4_2, W4_3, W4_4, W4_5, W4_6, W4_7, W4_8, W5_0,
             W5_1, W5_2, W5_3, W5_4, W5_5, W5_6, W5_7, W5_8, W6_0, W6_1, W6_2, W6_3, W6_4, W6_5, W6_6, W6_7, W6_8, W7_0,
-            W7_1, W7_2, W7_3, W7_4, W7_5, W7_6, W7_7, W7_8, W8_0, W8_1, W8_2, W8_3, W8_4, W8_5, W8_6, W8_7, W8_8,
-            amplitude,
+            W7_1, W7_2, W7_3, W7_4, W7_5, W7_6, W7_7, W7_8, W8_0, W8_1, W8_2, W8_3, W8_4, W8_5, W8_6, W8_7, W8_8, _,
         ) = S
         x0_bar, x1_bar, x2_bar, x3_bar, x4_bar, x5_bar, x6_bar, x7_bar, x8_bar = slope_bar
         v0 = x0 - mu0
         v1 = x1 - mu1
         gap = x2 - mu2
         round_2 = torch.round(0.15915494309189535 * gap)
-        v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2
         gap_2 = x3 - mu3
         round_3 = torch.round(0.15915494309189535 * gap_2)
-        v3 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 * round_3
+        v3 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3
         gap_3 = x4 - mu4
         round_4 = torch.round(0.15915494309189535 * gap_3)
-        v4 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 * round_4
+        v4 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4
         total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4
         gap_4 = x5 - mu5
         round_5 = torch.round(0.15915494309189535 * gap_4)
-        v5 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 * round_5
+        v5 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5
         gap_5 = x6 - mu6
         round_6 = torch.round(0.15915494309189535 * gap_5)
-        v6 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 * round_6
+        v6 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6
         gap_6 = x7 - mu7
         round_7 = torch.round(0.15915494309189535 * gap_6)
-        v7 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 * round_7
+        v7 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7
         gap_7 = x8 - mu8
         round_8 = torch.round(0.15915494309189535 * gap_7)
-        v8 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 * round_8
+        v8 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8
         z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8
         total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4
         z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8
@@ -1009,8 +1010,7 @@ class MobileManipulator:
         total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4
         z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8
         total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8
-        exp_2 = torch.exp(-(0.5 * total_12))
-        phi = amplitude * exp_2
+        phi = torch.exp(-(0.5 * total_12))
         gap_8 = -(W8_0 * x0_bar) - W8_1 * x1_bar - W8_2 * x2_bar - W8_3 * x3_bar
         gap_9 = gap_8 - W8_4 * x4_bar - W8_5 * x5_bar - W8_6 * x6_bar - W8_7 * x7_bar
         gap_10 = gap_9 - W8_8 * x8_bar
@@ -1041,17 +1041,17 @@ class MobileManipulator:
         gap_34 = gap_33 - W7_8 * x8_bar
         total_14 = total_13 + z4 * gap_25 + z5 * gap_28 + z6 * gap_31 + z7 * gap_34
         by_phi = total_14 + z8 * gap_10
-        product = exp_2 * (amplitude * by_phi)
-        by_z8 = phi * gap_10 - z8 * product
-        by_z7 = phi * gap_34 - z7 * product
-        by_z6 = phi * gap_31 - z6 * product
-        by_z5 = phi * gap_28 - z5 * product
-        by_z4 = phi * gap_25 - z4 * product
+        phi_product = phi * by_phi
+        by_z8 = phi * gap_10 - z8 * phi_product
+        by_z7 = phi * gap_34 - z7 * phi_product
+        by_z6 = phi * gap_31 - z6 * phi_product
+        by_z5 = phi * gap_28 - z5 * phi_product
+        by_z4 = phi * gap_25 - z4 * phi_product
         total_15 = W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5 + W4_0 * by_z4
-        by_z3 = phi * gap_22 - z3 * product
-        by_z2 = phi * gap_19 - z2 * product
-        by_z1 = phi * gap_16 - z1 * product
-        by_z0 = phi * gap_13 - z0 * product
+        by_z3 = phi * gap_22 - z3 * phi_product
+        by_z2 = phi * gap_19 - z2 * phi_product
+        by_z1 = phi * gap_16 - z1 * phi_product
+        by_z0 = phi * gap_13 - z0 * phi_product
         by_v0 = total_15 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0
         total_16 = W8_1 * by_z8 + W7_1 * by_z7 + W6_1 * by_z6 + W5_1 * by_z5 + W4_1 * by_z4
         by_v1 = total_16 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0
@@ -1169,109 +1169,116 @@ class MobileManipulator:
             v6 * by_z8 - z8_product * x6_bar,
             v7 * by_z8 - z8_product * x7_bar,
             v8 * by_z8 - z8_product * x8_bar,
-            exp_2 * by_phi,
+            phi_product,
         )
 
     def _splat_constants_vjp(
-        self, mu: Tensor, W: Tensor, amplitude: Tensor, S_bar: Sequence[Tensor]
+        self, mu: Tensor, W: Tensor, amplitude: Tensor, sums: Sequence[Tensor]
     ) -> tuple[Tensor, Tensor, Tensor]:
-        """The derivatives in mu, W and amplitude from those in S."""
+        """The derivatives in mu, W and amplitude from those sums."""
         (
-            mu0_bar, mu1_bar, mu2_bar, mu3_bar, mu4_bar, mu5_bar, mu6_bar, mu7_bar, mu8_bar, W0_0_bar, W0_1_bar,
-            W0_2_bar, W0_3_bar, W0_4_bar, W0_5_bar, W0_6_bar, W0_7_bar, W0_8_bar, W1_0_bar, W1_1_bar, W1_2_bar,
-            W1_3_bar, W1_4_bar, W1_5_bar, W1_6_bar, W1_7_bar, W1_8_bar, W2_0_bar, W2_1_bar, W2_2_bar, W2_3_bar,
-            W2_4_bar, W2_5_bar, W2_6_bar, W2_7_bar, W2_8_bar, W3_0_bar, W3_1_bar, W3_2_bar, W3_3_bar, W3_4_bar,
-            W3_5_bar, W3_6_bar, W3_7_bar, W3_8_bar, W4_0_bar, W4_1_bar, W4_2_bar, W4_3_bar, W4_4_bar, W4_5_bar,
-            W4_6_bar, W4_7_bar, W4_8_bar, W5_0_bar, W5_1_bar, W5_2_bar, W5_3_bar, W5_4_bar, W5_5_bar, W5_6_bar,
-            W5_7_bar, W5_8_bar, W6_0_bar, W6_1_bar, W6_2_bar, W6_3_bar, W6_4_bar, W6_5_bar, W6_6_bar, W6_7_bar,
-            W6_8_bar, W7_0_bar, W7_1_bar, W7_2_bar, W7_3_bar, W7_4_bar, W7_5_bar, W7_6_bar, W7_7_bar, W7_8_bar,
-            W8_0_bar, W8_1_bar, W8_2_bar, W8_3_bar, W8_4_bar, W8_5_bar, W8_6_bar, W8_7_bar, W8_8_bar, amplitude_bar,
-        ) = S_bar
-        mu_bar = _stack((mu0_bar, mu1_bar, mu2_bar, mu3_bar, mu4_bar, mu5_bar, mu6_bar, mu7_bar, mu8_bar))
-        W_bar = _stack((
-            W0_0_bar,
-            W0_1_bar,
-            W0_2_bar,
-            W0_3_bar,
-            W0_4_bar,
-            W0_5_bar,
-            W0_6_bar,
-            W0_7_bar,
-            W0_8_bar,
-            W1_0_bar,
-            W1_1_bar,
-            W1_2_bar,
-            W1_3_bar,
-            W1_4_bar,
-            W1_5_bar,
-            W1_6_bar,
-            W1_7_bar,
-            W1_8_bar,
-            W2_0_bar,
-            W2_1_bar,
-            W2_2_bar,
-            W2_3_bar,
-            W2_4_bar,
-            W2_5_bar,
-            W2_6_bar,
-            W2_7_bar,
-            W2_8_bar,
-            W3_0_bar,
-            W3_1_bar,
-            W3_2_bar,
-            W3_3_bar,
-            W3_4_bar,
-            W3_5_bar,
-            W3_6_bar,
-            W3_7_bar,
-            W3_8_bar,
-            W4_0_bar,
-            W4_1_bar,
-            W4_2_bar,
-            W4_3_bar,
-            W4_4_bar,
-            W4_5_bar,
-            W4_6_bar,
-            W4_7_bar,
-            W4_8_bar,
-            W5_0_bar,
-            W5_1_bar,
-            W5_2_bar,
-            W5_3_bar,
-            W5_4_bar,
-            W5_5_bar,
-            W5_6_bar,
-            W5_7_bar,
-            W5_8_bar,
-            W6_0_bar,
-            W6_1_bar,
-            W6_2_bar,
-            W6_3_bar,
-            W6_4_bar,
-            W6_5_bar,
-            W6_6_bar,
-            W6_7_bar,
-            W6_8_bar,
-            W7_0_bar,
-            W7_1_bar,
-            W7_2_bar,
-            W7_3_bar,
-            W7_4_bar,
-            W7_5_bar,
-            W7_6_bar,
-            W7_7_bar,
-            W7_8_bar,
-            W8_0_bar,
-            W8_1_bar,
-            W8_2_bar,
-            W8_3_bar,
-            W8_4_bar,
-            W8_5_bar,
-            W8_6_bar,
-            W8_7_bar,
-            W8_8_bar,
+            sum0, sum1, sum2, sum3, sum4, sum5, sum6, sum7, sum8, sum9, sum10, sum11, sum12, sum13, sum14, sum15, sum16,
+            sum17, sum18, sum19, sum20, sum21, sum22, sum23, sum24, sum25, sum26, sum27, sum28, sum29, sum30, sum31,
+            sum32, sum33, sum34, sum35, sum36, sum37, sum38, sum39, sum40, sum41, sum42, sum43, sum44, sum45, sum46,
+            sum47, sum48, sum49, sum50, sum51, sum52, sum53, sum54, sum55, sum56, sum57, sum58, sum59, sum60, sum61,
+            sum62, sum63, sum64, sum65, sum66, sum67, sum68, sum69, sum70, sum71, sum72, sum73, sum74, sum75, sum76,
+            sum77, sum78, sum79, sum80, sum81, sum82, sum83, sum84, sum85, sum86, sum87, sum88, sum89, sum90,
+        ) = sums
+        mu_bar = _stack((
+            amplitude * sum0,
+            amplitude * sum1,
+            amplitude * sum2,
+            amplitude * sum3,
+            amplitude * sum4,
+            amplitude * sum5,
+            amplitude * sum6,
+            amplitude * sum7,
+            amplitude * sum8,
         ))
-        return mu_bar, W_bar.unflatten(-1, (9, 9)), amplitude_bar
+        W_bar = _stack((
+            amplitude * sum9,
+            amplitude * sum10,
+            amplitude * sum11,
+            amplitude * sum12,
+            amplitude * sum13,
+            amplitude * sum14,
+            amplitude * sum15,
+            amplitude * sum16,
+            amplitude * sum17,
+            amplitude * sum18,
+            amplitude * sum19,
+            amplitude * sum20,
+            amplitude * sum21,
+            amplitude * sum22,
+            amplitude * sum23,
+            amplitude * sum24,
+            amplitude * sum25,
+            amplitude * sum26,
+            amplitude * sum27,
+            amplitude * sum28,
+            amplitude * sum29,
+            amplitude * sum30,
+            amplitude * sum31,
+            amplitude * sum32,
+            amplitude * sum33,
+            amplitude * sum34,
+            amplitude * sum35,
+            amplitude * sum36,
+            amplitude * sum37,
+            amplitude * sum38,
+            amplitude * sum39,
+            amplitude * sum40,
+            amplitude * sum41,
+            amplitude * sum42,
+            amplitude * sum43,
+            amplitude * sum44,
+            amplitude * sum45,
+            amplitude * sum46,
+            amplitude * sum47,
+            amplitude * sum48,
+            amplitude * sum49,
+            amplitude * sum50,
+            amplitude * sum51,
+            amplitude * sum52,
+            amplitude * sum53,
+            amplitude * sum54,
+            amplitude * sum55,
+            amplitude * sum56,
+            amplitude * sum57,
+            amplitude * sum58,
+            amplitude * sum59,
+            amplitude * sum60,
+            amplitude * sum61,
+            amplitude * sum62,
+            amplitude * sum63,
+            amplitude * sum64,
+            amplitude * sum65,
+            amplitude * sum66,
+            amplitude * sum67,
+            amplitude * sum68,
+            amplitude * sum69,
+            amplitude * sum70,
+            amplitude * sum71,
+            amplitude * sum72,
+            amplitude * sum73,
+            amplitude * sum74,
+            amplitude * sum75,
+            amplitude * sum76,
+            amplitude * sum77,
+            amplitude * sum78,
+            amplitude * sum79,
+            amplitude * sum80,
+            amplitude * sum81,
+            amplitude * sum82,
+            amplitude * sum83,
+            amplitude * sum84,
+            amplitude * sum85,
+            amplitude * sum86,
+            amplitude * sum87,
+            amplitude * sum88,
+            amplitude * sum89,
+        ))
+        return mu_bar, W_bar.unflatten(-1, (9, 9)), sum90
 
 
 manifold = MobileManipulator()

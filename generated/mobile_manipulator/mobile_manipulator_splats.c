@@ -81,6 +81,8 @@ INLINE uint64_t flush_denormals(void) { return 0; }
 INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
 
+#if !defined(RSRM_ONLY_FLOAT) /* double */
+
 /* The same number in all lanes. */
 INLINE vector vector_of(double x) {
     const vector zero = ZERO;
@@ -121,26 +123,22 @@ INLINE vector vector_from_bits(vector_bits bits) {
     return x;
 }
 
-/* round of every lane; one instruction where the machine has it. */
-INLINE vector vector_round(vector x) {
-    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = rint(LANE(x, i));
-    return x;
-}
+/* round to even, of numbers below 2^51; of larger ones, a whole number close by. */
+INLINE vector round_each(vector x) { return (x + 6755399441055744.0) - 6755399441055744.0; }
 
 /* sqrt of every lane; one instruction where the machine has it. */
-INLINE vector vector_sqrt(vector x) {
+INLINE vector sqrt_each(vector x) {
     for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
     return x;
 }
 
-/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
-INLINE vector vector_exp(vector x) {
-    const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
-    const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
-    const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
-    const vector scale = vector_from_bits((vector_to_bits(shifted) + 1022) << 52); /* 2^(k - 1) */
-    const vector y = vector_select(x > 709.782712893384, vector_of(HUGE_VAL), (scale + scale * part) * 2);
-    return vector_select(x < -707.9, vector_of(0), y);
+/* exp(-s / 2) of s >= 0, as 2^k exp(-r / 2), |r| <= log(2), within 1 unit in the last place; below 3.8e-308 it is 0. */
+INLINE vector gaussian_each(vector s) {
+    const vector shifted = s * -0.7213475204444817 + 6755399441056767.0, k = shifted - 6755399441056767.0;
+    const vector r = (s + k * 1.3862943611202354) + k * -3.447888905122967e-13;
+    const vector part = r * (-0.5 + r * (0.12500000000000003 + r * (-0.020833333333333336 + r * (0.0026041666666640085 + r * (-0.0002604166666665645 + r * (2.170138893314011e-05 + r * (-1.5500992080508208e-06 + r * (9.688094258687923e-08 + r * (-5.382278997037427e-09 + r * (2.697273970216642e-10 + r * -1.2256046482356944e-11))))))))));
+    const vector scale = vector_from_bits(vector_to_bits(shifted) << 52); /* 2^k */
+    return vector_select(s > 1415.8, vector_of(0), scale + scale * part);
 }
 
 /* What pairs read of points x. */
@@ -463,34 +461,27 @@ INLINE void pair_value(
     const vector v0 = x0 - mu0;
     const vector v1 = x1 - mu1;
     const vector gap = x2 - mu2;
-    const vector round_2 = vector_round(0.15915494309189535 * gap);
-    const vector v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const vector round_2 = round_each(0.15915494309189535 * gap);
+    const vector v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const vector gap_2 = x3 - mu3;
-    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
-    const vector v3 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const vector round_3 = round_each(0.15915494309189535 * gap_2);
+    const vector v3 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const vector gap_3 = x4 - mu4;
-    const vector round_4 = vector_round(0.15915494309189535 * gap_3);
-    const vector v4 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
-        round_4;
+    const vector round_4 = round_each(0.15915494309189535 * gap_3);
+    const vector v4 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
     const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
     const vector gap_4 = x5 - mu5;
-    const vector round_5 = vector_round(0.15915494309189535 * gap_4);
-    const vector v5 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
-        round_5;
+    const vector round_5 = round_each(0.15915494309189535 * gap_4);
+    const vector v5 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
     const vector gap_5 = x6 - mu6;
-    const vector round_6 = vector_round(0.15915494309189535 * gap_5);
-    const vector v6 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
-        round_6;
+    const vector round_6 = round_each(0.15915494309189535 * gap_5);
+    const vector v6 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
     const vector gap_6 = x7 - mu7;
-    const vector round_7 = vector_round(0.15915494309189535 * gap_6);
-    const vector v7 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
-        round_7;
+    const vector round_7 = round_each(0.15915494309189535 * gap_6);
+    const vector v7 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
     const vector gap_7 = x8 - mu8;
-    const vector round_8 = vector_round(0.15915494309189535 * gap_7);
-    const vector v8 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
-        round_8;
+    const vector round_8 = round_each(0.15915494309189535 * gap_7);
+    const vector v8 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
     const vector z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
     const vector total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
     const vector z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
@@ -510,7 +501,8 @@ INLINE void pair_value(
     const vector total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
     const vector z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
     const vector total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-    value[0] = value[0] + amplitude * vector_exp(-0.5 * total_12);
+    const vector phi = gaussian_each(total_12);
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -518,7 +510,7 @@ INLINE void pair_value(
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
-OUTLINE void pair_forward(
+INLINE void pair_forward(
     const vector *X, const double *S, vector *value, vector *slope) {
     const vector x0 = X[0];
     const vector x1 = X[1];
@@ -623,34 +615,27 @@ OUTLINE void pair_forward(
     const vector v0 = x0 - mu0;
     const vector v1 = x1 - mu1;
     const vector gap = x2 - mu2;
-    const vector round_2 = vector_round(0.15915494309189535 * gap);
-    const vector v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const vector round_2 = round_each(0.15915494309189535 * gap);
+    const vector v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const vector gap_2 = x3 - mu3;
-    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
-    const vector v3 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const vector round_3 = round_each(0.15915494309189535 * gap_2);
+    const vector v3 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const vector gap_3 = x4 - mu4;
-    const vector round_4 = vector_round(0.15915494309189535 * gap_3);
-    const vector v4 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
-        round_4;
+    const vector round_4 = round_each(0.15915494309189535 * gap_3);
+    const vector v4 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
     const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
     const vector gap_4 = x5 - mu5;
-    const vector round_5 = vector_round(0.15915494309189535 * gap_4);
-    const vector v5 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
-        round_5;
+    const vector round_5 = round_each(0.15915494309189535 * gap_4);
+    const vector v5 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
     const vector gap_5 = x6 - mu6;
-    const vector round_6 = vector_round(0.15915494309189535 * gap_5);
-    const vector v6 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
-        round_6;
+    const vector round_6 = round_each(0.15915494309189535 * gap_5);
+    const vector v6 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
     const vector gap_6 = x7 - mu7;
-    const vector round_7 = vector_round(0.15915494309189535 * gap_6);
-    const vector v7 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
-        round_7;
+    const vector round_7 = round_each(0.15915494309189535 * gap_6);
+    const vector v7 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
     const vector gap_7 = x8 - mu8;
-    const vector round_8 = vector_round(0.15915494309189535 * gap_7);
-    const vector v8 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
-        round_8;
+    const vector round_8 = round_each(0.15915494309189535 * gap_7);
+    const vector v8 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
     const vector z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
     const vector total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
     const vector z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
@@ -670,17 +655,18 @@ OUTLINE void pair_forward(
     const vector total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
     const vector z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
     const vector total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-    const vector phi = amplitude * vector_exp(-0.5 * total_12);
-    const vector z8_product = z8 * phi;
-    const vector z7_product = z7 * phi;
-    const vector z6_product = z6 * phi;
-    const vector z5_product = z5 * phi;
-    const vector z4_product = z4 * phi;
-    const vector z3_product = z3 * phi;
-    const vector z2_product = z2 * phi;
-    const vector z1_product = z1 * phi;
-    const vector z0_product = z0 * phi;
-    value[0] = value[0] + phi;
+    const vector phi = gaussian_each(total_12);
+    const vector phi_2 = amplitude * phi;
+    const vector z8_product = z8 * phi_2;
+    const vector z7_product = z7 * phi_2;
+    const vector z6_product = z6 * phi_2;
+    const vector z5_product = z5 * phi_2;
+    const vector z4_product = z4 * phi_2;
+    const vector z3_product = z3 * phi_2;
+    const vector z2_product = z2 * phi_2;
+    const vector z1_product = z1 * phi_2;
+    const vector z0_product = z0 * phi_2;
+    value[0] = value[0] + phi_2;
     slope[0] = slope[0] - W8_0 * z8_product - W7_0 * z7_product - W6_0 * z6_product - W5_0 * z5_product - W4_0
             * z4_product - W3_0 * z3_product - W2_0 * z2_product - W1_0 * z1_product - W0_0 * z0_product;
     slope[1] = slope[1] - W8_1 * z8_product - W7_1 * z7_product - W6_1 * z6_product - W5_1 * z5_product - W4_1
@@ -749,194 +735,194 @@ OUTLINE void pair_gradient_vjp(
     slope_bar[8] = 16.0 * gradient_bar8;
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp(
-    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
+    const vector *mu, const vector *W, const vector *amplitude, const vector *sums, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
     (void)mu;
     (void)W;
-    (void)amplitude;
-    const vector mu0_bar = S_bar[0];
-    const vector mu1_bar = S_bar[1];
-    const vector mu2_bar = S_bar[2];
-    const vector mu3_bar = S_bar[3];
-    const vector mu4_bar = S_bar[4];
-    const vector mu5_bar = S_bar[5];
-    const vector mu6_bar = S_bar[6];
-    const vector mu7_bar = S_bar[7];
-    const vector mu8_bar = S_bar[8];
-    const vector W0_0_bar = S_bar[9];
-    const vector W0_1_bar = S_bar[10];
-    const vector W0_2_bar = S_bar[11];
-    const vector W0_3_bar = S_bar[12];
-    const vector W0_4_bar = S_bar[13];
-    const vector W0_5_bar = S_bar[14];
-    const vector W0_6_bar = S_bar[15];
-    const vector W0_7_bar = S_bar[16];
-    const vector W0_8_bar = S_bar[17];
-    const vector W1_0_bar = S_bar[18];
-    const vector W1_1_bar = S_bar[19];
-    const vector W1_2_bar = S_bar[20];
-    const vector W1_3_bar = S_bar[21];
-    const vector W1_4_bar = S_bar[22];
-    const vector W1_5_bar = S_bar[23];
-    const vector W1_6_bar = S_bar[24];
-    const vector W1_7_bar = S_bar[25];
-    const vector W1_8_bar = S_bar[26];
-    const vector W2_0_bar = S_bar[27];
-    const vector W2_1_bar = S_bar[28];
-    const vector W2_2_bar = S_bar[29];
-    const vector W2_3_bar = S_bar[30];
-    const vector W2_4_bar = S_bar[31];
-    const vector W2_5_bar = S_bar[32];
-    const vector W2_6_bar = S_bar[33];
-    const vector W2_7_bar = S_bar[34];
-    const vector W2_8_bar = S_bar[35];
-    const vector W3_0_bar = S_bar[36];
-    const vector W3_1_bar = S_bar[37];
-    const vector W3_2_bar = S_bar[38];
-    const vector W3_3_bar = S_bar[39];
-    const vector W3_4_bar = S_bar[40];
-    const vector W3_5_bar = S_bar[41];
-    const vector W3_6_bar = S_bar[42];
-    const vector W3_7_bar = S_bar[43];
-    const vector W3_8_bar = S_bar[44];
-    const vector W4_0_bar = S_bar[45];
-    const vector W4_1_bar = S_bar[46];
-    const vector W4_2_bar = S_bar[47];
-    const vector W4_3_bar = S_bar[48];
-    const vector W4_4_bar = S_bar[49];
-    const vector W4_5_bar = S_bar[50];
-    const vector W4_6_bar = S_bar[51];
-    const vector W4_7_bar = S_bar[52];
-    const vector W4_8_bar = S_bar[53];
-    const vector W5_0_bar = S_bar[54];
-    const vector W5_1_bar = S_bar[55];
-    const vector W5_2_bar = S_bar[56];
-    const vector W5_3_bar = S_bar[57];
-    const vector W5_4_bar = S_bar[58];
-    const vector W5_5_bar = S_bar[59];
-    const vector W5_6_bar = S_bar[60];
-    const vector W5_7_bar = S_bar[61];
-    const vector W5_8_bar = S_bar[62];
-    const vector W6_0_bar = S_bar[63];
-    const vector W6_1_bar = S_bar[64];
-    const vector W6_2_bar = S_bar[65];
-    const vector W6_3_bar = S_bar[66];
-    const vector W6_4_bar = S_bar[67];
-    const vector W6_5_bar = S_bar[68];
-    const vector W6_6_bar = S_bar[69];
-    const vector W6_7_bar = S_bar[70];
-    const vector W6_8_bar = S_bar[71];
-    const vector W7_0_bar = S_bar[72];
-    const vector W7_1_bar = S_bar[73];
-    const vector W7_2_bar = S_bar[74];
-    const vector W7_3_bar = S_bar[75];
-    const vector W7_4_bar = S_bar[76];
-    const vector W7_5_bar = S_bar[77];
-    const vector W7_6_bar = S_bar[78];
-    const vector W7_7_bar = S_bar[79];
-    const vector W7_8_bar = S_bar[80];
-    const vector W8_0_bar = S_bar[81];
-    const vector W8_1_bar = S_bar[82];
-    const vector W8_2_bar = S_bar[83];
-    const vector W8_3_bar = S_bar[84];
-    const vector W8_4_bar = S_bar[85];
-    const vector W8_5_bar = S_bar[86];
-    const vector W8_6_bar = S_bar[87];
-    const vector W8_7_bar = S_bar[88];
-    const vector W8_8_bar = S_bar[89];
-    const vector its_amplitude_bar = S_bar[90];
-    mu_bar[0] = mu0_bar;
-    mu_bar[1] = mu1_bar;
-    mu_bar[2] = mu2_bar;
-    mu_bar[3] = mu3_bar;
-    mu_bar[4] = mu4_bar;
-    mu_bar[5] = mu5_bar;
-    mu_bar[6] = mu6_bar;
-    mu_bar[7] = mu7_bar;
-    mu_bar[8] = mu8_bar;
-    W_bar[0] = W0_0_bar;
-    W_bar[1] = W0_1_bar;
-    W_bar[2] = W0_2_bar;
-    W_bar[3] = W0_3_bar;
-    W_bar[4] = W0_4_bar;
-    W_bar[5] = W0_5_bar;
-    W_bar[6] = W0_6_bar;
-    W_bar[7] = W0_7_bar;
-    W_bar[8] = W0_8_bar;
-    W_bar[9] = W1_0_bar;
-    W_bar[10] = W1_1_bar;
-    W_bar[11] = W1_2_bar;
-    W_bar[12] = W1_3_bar;
-    W_bar[13] = W1_4_bar;
-    W_bar[14] = W1_5_bar;
-    W_bar[15] = W1_6_bar;
-    W_bar[16] = W1_7_bar;
-    W_bar[17] = W1_8_bar;
-    W_bar[18] = W2_0_bar;
-    W_bar[19] = W2_1_bar;
-    W_bar[20] = W2_2_bar;
-    W_bar[21] = W2_3_bar;
-    W_bar[22] = W2_4_bar;
-    W_bar[23] = W2_5_bar;
-    W_bar[24] = W2_6_bar;
-    W_bar[25] = W2_7_bar;
-    W_bar[26] = W2_8_bar;
-    W_bar[27] = W3_0_bar;
-    W_bar[28] = W3_1_bar;
-    W_bar[29] = W3_2_bar;
-    W_bar[30] = W3_3_bar;
-    W_bar[31] = W3_4_bar;
-    W_bar[32] = W3_5_bar;
-    W_bar[33] = W3_6_bar;
-    W_bar[34] = W3_7_bar;
-    W_bar[35] = W3_8_bar;
-    W_bar[36] = W4_0_bar;
-    W_bar[37] = W4_1_bar;
-    W_bar[38] = W4_2_bar;
-    W_bar[39] = W4_3_bar;
-    W_bar[40] = W4_4_bar;
-    W_bar[41] = W4_5_bar;
-    W_bar[42] = W4_6_bar;
-    W_bar[43] = W4_7_bar;
-    W_bar[44] = W4_8_bar;
-    W_bar[45] = W5_0_bar;
-    W_bar[46] = W5_1_bar;
-    W_bar[47] = W5_2_bar;
-    W_bar[48] = W5_3_bar;
-    W_bar[49] = W5_4_bar;
-    W_bar[50] = W5_5_bar;
-    W_bar[51] = W5_6_bar;
-    W_bar[52] = W5_7_bar;
-    W_bar[53] = W5_8_bar;
-    W_bar[54] = W6_0_bar;
-    W_bar[55] = W6_1_bar;
-    W_bar[56] = W6_2_bar;
-    W_bar[57] = W6_3_bar;
-    W_bar[58] = W6_4_bar;
-    W_bar[59] = W6_5_bar;
-    W_bar[60] = W6_6_bar;
-    W_bar[61] = W6_7_bar;
-    W_bar[62] = W6_8_bar;
-    W_bar[63] = W7_0_bar;
-    W_bar[64] = W7_1_bar;
-    W_bar[65] = W7_2_bar;
-    W_bar[66] = W7_3_bar;
-    W_bar[67] = W7_4_bar;
-    W_bar[68] = W7_5_bar;
-    W_bar[69] = W7_6_bar;
-    W_bar[70] = W7_7_bar;
-    W_bar[71] = W7_8_bar;
-    W_bar[72] = W8_0_bar;
-    W_bar[73] = W8_1_bar;
-    W_bar[74] = W8_2_bar;
-    W_bar[75] = W8_3_bar;
-    W_bar[76] = W8_4_bar;
-    W_bar[77] = W8_5_bar;
-    W_bar[78] = W8_6_bar;
-    W_bar[79] = W8_7_bar;
-    W_bar[80] = W8_8_bar;
-    amplitude_bar[0] = its_amplitude_bar;
+    const vector its_amplitude = amplitude[0];
+    const vector sum0 = sums[0];
+    const vector sum1 = sums[1];
+    const vector sum2 = sums[2];
+    const vector sum3 = sums[3];
+    const vector sum4 = sums[4];
+    const vector sum5 = sums[5];
+    const vector sum6 = sums[6];
+    const vector sum7 = sums[7];
+    const vector sum8 = sums[8];
+    const vector sum9 = sums[9];
+    const vector sum10 = sums[10];
+    const vector sum11 = sums[11];
+    const vector sum12 = sums[12];
+    const vector sum13 = sums[13];
+    const vector sum14 = sums[14];
+    const vector sum15 = sums[15];
+    const vector sum16 = sums[16];
+    const vector sum17 = sums[17];
+    const vector sum18 = sums[18];
+    const vector sum19 = sums[19];
+    const vector sum20 = sums[20];
+    const vector sum21 = sums[21];
+    const vector sum22 = sums[22];
+    const vector sum23 = sums[23];
+    const vector sum24 = sums[24];
+    const vector sum25 = sums[25];
+    const vector sum26 = sums[26];
+    const vector sum27 = sums[27];
+    const vector sum28 = sums[28];
+    const vector sum29 = sums[29];
+    const vector sum30 = sums[30];
+    const vector sum31 = sums[31];
+    const vector sum32 = sums[32];
+    const vector sum33 = sums[33];
+    const vector sum34 = sums[34];
+    const vector sum35 = sums[35];
+    const vector sum36 = sums[36];
+    const vector sum37 = sums[37];
+    const vector sum38 = sums[38];
+    const vector sum39 = sums[39];
+    const vector sum40 = sums[40];
+    const vector sum41 = sums[41];
+    const vector sum42 = sums[42];
+    const vector sum43 = sums[43];
+    const vector sum44 = sums[44];
+    const vector sum45 = sums[45];
+    const vector sum46 = sums[46];
+    const vector sum47 = sums[47];
+    const vector sum48 = sums[48];
+    const vector sum49 = sums[49];
+    const vector sum50 = sums[50];
+    const vector sum51 = sums[51];
+    const vector sum52 = sums[52];
+    const vector sum53 = sums[53];
+    const vector sum54 = sums[54];
+    const vector sum55 = sums[55];
+    const vector sum56 = sums[56];
+    const vector sum57 = sums[57];
+    const vector sum58 = sums[58];
+    const vector sum59 = sums[59];
+    const vector sum60 = sums[60];
+    const vector sum61 = sums[61];
+    const vector sum62 = sums[62];
+    const vector sum63 = sums[63];
+    const vector sum64 = sums[64];
+    const vector sum65 = sums[65];
+    const vector sum66 = sums[66];
+    const vector sum67 = sums[67];
+    const vector sum68 = sums[68];
+    const vector sum69 = sums[69];
+    const vector sum70 = sums[70];
+    const vector sum71 = sums[71];
+    const vector sum72 = sums[72];
+    const vector sum73 = sums[73];
+    const vector sum74 = sums[74];
+    const vector sum75 = sums[75];
+    const vector sum76 = sums[76];
+    const vector sum77 = sums[77];
+    const vector sum78 = sums[78];
+    const vector sum79 = sums[79];
+    const vector sum80 = sums[80];
+    const vector sum81 = sums[81];
+    const vector sum82 = sums[82];
+    const vector sum83 = sums[83];
+    const vector sum84 = sums[84];
+    const vector sum85 = sums[85];
+    const vector sum86 = sums[86];
+    const vector sum87 = sums[87];
+    const vector sum88 = sums[88];
+    const vector sum89 = sums[89];
+    const vector sum90 = sums[90];
+    mu_bar[0] = its_amplitude * sum0;
+    mu_bar[1] = its_amplitude * sum1;
+    mu_bar[2] = its_amplitude * sum2;
+    mu_bar[3] = its_amplitude * sum3;
+    mu_bar[4] = its_amplitude * sum4;
+    mu_bar[5] = its_amplitude * sum5;
+    mu_bar[6] = its_amplitude * sum6;
+    mu_bar[7] = its_amplitude * sum7;
+    mu_bar[8] = its_amplitude * sum8;
+    W_bar[0] = its_amplitude * sum9;
+    W_bar[1] = its_amplitude * sum10;
+    W_bar[2] = its_amplitude * sum11;
+    W_bar[3] = its_amplitude * sum12;
+    W_bar[4] = its_amplitude * sum13;
+    W_bar[5] = its_amplitude * sum14;
+    W_bar[6] = its_amplitude * sum15;
+    W_bar[7] = its_amplitude * sum16;
+    W_bar[8] = its_amplitude * sum17;
+    W_bar[9] = its_amplitude * sum18;
+    W_bar[10] = its_amplitude * sum19;
+    W_bar[11] = its_amplitude * sum20;
+    W_bar[12] = its_amplitude * sum21;
+    W_bar[13] = its_amplitude * sum22;
+    W_bar[14] = its_amplitude * sum23;
+    W_bar[15] = its_amplitude * sum24;
+    W_bar[16] = its_amplitude * sum25;
+    W_bar[17] = its_amplitude * sum26;
+    W_bar[18] = its_amplitude * sum27;
+    W_bar[19] = its_amplitude * sum28;
+    W_bar[20] = its_amplitude * sum29;
+    W_bar[21] = its_amplitude * sum30;
+    W_bar[22] = its_amplitude * sum31;
+    W_bar[23] = its_amplitude * sum32;
+    W_bar[24] = its_amplitude * sum33;
+    W_bar[25] = its_amplitude * sum34;
+    W_bar[26] = its_amplitude * sum35;
+    W_bar[27] = its_amplitude * sum36;
+    W_bar[28] = its_amplitude * sum37;
+    W_bar[29] = its_amplitude * sum38;
+    W_bar[30] = its_amplitude * sum39;
+    W_bar[31] = its_amplitude * sum40;
+    W_bar[32] = its_amplitude * sum41;
+    W_bar[33] = its_amplitude * sum42;
+    W_bar[34] = its_amplitude * sum43;
+    W_bar[35] = its_amplitude * sum44;
+    W_bar[36] = its_amplitude * sum45;
+    W_bar[37] = its_amplitude * sum46;
+    W_bar[38] = its_amplitude * sum47;
+    W_bar[39] = its_amplitude * sum48;
+    W_bar[40] = its_amplitude * sum49;
+    W_bar[41] = its_amplitude * sum50;
+    W_bar[42] = its_amplitude * sum51;
+    W_bar[43] = its_amplitude * sum52;
+    W_bar[44] = its_amplitude * sum53;
+    W_bar[45] = its_amplitude * sum54;
+    W_bar[46] = its_amplitude * sum55;
+    W_bar[47] = its_amplitude * sum56;
+    W_bar[48] = its_amplitude * sum57;
+    W_bar[49] = its_amplitude * sum58;
+    W_bar[50] = its_amplitude * sum59;
+    W_bar[51] = its_amplitude * sum60;
+    W_bar[52] = its_amplitude * sum61;
+    W_bar[53] = its_amplitude * sum62;
+    W_bar[54] = its_amplitude * sum63;
+    W_bar[55] = its_amplitude * sum64;
+    W_bar[56] = its_amplitude * sum65;
+    W_bar[57] = its_amplitude * sum66;
+    W_bar[58] = its_amplitude * sum67;
+    W_bar[59] = its_amplitude * sum68;
+    W_bar[60] = its_amplitude * sum69;
+    W_bar[61] = its_amplitude * sum70;
+    W_bar[62] = its_amplitude * sum71;
+    W_bar[63] = its_amplitude * sum72;
+    W_bar[64] = its_amplitude * sum73;
+    W_bar[65] = its_amplitude * sum74;
+    W_bar[66] = its_amplitude * sum75;
+    W_bar[67] = its_amplitude * sum76;
+    W_bar[68] = its_amplitude * sum77;
+    W_bar[69] = its_amplitude * sum78;
+    W_bar[70] = its_amplitude * sum79;
+    W_bar[71] = its_amplitude * sum80;
+    W_bar[72] = its_amplitude * sum81;
+    W_bar[73] = its_amplitude * sum82;
+    W_bar[74] = its_amplitude * sum83;
+    W_bar[75] = its_amplitude * sum84;
+    W_bar[76] = its_amplitude * sum85;
+    W_bar[77] = its_amplitude * sum86;
+    W_bar[78] = its_amplitude * sum87;
+    W_bar[79] = its_amplitude * sum88;
+    W_bar[80] = its_amplitude * sum89;
+    amplitude_bar[0] = sum90;
 }
 
 /* The distances of some points q from one point p. */
@@ -963,43 +949,36 @@ OUTLINE void pair_distances(
     const vector base_position_log0 = q0 - p0;
     const vector base_position_log1 = q1 - p1;
     const vector gap = q2 - p2;
-    const vector round_2 = vector_round(0.15915494309189535 * gap);
-    const vector base_heading_log0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 -
-        3.019915981956753e-07 * round_2;
+    const vector round_2 = round_each(0.15915494309189535 * gap);
+    const vector base_heading_log0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const vector gap_2 = q3 - p3;
-    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
-    const vector arm_log0 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 -
-        3.019915981956753e-07 * round_3;
+    const vector round_3 = round_each(0.15915494309189535 * gap_2);
+    const vector arm_log0 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const vector gap_3 = q4 - p4;
-    const vector round_4 = vector_round(0.15915494309189535 * gap_3);
-    const vector arm_log1 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 -
-        3.019915981956753e-07 * round_4;
+    const vector round_4 = round_each(0.15915494309189535 * gap_3);
+    const vector arm_log1 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
     const vector gap_4 = q5 - p5;
-    const vector round_5 = vector_round(0.15915494309189535 * gap_4);
-    const vector arm_log2 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 -
-        3.019915981956753e-07 * round_5;
+    const vector round_5 = round_each(0.15915494309189535 * gap_4);
+    const vector arm_log2 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
     const vector gap_5 = q6 - p6;
-    const vector round_6 = vector_round(0.15915494309189535 * gap_5);
-    const vector arm_log3 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 -
-        3.019915981956753e-07 * round_6;
+    const vector round_6 = round_each(0.15915494309189535 * gap_5);
+    const vector arm_log3 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
     const vector gap_6 = q7 - p7;
-    const vector round_7 = vector_round(0.15915494309189535 * gap_6);
-    const vector arm_log4 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 -
-        3.019915981956753e-07 * round_7;
+    const vector round_7 = round_each(0.15915494309189535 * gap_6);
+    const vector arm_log4 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
     const vector gap_7 = q8 - p8;
-    const vector round_8 = vector_round(0.15915494309189535 * gap_7);
-    const vector arm_log5 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 -
-        3.019915981956753e-07 * round_8;
+    const vector round_8 = round_each(0.15915494309189535 * gap_7);
+    const vector arm_log5 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
     const vector total_2 = base_position_log0 * base_position_log0 + base_position_log1 * base_position_log1 +
         0.25 * (base_heading_log0 * base_heading_log0) + 0.0625 * (arm_log0 * arm_log0) + 0.0625 * (arm_log1 *
         arm_log1);
     const vector total_3 = total_2 + 0.0625 * (arm_log2 * arm_log2) + 0.0625 * (arm_log3 * arm_log3) + 0.0625
         * (arm_log4 * arm_log4);
-    distance[0] = vector_sqrt(total_3 + 0.0625 * (arm_log5 * arm_log5));
+    distance[0] = sqrt_each(total_3 + 0.0625 * (arm_log5 * arm_log5));
 }
 
 /*
- * The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar.
+ * The factors of whose products are what is summed over the points.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
@@ -1104,7 +1083,6 @@ OUTLINE void pair_factors(
     const double W8_6 = S[87];
     const double W8_7 = S[88];
     const double W8_8 = S[89];
-    const double amplitude = S[90];
     const vector its_value_bar = value_bar[0];
     const vector x0_bar = slope_bar[0];
     const vector x1_bar = slope_bar[1];
@@ -1118,34 +1096,27 @@ OUTLINE void pair_factors(
     const vector v0 = x0 - mu0;
     const vector v1 = x1 - mu1;
     const vector gap = x2 - mu2;
-    const vector round_2 = vector_round(0.15915494309189535 * gap);
-    const vector v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const vector round_2 = round_each(0.15915494309189535 * gap);
+    const vector v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const vector gap_2 = x3 - mu3;
-    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
-    const vector v3 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const vector round_3 = round_each(0.15915494309189535 * gap_2);
+    const vector v3 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const vector gap_3 = x4 - mu4;
-    const vector round_4 = vector_round(0.15915494309189535 * gap_3);
-    const vector v4 = gap_3 - 6.28125 * round_4 - 0.0019350051879882812 * round_4 - 3.019915981956753e-07 *
-        round_4;
+    const vector round_4 = round_each(0.15915494309189535 * gap_3);
+    const vector v4 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
     const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
     const vector gap_4 = x5 - mu5;
-    const vector round_5 = vector_round(0.15915494309189535 * gap_4);
-    const vector v5 = gap_4 - 6.28125 * round_5 - 0.0019350051879882812 * round_5 - 3.019915981956753e-07 *
-        round_5;
+    const vector round_5 = round_each(0.15915494309189535 * gap_4);
+    const vector v5 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
     const vector gap_5 = x6 - mu6;
-    const vector round_6 = vector_round(0.15915494309189535 * gap_5);
-    const vector v6 = gap_5 - 6.28125 * round_6 - 0.0019350051879882812 * round_6 - 3.019915981956753e-07 *
-        round_6;
+    const vector round_6 = round_each(0.15915494309189535 * gap_5);
+    const vector v6 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
     const vector gap_6 = x7 - mu7;
-    const vector round_7 = vector_round(0.15915494309189535 * gap_6);
-    const vector v7 = gap_6 - 6.28125 * round_7 - 0.0019350051879882812 * round_7 - 3.019915981956753e-07 *
-        round_7;
+    const vector round_7 = round_each(0.15915494309189535 * gap_6);
+    const vector v7 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
     const vector gap_7 = x8 - mu8;
-    const vector round_8 = vector_round(0.15915494309189535 * gap_7);
-    const vector v8 = gap_7 - 6.28125 * round_8 - 0.0019350051879882812 * round_8 - 3.019915981956753e-07 *
-        round_8;
+    const vector round_8 = round_each(0.15915494309189535 * gap_7);
+    const vector v8 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
     const vector z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
     const vector total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
     const vector z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
@@ -1165,8 +1136,7 @@ OUTLINE void pair_factors(
     const vector total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
     const vector z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
     const vector total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-    const vector exp_2 = vector_exp(-0.5 * total_12);
-    const vector phi = amplitude * exp_2;
+    const vector phi = gaussian_each(total_12);
     const vector gap_8 = -(W8_0 * x0_bar) - W8_1 * x1_bar - W8_2 * x2_bar - W8_3 * x3_bar;
     const vector gap_9 = gap_8 - W8_4 * x4_bar - W8_5 * x5_bar - W8_6 * x6_bar - W8_7 * x7_bar;
     const vector gap_10 = gap_9 - W8_8 * x8_bar;
@@ -1197,17 +1167,17 @@ OUTLINE void pair_factors(
     const vector gap_34 = gap_33 - W7_8 * x8_bar;
     const vector total_14 = total_13 + z4 * gap_25 + z5 * gap_28 + z6 * gap_31 + z7 * gap_34;
     const vector by_phi = total_14 + z8 * gap_10;
-    const vector product = exp_2 * (amplitude * by_phi);
-    const vector by_z8 = phi * gap_10 - z8 * product;
-    const vector by_z7 = phi * gap_34 - z7 * product;
-    const vector by_z6 = phi * gap_31 - z6 * product;
-    const vector by_z5 = phi * gap_28 - z5 * product;
-    const vector by_z4 = phi * gap_25 - z4 * product;
+    const vector phi_product = phi * by_phi;
+    const vector by_z8 = phi * gap_10 - z8 * phi_product;
+    const vector by_z7 = phi * gap_34 - z7 * phi_product;
+    const vector by_z6 = phi * gap_31 - z6 * phi_product;
+    const vector by_z5 = phi * gap_28 - z5 * phi_product;
+    const vector by_z4 = phi * gap_25 - z4 * phi_product;
     const vector total_15 = W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5 + W4_0 * by_z4;
-    const vector by_z3 = phi * gap_22 - z3 * product;
-    const vector by_z2 = phi * gap_19 - z2 * product;
-    const vector by_z1 = phi * gap_16 - z1 * product;
-    const vector by_z0 = phi * gap_13 - z0 * product;
+    const vector by_z3 = phi * gap_22 - z3 * phi_product;
+    const vector by_z2 = phi * gap_19 - z2 * phi_product;
+    const vector by_z1 = phi * gap_16 - z1 * phi_product;
+    const vector by_z0 = phi * gap_13 - z0 * phi_product;
     const vector by_v0 = total_15 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0;
     const vector total_16 = W8_1 * by_z8 + W7_1 * by_z7 + W6_1 * by_z6 + W5_1 * by_z5 + W4_1 * by_z4;
     const vector by_v1 = total_16 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
@@ -1243,173 +1213,173 @@ OUTLINE void pair_factors(
     factor[6] = v6;
     factor[7] = v7;
     factor[8] = v8;
-    factor[9] = by_z8;
-    factor[10] = by_z7;
-    factor[11] = by_z6;
-    factor[12] = by_z5;
-    factor[13] = by_z4;
-    factor[14] = by_z3;
-    factor[15] = by_z2;
-    factor[16] = by_z1;
-    factor[17] = by_z0;
-    factor[18] = -by_v0;
-    factor[19] = -by_v1;
-    factor[20] = -by_v2;
-    factor[21] = -by_v3;
-    factor[22] = -by_v4;
-    factor[23] = -by_v5;
-    factor[24] = -by_v6;
-    factor[25] = -by_v7;
-    factor[26] = -by_v8;
-    factor[27] = z0_product;
-    factor[28] = z1_product;
-    factor[29] = z2_product;
-    factor[30] = z3_product;
-    factor[31] = z4_product;
-    factor[32] = z5_product;
-    factor[33] = z6_product;
-    factor[34] = z7_product;
-    factor[35] = z8_product;
-    factor[36] = exp_2 * by_phi;
+    factor[9] = phi_product;
+    factor[10] = by_z8;
+    factor[11] = by_z7;
+    factor[12] = by_z6;
+    factor[13] = by_z5;
+    factor[14] = by_z4;
+    factor[15] = by_z3;
+    factor[16] = by_z2;
+    factor[17] = by_z1;
+    factor[18] = by_z0;
+    factor[19] = -by_v0;
+    factor[20] = -by_v1;
+    factor[21] = -by_v2;
+    factor[22] = -by_v3;
+    factor[23] = -by_v4;
+    factor[24] = -by_v5;
+    factor[25] = -by_v6;
+    factor[26] = -by_v7;
+    factor[27] = -by_v8;
+    factor[28] = z0_product;
+    factor[29] = z1_product;
+    factor[30] = z2_product;
+    factor[31] = z3_product;
+    factor[32] = z4_product;
+    factor[33] = z5_product;
+    factor[34] = z6_product;
+    factor[35] = z7_product;
+    factor[36] = z8_product;
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_0(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[18];
-    sum[1] = sum[1] + factor[19];
-    sum[2] = sum[2] + factor[20];
-    sum[3] = sum[3] + factor[21];
-    sum[4] = sum[4] + factor[22];
-    sum[5] = sum[5] + factor[23];
-    sum[6] = sum[6] + factor[24];
-    sum[7] = sum[7] + factor[25];
-    sum[8] = sum[8] + factor[26];
-    sum[9] = sum[9] + factor[36];
-    sum[10] = sum[10] + factor[0] * factor[17] - factor[27] * point[10];
-    sum[11] = sum[11] + factor[1] * factor[17] - factor[27] * point[11];
+    sum[0] = sum[0] + factor[19];
+    sum[1] = sum[1] + factor[20];
+    sum[2] = sum[2] + factor[21];
+    sum[3] = sum[3] + factor[22];
+    sum[4] = sum[4] + factor[23];
+    sum[5] = sum[5] + factor[24];
+    sum[6] = sum[6] + factor[25];
+    sum[7] = sum[7] + factor[26];
+    sum[8] = sum[8] + factor[27];
+    sum[9] = sum[9] + factor[9];
+    sum[10] = sum[10] + factor[0] * factor[18] - factor[28] * point[10];
+    sum[11] = sum[11] + factor[1] * factor[18] - factor[28] * point[11];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_1(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[2] * factor[17] - factor[27] * point[12];
-    sum[1] = sum[1] + factor[3] * factor[17] - factor[27] * point[13];
-    sum[2] = sum[2] + factor[4] * factor[17] - factor[27] * point[14];
-    sum[3] = sum[3] + factor[5] * factor[17] - factor[27] * point[15];
-    sum[4] = sum[4] + factor[6] * factor[17] - factor[27] * point[16];
-    sum[5] = sum[5] + factor[7] * factor[17] - factor[27] * point[17];
-    sum[6] = sum[6] + factor[8] * factor[17] - factor[27] * point[18];
-    sum[7] = sum[7] + factor[2] * factor[16] - factor[28] * point[12];
-    sum[8] = sum[8] + factor[3] * factor[16] - factor[28] * point[13];
-    sum[9] = sum[9] + factor[4] * factor[16] - factor[28] * point[14];
-    sum[10] = sum[10] + factor[5] * factor[16] - factor[28] * point[15];
-    sum[11] = sum[11] + factor[6] * factor[16] - factor[28] * point[16];
+    sum[0] = sum[0] + factor[2] * factor[18] - factor[28] * point[12];
+    sum[1] = sum[1] + factor[3] * factor[18] - factor[28] * point[13];
+    sum[2] = sum[2] + factor[4] * factor[18] - factor[28] * point[14];
+    sum[3] = sum[3] + factor[5] * factor[18] - factor[28] * point[15];
+    sum[4] = sum[4] + factor[6] * factor[18] - factor[28] * point[16];
+    sum[5] = sum[5] + factor[7] * factor[18] - factor[28] * point[17];
+    sum[6] = sum[6] + factor[8] * factor[18] - factor[28] * point[18];
+    sum[7] = sum[7] + factor[2] * factor[17] - factor[29] * point[12];
+    sum[8] = sum[8] + factor[3] * factor[17] - factor[29] * point[13];
+    sum[9] = sum[9] + factor[4] * factor[17] - factor[29] * point[14];
+    sum[10] = sum[10] + factor[5] * factor[17] - factor[29] * point[15];
+    sum[11] = sum[11] + factor[6] * factor[17] - factor[29] * point[16];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_2(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[0] * factor[16] - factor[28] * point[10];
-    sum[1] = sum[1] + factor[1] * factor[16] - factor[28] * point[11];
-    sum[2] = sum[2] + factor[7] * factor[16] - factor[28] * point[17];
-    sum[3] = sum[3] + factor[8] * factor[16] - factor[28] * point[18];
-    sum[4] = sum[4] + factor[0] * factor[15] - factor[29] * point[10];
-    sum[5] = sum[5] + factor[1] * factor[15] - factor[29] * point[11];
-    sum[6] = sum[6] + factor[7] * factor[15] - factor[29] * point[17];
-    sum[7] = sum[7] + factor[8] * factor[15] - factor[29] * point[18];
-    sum[8] = sum[8] + factor[2] * factor[15] - factor[29] * point[12];
-    sum[9] = sum[9] + factor[3] * factor[15] - factor[29] * point[13];
-    sum[10] = sum[10] + factor[4] * factor[15] - factor[29] * point[14];
-    sum[11] = sum[11] + factor[5] * factor[15] - factor[29] * point[15];
+    sum[0] = sum[0] + factor[0] * factor[17] - factor[29] * point[10];
+    sum[1] = sum[1] + factor[1] * factor[17] - factor[29] * point[11];
+    sum[2] = sum[2] + factor[7] * factor[17] - factor[29] * point[17];
+    sum[3] = sum[3] + factor[8] * factor[17] - factor[29] * point[18];
+    sum[4] = sum[4] + factor[0] * factor[16] - factor[30] * point[10];
+    sum[5] = sum[5] + factor[1] * factor[16] - factor[30] * point[11];
+    sum[6] = sum[6] + factor[7] * factor[16] - factor[30] * point[17];
+    sum[7] = sum[7] + factor[8] * factor[16] - factor[30] * point[18];
+    sum[8] = sum[8] + factor[2] * factor[16] - factor[30] * point[12];
+    sum[9] = sum[9] + factor[3] * factor[16] - factor[30] * point[13];
+    sum[10] = sum[10] + factor[4] * factor[16] - factor[30] * point[14];
+    sum[11] = sum[11] + factor[5] * factor[16] - factor[30] * point[15];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_3(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[6] * factor[15] - factor[29] * point[16];
-    sum[1] = sum[1] + factor[6] * factor[14] - factor[30] * point[16];
-    sum[2] = sum[2] + factor[0] * factor[14] - factor[30] * point[10];
-    sum[3] = sum[3] + factor[1] * factor[14] - factor[30] * point[11];
-    sum[4] = sum[4] + factor[2] * factor[14] - factor[30] * point[12];
-    sum[5] = sum[5] + factor[3] * factor[14] - factor[30] * point[13];
-    sum[6] = sum[6] + factor[4] * factor[14] - factor[30] * point[14];
-    sum[7] = sum[7] + factor[5] * factor[14] - factor[30] * point[15];
-    sum[8] = sum[8] + factor[7] * factor[14] - factor[30] * point[17];
-    sum[9] = sum[9] + factor[8] * factor[14] - factor[30] * point[18];
-    sum[10] = sum[10] + factor[0] * factor[13] - factor[31] * point[10];
-    sum[11] = sum[11] + factor[1] * factor[13] - factor[31] * point[11];
+    sum[0] = sum[0] + factor[6] * factor[16] - factor[30] * point[16];
+    sum[1] = sum[1] + factor[6] * factor[15] - factor[31] * point[16];
+    sum[2] = sum[2] + factor[0] * factor[15] - factor[31] * point[10];
+    sum[3] = sum[3] + factor[1] * factor[15] - factor[31] * point[11];
+    sum[4] = sum[4] + factor[2] * factor[15] - factor[31] * point[12];
+    sum[5] = sum[5] + factor[3] * factor[15] - factor[31] * point[13];
+    sum[6] = sum[6] + factor[4] * factor[15] - factor[31] * point[14];
+    sum[7] = sum[7] + factor[5] * factor[15] - factor[31] * point[15];
+    sum[8] = sum[8] + factor[7] * factor[15] - factor[31] * point[17];
+    sum[9] = sum[9] + factor[8] * factor[15] - factor[31] * point[18];
+    sum[10] = sum[10] + factor[0] * factor[14] - factor[32] * point[10];
+    sum[11] = sum[11] + factor[1] * factor[14] - factor[32] * point[11];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_4(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[2] * factor[13] - factor[31] * point[12];
-    sum[1] = sum[1] + factor[3] * factor[13] - factor[31] * point[13];
-    sum[2] = sum[2] + factor[4] * factor[13] - factor[31] * point[14];
-    sum[3] = sum[3] + factor[5] * factor[13] - factor[31] * point[15];
-    sum[4] = sum[4] + factor[6] * factor[13] - factor[31] * point[16];
-    sum[5] = sum[5] + factor[7] * factor[13] - factor[31] * point[17];
-    sum[6] = sum[6] + factor[8] * factor[13] - factor[31] * point[18];
-    sum[7] = sum[7] + factor[2] * factor[12] - factor[32] * point[12];
-    sum[8] = sum[8] + factor[3] * factor[12] - factor[32] * point[13];
-    sum[9] = sum[9] + factor[4] * factor[12] - factor[32] * point[14];
-    sum[10] = sum[10] + factor[5] * factor[12] - factor[32] * point[15];
-    sum[11] = sum[11] + factor[6] * factor[12] - factor[32] * point[16];
+    sum[0] = sum[0] + factor[2] * factor[14] - factor[32] * point[12];
+    sum[1] = sum[1] + factor[3] * factor[14] - factor[32] * point[13];
+    sum[2] = sum[2] + factor[4] * factor[14] - factor[32] * point[14];
+    sum[3] = sum[3] + factor[5] * factor[14] - factor[32] * point[15];
+    sum[4] = sum[4] + factor[6] * factor[14] - factor[32] * point[16];
+    sum[5] = sum[5] + factor[7] * factor[14] - factor[32] * point[17];
+    sum[6] = sum[6] + factor[8] * factor[14] - factor[32] * point[18];
+    sum[7] = sum[7] + factor[2] * factor[13] - factor[33] * point[12];
+    sum[8] = sum[8] + factor[3] * factor[13] - factor[33] * point[13];
+    sum[9] = sum[9] + factor[4] * factor[13] - factor[33] * point[14];
+    sum[10] = sum[10] + factor[5] * factor[13] - factor[33] * point[15];
+    sum[11] = sum[11] + factor[6] * factor[13] - factor[33] * point[16];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_5(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[0] * factor[12] - factor[32] * point[10];
-    sum[1] = sum[1] + factor[1] * factor[12] - factor[32] * point[11];
-    sum[2] = sum[2] + factor[7] * factor[12] - factor[32] * point[17];
-    sum[3] = sum[3] + factor[8] * factor[12] - factor[32] * point[18];
-    sum[4] = sum[4] + factor[0] * factor[11] - factor[33] * point[10];
-    sum[5] = sum[5] + factor[1] * factor[11] - factor[33] * point[11];
-    sum[6] = sum[6] + factor[7] * factor[11] - factor[33] * point[17];
-    sum[7] = sum[7] + factor[8] * factor[11] - factor[33] * point[18];
-    sum[8] = sum[8] + factor[2] * factor[11] - factor[33] * point[12];
-    sum[9] = sum[9] + factor[3] * factor[11] - factor[33] * point[13];
-    sum[10] = sum[10] + factor[4] * factor[11] - factor[33] * point[14];
-    sum[11] = sum[11] + factor[5] * factor[11] - factor[33] * point[15];
+    sum[0] = sum[0] + factor[0] * factor[13] - factor[33] * point[10];
+    sum[1] = sum[1] + factor[1] * factor[13] - factor[33] * point[11];
+    sum[2] = sum[2] + factor[7] * factor[13] - factor[33] * point[17];
+    sum[3] = sum[3] + factor[8] * factor[13] - factor[33] * point[18];
+    sum[4] = sum[4] + factor[0] * factor[12] - factor[34] * point[10];
+    sum[5] = sum[5] + factor[1] * factor[12] - factor[34] * point[11];
+    sum[6] = sum[6] + factor[7] * factor[12] - factor[34] * point[17];
+    sum[7] = sum[7] + factor[8] * factor[12] - factor[34] * point[18];
+    sum[8] = sum[8] + factor[2] * factor[12] - factor[34] * point[12];
+    sum[9] = sum[9] + factor[3] * factor[12] - factor[34] * point[13];
+    sum[10] = sum[10] + factor[4] * factor[12] - factor[34] * point[14];
+    sum[11] = sum[11] + factor[5] * factor[12] - factor[34] * point[15];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_6(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[6] * factor[11] - factor[33] * point[16];
-    sum[1] = sum[1] + factor[6] * factor[10] - factor[34] * point[16];
-    sum[2] = sum[2] + factor[0] * factor[10] - factor[34] * point[10];
-    sum[3] = sum[3] + factor[1] * factor[10] - factor[34] * point[11];
-    sum[4] = sum[4] + factor[2] * factor[10] - factor[34] * point[12];
-    sum[5] = sum[5] + factor[3] * factor[10] - factor[34] * point[13];
-    sum[6] = sum[6] + factor[4] * factor[10] - factor[34] * point[14];
-    sum[7] = sum[7] + factor[5] * factor[10] - factor[34] * point[15];
-    sum[8] = sum[8] + factor[7] * factor[10] - factor[34] * point[17];
-    sum[9] = sum[9] + factor[8] * factor[10] - factor[34] * point[18];
-    sum[10] = sum[10] + factor[0] * factor[9] - factor[35] * point[10];
-    sum[11] = sum[11] + factor[1] * factor[9] - factor[35] * point[11];
+    sum[0] = sum[0] + factor[6] * factor[12] - factor[34] * point[16];
+    sum[1] = sum[1] + factor[6] * factor[11] - factor[35] * point[16];
+    sum[2] = sum[2] + factor[0] * factor[11] - factor[35] * point[10];
+    sum[3] = sum[3] + factor[1] * factor[11] - factor[35] * point[11];
+    sum[4] = sum[4] + factor[2] * factor[11] - factor[35] * point[12];
+    sum[5] = sum[5] + factor[3] * factor[11] - factor[35] * point[13];
+    sum[6] = sum[6] + factor[4] * factor[11] - factor[35] * point[14];
+    sum[7] = sum[7] + factor[5] * factor[11] - factor[35] * point[15];
+    sum[8] = sum[8] + factor[7] * factor[11] - factor[35] * point[17];
+    sum[9] = sum[9] + factor[8] * factor[11] - factor[35] * point[18];
+    sum[10] = sum[10] + factor[0] * factor[10] - factor[36] * point[10];
+    sum[11] = sum[11] + factor[1] * factor[10] - factor[36] * point[11];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_7(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[2] * factor[9] - factor[35] * point[12];
-    sum[1] = sum[1] + factor[3] * factor[9] - factor[35] * point[13];
-    sum[2] = sum[2] + factor[4] * factor[9] - factor[35] * point[14];
-    sum[3] = sum[3] + factor[5] * factor[9] - factor[35] * point[15];
-    sum[4] = sum[4] + factor[6] * factor[9] - factor[35] * point[16];
-    sum[5] = sum[5] + factor[7] * factor[9] - factor[35] * point[17];
-    sum[6] = sum[6] + factor[8] * factor[9] - factor[35] * point[18];
+    sum[0] = sum[0] + factor[2] * factor[10] - factor[36] * point[12];
+    sum[1] = sum[1] + factor[3] * factor[10] - factor[36] * point[13];
+    sum[2] = sum[2] + factor[4] * factor[10] - factor[36] * point[14];
+    sum[3] = sum[3] + factor[5] * factor[10] - factor[36] * point[15];
+    sum[4] = sum[4] + factor[6] * factor[10] - factor[36] * point[16];
+    sum[5] = sum[5] + factor[7] * factor[10] - factor[36] * point[17];
+    sum[6] = sum[6] + factor[8] * factor[10] - factor[36] * point[18];
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -1455,12 +1425,12 @@ INLINE const double *splat_at(const vector *splats, size_t k) {
     return (const double *)(splats + 10 * row) + (k - row * LANES);
 }
 
-static vector *work_splats(double *work, size_t count) {
+static vector *work_reaches(double *work, size_t count) {
     return work_points(work) + (count + LANES - 1) / LANES * 19;
 }
 
 static vector *work_blocks(double *work, size_t count, size_t splat_count) {
-    return work_splats(work, count) + 10 * ((splat_count + LANES - 1) / LANES);
+    return work_reaches(work, count) + 10 * ((splat_count + LANES - 1) / LANES);
 }
 
 static double *work_constants(double *work, size_t count, size_t splat_count) {
@@ -1577,7 +1547,7 @@ void mobile_manipulator_splats(
     double *MOBILE_MANIPULATOR_RESTRICT value, double *MOBILE_MANIPULATOR_RESTRICT gradient, double *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1619,7 +1589,7 @@ void mobile_manipulator_splats_value(
     double *MOBILE_MANIPULATOR_RESTRICT value, double *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1665,141 +1635,141 @@ OUTLINE void splat_points(
     vector_end(count, start, 9 + 1, point + 9);
 }
 
-/* Adds to S_bar what one vector of points adds to it. */
+/* Adds to sums what one vector of points adds to it. */
 INLINE void pair_backward(
-    const vector *point, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
+    const vector *point, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
     vector factor[37];
     pair_factors(point, S, value_bar, slope_bar, factor);
     {
         vector sum[12] = {ZERO};
         pair_products_0(factor, point, sum);
-        S_bar[0] += sum[0];
-        S_bar[1] += sum[1];
-        S_bar[2] += sum[2];
-        S_bar[3] += sum[3];
-        S_bar[4] += sum[4];
-        S_bar[5] += sum[5];
-        S_bar[6] += sum[6];
-        S_bar[7] += sum[7];
-        S_bar[8] += sum[8];
-        S_bar[90] += sum[9];
-        S_bar[9] += sum[10];
-        S_bar[10] += sum[11];
+        sums[0] += sum[0];
+        sums[1] += sum[1];
+        sums[2] += sum[2];
+        sums[3] += sum[3];
+        sums[4] += sum[4];
+        sums[5] += sum[5];
+        sums[6] += sum[6];
+        sums[7] += sum[7];
+        sums[8] += sum[8];
+        sums[90] += sum[9];
+        sums[9] += sum[10];
+        sums[10] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_1(factor, point, sum);
-        S_bar[11] += sum[0];
-        S_bar[12] += sum[1];
-        S_bar[13] += sum[2];
-        S_bar[14] += sum[3];
-        S_bar[15] += sum[4];
-        S_bar[16] += sum[5];
-        S_bar[17] += sum[6];
-        S_bar[20] += sum[7];
-        S_bar[21] += sum[8];
-        S_bar[22] += sum[9];
-        S_bar[23] += sum[10];
-        S_bar[24] += sum[11];
+        sums[11] += sum[0];
+        sums[12] += sum[1];
+        sums[13] += sum[2];
+        sums[14] += sum[3];
+        sums[15] += sum[4];
+        sums[16] += sum[5];
+        sums[17] += sum[6];
+        sums[20] += sum[7];
+        sums[21] += sum[8];
+        sums[22] += sum[9];
+        sums[23] += sum[10];
+        sums[24] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_2(factor, point, sum);
-        S_bar[18] += sum[0];
-        S_bar[19] += sum[1];
-        S_bar[25] += sum[2];
-        S_bar[26] += sum[3];
-        S_bar[27] += sum[4];
-        S_bar[28] += sum[5];
-        S_bar[34] += sum[6];
-        S_bar[35] += sum[7];
-        S_bar[29] += sum[8];
-        S_bar[30] += sum[9];
-        S_bar[31] += sum[10];
-        S_bar[32] += sum[11];
+        sums[18] += sum[0];
+        sums[19] += sum[1];
+        sums[25] += sum[2];
+        sums[26] += sum[3];
+        sums[27] += sum[4];
+        sums[28] += sum[5];
+        sums[34] += sum[6];
+        sums[35] += sum[7];
+        sums[29] += sum[8];
+        sums[30] += sum[9];
+        sums[31] += sum[10];
+        sums[32] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_3(factor, point, sum);
-        S_bar[33] += sum[0];
-        S_bar[42] += sum[1];
-        S_bar[36] += sum[2];
-        S_bar[37] += sum[3];
-        S_bar[38] += sum[4];
-        S_bar[39] += sum[5];
-        S_bar[40] += sum[6];
-        S_bar[41] += sum[7];
-        S_bar[43] += sum[8];
-        S_bar[44] += sum[9];
-        S_bar[45] += sum[10];
-        S_bar[46] += sum[11];
+        sums[33] += sum[0];
+        sums[42] += sum[1];
+        sums[36] += sum[2];
+        sums[37] += sum[3];
+        sums[38] += sum[4];
+        sums[39] += sum[5];
+        sums[40] += sum[6];
+        sums[41] += sum[7];
+        sums[43] += sum[8];
+        sums[44] += sum[9];
+        sums[45] += sum[10];
+        sums[46] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_4(factor, point, sum);
-        S_bar[47] += sum[0];
-        S_bar[48] += sum[1];
-        S_bar[49] += sum[2];
-        S_bar[50] += sum[3];
-        S_bar[51] += sum[4];
-        S_bar[52] += sum[5];
-        S_bar[53] += sum[6];
-        S_bar[56] += sum[7];
-        S_bar[57] += sum[8];
-        S_bar[58] += sum[9];
-        S_bar[59] += sum[10];
-        S_bar[60] += sum[11];
+        sums[47] += sum[0];
+        sums[48] += sum[1];
+        sums[49] += sum[2];
+        sums[50] += sum[3];
+        sums[51] += sum[4];
+        sums[52] += sum[5];
+        sums[53] += sum[6];
+        sums[56] += sum[7];
+        sums[57] += sum[8];
+        sums[58] += sum[9];
+        sums[59] += sum[10];
+        sums[60] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_5(factor, point, sum);
-        S_bar[54] += sum[0];
-        S_bar[55] += sum[1];
-        S_bar[61] += sum[2];
-        S_bar[62] += sum[3];
-        S_bar[63] += sum[4];
-        S_bar[64] += sum[5];
-        S_bar[70] += sum[6];
-        S_bar[71] += sum[7];
-        S_bar[65] += sum[8];
-        S_bar[66] += sum[9];
-        S_bar[67] += sum[10];
-        S_bar[68] += sum[11];
+        sums[54] += sum[0];
+        sums[55] += sum[1];
+        sums[61] += sum[2];
+        sums[62] += sum[3];
+        sums[63] += sum[4];
+        sums[64] += sum[5];
+        sums[70] += sum[6];
+        sums[71] += sum[7];
+        sums[65] += sum[8];
+        sums[66] += sum[9];
+        sums[67] += sum[10];
+        sums[68] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_6(factor, point, sum);
-        S_bar[69] += sum[0];
-        S_bar[78] += sum[1];
-        S_bar[72] += sum[2];
-        S_bar[73] += sum[3];
-        S_bar[74] += sum[4];
-        S_bar[75] += sum[5];
-        S_bar[76] += sum[6];
-        S_bar[77] += sum[7];
-        S_bar[79] += sum[8];
-        S_bar[80] += sum[9];
-        S_bar[81] += sum[10];
-        S_bar[82] += sum[11];
+        sums[69] += sum[0];
+        sums[78] += sum[1];
+        sums[72] += sum[2];
+        sums[73] += sum[3];
+        sums[74] += sum[4];
+        sums[75] += sum[5];
+        sums[76] += sum[6];
+        sums[77] += sum[7];
+        sums[79] += sum[8];
+        sums[80] += sum[9];
+        sums[81] += sum[10];
+        sums[82] += sum[11];
     }
     {
         vector sum[7] = {ZERO};
         pair_products_7(factor, point, sum);
-        S_bar[83] += sum[0];
-        S_bar[84] += sum[1];
-        S_bar[85] += sum[2];
-        S_bar[86] += sum[3];
-        S_bar[87] += sum[4];
-        S_bar[88] += sum[5];
-        S_bar[89] += sum[6];
+        sums[83] += sum[0];
+        sums[84] += sum[1];
+        sums[85] += sum[2];
+        sums[86] += sum[3];
+        sums[87] += sum[4];
+        sums[88] += sum[5];
+        sums[89] += sum[6];
     }
 }
 
 /*
- * Adds to S_bar what some vectors of points add to it, those in the list: factors of 10 vectors at a time, then their
+ * Adds to sums what some vectors of points add to it, those in the list: factors of 10 vectors at a time, then their
  * products.
  */
-OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t count, const double *S, double *S_bar) {
+OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t count, const double *S, double *sums) {
     vector factor[10 * 37], total[91] = {ZERO};
     for (size_t start = 0; start < count; start += 10, near += 10) {
         const size_t size = count - start < 10 ? count - start : 10;
@@ -1931,7 +1901,7 @@ OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t count
             total[89] += sum[6];
         }
     }
-    for (size_t i = 0; i < 91; ++i) S_bar[i] += vector_sum(total[i]);
+    for (size_t i = 0; i < 91; ++i) sums[i] += vector_sum(total[i]);
 }
 
 /*
@@ -1947,7 +1917,7 @@ void mobile_manipulator_splats_vjp(
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES ? part : LANES;
     vector *points = work_points(work);
-    vector *splats = work_splats(work, count), *places = work_blocks(work, count, splat_count);
+    vector *splats = work_reaches(work, count), *places = work_blocks(work, count, splat_count);
     double *constants = work_constants(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -1975,7 +1945,7 @@ void mobile_manipulator_splats_vjp(
             const size_t end = start + share < splat_count ? start + share : splat_count;
             double sums[LANES][91] = {{0}};
             uint32_t near[131072 / (19 * sizeof(vector)) + 2];
-            vector own_mu[9], own_W[81], own_amplitude[1], S_bar[91], bars[91];
+            vector own_mu[9], own_W[81], own_amplitude[1], own_sums[91], bars[91];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
@@ -1987,8 +1957,8 @@ void mobile_manipulator_splats_vjp(
             vector_rows(mu, end, start, 9, own_mu);
             vector_rows(W, end, start, 81, own_W);
             vector_rows(amplitude, end, start, 1, own_amplitude);
-            vector_rows(sums[0], LANES, 0, 91, S_bar);
-            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 9, bars + 9 + 81);
+            vector_rows(sums[0], LANES, 0, 91, own_sums);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 9, bars + 9 + 81);
             vector_to_rows(bars, mu_bar, end, start, 9, 9);
             vector_to_rows(bars + 9, W_bar, end, start, 81, 81);
             vector_to_rows(bars + 9 + 81, amplitude_bar, end, start, 1, 1);
@@ -2015,12 +1985,12 @@ void mobile_manipulator_splats_rows(
             vector point[19];
             splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector own_mu[9], own_W[81], own_amplitude[1], S_bar[91] = {ZERO}, bars[91];
+                vector own_mu[9], own_W[81], own_amplitude[1], own_sums[91] = {ZERO}, bars[91];
                 for (int i = 0; i < 9; ++i) own_mu[i] = vector_of(mu[9 * k + i]);
                 for (int i = 0; i < 81; ++i) own_W[i] = vector_of(W[81 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 91 * k, point + 9, point + 9 + 1, S_bar);
-                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 9, bars + 9 + 81);
+                pair_backward(point, constants + 91 * k, point + 9, point + 9 + 1, own_sums);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 9, bars + 9 + 81);
                 vector_to_rows(bars, rows + 91 * k, count, block * LANES, 91, 91 * splat_count);
             }
         }
@@ -2094,7 +2064,7 @@ double mobile_manipulator_splats_order(
     size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT amplitude, const double *MOBILE_MANIPULATOR_RESTRICT width,
     double limit, size_t *MOBILE_MANIPULATOR_RESTRICT order, double *MOBILE_MANIPULATOR_RESTRICT work) {
     const size_t block = 2 * LANES;
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     uint32_t near[256];
     double share = 0;
     for (size_t n = 0; n < count; ++n) order[n] = n;
@@ -2125,6 +2095,10 @@ double mobile_manipulator_splats_order(
     }
     return share;
 }
+
+#endif /* double */
+
+#if !defined(RSRM_ONLY_DOUBLE) /* float */
 
 /* The same number in all lanes. */
 INLINE vector_f vector_of_f(float x) {
@@ -2166,26 +2140,22 @@ INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
     return x;
 }
 
-/* round of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_round_f(vector_f x) {
-    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = rintf(LANE(x, i));
-    return x;
-}
+/* round to even, of numbers below 2^22; of larger ones, a whole number close by. */
+INLINE vector_f round_each_f(vector_f x) { return (x + 12582912.0f) - 12582912.0f; }
 
 /* sqrt of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_sqrt_f(vector_f x) {
+INLINE vector_f sqrt_each_f(vector_f x) {
     for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
     return x;
 }
 
-/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
-INLINE vector_f vector_exp_f(vector_f x) {
-    const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
-    const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
-    const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
-    const vector_f scale = vector_from_bits_f((vector_to_bits_f(shifted) + 126) << 23); /* 2^(k - 1) */
-    const vector_f y = vector_select_f(x > 88.722839f, vector_of_f(HUGE_VALF), (scale + scale * part) * 2);
-    return vector_select_f(x < -86.9f, vector_of_f(0), y);
+/* exp(-s / 2) of s >= 0, as 2^k exp(-r / 2), |r| <= log(2), within 1 unit in the last place; below 1.8e-38 it is 0. */
+INLINE vector_f gaussian_each_f(vector_f s) {
+    const vector_f shifted = s * -0.7213475204444817f + 12583039.0f, k = shifted - 12583039.0f;
+    const vector_f r = (s + k * 1.38629150390625f) + k * 2.8572136406188345e-06f;
+    const vector_f part = r * (-0.5f + r * (0.125f + r * (-0.020833221247803655f + r * (0.0026041596642423803f + r * (-0.0002613493009373264f + r * 2.1759659078889598e-05f)))));
+    const vector_f scale = vector_from_bits_f(vector_to_bits_f(shifted) << 23); /* 2^k */
+    return vector_select_f(s > 173.8f, vector_of_f(0), scale + scale * part);
 }
 
 /* What pairs read of points x. */
@@ -2508,34 +2478,27 @@ INLINE void pair_value_f(
     const vector_f v0 = x0 - mu0;
     const vector_f v1 = x1 - mu1;
     const vector_f gap = x2 - mu2;
-    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
-    const vector_f v2 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+    const vector_f v2 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const vector_f gap_2 = x3 - mu3;
-    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
-    const vector_f v3 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
-        * round_3;
+    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+    const vector_f v3 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const vector_f gap_3 = x4 - mu4;
-    const vector_f round_4 = vector_round_f(0.15915494309189535f * gap_3);
-    const vector_f v4 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f
-        * round_4;
+    const vector_f round_4 = round_each_f(0.15915494309189535f * gap_3);
+    const vector_f v4 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
     const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
     const vector_f gap_4 = x5 - mu5;
-    const vector_f round_5 = vector_round_f(0.15915494309189535f * gap_4);
-    const vector_f v5 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f
-        * round_5;
+    const vector_f round_5 = round_each_f(0.15915494309189535f * gap_4);
+    const vector_f v5 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
     const vector_f gap_5 = x6 - mu6;
-    const vector_f round_6 = vector_round_f(0.15915494309189535f * gap_5);
-    const vector_f v6 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f
-        * round_6;
+    const vector_f round_6 = round_each_f(0.15915494309189535f * gap_5);
+    const vector_f v6 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
     const vector_f gap_6 = x7 - mu7;
-    const vector_f round_7 = vector_round_f(0.15915494309189535f * gap_6);
-    const vector_f v7 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f
-        * round_7;
+    const vector_f round_7 = round_each_f(0.15915494309189535f * gap_6);
+    const vector_f v7 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
     const vector_f gap_7 = x8 - mu8;
-    const vector_f round_8 = vector_round_f(0.15915494309189535f * gap_7);
-    const vector_f v8 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f
-        * round_8;
+    const vector_f round_8 = round_each_f(0.15915494309189535f * gap_7);
+    const vector_f v8 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
     const vector_f z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
     const vector_f total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
     const vector_f z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
@@ -2555,7 +2518,8 @@ INLINE void pair_value_f(
     const vector_f total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
     const vector_f z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
     const vector_f total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-    value[0] = value[0] + amplitude * vector_exp_f(-0.5f * total_12);
+    const vector_f phi = gaussian_each_f(total_12);
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -2563,7 +2527,7 @@ INLINE void pair_value_f(
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
-OUTLINE void pair_forward_f(
+INLINE void pair_forward_f(
     const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
     const vector_f x0 = X[0];
     const vector_f x1 = X[1];
@@ -2668,34 +2632,27 @@ OUTLINE void pair_forward_f(
     const vector_f v0 = x0 - mu0;
     const vector_f v1 = x1 - mu1;
     const vector_f gap = x2 - mu2;
-    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
-    const vector_f v2 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+    const vector_f v2 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const vector_f gap_2 = x3 - mu3;
-    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
-    const vector_f v3 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
-        * round_3;
+    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+    const vector_f v3 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const vector_f gap_3 = x4 - mu4;
-    const vector_f round_4 = vector_round_f(0.15915494309189535f * gap_3);
-    const vector_f v4 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f
-        * round_4;
+    const vector_f round_4 = round_each_f(0.15915494309189535f * gap_3);
+    const vector_f v4 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
     const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
     const vector_f gap_4 = x5 - mu5;
-    const vector_f round_5 = vector_round_f(0.15915494309189535f * gap_4);
-    const vector_f v5 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f
-        * round_5;
+    const vector_f round_5 = round_each_f(0.15915494309189535f * gap_4);
+    const vector_f v5 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
     const vector_f gap_5 = x6 - mu6;
-    const vector_f round_6 = vector_round_f(0.15915494309189535f * gap_5);
-    const vector_f v6 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f
-        * round_6;
+    const vector_f round_6 = round_each_f(0.15915494309189535f * gap_5);
+    const vector_f v6 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
     const vector_f gap_6 = x7 - mu7;
-    const vector_f round_7 = vector_round_f(0.15915494309189535f * gap_6);
-    const vector_f v7 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f
-        * round_7;
+    const vector_f round_7 = round_each_f(0.15915494309189535f * gap_6);
+    const vector_f v7 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
     const vector_f gap_7 = x8 - mu8;
-    const vector_f round_8 = vector_round_f(0.15915494309189535f * gap_7);
-    const vector_f v8 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f
-        * round_8;
+    const vector_f round_8 = round_each_f(0.15915494309189535f * gap_7);
+    const vector_f v8 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
     const vector_f z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
     const vector_f total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
     const vector_f z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
@@ -2715,17 +2672,18 @@ OUTLINE void pair_forward_f(
     const vector_f total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
     const vector_f z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
     const vector_f total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-    const vector_f phi = amplitude * vector_exp_f(-0.5f * total_12);
-    const vector_f z8_product = z8 * phi;
-    const vector_f z7_product = z7 * phi;
-    const vector_f z6_product = z6 * phi;
-    const vector_f z5_product = z5 * phi;
-    const vector_f z4_product = z4 * phi;
-    const vector_f z3_product = z3 * phi;
-    const vector_f z2_product = z2 * phi;
-    const vector_f z1_product = z1 * phi;
-    const vector_f z0_product = z0 * phi;
-    value[0] = value[0] + phi;
+    const vector_f phi = gaussian_each_f(total_12);
+    const vector_f phi_2 = amplitude * phi;
+    const vector_f z8_product = z8 * phi_2;
+    const vector_f z7_product = z7 * phi_2;
+    const vector_f z6_product = z6 * phi_2;
+    const vector_f z5_product = z5 * phi_2;
+    const vector_f z4_product = z4 * phi_2;
+    const vector_f z3_product = z3 * phi_2;
+    const vector_f z2_product = z2 * phi_2;
+    const vector_f z1_product = z1 * phi_2;
+    const vector_f z0_product = z0 * phi_2;
+    value[0] = value[0] + phi_2;
     slope[0] = slope[0] - W8_0 * z8_product - W7_0 * z7_product - W6_0 * z6_product - W5_0 * z5_product - W4_0
             * z4_product - W3_0 * z3_product - W2_0 * z2_product - W1_0 * z1_product - W0_0 * z0_product;
     slope[1] = slope[1] - W8_1 * z8_product - W7_1 * z7_product - W6_1 * z6_product - W5_1 * z5_product - W4_1
@@ -2794,194 +2752,194 @@ OUTLINE void pair_gradient_vjp_f(
     slope_bar[8] = 16.0f * gradient_bar8;
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp_f(
-    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *sums, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
     (void)mu;
     (void)W;
-    (void)amplitude;
-    const vector_f mu0_bar = S_bar[0];
-    const vector_f mu1_bar = S_bar[1];
-    const vector_f mu2_bar = S_bar[2];
-    const vector_f mu3_bar = S_bar[3];
-    const vector_f mu4_bar = S_bar[4];
-    const vector_f mu5_bar = S_bar[5];
-    const vector_f mu6_bar = S_bar[6];
-    const vector_f mu7_bar = S_bar[7];
-    const vector_f mu8_bar = S_bar[8];
-    const vector_f W0_0_bar = S_bar[9];
-    const vector_f W0_1_bar = S_bar[10];
-    const vector_f W0_2_bar = S_bar[11];
-    const vector_f W0_3_bar = S_bar[12];
-    const vector_f W0_4_bar = S_bar[13];
-    const vector_f W0_5_bar = S_bar[14];
-    const vector_f W0_6_bar = S_bar[15];
-    const vector_f W0_7_bar = S_bar[16];
-    const vector_f W0_8_bar = S_bar[17];
-    const vector_f W1_0_bar = S_bar[18];
-    const vector_f W1_1_bar = S_bar[19];
-    const vector_f W1_2_bar = S_bar[20];
-    const vector_f W1_3_bar = S_bar[21];
-    const vector_f W1_4_bar = S_bar[22];
-    const vector_f W1_5_bar = S_bar[23];
-    const vector_f W1_6_bar = S_bar[24];
-    const vector_f W1_7_bar = S_bar[25];
-    const vector_f W1_8_bar = S_bar[26];
-    const vector_f W2_0_bar = S_bar[27];
-    const vector_f W2_1_bar = S_bar[28];
-    const vector_f W2_2_bar = S_bar[29];
-    const vector_f W2_3_bar = S_bar[30];
-    const vector_f W2_4_bar = S_bar[31];
-    const vector_f W2_5_bar = S_bar[32];
-    const vector_f W2_6_bar = S_bar[33];
-    const vector_f W2_7_bar = S_bar[34];
-    const vector_f W2_8_bar = S_bar[35];
-    const vector_f W3_0_bar = S_bar[36];
-    const vector_f W3_1_bar = S_bar[37];
-    const vector_f W3_2_bar = S_bar[38];
-    const vector_f W3_3_bar = S_bar[39];
-    const vector_f W3_4_bar = S_bar[40];
-    const vector_f W3_5_bar = S_bar[41];
-    const vector_f W3_6_bar = S_bar[42];
-    const vector_f W3_7_bar = S_bar[43];
-    const vector_f W3_8_bar = S_bar[44];
-    const vector_f W4_0_bar = S_bar[45];
-    const vector_f W4_1_bar = S_bar[46];
-    const vector_f W4_2_bar = S_bar[47];
-    const vector_f W4_3_bar = S_bar[48];
-    const vector_f W4_4_bar = S_bar[49];
-    const vector_f W4_5_bar = S_bar[50];
-    const vector_f W4_6_bar = S_bar[51];
-    const vector_f W4_7_bar = S_bar[52];
-    const vector_f W4_8_bar = S_bar[53];
-    const vector_f W5_0_bar = S_bar[54];
-    const vector_f W5_1_bar = S_bar[55];
-    const vector_f W5_2_bar = S_bar[56];
-    const vector_f W5_3_bar = S_bar[57];
-    const vector_f W5_4_bar = S_bar[58];
-    const vector_f W5_5_bar = S_bar[59];
-    const vector_f W5_6_bar = S_bar[60];
-    const vector_f W5_7_bar = S_bar[61];
-    const vector_f W5_8_bar = S_bar[62];
-    const vector_f W6_0_bar = S_bar[63];
-    const vector_f W6_1_bar = S_bar[64];
-    const vector_f W6_2_bar = S_bar[65];
-    const vector_f W6_3_bar = S_bar[66];
-    const vector_f W6_4_bar = S_bar[67];
-    const vector_f W6_5_bar = S_bar[68];
-    const vector_f W6_6_bar = S_bar[69];
-    const vector_f W6_7_bar = S_bar[70];
-    const vector_f W6_8_bar = S_bar[71];
-    const vector_f W7_0_bar = S_bar[72];
-    const vector_f W7_1_bar = S_bar[73];
-    const vector_f W7_2_bar = S_bar[74];
-    const vector_f W7_3_bar = S_bar[75];
-    const vector_f W7_4_bar = S_bar[76];
-    const vector_f W7_5_bar = S_bar[77];
-    const vector_f W7_6_bar = S_bar[78];
-    const vector_f W7_7_bar = S_bar[79];
-    const vector_f W7_8_bar = S_bar[80];
-    const vector_f W8_0_bar = S_bar[81];
-    const vector_f W8_1_bar = S_bar[82];
-    const vector_f W8_2_bar = S_bar[83];
-    const vector_f W8_3_bar = S_bar[84];
-    const vector_f W8_4_bar = S_bar[85];
-    const vector_f W8_5_bar = S_bar[86];
-    const vector_f W8_6_bar = S_bar[87];
-    const vector_f W8_7_bar = S_bar[88];
-    const vector_f W8_8_bar = S_bar[89];
-    const vector_f its_amplitude_bar = S_bar[90];
-    mu_bar[0] = mu0_bar;
-    mu_bar[1] = mu1_bar;
-    mu_bar[2] = mu2_bar;
-    mu_bar[3] = mu3_bar;
-    mu_bar[4] = mu4_bar;
-    mu_bar[5] = mu5_bar;
-    mu_bar[6] = mu6_bar;
-    mu_bar[7] = mu7_bar;
-    mu_bar[8] = mu8_bar;
-    W_bar[0] = W0_0_bar;
-    W_bar[1] = W0_1_bar;
-    W_bar[2] = W0_2_bar;
-    W_bar[3] = W0_3_bar;
-    W_bar[4] = W0_4_bar;
-    W_bar[5] = W0_5_bar;
-    W_bar[6] = W0_6_bar;
-    W_bar[7] = W0_7_bar;
-    W_bar[8] = W0_8_bar;
-    W_bar[9] = W1_0_bar;
-    W_bar[10] = W1_1_bar;
-    W_bar[11] = W1_2_bar;
-    W_bar[12] = W1_3_bar;
-    W_bar[13] = W1_4_bar;
-    W_bar[14] = W1_5_bar;
-    W_bar[15] = W1_6_bar;
-    W_bar[16] = W1_7_bar;
-    W_bar[17] = W1_8_bar;
-    W_bar[18] = W2_0_bar;
-    W_bar[19] = W2_1_bar;
-    W_bar[20] = W2_2_bar;
-    W_bar[21] = W2_3_bar;
-    W_bar[22] = W2_4_bar;
-    W_bar[23] = W2_5_bar;
-    W_bar[24] = W2_6_bar;
-    W_bar[25] = W2_7_bar;
-    W_bar[26] = W2_8_bar;
-    W_bar[27] = W3_0_bar;
-    W_bar[28] = W3_1_bar;
-    W_bar[29] = W3_2_bar;
-    W_bar[30] = W3_3_bar;
-    W_bar[31] = W3_4_bar;
-    W_bar[32] = W3_5_bar;
-    W_bar[33] = W3_6_bar;
-    W_bar[34] = W3_7_bar;
-    W_bar[35] = W3_8_bar;
-    W_bar[36] = W4_0_bar;
-    W_bar[37] = W4_1_bar;
-    W_bar[38] = W4_2_bar;
-    W_bar[39] = W4_3_bar;
-    W_bar[40] = W4_4_bar;
-    W_bar[41] = W4_5_bar;
-    W_bar[42] = W4_6_bar;
-    W_bar[43] = W4_7_bar;
-    W_bar[44] = W4_8_bar;
-    W_bar[45] = W5_0_bar;
-    W_bar[46] = W5_1_bar;
-    W_bar[47] = W5_2_bar;
-    W_bar[48] = W5_3_bar;
-    W_bar[49] = W5_4_bar;
-    W_bar[50] = W5_5_bar;
-    W_bar[51] = W5_6_bar;
-    W_bar[52] = W5_7_bar;
-    W_bar[53] = W5_8_bar;
-    W_bar[54] = W6_0_bar;
-    W_bar[55] = W6_1_bar;
-    W_bar[56] = W6_2_bar;
-    W_bar[57] = W6_3_bar;
-    W_bar[58] = W6_4_bar;
-    W_bar[59] = W6_5_bar;
-    W_bar[60] = W6_6_bar;
-    W_bar[61] = W6_7_bar;
-    W_bar[62] = W6_8_bar;
-    W_bar[63] = W7_0_bar;
-    W_bar[64] = W7_1_bar;
-    W_bar[65] = W7_2_bar;
-    W_bar[66] = W7_3_bar;
-    W_bar[67] = W7_4_bar;
-    W_bar[68] = W7_5_bar;
-    W_bar[69] = W7_6_bar;
-    W_bar[70] = W7_7_bar;
-    W_bar[71] = W7_8_bar;
-    W_bar[72] = W8_0_bar;
-    W_bar[73] = W8_1_bar;
-    W_bar[74] = W8_2_bar;
-    W_bar[75] = W8_3_bar;
-    W_bar[76] = W8_4_bar;
-    W_bar[77] = W8_5_bar;
-    W_bar[78] = W8_6_bar;
-    W_bar[79] = W8_7_bar;
-    W_bar[80] = W8_8_bar;
-    amplitude_bar[0] = its_amplitude_bar;
+    const vector_f its_amplitude = amplitude[0];
+    const vector_f sum0 = sums[0];
+    const vector_f sum1 = sums[1];
+    const vector_f sum2 = sums[2];
+    const vector_f sum3 = sums[3];
+    const vector_f sum4 = sums[4];
+    const vector_f sum5 = sums[5];
+    const vector_f sum6 = sums[6];
+    const vector_f sum7 = sums[7];
+    const vector_f sum8 = sums[8];
+    const vector_f sum9 = sums[9];
+    const vector_f sum10 = sums[10];
+    const vector_f sum11 = sums[11];
+    const vector_f sum12 = sums[12];
+    const vector_f sum13 = sums[13];
+    const vector_f sum14 = sums[14];
+    const vector_f sum15 = sums[15];
+    const vector_f sum16 = sums[16];
+    const vector_f sum17 = sums[17];
+    const vector_f sum18 = sums[18];
+    const vector_f sum19 = sums[19];
+    const vector_f sum20 = sums[20];
+    const vector_f sum21 = sums[21];
+    const vector_f sum22 = sums[22];
+    const vector_f sum23 = sums[23];
+    const vector_f sum24 = sums[24];
+    const vector_f sum25 = sums[25];
+    const vector_f sum26 = sums[26];
+    const vector_f sum27 = sums[27];
+    const vector_f sum28 = sums[28];
+    const vector_f sum29 = sums[29];
+    const vector_f sum30 = sums[30];
+    const vector_f sum31 = sums[31];
+    const vector_f sum32 = sums[32];
+    const vector_f sum33 = sums[33];
+    const vector_f sum34 = sums[34];
+    const vector_f sum35 = sums[35];
+    const vector_f sum36 = sums[36];
+    const vector_f sum37 = sums[37];
+    const vector_f sum38 = sums[38];
+    const vector_f sum39 = sums[39];
+    const vector_f sum40 = sums[40];
+    const vector_f sum41 = sums[41];
+    const vector_f sum42 = sums[42];
+    const vector_f sum43 = sums[43];
+    const vector_f sum44 = sums[44];
+    const vector_f sum45 = sums[45];
+    const vector_f sum46 = sums[46];
+    const vector_f sum47 = sums[47];
+    const vector_f sum48 = sums[48];
+    const vector_f sum49 = sums[49];
+    const vector_f sum50 = sums[50];
+    const vector_f sum51 = sums[51];
+    const vector_f sum52 = sums[52];
+    const vector_f sum53 = sums[53];
+    const vector_f sum54 = sums[54];
+    const vector_f sum55 = sums[55];
+    const vector_f sum56 = sums[56];
+    const vector_f sum57 = sums[57];
+    const vector_f sum58 = sums[58];
+    const vector_f sum59 = sums[59];
+    const vector_f sum60 = sums[60];
+    const vector_f sum61 = sums[61];
+    const vector_f sum62 = sums[62];
+    const vector_f sum63 = sums[63];
+    const vector_f sum64 = sums[64];
+    const vector_f sum65 = sums[65];
+    const vector_f sum66 = sums[66];
+    const vector_f sum67 = sums[67];
+    const vector_f sum68 = sums[68];
+    const vector_f sum69 = sums[69];
+    const vector_f sum70 = sums[70];
+    const vector_f sum71 = sums[71];
+    const vector_f sum72 = sums[72];
+    const vector_f sum73 = sums[73];
+    const vector_f sum74 = sums[74];
+    const vector_f sum75 = sums[75];
+    const vector_f sum76 = sums[76];
+    const vector_f sum77 = sums[77];
+    const vector_f sum78 = sums[78];
+    const vector_f sum79 = sums[79];
+    const vector_f sum80 = sums[80];
+    const vector_f sum81 = sums[81];
+    const vector_f sum82 = sums[82];
+    const vector_f sum83 = sums[83];
+    const vector_f sum84 = sums[84];
+    const vector_f sum85 = sums[85];
+    const vector_f sum86 = sums[86];
+    const vector_f sum87 = sums[87];
+    const vector_f sum88 = sums[88];
+    const vector_f sum89 = sums[89];
+    const vector_f sum90 = sums[90];
+    mu_bar[0] = its_amplitude * sum0;
+    mu_bar[1] = its_amplitude * sum1;
+    mu_bar[2] = its_amplitude * sum2;
+    mu_bar[3] = its_amplitude * sum3;
+    mu_bar[4] = its_amplitude * sum4;
+    mu_bar[5] = its_amplitude * sum5;
+    mu_bar[6] = its_amplitude * sum6;
+    mu_bar[7] = its_amplitude * sum7;
+    mu_bar[8] = its_amplitude * sum8;
+    W_bar[0] = its_amplitude * sum9;
+    W_bar[1] = its_amplitude * sum10;
+    W_bar[2] = its_amplitude * sum11;
+    W_bar[3] = its_amplitude * sum12;
+    W_bar[4] = its_amplitude * sum13;
+    W_bar[5] = its_amplitude * sum14;
+    W_bar[6] = its_amplitude * sum15;
+    W_bar[7] = its_amplitude * sum16;
+    W_bar[8] = its_amplitude * sum17;
+    W_bar[9] = its_amplitude * sum18;
+    W_bar[10] = its_amplitude * sum19;
+    W_bar[11] = its_amplitude * sum20;
+    W_bar[12] = its_amplitude * sum21;
+    W_bar[13] = its_amplitude * sum22;
+    W_bar[14] = its_amplitude * sum23;
+    W_bar[15] = its_amplitude * sum24;
+    W_bar[16] = its_amplitude * sum25;
+    W_bar[17] = its_amplitude * sum26;
+    W_bar[18] = its_amplitude * sum27;
+    W_bar[19] = its_amplitude * sum28;
+    W_bar[20] = its_amplitude * sum29;
+    W_bar[21] = its_amplitude * sum30;
+    W_bar[22] = its_amplitude * sum31;
+    W_bar[23] = its_amplitude * sum32;
+    W_bar[24] = its_amplitude * sum33;
+    W_bar[25] = its_amplitude * sum34;
+    W_bar[26] = its_amplitude * sum35;
+    W_bar[27] = its_amplitude * sum36;
+    W_bar[28] = its_amplitude * sum37;
+    W_bar[29] = its_amplitude * sum38;
+    W_bar[30] = its_amplitude * sum39;
+    W_bar[31] = its_amplitude * sum40;
+    W_bar[32] = its_amplitude * sum41;
+    W_bar[33] = its_amplitude * sum42;
+    W_bar[34] = its_amplitude * sum43;
+    W_bar[35] = its_amplitude * sum44;
+    W_bar[36] = its_amplitude * sum45;
+    W_bar[37] = its_amplitude * sum46;
+    W_bar[38] = its_amplitude * sum47;
+    W_bar[39] = its_amplitude * sum48;
+    W_bar[40] = its_amplitude * sum49;
+    W_bar[41] = its_amplitude * sum50;
+    W_bar[42] = its_amplitude * sum51;
+    W_bar[43] = its_amplitude * sum52;
+    W_bar[44] = its_amplitude * sum53;
+    W_bar[45] = its_amplitude * sum54;
+    W_bar[46] = its_amplitude * sum55;
+    W_bar[47] = its_amplitude * sum56;
+    W_bar[48] = its_amplitude * sum57;
+    W_bar[49] = its_amplitude * sum58;
+    W_bar[50] = its_amplitude * sum59;
+    W_bar[51] = its_amplitude * sum60;
+    W_bar[52] = its_amplitude * sum61;
+    W_bar[53] = its_amplitude * sum62;
+    W_bar[54] = its_amplitude * sum63;
+    W_bar[55] = its_amplitude * sum64;
+    W_bar[56] = its_amplitude * sum65;
+    W_bar[57] = its_amplitude * sum66;
+    W_bar[58] = its_amplitude * sum67;
+    W_bar[59] = its_amplitude * sum68;
+    W_bar[60] = its_amplitude * sum69;
+    W_bar[61] = its_amplitude * sum70;
+    W_bar[62] = its_amplitude * sum71;
+    W_bar[63] = its_amplitude * sum72;
+    W_bar[64] = its_amplitude * sum73;
+    W_bar[65] = its_amplitude * sum74;
+    W_bar[66] = its_amplitude * sum75;
+    W_bar[67] = its_amplitude * sum76;
+    W_bar[68] = its_amplitude * sum77;
+    W_bar[69] = its_amplitude * sum78;
+    W_bar[70] = its_amplitude * sum79;
+    W_bar[71] = its_amplitude * sum80;
+    W_bar[72] = its_amplitude * sum81;
+    W_bar[73] = its_amplitude * sum82;
+    W_bar[74] = its_amplitude * sum83;
+    W_bar[75] = its_amplitude * sum84;
+    W_bar[76] = its_amplitude * sum85;
+    W_bar[77] = its_amplitude * sum86;
+    W_bar[78] = its_amplitude * sum87;
+    W_bar[79] = its_amplitude * sum88;
+    W_bar[80] = its_amplitude * sum89;
+    amplitude_bar[0] = sum90;
 }
 
 /* The distances of some points q from one point p. */
@@ -3008,43 +2966,36 @@ OUTLINE void pair_distances_f(
     const vector_f base_position_log0 = q0 - p0;
     const vector_f base_position_log1 = q1 - p1;
     const vector_f gap = q2 - p2;
-    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
-    const vector_f base_heading_log0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 -
-        3.019915981956753e-07f * round_2;
+    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+    const vector_f base_heading_log0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const vector_f gap_2 = q3 - p3;
-    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
-    const vector_f arm_log0 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 -
-        3.019915981956753e-07f * round_3;
+    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+    const vector_f arm_log0 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const vector_f gap_3 = q4 - p4;
-    const vector_f round_4 = vector_round_f(0.15915494309189535f * gap_3);
-    const vector_f arm_log1 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 -
-        3.019915981956753e-07f * round_4;
+    const vector_f round_4 = round_each_f(0.15915494309189535f * gap_3);
+    const vector_f arm_log1 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
     const vector_f gap_4 = q5 - p5;
-    const vector_f round_5 = vector_round_f(0.15915494309189535f * gap_4);
-    const vector_f arm_log2 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 -
-        3.019915981956753e-07f * round_5;
+    const vector_f round_5 = round_each_f(0.15915494309189535f * gap_4);
+    const vector_f arm_log2 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
     const vector_f gap_5 = q6 - p6;
-    const vector_f round_6 = vector_round_f(0.15915494309189535f * gap_5);
-    const vector_f arm_log3 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 -
-        3.019915981956753e-07f * round_6;
+    const vector_f round_6 = round_each_f(0.15915494309189535f * gap_5);
+    const vector_f arm_log3 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
     const vector_f gap_6 = q7 - p7;
-    const vector_f round_7 = vector_round_f(0.15915494309189535f * gap_6);
-    const vector_f arm_log4 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 -
-        3.019915981956753e-07f * round_7;
+    const vector_f round_7 = round_each_f(0.15915494309189535f * gap_6);
+    const vector_f arm_log4 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
     const vector_f gap_7 = q8 - p8;
-    const vector_f round_8 = vector_round_f(0.15915494309189535f * gap_7);
-    const vector_f arm_log5 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 -
-        3.019915981956753e-07f * round_8;
+    const vector_f round_8 = round_each_f(0.15915494309189535f * gap_7);
+    const vector_f arm_log5 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
     const vector_f total_2 = base_position_log0 * base_position_log0 + base_position_log1 * base_position_log1
         + 0.25f * (base_heading_log0 * base_heading_log0) + 0.0625f * (arm_log0 * arm_log0) + 0.0625f *
         (arm_log1 * arm_log1);
     const vector_f total_3 = total_2 + 0.0625f * (arm_log2 * arm_log2) + 0.0625f * (arm_log3 * arm_log3) +
         0.0625f * (arm_log4 * arm_log4);
-    distance[0] = vector_sqrt_f(total_3 + 0.0625f * (arm_log5 * arm_log5));
+    distance[0] = sqrt_each_f(total_3 + 0.0625f * (arm_log5 * arm_log5));
 }
 
 /*
- * The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar.
+ * The factors of whose products are what is summed over the points.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
@@ -3149,7 +3100,6 @@ OUTLINE void pair_factors_f(
     const float W8_6 = S[87];
     const float W8_7 = S[88];
     const float W8_8 = S[89];
-    const float amplitude = S[90];
     const vector_f its_value_bar = value_bar[0];
     const vector_f x0_bar = slope_bar[0];
     const vector_f x1_bar = slope_bar[1];
@@ -3163,34 +3113,27 @@ OUTLINE void pair_factors_f(
     const vector_f v0 = x0 - mu0;
     const vector_f v1 = x1 - mu1;
     const vector_f gap = x2 - mu2;
-    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
-    const vector_f v2 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+    const vector_f v2 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const vector_f gap_2 = x3 - mu3;
-    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
-    const vector_f v3 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
-        * round_3;
+    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+    const vector_f v3 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const vector_f gap_3 = x4 - mu4;
-    const vector_f round_4 = vector_round_f(0.15915494309189535f * gap_3);
-    const vector_f v4 = gap_3 - 6.28125f * round_4 - 0.0019350051879882812f * round_4 - 3.019915981956753e-07f
-        * round_4;
+    const vector_f round_4 = round_each_f(0.15915494309189535f * gap_3);
+    const vector_f v4 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
     const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
     const vector_f gap_4 = x5 - mu5;
-    const vector_f round_5 = vector_round_f(0.15915494309189535f * gap_4);
-    const vector_f v5 = gap_4 - 6.28125f * round_5 - 0.0019350051879882812f * round_5 - 3.019915981956753e-07f
-        * round_5;
+    const vector_f round_5 = round_each_f(0.15915494309189535f * gap_4);
+    const vector_f v5 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
     const vector_f gap_5 = x6 - mu6;
-    const vector_f round_6 = vector_round_f(0.15915494309189535f * gap_5);
-    const vector_f v6 = gap_5 - 6.28125f * round_6 - 0.0019350051879882812f * round_6 - 3.019915981956753e-07f
-        * round_6;
+    const vector_f round_6 = round_each_f(0.15915494309189535f * gap_5);
+    const vector_f v6 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
     const vector_f gap_6 = x7 - mu7;
-    const vector_f round_7 = vector_round_f(0.15915494309189535f * gap_6);
-    const vector_f v7 = gap_6 - 6.28125f * round_7 - 0.0019350051879882812f * round_7 - 3.019915981956753e-07f
-        * round_7;
+    const vector_f round_7 = round_each_f(0.15915494309189535f * gap_6);
+    const vector_f v7 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
     const vector_f gap_7 = x8 - mu8;
-    const vector_f round_8 = vector_round_f(0.15915494309189535f * gap_7);
-    const vector_f v8 = gap_7 - 6.28125f * round_8 - 0.0019350051879882812f * round_8 - 3.019915981956753e-07f
-        * round_8;
+    const vector_f round_8 = round_each_f(0.15915494309189535f * gap_7);
+    const vector_f v8 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
     const vector_f z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
     const vector_f total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
     const vector_f z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
@@ -3210,8 +3153,7 @@ OUTLINE void pair_factors_f(
     const vector_f total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
     const vector_f z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
     const vector_f total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-    const vector_f exp_2 = vector_exp_f(-0.5f * total_12);
-    const vector_f phi = amplitude * exp_2;
+    const vector_f phi = gaussian_each_f(total_12);
     const vector_f gap_8 = -(W8_0 * x0_bar) - W8_1 * x1_bar - W8_2 * x2_bar - W8_3 * x3_bar;
     const vector_f gap_9 = gap_8 - W8_4 * x4_bar - W8_5 * x5_bar - W8_6 * x6_bar - W8_7 * x7_bar;
     const vector_f gap_10 = gap_9 - W8_8 * x8_bar;
@@ -3242,17 +3184,17 @@ OUTLINE void pair_factors_f(
     const vector_f gap_34 = gap_33 - W7_8 * x8_bar;
     const vector_f total_14 = total_13 + z4 * gap_25 + z5 * gap_28 + z6 * gap_31 + z7 * gap_34;
     const vector_f by_phi = total_14 + z8 * gap_10;
-    const vector_f product = exp_2 * (amplitude * by_phi);
-    const vector_f by_z8 = phi * gap_10 - z8 * product;
-    const vector_f by_z7 = phi * gap_34 - z7 * product;
-    const vector_f by_z6 = phi * gap_31 - z6 * product;
-    const vector_f by_z5 = phi * gap_28 - z5 * product;
-    const vector_f by_z4 = phi * gap_25 - z4 * product;
+    const vector_f phi_product = phi * by_phi;
+    const vector_f by_z8 = phi * gap_10 - z8 * phi_product;
+    const vector_f by_z7 = phi * gap_34 - z7 * phi_product;
+    const vector_f by_z6 = phi * gap_31 - z6 * phi_product;
+    const vector_f by_z5 = phi * gap_28 - z5 * phi_product;
+    const vector_f by_z4 = phi * gap_25 - z4 * phi_product;
     const vector_f total_15 = W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5 + W4_0 * by_z4;
-    const vector_f by_z3 = phi * gap_22 - z3 * product;
-    const vector_f by_z2 = phi * gap_19 - z2 * product;
-    const vector_f by_z1 = phi * gap_16 - z1 * product;
-    const vector_f by_z0 = phi * gap_13 - z0 * product;
+    const vector_f by_z3 = phi * gap_22 - z3 * phi_product;
+    const vector_f by_z2 = phi * gap_19 - z2 * phi_product;
+    const vector_f by_z1 = phi * gap_16 - z1 * phi_product;
+    const vector_f by_z0 = phi * gap_13 - z0 * phi_product;
     const vector_f by_v0 = total_15 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0;
     const vector_f total_16 = W8_1 * by_z8 + W7_1 * by_z7 + W6_1 * by_z6 + W5_1 * by_z5 + W4_1 * by_z4;
     const vector_f by_v1 = total_16 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
@@ -3288,173 +3230,173 @@ OUTLINE void pair_factors_f(
     factor[6] = v6;
     factor[7] = v7;
     factor[8] = v8;
-    factor[9] = by_z8;
-    factor[10] = by_z7;
-    factor[11] = by_z6;
-    factor[12] = by_z5;
-    factor[13] = by_z4;
-    factor[14] = by_z3;
-    factor[15] = by_z2;
-    factor[16] = by_z1;
-    factor[17] = by_z0;
-    factor[18] = -by_v0;
-    factor[19] = -by_v1;
-    factor[20] = -by_v2;
-    factor[21] = -by_v3;
-    factor[22] = -by_v4;
-    factor[23] = -by_v5;
-    factor[24] = -by_v6;
-    factor[25] = -by_v7;
-    factor[26] = -by_v8;
-    factor[27] = z0_product;
-    factor[28] = z1_product;
-    factor[29] = z2_product;
-    factor[30] = z3_product;
-    factor[31] = z4_product;
-    factor[32] = z5_product;
-    factor[33] = z6_product;
-    factor[34] = z7_product;
-    factor[35] = z8_product;
-    factor[36] = exp_2 * by_phi;
+    factor[9] = phi_product;
+    factor[10] = by_z8;
+    factor[11] = by_z7;
+    factor[12] = by_z6;
+    factor[13] = by_z5;
+    factor[14] = by_z4;
+    factor[15] = by_z3;
+    factor[16] = by_z2;
+    factor[17] = by_z1;
+    factor[18] = by_z0;
+    factor[19] = -by_v0;
+    factor[20] = -by_v1;
+    factor[21] = -by_v2;
+    factor[22] = -by_v3;
+    factor[23] = -by_v4;
+    factor[24] = -by_v5;
+    factor[25] = -by_v6;
+    factor[26] = -by_v7;
+    factor[27] = -by_v8;
+    factor[28] = z0_product;
+    factor[29] = z1_product;
+    factor[30] = z2_product;
+    factor[31] = z3_product;
+    factor[32] = z4_product;
+    factor[33] = z5_product;
+    factor[34] = z6_product;
+    factor[35] = z7_product;
+    factor[36] = z8_product;
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_0_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[18];
-    sum[1] = sum[1] + factor[19];
-    sum[2] = sum[2] + factor[20];
-    sum[3] = sum[3] + factor[21];
-    sum[4] = sum[4] + factor[22];
-    sum[5] = sum[5] + factor[23];
-    sum[6] = sum[6] + factor[24];
-    sum[7] = sum[7] + factor[25];
-    sum[8] = sum[8] + factor[26];
-    sum[9] = sum[9] + factor[36];
-    sum[10] = sum[10] + factor[0] * factor[17] - factor[27] * point[10];
-    sum[11] = sum[11] + factor[1] * factor[17] - factor[27] * point[11];
+    sum[0] = sum[0] + factor[19];
+    sum[1] = sum[1] + factor[20];
+    sum[2] = sum[2] + factor[21];
+    sum[3] = sum[3] + factor[22];
+    sum[4] = sum[4] + factor[23];
+    sum[5] = sum[5] + factor[24];
+    sum[6] = sum[6] + factor[25];
+    sum[7] = sum[7] + factor[26];
+    sum[8] = sum[8] + factor[27];
+    sum[9] = sum[9] + factor[9];
+    sum[10] = sum[10] + factor[0] * factor[18] - factor[28] * point[10];
+    sum[11] = sum[11] + factor[1] * factor[18] - factor[28] * point[11];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_1_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[2] * factor[17] - factor[27] * point[12];
-    sum[1] = sum[1] + factor[3] * factor[17] - factor[27] * point[13];
-    sum[2] = sum[2] + factor[4] * factor[17] - factor[27] * point[14];
-    sum[3] = sum[3] + factor[5] * factor[17] - factor[27] * point[15];
-    sum[4] = sum[4] + factor[6] * factor[17] - factor[27] * point[16];
-    sum[5] = sum[5] + factor[7] * factor[17] - factor[27] * point[17];
-    sum[6] = sum[6] + factor[8] * factor[17] - factor[27] * point[18];
-    sum[7] = sum[7] + factor[2] * factor[16] - factor[28] * point[12];
-    sum[8] = sum[8] + factor[3] * factor[16] - factor[28] * point[13];
-    sum[9] = sum[9] + factor[4] * factor[16] - factor[28] * point[14];
-    sum[10] = sum[10] + factor[5] * factor[16] - factor[28] * point[15];
-    sum[11] = sum[11] + factor[6] * factor[16] - factor[28] * point[16];
+    sum[0] = sum[0] + factor[2] * factor[18] - factor[28] * point[12];
+    sum[1] = sum[1] + factor[3] * factor[18] - factor[28] * point[13];
+    sum[2] = sum[2] + factor[4] * factor[18] - factor[28] * point[14];
+    sum[3] = sum[3] + factor[5] * factor[18] - factor[28] * point[15];
+    sum[4] = sum[4] + factor[6] * factor[18] - factor[28] * point[16];
+    sum[5] = sum[5] + factor[7] * factor[18] - factor[28] * point[17];
+    sum[6] = sum[6] + factor[8] * factor[18] - factor[28] * point[18];
+    sum[7] = sum[7] + factor[2] * factor[17] - factor[29] * point[12];
+    sum[8] = sum[8] + factor[3] * factor[17] - factor[29] * point[13];
+    sum[9] = sum[9] + factor[4] * factor[17] - factor[29] * point[14];
+    sum[10] = sum[10] + factor[5] * factor[17] - factor[29] * point[15];
+    sum[11] = sum[11] + factor[6] * factor[17] - factor[29] * point[16];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_2_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[0] * factor[16] - factor[28] * point[10];
-    sum[1] = sum[1] + factor[1] * factor[16] - factor[28] * point[11];
-    sum[2] = sum[2] + factor[7] * factor[16] - factor[28] * point[17];
-    sum[3] = sum[3] + factor[8] * factor[16] - factor[28] * point[18];
-    sum[4] = sum[4] + factor[0] * factor[15] - factor[29] * point[10];
-    sum[5] = sum[5] + factor[1] * factor[15] - factor[29] * point[11];
-    sum[6] = sum[6] + factor[7] * factor[15] - factor[29] * point[17];
-    sum[7] = sum[7] + factor[8] * factor[15] - factor[29] * point[18];
-    sum[8] = sum[8] + factor[2] * factor[15] - factor[29] * point[12];
-    sum[9] = sum[9] + factor[3] * factor[15] - factor[29] * point[13];
-    sum[10] = sum[10] + factor[4] * factor[15] - factor[29] * point[14];
-    sum[11] = sum[11] + factor[5] * factor[15] - factor[29] * point[15];
+    sum[0] = sum[0] + factor[0] * factor[17] - factor[29] * point[10];
+    sum[1] = sum[1] + factor[1] * factor[17] - factor[29] * point[11];
+    sum[2] = sum[2] + factor[7] * factor[17] - factor[29] * point[17];
+    sum[3] = sum[3] + factor[8] * factor[17] - factor[29] * point[18];
+    sum[4] = sum[4] + factor[0] * factor[16] - factor[30] * point[10];
+    sum[5] = sum[5] + factor[1] * factor[16] - factor[30] * point[11];
+    sum[6] = sum[6] + factor[7] * factor[16] - factor[30] * point[17];
+    sum[7] = sum[7] + factor[8] * factor[16] - factor[30] * point[18];
+    sum[8] = sum[8] + factor[2] * factor[16] - factor[30] * point[12];
+    sum[9] = sum[9] + factor[3] * factor[16] - factor[30] * point[13];
+    sum[10] = sum[10] + factor[4] * factor[16] - factor[30] * point[14];
+    sum[11] = sum[11] + factor[5] * factor[16] - factor[30] * point[15];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_3_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[6] * factor[15] - factor[29] * point[16];
-    sum[1] = sum[1] + factor[6] * factor[14] - factor[30] * point[16];
-    sum[2] = sum[2] + factor[0] * factor[14] - factor[30] * point[10];
-    sum[3] = sum[3] + factor[1] * factor[14] - factor[30] * point[11];
-    sum[4] = sum[4] + factor[2] * factor[14] - factor[30] * point[12];
-    sum[5] = sum[5] + factor[3] * factor[14] - factor[30] * point[13];
-    sum[6] = sum[6] + factor[4] * factor[14] - factor[30] * point[14];
-    sum[7] = sum[7] + factor[5] * factor[14] - factor[30] * point[15];
-    sum[8] = sum[8] + factor[7] * factor[14] - factor[30] * point[17];
-    sum[9] = sum[9] + factor[8] * factor[14] - factor[30] * point[18];
-    sum[10] = sum[10] + factor[0] * factor[13] - factor[31] * point[10];
-    sum[11] = sum[11] + factor[1] * factor[13] - factor[31] * point[11];
+    sum[0] = sum[0] + factor[6] * factor[16] - factor[30] * point[16];
+    sum[1] = sum[1] + factor[6] * factor[15] - factor[31] * point[16];
+    sum[2] = sum[2] + factor[0] * factor[15] - factor[31] * point[10];
+    sum[3] = sum[3] + factor[1] * factor[15] - factor[31] * point[11];
+    sum[4] = sum[4] + factor[2] * factor[15] - factor[31] * point[12];
+    sum[5] = sum[5] + factor[3] * factor[15] - factor[31] * point[13];
+    sum[6] = sum[6] + factor[4] * factor[15] - factor[31] * point[14];
+    sum[7] = sum[7] + factor[5] * factor[15] - factor[31] * point[15];
+    sum[8] = sum[8] + factor[7] * factor[15] - factor[31] * point[17];
+    sum[9] = sum[9] + factor[8] * factor[15] - factor[31] * point[18];
+    sum[10] = sum[10] + factor[0] * factor[14] - factor[32] * point[10];
+    sum[11] = sum[11] + factor[1] * factor[14] - factor[32] * point[11];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_4_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[2] * factor[13] - factor[31] * point[12];
-    sum[1] = sum[1] + factor[3] * factor[13] - factor[31] * point[13];
-    sum[2] = sum[2] + factor[4] * factor[13] - factor[31] * point[14];
-    sum[3] = sum[3] + factor[5] * factor[13] - factor[31] * point[15];
-    sum[4] = sum[4] + factor[6] * factor[13] - factor[31] * point[16];
-    sum[5] = sum[5] + factor[7] * factor[13] - factor[31] * point[17];
-    sum[6] = sum[6] + factor[8] * factor[13] - factor[31] * point[18];
-    sum[7] = sum[7] + factor[2] * factor[12] - factor[32] * point[12];
-    sum[8] = sum[8] + factor[3] * factor[12] - factor[32] * point[13];
-    sum[9] = sum[9] + factor[4] * factor[12] - factor[32] * point[14];
-    sum[10] = sum[10] + factor[5] * factor[12] - factor[32] * point[15];
-    sum[11] = sum[11] + factor[6] * factor[12] - factor[32] * point[16];
+    sum[0] = sum[0] + factor[2] * factor[14] - factor[32] * point[12];
+    sum[1] = sum[1] + factor[3] * factor[14] - factor[32] * point[13];
+    sum[2] = sum[2] + factor[4] * factor[14] - factor[32] * point[14];
+    sum[3] = sum[3] + factor[5] * factor[14] - factor[32] * point[15];
+    sum[4] = sum[4] + factor[6] * factor[14] - factor[32] * point[16];
+    sum[5] = sum[5] + factor[7] * factor[14] - factor[32] * point[17];
+    sum[6] = sum[6] + factor[8] * factor[14] - factor[32] * point[18];
+    sum[7] = sum[7] + factor[2] * factor[13] - factor[33] * point[12];
+    sum[8] = sum[8] + factor[3] * factor[13] - factor[33] * point[13];
+    sum[9] = sum[9] + factor[4] * factor[13] - factor[33] * point[14];
+    sum[10] = sum[10] + factor[5] * factor[13] - factor[33] * point[15];
+    sum[11] = sum[11] + factor[6] * factor[13] - factor[33] * point[16];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_5_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[0] * factor[12] - factor[32] * point[10];
-    sum[1] = sum[1] + factor[1] * factor[12] - factor[32] * point[11];
-    sum[2] = sum[2] + factor[7] * factor[12] - factor[32] * point[17];
-    sum[3] = sum[3] + factor[8] * factor[12] - factor[32] * point[18];
-    sum[4] = sum[4] + factor[0] * factor[11] - factor[33] * point[10];
-    sum[5] = sum[5] + factor[1] * factor[11] - factor[33] * point[11];
-    sum[6] = sum[6] + factor[7] * factor[11] - factor[33] * point[17];
-    sum[7] = sum[7] + factor[8] * factor[11] - factor[33] * point[18];
-    sum[8] = sum[8] + factor[2] * factor[11] - factor[33] * point[12];
-    sum[9] = sum[9] + factor[3] * factor[11] - factor[33] * point[13];
-    sum[10] = sum[10] + factor[4] * factor[11] - factor[33] * point[14];
-    sum[11] = sum[11] + factor[5] * factor[11] - factor[33] * point[15];
+    sum[0] = sum[0] + factor[0] * factor[13] - factor[33] * point[10];
+    sum[1] = sum[1] + factor[1] * factor[13] - factor[33] * point[11];
+    sum[2] = sum[2] + factor[7] * factor[13] - factor[33] * point[17];
+    sum[3] = sum[3] + factor[8] * factor[13] - factor[33] * point[18];
+    sum[4] = sum[4] + factor[0] * factor[12] - factor[34] * point[10];
+    sum[5] = sum[5] + factor[1] * factor[12] - factor[34] * point[11];
+    sum[6] = sum[6] + factor[7] * factor[12] - factor[34] * point[17];
+    sum[7] = sum[7] + factor[8] * factor[12] - factor[34] * point[18];
+    sum[8] = sum[8] + factor[2] * factor[12] - factor[34] * point[12];
+    sum[9] = sum[9] + factor[3] * factor[12] - factor[34] * point[13];
+    sum[10] = sum[10] + factor[4] * factor[12] - factor[34] * point[14];
+    sum[11] = sum[11] + factor[5] * factor[12] - factor[34] * point[15];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_6_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[6] * factor[11] - factor[33] * point[16];
-    sum[1] = sum[1] + factor[6] * factor[10] - factor[34] * point[16];
-    sum[2] = sum[2] + factor[0] * factor[10] - factor[34] * point[10];
-    sum[3] = sum[3] + factor[1] * factor[10] - factor[34] * point[11];
-    sum[4] = sum[4] + factor[2] * factor[10] - factor[34] * point[12];
-    sum[5] = sum[5] + factor[3] * factor[10] - factor[34] * point[13];
-    sum[6] = sum[6] + factor[4] * factor[10] - factor[34] * point[14];
-    sum[7] = sum[7] + factor[5] * factor[10] - factor[34] * point[15];
-    sum[8] = sum[8] + factor[7] * factor[10] - factor[34] * point[17];
-    sum[9] = sum[9] + factor[8] * factor[10] - factor[34] * point[18];
-    sum[10] = sum[10] + factor[0] * factor[9] - factor[35] * point[10];
-    sum[11] = sum[11] + factor[1] * factor[9] - factor[35] * point[11];
+    sum[0] = sum[0] + factor[6] * factor[12] - factor[34] * point[16];
+    sum[1] = sum[1] + factor[6] * factor[11] - factor[35] * point[16];
+    sum[2] = sum[2] + factor[0] * factor[11] - factor[35] * point[10];
+    sum[3] = sum[3] + factor[1] * factor[11] - factor[35] * point[11];
+    sum[4] = sum[4] + factor[2] * factor[11] - factor[35] * point[12];
+    sum[5] = sum[5] + factor[3] * factor[11] - factor[35] * point[13];
+    sum[6] = sum[6] + factor[4] * factor[11] - factor[35] * point[14];
+    sum[7] = sum[7] + factor[5] * factor[11] - factor[35] * point[15];
+    sum[8] = sum[8] + factor[7] * factor[11] - factor[35] * point[17];
+    sum[9] = sum[9] + factor[8] * factor[11] - factor[35] * point[18];
+    sum[10] = sum[10] + factor[0] * factor[10] - factor[36] * point[10];
+    sum[11] = sum[11] + factor[1] * factor[10] - factor[36] * point[11];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_7_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[2] * factor[9] - factor[35] * point[12];
-    sum[1] = sum[1] + factor[3] * factor[9] - factor[35] * point[13];
-    sum[2] = sum[2] + factor[4] * factor[9] - factor[35] * point[14];
-    sum[3] = sum[3] + factor[5] * factor[9] - factor[35] * point[15];
-    sum[4] = sum[4] + factor[6] * factor[9] - factor[35] * point[16];
-    sum[5] = sum[5] + factor[7] * factor[9] - factor[35] * point[17];
-    sum[6] = sum[6] + factor[8] * factor[9] - factor[35] * point[18];
+    sum[0] = sum[0] + factor[2] * factor[10] - factor[36] * point[12];
+    sum[1] = sum[1] + factor[3] * factor[10] - factor[36] * point[13];
+    sum[2] = sum[2] + factor[4] * factor[10] - factor[36] * point[14];
+    sum[3] = sum[3] + factor[5] * factor[10] - factor[36] * point[15];
+    sum[4] = sum[4] + factor[6] * factor[10] - factor[36] * point[16];
+    sum[5] = sum[5] + factor[7] * factor[10] - factor[36] * point[17];
+    sum[6] = sum[6] + factor[8] * factor[10] - factor[36] * point[18];
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -3500,12 +3442,12 @@ INLINE const float *splat_at_f(const vector_f *splats, size_t k) {
     return (const float *)(splats + 10 * row) + (k - row * LANES_f);
 }
 
-static vector_f *work_splats_f(float *work, size_t count) {
+static vector_f *work_reaches_f(float *work, size_t count) {
     return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 19;
 }
 
 static vector_f *work_blocks_f(float *work, size_t count, size_t splat_count) {
-    return work_splats_f(work, count) + 10 * ((splat_count + LANES_f - 1) / LANES_f);
+    return work_reaches_f(work, count) + 10 * ((splat_count + LANES_f - 1) / LANES_f);
 }
 
 static float *work_constants_f(float *work, size_t count, size_t splat_count) {
@@ -3622,7 +3564,7 @@ void mobile_manipulator_splats_f(
     float *MOBILE_MANIPULATOR_RESTRICT value, float *MOBILE_MANIPULATOR_RESTRICT gradient, float *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -3664,7 +3606,7 @@ void mobile_manipulator_splats_value_f(
     float *MOBILE_MANIPULATOR_RESTRICT value, float *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -3710,141 +3652,141 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 9 + 1, point + 9);
 }
 
-/* Adds to S_bar what one vector of points adds to it. */
+/* Adds to sums what one vector of points adds to it. */
 INLINE void pair_backward_f(
-    const vector_f *point, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
+    const vector_f *point, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
     vector_f factor[37];
     pair_factors_f(point, S, value_bar, slope_bar, factor);
     {
         vector_f sum[12] = {ZERO};
         pair_products_0_f(factor, point, sum);
-        S_bar[0] += sum[0];
-        S_bar[1] += sum[1];
-        S_bar[2] += sum[2];
-        S_bar[3] += sum[3];
-        S_bar[4] += sum[4];
-        S_bar[5] += sum[5];
-        S_bar[6] += sum[6];
-        S_bar[7] += sum[7];
-        S_bar[8] += sum[8];
-        S_bar[90] += sum[9];
-        S_bar[9] += sum[10];
-        S_bar[10] += sum[11];
+        sums[0] += sum[0];
+        sums[1] += sum[1];
+        sums[2] += sum[2];
+        sums[3] += sum[3];
+        sums[4] += sum[4];
+        sums[5] += sum[5];
+        sums[6] += sum[6];
+        sums[7] += sum[7];
+        sums[8] += sum[8];
+        sums[90] += sum[9];
+        sums[9] += sum[10];
+        sums[10] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_1_f(factor, point, sum);
-        S_bar[11] += sum[0];
-        S_bar[12] += sum[1];
-        S_bar[13] += sum[2];
-        S_bar[14] += sum[3];
-        S_bar[15] += sum[4];
-        S_bar[16] += sum[5];
-        S_bar[17] += sum[6];
-        S_bar[20] += sum[7];
-        S_bar[21] += sum[8];
-        S_bar[22] += sum[9];
-        S_bar[23] += sum[10];
-        S_bar[24] += sum[11];
+        sums[11] += sum[0];
+        sums[12] += sum[1];
+        sums[13] += sum[2];
+        sums[14] += sum[3];
+        sums[15] += sum[4];
+        sums[16] += sum[5];
+        sums[17] += sum[6];
+        sums[20] += sum[7];
+        sums[21] += sum[8];
+        sums[22] += sum[9];
+        sums[23] += sum[10];
+        sums[24] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_2_f(factor, point, sum);
-        S_bar[18] += sum[0];
-        S_bar[19] += sum[1];
-        S_bar[25] += sum[2];
-        S_bar[26] += sum[3];
-        S_bar[27] += sum[4];
-        S_bar[28] += sum[5];
-        S_bar[34] += sum[6];
-        S_bar[35] += sum[7];
-        S_bar[29] += sum[8];
-        S_bar[30] += sum[9];
-        S_bar[31] += sum[10];
-        S_bar[32] += sum[11];
+        sums[18] += sum[0];
+        sums[19] += sum[1];
+        sums[25] += sum[2];
+        sums[26] += sum[3];
+        sums[27] += sum[4];
+        sums[28] += sum[5];
+        sums[34] += sum[6];
+        sums[35] += sum[7];
+        sums[29] += sum[8];
+        sums[30] += sum[9];
+        sums[31] += sum[10];
+        sums[32] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_3_f(factor, point, sum);
-        S_bar[33] += sum[0];
-        S_bar[42] += sum[1];
-        S_bar[36] += sum[2];
-        S_bar[37] += sum[3];
-        S_bar[38] += sum[4];
-        S_bar[39] += sum[5];
-        S_bar[40] += sum[6];
-        S_bar[41] += sum[7];
-        S_bar[43] += sum[8];
-        S_bar[44] += sum[9];
-        S_bar[45] += sum[10];
-        S_bar[46] += sum[11];
+        sums[33] += sum[0];
+        sums[42] += sum[1];
+        sums[36] += sum[2];
+        sums[37] += sum[3];
+        sums[38] += sum[4];
+        sums[39] += sum[5];
+        sums[40] += sum[6];
+        sums[41] += sum[7];
+        sums[43] += sum[8];
+        sums[44] += sum[9];
+        sums[45] += sum[10];
+        sums[46] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_4_f(factor, point, sum);
-        S_bar[47] += sum[0];
-        S_bar[48] += sum[1];
-        S_bar[49] += sum[2];
-        S_bar[50] += sum[3];
-        S_bar[51] += sum[4];
-        S_bar[52] += sum[5];
-        S_bar[53] += sum[6];
-        S_bar[56] += sum[7];
-        S_bar[57] += sum[8];
-        S_bar[58] += sum[9];
-        S_bar[59] += sum[10];
-        S_bar[60] += sum[11];
+        sums[47] += sum[0];
+        sums[48] += sum[1];
+        sums[49] += sum[2];
+        sums[50] += sum[3];
+        sums[51] += sum[4];
+        sums[52] += sum[5];
+        sums[53] += sum[6];
+        sums[56] += sum[7];
+        sums[57] += sum[8];
+        sums[58] += sum[9];
+        sums[59] += sum[10];
+        sums[60] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_5_f(factor, point, sum);
-        S_bar[54] += sum[0];
-        S_bar[55] += sum[1];
-        S_bar[61] += sum[2];
-        S_bar[62] += sum[3];
-        S_bar[63] += sum[4];
-        S_bar[64] += sum[5];
-        S_bar[70] += sum[6];
-        S_bar[71] += sum[7];
-        S_bar[65] += sum[8];
-        S_bar[66] += sum[9];
-        S_bar[67] += sum[10];
-        S_bar[68] += sum[11];
+        sums[54] += sum[0];
+        sums[55] += sum[1];
+        sums[61] += sum[2];
+        sums[62] += sum[3];
+        sums[63] += sum[4];
+        sums[64] += sum[5];
+        sums[70] += sum[6];
+        sums[71] += sum[7];
+        sums[65] += sum[8];
+        sums[66] += sum[9];
+        sums[67] += sum[10];
+        sums[68] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_6_f(factor, point, sum);
-        S_bar[69] += sum[0];
-        S_bar[78] += sum[1];
-        S_bar[72] += sum[2];
-        S_bar[73] += sum[3];
-        S_bar[74] += sum[4];
-        S_bar[75] += sum[5];
-        S_bar[76] += sum[6];
-        S_bar[77] += sum[7];
-        S_bar[79] += sum[8];
-        S_bar[80] += sum[9];
-        S_bar[81] += sum[10];
-        S_bar[82] += sum[11];
+        sums[69] += sum[0];
+        sums[78] += sum[1];
+        sums[72] += sum[2];
+        sums[73] += sum[3];
+        sums[74] += sum[4];
+        sums[75] += sum[5];
+        sums[76] += sum[6];
+        sums[77] += sum[7];
+        sums[79] += sum[8];
+        sums[80] += sum[9];
+        sums[81] += sum[10];
+        sums[82] += sum[11];
     }
     {
         vector_f sum[7] = {ZERO};
         pair_products_7_f(factor, point, sum);
-        S_bar[83] += sum[0];
-        S_bar[84] += sum[1];
-        S_bar[85] += sum[2];
-        S_bar[86] += sum[3];
-        S_bar[87] += sum[4];
-        S_bar[88] += sum[5];
-        S_bar[89] += sum[6];
+        sums[83] += sum[0];
+        sums[84] += sum[1];
+        sums[85] += sum[2];
+        sums[86] += sum[3];
+        sums[87] += sum[4];
+        sums[88] += sum[5];
+        sums[89] += sum[6];
     }
 }
 
 /*
- * Adds to S_bar what some vectors of points add to it, those in the list: factors of 10 vectors at a time, then their
+ * Adds to sums what some vectors of points add to it, those in the list: factors of 10 vectors at a time, then their
  * products.
  */
-OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t count, const float *S, float *S_bar) {
+OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t count, const float *S, float *sums) {
     vector_f factor[10 * 37], total[91] = {ZERO};
     for (size_t start = 0; start < count; start += 10, near += 10) {
         const size_t size = count - start < 10 ? count - start : 10;
@@ -3976,7 +3918,7 @@ OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t c
             total[89] += sum[6];
         }
     }
-    for (size_t i = 0; i < 91; ++i) S_bar[i] += vector_sum_f(total[i]);
+    for (size_t i = 0; i < 91; ++i) sums[i] += vector_sum_f(total[i]);
 }
 
 /*
@@ -3992,7 +3934,7 @@ void mobile_manipulator_splats_vjp_f(
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES_f ? part : LANES_f;
     vector_f *points = work_points_f(work);
-    vector_f *splats = work_splats_f(work, count), *places = work_blocks_f(work, count, splat_count);
+    vector_f *splats = work_reaches_f(work, count), *places = work_blocks_f(work, count, splat_count);
     float *constants = work_constants_f(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -4020,7 +3962,7 @@ void mobile_manipulator_splats_vjp_f(
             const size_t end = start + share < splat_count ? start + share : splat_count;
             float sums[LANES_f][91] = {{0}};
             uint32_t near[131072 / (19 * sizeof(vector_f)) + 2];
-            vector_f own_mu[9], own_W[81], own_amplitude[1], S_bar[91], bars[91];
+            vector_f own_mu[9], own_W[81], own_amplitude[1], own_sums[91], bars[91];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
@@ -4032,8 +3974,8 @@ void mobile_manipulator_splats_vjp_f(
             vector_rows_f(mu, end, start, 9, own_mu);
             vector_rows_f(W, end, start, 81, own_W);
             vector_rows_f(amplitude, end, start, 1, own_amplitude);
-            vector_rows_f(sums[0], LANES_f, 0, 91, S_bar);
-            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 9, bars + 9 + 81);
+            vector_rows_f(sums[0], LANES_f, 0, 91, own_sums);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 9, bars + 9 + 81);
             vector_to_rows_f(bars, mu_bar, end, start, 9, 9);
             vector_to_rows_f(bars + 9, W_bar, end, start, 81, 81);
             vector_to_rows_f(bars + 9 + 81, amplitude_bar, end, start, 1, 1);
@@ -4060,12 +4002,12 @@ void mobile_manipulator_splats_rows_f(
             vector_f point[19];
             splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector_f own_mu[9], own_W[81], own_amplitude[1], S_bar[91] = {ZERO}, bars[91];
+                vector_f own_mu[9], own_W[81], own_amplitude[1], own_sums[91] = {ZERO}, bars[91];
                 for (int i = 0; i < 9; ++i) own_mu[i] = vector_of_f(mu[9 * k + i]);
                 for (int i = 0; i < 81; ++i) own_W[i] = vector_of_f(W[81 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 91 * k, point + 9, point + 9 + 1, S_bar);
-                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 9, bars + 9 + 81);
+                pair_backward_f(point, constants + 91 * k, point + 9, point + 9 + 1, own_sums);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 9, bars + 9 + 81);
                 vector_to_rows_f(bars, rows + 91 * k, count, block * LANES_f, 91, 91 * splat_count);
             }
         }
@@ -4139,7 +4081,7 @@ double mobile_manipulator_splats_order_f(
     size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT amplitude, const float *MOBILE_MANIPULATOR_RESTRICT width,
     double limit, size_t *MOBILE_MANIPULATOR_RESTRICT order, float *MOBILE_MANIPULATOR_RESTRICT work) {
     const size_t block = 2 * LANES_f;
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     uint32_t near[256];
     double share = 0;
     for (size_t n = 0; n < count; ++n) order[n] = n;
@@ -4170,3 +4112,5 @@ double mobile_manipulator_splats_order_f(
     }
     return share;
 }
+
+#endif /* float */

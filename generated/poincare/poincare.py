@@ -692,7 +692,7 @@ class Poincare:
     ) -> tuple[Tensor, Tensor, Tensor]:
         """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu (K, D), W (K, d, T) and amplitude (K)."""
         S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
-        total = torch.zeros((len(S), len(mu)), dtype=x.dtype, device=x.device)
+        total = torch.zeros((), dtype=x.dtype, device=x.device)
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         for part, *bars in zip(*parts, strict=True):
             total = total + torch.stack(_sums(self._pair_bars(part, S, *bars), len(part), len(mu), 0))
@@ -706,15 +706,15 @@ class Poincare:
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         rows = []
         for part, *bars in zip(*parts, strict=True):
-            S_bar = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
-            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, S_bar)
+            sums = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
+            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, sums)
             rows.append(torch.cat([by_mu, by_W.flatten(-2), by_amplitude.unsqueeze(-1)], -1))
         return torch.cat(rows)
 
     def _pair_bars(
         self, x: Tensor, S: Sequence[Tensor], value_bar: Tensor, gradient_bar: Tensor
     ) -> tuple[Tensor, ...]:
-        """The derivatives in S of every pair, from those in the sums."""
+        """What every pair adds to the sums of its splat, from the derivatives in values and gradients."""
         X = [entry.unsqueeze(-1) for entry in self._point_features(x)]
         slope_bar = [entry.unsqueeze(-1) for entry in self._point_gradient_vjp(x, gradient_bar)]
         return self._pair_vjp(X, S, value_bar.unsqueeze(-1), slope_bar)
@@ -732,12 +732,15 @@ class Poincare:
         W0_0, W0_1, W1_0, W1_1 = W.flatten(-2).unbind(-1)
         dot_p_p = mu0 * mu0 + mu1 * mu1
         a = 1.0 - dot_p_p
-        return (mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude, a)
+        M0_0 = W0_0 * W0_0 + W1_0 * W1_0
+        M0_1 = W0_0 * W0_1 + W1_0 * W1_1
+        M1_1 = W0_1 * W0_1 + W1_1 * W1_1
+        return (mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude, a, M0_0, M0_1, M1_1)
 
     def _pair_value(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
         """The value of a splat at a point."""
         x0, x1, b = X
-        mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude, a = S
+        mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude, a, _, _, _ = S
         d0 = x0 - mu0
         sqrt_a_times_b = _root(a * b)
         scale = 1.0 / sqrt_a_times_b
@@ -764,14 +767,14 @@ class Poincare:
         v1 = scale_2 * (d1 * a - mu1 * dd)
         z0 = W0_0 * v0 + W0_1 * v1
         z1 = W1_0 * v0 + W1_1 * v1
-        exp_2 = torch.exp(log_det - 0.5 * (z0 * z0 + z1 * z1))
-        phi = amplitude * exp_2
-        return (phi,)
+        phi = torch.exp(log_det - 0.5 * (z0 * z0 + z1 * z1))
+        phi_2 = amplitude * phi
+        return (phi_2,)
 
     def _pair(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
         """The value of a splat at a point, and the slope, its derivatives in X."""
         x0, x1, b = X
-        mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude, a = S
+        mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude, a, _, _, _ = S
         d0 = x0 - mu0
         product = a * b
         sqrt_a_times_b = _root(product)
@@ -804,27 +807,25 @@ class Poincare:
         v1 = scale_2 * gap_2
         z0 = W0_0 * v0 + W0_1 * v1
         z1 = W1_0 * v0 + W1_1 * v1
-        exp_2 = torch.exp(log_det - 0.5 * (z0 * z0 + z1 * z1))
-        phi = amplitude * exp_2
-        z1_product = z1 * phi
-        z0_product = z0 * phi
-        by_v1 = -(W1_1 * z1_product) - W0_1 * z0_product
-        scale_2_product = scale_2 * by_v1
-        by_v0 = -(W1_0 * z1_product) - W0_0 * z0_product
-        scale_2_product_2 = scale_2 * by_v0
-        by_dd = -(mu1 * scale_2_product) - mu0 * scale_2_product_2
+        phi = torch.exp(log_det - 0.5 * (z0 * z0 + z1 * z1))
+        phi_2 = amplitude * phi
+        phi_product = phi_2 * (W1_1 * z1 + W0_1 * z0)
+        scale_2_product = scale_2 * phi_product
+        phi_product_2 = phi_2 * (W1_0 * z1 + W0_0 * z0)
+        scale_2_product_2 = scale_2 * phi_product_2
+        by_dd = mu1 * scale_2_product + mu0 * scale_2_product_2
         by_dd_product = 2.0 * by_dd
         is_small = h_squared_total == 0.0
-        by_scale_2 = gap_2 * by_v1 + gap * by_v0
+        by_scale_2 = -(gap_2 * phi_product) - gap * phi_product_2
         by_t_over_sinh_t = by_scale_2 / b
-        by_t = (torch.where(near, 0.0, by_t_over_sinh_t) + torch.where(near, 0.0, phi) / t_ratio) / sinh_t
+        by_t = (torch.where(near, 0.0, by_t_over_sinh_t) + torch.where(near, 0.0, phi_2) / t_ratio) / sinh_t
         by_t_product = t_ratio * by_t
         chosen = torch.where(
             is_small, 0.0, -(h_product * by_t_product / (2.0 * torch.where(is_small, 1.0, sqrt_1_plus_h_to_2)))
         )
         by_asinh_h = 2.0 * by_t
         by_h = by_asinh_h / torch.sqrt(1.0 + near_chosen_2) - 2.0 * (sqrt_1_plus_h_to_2 * by_t_product)
-        by_log_det_near = torch.where(near, phi, 0.0)
+        by_log_det_near = torch.where(near, phi_2, 0.0)
         by_t_over_sinh_t_near = torch.where(near, by_t_over_sinh_t, 0.0)
         t_over_sinh_t_near_slope = _polynomial(near_chosen, _T_OVER_SINH_T_NEAR_SLOPE)
         by_log_det_series = h_squared * by_log_det_near
@@ -836,9 +837,9 @@ class Poincare:
         )
         product_2 = 2.0 * by_h_squared
         by_part0 = part0 * product_2
-        by_d0 = d0 * by_dd_product + a * scale_2_product_2 + scale * by_part0
+        by_d0 = d0 * by_dd_product - a * scale_2_product_2 + scale * by_part0
         by_part1 = part1 * product_2
-        by_d1 = a * scale_2_product + d1 * by_dd_product + scale * by_part1
+        by_d1 = d1 * by_dd_product - a * scale_2_product + scale * by_part1
         is_small_2 = product == 0.0
         by_scale = d1 * by_part1 + d0 * by_part0
         chosen_2 = torch.where(
@@ -846,7 +847,7 @@ class Poincare:
             sqrt_a_times_b)))
         )
         by_b = a * chosen_2 - scale_2 * by_t_over_sinh_t
-        return (phi, by_d0, by_d1, by_b)
+        return (phi_2, by_d0, by_d1, by_b)
 
     def _point_gradient(self, x: Tensor, slope: Sequence[Tensor]) -> Tensor:
         """The Riemannian gradient of a function whose derivatives in X are `slope`."""
@@ -870,9 +871,9 @@ class Poincare:
     def _pair_vjp(
         self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
     ) -> tuple[Tensor, ...]:
-        """The derivatives of value value_bar + slope . slope_bar in S."""
+        """What, summed over the points, makes the derivatives of value value_bar + slope . slope_bar."""
         x0, x1, b = X
-        mu0, mu1, W0_0, W0_1, W1_0, W1_1, amplitude, a = S
+        mu0, mu1, W0_0, W0_1, W1_0, W1_1, _, a, M0_0, M0_1, M1_1 = S
         x0_bar, x1_bar, b_bar = slope_bar
         d0 = x0 - mu0
         product = a * b
@@ -896,22 +897,20 @@ class Poincare:
         t_ratio = t / sinh_t
         t_over_sinh_t = torch.where(near, t_over_sinh_t_near, t_ratio)
         scale_2 = t_over_sinh_t / b
+        log_det_series = _polynomial(near_chosen, _LOG_DET_SERIES)
+        log_det_near = h_squared * log_det_series
+        log_det = torch.where(near, log_det_near, torch.log(t_ratio))
         dd = d0 * d0 + d1 * d1
         gap = d0 * a - mu0 * dd
         v0 = scale_2 * gap
         gap_2 = d1 * a - mu1 * dd
         v1 = scale_2 * gap_2
-        z1 = W1_0 * v0 + W1_1 * v1
-        log_det_series = _polynomial(near_chosen, _LOG_DET_SERIES)
-        log_det_near = h_squared * log_det_series
-        log_det = torch.where(near, log_det_near, torch.log(t_ratio))
         z0 = W0_0 * v0 + W0_1 * v1
-        exp_2 = torch.exp(log_det - 0.5 * (z0 * z0 + z1 * z1))
-        phi = amplitude * exp_2
-        z1_product = z1 * phi
-        z0_product = z0 * phi
-        by_v0 = -(W1_0 * z1_product) - W0_0 * z0_product
-        scale_2_product = scale_2 * by_v0
+        z1 = W1_0 * v0 + W1_1 * v1
+        phi = torch.exp(log_det - 0.5 * (z0 * z0 + z1 * z1))
+        total_2 = W1_0 * z1 + W0_0 * z0
+        phi_product = phi * total_2
+        scale_2_product = scale_2 * phi_product
         by_by_dd = 2.0 * (d0 * x0_bar + d1 * x1_bar)
         is_small = product == 0.0
         product_2 = 2.0 * torch.where(is_small, 1.0, sqrt_a_times_b)
@@ -919,8 +918,8 @@ class Poincare:
         ratio_2 = scale * ratio / sqrt_a_times_b
         by_by_part0 = scale * x0_bar - d0 * ratio_2
         by_by_part1 = scale * x1_bar - d1 * ratio_2
-        total_2 = part0 * by_by_part0 + part1 * by_by_part1
-        by_by_h_squared = 2.0 * total_2
+        total_3 = part0 * by_by_part0 + part1 * by_by_part1
+        by_by_h_squared = 2.0 * total_3
         by_by_h = torch.where(near, 0.0, by_by_h_squared) / h_product
         sqrt_2 = torch.sqrt(1.0 + near_chosen_2)
         by_by_asinh_h = by_by_h / sqrt_2
@@ -932,36 +931,37 @@ class Poincare:
         by_by_t = 2.0 * by_by_asinh_h + t_ratio * gap_3
         by_by_t_ratio = by_by_t / sinh_t
         t_over_sinh_t_near_slope = _polynomial(near_chosen, _T_OVER_SINH_T_NEAR_SLOPE)
-        near_chosen_3 = torch.where(near, 17.439832577607255 * total_2, 0.0)
+        near_chosen_3 = torch.where(near, 17.439832577607255 * total_3, 0.0)
         by_by_t_over_sinh_t_near = t_over_sinh_t_near_slope * near_chosen_3
         by_by_t_over_sinh_t = (
             torch.where(near, 0.0, by_by_t_ratio) + torch.where(near, by_by_t_over_sinh_t_near, 0.0) - scale_2 * b_bar
         )
         by_by_scale_2 = by_by_t_over_sinh_t / b
-        gap_4 = a * x0_bar - mu0 * by_by_dd
-        by_by_v0 = scale_2 * gap_4 + gap * by_by_scale_2
-        gap_5 = a * x1_bar - mu1 * by_by_dd
-        by_by_v1 = scale_2 * gap_5 + gap_2 * by_by_scale_2
-        gap_6 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1
+        product_4 = phi_product * by_by_scale_2
+        gap_4 = mu0 * by_by_dd - a * x0_bar
+        gap_5 = scale_2 * gap_4 - gap * by_by_scale_2
+        phi_product_2 = phi * gap_5
+        gap_6 = mu1 * by_by_dd - a * x1_bar
+        gap_7 = scale_2 * gap_6 - gap_2 * by_by_scale_2
+        phi_product_3 = phi * gap_7
         ratio_4 = by_by_t_ratio / t_ratio
         log_det_series_slope = _polynomial(near_chosen, _LOG_DET_SERIES_SLOPE)
         by_by_log_det_series = log_det_series_slope * near_chosen_3
         by_by_log_det_near = h_squared * by_by_log_det_series + log_det_series * by_by_h_squared
-        gap_7 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1
+        total_4 = W1_1 * z1 + W0_1 * z0
         by_phi = (
-            value_bar + torch.where(near, 0.0, ratio_4) + torch.where(near, by_by_log_det_near, 0.0) + z0 * gap_7 + z1 *
-            gap_6
+            value_bar + torch.where(near, 0.0, ratio_4) + torch.where(near, by_by_log_det_near, 0.0) + total_4 * gap_7 +
+            total_2 * gap_5
         )
-        by_log_det = exp_2 * (amplitude * by_phi)
-        by_z1 = phi * gap_6 - z1 * by_log_det
-        by_z0 = phi * gap_7 - z0 * by_log_det
-        by_v0_2 = W1_0 * by_z1 + W0_0 * by_z0
-        total_3 = by_v0 * by_by_scale_2 + scale_2 * by_v0_2
-        by_v1 = -(W1_1 * z1_product) - W0_1 * z0_product
-        scale_2_product_2 = scale_2 * by_v1
-        by_dd = -(mu1 * scale_2_product_2) - mu0 * scale_2_product
+        by_log_det = phi * by_phi
+        by_v0 = M0_0 * phi_product_2 + M0_1 * phi_product_3 - total_2 * by_log_det
+        scale_2_product_2 = scale_2 * by_v0
+        gap_8 = product_4 - scale_2_product_2
+        phi_product_4 = phi * total_4
+        scale_2_product_3 = scale_2 * phi_product_4
+        by_dd = mu1 * scale_2_product_3 + mu0 * scale_2_product
         by_dd_product = 2.0 * by_dd
-        by_scale_2 = gap_2 * by_v1 + gap * by_v0
+        by_scale_2 = -(gap_2 * phi_product_4) - gap * phi_product
         by_t_over_sinh_t = by_scale_2 / b
         ratio_5 = torch.where(near, 0.0, phi) / t_ratio
         by_t = (torch.where(near, 0.0, by_t_over_sinh_t) + ratio_5) / sinh_t
@@ -979,13 +979,18 @@ class Poincare:
             by_log_det_near + 8.719916288803628 * torch.where(near, by_t_over_sinh_t_near * t_over_sinh_t_near_slope +
             by_log_det_series * log_det_series_slope, 0.0)
         )
-        product_4 = 2.0 * by_h_squared
-        by_part0 = part0 * product_4
-        by_v1_2 = W1_1 * by_z1 + W0_1 * by_z0
-        total_4 = by_v1 * by_by_scale_2 + scale_2 * by_v1_2
-        by_dd_2 = -(mu1 * total_4) - mu0 * total_3
+        product_5 = 2.0 * by_h_squared
+        by_part0 = part0 * product_5
+        product_6 = phi_product_4 * by_by_scale_2
+        by_v1 = M0_1 * phi_product_2 + M1_1 * phi_product_3 - total_4 * by_log_det
+        scale_2_product_4 = scale_2 * by_v1
+        gap_9 = product_6 - scale_2_product_4
+        by_dd_2 = mu1 * gap_9 + mu0 * gap_8
         by_dd_product_2 = 2.0 * by_dd_2
-        by_scale_2_2 = by_v0 * gap_4 - by_t_over_sinh_t * b_bar + by_v1 * gap_5 + gap_2 * by_v1_2 + gap * by_v0_2
+        gap_10 = scale_2_product_2 - product_4
+        by_scale_2_2 = (
+            phi_product * gap_4 - by_t_over_sinh_t * b_bar + phi_product_4 * gap_6 + gap_2 * by_v1 + gap * by_v0
+        )
         by_t_over_sinh_t_2 = by_scale_2_2 / b
         by_t_2 = (
             (by_t * gap_3 - ratio_5 * ratio_4 + torch.where(near, 0.0, by_t_over_sinh_t_2) + torch.where(near, 0.0,
@@ -996,9 +1001,9 @@ class Poincare:
             torch.where(is_small_2, 0.0, 2.0 * (ratio_6 * ratio_3)) - by_t_product * by_by_h_product + h_product *
             by_sinh_t
         )
-        product_5 = 2.0 * (-(by_h_ratio * by_by_h) - by_t_product * ratio_3 + sqrt_1_plus_h_to_2 * by_sinh_t)
+        product_7 = 2.0 * (-(by_h_ratio * by_by_h) - by_t_product * ratio_3 + sqrt_1_plus_h_to_2 * by_sinh_t)
         by_asinh_h_2 = 2.0 * by_t_2
-        by_h_2 = product_5 + by_asinh_h_2 / sqrt_2
+        by_h_2 = product_7 + by_asinh_h_2 / sqrt_2
         total_5 = (
             by_log_det_near * by_by_log_det_series + torch.where(is_small_2, 0.0, by_sqrt_1_plus_h_to_2 / product_3) +
             torch.where(near, 0.0, by_h_2 / h_product - by_asinh_h_ratio * by_by_asinh_h / (2.0 * sqrt_2))
@@ -1016,42 +1021,53 @@ class Poincare:
             by_log_det_series_2, 0.0
         )
         by_h_squared_2 = total_5 + log_det_series * by_log_det_near_2 + 8.719916288803628 * near_chosen_4
-        product_6 = 2.0 * by_h_squared_2
-        by_part0_2 = product_4 * by_by_part0 + part0 * product_6
-        by_d0 = by_dd_product * x0_bar - by_part0 * ratio_2 + d0 * by_dd_product_2 + a * total_3 + scale * by_part0_2
-        by_part1 = part1 * product_4
-        by_part1_2 = product_4 * by_by_part1 + part1 * product_6
-        by_d1 = by_dd_product * x1_bar - by_part1 * ratio_2 + a * total_4 + d1 * by_dd_product_2 + scale * by_part1_2
+        product_8 = 2.0 * by_h_squared_2
+        by_part0_2 = product_5 * by_by_part0 + part0 * product_8
+        by_d0 = by_dd_product * x0_bar - by_part0 * ratio_2 + d0 * by_dd_product_2 + a * gap_10 + scale * by_part0_2
+        by_part1 = part1 * product_5
+        gap_11 = scale_2_product_4 - product_6
+        by_part1_2 = product_5 * by_by_part1 + part1 * product_8
+        by_d1 = by_dd_product * x1_bar - by_part1 * ratio_2 + a * gap_11 + d1 * by_dd_product_2 + scale * by_part1_2
         by_scale = d1 * by_part1 + d0 * by_part0
         by_scale_ratio = by_scale / sqrt_a_times_b
         ratio_7 = scale * by_scale_ratio / product_2
-        total_6 = torch.where(is_small, 0.0, -ratio_7) * b_bar + scale_2_product * x0_bar + scale_2_product_2 * x1_bar
+        gap_12 = torch.where(is_small, 0.0, -ratio_7) * b_bar - scale_2_product * x0_bar - scale_2_product_3 * x1_bar
         by_scale_3 = by_part0 * x0_bar - by_scale_ratio * ratio + by_part1 * x1_bar + d1 * by_part1_2 + d0 * by_part0_2
         by_sqrt_a_times_b = (
             torch.where(is_small, 0.0, 2.0 * (ratio_7 * ratio)) + by_scale_ratio * ratio_2 - scale * (by_scale_3 /
             sqrt_a_times_b)
         )
+        by_log_det_product = 0.5 * by_log_det
+        gap_13 = phi_product_2 - v0 * by_log_det_product
+        gap_14 = phi_product_3 - v1 * by_log_det_product
         return (
-            -(scale_2_product * by_by_dd) - dd * total_3 - by_d0,
-            -(scale_2_product_2 * by_by_dd) - dd * total_4 - by_d1,
-            v0 * by_z0 - z0_product * by_by_v0,
-            v1 * by_z0 - z0_product * by_by_v1,
-            v0 * by_z1 - z1_product * by_by_v0,
-            v1 * by_z1 - z1_product * by_by_v1,
-            exp_2 * by_phi,
-            total_6 + d1 * total_4 + d0 * total_3 + b * torch.where(is_small, 0.0, by_sqrt_a_times_b / product_2),
+            scale_2_product * by_by_dd + dd * gap_8 - by_d0,
+            scale_2_product_3 * by_by_dd + dd * gap_9 - by_d1,
+            by_log_det,
+            gap_12 + d1 * gap_11 + d0 * gap_10 + b * torch.where(is_small, 0.0, by_sqrt_a_times_b / product_2),
+            v0 * gap_13,
+            v0 * gap_14 + v1 * gap_13,
+            v1 * gap_14,
         )
 
     def _splat_constants_vjp(
-        self, mu: Tensor, W: Tensor, amplitude: Tensor, S_bar: Sequence[Tensor]
+        self, mu: Tensor, W: Tensor, amplitude: Tensor, sums: Sequence[Tensor]
     ) -> tuple[Tensor, Tensor, Tensor]:
-        """The derivatives in mu, W and amplitude from those in S."""
+        """The derivatives in mu, W and amplitude from those sums."""
         mu0, mu1 = mu.unbind(-1)
-        mu0_bar, mu1_bar, W0_0_bar, W0_1_bar, W1_0_bar, W1_1_bar, amplitude_bar, a_bar = S_bar
-        product = 2.0 * a_bar
-        mu_bar = _stack((mu0_bar - mu0 * product, mu1_bar - mu1 * product))
-        W_bar = _stack((W0_0_bar, W0_1_bar, W1_0_bar, W1_1_bar))
-        return mu_bar, W_bar.unflatten(-1, (2, 2)), amplitude_bar
+        W0_0, W0_1, W1_0, W1_1 = W.flatten(-2).unbind(-1)
+        sum0, sum1, sum2, sum3, sum4, sum5, sum6 = sums
+        product = 2.0 * sum3
+        product_2 = 2.0 * sum4
+        product_3 = 2.0 * sum6
+        mu_bar = _stack((amplitude * (sum0 - mu0 * product), amplitude * (sum1 - mu1 * product)))
+        W_bar = _stack((
+            amplitude * (W0_0 * product_2 + W0_1 * sum5),
+            amplitude * (W0_0 * sum5 + W0_1 * product_3),
+            amplitude * (W1_0 * product_2 + W1_1 * sum5),
+            amplitude * (W1_0 * sum5 + W1_1 * product_3),
+        ))
+        return mu_bar, W_bar.unflatten(-1, (2, 2)), sum2
 
 
 manifold = Poincare()

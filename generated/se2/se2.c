@@ -11,8 +11,7 @@
 /* position: x, heading: x, periodic coordinates wrapped */
 void se2_project(const double *SE2_RESTRICT x, double *SE2_RESTRICT p_out) {
     const double round_2 = rint(0.15915494309189535 * x[2]);
-    const double p2 = x[2] - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double p2 = x[2] - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     p_out[0] = x[0];
     p_out[1] = x[1];
     p_out[2] = p2;
@@ -89,8 +88,7 @@ void se2_exp(const double *SE2_RESTRICT p, const double *SE2_RESTRICT v, double 
     const double q1 = p[1] + v[1];
     const double total_2 = p[2] + v[2];
     const double round_2 = rint(0.15915494309189535 * total_2);
-    const double q2 = total_2 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double q2 = total_2 - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     q_out[0] = q0;
     q_out[1] = q1;
     q_out[2] = q2;
@@ -110,8 +108,7 @@ void se2_log(const double *SE2_RESTRICT p, const double *SE2_RESTRICT q, double 
     const double v1 = q[1] - p[1];
     const double gap = q[2] - p[2];
     const double round_2 = rint(0.15915494309189535 * gap);
-    const double v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     v_out[0] = v0;
     v_out[1] = v1;
     v_out[2] = v2;
@@ -131,8 +128,7 @@ double se2_distance(const double *SE2_RESTRICT p, const double *SE2_RESTRICT q) 
     const double position_log1 = q[1] - p[1];
     const double gap = q[2] - p[2];
     const double round_2 = rint(0.15915494309189535 * gap);
-    const double heading_log0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 -
-        3.019915981956753e-07 * round_2;
+    const double heading_log0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     return sqrt(heading_log0 * heading_log0 + position_log0 * position_log0 + position_log1 * position_log1);
 }
 
@@ -226,8 +222,7 @@ void se2_splat(
     const double v1 = x[1] - mu[1];
     const double gap = x[2] - mu[2];
     const double round_2 = rint(0.15915494309189535 * gap);
-    const double v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double z0 = W[0] * v0 + W[1] * v1 + W[2] * v2;
     const double z1 = W[3] * v0 + W[4] * v1 + W[5] * v2;
     const double z2 = W[6] * v0 + W[7] * v1 + W[8] * v2;
@@ -282,8 +277,7 @@ void se2_frame(const double *SE2_RESTRICT p, double *SE2_RESTRICT frame) {
 /* position: x, heading: x, periodic coordinates wrapped */
 void se2_project_f(const float *SE2_RESTRICT x, float *SE2_RESTRICT p_out) {
     const float round_2 = rintf(0.15915494309189535f * x[2]);
-    const float p2 = x[2] - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float p2 = x[2] - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     p_out[0] = x[0];
     p_out[1] = x[1];
     p_out[2] = p2;
@@ -360,8 +354,7 @@ void se2_exp_f(const float *SE2_RESTRICT p, const float *SE2_RESTRICT v, float *
     const float q1 = p[1] + v[1];
     const float total_2 = p[2] + v[2];
     const float round_2 = rintf(0.15915494309189535f * total_2);
-    const float q2 = total_2 - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f
-        * round_2;
+    const float q2 = total_2 - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     q_out[0] = q0;
     q_out[1] = q1;
     q_out[2] = q2;
@@ -381,8 +374,7 @@ void se2_log_f(const float *SE2_RESTRICT p, const float *SE2_RESTRICT q, float *
     const float v1 = q[1] - p[1];
     const float gap = q[2] - p[2];
     const float round_2 = rintf(0.15915494309189535f * gap);
-    const float v2 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float v2 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     v_out[0] = v0;
     v_out[1] = v1;
     v_out[2] = v2;
@@ -402,8 +394,7 @@ float se2_distance_f(const float *SE2_RESTRICT p, const float *SE2_RESTRICT q) {
     const float position_log1 = q[1] - p[1];
     const float gap = q[2] - p[2];
     const float round_2 = rintf(0.15915494309189535f * gap);
-    const float heading_log0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 -
-        3.019915981956753e-07f * round_2;
+    const float heading_log0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     return sqrtf(heading_log0 * heading_log0 + position_log0 * position_log0 + position_log1 * position_log1);
 }
 
@@ -497,8 +488,7 @@ void se2_splat_f(
     const float v1 = x[1] - mu[1];
     const float gap = x[2] - mu[2];
     const float round_2 = rintf(0.15915494309189535f * gap);
-    const float v2 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float v2 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float z0 = W[0] * v0 + W[1] * v1 + W[2] * v2;
     const float z1 = W[3] * v0 + W[4] * v1 + W[5] * v2;
     const float z2 = W[6] * v0 + W[7] * v1 + W[8] * v2;

@@ -9,20 +9,20 @@
  * log |det D Log|: the sum of those of the factors.
  *
  *                       operations   float64  float32
- * project                        8
+ * project                        6
  * to_tangent                     0
  * inner                          5
  * norm                           6
  * flat                           0
- * exp                           11      <= 1     <= 1
- * log                           11      <= 1     <= 1
- * distance                      17      <= 1     <= 1
+ * exp                            9      <= 1     <= 1
+ * log                            9      <= 1     <= 1
+ * distance                      15      <= 1     <= 1
  * log_abs_det                    0      <= 1     <= 1
  * riemannian_gradient            0
  * gradient_norm                  6
  * transport                      0
- * splat                         56
- * splat_vjp                    134
+ * splat                         54
+ * splat_vjp                    132
  *
  * Errors are the worst of 36 points against 60 digits, in units of the error that rounding the
  * inputs and the output to the precision alone would cause.

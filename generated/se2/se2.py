@@ -8,20 +8,20 @@ Do not edit: change the manifold file and generate again.
 log |det D Log|: the sum of those of the factors.
 
                       operations   float64  float32
-project                        8
+project                        6
 to_tangent                     0
 inner                          5
 norm                           6
 flat                           0
-exp                           11      <= 1     <= 1
-log                           11      <= 1     <= 1
-distance                      17      <= 1     <= 1
+exp                            9      <= 1     <= 1
+log                            9      <= 1     <= 1
+distance                      15      <= 1     <= 1
 log_abs_det                    0      <= 1     <= 1
 riemannian_gradient            0
 gradient_norm                  6
 transport                      0
-splat                         56
-splat_vjp                    134
+splat                         54
+splat_vjp                    132
 
 Errors are the worst of 36 points against 60 digits, in units of the error that rounding the
 inputs and the output to the precision alone would cause.
@@ -184,7 +184,7 @@ class Se2:
         """
         x0, x1, x2 = x.unbind(-1)
         round_2 = torch.round(0.15915494309189535 * x2)
-        p2 = x2 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        p2 = x2 - 6.28125 * round_2 - 0.001935307179586477 * round_2
         return _stack((x0, x1, p2))
 
     def to_tangent(self, p: Tensor, x: Tensor) -> Tensor:
@@ -236,7 +236,7 @@ class Se2:
         q1 = p1 + v1
         total_2 = p2 + v2
         round_2 = torch.round(0.15915494309189535 * total_2)
-        q2 = total_2 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        q2 = total_2 - 6.28125 * round_2 - 0.001935307179586477 * round_2
         return _stack((q0, q1, q2))
 
     def log(self, p: Tensor, q: Tensor) -> Tensor:
@@ -251,7 +251,7 @@ class Se2:
         v1 = q1 - p1
         gap = q2 - p2
         round_2 = torch.round(0.15915494309189535 * gap)
-        v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2
         return _stack((v0, v1, v2))
 
     def distance(self, p: Tensor, q: Tensor) -> Tensor:
@@ -266,7 +266,7 @@ class Se2:
         position_log1 = q1 - p1
         gap = q2 - p2
         round_2 = torch.round(0.15915494309189535 * gap)
-        heading_log0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        heading_log0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2
         return _root(heading_log0 * heading_log0 + position_log0 * position_log0 + position_log1 * position_log1)
 
     def log_abs_det(self, p: Tensor, q: Tensor) -> Tensor:
@@ -322,7 +322,7 @@ class Se2:
         v1 = x1 - mu1
         gap = x2 - mu2
         round_2 = torch.round(0.15915494309189535 * gap)
-        v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2
         z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2
         z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2
         z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2
@@ -442,7 +442,7 @@ class Se2:
     ) -> tuple[Tensor, Tensor, Tensor]:
         """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu (K, D), W (K, d, T) and amplitude (K)."""
         S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
-        total = torch.zeros((len(S), len(mu)), dtype=x.dtype, device=x.device)
+        total = torch.zeros((), dtype=x.dtype, device=x.device)
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         for part, *bars in zip(*parts, strict=True):
             total = total + torch.stack(_sums(self._pair_bars(part, S, *bars), len(part), len(mu), 0))
@@ -456,15 +456,15 @@ class Se2:
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         rows = []
         for part, *bars in zip(*parts, strict=True):
-            S_bar = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
-            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, S_bar)
+            sums = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
+            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, sums)
             rows.append(torch.cat([by_mu, by_W.flatten(-2), by_amplitude.unsqueeze(-1)], -1))
         return torch.cat(rows)
 
     def _pair_bars(
         self, x: Tensor, S: Sequence[Tensor], value_bar: Tensor, gradient_bar: Tensor
     ) -> tuple[Tensor, ...]:
-        """The derivatives in S of every pair, from those in the sums."""
+        """What every pair adds to the sums of its splat, from the derivatives in values and gradients."""
         X = [entry.unsqueeze(-1) for entry in self._point_features(x)]
         slope_bar = [entry.unsqueeze(-1) for entry in self._point_gradient_vjp(x, gradient_bar)]
         return self._pair_vjp(X, S, value_bar.unsqueeze(-1), slope_bar)
@@ -488,13 +488,14 @@ class Se2:
         v1 = x1 - mu1
         gap = x2 - mu2
         round_2 = torch.round(0.15915494309189535 * gap)
-        v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2
         z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2
         z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2
         z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2
         minus = -(0.5 * (z0 * z0 + z1 * z1 + z2 * z2))
-        phi = amplitude * torch.exp(minus)
-        return (phi,)
+        phi = torch.exp(minus)
+        phi_2 = amplitude * phi
+        return (phi_2,)
 
     def _pair(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
         """The value of a splat at a point, and the slope, its derivatives in X."""
@@ -504,19 +505,17 @@ class Se2:
         v1 = x1 - mu1
         gap = x2 - mu2
         round_2 = torch.round(0.15915494309189535 * gap)
-        v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2
         z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2
         z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2
         z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2
         minus = -(0.5 * (z0 * z0 + z1 * z1 + z2 * z2))
-        phi = amplitude * torch.exp(minus)
-        z2_product = z2 * phi
-        z1_product = z1 * phi
-        z0_product = z0 * phi
-        by_v0 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product
-        by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product
-        by_v2 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product
-        return (phi, by_v0, by_v1, by_v2)
+        phi = torch.exp(minus)
+        phi_2 = amplitude * phi
+        by_v0 = -(phi_2 * (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0)))
+        by_v1 = -(phi_2 * (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0)))
+        by_v2 = -(phi_2 * (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0)))
+        return (phi_2, by_v0, by_v1, by_v2)
 
     def _point_gradient(self, x: Tensor, slope: Sequence[Tensor]) -> Tensor:
         """The Riemannian gradient of a function whose derivatives in X are `slope`."""
@@ -531,62 +530,76 @@ class Se2:
     def _pair_vjp(
         self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
     ) -> tuple[Tensor, ...]:
-        """The derivatives of value value_bar + slope . slope_bar in S."""
+        """What, summed over the points, makes the derivatives of value value_bar + slope . slope_bar."""
         x0, x1, x2 = X
-        mu0, mu1, mu2, W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, amplitude = S
+        mu0, mu1, mu2, W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, _ = S
         x0_bar, x1_bar, x2_bar = slope_bar
         v0 = x0 - mu0
         v1 = x1 - mu1
         gap = x2 - mu2
         round_2 = torch.round(0.15915494309189535 * gap)
-        v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 * round_2
+        v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2
         z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2
         z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2
         z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2
         minus = -(0.5 * (z0 * z0 + z1 * z1 + z2 * z2))
-        exp_2 = torch.exp(minus)
-        phi = amplitude * exp_2
-        gap_2 = -(W2_0 * x0_bar) - W2_1 * x1_bar - W2_2 * x2_bar
-        gap_3 = -(W0_0 * x0_bar) - W0_1 * x1_bar - W0_2 * x2_bar
-        gap_4 = -(W1_0 * x0_bar) - W1_1 * x1_bar - W1_2 * x2_bar
-        by_phi = value_bar + z0 * gap_3 + z1 * gap_4 + z2 * gap_2
-        product = exp_2 * (amplitude * by_phi)
-        by_z2 = phi * gap_2 - z2 * product
-        by_z1 = phi * gap_4 - z1 * product
-        by_z0 = phi * gap_3 - z0 * product
-        by_v0 = W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0
-        by_v1 = W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0
-        by_v2 = W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0
-        z0_product = z0 * phi
-        z1_product = z1 * phi
-        z2_product = z2 * phi
+        phi = torch.exp(minus)
+        phi_product = phi * x0_bar
+        gap_2 = value_bar - (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0)) * x2_bar
+        gap_3 = gap_2 - (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0)) * x1_bar
+        by_phi = gap_3 - (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0)) * x0_bar
+        phi_product_2 = phi * by_phi
+        phi_product_3 = phi * x1_bar
+        phi_product_4 = phi * x2_bar
+        product = 0.5 * phi_product_2
+        gap_4 = -phi_product - v0 * product
+        gap_5 = -phi_product_3 - v1 * product
+        gap_6 = -phi_product_4 - v2 * product
         return (
-            -by_v0,
-            -by_v1,
-            -by_v2,
-            v0 * by_z0 - z0_product * x0_bar,
-            v1 * by_z0 - z0_product * x1_bar,
-            v2 * by_z0 - z0_product * x2_bar,
-            v0 * by_z1 - z1_product * x0_bar,
-            v1 * by_z1 - z1_product * x1_bar,
-            v2 * by_z1 - z1_product * x2_bar,
-            v0 * by_z2 - z2_product * x0_bar,
-            v1 * by_z2 - z2_product * x1_bar,
-            v2 * by_z2 - z2_product * x2_bar,
-            exp_2 * by_phi,
+            phi_product + v0 * phi_product_2,
+            phi_product_3 + v1 * phi_product_2,
+            phi_product_4 + v2 * phi_product_2,
+            phi_product_2,
+            v0 * gap_4,
+            v0 * gap_5 + v1 * gap_4,
+            v0 * gap_6 + v2 * gap_4,
+            v1 * gap_5,
+            v1 * gap_6 + v2 * gap_5,
+            v2 * gap_6,
         )
 
     def _splat_constants_vjp(
-        self, mu: Tensor, W: Tensor, amplitude: Tensor, S_bar: Sequence[Tensor]
+        self, mu: Tensor, W: Tensor, amplitude: Tensor, sums: Sequence[Tensor]
     ) -> tuple[Tensor, Tensor, Tensor]:
-        """The derivatives in mu, W and amplitude from those in S."""
-        (
-            mu0_bar, mu1_bar, mu2_bar, W0_0_bar, W0_1_bar, W0_2_bar, W1_0_bar, W1_1_bar, W1_2_bar, W2_0_bar, W2_1_bar,
-            W2_2_bar, amplitude_bar,
-        ) = S_bar
-        mu_bar = _stack((mu0_bar, mu1_bar, mu2_bar))
-        W_bar = _stack((W0_0_bar, W0_1_bar, W0_2_bar, W1_0_bar, W1_1_bar, W1_2_bar, W2_0_bar, W2_1_bar, W2_2_bar))
-        return mu_bar, W_bar.unflatten(-1, (3, 3)), amplitude_bar
+        """The derivatives in mu, W and amplitude from those sums."""
+        W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2 = W.flatten(-2).unbind(-1)
+        sum0, sum1, sum2, sum3, sum4, sum5, sum6, sum7, sum8, sum9 = sums
+        M0_0 = W0_0 * W0_0 + W1_0 * W1_0 + W2_0 * W2_0
+        M0_1 = W0_0 * W0_1 + W1_0 * W1_1 + W2_0 * W2_1
+        M0_2 = W0_0 * W0_2 + W1_0 * W1_2 + W2_0 * W2_2
+        M1_1 = W0_1 * W0_1 + W1_1 * W1_1 + W2_1 * W2_1
+        M1_2 = W0_1 * W0_2 + W1_1 * W1_2 + W2_1 * W2_2
+        M2_2 = W0_2 * W0_2 + W1_2 * W1_2 + W2_2 * W2_2
+        product = 2.0 * sum4
+        product_2 = 2.0 * sum7
+        product_3 = 2.0 * sum9
+        mu_bar = _stack((
+            amplitude * (M0_0 * sum0 + M0_1 * sum1 + M0_2 * sum2),
+            amplitude * (M0_1 * sum0 + M1_1 * sum1 + M1_2 * sum2),
+            amplitude * (M0_2 * sum0 + M1_2 * sum1 + M2_2 * sum2),
+        ))
+        W_bar = _stack((
+            amplitude * (W0_0 * product + W0_1 * sum5 + W0_2 * sum6),
+            amplitude * (W0_0 * sum5 + W0_1 * product_2 + W0_2 * sum8),
+            amplitude * (W0_0 * sum6 + W0_1 * sum8 + W0_2 * product_3),
+            amplitude * (W1_0 * product + W1_1 * sum5 + W1_2 * sum6),
+            amplitude * (W1_0 * sum5 + W1_1 * product_2 + W1_2 * sum8),
+            amplitude * (W1_0 * sum6 + W1_1 * sum8 + W1_2 * product_3),
+            amplitude * (W2_0 * product + W2_1 * sum5 + W2_2 * sum6),
+            amplitude * (W2_0 * sum5 + W2_1 * product_2 + W2_2 * sum8),
+            amplitude * (W2_0 * sum6 + W2_1 * sum8 + W2_2 * product_3),
+        ))
+        return mu_bar, W_bar.unflatten(-1, (3, 3)), sum3
 
 
 manifold = Se2()

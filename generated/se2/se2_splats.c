@@ -81,6 +81,8 @@ INLINE uint64_t flush_denormals(void) { return 0; }
 INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
 
+#if !defined(RSRM_ONLY_FLOAT) /* double */
+
 /* The same number in all lanes. */
 INLINE vector vector_of(double x) {
     const vector zero = ZERO;
@@ -121,26 +123,22 @@ INLINE vector vector_from_bits(vector_bits bits) {
     return x;
 }
 
-/* round of every lane; one instruction where the machine has it. */
-INLINE vector vector_round(vector x) {
-    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = rint(LANE(x, i));
-    return x;
-}
+/* round to even, of numbers below 2^51; of larger ones, a whole number close by. */
+INLINE vector round_each(vector x) { return (x + 6755399441055744.0) - 6755399441055744.0; }
 
 /* sqrt of every lane; one instruction where the machine has it. */
-INLINE vector vector_sqrt(vector x) {
+INLINE vector sqrt_each(vector x) {
     for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
     return x;
 }
 
-/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
-INLINE vector vector_exp(vector x) {
-    const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
-    const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
-    const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
-    const vector scale = vector_from_bits((vector_to_bits(shifted) + 1022) << 52); /* 2^(k - 1) */
-    const vector y = vector_select(x > 709.782712893384, vector_of(HUGE_VAL), (scale + scale * part) * 2);
-    return vector_select(x < -707.9, vector_of(0), y);
+/* exp(-s / 2) of s >= 0, as 2^k exp(-r / 2), |r| <= log(2), within 1 unit in the last place; below 3.8e-308 it is 0. */
+INLINE vector gaussian_each(vector s) {
+    const vector shifted = s * -0.7213475204444817 + 6755399441056767.0, k = shifted - 6755399441056767.0;
+    const vector r = (s + k * 1.3862943611202354) + k * -3.447888905122967e-13;
+    const vector part = r * (-0.5 + r * (0.12500000000000003 + r * (-0.020833333333333336 + r * (0.0026041666666640085 + r * (-0.0002604166666665645 + r * (2.170138893314011e-05 + r * (-1.5500992080508208e-06 + r * (9.688094258687923e-08 + r * (-5.382278997037427e-09 + r * (2.697273970216642e-10 + r * -1.2256046482356944e-11))))))))));
+    const vector scale = vector_from_bits(vector_to_bits(shifted) << 52); /* 2^k */
+    return vector_select(s > 1415.8, vector_of(0), scale + scale * part);
 }
 
 /* What pairs read of points x. */
@@ -211,14 +209,13 @@ INLINE void pair_value(
     const vector v0 = x0 - mu0;
     const vector v1 = x1 - mu1;
     const vector gap = x2 - mu2;
-    const vector round_2 = vector_round(0.15915494309189535 * gap);
-    const vector v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const vector round_2 = round_each(0.15915494309189535 * gap);
+    const vector v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
     const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
     const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-    const vector minus = -0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
-    value[0] = value[0] + amplitude * vector_exp(minus);
+    const vector phi = gaussian_each(z0 * z0 + z1 * z1 + z2 * z2);
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -247,21 +244,17 @@ INLINE void pair_forward(
     const vector v0 = x0 - mu0;
     const vector v1 = x1 - mu1;
     const vector gap = x2 - mu2;
-    const vector round_2 = vector_round(0.15915494309189535 * gap);
-    const vector v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const vector round_2 = round_each(0.15915494309189535 * gap);
+    const vector v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
     const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
     const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-    const vector minus = -0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector phi = amplitude * vector_exp(minus);
-    const vector z2_product = z2 * phi;
-    const vector z1_product = z1 * phi;
-    const vector z0_product = z0 * phi;
-    value[0] = value[0] + phi;
-    slope[0] = slope[0] - W2_0 * z2_product - W1_0 * z1_product - W0_0 * z0_product;
-    slope[1] = slope[1] - W2_1 * z2_product - W1_1 * z1_product - W0_1 * z0_product;
-    slope[2] = slope[2] - W2_2 * z2_product - W1_2 * z1_product - W0_2 * z0_product;
+    const vector phi = gaussian_each(z0 * z0 + z1 * z1 + z2 * z2);
+    const vector phi_2 = amplitude * phi;
+    value[0] = value[0] + phi_2;
+    slope[0] = slope[0] - phi_2 * (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0));
+    slope[1] = slope[1] - phi_2 * (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0));
+    slope[2] = slope[2] - phi_2 * (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0));
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -288,38 +281,52 @@ OUTLINE void pair_gradient_vjp(
     slope_bar[2] = gradient_bar2;
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp(
-    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
+    const vector *mu, const vector *W, const vector *amplitude, const vector *sums, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
     (void)mu;
-    (void)W;
-    (void)amplitude;
-    const vector mu0_bar = S_bar[0];
-    const vector mu1_bar = S_bar[1];
-    const vector mu2_bar = S_bar[2];
-    const vector W0_0_bar = S_bar[3];
-    const vector W0_1_bar = S_bar[4];
-    const vector W0_2_bar = S_bar[5];
-    const vector W1_0_bar = S_bar[6];
-    const vector W1_1_bar = S_bar[7];
-    const vector W1_2_bar = S_bar[8];
-    const vector W2_0_bar = S_bar[9];
-    const vector W2_1_bar = S_bar[10];
-    const vector W2_2_bar = S_bar[11];
-    const vector its_amplitude_bar = S_bar[12];
-    mu_bar[0] = mu0_bar;
-    mu_bar[1] = mu1_bar;
-    mu_bar[2] = mu2_bar;
-    W_bar[0] = W0_0_bar;
-    W_bar[1] = W0_1_bar;
-    W_bar[2] = W0_2_bar;
-    W_bar[3] = W1_0_bar;
-    W_bar[4] = W1_1_bar;
-    W_bar[5] = W1_2_bar;
-    W_bar[6] = W2_0_bar;
-    W_bar[7] = W2_1_bar;
-    W_bar[8] = W2_2_bar;
-    amplitude_bar[0] = its_amplitude_bar;
+    const vector W0_0 = W[0];
+    const vector W0_1 = W[1];
+    const vector W0_2 = W[2];
+    const vector W1_0 = W[3];
+    const vector W1_1 = W[4];
+    const vector W1_2 = W[5];
+    const vector W2_0 = W[6];
+    const vector W2_1 = W[7];
+    const vector W2_2 = W[8];
+    const vector its_amplitude = amplitude[0];
+    const vector sum0 = sums[0];
+    const vector sum1 = sums[1];
+    const vector sum2 = sums[2];
+    const vector sum3 = sums[3];
+    const vector sum4 = sums[4];
+    const vector sum5 = sums[5];
+    const vector sum6 = sums[6];
+    const vector sum7 = sums[7];
+    const vector sum8 = sums[8];
+    const vector sum9 = sums[9];
+    const vector M0_0 = W0_0 * W0_0 + W1_0 * W1_0 + W2_0 * W2_0;
+    const vector M0_1 = W0_0 * W0_1 + W1_0 * W1_1 + W2_0 * W2_1;
+    const vector M0_2 = W0_0 * W0_2 + W1_0 * W1_2 + W2_0 * W2_2;
+    const vector M1_1 = W0_1 * W0_1 + W1_1 * W1_1 + W2_1 * W2_1;
+    const vector M1_2 = W0_1 * W0_2 + W1_1 * W1_2 + W2_1 * W2_2;
+    const vector M2_2 = W0_2 * W0_2 + W1_2 * W1_2 + W2_2 * W2_2;
+    const vector product = 2.0 * sum4;
+    const vector product_2 = 2.0 * sum7;
+    const vector product_3 = 2.0 * sum9;
+    mu_bar[0] = its_amplitude * (M0_0 * sum0 + M0_1 * sum1 + M0_2 * sum2);
+    mu_bar[1] = its_amplitude * (M0_1 * sum0 + M1_1 * sum1 + M1_2 * sum2);
+    mu_bar[2] = its_amplitude * (M0_2 * sum0 + M1_2 * sum1 + M2_2 * sum2);
+    W_bar[0] = its_amplitude * (W0_0 * product + W0_1 * sum5 + W0_2 * sum6);
+    W_bar[1] = its_amplitude * (W0_0 * sum5 + W0_1 * product_2 + W0_2 * sum8);
+    W_bar[2] = its_amplitude * (W0_0 * sum6 + W0_1 * sum8 + W0_2 * product_3);
+    W_bar[3] = its_amplitude * (W1_0 * product + W1_1 * sum5 + W1_2 * sum6);
+    W_bar[4] = its_amplitude * (W1_0 * sum5 + W1_1 * product_2 + W1_2 * sum8);
+    W_bar[5] = its_amplitude * (W1_0 * sum6 + W1_1 * sum8 + W1_2 * product_3);
+    W_bar[6] = its_amplitude * (W2_0 * product + W2_1 * sum5 + W2_2 * sum6);
+    W_bar[7] = its_amplitude * (W2_0 * sum5 + W2_1 * product_2 + W2_2 * sum8);
+    W_bar[8] = its_amplitude * (W2_0 * sum6 + W2_1 * sum8 + W2_2 * product_3);
+    amplitude_bar[0] = sum3;
 }
 
 /* The distances of some points q from one point p. */
@@ -334,20 +341,19 @@ OUTLINE void pair_distances(
     const vector position_log0 = q0 - p0;
     const vector position_log1 = q1 - p1;
     const vector gap = q2 - p2;
-    const vector round_2 = vector_round(0.15915494309189535 * gap);
-    const vector heading_log0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 -
-        3.019915981956753e-07 * round_2;
-    distance[0] = vector_sqrt(heading_log0 * heading_log0 + position_log0 * position_log0 + position_log1 *
+    const vector round_2 = round_each(0.15915494309189535 * gap);
+    const vector heading_log0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
+    distance[0] = sqrt_each(heading_log0 * heading_log0 + position_log0 * position_log0 + position_log1 *
             position_log1);
 }
 
 /*
- * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_backward(
-    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
+    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
     const vector x0 = X[0];
     const vector x1 = X[1];
     const vector x2 = X[2];
@@ -363,7 +369,6 @@ INLINE void pair_backward(
     const double W2_0 = S[9];
     const double W2_1 = S[10];
     const double W2_2 = S[11];
-    const double amplitude = S[12];
     const vector its_value_bar = value_bar[0];
     const vector x0_bar = slope_bar[0];
     const vector x1_bar = slope_bar[1];
@@ -371,39 +376,33 @@ INLINE void pair_backward(
     const vector v0 = x0 - mu0;
     const vector v1 = x1 - mu1;
     const vector gap = x2 - mu2;
-    const vector round_2 = vector_round(0.15915494309189535 * gap);
-    const vector v2 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const vector round_2 = round_each(0.15915494309189535 * gap);
+    const vector v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
     const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
     const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-    const vector minus = -0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector exp_2 = vector_exp(minus);
-    const vector phi = amplitude * exp_2;
-    const vector gap_2 = -(W2_0 * x0_bar) - W2_1 * x1_bar - W2_2 * x2_bar;
-    const vector gap_3 = -(W0_0 * x0_bar) - W0_1 * x1_bar - W0_2 * x2_bar;
-    const vector gap_4 = -(W1_0 * x0_bar) - W1_1 * x1_bar - W1_2 * x2_bar;
-    const vector by_phi = its_value_bar + z0 * gap_3 + z1 * gap_4 + z2 * gap_2;
-    const vector product = exp_2 * (amplitude * by_phi);
-    const vector by_z2 = phi * gap_2 - z2 * product;
-    const vector by_z1 = phi * gap_4 - z1 * product;
-    const vector by_z0 = phi * gap_3 - z0 * product;
-    const vector z0_product = z0 * phi;
-    const vector z1_product = z1 * phi;
-    const vector z2_product = z2 * phi;
-    S_bar[0] = S_bar[0] - W2_0 * by_z2 - W1_0 * by_z1 - W0_0 * by_z0;
-    S_bar[1] = S_bar[1] - W2_1 * by_z2 - W1_1 * by_z1 - W0_1 * by_z0;
-    S_bar[2] = S_bar[2] - W2_2 * by_z2 - W1_2 * by_z1 - W0_2 * by_z0;
-    S_bar[3] = S_bar[3] + v0 * by_z0 - z0_product * x0_bar;
-    S_bar[4] = S_bar[4] + v1 * by_z0 - z0_product * x1_bar;
-    S_bar[5] = S_bar[5] + v2 * by_z0 - z0_product * x2_bar;
-    S_bar[6] = S_bar[6] + v0 * by_z1 - z1_product * x0_bar;
-    S_bar[7] = S_bar[7] + v1 * by_z1 - z1_product * x1_bar;
-    S_bar[8] = S_bar[8] + v2 * by_z1 - z1_product * x2_bar;
-    S_bar[9] = S_bar[9] + v0 * by_z2 - z2_product * x0_bar;
-    S_bar[10] = S_bar[10] + v1 * by_z2 - z2_product * x1_bar;
-    S_bar[11] = S_bar[11] + v2 * by_z2 - z2_product * x2_bar;
-    S_bar[12] = S_bar[12] + exp_2 * by_phi;
+    const vector phi = gaussian_each(z0 * z0 + z1 * z1 + z2 * z2);
+    const vector phi_product = phi * x0_bar;
+    const vector gap_2 = its_value_bar - (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0)) * x2_bar;
+    const vector gap_3 = gap_2 - (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0)) * x1_bar;
+    const vector by_phi = gap_3 - (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0)) * x0_bar;
+    const vector phi_product_2 = phi * by_phi;
+    const vector phi_product_3 = phi * x1_bar;
+    const vector phi_product_4 = phi * x2_bar;
+    const vector product = 0.5 * phi_product_2;
+    const vector gap_4 = -phi_product - v0 * product;
+    const vector gap_5 = -phi_product_3 - v1 * product;
+    const vector gap_6 = -phi_product_4 - v2 * product;
+    sums[0] = sums[0] + phi_product + v0 * phi_product_2;
+    sums[1] = sums[1] + phi_product_3 + v1 * phi_product_2;
+    sums[2] = sums[2] + phi_product_4 + v2 * phi_product_2;
+    sums[3] = sums[3] + phi_product_2;
+    sums[4] = sums[4] + v0 * gap_4;
+    sums[5] = sums[5] + v0 * gap_5 + v1 * gap_4;
+    sums[6] = sums[6] + v0 * gap_6 + v2 * gap_4;
+    sums[7] = sums[7] + v1 * gap_5;
+    sums[8] = sums[8] + v1 * gap_6 + v2 * gap_5;
+    sums[9] = sums[9] + v2 * gap_6;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -449,12 +448,12 @@ INLINE const double *splat_at(const vector *splats, size_t k) {
     return (const double *)(splats + 4 * row) + (k - row * LANES);
 }
 
-static vector *work_splats(double *work, size_t count) {
+static vector *work_reaches(double *work, size_t count) {
     return work_points(work) + (count + LANES - 1) / LANES * 7;
 }
 
 static vector *work_blocks(double *work, size_t count, size_t splat_count) {
-    return work_splats(work, count) + 4 * ((splat_count + LANES - 1) / LANES);
+    return work_reaches(work, count) + 4 * ((splat_count + LANES - 1) / LANES);
 }
 
 static double *work_constants(double *work, size_t count, size_t splat_count) {
@@ -571,7 +570,7 @@ void se2_splats(
     double *SE2_RESTRICT value, double *SE2_RESTRICT gradient, double *SE2_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -613,7 +612,7 @@ void se2_splats_value(
     double *SE2_RESTRICT value, double *SE2_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -659,26 +658,29 @@ OUTLINE void splat_points(
     vector_end(count, start, 3 + 1, point + 3);
 }
 
-/* Adds to S_bar what some vectors of points add to it, those in the list. */
-OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *S_bar) {
-    vector sum[13] = {ZERO};
-    for (size_t b = 0; b < size; ++b) {
+/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *sums) {
+    vector sum[10] = {ZERO};
+    size_t b = 0;
+    for (; b + 1 < size; b += 2) {
+        const vector *point = points + 7 * (size_t)near[b], *other = points + 7 * (size_t)near[b + 1];
+        pair_backward(point, S, point + 3, point + 3 + 1, sum);
+        pair_backward(other, S, other + 3, other + 3 + 1, sum);
+    }
+    if (b < size) {
         const vector *point = points + 7 * (size_t)near[b];
         pair_backward(point, S, point + 3, point + 3 + 1, sum);
     }
-    S_bar[0] += vector_sum(sum[0]);
-    S_bar[1] += vector_sum(sum[1]);
-    S_bar[2] += vector_sum(sum[2]);
-    S_bar[3] += vector_sum(sum[3]);
-    S_bar[4] += vector_sum(sum[4]);
-    S_bar[5] += vector_sum(sum[5]);
-    S_bar[6] += vector_sum(sum[6]);
-    S_bar[7] += vector_sum(sum[7]);
-    S_bar[8] += vector_sum(sum[8]);
-    S_bar[9] += vector_sum(sum[9]);
-    S_bar[10] += vector_sum(sum[10]);
-    S_bar[11] += vector_sum(sum[11]);
-    S_bar[12] += vector_sum(sum[12]);
+    sums[0] += vector_sum(sum[0]);
+    sums[1] += vector_sum(sum[1]);
+    sums[2] += vector_sum(sum[2]);
+    sums[3] += vector_sum(sum[3]);
+    sums[4] += vector_sum(sum[4]);
+    sums[5] += vector_sum(sum[5]);
+    sums[6] += vector_sum(sum[6]);
+    sums[7] += vector_sum(sum[7]);
+    sums[8] += vector_sum(sum[8]);
+    sums[9] += vector_sum(sum[9]);
 }
 
 /*
@@ -694,7 +696,7 @@ void se2_splats_vjp(
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES ? part : LANES;
     vector *points = work_points(work);
-    vector *splats = work_splats(work, count), *places = work_blocks(work, count, splat_count);
+    vector *splats = work_reaches(work, count), *places = work_blocks(work, count, splat_count);
     double *constants = work_constants(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -720,9 +722,9 @@ void se2_splats_vjp(
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
-            double sums[LANES][13] = {{0}};
+            double sums[LANES][10] = {{0}};
             uint32_t near[131072 / (7 * sizeof(vector)) + 2];
-            vector own_mu[3], own_W[9], own_amplitude[1], S_bar[13], bars[13];
+            vector own_mu[3], own_W[9], own_amplitude[1], own_sums[10], bars[13];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
@@ -734,8 +736,8 @@ void se2_splats_vjp(
             vector_rows(mu, end, start, 3, own_mu);
             vector_rows(W, end, start, 9, own_W);
             vector_rows(amplitude, end, start, 1, own_amplitude);
-            vector_rows(sums[0], LANES, 0, 13, S_bar);
-            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 3, bars + 3 + 9);
+            vector_rows(sums[0], LANES, 0, 10, own_sums);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 3, bars + 3 + 9);
             vector_to_rows(bars, mu_bar, end, start, 3, 3);
             vector_to_rows(bars + 3, W_bar, end, start, 9, 9);
             vector_to_rows(bars + 3 + 9, amplitude_bar, end, start, 1, 1);
@@ -762,12 +764,12 @@ void se2_splats_rows(
             vector point[7];
             splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector own_mu[3], own_W[9], own_amplitude[1], S_bar[13] = {ZERO}, bars[13];
+                vector own_mu[3], own_W[9], own_amplitude[1], own_sums[10] = {ZERO}, bars[13];
                 for (int i = 0; i < 3; ++i) own_mu[i] = vector_of(mu[3 * k + i]);
                 for (int i = 0; i < 9; ++i) own_W[i] = vector_of(W[9 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 13 * k, point + 3, point + 3 + 1, S_bar);
-                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 3, bars + 3 + 9);
+                pair_backward(point, constants + 13 * k, point + 3, point + 3 + 1, own_sums);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 3, bars + 3 + 9);
                 vector_to_rows(bars, rows + 13 * k, count, block * LANES, 13, 13 * splat_count);
             }
         }
@@ -841,7 +843,7 @@ double se2_splats_order(
     size_t count, size_t splat_count, const double *SE2_RESTRICT x, const double *SE2_RESTRICT mu, const double *SE2_RESTRICT amplitude, const double *SE2_RESTRICT width,
     double limit, size_t *SE2_RESTRICT order, double *SE2_RESTRICT work) {
     const size_t block = 2 * LANES;
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     uint32_t near[256];
     double share = 0;
     for (size_t n = 0; n < count; ++n) order[n] = n;
@@ -872,6 +874,10 @@ double se2_splats_order(
     }
     return share;
 }
+
+#endif /* double */
+
+#if !defined(RSRM_ONLY_DOUBLE) /* float */
 
 /* The same number in all lanes. */
 INLINE vector_f vector_of_f(float x) {
@@ -913,26 +919,22 @@ INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
     return x;
 }
 
-/* round of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_round_f(vector_f x) {
-    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = rintf(LANE(x, i));
-    return x;
-}
+/* round to even, of numbers below 2^22; of larger ones, a whole number close by. */
+INLINE vector_f round_each_f(vector_f x) { return (x + 12582912.0f) - 12582912.0f; }
 
 /* sqrt of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_sqrt_f(vector_f x) {
+INLINE vector_f sqrt_each_f(vector_f x) {
     for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
     return x;
 }
 
-/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
-INLINE vector_f vector_exp_f(vector_f x) {
-    const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
-    const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
-    const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
-    const vector_f scale = vector_from_bits_f((vector_to_bits_f(shifted) + 126) << 23); /* 2^(k - 1) */
-    const vector_f y = vector_select_f(x > 88.722839f, vector_of_f(HUGE_VALF), (scale + scale * part) * 2);
-    return vector_select_f(x < -86.9f, vector_of_f(0), y);
+/* exp(-s / 2) of s >= 0, as 2^k exp(-r / 2), |r| <= log(2), within 1 unit in the last place; below 1.8e-38 it is 0. */
+INLINE vector_f gaussian_each_f(vector_f s) {
+    const vector_f shifted = s * -0.7213475204444817f + 12583039.0f, k = shifted - 12583039.0f;
+    const vector_f r = (s + k * 1.38629150390625f) + k * 2.8572136406188345e-06f;
+    const vector_f part = r * (-0.5f + r * (0.125f + r * (-0.020833221247803655f + r * (0.0026041596642423803f + r * (-0.0002613493009373264f + r * 2.1759659078889598e-05f)))));
+    const vector_f scale = vector_from_bits_f(vector_to_bits_f(shifted) << 23); /* 2^k */
+    return vector_select_f(s > 173.8f, vector_of_f(0), scale + scale * part);
 }
 
 /* What pairs read of points x. */
@@ -1003,14 +1005,13 @@ INLINE void pair_value_f(
     const vector_f v0 = x0 - mu0;
     const vector_f v1 = x1 - mu1;
     const vector_f gap = x2 - mu2;
-    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
-    const vector_f v2 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+    const vector_f v2 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
     const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
     const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-    const vector_f minus = -0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
-    value[0] = value[0] + amplitude * vector_exp_f(minus);
+    const vector_f phi = gaussian_each_f(z0 * z0 + z1 * z1 + z2 * z2);
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -1039,21 +1040,17 @@ INLINE void pair_forward_f(
     const vector_f v0 = x0 - mu0;
     const vector_f v1 = x1 - mu1;
     const vector_f gap = x2 - mu2;
-    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
-    const vector_f v2 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+    const vector_f v2 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
     const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
     const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-    const vector_f minus = -0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector_f phi = amplitude * vector_exp_f(minus);
-    const vector_f z2_product = z2 * phi;
-    const vector_f z1_product = z1 * phi;
-    const vector_f z0_product = z0 * phi;
-    value[0] = value[0] + phi;
-    slope[0] = slope[0] - W2_0 * z2_product - W1_0 * z1_product - W0_0 * z0_product;
-    slope[1] = slope[1] - W2_1 * z2_product - W1_1 * z1_product - W0_1 * z0_product;
-    slope[2] = slope[2] - W2_2 * z2_product - W1_2 * z1_product - W0_2 * z0_product;
+    const vector_f phi = gaussian_each_f(z0 * z0 + z1 * z1 + z2 * z2);
+    const vector_f phi_2 = amplitude * phi;
+    value[0] = value[0] + phi_2;
+    slope[0] = slope[0] - phi_2 * (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0));
+    slope[1] = slope[1] - phi_2 * (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0));
+    slope[2] = slope[2] - phi_2 * (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0));
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -1080,38 +1077,52 @@ OUTLINE void pair_gradient_vjp_f(
     slope_bar[2] = gradient_bar2;
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp_f(
-    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *sums, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
     (void)mu;
-    (void)W;
-    (void)amplitude;
-    const vector_f mu0_bar = S_bar[0];
-    const vector_f mu1_bar = S_bar[1];
-    const vector_f mu2_bar = S_bar[2];
-    const vector_f W0_0_bar = S_bar[3];
-    const vector_f W0_1_bar = S_bar[4];
-    const vector_f W0_2_bar = S_bar[5];
-    const vector_f W1_0_bar = S_bar[6];
-    const vector_f W1_1_bar = S_bar[7];
-    const vector_f W1_2_bar = S_bar[8];
-    const vector_f W2_0_bar = S_bar[9];
-    const vector_f W2_1_bar = S_bar[10];
-    const vector_f W2_2_bar = S_bar[11];
-    const vector_f its_amplitude_bar = S_bar[12];
-    mu_bar[0] = mu0_bar;
-    mu_bar[1] = mu1_bar;
-    mu_bar[2] = mu2_bar;
-    W_bar[0] = W0_0_bar;
-    W_bar[1] = W0_1_bar;
-    W_bar[2] = W0_2_bar;
-    W_bar[3] = W1_0_bar;
-    W_bar[4] = W1_1_bar;
-    W_bar[5] = W1_2_bar;
-    W_bar[6] = W2_0_bar;
-    W_bar[7] = W2_1_bar;
-    W_bar[8] = W2_2_bar;
-    amplitude_bar[0] = its_amplitude_bar;
+    const vector_f W0_0 = W[0];
+    const vector_f W0_1 = W[1];
+    const vector_f W0_2 = W[2];
+    const vector_f W1_0 = W[3];
+    const vector_f W1_1 = W[4];
+    const vector_f W1_2 = W[5];
+    const vector_f W2_0 = W[6];
+    const vector_f W2_1 = W[7];
+    const vector_f W2_2 = W[8];
+    const vector_f its_amplitude = amplitude[0];
+    const vector_f sum0 = sums[0];
+    const vector_f sum1 = sums[1];
+    const vector_f sum2 = sums[2];
+    const vector_f sum3 = sums[3];
+    const vector_f sum4 = sums[4];
+    const vector_f sum5 = sums[5];
+    const vector_f sum6 = sums[6];
+    const vector_f sum7 = sums[7];
+    const vector_f sum8 = sums[8];
+    const vector_f sum9 = sums[9];
+    const vector_f M0_0 = W0_0 * W0_0 + W1_0 * W1_0 + W2_0 * W2_0;
+    const vector_f M0_1 = W0_0 * W0_1 + W1_0 * W1_1 + W2_0 * W2_1;
+    const vector_f M0_2 = W0_0 * W0_2 + W1_0 * W1_2 + W2_0 * W2_2;
+    const vector_f M1_1 = W0_1 * W0_1 + W1_1 * W1_1 + W2_1 * W2_1;
+    const vector_f M1_2 = W0_1 * W0_2 + W1_1 * W1_2 + W2_1 * W2_2;
+    const vector_f M2_2 = W0_2 * W0_2 + W1_2 * W1_2 + W2_2 * W2_2;
+    const vector_f product = 2.0f * sum4;
+    const vector_f product_2 = 2.0f * sum7;
+    const vector_f product_3 = 2.0f * sum9;
+    mu_bar[0] = its_amplitude * (M0_0 * sum0 + M0_1 * sum1 + M0_2 * sum2);
+    mu_bar[1] = its_amplitude * (M0_1 * sum0 + M1_1 * sum1 + M1_2 * sum2);
+    mu_bar[2] = its_amplitude * (M0_2 * sum0 + M1_2 * sum1 + M2_2 * sum2);
+    W_bar[0] = its_amplitude * (W0_0 * product + W0_1 * sum5 + W0_2 * sum6);
+    W_bar[1] = its_amplitude * (W0_0 * sum5 + W0_1 * product_2 + W0_2 * sum8);
+    W_bar[2] = its_amplitude * (W0_0 * sum6 + W0_1 * sum8 + W0_2 * product_3);
+    W_bar[3] = its_amplitude * (W1_0 * product + W1_1 * sum5 + W1_2 * sum6);
+    W_bar[4] = its_amplitude * (W1_0 * sum5 + W1_1 * product_2 + W1_2 * sum8);
+    W_bar[5] = its_amplitude * (W1_0 * sum6 + W1_1 * sum8 + W1_2 * product_3);
+    W_bar[6] = its_amplitude * (W2_0 * product + W2_1 * sum5 + W2_2 * sum6);
+    W_bar[7] = its_amplitude * (W2_0 * sum5 + W2_1 * product_2 + W2_2 * sum8);
+    W_bar[8] = its_amplitude * (W2_0 * sum6 + W2_1 * sum8 + W2_2 * product_3);
+    amplitude_bar[0] = sum3;
 }
 
 /* The distances of some points q from one point p. */
@@ -1126,20 +1137,19 @@ OUTLINE void pair_distances_f(
     const vector_f position_log0 = q0 - p0;
     const vector_f position_log1 = q1 - p1;
     const vector_f gap = q2 - p2;
-    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
-    const vector_f heading_log0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 -
-        3.019915981956753e-07f * round_2;
-    distance[0] = vector_sqrt_f(heading_log0 * heading_log0 + position_log0 * position_log0 + position_log1 *
+    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+    const vector_f heading_log0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
+    distance[0] = sqrt_each_f(heading_log0 * heading_log0 + position_log0 * position_log0 + position_log1 *
             position_log1);
 }
 
 /*
- * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_backward_f(
-    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
+    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
     const vector_f x0 = X[0];
     const vector_f x1 = X[1];
     const vector_f x2 = X[2];
@@ -1155,7 +1165,6 @@ INLINE void pair_backward_f(
     const float W2_0 = S[9];
     const float W2_1 = S[10];
     const float W2_2 = S[11];
-    const float amplitude = S[12];
     const vector_f its_value_bar = value_bar[0];
     const vector_f x0_bar = slope_bar[0];
     const vector_f x1_bar = slope_bar[1];
@@ -1163,39 +1172,33 @@ INLINE void pair_backward_f(
     const vector_f v0 = x0 - mu0;
     const vector_f v1 = x1 - mu1;
     const vector_f gap = x2 - mu2;
-    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
-    const vector_f v2 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+    const vector_f v2 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
     const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
     const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-    const vector_f minus = -0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector_f exp_2 = vector_exp_f(minus);
-    const vector_f phi = amplitude * exp_2;
-    const vector_f gap_2 = -(W2_0 * x0_bar) - W2_1 * x1_bar - W2_2 * x2_bar;
-    const vector_f gap_3 = -(W0_0 * x0_bar) - W0_1 * x1_bar - W0_2 * x2_bar;
-    const vector_f gap_4 = -(W1_0 * x0_bar) - W1_1 * x1_bar - W1_2 * x2_bar;
-    const vector_f by_phi = its_value_bar + z0 * gap_3 + z1 * gap_4 + z2 * gap_2;
-    const vector_f product = exp_2 * (amplitude * by_phi);
-    const vector_f by_z2 = phi * gap_2 - z2 * product;
-    const vector_f by_z1 = phi * gap_4 - z1 * product;
-    const vector_f by_z0 = phi * gap_3 - z0 * product;
-    const vector_f z0_product = z0 * phi;
-    const vector_f z1_product = z1 * phi;
-    const vector_f z2_product = z2 * phi;
-    S_bar[0] = S_bar[0] - W2_0 * by_z2 - W1_0 * by_z1 - W0_0 * by_z0;
-    S_bar[1] = S_bar[1] - W2_1 * by_z2 - W1_1 * by_z1 - W0_1 * by_z0;
-    S_bar[2] = S_bar[2] - W2_2 * by_z2 - W1_2 * by_z1 - W0_2 * by_z0;
-    S_bar[3] = S_bar[3] + v0 * by_z0 - z0_product * x0_bar;
-    S_bar[4] = S_bar[4] + v1 * by_z0 - z0_product * x1_bar;
-    S_bar[5] = S_bar[5] + v2 * by_z0 - z0_product * x2_bar;
-    S_bar[6] = S_bar[6] + v0 * by_z1 - z1_product * x0_bar;
-    S_bar[7] = S_bar[7] + v1 * by_z1 - z1_product * x1_bar;
-    S_bar[8] = S_bar[8] + v2 * by_z1 - z1_product * x2_bar;
-    S_bar[9] = S_bar[9] + v0 * by_z2 - z2_product * x0_bar;
-    S_bar[10] = S_bar[10] + v1 * by_z2 - z2_product * x1_bar;
-    S_bar[11] = S_bar[11] + v2 * by_z2 - z2_product * x2_bar;
-    S_bar[12] = S_bar[12] + exp_2 * by_phi;
+    const vector_f phi = gaussian_each_f(z0 * z0 + z1 * z1 + z2 * z2);
+    const vector_f phi_product = phi * x0_bar;
+    const vector_f gap_2 = its_value_bar - (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0)) * x2_bar;
+    const vector_f gap_3 = gap_2 - (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0)) * x1_bar;
+    const vector_f by_phi = gap_3 - (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0)) * x0_bar;
+    const vector_f phi_product_2 = phi * by_phi;
+    const vector_f phi_product_3 = phi * x1_bar;
+    const vector_f phi_product_4 = phi * x2_bar;
+    const vector_f product = 0.5f * phi_product_2;
+    const vector_f gap_4 = -phi_product - v0 * product;
+    const vector_f gap_5 = -phi_product_3 - v1 * product;
+    const vector_f gap_6 = -phi_product_4 - v2 * product;
+    sums[0] = sums[0] + phi_product + v0 * phi_product_2;
+    sums[1] = sums[1] + phi_product_3 + v1 * phi_product_2;
+    sums[2] = sums[2] + phi_product_4 + v2 * phi_product_2;
+    sums[3] = sums[3] + phi_product_2;
+    sums[4] = sums[4] + v0 * gap_4;
+    sums[5] = sums[5] + v0 * gap_5 + v1 * gap_4;
+    sums[6] = sums[6] + v0 * gap_6 + v2 * gap_4;
+    sums[7] = sums[7] + v1 * gap_5;
+    sums[8] = sums[8] + v1 * gap_6 + v2 * gap_5;
+    sums[9] = sums[9] + v2 * gap_6;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -1241,12 +1244,12 @@ INLINE const float *splat_at_f(const vector_f *splats, size_t k) {
     return (const float *)(splats + 4 * row) + (k - row * LANES_f);
 }
 
-static vector_f *work_splats_f(float *work, size_t count) {
+static vector_f *work_reaches_f(float *work, size_t count) {
     return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 7;
 }
 
 static vector_f *work_blocks_f(float *work, size_t count, size_t splat_count) {
-    return work_splats_f(work, count) + 4 * ((splat_count + LANES_f - 1) / LANES_f);
+    return work_reaches_f(work, count) + 4 * ((splat_count + LANES_f - 1) / LANES_f);
 }
 
 static float *work_constants_f(float *work, size_t count, size_t splat_count) {
@@ -1363,7 +1366,7 @@ void se2_splats_f(
     float *SE2_RESTRICT value, float *SE2_RESTRICT gradient, float *SE2_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1405,7 +1408,7 @@ void se2_splats_value_f(
     float *SE2_RESTRICT value, float *SE2_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1451,26 +1454,29 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 3 + 1, point + 3);
 }
 
-/* Adds to S_bar what some vectors of points add to it, those in the list. */
-OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *S_bar) {
-    vector_f sum[13] = {ZERO};
-    for (size_t b = 0; b < size; ++b) {
+/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *sums) {
+    vector_f sum[10] = {ZERO};
+    size_t b = 0;
+    for (; b + 1 < size; b += 2) {
+        const vector_f *point = points + 7 * (size_t)near[b], *other = points + 7 * (size_t)near[b + 1];
+        pair_backward_f(point, S, point + 3, point + 3 + 1, sum);
+        pair_backward_f(other, S, other + 3, other + 3 + 1, sum);
+    }
+    if (b < size) {
         const vector_f *point = points + 7 * (size_t)near[b];
         pair_backward_f(point, S, point + 3, point + 3 + 1, sum);
     }
-    S_bar[0] += vector_sum_f(sum[0]);
-    S_bar[1] += vector_sum_f(sum[1]);
-    S_bar[2] += vector_sum_f(sum[2]);
-    S_bar[3] += vector_sum_f(sum[3]);
-    S_bar[4] += vector_sum_f(sum[4]);
-    S_bar[5] += vector_sum_f(sum[5]);
-    S_bar[6] += vector_sum_f(sum[6]);
-    S_bar[7] += vector_sum_f(sum[7]);
-    S_bar[8] += vector_sum_f(sum[8]);
-    S_bar[9] += vector_sum_f(sum[9]);
-    S_bar[10] += vector_sum_f(sum[10]);
-    S_bar[11] += vector_sum_f(sum[11]);
-    S_bar[12] += vector_sum_f(sum[12]);
+    sums[0] += vector_sum_f(sum[0]);
+    sums[1] += vector_sum_f(sum[1]);
+    sums[2] += vector_sum_f(sum[2]);
+    sums[3] += vector_sum_f(sum[3]);
+    sums[4] += vector_sum_f(sum[4]);
+    sums[5] += vector_sum_f(sum[5]);
+    sums[6] += vector_sum_f(sum[6]);
+    sums[7] += vector_sum_f(sum[7]);
+    sums[8] += vector_sum_f(sum[8]);
+    sums[9] += vector_sum_f(sum[9]);
 }
 
 /*
@@ -1486,7 +1492,7 @@ void se2_splats_vjp_f(
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES_f ? part : LANES_f;
     vector_f *points = work_points_f(work);
-    vector_f *splats = work_splats_f(work, count), *places = work_blocks_f(work, count, splat_count);
+    vector_f *splats = work_reaches_f(work, count), *places = work_blocks_f(work, count, splat_count);
     float *constants = work_constants_f(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -1512,9 +1518,9 @@ void se2_splats_vjp_f(
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
-            float sums[LANES_f][13] = {{0}};
+            float sums[LANES_f][10] = {{0}};
             uint32_t near[131072 / (7 * sizeof(vector_f)) + 2];
-            vector_f own_mu[3], own_W[9], own_amplitude[1], S_bar[13], bars[13];
+            vector_f own_mu[3], own_W[9], own_amplitude[1], own_sums[10], bars[13];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
@@ -1526,8 +1532,8 @@ void se2_splats_vjp_f(
             vector_rows_f(mu, end, start, 3, own_mu);
             vector_rows_f(W, end, start, 9, own_W);
             vector_rows_f(amplitude, end, start, 1, own_amplitude);
-            vector_rows_f(sums[0], LANES_f, 0, 13, S_bar);
-            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 3, bars + 3 + 9);
+            vector_rows_f(sums[0], LANES_f, 0, 10, own_sums);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 3, bars + 3 + 9);
             vector_to_rows_f(bars, mu_bar, end, start, 3, 3);
             vector_to_rows_f(bars + 3, W_bar, end, start, 9, 9);
             vector_to_rows_f(bars + 3 + 9, amplitude_bar, end, start, 1, 1);
@@ -1554,12 +1560,12 @@ void se2_splats_rows_f(
             vector_f point[7];
             splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector_f own_mu[3], own_W[9], own_amplitude[1], S_bar[13] = {ZERO}, bars[13];
+                vector_f own_mu[3], own_W[9], own_amplitude[1], own_sums[10] = {ZERO}, bars[13];
                 for (int i = 0; i < 3; ++i) own_mu[i] = vector_of_f(mu[3 * k + i]);
                 for (int i = 0; i < 9; ++i) own_W[i] = vector_of_f(W[9 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 13 * k, point + 3, point + 3 + 1, S_bar);
-                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 3, bars + 3 + 9);
+                pair_backward_f(point, constants + 13 * k, point + 3, point + 3 + 1, own_sums);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 3, bars + 3 + 9);
                 vector_to_rows_f(bars, rows + 13 * k, count, block * LANES_f, 13, 13 * splat_count);
             }
         }
@@ -1633,7 +1639,7 @@ double se2_splats_order_f(
     size_t count, size_t splat_count, const float *SE2_RESTRICT x, const float *SE2_RESTRICT mu, const float *SE2_RESTRICT amplitude, const float *SE2_RESTRICT width,
     double limit, size_t *SE2_RESTRICT order, float *SE2_RESTRICT work) {
     const size_t block = 2 * LANES_f;
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     uint32_t near[256];
     double share = 0;
     for (size_t n = 0; n < count; ++n) order[n] = n;
@@ -1664,3 +1670,5 @@ double se2_splats_order_f(
     }
     return share;
 }
+
+#endif /* float */

@@ -771,7 +771,7 @@ class Se3:
     ) -> tuple[Tensor, Tensor, Tensor]:
         """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu (K, D), W (K, d, T) and amplitude (K)."""
         S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
-        total = torch.zeros((len(S), len(mu)), dtype=x.dtype, device=x.device)
+        total = torch.zeros((), dtype=x.dtype, device=x.device)
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         for part, *bars in zip(*parts, strict=True):
             total = total + torch.stack(_sums(self._pair_bars(part, S, *bars), len(part), len(mu), 0))
@@ -785,15 +785,15 @@ class Se3:
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         rows = []
         for part, *bars in zip(*parts, strict=True):
-            S_bar = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
-            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, S_bar)
+            sums = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
+            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, sums)
             rows.append(torch.cat([by_mu, by_W.flatten(-2), by_amplitude.unsqueeze(-1)], -1))
         return torch.cat(rows)
 
     def _pair_bars(
         self, x: Tensor, S: Sequence[Tensor], value_bar: Tensor, gradient_bar: Tensor
     ) -> tuple[Tensor, ...]:
-        """The derivatives in S of every pair, from those in the sums."""
+        """What every pair adds to the sums of its splat, from the derivatives in values and gradients."""
         X = [entry.unsqueeze(-1) for entry in self._point_features(x)]
         slope_bar = [entry.unsqueeze(-1) for entry in self._point_gradient_vjp(x, gradient_bar)]
         return self._pair_vjp(X, S, value_bar.unsqueeze(-1), slope_bar)
@@ -805,7 +805,7 @@ class Se3:
         rotation_h1 = 0.5 * x4
         rotation_h2 = 0.5 * x5
         rotation_h3 = 0.5 * x6
-        return (x0, x1, x2, rotation_h0, rotation_h1, rotation_h2, rotation_h3)
+        return (x0, x1, x2, x3, x4, x5, x6, rotation_h0, rotation_h1, rotation_h2, rotation_h3)
 
     def _splat_constants(self, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, ...]:
         """S, what the pairs need of a splat alone."""
@@ -814,11 +814,23 @@ class Se3:
             W0_0, W0_1, W0_2, W0_3, W0_4, W0_5, W1_0, W1_1, W1_2, W1_3, W1_4, W1_5, W2_0, W2_1, W2_2, W2_3, W2_4, W2_5,
             W3_0, W3_1, W3_2, W3_3, W3_4, W3_5, W4_0, W4_1, W4_2, W4_3, W4_4, W4_5, W5_0, W5_1, W5_2, W5_3, W5_4, W5_5,
         ) = W.flatten(-2).unbind(-1)
-        rotation_M0 = 2.0 * mu3
-        rotation_M1 = 2.0 * mu4
-        rotation_M2 = 2.0 * mu5
+        total_2 = W0_0 * W0_0 + W1_0 * W1_0 + W2_0 * W2_0 + W3_0 * W3_0 + W4_0 * W4_0
+        M0_0 = total_2 + W5_0 * W5_0
+        total_3 = W0_0 * W0_1 + W1_0 * W1_1 + W2_0 * W2_1 + W3_0 * W3_1 + W4_0 * W4_1
+        M0_1 = total_3 + W5_0 * W5_1
+        total_4 = W0_0 * W0_2 + W1_0 * W1_2 + W2_0 * W2_2 + W3_0 * W3_2 + W4_0 * W4_2
+        M0_2 = total_4 + W5_0 * W5_2
+        total_5 = W0_1 * W0_1 + W1_1 * W1_1 + W2_1 * W2_1 + W3_1 * W3_1 + W4_1 * W4_1
+        M1_1 = total_5 + W5_1 * W5_1
+        total_6 = W0_1 * W0_2 + W1_1 * W1_2 + W2_1 * W2_2 + W3_1 * W3_2 + W4_1 * W4_2
+        M1_2 = total_6 + W5_1 * W5_2
+        total_7 = W0_2 * W0_2 + W1_2 * W1_2 + W2_2 * W2_2 + W3_2 * W3_2 + W4_2 * W4_2
+        M2_2 = total_7 + W5_2 * W5_2
         rotation_M3 = 2.0 * mu6
+        rotation_M2 = 2.0 * mu5
+        rotation_M1 = 2.0 * mu4
         rotation_R0_0 = 2.0 * (-(W0_5 * rotation_M3) - W0_4 * rotation_M2 - W0_3 * rotation_M1)
+        rotation_M0 = 2.0 * mu3
         rotation_R0_1 = 2.0 * (W0_5 * rotation_M2 - W0_4 * rotation_M3 + W0_3 * rotation_M0)
         rotation_R0_2 = 2.0 * (W0_4 * rotation_M0 - W0_5 * rotation_M1 + W0_3 * rotation_M3)
         rotation_R0_3 = 2.0 * (W0_5 * rotation_M0 + W0_4 * rotation_M1 - W0_3 * rotation_M2)
@@ -842,10 +854,124 @@ class Se3:
         rotation_R5_1 = 2.0 * (W5_5 * rotation_M2 - W5_4 * rotation_M3 + W5_3 * rotation_M0)
         rotation_R5_2 = 2.0 * (W5_4 * rotation_M0 - W5_5 * rotation_M1 + W5_3 * rotation_M3)
         rotation_R5_3 = 2.0 * (W5_5 * rotation_M0 + W5_4 * rotation_M1 - W5_3 * rotation_M2)
+        total_8 = (
+            W0_0 * rotation_R0_0 + W1_0 * rotation_R1_0 + W2_0 * rotation_R2_0 + W3_0 * rotation_R3_0 + W4_0 *
+            rotation_R4_0
+        )
+        M0_3 = total_8 + W5_0 * rotation_R5_0
+        total_9 = (
+            W0_0 * rotation_R0_1 + W1_0 * rotation_R1_1 + W2_0 * rotation_R2_1 + W3_0 * rotation_R3_1 + W4_0 *
+            rotation_R4_1
+        )
+        M0_4 = total_9 + W5_0 * rotation_R5_1
+        total_10 = (
+            W0_0 * rotation_R0_2 + W1_0 * rotation_R1_2 + W2_0 * rotation_R2_2 + W3_0 * rotation_R3_2 + W4_0 *
+            rotation_R4_2
+        )
+        M0_5 = total_10 + W5_0 * rotation_R5_2
+        total_11 = (
+            W0_0 * rotation_R0_3 + W1_0 * rotation_R1_3 + W2_0 * rotation_R2_3 + W3_0 * rotation_R3_3 + W4_0 *
+            rotation_R4_3
+        )
+        M0_6 = total_11 + W5_0 * rotation_R5_3
+        total_12 = (
+            W0_1 * rotation_R0_0 + W1_1 * rotation_R1_0 + W2_1 * rotation_R2_0 + W3_1 * rotation_R3_0 + W4_1 *
+            rotation_R4_0
+        )
+        M1_3 = total_12 + W5_1 * rotation_R5_0
+        total_13 = (
+            W0_1 * rotation_R0_1 + W1_1 * rotation_R1_1 + W2_1 * rotation_R2_1 + W3_1 * rotation_R3_1 + W4_1 *
+            rotation_R4_1
+        )
+        M1_4 = total_13 + W5_1 * rotation_R5_1
+        total_14 = (
+            W0_1 * rotation_R0_2 + W1_1 * rotation_R1_2 + W2_1 * rotation_R2_2 + W3_1 * rotation_R3_2 + W4_1 *
+            rotation_R4_2
+        )
+        M1_5 = total_14 + W5_1 * rotation_R5_2
+        total_15 = (
+            W0_1 * rotation_R0_3 + W1_1 * rotation_R1_3 + W2_1 * rotation_R2_3 + W3_1 * rotation_R3_3 + W4_1 *
+            rotation_R4_3
+        )
+        M1_6 = total_15 + W5_1 * rotation_R5_3
+        total_16 = (
+            W0_2 * rotation_R0_0 + W1_2 * rotation_R1_0 + W2_2 * rotation_R2_0 + W3_2 * rotation_R3_0 + W4_2 *
+            rotation_R4_0
+        )
+        M2_3 = total_16 + W5_2 * rotation_R5_0
+        total_17 = (
+            W0_2 * rotation_R0_1 + W1_2 * rotation_R1_1 + W2_2 * rotation_R2_1 + W3_2 * rotation_R3_1 + W4_2 *
+            rotation_R4_1
+        )
+        M2_4 = total_17 + W5_2 * rotation_R5_1
+        total_18 = (
+            W0_2 * rotation_R0_2 + W1_2 * rotation_R1_2 + W2_2 * rotation_R2_2 + W3_2 * rotation_R3_2 + W4_2 *
+            rotation_R4_2
+        )
+        M2_5 = total_18 + W5_2 * rotation_R5_2
+        total_19 = (
+            W0_2 * rotation_R0_3 + W1_2 * rotation_R1_3 + W2_2 * rotation_R2_3 + W3_2 * rotation_R3_3 + W4_2 *
+            rotation_R4_3
+        )
+        M2_6 = total_19 + W5_2 * rotation_R5_3
+        total_20 = (
+            rotation_R0_0 * rotation_R0_0 + rotation_R1_0 * rotation_R1_0 + rotation_R2_0 * rotation_R2_0 +
+            rotation_R3_0 * rotation_R3_0 + rotation_R4_0 * rotation_R4_0
+        )
+        M3_3 = total_20 + rotation_R5_0 * rotation_R5_0
+        total_21 = (
+            rotation_R0_0 * rotation_R0_1 + rotation_R1_0 * rotation_R1_1 + rotation_R2_0 * rotation_R2_1 +
+            rotation_R3_0 * rotation_R3_1 + rotation_R4_0 * rotation_R4_1
+        )
+        M3_4 = total_21 + rotation_R5_0 * rotation_R5_1
+        total_22 = (
+            rotation_R0_0 * rotation_R0_2 + rotation_R1_0 * rotation_R1_2 + rotation_R2_0 * rotation_R2_2 +
+            rotation_R3_0 * rotation_R3_2 + rotation_R4_0 * rotation_R4_2
+        )
+        M3_5 = total_22 + rotation_R5_0 * rotation_R5_2
+        total_23 = (
+            rotation_R0_0 * rotation_R0_3 + rotation_R1_0 * rotation_R1_3 + rotation_R2_0 * rotation_R2_3 +
+            rotation_R3_0 * rotation_R3_3 + rotation_R4_0 * rotation_R4_3
+        )
+        M3_6 = total_23 + rotation_R5_0 * rotation_R5_3
+        total_24 = (
+            rotation_R0_1 * rotation_R0_1 + rotation_R1_1 * rotation_R1_1 + rotation_R2_1 * rotation_R2_1 +
+            rotation_R3_1 * rotation_R3_1 + rotation_R4_1 * rotation_R4_1
+        )
+        M4_4 = total_24 + rotation_R5_1 * rotation_R5_1
+        total_25 = (
+            rotation_R0_1 * rotation_R0_2 + rotation_R1_1 * rotation_R1_2 + rotation_R2_1 * rotation_R2_2 +
+            rotation_R3_1 * rotation_R3_2 + rotation_R4_1 * rotation_R4_2
+        )
+        M4_5 = total_25 + rotation_R5_1 * rotation_R5_2
+        total_26 = (
+            rotation_R0_1 * rotation_R0_3 + rotation_R1_1 * rotation_R1_3 + rotation_R2_1 * rotation_R2_3 +
+            rotation_R3_1 * rotation_R3_3 + rotation_R4_1 * rotation_R4_3
+        )
+        M4_6 = total_26 + rotation_R5_1 * rotation_R5_3
+        total_27 = (
+            rotation_R0_2 * rotation_R0_2 + rotation_R1_2 * rotation_R1_2 + rotation_R2_2 * rotation_R2_2 +
+            rotation_R3_2 * rotation_R3_2 + rotation_R4_2 * rotation_R4_2
+        )
+        M5_5 = total_27 + rotation_R5_2 * rotation_R5_2
+        total_28 = (
+            rotation_R0_2 * rotation_R0_3 + rotation_R1_2 * rotation_R1_3 + rotation_R2_2 * rotation_R2_3 +
+            rotation_R3_2 * rotation_R3_3 + rotation_R4_2 * rotation_R4_3
+        )
+        M5_6 = total_28 + rotation_R5_2 * rotation_R5_3
+        total_29 = (
+            rotation_R0_3 * rotation_R0_3 + rotation_R1_3 * rotation_R1_3 + rotation_R2_3 * rotation_R2_3 +
+            rotation_R3_3 * rotation_R3_3 + rotation_R4_3 * rotation_R4_3
+        )
+        M6_6 = total_29 + rotation_R5_3 * rotation_R5_3
         return (
             mu0,
             mu1,
             mu2,
+            mu3,
+            mu4,
+            mu5,
+            mu6,
             W0_0,
             W0_1,
             W0_2,
@@ -865,10 +991,12 @@ class Se3:
             W5_1,
             W5_2,
             amplitude,
-            rotation_M0,
-            rotation_M1,
-            rotation_M2,
-            rotation_M3,
+            M0_0,
+            M0_1,
+            M0_2,
+            M1_1,
+            M1_2,
+            M2_2,
             rotation_R0_0,
             rotation_R0_1,
             rotation_R0_2,
@@ -893,177 +1021,177 @@ class Se3:
             rotation_R5_1,
             rotation_R5_2,
             rotation_R5_3,
+            M0_3,
+            M0_4,
+            M0_5,
+            M0_6,
+            M1_3,
+            M1_4,
+            M1_5,
+            M1_6,
+            M2_3,
+            M2_4,
+            M2_5,
+            M2_6,
+            M3_3,
+            M3_4,
+            M3_5,
+            M3_6,
+            M4_4,
+            M4_5,
+            M4_6,
+            M5_5,
+            M5_6,
+            M6_6,
         )
 
     def _pair_value(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
         """The value of a splat at a point."""
-        x0, x1, x2, rotation_h0, rotation_h1, rotation_h2, rotation_h3 = X
+        x0, x1, x2, x3, x4, x5, x6, rotation_h0, rotation_h1, rotation_h2, rotation_h3 = X
         (
-            mu0, mu1, mu2, W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, W3_0, W3_1, W3_2, W4_0, W4_1, W4_2,
-            W5_0, W5_1, W5_2, amplitude, rotation_M0, rotation_M1, rotation_M2, rotation_M3, rotation_R0_0,
-            rotation_R0_1, rotation_R0_2, rotation_R0_3, rotation_R1_0, rotation_R1_1, rotation_R1_2, rotation_R1_3,
-            rotation_R2_0, rotation_R2_1, rotation_R2_2, rotation_R2_3, rotation_R3_0, rotation_R3_1, rotation_R3_2,
-            rotation_R3_3, rotation_R4_0, rotation_R4_1, rotation_R4_2, rotation_R4_3, rotation_R5_0, rotation_R5_1,
-            rotation_R5_2, rotation_R5_3,
+            mu0, mu1, mu2, mu3, mu4, mu5, mu6, W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, W3_0, W3_1, W3_2,
+            W4_0, W4_1, W4_2, W5_0, W5_1, W5_2, amplitude, _, _, _, _, _, _, rotation_R0_0, rotation_R0_1,
+            rotation_R0_2, rotation_R0_3, rotation_R1_0, rotation_R1_1, rotation_R1_2, rotation_R1_3, rotation_R2_0,
+            rotation_R2_1, rotation_R2_2, rotation_R2_3, rotation_R3_0, rotation_R3_1, rotation_R3_2, rotation_R3_3,
+            rotation_R4_0, rotation_R4_1, rotation_R4_2, rotation_R4_3, rotation_R5_0, rotation_R5_1, rotation_R5_2,
+            rotation_R5_3, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
         ) = S
-        total_2 = (
-            rotation_h0 * rotation_M0 + rotation_h1 * rotation_M1 + rotation_h2 * rotation_M2 + rotation_h3 *
-            rotation_M3
-        )
-        rotation_w = torch.abs(total_2)
-        rotation_eta = _polynomial(1.0 - rotation_w, _ROTATION_ETA)
-        rotation_a = 1.0 / (rotation_w - rotation_eta * (1.0 - rotation_w * rotation_w))
+        rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6
+        rotation_abs_g0 = torch.abs(rotation_g0)
+        rotation_eta = _polynomial(1.0 - rotation_abs_g0, _ROTATION_ETA)
+        rotation_a = 1.0 / (rotation_abs_g0 - rotation_eta * (1.0 - rotation_abs_g0 * rotation_abs_g0))
         v0 = x0 - mu0
         v1 = x1 - mu1
         v2 = x2 - mu2
-        rotation_a_chosen = torch.where(total_2 < 0.0, -rotation_a, rotation_a)
-        rotation_r0 = (
-            rotation_h0 * rotation_R0_0 + rotation_h1 * rotation_R0_1 + rotation_h2 * rotation_R0_2 + rotation_h3 *
-            rotation_R0_3
-        )
-        z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_a_chosen * rotation_r0
-        rotation_r1 = (
-            rotation_h0 * rotation_R1_0 + rotation_h1 * rotation_R1_1 + rotation_h2 * rotation_R1_2 + rotation_h3 *
-            rotation_R1_3
-        )
-        z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_a_chosen * rotation_r1
-        rotation_r2 = (
-            rotation_h0 * rotation_R2_0 + rotation_h1 * rotation_R2_1 + rotation_h2 * rotation_R2_2 + rotation_h3 *
-            rotation_R2_3
-        )
-        z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_a_chosen * rotation_r2
-        rotation_r3 = (
-            rotation_h0 * rotation_R3_0 + rotation_h1 * rotation_R3_1 + rotation_h2 * rotation_R3_2 + rotation_h3 *
-            rotation_R3_3
-        )
-        z3 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_a_chosen * rotation_r3
-        rotation_r4 = (
-            rotation_h0 * rotation_R4_0 + rotation_h1 * rotation_R4_1 + rotation_h2 * rotation_R4_2 + rotation_h3 *
-            rotation_R4_3
-        )
-        z4 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_a_chosen * rotation_r4
-        total_3 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4
-        rotation_r5 = (
-            rotation_h0 * rotation_R5_0 + rotation_h1 * rotation_R5_1 + rotation_h2 * rotation_R5_2 + rotation_h3 *
-            rotation_R5_3
-        )
-        z5 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_a_chosen * rotation_r5
-        half_square = 0.5 * (total_3 + z5 * z5)
-        gaussian = torch.exp(-half_square)
-        phi = amplitude * (rotation_a * (rotation_a * gaussian))
-        return (phi,)
+        rotation_a_chosen = torch.where(rotation_g0 < 0.0, -rotation_a, rotation_a)
+        product = rotation_h0 * rotation_a_chosen
+        product_2 = rotation_h1 * rotation_a_chosen
+        total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 * product_2
+        product_3 = rotation_h2 * rotation_a_chosen
+        product_4 = rotation_h3 * rotation_a_chosen
+        total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4
+        total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 * product_2
+        total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4
+        total_6 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_R2_0 * product + rotation_R2_1 * product_2
+        total_7 = total_6 + rotation_R2_2 * product_3 + rotation_R2_3 * product_4
+        total_8 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_R3_0 * product + rotation_R3_1 * product_2
+        total_9 = total_8 + rotation_R3_2 * product_3 + rotation_R3_3 * product_4
+        total_10 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_R4_0 * product + rotation_R4_1 * product_2
+        total_11 = total_10 + rotation_R4_2 * product_3 + rotation_R4_3 * product_4
+        total_12 = total_3 * total_3 + total_5 * total_5 + total_7 * total_7 + total_9 * total_9 + total_11 * total_11
+        total_13 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_R5_0 * product + rotation_R5_1 * product_2
+        total_14 = total_13 + rotation_R5_2 * product_3 + rotation_R5_3 * product_4
+        gaussian = torch.exp(-(0.5 * (total_12 + total_14 * total_14)))
+        phi = rotation_a * (rotation_a * gaussian)
+        phi_2 = amplitude * phi
+        return (phi_2,)
 
     def _pair(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
         """The value of a splat at a point, and the slope, its derivatives in X."""
-        x0, x1, x2, rotation_h0, rotation_h1, rotation_h2, rotation_h3 = X
+        x0, x1, x2, x3, x4, x5, x6, rotation_h0, rotation_h1, rotation_h2, rotation_h3 = X
         (
-            mu0, mu1, mu2, W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, W3_0, W3_1, W3_2, W4_0, W4_1, W4_2,
-            W5_0, W5_1, W5_2, amplitude, rotation_M0, rotation_M1, rotation_M2, rotation_M3, rotation_R0_0,
-            rotation_R0_1, rotation_R0_2, rotation_R0_3, rotation_R1_0, rotation_R1_1, rotation_R1_2, rotation_R1_3,
-            rotation_R2_0, rotation_R2_1, rotation_R2_2, rotation_R2_3, rotation_R3_0, rotation_R3_1, rotation_R3_2,
-            rotation_R3_3, rotation_R4_0, rotation_R4_1, rotation_R4_2, rotation_R4_3, rotation_R5_0, rotation_R5_1,
-            rotation_R5_2, rotation_R5_3,
+            mu0, mu1, mu2, mu3, mu4, mu5, mu6, W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, W3_0, W3_1, W3_2,
+            W4_0, W4_1, W4_2, W5_0, W5_1, W5_2, amplitude, _, _, _, _, _, _, rotation_R0_0, rotation_R0_1,
+            rotation_R0_2, rotation_R0_3, rotation_R1_0, rotation_R1_1, rotation_R1_2, rotation_R1_3, rotation_R2_0,
+            rotation_R2_1, rotation_R2_2, rotation_R2_3, rotation_R3_0, rotation_R3_1, rotation_R3_2, rotation_R3_3,
+            rotation_R4_0, rotation_R4_1, rotation_R4_2, rotation_R4_3, rotation_R5_0, rotation_R5_1, rotation_R5_2,
+            rotation_R5_3, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
         ) = S
-        total_2 = (
-            rotation_h0 * rotation_M0 + rotation_h1 * rotation_M1 + rotation_h2 * rotation_M2 + rotation_h3 *
-            rotation_M3
-        )
-        rotation_w = torch.abs(total_2)
-        rotation_eta = _polynomial(1.0 - rotation_w, _ROTATION_ETA)
-        rotation_a = 1.0 / (rotation_w - rotation_eta * (1.0 - rotation_w * rotation_w))
+        rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6
+        rotation_abs_g0 = torch.abs(rotation_g0)
+        rotation_eta = _polynomial(1.0 - rotation_abs_g0, _ROTATION_ETA)
+        rotation_a = 1.0 / (rotation_abs_g0 - rotation_eta * (1.0 - rotation_abs_g0 * rotation_abs_g0))
         v0 = x0 - mu0
         v1 = x1 - mu1
         v2 = x2 - mu2
-        is_small = total_2 < 0.0
+        is_small = rotation_g0 < 0.0
         rotation_a_chosen = torch.where(is_small, -rotation_a, rotation_a)
-        rotation_r0 = (
-            rotation_h0 * rotation_R0_0 + rotation_h1 * rotation_R0_1 + rotation_h2 * rotation_R0_2 + rotation_h3 *
-            rotation_R0_3
+        product = rotation_h0 * rotation_a_chosen
+        product_2 = rotation_h1 * rotation_a_chosen
+        total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 * product_2
+        product_3 = rotation_h2 * rotation_a_chosen
+        product_4 = rotation_h3 * rotation_a_chosen
+        total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4
+        total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 * product_2
+        total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4
+        total_6 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_R2_0 * product + rotation_R2_1 * product_2
+        total_7 = total_6 + rotation_R2_2 * product_3 + rotation_R2_3 * product_4
+        total_8 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_R3_0 * product + rotation_R3_1 * product_2
+        total_9 = total_8 + rotation_R3_2 * product_3 + rotation_R3_3 * product_4
+        total_10 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_R4_0 * product + rotation_R4_1 * product_2
+        total_11 = total_10 + rotation_R4_2 * product_3 + rotation_R4_3 * product_4
+        total_12 = total_3 * total_3 + total_5 * total_5 + total_7 * total_7 + total_9 * total_9 + total_11 * total_11
+        total_13 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_R5_0 * product + rotation_R5_1 * product_2
+        total_14 = total_13 + rotation_R5_2 * product_3 + rotation_R5_3 * product_4
+        gaussian = torch.exp(-(0.5 * (total_12 + total_14 * total_14)))
+        phi = rotation_a * (rotation_a * gaussian)
+        phi_2 = amplitude * phi
+        total_15 = W0_0 * total_3 + W1_0 * total_5 + W2_0 * total_7 + W3_0 * total_9 + W4_0 * total_11
+        by_v0 = -(phi_2 * (total_15 + W5_0 * total_14))
+        total_16 = W0_1 * total_3 + W1_1 * total_5 + W2_1 * total_7 + W3_1 * total_9 + W4_1 * total_11
+        by_v1 = -(phi_2 * (total_16 + W5_1 * total_14))
+        total_17 = W0_2 * total_3 + W1_2 * total_5 + W2_2 * total_7 + W3_2 * total_9 + W4_2 * total_11
+        by_v2 = -(phi_2 * (total_17 + W5_2 * total_14))
+        total_18 = (
+            rotation_R0_3 * total_3 + rotation_R1_3 * total_5 + rotation_R2_3 * total_7 + rotation_R3_3 * total_9 +
+            rotation_R4_3 * total_11
         )
-        z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_a_chosen * rotation_r0
-        rotation_r1 = (
-            rotation_h0 * rotation_R1_0 + rotation_h1 * rotation_R1_1 + rotation_h2 * rotation_R1_2 + rotation_h3 *
-            rotation_R1_3
+        phi_product = phi_2 * (total_18 + rotation_R5_3 * total_14)
+        total_19 = (
+            rotation_R0_2 * total_3 + rotation_R1_2 * total_5 + rotation_R2_2 * total_7 + rotation_R3_2 * total_9 +
+            rotation_R4_2 * total_11
         )
-        z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_a_chosen * rotation_r1
-        rotation_r2 = (
-            rotation_h0 * rotation_R2_0 + rotation_h1 * rotation_R2_1 + rotation_h2 * rotation_R2_2 + rotation_h3 *
-            rotation_R2_3
+        phi_product_2 = phi_2 * (total_19 + rotation_R5_2 * total_14)
+        total_20 = (
+            rotation_R0_1 * total_3 + rotation_R1_1 * total_5 + rotation_R2_1 * total_7 + rotation_R3_1 * total_9 +
+            rotation_R4_1 * total_11
         )
-        z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_a_chosen * rotation_r2
-        rotation_r3 = (
-            rotation_h0 * rotation_R3_0 + rotation_h1 * rotation_R3_1 + rotation_h2 * rotation_R3_2 + rotation_h3 *
-            rotation_R3_3
+        phi_product_3 = phi_2 * (total_20 + rotation_R5_1 * total_14)
+        total_21 = (
+            rotation_R0_0 * total_3 + rotation_R1_0 * total_5 + rotation_R2_0 * total_7 + rotation_R3_0 * total_9 +
+            rotation_R4_0 * total_11
         )
-        z3 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_a_chosen * rotation_r3
-        rotation_r4 = (
-            rotation_h0 * rotation_R4_0 + rotation_h1 * rotation_R4_1 + rotation_h2 * rotation_R4_2 + rotation_h3 *
-            rotation_R4_3
+        phi_product_4 = phi_2 * (total_21 + rotation_R5_0 * total_14)
+        gap = (
+            -(rotation_h3 * phi_product) - rotation_h2 * phi_product_2 - rotation_h1 * phi_product_3 - rotation_h0 *
+            phi_product_4
         )
-        z4 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_a_chosen * rotation_r4
-        total_3 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4
-        rotation_r5 = (
-            rotation_h0 * rotation_R5_0 + rotation_h1 * rotation_R5_1 + rotation_h2 * rotation_R5_2 + rotation_h3 *
-            rotation_R5_3
+        by_rotation_abs_g0 = rotation_eta * (2.0 * phi_2 + rotation_a_chosen * gap)
+        by_rotation_g0 = torch.where(is_small, -by_rotation_abs_g0, by_rotation_abs_g0)
+        by_x3 = mu3 * by_rotation_g0
+        by_x4 = mu4 * by_rotation_g0
+        by_x5 = mu5 * by_rotation_g0
+        by_x6 = mu6 * by_rotation_g0
+        by_rotation_h0 = -(rotation_a_chosen * phi_product_4)
+        by_rotation_h1 = -(rotation_a_chosen * phi_product_3)
+        by_rotation_h2 = -(rotation_a_chosen * phi_product_2)
+        by_rotation_h3 = -(rotation_a_chosen * phi_product)
+        return (
+            phi_2,
+            by_v0,
+            by_v1,
+            by_v2,
+            by_x3,
+            by_x4,
+            by_x5,
+            by_x6,
+            by_rotation_h0,
+            by_rotation_h1,
+            by_rotation_h2,
+            by_rotation_h3,
         )
-        z5 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_a_chosen * rotation_r5
-        half_square = 0.5 * (total_3 + z5 * z5)
-        gaussian = torch.exp(-half_square)
-        phi = amplitude * (rotation_a * (rotation_a * gaussian))
-        z5_product = z5 * phi
-        z4_product = z4 * phi
-        z3_product = z3 * phi
-        z2_product = z2 * phi
-        gap = -(W5_0 * z5_product) - W4_0 * z4_product - W3_0 * z3_product - W2_0 * z2_product
-        z1_product = z1 * phi
-        z0_product = z0 * phi
-        by_v0 = gap - W1_0 * z1_product - W0_0 * z0_product
-        gap_2 = -(W5_1 * z5_product) - W4_1 * z4_product - W3_1 * z3_product - W2_1 * z2_product
-        by_v1 = gap_2 - W1_1 * z1_product - W0_1 * z0_product
-        gap_3 = -(W5_2 * z5_product) - W4_2 * z4_product - W3_2 * z3_product - W2_2 * z2_product
-        by_v2 = gap_3 - W1_2 * z1_product - W0_2 * z0_product
-        product = rotation_a_chosen * z5_product
-        product_2 = rotation_a_chosen * z4_product
-        product_3 = rotation_a_chosen * z3_product
-        product_4 = rotation_a_chosen * z2_product
-        gap_4 = (
-            -(rotation_R5_0 * product) - rotation_R4_0 * product_2 - rotation_R3_0 * product_3 - rotation_R2_0 *
-            product_4
-        )
-        product_5 = rotation_a_chosen * z1_product
-        product_6 = rotation_a_chosen * z0_product
-        gap_5 = (
-            -(rotation_r5 * z5_product) - rotation_r4 * z4_product - rotation_r3 * z3_product - rotation_r2 * z2_product
-        )
-        total_4 = 2.0 * phi + rotation_a_chosen * (gap_5 - rotation_r1 * z1_product - rotation_r0 * z0_product)
-        by_rotation_w = rotation_eta * total_4
-        chosen = torch.where(is_small, -by_rotation_w, by_rotation_w)
-        by_rotation_h0 = gap_4 - rotation_R1_0 * product_5 - rotation_R0_0 * product_6 + rotation_M0 * chosen
-        gap_6 = (
-            -(rotation_R5_1 * product) - rotation_R4_1 * product_2 - rotation_R3_1 * product_3 - rotation_R2_1 *
-            product_4
-        )
-        by_rotation_h1 = gap_6 - rotation_R1_1 * product_5 - rotation_R0_1 * product_6 + rotation_M1 * chosen
-        gap_7 = (
-            -(rotation_R5_2 * product) - rotation_R4_2 * product_2 - rotation_R3_2 * product_3 - rotation_R2_2 *
-            product_4
-        )
-        by_rotation_h2 = gap_7 - rotation_R1_2 * product_5 - rotation_R0_2 * product_6 + rotation_M2 * chosen
-        gap_8 = (
-            -(rotation_R5_3 * product) - rotation_R4_3 * product_2 - rotation_R3_3 * product_3 - rotation_R2_3 *
-            product_4
-        )
-        by_rotation_h3 = gap_8 - rotation_R1_3 * product_5 - rotation_R0_3 * product_6 + rotation_M3 * chosen
-        return (phi, by_v0, by_v1, by_v2, by_rotation_h0, by_rotation_h1, by_rotation_h2, by_rotation_h3)
 
     def _point_gradient(self, x: Tensor, slope: Sequence[Tensor]) -> Tensor:
         """The Riemannian gradient of a function whose derivatives in X are `slope`."""
         _, _, _, x3, x4, x5, x6 = x.unbind(-1)
-        slope_x0, slope_x1, slope_x2, slope_rotation_h0, slope_rotation_h1, slope_rotation_h2, slope_rotation_h3 = slope
-        product = 0.25 * slope_rotation_h1
-        product_2 = 0.25 * slope_rotation_h2
-        product_3 = 0.25 * slope_rotation_h0
-        product_4 = 0.25 * slope_rotation_h3
+        (
+            slope_x0, slope_x1, slope_x2, slope_x3, slope_x4, slope_x5, slope_x6, slope_rotation_h0, slope_rotation_h1,
+            slope_rotation_h2, slope_rotation_h3,
+        ) = slope
+        product = 0.5 * (slope_x4 + 0.5 * slope_rotation_h1)
+        product_2 = 0.5 * (slope_x5 + 0.5 * slope_rotation_h2)
+        product_3 = 0.5 * (slope_x3 + 0.5 * slope_rotation_h0)
+        product_4 = 0.5 * (slope_x6 + 0.5 * slope_rotation_h3)
         return _stack((
             slope_x0,
             slope_x1,
@@ -1079,357 +1207,473 @@ class Se3:
         (
             gradient_bar0, gradient_bar1, gradient_bar2, gradient_bar3, gradient_bar4, gradient_bar5,
         ) = gradient_bar.unbind(-1)
-        product = 0.25 * (-(x6 * gradient_bar5) - x5 * gradient_bar4 - x4 * gradient_bar3)
+        gap = -(x6 * gradient_bar5) - x5 * gradient_bar4 - x4 * gradient_bar3
+        total_2 = x5 * gradient_bar5 - x6 * gradient_bar4 + x3 * gradient_bar3
+        total_3 = x3 * gradient_bar4 - x4 * gradient_bar5 + x6 * gradient_bar3
+        gap_2 = x3 * gradient_bar5 + x4 * gradient_bar4 - x5 * gradient_bar3
         return (
             gradient_bar0,
             gradient_bar1,
             gradient_bar2,
-            product,
-            0.25 * (x5 * gradient_bar5 - x6 * gradient_bar4 + x3 * gradient_bar3),
-            0.25 * (x3 * gradient_bar4 - x4 * gradient_bar5 + x6 * gradient_bar3),
-            0.25 * (x3 * gradient_bar5 + x4 * gradient_bar4 - x5 * gradient_bar3),
+            0.5 * gap,
+            0.5 * total_2,
+            0.5 * total_3,
+            0.5 * gap_2,
+            0.25 * gap,
+            0.25 * total_2,
+            0.25 * total_3,
+            0.25 * gap_2,
         )
 
     def _pair_vjp(
         self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
     ) -> tuple[Tensor, ...]:
-        """The derivatives of value value_bar + slope . slope_bar in S."""
-        x0, x1, x2, rotation_h0, rotation_h1, rotation_h2, rotation_h3 = X
+        """What, summed over the points, makes the derivatives of value value_bar + slope . slope_bar."""
+        x0, x1, x2, x3, x4, x5, x6, rotation_h0, rotation_h1, rotation_h2, rotation_h3 = X
         (
-            mu0, mu1, mu2, W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, W3_0, W3_1, W3_2, W4_0, W4_1, W4_2,
-            W5_0, W5_1, W5_2, amplitude, rotation_M0, rotation_M1, rotation_M2, rotation_M3, rotation_R0_0,
-            rotation_R0_1, rotation_R0_2, rotation_R0_3, rotation_R1_0, rotation_R1_1, rotation_R1_2, rotation_R1_3,
-            rotation_R2_0, rotation_R2_1, rotation_R2_2, rotation_R2_3, rotation_R3_0, rotation_R3_1, rotation_R3_2,
-            rotation_R3_3, rotation_R4_0, rotation_R4_1, rotation_R4_2, rotation_R4_3, rotation_R5_0, rotation_R5_1,
-            rotation_R5_2, rotation_R5_3,
+            mu0, mu1, mu2, mu3, mu4, mu5, mu6, W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, W3_0, W3_1, W3_2,
+            W4_0, W4_1, W4_2, W5_0, W5_1, W5_2, _, M0_0, M0_1, M0_2, M1_1, M1_2, M2_2, rotation_R0_0, rotation_R0_1,
+            rotation_R0_2, rotation_R0_3, rotation_R1_0, rotation_R1_1, rotation_R1_2, rotation_R1_3, rotation_R2_0,
+            rotation_R2_1, rotation_R2_2, rotation_R2_3, rotation_R3_0, rotation_R3_1, rotation_R3_2, rotation_R3_3,
+            rotation_R4_0, rotation_R4_1, rotation_R4_2, rotation_R4_3, rotation_R5_0, rotation_R5_1, rotation_R5_2,
+            rotation_R5_3, M0_3, M0_4, M0_5, M0_6, M1_3, M1_4, M1_5, M1_6, M2_3, M2_4, M2_5, M2_6, M3_3, M3_4, M3_5,
+            M3_6, M4_4, M4_5, M4_6, M5_5, M5_6, M6_6,
         ) = S
-        x0_bar, x1_bar, x2_bar, rotation_h0_bar, rotation_h1_bar, rotation_h2_bar, rotation_h3_bar = slope_bar
-        total_2 = (
-            rotation_h0 * rotation_M0 + rotation_h1 * rotation_M1 + rotation_h2 * rotation_M2 + rotation_h3 *
-            rotation_M3
-        )
-        rotation_w = torch.abs(total_2)
-        rotation_w_gap = 1.0 - rotation_w
-        rotation_eta = _polynomial(rotation_w_gap, _ROTATION_ETA)
-        rotation_a = 1.0 / (rotation_w - rotation_eta * (1.0 - rotation_w * rotation_w))
+        (
+            x0_bar, x1_bar, x2_bar, x3_bar, x4_bar, x5_bar, x6_bar, rotation_h0_bar, rotation_h1_bar, rotation_h2_bar,
+            rotation_h3_bar,
+        ) = slope_bar
         v0 = x0 - mu0
         v1 = x1 - mu1
         v2 = x2 - mu2
-        is_small = total_2 < 0.0
+        rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6
+        is_small = rotation_g0 < 0.0
+        rotation_abs_g0 = torch.abs(rotation_g0)
+        gap = 1.0 - rotation_abs_g0
+        rotation_eta = _polynomial(gap, _ROTATION_ETA)
+        rotation_a = 1.0 / (rotation_abs_g0 - rotation_eta * (1.0 - rotation_abs_g0 * rotation_abs_g0))
         rotation_a_chosen = torch.where(is_small, -rotation_a, rotation_a)
-        rotation_r0 = (
-            rotation_h0 * rotation_R0_0 + rotation_h1 * rotation_R0_1 + rotation_h2 * rotation_R0_2 + rotation_h3 *
-            rotation_R0_3
+        product = rotation_h0 * rotation_a_chosen
+        product_2 = rotation_h1 * rotation_a_chosen
+        total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 * product_2
+        product_3 = rotation_h2 * rotation_a_chosen
+        product_4 = rotation_h3 * rotation_a_chosen
+        total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4
+        total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 * product_2
+        total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4
+        total_6 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_R2_0 * product + rotation_R2_1 * product_2
+        total_7 = total_6 + rotation_R2_2 * product_3 + rotation_R2_3 * product_4
+        total_8 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_R3_0 * product + rotation_R3_1 * product_2
+        total_9 = total_8 + rotation_R3_2 * product_3 + rotation_R3_3 * product_4
+        total_10 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_R4_0 * product + rotation_R4_1 * product_2
+        total_11 = total_10 + rotation_R4_2 * product_3 + rotation_R4_3 * product_4
+        total_12 = W0_0 * total_3 + W1_0 * total_5 + W2_0 * total_7 + W3_0 * total_9 + W4_0 * total_11
+        total_13 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_R5_0 * product + rotation_R5_1 * product_2
+        total_14 = total_13 + rotation_R5_2 * product_3 + rotation_R5_3 * product_4
+        total_15 = total_12 + W5_0 * total_14
+        total_16 = total_3 * total_3 + total_5 * total_5 + total_7 * total_7 + total_9 * total_9 + total_11 * total_11
+        gaussian = torch.exp(-(0.5 * (total_16 + total_14 * total_14)))
+        phi = rotation_a * (rotation_a * gaussian)
+        total_17 = (
+            rotation_R0_3 * total_3 + rotation_R1_3 * total_5 + rotation_R2_3 * total_7 + rotation_R3_3 * total_9 +
+            rotation_R4_3 * total_11
         )
-        z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_a_chosen * rotation_r0
-        rotation_r1 = (
-            rotation_h0 * rotation_R1_0 + rotation_h1 * rotation_R1_1 + rotation_h2 * rotation_R1_2 + rotation_h3 *
-            rotation_R1_3
+        total_18 = total_17 + rotation_R5_3 * total_14
+        by_by_rotation_g0 = mu3 * x3_bar + mu4 * x4_bar + mu5 * x5_bar + mu6 * x6_bar
+        by_by_rotation_abs_g0 = (
+            torch.where(is_small, 0.0, by_by_rotation_g0) - torch.where(is_small, by_by_rotation_g0, 0.0)
         )
-        z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_a_chosen * rotation_r1
-        rotation_r2 = (
-            rotation_h0 * rotation_R2_0 + rotation_h1 * rotation_R2_1 + rotation_h2 * rotation_R2_2 + rotation_h3 *
-            rotation_R2_3
+        product_5 = rotation_eta * by_by_rotation_abs_g0
+        product_6 = rotation_a_chosen * product_5
+        gap_2 = -(rotation_h3 * product_6) - rotation_a_chosen * rotation_h3_bar
+        total_19 = (
+            rotation_R0_2 * total_3 + rotation_R1_2 * total_5 + rotation_R2_2 * total_7 + rotation_R3_2 * total_9 +
+            rotation_R4_2 * total_11
         )
-        z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_a_chosen * rotation_r2
-        rotation_r3 = (
-            rotation_h0 * rotation_R3_0 + rotation_h1 * rotation_R3_1 + rotation_h2 * rotation_R3_2 + rotation_h3 *
-            rotation_R3_3
+        total_20 = total_19 + rotation_R5_2 * total_14
+        gap_3 = -(rotation_h2 * product_6) - rotation_a_chosen * rotation_h2_bar
+        total_21 = (
+            rotation_R0_1 * total_3 + rotation_R1_1 * total_5 + rotation_R2_1 * total_7 + rotation_R3_1 * total_9 +
+            rotation_R4_1 * total_11
         )
-        z3 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_a_chosen * rotation_r3
-        rotation_r4 = (
-            rotation_h0 * rotation_R4_0 + rotation_h1 * rotation_R4_1 + rotation_h2 * rotation_R4_2 + rotation_h3 *
-            rotation_R4_3
+        total_22 = total_21 + rotation_R5_1 * total_14
+        gap_4 = -(rotation_h1 * product_6) - rotation_a_chosen * rotation_h1_bar
+        total_23 = (
+            rotation_R0_0 * total_3 + rotation_R1_0 * total_5 + rotation_R2_0 * total_7 + rotation_R3_0 * total_9 +
+            rotation_R4_0 * total_11
         )
-        z4 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_a_chosen * rotation_r4
-        total_3 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4
-        rotation_r5 = (
-            rotation_h0 * rotation_R5_0 + rotation_h1 * rotation_R5_1 + rotation_h2 * rotation_R5_2 + rotation_h3 *
-            rotation_R5_3
-        )
-        z5 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_a_chosen * rotation_r5
-        half_square = 0.5 * (total_3 + z5 * z5)
-        gaussian = torch.exp(-half_square)
-        rotation_a_product = rotation_a * (rotation_a * gaussian)
-        phi = amplitude * rotation_a_product
-        gap = (
-            -(rotation_R5_0 * rotation_h0_bar) - rotation_R5_1 * rotation_h1_bar - rotation_R5_2 * rotation_h2_bar -
-            rotation_R5_3 * rotation_h3_bar
-        )
-        total_4 = -(W5_0 * x0_bar) - W5_1 * x1_bar - W5_2 * x2_bar + rotation_a_chosen * gap
-        total_5 = (
-            rotation_M0 * rotation_h0_bar + rotation_M1 * rotation_h1_bar + rotation_M2 * rotation_h2_bar + rotation_M3
-            * rotation_h3_bar
-        )
-        by_by_rotation_w = torch.where(is_small, 0.0, total_5) - torch.where(is_small, total_5, 0.0)
-        product = rotation_eta * by_by_rotation_w
-        product_2 = rotation_a_chosen * product
-        gap_2 = total_4 - rotation_r5 * product_2
-        gap_3 = (
-            -(rotation_R0_0 * rotation_h0_bar) - rotation_R0_1 * rotation_h1_bar - rotation_R0_2 * rotation_h2_bar -
-            rotation_R0_3 * rotation_h3_bar
-        )
-        total_6 = -(W0_0 * x0_bar) - W0_1 * x1_bar - W0_2 * x2_bar + rotation_a_chosen * gap_3
-        gap_4 = total_6 - rotation_r0 * product_2
-        gap_5 = (
-            -(rotation_R1_0 * rotation_h0_bar) - rotation_R1_1 * rotation_h1_bar - rotation_R1_2 * rotation_h2_bar -
-            rotation_R1_3 * rotation_h3_bar
-        )
-        total_7 = -(W1_0 * x0_bar) - W1_1 * x1_bar - W1_2 * x2_bar + rotation_a_chosen * gap_5
-        gap_6 = total_7 - rotation_r1 * product_2
-        gap_7 = (
-            -(rotation_R2_0 * rotation_h0_bar) - rotation_R2_1 * rotation_h1_bar - rotation_R2_2 * rotation_h2_bar -
-            rotation_R2_3 * rotation_h3_bar
-        )
-        total_8 = -(W2_0 * x0_bar) - W2_1 * x1_bar - W2_2 * x2_bar + rotation_a_chosen * gap_7
-        gap_8 = total_8 - rotation_r2 * product_2
+        total_24 = total_23 + rotation_R5_0 * total_14
+        gap_5 = -(rotation_h0 * product_6) - rotation_a_chosen * rotation_h0_bar
+        total_25 = value_bar + total_18 * gap_2 + total_20 * gap_3 + total_22 * gap_4 + total_24 * gap_5
+        total_26 = W0_2 * total_3 + W1_2 * total_5 + W2_2 * total_7 + W3_2 * total_9 + W4_2 * total_11
+        total_27 = total_26 + W5_2 * total_14
+        total_28 = W0_1 * total_3 + W1_1 * total_5 + W2_1 * total_7 + W3_1 * total_9 + W4_1 * total_11
+        total_29 = total_28 + W5_1 * total_14
+        by_phi = total_25 - total_27 * x2_bar - total_29 * x1_bar - total_15 * x0_bar + 2.0 * product_5
+        phi_product = phi * by_phi
+        phi_product_2 = phi * x0_bar
+        phi_product_3 = phi * x1_bar
+        phi_product_4 = phi * x2_bar
+        phi_product_5 = phi * gap_5
+        total_30 = -(M0_0 * phi_product_2) - M0_1 * phi_product_3 - M0_2 * phi_product_4 + M0_3 * phi_product_5
+        phi_product_6 = phi * gap_4
+        phi_product_7 = phi * gap_3
+        phi_product_8 = phi * gap_2
+        gap_6 = total_15 * phi_product - (total_30 + M0_4 * phi_product_6 + M0_5 * phi_product_7 + M0_6 * phi_product_8)
+        total_31 = -(M0_1 * phi_product_2) - M1_1 * phi_product_3 - M1_2 * phi_product_4 + M1_3 * phi_product_5
+        gap_7 = total_29 * phi_product - (total_31 + M1_4 * phi_product_6 + M1_5 * phi_product_7 + M1_6 * phi_product_8)
+        total_32 = -(M0_2 * phi_product_2) - M1_2 * phi_product_3 - M2_2 * phi_product_4 + M2_3 * phi_product_5
+        gap_8 = total_27 * phi_product - (total_32 + M2_4 * phi_product_6 + M2_5 * phi_product_7 + M2_6 * phi_product_8)
+        phi_product_9 = phi * total_18
+        phi_product_10 = phi * total_20
+        phi_product_11 = phi * total_22
+        phi_product_12 = phi * total_24
         gap_9 = (
-            -(rotation_R3_0 * rotation_h0_bar) - rotation_R3_1 * rotation_h1_bar - rotation_R3_2 * rotation_h2_bar -
-            rotation_R3_3 * rotation_h3_bar
+            -(rotation_h3 * phi_product_9) - rotation_h2 * phi_product_10 - rotation_h1 * phi_product_11 - rotation_h0 *
+            phi_product_12
         )
-        total_9 = -(W3_0 * x0_bar) - W3_1 * x1_bar - W3_2 * x2_bar + rotation_a_chosen * gap_9
-        gap_10 = total_9 - rotation_r3 * product_2
-        total_10 = value_bar + z0 * gap_4 + z1 * gap_6 + z2 * gap_8 + z3 * gap_10
-        gap_11 = (
-            -(rotation_R4_0 * rotation_h0_bar) - rotation_R4_1 * rotation_h1_bar - rotation_R4_2 * rotation_h2_bar -
-            rotation_R4_3 * rotation_h3_bar
+        total_33 = 2.0 * phi + rotation_a_chosen * gap_9
+        by_rotation_abs_g0 = rotation_eta * total_33
+        by_rotation_g0 = torch.where(is_small, -by_rotation_abs_g0, by_rotation_abs_g0)
+        rotation_eta_slope = _polynomial(gap, _ROTATION_ETA_SLOPE)
+        gap_10 = (
+            gap_9 * product_5 - phi_product_12 * rotation_h0_bar - phi_product_11 * rotation_h1_bar - phi_product_10 *
+            rotation_h2_bar - phi_product_9 * rotation_h3_bar
         )
-        total_11 = -(W4_0 * x0_bar) - W4_1 * x1_bar - W4_2 * x2_bar + rotation_a_chosen * gap_11
-        gap_12 = total_11 - rotation_r4 * product_2
-        by_phi = total_10 + z4 * gap_12 + z5 * gap_2 + 2.0 * product
-        product_3 = rotation_a_product * (amplitude * by_phi)
-        by_z5 = phi * gap_2 - z5 * product_3
-        by_z4 = phi * gap_12 - z4 * product_3
-        by_z3 = phi * gap_10 - z3 * product_3
-        by_z2 = phi * gap_8 - z2 * product_3
-        by_z1 = phi * gap_6 - z1 * product_3
-        total_12 = W5_0 * by_z5 + W4_0 * by_z4 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1
-        by_z0 = phi * gap_4 - z0 * product_3
-        by_v0 = total_12 + W0_0 * by_z0
-        total_13 = W5_1 * by_z5 + W4_1 * by_z4 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1
-        by_v1 = total_13 + W0_1 * by_z0
-        total_14 = W5_2 * by_z5 + W4_2 * by_z4 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1
-        by_v2 = total_14 + W0_2 * by_z0
-        z0_product = z0 * phi
-        z1_product = z1 * phi
-        z2_product = z2 * phi
-        z3_product = z3 * phi
-        z4_product = z4 * phi
-        z5_product = z5 * phi
-        gap_13 = (
-            -(rotation_r5 * z5_product) - rotation_r4 * z4_product - rotation_r3 * z3_product - rotation_r2 * z2_product
+        total_34 = -(M0_6 * phi_product_2) - M1_6 * phi_product_3 - M2_6 * phi_product_4 + M3_6 * phi_product_5
+        gap_11 = total_34 + M4_6 * phi_product_6 + M5_6 * phi_product_7 + M6_6 * phi_product_8 - total_18 * phi_product
+        total_35 = -(M0_5 * phi_product_2) - M1_5 * phi_product_3 - M2_5 * phi_product_4 + M3_5 * phi_product_5
+        gap_12 = total_35 + M4_5 * phi_product_6 + M5_5 * phi_product_7 + M5_6 * phi_product_8 - total_20 * phi_product
+        total_36 = -(M0_4 * phi_product_2) - M1_4 * phi_product_3 - M2_4 * phi_product_4 + M3_4 * phi_product_5
+        gap_13 = total_36 + M4_4 * phi_product_6 + M4_5 * phi_product_7 + M4_6 * phi_product_8 - total_22 * phi_product
+        total_37 = -(M0_3 * phi_product_2) - M1_3 * phi_product_3 - M2_3 * phi_product_4 + M3_3 * phi_product_5
+        gap_14 = total_37 + M3_4 * phi_product_6 + M3_5 * phi_product_7 + M3_6 * phi_product_8 - total_24 * phi_product
+        total_38 = gap_10 + rotation_h3 * gap_11 + rotation_h2 * gap_12 + rotation_h1 * gap_13 + rotation_h0 * gap_14
+        by_rotation_abs_g0_2 = (
+            rotation_eta_slope * (total_33 * by_by_rotation_abs_g0) + rotation_eta * (2.0 * phi_product +
+            rotation_a_chosen * total_38)
         )
-        gap_14 = gap_13 - rotation_r1 * z1_product - rotation_r0 * z0_product
-        total_15 = 2.0 * phi + rotation_a_chosen * gap_14
-        by_rotation_w = rotation_eta * total_15
-        chosen = torch.where(is_small, -by_rotation_w, by_rotation_w)
-        rotation_eta_slope = _polynomial(rotation_w_gap, _ROTATION_ETA_SLOPE)
-        total_16 = gap_14 * product + z0_product * gap_3 + z1_product * gap_5 + z2_product * gap_7 + z3_product * gap_9
-        total_17 = total_16 + z4_product * gap_11 + z5_product * gap + rotation_r5 * by_z5 + rotation_r4 * by_z4
-        total_18 = total_17 + rotation_r3 * by_z3 + rotation_r2 * by_z2 + rotation_r1 * by_z1 + rotation_r0 * by_z0
-        by_rotation_w_2 = (
-            rotation_eta_slope * (total_15 * by_by_rotation_w) + rotation_eta * (2.0 * product_3 + rotation_a_chosen *
-            total_18)
-        )
-        chosen_2 = torch.where(is_small, -by_rotation_w_2, by_rotation_w_2)
-        by_rotation_r0 = rotation_a_chosen * by_z0 - z0_product * product_2
-        product_4 = rotation_a_chosen * z0_product
-        by_rotation_r1 = rotation_a_chosen * by_z1 - z1_product * product_2
-        product_5 = rotation_a_chosen * z1_product
-        by_rotation_r2 = rotation_a_chosen * by_z2 - z2_product * product_2
-        product_6 = rotation_a_chosen * z2_product
-        by_rotation_r3 = rotation_a_chosen * by_z3 - z3_product * product_2
-        product_7 = rotation_a_chosen * z3_product
-        by_rotation_r4 = rotation_a_chosen * by_z4 - z4_product * product_2
-        product_8 = rotation_a_chosen * z4_product
-        by_rotation_r5 = rotation_a_chosen * by_z5 - z5_product * product_2
-        product_9 = rotation_a_chosen * z5_product
+        by_rotation_g0_2 = torch.where(is_small, -by_rotation_abs_g0_2, by_rotation_abs_g0_2)
+        product_7 = 0.5 * phi_product
+        gap_15 = -phi_product_2 - v0 * product_7
+        gap_16 = -phi_product_3 - v1 * product_7
+        gap_17 = -phi_product_4 - v2 * product_7
+        gap_18 = phi_product_5 - product * product_7
+        gap_19 = phi_product_6 - product_2 * product_7
+        gap_20 = phi_product_7 - product_3 * product_7
+        gap_21 = phi_product_8 - product_4 * product_7
         return (
-            -by_v0,
-            -by_v1,
-            -by_v2,
-            v0 * by_z0 - z0_product * x0_bar,
-            v1 * by_z0 - z0_product * x1_bar,
-            v2 * by_z0 - z0_product * x2_bar,
-            v0 * by_z1 - z1_product * x0_bar,
-            v1 * by_z1 - z1_product * x1_bar,
-            v2 * by_z1 - z1_product * x2_bar,
-            v0 * by_z2 - z2_product * x0_bar,
-            v1 * by_z2 - z2_product * x1_bar,
-            v2 * by_z2 - z2_product * x2_bar,
-            v0 * by_z3 - z3_product * x0_bar,
-            v1 * by_z3 - z3_product * x1_bar,
-            v2 * by_z3 - z3_product * x2_bar,
-            v0 * by_z4 - z4_product * x0_bar,
-            v1 * by_z4 - z4_product * x1_bar,
-            v2 * by_z4 - z4_product * x2_bar,
-            v0 * by_z5 - z5_product * x0_bar,
-            v1 * by_z5 - z5_product * x1_bar,
-            v2 * by_z5 - z5_product * x2_bar,
-            rotation_a_product * by_phi,
-            chosen * rotation_h0_bar + rotation_h0 * chosen_2,
-            chosen * rotation_h1_bar + rotation_h1 * chosen_2,
-            chosen * rotation_h2_bar + rotation_h2 * chosen_2,
-            chosen * rotation_h3_bar + rotation_h3 * chosen_2,
-            rotation_h0 * by_rotation_r0 - product_4 * rotation_h0_bar,
-            rotation_h1 * by_rotation_r0 - product_4 * rotation_h1_bar,
-            rotation_h2 * by_rotation_r0 - product_4 * rotation_h2_bar,
-            rotation_h3 * by_rotation_r0 - product_4 * rotation_h3_bar,
-            rotation_h0 * by_rotation_r1 - product_5 * rotation_h0_bar,
-            rotation_h1 * by_rotation_r1 - product_5 * rotation_h1_bar,
-            rotation_h2 * by_rotation_r1 - product_5 * rotation_h2_bar,
-            rotation_h3 * by_rotation_r1 - product_5 * rotation_h3_bar,
-            rotation_h0 * by_rotation_r2 - product_6 * rotation_h0_bar,
-            rotation_h1 * by_rotation_r2 - product_6 * rotation_h1_bar,
-            rotation_h2 * by_rotation_r2 - product_6 * rotation_h2_bar,
-            rotation_h3 * by_rotation_r2 - product_6 * rotation_h3_bar,
-            rotation_h0 * by_rotation_r3 - product_7 * rotation_h0_bar,
-            rotation_h1 * by_rotation_r3 - product_7 * rotation_h1_bar,
-            rotation_h2 * by_rotation_r3 - product_7 * rotation_h2_bar,
-            rotation_h3 * by_rotation_r3 - product_7 * rotation_h3_bar,
-            rotation_h0 * by_rotation_r4 - product_8 * rotation_h0_bar,
-            rotation_h1 * by_rotation_r4 - product_8 * rotation_h1_bar,
-            rotation_h2 * by_rotation_r4 - product_8 * rotation_h2_bar,
-            rotation_h3 * by_rotation_r4 - product_8 * rotation_h3_bar,
-            rotation_h0 * by_rotation_r5 - product_9 * rotation_h0_bar,
-            rotation_h1 * by_rotation_r5 - product_9 * rotation_h1_bar,
-            rotation_h2 * by_rotation_r5 - product_9 * rotation_h2_bar,
-            rotation_h3 * by_rotation_r5 - product_9 * rotation_h3_bar,
+            gap_6,
+            gap_7,
+            gap_8,
+            by_rotation_g0 * x3_bar + x3 * by_rotation_g0_2,
+            by_rotation_g0 * x4_bar + x4 * by_rotation_g0_2,
+            by_rotation_g0 * x5_bar + x5 * by_rotation_g0_2,
+            by_rotation_g0 * x6_bar + x6 * by_rotation_g0_2,
+            phi_product,
+            v0 * gap_15,
+            v0 * gap_16 + v1 * gap_15,
+            v0 * gap_17 + v2 * gap_15,
+            v1 * gap_16,
+            v1 * gap_17 + v2 * gap_16,
+            v2 * gap_17,
+            v0 * gap_18 + product * gap_15,
+            v0 * gap_19 + product_2 * gap_15,
+            v0 * gap_20 + product_3 * gap_15,
+            v0 * gap_21 + product_4 * gap_15,
+            v1 * gap_18 + product * gap_16,
+            v1 * gap_19 + product_2 * gap_16,
+            v1 * gap_20 + product_3 * gap_16,
+            v1 * gap_21 + product_4 * gap_16,
+            v2 * gap_18 + product * gap_17,
+            v2 * gap_19 + product_2 * gap_17,
+            v2 * gap_20 + product_3 * gap_17,
+            v2 * gap_21 + product_4 * gap_17,
+            product * gap_18,
+            product * gap_19 + product_2 * gap_18,
+            product * gap_20 + product_3 * gap_18,
+            product * gap_21 + product_4 * gap_18,
+            product_2 * gap_19,
+            product_2 * gap_20 + product_3 * gap_19,
+            product_2 * gap_21 + product_4 * gap_19,
+            product_3 * gap_20,
+            product_3 * gap_21 + product_4 * gap_20,
+            product_4 * gap_21,
         )
 
     def _splat_constants_vjp(
-        self, mu: Tensor, W: Tensor, amplitude: Tensor, S_bar: Sequence[Tensor]
+        self, mu: Tensor, W: Tensor, amplitude: Tensor, sums: Sequence[Tensor]
     ) -> tuple[Tensor, Tensor, Tensor]:
-        """The derivatives in mu, W and amplitude from those in S."""
+        """The derivatives in mu, W and amplitude from those sums."""
         _, _, _, mu3, mu4, mu5, mu6 = mu.unbind(-1)
         (
-            _, _, _, W0_3, W0_4, W0_5, _, _, _, W1_3, W1_4, W1_5, _, _, _, W2_3, W2_4, W2_5, _, _, _, W3_3, W3_4, W3_5,
-            _, _, _, W4_3, W4_4, W4_5, _, _, _, W5_3, W5_4, W5_5,
+            W0_0, W0_1, W0_2, W0_3, W0_4, W0_5, W1_0, W1_1, W1_2, W1_3, W1_4, W1_5, W2_0, W2_1, W2_2, W2_3, W2_4, W2_5,
+            W3_0, W3_1, W3_2, W3_3, W3_4, W3_5, W4_0, W4_1, W4_2, W4_3, W4_4, W4_5, W5_0, W5_1, W5_2, W5_3, W5_4, W5_5,
         ) = W.flatten(-2).unbind(-1)
         (
-            mu0_bar, mu1_bar, mu2_bar, W0_0_bar, W0_1_bar, W0_2_bar, W1_0_bar, W1_1_bar, W1_2_bar, W2_0_bar, W2_1_bar,
-            W2_2_bar, W3_0_bar, W3_1_bar, W3_2_bar, W4_0_bar, W4_1_bar, W4_2_bar, W5_0_bar, W5_1_bar, W5_2_bar,
-            amplitude_bar, rotation_M0_bar, rotation_M1_bar, rotation_M2_bar, rotation_M3_bar, rotation_R0_0_bar,
-            rotation_R0_1_bar, rotation_R0_2_bar, rotation_R0_3_bar, rotation_R1_0_bar, rotation_R1_1_bar,
-            rotation_R1_2_bar, rotation_R1_3_bar, rotation_R2_0_bar, rotation_R2_1_bar, rotation_R2_2_bar,
-            rotation_R2_3_bar, rotation_R3_0_bar, rotation_R3_1_bar, rotation_R3_2_bar, rotation_R3_3_bar,
-            rotation_R4_0_bar, rotation_R4_1_bar, rotation_R4_2_bar, rotation_R4_3_bar, rotation_R5_0_bar,
-            rotation_R5_1_bar, rotation_R5_2_bar, rotation_R5_3_bar,
-        ) = S_bar
-        product = 2.0 * rotation_R0_1_bar
-        product_2 = 2.0 * rotation_R0_2_bar
-        product_3 = 2.0 * rotation_R0_3_bar
-        product_4 = 2.0 * rotation_R1_1_bar
-        total_2 = rotation_M0_bar + W0_3 * product + W0_4 * product_2 + W0_5 * product_3 + W1_3 * product_4
-        product_5 = 2.0 * rotation_R1_2_bar
-        product_6 = 2.0 * rotation_R1_3_bar
-        product_7 = 2.0 * rotation_R2_1_bar
-        product_8 = 2.0 * rotation_R2_2_bar
-        total_3 = total_2 + W1_4 * product_5 + W1_5 * product_6 + W2_3 * product_7 + W2_4 * product_8
-        product_9 = 2.0 * rotation_R2_3_bar
-        product_10 = 2.0 * rotation_R3_1_bar
-        product_11 = 2.0 * rotation_R3_2_bar
-        product_12 = 2.0 * rotation_R3_3_bar
-        total_4 = total_3 + W2_5 * product_9 + W3_3 * product_10 + W3_4 * product_11 + W3_5 * product_12
-        product_13 = 2.0 * rotation_R4_1_bar
-        product_14 = 2.0 * rotation_R4_2_bar
-        product_15 = 2.0 * rotation_R4_3_bar
-        product_16 = 2.0 * rotation_R5_1_bar
-        total_5 = total_4 + W4_3 * product_13 + W4_4 * product_14 + W4_5 * product_15 + W5_3 * product_16
-        product_17 = 2.0 * rotation_R5_2_bar
-        product_18 = 2.0 * rotation_R5_3_bar
-        by_rotation_M0 = total_5 + W5_4 * product_17 + W5_5 * product_18
-        product_19 = 2.0 * rotation_R0_0_bar
-        product_20 = 2.0 * rotation_R1_0_bar
-        gap = rotation_M1_bar - W0_3 * product_19 - W0_5 * product_2 + W0_4 * product_3 - W1_3 * product_20
-        product_21 = 2.0 * rotation_R2_0_bar
-        gap_2 = gap - W1_5 * product_5 + W1_4 * product_6 - W2_3 * product_21 - W2_5 * product_8
-        product_22 = 2.0 * rotation_R3_0_bar
-        total_6 = gap_2 + W2_4 * product_9 - W3_3 * product_22 - W3_5 * product_11 + W3_4 * product_12
-        product_23 = 2.0 * rotation_R4_0_bar
-        product_24 = 2.0 * rotation_R5_0_bar
-        gap_3 = total_6 - W4_3 * product_23 - W4_5 * product_14 + W4_4 * product_15 - W5_3 * product_24
-        by_rotation_M1 = gap_3 - W5_5 * product_17 + W5_4 * product_18
-        gap_4 = rotation_M2_bar - W0_4 * product_19 + W0_5 * product - W0_3 * product_3 - W1_4 * product_20
-        total_7 = gap_4 + W1_5 * product_4 - W1_3 * product_6 - W2_4 * product_21 + W2_5 * product_7
-        gap_5 = total_7 - W2_3 * product_9 - W3_4 * product_22 + W3_5 * product_10 - W3_3 * product_12
-        gap_6 = gap_5 - W4_4 * product_23 + W4_5 * product_13 - W4_3 * product_15 - W5_4 * product_24
-        by_rotation_M2 = gap_6 + W5_5 * product_16 - W5_3 * product_18
-        gap_7 = rotation_M3_bar - W0_5 * product_19 - W0_4 * product + W0_3 * product_2 - W1_5 * product_20
-        gap_8 = gap_7 - W1_4 * product_4 + W1_3 * product_5 - W2_5 * product_21 - W2_4 * product_7
-        total_8 = gap_8 + W2_3 * product_8 - W3_5 * product_22 - W3_4 * product_10 + W3_3 * product_11
-        gap_9 = total_8 - W4_5 * product_23 - W4_4 * product_13 + W4_3 * product_14 - W5_5 * product_24
-        by_rotation_M3 = gap_9 - W5_4 * product_16 + W5_3 * product_17
-        rotation_M0 = 2.0 * mu3
-        rotation_M1 = 2.0 * mu4
+            sum0, sum1, sum2, sum3, sum4, sum5, sum6, sum7, sum8, sum9, sum10, sum11, sum12, sum13, sum14, sum15, sum16,
+            sum17, sum18, sum19, sum20, sum21, sum22, sum23, sum24, sum25, sum26, sum27, sum28, sum29, sum30, sum31,
+            sum32, sum33, sum34, sum35,
+        ) = sums
         rotation_M3 = 2.0 * mu6
         rotation_M2 = 2.0 * mu5
-        total_9 = (
-            -(rotation_M2 * product_19) - rotation_M3 * product + rotation_M0 * product_2 + rotation_M1 * product_3
+        rotation_M1 = 2.0 * mu4
+        rotation_R5_0 = 2.0 * (-(W5_5 * rotation_M3) - W5_4 * rotation_M2 - W5_3 * rotation_M1)
+        rotation_M0 = 2.0 * mu3
+        rotation_R5_1 = 2.0 * (W5_5 * rotation_M2 - W5_4 * rotation_M3 + W5_3 * rotation_M0)
+        product = 2.0 * sum30
+        total_2 = W5_0 * sum15 + W5_1 * sum19 + W5_2 * sum23 + rotation_R5_0 * sum27 + rotation_R5_1 * product
+        rotation_R5_2 = 2.0 * (W5_4 * rotation_M0 - W5_5 * rotation_M1 + W5_3 * rotation_M3)
+        rotation_R5_3 = 2.0 * (W5_5 * rotation_M0 + W5_4 * rotation_M1 - W5_3 * rotation_M2)
+        by_rotation_R5_1 = total_2 + rotation_R5_2 * sum31 + rotation_R5_3 * sum32
+        product_2 = 2.0 * by_rotation_R5_1
+        rotation_R4_0 = 2.0 * (-(W4_5 * rotation_M3) - W4_4 * rotation_M2 - W4_3 * rotation_M1)
+        rotation_R4_1 = 2.0 * (W4_5 * rotation_M2 - W4_4 * rotation_M3 + W4_3 * rotation_M0)
+        total_3 = W4_0 * sum15 + W4_1 * sum19 + W4_2 * sum23 + rotation_R4_0 * sum27 + rotation_R4_1 * product
+        rotation_R4_2 = 2.0 * (W4_4 * rotation_M0 - W4_5 * rotation_M1 + W4_3 * rotation_M3)
+        rotation_R4_3 = 2.0 * (W4_5 * rotation_M0 + W4_4 * rotation_M1 - W4_3 * rotation_M2)
+        by_rotation_R4_1 = total_3 + rotation_R4_2 * sum31 + rotation_R4_3 * sum32
+        product_3 = 2.0 * by_rotation_R4_1
+        rotation_R3_0 = 2.0 * (-(W3_5 * rotation_M3) - W3_4 * rotation_M2 - W3_3 * rotation_M1)
+        rotation_R3_1 = 2.0 * (W3_5 * rotation_M2 - W3_4 * rotation_M3 + W3_3 * rotation_M0)
+        total_4 = W3_0 * sum15 + W3_1 * sum19 + W3_2 * sum23 + rotation_R3_0 * sum27 + rotation_R3_1 * product
+        rotation_R3_2 = 2.0 * (W3_4 * rotation_M0 - W3_5 * rotation_M1 + W3_3 * rotation_M3)
+        rotation_R3_3 = 2.0 * (W3_5 * rotation_M0 + W3_4 * rotation_M1 - W3_3 * rotation_M2)
+        by_rotation_R3_1 = total_4 + rotation_R3_2 * sum31 + rotation_R3_3 * sum32
+        product_4 = 2.0 * by_rotation_R3_1
+        rotation_R2_0 = 2.0 * (-(W2_5 * rotation_M3) - W2_4 * rotation_M2 - W2_3 * rotation_M1)
+        rotation_R2_1 = 2.0 * (W2_5 * rotation_M2 - W2_4 * rotation_M3 + W2_3 * rotation_M0)
+        total_5 = W2_0 * sum15 + W2_1 * sum19 + W2_2 * sum23 + rotation_R2_0 * sum27 + rotation_R2_1 * product
+        rotation_R2_2 = 2.0 * (W2_4 * rotation_M0 - W2_5 * rotation_M1 + W2_3 * rotation_M3)
+        rotation_R2_3 = 2.0 * (W2_5 * rotation_M0 + W2_4 * rotation_M1 - W2_3 * rotation_M2)
+        by_rotation_R2_1 = total_5 + rotation_R2_2 * sum31 + rotation_R2_3 * sum32
+        product_5 = 2.0 * by_rotation_R2_1
+        rotation_R1_0 = 2.0 * (-(W1_5 * rotation_M3) - W1_4 * rotation_M2 - W1_3 * rotation_M1)
+        rotation_R1_1 = 2.0 * (W1_5 * rotation_M2 - W1_4 * rotation_M3 + W1_3 * rotation_M0)
+        total_6 = W1_0 * sum15 + W1_1 * sum19 + W1_2 * sum23 + rotation_R1_0 * sum27 + rotation_R1_1 * product
+        rotation_R1_2 = 2.0 * (W1_4 * rotation_M0 - W1_5 * rotation_M1 + W1_3 * rotation_M3)
+        rotation_R1_3 = 2.0 * (W1_5 * rotation_M0 + W1_4 * rotation_M1 - W1_3 * rotation_M2)
+        by_rotation_R1_1 = total_6 + rotation_R1_2 * sum31 + rotation_R1_3 * sum32
+        product_6 = 2.0 * by_rotation_R1_1
+        total_7 = W5_3 * product_2 + W4_3 * product_3 + W3_3 * product_4 + W2_3 * product_5 + W1_3 * product_6
+        rotation_R0_0 = 2.0 * (-(W0_5 * rotation_M3) - W0_4 * rotation_M2 - W0_3 * rotation_M1)
+        rotation_R0_1 = 2.0 * (W0_5 * rotation_M2 - W0_4 * rotation_M3 + W0_3 * rotation_M0)
+        total_8 = W0_0 * sum15 + W0_1 * sum19 + W0_2 * sum23 + rotation_R0_0 * sum27 + rotation_R0_1 * product
+        rotation_R0_2 = 2.0 * (W0_4 * rotation_M0 - W0_5 * rotation_M1 + W0_3 * rotation_M3)
+        rotation_R0_3 = 2.0 * (W0_5 * rotation_M0 + W0_4 * rotation_M1 - W0_3 * rotation_M2)
+        by_rotation_R0_1 = total_8 + rotation_R0_2 * sum31 + rotation_R0_3 * sum32
+        product_7 = 2.0 * by_rotation_R0_1
+        total_9 = W5_0 * sum16 + W5_1 * sum20 + W5_2 * sum24 + rotation_R5_0 * sum28 + rotation_R5_1 * sum31
+        product_8 = 2.0 * sum33
+        by_rotation_R5_2 = total_9 + rotation_R5_2 * product_8 + rotation_R5_3 * sum34
+        product_9 = 2.0 * by_rotation_R5_2
+        total_10 = W4_0 * sum16 + W4_1 * sum20 + W4_2 * sum24 + rotation_R4_0 * sum28 + rotation_R4_1 * sum31
+        by_rotation_R4_2 = total_10 + rotation_R4_2 * product_8 + rotation_R4_3 * sum34
+        product_10 = 2.0 * by_rotation_R4_2
+        total_11 = W3_0 * sum16 + W3_1 * sum20 + W3_2 * sum24 + rotation_R3_0 * sum28 + rotation_R3_1 * sum31
+        by_rotation_R3_2 = total_11 + rotation_R3_2 * product_8 + rotation_R3_3 * sum34
+        product_11 = 2.0 * by_rotation_R3_2
+        total_12 = total_7 + W0_3 * product_7 + W5_4 * product_9 + W4_4 * product_10 + W3_4 * product_11
+        total_13 = W2_0 * sum16 + W2_1 * sum20 + W2_2 * sum24 + rotation_R2_0 * sum28 + rotation_R2_1 * sum31
+        by_rotation_R2_2 = total_13 + rotation_R2_2 * product_8 + rotation_R2_3 * sum34
+        product_12 = 2.0 * by_rotation_R2_2
+        total_14 = W1_0 * sum16 + W1_1 * sum20 + W1_2 * sum24 + rotation_R1_0 * sum28 + rotation_R1_1 * sum31
+        by_rotation_R1_2 = total_14 + rotation_R1_2 * product_8 + rotation_R1_3 * sum34
+        product_13 = 2.0 * by_rotation_R1_2
+        total_15 = W0_0 * sum16 + W0_1 * sum20 + W0_2 * sum24 + rotation_R0_0 * sum28 + rotation_R0_1 * sum31
+        by_rotation_R0_2 = total_15 + rotation_R0_2 * product_8 + rotation_R0_3 * sum34
+        product_14 = 2.0 * by_rotation_R0_2
+        total_16 = W5_0 * sum17 + W5_1 * sum21 + W5_2 * sum25 + rotation_R5_0 * sum29 + rotation_R5_1 * sum32
+        product_15 = 2.0 * sum35
+        by_rotation_R5_3 = total_16 + rotation_R5_2 * sum34 + rotation_R5_3 * product_15
+        product_16 = 2.0 * by_rotation_R5_3
+        total_17 = total_12 + W2_4 * product_12 + W1_4 * product_13 + W0_4 * product_14 + W5_5 * product_16
+        total_18 = W4_0 * sum17 + W4_1 * sum21 + W4_2 * sum25 + rotation_R4_0 * sum29 + rotation_R4_1 * sum32
+        by_rotation_R4_3 = total_18 + rotation_R4_2 * sum34 + rotation_R4_3 * product_15
+        product_17 = 2.0 * by_rotation_R4_3
+        total_19 = W3_0 * sum17 + W3_1 * sum21 + W3_2 * sum25 + rotation_R3_0 * sum29 + rotation_R3_1 * sum32
+        by_rotation_R3_3 = total_19 + rotation_R3_2 * sum34 + rotation_R3_3 * product_15
+        product_18 = 2.0 * by_rotation_R3_3
+        total_20 = W2_0 * sum17 + W2_1 * sum21 + W2_2 * sum25 + rotation_R2_0 * sum29 + rotation_R2_1 * sum32
+        by_rotation_R2_3 = total_20 + rotation_R2_2 * sum34 + rotation_R2_3 * product_15
+        product_19 = 2.0 * by_rotation_R2_3
+        total_21 = W1_0 * sum17 + W1_1 * sum21 + W1_2 * sum25 + rotation_R1_0 * sum29 + rotation_R1_1 * sum32
+        by_rotation_R1_3 = total_21 + rotation_R1_2 * sum34 + rotation_R1_3 * product_15
+        product_20 = 2.0 * by_rotation_R1_3
+        total_22 = total_17 + W4_5 * product_17 + W3_5 * product_18 + W2_5 * product_19 + W1_5 * product_20
+        total_23 = W0_0 * sum17 + W0_1 * sum21 + W0_2 * sum25 + rotation_R0_0 * sum29 + rotation_R0_1 * sum32
+        by_rotation_R0_3 = total_23 + rotation_R0_2 * sum34 + rotation_R0_3 * product_15
+        product_21 = 2.0 * by_rotation_R0_3
+        by_rotation_M0 = total_22 + W0_5 * product_21
+        product_22 = 2.0 * sum26
+        total_24 = W5_0 * sum14 + W5_1 * sum18 + W5_2 * sum22 + rotation_R5_0 * product_22 + rotation_R5_1 * sum27
+        by_rotation_R5_0 = total_24 + rotation_R5_2 * sum28 + rotation_R5_3 * sum29
+        product_23 = 2.0 * by_rotation_R5_0
+        total_25 = W4_0 * sum14 + W4_1 * sum18 + W4_2 * sum22 + rotation_R4_0 * product_22 + rotation_R4_1 * sum27
+        by_rotation_R4_0 = total_25 + rotation_R4_2 * sum28 + rotation_R4_3 * sum29
+        product_24 = 2.0 * by_rotation_R4_0
+        total_26 = W3_0 * sum14 + W3_1 * sum18 + W3_2 * sum22 + rotation_R3_0 * product_22 + rotation_R3_1 * sum27
+        by_rotation_R3_0 = total_26 + rotation_R3_2 * sum28 + rotation_R3_3 * sum29
+        product_25 = 2.0 * by_rotation_R3_0
+        total_27 = W2_0 * sum14 + W2_1 * sum18 + W2_2 * sum22 + rotation_R2_0 * product_22 + rotation_R2_1 * sum27
+        by_rotation_R2_0 = total_27 + rotation_R2_2 * sum28 + rotation_R2_3 * sum29
+        product_26 = 2.0 * by_rotation_R2_0
+        gap = -(W5_3 * product_23) - W4_3 * product_24 - W3_3 * product_25 - W2_3 * product_26
+        total_28 = W1_0 * sum14 + W1_1 * sum18 + W1_2 * sum22 + rotation_R1_0 * product_22 + rotation_R1_1 * sum27
+        by_rotation_R1_0 = total_28 + rotation_R1_2 * sum28 + rotation_R1_3 * sum29
+        product_27 = 2.0 * by_rotation_R1_0
+        total_29 = W0_0 * sum14 + W0_1 * sum18 + W0_2 * sum22 + rotation_R0_0 * product_22 + rotation_R0_1 * sum27
+        by_rotation_R0_0 = total_29 + rotation_R0_2 * sum28 + rotation_R0_3 * sum29
+        product_28 = 2.0 * by_rotation_R0_0
+        gap_2 = gap - W1_3 * product_27 - W0_3 * product_28 - W5_5 * product_9 - W4_5 * product_10
+        gap_3 = gap_2 - W3_5 * product_11 - W2_5 * product_12 - W1_5 * product_13 - W0_5 * product_14
+        total_30 = gap_3 + W5_4 * product_16 + W4_4 * product_17 + W3_4 * product_18 + W2_4 * product_19
+        by_rotation_M1 = total_30 + W1_4 * product_20 + W0_4 * product_21
+        gap_4 = -(W5_4 * product_23) - W4_4 * product_24 - W3_4 * product_25 - W2_4 * product_26
+        total_31 = gap_4 - W1_4 * product_27 - W0_4 * product_28 + W5_5 * product_2 + W4_5 * product_3
+        total_32 = total_31 + W3_5 * product_4 + W2_5 * product_5 + W1_5 * product_6 + W0_5 * product_7
+        gap_5 = total_32 - W5_3 * product_16 - W4_3 * product_17 - W3_3 * product_18 - W2_3 * product_19
+        by_rotation_M2 = gap_5 - W1_3 * product_20 - W0_3 * product_21
+        gap_6 = -(W5_5 * product_23) - W4_5 * product_24 - W3_5 * product_25 - W2_5 * product_26
+        gap_7 = gap_6 - W1_5 * product_27 - W0_5 * product_28 - W5_4 * product_2 - W4_4 * product_3
+        gap_8 = gap_7 - W3_4 * product_4 - W2_4 * product_5 - W1_4 * product_6 - W0_4 * product_7
+        total_33 = gap_8 + W5_3 * product_9 + W4_3 * product_10 + W3_3 * product_11 + W2_3 * product_12
+        by_rotation_M3 = total_33 + W1_3 * product_13 + W0_3 * product_14
+        product_29 = 2.0 * sum8
+        total_34 = W0_0 * product_29 + W0_1 * sum9 + W0_2 * sum10 + rotation_R0_0 * sum14 + rotation_R0_1 * sum15
+        product_30 = 2.0 * sum11
+        total_35 = W0_0 * sum9 + W0_1 * product_30 + W0_2 * sum12 + rotation_R0_0 * sum18 + rotation_R0_1 * sum19
+        product_31 = 2.0 * sum13
+        total_36 = W0_0 * sum10 + W0_1 * sum12 + W0_2 * product_31 + rotation_R0_0 * sum22 + rotation_R0_1 * sum23
+        product_32 = (
+            amplitude * (rotation_M0 * product_7 - rotation_M1 * product_28 + rotation_M3 * product_14 - rotation_M2 *
+            product_21)
         )
-        total_10 = (
-            -(rotation_M2 * product_20) - rotation_M3 * product_4 + rotation_M0 * product_5 + rotation_M1 * product_6
+        total_37 = (
+            -(rotation_M2 * product_28) - rotation_M3 * product_7 + rotation_M0 * product_14 + rotation_M1 * product_21
         )
-        total_11 = (
-            -(rotation_M2 * product_21) - rotation_M3 * product_7 + rotation_M0 * product_8 + rotation_M1 * product_9
+        product_33 = (
+            amplitude * (rotation_M2 * product_7 - rotation_M3 * product_28 - rotation_M1 * product_14 + rotation_M0 *
+            product_21)
         )
-        total_12 = (
-            -(rotation_M2 * product_22) - rotation_M3 * product_10 + rotation_M0 * product_11 + rotation_M1 * product_12
+        total_38 = W1_0 * product_29 + W1_1 * sum9 + W1_2 * sum10 + rotation_R1_0 * sum14 + rotation_R1_1 * sum15
+        total_39 = W1_0 * sum9 + W1_1 * product_30 + W1_2 * sum12 + rotation_R1_0 * sum18 + rotation_R1_1 * sum19
+        total_40 = W1_0 * sum10 + W1_1 * sum12 + W1_2 * product_31 + rotation_R1_0 * sum22 + rotation_R1_1 * sum23
+        product_34 = (
+            amplitude * (rotation_M0 * product_6 - rotation_M1 * product_27 + rotation_M3 * product_13 - rotation_M2 *
+            product_20)
         )
-        total_13 = (
-            -(rotation_M2 * product_23) - rotation_M3 * product_13 + rotation_M0 * product_14 + rotation_M1 * product_15
+        total_41 = (
+            -(rotation_M2 * product_27) - rotation_M3 * product_6 + rotation_M0 * product_13 + rotation_M1 * product_20
         )
-        total_14 = (
-            -(rotation_M2 * product_24) - rotation_M3 * product_16 + rotation_M0 * product_17 + rotation_M1 * product_18
+        product_35 = (
+            amplitude * (rotation_M2 * product_6 - rotation_M3 * product_27 - rotation_M1 * product_13 + rotation_M0 *
+            product_20)
+        )
+        total_42 = W2_0 * product_29 + W2_1 * sum9 + W2_2 * sum10 + rotation_R2_0 * sum14 + rotation_R2_1 * sum15
+        total_43 = W2_0 * sum9 + W2_1 * product_30 + W2_2 * sum12 + rotation_R2_0 * sum18 + rotation_R2_1 * sum19
+        total_44 = W2_0 * sum10 + W2_1 * sum12 + W2_2 * product_31 + rotation_R2_0 * sum22 + rotation_R2_1 * sum23
+        product_36 = (
+            amplitude * (rotation_M0 * product_5 - rotation_M1 * product_26 + rotation_M3 * product_12 - rotation_M2 *
+            product_19)
+        )
+        total_45 = (
+            -(rotation_M2 * product_26) - rotation_M3 * product_5 + rotation_M0 * product_12 + rotation_M1 * product_19
+        )
+        product_37 = (
+            amplitude * (rotation_M2 * product_5 - rotation_M3 * product_26 - rotation_M1 * product_12 + rotation_M0 *
+            product_19)
+        )
+        total_46 = W3_0 * product_29 + W3_1 * sum9 + W3_2 * sum10 + rotation_R3_0 * sum14 + rotation_R3_1 * sum15
+        total_47 = W3_0 * sum9 + W3_1 * product_30 + W3_2 * sum12 + rotation_R3_0 * sum18 + rotation_R3_1 * sum19
+        total_48 = W3_0 * sum10 + W3_1 * sum12 + W3_2 * product_31 + rotation_R3_0 * sum22 + rotation_R3_1 * sum23
+        product_38 = (
+            amplitude * (rotation_M0 * product_4 - rotation_M1 * product_25 + rotation_M3 * product_11 - rotation_M2 *
+            product_18)
+        )
+        total_49 = (
+            -(rotation_M2 * product_25) - rotation_M3 * product_4 + rotation_M0 * product_11 + rotation_M1 * product_18
+        )
+        product_39 = (
+            amplitude * (rotation_M2 * product_4 - rotation_M3 * product_25 - rotation_M1 * product_11 + rotation_M0 *
+            product_18)
+        )
+        total_50 = W4_0 * product_29 + W4_1 * sum9 + W4_2 * sum10 + rotation_R4_0 * sum14 + rotation_R4_1 * sum15
+        total_51 = W4_0 * sum9 + W4_1 * product_30 + W4_2 * sum12 + rotation_R4_0 * sum18 + rotation_R4_1 * sum19
+        total_52 = W4_0 * sum10 + W4_1 * sum12 + W4_2 * product_31 + rotation_R4_0 * sum22 + rotation_R4_1 * sum23
+        product_40 = (
+            amplitude * (rotation_M0 * product_3 - rotation_M1 * product_24 + rotation_M3 * product_10 - rotation_M2 *
+            product_17)
+        )
+        total_53 = (
+            -(rotation_M2 * product_24) - rotation_M3 * product_3 + rotation_M0 * product_10 + rotation_M1 * product_17
+        )
+        product_41 = (
+            amplitude * (rotation_M2 * product_3 - rotation_M3 * product_24 - rotation_M1 * product_10 + rotation_M0 *
+            product_17)
+        )
+        total_54 = W5_0 * product_29 + W5_1 * sum9 + W5_2 * sum10 + rotation_R5_0 * sum14 + rotation_R5_1 * sum15
+        total_55 = W5_0 * sum9 + W5_1 * product_30 + W5_2 * sum12 + rotation_R5_0 * sum18 + rotation_R5_1 * sum19
+        total_56 = W5_0 * sum10 + W5_1 * sum12 + W5_2 * product_31 + rotation_R5_0 * sum22 + rotation_R5_1 * sum23
+        product_42 = (
+            amplitude * (rotation_M0 * product_2 - rotation_M1 * product_23 + rotation_M3 * product_9 - rotation_M2 *
+            product_16)
+        )
+        total_57 = (
+            -(rotation_M2 * product_23) - rotation_M3 * product_2 + rotation_M0 * product_9 + rotation_M1 * product_16
+        )
+        product_43 = (
+            amplitude * (rotation_M2 * product_2 - rotation_M3 * product_23 - rotation_M1 * product_9 + rotation_M0 *
+            product_16)
         )
         mu_bar = _stack((
-            mu0_bar,
-            mu1_bar,
-            mu2_bar,
-            2.0 * by_rotation_M0,
-            2.0 * by_rotation_M1,
-            2.0 * by_rotation_M2,
-            2.0 * by_rotation_M3,
+            amplitude * sum0,
+            amplitude * sum1,
+            amplitude * sum2,
+            amplitude * (sum3 + 2.0 * by_rotation_M0),
+            amplitude * (sum4 + 2.0 * by_rotation_M1),
+            amplitude * (sum5 + 2.0 * by_rotation_M2),
+            amplitude * (sum6 + 2.0 * by_rotation_M3),
         ))
         W_bar = _stack((
-            W0_0_bar,
-            W0_1_bar,
-            W0_2_bar,
-            rotation_M0 * product - rotation_M1 * product_19 + rotation_M3 * product_2 - rotation_M2 * product_3,
-            total_9,
-            rotation_M2 * product - rotation_M3 * product_19 - rotation_M1 * product_2 + rotation_M0 * product_3,
-            W1_0_bar,
-            W1_1_bar,
-            W1_2_bar,
-            rotation_M0 * product_4 - rotation_M1 * product_20 + rotation_M3 * product_5 - rotation_M2 * product_6,
-            total_10,
-            rotation_M2 * product_4 - rotation_M3 * product_20 - rotation_M1 * product_5 + rotation_M0 * product_6,
-            W2_0_bar,
-            W2_1_bar,
-            W2_2_bar,
-            rotation_M0 * product_7 - rotation_M1 * product_21 + rotation_M3 * product_8 - rotation_M2 * product_9,
-            total_11,
-            rotation_M2 * product_7 - rotation_M3 * product_21 - rotation_M1 * product_8 + rotation_M0 * product_9,
-            W3_0_bar,
-            W3_1_bar,
-            W3_2_bar,
-            rotation_M0 * product_10 - rotation_M1 * product_22 + rotation_M3 * product_11 - rotation_M2 * product_12,
-            total_12,
-            rotation_M2 * product_10 - rotation_M3 * product_22 - rotation_M1 * product_11 + rotation_M0 * product_12,
-            W4_0_bar,
-            W4_1_bar,
-            W4_2_bar,
-            rotation_M0 * product_13 - rotation_M1 * product_23 + rotation_M3 * product_14 - rotation_M2 * product_15,
-            total_13,
-            rotation_M2 * product_13 - rotation_M3 * product_23 - rotation_M1 * product_14 + rotation_M0 * product_15,
-            W5_0_bar,
-            W5_1_bar,
-            W5_2_bar,
-            rotation_M0 * product_16 - rotation_M1 * product_24 + rotation_M3 * product_17 - rotation_M2 * product_18,
-            total_14,
-            rotation_M2 * product_16 - rotation_M3 * product_24 - rotation_M1 * product_17 + rotation_M0 * product_18,
+            amplitude * (total_34 + rotation_R0_2 * sum16 + rotation_R0_3 * sum17),
+            amplitude * (total_35 + rotation_R0_2 * sum20 + rotation_R0_3 * sum21),
+            amplitude * (total_36 + rotation_R0_2 * sum24 + rotation_R0_3 * sum25),
+            product_32,
+            amplitude * total_37,
+            product_33,
+            amplitude * (total_38 + rotation_R1_2 * sum16 + rotation_R1_3 * sum17),
+            amplitude * (total_39 + rotation_R1_2 * sum20 + rotation_R1_3 * sum21),
+            amplitude * (total_40 + rotation_R1_2 * sum24 + rotation_R1_3 * sum25),
+            product_34,
+            amplitude * total_41,
+            product_35,
+            amplitude * (total_42 + rotation_R2_2 * sum16 + rotation_R2_3 * sum17),
+            amplitude * (total_43 + rotation_R2_2 * sum20 + rotation_R2_3 * sum21),
+            amplitude * (total_44 + rotation_R2_2 * sum24 + rotation_R2_3 * sum25),
+            product_36,
+            amplitude * total_45,
+            product_37,
+            amplitude * (total_46 + rotation_R3_2 * sum16 + rotation_R3_3 * sum17),
+            amplitude * (total_47 + rotation_R3_2 * sum20 + rotation_R3_3 * sum21),
+            amplitude * (total_48 + rotation_R3_2 * sum24 + rotation_R3_3 * sum25),
+            product_38,
+            amplitude * total_49,
+            product_39,
+            amplitude * (total_50 + rotation_R4_2 * sum16 + rotation_R4_3 * sum17),
+            amplitude * (total_51 + rotation_R4_2 * sum20 + rotation_R4_3 * sum21),
+            amplitude * (total_52 + rotation_R4_2 * sum24 + rotation_R4_3 * sum25),
+            product_40,
+            amplitude * total_53,
+            product_41,
+            amplitude * (total_54 + rotation_R5_2 * sum16 + rotation_R5_3 * sum17),
+            amplitude * (total_55 + rotation_R5_2 * sum20 + rotation_R5_3 * sum21),
+            amplitude * (total_56 + rotation_R5_2 * sum24 + rotation_R5_3 * sum25),
+            product_42,
+            amplitude * total_57,
+            product_43,
         ))
-        return mu_bar, W_bar.unflatten(-1, (6, 6)), amplitude_bar
+        return mu_bar, W_bar.unflatten(-1, (6, 6)), sum7
 
 
 manifold = Se3()

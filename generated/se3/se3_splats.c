@@ -81,6 +81,8 @@ INLINE uint64_t flush_denormals(void) { return 0; }
 INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
 
+#if !defined(RSRM_ONLY_FLOAT) /* double */
+
 /* The same number in all lanes. */
 INLINE vector vector_of(double x) {
     const vector zero = ZERO;
@@ -122,35 +124,34 @@ INLINE vector vector_from_bits(vector_bits bits) {
 }
 
 /* x >= 0 with the sign of another. */
-INLINE vector vector_signed(vector x, vector sign) {
+INLINE vector signed_each(vector x, vector sign) {
     return vector_from_bits(vector_to_bits(x) | (vector_to_bits(sign) & 0x8000000000000000));
 }
 
 /* abs of every lane; one instruction where the machine has it. */
-INLINE vector vector_abs(vector x) {
+INLINE vector abs_each(vector x) {
     for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
     return x;
 }
 
 /* sqrt of every lane; one instruction where the machine has it. */
-INLINE vector vector_sqrt(vector x) {
+INLINE vector sqrt_each(vector x) {
     for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
     return x;
 }
 
-/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
-INLINE vector vector_exp(vector x) {
-    const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
-    const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
-    const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
-    const vector scale = vector_from_bits((vector_to_bits(shifted) + 1022) << 52); /* 2^(k - 1) */
-    const vector y = vector_select(x > 709.782712893384, vector_of(HUGE_VAL), (scale + scale * part) * 2);
-    return vector_select(x < -707.9, vector_of(0), y);
+/* exp(-s / 2) of s >= 0, as 2^k exp(-r / 2), |r| <= log(2), within 1 unit in the last place; below 3.8e-308 it is 0. */
+INLINE vector gaussian_each(vector s) {
+    const vector shifted = s * -0.7213475204444817 + 6755399441056767.0, k = shifted - 6755399441056767.0;
+    const vector r = (s + k * 1.3862943611202354) + k * -3.447888905122967e-13;
+    const vector part = r * (-0.5 + r * (0.12500000000000003 + r * (-0.020833333333333336 + r * (0.0026041666666640085 + r * (-0.0002604166666665645 + r * (2.170138893314011e-05 + r * (-1.5500992080508208e-06 + r * (9.688094258687923e-08 + r * (-5.382278997037427e-09 + r * (2.697273970216642e-10 + r * -1.2256046482356944e-11))))))))));
+    const vector scale = vector_from_bits(vector_to_bits(shifted) << 52); /* 2^k */
+    return vector_select(s > 1415.8, vector_of(0), scale + scale * part);
 }
 
 /* atan2, within 3 units in the last place. */
-INLINE vector vector_atan2(vector y, vector x) {
-    const vector a = vector_abs(y), b = vector_abs(x), one = vector_of(1);
+INLINE vector atan2_each(vector y, vector x) {
+    const vector a = abs_each(y), b = abs_each(x), one = vector_of(1);
     const vector less = vector_select(a > b, b, a), more = vector_select(a > b, a, b);
     const vector low = vector_select(less > 1.7976931348623157e308, one, less);
     const vector high = vector_select(less > 1.7976931348623157e308, one, vector_select(more == 0, one, more));
@@ -161,7 +162,7 @@ INLINE vector vector_atan2(vector y, vector x) {
     const vector first = vector_select(low > 0.4142135623730951 * high, 0.7853981633974483 + (angle + 3.061616997868383e-17), angle);
     const vector second = vector_select(a > b, 1.5707963267948966 - (first - 6.123233995736766e-17), first);
     const vector third = vector_select((vector_to_bits(x) & 0x8000000000000000) != 0, 3.141592653589793 - (second - 1.2246467991473532e-16), second);
-    return vector_signed(third, y);
+    return signed_each(third, y);
 }
 
 /* Of degree 22 on [0, 1], its relative error below 2^-56. */
@@ -207,10 +208,14 @@ OUTLINE void pair_features(
     X[0] = x0;
     X[1] = x1;
     X[2] = x2;
-    X[3] = rotation_h0;
-    X[4] = rotation_h1;
-    X[5] = rotation_h2;
-    X[6] = rotation_h3;
+    X[3] = x3;
+    X[4] = x4;
+    X[5] = x5;
+    X[6] = x6;
+    X[7] = rotation_h0;
+    X[8] = rotation_h1;
+    X[9] = rotation_h2;
+    X[10] = rotation_h3;
 }
 
 /* What pairs read of a splat, of some splats. */
@@ -260,11 +265,23 @@ OUTLINE void pair_constants(
     const vector W5_4 = W[34];
     const vector W5_5 = W[35];
     const vector its_amplitude = amplitude[0];
-    const vector rotation_M0 = 2.0 * mu3;
-    const vector rotation_M1 = 2.0 * mu4;
-    const vector rotation_M2 = 2.0 * mu5;
+    const vector total_2 = W0_0 * W0_0 + W1_0 * W1_0 + W2_0 * W2_0 + W3_0 * W3_0 + W4_0 * W4_0;
+    const vector M0_0 = total_2 + W5_0 * W5_0;
+    const vector total_3 = W0_0 * W0_1 + W1_0 * W1_1 + W2_0 * W2_1 + W3_0 * W3_1 + W4_0 * W4_1;
+    const vector M0_1 = total_3 + W5_0 * W5_1;
+    const vector total_4 = W0_0 * W0_2 + W1_0 * W1_2 + W2_0 * W2_2 + W3_0 * W3_2 + W4_0 * W4_2;
+    const vector M0_2 = total_4 + W5_0 * W5_2;
+    const vector total_5 = W0_1 * W0_1 + W1_1 * W1_1 + W2_1 * W2_1 + W3_1 * W3_1 + W4_1 * W4_1;
+    const vector M1_1 = total_5 + W5_1 * W5_1;
+    const vector total_6 = W0_1 * W0_2 + W1_1 * W1_2 + W2_1 * W2_2 + W3_1 * W3_2 + W4_1 * W4_2;
+    const vector M1_2 = total_6 + W5_1 * W5_2;
+    const vector total_7 = W0_2 * W0_2 + W1_2 * W1_2 + W2_2 * W2_2 + W3_2 * W3_2 + W4_2 * W4_2;
+    const vector M2_2 = total_7 + W5_2 * W5_2;
     const vector rotation_M3 = 2.0 * mu6;
+    const vector rotation_M2 = 2.0 * mu5;
+    const vector rotation_M1 = 2.0 * mu4;
     const vector rotation_R0_0 = 2.0 * (-(W0_5 * rotation_M3) - W0_4 * rotation_M2 - W0_3 * rotation_M1);
+    const vector rotation_M0 = 2.0 * mu3;
     const vector rotation_R0_1 = 2.0 * (W0_5 * rotation_M2 - W0_4 * rotation_M3 + W0_3 * rotation_M0);
     const vector rotation_R0_2 = 2.0 * (W0_4 * rotation_M0 - W0_5 * rotation_M1 + W0_3 * rotation_M3);
     const vector rotation_R0_3 = 2.0 * (W0_5 * rotation_M0 + W0_4 * rotation_M1 - W0_3 * rotation_M2);
@@ -288,56 +305,150 @@ OUTLINE void pair_constants(
     const vector rotation_R5_1 = 2.0 * (W5_5 * rotation_M2 - W5_4 * rotation_M3 + W5_3 * rotation_M0);
     const vector rotation_R5_2 = 2.0 * (W5_4 * rotation_M0 - W5_5 * rotation_M1 + W5_3 * rotation_M3);
     const vector rotation_R5_3 = 2.0 * (W5_5 * rotation_M0 + W5_4 * rotation_M1 - W5_3 * rotation_M2);
+    const vector total_8 = W0_0 * rotation_R0_0 + W1_0 * rotation_R1_0 + W2_0 * rotation_R2_0 + W3_0 *
+        rotation_R3_0 + W4_0 * rotation_R4_0;
+    const vector M0_3 = total_8 + W5_0 * rotation_R5_0;
+    const vector total_9 = W0_0 * rotation_R0_1 + W1_0 * rotation_R1_1 + W2_0 * rotation_R2_1 + W3_0 *
+        rotation_R3_1 + W4_0 * rotation_R4_1;
+    const vector M0_4 = total_9 + W5_0 * rotation_R5_1;
+    const vector total_10 = W0_0 * rotation_R0_2 + W1_0 * rotation_R1_2 + W2_0 * rotation_R2_2 + W3_0 *
+        rotation_R3_2 + W4_0 * rotation_R4_2;
+    const vector M0_5 = total_10 + W5_0 * rotation_R5_2;
+    const vector total_11 = W0_0 * rotation_R0_3 + W1_0 * rotation_R1_3 + W2_0 * rotation_R2_3 + W3_0 *
+        rotation_R3_3 + W4_0 * rotation_R4_3;
+    const vector M0_6 = total_11 + W5_0 * rotation_R5_3;
+    const vector total_12 = W0_1 * rotation_R0_0 + W1_1 * rotation_R1_0 + W2_1 * rotation_R2_0 + W3_1 *
+        rotation_R3_0 + W4_1 * rotation_R4_0;
+    const vector M1_3 = total_12 + W5_1 * rotation_R5_0;
+    const vector total_13 = W0_1 * rotation_R0_1 + W1_1 * rotation_R1_1 + W2_1 * rotation_R2_1 + W3_1 *
+        rotation_R3_1 + W4_1 * rotation_R4_1;
+    const vector M1_4 = total_13 + W5_1 * rotation_R5_1;
+    const vector total_14 = W0_1 * rotation_R0_2 + W1_1 * rotation_R1_2 + W2_1 * rotation_R2_2 + W3_1 *
+        rotation_R3_2 + W4_1 * rotation_R4_2;
+    const vector M1_5 = total_14 + W5_1 * rotation_R5_2;
+    const vector total_15 = W0_1 * rotation_R0_3 + W1_1 * rotation_R1_3 + W2_1 * rotation_R2_3 + W3_1 *
+        rotation_R3_3 + W4_1 * rotation_R4_3;
+    const vector M1_6 = total_15 + W5_1 * rotation_R5_3;
+    const vector total_16 = W0_2 * rotation_R0_0 + W1_2 * rotation_R1_0 + W2_2 * rotation_R2_0 + W3_2 *
+        rotation_R3_0 + W4_2 * rotation_R4_0;
+    const vector M2_3 = total_16 + W5_2 * rotation_R5_0;
+    const vector total_17 = W0_2 * rotation_R0_1 + W1_2 * rotation_R1_1 + W2_2 * rotation_R2_1 + W3_2 *
+        rotation_R3_1 + W4_2 * rotation_R4_1;
+    const vector M2_4 = total_17 + W5_2 * rotation_R5_1;
+    const vector total_18 = W0_2 * rotation_R0_2 + W1_2 * rotation_R1_2 + W2_2 * rotation_R2_2 + W3_2 *
+        rotation_R3_2 + W4_2 * rotation_R4_2;
+    const vector M2_5 = total_18 + W5_2 * rotation_R5_2;
+    const vector total_19 = W0_2 * rotation_R0_3 + W1_2 * rotation_R1_3 + W2_2 * rotation_R2_3 + W3_2 *
+        rotation_R3_3 + W4_2 * rotation_R4_3;
+    const vector M2_6 = total_19 + W5_2 * rotation_R5_3;
+    const vector total_20 = rotation_R0_0 * rotation_R0_0 + rotation_R1_0 * rotation_R1_0 + rotation_R2_0 *
+        rotation_R2_0 + rotation_R3_0 * rotation_R3_0 + rotation_R4_0 * rotation_R4_0;
+    const vector M3_3 = total_20 + rotation_R5_0 * rotation_R5_0;
+    const vector total_21 = rotation_R0_0 * rotation_R0_1 + rotation_R1_0 * rotation_R1_1 + rotation_R2_0 *
+        rotation_R2_1 + rotation_R3_0 * rotation_R3_1 + rotation_R4_0 * rotation_R4_1;
+    const vector M3_4 = total_21 + rotation_R5_0 * rotation_R5_1;
+    const vector total_22 = rotation_R0_0 * rotation_R0_2 + rotation_R1_0 * rotation_R1_2 + rotation_R2_0 *
+        rotation_R2_2 + rotation_R3_0 * rotation_R3_2 + rotation_R4_0 * rotation_R4_2;
+    const vector M3_5 = total_22 + rotation_R5_0 * rotation_R5_2;
+    const vector total_23 = rotation_R0_0 * rotation_R0_3 + rotation_R1_0 * rotation_R1_3 + rotation_R2_0 *
+        rotation_R2_3 + rotation_R3_0 * rotation_R3_3 + rotation_R4_0 * rotation_R4_3;
+    const vector M3_6 = total_23 + rotation_R5_0 * rotation_R5_3;
+    const vector total_24 = rotation_R0_1 * rotation_R0_1 + rotation_R1_1 * rotation_R1_1 + rotation_R2_1 *
+        rotation_R2_1 + rotation_R3_1 * rotation_R3_1 + rotation_R4_1 * rotation_R4_1;
+    const vector M4_4 = total_24 + rotation_R5_1 * rotation_R5_1;
+    const vector total_25 = rotation_R0_1 * rotation_R0_2 + rotation_R1_1 * rotation_R1_2 + rotation_R2_1 *
+        rotation_R2_2 + rotation_R3_1 * rotation_R3_2 + rotation_R4_1 * rotation_R4_2;
+    const vector M4_5 = total_25 + rotation_R5_1 * rotation_R5_2;
+    const vector total_26 = rotation_R0_1 * rotation_R0_3 + rotation_R1_1 * rotation_R1_3 + rotation_R2_1 *
+        rotation_R2_3 + rotation_R3_1 * rotation_R3_3 + rotation_R4_1 * rotation_R4_3;
+    const vector M4_6 = total_26 + rotation_R5_1 * rotation_R5_3;
+    const vector total_27 = rotation_R0_2 * rotation_R0_2 + rotation_R1_2 * rotation_R1_2 + rotation_R2_2 *
+        rotation_R2_2 + rotation_R3_2 * rotation_R3_2 + rotation_R4_2 * rotation_R4_2;
+    const vector M5_5 = total_27 + rotation_R5_2 * rotation_R5_2;
+    const vector total_28 = rotation_R0_2 * rotation_R0_3 + rotation_R1_2 * rotation_R1_3 + rotation_R2_2 *
+        rotation_R2_3 + rotation_R3_2 * rotation_R3_3 + rotation_R4_2 * rotation_R4_3;
+    const vector M5_6 = total_28 + rotation_R5_2 * rotation_R5_3;
+    const vector total_29 = rotation_R0_3 * rotation_R0_3 + rotation_R1_3 * rotation_R1_3 + rotation_R2_3 *
+        rotation_R2_3 + rotation_R3_3 * rotation_R3_3 + rotation_R4_3 * rotation_R4_3;
+    const vector M6_6 = total_29 + rotation_R5_3 * rotation_R5_3;
     S[0] = mu0;
     S[1] = mu1;
     S[2] = mu2;
-    S[3] = W0_0;
-    S[4] = W0_1;
-    S[5] = W0_2;
-    S[6] = W1_0;
-    S[7] = W1_1;
-    S[8] = W1_2;
-    S[9] = W2_0;
-    S[10] = W2_1;
-    S[11] = W2_2;
-    S[12] = W3_0;
-    S[13] = W3_1;
-    S[14] = W3_2;
-    S[15] = W4_0;
-    S[16] = W4_1;
-    S[17] = W4_2;
-    S[18] = W5_0;
-    S[19] = W5_1;
-    S[20] = W5_2;
-    S[21] = its_amplitude;
-    S[22] = rotation_M0;
-    S[23] = rotation_M1;
-    S[24] = rotation_M2;
-    S[25] = rotation_M3;
-    S[26] = rotation_R0_0;
-    S[27] = rotation_R0_1;
-    S[28] = rotation_R0_2;
-    S[29] = rotation_R0_3;
-    S[30] = rotation_R1_0;
-    S[31] = rotation_R1_1;
-    S[32] = rotation_R1_2;
-    S[33] = rotation_R1_3;
-    S[34] = rotation_R2_0;
-    S[35] = rotation_R2_1;
-    S[36] = rotation_R2_2;
-    S[37] = rotation_R2_3;
-    S[38] = rotation_R3_0;
-    S[39] = rotation_R3_1;
-    S[40] = rotation_R3_2;
-    S[41] = rotation_R3_3;
-    S[42] = rotation_R4_0;
-    S[43] = rotation_R4_1;
-    S[44] = rotation_R4_2;
-    S[45] = rotation_R4_3;
-    S[46] = rotation_R5_0;
-    S[47] = rotation_R5_1;
-    S[48] = rotation_R5_2;
-    S[49] = rotation_R5_3;
+    S[3] = mu3;
+    S[4] = mu4;
+    S[5] = mu5;
+    S[6] = mu6;
+    S[7] = W0_0;
+    S[8] = W0_1;
+    S[9] = W0_2;
+    S[10] = W1_0;
+    S[11] = W1_1;
+    S[12] = W1_2;
+    S[13] = W2_0;
+    S[14] = W2_1;
+    S[15] = W2_2;
+    S[16] = W3_0;
+    S[17] = W3_1;
+    S[18] = W3_2;
+    S[19] = W4_0;
+    S[20] = W4_1;
+    S[21] = W4_2;
+    S[22] = W5_0;
+    S[23] = W5_1;
+    S[24] = W5_2;
+    S[25] = its_amplitude;
+    S[26] = M0_0;
+    S[27] = M0_1;
+    S[28] = M0_2;
+    S[29] = M1_1;
+    S[30] = M1_2;
+    S[31] = M2_2;
+    S[32] = rotation_R0_0;
+    S[33] = rotation_R0_1;
+    S[34] = rotation_R0_2;
+    S[35] = rotation_R0_3;
+    S[36] = rotation_R1_0;
+    S[37] = rotation_R1_1;
+    S[38] = rotation_R1_2;
+    S[39] = rotation_R1_3;
+    S[40] = rotation_R2_0;
+    S[41] = rotation_R2_1;
+    S[42] = rotation_R2_2;
+    S[43] = rotation_R2_3;
+    S[44] = rotation_R3_0;
+    S[45] = rotation_R3_1;
+    S[46] = rotation_R3_2;
+    S[47] = rotation_R3_3;
+    S[48] = rotation_R4_0;
+    S[49] = rotation_R4_1;
+    S[50] = rotation_R4_2;
+    S[51] = rotation_R4_3;
+    S[52] = rotation_R5_0;
+    S[53] = rotation_R5_1;
+    S[54] = rotation_R5_2;
+    S[55] = rotation_R5_3;
+    S[56] = M0_3;
+    S[57] = M0_4;
+    S[58] = M0_5;
+    S[59] = M0_6;
+    S[60] = M1_3;
+    S[61] = M1_4;
+    S[62] = M1_5;
+    S[63] = M1_6;
+    S[64] = M2_3;
+    S[65] = M2_4;
+    S[66] = M2_5;
+    S[67] = M2_6;
+    S[68] = M3_3;
+    S[69] = M3_4;
+    S[70] = M3_5;
+    S[71] = M3_6;
+    S[72] = M4_4;
+    S[73] = M4_5;
+    S[74] = M4_6;
+    S[75] = M5_5;
+    S[76] = M5_6;
+    S[77] = M6_6;
 }
 
 /*
@@ -354,91 +465,100 @@ INLINE void pair_value(
     const vector x0 = X[0];
     const vector x1 = X[1];
     const vector x2 = X[2];
-    const vector rotation_h0 = X[3];
-    const vector rotation_h1 = X[4];
-    const vector rotation_h2 = X[5];
-    const vector rotation_h3 = X[6];
+    const vector x3 = X[3];
+    const vector x4 = X[4];
+    const vector x5 = X[5];
+    const vector x6 = X[6];
+    const vector rotation_h0 = X[7];
+    const vector rotation_h1 = X[8];
+    const vector rotation_h2 = X[9];
+    const vector rotation_h3 = X[10];
     const double mu0 = S[0];
     const double mu1 = S[1];
     const double mu2 = S[2];
-    const double W0_0 = S[3];
-    const double W0_1 = S[4];
-    const double W0_2 = S[5];
-    const double W1_0 = S[6];
-    const double W1_1 = S[7];
-    const double W1_2 = S[8];
-    const double W2_0 = S[9];
-    const double W2_1 = S[10];
-    const double W2_2 = S[11];
-    const double W3_0 = S[12];
-    const double W3_1 = S[13];
-    const double W3_2 = S[14];
-    const double W4_0 = S[15];
-    const double W4_1 = S[16];
-    const double W4_2 = S[17];
-    const double W5_0 = S[18];
-    const double W5_1 = S[19];
-    const double W5_2 = S[20];
-    const double amplitude = S[21];
-    const double rotation_M0 = S[22];
-    const double rotation_M1 = S[23];
-    const double rotation_M2 = S[24];
-    const double rotation_M3 = S[25];
-    const double rotation_R0_0 = S[26];
-    const double rotation_R0_1 = S[27];
-    const double rotation_R0_2 = S[28];
-    const double rotation_R0_3 = S[29];
-    const double rotation_R1_0 = S[30];
-    const double rotation_R1_1 = S[31];
-    const double rotation_R1_2 = S[32];
-    const double rotation_R1_3 = S[33];
-    const double rotation_R2_0 = S[34];
-    const double rotation_R2_1 = S[35];
-    const double rotation_R2_2 = S[36];
-    const double rotation_R2_3 = S[37];
-    const double rotation_R3_0 = S[38];
-    const double rotation_R3_1 = S[39];
-    const double rotation_R3_2 = S[40];
-    const double rotation_R3_3 = S[41];
-    const double rotation_R4_0 = S[42];
-    const double rotation_R4_1 = S[43];
-    const double rotation_R4_2 = S[44];
-    const double rotation_R4_3 = S[45];
-    const double rotation_R5_0 = S[46];
-    const double rotation_R5_1 = S[47];
-    const double rotation_R5_2 = S[48];
-    const double rotation_R5_3 = S[49];
-    const vector total_2 = rotation_h0 * rotation_M0 + rotation_h1 * rotation_M1 + rotation_h2 * rotation_M2 +
-        rotation_h3 * rotation_M3;
-    const vector rotation_w = vector_abs(total_2);
-    const vector rotation_eta = vector_polynomial_rotation_eta(1.0 - rotation_w);
-    const vector rotation_a = 1.0 / (rotation_w - rotation_eta * (1.0 - rotation_w * rotation_w));
+    const double mu3 = S[3];
+    const double mu4 = S[4];
+    const double mu5 = S[5];
+    const double mu6 = S[6];
+    const double W0_0 = S[7];
+    const double W0_1 = S[8];
+    const double W0_2 = S[9];
+    const double W1_0 = S[10];
+    const double W1_1 = S[11];
+    const double W1_2 = S[12];
+    const double W2_0 = S[13];
+    const double W2_1 = S[14];
+    const double W2_2 = S[15];
+    const double W3_0 = S[16];
+    const double W3_1 = S[17];
+    const double W3_2 = S[18];
+    const double W4_0 = S[19];
+    const double W4_1 = S[20];
+    const double W4_2 = S[21];
+    const double W5_0 = S[22];
+    const double W5_1 = S[23];
+    const double W5_2 = S[24];
+    const double amplitude = S[25];
+    const double rotation_R0_0 = S[32];
+    const double rotation_R0_1 = S[33];
+    const double rotation_R0_2 = S[34];
+    const double rotation_R0_3 = S[35];
+    const double rotation_R1_0 = S[36];
+    const double rotation_R1_1 = S[37];
+    const double rotation_R1_2 = S[38];
+    const double rotation_R1_3 = S[39];
+    const double rotation_R2_0 = S[40];
+    const double rotation_R2_1 = S[41];
+    const double rotation_R2_2 = S[42];
+    const double rotation_R2_3 = S[43];
+    const double rotation_R3_0 = S[44];
+    const double rotation_R3_1 = S[45];
+    const double rotation_R3_2 = S[46];
+    const double rotation_R3_3 = S[47];
+    const double rotation_R4_0 = S[48];
+    const double rotation_R4_1 = S[49];
+    const double rotation_R4_2 = S[50];
+    const double rotation_R4_3 = S[51];
+    const double rotation_R5_0 = S[52];
+    const double rotation_R5_1 = S[53];
+    const double rotation_R5_2 = S[54];
+    const double rotation_R5_3 = S[55];
+    const vector rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6;
+    const vector rotation_abs_g0 = abs_each(rotation_g0);
+    const vector rotation_eta = vector_polynomial_rotation_eta(1.0 - rotation_abs_g0);
+    const vector rotation_a = 1.0 / (rotation_abs_g0 - rotation_eta * (1.0 - rotation_abs_g0 *
+        rotation_abs_g0));
     const vector v0 = x0 - mu0;
     const vector v1 = x1 - mu1;
     const vector v2 = x2 - mu2;
-    const vector rotation_a_chosen = vector_select(total_2 < 0.0, -rotation_a, rotation_a);
-    const vector rotation_r0 = rotation_h0 * rotation_R0_0 + rotation_h1 * rotation_R0_1 + rotation_h2 *
-        rotation_R0_2 + rotation_h3 * rotation_R0_3;
-    const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_a_chosen * rotation_r0;
-    const vector rotation_r1 = rotation_h0 * rotation_R1_0 + rotation_h1 * rotation_R1_1 + rotation_h2 *
-        rotation_R1_2 + rotation_h3 * rotation_R1_3;
-    const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_a_chosen * rotation_r1;
-    const vector rotation_r2 = rotation_h0 * rotation_R2_0 + rotation_h1 * rotation_R2_1 + rotation_h2 *
-        rotation_R2_2 + rotation_h3 * rotation_R2_3;
-    const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_a_chosen * rotation_r2;
-    const vector rotation_r3 = rotation_h0 * rotation_R3_0 + rotation_h1 * rotation_R3_1 + rotation_h2 *
-        rotation_R3_2 + rotation_h3 * rotation_R3_3;
-    const vector z3 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_a_chosen * rotation_r3;
-    const vector rotation_r4 = rotation_h0 * rotation_R4_0 + rotation_h1 * rotation_R4_1 + rotation_h2 *
-        rotation_R4_2 + rotation_h3 * rotation_R4_3;
-    const vector z4 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_a_chosen * rotation_r4;
-    const vector total_3 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-    const vector rotation_r5 = rotation_h0 * rotation_R5_0 + rotation_h1 * rotation_R5_1 + rotation_h2 *
-        rotation_R5_2 + rotation_h3 * rotation_R5_3;
-    const vector z5 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_a_chosen * rotation_r5;
-    const vector half_square = 0.5 * (total_3 + z5 * z5);
-    const vector gaussian = vector_exp(-half_square);
-    value[0] = value[0] + amplitude * (rotation_a * (rotation_a * gaussian));
+    const vector rotation_a_chosen = vector_select(rotation_g0 < 0.0, -rotation_a, rotation_a);
+    const vector product = rotation_h0 * rotation_a_chosen;
+    const vector product_2 = rotation_h1 * rotation_a_chosen;
+    const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
+        product_2;
+    const vector product_3 = rotation_h2 * rotation_a_chosen;
+    const vector product_4 = rotation_h3 * rotation_a_chosen;
+    const vector total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
+    const vector total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
+        product_2;
+    const vector total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4;
+    const vector total_6 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_R2_0 * product + rotation_R2_1 *
+        product_2;
+    const vector total_7 = total_6 + rotation_R2_2 * product_3 + rotation_R2_3 * product_4;
+    const vector total_8 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_R3_0 * product + rotation_R3_1 *
+        product_2;
+    const vector total_9 = total_8 + rotation_R3_2 * product_3 + rotation_R3_3 * product_4;
+    const vector total_10 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_R4_0 * product + rotation_R4_1 *
+        product_2;
+    const vector total_11 = total_10 + rotation_R4_2 * product_3 + rotation_R4_3 * product_4;
+    const vector total_12 = total_3 * total_3 + total_5 * total_5 + total_7 * total_7 + total_9 * total_9 +
+        total_11 * total_11;
+    const vector total_13 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_R5_0 * product + rotation_R5_1 *
+        product_2;
+    const vector total_14 = total_13 + rotation_R5_2 * product_3 + rotation_R5_3 * product_4;
+    const vector gaussian = gaussian_each(total_12 + total_14 * total_14);
+    const vector phi = rotation_a * (rotation_a * gaussian);
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -455,129 +575,135 @@ INLINE void pair_forward(
     const vector x0 = X[0];
     const vector x1 = X[1];
     const vector x2 = X[2];
-    const vector rotation_h0 = X[3];
-    const vector rotation_h1 = X[4];
-    const vector rotation_h2 = X[5];
-    const vector rotation_h3 = X[6];
+    const vector x3 = X[3];
+    const vector x4 = X[4];
+    const vector x5 = X[5];
+    const vector x6 = X[6];
+    const vector rotation_h0 = X[7];
+    const vector rotation_h1 = X[8];
+    const vector rotation_h2 = X[9];
+    const vector rotation_h3 = X[10];
     const double mu0 = S[0];
     const double mu1 = S[1];
     const double mu2 = S[2];
-    const double W0_0 = S[3];
-    const double W0_1 = S[4];
-    const double W0_2 = S[5];
-    const double W1_0 = S[6];
-    const double W1_1 = S[7];
-    const double W1_2 = S[8];
-    const double W2_0 = S[9];
-    const double W2_1 = S[10];
-    const double W2_2 = S[11];
-    const double W3_0 = S[12];
-    const double W3_1 = S[13];
-    const double W3_2 = S[14];
-    const double W4_0 = S[15];
-    const double W4_1 = S[16];
-    const double W4_2 = S[17];
-    const double W5_0 = S[18];
-    const double W5_1 = S[19];
-    const double W5_2 = S[20];
-    const double amplitude = S[21];
-    const double rotation_M0 = S[22];
-    const double rotation_M1 = S[23];
-    const double rotation_M2 = S[24];
-    const double rotation_M3 = S[25];
-    const double rotation_R0_0 = S[26];
-    const double rotation_R0_1 = S[27];
-    const double rotation_R0_2 = S[28];
-    const double rotation_R0_3 = S[29];
-    const double rotation_R1_0 = S[30];
-    const double rotation_R1_1 = S[31];
-    const double rotation_R1_2 = S[32];
-    const double rotation_R1_3 = S[33];
-    const double rotation_R2_0 = S[34];
-    const double rotation_R2_1 = S[35];
-    const double rotation_R2_2 = S[36];
-    const double rotation_R2_3 = S[37];
-    const double rotation_R3_0 = S[38];
-    const double rotation_R3_1 = S[39];
-    const double rotation_R3_2 = S[40];
-    const double rotation_R3_3 = S[41];
-    const double rotation_R4_0 = S[42];
-    const double rotation_R4_1 = S[43];
-    const double rotation_R4_2 = S[44];
-    const double rotation_R4_3 = S[45];
-    const double rotation_R5_0 = S[46];
-    const double rotation_R5_1 = S[47];
-    const double rotation_R5_2 = S[48];
-    const double rotation_R5_3 = S[49];
-    const vector total_2 = rotation_h0 * rotation_M0 + rotation_h1 * rotation_M1 + rotation_h2 * rotation_M2 +
-        rotation_h3 * rotation_M3;
-    const vector rotation_w = vector_abs(total_2);
-    const vector rotation_eta = vector_polynomial_rotation_eta(1.0 - rotation_w);
-    const vector rotation_a = 1.0 / (rotation_w - rotation_eta * (1.0 - rotation_w * rotation_w));
+    const double mu3 = S[3];
+    const double mu4 = S[4];
+    const double mu5 = S[5];
+    const double mu6 = S[6];
+    const double W0_0 = S[7];
+    const double W0_1 = S[8];
+    const double W0_2 = S[9];
+    const double W1_0 = S[10];
+    const double W1_1 = S[11];
+    const double W1_2 = S[12];
+    const double W2_0 = S[13];
+    const double W2_1 = S[14];
+    const double W2_2 = S[15];
+    const double W3_0 = S[16];
+    const double W3_1 = S[17];
+    const double W3_2 = S[18];
+    const double W4_0 = S[19];
+    const double W4_1 = S[20];
+    const double W4_2 = S[21];
+    const double W5_0 = S[22];
+    const double W5_1 = S[23];
+    const double W5_2 = S[24];
+    const double amplitude = S[25];
+    const double rotation_R0_0 = S[32];
+    const double rotation_R0_1 = S[33];
+    const double rotation_R0_2 = S[34];
+    const double rotation_R0_3 = S[35];
+    const double rotation_R1_0 = S[36];
+    const double rotation_R1_1 = S[37];
+    const double rotation_R1_2 = S[38];
+    const double rotation_R1_3 = S[39];
+    const double rotation_R2_0 = S[40];
+    const double rotation_R2_1 = S[41];
+    const double rotation_R2_2 = S[42];
+    const double rotation_R2_3 = S[43];
+    const double rotation_R3_0 = S[44];
+    const double rotation_R3_1 = S[45];
+    const double rotation_R3_2 = S[46];
+    const double rotation_R3_3 = S[47];
+    const double rotation_R4_0 = S[48];
+    const double rotation_R4_1 = S[49];
+    const double rotation_R4_2 = S[50];
+    const double rotation_R4_3 = S[51];
+    const double rotation_R5_0 = S[52];
+    const double rotation_R5_1 = S[53];
+    const double rotation_R5_2 = S[54];
+    const double rotation_R5_3 = S[55];
+    const vector rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6;
+    const vector rotation_abs_g0 = abs_each(rotation_g0);
+    const vector rotation_eta = vector_polynomial_rotation_eta(1.0 - rotation_abs_g0);
+    const vector rotation_a = 1.0 / (rotation_abs_g0 - rotation_eta * (1.0 - rotation_abs_g0 *
+        rotation_abs_g0));
     const vector v0 = x0 - mu0;
     const vector v1 = x1 - mu1;
     const vector v2 = x2 - mu2;
-    const vector_mask is_small = total_2 < 0.0;
+    const vector_mask is_small = rotation_g0 < 0.0;
     const vector rotation_a_chosen = vector_select(is_small, -rotation_a, rotation_a);
-    const vector rotation_r0 = rotation_h0 * rotation_R0_0 + rotation_h1 * rotation_R0_1 + rotation_h2 *
-        rotation_R0_2 + rotation_h3 * rotation_R0_3;
-    const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_a_chosen * rotation_r0;
-    const vector rotation_r1 = rotation_h0 * rotation_R1_0 + rotation_h1 * rotation_R1_1 + rotation_h2 *
-        rotation_R1_2 + rotation_h3 * rotation_R1_3;
-    const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_a_chosen * rotation_r1;
-    const vector rotation_r2 = rotation_h0 * rotation_R2_0 + rotation_h1 * rotation_R2_1 + rotation_h2 *
-        rotation_R2_2 + rotation_h3 * rotation_R2_3;
-    const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_a_chosen * rotation_r2;
-    const vector rotation_r3 = rotation_h0 * rotation_R3_0 + rotation_h1 * rotation_R3_1 + rotation_h2 *
-        rotation_R3_2 + rotation_h3 * rotation_R3_3;
-    const vector z3 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_a_chosen * rotation_r3;
-    const vector rotation_r4 = rotation_h0 * rotation_R4_0 + rotation_h1 * rotation_R4_1 + rotation_h2 *
-        rotation_R4_2 + rotation_h3 * rotation_R4_3;
-    const vector z4 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_a_chosen * rotation_r4;
-    const vector total_3 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-    const vector rotation_r5 = rotation_h0 * rotation_R5_0 + rotation_h1 * rotation_R5_1 + rotation_h2 *
-        rotation_R5_2 + rotation_h3 * rotation_R5_3;
-    const vector z5 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_a_chosen * rotation_r5;
-    const vector half_square = 0.5 * (total_3 + z5 * z5);
-    const vector gaussian = vector_exp(-half_square);
-    const vector phi = amplitude * (rotation_a * (rotation_a * gaussian));
-    const vector z5_product = z5 * phi;
-    const vector z4_product = z4 * phi;
-    const vector z3_product = z3 * phi;
-    const vector z2_product = z2 * phi;
-    const vector z1_product = z1 * phi;
-    const vector z0_product = z0 * phi;
-    const vector product = rotation_a_chosen * z5_product;
-    const vector product_2 = rotation_a_chosen * z4_product;
-    const vector product_3 = rotation_a_chosen * z3_product;
-    const vector product_4 = rotation_a_chosen * z2_product;
-    const vector product_5 = rotation_a_chosen * z1_product;
-    const vector product_6 = rotation_a_chosen * z0_product;
-    const vector gap_5 = -(rotation_r5 * z5_product) - rotation_r4 * z4_product - rotation_r3 * z3_product -
-        rotation_r2 * z2_product;
-    const vector total_4 = 2.0 * phi + rotation_a_chosen * (gap_5 - rotation_r1 * z1_product - rotation_r0 *
-        z0_product);
-    const vector by_rotation_w = rotation_eta * total_4;
-    const vector chosen = vector_select(is_small, -by_rotation_w, by_rotation_w);
-    value[0] = value[0] + phi;
-    slope[0] = slope[0] - W5_0 * z5_product - W4_0 * z4_product - W3_0 * z3_product - W2_0 * z2_product - W1_0
-            * z1_product - W0_0 * z0_product;
-    slope[1] = slope[1] - W5_1 * z5_product - W4_1 * z4_product - W3_1 * z3_product - W2_1 * z2_product - W1_1
-            * z1_product - W0_1 * z0_product;
-    slope[2] = slope[2] - W5_2 * z5_product - W4_2 * z4_product - W3_2 * z3_product - W2_2 * z2_product - W1_2
-            * z1_product - W0_2 * z0_product;
-    slope[3] = slope[3] - rotation_R5_0 * product - rotation_R4_0 * product_2 - rotation_R3_0 * product_3 -
-            rotation_R2_0 * product_4 - rotation_R1_0 * product_5 - rotation_R0_0 * product_6 + rotation_M0 *
-            chosen;
-    slope[4] = slope[4] - rotation_R5_1 * product - rotation_R4_1 * product_2 - rotation_R3_1 * product_3 -
-            rotation_R2_1 * product_4 - rotation_R1_1 * product_5 - rotation_R0_1 * product_6 + rotation_M1 *
-            chosen;
-    slope[5] = slope[5] - rotation_R5_2 * product - rotation_R4_2 * product_2 - rotation_R3_2 * product_3 -
-            rotation_R2_2 * product_4 - rotation_R1_2 * product_5 - rotation_R0_2 * product_6 + rotation_M2 *
-            chosen;
-    slope[6] = slope[6] - rotation_R5_3 * product - rotation_R4_3 * product_2 - rotation_R3_3 * product_3 -
-            rotation_R2_3 * product_4 - rotation_R1_3 * product_5 - rotation_R0_3 * product_6 + rotation_M3 *
-            chosen;
+    const vector product = rotation_h0 * rotation_a_chosen;
+    const vector product_2 = rotation_h1 * rotation_a_chosen;
+    const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
+        product_2;
+    const vector product_3 = rotation_h2 * rotation_a_chosen;
+    const vector product_4 = rotation_h3 * rotation_a_chosen;
+    const vector total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
+    const vector total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
+        product_2;
+    const vector total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4;
+    const vector total_6 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_R2_0 * product + rotation_R2_1 *
+        product_2;
+    const vector total_7 = total_6 + rotation_R2_2 * product_3 + rotation_R2_3 * product_4;
+    const vector total_8 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_R3_0 * product + rotation_R3_1 *
+        product_2;
+    const vector total_9 = total_8 + rotation_R3_2 * product_3 + rotation_R3_3 * product_4;
+    const vector total_10 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_R4_0 * product + rotation_R4_1 *
+        product_2;
+    const vector total_11 = total_10 + rotation_R4_2 * product_3 + rotation_R4_3 * product_4;
+    const vector total_12 = total_3 * total_3 + total_5 * total_5 + total_7 * total_7 + total_9 * total_9 +
+        total_11 * total_11;
+    const vector total_13 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_R5_0 * product + rotation_R5_1 *
+        product_2;
+    const vector total_14 = total_13 + rotation_R5_2 * product_3 + rotation_R5_3 * product_4;
+    const vector gaussian = gaussian_each(total_12 + total_14 * total_14);
+    const vector phi = rotation_a * (rotation_a * gaussian);
+    const vector phi_2 = amplitude * phi;
+    const vector total_15 = W0_0 * total_3 + W1_0 * total_5 + W2_0 * total_7 + W3_0 * total_9 + W4_0 *
+        total_11;
+    const vector total_16 = W0_1 * total_3 + W1_1 * total_5 + W2_1 * total_7 + W3_1 * total_9 + W4_1 *
+        total_11;
+    const vector total_17 = W0_2 * total_3 + W1_2 * total_5 + W2_2 * total_7 + W3_2 * total_9 + W4_2 *
+        total_11;
+    const vector total_18 = rotation_R0_3 * total_3 + rotation_R1_3 * total_5 + rotation_R2_3 * total_7 +
+        rotation_R3_3 * total_9 + rotation_R4_3 * total_11;
+    const vector phi_product = phi_2 * (total_18 + rotation_R5_3 * total_14);
+    const vector total_19 = rotation_R0_2 * total_3 + rotation_R1_2 * total_5 + rotation_R2_2 * total_7 +
+        rotation_R3_2 * total_9 + rotation_R4_2 * total_11;
+    const vector phi_product_2 = phi_2 * (total_19 + rotation_R5_2 * total_14);
+    const vector total_20 = rotation_R0_1 * total_3 + rotation_R1_1 * total_5 + rotation_R2_1 * total_7 +
+        rotation_R3_1 * total_9 + rotation_R4_1 * total_11;
+    const vector phi_product_3 = phi_2 * (total_20 + rotation_R5_1 * total_14);
+    const vector total_21 = rotation_R0_0 * total_3 + rotation_R1_0 * total_5 + rotation_R2_0 * total_7 +
+        rotation_R3_0 * total_9 + rotation_R4_0 * total_11;
+    const vector phi_product_4 = phi_2 * (total_21 + rotation_R5_0 * total_14);
+    const vector gap = -(rotation_h3 * phi_product) - rotation_h2 * phi_product_2 - rotation_h1 *
+        phi_product_3 - rotation_h0 * phi_product_4;
+    const vector by_rotation_abs_g0 = rotation_eta * (2.0 * phi_2 + rotation_a_chosen * gap);
+    const vector by_rotation_g0 = vector_select(is_small, -by_rotation_abs_g0, by_rotation_abs_g0);
+    value[0] = value[0] + phi_2;
+    slope[0] = slope[0] - phi_2 * (total_15 + W5_0 * total_14);
+    slope[1] = slope[1] - phi_2 * (total_16 + W5_1 * total_14);
+    slope[2] = slope[2] - phi_2 * (total_17 + W5_2 * total_14);
+    slope[3] = slope[3] + mu3 * by_rotation_g0;
+    slope[4] = slope[4] + mu4 * by_rotation_g0;
+    slope[5] = slope[5] + mu5 * by_rotation_g0;
+    slope[6] = slope[6] + mu6 * by_rotation_g0;
+    slope[7] = slope[7] - rotation_a_chosen * phi_product_4;
+    slope[8] = slope[8] - rotation_a_chosen * phi_product_3;
+    slope[9] = slope[9] - rotation_a_chosen * phi_product_2;
+    slope[10] = slope[10] - rotation_a_chosen * phi_product;
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -590,14 +716,18 @@ OUTLINE void pair_gradient(
     const vector slope_x0 = slope[0];
     const vector slope_x1 = slope[1];
     const vector slope_x2 = slope[2];
-    const vector slope_rotation_h0 = slope[3];
-    const vector slope_rotation_h1 = slope[4];
-    const vector slope_rotation_h2 = slope[5];
-    const vector slope_rotation_h3 = slope[6];
-    const vector product = 0.25 * slope_rotation_h1;
-    const vector product_2 = 0.25 * slope_rotation_h2;
-    const vector product_3 = 0.25 * slope_rotation_h0;
-    const vector product_4 = 0.25 * slope_rotation_h3;
+    const vector slope_x3 = slope[3];
+    const vector slope_x4 = slope[4];
+    const vector slope_x5 = slope[5];
+    const vector slope_x6 = slope[6];
+    const vector slope_rotation_h0 = slope[7];
+    const vector slope_rotation_h1 = slope[8];
+    const vector slope_rotation_h2 = slope[9];
+    const vector slope_rotation_h3 = slope[10];
+    const vector product = 0.5 * (slope_x4 + 0.5 * slope_rotation_h1);
+    const vector product_2 = 0.5 * (slope_x5 + 0.5 * slope_rotation_h2);
+    const vector product_3 = 0.5 * (slope_x3 + 0.5 * slope_rotation_h0);
+    const vector product_4 = 0.5 * (slope_x6 + 0.5 * slope_rotation_h3);
     gradient[0] = slope_x0;
     gradient[1] = slope_x1;
     gradient[2] = slope_x2;
@@ -619,221 +749,380 @@ OUTLINE void pair_gradient_vjp(
     const vector gradient_bar3 = gradient_bar[3];
     const vector gradient_bar4 = gradient_bar[4];
     const vector gradient_bar5 = gradient_bar[5];
-    const vector product = 0.25 * (-(x6 * gradient_bar5) - x5 * gradient_bar4 - x4 * gradient_bar3);
+    const vector gap = -(x6 * gradient_bar5) - x5 * gradient_bar4 - x4 * gradient_bar3;
+    const vector total_2 = x5 * gradient_bar5 - x6 * gradient_bar4 + x3 * gradient_bar3;
+    const vector total_3 = x3 * gradient_bar4 - x4 * gradient_bar5 + x6 * gradient_bar3;
+    const vector gap_2 = x3 * gradient_bar5 + x4 * gradient_bar4 - x5 * gradient_bar3;
     slope_bar[0] = gradient_bar0;
     slope_bar[1] = gradient_bar1;
     slope_bar[2] = gradient_bar2;
-    slope_bar[3] = product;
-    slope_bar[4] = 0.25 * (x5 * gradient_bar5 - x6 * gradient_bar4 + x3 * gradient_bar3);
-    slope_bar[5] = 0.25 * (x3 * gradient_bar4 - x4 * gradient_bar5 + x6 * gradient_bar3);
-    slope_bar[6] = 0.25 * (x3 * gradient_bar5 + x4 * gradient_bar4 - x5 * gradient_bar3);
+    slope_bar[3] = 0.5 * gap;
+    slope_bar[4] = 0.5 * total_2;
+    slope_bar[5] = 0.5 * total_3;
+    slope_bar[6] = 0.5 * gap_2;
+    slope_bar[7] = 0.25 * gap;
+    slope_bar[8] = 0.25 * total_2;
+    slope_bar[9] = 0.25 * total_3;
+    slope_bar[10] = 0.25 * gap_2;
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp(
-    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
-    (void)amplitude;
+    const vector *mu, const vector *W, const vector *amplitude, const vector *sums, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
     const vector mu3 = mu[3];
     const vector mu4 = mu[4];
     const vector mu5 = mu[5];
     const vector mu6 = mu[6];
+    const vector W0_0 = W[0];
+    const vector W0_1 = W[1];
+    const vector W0_2 = W[2];
     const vector W0_3 = W[3];
     const vector W0_4 = W[4];
     const vector W0_5 = W[5];
+    const vector W1_0 = W[6];
+    const vector W1_1 = W[7];
+    const vector W1_2 = W[8];
     const vector W1_3 = W[9];
     const vector W1_4 = W[10];
     const vector W1_5 = W[11];
+    const vector W2_0 = W[12];
+    const vector W2_1 = W[13];
+    const vector W2_2 = W[14];
     const vector W2_3 = W[15];
     const vector W2_4 = W[16];
     const vector W2_5 = W[17];
+    const vector W3_0 = W[18];
+    const vector W3_1 = W[19];
+    const vector W3_2 = W[20];
     const vector W3_3 = W[21];
     const vector W3_4 = W[22];
     const vector W3_5 = W[23];
+    const vector W4_0 = W[24];
+    const vector W4_1 = W[25];
+    const vector W4_2 = W[26];
     const vector W4_3 = W[27];
     const vector W4_4 = W[28];
     const vector W4_5 = W[29];
+    const vector W5_0 = W[30];
+    const vector W5_1 = W[31];
+    const vector W5_2 = W[32];
     const vector W5_3 = W[33];
     const vector W5_4 = W[34];
     const vector W5_5 = W[35];
-    const vector mu0_bar = S_bar[0];
-    const vector mu1_bar = S_bar[1];
-    const vector mu2_bar = S_bar[2];
-    const vector W0_0_bar = S_bar[3];
-    const vector W0_1_bar = S_bar[4];
-    const vector W0_2_bar = S_bar[5];
-    const vector W1_0_bar = S_bar[6];
-    const vector W1_1_bar = S_bar[7];
-    const vector W1_2_bar = S_bar[8];
-    const vector W2_0_bar = S_bar[9];
-    const vector W2_1_bar = S_bar[10];
-    const vector W2_2_bar = S_bar[11];
-    const vector W3_0_bar = S_bar[12];
-    const vector W3_1_bar = S_bar[13];
-    const vector W3_2_bar = S_bar[14];
-    const vector W4_0_bar = S_bar[15];
-    const vector W4_1_bar = S_bar[16];
-    const vector W4_2_bar = S_bar[17];
-    const vector W5_0_bar = S_bar[18];
-    const vector W5_1_bar = S_bar[19];
-    const vector W5_2_bar = S_bar[20];
-    const vector its_amplitude_bar = S_bar[21];
-    const vector rotation_M0_bar = S_bar[22];
-    const vector rotation_M1_bar = S_bar[23];
-    const vector rotation_M2_bar = S_bar[24];
-    const vector rotation_M3_bar = S_bar[25];
-    const vector rotation_R0_0_bar = S_bar[26];
-    const vector rotation_R0_1_bar = S_bar[27];
-    const vector rotation_R0_2_bar = S_bar[28];
-    const vector rotation_R0_3_bar = S_bar[29];
-    const vector rotation_R1_0_bar = S_bar[30];
-    const vector rotation_R1_1_bar = S_bar[31];
-    const vector rotation_R1_2_bar = S_bar[32];
-    const vector rotation_R1_3_bar = S_bar[33];
-    const vector rotation_R2_0_bar = S_bar[34];
-    const vector rotation_R2_1_bar = S_bar[35];
-    const vector rotation_R2_2_bar = S_bar[36];
-    const vector rotation_R2_3_bar = S_bar[37];
-    const vector rotation_R3_0_bar = S_bar[38];
-    const vector rotation_R3_1_bar = S_bar[39];
-    const vector rotation_R3_2_bar = S_bar[40];
-    const vector rotation_R3_3_bar = S_bar[41];
-    const vector rotation_R4_0_bar = S_bar[42];
-    const vector rotation_R4_1_bar = S_bar[43];
-    const vector rotation_R4_2_bar = S_bar[44];
-    const vector rotation_R4_3_bar = S_bar[45];
-    const vector rotation_R5_0_bar = S_bar[46];
-    const vector rotation_R5_1_bar = S_bar[47];
-    const vector rotation_R5_2_bar = S_bar[48];
-    const vector rotation_R5_3_bar = S_bar[49];
-    const vector product = 2.0 * rotation_R0_1_bar;
-    const vector product_2 = 2.0 * rotation_R0_2_bar;
-    const vector product_3 = 2.0 * rotation_R0_3_bar;
-    const vector product_4 = 2.0 * rotation_R1_1_bar;
-    const vector total_2 = rotation_M0_bar + W0_3 * product + W0_4 * product_2 + W0_5 * product_3 + W1_3 *
-        product_4;
-    const vector product_5 = 2.0 * rotation_R1_2_bar;
-    const vector product_6 = 2.0 * rotation_R1_3_bar;
-    const vector product_7 = 2.0 * rotation_R2_1_bar;
-    const vector product_8 = 2.0 * rotation_R2_2_bar;
-    const vector total_3 = total_2 + W1_4 * product_5 + W1_5 * product_6 + W2_3 * product_7 + W2_4 *
-        product_8;
-    const vector product_9 = 2.0 * rotation_R2_3_bar;
-    const vector product_10 = 2.0 * rotation_R3_1_bar;
-    const vector product_11 = 2.0 * rotation_R3_2_bar;
-    const vector product_12 = 2.0 * rotation_R3_3_bar;
-    const vector total_4 = total_3 + W2_5 * product_9 + W3_3 * product_10 + W3_4 * product_11 + W3_5 *
-        product_12;
-    const vector product_13 = 2.0 * rotation_R4_1_bar;
-    const vector product_14 = 2.0 * rotation_R4_2_bar;
-    const vector product_15 = 2.0 * rotation_R4_3_bar;
-    const vector product_16 = 2.0 * rotation_R5_1_bar;
-    const vector total_5 = total_4 + W4_3 * product_13 + W4_4 * product_14 + W4_5 * product_15 + W5_3 *
-        product_16;
-    const vector product_17 = 2.0 * rotation_R5_2_bar;
-    const vector product_18 = 2.0 * rotation_R5_3_bar;
-    const vector by_rotation_M0 = total_5 + W5_4 * product_17 + W5_5 * product_18;
-    const vector product_19 = 2.0 * rotation_R0_0_bar;
-    const vector product_20 = 2.0 * rotation_R1_0_bar;
-    const vector gap = rotation_M1_bar - W0_3 * product_19 - W0_5 * product_2 + W0_4 * product_3 - W1_3 *
-        product_20;
-    const vector product_21 = 2.0 * rotation_R2_0_bar;
-    const vector gap_2 = gap - W1_5 * product_5 + W1_4 * product_6 - W2_3 * product_21 - W2_5 * product_8;
-    const vector product_22 = 2.0 * rotation_R3_0_bar;
-    const vector total_6 = gap_2 + W2_4 * product_9 - W3_3 * product_22 - W3_5 * product_11 + W3_4 *
-        product_12;
-    const vector product_23 = 2.0 * rotation_R4_0_bar;
-    const vector product_24 = 2.0 * rotation_R5_0_bar;
-    const vector gap_3 = total_6 - W4_3 * product_23 - W4_5 * product_14 + W4_4 * product_15 - W5_3 *
-        product_24;
-    const vector by_rotation_M1 = gap_3 - W5_5 * product_17 + W5_4 * product_18;
-    const vector gap_4 = rotation_M2_bar - W0_4 * product_19 + W0_5 * product - W0_3 * product_3 - W1_4 *
-        product_20;
-    const vector total_7 = gap_4 + W1_5 * product_4 - W1_3 * product_6 - W2_4 * product_21 + W2_5 * product_7;
-    const vector gap_5 = total_7 - W2_3 * product_9 - W3_4 * product_22 + W3_5 * product_10 - W3_3 *
-        product_12;
-    const vector gap_6 = gap_5 - W4_4 * product_23 + W4_5 * product_13 - W4_3 * product_15 - W5_4 *
-        product_24;
-    const vector by_rotation_M2 = gap_6 + W5_5 * product_16 - W5_3 * product_18;
-    const vector gap_7 = rotation_M3_bar - W0_5 * product_19 - W0_4 * product + W0_3 * product_2 - W1_5 *
-        product_20;
-    const vector gap_8 = gap_7 - W1_4 * product_4 + W1_3 * product_5 - W2_5 * product_21 - W2_4 * product_7;
-    const vector total_8 = gap_8 + W2_3 * product_8 - W3_5 * product_22 - W3_4 * product_10 + W3_3 *
-        product_11;
-    const vector gap_9 = total_8 - W4_5 * product_23 - W4_4 * product_13 + W4_3 * product_14 - W5_5 *
-        product_24;
-    const vector by_rotation_M3 = gap_9 - W5_4 * product_16 + W5_3 * product_17;
-    const vector rotation_M0 = 2.0 * mu3;
-    const vector rotation_M1 = 2.0 * mu4;
+    const vector its_amplitude = amplitude[0];
+    const vector sum0 = sums[0];
+    const vector sum1 = sums[1];
+    const vector sum2 = sums[2];
+    const vector sum3 = sums[3];
+    const vector sum4 = sums[4];
+    const vector sum5 = sums[5];
+    const vector sum6 = sums[6];
+    const vector sum7 = sums[7];
+    const vector sum8 = sums[8];
+    const vector sum9 = sums[9];
+    const vector sum10 = sums[10];
+    const vector sum11 = sums[11];
+    const vector sum12 = sums[12];
+    const vector sum13 = sums[13];
+    const vector sum14 = sums[14];
+    const vector sum15 = sums[15];
+    const vector sum16 = sums[16];
+    const vector sum17 = sums[17];
+    const vector sum18 = sums[18];
+    const vector sum19 = sums[19];
+    const vector sum20 = sums[20];
+    const vector sum21 = sums[21];
+    const vector sum22 = sums[22];
+    const vector sum23 = sums[23];
+    const vector sum24 = sums[24];
+    const vector sum25 = sums[25];
+    const vector sum26 = sums[26];
+    const vector sum27 = sums[27];
+    const vector sum28 = sums[28];
+    const vector sum29 = sums[29];
+    const vector sum30 = sums[30];
+    const vector sum31 = sums[31];
+    const vector sum32 = sums[32];
+    const vector sum33 = sums[33];
+    const vector sum34 = sums[34];
+    const vector sum35 = sums[35];
     const vector rotation_M3 = 2.0 * mu6;
     const vector rotation_M2 = 2.0 * mu5;
-    const vector total_9 = -(rotation_M2 * product_19) - rotation_M3 * product + rotation_M0 * product_2 +
-        rotation_M1 * product_3;
-    const vector total_10 = -(rotation_M2 * product_20) - rotation_M3 * product_4 + rotation_M0 * product_5 +
-        rotation_M1 * product_6;
-    const vector total_11 = -(rotation_M2 * product_21) - rotation_M3 * product_7 + rotation_M0 * product_8 +
-        rotation_M1 * product_9;
-    const vector total_12 = -(rotation_M2 * product_22) - rotation_M3 * product_10 + rotation_M0 * product_11
-        + rotation_M1 * product_12;
-    const vector total_13 = -(rotation_M2 * product_23) - rotation_M3 * product_13 + rotation_M0 * product_14
-        + rotation_M1 * product_15;
-    const vector total_14 = -(rotation_M2 * product_24) - rotation_M3 * product_16 + rotation_M0 * product_17
-        + rotation_M1 * product_18;
-    mu_bar[0] = mu0_bar;
-    mu_bar[1] = mu1_bar;
-    mu_bar[2] = mu2_bar;
-    mu_bar[3] = 2.0 * by_rotation_M0;
-    mu_bar[4] = 2.0 * by_rotation_M1;
-    mu_bar[5] = 2.0 * by_rotation_M2;
-    mu_bar[6] = 2.0 * by_rotation_M3;
-    W_bar[0] = W0_0_bar;
-    W_bar[1] = W0_1_bar;
-    W_bar[2] = W0_2_bar;
-    W_bar[3] = rotation_M0 * product - rotation_M1 * product_19 + rotation_M3 * product_2 - rotation_M2 *
-            product_3;
-    W_bar[4] = total_9;
-    W_bar[5] = rotation_M2 * product - rotation_M3 * product_19 - rotation_M1 * product_2 + rotation_M0 *
-            product_3;
-    W_bar[6] = W1_0_bar;
-    W_bar[7] = W1_1_bar;
-    W_bar[8] = W1_2_bar;
-    W_bar[9] = rotation_M0 * product_4 - rotation_M1 * product_20 + rotation_M3 * product_5 - rotation_M2 *
-            product_6;
-    W_bar[10] = total_10;
-    W_bar[11] = rotation_M2 * product_4 - rotation_M3 * product_20 - rotation_M1 * product_5 + rotation_M0 *
-            product_6;
-    W_bar[12] = W2_0_bar;
-    W_bar[13] = W2_1_bar;
-    W_bar[14] = W2_2_bar;
-    W_bar[15] = rotation_M0 * product_7 - rotation_M1 * product_21 + rotation_M3 * product_8 - rotation_M2 *
-            product_9;
-    W_bar[16] = total_11;
-    W_bar[17] = rotation_M2 * product_7 - rotation_M3 * product_21 - rotation_M1 * product_8 + rotation_M0 *
-            product_9;
-    W_bar[18] = W3_0_bar;
-    W_bar[19] = W3_1_bar;
-    W_bar[20] = W3_2_bar;
-    W_bar[21] = rotation_M0 * product_10 - rotation_M1 * product_22 + rotation_M3 * product_11 - rotation_M2 *
-            product_12;
-    W_bar[22] = total_12;
-    W_bar[23] = rotation_M2 * product_10 - rotation_M3 * product_22 - rotation_M1 * product_11 + rotation_M0 *
-            product_12;
-    W_bar[24] = W4_0_bar;
-    W_bar[25] = W4_1_bar;
-    W_bar[26] = W4_2_bar;
-    W_bar[27] = rotation_M0 * product_13 - rotation_M1 * product_23 + rotation_M3 * product_14 - rotation_M2 *
-            product_15;
-    W_bar[28] = total_13;
-    W_bar[29] = rotation_M2 * product_13 - rotation_M3 * product_23 - rotation_M1 * product_14 + rotation_M0 *
-            product_15;
-    W_bar[30] = W5_0_bar;
-    W_bar[31] = W5_1_bar;
-    W_bar[32] = W5_2_bar;
-    W_bar[33] = rotation_M0 * product_16 - rotation_M1 * product_24 + rotation_M3 * product_17 - rotation_M2 *
-            product_18;
-    W_bar[34] = total_14;
-    W_bar[35] = rotation_M2 * product_16 - rotation_M3 * product_24 - rotation_M1 * product_17 + rotation_M0 *
-            product_18;
-    amplitude_bar[0] = its_amplitude_bar;
+    const vector rotation_M1 = 2.0 * mu4;
+    const vector rotation_R5_0 = 2.0 * (-(W5_5 * rotation_M3) - W5_4 * rotation_M2 - W5_3 * rotation_M1);
+    const vector rotation_M0 = 2.0 * mu3;
+    const vector rotation_R5_1 = 2.0 * (W5_5 * rotation_M2 - W5_4 * rotation_M3 + W5_3 * rotation_M0);
+    const vector product = 2.0 * sum30;
+    const vector total_2 = W5_0 * sum15 + W5_1 * sum19 + W5_2 * sum23 + rotation_R5_0 * sum27 + rotation_R5_1
+        * product;
+    const vector rotation_R5_2 = 2.0 * (W5_4 * rotation_M0 - W5_5 * rotation_M1 + W5_3 * rotation_M3);
+    const vector rotation_R5_3 = 2.0 * (W5_5 * rotation_M0 + W5_4 * rotation_M1 - W5_3 * rotation_M2);
+    const vector by_rotation_R5_1 = total_2 + rotation_R5_2 * sum31 + rotation_R5_3 * sum32;
+    const vector product_2 = 2.0 * by_rotation_R5_1;
+    const vector rotation_R4_0 = 2.0 * (-(W4_5 * rotation_M3) - W4_4 * rotation_M2 - W4_3 * rotation_M1);
+    const vector rotation_R4_1 = 2.0 * (W4_5 * rotation_M2 - W4_4 * rotation_M3 + W4_3 * rotation_M0);
+    const vector total_3 = W4_0 * sum15 + W4_1 * sum19 + W4_2 * sum23 + rotation_R4_0 * sum27 + rotation_R4_1
+        * product;
+    const vector rotation_R4_2 = 2.0 * (W4_4 * rotation_M0 - W4_5 * rotation_M1 + W4_3 * rotation_M3);
+    const vector rotation_R4_3 = 2.0 * (W4_5 * rotation_M0 + W4_4 * rotation_M1 - W4_3 * rotation_M2);
+    const vector by_rotation_R4_1 = total_3 + rotation_R4_2 * sum31 + rotation_R4_3 * sum32;
+    const vector product_3 = 2.0 * by_rotation_R4_1;
+    const vector rotation_R3_0 = 2.0 * (-(W3_5 * rotation_M3) - W3_4 * rotation_M2 - W3_3 * rotation_M1);
+    const vector rotation_R3_1 = 2.0 * (W3_5 * rotation_M2 - W3_4 * rotation_M3 + W3_3 * rotation_M0);
+    const vector total_4 = W3_0 * sum15 + W3_1 * sum19 + W3_2 * sum23 + rotation_R3_0 * sum27 + rotation_R3_1
+        * product;
+    const vector rotation_R3_2 = 2.0 * (W3_4 * rotation_M0 - W3_5 * rotation_M1 + W3_3 * rotation_M3);
+    const vector rotation_R3_3 = 2.0 * (W3_5 * rotation_M0 + W3_4 * rotation_M1 - W3_3 * rotation_M2);
+    const vector by_rotation_R3_1 = total_4 + rotation_R3_2 * sum31 + rotation_R3_3 * sum32;
+    const vector product_4 = 2.0 * by_rotation_R3_1;
+    const vector rotation_R2_0 = 2.0 * (-(W2_5 * rotation_M3) - W2_4 * rotation_M2 - W2_3 * rotation_M1);
+    const vector rotation_R2_1 = 2.0 * (W2_5 * rotation_M2 - W2_4 * rotation_M3 + W2_3 * rotation_M0);
+    const vector total_5 = W2_0 * sum15 + W2_1 * sum19 + W2_2 * sum23 + rotation_R2_0 * sum27 + rotation_R2_1
+        * product;
+    const vector rotation_R2_2 = 2.0 * (W2_4 * rotation_M0 - W2_5 * rotation_M1 + W2_3 * rotation_M3);
+    const vector rotation_R2_3 = 2.0 * (W2_5 * rotation_M0 + W2_4 * rotation_M1 - W2_3 * rotation_M2);
+    const vector by_rotation_R2_1 = total_5 + rotation_R2_2 * sum31 + rotation_R2_3 * sum32;
+    const vector product_5 = 2.0 * by_rotation_R2_1;
+    const vector rotation_R1_0 = 2.0 * (-(W1_5 * rotation_M3) - W1_4 * rotation_M2 - W1_3 * rotation_M1);
+    const vector rotation_R1_1 = 2.0 * (W1_5 * rotation_M2 - W1_4 * rotation_M3 + W1_3 * rotation_M0);
+    const vector total_6 = W1_0 * sum15 + W1_1 * sum19 + W1_2 * sum23 + rotation_R1_0 * sum27 + rotation_R1_1
+        * product;
+    const vector rotation_R1_2 = 2.0 * (W1_4 * rotation_M0 - W1_5 * rotation_M1 + W1_3 * rotation_M3);
+    const vector rotation_R1_3 = 2.0 * (W1_5 * rotation_M0 + W1_4 * rotation_M1 - W1_3 * rotation_M2);
+    const vector by_rotation_R1_1 = total_6 + rotation_R1_2 * sum31 + rotation_R1_3 * sum32;
+    const vector product_6 = 2.0 * by_rotation_R1_1;
+    const vector total_7 = W5_3 * product_2 + W4_3 * product_3 + W3_3 * product_4 + W2_3 * product_5 + W1_3 *
+        product_6;
+    const vector rotation_R0_0 = 2.0 * (-(W0_5 * rotation_M3) - W0_4 * rotation_M2 - W0_3 * rotation_M1);
+    const vector rotation_R0_1 = 2.0 * (W0_5 * rotation_M2 - W0_4 * rotation_M3 + W0_3 * rotation_M0);
+    const vector total_8 = W0_0 * sum15 + W0_1 * sum19 + W0_2 * sum23 + rotation_R0_0 * sum27 + rotation_R0_1
+        * product;
+    const vector rotation_R0_2 = 2.0 * (W0_4 * rotation_M0 - W0_5 * rotation_M1 + W0_3 * rotation_M3);
+    const vector rotation_R0_3 = 2.0 * (W0_5 * rotation_M0 + W0_4 * rotation_M1 - W0_3 * rotation_M2);
+    const vector by_rotation_R0_1 = total_8 + rotation_R0_2 * sum31 + rotation_R0_3 * sum32;
+    const vector product_7 = 2.0 * by_rotation_R0_1;
+    const vector total_9 = W5_0 * sum16 + W5_1 * sum20 + W5_2 * sum24 + rotation_R5_0 * sum28 + rotation_R5_1
+        * sum31;
+    const vector product_8 = 2.0 * sum33;
+    const vector by_rotation_R5_2 = total_9 + rotation_R5_2 * product_8 + rotation_R5_3 * sum34;
+    const vector product_9 = 2.0 * by_rotation_R5_2;
+    const vector total_10 = W4_0 * sum16 + W4_1 * sum20 + W4_2 * sum24 + rotation_R4_0 * sum28 + rotation_R4_1
+        * sum31;
+    const vector by_rotation_R4_2 = total_10 + rotation_R4_2 * product_8 + rotation_R4_3 * sum34;
+    const vector product_10 = 2.0 * by_rotation_R4_2;
+    const vector total_11 = W3_0 * sum16 + W3_1 * sum20 + W3_2 * sum24 + rotation_R3_0 * sum28 + rotation_R3_1
+        * sum31;
+    const vector by_rotation_R3_2 = total_11 + rotation_R3_2 * product_8 + rotation_R3_3 * sum34;
+    const vector product_11 = 2.0 * by_rotation_R3_2;
+    const vector total_12 = total_7 + W0_3 * product_7 + W5_4 * product_9 + W4_4 * product_10 + W3_4 *
+        product_11;
+    const vector total_13 = W2_0 * sum16 + W2_1 * sum20 + W2_2 * sum24 + rotation_R2_0 * sum28 + rotation_R2_1
+        * sum31;
+    const vector by_rotation_R2_2 = total_13 + rotation_R2_2 * product_8 + rotation_R2_3 * sum34;
+    const vector product_12 = 2.0 * by_rotation_R2_2;
+    const vector total_14 = W1_0 * sum16 + W1_1 * sum20 + W1_2 * sum24 + rotation_R1_0 * sum28 + rotation_R1_1
+        * sum31;
+    const vector by_rotation_R1_2 = total_14 + rotation_R1_2 * product_8 + rotation_R1_3 * sum34;
+    const vector product_13 = 2.0 * by_rotation_R1_2;
+    const vector total_15 = W0_0 * sum16 + W0_1 * sum20 + W0_2 * sum24 + rotation_R0_0 * sum28 + rotation_R0_1
+        * sum31;
+    const vector by_rotation_R0_2 = total_15 + rotation_R0_2 * product_8 + rotation_R0_3 * sum34;
+    const vector product_14 = 2.0 * by_rotation_R0_2;
+    const vector total_16 = W5_0 * sum17 + W5_1 * sum21 + W5_2 * sum25 + rotation_R5_0 * sum29 + rotation_R5_1
+        * sum32;
+    const vector product_15 = 2.0 * sum35;
+    const vector by_rotation_R5_3 = total_16 + rotation_R5_2 * sum34 + rotation_R5_3 * product_15;
+    const vector product_16 = 2.0 * by_rotation_R5_3;
+    const vector total_17 = total_12 + W2_4 * product_12 + W1_4 * product_13 + W0_4 * product_14 + W5_5 *
+        product_16;
+    const vector total_18 = W4_0 * sum17 + W4_1 * sum21 + W4_2 * sum25 + rotation_R4_0 * sum29 + rotation_R4_1
+        * sum32;
+    const vector by_rotation_R4_3 = total_18 + rotation_R4_2 * sum34 + rotation_R4_3 * product_15;
+    const vector product_17 = 2.0 * by_rotation_R4_3;
+    const vector total_19 = W3_0 * sum17 + W3_1 * sum21 + W3_2 * sum25 + rotation_R3_0 * sum29 + rotation_R3_1
+        * sum32;
+    const vector by_rotation_R3_3 = total_19 + rotation_R3_2 * sum34 + rotation_R3_3 * product_15;
+    const vector product_18 = 2.0 * by_rotation_R3_3;
+    const vector total_20 = W2_0 * sum17 + W2_1 * sum21 + W2_2 * sum25 + rotation_R2_0 * sum29 + rotation_R2_1
+        * sum32;
+    const vector by_rotation_R2_3 = total_20 + rotation_R2_2 * sum34 + rotation_R2_3 * product_15;
+    const vector product_19 = 2.0 * by_rotation_R2_3;
+    const vector total_21 = W1_0 * sum17 + W1_1 * sum21 + W1_2 * sum25 + rotation_R1_0 * sum29 + rotation_R1_1
+        * sum32;
+    const vector by_rotation_R1_3 = total_21 + rotation_R1_2 * sum34 + rotation_R1_3 * product_15;
+    const vector product_20 = 2.0 * by_rotation_R1_3;
+    const vector total_22 = total_17 + W4_5 * product_17 + W3_5 * product_18 + W2_5 * product_19 + W1_5 *
+        product_20;
+    const vector total_23 = W0_0 * sum17 + W0_1 * sum21 + W0_2 * sum25 + rotation_R0_0 * sum29 + rotation_R0_1
+        * sum32;
+    const vector by_rotation_R0_3 = total_23 + rotation_R0_2 * sum34 + rotation_R0_3 * product_15;
+    const vector product_21 = 2.0 * by_rotation_R0_3;
+    const vector by_rotation_M0 = total_22 + W0_5 * product_21;
+    const vector product_22 = 2.0 * sum26;
+    const vector total_24 = W5_0 * sum14 + W5_1 * sum18 + W5_2 * sum22 + rotation_R5_0 * product_22 +
+        rotation_R5_1 * sum27;
+    const vector by_rotation_R5_0 = total_24 + rotation_R5_2 * sum28 + rotation_R5_3 * sum29;
+    const vector product_23 = 2.0 * by_rotation_R5_0;
+    const vector total_25 = W4_0 * sum14 + W4_1 * sum18 + W4_2 * sum22 + rotation_R4_0 * product_22 +
+        rotation_R4_1 * sum27;
+    const vector by_rotation_R4_0 = total_25 + rotation_R4_2 * sum28 + rotation_R4_3 * sum29;
+    const vector product_24 = 2.0 * by_rotation_R4_0;
+    const vector total_26 = W3_0 * sum14 + W3_1 * sum18 + W3_2 * sum22 + rotation_R3_0 * product_22 +
+        rotation_R3_1 * sum27;
+    const vector by_rotation_R3_0 = total_26 + rotation_R3_2 * sum28 + rotation_R3_3 * sum29;
+    const vector product_25 = 2.0 * by_rotation_R3_0;
+    const vector total_27 = W2_0 * sum14 + W2_1 * sum18 + W2_2 * sum22 + rotation_R2_0 * product_22 +
+        rotation_R2_1 * sum27;
+    const vector by_rotation_R2_0 = total_27 + rotation_R2_2 * sum28 + rotation_R2_3 * sum29;
+    const vector product_26 = 2.0 * by_rotation_R2_0;
+    const vector gap = -(W5_3 * product_23) - W4_3 * product_24 - W3_3 * product_25 - W2_3 * product_26;
+    const vector total_28 = W1_0 * sum14 + W1_1 * sum18 + W1_2 * sum22 + rotation_R1_0 * product_22 +
+        rotation_R1_1 * sum27;
+    const vector by_rotation_R1_0 = total_28 + rotation_R1_2 * sum28 + rotation_R1_3 * sum29;
+    const vector product_27 = 2.0 * by_rotation_R1_0;
+    const vector total_29 = W0_0 * sum14 + W0_1 * sum18 + W0_2 * sum22 + rotation_R0_0 * product_22 +
+        rotation_R0_1 * sum27;
+    const vector by_rotation_R0_0 = total_29 + rotation_R0_2 * sum28 + rotation_R0_3 * sum29;
+    const vector product_28 = 2.0 * by_rotation_R0_0;
+    const vector gap_2 = gap - W1_3 * product_27 - W0_3 * product_28 - W5_5 * product_9 - W4_5 * product_10;
+    const vector gap_3 = gap_2 - W3_5 * product_11 - W2_5 * product_12 - W1_5 * product_13 - W0_5 *
+        product_14;
+    const vector total_30 = gap_3 + W5_4 * product_16 + W4_4 * product_17 + W3_4 * product_18 + W2_4 *
+        product_19;
+    const vector by_rotation_M1 = total_30 + W1_4 * product_20 + W0_4 * product_21;
+    const vector gap_4 = -(W5_4 * product_23) - W4_4 * product_24 - W3_4 * product_25 - W2_4 * product_26;
+    const vector total_31 = gap_4 - W1_4 * product_27 - W0_4 * product_28 + W5_5 * product_2 + W4_5 *
+        product_3;
+    const vector total_32 = total_31 + W3_5 * product_4 + W2_5 * product_5 + W1_5 * product_6 + W0_5 *
+        product_7;
+    const vector gap_5 = total_32 - W5_3 * product_16 - W4_3 * product_17 - W3_3 * product_18 - W2_3 *
+        product_19;
+    const vector by_rotation_M2 = gap_5 - W1_3 * product_20 - W0_3 * product_21;
+    const vector gap_6 = -(W5_5 * product_23) - W4_5 * product_24 - W3_5 * product_25 - W2_5 * product_26;
+    const vector gap_7 = gap_6 - W1_5 * product_27 - W0_5 * product_28 - W5_4 * product_2 - W4_4 * product_3;
+    const vector gap_8 = gap_7 - W3_4 * product_4 - W2_4 * product_5 - W1_4 * product_6 - W0_4 * product_7;
+    const vector total_33 = gap_8 + W5_3 * product_9 + W4_3 * product_10 + W3_3 * product_11 + W2_3 *
+        product_12;
+    const vector by_rotation_M3 = total_33 + W1_3 * product_13 + W0_3 * product_14;
+    const vector product_29 = 2.0 * sum8;
+    const vector total_34 = W0_0 * product_29 + W0_1 * sum9 + W0_2 * sum10 + rotation_R0_0 * sum14 +
+        rotation_R0_1 * sum15;
+    const vector product_30 = 2.0 * sum11;
+    const vector total_35 = W0_0 * sum9 + W0_1 * product_30 + W0_2 * sum12 + rotation_R0_0 * sum18 +
+        rotation_R0_1 * sum19;
+    const vector product_31 = 2.0 * sum13;
+    const vector total_36 = W0_0 * sum10 + W0_1 * sum12 + W0_2 * product_31 + rotation_R0_0 * sum22 +
+        rotation_R0_1 * sum23;
+    const vector product_32 = its_amplitude * (rotation_M0 * product_7 - rotation_M1 * product_28 +
+        rotation_M3 * product_14 - rotation_M2 * product_21);
+    const vector total_37 = -(rotation_M2 * product_28) - rotation_M3 * product_7 + rotation_M0 * product_14 +
+        rotation_M1 * product_21;
+    const vector product_33 = its_amplitude * (rotation_M2 * product_7 - rotation_M3 * product_28 -
+        rotation_M1 * product_14 + rotation_M0 * product_21);
+    const vector total_38 = W1_0 * product_29 + W1_1 * sum9 + W1_2 * sum10 + rotation_R1_0 * sum14 +
+        rotation_R1_1 * sum15;
+    const vector total_39 = W1_0 * sum9 + W1_1 * product_30 + W1_2 * sum12 + rotation_R1_0 * sum18 +
+        rotation_R1_1 * sum19;
+    const vector total_40 = W1_0 * sum10 + W1_1 * sum12 + W1_2 * product_31 + rotation_R1_0 * sum22 +
+        rotation_R1_1 * sum23;
+    const vector product_34 = its_amplitude * (rotation_M0 * product_6 - rotation_M1 * product_27 +
+        rotation_M3 * product_13 - rotation_M2 * product_20);
+    const vector total_41 = -(rotation_M2 * product_27) - rotation_M3 * product_6 + rotation_M0 * product_13 +
+        rotation_M1 * product_20;
+    const vector product_35 = its_amplitude * (rotation_M2 * product_6 - rotation_M3 * product_27 -
+        rotation_M1 * product_13 + rotation_M0 * product_20);
+    const vector total_42 = W2_0 * product_29 + W2_1 * sum9 + W2_2 * sum10 + rotation_R2_0 * sum14 +
+        rotation_R2_1 * sum15;
+    const vector total_43 = W2_0 * sum9 + W2_1 * product_30 + W2_2 * sum12 + rotation_R2_0 * sum18 +
+        rotation_R2_1 * sum19;
+    const vector total_44 = W2_0 * sum10 + W2_1 * sum12 + W2_2 * product_31 + rotation_R2_0 * sum22 +
+        rotation_R2_1 * sum23;
+    const vector product_36 = its_amplitude * (rotation_M0 * product_5 - rotation_M1 * product_26 +
+        rotation_M3 * product_12 - rotation_M2 * product_19);
+    const vector total_45 = -(rotation_M2 * product_26) - rotation_M3 * product_5 + rotation_M0 * product_12 +
+        rotation_M1 * product_19;
+    const vector product_37 = its_amplitude * (rotation_M2 * product_5 - rotation_M3 * product_26 -
+        rotation_M1 * product_12 + rotation_M0 * product_19);
+    const vector total_46 = W3_0 * product_29 + W3_1 * sum9 + W3_2 * sum10 + rotation_R3_0 * sum14 +
+        rotation_R3_1 * sum15;
+    const vector total_47 = W3_0 * sum9 + W3_1 * product_30 + W3_2 * sum12 + rotation_R3_0 * sum18 +
+        rotation_R3_1 * sum19;
+    const vector total_48 = W3_0 * sum10 + W3_1 * sum12 + W3_2 * product_31 + rotation_R3_0 * sum22 +
+        rotation_R3_1 * sum23;
+    const vector product_38 = its_amplitude * (rotation_M0 * product_4 - rotation_M1 * product_25 +
+        rotation_M3 * product_11 - rotation_M2 * product_18);
+    const vector total_49 = -(rotation_M2 * product_25) - rotation_M3 * product_4 + rotation_M0 * product_11 +
+        rotation_M1 * product_18;
+    const vector product_39 = its_amplitude * (rotation_M2 * product_4 - rotation_M3 * product_25 -
+        rotation_M1 * product_11 + rotation_M0 * product_18);
+    const vector total_50 = W4_0 * product_29 + W4_1 * sum9 + W4_2 * sum10 + rotation_R4_0 * sum14 +
+        rotation_R4_1 * sum15;
+    const vector total_51 = W4_0 * sum9 + W4_1 * product_30 + W4_2 * sum12 + rotation_R4_0 * sum18 +
+        rotation_R4_1 * sum19;
+    const vector total_52 = W4_0 * sum10 + W4_1 * sum12 + W4_2 * product_31 + rotation_R4_0 * sum22 +
+        rotation_R4_1 * sum23;
+    const vector product_40 = its_amplitude * (rotation_M0 * product_3 - rotation_M1 * product_24 +
+        rotation_M3 * product_10 - rotation_M2 * product_17);
+    const vector total_53 = -(rotation_M2 * product_24) - rotation_M3 * product_3 + rotation_M0 * product_10 +
+        rotation_M1 * product_17;
+    const vector product_41 = its_amplitude * (rotation_M2 * product_3 - rotation_M3 * product_24 -
+        rotation_M1 * product_10 + rotation_M0 * product_17);
+    const vector total_54 = W5_0 * product_29 + W5_1 * sum9 + W5_2 * sum10 + rotation_R5_0 * sum14 +
+        rotation_R5_1 * sum15;
+    const vector total_55 = W5_0 * sum9 + W5_1 * product_30 + W5_2 * sum12 + rotation_R5_0 * sum18 +
+        rotation_R5_1 * sum19;
+    const vector total_56 = W5_0 * sum10 + W5_1 * sum12 + W5_2 * product_31 + rotation_R5_0 * sum22 +
+        rotation_R5_1 * sum23;
+    const vector product_42 = its_amplitude * (rotation_M0 * product_2 - rotation_M1 * product_23 +
+        rotation_M3 * product_9 - rotation_M2 * product_16);
+    const vector total_57 = -(rotation_M2 * product_23) - rotation_M3 * product_2 + rotation_M0 * product_9 +
+        rotation_M1 * product_16;
+    const vector product_43 = its_amplitude * (rotation_M2 * product_2 - rotation_M3 * product_23 -
+        rotation_M1 * product_9 + rotation_M0 * product_16);
+    mu_bar[0] = its_amplitude * sum0;
+    mu_bar[1] = its_amplitude * sum1;
+    mu_bar[2] = its_amplitude * sum2;
+    mu_bar[3] = its_amplitude * (sum3 + 2.0 * by_rotation_M0);
+    mu_bar[4] = its_amplitude * (sum4 + 2.0 * by_rotation_M1);
+    mu_bar[5] = its_amplitude * (sum5 + 2.0 * by_rotation_M2);
+    mu_bar[6] = its_amplitude * (sum6 + 2.0 * by_rotation_M3);
+    W_bar[0] = its_amplitude * (total_34 + rotation_R0_2 * sum16 + rotation_R0_3 * sum17);
+    W_bar[1] = its_amplitude * (total_35 + rotation_R0_2 * sum20 + rotation_R0_3 * sum21);
+    W_bar[2] = its_amplitude * (total_36 + rotation_R0_2 * sum24 + rotation_R0_3 * sum25);
+    W_bar[3] = product_32;
+    W_bar[4] = its_amplitude * total_37;
+    W_bar[5] = product_33;
+    W_bar[6] = its_amplitude * (total_38 + rotation_R1_2 * sum16 + rotation_R1_3 * sum17);
+    W_bar[7] = its_amplitude * (total_39 + rotation_R1_2 * sum20 + rotation_R1_3 * sum21);
+    W_bar[8] = its_amplitude * (total_40 + rotation_R1_2 * sum24 + rotation_R1_3 * sum25);
+    W_bar[9] = product_34;
+    W_bar[10] = its_amplitude * total_41;
+    W_bar[11] = product_35;
+    W_bar[12] = its_amplitude * (total_42 + rotation_R2_2 * sum16 + rotation_R2_3 * sum17);
+    W_bar[13] = its_amplitude * (total_43 + rotation_R2_2 * sum20 + rotation_R2_3 * sum21);
+    W_bar[14] = its_amplitude * (total_44 + rotation_R2_2 * sum24 + rotation_R2_3 * sum25);
+    W_bar[15] = product_36;
+    W_bar[16] = its_amplitude * total_45;
+    W_bar[17] = product_37;
+    W_bar[18] = its_amplitude * (total_46 + rotation_R3_2 * sum16 + rotation_R3_3 * sum17);
+    W_bar[19] = its_amplitude * (total_47 + rotation_R3_2 * sum20 + rotation_R3_3 * sum21);
+    W_bar[20] = its_amplitude * (total_48 + rotation_R3_2 * sum24 + rotation_R3_3 * sum25);
+    W_bar[21] = product_38;
+    W_bar[22] = its_amplitude * total_49;
+    W_bar[23] = product_39;
+    W_bar[24] = its_amplitude * (total_50 + rotation_R4_2 * sum16 + rotation_R4_3 * sum17);
+    W_bar[25] = its_amplitude * (total_51 + rotation_R4_2 * sum20 + rotation_R4_3 * sum21);
+    W_bar[26] = its_amplitude * (total_52 + rotation_R4_2 * sum24 + rotation_R4_3 * sum25);
+    W_bar[27] = product_40;
+    W_bar[28] = its_amplitude * total_53;
+    W_bar[29] = product_41;
+    W_bar[30] = its_amplitude * (total_54 + rotation_R5_2 * sum16 + rotation_R5_3 * sum17);
+    W_bar[31] = its_amplitude * (total_55 + rotation_R5_2 * sum20 + rotation_R5_3 * sum21);
+    W_bar[32] = its_amplitude * (total_56 + rotation_R5_2 * sum24 + rotation_R5_3 * sum25);
+    W_bar[33] = product_42;
+    W_bar[34] = its_amplitude * total_57;
+    W_bar[35] = product_43;
+    amplitude_bar[0] = sum7;
 }
 
 /* The distances of some points q from one point p. */
@@ -862,17 +1151,17 @@ OUTLINE void pair_distances(
     const vector rotation_g3 = p3 * q6 + p5 * q4 - p4 * q5 - p6 * q3;
     const vector rotation_norm_s_squared = rotation_g1 * rotation_g1 + rotation_g2 * rotation_g2 + rotation_g3
         * rotation_g3;
-    const vector rotation_norm_s = vector_sqrt(rotation_norm_s_squared);
-    const vector rotation_abs_g0 = vector_abs(rotation_g0);
-    const vector rotation_atan2_norm_s_abs_g0 = vector_atan2(rotation_norm_s, rotation_abs_g0);
+    const vector rotation_norm_s = sqrt_each(rotation_norm_s_squared);
+    const vector rotation_abs_g0 = abs_each(rotation_g0);
+    const vector rotation_atan2_norm_s_abs_g0 = atan2_each(rotation_norm_s, rotation_abs_g0);
     const vector rotation_t = 2.0 * rotation_atan2_norm_s_abs_g0;
-    const vector length = vector_sqrt(position_log0 * position_log0 + position_log1 * position_log1 +
+    const vector length = sqrt_each(position_log0 * position_log0 + position_log1 * position_log1 +
         position_log2 * position_log2 + rotation_t * rotation_t);
     distance[0] = length;
 }
 
 /*
- * The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar.
+ * The factors of whose products are what is summed over the points.
  *
  * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
@@ -885,294 +1174,309 @@ OUTLINE void pair_factors(
     const vector x0 = X[0];
     const vector x1 = X[1];
     const vector x2 = X[2];
-    const vector rotation_h0 = X[3];
-    const vector rotation_h1 = X[4];
-    const vector rotation_h2 = X[5];
-    const vector rotation_h3 = X[6];
+    const vector x3 = X[3];
+    const vector x4 = X[4];
+    const vector x5 = X[5];
+    const vector x6 = X[6];
+    const vector rotation_h0 = X[7];
+    const vector rotation_h1 = X[8];
+    const vector rotation_h2 = X[9];
+    const vector rotation_h3 = X[10];
     const double mu0 = S[0];
     const double mu1 = S[1];
     const double mu2 = S[2];
-    const double W0_0 = S[3];
-    const double W0_1 = S[4];
-    const double W0_2 = S[5];
-    const double W1_0 = S[6];
-    const double W1_1 = S[7];
-    const double W1_2 = S[8];
-    const double W2_0 = S[9];
-    const double W2_1 = S[10];
-    const double W2_2 = S[11];
-    const double W3_0 = S[12];
-    const double W3_1 = S[13];
-    const double W3_2 = S[14];
-    const double W4_0 = S[15];
-    const double W4_1 = S[16];
-    const double W4_2 = S[17];
-    const double W5_0 = S[18];
-    const double W5_1 = S[19];
-    const double W5_2 = S[20];
-    const double amplitude = S[21];
-    const double rotation_M0 = S[22];
-    const double rotation_M1 = S[23];
-    const double rotation_M2 = S[24];
-    const double rotation_M3 = S[25];
-    const double rotation_R0_0 = S[26];
-    const double rotation_R0_1 = S[27];
-    const double rotation_R0_2 = S[28];
-    const double rotation_R0_3 = S[29];
-    const double rotation_R1_0 = S[30];
-    const double rotation_R1_1 = S[31];
-    const double rotation_R1_2 = S[32];
-    const double rotation_R1_3 = S[33];
-    const double rotation_R2_0 = S[34];
-    const double rotation_R2_1 = S[35];
-    const double rotation_R2_2 = S[36];
-    const double rotation_R2_3 = S[37];
-    const double rotation_R3_0 = S[38];
-    const double rotation_R3_1 = S[39];
-    const double rotation_R3_2 = S[40];
-    const double rotation_R3_3 = S[41];
-    const double rotation_R4_0 = S[42];
-    const double rotation_R4_1 = S[43];
-    const double rotation_R4_2 = S[44];
-    const double rotation_R4_3 = S[45];
-    const double rotation_R5_0 = S[46];
-    const double rotation_R5_1 = S[47];
-    const double rotation_R5_2 = S[48];
-    const double rotation_R5_3 = S[49];
+    const double mu3 = S[3];
+    const double mu4 = S[4];
+    const double mu5 = S[5];
+    const double mu6 = S[6];
+    const double W0_0 = S[7];
+    const double W0_1 = S[8];
+    const double W0_2 = S[9];
+    const double W1_0 = S[10];
+    const double W1_1 = S[11];
+    const double W1_2 = S[12];
+    const double W2_0 = S[13];
+    const double W2_1 = S[14];
+    const double W2_2 = S[15];
+    const double W3_0 = S[16];
+    const double W3_1 = S[17];
+    const double W3_2 = S[18];
+    const double W4_0 = S[19];
+    const double W4_1 = S[20];
+    const double W4_2 = S[21];
+    const double W5_0 = S[22];
+    const double W5_1 = S[23];
+    const double W5_2 = S[24];
+    const double M0_0 = S[26];
+    const double M0_1 = S[27];
+    const double M0_2 = S[28];
+    const double M1_1 = S[29];
+    const double M1_2 = S[30];
+    const double M2_2 = S[31];
+    const double rotation_R0_0 = S[32];
+    const double rotation_R0_1 = S[33];
+    const double rotation_R0_2 = S[34];
+    const double rotation_R0_3 = S[35];
+    const double rotation_R1_0 = S[36];
+    const double rotation_R1_1 = S[37];
+    const double rotation_R1_2 = S[38];
+    const double rotation_R1_3 = S[39];
+    const double rotation_R2_0 = S[40];
+    const double rotation_R2_1 = S[41];
+    const double rotation_R2_2 = S[42];
+    const double rotation_R2_3 = S[43];
+    const double rotation_R3_0 = S[44];
+    const double rotation_R3_1 = S[45];
+    const double rotation_R3_2 = S[46];
+    const double rotation_R3_3 = S[47];
+    const double rotation_R4_0 = S[48];
+    const double rotation_R4_1 = S[49];
+    const double rotation_R4_2 = S[50];
+    const double rotation_R4_3 = S[51];
+    const double rotation_R5_0 = S[52];
+    const double rotation_R5_1 = S[53];
+    const double rotation_R5_2 = S[54];
+    const double rotation_R5_3 = S[55];
+    const double M0_3 = S[56];
+    const double M0_4 = S[57];
+    const double M0_5 = S[58];
+    const double M0_6 = S[59];
+    const double M1_3 = S[60];
+    const double M1_4 = S[61];
+    const double M1_5 = S[62];
+    const double M1_6 = S[63];
+    const double M2_3 = S[64];
+    const double M2_4 = S[65];
+    const double M2_5 = S[66];
+    const double M2_6 = S[67];
+    const double M3_3 = S[68];
+    const double M3_4 = S[69];
+    const double M3_5 = S[70];
+    const double M3_6 = S[71];
+    const double M4_4 = S[72];
+    const double M4_5 = S[73];
+    const double M4_6 = S[74];
+    const double M5_5 = S[75];
+    const double M5_6 = S[76];
+    const double M6_6 = S[77];
     const vector its_value_bar = value_bar[0];
     const vector x0_bar = slope_bar[0];
     const vector x1_bar = slope_bar[1];
     const vector x2_bar = slope_bar[2];
-    const vector rotation_h0_bar = slope_bar[3];
-    const vector rotation_h1_bar = slope_bar[4];
-    const vector rotation_h2_bar = slope_bar[5];
-    const vector rotation_h3_bar = slope_bar[6];
-    const vector total_2 = rotation_h0 * rotation_M0 + rotation_h1 * rotation_M1 + rotation_h2 * rotation_M2 +
-        rotation_h3 * rotation_M3;
-    const vector rotation_w = vector_abs(total_2);
-    const vector rotation_w_gap = 1.0 - rotation_w;
-    const vector rotation_eta = vector_polynomial_rotation_eta(rotation_w_gap);
-    const vector rotation_a = 1.0 / (rotation_w - rotation_eta * (1.0 - rotation_w * rotation_w));
+    const vector x3_bar = slope_bar[3];
+    const vector x4_bar = slope_bar[4];
+    const vector x5_bar = slope_bar[5];
+    const vector x6_bar = slope_bar[6];
+    const vector rotation_h0_bar = slope_bar[7];
+    const vector rotation_h1_bar = slope_bar[8];
+    const vector rotation_h2_bar = slope_bar[9];
+    const vector rotation_h3_bar = slope_bar[10];
     const vector v0 = x0 - mu0;
     const vector v1 = x1 - mu1;
     const vector v2 = x2 - mu2;
-    const vector_mask is_small = total_2 < 0.0;
+    const vector rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6;
+    const vector_mask is_small = rotation_g0 < 0.0;
+    const vector rotation_abs_g0 = abs_each(rotation_g0);
+    const vector gap = 1.0 - rotation_abs_g0;
+    const vector rotation_eta = vector_polynomial_rotation_eta(gap);
+    const vector rotation_a = 1.0 / (rotation_abs_g0 - rotation_eta * (1.0 - rotation_abs_g0 *
+        rotation_abs_g0));
     const vector rotation_a_chosen = vector_select(is_small, -rotation_a, rotation_a);
-    const vector rotation_r0 = rotation_h0 * rotation_R0_0 + rotation_h1 * rotation_R0_1 + rotation_h2 *
-        rotation_R0_2 + rotation_h3 * rotation_R0_3;
-    const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_a_chosen * rotation_r0;
-    const vector rotation_r1 = rotation_h0 * rotation_R1_0 + rotation_h1 * rotation_R1_1 + rotation_h2 *
-        rotation_R1_2 + rotation_h3 * rotation_R1_3;
-    const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_a_chosen * rotation_r1;
-    const vector rotation_r2 = rotation_h0 * rotation_R2_0 + rotation_h1 * rotation_R2_1 + rotation_h2 *
-        rotation_R2_2 + rotation_h3 * rotation_R2_3;
-    const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_a_chosen * rotation_r2;
-    const vector rotation_r3 = rotation_h0 * rotation_R3_0 + rotation_h1 * rotation_R3_1 + rotation_h2 *
-        rotation_R3_2 + rotation_h3 * rotation_R3_3;
-    const vector z3 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_a_chosen * rotation_r3;
-    const vector rotation_r4 = rotation_h0 * rotation_R4_0 + rotation_h1 * rotation_R4_1 + rotation_h2 *
-        rotation_R4_2 + rotation_h3 * rotation_R4_3;
-    const vector z4 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_a_chosen * rotation_r4;
-    const vector total_3 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-    const vector rotation_r5 = rotation_h0 * rotation_R5_0 + rotation_h1 * rotation_R5_1 + rotation_h2 *
-        rotation_R5_2 + rotation_h3 * rotation_R5_3;
-    const vector z5 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_a_chosen * rotation_r5;
-    const vector half_square = 0.5 * (total_3 + z5 * z5);
-    const vector gaussian = vector_exp(-half_square);
-    const vector rotation_a_product = rotation_a * (rotation_a * gaussian);
-    const vector phi = amplitude * rotation_a_product;
-    const vector gap = -(rotation_R5_0 * rotation_h0_bar) - rotation_R5_1 * rotation_h1_bar - rotation_R5_2 *
-        rotation_h2_bar - rotation_R5_3 * rotation_h3_bar;
-    const vector total_4 = -(W5_0 * x0_bar) - W5_1 * x1_bar - W5_2 * x2_bar + rotation_a_chosen * gap;
-    const vector total_5 = rotation_M0 * rotation_h0_bar + rotation_M1 * rotation_h1_bar + rotation_M2 *
-        rotation_h2_bar + rotation_M3 * rotation_h3_bar;
-    const vector by_by_rotation_w = vector_select(is_small, vector_of(0.0), total_5) - vector_select(is_small,
-        total_5, vector_of(0.0));
-    const vector product = rotation_eta * by_by_rotation_w;
-    const vector product_2 = rotation_a_chosen * product;
-    const vector gap_2 = total_4 - rotation_r5 * product_2;
-    const vector gap_3 = -(rotation_R0_0 * rotation_h0_bar) - rotation_R0_1 * rotation_h1_bar - rotation_R0_2
-        * rotation_h2_bar - rotation_R0_3 * rotation_h3_bar;
-    const vector total_6 = -(W0_0 * x0_bar) - W0_1 * x1_bar - W0_2 * x2_bar + rotation_a_chosen * gap_3;
-    const vector gap_4 = total_6 - rotation_r0 * product_2;
-    const vector gap_5 = -(rotation_R1_0 * rotation_h0_bar) - rotation_R1_1 * rotation_h1_bar - rotation_R1_2
-        * rotation_h2_bar - rotation_R1_3 * rotation_h3_bar;
-    const vector total_7 = -(W1_0 * x0_bar) - W1_1 * x1_bar - W1_2 * x2_bar + rotation_a_chosen * gap_5;
-    const vector gap_6 = total_7 - rotation_r1 * product_2;
-    const vector gap_7 = -(rotation_R2_0 * rotation_h0_bar) - rotation_R2_1 * rotation_h1_bar - rotation_R2_2
-        * rotation_h2_bar - rotation_R2_3 * rotation_h3_bar;
-    const vector total_8 = -(W2_0 * x0_bar) - W2_1 * x1_bar - W2_2 * x2_bar + rotation_a_chosen * gap_7;
-    const vector gap_8 = total_8 - rotation_r2 * product_2;
-    const vector gap_9 = -(rotation_R3_0 * rotation_h0_bar) - rotation_R3_1 * rotation_h1_bar - rotation_R3_2
-        * rotation_h2_bar - rotation_R3_3 * rotation_h3_bar;
-    const vector total_9 = -(W3_0 * x0_bar) - W3_1 * x1_bar - W3_2 * x2_bar + rotation_a_chosen * gap_9;
-    const vector gap_10 = total_9 - rotation_r3 * product_2;
-    const vector total_10 = its_value_bar + z0 * gap_4 + z1 * gap_6 + z2 * gap_8 + z3 * gap_10;
-    const vector gap_11 = -(rotation_R4_0 * rotation_h0_bar) - rotation_R4_1 * rotation_h1_bar - rotation_R4_2
-        * rotation_h2_bar - rotation_R4_3 * rotation_h3_bar;
-    const vector total_11 = -(W4_0 * x0_bar) - W4_1 * x1_bar - W4_2 * x2_bar + rotation_a_chosen * gap_11;
-    const vector gap_12 = total_11 - rotation_r4 * product_2;
-    const vector by_phi = total_10 + z4 * gap_12 + z5 * gap_2 + 2.0 * product;
-    const vector product_3 = rotation_a_product * (amplitude * by_phi);
-    const vector by_z5 = phi * gap_2 - z5 * product_3;
-    const vector by_z4 = phi * gap_12 - z4 * product_3;
-    const vector by_z3 = phi * gap_10 - z3 * product_3;
-    const vector by_z2 = phi * gap_8 - z2 * product_3;
-    const vector by_z1 = phi * gap_6 - z1 * product_3;
-    const vector total_12 = W5_0 * by_z5 + W4_0 * by_z4 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1;
-    const vector by_z0 = phi * gap_4 - z0 * product_3;
-    const vector by_v0 = total_12 + W0_0 * by_z0;
-    const vector total_13 = W5_1 * by_z5 + W4_1 * by_z4 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1;
-    const vector by_v1 = total_13 + W0_1 * by_z0;
-    const vector total_14 = W5_2 * by_z5 + W4_2 * by_z4 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1;
-    const vector by_v2 = total_14 + W0_2 * by_z0;
-    const vector z0_product = z0 * phi;
-    const vector z1_product = z1 * phi;
-    const vector z2_product = z2 * phi;
-    const vector z3_product = z3 * phi;
-    const vector z4_product = z4 * phi;
-    const vector z5_product = z5 * phi;
-    const vector gap_13 = -(rotation_r5 * z5_product) - rotation_r4 * z4_product - rotation_r3 * z3_product -
-        rotation_r2 * z2_product;
-    const vector gap_14 = gap_13 - rotation_r1 * z1_product - rotation_r0 * z0_product;
-    const vector total_15 = 2.0 * phi + rotation_a_chosen * gap_14;
-    const vector by_rotation_w = rotation_eta * total_15;
-    const vector chosen = vector_select(is_small, -by_rotation_w, by_rotation_w);
-    const vector rotation_eta_slope = vector_polynomial_rotation_eta_slope(rotation_w_gap);
-    const vector total_16 = gap_14 * product + z0_product * gap_3 + z1_product * gap_5 + z2_product * gap_7 +
-        z3_product * gap_9;
-    const vector total_17 = total_16 + z4_product * gap_11 + z5_product * gap + rotation_r5 * by_z5 +
-        rotation_r4 * by_z4;
-    const vector total_18 = total_17 + rotation_r3 * by_z3 + rotation_r2 * by_z2 + rotation_r1 * by_z1 +
-        rotation_r0 * by_z0;
-    const vector by_rotation_w_2 = rotation_eta_slope * (total_15 * by_by_rotation_w) + rotation_eta * (2.0 *
-        product_3 + rotation_a_chosen * total_18);
-    const vector chosen_2 = vector_select(is_small, -by_rotation_w_2, by_rotation_w_2);
-    const vector by_rotation_r0 = rotation_a_chosen * by_z0 - z0_product * product_2;
-    const vector product_4 = rotation_a_chosen * z0_product;
-    const vector by_rotation_r1 = rotation_a_chosen * by_z1 - z1_product * product_2;
-    const vector product_5 = rotation_a_chosen * z1_product;
-    const vector by_rotation_r2 = rotation_a_chosen * by_z2 - z2_product * product_2;
-    const vector product_6 = rotation_a_chosen * z2_product;
-    const vector by_rotation_r3 = rotation_a_chosen * by_z3 - z3_product * product_2;
-    const vector product_7 = rotation_a_chosen * z3_product;
-    const vector by_rotation_r4 = rotation_a_chosen * by_z4 - z4_product * product_2;
-    const vector product_8 = rotation_a_chosen * z4_product;
-    const vector by_rotation_r5 = rotation_a_chosen * by_z5 - z5_product * product_2;
-    const vector product_9 = rotation_a_chosen * z5_product;
+    const vector product = rotation_h0 * rotation_a_chosen;
+    const vector product_2 = rotation_h1 * rotation_a_chosen;
+    const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
+        product_2;
+    const vector product_3 = rotation_h2 * rotation_a_chosen;
+    const vector product_4 = rotation_h3 * rotation_a_chosen;
+    const vector total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
+    const vector total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
+        product_2;
+    const vector total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4;
+    const vector total_6 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_R2_0 * product + rotation_R2_1 *
+        product_2;
+    const vector total_7 = total_6 + rotation_R2_2 * product_3 + rotation_R2_3 * product_4;
+    const vector total_8 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_R3_0 * product + rotation_R3_1 *
+        product_2;
+    const vector total_9 = total_8 + rotation_R3_2 * product_3 + rotation_R3_3 * product_4;
+    const vector total_10 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_R4_0 * product + rotation_R4_1 *
+        product_2;
+    const vector total_11 = total_10 + rotation_R4_2 * product_3 + rotation_R4_3 * product_4;
+    const vector total_12 = W0_0 * total_3 + W1_0 * total_5 + W2_0 * total_7 + W3_0 * total_9 + W4_0 *
+        total_11;
+    const vector total_13 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_R5_0 * product + rotation_R5_1 *
+        product_2;
+    const vector total_14 = total_13 + rotation_R5_2 * product_3 + rotation_R5_3 * product_4;
+    const vector total_15 = total_12 + W5_0 * total_14;
+    const vector total_16 = total_3 * total_3 + total_5 * total_5 + total_7 * total_7 + total_9 * total_9 +
+        total_11 * total_11;
+    const vector gaussian = gaussian_each(total_16 + total_14 * total_14);
+    const vector phi = rotation_a * (rotation_a * gaussian);
+    const vector total_17 = rotation_R0_3 * total_3 + rotation_R1_3 * total_5 + rotation_R2_3 * total_7 +
+        rotation_R3_3 * total_9 + rotation_R4_3 * total_11;
+    const vector total_18 = total_17 + rotation_R5_3 * total_14;
+    const vector by_by_rotation_g0 = mu3 * x3_bar + mu4 * x4_bar + mu5 * x5_bar + mu6 * x6_bar;
+    const vector by_by_rotation_abs_g0 = vector_select(is_small, vector_of(0.0), by_by_rotation_g0) -
+        vector_select(is_small, by_by_rotation_g0, vector_of(0.0));
+    const vector product_5 = rotation_eta * by_by_rotation_abs_g0;
+    const vector product_6 = rotation_a_chosen * product_5;
+    const vector gap_2 = -(rotation_h3 * product_6) - rotation_a_chosen * rotation_h3_bar;
+    const vector total_19 = rotation_R0_2 * total_3 + rotation_R1_2 * total_5 + rotation_R2_2 * total_7 +
+        rotation_R3_2 * total_9 + rotation_R4_2 * total_11;
+    const vector total_20 = total_19 + rotation_R5_2 * total_14;
+    const vector gap_3 = -(rotation_h2 * product_6) - rotation_a_chosen * rotation_h2_bar;
+    const vector total_21 = rotation_R0_1 * total_3 + rotation_R1_1 * total_5 + rotation_R2_1 * total_7 +
+        rotation_R3_1 * total_9 + rotation_R4_1 * total_11;
+    const vector total_22 = total_21 + rotation_R5_1 * total_14;
+    const vector gap_4 = -(rotation_h1 * product_6) - rotation_a_chosen * rotation_h1_bar;
+    const vector total_23 = rotation_R0_0 * total_3 + rotation_R1_0 * total_5 + rotation_R2_0 * total_7 +
+        rotation_R3_0 * total_9 + rotation_R4_0 * total_11;
+    const vector total_24 = total_23 + rotation_R5_0 * total_14;
+    const vector gap_5 = -(rotation_h0 * product_6) - rotation_a_chosen * rotation_h0_bar;
+    const vector total_25 = its_value_bar + total_18 * gap_2 + total_20 * gap_3 + total_22 * gap_4 + total_24
+        * gap_5;
+    const vector total_26 = W0_2 * total_3 + W1_2 * total_5 + W2_2 * total_7 + W3_2 * total_9 + W4_2 *
+        total_11;
+    const vector total_27 = total_26 + W5_2 * total_14;
+    const vector total_28 = W0_1 * total_3 + W1_1 * total_5 + W2_1 * total_7 + W3_1 * total_9 + W4_1 *
+        total_11;
+    const vector total_29 = total_28 + W5_1 * total_14;
+    const vector by_phi = total_25 - total_27 * x2_bar - total_29 * x1_bar - total_15 * x0_bar + 2.0 *
+        product_5;
+    const vector phi_product = phi * by_phi;
+    const vector phi_product_2 = phi * x0_bar;
+    const vector phi_product_3 = phi * x1_bar;
+    const vector phi_product_4 = phi * x2_bar;
+    const vector phi_product_5 = phi * gap_5;
+    const vector total_30 = -(M0_0 * phi_product_2) - M0_1 * phi_product_3 - M0_2 * phi_product_4 + M0_3 *
+        phi_product_5;
+    const vector phi_product_6 = phi * gap_4;
+    const vector phi_product_7 = phi * gap_3;
+    const vector phi_product_8 = phi * gap_2;
+    const vector gap_6 = total_15 * phi_product - (total_30 + M0_4 * phi_product_6 + M0_5 * phi_product_7 +
+        M0_6 * phi_product_8);
+    const vector total_31 = -(M0_1 * phi_product_2) - M1_1 * phi_product_3 - M1_2 * phi_product_4 + M1_3 *
+        phi_product_5;
+    const vector gap_7 = total_29 * phi_product - (total_31 + M1_4 * phi_product_6 + M1_5 * phi_product_7 +
+        M1_6 * phi_product_8);
+    const vector total_32 = -(M0_2 * phi_product_2) - M1_2 * phi_product_3 - M2_2 * phi_product_4 + M2_3 *
+        phi_product_5;
+    const vector gap_8 = total_27 * phi_product - (total_32 + M2_4 * phi_product_6 + M2_5 * phi_product_7 +
+        M2_6 * phi_product_8);
+    const vector phi_product_9 = phi * total_18;
+    const vector phi_product_10 = phi * total_20;
+    const vector phi_product_11 = phi * total_22;
+    const vector phi_product_12 = phi * total_24;
+    const vector gap_9 = -(rotation_h3 * phi_product_9) - rotation_h2 * phi_product_10 - rotation_h1 *
+        phi_product_11 - rotation_h0 * phi_product_12;
+    const vector total_33 = 2.0 * phi + rotation_a_chosen * gap_9;
+    const vector by_rotation_abs_g0 = rotation_eta * total_33;
+    const vector by_rotation_g0 = vector_select(is_small, -by_rotation_abs_g0, by_rotation_abs_g0);
+    const vector rotation_eta_slope = vector_polynomial_rotation_eta_slope(gap);
+    const vector gap_10 = gap_9 * product_5 - phi_product_12 * rotation_h0_bar - phi_product_11 *
+        rotation_h1_bar - phi_product_10 * rotation_h2_bar - phi_product_9 * rotation_h3_bar;
+    const vector total_34 = -(M0_6 * phi_product_2) - M1_6 * phi_product_3 - M2_6 * phi_product_4 + M3_6 *
+        phi_product_5;
+    const vector gap_11 = total_34 + M4_6 * phi_product_6 + M5_6 * phi_product_7 + M6_6 * phi_product_8 -
+        total_18 * phi_product;
+    const vector total_35 = -(M0_5 * phi_product_2) - M1_5 * phi_product_3 - M2_5 * phi_product_4 + M3_5 *
+        phi_product_5;
+    const vector gap_12 = total_35 + M4_5 * phi_product_6 + M5_5 * phi_product_7 + M5_6 * phi_product_8 -
+        total_20 * phi_product;
+    const vector total_36 = -(M0_4 * phi_product_2) - M1_4 * phi_product_3 - M2_4 * phi_product_4 + M3_4 *
+        phi_product_5;
+    const vector gap_13 = total_36 + M4_4 * phi_product_6 + M4_5 * phi_product_7 + M4_6 * phi_product_8 -
+        total_22 * phi_product;
+    const vector total_37 = -(M0_3 * phi_product_2) - M1_3 * phi_product_3 - M2_3 * phi_product_4 + M3_3 *
+        phi_product_5;
+    const vector gap_14 = total_37 + M3_4 * phi_product_6 + M3_5 * phi_product_7 + M3_6 * phi_product_8 -
+        total_24 * phi_product;
+    const vector total_38 = gap_10 + rotation_h3 * gap_11 + rotation_h2 * gap_12 + rotation_h1 * gap_13 +
+        rotation_h0 * gap_14;
+    const vector by_rotation_abs_g0_2 = rotation_eta_slope * (total_33 * by_by_rotation_abs_g0) + rotation_eta
+        * (2.0 * phi_product + rotation_a_chosen * total_38);
+    const vector by_rotation_g0_2 = vector_select(is_small, -by_rotation_abs_g0_2, by_rotation_abs_g0_2);
+    const vector product_7 = 0.5 * phi_product;
+    const vector gap_15 = -phi_product_2 - v0 * product_7;
+    const vector gap_16 = -phi_product_3 - v1 * product_7;
+    const vector gap_17 = -phi_product_4 - v2 * product_7;
+    const vector gap_18 = phi_product_5 - product * product_7;
+    const vector gap_19 = phi_product_6 - product_2 * product_7;
+    const vector gap_20 = phi_product_7 - product_3 * product_7;
+    const vector gap_21 = phi_product_8 - product_4 * product_7;
     factor[0] = v0;
     factor[1] = v1;
     factor[2] = v2;
-    factor[3] = by_z5;
-    factor[4] = by_z4;
-    factor[5] = by_z3;
-    factor[6] = by_z2;
-    factor[7] = by_z1;
-    factor[8] = by_z0;
-    factor[9] = -by_v0;
-    factor[10] = -by_v1;
-    factor[11] = -by_v2;
-    factor[12] = z0_product;
-    factor[13] = z1_product;
-    factor[14] = z2_product;
-    factor[15] = z3_product;
-    factor[16] = z4_product;
-    factor[17] = z5_product;
-    factor[18] = rotation_a_product * by_phi;
-    factor[19] = chosen;
-    factor[20] = chosen_2;
-    factor[21] = by_rotation_r0;
-    factor[22] = product_4;
-    factor[23] = by_rotation_r1;
-    factor[24] = product_5;
-    factor[25] = by_rotation_r2;
-    factor[26] = product_6;
-    factor[27] = by_rotation_r3;
-    factor[28] = product_7;
-    factor[29] = by_rotation_r4;
-    factor[30] = product_8;
-    factor[31] = by_rotation_r5;
-    factor[32] = product_9;
+    factor[3] = product;
+    factor[4] = product_2;
+    factor[5] = product_3;
+    factor[6] = product_4;
+    factor[7] = phi_product;
+    factor[8] = gap_6;
+    factor[9] = gap_7;
+    factor[10] = gap_8;
+    factor[11] = by_rotation_g0;
+    factor[12] = by_rotation_g0_2;
+    factor[13] = gap_15;
+    factor[14] = gap_16;
+    factor[15] = gap_17;
+    factor[16] = gap_18;
+    factor[17] = gap_19;
+    factor[18] = gap_20;
+    factor[19] = gap_21;
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_0(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[9];
-    sum[1] = sum[1] + factor[10];
-    sum[2] = sum[2] + factor[11];
-    sum[3] = sum[3] + factor[18];
-    sum[4] = sum[4] + factor[0] * factor[8] - factor[12] * point[8];
-    sum[5] = sum[5] + factor[1] * factor[8] - factor[12] * point[9];
-    sum[6] = sum[6] + factor[2] * factor[8] - factor[12] * point[10];
-    sum[7] = sum[7] + factor[0] * factor[7] - factor[13] * point[8];
-    sum[8] = sum[8] + factor[1] * factor[7] - factor[13] * point[9];
-    sum[9] = sum[9] + factor[2] * factor[7] - factor[13] * point[10];
-    sum[10] = sum[10] + factor[0] * factor[6] - factor[14] * point[8];
-    sum[11] = sum[11] + factor[1] * factor[6] - factor[14] * point[9];
+    sum[0] = sum[0] + factor[8];
+    sum[1] = sum[1] + factor[9];
+    sum[2] = sum[2] + factor[10];
+    sum[3] = sum[3] + factor[7];
+    sum[4] = sum[4] + factor[0] * factor[13];
+    sum[5] = sum[5] + factor[0] * factor[14] + factor[1] * factor[13];
+    sum[6] = sum[6] + factor[1] * factor[14];
+    sum[7] = sum[7] + factor[0] * factor[15] + factor[2] * factor[13];
+    sum[8] = sum[8] + factor[1] * factor[15] + factor[2] * factor[14];
+    sum[9] = sum[9] + factor[2] * factor[15];
+    sum[10] = sum[10] + factor[0] * factor[16] + factor[3] * factor[13];
+    sum[11] = sum[11] + factor[1] * factor[16] + factor[3] * factor[14];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_1(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[2] * factor[6] - factor[14] * point[10];
-    sum[1] = sum[1] + factor[2] * factor[5] - factor[15] * point[10];
-    sum[2] = sum[2] + factor[0] * factor[5] - factor[15] * point[8];
-    sum[3] = sum[3] + factor[1] * factor[5] - factor[15] * point[9];
-    sum[4] = sum[4] + factor[0] * factor[4] - factor[16] * point[8];
-    sum[5] = sum[5] + factor[1] * factor[4] - factor[16] * point[9];
-    sum[6] = sum[6] + factor[2] * factor[4] - factor[16] * point[10];
-    sum[7] = sum[7] + factor[0] * factor[3] - factor[17] * point[8];
-    sum[8] = sum[8] + factor[1] * factor[3] - factor[17] * point[9];
-    sum[9] = sum[9] + factor[2] * factor[3] - factor[17] * point[10];
-    sum[10] = sum[10] + factor[19] * point[11] + point[3] * factor[20];
-    sum[11] = sum[11] + factor[19] * point[12] + point[4] * factor[20];
+    sum[0] = sum[0] + factor[11] * point[15] + point[3] * factor[12];
+    sum[1] = sum[1] + factor[11] * point[16] + point[4] * factor[12];
+    sum[2] = sum[2] + factor[11] * point[17] + point[5] * factor[12];
+    sum[3] = sum[3] + factor[11] * point[18] + point[6] * factor[12];
+    sum[4] = sum[4] + factor[3] * factor[16];
+    sum[5] = sum[5] + factor[2] * factor[16] + factor[3] * factor[15];
+    sum[6] = sum[6] + factor[2] * factor[17] + factor[4] * factor[15];
+    sum[7] = sum[7] + factor[3] * factor[17] + factor[4] * factor[16];
+    sum[8] = sum[8] + factor[4] * factor[17];
+    sum[9] = sum[9] + factor[0] * factor[17] + factor[4] * factor[13];
+    sum[10] = sum[10] + factor[0] * factor[18] + factor[5] * factor[13];
+    sum[11] = sum[11] + factor[2] * factor[18] + factor[5] * factor[15];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_2(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[19] * point[13] + point[5] * factor[20];
-    sum[1] = sum[1] + factor[19] * point[14] + point[6] * factor[20];
-    sum[2] = sum[2] + point[5] * factor[21] - factor[22] * point[13];
-    sum[3] = sum[3] + point[6] * factor[21] - factor[22] * point[14];
-    sum[4] = sum[4] + point[3] * factor[21] - factor[22] * point[11];
-    sum[5] = sum[5] + point[4] * factor[21] - factor[22] * point[12];
-    sum[6] = sum[6] + point[3] * factor[23] - factor[24] * point[11];
-    sum[7] = sum[7] + point[4] * factor[23] - factor[24] * point[12];
-    sum[8] = sum[8] + point[5] * factor[23] - factor[24] * point[13];
-    sum[9] = sum[9] + point[6] * factor[23] - factor[24] * point[14];
-    sum[10] = sum[10] + point[3] * factor[25] - factor[26] * point[11];
-    sum[11] = sum[11] + point[4] * factor[25] - factor[26] * point[12];
-}
-
-/* Adds some of the derivatives, as products. */
-INLINE void pair_products_3(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + point[5] * factor[25] - factor[26] * point[13];
-    sum[1] = sum[1] + point[6] * factor[25] - factor[26] * point[14];
-    sum[2] = sum[2] + point[5] * factor[27] - factor[28] * point[13];
-    sum[3] = sum[3] + point[6] * factor[27] - factor[28] * point[14];
-    sum[4] = sum[4] + point[3] * factor[27] - factor[28] * point[11];
-    sum[5] = sum[5] + point[4] * factor[27] - factor[28] * point[12];
-    sum[6] = sum[6] + point[3] * factor[29] - factor[30] * point[11];
-    sum[7] = sum[7] + point[4] * factor[29] - factor[30] * point[12];
-    sum[8] = sum[8] + point[5] * factor[29] - factor[30] * point[13];
-    sum[9] = sum[9] + point[6] * factor[29] - factor[30] * point[14];
-    sum[10] = sum[10] + point[3] * factor[31] - factor[32] * point[11];
-    sum[11] = sum[11] + point[4] * factor[31] - factor[32] * point[12];
-}
-
-/* Adds some of the derivatives, as products. */
-INLINE void pair_products_4(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + point[5] * factor[31] - factor[32] * point[13];
-    sum[1] = sum[1] + point[6] * factor[31] - factor[32] * point[14];
+    sum[0] = sum[0] + factor[0] * factor[19] + factor[6] * factor[13];
+    sum[1] = sum[1] + factor[6] * factor[19];
+    sum[2] = sum[2] + factor[1] * factor[19] + factor[6] * factor[14];
+    sum[3] = sum[3] + factor[1] * factor[17] + factor[4] * factor[14];
+    sum[4] = sum[4] + factor[4] * factor[19] + factor[6] * factor[17];
+    sum[5] = sum[5] + factor[1] * factor[18] + factor[5] * factor[14];
+    sum[6] = sum[6] + factor[4] * factor[18] + factor[5] * factor[17];
+    sum[7] = sum[7] + factor[5] * factor[18];
+    sum[8] = sum[8] + factor[5] * factor[19] + factor[6] * factor[18];
+    sum[9] = sum[9] + factor[2] * factor[19] + factor[6] * factor[15];
+    sum[10] = sum[10] + factor[3] * factor[18] + factor[5] * factor[16];
+    sum[11] = sum[11] + factor[3] * factor[19] + factor[6] * factor[16];
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -1199,12 +1503,12 @@ OUTLINE void vector_end(size_t count, size_t start, size_t size, vector *columns
         for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
 }
 
-/* Scratch memory: 15 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
+/* Scratch memory: 23 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
 size_t se3_splats_work(size_t count, size_t splat_count, int threads) {
     (void)threads;
     const size_t points = (count + LANES - 1) / LANES, blocks = (points + 2 - 1) / 2;
     const size_t places = 8 * ((splat_count + LANES - 1) / LANES + (blocks + LANES - 1) / LANES);
-    return (points * 15 + places + 1) * LANES + 50 * splat_count;
+    return (points * 23 + places + 1) * LANES + 78 * splat_count;
 }
 
 static vector *work_points(double *work) {
@@ -1218,12 +1522,12 @@ INLINE const double *splat_at(const vector *splats, size_t k) {
     return (const double *)(splats + 8 * row) + (k - row * LANES);
 }
 
-static vector *work_splats(double *work, size_t count) {
-    return work_points(work) + (count + LANES - 1) / LANES * 15;
+static vector *work_reaches(double *work, size_t count) {
+    return work_points(work) + (count + LANES - 1) / LANES * 23;
 }
 
 static vector *work_blocks(double *work, size_t count, size_t splat_count) {
-    return work_splats(work, count) + 8 * ((splat_count + LANES - 1) / LANES);
+    return work_reaches(work, count) + 8 * ((splat_count + LANES - 1) / LANES);
 }
 
 static double *work_constants(double *work, size_t count, size_t splat_count) {
@@ -1325,13 +1629,13 @@ OUTLINE size_t blocks_near(
 OUTLINE void splat_constants(
     size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, const double *width, double *constants,
     vector *splats) {
-    vector own_mu[7], own_W[36], own_amplitude[1], S[50];
+    vector own_mu[7], own_W[36], own_amplitude[1], S[78];
     vector_rows(mu, splat_count, start, 7, own_mu);
     vector_rows(W, splat_count, start, 36, own_W);
     vector_rows(amplitude, splat_count, start, 1, own_amplitude);
     if (width) splat_reach(own_mu, own_amplitude, width, splat_count, start, splats);
     pair_constants(own_mu, own_W, own_amplitude, S);
-    vector_to_rows(S, constants, splat_count, start, 50, 50);
+    vector_to_rows(S, constants, splat_count, start, 78, 78);
 }
 
 /* 2 vectors of points at a time stay in registers while all splats pass. */
@@ -1340,7 +1644,7 @@ void se3_splats(
     double *SE3_RESTRICT value, double *SE3_RESTRICT gradient, double *SE3_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1349,8 +1653,8 @@ void se3_splats(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[2][7], X[2][7], grad[6];
-            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][7] = {{ZERO}};
+            vector at[2][7], X[2][11], grad[6];
+            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][11] = {{ZERO}};
             double place[7 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
@@ -1362,7 +1666,7 @@ void se3_splats(
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
                 for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 50 * near[i];
+                    const double *S = constants + 78 * near[i];
                     pair_forward(X[0], S, value_sum[0], slope_sum[0]);
                     pair_forward(X[1], S, value_sum[1], slope_sum[1]);
                 }
@@ -1382,7 +1686,7 @@ void se3_splats_value(
     double *SE3_RESTRICT value, double *SE3_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1391,7 +1695,7 @@ void se3_splats_value(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[7], X[2][7], value_sum[2][1] = {{ZERO}};
+            vector at[7], X[2][11], value_sum[2][1] = {{ZERO}};
             double place[7 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
@@ -1403,7 +1707,7 @@ void se3_splats_value(
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
                 for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 50 * near[i];
+                    const double *S = constants + 78 * near[i];
                     pair_value(X[0], S, value_sum[0]);
                     pair_value(X[1], S, value_sum[1]);
                 }
@@ -1418,177 +1722,133 @@ void se3_splats_value(
 /* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
 OUTLINE void splat_points(
     size_t count, size_t start, const double *x, const double *value_bar, const double *gradient_bar, vector *point) {
-    vector at[7], grad_bar[6], slope_bar[7];
+    vector at[7], grad_bar[6], slope_bar[11];
     vector_rows(x, count, start, 7, at);
     vector_rows(gradient_bar, count, start, 6, grad_bar);
-    vector_rows(value_bar, count, start, 1, point + 7);
+    vector_rows(value_bar, count, start, 1, point + 11);
     pair_features(at, point);
     pair_gradient_vjp(at, grad_bar, slope_bar);
-    for (int i = 0; i < 7; ++i) point[7 + 1 + i] = slope_bar[i];
-    vector_end(count, start, 7 + 1, point + 7);
+    for (int i = 0; i < 11; ++i) point[11 + 1 + i] = slope_bar[i];
+    vector_end(count, start, 11 + 1, point + 11);
 }
 
-/* Adds to S_bar what one vector of points adds to it. */
+/* Adds to sums what one vector of points adds to it. */
 INLINE void pair_backward(
-    const vector *point, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
-    vector factor[33];
+    const vector *point, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
+    vector factor[20];
     pair_factors(point, S, value_bar, slope_bar, factor);
     {
         vector sum[12] = {ZERO};
         pair_products_0(factor, point, sum);
-        S_bar[0] += sum[0];
-        S_bar[1] += sum[1];
-        S_bar[2] += sum[2];
-        S_bar[21] += sum[3];
-        S_bar[3] += sum[4];
-        S_bar[4] += sum[5];
-        S_bar[5] += sum[6];
-        S_bar[6] += sum[7];
-        S_bar[7] += sum[8];
-        S_bar[8] += sum[9];
-        S_bar[9] += sum[10];
-        S_bar[10] += sum[11];
+        sums[0] += sum[0];
+        sums[1] += sum[1];
+        sums[2] += sum[2];
+        sums[7] += sum[3];
+        sums[8] += sum[4];
+        sums[9] += sum[5];
+        sums[11] += sum[6];
+        sums[10] += sum[7];
+        sums[12] += sum[8];
+        sums[13] += sum[9];
+        sums[14] += sum[10];
+        sums[18] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_1(factor, point, sum);
-        S_bar[11] += sum[0];
-        S_bar[14] += sum[1];
-        S_bar[12] += sum[2];
-        S_bar[13] += sum[3];
-        S_bar[15] += sum[4];
-        S_bar[16] += sum[5];
-        S_bar[17] += sum[6];
-        S_bar[18] += sum[7];
-        S_bar[19] += sum[8];
-        S_bar[20] += sum[9];
-        S_bar[22] += sum[10];
-        S_bar[23] += sum[11];
+        sums[3] += sum[0];
+        sums[4] += sum[1];
+        sums[5] += sum[2];
+        sums[6] += sum[3];
+        sums[26] += sum[4];
+        sums[22] += sum[5];
+        sums[23] += sum[6];
+        sums[27] += sum[7];
+        sums[30] += sum[8];
+        sums[15] += sum[9];
+        sums[16] += sum[10];
+        sums[24] += sum[11];
     }
     {
         vector sum[12] = {ZERO};
         pair_products_2(factor, point, sum);
-        S_bar[24] += sum[0];
-        S_bar[25] += sum[1];
-        S_bar[28] += sum[2];
-        S_bar[29] += sum[3];
-        S_bar[26] += sum[4];
-        S_bar[27] += sum[5];
-        S_bar[30] += sum[6];
-        S_bar[31] += sum[7];
-        S_bar[32] += sum[8];
-        S_bar[33] += sum[9];
-        S_bar[34] += sum[10];
-        S_bar[35] += sum[11];
-    }
-    {
-        vector sum[12] = {ZERO};
-        pair_products_3(factor, point, sum);
-        S_bar[36] += sum[0];
-        S_bar[37] += sum[1];
-        S_bar[40] += sum[2];
-        S_bar[41] += sum[3];
-        S_bar[38] += sum[4];
-        S_bar[39] += sum[5];
-        S_bar[42] += sum[6];
-        S_bar[43] += sum[7];
-        S_bar[44] += sum[8];
-        S_bar[45] += sum[9];
-        S_bar[46] += sum[10];
-        S_bar[47] += sum[11];
-    }
-    {
-        vector sum[2] = {ZERO};
-        pair_products_4(factor, point, sum);
-        S_bar[48] += sum[0];
-        S_bar[49] += sum[1];
+        sums[17] += sum[0];
+        sums[35] += sum[1];
+        sums[21] += sum[2];
+        sums[19] += sum[3];
+        sums[32] += sum[4];
+        sums[20] += sum[5];
+        sums[31] += sum[6];
+        sums[33] += sum[7];
+        sums[34] += sum[8];
+        sums[25] += sum[9];
+        sums[28] += sum[10];
+        sums[29] += sum[11];
     }
 }
 
 /*
- * Adds to S_bar what some vectors of points add to it, those in the list: factors of 11 vectors at a time, then their
+ * Adds to sums what some vectors of points add to it, those in the list: factors of 16 vectors at a time, then their
  * products.
  */
-OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t count, const double *S, double *S_bar) {
-    vector factor[11 * 33], total[50] = {ZERO};
-    for (size_t start = 0; start < count; start += 11, near += 11) {
-        const size_t size = count - start < 11 ? count - start : 11;
+OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t count, const double *S, double *sums) {
+    vector factor[16 * 20], total[36] = {ZERO};
+    for (size_t start = 0; start < count; start += 16, near += 16) {
+        const size_t size = count - start < 16 ? count - start : 16;
         for (size_t b = 0; b < size; ++b) {
-            const vector *at = points + 15 * (size_t)near[b];
-            pair_factors(at, S, at + 7, at + 7 + 1, factor + 33 * b);
+            const vector *at = points + 23 * (size_t)near[b];
+            pair_factors(at, S, at + 11, at + 11 + 1, factor + 20 * b);
         }
         {
             vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_0(factor + 33 * b, points + 15 * (size_t)near[b], sum);
+            for (size_t b = 0; b < size; ++b) pair_products_0(factor + 20 * b, points + 23 * (size_t)near[b], sum);
             total[0] += sum[0];
             total[1] += sum[1];
             total[2] += sum[2];
-            total[21] += sum[3];
-            total[3] += sum[4];
-            total[4] += sum[5];
-            total[5] += sum[6];
-            total[6] += sum[7];
-            total[7] += sum[8];
-            total[8] += sum[9];
-            total[9] += sum[10];
-            total[10] += sum[11];
+            total[7] += sum[3];
+            total[8] += sum[4];
+            total[9] += sum[5];
+            total[11] += sum[6];
+            total[10] += sum[7];
+            total[12] += sum[8];
+            total[13] += sum[9];
+            total[14] += sum[10];
+            total[18] += sum[11];
         }
         {
             vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_1(factor + 33 * b, points + 15 * (size_t)near[b], sum);
-            total[11] += sum[0];
-            total[14] += sum[1];
-            total[12] += sum[2];
-            total[13] += sum[3];
-            total[15] += sum[4];
-            total[16] += sum[5];
-            total[17] += sum[6];
-            total[18] += sum[7];
-            total[19] += sum[8];
-            total[20] += sum[9];
-            total[22] += sum[10];
-            total[23] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_2(factor + 33 * b, points + 15 * (size_t)near[b], sum);
-            total[24] += sum[0];
-            total[25] += sum[1];
-            total[28] += sum[2];
-            total[29] += sum[3];
+            for (size_t b = 0; b < size; ++b) pair_products_1(factor + 20 * b, points + 23 * (size_t)near[b], sum);
+            total[3] += sum[0];
+            total[4] += sum[1];
+            total[5] += sum[2];
+            total[6] += sum[3];
             total[26] += sum[4];
-            total[27] += sum[5];
-            total[30] += sum[6];
-            total[31] += sum[7];
-            total[32] += sum[8];
-            total[33] += sum[9];
-            total[34] += sum[10];
-            total[35] += sum[11];
+            total[22] += sum[5];
+            total[23] += sum[6];
+            total[27] += sum[7];
+            total[30] += sum[8];
+            total[15] += sum[9];
+            total[16] += sum[10];
+            total[24] += sum[11];
         }
         {
             vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_3(factor + 33 * b, points + 15 * (size_t)near[b], sum);
-            total[36] += sum[0];
-            total[37] += sum[1];
-            total[40] += sum[2];
-            total[41] += sum[3];
-            total[38] += sum[4];
-            total[39] += sum[5];
-            total[42] += sum[6];
-            total[43] += sum[7];
-            total[44] += sum[8];
-            total[45] += sum[9];
-            total[46] += sum[10];
-            total[47] += sum[11];
-        }
-        {
-            vector sum[2] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_4(factor + 33 * b, points + 15 * (size_t)near[b], sum);
-            total[48] += sum[0];
-            total[49] += sum[1];
+            for (size_t b = 0; b < size; ++b) pair_products_2(factor + 20 * b, points + 23 * (size_t)near[b], sum);
+            total[17] += sum[0];
+            total[35] += sum[1];
+            total[21] += sum[2];
+            total[19] += sum[3];
+            total[32] += sum[4];
+            total[20] += sum[5];
+            total[31] += sum[6];
+            total[33] += sum[7];
+            total[34] += sum[8];
+            total[25] += sum[9];
+            total[28] += sum[10];
+            total[29] += sum[11];
         }
     }
-    for (size_t i = 0; i < 50; ++i) S_bar[i] += vector_sum(total[i]);
+    for (size_t i = 0; i < 36; ++i) sums[i] += vector_sum(total[i]);
 }
 
 /*
@@ -1599,12 +1859,12 @@ void se3_splats_vjp(
     size_t count, size_t splat_count, const double *SE3_RESTRICT x, const double *SE3_RESTRICT mu, const double *SE3_RESTRICT W, const double *SE3_RESTRICT amplitude, const double *SE3_RESTRICT width, const double *SE3_RESTRICT value_bar, const double *SE3_RESTRICT gradient_bar,
     double *SE3_RESTRICT mu_bar, double *SE3_RESTRICT W_bar, double *SE3_RESTRICT amplitude_bar, double *SE3_RESTRICT work, int threads) {
     const size_t blocks = (count + LANES - 1) / LANES;
-    const size_t chunk = 131072 / (15 * sizeof(vector)) + 1;
+    const size_t chunk = 131072 / (23 * sizeof(vector)) + 1;
     const size_t rows = ((blocks + 2 - 1) / 2 + LANES - 1) / LANES * LANES;
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES ? part : LANES;
     vector *points = work_points(work);
-    vector *splats = work_splats(work, count), *places = work_blocks(work, count, splat_count);
+    vector *splats = work_reaches(work, count), *places = work_blocks(work, count, splat_count);
     double *constants = work_constants(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -1626,26 +1886,26 @@ void se3_splats_vjp(
         }
         OMP(omp for schedule(dynamic, 8))
         for (size_t block = 0; block < blocks; ++block)
-            splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 15 * block);
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 23 * block);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
-            double sums[LANES][50] = {{0}};
-            uint32_t near[131072 / (15 * sizeof(vector)) + 2];
-            vector own_mu[7], own_W[36], own_amplitude[1], S_bar[50], bars[44];
+            double sums[LANES][36] = {{0}};
+            uint32_t near[131072 / (23 * sizeof(vector)) + 2];
+            vector own_mu[7], own_W[36], own_amplitude[1], own_sums[36], bars[44];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
                     const double *reach = width ? splat_at(splats, k) + 7 * LANES : NULL;
                     const size_t some = blocks_near(mu + 7 * k, reach, places, first, first + size, near);
-                    splat_sums(points + 15 * first, near, some, constants + 50 * k, sums[k - start]);
+                    splat_sums(points + 23 * first, near, some, constants + 78 * k, sums[k - start]);
                 }
             }
             vector_rows(mu, end, start, 7, own_mu);
             vector_rows(W, end, start, 36, own_W);
             vector_rows(amplitude, end, start, 1, own_amplitude);
-            vector_rows(sums[0], LANES, 0, 50, S_bar);
-            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 7, bars + 7 + 36);
+            vector_rows(sums[0], LANES, 0, 36, own_sums);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 7, bars + 7 + 36);
             vector_to_rows(bars, mu_bar, end, start, 7, 7);
             vector_to_rows(bars + 7, W_bar, end, start, 36, 36);
             vector_to_rows(bars + 7 + 36, amplitude_bar, end, start, 1, 1);
@@ -1669,15 +1929,15 @@ void se3_splats_rows(
             splat_constants(splat_count, start, mu, W, amplitude, NULL, constants, NULL);
         OMP(omp for schedule(dynamic))
         for (size_t block = 0; block < blocks; ++block) {
-            vector point[15];
+            vector point[23];
             splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector own_mu[7], own_W[36], own_amplitude[1], S_bar[50] = {ZERO}, bars[44];
+                vector own_mu[7], own_W[36], own_amplitude[1], own_sums[36] = {ZERO}, bars[44];
                 for (int i = 0; i < 7; ++i) own_mu[i] = vector_of(mu[7 * k + i]);
                 for (int i = 0; i < 36; ++i) own_W[i] = vector_of(W[36 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 50 * k, point + 7, point + 7 + 1, S_bar);
-                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 7, bars + 7 + 36);
+                pair_backward(point, constants + 78 * k, point + 11, point + 11 + 1, own_sums);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 7, bars + 7 + 36);
                 vector_to_rows(bars, rows + 44 * k, count, block * LANES, 44, 44 * splat_count);
             }
         }
@@ -1751,7 +2011,7 @@ double se3_splats_order(
     size_t count, size_t splat_count, const double *SE3_RESTRICT x, const double *SE3_RESTRICT mu, const double *SE3_RESTRICT amplitude, const double *SE3_RESTRICT width,
     double limit, size_t *SE3_RESTRICT order, double *SE3_RESTRICT work) {
     const size_t block = 2 * LANES;
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     uint32_t near[256];
     double share = 0;
     for (size_t n = 0; n < count; ++n) order[n] = n;
@@ -1782,6 +2042,10 @@ double se3_splats_order(
     }
     return share;
 }
+
+#endif /* double */
+
+#if !defined(RSRM_ONLY_DOUBLE) /* float */
 
 /* The same number in all lanes. */
 INLINE vector_f vector_of_f(float x) {
@@ -1824,35 +2088,34 @@ INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
 }
 
 /* x >= 0 with the sign of another. */
-INLINE vector_f vector_signed_f(vector_f x, vector_f sign) {
+INLINE vector_f signed_each_f(vector_f x, vector_f sign) {
     return vector_from_bits_f(vector_to_bits_f(x) | (vector_to_bits_f(sign) & 0x80000000));
 }
 
 /* abs of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_abs_f(vector_f x) {
+INLINE vector_f abs_each_f(vector_f x) {
     for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
     return x;
 }
 
 /* sqrt of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_sqrt_f(vector_f x) {
+INLINE vector_f sqrt_each_f(vector_f x) {
     for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
     return x;
 }
 
-/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
-INLINE vector_f vector_exp_f(vector_f x) {
-    const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
-    const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
-    const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
-    const vector_f scale = vector_from_bits_f((vector_to_bits_f(shifted) + 126) << 23); /* 2^(k - 1) */
-    const vector_f y = vector_select_f(x > 88.722839f, vector_of_f(HUGE_VALF), (scale + scale * part) * 2);
-    return vector_select_f(x < -86.9f, vector_of_f(0), y);
+/* exp(-s / 2) of s >= 0, as 2^k exp(-r / 2), |r| <= log(2), within 1 unit in the last place; below 1.8e-38 it is 0. */
+INLINE vector_f gaussian_each_f(vector_f s) {
+    const vector_f shifted = s * -0.7213475204444817f + 12583039.0f, k = shifted - 12583039.0f;
+    const vector_f r = (s + k * 1.38629150390625f) + k * 2.8572136406188345e-06f;
+    const vector_f part = r * (-0.5f + r * (0.125f + r * (-0.020833221247803655f + r * (0.0026041596642423803f + r * (-0.0002613493009373264f + r * 2.1759659078889598e-05f)))));
+    const vector_f scale = vector_from_bits_f(vector_to_bits_f(shifted) << 23); /* 2^k */
+    return vector_select_f(s > 173.8f, vector_of_f(0), scale + scale * part);
 }
 
 /* atan2, within 3 units in the last place. */
-INLINE vector_f vector_atan2_f(vector_f y, vector_f x) {
-    const vector_f a = vector_abs_f(y), b = vector_abs_f(x), one = vector_of_f(1);
+INLINE vector_f atan2_each_f(vector_f y, vector_f x) {
+    const vector_f a = abs_each_f(y), b = abs_each_f(x), one = vector_of_f(1);
     const vector_f less = vector_select_f(a > b, b, a), more = vector_select_f(a > b, a, b);
     const vector_f low = vector_select_f(less > 3.4028234663852886e38f, one, less);
     const vector_f high = vector_select_f(less > 3.4028234663852886e38f, one, vector_select_f(more == 0, one, more));
@@ -1863,7 +2126,7 @@ INLINE vector_f vector_atan2_f(vector_f y, vector_f x) {
     const vector_f first = vector_select_f(low > 0.4142135623730951f * high, 0.7853981852531433f + (angle + -2.1855695000931213e-08f), angle);
     const vector_f second = vector_select_f(a > b, 1.5707963705062866f - (first - -4.3711390001862426e-08f), first);
     const vector_f third = vector_select_f((vector_to_bits_f(x) & 0x80000000) != 0, 3.1415927410125732f - (second - -8.742278000372485e-08f), second);
-    return vector_signed_f(third, y);
+    return signed_each_f(third, y);
 }
 
 /* Of degree 11, within 2^-29 of that of double precision. */
@@ -1902,10 +2165,14 @@ OUTLINE void pair_features_f(
     X[0] = x0;
     X[1] = x1;
     X[2] = x2;
-    X[3] = rotation_h0;
-    X[4] = rotation_h1;
-    X[5] = rotation_h2;
-    X[6] = rotation_h3;
+    X[3] = x3;
+    X[4] = x4;
+    X[5] = x5;
+    X[6] = x6;
+    X[7] = rotation_h0;
+    X[8] = rotation_h1;
+    X[9] = rotation_h2;
+    X[10] = rotation_h3;
 }
 
 /* What pairs read of a splat, of some splats. */
@@ -1955,11 +2222,23 @@ OUTLINE void pair_constants_f(
     const vector_f W5_4 = W[34];
     const vector_f W5_5 = W[35];
     const vector_f its_amplitude = amplitude[0];
-    const vector_f rotation_M0 = 2.0f * mu3;
-    const vector_f rotation_M1 = 2.0f * mu4;
-    const vector_f rotation_M2 = 2.0f * mu5;
+    const vector_f total_2 = W0_0 * W0_0 + W1_0 * W1_0 + W2_0 * W2_0 + W3_0 * W3_0 + W4_0 * W4_0;
+    const vector_f M0_0 = total_2 + W5_0 * W5_0;
+    const vector_f total_3 = W0_0 * W0_1 + W1_0 * W1_1 + W2_0 * W2_1 + W3_0 * W3_1 + W4_0 * W4_1;
+    const vector_f M0_1 = total_3 + W5_0 * W5_1;
+    const vector_f total_4 = W0_0 * W0_2 + W1_0 * W1_2 + W2_0 * W2_2 + W3_0 * W3_2 + W4_0 * W4_2;
+    const vector_f M0_2 = total_4 + W5_0 * W5_2;
+    const vector_f total_5 = W0_1 * W0_1 + W1_1 * W1_1 + W2_1 * W2_1 + W3_1 * W3_1 + W4_1 * W4_1;
+    const vector_f M1_1 = total_5 + W5_1 * W5_1;
+    const vector_f total_6 = W0_1 * W0_2 + W1_1 * W1_2 + W2_1 * W2_2 + W3_1 * W3_2 + W4_1 * W4_2;
+    const vector_f M1_2 = total_6 + W5_1 * W5_2;
+    const vector_f total_7 = W0_2 * W0_2 + W1_2 * W1_2 + W2_2 * W2_2 + W3_2 * W3_2 + W4_2 * W4_2;
+    const vector_f M2_2 = total_7 + W5_2 * W5_2;
     const vector_f rotation_M3 = 2.0f * mu6;
+    const vector_f rotation_M2 = 2.0f * mu5;
+    const vector_f rotation_M1 = 2.0f * mu4;
     const vector_f rotation_R0_0 = 2.0f * (-(W0_5 * rotation_M3) - W0_4 * rotation_M2 - W0_3 * rotation_M1);
+    const vector_f rotation_M0 = 2.0f * mu3;
     const vector_f rotation_R0_1 = 2.0f * (W0_5 * rotation_M2 - W0_4 * rotation_M3 + W0_3 * rotation_M0);
     const vector_f rotation_R0_2 = 2.0f * (W0_4 * rotation_M0 - W0_5 * rotation_M1 + W0_3 * rotation_M3);
     const vector_f rotation_R0_3 = 2.0f * (W0_5 * rotation_M0 + W0_4 * rotation_M1 - W0_3 * rotation_M2);
@@ -1983,56 +2262,150 @@ OUTLINE void pair_constants_f(
     const vector_f rotation_R5_1 = 2.0f * (W5_5 * rotation_M2 - W5_4 * rotation_M3 + W5_3 * rotation_M0);
     const vector_f rotation_R5_2 = 2.0f * (W5_4 * rotation_M0 - W5_5 * rotation_M1 + W5_3 * rotation_M3);
     const vector_f rotation_R5_3 = 2.0f * (W5_5 * rotation_M0 + W5_4 * rotation_M1 - W5_3 * rotation_M2);
+    const vector_f total_8 = W0_0 * rotation_R0_0 + W1_0 * rotation_R1_0 + W2_0 * rotation_R2_0 + W3_0 *
+        rotation_R3_0 + W4_0 * rotation_R4_0;
+    const vector_f M0_3 = total_8 + W5_0 * rotation_R5_0;
+    const vector_f total_9 = W0_0 * rotation_R0_1 + W1_0 * rotation_R1_1 + W2_0 * rotation_R2_1 + W3_0 *
+        rotation_R3_1 + W4_0 * rotation_R4_1;
+    const vector_f M0_4 = total_9 + W5_0 * rotation_R5_1;
+    const vector_f total_10 = W0_0 * rotation_R0_2 + W1_0 * rotation_R1_2 + W2_0 * rotation_R2_2 + W3_0 *
+        rotation_R3_2 + W4_0 * rotation_R4_2;
+    const vector_f M0_5 = total_10 + W5_0 * rotation_R5_2;
+    const vector_f total_11 = W0_0 * rotation_R0_3 + W1_0 * rotation_R1_3 + W2_0 * rotation_R2_3 + W3_0 *
+        rotation_R3_3 + W4_0 * rotation_R4_3;
+    const vector_f M0_6 = total_11 + W5_0 * rotation_R5_3;
+    const vector_f total_12 = W0_1 * rotation_R0_0 + W1_1 * rotation_R1_0 + W2_1 * rotation_R2_0 + W3_1 *
+        rotation_R3_0 + W4_1 * rotation_R4_0;
+    const vector_f M1_3 = total_12 + W5_1 * rotation_R5_0;
+    const vector_f total_13 = W0_1 * rotation_R0_1 + W1_1 * rotation_R1_1 + W2_1 * rotation_R2_1 + W3_1 *
+        rotation_R3_1 + W4_1 * rotation_R4_1;
+    const vector_f M1_4 = total_13 + W5_1 * rotation_R5_1;
+    const vector_f total_14 = W0_1 * rotation_R0_2 + W1_1 * rotation_R1_2 + W2_1 * rotation_R2_2 + W3_1 *
+        rotation_R3_2 + W4_1 * rotation_R4_2;
+    const vector_f M1_5 = total_14 + W5_1 * rotation_R5_2;
+    const vector_f total_15 = W0_1 * rotation_R0_3 + W1_1 * rotation_R1_3 + W2_1 * rotation_R2_3 + W3_1 *
+        rotation_R3_3 + W4_1 * rotation_R4_3;
+    const vector_f M1_6 = total_15 + W5_1 * rotation_R5_3;
+    const vector_f total_16 = W0_2 * rotation_R0_0 + W1_2 * rotation_R1_0 + W2_2 * rotation_R2_0 + W3_2 *
+        rotation_R3_0 + W4_2 * rotation_R4_0;
+    const vector_f M2_3 = total_16 + W5_2 * rotation_R5_0;
+    const vector_f total_17 = W0_2 * rotation_R0_1 + W1_2 * rotation_R1_1 + W2_2 * rotation_R2_1 + W3_2 *
+        rotation_R3_1 + W4_2 * rotation_R4_1;
+    const vector_f M2_4 = total_17 + W5_2 * rotation_R5_1;
+    const vector_f total_18 = W0_2 * rotation_R0_2 + W1_2 * rotation_R1_2 + W2_2 * rotation_R2_2 + W3_2 *
+        rotation_R3_2 + W4_2 * rotation_R4_2;
+    const vector_f M2_5 = total_18 + W5_2 * rotation_R5_2;
+    const vector_f total_19 = W0_2 * rotation_R0_3 + W1_2 * rotation_R1_3 + W2_2 * rotation_R2_3 + W3_2 *
+        rotation_R3_3 + W4_2 * rotation_R4_3;
+    const vector_f M2_6 = total_19 + W5_2 * rotation_R5_3;
+    const vector_f total_20 = rotation_R0_0 * rotation_R0_0 + rotation_R1_0 * rotation_R1_0 + rotation_R2_0 *
+        rotation_R2_0 + rotation_R3_0 * rotation_R3_0 + rotation_R4_0 * rotation_R4_0;
+    const vector_f M3_3 = total_20 + rotation_R5_0 * rotation_R5_0;
+    const vector_f total_21 = rotation_R0_0 * rotation_R0_1 + rotation_R1_0 * rotation_R1_1 + rotation_R2_0 *
+        rotation_R2_1 + rotation_R3_0 * rotation_R3_1 + rotation_R4_0 * rotation_R4_1;
+    const vector_f M3_4 = total_21 + rotation_R5_0 * rotation_R5_1;
+    const vector_f total_22 = rotation_R0_0 * rotation_R0_2 + rotation_R1_0 * rotation_R1_2 + rotation_R2_0 *
+        rotation_R2_2 + rotation_R3_0 * rotation_R3_2 + rotation_R4_0 * rotation_R4_2;
+    const vector_f M3_5 = total_22 + rotation_R5_0 * rotation_R5_2;
+    const vector_f total_23 = rotation_R0_0 * rotation_R0_3 + rotation_R1_0 * rotation_R1_3 + rotation_R2_0 *
+        rotation_R2_3 + rotation_R3_0 * rotation_R3_3 + rotation_R4_0 * rotation_R4_3;
+    const vector_f M3_6 = total_23 + rotation_R5_0 * rotation_R5_3;
+    const vector_f total_24 = rotation_R0_1 * rotation_R0_1 + rotation_R1_1 * rotation_R1_1 + rotation_R2_1 *
+        rotation_R2_1 + rotation_R3_1 * rotation_R3_1 + rotation_R4_1 * rotation_R4_1;
+    const vector_f M4_4 = total_24 + rotation_R5_1 * rotation_R5_1;
+    const vector_f total_25 = rotation_R0_1 * rotation_R0_2 + rotation_R1_1 * rotation_R1_2 + rotation_R2_1 *
+        rotation_R2_2 + rotation_R3_1 * rotation_R3_2 + rotation_R4_1 * rotation_R4_2;
+    const vector_f M4_5 = total_25 + rotation_R5_1 * rotation_R5_2;
+    const vector_f total_26 = rotation_R0_1 * rotation_R0_3 + rotation_R1_1 * rotation_R1_3 + rotation_R2_1 *
+        rotation_R2_3 + rotation_R3_1 * rotation_R3_3 + rotation_R4_1 * rotation_R4_3;
+    const vector_f M4_6 = total_26 + rotation_R5_1 * rotation_R5_3;
+    const vector_f total_27 = rotation_R0_2 * rotation_R0_2 + rotation_R1_2 * rotation_R1_2 + rotation_R2_2 *
+        rotation_R2_2 + rotation_R3_2 * rotation_R3_2 + rotation_R4_2 * rotation_R4_2;
+    const vector_f M5_5 = total_27 + rotation_R5_2 * rotation_R5_2;
+    const vector_f total_28 = rotation_R0_2 * rotation_R0_3 + rotation_R1_2 * rotation_R1_3 + rotation_R2_2 *
+        rotation_R2_3 + rotation_R3_2 * rotation_R3_3 + rotation_R4_2 * rotation_R4_3;
+    const vector_f M5_6 = total_28 + rotation_R5_2 * rotation_R5_3;
+    const vector_f total_29 = rotation_R0_3 * rotation_R0_3 + rotation_R1_3 * rotation_R1_3 + rotation_R2_3 *
+        rotation_R2_3 + rotation_R3_3 * rotation_R3_3 + rotation_R4_3 * rotation_R4_3;
+    const vector_f M6_6 = total_29 + rotation_R5_3 * rotation_R5_3;
     S[0] = mu0;
     S[1] = mu1;
     S[2] = mu2;
-    S[3] = W0_0;
-    S[4] = W0_1;
-    S[5] = W0_2;
-    S[6] = W1_0;
-    S[7] = W1_1;
-    S[8] = W1_2;
-    S[9] = W2_0;
-    S[10] = W2_1;
-    S[11] = W2_2;
-    S[12] = W3_0;
-    S[13] = W3_1;
-    S[14] = W3_2;
-    S[15] = W4_0;
-    S[16] = W4_1;
-    S[17] = W4_2;
-    S[18] = W5_0;
-    S[19] = W5_1;
-    S[20] = W5_2;
-    S[21] = its_amplitude;
-    S[22] = rotation_M0;
-    S[23] = rotation_M1;
-    S[24] = rotation_M2;
-    S[25] = rotation_M3;
-    S[26] = rotation_R0_0;
-    S[27] = rotation_R0_1;
-    S[28] = rotation_R0_2;
-    S[29] = rotation_R0_3;
-    S[30] = rotation_R1_0;
-    S[31] = rotation_R1_1;
-    S[32] = rotation_R1_2;
-    S[33] = rotation_R1_3;
-    S[34] = rotation_R2_0;
-    S[35] = rotation_R2_1;
-    S[36] = rotation_R2_2;
-    S[37] = rotation_R2_3;
-    S[38] = rotation_R3_0;
-    S[39] = rotation_R3_1;
-    S[40] = rotation_R3_2;
-    S[41] = rotation_R3_3;
-    S[42] = rotation_R4_0;
-    S[43] = rotation_R4_1;
-    S[44] = rotation_R4_2;
-    S[45] = rotation_R4_3;
-    S[46] = rotation_R5_0;
-    S[47] = rotation_R5_1;
-    S[48] = rotation_R5_2;
-    S[49] = rotation_R5_3;
+    S[3] = mu3;
+    S[4] = mu4;
+    S[5] = mu5;
+    S[6] = mu6;
+    S[7] = W0_0;
+    S[8] = W0_1;
+    S[9] = W0_2;
+    S[10] = W1_0;
+    S[11] = W1_1;
+    S[12] = W1_2;
+    S[13] = W2_0;
+    S[14] = W2_1;
+    S[15] = W2_2;
+    S[16] = W3_0;
+    S[17] = W3_1;
+    S[18] = W3_2;
+    S[19] = W4_0;
+    S[20] = W4_1;
+    S[21] = W4_2;
+    S[22] = W5_0;
+    S[23] = W5_1;
+    S[24] = W5_2;
+    S[25] = its_amplitude;
+    S[26] = M0_0;
+    S[27] = M0_1;
+    S[28] = M0_2;
+    S[29] = M1_1;
+    S[30] = M1_2;
+    S[31] = M2_2;
+    S[32] = rotation_R0_0;
+    S[33] = rotation_R0_1;
+    S[34] = rotation_R0_2;
+    S[35] = rotation_R0_3;
+    S[36] = rotation_R1_0;
+    S[37] = rotation_R1_1;
+    S[38] = rotation_R1_2;
+    S[39] = rotation_R1_3;
+    S[40] = rotation_R2_0;
+    S[41] = rotation_R2_1;
+    S[42] = rotation_R2_2;
+    S[43] = rotation_R2_3;
+    S[44] = rotation_R3_0;
+    S[45] = rotation_R3_1;
+    S[46] = rotation_R3_2;
+    S[47] = rotation_R3_3;
+    S[48] = rotation_R4_0;
+    S[49] = rotation_R4_1;
+    S[50] = rotation_R4_2;
+    S[51] = rotation_R4_3;
+    S[52] = rotation_R5_0;
+    S[53] = rotation_R5_1;
+    S[54] = rotation_R5_2;
+    S[55] = rotation_R5_3;
+    S[56] = M0_3;
+    S[57] = M0_4;
+    S[58] = M0_5;
+    S[59] = M0_6;
+    S[60] = M1_3;
+    S[61] = M1_4;
+    S[62] = M1_5;
+    S[63] = M1_6;
+    S[64] = M2_3;
+    S[65] = M2_4;
+    S[66] = M2_5;
+    S[67] = M2_6;
+    S[68] = M3_3;
+    S[69] = M3_4;
+    S[70] = M3_5;
+    S[71] = M3_6;
+    S[72] = M4_4;
+    S[73] = M4_5;
+    S[74] = M4_6;
+    S[75] = M5_5;
+    S[76] = M5_6;
+    S[77] = M6_6;
 }
 
 /*
@@ -2049,91 +2422,100 @@ INLINE void pair_value_f(
     const vector_f x0 = X[0];
     const vector_f x1 = X[1];
     const vector_f x2 = X[2];
-    const vector_f rotation_h0 = X[3];
-    const vector_f rotation_h1 = X[4];
-    const vector_f rotation_h2 = X[5];
-    const vector_f rotation_h3 = X[6];
+    const vector_f x3 = X[3];
+    const vector_f x4 = X[4];
+    const vector_f x5 = X[5];
+    const vector_f x6 = X[6];
+    const vector_f rotation_h0 = X[7];
+    const vector_f rotation_h1 = X[8];
+    const vector_f rotation_h2 = X[9];
+    const vector_f rotation_h3 = X[10];
     const float mu0 = S[0];
     const float mu1 = S[1];
     const float mu2 = S[2];
-    const float W0_0 = S[3];
-    const float W0_1 = S[4];
-    const float W0_2 = S[5];
-    const float W1_0 = S[6];
-    const float W1_1 = S[7];
-    const float W1_2 = S[8];
-    const float W2_0 = S[9];
-    const float W2_1 = S[10];
-    const float W2_2 = S[11];
-    const float W3_0 = S[12];
-    const float W3_1 = S[13];
-    const float W3_2 = S[14];
-    const float W4_0 = S[15];
-    const float W4_1 = S[16];
-    const float W4_2 = S[17];
-    const float W5_0 = S[18];
-    const float W5_1 = S[19];
-    const float W5_2 = S[20];
-    const float amplitude = S[21];
-    const float rotation_M0 = S[22];
-    const float rotation_M1 = S[23];
-    const float rotation_M2 = S[24];
-    const float rotation_M3 = S[25];
-    const float rotation_R0_0 = S[26];
-    const float rotation_R0_1 = S[27];
-    const float rotation_R0_2 = S[28];
-    const float rotation_R0_3 = S[29];
-    const float rotation_R1_0 = S[30];
-    const float rotation_R1_1 = S[31];
-    const float rotation_R1_2 = S[32];
-    const float rotation_R1_3 = S[33];
-    const float rotation_R2_0 = S[34];
-    const float rotation_R2_1 = S[35];
-    const float rotation_R2_2 = S[36];
-    const float rotation_R2_3 = S[37];
-    const float rotation_R3_0 = S[38];
-    const float rotation_R3_1 = S[39];
-    const float rotation_R3_2 = S[40];
-    const float rotation_R3_3 = S[41];
-    const float rotation_R4_0 = S[42];
-    const float rotation_R4_1 = S[43];
-    const float rotation_R4_2 = S[44];
-    const float rotation_R4_3 = S[45];
-    const float rotation_R5_0 = S[46];
-    const float rotation_R5_1 = S[47];
-    const float rotation_R5_2 = S[48];
-    const float rotation_R5_3 = S[49];
-    const vector_f total_2 = rotation_h0 * rotation_M0 + rotation_h1 * rotation_M1 + rotation_h2 * rotation_M2
-        + rotation_h3 * rotation_M3;
-    const vector_f rotation_w = vector_abs_f(total_2);
-    const vector_f rotation_eta = vector_polynomial_rotation_eta_f(1.0f - rotation_w);
-    const vector_f rotation_a = 1.0f / (rotation_w - rotation_eta * (1.0f - rotation_w * rotation_w));
+    const float mu3 = S[3];
+    const float mu4 = S[4];
+    const float mu5 = S[5];
+    const float mu6 = S[6];
+    const float W0_0 = S[7];
+    const float W0_1 = S[8];
+    const float W0_2 = S[9];
+    const float W1_0 = S[10];
+    const float W1_1 = S[11];
+    const float W1_2 = S[12];
+    const float W2_0 = S[13];
+    const float W2_1 = S[14];
+    const float W2_2 = S[15];
+    const float W3_0 = S[16];
+    const float W3_1 = S[17];
+    const float W3_2 = S[18];
+    const float W4_0 = S[19];
+    const float W4_1 = S[20];
+    const float W4_2 = S[21];
+    const float W5_0 = S[22];
+    const float W5_1 = S[23];
+    const float W5_2 = S[24];
+    const float amplitude = S[25];
+    const float rotation_R0_0 = S[32];
+    const float rotation_R0_1 = S[33];
+    const float rotation_R0_2 = S[34];
+    const float rotation_R0_3 = S[35];
+    const float rotation_R1_0 = S[36];
+    const float rotation_R1_1 = S[37];
+    const float rotation_R1_2 = S[38];
+    const float rotation_R1_3 = S[39];
+    const float rotation_R2_0 = S[40];
+    const float rotation_R2_1 = S[41];
+    const float rotation_R2_2 = S[42];
+    const float rotation_R2_3 = S[43];
+    const float rotation_R3_0 = S[44];
+    const float rotation_R3_1 = S[45];
+    const float rotation_R3_2 = S[46];
+    const float rotation_R3_3 = S[47];
+    const float rotation_R4_0 = S[48];
+    const float rotation_R4_1 = S[49];
+    const float rotation_R4_2 = S[50];
+    const float rotation_R4_3 = S[51];
+    const float rotation_R5_0 = S[52];
+    const float rotation_R5_1 = S[53];
+    const float rotation_R5_2 = S[54];
+    const float rotation_R5_3 = S[55];
+    const vector_f rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6;
+    const vector_f rotation_abs_g0 = abs_each_f(rotation_g0);
+    const vector_f rotation_eta = vector_polynomial_rotation_eta_f(1.0f - rotation_abs_g0);
+    const vector_f rotation_a = 1.0f / (rotation_abs_g0 - rotation_eta * (1.0f - rotation_abs_g0 *
+        rotation_abs_g0));
     const vector_f v0 = x0 - mu0;
     const vector_f v1 = x1 - mu1;
     const vector_f v2 = x2 - mu2;
-    const vector_f rotation_a_chosen = vector_select_f(total_2 < 0.0f, -rotation_a, rotation_a);
-    const vector_f rotation_r0 = rotation_h0 * rotation_R0_0 + rotation_h1 * rotation_R0_1 + rotation_h2 *
-        rotation_R0_2 + rotation_h3 * rotation_R0_3;
-    const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_a_chosen * rotation_r0;
-    const vector_f rotation_r1 = rotation_h0 * rotation_R1_0 + rotation_h1 * rotation_R1_1 + rotation_h2 *
-        rotation_R1_2 + rotation_h3 * rotation_R1_3;
-    const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_a_chosen * rotation_r1;
-    const vector_f rotation_r2 = rotation_h0 * rotation_R2_0 + rotation_h1 * rotation_R2_1 + rotation_h2 *
-        rotation_R2_2 + rotation_h3 * rotation_R2_3;
-    const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_a_chosen * rotation_r2;
-    const vector_f rotation_r3 = rotation_h0 * rotation_R3_0 + rotation_h1 * rotation_R3_1 + rotation_h2 *
-        rotation_R3_2 + rotation_h3 * rotation_R3_3;
-    const vector_f z3 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_a_chosen * rotation_r3;
-    const vector_f rotation_r4 = rotation_h0 * rotation_R4_0 + rotation_h1 * rotation_R4_1 + rotation_h2 *
-        rotation_R4_2 + rotation_h3 * rotation_R4_3;
-    const vector_f z4 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_a_chosen * rotation_r4;
-    const vector_f total_3 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-    const vector_f rotation_r5 = rotation_h0 * rotation_R5_0 + rotation_h1 * rotation_R5_1 + rotation_h2 *
-        rotation_R5_2 + rotation_h3 * rotation_R5_3;
-    const vector_f z5 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_a_chosen * rotation_r5;
-    const vector_f half_square = 0.5f * (total_3 + z5 * z5);
-    const vector_f gaussian = vector_exp_f(-half_square);
-    value[0] = value[0] + amplitude * (rotation_a * (rotation_a * gaussian));
+    const vector_f rotation_a_chosen = vector_select_f(rotation_g0 < 0.0f, -rotation_a, rotation_a);
+    const vector_f product = rotation_h0 * rotation_a_chosen;
+    const vector_f product_2 = rotation_h1 * rotation_a_chosen;
+    const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
+        product_2;
+    const vector_f product_3 = rotation_h2 * rotation_a_chosen;
+    const vector_f product_4 = rotation_h3 * rotation_a_chosen;
+    const vector_f total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
+    const vector_f total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
+        product_2;
+    const vector_f total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4;
+    const vector_f total_6 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_R2_0 * product + rotation_R2_1 *
+        product_2;
+    const vector_f total_7 = total_6 + rotation_R2_2 * product_3 + rotation_R2_3 * product_4;
+    const vector_f total_8 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_R3_0 * product + rotation_R3_1 *
+        product_2;
+    const vector_f total_9 = total_8 + rotation_R3_2 * product_3 + rotation_R3_3 * product_4;
+    const vector_f total_10 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_R4_0 * product + rotation_R4_1 *
+        product_2;
+    const vector_f total_11 = total_10 + rotation_R4_2 * product_3 + rotation_R4_3 * product_4;
+    const vector_f total_12 = total_3 * total_3 + total_5 * total_5 + total_7 * total_7 + total_9 * total_9 +
+        total_11 * total_11;
+    const vector_f total_13 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_R5_0 * product + rotation_R5_1 *
+        product_2;
+    const vector_f total_14 = total_13 + rotation_R5_2 * product_3 + rotation_R5_3 * product_4;
+    const vector_f gaussian = gaussian_each_f(total_12 + total_14 * total_14);
+    const vector_f phi = rotation_a * (rotation_a * gaussian);
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -2150,129 +2532,135 @@ INLINE void pair_forward_f(
     const vector_f x0 = X[0];
     const vector_f x1 = X[1];
     const vector_f x2 = X[2];
-    const vector_f rotation_h0 = X[3];
-    const vector_f rotation_h1 = X[4];
-    const vector_f rotation_h2 = X[5];
-    const vector_f rotation_h3 = X[6];
+    const vector_f x3 = X[3];
+    const vector_f x4 = X[4];
+    const vector_f x5 = X[5];
+    const vector_f x6 = X[6];
+    const vector_f rotation_h0 = X[7];
+    const vector_f rotation_h1 = X[8];
+    const vector_f rotation_h2 = X[9];
+    const vector_f rotation_h3 = X[10];
     const float mu0 = S[0];
     const float mu1 = S[1];
     const float mu2 = S[2];
-    const float W0_0 = S[3];
-    const float W0_1 = S[4];
-    const float W0_2 = S[5];
-    const float W1_0 = S[6];
-    const float W1_1 = S[7];
-    const float W1_2 = S[8];
-    const float W2_0 = S[9];
-    const float W2_1 = S[10];
-    const float W2_2 = S[11];
-    const float W3_0 = S[12];
-    const float W3_1 = S[13];
-    const float W3_2 = S[14];
-    const float W4_0 = S[15];
-    const float W4_1 = S[16];
-    const float W4_2 = S[17];
-    const float W5_0 = S[18];
-    const float W5_1 = S[19];
-    const float W5_2 = S[20];
-    const float amplitude = S[21];
-    const float rotation_M0 = S[22];
-    const float rotation_M1 = S[23];
-    const float rotation_M2 = S[24];
-    const float rotation_M3 = S[25];
-    const float rotation_R0_0 = S[26];
-    const float rotation_R0_1 = S[27];
-    const float rotation_R0_2 = S[28];
-    const float rotation_R0_3 = S[29];
-    const float rotation_R1_0 = S[30];
-    const float rotation_R1_1 = S[31];
-    const float rotation_R1_2 = S[32];
-    const float rotation_R1_3 = S[33];
-    const float rotation_R2_0 = S[34];
-    const float rotation_R2_1 = S[35];
-    const float rotation_R2_2 = S[36];
-    const float rotation_R2_3 = S[37];
-    const float rotation_R3_0 = S[38];
-    const float rotation_R3_1 = S[39];
-    const float rotation_R3_2 = S[40];
-    const float rotation_R3_3 = S[41];
-    const float rotation_R4_0 = S[42];
-    const float rotation_R4_1 = S[43];
-    const float rotation_R4_2 = S[44];
-    const float rotation_R4_3 = S[45];
-    const float rotation_R5_0 = S[46];
-    const float rotation_R5_1 = S[47];
-    const float rotation_R5_2 = S[48];
-    const float rotation_R5_3 = S[49];
-    const vector_f total_2 = rotation_h0 * rotation_M0 + rotation_h1 * rotation_M1 + rotation_h2 * rotation_M2
-        + rotation_h3 * rotation_M3;
-    const vector_f rotation_w = vector_abs_f(total_2);
-    const vector_f rotation_eta = vector_polynomial_rotation_eta_f(1.0f - rotation_w);
-    const vector_f rotation_a = 1.0f / (rotation_w - rotation_eta * (1.0f - rotation_w * rotation_w));
+    const float mu3 = S[3];
+    const float mu4 = S[4];
+    const float mu5 = S[5];
+    const float mu6 = S[6];
+    const float W0_0 = S[7];
+    const float W0_1 = S[8];
+    const float W0_2 = S[9];
+    const float W1_0 = S[10];
+    const float W1_1 = S[11];
+    const float W1_2 = S[12];
+    const float W2_0 = S[13];
+    const float W2_1 = S[14];
+    const float W2_2 = S[15];
+    const float W3_0 = S[16];
+    const float W3_1 = S[17];
+    const float W3_2 = S[18];
+    const float W4_0 = S[19];
+    const float W4_1 = S[20];
+    const float W4_2 = S[21];
+    const float W5_0 = S[22];
+    const float W5_1 = S[23];
+    const float W5_2 = S[24];
+    const float amplitude = S[25];
+    const float rotation_R0_0 = S[32];
+    const float rotation_R0_1 = S[33];
+    const float rotation_R0_2 = S[34];
+    const float rotation_R0_3 = S[35];
+    const float rotation_R1_0 = S[36];
+    const float rotation_R1_1 = S[37];
+    const float rotation_R1_2 = S[38];
+    const float rotation_R1_3 = S[39];
+    const float rotation_R2_0 = S[40];
+    const float rotation_R2_1 = S[41];
+    const float rotation_R2_2 = S[42];
+    const float rotation_R2_3 = S[43];
+    const float rotation_R3_0 = S[44];
+    const float rotation_R3_1 = S[45];
+    const float rotation_R3_2 = S[46];
+    const float rotation_R3_3 = S[47];
+    const float rotation_R4_0 = S[48];
+    const float rotation_R4_1 = S[49];
+    const float rotation_R4_2 = S[50];
+    const float rotation_R4_3 = S[51];
+    const float rotation_R5_0 = S[52];
+    const float rotation_R5_1 = S[53];
+    const float rotation_R5_2 = S[54];
+    const float rotation_R5_3 = S[55];
+    const vector_f rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6;
+    const vector_f rotation_abs_g0 = abs_each_f(rotation_g0);
+    const vector_f rotation_eta = vector_polynomial_rotation_eta_f(1.0f - rotation_abs_g0);
+    const vector_f rotation_a = 1.0f / (rotation_abs_g0 - rotation_eta * (1.0f - rotation_abs_g0 *
+        rotation_abs_g0));
     const vector_f v0 = x0 - mu0;
     const vector_f v1 = x1 - mu1;
     const vector_f v2 = x2 - mu2;
-    const vector_mask_f is_small = total_2 < 0.0f;
+    const vector_mask_f is_small = rotation_g0 < 0.0f;
     const vector_f rotation_a_chosen = vector_select_f(is_small, -rotation_a, rotation_a);
-    const vector_f rotation_r0 = rotation_h0 * rotation_R0_0 + rotation_h1 * rotation_R0_1 + rotation_h2 *
-        rotation_R0_2 + rotation_h3 * rotation_R0_3;
-    const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_a_chosen * rotation_r0;
-    const vector_f rotation_r1 = rotation_h0 * rotation_R1_0 + rotation_h1 * rotation_R1_1 + rotation_h2 *
-        rotation_R1_2 + rotation_h3 * rotation_R1_3;
-    const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_a_chosen * rotation_r1;
-    const vector_f rotation_r2 = rotation_h0 * rotation_R2_0 + rotation_h1 * rotation_R2_1 + rotation_h2 *
-        rotation_R2_2 + rotation_h3 * rotation_R2_3;
-    const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_a_chosen * rotation_r2;
-    const vector_f rotation_r3 = rotation_h0 * rotation_R3_0 + rotation_h1 * rotation_R3_1 + rotation_h2 *
-        rotation_R3_2 + rotation_h3 * rotation_R3_3;
-    const vector_f z3 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_a_chosen * rotation_r3;
-    const vector_f rotation_r4 = rotation_h0 * rotation_R4_0 + rotation_h1 * rotation_R4_1 + rotation_h2 *
-        rotation_R4_2 + rotation_h3 * rotation_R4_3;
-    const vector_f z4 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_a_chosen * rotation_r4;
-    const vector_f total_3 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-    const vector_f rotation_r5 = rotation_h0 * rotation_R5_0 + rotation_h1 * rotation_R5_1 + rotation_h2 *
-        rotation_R5_2 + rotation_h3 * rotation_R5_3;
-    const vector_f z5 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_a_chosen * rotation_r5;
-    const vector_f half_square = 0.5f * (total_3 + z5 * z5);
-    const vector_f gaussian = vector_exp_f(-half_square);
-    const vector_f phi = amplitude * (rotation_a * (rotation_a * gaussian));
-    const vector_f z5_product = z5 * phi;
-    const vector_f z4_product = z4 * phi;
-    const vector_f z3_product = z3 * phi;
-    const vector_f z2_product = z2 * phi;
-    const vector_f z1_product = z1 * phi;
-    const vector_f z0_product = z0 * phi;
-    const vector_f product = rotation_a_chosen * z5_product;
-    const vector_f product_2 = rotation_a_chosen * z4_product;
-    const vector_f product_3 = rotation_a_chosen * z3_product;
-    const vector_f product_4 = rotation_a_chosen * z2_product;
-    const vector_f product_5 = rotation_a_chosen * z1_product;
-    const vector_f product_6 = rotation_a_chosen * z0_product;
-    const vector_f gap_5 = -(rotation_r5 * z5_product) - rotation_r4 * z4_product - rotation_r3 * z3_product -
-        rotation_r2 * z2_product;
-    const vector_f total_4 = 2.0f * phi + rotation_a_chosen * (gap_5 - rotation_r1 * z1_product - rotation_r0
-        * z0_product);
-    const vector_f by_rotation_w = rotation_eta * total_4;
-    const vector_f chosen = vector_select_f(is_small, -by_rotation_w, by_rotation_w);
-    value[0] = value[0] + phi;
-    slope[0] = slope[0] - W5_0 * z5_product - W4_0 * z4_product - W3_0 * z3_product - W2_0 * z2_product - W1_0
-            * z1_product - W0_0 * z0_product;
-    slope[1] = slope[1] - W5_1 * z5_product - W4_1 * z4_product - W3_1 * z3_product - W2_1 * z2_product - W1_1
-            * z1_product - W0_1 * z0_product;
-    slope[2] = slope[2] - W5_2 * z5_product - W4_2 * z4_product - W3_2 * z3_product - W2_2 * z2_product - W1_2
-            * z1_product - W0_2 * z0_product;
-    slope[3] = slope[3] - rotation_R5_0 * product - rotation_R4_0 * product_2 - rotation_R3_0 * product_3 -
-            rotation_R2_0 * product_4 - rotation_R1_0 * product_5 - rotation_R0_0 * product_6 + rotation_M0 *
-            chosen;
-    slope[4] = slope[4] - rotation_R5_1 * product - rotation_R4_1 * product_2 - rotation_R3_1 * product_3 -
-            rotation_R2_1 * product_4 - rotation_R1_1 * product_5 - rotation_R0_1 * product_6 + rotation_M1 *
-            chosen;
-    slope[5] = slope[5] - rotation_R5_2 * product - rotation_R4_2 * product_2 - rotation_R3_2 * product_3 -
-            rotation_R2_2 * product_4 - rotation_R1_2 * product_5 - rotation_R0_2 * product_6 + rotation_M2 *
-            chosen;
-    slope[6] = slope[6] - rotation_R5_3 * product - rotation_R4_3 * product_2 - rotation_R3_3 * product_3 -
-            rotation_R2_3 * product_4 - rotation_R1_3 * product_5 - rotation_R0_3 * product_6 + rotation_M3 *
-            chosen;
+    const vector_f product = rotation_h0 * rotation_a_chosen;
+    const vector_f product_2 = rotation_h1 * rotation_a_chosen;
+    const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
+        product_2;
+    const vector_f product_3 = rotation_h2 * rotation_a_chosen;
+    const vector_f product_4 = rotation_h3 * rotation_a_chosen;
+    const vector_f total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
+    const vector_f total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
+        product_2;
+    const vector_f total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4;
+    const vector_f total_6 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_R2_0 * product + rotation_R2_1 *
+        product_2;
+    const vector_f total_7 = total_6 + rotation_R2_2 * product_3 + rotation_R2_3 * product_4;
+    const vector_f total_8 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_R3_0 * product + rotation_R3_1 *
+        product_2;
+    const vector_f total_9 = total_8 + rotation_R3_2 * product_3 + rotation_R3_3 * product_4;
+    const vector_f total_10 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_R4_0 * product + rotation_R4_1 *
+        product_2;
+    const vector_f total_11 = total_10 + rotation_R4_2 * product_3 + rotation_R4_3 * product_4;
+    const vector_f total_12 = total_3 * total_3 + total_5 * total_5 + total_7 * total_7 + total_9 * total_9 +
+        total_11 * total_11;
+    const vector_f total_13 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_R5_0 * product + rotation_R5_1 *
+        product_2;
+    const vector_f total_14 = total_13 + rotation_R5_2 * product_3 + rotation_R5_3 * product_4;
+    const vector_f gaussian = gaussian_each_f(total_12 + total_14 * total_14);
+    const vector_f phi = rotation_a * (rotation_a * gaussian);
+    const vector_f phi_2 = amplitude * phi;
+    const vector_f total_15 = W0_0 * total_3 + W1_0 * total_5 + W2_0 * total_7 + W3_0 * total_9 + W4_0 *
+        total_11;
+    const vector_f total_16 = W0_1 * total_3 + W1_1 * total_5 + W2_1 * total_7 + W3_1 * total_9 + W4_1 *
+        total_11;
+    const vector_f total_17 = W0_2 * total_3 + W1_2 * total_5 + W2_2 * total_7 + W3_2 * total_9 + W4_2 *
+        total_11;
+    const vector_f total_18 = rotation_R0_3 * total_3 + rotation_R1_3 * total_5 + rotation_R2_3 * total_7 +
+        rotation_R3_3 * total_9 + rotation_R4_3 * total_11;
+    const vector_f phi_product = phi_2 * (total_18 + rotation_R5_3 * total_14);
+    const vector_f total_19 = rotation_R0_2 * total_3 + rotation_R1_2 * total_5 + rotation_R2_2 * total_7 +
+        rotation_R3_2 * total_9 + rotation_R4_2 * total_11;
+    const vector_f phi_product_2 = phi_2 * (total_19 + rotation_R5_2 * total_14);
+    const vector_f total_20 = rotation_R0_1 * total_3 + rotation_R1_1 * total_5 + rotation_R2_1 * total_7 +
+        rotation_R3_1 * total_9 + rotation_R4_1 * total_11;
+    const vector_f phi_product_3 = phi_2 * (total_20 + rotation_R5_1 * total_14);
+    const vector_f total_21 = rotation_R0_0 * total_3 + rotation_R1_0 * total_5 + rotation_R2_0 * total_7 +
+        rotation_R3_0 * total_9 + rotation_R4_0 * total_11;
+    const vector_f phi_product_4 = phi_2 * (total_21 + rotation_R5_0 * total_14);
+    const vector_f gap = -(rotation_h3 * phi_product) - rotation_h2 * phi_product_2 - rotation_h1 *
+        phi_product_3 - rotation_h0 * phi_product_4;
+    const vector_f by_rotation_abs_g0 = rotation_eta * (2.0f * phi_2 + rotation_a_chosen * gap);
+    const vector_f by_rotation_g0 = vector_select_f(is_small, -by_rotation_abs_g0, by_rotation_abs_g0);
+    value[0] = value[0] + phi_2;
+    slope[0] = slope[0] - phi_2 * (total_15 + W5_0 * total_14);
+    slope[1] = slope[1] - phi_2 * (total_16 + W5_1 * total_14);
+    slope[2] = slope[2] - phi_2 * (total_17 + W5_2 * total_14);
+    slope[3] = slope[3] + mu3 * by_rotation_g0;
+    slope[4] = slope[4] + mu4 * by_rotation_g0;
+    slope[5] = slope[5] + mu5 * by_rotation_g0;
+    slope[6] = slope[6] + mu6 * by_rotation_g0;
+    slope[7] = slope[7] - rotation_a_chosen * phi_product_4;
+    slope[8] = slope[8] - rotation_a_chosen * phi_product_3;
+    slope[9] = slope[9] - rotation_a_chosen * phi_product_2;
+    slope[10] = slope[10] - rotation_a_chosen * phi_product;
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -2285,14 +2673,18 @@ OUTLINE void pair_gradient_f(
     const vector_f slope_x0 = slope[0];
     const vector_f slope_x1 = slope[1];
     const vector_f slope_x2 = slope[2];
-    const vector_f slope_rotation_h0 = slope[3];
-    const vector_f slope_rotation_h1 = slope[4];
-    const vector_f slope_rotation_h2 = slope[5];
-    const vector_f slope_rotation_h3 = slope[6];
-    const vector_f product = 0.25f * slope_rotation_h1;
-    const vector_f product_2 = 0.25f * slope_rotation_h2;
-    const vector_f product_3 = 0.25f * slope_rotation_h0;
-    const vector_f product_4 = 0.25f * slope_rotation_h3;
+    const vector_f slope_x3 = slope[3];
+    const vector_f slope_x4 = slope[4];
+    const vector_f slope_x5 = slope[5];
+    const vector_f slope_x6 = slope[6];
+    const vector_f slope_rotation_h0 = slope[7];
+    const vector_f slope_rotation_h1 = slope[8];
+    const vector_f slope_rotation_h2 = slope[9];
+    const vector_f slope_rotation_h3 = slope[10];
+    const vector_f product = 0.5f * (slope_x4 + 0.5f * slope_rotation_h1);
+    const vector_f product_2 = 0.5f * (slope_x5 + 0.5f * slope_rotation_h2);
+    const vector_f product_3 = 0.5f * (slope_x3 + 0.5f * slope_rotation_h0);
+    const vector_f product_4 = 0.5f * (slope_x6 + 0.5f * slope_rotation_h3);
     gradient[0] = slope_x0;
     gradient[1] = slope_x1;
     gradient[2] = slope_x2;
@@ -2314,222 +2706,381 @@ OUTLINE void pair_gradient_vjp_f(
     const vector_f gradient_bar3 = gradient_bar[3];
     const vector_f gradient_bar4 = gradient_bar[4];
     const vector_f gradient_bar5 = gradient_bar[5];
-    const vector_f product = 0.25f * (-(x6 * gradient_bar5) - x5 * gradient_bar4 - x4 * gradient_bar3);
+    const vector_f gap = -(x6 * gradient_bar5) - x5 * gradient_bar4 - x4 * gradient_bar3;
+    const vector_f total_2 = x5 * gradient_bar5 - x6 * gradient_bar4 + x3 * gradient_bar3;
+    const vector_f total_3 = x3 * gradient_bar4 - x4 * gradient_bar5 + x6 * gradient_bar3;
+    const vector_f gap_2 = x3 * gradient_bar5 + x4 * gradient_bar4 - x5 * gradient_bar3;
     slope_bar[0] = gradient_bar0;
     slope_bar[1] = gradient_bar1;
     slope_bar[2] = gradient_bar2;
-    slope_bar[3] = product;
-    slope_bar[4] = 0.25f * (x5 * gradient_bar5 - x6 * gradient_bar4 + x3 * gradient_bar3);
-    slope_bar[5] = 0.25f * (x3 * gradient_bar4 - x4 * gradient_bar5 + x6 * gradient_bar3);
-    slope_bar[6] = 0.25f * (x3 * gradient_bar5 + x4 * gradient_bar4 - x5 * gradient_bar3);
+    slope_bar[3] = 0.5f * gap;
+    slope_bar[4] = 0.5f * total_2;
+    slope_bar[5] = 0.5f * total_3;
+    slope_bar[6] = 0.5f * gap_2;
+    slope_bar[7] = 0.25f * gap;
+    slope_bar[8] = 0.25f * total_2;
+    slope_bar[9] = 0.25f * total_3;
+    slope_bar[10] = 0.25f * gap_2;
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp_f(
-    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
-    (void)amplitude;
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *sums, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
     const vector_f mu3 = mu[3];
     const vector_f mu4 = mu[4];
     const vector_f mu5 = mu[5];
     const vector_f mu6 = mu[6];
+    const vector_f W0_0 = W[0];
+    const vector_f W0_1 = W[1];
+    const vector_f W0_2 = W[2];
     const vector_f W0_3 = W[3];
     const vector_f W0_4 = W[4];
     const vector_f W0_5 = W[5];
+    const vector_f W1_0 = W[6];
+    const vector_f W1_1 = W[7];
+    const vector_f W1_2 = W[8];
     const vector_f W1_3 = W[9];
     const vector_f W1_4 = W[10];
     const vector_f W1_5 = W[11];
+    const vector_f W2_0 = W[12];
+    const vector_f W2_1 = W[13];
+    const vector_f W2_2 = W[14];
     const vector_f W2_3 = W[15];
     const vector_f W2_4 = W[16];
     const vector_f W2_5 = W[17];
+    const vector_f W3_0 = W[18];
+    const vector_f W3_1 = W[19];
+    const vector_f W3_2 = W[20];
     const vector_f W3_3 = W[21];
     const vector_f W3_4 = W[22];
     const vector_f W3_5 = W[23];
+    const vector_f W4_0 = W[24];
+    const vector_f W4_1 = W[25];
+    const vector_f W4_2 = W[26];
     const vector_f W4_3 = W[27];
     const vector_f W4_4 = W[28];
     const vector_f W4_5 = W[29];
+    const vector_f W5_0 = W[30];
+    const vector_f W5_1 = W[31];
+    const vector_f W5_2 = W[32];
     const vector_f W5_3 = W[33];
     const vector_f W5_4 = W[34];
     const vector_f W5_5 = W[35];
-    const vector_f mu0_bar = S_bar[0];
-    const vector_f mu1_bar = S_bar[1];
-    const vector_f mu2_bar = S_bar[2];
-    const vector_f W0_0_bar = S_bar[3];
-    const vector_f W0_1_bar = S_bar[4];
-    const vector_f W0_2_bar = S_bar[5];
-    const vector_f W1_0_bar = S_bar[6];
-    const vector_f W1_1_bar = S_bar[7];
-    const vector_f W1_2_bar = S_bar[8];
-    const vector_f W2_0_bar = S_bar[9];
-    const vector_f W2_1_bar = S_bar[10];
-    const vector_f W2_2_bar = S_bar[11];
-    const vector_f W3_0_bar = S_bar[12];
-    const vector_f W3_1_bar = S_bar[13];
-    const vector_f W3_2_bar = S_bar[14];
-    const vector_f W4_0_bar = S_bar[15];
-    const vector_f W4_1_bar = S_bar[16];
-    const vector_f W4_2_bar = S_bar[17];
-    const vector_f W5_0_bar = S_bar[18];
-    const vector_f W5_1_bar = S_bar[19];
-    const vector_f W5_2_bar = S_bar[20];
-    const vector_f its_amplitude_bar = S_bar[21];
-    const vector_f rotation_M0_bar = S_bar[22];
-    const vector_f rotation_M1_bar = S_bar[23];
-    const vector_f rotation_M2_bar = S_bar[24];
-    const vector_f rotation_M3_bar = S_bar[25];
-    const vector_f rotation_R0_0_bar = S_bar[26];
-    const vector_f rotation_R0_1_bar = S_bar[27];
-    const vector_f rotation_R0_2_bar = S_bar[28];
-    const vector_f rotation_R0_3_bar = S_bar[29];
-    const vector_f rotation_R1_0_bar = S_bar[30];
-    const vector_f rotation_R1_1_bar = S_bar[31];
-    const vector_f rotation_R1_2_bar = S_bar[32];
-    const vector_f rotation_R1_3_bar = S_bar[33];
-    const vector_f rotation_R2_0_bar = S_bar[34];
-    const vector_f rotation_R2_1_bar = S_bar[35];
-    const vector_f rotation_R2_2_bar = S_bar[36];
-    const vector_f rotation_R2_3_bar = S_bar[37];
-    const vector_f rotation_R3_0_bar = S_bar[38];
-    const vector_f rotation_R3_1_bar = S_bar[39];
-    const vector_f rotation_R3_2_bar = S_bar[40];
-    const vector_f rotation_R3_3_bar = S_bar[41];
-    const vector_f rotation_R4_0_bar = S_bar[42];
-    const vector_f rotation_R4_1_bar = S_bar[43];
-    const vector_f rotation_R4_2_bar = S_bar[44];
-    const vector_f rotation_R4_3_bar = S_bar[45];
-    const vector_f rotation_R5_0_bar = S_bar[46];
-    const vector_f rotation_R5_1_bar = S_bar[47];
-    const vector_f rotation_R5_2_bar = S_bar[48];
-    const vector_f rotation_R5_3_bar = S_bar[49];
-    const vector_f product = 2.0f * rotation_R0_1_bar;
-    const vector_f product_2 = 2.0f * rotation_R0_2_bar;
-    const vector_f product_3 = 2.0f * rotation_R0_3_bar;
-    const vector_f product_4 = 2.0f * rotation_R1_1_bar;
-    const vector_f total_2 = rotation_M0_bar + W0_3 * product + W0_4 * product_2 + W0_5 * product_3 + W1_3 *
-        product_4;
-    const vector_f product_5 = 2.0f * rotation_R1_2_bar;
-    const vector_f product_6 = 2.0f * rotation_R1_3_bar;
-    const vector_f product_7 = 2.0f * rotation_R2_1_bar;
-    const vector_f product_8 = 2.0f * rotation_R2_2_bar;
-    const vector_f total_3 = total_2 + W1_4 * product_5 + W1_5 * product_6 + W2_3 * product_7 + W2_4 *
-        product_8;
-    const vector_f product_9 = 2.0f * rotation_R2_3_bar;
-    const vector_f product_10 = 2.0f * rotation_R3_1_bar;
-    const vector_f product_11 = 2.0f * rotation_R3_2_bar;
-    const vector_f product_12 = 2.0f * rotation_R3_3_bar;
-    const vector_f total_4 = total_3 + W2_5 * product_9 + W3_3 * product_10 + W3_4 * product_11 + W3_5 *
-        product_12;
-    const vector_f product_13 = 2.0f * rotation_R4_1_bar;
-    const vector_f product_14 = 2.0f * rotation_R4_2_bar;
-    const vector_f product_15 = 2.0f * rotation_R4_3_bar;
-    const vector_f product_16 = 2.0f * rotation_R5_1_bar;
-    const vector_f total_5 = total_4 + W4_3 * product_13 + W4_4 * product_14 + W4_5 * product_15 + W5_3 *
-        product_16;
-    const vector_f product_17 = 2.0f * rotation_R5_2_bar;
-    const vector_f product_18 = 2.0f * rotation_R5_3_bar;
-    const vector_f by_rotation_M0 = total_5 + W5_4 * product_17 + W5_5 * product_18;
-    const vector_f product_19 = 2.0f * rotation_R0_0_bar;
-    const vector_f product_20 = 2.0f * rotation_R1_0_bar;
-    const vector_f gap = rotation_M1_bar - W0_3 * product_19 - W0_5 * product_2 + W0_4 * product_3 - W1_3 *
-        product_20;
-    const vector_f product_21 = 2.0f * rotation_R2_0_bar;
-    const vector_f gap_2 = gap - W1_5 * product_5 + W1_4 * product_6 - W2_3 * product_21 - W2_5 * product_8;
-    const vector_f product_22 = 2.0f * rotation_R3_0_bar;
-    const vector_f total_6 = gap_2 + W2_4 * product_9 - W3_3 * product_22 - W3_5 * product_11 + W3_4 *
-        product_12;
-    const vector_f product_23 = 2.0f * rotation_R4_0_bar;
-    const vector_f product_24 = 2.0f * rotation_R5_0_bar;
-    const vector_f gap_3 = total_6 - W4_3 * product_23 - W4_5 * product_14 + W4_4 * product_15 - W5_3 *
-        product_24;
-    const vector_f by_rotation_M1 = gap_3 - W5_5 * product_17 + W5_4 * product_18;
-    const vector_f gap_4 = rotation_M2_bar - W0_4 * product_19 + W0_5 * product - W0_3 * product_3 - W1_4 *
-        product_20;
-    const vector_f total_7 = gap_4 + W1_5 * product_4 - W1_3 * product_6 - W2_4 * product_21 + W2_5 *
-        product_7;
-    const vector_f gap_5 = total_7 - W2_3 * product_9 - W3_4 * product_22 + W3_5 * product_10 - W3_3 *
-        product_12;
-    const vector_f gap_6 = gap_5 - W4_4 * product_23 + W4_5 * product_13 - W4_3 * product_15 - W5_4 *
-        product_24;
-    const vector_f by_rotation_M2 = gap_6 + W5_5 * product_16 - W5_3 * product_18;
-    const vector_f gap_7 = rotation_M3_bar - W0_5 * product_19 - W0_4 * product + W0_3 * product_2 - W1_5 *
-        product_20;
-    const vector_f gap_8 = gap_7 - W1_4 * product_4 + W1_3 * product_5 - W2_5 * product_21 - W2_4 * product_7;
-    const vector_f total_8 = gap_8 + W2_3 * product_8 - W3_5 * product_22 - W3_4 * product_10 + W3_3 *
-        product_11;
-    const vector_f gap_9 = total_8 - W4_5 * product_23 - W4_4 * product_13 + W4_3 * product_14 - W5_5 *
-        product_24;
-    const vector_f by_rotation_M3 = gap_9 - W5_4 * product_16 + W5_3 * product_17;
-    const vector_f rotation_M0 = 2.0f * mu3;
-    const vector_f rotation_M1 = 2.0f * mu4;
+    const vector_f its_amplitude = amplitude[0];
+    const vector_f sum0 = sums[0];
+    const vector_f sum1 = sums[1];
+    const vector_f sum2 = sums[2];
+    const vector_f sum3 = sums[3];
+    const vector_f sum4 = sums[4];
+    const vector_f sum5 = sums[5];
+    const vector_f sum6 = sums[6];
+    const vector_f sum7 = sums[7];
+    const vector_f sum8 = sums[8];
+    const vector_f sum9 = sums[9];
+    const vector_f sum10 = sums[10];
+    const vector_f sum11 = sums[11];
+    const vector_f sum12 = sums[12];
+    const vector_f sum13 = sums[13];
+    const vector_f sum14 = sums[14];
+    const vector_f sum15 = sums[15];
+    const vector_f sum16 = sums[16];
+    const vector_f sum17 = sums[17];
+    const vector_f sum18 = sums[18];
+    const vector_f sum19 = sums[19];
+    const vector_f sum20 = sums[20];
+    const vector_f sum21 = sums[21];
+    const vector_f sum22 = sums[22];
+    const vector_f sum23 = sums[23];
+    const vector_f sum24 = sums[24];
+    const vector_f sum25 = sums[25];
+    const vector_f sum26 = sums[26];
+    const vector_f sum27 = sums[27];
+    const vector_f sum28 = sums[28];
+    const vector_f sum29 = sums[29];
+    const vector_f sum30 = sums[30];
+    const vector_f sum31 = sums[31];
+    const vector_f sum32 = sums[32];
+    const vector_f sum33 = sums[33];
+    const vector_f sum34 = sums[34];
+    const vector_f sum35 = sums[35];
     const vector_f rotation_M3 = 2.0f * mu6;
     const vector_f rotation_M2 = 2.0f * mu5;
-    const vector_f total_9 = -(rotation_M2 * product_19) - rotation_M3 * product + rotation_M0 * product_2 +
-        rotation_M1 * product_3;
-    const vector_f total_10 = -(rotation_M2 * product_20) - rotation_M3 * product_4 + rotation_M0 * product_5
-        + rotation_M1 * product_6;
-    const vector_f total_11 = -(rotation_M2 * product_21) - rotation_M3 * product_7 + rotation_M0 * product_8
-        + rotation_M1 * product_9;
-    const vector_f total_12 = -(rotation_M2 * product_22) - rotation_M3 * product_10 + rotation_M0 *
-        product_11 + rotation_M1 * product_12;
-    const vector_f total_13 = -(rotation_M2 * product_23) - rotation_M3 * product_13 + rotation_M0 *
-        product_14 + rotation_M1 * product_15;
-    const vector_f total_14 = -(rotation_M2 * product_24) - rotation_M3 * product_16 + rotation_M0 *
-        product_17 + rotation_M1 * product_18;
-    mu_bar[0] = mu0_bar;
-    mu_bar[1] = mu1_bar;
-    mu_bar[2] = mu2_bar;
-    mu_bar[3] = 2.0f * by_rotation_M0;
-    mu_bar[4] = 2.0f * by_rotation_M1;
-    mu_bar[5] = 2.0f * by_rotation_M2;
-    mu_bar[6] = 2.0f * by_rotation_M3;
-    W_bar[0] = W0_0_bar;
-    W_bar[1] = W0_1_bar;
-    W_bar[2] = W0_2_bar;
-    W_bar[3] = rotation_M0 * product - rotation_M1 * product_19 + rotation_M3 * product_2 - rotation_M2 *
-            product_3;
-    W_bar[4] = total_9;
-    W_bar[5] = rotation_M2 * product - rotation_M3 * product_19 - rotation_M1 * product_2 + rotation_M0 *
-            product_3;
-    W_bar[6] = W1_0_bar;
-    W_bar[7] = W1_1_bar;
-    W_bar[8] = W1_2_bar;
-    W_bar[9] = rotation_M0 * product_4 - rotation_M1 * product_20 + rotation_M3 * product_5 - rotation_M2 *
-            product_6;
-    W_bar[10] = total_10;
-    W_bar[11] = rotation_M2 * product_4 - rotation_M3 * product_20 - rotation_M1 * product_5 + rotation_M0 *
-            product_6;
-    W_bar[12] = W2_0_bar;
-    W_bar[13] = W2_1_bar;
-    W_bar[14] = W2_2_bar;
-    W_bar[15] = rotation_M0 * product_7 - rotation_M1 * product_21 + rotation_M3 * product_8 - rotation_M2 *
-            product_9;
-    W_bar[16] = total_11;
-    W_bar[17] = rotation_M2 * product_7 - rotation_M3 * product_21 - rotation_M1 * product_8 + rotation_M0 *
-            product_9;
-    W_bar[18] = W3_0_bar;
-    W_bar[19] = W3_1_bar;
-    W_bar[20] = W3_2_bar;
-    W_bar[21] = rotation_M0 * product_10 - rotation_M1 * product_22 + rotation_M3 * product_11 - rotation_M2 *
-            product_12;
-    W_bar[22] = total_12;
-    W_bar[23] = rotation_M2 * product_10 - rotation_M3 * product_22 - rotation_M1 * product_11 + rotation_M0 *
-            product_12;
-    W_bar[24] = W4_0_bar;
-    W_bar[25] = W4_1_bar;
-    W_bar[26] = W4_2_bar;
-    W_bar[27] = rotation_M0 * product_13 - rotation_M1 * product_23 + rotation_M3 * product_14 - rotation_M2 *
-            product_15;
-    W_bar[28] = total_13;
-    W_bar[29] = rotation_M2 * product_13 - rotation_M3 * product_23 - rotation_M1 * product_14 + rotation_M0 *
-            product_15;
-    W_bar[30] = W5_0_bar;
-    W_bar[31] = W5_1_bar;
-    W_bar[32] = W5_2_bar;
-    W_bar[33] = rotation_M0 * product_16 - rotation_M1 * product_24 + rotation_M3 * product_17 - rotation_M2 *
-            product_18;
-    W_bar[34] = total_14;
-    W_bar[35] = rotation_M2 * product_16 - rotation_M3 * product_24 - rotation_M1 * product_17 + rotation_M0 *
-            product_18;
-    amplitude_bar[0] = its_amplitude_bar;
+    const vector_f rotation_M1 = 2.0f * mu4;
+    const vector_f rotation_R5_0 = 2.0f * (-(W5_5 * rotation_M3) - W5_4 * rotation_M2 - W5_3 * rotation_M1);
+    const vector_f rotation_M0 = 2.0f * mu3;
+    const vector_f rotation_R5_1 = 2.0f * (W5_5 * rotation_M2 - W5_4 * rotation_M3 + W5_3 * rotation_M0);
+    const vector_f product = 2.0f * sum30;
+    const vector_f total_2 = W5_0 * sum15 + W5_1 * sum19 + W5_2 * sum23 + rotation_R5_0 * sum27 +
+        rotation_R5_1 * product;
+    const vector_f rotation_R5_2 = 2.0f * (W5_4 * rotation_M0 - W5_5 * rotation_M1 + W5_3 * rotation_M3);
+    const vector_f rotation_R5_3 = 2.0f * (W5_5 * rotation_M0 + W5_4 * rotation_M1 - W5_3 * rotation_M2);
+    const vector_f by_rotation_R5_1 = total_2 + rotation_R5_2 * sum31 + rotation_R5_3 * sum32;
+    const vector_f product_2 = 2.0f * by_rotation_R5_1;
+    const vector_f rotation_R4_0 = 2.0f * (-(W4_5 * rotation_M3) - W4_4 * rotation_M2 - W4_3 * rotation_M1);
+    const vector_f rotation_R4_1 = 2.0f * (W4_5 * rotation_M2 - W4_4 * rotation_M3 + W4_3 * rotation_M0);
+    const vector_f total_3 = W4_0 * sum15 + W4_1 * sum19 + W4_2 * sum23 + rotation_R4_0 * sum27 +
+        rotation_R4_1 * product;
+    const vector_f rotation_R4_2 = 2.0f * (W4_4 * rotation_M0 - W4_5 * rotation_M1 + W4_3 * rotation_M3);
+    const vector_f rotation_R4_3 = 2.0f * (W4_5 * rotation_M0 + W4_4 * rotation_M1 - W4_3 * rotation_M2);
+    const vector_f by_rotation_R4_1 = total_3 + rotation_R4_2 * sum31 + rotation_R4_3 * sum32;
+    const vector_f product_3 = 2.0f * by_rotation_R4_1;
+    const vector_f rotation_R3_0 = 2.0f * (-(W3_5 * rotation_M3) - W3_4 * rotation_M2 - W3_3 * rotation_M1);
+    const vector_f rotation_R3_1 = 2.0f * (W3_5 * rotation_M2 - W3_4 * rotation_M3 + W3_3 * rotation_M0);
+    const vector_f total_4 = W3_0 * sum15 + W3_1 * sum19 + W3_2 * sum23 + rotation_R3_0 * sum27 +
+        rotation_R3_1 * product;
+    const vector_f rotation_R3_2 = 2.0f * (W3_4 * rotation_M0 - W3_5 * rotation_M1 + W3_3 * rotation_M3);
+    const vector_f rotation_R3_3 = 2.0f * (W3_5 * rotation_M0 + W3_4 * rotation_M1 - W3_3 * rotation_M2);
+    const vector_f by_rotation_R3_1 = total_4 + rotation_R3_2 * sum31 + rotation_R3_3 * sum32;
+    const vector_f product_4 = 2.0f * by_rotation_R3_1;
+    const vector_f rotation_R2_0 = 2.0f * (-(W2_5 * rotation_M3) - W2_4 * rotation_M2 - W2_3 * rotation_M1);
+    const vector_f rotation_R2_1 = 2.0f * (W2_5 * rotation_M2 - W2_4 * rotation_M3 + W2_3 * rotation_M0);
+    const vector_f total_5 = W2_0 * sum15 + W2_1 * sum19 + W2_2 * sum23 + rotation_R2_0 * sum27 +
+        rotation_R2_1 * product;
+    const vector_f rotation_R2_2 = 2.0f * (W2_4 * rotation_M0 - W2_5 * rotation_M1 + W2_3 * rotation_M3);
+    const vector_f rotation_R2_3 = 2.0f * (W2_5 * rotation_M0 + W2_4 * rotation_M1 - W2_3 * rotation_M2);
+    const vector_f by_rotation_R2_1 = total_5 + rotation_R2_2 * sum31 + rotation_R2_3 * sum32;
+    const vector_f product_5 = 2.0f * by_rotation_R2_1;
+    const vector_f rotation_R1_0 = 2.0f * (-(W1_5 * rotation_M3) - W1_4 * rotation_M2 - W1_3 * rotation_M1);
+    const vector_f rotation_R1_1 = 2.0f * (W1_5 * rotation_M2 - W1_4 * rotation_M3 + W1_3 * rotation_M0);
+    const vector_f total_6 = W1_0 * sum15 + W1_1 * sum19 + W1_2 * sum23 + rotation_R1_0 * sum27 +
+        rotation_R1_1 * product;
+    const vector_f rotation_R1_2 = 2.0f * (W1_4 * rotation_M0 - W1_5 * rotation_M1 + W1_3 * rotation_M3);
+    const vector_f rotation_R1_3 = 2.0f * (W1_5 * rotation_M0 + W1_4 * rotation_M1 - W1_3 * rotation_M2);
+    const vector_f by_rotation_R1_1 = total_6 + rotation_R1_2 * sum31 + rotation_R1_3 * sum32;
+    const vector_f product_6 = 2.0f * by_rotation_R1_1;
+    const vector_f total_7 = W5_3 * product_2 + W4_3 * product_3 + W3_3 * product_4 + W2_3 * product_5 + W1_3
+        * product_6;
+    const vector_f rotation_R0_0 = 2.0f * (-(W0_5 * rotation_M3) - W0_4 * rotation_M2 - W0_3 * rotation_M1);
+    const vector_f rotation_R0_1 = 2.0f * (W0_5 * rotation_M2 - W0_4 * rotation_M3 + W0_3 * rotation_M0);
+    const vector_f total_8 = W0_0 * sum15 + W0_1 * sum19 + W0_2 * sum23 + rotation_R0_0 * sum27 +
+        rotation_R0_1 * product;
+    const vector_f rotation_R0_2 = 2.0f * (W0_4 * rotation_M0 - W0_5 * rotation_M1 + W0_3 * rotation_M3);
+    const vector_f rotation_R0_3 = 2.0f * (W0_5 * rotation_M0 + W0_4 * rotation_M1 - W0_3 * rotation_M2);
+    const vector_f by_rotation_R0_1 = total_8 + rotation_R0_2 * sum31 + rotation_R0_3 * sum32;
+    const vector_f product_7 = 2.0f * by_rotation_R0_1;
+    const vector_f total_9 = W5_0 * sum16 + W5_1 * sum20 + W5_2 * sum24 + rotation_R5_0 * sum28 +
+        rotation_R5_1 * sum31;
+    const vector_f product_8 = 2.0f * sum33;
+    const vector_f by_rotation_R5_2 = total_9 + rotation_R5_2 * product_8 + rotation_R5_3 * sum34;
+    const vector_f product_9 = 2.0f * by_rotation_R5_2;
+    const vector_f total_10 = W4_0 * sum16 + W4_1 * sum20 + W4_2 * sum24 + rotation_R4_0 * sum28 +
+        rotation_R4_1 * sum31;
+    const vector_f by_rotation_R4_2 = total_10 + rotation_R4_2 * product_8 + rotation_R4_3 * sum34;
+    const vector_f product_10 = 2.0f * by_rotation_R4_2;
+    const vector_f total_11 = W3_0 * sum16 + W3_1 * sum20 + W3_2 * sum24 + rotation_R3_0 * sum28 +
+        rotation_R3_1 * sum31;
+    const vector_f by_rotation_R3_2 = total_11 + rotation_R3_2 * product_8 + rotation_R3_3 * sum34;
+    const vector_f product_11 = 2.0f * by_rotation_R3_2;
+    const vector_f total_12 = total_7 + W0_3 * product_7 + W5_4 * product_9 + W4_4 * product_10 + W3_4 *
+        product_11;
+    const vector_f total_13 = W2_0 * sum16 + W2_1 * sum20 + W2_2 * sum24 + rotation_R2_0 * sum28 +
+        rotation_R2_1 * sum31;
+    const vector_f by_rotation_R2_2 = total_13 + rotation_R2_2 * product_8 + rotation_R2_3 * sum34;
+    const vector_f product_12 = 2.0f * by_rotation_R2_2;
+    const vector_f total_14 = W1_0 * sum16 + W1_1 * sum20 + W1_2 * sum24 + rotation_R1_0 * sum28 +
+        rotation_R1_1 * sum31;
+    const vector_f by_rotation_R1_2 = total_14 + rotation_R1_2 * product_8 + rotation_R1_3 * sum34;
+    const vector_f product_13 = 2.0f * by_rotation_R1_2;
+    const vector_f total_15 = W0_0 * sum16 + W0_1 * sum20 + W0_2 * sum24 + rotation_R0_0 * sum28 +
+        rotation_R0_1 * sum31;
+    const vector_f by_rotation_R0_2 = total_15 + rotation_R0_2 * product_8 + rotation_R0_3 * sum34;
+    const vector_f product_14 = 2.0f * by_rotation_R0_2;
+    const vector_f total_16 = W5_0 * sum17 + W5_1 * sum21 + W5_2 * sum25 + rotation_R5_0 * sum29 +
+        rotation_R5_1 * sum32;
+    const vector_f product_15 = 2.0f * sum35;
+    const vector_f by_rotation_R5_3 = total_16 + rotation_R5_2 * sum34 + rotation_R5_3 * product_15;
+    const vector_f product_16 = 2.0f * by_rotation_R5_3;
+    const vector_f total_17 = total_12 + W2_4 * product_12 + W1_4 * product_13 + W0_4 * product_14 + W5_5 *
+        product_16;
+    const vector_f total_18 = W4_0 * sum17 + W4_1 * sum21 + W4_2 * sum25 + rotation_R4_0 * sum29 +
+        rotation_R4_1 * sum32;
+    const vector_f by_rotation_R4_3 = total_18 + rotation_R4_2 * sum34 + rotation_R4_3 * product_15;
+    const vector_f product_17 = 2.0f * by_rotation_R4_3;
+    const vector_f total_19 = W3_0 * sum17 + W3_1 * sum21 + W3_2 * sum25 + rotation_R3_0 * sum29 +
+        rotation_R3_1 * sum32;
+    const vector_f by_rotation_R3_3 = total_19 + rotation_R3_2 * sum34 + rotation_R3_3 * product_15;
+    const vector_f product_18 = 2.0f * by_rotation_R3_3;
+    const vector_f total_20 = W2_0 * sum17 + W2_1 * sum21 + W2_2 * sum25 + rotation_R2_0 * sum29 +
+        rotation_R2_1 * sum32;
+    const vector_f by_rotation_R2_3 = total_20 + rotation_R2_2 * sum34 + rotation_R2_3 * product_15;
+    const vector_f product_19 = 2.0f * by_rotation_R2_3;
+    const vector_f total_21 = W1_0 * sum17 + W1_1 * sum21 + W1_2 * sum25 + rotation_R1_0 * sum29 +
+        rotation_R1_1 * sum32;
+    const vector_f by_rotation_R1_3 = total_21 + rotation_R1_2 * sum34 + rotation_R1_3 * product_15;
+    const vector_f product_20 = 2.0f * by_rotation_R1_3;
+    const vector_f total_22 = total_17 + W4_5 * product_17 + W3_5 * product_18 + W2_5 * product_19 + W1_5 *
+        product_20;
+    const vector_f total_23 = W0_0 * sum17 + W0_1 * sum21 + W0_2 * sum25 + rotation_R0_0 * sum29 +
+        rotation_R0_1 * sum32;
+    const vector_f by_rotation_R0_3 = total_23 + rotation_R0_2 * sum34 + rotation_R0_3 * product_15;
+    const vector_f product_21 = 2.0f * by_rotation_R0_3;
+    const vector_f by_rotation_M0 = total_22 + W0_5 * product_21;
+    const vector_f product_22 = 2.0f * sum26;
+    const vector_f total_24 = W5_0 * sum14 + W5_1 * sum18 + W5_2 * sum22 + rotation_R5_0 * product_22 +
+        rotation_R5_1 * sum27;
+    const vector_f by_rotation_R5_0 = total_24 + rotation_R5_2 * sum28 + rotation_R5_3 * sum29;
+    const vector_f product_23 = 2.0f * by_rotation_R5_0;
+    const vector_f total_25 = W4_0 * sum14 + W4_1 * sum18 + W4_2 * sum22 + rotation_R4_0 * product_22 +
+        rotation_R4_1 * sum27;
+    const vector_f by_rotation_R4_0 = total_25 + rotation_R4_2 * sum28 + rotation_R4_3 * sum29;
+    const vector_f product_24 = 2.0f * by_rotation_R4_0;
+    const vector_f total_26 = W3_0 * sum14 + W3_1 * sum18 + W3_2 * sum22 + rotation_R3_0 * product_22 +
+        rotation_R3_1 * sum27;
+    const vector_f by_rotation_R3_0 = total_26 + rotation_R3_2 * sum28 + rotation_R3_3 * sum29;
+    const vector_f product_25 = 2.0f * by_rotation_R3_0;
+    const vector_f total_27 = W2_0 * sum14 + W2_1 * sum18 + W2_2 * sum22 + rotation_R2_0 * product_22 +
+        rotation_R2_1 * sum27;
+    const vector_f by_rotation_R2_0 = total_27 + rotation_R2_2 * sum28 + rotation_R2_3 * sum29;
+    const vector_f product_26 = 2.0f * by_rotation_R2_0;
+    const vector_f gap = -(W5_3 * product_23) - W4_3 * product_24 - W3_3 * product_25 - W2_3 * product_26;
+    const vector_f total_28 = W1_0 * sum14 + W1_1 * sum18 + W1_2 * sum22 + rotation_R1_0 * product_22 +
+        rotation_R1_1 * sum27;
+    const vector_f by_rotation_R1_0 = total_28 + rotation_R1_2 * sum28 + rotation_R1_3 * sum29;
+    const vector_f product_27 = 2.0f * by_rotation_R1_0;
+    const vector_f total_29 = W0_0 * sum14 + W0_1 * sum18 + W0_2 * sum22 + rotation_R0_0 * product_22 +
+        rotation_R0_1 * sum27;
+    const vector_f by_rotation_R0_0 = total_29 + rotation_R0_2 * sum28 + rotation_R0_3 * sum29;
+    const vector_f product_28 = 2.0f * by_rotation_R0_0;
+    const vector_f gap_2 = gap - W1_3 * product_27 - W0_3 * product_28 - W5_5 * product_9 - W4_5 * product_10;
+    const vector_f gap_3 = gap_2 - W3_5 * product_11 - W2_5 * product_12 - W1_5 * product_13 - W0_5 *
+        product_14;
+    const vector_f total_30 = gap_3 + W5_4 * product_16 + W4_4 * product_17 + W3_4 * product_18 + W2_4 *
+        product_19;
+    const vector_f by_rotation_M1 = total_30 + W1_4 * product_20 + W0_4 * product_21;
+    const vector_f gap_4 = -(W5_4 * product_23) - W4_4 * product_24 - W3_4 * product_25 - W2_4 * product_26;
+    const vector_f total_31 = gap_4 - W1_4 * product_27 - W0_4 * product_28 + W5_5 * product_2 + W4_5 *
+        product_3;
+    const vector_f total_32 = total_31 + W3_5 * product_4 + W2_5 * product_5 + W1_5 * product_6 + W0_5 *
+        product_7;
+    const vector_f gap_5 = total_32 - W5_3 * product_16 - W4_3 * product_17 - W3_3 * product_18 - W2_3 *
+        product_19;
+    const vector_f by_rotation_M2 = gap_5 - W1_3 * product_20 - W0_3 * product_21;
+    const vector_f gap_6 = -(W5_5 * product_23) - W4_5 * product_24 - W3_5 * product_25 - W2_5 * product_26;
+    const vector_f gap_7 = gap_6 - W1_5 * product_27 - W0_5 * product_28 - W5_4 * product_2 - W4_4 *
+        product_3;
+    const vector_f gap_8 = gap_7 - W3_4 * product_4 - W2_4 * product_5 - W1_4 * product_6 - W0_4 * product_7;
+    const vector_f total_33 = gap_8 + W5_3 * product_9 + W4_3 * product_10 + W3_3 * product_11 + W2_3 *
+        product_12;
+    const vector_f by_rotation_M3 = total_33 + W1_3 * product_13 + W0_3 * product_14;
+    const vector_f product_29 = 2.0f * sum8;
+    const vector_f total_34 = W0_0 * product_29 + W0_1 * sum9 + W0_2 * sum10 + rotation_R0_0 * sum14 +
+        rotation_R0_1 * sum15;
+    const vector_f product_30 = 2.0f * sum11;
+    const vector_f total_35 = W0_0 * sum9 + W0_1 * product_30 + W0_2 * sum12 + rotation_R0_0 * sum18 +
+        rotation_R0_1 * sum19;
+    const vector_f product_31 = 2.0f * sum13;
+    const vector_f total_36 = W0_0 * sum10 + W0_1 * sum12 + W0_2 * product_31 + rotation_R0_0 * sum22 +
+        rotation_R0_1 * sum23;
+    const vector_f product_32 = its_amplitude * (rotation_M0 * product_7 - rotation_M1 * product_28 +
+        rotation_M3 * product_14 - rotation_M2 * product_21);
+    const vector_f total_37 = -(rotation_M2 * product_28) - rotation_M3 * product_7 + rotation_M0 * product_14
+        + rotation_M1 * product_21;
+    const vector_f product_33 = its_amplitude * (rotation_M2 * product_7 - rotation_M3 * product_28 -
+        rotation_M1 * product_14 + rotation_M0 * product_21);
+    const vector_f total_38 = W1_0 * product_29 + W1_1 * sum9 + W1_2 * sum10 + rotation_R1_0 * sum14 +
+        rotation_R1_1 * sum15;
+    const vector_f total_39 = W1_0 * sum9 + W1_1 * product_30 + W1_2 * sum12 + rotation_R1_0 * sum18 +
+        rotation_R1_1 * sum19;
+    const vector_f total_40 = W1_0 * sum10 + W1_1 * sum12 + W1_2 * product_31 + rotation_R1_0 * sum22 +
+        rotation_R1_1 * sum23;
+    const vector_f product_34 = its_amplitude * (rotation_M0 * product_6 - rotation_M1 * product_27 +
+        rotation_M3 * product_13 - rotation_M2 * product_20);
+    const vector_f total_41 = -(rotation_M2 * product_27) - rotation_M3 * product_6 + rotation_M0 * product_13
+        + rotation_M1 * product_20;
+    const vector_f product_35 = its_amplitude * (rotation_M2 * product_6 - rotation_M3 * product_27 -
+        rotation_M1 * product_13 + rotation_M0 * product_20);
+    const vector_f total_42 = W2_0 * product_29 + W2_1 * sum9 + W2_2 * sum10 + rotation_R2_0 * sum14 +
+        rotation_R2_1 * sum15;
+    const vector_f total_43 = W2_0 * sum9 + W2_1 * product_30 + W2_2 * sum12 + rotation_R2_0 * sum18 +
+        rotation_R2_1 * sum19;
+    const vector_f total_44 = W2_0 * sum10 + W2_1 * sum12 + W2_2 * product_31 + rotation_R2_0 * sum22 +
+        rotation_R2_1 * sum23;
+    const vector_f product_36 = its_amplitude * (rotation_M0 * product_5 - rotation_M1 * product_26 +
+        rotation_M3 * product_12 - rotation_M2 * product_19);
+    const vector_f total_45 = -(rotation_M2 * product_26) - rotation_M3 * product_5 + rotation_M0 * product_12
+        + rotation_M1 * product_19;
+    const vector_f product_37 = its_amplitude * (rotation_M2 * product_5 - rotation_M3 * product_26 -
+        rotation_M1 * product_12 + rotation_M0 * product_19);
+    const vector_f total_46 = W3_0 * product_29 + W3_1 * sum9 + W3_2 * sum10 + rotation_R3_0 * sum14 +
+        rotation_R3_1 * sum15;
+    const vector_f total_47 = W3_0 * sum9 + W3_1 * product_30 + W3_2 * sum12 + rotation_R3_0 * sum18 +
+        rotation_R3_1 * sum19;
+    const vector_f total_48 = W3_0 * sum10 + W3_1 * sum12 + W3_2 * product_31 + rotation_R3_0 * sum22 +
+        rotation_R3_1 * sum23;
+    const vector_f product_38 = its_amplitude * (rotation_M0 * product_4 - rotation_M1 * product_25 +
+        rotation_M3 * product_11 - rotation_M2 * product_18);
+    const vector_f total_49 = -(rotation_M2 * product_25) - rotation_M3 * product_4 + rotation_M0 * product_11
+        + rotation_M1 * product_18;
+    const vector_f product_39 = its_amplitude * (rotation_M2 * product_4 - rotation_M3 * product_25 -
+        rotation_M1 * product_11 + rotation_M0 * product_18);
+    const vector_f total_50 = W4_0 * product_29 + W4_1 * sum9 + W4_2 * sum10 + rotation_R4_0 * sum14 +
+        rotation_R4_1 * sum15;
+    const vector_f total_51 = W4_0 * sum9 + W4_1 * product_30 + W4_2 * sum12 + rotation_R4_0 * sum18 +
+        rotation_R4_1 * sum19;
+    const vector_f total_52 = W4_0 * sum10 + W4_1 * sum12 + W4_2 * product_31 + rotation_R4_0 * sum22 +
+        rotation_R4_1 * sum23;
+    const vector_f product_40 = its_amplitude * (rotation_M0 * product_3 - rotation_M1 * product_24 +
+        rotation_M3 * product_10 - rotation_M2 * product_17);
+    const vector_f total_53 = -(rotation_M2 * product_24) - rotation_M3 * product_3 + rotation_M0 * product_10
+        + rotation_M1 * product_17;
+    const vector_f product_41 = its_amplitude * (rotation_M2 * product_3 - rotation_M3 * product_24 -
+        rotation_M1 * product_10 + rotation_M0 * product_17);
+    const vector_f total_54 = W5_0 * product_29 + W5_1 * sum9 + W5_2 * sum10 + rotation_R5_0 * sum14 +
+        rotation_R5_1 * sum15;
+    const vector_f total_55 = W5_0 * sum9 + W5_1 * product_30 + W5_2 * sum12 + rotation_R5_0 * sum18 +
+        rotation_R5_1 * sum19;
+    const vector_f total_56 = W5_0 * sum10 + W5_1 * sum12 + W5_2 * product_31 + rotation_R5_0 * sum22 +
+        rotation_R5_1 * sum23;
+    const vector_f product_42 = its_amplitude * (rotation_M0 * product_2 - rotation_M1 * product_23 +
+        rotation_M3 * product_9 - rotation_M2 * product_16);
+    const vector_f total_57 = -(rotation_M2 * product_23) - rotation_M3 * product_2 + rotation_M0 * product_9
+        + rotation_M1 * product_16;
+    const vector_f product_43 = its_amplitude * (rotation_M2 * product_2 - rotation_M3 * product_23 -
+        rotation_M1 * product_9 + rotation_M0 * product_16);
+    mu_bar[0] = its_amplitude * sum0;
+    mu_bar[1] = its_amplitude * sum1;
+    mu_bar[2] = its_amplitude * sum2;
+    mu_bar[3] = its_amplitude * (sum3 + 2.0f * by_rotation_M0);
+    mu_bar[4] = its_amplitude * (sum4 + 2.0f * by_rotation_M1);
+    mu_bar[5] = its_amplitude * (sum5 + 2.0f * by_rotation_M2);
+    mu_bar[6] = its_amplitude * (sum6 + 2.0f * by_rotation_M3);
+    W_bar[0] = its_amplitude * (total_34 + rotation_R0_2 * sum16 + rotation_R0_3 * sum17);
+    W_bar[1] = its_amplitude * (total_35 + rotation_R0_2 * sum20 + rotation_R0_3 * sum21);
+    W_bar[2] = its_amplitude * (total_36 + rotation_R0_2 * sum24 + rotation_R0_3 * sum25);
+    W_bar[3] = product_32;
+    W_bar[4] = its_amplitude * total_37;
+    W_bar[5] = product_33;
+    W_bar[6] = its_amplitude * (total_38 + rotation_R1_2 * sum16 + rotation_R1_3 * sum17);
+    W_bar[7] = its_amplitude * (total_39 + rotation_R1_2 * sum20 + rotation_R1_3 * sum21);
+    W_bar[8] = its_amplitude * (total_40 + rotation_R1_2 * sum24 + rotation_R1_3 * sum25);
+    W_bar[9] = product_34;
+    W_bar[10] = its_amplitude * total_41;
+    W_bar[11] = product_35;
+    W_bar[12] = its_amplitude * (total_42 + rotation_R2_2 * sum16 + rotation_R2_3 * sum17);
+    W_bar[13] = its_amplitude * (total_43 + rotation_R2_2 * sum20 + rotation_R2_3 * sum21);
+    W_bar[14] = its_amplitude * (total_44 + rotation_R2_2 * sum24 + rotation_R2_3 * sum25);
+    W_bar[15] = product_36;
+    W_bar[16] = its_amplitude * total_45;
+    W_bar[17] = product_37;
+    W_bar[18] = its_amplitude * (total_46 + rotation_R3_2 * sum16 + rotation_R3_3 * sum17);
+    W_bar[19] = its_amplitude * (total_47 + rotation_R3_2 * sum20 + rotation_R3_3 * sum21);
+    W_bar[20] = its_amplitude * (total_48 + rotation_R3_2 * sum24 + rotation_R3_3 * sum25);
+    W_bar[21] = product_38;
+    W_bar[22] = its_amplitude * total_49;
+    W_bar[23] = product_39;
+    W_bar[24] = its_amplitude * (total_50 + rotation_R4_2 * sum16 + rotation_R4_3 * sum17);
+    W_bar[25] = its_amplitude * (total_51 + rotation_R4_2 * sum20 + rotation_R4_3 * sum21);
+    W_bar[26] = its_amplitude * (total_52 + rotation_R4_2 * sum24 + rotation_R4_3 * sum25);
+    W_bar[27] = product_40;
+    W_bar[28] = its_amplitude * total_53;
+    W_bar[29] = product_41;
+    W_bar[30] = its_amplitude * (total_54 + rotation_R5_2 * sum16 + rotation_R5_3 * sum17);
+    W_bar[31] = its_amplitude * (total_55 + rotation_R5_2 * sum20 + rotation_R5_3 * sum21);
+    W_bar[32] = its_amplitude * (total_56 + rotation_R5_2 * sum24 + rotation_R5_3 * sum25);
+    W_bar[33] = product_42;
+    W_bar[34] = its_amplitude * total_57;
+    W_bar[35] = product_43;
+    amplitude_bar[0] = sum7;
 }
 
 /* The distances of some points q from one point p. */
@@ -2558,17 +3109,17 @@ OUTLINE void pair_distances_f(
     const vector_f rotation_g3 = p3 * q6 + p5 * q4 - p4 * q5 - p6 * q3;
     const vector_f rotation_norm_s_squared = rotation_g1 * rotation_g1 + rotation_g2 * rotation_g2 +
         rotation_g3 * rotation_g3;
-    const vector_f rotation_norm_s = vector_sqrt_f(rotation_norm_s_squared);
-    const vector_f rotation_abs_g0 = vector_abs_f(rotation_g0);
-    const vector_f rotation_atan2_norm_s_abs_g0 = vector_atan2_f(rotation_norm_s, rotation_abs_g0);
+    const vector_f rotation_norm_s = sqrt_each_f(rotation_norm_s_squared);
+    const vector_f rotation_abs_g0 = abs_each_f(rotation_g0);
+    const vector_f rotation_atan2_norm_s_abs_g0 = atan2_each_f(rotation_norm_s, rotation_abs_g0);
     const vector_f rotation_t = 2.0f * rotation_atan2_norm_s_abs_g0;
-    const vector_f length = vector_sqrt_f(position_log0 * position_log0 + position_log1 * position_log1 +
+    const vector_f length = sqrt_each_f(position_log0 * position_log0 + position_log1 * position_log1 +
         position_log2 * position_log2 + rotation_t * rotation_t);
     distance[0] = length;
 }
 
 /*
- * The factors of whose products are the derivatives in S of phi value_bar + slope . slope_bar.
+ * The factors of whose products are what is summed over the points.
  *
  * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
@@ -2581,294 +3132,309 @@ OUTLINE void pair_factors_f(
     const vector_f x0 = X[0];
     const vector_f x1 = X[1];
     const vector_f x2 = X[2];
-    const vector_f rotation_h0 = X[3];
-    const vector_f rotation_h1 = X[4];
-    const vector_f rotation_h2 = X[5];
-    const vector_f rotation_h3 = X[6];
+    const vector_f x3 = X[3];
+    const vector_f x4 = X[4];
+    const vector_f x5 = X[5];
+    const vector_f x6 = X[6];
+    const vector_f rotation_h0 = X[7];
+    const vector_f rotation_h1 = X[8];
+    const vector_f rotation_h2 = X[9];
+    const vector_f rotation_h3 = X[10];
     const float mu0 = S[0];
     const float mu1 = S[1];
     const float mu2 = S[2];
-    const float W0_0 = S[3];
-    const float W0_1 = S[4];
-    const float W0_2 = S[5];
-    const float W1_0 = S[6];
-    const float W1_1 = S[7];
-    const float W1_2 = S[8];
-    const float W2_0 = S[9];
-    const float W2_1 = S[10];
-    const float W2_2 = S[11];
-    const float W3_0 = S[12];
-    const float W3_1 = S[13];
-    const float W3_2 = S[14];
-    const float W4_0 = S[15];
-    const float W4_1 = S[16];
-    const float W4_2 = S[17];
-    const float W5_0 = S[18];
-    const float W5_1 = S[19];
-    const float W5_2 = S[20];
-    const float amplitude = S[21];
-    const float rotation_M0 = S[22];
-    const float rotation_M1 = S[23];
-    const float rotation_M2 = S[24];
-    const float rotation_M3 = S[25];
-    const float rotation_R0_0 = S[26];
-    const float rotation_R0_1 = S[27];
-    const float rotation_R0_2 = S[28];
-    const float rotation_R0_3 = S[29];
-    const float rotation_R1_0 = S[30];
-    const float rotation_R1_1 = S[31];
-    const float rotation_R1_2 = S[32];
-    const float rotation_R1_3 = S[33];
-    const float rotation_R2_0 = S[34];
-    const float rotation_R2_1 = S[35];
-    const float rotation_R2_2 = S[36];
-    const float rotation_R2_3 = S[37];
-    const float rotation_R3_0 = S[38];
-    const float rotation_R3_1 = S[39];
-    const float rotation_R3_2 = S[40];
-    const float rotation_R3_3 = S[41];
-    const float rotation_R4_0 = S[42];
-    const float rotation_R4_1 = S[43];
-    const float rotation_R4_2 = S[44];
-    const float rotation_R4_3 = S[45];
-    const float rotation_R5_0 = S[46];
-    const float rotation_R5_1 = S[47];
-    const float rotation_R5_2 = S[48];
-    const float rotation_R5_3 = S[49];
+    const float mu3 = S[3];
+    const float mu4 = S[4];
+    const float mu5 = S[5];
+    const float mu6 = S[6];
+    const float W0_0 = S[7];
+    const float W0_1 = S[8];
+    const float W0_2 = S[9];
+    const float W1_0 = S[10];
+    const float W1_1 = S[11];
+    const float W1_2 = S[12];
+    const float W2_0 = S[13];
+    const float W2_1 = S[14];
+    const float W2_2 = S[15];
+    const float W3_0 = S[16];
+    const float W3_1 = S[17];
+    const float W3_2 = S[18];
+    const float W4_0 = S[19];
+    const float W4_1 = S[20];
+    const float W4_2 = S[21];
+    const float W5_0 = S[22];
+    const float W5_1 = S[23];
+    const float W5_2 = S[24];
+    const float M0_0 = S[26];
+    const float M0_1 = S[27];
+    const float M0_2 = S[28];
+    const float M1_1 = S[29];
+    const float M1_2 = S[30];
+    const float M2_2 = S[31];
+    const float rotation_R0_0 = S[32];
+    const float rotation_R0_1 = S[33];
+    const float rotation_R0_2 = S[34];
+    const float rotation_R0_3 = S[35];
+    const float rotation_R1_0 = S[36];
+    const float rotation_R1_1 = S[37];
+    const float rotation_R1_2 = S[38];
+    const float rotation_R1_3 = S[39];
+    const float rotation_R2_0 = S[40];
+    const float rotation_R2_1 = S[41];
+    const float rotation_R2_2 = S[42];
+    const float rotation_R2_3 = S[43];
+    const float rotation_R3_0 = S[44];
+    const float rotation_R3_1 = S[45];
+    const float rotation_R3_2 = S[46];
+    const float rotation_R3_3 = S[47];
+    const float rotation_R4_0 = S[48];
+    const float rotation_R4_1 = S[49];
+    const float rotation_R4_2 = S[50];
+    const float rotation_R4_3 = S[51];
+    const float rotation_R5_0 = S[52];
+    const float rotation_R5_1 = S[53];
+    const float rotation_R5_2 = S[54];
+    const float rotation_R5_3 = S[55];
+    const float M0_3 = S[56];
+    const float M0_4 = S[57];
+    const float M0_5 = S[58];
+    const float M0_6 = S[59];
+    const float M1_3 = S[60];
+    const float M1_4 = S[61];
+    const float M1_5 = S[62];
+    const float M1_6 = S[63];
+    const float M2_3 = S[64];
+    const float M2_4 = S[65];
+    const float M2_5 = S[66];
+    const float M2_6 = S[67];
+    const float M3_3 = S[68];
+    const float M3_4 = S[69];
+    const float M3_5 = S[70];
+    const float M3_6 = S[71];
+    const float M4_4 = S[72];
+    const float M4_5 = S[73];
+    const float M4_6 = S[74];
+    const float M5_5 = S[75];
+    const float M5_6 = S[76];
+    const float M6_6 = S[77];
     const vector_f its_value_bar = value_bar[0];
     const vector_f x0_bar = slope_bar[0];
     const vector_f x1_bar = slope_bar[1];
     const vector_f x2_bar = slope_bar[2];
-    const vector_f rotation_h0_bar = slope_bar[3];
-    const vector_f rotation_h1_bar = slope_bar[4];
-    const vector_f rotation_h2_bar = slope_bar[5];
-    const vector_f rotation_h3_bar = slope_bar[6];
-    const vector_f total_2 = rotation_h0 * rotation_M0 + rotation_h1 * rotation_M1 + rotation_h2 * rotation_M2
-        + rotation_h3 * rotation_M3;
-    const vector_f rotation_w = vector_abs_f(total_2);
-    const vector_f rotation_w_gap = 1.0f - rotation_w;
-    const vector_f rotation_eta = vector_polynomial_rotation_eta_f(rotation_w_gap);
-    const vector_f rotation_a = 1.0f / (rotation_w - rotation_eta * (1.0f - rotation_w * rotation_w));
+    const vector_f x3_bar = slope_bar[3];
+    const vector_f x4_bar = slope_bar[4];
+    const vector_f x5_bar = slope_bar[5];
+    const vector_f x6_bar = slope_bar[6];
+    const vector_f rotation_h0_bar = slope_bar[7];
+    const vector_f rotation_h1_bar = slope_bar[8];
+    const vector_f rotation_h2_bar = slope_bar[9];
+    const vector_f rotation_h3_bar = slope_bar[10];
     const vector_f v0 = x0 - mu0;
     const vector_f v1 = x1 - mu1;
     const vector_f v2 = x2 - mu2;
-    const vector_mask_f is_small = total_2 < 0.0f;
+    const vector_f rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6;
+    const vector_mask_f is_small = rotation_g0 < 0.0f;
+    const vector_f rotation_abs_g0 = abs_each_f(rotation_g0);
+    const vector_f gap = 1.0f - rotation_abs_g0;
+    const vector_f rotation_eta = vector_polynomial_rotation_eta_f(gap);
+    const vector_f rotation_a = 1.0f / (rotation_abs_g0 - rotation_eta * (1.0f - rotation_abs_g0 *
+        rotation_abs_g0));
     const vector_f rotation_a_chosen = vector_select_f(is_small, -rotation_a, rotation_a);
-    const vector_f rotation_r0 = rotation_h0 * rotation_R0_0 + rotation_h1 * rotation_R0_1 + rotation_h2 *
-        rotation_R0_2 + rotation_h3 * rotation_R0_3;
-    const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_a_chosen * rotation_r0;
-    const vector_f rotation_r1 = rotation_h0 * rotation_R1_0 + rotation_h1 * rotation_R1_1 + rotation_h2 *
-        rotation_R1_2 + rotation_h3 * rotation_R1_3;
-    const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_a_chosen * rotation_r1;
-    const vector_f rotation_r2 = rotation_h0 * rotation_R2_0 + rotation_h1 * rotation_R2_1 + rotation_h2 *
-        rotation_R2_2 + rotation_h3 * rotation_R2_3;
-    const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_a_chosen * rotation_r2;
-    const vector_f rotation_r3 = rotation_h0 * rotation_R3_0 + rotation_h1 * rotation_R3_1 + rotation_h2 *
-        rotation_R3_2 + rotation_h3 * rotation_R3_3;
-    const vector_f z3 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_a_chosen * rotation_r3;
-    const vector_f rotation_r4 = rotation_h0 * rotation_R4_0 + rotation_h1 * rotation_R4_1 + rotation_h2 *
-        rotation_R4_2 + rotation_h3 * rotation_R4_3;
-    const vector_f z4 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_a_chosen * rotation_r4;
-    const vector_f total_3 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-    const vector_f rotation_r5 = rotation_h0 * rotation_R5_0 + rotation_h1 * rotation_R5_1 + rotation_h2 *
-        rotation_R5_2 + rotation_h3 * rotation_R5_3;
-    const vector_f z5 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_a_chosen * rotation_r5;
-    const vector_f half_square = 0.5f * (total_3 + z5 * z5);
-    const vector_f gaussian = vector_exp_f(-half_square);
-    const vector_f rotation_a_product = rotation_a * (rotation_a * gaussian);
-    const vector_f phi = amplitude * rotation_a_product;
-    const vector_f gap = -(rotation_R5_0 * rotation_h0_bar) - rotation_R5_1 * rotation_h1_bar - rotation_R5_2
-        * rotation_h2_bar - rotation_R5_3 * rotation_h3_bar;
-    const vector_f total_4 = -(W5_0 * x0_bar) - W5_1 * x1_bar - W5_2 * x2_bar + rotation_a_chosen * gap;
-    const vector_f total_5 = rotation_M0 * rotation_h0_bar + rotation_M1 * rotation_h1_bar + rotation_M2 *
-        rotation_h2_bar + rotation_M3 * rotation_h3_bar;
-    const vector_f by_by_rotation_w = vector_select_f(is_small, vector_of_f(0.0f), total_5) -
-        vector_select_f(is_small, total_5, vector_of_f(0.0f));
-    const vector_f product = rotation_eta * by_by_rotation_w;
-    const vector_f product_2 = rotation_a_chosen * product;
-    const vector_f gap_2 = total_4 - rotation_r5 * product_2;
-    const vector_f gap_3 = -(rotation_R0_0 * rotation_h0_bar) - rotation_R0_1 * rotation_h1_bar -
-        rotation_R0_2 * rotation_h2_bar - rotation_R0_3 * rotation_h3_bar;
-    const vector_f total_6 = -(W0_0 * x0_bar) - W0_1 * x1_bar - W0_2 * x2_bar + rotation_a_chosen * gap_3;
-    const vector_f gap_4 = total_6 - rotation_r0 * product_2;
-    const vector_f gap_5 = -(rotation_R1_0 * rotation_h0_bar) - rotation_R1_1 * rotation_h1_bar -
-        rotation_R1_2 * rotation_h2_bar - rotation_R1_3 * rotation_h3_bar;
-    const vector_f total_7 = -(W1_0 * x0_bar) - W1_1 * x1_bar - W1_2 * x2_bar + rotation_a_chosen * gap_5;
-    const vector_f gap_6 = total_7 - rotation_r1 * product_2;
-    const vector_f gap_7 = -(rotation_R2_0 * rotation_h0_bar) - rotation_R2_1 * rotation_h1_bar -
-        rotation_R2_2 * rotation_h2_bar - rotation_R2_3 * rotation_h3_bar;
-    const vector_f total_8 = -(W2_0 * x0_bar) - W2_1 * x1_bar - W2_2 * x2_bar + rotation_a_chosen * gap_7;
-    const vector_f gap_8 = total_8 - rotation_r2 * product_2;
-    const vector_f gap_9 = -(rotation_R3_0 * rotation_h0_bar) - rotation_R3_1 * rotation_h1_bar -
-        rotation_R3_2 * rotation_h2_bar - rotation_R3_3 * rotation_h3_bar;
-    const vector_f total_9 = -(W3_0 * x0_bar) - W3_1 * x1_bar - W3_2 * x2_bar + rotation_a_chosen * gap_9;
-    const vector_f gap_10 = total_9 - rotation_r3 * product_2;
-    const vector_f total_10 = its_value_bar + z0 * gap_4 + z1 * gap_6 + z2 * gap_8 + z3 * gap_10;
-    const vector_f gap_11 = -(rotation_R4_0 * rotation_h0_bar) - rotation_R4_1 * rotation_h1_bar -
-        rotation_R4_2 * rotation_h2_bar - rotation_R4_3 * rotation_h3_bar;
-    const vector_f total_11 = -(W4_0 * x0_bar) - W4_1 * x1_bar - W4_2 * x2_bar + rotation_a_chosen * gap_11;
-    const vector_f gap_12 = total_11 - rotation_r4 * product_2;
-    const vector_f by_phi = total_10 + z4 * gap_12 + z5 * gap_2 + 2.0f * product;
-    const vector_f product_3 = rotation_a_product * (amplitude * by_phi);
-    const vector_f by_z5 = phi * gap_2 - z5 * product_3;
-    const vector_f by_z4 = phi * gap_12 - z4 * product_3;
-    const vector_f by_z3 = phi * gap_10 - z3 * product_3;
-    const vector_f by_z2 = phi * gap_8 - z2 * product_3;
-    const vector_f by_z1 = phi * gap_6 - z1 * product_3;
-    const vector_f total_12 = W5_0 * by_z5 + W4_0 * by_z4 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1;
-    const vector_f by_z0 = phi * gap_4 - z0 * product_3;
-    const vector_f by_v0 = total_12 + W0_0 * by_z0;
-    const vector_f total_13 = W5_1 * by_z5 + W4_1 * by_z4 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1;
-    const vector_f by_v1 = total_13 + W0_1 * by_z0;
-    const vector_f total_14 = W5_2 * by_z5 + W4_2 * by_z4 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1;
-    const vector_f by_v2 = total_14 + W0_2 * by_z0;
-    const vector_f z0_product = z0 * phi;
-    const vector_f z1_product = z1 * phi;
-    const vector_f z2_product = z2 * phi;
-    const vector_f z3_product = z3 * phi;
-    const vector_f z4_product = z4 * phi;
-    const vector_f z5_product = z5 * phi;
-    const vector_f gap_13 = -(rotation_r5 * z5_product) - rotation_r4 * z4_product - rotation_r3 * z3_product
-        - rotation_r2 * z2_product;
-    const vector_f gap_14 = gap_13 - rotation_r1 * z1_product - rotation_r0 * z0_product;
-    const vector_f total_15 = 2.0f * phi + rotation_a_chosen * gap_14;
-    const vector_f by_rotation_w = rotation_eta * total_15;
-    const vector_f chosen = vector_select_f(is_small, -by_rotation_w, by_rotation_w);
-    const vector_f rotation_eta_slope = vector_polynomial_rotation_eta_slope_f(rotation_w_gap);
-    const vector_f total_16 = gap_14 * product + z0_product * gap_3 + z1_product * gap_5 + z2_product * gap_7
-        + z3_product * gap_9;
-    const vector_f total_17 = total_16 + z4_product * gap_11 + z5_product * gap + rotation_r5 * by_z5 +
-        rotation_r4 * by_z4;
-    const vector_f total_18 = total_17 + rotation_r3 * by_z3 + rotation_r2 * by_z2 + rotation_r1 * by_z1 +
-        rotation_r0 * by_z0;
-    const vector_f by_rotation_w_2 = rotation_eta_slope * (total_15 * by_by_rotation_w) + rotation_eta * (2.0f
-        * product_3 + rotation_a_chosen * total_18);
-    const vector_f chosen_2 = vector_select_f(is_small, -by_rotation_w_2, by_rotation_w_2);
-    const vector_f by_rotation_r0 = rotation_a_chosen * by_z0 - z0_product * product_2;
-    const vector_f product_4 = rotation_a_chosen * z0_product;
-    const vector_f by_rotation_r1 = rotation_a_chosen * by_z1 - z1_product * product_2;
-    const vector_f product_5 = rotation_a_chosen * z1_product;
-    const vector_f by_rotation_r2 = rotation_a_chosen * by_z2 - z2_product * product_2;
-    const vector_f product_6 = rotation_a_chosen * z2_product;
-    const vector_f by_rotation_r3 = rotation_a_chosen * by_z3 - z3_product * product_2;
-    const vector_f product_7 = rotation_a_chosen * z3_product;
-    const vector_f by_rotation_r4 = rotation_a_chosen * by_z4 - z4_product * product_2;
-    const vector_f product_8 = rotation_a_chosen * z4_product;
-    const vector_f by_rotation_r5 = rotation_a_chosen * by_z5 - z5_product * product_2;
-    const vector_f product_9 = rotation_a_chosen * z5_product;
+    const vector_f product = rotation_h0 * rotation_a_chosen;
+    const vector_f product_2 = rotation_h1 * rotation_a_chosen;
+    const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
+        product_2;
+    const vector_f product_3 = rotation_h2 * rotation_a_chosen;
+    const vector_f product_4 = rotation_h3 * rotation_a_chosen;
+    const vector_f total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
+    const vector_f total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
+        product_2;
+    const vector_f total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4;
+    const vector_f total_6 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_R2_0 * product + rotation_R2_1 *
+        product_2;
+    const vector_f total_7 = total_6 + rotation_R2_2 * product_3 + rotation_R2_3 * product_4;
+    const vector_f total_8 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_R3_0 * product + rotation_R3_1 *
+        product_2;
+    const vector_f total_9 = total_8 + rotation_R3_2 * product_3 + rotation_R3_3 * product_4;
+    const vector_f total_10 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_R4_0 * product + rotation_R4_1 *
+        product_2;
+    const vector_f total_11 = total_10 + rotation_R4_2 * product_3 + rotation_R4_3 * product_4;
+    const vector_f total_12 = W0_0 * total_3 + W1_0 * total_5 + W2_0 * total_7 + W3_0 * total_9 + W4_0 *
+        total_11;
+    const vector_f total_13 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_R5_0 * product + rotation_R5_1 *
+        product_2;
+    const vector_f total_14 = total_13 + rotation_R5_2 * product_3 + rotation_R5_3 * product_4;
+    const vector_f total_15 = total_12 + W5_0 * total_14;
+    const vector_f total_16 = total_3 * total_3 + total_5 * total_5 + total_7 * total_7 + total_9 * total_9 +
+        total_11 * total_11;
+    const vector_f gaussian = gaussian_each_f(total_16 + total_14 * total_14);
+    const vector_f phi = rotation_a * (rotation_a * gaussian);
+    const vector_f total_17 = rotation_R0_3 * total_3 + rotation_R1_3 * total_5 + rotation_R2_3 * total_7 +
+        rotation_R3_3 * total_9 + rotation_R4_3 * total_11;
+    const vector_f total_18 = total_17 + rotation_R5_3 * total_14;
+    const vector_f by_by_rotation_g0 = mu3 * x3_bar + mu4 * x4_bar + mu5 * x5_bar + mu6 * x6_bar;
+    const vector_f by_by_rotation_abs_g0 = vector_select_f(is_small, vector_of_f(0.0f), by_by_rotation_g0) -
+        vector_select_f(is_small, by_by_rotation_g0, vector_of_f(0.0f));
+    const vector_f product_5 = rotation_eta * by_by_rotation_abs_g0;
+    const vector_f product_6 = rotation_a_chosen * product_5;
+    const vector_f gap_2 = -(rotation_h3 * product_6) - rotation_a_chosen * rotation_h3_bar;
+    const vector_f total_19 = rotation_R0_2 * total_3 + rotation_R1_2 * total_5 + rotation_R2_2 * total_7 +
+        rotation_R3_2 * total_9 + rotation_R4_2 * total_11;
+    const vector_f total_20 = total_19 + rotation_R5_2 * total_14;
+    const vector_f gap_3 = -(rotation_h2 * product_6) - rotation_a_chosen * rotation_h2_bar;
+    const vector_f total_21 = rotation_R0_1 * total_3 + rotation_R1_1 * total_5 + rotation_R2_1 * total_7 +
+        rotation_R3_1 * total_9 + rotation_R4_1 * total_11;
+    const vector_f total_22 = total_21 + rotation_R5_1 * total_14;
+    const vector_f gap_4 = -(rotation_h1 * product_6) - rotation_a_chosen * rotation_h1_bar;
+    const vector_f total_23 = rotation_R0_0 * total_3 + rotation_R1_0 * total_5 + rotation_R2_0 * total_7 +
+        rotation_R3_0 * total_9 + rotation_R4_0 * total_11;
+    const vector_f total_24 = total_23 + rotation_R5_0 * total_14;
+    const vector_f gap_5 = -(rotation_h0 * product_6) - rotation_a_chosen * rotation_h0_bar;
+    const vector_f total_25 = its_value_bar + total_18 * gap_2 + total_20 * gap_3 + total_22 * gap_4 +
+        total_24 * gap_5;
+    const vector_f total_26 = W0_2 * total_3 + W1_2 * total_5 + W2_2 * total_7 + W3_2 * total_9 + W4_2 *
+        total_11;
+    const vector_f total_27 = total_26 + W5_2 * total_14;
+    const vector_f total_28 = W0_1 * total_3 + W1_1 * total_5 + W2_1 * total_7 + W3_1 * total_9 + W4_1 *
+        total_11;
+    const vector_f total_29 = total_28 + W5_1 * total_14;
+    const vector_f by_phi = total_25 - total_27 * x2_bar - total_29 * x1_bar - total_15 * x0_bar + 2.0f *
+        product_5;
+    const vector_f phi_product = phi * by_phi;
+    const vector_f phi_product_2 = phi * x0_bar;
+    const vector_f phi_product_3 = phi * x1_bar;
+    const vector_f phi_product_4 = phi * x2_bar;
+    const vector_f phi_product_5 = phi * gap_5;
+    const vector_f total_30 = -(M0_0 * phi_product_2) - M0_1 * phi_product_3 - M0_2 * phi_product_4 + M0_3 *
+        phi_product_5;
+    const vector_f phi_product_6 = phi * gap_4;
+    const vector_f phi_product_7 = phi * gap_3;
+    const vector_f phi_product_8 = phi * gap_2;
+    const vector_f gap_6 = total_15 * phi_product - (total_30 + M0_4 * phi_product_6 + M0_5 * phi_product_7 +
+        M0_6 * phi_product_8);
+    const vector_f total_31 = -(M0_1 * phi_product_2) - M1_1 * phi_product_3 - M1_2 * phi_product_4 + M1_3 *
+        phi_product_5;
+    const vector_f gap_7 = total_29 * phi_product - (total_31 + M1_4 * phi_product_6 + M1_5 * phi_product_7 +
+        M1_6 * phi_product_8);
+    const vector_f total_32 = -(M0_2 * phi_product_2) - M1_2 * phi_product_3 - M2_2 * phi_product_4 + M2_3 *
+        phi_product_5;
+    const vector_f gap_8 = total_27 * phi_product - (total_32 + M2_4 * phi_product_6 + M2_5 * phi_product_7 +
+        M2_6 * phi_product_8);
+    const vector_f phi_product_9 = phi * total_18;
+    const vector_f phi_product_10 = phi * total_20;
+    const vector_f phi_product_11 = phi * total_22;
+    const vector_f phi_product_12 = phi * total_24;
+    const vector_f gap_9 = -(rotation_h3 * phi_product_9) - rotation_h2 * phi_product_10 - rotation_h1 *
+        phi_product_11 - rotation_h0 * phi_product_12;
+    const vector_f total_33 = 2.0f * phi + rotation_a_chosen * gap_9;
+    const vector_f by_rotation_abs_g0 = rotation_eta * total_33;
+    const vector_f by_rotation_g0 = vector_select_f(is_small, -by_rotation_abs_g0, by_rotation_abs_g0);
+    const vector_f rotation_eta_slope = vector_polynomial_rotation_eta_slope_f(gap);
+    const vector_f gap_10 = gap_9 * product_5 - phi_product_12 * rotation_h0_bar - phi_product_11 *
+        rotation_h1_bar - phi_product_10 * rotation_h2_bar - phi_product_9 * rotation_h3_bar;
+    const vector_f total_34 = -(M0_6 * phi_product_2) - M1_6 * phi_product_3 - M2_6 * phi_product_4 + M3_6 *
+        phi_product_5;
+    const vector_f gap_11 = total_34 + M4_6 * phi_product_6 + M5_6 * phi_product_7 + M6_6 * phi_product_8 -
+        total_18 * phi_product;
+    const vector_f total_35 = -(M0_5 * phi_product_2) - M1_5 * phi_product_3 - M2_5 * phi_product_4 + M3_5 *
+        phi_product_5;
+    const vector_f gap_12 = total_35 + M4_5 * phi_product_6 + M5_5 * phi_product_7 + M5_6 * phi_product_8 -
+        total_20 * phi_product;
+    const vector_f total_36 = -(M0_4 * phi_product_2) - M1_4 * phi_product_3 - M2_4 * phi_product_4 + M3_4 *
+        phi_product_5;
+    const vector_f gap_13 = total_36 + M4_4 * phi_product_6 + M4_5 * phi_product_7 + M4_6 * phi_product_8 -
+        total_22 * phi_product;
+    const vector_f total_37 = -(M0_3 * phi_product_2) - M1_3 * phi_product_3 - M2_3 * phi_product_4 + M3_3 *
+        phi_product_5;
+    const vector_f gap_14 = total_37 + M3_4 * phi_product_6 + M3_5 * phi_product_7 + M3_6 * phi_product_8 -
+        total_24 * phi_product;
+    const vector_f total_38 = gap_10 + rotation_h3 * gap_11 + rotation_h2 * gap_12 + rotation_h1 * gap_13 +
+        rotation_h0 * gap_14;
+    const vector_f by_rotation_abs_g0_2 = rotation_eta_slope * (total_33 * by_by_rotation_abs_g0) +
+        rotation_eta * (2.0f * phi_product + rotation_a_chosen * total_38);
+    const vector_f by_rotation_g0_2 = vector_select_f(is_small, -by_rotation_abs_g0_2, by_rotation_abs_g0_2);
+    const vector_f product_7 = 0.5f * phi_product;
+    const vector_f gap_15 = -phi_product_2 - v0 * product_7;
+    const vector_f gap_16 = -phi_product_3 - v1 * product_7;
+    const vector_f gap_17 = -phi_product_4 - v2 * product_7;
+    const vector_f gap_18 = phi_product_5 - product * product_7;
+    const vector_f gap_19 = phi_product_6 - product_2 * product_7;
+    const vector_f gap_20 = phi_product_7 - product_3 * product_7;
+    const vector_f gap_21 = phi_product_8 - product_4 * product_7;
     factor[0] = v0;
     factor[1] = v1;
     factor[2] = v2;
-    factor[3] = by_z5;
-    factor[4] = by_z4;
-    factor[5] = by_z3;
-    factor[6] = by_z2;
-    factor[7] = by_z1;
-    factor[8] = by_z0;
-    factor[9] = -by_v0;
-    factor[10] = -by_v1;
-    factor[11] = -by_v2;
-    factor[12] = z0_product;
-    factor[13] = z1_product;
-    factor[14] = z2_product;
-    factor[15] = z3_product;
-    factor[16] = z4_product;
-    factor[17] = z5_product;
-    factor[18] = rotation_a_product * by_phi;
-    factor[19] = chosen;
-    factor[20] = chosen_2;
-    factor[21] = by_rotation_r0;
-    factor[22] = product_4;
-    factor[23] = by_rotation_r1;
-    factor[24] = product_5;
-    factor[25] = by_rotation_r2;
-    factor[26] = product_6;
-    factor[27] = by_rotation_r3;
-    factor[28] = product_7;
-    factor[29] = by_rotation_r4;
-    factor[30] = product_8;
-    factor[31] = by_rotation_r5;
-    factor[32] = product_9;
+    factor[3] = product;
+    factor[4] = product_2;
+    factor[5] = product_3;
+    factor[6] = product_4;
+    factor[7] = phi_product;
+    factor[8] = gap_6;
+    factor[9] = gap_7;
+    factor[10] = gap_8;
+    factor[11] = by_rotation_g0;
+    factor[12] = by_rotation_g0_2;
+    factor[13] = gap_15;
+    factor[14] = gap_16;
+    factor[15] = gap_17;
+    factor[16] = gap_18;
+    factor[17] = gap_19;
+    factor[18] = gap_20;
+    factor[19] = gap_21;
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_0_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[9];
-    sum[1] = sum[1] + factor[10];
-    sum[2] = sum[2] + factor[11];
-    sum[3] = sum[3] + factor[18];
-    sum[4] = sum[4] + factor[0] * factor[8] - factor[12] * point[8];
-    sum[5] = sum[5] + factor[1] * factor[8] - factor[12] * point[9];
-    sum[6] = sum[6] + factor[2] * factor[8] - factor[12] * point[10];
-    sum[7] = sum[7] + factor[0] * factor[7] - factor[13] * point[8];
-    sum[8] = sum[8] + factor[1] * factor[7] - factor[13] * point[9];
-    sum[9] = sum[9] + factor[2] * factor[7] - factor[13] * point[10];
-    sum[10] = sum[10] + factor[0] * factor[6] - factor[14] * point[8];
-    sum[11] = sum[11] + factor[1] * factor[6] - factor[14] * point[9];
+    sum[0] = sum[0] + factor[8];
+    sum[1] = sum[1] + factor[9];
+    sum[2] = sum[2] + factor[10];
+    sum[3] = sum[3] + factor[7];
+    sum[4] = sum[4] + factor[0] * factor[13];
+    sum[5] = sum[5] + factor[0] * factor[14] + factor[1] * factor[13];
+    sum[6] = sum[6] + factor[1] * factor[14];
+    sum[7] = sum[7] + factor[0] * factor[15] + factor[2] * factor[13];
+    sum[8] = sum[8] + factor[1] * factor[15] + factor[2] * factor[14];
+    sum[9] = sum[9] + factor[2] * factor[15];
+    sum[10] = sum[10] + factor[0] * factor[16] + factor[3] * factor[13];
+    sum[11] = sum[11] + factor[1] * factor[16] + factor[3] * factor[14];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_1_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[2] * factor[6] - factor[14] * point[10];
-    sum[1] = sum[1] + factor[2] * factor[5] - factor[15] * point[10];
-    sum[2] = sum[2] + factor[0] * factor[5] - factor[15] * point[8];
-    sum[3] = sum[3] + factor[1] * factor[5] - factor[15] * point[9];
-    sum[4] = sum[4] + factor[0] * factor[4] - factor[16] * point[8];
-    sum[5] = sum[5] + factor[1] * factor[4] - factor[16] * point[9];
-    sum[6] = sum[6] + factor[2] * factor[4] - factor[16] * point[10];
-    sum[7] = sum[7] + factor[0] * factor[3] - factor[17] * point[8];
-    sum[8] = sum[8] + factor[1] * factor[3] - factor[17] * point[9];
-    sum[9] = sum[9] + factor[2] * factor[3] - factor[17] * point[10];
-    sum[10] = sum[10] + factor[19] * point[11] + point[3] * factor[20];
-    sum[11] = sum[11] + factor[19] * point[12] + point[4] * factor[20];
+    sum[0] = sum[0] + factor[11] * point[15] + point[3] * factor[12];
+    sum[1] = sum[1] + factor[11] * point[16] + point[4] * factor[12];
+    sum[2] = sum[2] + factor[11] * point[17] + point[5] * factor[12];
+    sum[3] = sum[3] + factor[11] * point[18] + point[6] * factor[12];
+    sum[4] = sum[4] + factor[3] * factor[16];
+    sum[5] = sum[5] + factor[2] * factor[16] + factor[3] * factor[15];
+    sum[6] = sum[6] + factor[2] * factor[17] + factor[4] * factor[15];
+    sum[7] = sum[7] + factor[3] * factor[17] + factor[4] * factor[16];
+    sum[8] = sum[8] + factor[4] * factor[17];
+    sum[9] = sum[9] + factor[0] * factor[17] + factor[4] * factor[13];
+    sum[10] = sum[10] + factor[0] * factor[18] + factor[5] * factor[13];
+    sum[11] = sum[11] + factor[2] * factor[18] + factor[5] * factor[15];
 }
 
-/* Adds some of the derivatives, as products. */
+/* Adds some of the sums, as products. */
 INLINE void pair_products_2_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[19] * point[13] + point[5] * factor[20];
-    sum[1] = sum[1] + factor[19] * point[14] + point[6] * factor[20];
-    sum[2] = sum[2] + point[5] * factor[21] - factor[22] * point[13];
-    sum[3] = sum[3] + point[6] * factor[21] - factor[22] * point[14];
-    sum[4] = sum[4] + point[3] * factor[21] - factor[22] * point[11];
-    sum[5] = sum[5] + point[4] * factor[21] - factor[22] * point[12];
-    sum[6] = sum[6] + point[3] * factor[23] - factor[24] * point[11];
-    sum[7] = sum[7] + point[4] * factor[23] - factor[24] * point[12];
-    sum[8] = sum[8] + point[5] * factor[23] - factor[24] * point[13];
-    sum[9] = sum[9] + point[6] * factor[23] - factor[24] * point[14];
-    sum[10] = sum[10] + point[3] * factor[25] - factor[26] * point[11];
-    sum[11] = sum[11] + point[4] * factor[25] - factor[26] * point[12];
-}
-
-/* Adds some of the derivatives, as products. */
-INLINE void pair_products_3_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + point[5] * factor[25] - factor[26] * point[13];
-    sum[1] = sum[1] + point[6] * factor[25] - factor[26] * point[14];
-    sum[2] = sum[2] + point[5] * factor[27] - factor[28] * point[13];
-    sum[3] = sum[3] + point[6] * factor[27] - factor[28] * point[14];
-    sum[4] = sum[4] + point[3] * factor[27] - factor[28] * point[11];
-    sum[5] = sum[5] + point[4] * factor[27] - factor[28] * point[12];
-    sum[6] = sum[6] + point[3] * factor[29] - factor[30] * point[11];
-    sum[7] = sum[7] + point[4] * factor[29] - factor[30] * point[12];
-    sum[8] = sum[8] + point[5] * factor[29] - factor[30] * point[13];
-    sum[9] = sum[9] + point[6] * factor[29] - factor[30] * point[14];
-    sum[10] = sum[10] + point[3] * factor[31] - factor[32] * point[11];
-    sum[11] = sum[11] + point[4] * factor[31] - factor[32] * point[12];
-}
-
-/* Adds some of the derivatives, as products. */
-INLINE void pair_products_4_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + point[5] * factor[31] - factor[32] * point[13];
-    sum[1] = sum[1] + point[6] * factor[31] - factor[32] * point[14];
+    sum[0] = sum[0] + factor[0] * factor[19] + factor[6] * factor[13];
+    sum[1] = sum[1] + factor[6] * factor[19];
+    sum[2] = sum[2] + factor[1] * factor[19] + factor[6] * factor[14];
+    sum[3] = sum[3] + factor[1] * factor[17] + factor[4] * factor[14];
+    sum[4] = sum[4] + factor[4] * factor[19] + factor[6] * factor[17];
+    sum[5] = sum[5] + factor[1] * factor[18] + factor[5] * factor[14];
+    sum[6] = sum[6] + factor[4] * factor[18] + factor[5] * factor[17];
+    sum[7] = sum[7] + factor[5] * factor[18];
+    sum[8] = sum[8] + factor[5] * factor[19] + factor[6] * factor[18];
+    sum[9] = sum[9] + factor[2] * factor[19] + factor[6] * factor[15];
+    sum[10] = sum[10] + factor[3] * factor[18] + factor[5] * factor[16];
+    sum[11] = sum[11] + factor[3] * factor[19] + factor[6] * factor[16];
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -2895,12 +3461,12 @@ OUTLINE void vector_end_f(size_t count, size_t start, size_t size, vector_f *col
         for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
 }
 
-/* Scratch memory: 15 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
+/* Scratch memory: 23 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
 size_t se3_splats_work_f(size_t count, size_t splat_count, int threads) {
     (void)threads;
     const size_t points = (count + LANES_f - 1) / LANES_f, blocks = (points + 2 - 1) / 2;
     const size_t places = 8 * ((splat_count + LANES_f - 1) / LANES_f + (blocks + LANES_f - 1) / LANES_f);
-    return (points * 15 + places + 1) * LANES_f + 50 * splat_count;
+    return (points * 23 + places + 1) * LANES_f + 78 * splat_count;
 }
 
 static vector_f *work_points_f(float *work) {
@@ -2914,12 +3480,12 @@ INLINE const float *splat_at_f(const vector_f *splats, size_t k) {
     return (const float *)(splats + 8 * row) + (k - row * LANES_f);
 }
 
-static vector_f *work_splats_f(float *work, size_t count) {
-    return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 15;
+static vector_f *work_reaches_f(float *work, size_t count) {
+    return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 23;
 }
 
 static vector_f *work_blocks_f(float *work, size_t count, size_t splat_count) {
-    return work_splats_f(work, count) + 8 * ((splat_count + LANES_f - 1) / LANES_f);
+    return work_reaches_f(work, count) + 8 * ((splat_count + LANES_f - 1) / LANES_f);
 }
 
 static float *work_constants_f(float *work, size_t count, size_t splat_count) {
@@ -3021,13 +3587,13 @@ OUTLINE size_t blocks_near_f(
 OUTLINE void splat_constants_f(
     size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, const float *width, float *constants,
     vector_f *splats) {
-    vector_f own_mu[7], own_W[36], own_amplitude[1], S[50];
+    vector_f own_mu[7], own_W[36], own_amplitude[1], S[78];
     vector_rows_f(mu, splat_count, start, 7, own_mu);
     vector_rows_f(W, splat_count, start, 36, own_W);
     vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
     if (width) splat_reach_f(own_mu, own_amplitude, width, splat_count, start, splats);
     pair_constants_f(own_mu, own_W, own_amplitude, S);
-    vector_to_rows_f(S, constants, splat_count, start, 50, 50);
+    vector_to_rows_f(S, constants, splat_count, start, 78, 78);
 }
 
 /* 2 vectors of points at a time stay in registers while all splats pass. */
@@ -3036,7 +3602,7 @@ void se3_splats_f(
     float *SE3_RESTRICT value, float *SE3_RESTRICT gradient, float *SE3_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -3045,8 +3611,8 @@ void se3_splats_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[2][7], X[2][7], grad[6];
-            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][7] = {{ZERO}};
+            vector_f at[2][7], X[2][11], grad[6];
+            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][11] = {{ZERO}};
             float place[7 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
@@ -3058,7 +3624,7 @@ void se3_splats_f(
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
                 for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 50 * near[i];
+                    const float *S = constants + 78 * near[i];
                     pair_forward_f(X[0], S, value_sum[0], slope_sum[0]);
                     pair_forward_f(X[1], S, value_sum[1], slope_sum[1]);
                 }
@@ -3078,7 +3644,7 @@ void se3_splats_value_f(
     float *SE3_RESTRICT value, float *SE3_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -3087,7 +3653,7 @@ void se3_splats_value_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[7], X[2][7], value_sum[2][1] = {{ZERO}};
+            vector_f at[7], X[2][11], value_sum[2][1] = {{ZERO}};
             float place[7 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
@@ -3099,7 +3665,7 @@ void se3_splats_value_f(
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
                 for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 50 * near[i];
+                    const float *S = constants + 78 * near[i];
                     pair_value_f(X[0], S, value_sum[0]);
                     pair_value_f(X[1], S, value_sum[1]);
                 }
@@ -3114,177 +3680,133 @@ void se3_splats_value_f(
 /* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
 OUTLINE void splat_points_f(
     size_t count, size_t start, const float *x, const float *value_bar, const float *gradient_bar, vector_f *point) {
-    vector_f at[7], grad_bar[6], slope_bar[7];
+    vector_f at[7], grad_bar[6], slope_bar[11];
     vector_rows_f(x, count, start, 7, at);
     vector_rows_f(gradient_bar, count, start, 6, grad_bar);
-    vector_rows_f(value_bar, count, start, 1, point + 7);
+    vector_rows_f(value_bar, count, start, 1, point + 11);
     pair_features_f(at, point);
     pair_gradient_vjp_f(at, grad_bar, slope_bar);
-    for (int i = 0; i < 7; ++i) point[7 + 1 + i] = slope_bar[i];
-    vector_end_f(count, start, 7 + 1, point + 7);
+    for (int i = 0; i < 11; ++i) point[11 + 1 + i] = slope_bar[i];
+    vector_end_f(count, start, 11 + 1, point + 11);
 }
 
-/* Adds to S_bar what one vector of points adds to it. */
+/* Adds to sums what one vector of points adds to it. */
 INLINE void pair_backward_f(
-    const vector_f *point, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
-    vector_f factor[33];
+    const vector_f *point, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
+    vector_f factor[20];
     pair_factors_f(point, S, value_bar, slope_bar, factor);
     {
         vector_f sum[12] = {ZERO};
         pair_products_0_f(factor, point, sum);
-        S_bar[0] += sum[0];
-        S_bar[1] += sum[1];
-        S_bar[2] += sum[2];
-        S_bar[21] += sum[3];
-        S_bar[3] += sum[4];
-        S_bar[4] += sum[5];
-        S_bar[5] += sum[6];
-        S_bar[6] += sum[7];
-        S_bar[7] += sum[8];
-        S_bar[8] += sum[9];
-        S_bar[9] += sum[10];
-        S_bar[10] += sum[11];
+        sums[0] += sum[0];
+        sums[1] += sum[1];
+        sums[2] += sum[2];
+        sums[7] += sum[3];
+        sums[8] += sum[4];
+        sums[9] += sum[5];
+        sums[11] += sum[6];
+        sums[10] += sum[7];
+        sums[12] += sum[8];
+        sums[13] += sum[9];
+        sums[14] += sum[10];
+        sums[18] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_1_f(factor, point, sum);
-        S_bar[11] += sum[0];
-        S_bar[14] += sum[1];
-        S_bar[12] += sum[2];
-        S_bar[13] += sum[3];
-        S_bar[15] += sum[4];
-        S_bar[16] += sum[5];
-        S_bar[17] += sum[6];
-        S_bar[18] += sum[7];
-        S_bar[19] += sum[8];
-        S_bar[20] += sum[9];
-        S_bar[22] += sum[10];
-        S_bar[23] += sum[11];
+        sums[3] += sum[0];
+        sums[4] += sum[1];
+        sums[5] += sum[2];
+        sums[6] += sum[3];
+        sums[26] += sum[4];
+        sums[22] += sum[5];
+        sums[23] += sum[6];
+        sums[27] += sum[7];
+        sums[30] += sum[8];
+        sums[15] += sum[9];
+        sums[16] += sum[10];
+        sums[24] += sum[11];
     }
     {
         vector_f sum[12] = {ZERO};
         pair_products_2_f(factor, point, sum);
-        S_bar[24] += sum[0];
-        S_bar[25] += sum[1];
-        S_bar[28] += sum[2];
-        S_bar[29] += sum[3];
-        S_bar[26] += sum[4];
-        S_bar[27] += sum[5];
-        S_bar[30] += sum[6];
-        S_bar[31] += sum[7];
-        S_bar[32] += sum[8];
-        S_bar[33] += sum[9];
-        S_bar[34] += sum[10];
-        S_bar[35] += sum[11];
-    }
-    {
-        vector_f sum[12] = {ZERO};
-        pair_products_3_f(factor, point, sum);
-        S_bar[36] += sum[0];
-        S_bar[37] += sum[1];
-        S_bar[40] += sum[2];
-        S_bar[41] += sum[3];
-        S_bar[38] += sum[4];
-        S_bar[39] += sum[5];
-        S_bar[42] += sum[6];
-        S_bar[43] += sum[7];
-        S_bar[44] += sum[8];
-        S_bar[45] += sum[9];
-        S_bar[46] += sum[10];
-        S_bar[47] += sum[11];
-    }
-    {
-        vector_f sum[2] = {ZERO};
-        pair_products_4_f(factor, point, sum);
-        S_bar[48] += sum[0];
-        S_bar[49] += sum[1];
+        sums[17] += sum[0];
+        sums[35] += sum[1];
+        sums[21] += sum[2];
+        sums[19] += sum[3];
+        sums[32] += sum[4];
+        sums[20] += sum[5];
+        sums[31] += sum[6];
+        sums[33] += sum[7];
+        sums[34] += sum[8];
+        sums[25] += sum[9];
+        sums[28] += sum[10];
+        sums[29] += sum[11];
     }
 }
 
 /*
- * Adds to S_bar what some vectors of points add to it, those in the list: factors of 11 vectors at a time, then their
+ * Adds to sums what some vectors of points add to it, those in the list: factors of 16 vectors at a time, then their
  * products.
  */
-OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t count, const float *S, float *S_bar) {
-    vector_f factor[11 * 33], total[50] = {ZERO};
-    for (size_t start = 0; start < count; start += 11, near += 11) {
-        const size_t size = count - start < 11 ? count - start : 11;
+OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t count, const float *S, float *sums) {
+    vector_f factor[16 * 20], total[36] = {ZERO};
+    for (size_t start = 0; start < count; start += 16, near += 16) {
+        const size_t size = count - start < 16 ? count - start : 16;
         for (size_t b = 0; b < size; ++b) {
-            const vector_f *at = points + 15 * (size_t)near[b];
-            pair_factors_f(at, S, at + 7, at + 7 + 1, factor + 33 * b);
+            const vector_f *at = points + 23 * (size_t)near[b];
+            pair_factors_f(at, S, at + 11, at + 11 + 1, factor + 20 * b);
         }
         {
             vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_0_f(factor + 33 * b, points + 15 * (size_t)near[b], sum);
+            for (size_t b = 0; b < size; ++b) pair_products_0_f(factor + 20 * b, points + 23 * (size_t)near[b], sum);
             total[0] += sum[0];
             total[1] += sum[1];
             total[2] += sum[2];
-            total[21] += sum[3];
-            total[3] += sum[4];
-            total[4] += sum[5];
-            total[5] += sum[6];
-            total[6] += sum[7];
-            total[7] += sum[8];
-            total[8] += sum[9];
-            total[9] += sum[10];
-            total[10] += sum[11];
+            total[7] += sum[3];
+            total[8] += sum[4];
+            total[9] += sum[5];
+            total[11] += sum[6];
+            total[10] += sum[7];
+            total[12] += sum[8];
+            total[13] += sum[9];
+            total[14] += sum[10];
+            total[18] += sum[11];
         }
         {
             vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_1_f(factor + 33 * b, points + 15 * (size_t)near[b], sum);
-            total[11] += sum[0];
-            total[14] += sum[1];
-            total[12] += sum[2];
-            total[13] += sum[3];
-            total[15] += sum[4];
-            total[16] += sum[5];
-            total[17] += sum[6];
-            total[18] += sum[7];
-            total[19] += sum[8];
-            total[20] += sum[9];
-            total[22] += sum[10];
-            total[23] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_2_f(factor + 33 * b, points + 15 * (size_t)near[b], sum);
-            total[24] += sum[0];
-            total[25] += sum[1];
-            total[28] += sum[2];
-            total[29] += sum[3];
+            for (size_t b = 0; b < size; ++b) pair_products_1_f(factor + 20 * b, points + 23 * (size_t)near[b], sum);
+            total[3] += sum[0];
+            total[4] += sum[1];
+            total[5] += sum[2];
+            total[6] += sum[3];
             total[26] += sum[4];
-            total[27] += sum[5];
-            total[30] += sum[6];
-            total[31] += sum[7];
-            total[32] += sum[8];
-            total[33] += sum[9];
-            total[34] += sum[10];
-            total[35] += sum[11];
+            total[22] += sum[5];
+            total[23] += sum[6];
+            total[27] += sum[7];
+            total[30] += sum[8];
+            total[15] += sum[9];
+            total[16] += sum[10];
+            total[24] += sum[11];
         }
         {
             vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_3_f(factor + 33 * b, points + 15 * (size_t)near[b], sum);
-            total[36] += sum[0];
-            total[37] += sum[1];
-            total[40] += sum[2];
-            total[41] += sum[3];
-            total[38] += sum[4];
-            total[39] += sum[5];
-            total[42] += sum[6];
-            total[43] += sum[7];
-            total[44] += sum[8];
-            total[45] += sum[9];
-            total[46] += sum[10];
-            total[47] += sum[11];
-        }
-        {
-            vector_f sum[2] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_4_f(factor + 33 * b, points + 15 * (size_t)near[b], sum);
-            total[48] += sum[0];
-            total[49] += sum[1];
+            for (size_t b = 0; b < size; ++b) pair_products_2_f(factor + 20 * b, points + 23 * (size_t)near[b], sum);
+            total[17] += sum[0];
+            total[35] += sum[1];
+            total[21] += sum[2];
+            total[19] += sum[3];
+            total[32] += sum[4];
+            total[20] += sum[5];
+            total[31] += sum[6];
+            total[33] += sum[7];
+            total[34] += sum[8];
+            total[25] += sum[9];
+            total[28] += sum[10];
+            total[29] += sum[11];
         }
     }
-    for (size_t i = 0; i < 50; ++i) S_bar[i] += vector_sum_f(total[i]);
+    for (size_t i = 0; i < 36; ++i) sums[i] += vector_sum_f(total[i]);
 }
 
 /*
@@ -3295,12 +3817,12 @@ void se3_splats_vjp_f(
     size_t count, size_t splat_count, const float *SE3_RESTRICT x, const float *SE3_RESTRICT mu, const float *SE3_RESTRICT W, const float *SE3_RESTRICT amplitude, const float *SE3_RESTRICT width, const float *SE3_RESTRICT value_bar, const float *SE3_RESTRICT gradient_bar,
     float *SE3_RESTRICT mu_bar, float *SE3_RESTRICT W_bar, float *SE3_RESTRICT amplitude_bar, float *SE3_RESTRICT work, int threads) {
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
-    const size_t chunk = 131072 / (15 * sizeof(vector_f)) + 1;
+    const size_t chunk = 131072 / (23 * sizeof(vector_f)) + 1;
     const size_t rows = ((blocks + 2 - 1) / 2 + LANES_f - 1) / LANES_f * LANES_f;
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES_f ? part : LANES_f;
     vector_f *points = work_points_f(work);
-    vector_f *splats = work_splats_f(work, count), *places = work_blocks_f(work, count, splat_count);
+    vector_f *splats = work_reaches_f(work, count), *places = work_blocks_f(work, count, splat_count);
     float *constants = work_constants_f(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -3322,26 +3844,26 @@ void se3_splats_vjp_f(
         }
         OMP(omp for schedule(dynamic, 8))
         for (size_t block = 0; block < blocks; ++block)
-            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 15 * block);
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 23 * block);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
-            float sums[LANES_f][50] = {{0}};
-            uint32_t near[131072 / (15 * sizeof(vector_f)) + 2];
-            vector_f own_mu[7], own_W[36], own_amplitude[1], S_bar[50], bars[44];
+            float sums[LANES_f][36] = {{0}};
+            uint32_t near[131072 / (23 * sizeof(vector_f)) + 2];
+            vector_f own_mu[7], own_W[36], own_amplitude[1], own_sums[36], bars[44];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
                     const float *reach = width ? splat_at_f(splats, k) + 7 * LANES_f : NULL;
                     const size_t some = blocks_near_f(mu + 7 * k, reach, places, first, first + size, near);
-                    splat_sums_f(points + 15 * first, near, some, constants + 50 * k, sums[k - start]);
+                    splat_sums_f(points + 23 * first, near, some, constants + 78 * k, sums[k - start]);
                 }
             }
             vector_rows_f(mu, end, start, 7, own_mu);
             vector_rows_f(W, end, start, 36, own_W);
             vector_rows_f(amplitude, end, start, 1, own_amplitude);
-            vector_rows_f(sums[0], LANES_f, 0, 50, S_bar);
-            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 7, bars + 7 + 36);
+            vector_rows_f(sums[0], LANES_f, 0, 36, own_sums);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 7, bars + 7 + 36);
             vector_to_rows_f(bars, mu_bar, end, start, 7, 7);
             vector_to_rows_f(bars + 7, W_bar, end, start, 36, 36);
             vector_to_rows_f(bars + 7 + 36, amplitude_bar, end, start, 1, 1);
@@ -3365,15 +3887,15 @@ void se3_splats_rows_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, NULL, constants, NULL);
         OMP(omp for schedule(dynamic))
         for (size_t block = 0; block < blocks; ++block) {
-            vector_f point[15];
+            vector_f point[23];
             splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector_f own_mu[7], own_W[36], own_amplitude[1], S_bar[50] = {ZERO}, bars[44];
+                vector_f own_mu[7], own_W[36], own_amplitude[1], own_sums[36] = {ZERO}, bars[44];
                 for (int i = 0; i < 7; ++i) own_mu[i] = vector_of_f(mu[7 * k + i]);
                 for (int i = 0; i < 36; ++i) own_W[i] = vector_of_f(W[36 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 50 * k, point + 7, point + 7 + 1, S_bar);
-                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 7, bars + 7 + 36);
+                pair_backward_f(point, constants + 78 * k, point + 11, point + 11 + 1, own_sums);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 7, bars + 7 + 36);
                 vector_to_rows_f(bars, rows + 44 * k, count, block * LANES_f, 44, 44 * splat_count);
             }
         }
@@ -3447,7 +3969,7 @@ double se3_splats_order_f(
     size_t count, size_t splat_count, const float *SE3_RESTRICT x, const float *SE3_RESTRICT mu, const float *SE3_RESTRICT amplitude, const float *SE3_RESTRICT width,
     double limit, size_t *SE3_RESTRICT order, float *SE3_RESTRICT work) {
     const size_t block = 2 * LANES_f;
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     uint32_t near[256];
     double share = 0;
     for (size_t n = 0; n < count; ++n) order[n] = n;
@@ -3478,3 +4000,5 @@ double se3_splats_order_f(
     }
     return share;
 }
+
+#endif /* float */

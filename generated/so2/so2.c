@@ -11,8 +11,7 @@
 /* x, periodic coordinates wrapped */
 void so2_project(const double *SO2_RESTRICT x, double *SO2_RESTRICT p_out) {
     const double round_2 = rint(0.15915494309189535 * x[0]);
-    const double p0 = x[0] - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double p0 = x[0] - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     p_out[0] = p0;
 }
 
@@ -81,8 +80,7 @@ void so2_flat_batch(
 void so2_exp(const double *SO2_RESTRICT p, const double *SO2_RESTRICT v, double *SO2_RESTRICT q_out) {
     const double total_2 = p[0] + v[0];
     const double round_2 = rint(0.15915494309189535 * total_2);
-    const double q0 = total_2 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double q0 = total_2 - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     q_out[0] = q0;
 }
 
@@ -98,8 +96,7 @@ void so2_exp_batch(
 void so2_log(const double *SO2_RESTRICT p, const double *SO2_RESTRICT q, double *SO2_RESTRICT v_out) {
     const double gap = q[0] - p[0];
     const double round_2 = rint(0.15915494309189535 * gap);
-    const double v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     v_out[0] = v0;
 }
 
@@ -115,8 +112,7 @@ void so2_log_batch(
 double so2_distance(const double *SO2_RESTRICT p, const double *SO2_RESTRICT q) {
     const double gap = q[0] - p[0];
     const double round_2 = rint(0.15915494309189535 * gap);
-    const double log0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double log0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     return fabs(log0);
 }
 
@@ -201,8 +197,7 @@ void so2_sample(
     double *SO2_RESTRICT p_out) {
     (void)normal;
     const double round_2 = rint(uniform[0]);
-    const double p0 = 6.283185307179586 * uniform[0] - 6.28125 * round_2 - 0.0019350051879882812 * round_2 -
-        3.019915981956753e-07 * round_2;
+    const double p0 = 6.283185307179586 * uniform[0] - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     p_out[0] = p0;
 }
 
@@ -224,8 +219,7 @@ void so2_splat(
     double *SO2_RESTRICT gradient_out) {
     const double gap = x[0] - mu[0];
     const double round_2 = rint(0.15915494309189535 * gap);
-    const double v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double z0 = W[0] * v0;
     const double phi = amplitude * exp(-(0.5 * (z0 * z0)));
     const double df0 = -(phi * (W[0] * z0));
@@ -270,8 +264,7 @@ void so2_frame(const double *SO2_RESTRICT p, double *SO2_RESTRICT frame) {
 /* x, periodic coordinates wrapped */
 void so2_project_f(const float *SO2_RESTRICT x, float *SO2_RESTRICT p_out) {
     const float round_2 = rintf(0.15915494309189535f * x[0]);
-    const float p0 = x[0] - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float p0 = x[0] - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     p_out[0] = p0;
 }
 
@@ -340,8 +333,7 @@ void so2_flat_batch_f(
 void so2_exp_f(const float *SO2_RESTRICT p, const float *SO2_RESTRICT v, float *SO2_RESTRICT q_out) {
     const float total_2 = p[0] + v[0];
     const float round_2 = rintf(0.15915494309189535f * total_2);
-    const float q0 = total_2 - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f
-        * round_2;
+    const float q0 = total_2 - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     q_out[0] = q0;
 }
 
@@ -357,8 +349,7 @@ void so2_exp_batch_f(
 void so2_log_f(const float *SO2_RESTRICT p, const float *SO2_RESTRICT q, float *SO2_RESTRICT v_out) {
     const float gap = q[0] - p[0];
     const float round_2 = rintf(0.15915494309189535f * gap);
-    const float v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     v_out[0] = v0;
 }
 
@@ -374,8 +365,7 @@ void so2_log_batch_f(
 float so2_distance_f(const float *SO2_RESTRICT p, const float *SO2_RESTRICT q) {
     const float gap = q[0] - p[0];
     const float round_2 = rintf(0.15915494309189535f * gap);
-    const float log0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float log0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     return fabsf(log0);
 }
 
@@ -460,8 +450,7 @@ void so2_sample_f(
     float *SO2_RESTRICT p_out) {
     (void)normal;
     const float round_2 = rintf(uniform[0]);
-    const float p0 = 6.283185307179586f * uniform[0] - 6.28125f * round_2 - 0.0019350051879882812f * round_2 -
-        3.019915981956753e-07f * round_2;
+    const float p0 = 6.283185307179586f * uniform[0] - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     p_out[0] = p0;
 }
 
@@ -483,8 +472,7 @@ void so2_splat_f(
     float *SO2_RESTRICT gradient_out) {
     const float gap = x[0] - mu[0];
     const float round_2 = rintf(0.15915494309189535f * gap);
-    const float v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float z0 = W[0] * v0;
     const float phi = amplitude * expf(-(0.5f * (z0 * z0)));
     const float df0 = -(phi * (W[0] * z0));

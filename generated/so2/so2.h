@@ -6,21 +6,21 @@
  * log |det D Log|: found to be 0, checked against the determinant.
  *
  *                       operations   float64  float32
- * project                        8
+ * project                        6
  * to_tangent                     0
  * inner                          1
  * norm                           1
  * flat                           0
- * exp                            9      <= 1     <= 1
- * log                            9      <= 1     <= 1
- * distance                      10      <= 1     <= 1
+ * exp                            7      <= 1     <= 1
+ * log                            7      <= 1     <= 1
+ * distance                       8      <= 1     <= 1
  * log_abs_det                    0      <= 1     <= 1
  * riemannian_gradient            0
  * gradient_norm                  1
  * transport                      0
- * sample                         8
- * splat                         18
- * splat_vjp                     31
+ * sample                         6
+ * splat                         16
+ * splat_vjp                     29
  *
  * Errors are the worst of 36 points against 60 digits, in units of the error that rounding the
  * inputs and the output to the precision alone would cause.

@@ -732,7 +732,7 @@ class So3:
     ) -> tuple[Tensor, Tensor, Tensor]:
         """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu (K, D), W (K, d, T) and amplitude (K)."""
         S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
-        total = torch.zeros((len(S), len(mu)), dtype=x.dtype, device=x.device)
+        total = torch.zeros((), dtype=x.dtype, device=x.device)
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         for part, *bars in zip(*parts, strict=True):
             total = total + torch.stack(_sums(self._pair_bars(part, S, *bars), len(part), len(mu), 0))
@@ -746,15 +746,15 @@ class So3:
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         rows = []
         for part, *bars in zip(*parts, strict=True):
-            S_bar = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
-            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, S_bar)
+            sums = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
+            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, sums)
             rows.append(torch.cat([by_mu, by_W.flatten(-2), by_amplitude.unsqueeze(-1)], -1))
         return torch.cat(rows)
 
     def _pair_bars(
         self, x: Tensor, S: Sequence[Tensor], value_bar: Tensor, gradient_bar: Tensor
     ) -> tuple[Tensor, ...]:
-        """The derivatives in S of every pair, from those in the sums."""
+        """What every pair adds to the sums of its splat, from the derivatives in values and gradients."""
         X = [entry.unsqueeze(-1) for entry in self._point_features(x)]
         slope_bar = [entry.unsqueeze(-1) for entry in self._point_gradient_vjp(x, gradient_bar)]
         return self._pair_vjp(X, S, value_bar.unsqueeze(-1), slope_bar)
@@ -766,17 +766,17 @@ class So3:
         h1 = 0.5 * x1
         h2 = 0.5 * x2
         h3 = 0.5 * x3
-        return (h0, h1, h2, h3)
+        return (x0, x1, x2, x3, h0, h1, h2, h3)
 
     def _splat_constants(self, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, ...]:
         """S, what the pairs need of a splat alone."""
         mu0, mu1, mu2, mu3 = mu.unbind(-1)
         W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2 = W.flatten(-2).unbind(-1)
-        M0 = 2.0 * mu0
-        M1 = 2.0 * mu1
-        M2 = 2.0 * mu2
         M3 = 2.0 * mu3
+        M2 = 2.0 * mu2
+        M1 = 2.0 * mu1
         R0_0 = 1.4142135623730951 * (-(W0_2 * M3) - W0_1 * M2 - W0_0 * M1)
+        M0 = 2.0 * mu0
         R0_1 = 1.4142135623730951 * (W0_2 * M2 - W0_1 * M3 + W0_0 * M0)
         R0_2 = 1.4142135623730951 * (W0_1 * M0 - W0_2 * M1 + W0_0 * M3)
         R0_3 = 1.4142135623730951 * (W0_2 * M0 + W0_1 * M1 - W0_0 * M2)
@@ -788,59 +788,67 @@ class So3:
         R2_1 = 1.4142135623730951 * (W2_2 * M2 - W2_1 * M3 + W2_0 * M0)
         R2_2 = 1.4142135623730951 * (W2_1 * M0 - W2_2 * M1 + W2_0 * M3)
         R2_3 = 1.4142135623730951 * (W2_2 * M0 + W2_1 * M1 - W2_0 * M2)
-        return (amplitude, M0, M1, M2, M3, R0_0, R0_1, R0_2, R0_3, R1_0, R1_1, R1_2, R1_3, R2_0, R2_1, R2_2, R2_3)
+        return (mu0, mu1, mu2, mu3, amplitude, R0_0, R0_1, R0_2, R0_3, R1_0, R1_1, R1_2, R1_3, R2_0, R2_1, R2_2, R2_3)
 
     def _pair_value(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
         """The value of a splat at a point."""
-        h0, h1, h2, h3 = X
-        amplitude, M0, M1, M2, M3, R0_0, R0_1, R0_2, R0_3, R1_0, R1_1, R1_2, R1_3, R2_0, R2_1, R2_2, R2_3 = S
-        w = torch.abs(h0 * M0 + h1 * M1 + h2 * M2 + h3 * M3)
-        eta = _polynomial(1.0 - w, _ETA)
-        a = 1.0 / (w - eta * (1.0 - w * w))
+        x0, x1, x2, x3, h0, h1, h2, h3 = X
+        mu0, mu1, mu2, mu3, amplitude, R0_0, R0_1, R0_2, R0_3, R1_0, R1_1, R1_2, R1_3, R2_0, R2_1, R2_2, R2_3 = S
+        g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3
+        abs_g0 = torch.abs(g0)
+        eta = _polynomial(1.0 - abs_g0, _ETA)
+        a = 1.0 / (abs_g0 - eta * (1.0 - abs_g0 * abs_g0))
         a_squared = a * a
         r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3
         r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3
         r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3
         half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2)
         gaussian = torch.exp(-half_square)
-        phi = amplitude * (a * (a * gaussian))
-        return (phi,)
+        phi = a * (a * gaussian)
+        phi_2 = amplitude * phi
+        return (phi_2,)
 
     def _pair(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
         """The value of a splat at a point, and the slope, its derivatives in X."""
-        h0, h1, h2, h3 = X
-        amplitude, M0, M1, M2, M3, R0_0, R0_1, R0_2, R0_3, R1_0, R1_1, R1_2, R1_3, R2_0, R2_1, R2_2, R2_3 = S
-        total_2 = h0 * M0 + h1 * M1 + h2 * M2 + h3 * M3
-        w = torch.abs(total_2)
-        eta = _polynomial(1.0 - w, _ETA)
-        a = 1.0 / (w - eta * (1.0 - w * w))
+        x0, x1, x2, x3, h0, h1, h2, h3 = X
+        mu0, mu1, mu2, mu3, amplitude, R0_0, R0_1, R0_2, R0_3, R1_0, R1_1, R1_2, R1_3, R2_0, R2_1, R2_2, R2_3 = S
+        g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3
+        abs_g0 = torch.abs(g0)
+        eta = _polynomial(1.0 - abs_g0, _ETA)
+        a = 1.0 / (abs_g0 - eta * (1.0 - abs_g0 * abs_g0))
         a_squared = a * a
         r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3
         r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3
         r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3
         half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2)
         gaussian = torch.exp(-half_square)
-        phi = amplitude * (a * (a * gaussian))
-        product = 2.0 * (phi * a_squared)
-        r2_product = r2 * product
-        r1_product = r1 * product
-        r0_product = r0 * product
-        by_w = eta * (2.0 * phi - phi * (2.0 * half_square))
-        by_w_chosen = torch.where(total_2 < 0.0, -by_w, by_w)
-        by_h0 = -(R2_0 * r2_product) - R1_0 * r1_product - R0_0 * r0_product + M0 * by_w_chosen
-        by_h1 = -(R2_1 * r2_product) - R1_1 * r1_product - R0_1 * r0_product + M1 * by_w_chosen
-        by_h2 = -(R2_2 * r2_product) - R1_2 * r1_product - R0_2 * r0_product + M2 * by_w_chosen
-        by_h3 = -(R2_3 * r2_product) - R1_3 * r1_product - R0_3 * r0_product + M3 * by_w_chosen
-        return (phi, by_h0, by_h1, by_h2, by_h3)
+        phi = a * (a * gaussian)
+        phi_2 = amplitude * phi
+        by_abs_g0 = eta * (2.0 * phi_2 - phi_2 * (2.0 * half_square))
+        by_g0 = torch.where(g0 < 0.0, -by_abs_g0, by_abs_g0)
+        by_x0 = mu0 * by_g0
+        by_x1 = mu1 * by_g0
+        by_x2 = mu2 * by_g0
+        by_x3 = mu3 * by_g0
+        phi_product = phi_2 * a_squared
+        product = 2.0 * (R0_0 * r0 + R1_0 * r1 + R2_0 * r2) * phi_product
+        by_h0 = -product
+        product_2 = 2.0 * (R0_1 * r0 + R1_1 * r1 + R2_1 * r2) * phi_product
+        by_h1 = -product_2
+        product_3 = 2.0 * (R0_2 * r0 + R1_2 * r1 + R2_2 * r2) * phi_product
+        by_h2 = -product_3
+        product_4 = 2.0 * (R0_3 * r0 + R1_3 * r1 + R2_3 * r2) * phi_product
+        by_h3 = -product_4
+        return (phi_2, by_x0, by_x1, by_x2, by_x3, by_h0, by_h1, by_h2, by_h3)
 
     def _point_gradient(self, x: Tensor, slope: Sequence[Tensor]) -> Tensor:
         """The Riemannian gradient of a function whose derivatives in X are `slope`."""
         x0, x1, x2, x3 = x.unbind(-1)
-        slope_h0, slope_h1, slope_h2, slope_h3 = slope
-        product = 0.25 * slope_h1
-        product_2 = 0.25 * slope_h2
-        product_3 = 0.25 * slope_h0
-        product_4 = 0.25 * slope_h3
+        slope_x0, slope_x1, slope_x2, slope_x3, slope_h0, slope_h1, slope_h2, slope_h3 = slope
+        product = 0.5 * (slope_x1 + 0.5 * slope_h1)
+        product_2 = 0.5 * (slope_x2 + 0.5 * slope_h2)
+        product_3 = 0.5 * (slope_x0 + 0.5 * slope_h0)
+        product_4 = 0.5 * (slope_x3 + 0.5 * slope_h3)
         return _stack((
             x0 * product + x3 * product_2 - x1 * product_3 - x2 * product_4,
             x0 * product_2 + x1 * product_4 - x2 * product_3 - x3 * product,
@@ -851,137 +859,198 @@ class So3:
         """The derivatives of gradient . gradient_bar in `slope`."""
         x0, x1, x2, x3 = x.unbind(-1)
         gradient_bar0, gradient_bar1, gradient_bar2 = gradient_bar.unbind(-1)
-        product = 0.25 * (-(x3 * gradient_bar2) - x2 * gradient_bar1 - x1 * gradient_bar0)
+        gap = -(x3 * gradient_bar2) - x2 * gradient_bar1 - x1 * gradient_bar0
+        total_2 = x2 * gradient_bar2 - x3 * gradient_bar1 + x0 * gradient_bar0
+        total_3 = x0 * gradient_bar1 - x1 * gradient_bar2 + x3 * gradient_bar0
+        gap_2 = x0 * gradient_bar2 + x1 * gradient_bar1 - x2 * gradient_bar0
         return (
-            product,
-            0.25 * (x2 * gradient_bar2 - x3 * gradient_bar1 + x0 * gradient_bar0),
-            0.25 * (x0 * gradient_bar1 - x1 * gradient_bar2 + x3 * gradient_bar0),
-            0.25 * (x0 * gradient_bar2 + x1 * gradient_bar1 - x2 * gradient_bar0),
+            0.5 * gap,
+            0.5 * total_2,
+            0.5 * total_3,
+            0.5 * gap_2,
+            0.25 * gap,
+            0.25 * total_2,
+            0.25 * total_3,
+            0.25 * gap_2,
         )
 
     def _pair_vjp(
         self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
     ) -> tuple[Tensor, ...]:
-        """The derivatives of value value_bar + slope . slope_bar in S."""
-        h0, h1, h2, h3 = X
-        amplitude, M0, M1, M2, M3, R0_0, R0_1, R0_2, R0_3, R1_0, R1_1, R1_2, R1_3, R2_0, R2_1, R2_2, R2_3 = S
-        h0_bar, h1_bar, h2_bar, h3_bar = slope_bar
-        total_2 = h0 * M0 + h1 * M1 + h2 * M2 + h3 * M3
-        w = torch.abs(total_2)
-        w_gap = 1.0 - w
-        eta = _polynomial(w_gap, _ETA)
-        a = 1.0 / (w - eta * (1.0 - w * w))
+        """What, summed over the points, makes the derivatives of value value_bar + slope . slope_bar."""
+        x0, x1, x2, x3, h0, h1, h2, h3 = X
+        mu0, mu1, mu2, mu3, _, R0_0, R0_1, R0_2, R0_3, R1_0, R1_1, R1_2, R1_3, R2_0, R2_1, R2_2, R2_3 = S
+        x0_bar, x1_bar, x2_bar, x3_bar, h0_bar, h1_bar, h2_bar, h3_bar = slope_bar
+        g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3
+        is_small = g0 < 0.0
+        abs_g0 = torch.abs(g0)
+        abs_g0_gap = 1.0 - abs_g0
+        eta = _polynomial(abs_g0_gap, _ETA)
+        a = 1.0 / (abs_g0 - eta * (1.0 - abs_g0 * abs_g0))
         a_squared = a * a
         r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3
         r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3
         r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3
         half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2)
         gaussian = torch.exp(-half_square)
-        a_product = a * (a * gaussian)
-        gap = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar - R0_3 * h3_bar
-        gap_2 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar - R1_3 * h3_bar
-        gap_3 = -(R2_0 * h0_bar) - R2_1 * h1_bar - R2_2 * h2_bar - R2_3 * h3_bar
-        product = 2.0 * (r0 * gap + r1 * gap_2 + r2 * gap_3)
+        phi = a * (a * gaussian)
         half_square_product = 2.0 * half_square
-        is_small = total_2 < 0.0
-        total_3 = M0 * h0_bar + M1 * h1_bar + M2 * h2_bar + M3 * h3_bar
-        by_by_w = torch.where(is_small, 0.0, total_3) - torch.where(is_small, total_3, 0.0)
-        eta_product = eta * by_by_w
-        by_phi = value_bar + a_squared * product - half_square_product * eta_product + 2.0 * eta_product
-        phi = amplitude * a_product
-        gap_4 = 2.0 * phi - phi * half_square_product
-        by_w = eta * gap_4
-        by_w_chosen = torch.where(is_small, -by_w, by_w)
-        eta_slope = _polynomial(w_gap, _ETA_SLOPE)
-        product_2 = a_product * (amplitude * by_phi)
-        by_half_square = -(2.0 * (phi * eta_product)) - product_2
+        gap = 2.0 * phi - phi * half_square_product
+        by_abs_g0 = eta * gap
+        by_g0 = torch.where(is_small, -by_abs_g0, by_abs_g0)
+        eta_slope = _polynomial(abs_g0_gap, _ETA_SLOPE)
+        by_by_g0 = mu0 * x0_bar + mu1 * x1_bar + mu2 * x2_bar + mu3 * x3_bar
+        by_by_abs_g0 = torch.where(is_small, 0.0, by_by_g0) - torch.where(is_small, by_by_g0, 0.0)
+        product = 2.0 * (R0_3 * r0 + R1_3 * r1 + R2_3 * r2) * h3_bar
+        product_2 = 2.0 * (R0_2 * r0 + R1_2 * r1 + R2_2 * r2) * h2_bar
+        product_3 = 2.0 * (R0_1 * r0 + R1_1 * r1 + R2_1 * r2) * h1_bar
+        product_4 = 2.0 * (R0_0 * r0 + R1_0 * r1 + R2_0 * r2) * h0_bar
+        gap_2 = -product - product_2 - product_3 - product_4
+        eta_product = eta * by_by_abs_g0
+        by_phi = value_bar + a_squared * gap_2 - half_square_product * eta_product + 2.0 * eta_product
+        phi_product = phi * by_phi
+        by_half_square = -(2.0 * (phi * eta_product)) - phi_product
         eta_product_2 = (
-            eta * (2.0 * a_squared * (phi * product) + 2.0 * product_2 + half_square_product * by_half_square)
+            eta * (2.0 * a_squared * (phi * gap_2) + 2.0 * phi_product + half_square_product * by_half_square)
         )
-        by_w_2 = eta_slope * (gap_4 * by_by_w) + eta_product_2
-        by_w_chosen_2 = torch.where(is_small, -by_w_2, by_w_2)
-        product_3 = 2.0 * (phi * a_squared)
-        product_4 = 2.0 * (a_squared * by_half_square)
-        by_r0 = product_3 * gap + r0 * product_4
-        r0_product = r0 * product_3
-        by_r1 = product_3 * gap_2 + r1 * product_4
-        r1_product = r1 * product_3
-        by_r2 = product_3 * gap_3 + r2 * product_4
-        r2_product = r2 * product_3
+        by_abs_g0_2 = eta_slope * (gap * by_by_abs_g0) + eta_product_2
+        by_g0_2 = torch.where(is_small, -by_abs_g0_2, by_abs_g0_2)
+        a_squared_product = a_squared * by_half_square
+        phi_product_2 = phi * a_squared
+        gap_3 = h0 * a_squared_product - 2.0 * (phi_product_2 * h0_bar)
+        gap_4 = h1 * a_squared_product - 2.0 * (phi_product_2 * h1_bar)
+        gap_5 = h2 * a_squared_product - 2.0 * (phi_product_2 * h2_bar)
+        gap_6 = h3 * a_squared_product - 2.0 * (phi_product_2 * h3_bar)
         return (
-            a_product * by_phi,
-            by_w_chosen * h0_bar + h0 * by_w_chosen_2,
-            by_w_chosen * h1_bar + h1 * by_w_chosen_2,
-            by_w_chosen * h2_bar + h2 * by_w_chosen_2,
-            by_w_chosen * h3_bar + h3 * by_w_chosen_2,
-            h0 * by_r0 - r0_product * h0_bar,
-            h1 * by_r0 - r0_product * h1_bar,
-            h2 * by_r0 - r0_product * h2_bar,
-            h3 * by_r0 - r0_product * h3_bar,
-            h0 * by_r1 - r1_product * h0_bar,
-            h1 * by_r1 - r1_product * h1_bar,
-            h2 * by_r1 - r1_product * h2_bar,
-            h3 * by_r1 - r1_product * h3_bar,
-            h0 * by_r2 - r2_product * h0_bar,
-            h1 * by_r2 - r2_product * h1_bar,
-            h2 * by_r2 - r2_product * h2_bar,
-            h3 * by_r2 - r2_product * h3_bar,
+            by_g0 * x0_bar + x0 * by_g0_2,
+            by_g0 * x1_bar + x1 * by_g0_2,
+            by_g0 * x2_bar + x2 * by_g0_2,
+            by_g0 * x3_bar + x3 * by_g0_2,
+            phi_product,
+            h0 * gap_3,
+            h0 * gap_4 + h1 * gap_3,
+            h0 * gap_5 + h2 * gap_3,
+            h0 * gap_6 + h3 * gap_3,
+            h1 * gap_4,
+            h1 * gap_5 + h2 * gap_4,
+            h1 * gap_6 + h3 * gap_4,
+            h2 * gap_5,
+            h2 * gap_6 + h3 * gap_5,
+            h3 * gap_6,
         )
 
     def _splat_constants_vjp(
-        self, mu: Tensor, W: Tensor, amplitude: Tensor, S_bar: Sequence[Tensor]
+        self, mu: Tensor, W: Tensor, amplitude: Tensor, sums: Sequence[Tensor]
     ) -> tuple[Tensor, Tensor, Tensor]:
-        """The derivatives in mu, W and amplitude from those in S."""
+        """The derivatives in mu, W and amplitude from those sums."""
         mu0, mu1, mu2, mu3 = mu.unbind(-1)
         W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2 = W.flatten(-2).unbind(-1)
-        (
-            amplitude_bar, M0_bar, M1_bar, M2_bar, M3_bar, R0_0_bar, R0_1_bar, R0_2_bar, R0_3_bar, R1_0_bar, R1_1_bar,
-            R1_2_bar, R1_3_bar, R2_0_bar, R2_1_bar, R2_2_bar, R2_3_bar,
-        ) = S_bar
-        product = 1.4142135623730951 * R0_1_bar
-        product_2 = 1.4142135623730951 * R0_2_bar
-        product_3 = 1.4142135623730951 * R0_3_bar
-        product_4 = 1.4142135623730951 * R1_1_bar
-        total_2 = M0_bar + W0_0 * product + W0_1 * product_2 + W0_2 * product_3 + W1_0 * product_4
-        product_5 = 1.4142135623730951 * R1_2_bar
-        product_6 = 1.4142135623730951 * R1_3_bar
-        product_7 = 1.4142135623730951 * R2_1_bar
-        product_8 = 1.4142135623730951 * R2_2_bar
-        total_3 = total_2 + W1_1 * product_5 + W1_2 * product_6 + W2_0 * product_7 + W2_1 * product_8
-        product_9 = 1.4142135623730951 * R2_3_bar
-        by_M0 = total_3 + W2_2 * product_9
-        product_10 = 1.4142135623730951 * R0_0_bar
-        product_11 = 1.4142135623730951 * R1_0_bar
-        gap = M1_bar - W0_0 * product_10 - W0_2 * product_2 + W0_1 * product_3 - W1_0 * product_11
-        product_12 = 1.4142135623730951 * R2_0_bar
-        gap_2 = gap - W1_2 * product_5 + W1_1 * product_6 - W2_0 * product_12 - W2_2 * product_8
-        by_M1 = gap_2 + W2_1 * product_9
-        gap_3 = M2_bar - W0_1 * product_10 + W0_2 * product - W0_0 * product_3 - W1_1 * product_11
-        total_4 = gap_3 + W1_2 * product_4 - W1_0 * product_6 - W2_1 * product_12 + W2_2 * product_7
-        by_M2 = total_4 - W2_0 * product_9
-        gap_4 = M3_bar - W0_2 * product_10 - W0_1 * product + W0_0 * product_2 - W1_2 * product_11
-        gap_5 = gap_4 - W1_1 * product_4 + W1_0 * product_5 - W2_2 * product_12 - W2_1 * product_7
-        by_M3 = gap_5 + W2_0 * product_8
-        M0 = 2.0 * mu0
-        M1 = 2.0 * mu1
+        sum0, sum1, sum2, sum3, sum4, sum5, sum6, sum7, sum8, sum9, sum10, sum11, sum12, sum13, sum14 = sums
         M3 = 2.0 * mu3
         M2 = 2.0 * mu2
-        total_5 = -(M2 * product_10) - M3 * product + M0 * product_2 + M1 * product_3
-        total_6 = -(M2 * product_11) - M3 * product_4 + M0 * product_5 + M1 * product_6
-        total_7 = -(M2 * product_12) - M3 * product_7 + M0 * product_8 + M1 * product_9
-        mu_bar = _stack((2.0 * by_M0, 2.0 * by_M1, 2.0 * by_M2, 2.0 * by_M3))
-        W_bar = _stack((
-            M0 * product - M1 * product_10 + M3 * product_2 - M2 * product_3,
-            total_5,
-            M2 * product - M3 * product_10 - M1 * product_2 + M0 * product_3,
-            M0 * product_4 - M1 * product_11 + M3 * product_5 - M2 * product_6,
-            total_6,
-            M2 * product_4 - M3 * product_11 - M1 * product_5 + M0 * product_6,
-            M0 * product_7 - M1 * product_12 + M3 * product_8 - M2 * product_9,
-            total_7,
-            M2 * product_7 - M3 * product_12 - M1 * product_8 + M0 * product_9,
+        M1 = 2.0 * mu1
+        R2_0 = 1.4142135623730951 * (-(W2_2 * M3) - W2_1 * M2 - W2_0 * M1)
+        M0 = 2.0 * mu0
+        R2_1 = 1.4142135623730951 * (W2_2 * M2 - W2_1 * M3 + W2_0 * M0)
+        product = 2.0 * sum9
+        R2_2 = 1.4142135623730951 * (W2_1 * M0 - W2_2 * M1 + W2_0 * M3)
+        R2_3 = 1.4142135623730951 * (W2_2 * M0 + W2_1 * M1 - W2_0 * M2)
+        by_R2_1 = R2_0 * sum6 + R2_1 * product + R2_2 * sum10 + R2_3 * sum11
+        by_R2_1_product = 1.4142135623730951 * by_R2_1
+        R1_0 = 1.4142135623730951 * (-(W1_2 * M3) - W1_1 * M2 - W1_0 * M1)
+        R1_1 = 1.4142135623730951 * (W1_2 * M2 - W1_1 * M3 + W1_0 * M0)
+        R1_2 = 1.4142135623730951 * (W1_1 * M0 - W1_2 * M1 + W1_0 * M3)
+        R1_3 = 1.4142135623730951 * (W1_2 * M0 + W1_1 * M1 - W1_0 * M2)
+        by_R1_1 = R1_0 * sum6 + R1_1 * product + R1_2 * sum10 + R1_3 * sum11
+        by_R1_1_product = 1.4142135623730951 * by_R1_1
+        R0_0 = 1.4142135623730951 * (-(W0_2 * M3) - W0_1 * M2 - W0_0 * M1)
+        R0_1 = 1.4142135623730951 * (W0_2 * M2 - W0_1 * M3 + W0_0 * M0)
+        R0_2 = 1.4142135623730951 * (W0_1 * M0 - W0_2 * M1 + W0_0 * M3)
+        R0_3 = 1.4142135623730951 * (W0_2 * M0 + W0_1 * M1 - W0_0 * M2)
+        by_R0_1 = R0_0 * sum6 + R0_1 * product + R0_2 * sum10 + R0_3 * sum11
+        by_R0_1_product = 1.4142135623730951 * by_R0_1
+        product_2 = 2.0 * sum12
+        by_R2_2 = R2_0 * sum7 + R2_1 * sum10 + R2_2 * product_2 + R2_3 * sum13
+        by_R2_2_product = 1.4142135623730951 * by_R2_2
+        by_R1_2 = R1_0 * sum7 + R1_1 * sum10 + R1_2 * product_2 + R1_3 * sum13
+        by_R1_2_product = 1.4142135623730951 * by_R1_2
+        total_2 = (
+            W2_0 * by_R2_1_product + W1_0 * by_R1_1_product + W0_0 * by_R0_1_product + W2_1 * by_R2_2_product + W1_1 *
+            by_R1_2_product
+        )
+        by_R0_2 = R0_0 * sum7 + R0_1 * sum10 + R0_2 * product_2 + R0_3 * sum13
+        by_R0_2_product = 1.4142135623730951 * by_R0_2
+        product_3 = 2.0 * sum14
+        by_R2_3 = R2_0 * sum8 + R2_1 * sum11 + R2_2 * sum13 + R2_3 * product_3
+        by_R2_3_product = 1.4142135623730951 * by_R2_3
+        by_R1_3 = R1_0 * sum8 + R1_1 * sum11 + R1_2 * sum13 + R1_3 * product_3
+        by_R1_3_product = 1.4142135623730951 * by_R1_3
+        by_R0_3 = R0_0 * sum8 + R0_1 * sum11 + R0_2 * sum13 + R0_3 * product_3
+        by_R0_3_product = 1.4142135623730951 * by_R0_3
+        by_M0 = (
+            total_2 + W0_1 * by_R0_2_product + W2_2 * by_R2_3_product + W1_2 * by_R1_3_product + W0_2 * by_R0_3_product
+        )
+        product_4 = 2.0 * sum5
+        by_R2_0 = R2_0 * product_4 + R2_1 * sum6 + R2_2 * sum7 + R2_3 * sum8
+        by_R2_0_product = 1.4142135623730951 * by_R2_0
+        by_R1_0 = R1_0 * product_4 + R1_1 * sum6 + R1_2 * sum7 + R1_3 * sum8
+        by_R1_0_product = 1.4142135623730951 * by_R1_0
+        by_R0_0 = R0_0 * product_4 + R0_1 * sum6 + R0_2 * sum7 + R0_3 * sum8
+        by_R0_0_product = 1.4142135623730951 * by_R0_0
+        gap = -(W2_0 * by_R2_0_product) - W1_0 * by_R1_0_product - W0_0 * by_R0_0_product - W2_2 * by_R2_2_product
+        total_3 = (
+            gap - W1_2 * by_R1_2_product - W0_2 * by_R0_2_product + W2_1 * by_R2_3_product + W1_1 * by_R1_3_product
+        )
+        by_M1 = total_3 + W0_1 * by_R0_3_product
+        total_4 = -(W2_1 * by_R2_0_product) - W1_1 * by_R1_0_product - W0_1 * by_R0_0_product + W2_2 * by_R2_1_product
+        gap_2 = (
+            total_4 + W1_2 * by_R1_1_product + W0_2 * by_R0_1_product - W2_0 * by_R2_3_product - W1_0 * by_R1_3_product
+        )
+        by_M2 = gap_2 - W0_0 * by_R0_3_product
+        gap_3 = -(W2_2 * by_R2_0_product) - W1_2 * by_R1_0_product - W0_2 * by_R0_0_product - W2_1 * by_R2_1_product
+        total_5 = (
+            gap_3 - W1_1 * by_R1_1_product - W0_1 * by_R0_1_product + W2_0 * by_R2_2_product + W1_0 * by_R1_2_product
+        )
+        by_M3 = total_5 + W0_0 * by_R0_2_product
+        product_5 = (
+            amplitude * (M0 * by_R0_1_product - M1 * by_R0_0_product + M3 * by_R0_2_product - M2 * by_R0_3_product)
+        )
+        total_6 = -(M2 * by_R0_0_product) - M3 * by_R0_1_product + M0 * by_R0_2_product + M1 * by_R0_3_product
+        product_6 = (
+            amplitude * (M2 * by_R0_1_product - M3 * by_R0_0_product - M1 * by_R0_2_product + M0 * by_R0_3_product)
+        )
+        product_7 = (
+            amplitude * (M0 * by_R1_1_product - M1 * by_R1_0_product + M3 * by_R1_2_product - M2 * by_R1_3_product)
+        )
+        total_7 = -(M2 * by_R1_0_product) - M3 * by_R1_1_product + M0 * by_R1_2_product + M1 * by_R1_3_product
+        product_8 = (
+            amplitude * (M2 * by_R1_1_product - M3 * by_R1_0_product - M1 * by_R1_2_product + M0 * by_R1_3_product)
+        )
+        product_9 = (
+            amplitude * (M0 * by_R2_1_product - M1 * by_R2_0_product + M3 * by_R2_2_product - M2 * by_R2_3_product)
+        )
+        total_8 = -(M2 * by_R2_0_product) - M3 * by_R2_1_product + M0 * by_R2_2_product + M1 * by_R2_3_product
+        product_10 = (
+            amplitude * (M2 * by_R2_1_product - M3 * by_R2_0_product - M1 * by_R2_2_product + M0 * by_R2_3_product)
+        )
+        mu_bar = _stack((
+            amplitude * (sum0 + 2.0 * by_M0),
+            amplitude * (sum1 + 2.0 * by_M1),
+            amplitude * (sum2 + 2.0 * by_M2),
+            amplitude * (sum3 + 2.0 * by_M3),
         ))
-        return mu_bar, W_bar.unflatten(-1, (3, 3)), amplitude_bar
+        W_bar = _stack((
+            product_5,
+            amplitude * total_6,
+            product_6,
+            product_7,
+            amplitude * total_7,
+            product_8,
+            product_9,
+            amplitude * total_8,
+            product_10,
+        ))
+        return mu_bar, W_bar.unflatten(-1, (3, 3)), sum4
 
 
 manifold = So3()

@@ -81,6 +81,8 @@ INLINE uint64_t flush_denormals(void) { return 0; }
 INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
 
+#if !defined(RSRM_ONLY_FLOAT) /* double */
+
 /* The same number in all lanes. */
 INLINE vector vector_of(double x) {
     const vector zero = ZERO;
@@ -122,24 +124,24 @@ INLINE vector vector_from_bits(vector_bits bits) {
 }
 
 /* x >= 0 with the sign of another. */
-INLINE vector vector_signed(vector x, vector sign) {
+INLINE vector signed_each(vector x, vector sign) {
     return vector_from_bits(vector_to_bits(x) | (vector_to_bits(sign) & 0x8000000000000000));
 }
 
 /* abs of every lane; one instruction where the machine has it. */
-INLINE vector vector_abs(vector x) {
+INLINE vector abs_each(vector x) {
     for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
     return x;
 }
 
 /* sqrt of every lane; one instruction where the machine has it. */
-INLINE vector vector_sqrt(vector x) {
+INLINE vector sqrt_each(vector x) {
     for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
     return x;
 }
 
 /* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
-INLINE vector vector_exp(vector x) {
+INLINE vector exp_each(vector x) {
     const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
     const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
     const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
@@ -149,8 +151,8 @@ INLINE vector vector_exp(vector x) {
 }
 
 /* atan2, within 3 units in the last place. */
-INLINE vector vector_atan2(vector y, vector x) {
-    const vector a = vector_abs(y), b = vector_abs(x), one = vector_of(1);
+INLINE vector atan2_each(vector y, vector x) {
+    const vector a = abs_each(y), b = abs_each(x), one = vector_of(1);
     const vector less = vector_select(a > b, b, a), more = vector_select(a > b, a, b);
     const vector low = vector_select(less > 1.7976931348623157e308, one, less);
     const vector high = vector_select(less > 1.7976931348623157e308, one, vector_select(more == 0, one, more));
@@ -161,7 +163,7 @@ INLINE vector vector_atan2(vector y, vector x) {
     const vector first = vector_select(low > 0.4142135623730951 * high, 0.7853981633974483 + (angle + 3.061616997868383e-17), angle);
     const vector second = vector_select(a > b, 1.5707963267948966 - (first - 6.123233995736766e-17), first);
     const vector third = vector_select((vector_to_bits(x) & 0x8000000000000000) != 0, 3.141592653589793 - (second - 1.2246467991473532e-16), second);
-    return vector_signed(third, y);
+    return signed_each(third, y);
 }
 
 /* Of degree 22 on [0, 1], its relative error below 2^-56. */
@@ -201,10 +203,14 @@ OUTLINE void pair_features(
     const vector h1 = 0.5 * x1;
     const vector h2 = 0.5 * x2;
     const vector h3 = 0.5 * x3;
-    X[0] = h0;
-    X[1] = h1;
-    X[2] = h2;
-    X[3] = h3;
+    X[0] = x0;
+    X[1] = x1;
+    X[2] = x2;
+    X[3] = x3;
+    X[4] = h0;
+    X[5] = h1;
+    X[6] = h2;
+    X[7] = h3;
 }
 
 /* What pairs read of a splat, of some splats. */
@@ -224,11 +230,11 @@ OUTLINE void pair_constants(
     const vector W2_1 = W[7];
     const vector W2_2 = W[8];
     const vector its_amplitude = amplitude[0];
-    const vector M0 = 2.0 * mu0;
-    const vector M1 = 2.0 * mu1;
-    const vector M2 = 2.0 * mu2;
     const vector M3 = 2.0 * mu3;
+    const vector M2 = 2.0 * mu2;
+    const vector M1 = 2.0 * mu1;
     const vector R0_0 = 1.4142135623730951 * (-(W0_2 * M3) - W0_1 * M2 - W0_0 * M1);
+    const vector M0 = 2.0 * mu0;
     const vector R0_1 = 1.4142135623730951 * (W0_2 * M2 - W0_1 * M3 + W0_0 * M0);
     const vector R0_2 = 1.4142135623730951 * (W0_1 * M0 - W0_2 * M1 + W0_0 * M3);
     const vector R0_3 = 1.4142135623730951 * (W0_2 * M0 + W0_1 * M1 - W0_0 * M2);
@@ -240,11 +246,11 @@ OUTLINE void pair_constants(
     const vector R2_1 = 1.4142135623730951 * (W2_2 * M2 - W2_1 * M3 + W2_0 * M0);
     const vector R2_2 = 1.4142135623730951 * (W2_1 * M0 - W2_2 * M1 + W2_0 * M3);
     const vector R2_3 = 1.4142135623730951 * (W2_2 * M0 + W2_1 * M1 - W2_0 * M2);
-    S[0] = its_amplitude;
-    S[1] = M0;
-    S[2] = M1;
-    S[3] = M2;
-    S[4] = M3;
+    S[0] = mu0;
+    S[1] = mu1;
+    S[2] = mu2;
+    S[3] = mu3;
+    S[4] = its_amplitude;
     S[5] = R0_0;
     S[6] = R0_1;
     S[7] = R0_2;
@@ -270,15 +276,19 @@ OUTLINE void pair_constants(
  */
 INLINE void pair_value(
     const vector *X, const double *S, vector *value) {
-    const vector h0 = X[0];
-    const vector h1 = X[1];
-    const vector h2 = X[2];
-    const vector h3 = X[3];
-    const double amplitude = S[0];
-    const double M0 = S[1];
-    const double M1 = S[2];
-    const double M2 = S[3];
-    const double M3 = S[4];
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const vector x2 = X[2];
+    const vector x3 = X[3];
+    const vector h0 = X[4];
+    const vector h1 = X[5];
+    const vector h2 = X[6];
+    const vector h3 = X[7];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double mu2 = S[2];
+    const double mu3 = S[3];
+    const double amplitude = S[4];
     const double R0_0 = S[5];
     const double R0_1 = S[6];
     const double R0_2 = S[7];
@@ -291,16 +301,18 @@ INLINE void pair_value(
     const double R2_1 = S[14];
     const double R2_2 = S[15];
     const double R2_3 = S[16];
-    const vector w = vector_abs(h0 * M0 + h1 * M1 + h2 * M2 + h3 * M3);
-    const vector eta = vector_polynomial_eta(1.0 - w);
-    const vector a = 1.0 / (w - eta * (1.0 - w * w));
+    const vector g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
+    const vector abs_g0 = abs_each(g0);
+    const vector eta = vector_polynomial_eta(1.0 - abs_g0);
+    const vector a = 1.0 / (abs_g0 - eta * (1.0 - abs_g0 * abs_g0));
     const vector a_squared = a * a;
     const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3;
     const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3;
     const vector r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3;
     const vector half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
-    const vector gaussian = vector_exp(-half_square);
-    value[0] = value[0] + amplitude * (a * (a * gaussian));
+    const vector gaussian = exp_each(-half_square);
+    const vector phi = a * (a * gaussian);
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -314,15 +326,19 @@ INLINE void pair_value(
  */
 INLINE void pair_forward(
     const vector *X, const double *S, vector *value, vector *slope) {
-    const vector h0 = X[0];
-    const vector h1 = X[1];
-    const vector h2 = X[2];
-    const vector h3 = X[3];
-    const double amplitude = S[0];
-    const double M0 = S[1];
-    const double M1 = S[2];
-    const double M2 = S[3];
-    const double M3 = S[4];
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const vector x2 = X[2];
+    const vector x3 = X[3];
+    const vector h0 = X[4];
+    const vector h1 = X[5];
+    const vector h2 = X[6];
+    const vector h3 = X[7];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double mu2 = S[2];
+    const double mu3 = S[3];
+    const double amplitude = S[4];
     const double R0_0 = S[5];
     const double R0_1 = S[6];
     const double R0_2 = S[7];
@@ -335,28 +351,30 @@ INLINE void pair_forward(
     const double R2_1 = S[14];
     const double R2_2 = S[15];
     const double R2_3 = S[16];
-    const vector total_2 = h0 * M0 + h1 * M1 + h2 * M2 + h3 * M3;
-    const vector w = vector_abs(total_2);
-    const vector eta = vector_polynomial_eta(1.0 - w);
-    const vector a = 1.0 / (w - eta * (1.0 - w * w));
+    const vector g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
+    const vector abs_g0 = abs_each(g0);
+    const vector eta = vector_polynomial_eta(1.0 - abs_g0);
+    const vector a = 1.0 / (abs_g0 - eta * (1.0 - abs_g0 * abs_g0));
     const vector a_squared = a * a;
     const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3;
     const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3;
     const vector r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3;
     const vector half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
-    const vector gaussian = vector_exp(-half_square);
-    const vector phi = amplitude * (a * (a * gaussian));
-    const vector product = 2.0 * (phi * a_squared);
-    const vector r2_product = r2 * product;
-    const vector r1_product = r1 * product;
-    const vector r0_product = r0 * product;
-    const vector by_w = eta * (2.0 * phi - phi * (2.0 * half_square));
-    const vector by_w_chosen = vector_select(total_2 < 0.0, -by_w, by_w);
-    value[0] = value[0] + phi;
-    slope[0] = slope[0] - R2_0 * r2_product - R1_0 * r1_product - R0_0 * r0_product + M0 * by_w_chosen;
-    slope[1] = slope[1] - R2_1 * r2_product - R1_1 * r1_product - R0_1 * r0_product + M1 * by_w_chosen;
-    slope[2] = slope[2] - R2_2 * r2_product - R1_2 * r1_product - R0_2 * r0_product + M2 * by_w_chosen;
-    slope[3] = slope[3] - R2_3 * r2_product - R1_3 * r1_product - R0_3 * r0_product + M3 * by_w_chosen;
+    const vector gaussian = exp_each(-half_square);
+    const vector phi = a * (a * gaussian);
+    const vector phi_2 = amplitude * phi;
+    const vector by_abs_g0 = eta * (2.0 * phi_2 - phi_2 * (2.0 * half_square));
+    const vector by_g0 = vector_select(g0 < 0.0, -by_abs_g0, by_abs_g0);
+    const vector phi_product = phi_2 * a_squared;
+    value[0] = value[0] + phi_2;
+    slope[0] = slope[0] + mu0 * by_g0;
+    slope[1] = slope[1] + mu1 * by_g0;
+    slope[2] = slope[2] + mu2 * by_g0;
+    slope[3] = slope[3] + mu3 * by_g0;
+    slope[4] = slope[4] - (2.0 * (R0_0 * r0 + R1_0 * r1 + R2_0 * r2)) * phi_product;
+    slope[5] = slope[5] - (2.0 * (R0_1 * r0 + R1_1 * r1 + R2_1 * r2)) * phi_product;
+    slope[6] = slope[6] - (2.0 * (R0_2 * r0 + R1_2 * r1 + R2_2 * r2)) * phi_product;
+    slope[7] = slope[7] - (2.0 * (R0_3 * r0 + R1_3 * r1 + R2_3 * r2)) * phi_product;
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -366,14 +384,18 @@ OUTLINE void pair_gradient(
     const vector x1 = x[1];
     const vector x2 = x[2];
     const vector x3 = x[3];
-    const vector slope_h0 = slope[0];
-    const vector slope_h1 = slope[1];
-    const vector slope_h2 = slope[2];
-    const vector slope_h3 = slope[3];
-    const vector product = 0.25 * slope_h1;
-    const vector product_2 = 0.25 * slope_h2;
-    const vector product_3 = 0.25 * slope_h0;
-    const vector product_4 = 0.25 * slope_h3;
+    const vector slope_x0 = slope[0];
+    const vector slope_x1 = slope[1];
+    const vector slope_x2 = slope[2];
+    const vector slope_x3 = slope[3];
+    const vector slope_h0 = slope[4];
+    const vector slope_h1 = slope[5];
+    const vector slope_h2 = slope[6];
+    const vector slope_h3 = slope[7];
+    const vector product = 0.5 * (slope_x1 + 0.5 * slope_h1);
+    const vector product_2 = 0.5 * (slope_x2 + 0.5 * slope_h2);
+    const vector product_3 = 0.5 * (slope_x0 + 0.5 * slope_h0);
+    const vector product_4 = 0.5 * (slope_x3 + 0.5 * slope_h3);
     gradient[0] = x0 * product + x3 * product_2 - x1 * product_3 - x2 * product_4;
     gradient[1] = x0 * product_2 + x1 * product_4 - x2 * product_3 - x3 * product;
     gradient[2] = x2 * product + x0 * product_4 - x3 * product_3 - x1 * product_2;
@@ -389,17 +411,23 @@ OUTLINE void pair_gradient_vjp(
     const vector gradient_bar0 = gradient_bar[0];
     const vector gradient_bar1 = gradient_bar[1];
     const vector gradient_bar2 = gradient_bar[2];
-    const vector product = 0.25 * (-(x3 * gradient_bar2) - x2 * gradient_bar1 - x1 * gradient_bar0);
-    slope_bar[0] = product;
-    slope_bar[1] = 0.25 * (x2 * gradient_bar2 - x3 * gradient_bar1 + x0 * gradient_bar0);
-    slope_bar[2] = 0.25 * (x0 * gradient_bar1 - x1 * gradient_bar2 + x3 * gradient_bar0);
-    slope_bar[3] = 0.25 * (x0 * gradient_bar2 + x1 * gradient_bar1 - x2 * gradient_bar0);
+    const vector gap = -(x3 * gradient_bar2) - x2 * gradient_bar1 - x1 * gradient_bar0;
+    const vector total_2 = x2 * gradient_bar2 - x3 * gradient_bar1 + x0 * gradient_bar0;
+    const vector total_3 = x0 * gradient_bar1 - x1 * gradient_bar2 + x3 * gradient_bar0;
+    const vector gap_2 = x0 * gradient_bar2 + x1 * gradient_bar1 - x2 * gradient_bar0;
+    slope_bar[0] = 0.5 * gap;
+    slope_bar[1] = 0.5 * total_2;
+    slope_bar[2] = 0.5 * total_3;
+    slope_bar[3] = 0.5 * gap_2;
+    slope_bar[4] = 0.25 * gap;
+    slope_bar[5] = 0.25 * total_2;
+    slope_bar[6] = 0.25 * total_3;
+    slope_bar[7] = 0.25 * gap_2;
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp(
-    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
-    (void)amplitude;
+    const vector *mu, const vector *W, const vector *amplitude, const vector *sums, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
     const vector mu0 = mu[0];
     const vector mu1 = mu[1];
     const vector mu2 = mu[2];
@@ -413,69 +441,117 @@ OUTLINE void pair_constants_vjp(
     const vector W2_0 = W[6];
     const vector W2_1 = W[7];
     const vector W2_2 = W[8];
-    const vector its_amplitude_bar = S_bar[0];
-    const vector M0_bar = S_bar[1];
-    const vector M1_bar = S_bar[2];
-    const vector M2_bar = S_bar[3];
-    const vector M3_bar = S_bar[4];
-    const vector R0_0_bar = S_bar[5];
-    const vector R0_1_bar = S_bar[6];
-    const vector R0_2_bar = S_bar[7];
-    const vector R0_3_bar = S_bar[8];
-    const vector R1_0_bar = S_bar[9];
-    const vector R1_1_bar = S_bar[10];
-    const vector R1_2_bar = S_bar[11];
-    const vector R1_3_bar = S_bar[12];
-    const vector R2_0_bar = S_bar[13];
-    const vector R2_1_bar = S_bar[14];
-    const vector R2_2_bar = S_bar[15];
-    const vector R2_3_bar = S_bar[16];
-    const vector product = 1.4142135623730951 * R0_1_bar;
-    const vector product_2 = 1.4142135623730951 * R0_2_bar;
-    const vector product_3 = 1.4142135623730951 * R0_3_bar;
-    const vector product_4 = 1.4142135623730951 * R1_1_bar;
-    const vector total_2 = M0_bar + W0_0 * product + W0_1 * product_2 + W0_2 * product_3 + W1_0 * product_4;
-    const vector product_5 = 1.4142135623730951 * R1_2_bar;
-    const vector product_6 = 1.4142135623730951 * R1_3_bar;
-    const vector product_7 = 1.4142135623730951 * R2_1_bar;
-    const vector product_8 = 1.4142135623730951 * R2_2_bar;
-    const vector total_3 = total_2 + W1_1 * product_5 + W1_2 * product_6 + W2_0 * product_7 + W2_1 *
-        product_8;
-    const vector product_9 = 1.4142135623730951 * R2_3_bar;
-    const vector by_M0 = total_3 + W2_2 * product_9;
-    const vector product_10 = 1.4142135623730951 * R0_0_bar;
-    const vector product_11 = 1.4142135623730951 * R1_0_bar;
-    const vector gap = M1_bar - W0_0 * product_10 - W0_2 * product_2 + W0_1 * product_3 - W1_0 * product_11;
-    const vector product_12 = 1.4142135623730951 * R2_0_bar;
-    const vector gap_2 = gap - W1_2 * product_5 + W1_1 * product_6 - W2_0 * product_12 - W2_2 * product_8;
-    const vector by_M1 = gap_2 + W2_1 * product_9;
-    const vector gap_3 = M2_bar - W0_1 * product_10 + W0_2 * product - W0_0 * product_3 - W1_1 * product_11;
-    const vector total_4 = gap_3 + W1_2 * product_4 - W1_0 * product_6 - W2_1 * product_12 + W2_2 * product_7;
-    const vector by_M2 = total_4 - W2_0 * product_9;
-    const vector gap_4 = M3_bar - W0_2 * product_10 - W0_1 * product + W0_0 * product_2 - W1_2 * product_11;
-    const vector gap_5 = gap_4 - W1_1 * product_4 + W1_0 * product_5 - W2_2 * product_12 - W2_1 * product_7;
-    const vector by_M3 = gap_5 + W2_0 * product_8;
-    const vector M0 = 2.0 * mu0;
-    const vector M1 = 2.0 * mu1;
+    const vector its_amplitude = amplitude[0];
+    const vector sum0 = sums[0];
+    const vector sum1 = sums[1];
+    const vector sum2 = sums[2];
+    const vector sum3 = sums[3];
+    const vector sum4 = sums[4];
+    const vector sum5 = sums[5];
+    const vector sum6 = sums[6];
+    const vector sum7 = sums[7];
+    const vector sum8 = sums[8];
+    const vector sum9 = sums[9];
+    const vector sum10 = sums[10];
+    const vector sum11 = sums[11];
+    const vector sum12 = sums[12];
+    const vector sum13 = sums[13];
+    const vector sum14 = sums[14];
     const vector M3 = 2.0 * mu3;
     const vector M2 = 2.0 * mu2;
-    const vector total_5 = -(M2 * product_10) - M3 * product + M0 * product_2 + M1 * product_3;
-    const vector total_6 = -(M2 * product_11) - M3 * product_4 + M0 * product_5 + M1 * product_6;
-    const vector total_7 = -(M2 * product_12) - M3 * product_7 + M0 * product_8 + M1 * product_9;
-    mu_bar[0] = 2.0 * by_M0;
-    mu_bar[1] = 2.0 * by_M1;
-    mu_bar[2] = 2.0 * by_M2;
-    mu_bar[3] = 2.0 * by_M3;
-    W_bar[0] = M0 * product - M1 * product_10 + M3 * product_2 - M2 * product_3;
-    W_bar[1] = total_5;
-    W_bar[2] = M2 * product - M3 * product_10 - M1 * product_2 + M0 * product_3;
-    W_bar[3] = M0 * product_4 - M1 * product_11 + M3 * product_5 - M2 * product_6;
-    W_bar[4] = total_6;
-    W_bar[5] = M2 * product_4 - M3 * product_11 - M1 * product_5 + M0 * product_6;
-    W_bar[6] = M0 * product_7 - M1 * product_12 + M3 * product_8 - M2 * product_9;
-    W_bar[7] = total_7;
-    W_bar[8] = M2 * product_7 - M3 * product_12 - M1 * product_8 + M0 * product_9;
-    amplitude_bar[0] = its_amplitude_bar;
+    const vector M1 = 2.0 * mu1;
+    const vector R2_0 = 1.4142135623730951 * (-(W2_2 * M3) - W2_1 * M2 - W2_0 * M1);
+    const vector M0 = 2.0 * mu0;
+    const vector R2_1 = 1.4142135623730951 * (W2_2 * M2 - W2_1 * M3 + W2_0 * M0);
+    const vector product = 2.0 * sum9;
+    const vector R2_2 = 1.4142135623730951 * (W2_1 * M0 - W2_2 * M1 + W2_0 * M3);
+    const vector R2_3 = 1.4142135623730951 * (W2_2 * M0 + W2_1 * M1 - W2_0 * M2);
+    const vector by_R2_1 = R2_0 * sum6 + R2_1 * product + R2_2 * sum10 + R2_3 * sum11;
+    const vector by_R2_1_product = 1.4142135623730951 * by_R2_1;
+    const vector R1_0 = 1.4142135623730951 * (-(W1_2 * M3) - W1_1 * M2 - W1_0 * M1);
+    const vector R1_1 = 1.4142135623730951 * (W1_2 * M2 - W1_1 * M3 + W1_0 * M0);
+    const vector R1_2 = 1.4142135623730951 * (W1_1 * M0 - W1_2 * M1 + W1_0 * M3);
+    const vector R1_3 = 1.4142135623730951 * (W1_2 * M0 + W1_1 * M1 - W1_0 * M2);
+    const vector by_R1_1 = R1_0 * sum6 + R1_1 * product + R1_2 * sum10 + R1_3 * sum11;
+    const vector by_R1_1_product = 1.4142135623730951 * by_R1_1;
+    const vector R0_0 = 1.4142135623730951 * (-(W0_2 * M3) - W0_1 * M2 - W0_0 * M1);
+    const vector R0_1 = 1.4142135623730951 * (W0_2 * M2 - W0_1 * M3 + W0_0 * M0);
+    const vector R0_2 = 1.4142135623730951 * (W0_1 * M0 - W0_2 * M1 + W0_0 * M3);
+    const vector R0_3 = 1.4142135623730951 * (W0_2 * M0 + W0_1 * M1 - W0_0 * M2);
+    const vector by_R0_1 = R0_0 * sum6 + R0_1 * product + R0_2 * sum10 + R0_3 * sum11;
+    const vector by_R0_1_product = 1.4142135623730951 * by_R0_1;
+    const vector product_2 = 2.0 * sum12;
+    const vector by_R2_2 = R2_0 * sum7 + R2_1 * sum10 + R2_2 * product_2 + R2_3 * sum13;
+    const vector by_R2_2_product = 1.4142135623730951 * by_R2_2;
+    const vector by_R1_2 = R1_0 * sum7 + R1_1 * sum10 + R1_2 * product_2 + R1_3 * sum13;
+    const vector by_R1_2_product = 1.4142135623730951 * by_R1_2;
+    const vector total_2 = W2_0 * by_R2_1_product + W1_0 * by_R1_1_product + W0_0 * by_R0_1_product + W2_1 *
+        by_R2_2_product + W1_1 * by_R1_2_product;
+    const vector by_R0_2 = R0_0 * sum7 + R0_1 * sum10 + R0_2 * product_2 + R0_3 * sum13;
+    const vector by_R0_2_product = 1.4142135623730951 * by_R0_2;
+    const vector product_3 = 2.0 * sum14;
+    const vector by_R2_3 = R2_0 * sum8 + R2_1 * sum11 + R2_2 * sum13 + R2_3 * product_3;
+    const vector by_R2_3_product = 1.4142135623730951 * by_R2_3;
+    const vector by_R1_3 = R1_0 * sum8 + R1_1 * sum11 + R1_2 * sum13 + R1_3 * product_3;
+    const vector by_R1_3_product = 1.4142135623730951 * by_R1_3;
+    const vector by_R0_3 = R0_0 * sum8 + R0_1 * sum11 + R0_2 * sum13 + R0_3 * product_3;
+    const vector by_R0_3_product = 1.4142135623730951 * by_R0_3;
+    const vector by_M0 = total_2 + W0_1 * by_R0_2_product + W2_2 * by_R2_3_product + W1_2 * by_R1_3_product +
+        W0_2 * by_R0_3_product;
+    const vector product_4 = 2.0 * sum5;
+    const vector by_R2_0 = R2_0 * product_4 + R2_1 * sum6 + R2_2 * sum7 + R2_3 * sum8;
+    const vector by_R2_0_product = 1.4142135623730951 * by_R2_0;
+    const vector by_R1_0 = R1_0 * product_4 + R1_1 * sum6 + R1_2 * sum7 + R1_3 * sum8;
+    const vector by_R1_0_product = 1.4142135623730951 * by_R1_0;
+    const vector by_R0_0 = R0_0 * product_4 + R0_1 * sum6 + R0_2 * sum7 + R0_3 * sum8;
+    const vector by_R0_0_product = 1.4142135623730951 * by_R0_0;
+    const vector gap = -(W2_0 * by_R2_0_product) - W1_0 * by_R1_0_product - W0_0 * by_R0_0_product - W2_2 *
+        by_R2_2_product;
+    const vector total_3 = gap - W1_2 * by_R1_2_product - W0_2 * by_R0_2_product + W2_1 * by_R2_3_product +
+        W1_1 * by_R1_3_product;
+    const vector by_M1 = total_3 + W0_1 * by_R0_3_product;
+    const vector total_4 = -(W2_1 * by_R2_0_product) - W1_1 * by_R1_0_product - W0_1 * by_R0_0_product + W2_2
+        * by_R2_1_product;
+    const vector gap_2 = total_4 + W1_2 * by_R1_1_product + W0_2 * by_R0_1_product - W2_0 * by_R2_3_product -
+        W1_0 * by_R1_3_product;
+    const vector by_M2 = gap_2 - W0_0 * by_R0_3_product;
+    const vector gap_3 = -(W2_2 * by_R2_0_product) - W1_2 * by_R1_0_product - W0_2 * by_R0_0_product - W2_1 *
+        by_R2_1_product;
+    const vector total_5 = gap_3 - W1_1 * by_R1_1_product - W0_1 * by_R0_1_product + W2_0 * by_R2_2_product +
+        W1_0 * by_R1_2_product;
+    const vector by_M3 = total_5 + W0_0 * by_R0_2_product;
+    const vector product_5 = its_amplitude * (M0 * by_R0_1_product - M1 * by_R0_0_product + M3 *
+        by_R0_2_product - M2 * by_R0_3_product);
+    const vector total_6 = -(M2 * by_R0_0_product) - M3 * by_R0_1_product + M0 * by_R0_2_product + M1 *
+        by_R0_3_product;
+    const vector product_6 = its_amplitude * (M2 * by_R0_1_product - M3 * by_R0_0_product - M1 *
+        by_R0_2_product + M0 * by_R0_3_product);
+    const vector product_7 = its_amplitude * (M0 * by_R1_1_product - M1 * by_R1_0_product + M3 *
+        by_R1_2_product - M2 * by_R1_3_product);
+    const vector total_7 = -(M2 * by_R1_0_product) - M3 * by_R1_1_product + M0 * by_R1_2_product + M1 *
+        by_R1_3_product;
+    const vector product_8 = its_amplitude * (M2 * by_R1_1_product - M3 * by_R1_0_product - M1 *
+        by_R1_2_product + M0 * by_R1_3_product);
+    const vector product_9 = its_amplitude * (M0 * by_R2_1_product - M1 * by_R2_0_product + M3 *
+        by_R2_2_product - M2 * by_R2_3_product);
+    const vector total_8 = -(M2 * by_R2_0_product) - M3 * by_R2_1_product + M0 * by_R2_2_product + M1 *
+        by_R2_3_product;
+    const vector product_10 = its_amplitude * (M2 * by_R2_1_product - M3 * by_R2_0_product - M1 *
+        by_R2_2_product + M0 * by_R2_3_product);
+    mu_bar[0] = its_amplitude * (sum0 + 2.0 * by_M0);
+    mu_bar[1] = its_amplitude * (sum1 + 2.0 * by_M1);
+    mu_bar[2] = its_amplitude * (sum2 + 2.0 * by_M2);
+    mu_bar[3] = its_amplitude * (sum3 + 2.0 * by_M3);
+    W_bar[0] = product_5;
+    W_bar[1] = its_amplitude * total_6;
+    W_bar[2] = product_6;
+    W_bar[3] = product_7;
+    W_bar[4] = its_amplitude * total_7;
+    W_bar[5] = product_8;
+    W_bar[6] = product_9;
+    W_bar[7] = its_amplitude * total_8;
+    W_bar[8] = product_10;
+    amplitude_bar[0] = sum4;
 }
 
 /* The distances of some points q from one point p. */
@@ -494,15 +570,15 @@ OUTLINE void pair_distances(
     const vector g2 = p0 * q2 + p1 * q3 - p2 * q0 - p3 * q1;
     const vector g3 = p0 * q3 + p2 * q1 - p1 * q2 - p3 * q0;
     const vector norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
-    const vector norm_s = vector_sqrt(norm_s_squared);
-    const vector abs_g0 = vector_abs(g0);
-    const vector atan2_norm_s_abs_g0 = vector_atan2(norm_s, abs_g0);
+    const vector norm_s = sqrt_each(norm_s_squared);
+    const vector abs_g0 = abs_each(g0);
+    const vector atan2_norm_s_abs_g0 = atan2_each(norm_s, abs_g0);
     const vector t = 2.0 * atan2_norm_s_abs_g0;
     distance[0] = t;
 }
 
 /*
- * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
  * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
@@ -511,16 +587,19 @@ OUTLINE void pair_distances(
  * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
  */
 INLINE void pair_backward(
-    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
-    const vector h0 = X[0];
-    const vector h1 = X[1];
-    const vector h2 = X[2];
-    const vector h3 = X[3];
-    const double amplitude = S[0];
-    const double M0 = S[1];
-    const double M1 = S[2];
-    const double M2 = S[3];
-    const double M3 = S[4];
+    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
+    const vector x0 = X[0];
+    const vector x1 = X[1];
+    const vector x2 = X[2];
+    const vector x3 = X[3];
+    const vector h0 = X[4];
+    const vector h1 = X[5];
+    const vector h2 = X[6];
+    const vector h3 = X[7];
+    const double mu0 = S[0];
+    const double mu1 = S[1];
+    const double mu2 = S[2];
+    const double mu3 = S[3];
     const double R0_0 = S[5];
     const double R0_1 = S[6];
     const double R0_2 = S[7];
@@ -534,70 +613,70 @@ INLINE void pair_backward(
     const double R2_2 = S[15];
     const double R2_3 = S[16];
     const vector its_value_bar = value_bar[0];
-    const vector h0_bar = slope_bar[0];
-    const vector h1_bar = slope_bar[1];
-    const vector h2_bar = slope_bar[2];
-    const vector h3_bar = slope_bar[3];
-    const vector total_2 = h0 * M0 + h1 * M1 + h2 * M2 + h3 * M3;
-    const vector w = vector_abs(total_2);
-    const vector w_gap = 1.0 - w;
-    const vector eta = vector_polynomial_eta(w_gap);
-    const vector a = 1.0 / (w - eta * (1.0 - w * w));
+    const vector x0_bar = slope_bar[0];
+    const vector x1_bar = slope_bar[1];
+    const vector x2_bar = slope_bar[2];
+    const vector x3_bar = slope_bar[3];
+    const vector h0_bar = slope_bar[4];
+    const vector h1_bar = slope_bar[5];
+    const vector h2_bar = slope_bar[6];
+    const vector h3_bar = slope_bar[7];
+    const vector g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
+    const vector_mask is_small = g0 < 0.0;
+    const vector abs_g0 = abs_each(g0);
+    const vector abs_g0_gap = 1.0 - abs_g0;
+    const vector eta = vector_polynomial_eta(abs_g0_gap);
+    const vector a = 1.0 / (abs_g0 - eta * (1.0 - abs_g0 * abs_g0));
     const vector a_squared = a * a;
     const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3;
     const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3;
     const vector r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3;
     const vector half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
-    const vector gaussian = vector_exp(-half_square);
-    const vector a_product = a * (a * gaussian);
-    const vector gap = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar - R0_3 * h3_bar;
-    const vector gap_2 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar - R1_3 * h3_bar;
-    const vector gap_3 = -(R2_0 * h0_bar) - R2_1 * h1_bar - R2_2 * h2_bar - R2_3 * h3_bar;
-    const vector product = 2.0 * (r0 * gap + r1 * gap_2 + r2 * gap_3);
+    const vector gaussian = exp_each(-half_square);
+    const vector phi = a * (a * gaussian);
     const vector half_square_product = 2.0 * half_square;
-    const vector_mask is_small = total_2 < 0.0;
-    const vector total_3 = M0 * h0_bar + M1 * h1_bar + M2 * h2_bar + M3 * h3_bar;
-    const vector by_by_w = vector_select(is_small, vector_of(0.0), total_3) - vector_select(is_small, total_3,
-        vector_of(0.0));
-    const vector eta_product = eta * by_by_w;
-    const vector by_phi = its_value_bar + a_squared * product - half_square_product * eta_product + 2.0 *
+    const vector gap = 2.0 * phi - phi * half_square_product;
+    const vector by_abs_g0 = eta * gap;
+    const vector by_g0 = vector_select(is_small, -by_abs_g0, by_abs_g0);
+    const vector eta_slope = vector_polynomial_eta_slope(abs_g0_gap);
+    const vector by_by_g0 = mu0 * x0_bar + mu1 * x1_bar + mu2 * x2_bar + mu3 * x3_bar;
+    const vector by_by_abs_g0 = vector_select(is_small, vector_of(0.0), by_by_g0) - vector_select(is_small,
+        by_by_g0, vector_of(0.0));
+    const vector product = 2.0 * (R0_3 * r0 + R1_3 * r1 + R2_3 * r2) * h3_bar;
+    const vector product_2 = 2.0 * (R0_2 * r0 + R1_2 * r1 + R2_2 * r2) * h2_bar;
+    const vector product_3 = 2.0 * (R0_1 * r0 + R1_1 * r1 + R2_1 * r2) * h1_bar;
+    const vector product_4 = 2.0 * (R0_0 * r0 + R1_0 * r1 + R2_0 * r2) * h0_bar;
+    const vector gap_2 = -product - product_2 - product_3 - product_4;
+    const vector eta_product = eta * by_by_abs_g0;
+    const vector by_phi = its_value_bar + a_squared * gap_2 - half_square_product * eta_product + 2.0 *
         eta_product;
-    const vector phi = amplitude * a_product;
-    const vector gap_4 = 2.0 * phi - phi * half_square_product;
-    const vector by_w = eta * gap_4;
-    const vector by_w_chosen = vector_select(is_small, -by_w, by_w);
-    const vector eta_slope = vector_polynomial_eta_slope(w_gap);
-    const vector product_2 = a_product * (amplitude * by_phi);
-    const vector by_half_square = -2.0 * (phi * eta_product) - product_2;
-    const vector eta_product_2 = eta * (2.0 * a_squared * (phi * product) + 2.0 * product_2 +
+    const vector phi_product = phi * by_phi;
+    const vector by_half_square = -2.0 * (phi * eta_product) - phi_product;
+    const vector eta_product_2 = eta * (2.0 * a_squared * (phi * gap_2) + 2.0 * phi_product +
         half_square_product * by_half_square);
-    const vector by_w_2 = eta_slope * (gap_4 * by_by_w) + eta_product_2;
-    const vector by_w_chosen_2 = vector_select(is_small, -by_w_2, by_w_2);
-    const vector product_3 = 2.0 * (phi * a_squared);
-    const vector product_4 = 2.0 * (a_squared * by_half_square);
-    const vector by_r0 = product_3 * gap + r0 * product_4;
-    const vector r0_product = r0 * product_3;
-    const vector by_r1 = product_3 * gap_2 + r1 * product_4;
-    const vector r1_product = r1 * product_3;
-    const vector by_r2 = product_3 * gap_3 + r2 * product_4;
-    const vector r2_product = r2 * product_3;
-    S_bar[0] = S_bar[0] + a_product * by_phi;
-    S_bar[1] = S_bar[1] + by_w_chosen * h0_bar + h0 * by_w_chosen_2;
-    S_bar[2] = S_bar[2] + by_w_chosen * h1_bar + h1 * by_w_chosen_2;
-    S_bar[3] = S_bar[3] + by_w_chosen * h2_bar + h2 * by_w_chosen_2;
-    S_bar[4] = S_bar[4] + by_w_chosen * h3_bar + h3 * by_w_chosen_2;
-    S_bar[5] = S_bar[5] + h0 * by_r0 - r0_product * h0_bar;
-    S_bar[6] = S_bar[6] + h1 * by_r0 - r0_product * h1_bar;
-    S_bar[7] = S_bar[7] + h2 * by_r0 - r0_product * h2_bar;
-    S_bar[8] = S_bar[8] + h3 * by_r0 - r0_product * h3_bar;
-    S_bar[9] = S_bar[9] + h0 * by_r1 - r1_product * h0_bar;
-    S_bar[10] = S_bar[10] + h1 * by_r1 - r1_product * h1_bar;
-    S_bar[11] = S_bar[11] + h2 * by_r1 - r1_product * h2_bar;
-    S_bar[12] = S_bar[12] + h3 * by_r1 - r1_product * h3_bar;
-    S_bar[13] = S_bar[13] + h0 * by_r2 - r2_product * h0_bar;
-    S_bar[14] = S_bar[14] + h1 * by_r2 - r2_product * h1_bar;
-    S_bar[15] = S_bar[15] + h2 * by_r2 - r2_product * h2_bar;
-    S_bar[16] = S_bar[16] + h3 * by_r2 - r2_product * h3_bar;
+    const vector by_abs_g0_2 = eta_slope * (gap * by_by_abs_g0) + eta_product_2;
+    const vector by_g0_2 = vector_select(is_small, -by_abs_g0_2, by_abs_g0_2);
+    const vector a_squared_product = a_squared * by_half_square;
+    const vector phi_product_2 = phi * a_squared;
+    const vector gap_3 = h0 * a_squared_product - 2.0 * (phi_product_2 * h0_bar);
+    const vector gap_4 = h1 * a_squared_product - 2.0 * (phi_product_2 * h1_bar);
+    const vector gap_5 = h2 * a_squared_product - 2.0 * (phi_product_2 * h2_bar);
+    const vector gap_6 = h3 * a_squared_product - 2.0 * (phi_product_2 * h3_bar);
+    sums[0] = sums[0] + by_g0 * x0_bar + x0 * by_g0_2;
+    sums[1] = sums[1] + by_g0 * x1_bar + x1 * by_g0_2;
+    sums[2] = sums[2] + by_g0 * x2_bar + x2 * by_g0_2;
+    sums[3] = sums[3] + by_g0 * x3_bar + x3 * by_g0_2;
+    sums[4] = sums[4] + phi_product;
+    sums[5] = sums[5] + h0 * gap_3;
+    sums[6] = sums[6] + h0 * gap_4 + h1 * gap_3;
+    sums[7] = sums[7] + h0 * gap_5 + h2 * gap_3;
+    sums[8] = sums[8] + h0 * gap_6 + h3 * gap_3;
+    sums[9] = sums[9] + h1 * gap_4;
+    sums[10] = sums[10] + h1 * gap_5 + h2 * gap_4;
+    sums[11] = sums[11] + h1 * gap_6 + h3 * gap_4;
+    sums[12] = sums[12] + h2 * gap_5;
+    sums[13] = sums[13] + h2 * gap_6 + h3 * gap_5;
+    sums[14] = sums[14] + h3 * gap_6;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -624,12 +703,12 @@ OUTLINE void vector_end(size_t count, size_t start, size_t size, vector *columns
         for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
 }
 
-/* Scratch memory: 9 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
+/* Scratch memory: 17 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
 size_t so3_splats_work(size_t count, size_t splat_count, int threads) {
     (void)threads;
     const size_t points = (count + LANES - 1) / LANES, blocks = (points + 2 - 1) / 2;
     const size_t places = 5 * ((splat_count + LANES - 1) / LANES + (blocks + LANES - 1) / LANES);
-    return (points * 9 + places + 1) * LANES + 17 * splat_count;
+    return (points * 17 + places + 1) * LANES + 17 * splat_count;
 }
 
 static vector *work_points(double *work) {
@@ -643,12 +722,12 @@ INLINE const double *splat_at(const vector *splats, size_t k) {
     return (const double *)(splats + 5 * row) + (k - row * LANES);
 }
 
-static vector *work_splats(double *work, size_t count) {
-    return work_points(work) + (count + LANES - 1) / LANES * 9;
+static vector *work_reaches(double *work, size_t count) {
+    return work_points(work) + (count + LANES - 1) / LANES * 17;
 }
 
 static vector *work_blocks(double *work, size_t count, size_t splat_count) {
-    return work_splats(work, count) + 5 * ((splat_count + LANES - 1) / LANES);
+    return work_reaches(work, count) + 5 * ((splat_count + LANES - 1) / LANES);
 }
 
 static double *work_constants(double *work, size_t count, size_t splat_count) {
@@ -765,7 +844,7 @@ void so3_splats(
     double *SO3_RESTRICT value, double *SO3_RESTRICT gradient, double *SO3_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -774,8 +853,8 @@ void so3_splats(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[2][4], X[2][4], grad[3];
-            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][4] = {{ZERO}};
+            vector at[2][4], X[2][8], grad[3];
+            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][8] = {{ZERO}};
             double place[4 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
@@ -807,7 +886,7 @@ void so3_splats_value(
     double *SO3_RESTRICT value, double *SO3_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -816,7 +895,7 @@ void so3_splats_value(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[4], X[2][4], value_sum[2][1] = {{ZERO}};
+            vector at[4], X[2][8], value_sum[2][1] = {{ZERO}};
             double place[4 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
@@ -843,40 +922,44 @@ void so3_splats_value(
 /* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
 OUTLINE void splat_points(
     size_t count, size_t start, const double *x, const double *value_bar, const double *gradient_bar, vector *point) {
-    vector at[4], grad_bar[3], slope_bar[4];
+    vector at[4], grad_bar[3], slope_bar[8];
     vector_rows(x, count, start, 4, at);
     vector_rows(gradient_bar, count, start, 3, grad_bar);
-    vector_rows(value_bar, count, start, 1, point + 4);
+    vector_rows(value_bar, count, start, 1, point + 8);
     pair_features(at, point);
     pair_gradient_vjp(at, grad_bar, slope_bar);
-    for (int i = 0; i < 4; ++i) point[4 + 1 + i] = slope_bar[i];
-    vector_end(count, start, 4 + 1, point + 4);
+    for (int i = 0; i < 8; ++i) point[8 + 1 + i] = slope_bar[i];
+    vector_end(count, start, 8 + 1, point + 8);
 }
 
-/* Adds to S_bar what some vectors of points add to it, those in the list. */
-OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *S_bar) {
-    vector sum[17] = {ZERO};
-    for (size_t b = 0; b < size; ++b) {
-        const vector *point = points + 9 * (size_t)near[b];
-        pair_backward(point, S, point + 4, point + 4 + 1, sum);
+/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *sums) {
+    vector sum[15] = {ZERO};
+    size_t b = 0;
+    for (; b + 1 < size; b += 2) {
+        const vector *point = points + 17 * (size_t)near[b], *other = points + 17 * (size_t)near[b + 1];
+        pair_backward(point, S, point + 8, point + 8 + 1, sum);
+        pair_backward(other, S, other + 8, other + 8 + 1, sum);
     }
-    S_bar[0] += vector_sum(sum[0]);
-    S_bar[1] += vector_sum(sum[1]);
-    S_bar[2] += vector_sum(sum[2]);
-    S_bar[3] += vector_sum(sum[3]);
-    S_bar[4] += vector_sum(sum[4]);
-    S_bar[5] += vector_sum(sum[5]);
-    S_bar[6] += vector_sum(sum[6]);
-    S_bar[7] += vector_sum(sum[7]);
-    S_bar[8] += vector_sum(sum[8]);
-    S_bar[9] += vector_sum(sum[9]);
-    S_bar[10] += vector_sum(sum[10]);
-    S_bar[11] += vector_sum(sum[11]);
-    S_bar[12] += vector_sum(sum[12]);
-    S_bar[13] += vector_sum(sum[13]);
-    S_bar[14] += vector_sum(sum[14]);
-    S_bar[15] += vector_sum(sum[15]);
-    S_bar[16] += vector_sum(sum[16]);
+    if (b < size) {
+        const vector *point = points + 17 * (size_t)near[b];
+        pair_backward(point, S, point + 8, point + 8 + 1, sum);
+    }
+    sums[0] += vector_sum(sum[0]);
+    sums[1] += vector_sum(sum[1]);
+    sums[2] += vector_sum(sum[2]);
+    sums[3] += vector_sum(sum[3]);
+    sums[4] += vector_sum(sum[4]);
+    sums[5] += vector_sum(sum[5]);
+    sums[6] += vector_sum(sum[6]);
+    sums[7] += vector_sum(sum[7]);
+    sums[8] += vector_sum(sum[8]);
+    sums[9] += vector_sum(sum[9]);
+    sums[10] += vector_sum(sum[10]);
+    sums[11] += vector_sum(sum[11]);
+    sums[12] += vector_sum(sum[12]);
+    sums[13] += vector_sum(sum[13]);
+    sums[14] += vector_sum(sum[14]);
 }
 
 /*
@@ -887,12 +970,12 @@ void so3_splats_vjp(
     size_t count, size_t splat_count, const double *SO3_RESTRICT x, const double *SO3_RESTRICT mu, const double *SO3_RESTRICT W, const double *SO3_RESTRICT amplitude, const double *SO3_RESTRICT width, const double *SO3_RESTRICT value_bar, const double *SO3_RESTRICT gradient_bar,
     double *SO3_RESTRICT mu_bar, double *SO3_RESTRICT W_bar, double *SO3_RESTRICT amplitude_bar, double *SO3_RESTRICT work, int threads) {
     const size_t blocks = (count + LANES - 1) / LANES;
-    const size_t chunk = 131072 / (9 * sizeof(vector)) + 1;
+    const size_t chunk = 131072 / (17 * sizeof(vector)) + 1;
     const size_t rows = ((blocks + 2 - 1) / 2 + LANES - 1) / LANES * LANES;
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES ? part : LANES;
     vector *points = work_points(work);
-    vector *splats = work_splats(work, count), *places = work_blocks(work, count, splat_count);
+    vector *splats = work_reaches(work, count), *places = work_blocks(work, count, splat_count);
     double *constants = work_constants(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -914,26 +997,26 @@ void so3_splats_vjp(
         }
         OMP(omp for schedule(dynamic, 8))
         for (size_t block = 0; block < blocks; ++block)
-            splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 9 * block);
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 17 * block);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
-            double sums[LANES][17] = {{0}};
-            uint32_t near[131072 / (9 * sizeof(vector)) + 2];
-            vector own_mu[4], own_W[9], own_amplitude[1], S_bar[17], bars[14];
+            double sums[LANES][15] = {{0}};
+            uint32_t near[131072 / (17 * sizeof(vector)) + 2];
+            vector own_mu[4], own_W[9], own_amplitude[1], own_sums[15], bars[14];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
                     const double *reach = width ? splat_at(splats, k) + 4 * LANES : NULL;
                     const size_t some = blocks_near(mu + 4 * k, reach, places, first, first + size, near);
-                    splat_sums(points + 9 * first, near, some, constants + 17 * k, sums[k - start]);
+                    splat_sums(points + 17 * first, near, some, constants + 17 * k, sums[k - start]);
                 }
             }
             vector_rows(mu, end, start, 4, own_mu);
             vector_rows(W, end, start, 9, own_W);
             vector_rows(amplitude, end, start, 1, own_amplitude);
-            vector_rows(sums[0], LANES, 0, 17, S_bar);
-            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 4, bars + 4 + 9);
+            vector_rows(sums[0], LANES, 0, 15, own_sums);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 4, bars + 4 + 9);
             vector_to_rows(bars, mu_bar, end, start, 4, 4);
             vector_to_rows(bars + 4, W_bar, end, start, 9, 9);
             vector_to_rows(bars + 4 + 9, amplitude_bar, end, start, 1, 1);
@@ -957,15 +1040,15 @@ void so3_splats_rows(
             splat_constants(splat_count, start, mu, W, amplitude, NULL, constants, NULL);
         OMP(omp for schedule(dynamic))
         for (size_t block = 0; block < blocks; ++block) {
-            vector point[9];
+            vector point[17];
             splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector own_mu[4], own_W[9], own_amplitude[1], S_bar[17] = {ZERO}, bars[14];
+                vector own_mu[4], own_W[9], own_amplitude[1], own_sums[15] = {ZERO}, bars[14];
                 for (int i = 0; i < 4; ++i) own_mu[i] = vector_of(mu[4 * k + i]);
                 for (int i = 0; i < 9; ++i) own_W[i] = vector_of(W[9 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 17 * k, point + 4, point + 4 + 1, S_bar);
-                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 4, bars + 4 + 9);
+                pair_backward(point, constants + 17 * k, point + 8, point + 8 + 1, own_sums);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 4, bars + 4 + 9);
                 vector_to_rows(bars, rows + 14 * k, count, block * LANES, 14, 14 * splat_count);
             }
         }
@@ -1039,7 +1122,7 @@ double so3_splats_order(
     size_t count, size_t splat_count, const double *SO3_RESTRICT x, const double *SO3_RESTRICT mu, const double *SO3_RESTRICT amplitude, const double *SO3_RESTRICT width,
     double limit, size_t *SO3_RESTRICT order, double *SO3_RESTRICT work) {
     const size_t block = 2 * LANES;
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     uint32_t near[256];
     double share = 0;
     for (size_t n = 0; n < count; ++n) order[n] = n;
@@ -1070,6 +1153,10 @@ double so3_splats_order(
     }
     return share;
 }
+
+#endif /* double */
+
+#if !defined(RSRM_ONLY_DOUBLE) /* float */
 
 /* The same number in all lanes. */
 INLINE vector_f vector_of_f(float x) {
@@ -1112,24 +1199,24 @@ INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
 }
 
 /* x >= 0 with the sign of another. */
-INLINE vector_f vector_signed_f(vector_f x, vector_f sign) {
+INLINE vector_f signed_each_f(vector_f x, vector_f sign) {
     return vector_from_bits_f(vector_to_bits_f(x) | (vector_to_bits_f(sign) & 0x80000000));
 }
 
 /* abs of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_abs_f(vector_f x) {
+INLINE vector_f abs_each_f(vector_f x) {
     for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
     return x;
 }
 
 /* sqrt of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_sqrt_f(vector_f x) {
+INLINE vector_f sqrt_each_f(vector_f x) {
     for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
     return x;
 }
 
 /* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
-INLINE vector_f vector_exp_f(vector_f x) {
+INLINE vector_f exp_each_f(vector_f x) {
     const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
     const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
     const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
@@ -1139,8 +1226,8 @@ INLINE vector_f vector_exp_f(vector_f x) {
 }
 
 /* atan2, within 3 units in the last place. */
-INLINE vector_f vector_atan2_f(vector_f y, vector_f x) {
-    const vector_f a = vector_abs_f(y), b = vector_abs_f(x), one = vector_of_f(1);
+INLINE vector_f atan2_each_f(vector_f y, vector_f x) {
+    const vector_f a = abs_each_f(y), b = abs_each_f(x), one = vector_of_f(1);
     const vector_f less = vector_select_f(a > b, b, a), more = vector_select_f(a > b, a, b);
     const vector_f low = vector_select_f(less > 3.4028234663852886e38f, one, less);
     const vector_f high = vector_select_f(less > 3.4028234663852886e38f, one, vector_select_f(more == 0, one, more));
@@ -1151,7 +1238,7 @@ INLINE vector_f vector_atan2_f(vector_f y, vector_f x) {
     const vector_f first = vector_select_f(low > 0.4142135623730951f * high, 0.7853981852531433f + (angle + -2.1855695000931213e-08f), angle);
     const vector_f second = vector_select_f(a > b, 1.5707963705062866f - (first - -4.3711390001862426e-08f), first);
     const vector_f third = vector_select_f((vector_to_bits_f(x) & 0x80000000) != 0, 3.1415927410125732f - (second - -8.742278000372485e-08f), second);
-    return vector_signed_f(third, y);
+    return signed_each_f(third, y);
 }
 
 /* Of degree 11, within 2^-29 of that of double precision. */
@@ -1184,10 +1271,14 @@ OUTLINE void pair_features_f(
     const vector_f h1 = 0.5f * x1;
     const vector_f h2 = 0.5f * x2;
     const vector_f h3 = 0.5f * x3;
-    X[0] = h0;
-    X[1] = h1;
-    X[2] = h2;
-    X[3] = h3;
+    X[0] = x0;
+    X[1] = x1;
+    X[2] = x2;
+    X[3] = x3;
+    X[4] = h0;
+    X[5] = h1;
+    X[6] = h2;
+    X[7] = h3;
 }
 
 /* What pairs read of a splat, of some splats. */
@@ -1207,11 +1298,11 @@ OUTLINE void pair_constants_f(
     const vector_f W2_1 = W[7];
     const vector_f W2_2 = W[8];
     const vector_f its_amplitude = amplitude[0];
-    const vector_f M0 = 2.0f * mu0;
-    const vector_f M1 = 2.0f * mu1;
-    const vector_f M2 = 2.0f * mu2;
     const vector_f M3 = 2.0f * mu3;
+    const vector_f M2 = 2.0f * mu2;
+    const vector_f M1 = 2.0f * mu1;
     const vector_f R0_0 = 1.4142135623730951f * (-(W0_2 * M3) - W0_1 * M2 - W0_0 * M1);
+    const vector_f M0 = 2.0f * mu0;
     const vector_f R0_1 = 1.4142135623730951f * (W0_2 * M2 - W0_1 * M3 + W0_0 * M0);
     const vector_f R0_2 = 1.4142135623730951f * (W0_1 * M0 - W0_2 * M1 + W0_0 * M3);
     const vector_f R0_3 = 1.4142135623730951f * (W0_2 * M0 + W0_1 * M1 - W0_0 * M2);
@@ -1223,11 +1314,11 @@ OUTLINE void pair_constants_f(
     const vector_f R2_1 = 1.4142135623730951f * (W2_2 * M2 - W2_1 * M3 + W2_0 * M0);
     const vector_f R2_2 = 1.4142135623730951f * (W2_1 * M0 - W2_2 * M1 + W2_0 * M3);
     const vector_f R2_3 = 1.4142135623730951f * (W2_2 * M0 + W2_1 * M1 - W2_0 * M2);
-    S[0] = its_amplitude;
-    S[1] = M0;
-    S[2] = M1;
-    S[3] = M2;
-    S[4] = M3;
+    S[0] = mu0;
+    S[1] = mu1;
+    S[2] = mu2;
+    S[3] = mu3;
+    S[4] = its_amplitude;
     S[5] = R0_0;
     S[6] = R0_1;
     S[7] = R0_2;
@@ -1253,15 +1344,19 @@ OUTLINE void pair_constants_f(
  */
 INLINE void pair_value_f(
     const vector_f *X, const float *S, vector_f *value) {
-    const vector_f h0 = X[0];
-    const vector_f h1 = X[1];
-    const vector_f h2 = X[2];
-    const vector_f h3 = X[3];
-    const float amplitude = S[0];
-    const float M0 = S[1];
-    const float M1 = S[2];
-    const float M2 = S[3];
-    const float M3 = S[4];
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const vector_f x2 = X[2];
+    const vector_f x3 = X[3];
+    const vector_f h0 = X[4];
+    const vector_f h1 = X[5];
+    const vector_f h2 = X[6];
+    const vector_f h3 = X[7];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float mu2 = S[2];
+    const float mu3 = S[3];
+    const float amplitude = S[4];
     const float R0_0 = S[5];
     const float R0_1 = S[6];
     const float R0_2 = S[7];
@@ -1274,16 +1369,18 @@ INLINE void pair_value_f(
     const float R2_1 = S[14];
     const float R2_2 = S[15];
     const float R2_3 = S[16];
-    const vector_f w = vector_abs_f(h0 * M0 + h1 * M1 + h2 * M2 + h3 * M3);
-    const vector_f eta = vector_polynomial_eta_f(1.0f - w);
-    const vector_f a = 1.0f / (w - eta * (1.0f - w * w));
+    const vector_f g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
+    const vector_f abs_g0 = abs_each_f(g0);
+    const vector_f eta = vector_polynomial_eta_f(1.0f - abs_g0);
+    const vector_f a = 1.0f / (abs_g0 - eta * (1.0f - abs_g0 * abs_g0));
     const vector_f a_squared = a * a;
     const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3;
     const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3;
     const vector_f r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3;
     const vector_f half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
-    const vector_f gaussian = vector_exp_f(-half_square);
-    value[0] = value[0] + amplitude * (a * (a * gaussian));
+    const vector_f gaussian = exp_each_f(-half_square);
+    const vector_f phi = a * (a * gaussian);
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -1297,15 +1394,19 @@ INLINE void pair_value_f(
  */
 INLINE void pair_forward_f(
     const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
-    const vector_f h0 = X[0];
-    const vector_f h1 = X[1];
-    const vector_f h2 = X[2];
-    const vector_f h3 = X[3];
-    const float amplitude = S[0];
-    const float M0 = S[1];
-    const float M1 = S[2];
-    const float M2 = S[3];
-    const float M3 = S[4];
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const vector_f x2 = X[2];
+    const vector_f x3 = X[3];
+    const vector_f h0 = X[4];
+    const vector_f h1 = X[5];
+    const vector_f h2 = X[6];
+    const vector_f h3 = X[7];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float mu2 = S[2];
+    const float mu3 = S[3];
+    const float amplitude = S[4];
     const float R0_0 = S[5];
     const float R0_1 = S[6];
     const float R0_2 = S[7];
@@ -1318,28 +1419,30 @@ INLINE void pair_forward_f(
     const float R2_1 = S[14];
     const float R2_2 = S[15];
     const float R2_3 = S[16];
-    const vector_f total_2 = h0 * M0 + h1 * M1 + h2 * M2 + h3 * M3;
-    const vector_f w = vector_abs_f(total_2);
-    const vector_f eta = vector_polynomial_eta_f(1.0f - w);
-    const vector_f a = 1.0f / (w - eta * (1.0f - w * w));
+    const vector_f g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
+    const vector_f abs_g0 = abs_each_f(g0);
+    const vector_f eta = vector_polynomial_eta_f(1.0f - abs_g0);
+    const vector_f a = 1.0f / (abs_g0 - eta * (1.0f - abs_g0 * abs_g0));
     const vector_f a_squared = a * a;
     const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3;
     const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3;
     const vector_f r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3;
     const vector_f half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
-    const vector_f gaussian = vector_exp_f(-half_square);
-    const vector_f phi = amplitude * (a * (a * gaussian));
-    const vector_f product = 2.0f * (phi * a_squared);
-    const vector_f r2_product = r2 * product;
-    const vector_f r1_product = r1 * product;
-    const vector_f r0_product = r0 * product;
-    const vector_f by_w = eta * (2.0f * phi - phi * (2.0f * half_square));
-    const vector_f by_w_chosen = vector_select_f(total_2 < 0.0f, -by_w, by_w);
-    value[0] = value[0] + phi;
-    slope[0] = slope[0] - R2_0 * r2_product - R1_0 * r1_product - R0_0 * r0_product + M0 * by_w_chosen;
-    slope[1] = slope[1] - R2_1 * r2_product - R1_1 * r1_product - R0_1 * r0_product + M1 * by_w_chosen;
-    slope[2] = slope[2] - R2_2 * r2_product - R1_2 * r1_product - R0_2 * r0_product + M2 * by_w_chosen;
-    slope[3] = slope[3] - R2_3 * r2_product - R1_3 * r1_product - R0_3 * r0_product + M3 * by_w_chosen;
+    const vector_f gaussian = exp_each_f(-half_square);
+    const vector_f phi = a * (a * gaussian);
+    const vector_f phi_2 = amplitude * phi;
+    const vector_f by_abs_g0 = eta * (2.0f * phi_2 - phi_2 * (2.0f * half_square));
+    const vector_f by_g0 = vector_select_f(g0 < 0.0f, -by_abs_g0, by_abs_g0);
+    const vector_f phi_product = phi_2 * a_squared;
+    value[0] = value[0] + phi_2;
+    slope[0] = slope[0] + mu0 * by_g0;
+    slope[1] = slope[1] + mu1 * by_g0;
+    slope[2] = slope[2] + mu2 * by_g0;
+    slope[3] = slope[3] + mu3 * by_g0;
+    slope[4] = slope[4] - (2.0f * (R0_0 * r0 + R1_0 * r1 + R2_0 * r2)) * phi_product;
+    slope[5] = slope[5] - (2.0f * (R0_1 * r0 + R1_1 * r1 + R2_1 * r2)) * phi_product;
+    slope[6] = slope[6] - (2.0f * (R0_2 * r0 + R1_2 * r1 + R2_2 * r2)) * phi_product;
+    slope[7] = slope[7] - (2.0f * (R0_3 * r0 + R1_3 * r1 + R2_3 * r2)) * phi_product;
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -1349,14 +1452,18 @@ OUTLINE void pair_gradient_f(
     const vector_f x1 = x[1];
     const vector_f x2 = x[2];
     const vector_f x3 = x[3];
-    const vector_f slope_h0 = slope[0];
-    const vector_f slope_h1 = slope[1];
-    const vector_f slope_h2 = slope[2];
-    const vector_f slope_h3 = slope[3];
-    const vector_f product = 0.25f * slope_h1;
-    const vector_f product_2 = 0.25f * slope_h2;
-    const vector_f product_3 = 0.25f * slope_h0;
-    const vector_f product_4 = 0.25f * slope_h3;
+    const vector_f slope_x0 = slope[0];
+    const vector_f slope_x1 = slope[1];
+    const vector_f slope_x2 = slope[2];
+    const vector_f slope_x3 = slope[3];
+    const vector_f slope_h0 = slope[4];
+    const vector_f slope_h1 = slope[5];
+    const vector_f slope_h2 = slope[6];
+    const vector_f slope_h3 = slope[7];
+    const vector_f product = 0.5f * (slope_x1 + 0.5f * slope_h1);
+    const vector_f product_2 = 0.5f * (slope_x2 + 0.5f * slope_h2);
+    const vector_f product_3 = 0.5f * (slope_x0 + 0.5f * slope_h0);
+    const vector_f product_4 = 0.5f * (slope_x3 + 0.5f * slope_h3);
     gradient[0] = x0 * product + x3 * product_2 - x1 * product_3 - x2 * product_4;
     gradient[1] = x0 * product_2 + x1 * product_4 - x2 * product_3 - x3 * product;
     gradient[2] = x2 * product + x0 * product_4 - x3 * product_3 - x1 * product_2;
@@ -1372,17 +1479,23 @@ OUTLINE void pair_gradient_vjp_f(
     const vector_f gradient_bar0 = gradient_bar[0];
     const vector_f gradient_bar1 = gradient_bar[1];
     const vector_f gradient_bar2 = gradient_bar[2];
-    const vector_f product = 0.25f * (-(x3 * gradient_bar2) - x2 * gradient_bar1 - x1 * gradient_bar0);
-    slope_bar[0] = product;
-    slope_bar[1] = 0.25f * (x2 * gradient_bar2 - x3 * gradient_bar1 + x0 * gradient_bar0);
-    slope_bar[2] = 0.25f * (x0 * gradient_bar1 - x1 * gradient_bar2 + x3 * gradient_bar0);
-    slope_bar[3] = 0.25f * (x0 * gradient_bar2 + x1 * gradient_bar1 - x2 * gradient_bar0);
+    const vector_f gap = -(x3 * gradient_bar2) - x2 * gradient_bar1 - x1 * gradient_bar0;
+    const vector_f total_2 = x2 * gradient_bar2 - x3 * gradient_bar1 + x0 * gradient_bar0;
+    const vector_f total_3 = x0 * gradient_bar1 - x1 * gradient_bar2 + x3 * gradient_bar0;
+    const vector_f gap_2 = x0 * gradient_bar2 + x1 * gradient_bar1 - x2 * gradient_bar0;
+    slope_bar[0] = 0.5f * gap;
+    slope_bar[1] = 0.5f * total_2;
+    slope_bar[2] = 0.5f * total_3;
+    slope_bar[3] = 0.5f * gap_2;
+    slope_bar[4] = 0.25f * gap;
+    slope_bar[5] = 0.25f * total_2;
+    slope_bar[6] = 0.25f * total_3;
+    slope_bar[7] = 0.25f * gap_2;
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp_f(
-    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
-    (void)amplitude;
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *sums, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
     const vector_f mu0 = mu[0];
     const vector_f mu1 = mu[1];
     const vector_f mu2 = mu[2];
@@ -1396,70 +1509,117 @@ OUTLINE void pair_constants_vjp_f(
     const vector_f W2_0 = W[6];
     const vector_f W2_1 = W[7];
     const vector_f W2_2 = W[8];
-    const vector_f its_amplitude_bar = S_bar[0];
-    const vector_f M0_bar = S_bar[1];
-    const vector_f M1_bar = S_bar[2];
-    const vector_f M2_bar = S_bar[3];
-    const vector_f M3_bar = S_bar[4];
-    const vector_f R0_0_bar = S_bar[5];
-    const vector_f R0_1_bar = S_bar[6];
-    const vector_f R0_2_bar = S_bar[7];
-    const vector_f R0_3_bar = S_bar[8];
-    const vector_f R1_0_bar = S_bar[9];
-    const vector_f R1_1_bar = S_bar[10];
-    const vector_f R1_2_bar = S_bar[11];
-    const vector_f R1_3_bar = S_bar[12];
-    const vector_f R2_0_bar = S_bar[13];
-    const vector_f R2_1_bar = S_bar[14];
-    const vector_f R2_2_bar = S_bar[15];
-    const vector_f R2_3_bar = S_bar[16];
-    const vector_f product = 1.4142135623730951f * R0_1_bar;
-    const vector_f product_2 = 1.4142135623730951f * R0_2_bar;
-    const vector_f product_3 = 1.4142135623730951f * R0_3_bar;
-    const vector_f product_4 = 1.4142135623730951f * R1_1_bar;
-    const vector_f total_2 = M0_bar + W0_0 * product + W0_1 * product_2 + W0_2 * product_3 + W1_0 * product_4;
-    const vector_f product_5 = 1.4142135623730951f * R1_2_bar;
-    const vector_f product_6 = 1.4142135623730951f * R1_3_bar;
-    const vector_f product_7 = 1.4142135623730951f * R2_1_bar;
-    const vector_f product_8 = 1.4142135623730951f * R2_2_bar;
-    const vector_f total_3 = total_2 + W1_1 * product_5 + W1_2 * product_6 + W2_0 * product_7 + W2_1 *
-        product_8;
-    const vector_f product_9 = 1.4142135623730951f * R2_3_bar;
-    const vector_f by_M0 = total_3 + W2_2 * product_9;
-    const vector_f product_10 = 1.4142135623730951f * R0_0_bar;
-    const vector_f product_11 = 1.4142135623730951f * R1_0_bar;
-    const vector_f gap = M1_bar - W0_0 * product_10 - W0_2 * product_2 + W0_1 * product_3 - W1_0 * product_11;
-    const vector_f product_12 = 1.4142135623730951f * R2_0_bar;
-    const vector_f gap_2 = gap - W1_2 * product_5 + W1_1 * product_6 - W2_0 * product_12 - W2_2 * product_8;
-    const vector_f by_M1 = gap_2 + W2_1 * product_9;
-    const vector_f gap_3 = M2_bar - W0_1 * product_10 + W0_2 * product - W0_0 * product_3 - W1_1 * product_11;
-    const vector_f total_4 = gap_3 + W1_2 * product_4 - W1_0 * product_6 - W2_1 * product_12 + W2_2 *
-        product_7;
-    const vector_f by_M2 = total_4 - W2_0 * product_9;
-    const vector_f gap_4 = M3_bar - W0_2 * product_10 - W0_1 * product + W0_0 * product_2 - W1_2 * product_11;
-    const vector_f gap_5 = gap_4 - W1_1 * product_4 + W1_0 * product_5 - W2_2 * product_12 - W2_1 * product_7;
-    const vector_f by_M3 = gap_5 + W2_0 * product_8;
-    const vector_f M0 = 2.0f * mu0;
-    const vector_f M1 = 2.0f * mu1;
+    const vector_f its_amplitude = amplitude[0];
+    const vector_f sum0 = sums[0];
+    const vector_f sum1 = sums[1];
+    const vector_f sum2 = sums[2];
+    const vector_f sum3 = sums[3];
+    const vector_f sum4 = sums[4];
+    const vector_f sum5 = sums[5];
+    const vector_f sum6 = sums[6];
+    const vector_f sum7 = sums[7];
+    const vector_f sum8 = sums[8];
+    const vector_f sum9 = sums[9];
+    const vector_f sum10 = sums[10];
+    const vector_f sum11 = sums[11];
+    const vector_f sum12 = sums[12];
+    const vector_f sum13 = sums[13];
+    const vector_f sum14 = sums[14];
     const vector_f M3 = 2.0f * mu3;
     const vector_f M2 = 2.0f * mu2;
-    const vector_f total_5 = -(M2 * product_10) - M3 * product + M0 * product_2 + M1 * product_3;
-    const vector_f total_6 = -(M2 * product_11) - M3 * product_4 + M0 * product_5 + M1 * product_6;
-    const vector_f total_7 = -(M2 * product_12) - M3 * product_7 + M0 * product_8 + M1 * product_9;
-    mu_bar[0] = 2.0f * by_M0;
-    mu_bar[1] = 2.0f * by_M1;
-    mu_bar[2] = 2.0f * by_M2;
-    mu_bar[3] = 2.0f * by_M3;
-    W_bar[0] = M0 * product - M1 * product_10 + M3 * product_2 - M2 * product_3;
-    W_bar[1] = total_5;
-    W_bar[2] = M2 * product - M3 * product_10 - M1 * product_2 + M0 * product_3;
-    W_bar[3] = M0 * product_4 - M1 * product_11 + M3 * product_5 - M2 * product_6;
-    W_bar[4] = total_6;
-    W_bar[5] = M2 * product_4 - M3 * product_11 - M1 * product_5 + M0 * product_6;
-    W_bar[6] = M0 * product_7 - M1 * product_12 + M3 * product_8 - M2 * product_9;
-    W_bar[7] = total_7;
-    W_bar[8] = M2 * product_7 - M3 * product_12 - M1 * product_8 + M0 * product_9;
-    amplitude_bar[0] = its_amplitude_bar;
+    const vector_f M1 = 2.0f * mu1;
+    const vector_f R2_0 = 1.4142135623730951f * (-(W2_2 * M3) - W2_1 * M2 - W2_0 * M1);
+    const vector_f M0 = 2.0f * mu0;
+    const vector_f R2_1 = 1.4142135623730951f * (W2_2 * M2 - W2_1 * M3 + W2_0 * M0);
+    const vector_f product = 2.0f * sum9;
+    const vector_f R2_2 = 1.4142135623730951f * (W2_1 * M0 - W2_2 * M1 + W2_0 * M3);
+    const vector_f R2_3 = 1.4142135623730951f * (W2_2 * M0 + W2_1 * M1 - W2_0 * M2);
+    const vector_f by_R2_1 = R2_0 * sum6 + R2_1 * product + R2_2 * sum10 + R2_3 * sum11;
+    const vector_f by_R2_1_product = 1.4142135623730951f * by_R2_1;
+    const vector_f R1_0 = 1.4142135623730951f * (-(W1_2 * M3) - W1_1 * M2 - W1_0 * M1);
+    const vector_f R1_1 = 1.4142135623730951f * (W1_2 * M2 - W1_1 * M3 + W1_0 * M0);
+    const vector_f R1_2 = 1.4142135623730951f * (W1_1 * M0 - W1_2 * M1 + W1_0 * M3);
+    const vector_f R1_3 = 1.4142135623730951f * (W1_2 * M0 + W1_1 * M1 - W1_0 * M2);
+    const vector_f by_R1_1 = R1_0 * sum6 + R1_1 * product + R1_2 * sum10 + R1_3 * sum11;
+    const vector_f by_R1_1_product = 1.4142135623730951f * by_R1_1;
+    const vector_f R0_0 = 1.4142135623730951f * (-(W0_2 * M3) - W0_1 * M2 - W0_0 * M1);
+    const vector_f R0_1 = 1.4142135623730951f * (W0_2 * M2 - W0_1 * M3 + W0_0 * M0);
+    const vector_f R0_2 = 1.4142135623730951f * (W0_1 * M0 - W0_2 * M1 + W0_0 * M3);
+    const vector_f R0_3 = 1.4142135623730951f * (W0_2 * M0 + W0_1 * M1 - W0_0 * M2);
+    const vector_f by_R0_1 = R0_0 * sum6 + R0_1 * product + R0_2 * sum10 + R0_3 * sum11;
+    const vector_f by_R0_1_product = 1.4142135623730951f * by_R0_1;
+    const vector_f product_2 = 2.0f * sum12;
+    const vector_f by_R2_2 = R2_0 * sum7 + R2_1 * sum10 + R2_2 * product_2 + R2_3 * sum13;
+    const vector_f by_R2_2_product = 1.4142135623730951f * by_R2_2;
+    const vector_f by_R1_2 = R1_0 * sum7 + R1_1 * sum10 + R1_2 * product_2 + R1_3 * sum13;
+    const vector_f by_R1_2_product = 1.4142135623730951f * by_R1_2;
+    const vector_f total_2 = W2_0 * by_R2_1_product + W1_0 * by_R1_1_product + W0_0 * by_R0_1_product + W2_1 *
+        by_R2_2_product + W1_1 * by_R1_2_product;
+    const vector_f by_R0_2 = R0_0 * sum7 + R0_1 * sum10 + R0_2 * product_2 + R0_3 * sum13;
+    const vector_f by_R0_2_product = 1.4142135623730951f * by_R0_2;
+    const vector_f product_3 = 2.0f * sum14;
+    const vector_f by_R2_3 = R2_0 * sum8 + R2_1 * sum11 + R2_2 * sum13 + R2_3 * product_3;
+    const vector_f by_R2_3_product = 1.4142135623730951f * by_R2_3;
+    const vector_f by_R1_3 = R1_0 * sum8 + R1_1 * sum11 + R1_2 * sum13 + R1_3 * product_3;
+    const vector_f by_R1_3_product = 1.4142135623730951f * by_R1_3;
+    const vector_f by_R0_3 = R0_0 * sum8 + R0_1 * sum11 + R0_2 * sum13 + R0_3 * product_3;
+    const vector_f by_R0_3_product = 1.4142135623730951f * by_R0_3;
+    const vector_f by_M0 = total_2 + W0_1 * by_R0_2_product + W2_2 * by_R2_3_product + W1_2 * by_R1_3_product
+        + W0_2 * by_R0_3_product;
+    const vector_f product_4 = 2.0f * sum5;
+    const vector_f by_R2_0 = R2_0 * product_4 + R2_1 * sum6 + R2_2 * sum7 + R2_3 * sum8;
+    const vector_f by_R2_0_product = 1.4142135623730951f * by_R2_0;
+    const vector_f by_R1_0 = R1_0 * product_4 + R1_1 * sum6 + R1_2 * sum7 + R1_3 * sum8;
+    const vector_f by_R1_0_product = 1.4142135623730951f * by_R1_0;
+    const vector_f by_R0_0 = R0_0 * product_4 + R0_1 * sum6 + R0_2 * sum7 + R0_3 * sum8;
+    const vector_f by_R0_0_product = 1.4142135623730951f * by_R0_0;
+    const vector_f gap = -(W2_0 * by_R2_0_product) - W1_0 * by_R1_0_product - W0_0 * by_R0_0_product - W2_2 *
+        by_R2_2_product;
+    const vector_f total_3 = gap - W1_2 * by_R1_2_product - W0_2 * by_R0_2_product + W2_1 * by_R2_3_product +
+        W1_1 * by_R1_3_product;
+    const vector_f by_M1 = total_3 + W0_1 * by_R0_3_product;
+    const vector_f total_4 = -(W2_1 * by_R2_0_product) - W1_1 * by_R1_0_product - W0_1 * by_R0_0_product +
+        W2_2 * by_R2_1_product;
+    const vector_f gap_2 = total_4 + W1_2 * by_R1_1_product + W0_2 * by_R0_1_product - W2_0 * by_R2_3_product
+        - W1_0 * by_R1_3_product;
+    const vector_f by_M2 = gap_2 - W0_0 * by_R0_3_product;
+    const vector_f gap_3 = -(W2_2 * by_R2_0_product) - W1_2 * by_R1_0_product - W0_2 * by_R0_0_product - W2_1
+        * by_R2_1_product;
+    const vector_f total_5 = gap_3 - W1_1 * by_R1_1_product - W0_1 * by_R0_1_product + W2_0 * by_R2_2_product
+        + W1_0 * by_R1_2_product;
+    const vector_f by_M3 = total_5 + W0_0 * by_R0_2_product;
+    const vector_f product_5 = its_amplitude * (M0 * by_R0_1_product - M1 * by_R0_0_product + M3 *
+        by_R0_2_product - M2 * by_R0_3_product);
+    const vector_f total_6 = -(M2 * by_R0_0_product) - M3 * by_R0_1_product + M0 * by_R0_2_product + M1 *
+        by_R0_3_product;
+    const vector_f product_6 = its_amplitude * (M2 * by_R0_1_product - M3 * by_R0_0_product - M1 *
+        by_R0_2_product + M0 * by_R0_3_product);
+    const vector_f product_7 = its_amplitude * (M0 * by_R1_1_product - M1 * by_R1_0_product + M3 *
+        by_R1_2_product - M2 * by_R1_3_product);
+    const vector_f total_7 = -(M2 * by_R1_0_product) - M3 * by_R1_1_product + M0 * by_R1_2_product + M1 *
+        by_R1_3_product;
+    const vector_f product_8 = its_amplitude * (M2 * by_R1_1_product - M3 * by_R1_0_product - M1 *
+        by_R1_2_product + M0 * by_R1_3_product);
+    const vector_f product_9 = its_amplitude * (M0 * by_R2_1_product - M1 * by_R2_0_product + M3 *
+        by_R2_2_product - M2 * by_R2_3_product);
+    const vector_f total_8 = -(M2 * by_R2_0_product) - M3 * by_R2_1_product + M0 * by_R2_2_product + M1 *
+        by_R2_3_product;
+    const vector_f product_10 = its_amplitude * (M2 * by_R2_1_product - M3 * by_R2_0_product - M1 *
+        by_R2_2_product + M0 * by_R2_3_product);
+    mu_bar[0] = its_amplitude * (sum0 + 2.0f * by_M0);
+    mu_bar[1] = its_amplitude * (sum1 + 2.0f * by_M1);
+    mu_bar[2] = its_amplitude * (sum2 + 2.0f * by_M2);
+    mu_bar[3] = its_amplitude * (sum3 + 2.0f * by_M3);
+    W_bar[0] = product_5;
+    W_bar[1] = its_amplitude * total_6;
+    W_bar[2] = product_6;
+    W_bar[3] = product_7;
+    W_bar[4] = its_amplitude * total_7;
+    W_bar[5] = product_8;
+    W_bar[6] = product_9;
+    W_bar[7] = its_amplitude * total_8;
+    W_bar[8] = product_10;
+    amplitude_bar[0] = sum4;
 }
 
 /* The distances of some points q from one point p. */
@@ -1478,15 +1638,15 @@ OUTLINE void pair_distances_f(
     const vector_f g2 = p0 * q2 + p1 * q3 - p2 * q0 - p3 * q1;
     const vector_f g3 = p0 * q3 + p2 * q1 - p1 * q2 - p3 * q0;
     const vector_f norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
-    const vector_f norm_s = vector_sqrt_f(norm_s_squared);
-    const vector_f abs_g0 = vector_abs_f(g0);
-    const vector_f atan2_norm_s_abs_g0 = vector_atan2_f(norm_s, abs_g0);
+    const vector_f norm_s = sqrt_each_f(norm_s_squared);
+    const vector_f abs_g0 = abs_each_f(g0);
+    const vector_f atan2_norm_s_abs_g0 = atan2_each_f(norm_s, abs_g0);
     const vector_f t = 2.0f * atan2_norm_s_abs_g0;
     distance[0] = t;
 }
 
 /*
- * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
  * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
@@ -1495,16 +1655,19 @@ OUTLINE void pair_distances_f(
  * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
  */
 INLINE void pair_backward_f(
-    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
-    const vector_f h0 = X[0];
-    const vector_f h1 = X[1];
-    const vector_f h2 = X[2];
-    const vector_f h3 = X[3];
-    const float amplitude = S[0];
-    const float M0 = S[1];
-    const float M1 = S[2];
-    const float M2 = S[3];
-    const float M3 = S[4];
+    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
+    const vector_f x0 = X[0];
+    const vector_f x1 = X[1];
+    const vector_f x2 = X[2];
+    const vector_f x3 = X[3];
+    const vector_f h0 = X[4];
+    const vector_f h1 = X[5];
+    const vector_f h2 = X[6];
+    const vector_f h3 = X[7];
+    const float mu0 = S[0];
+    const float mu1 = S[1];
+    const float mu2 = S[2];
+    const float mu3 = S[3];
     const float R0_0 = S[5];
     const float R0_1 = S[6];
     const float R0_2 = S[7];
@@ -1518,70 +1681,70 @@ INLINE void pair_backward_f(
     const float R2_2 = S[15];
     const float R2_3 = S[16];
     const vector_f its_value_bar = value_bar[0];
-    const vector_f h0_bar = slope_bar[0];
-    const vector_f h1_bar = slope_bar[1];
-    const vector_f h2_bar = slope_bar[2];
-    const vector_f h3_bar = slope_bar[3];
-    const vector_f total_2 = h0 * M0 + h1 * M1 + h2 * M2 + h3 * M3;
-    const vector_f w = vector_abs_f(total_2);
-    const vector_f w_gap = 1.0f - w;
-    const vector_f eta = vector_polynomial_eta_f(w_gap);
-    const vector_f a = 1.0f / (w - eta * (1.0f - w * w));
+    const vector_f x0_bar = slope_bar[0];
+    const vector_f x1_bar = slope_bar[1];
+    const vector_f x2_bar = slope_bar[2];
+    const vector_f x3_bar = slope_bar[3];
+    const vector_f h0_bar = slope_bar[4];
+    const vector_f h1_bar = slope_bar[5];
+    const vector_f h2_bar = slope_bar[6];
+    const vector_f h3_bar = slope_bar[7];
+    const vector_f g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
+    const vector_mask_f is_small = g0 < 0.0f;
+    const vector_f abs_g0 = abs_each_f(g0);
+    const vector_f abs_g0_gap = 1.0f - abs_g0;
+    const vector_f eta = vector_polynomial_eta_f(abs_g0_gap);
+    const vector_f a = 1.0f / (abs_g0 - eta * (1.0f - abs_g0 * abs_g0));
     const vector_f a_squared = a * a;
     const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3;
     const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3;
     const vector_f r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3;
     const vector_f half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
-    const vector_f gaussian = vector_exp_f(-half_square);
-    const vector_f a_product = a * (a * gaussian);
-    const vector_f gap = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar - R0_3 * h3_bar;
-    const vector_f gap_2 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar - R1_3 * h3_bar;
-    const vector_f gap_3 = -(R2_0 * h0_bar) - R2_1 * h1_bar - R2_2 * h2_bar - R2_3 * h3_bar;
-    const vector_f product = 2.0f * (r0 * gap + r1 * gap_2 + r2 * gap_3);
+    const vector_f gaussian = exp_each_f(-half_square);
+    const vector_f phi = a * (a * gaussian);
     const vector_f half_square_product = 2.0f * half_square;
-    const vector_mask_f is_small = total_2 < 0.0f;
-    const vector_f total_3 = M0 * h0_bar + M1 * h1_bar + M2 * h2_bar + M3 * h3_bar;
-    const vector_f by_by_w = vector_select_f(is_small, vector_of_f(0.0f), total_3) - vector_select_f(is_small,
-        total_3, vector_of_f(0.0f));
-    const vector_f eta_product = eta * by_by_w;
-    const vector_f by_phi = its_value_bar + a_squared * product - half_square_product * eta_product + 2.0f *
+    const vector_f gap = 2.0f * phi - phi * half_square_product;
+    const vector_f by_abs_g0 = eta * gap;
+    const vector_f by_g0 = vector_select_f(is_small, -by_abs_g0, by_abs_g0);
+    const vector_f eta_slope = vector_polynomial_eta_slope_f(abs_g0_gap);
+    const vector_f by_by_g0 = mu0 * x0_bar + mu1 * x1_bar + mu2 * x2_bar + mu3 * x3_bar;
+    const vector_f by_by_abs_g0 = vector_select_f(is_small, vector_of_f(0.0f), by_by_g0) -
+        vector_select_f(is_small, by_by_g0, vector_of_f(0.0f));
+    const vector_f product = 2.0f * (R0_3 * r0 + R1_3 * r1 + R2_3 * r2) * h3_bar;
+    const vector_f product_2 = 2.0f * (R0_2 * r0 + R1_2 * r1 + R2_2 * r2) * h2_bar;
+    const vector_f product_3 = 2.0f * (R0_1 * r0 + R1_1 * r1 + R2_1 * r2) * h1_bar;
+    const vector_f product_4 = 2.0f * (R0_0 * r0 + R1_0 * r1 + R2_0 * r2) * h0_bar;
+    const vector_f gap_2 = -product - product_2 - product_3 - product_4;
+    const vector_f eta_product = eta * by_by_abs_g0;
+    const vector_f by_phi = its_value_bar + a_squared * gap_2 - half_square_product * eta_product + 2.0f *
         eta_product;
-    const vector_f phi = amplitude * a_product;
-    const vector_f gap_4 = 2.0f * phi - phi * half_square_product;
-    const vector_f by_w = eta * gap_4;
-    const vector_f by_w_chosen = vector_select_f(is_small, -by_w, by_w);
-    const vector_f eta_slope = vector_polynomial_eta_slope_f(w_gap);
-    const vector_f product_2 = a_product * (amplitude * by_phi);
-    const vector_f by_half_square = -2.0f * (phi * eta_product) - product_2;
-    const vector_f eta_product_2 = eta * (2.0f * a_squared * (phi * product) + 2.0f * product_2 +
+    const vector_f phi_product = phi * by_phi;
+    const vector_f by_half_square = -2.0f * (phi * eta_product) - phi_product;
+    const vector_f eta_product_2 = eta * (2.0f * a_squared * (phi * gap_2) + 2.0f * phi_product +
         half_square_product * by_half_square);
-    const vector_f by_w_2 = eta_slope * (gap_4 * by_by_w) + eta_product_2;
-    const vector_f by_w_chosen_2 = vector_select_f(is_small, -by_w_2, by_w_2);
-    const vector_f product_3 = 2.0f * (phi * a_squared);
-    const vector_f product_4 = 2.0f * (a_squared * by_half_square);
-    const vector_f by_r0 = product_3 * gap + r0 * product_4;
-    const vector_f r0_product = r0 * product_3;
-    const vector_f by_r1 = product_3 * gap_2 + r1 * product_4;
-    const vector_f r1_product = r1 * product_3;
-    const vector_f by_r2 = product_3 * gap_3 + r2 * product_4;
-    const vector_f r2_product = r2 * product_3;
-    S_bar[0] = S_bar[0] + a_product * by_phi;
-    S_bar[1] = S_bar[1] + by_w_chosen * h0_bar + h0 * by_w_chosen_2;
-    S_bar[2] = S_bar[2] + by_w_chosen * h1_bar + h1 * by_w_chosen_2;
-    S_bar[3] = S_bar[3] + by_w_chosen * h2_bar + h2 * by_w_chosen_2;
-    S_bar[4] = S_bar[4] + by_w_chosen * h3_bar + h3 * by_w_chosen_2;
-    S_bar[5] = S_bar[5] + h0 * by_r0 - r0_product * h0_bar;
-    S_bar[6] = S_bar[6] + h1 * by_r0 - r0_product * h1_bar;
-    S_bar[7] = S_bar[7] + h2 * by_r0 - r0_product * h2_bar;
-    S_bar[8] = S_bar[8] + h3 * by_r0 - r0_product * h3_bar;
-    S_bar[9] = S_bar[9] + h0 * by_r1 - r1_product * h0_bar;
-    S_bar[10] = S_bar[10] + h1 * by_r1 - r1_product * h1_bar;
-    S_bar[11] = S_bar[11] + h2 * by_r1 - r1_product * h2_bar;
-    S_bar[12] = S_bar[12] + h3 * by_r1 - r1_product * h3_bar;
-    S_bar[13] = S_bar[13] + h0 * by_r2 - r2_product * h0_bar;
-    S_bar[14] = S_bar[14] + h1 * by_r2 - r2_product * h1_bar;
-    S_bar[15] = S_bar[15] + h2 * by_r2 - r2_product * h2_bar;
-    S_bar[16] = S_bar[16] + h3 * by_r2 - r2_product * h3_bar;
+    const vector_f by_abs_g0_2 = eta_slope * (gap * by_by_abs_g0) + eta_product_2;
+    const vector_f by_g0_2 = vector_select_f(is_small, -by_abs_g0_2, by_abs_g0_2);
+    const vector_f a_squared_product = a_squared * by_half_square;
+    const vector_f phi_product_2 = phi * a_squared;
+    const vector_f gap_3 = h0 * a_squared_product - 2.0f * (phi_product_2 * h0_bar);
+    const vector_f gap_4 = h1 * a_squared_product - 2.0f * (phi_product_2 * h1_bar);
+    const vector_f gap_5 = h2 * a_squared_product - 2.0f * (phi_product_2 * h2_bar);
+    const vector_f gap_6 = h3 * a_squared_product - 2.0f * (phi_product_2 * h3_bar);
+    sums[0] = sums[0] + by_g0 * x0_bar + x0 * by_g0_2;
+    sums[1] = sums[1] + by_g0 * x1_bar + x1 * by_g0_2;
+    sums[2] = sums[2] + by_g0 * x2_bar + x2 * by_g0_2;
+    sums[3] = sums[3] + by_g0 * x3_bar + x3 * by_g0_2;
+    sums[4] = sums[4] + phi_product;
+    sums[5] = sums[5] + h0 * gap_3;
+    sums[6] = sums[6] + h0 * gap_4 + h1 * gap_3;
+    sums[7] = sums[7] + h0 * gap_5 + h2 * gap_3;
+    sums[8] = sums[8] + h0 * gap_6 + h3 * gap_3;
+    sums[9] = sums[9] + h1 * gap_4;
+    sums[10] = sums[10] + h1 * gap_5 + h2 * gap_4;
+    sums[11] = sums[11] + h1 * gap_6 + h3 * gap_4;
+    sums[12] = sums[12] + h2 * gap_5;
+    sums[13] = sums[13] + h2 * gap_6 + h3 * gap_5;
+    sums[14] = sums[14] + h3 * gap_6;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -1608,12 +1771,12 @@ OUTLINE void vector_end_f(size_t count, size_t start, size_t size, vector_f *col
         for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
 }
 
-/* Scratch memory: 9 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
+/* Scratch memory: 17 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
 size_t so3_splats_work_f(size_t count, size_t splat_count, int threads) {
     (void)threads;
     const size_t points = (count + LANES_f - 1) / LANES_f, blocks = (points + 2 - 1) / 2;
     const size_t places = 5 * ((splat_count + LANES_f - 1) / LANES_f + (blocks + LANES_f - 1) / LANES_f);
-    return (points * 9 + places + 1) * LANES_f + 17 * splat_count;
+    return (points * 17 + places + 1) * LANES_f + 17 * splat_count;
 }
 
 static vector_f *work_points_f(float *work) {
@@ -1627,12 +1790,12 @@ INLINE const float *splat_at_f(const vector_f *splats, size_t k) {
     return (const float *)(splats + 5 * row) + (k - row * LANES_f);
 }
 
-static vector_f *work_splats_f(float *work, size_t count) {
-    return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 9;
+static vector_f *work_reaches_f(float *work, size_t count) {
+    return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 17;
 }
 
 static vector_f *work_blocks_f(float *work, size_t count, size_t splat_count) {
-    return work_splats_f(work, count) + 5 * ((splat_count + LANES_f - 1) / LANES_f);
+    return work_reaches_f(work, count) + 5 * ((splat_count + LANES_f - 1) / LANES_f);
 }
 
 static float *work_constants_f(float *work, size_t count, size_t splat_count) {
@@ -1749,7 +1912,7 @@ void so3_splats_f(
     float *SO3_RESTRICT value, float *SO3_RESTRICT gradient, float *SO3_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1758,8 +1921,8 @@ void so3_splats_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[2][4], X[2][4], grad[3];
-            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][4] = {{ZERO}};
+            vector_f at[2][4], X[2][8], grad[3];
+            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][8] = {{ZERO}};
             float place[4 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
@@ -1791,7 +1954,7 @@ void so3_splats_value_f(
     float *SO3_RESTRICT value, float *SO3_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1800,7 +1963,7 @@ void so3_splats_value_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[4], X[2][4], value_sum[2][1] = {{ZERO}};
+            vector_f at[4], X[2][8], value_sum[2][1] = {{ZERO}};
             float place[4 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
@@ -1827,40 +1990,44 @@ void so3_splats_value_f(
 /* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
 OUTLINE void splat_points_f(
     size_t count, size_t start, const float *x, const float *value_bar, const float *gradient_bar, vector_f *point) {
-    vector_f at[4], grad_bar[3], slope_bar[4];
+    vector_f at[4], grad_bar[3], slope_bar[8];
     vector_rows_f(x, count, start, 4, at);
     vector_rows_f(gradient_bar, count, start, 3, grad_bar);
-    vector_rows_f(value_bar, count, start, 1, point + 4);
+    vector_rows_f(value_bar, count, start, 1, point + 8);
     pair_features_f(at, point);
     pair_gradient_vjp_f(at, grad_bar, slope_bar);
-    for (int i = 0; i < 4; ++i) point[4 + 1 + i] = slope_bar[i];
-    vector_end_f(count, start, 4 + 1, point + 4);
+    for (int i = 0; i < 8; ++i) point[8 + 1 + i] = slope_bar[i];
+    vector_end_f(count, start, 8 + 1, point + 8);
 }
 
-/* Adds to S_bar what some vectors of points add to it, those in the list. */
-OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *S_bar) {
-    vector_f sum[17] = {ZERO};
-    for (size_t b = 0; b < size; ++b) {
-        const vector_f *point = points + 9 * (size_t)near[b];
-        pair_backward_f(point, S, point + 4, point + 4 + 1, sum);
+/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *sums) {
+    vector_f sum[15] = {ZERO};
+    size_t b = 0;
+    for (; b + 1 < size; b += 2) {
+        const vector_f *point = points + 17 * (size_t)near[b], *other = points + 17 * (size_t)near[b + 1];
+        pair_backward_f(point, S, point + 8, point + 8 + 1, sum);
+        pair_backward_f(other, S, other + 8, other + 8 + 1, sum);
     }
-    S_bar[0] += vector_sum_f(sum[0]);
-    S_bar[1] += vector_sum_f(sum[1]);
-    S_bar[2] += vector_sum_f(sum[2]);
-    S_bar[3] += vector_sum_f(sum[3]);
-    S_bar[4] += vector_sum_f(sum[4]);
-    S_bar[5] += vector_sum_f(sum[5]);
-    S_bar[6] += vector_sum_f(sum[6]);
-    S_bar[7] += vector_sum_f(sum[7]);
-    S_bar[8] += vector_sum_f(sum[8]);
-    S_bar[9] += vector_sum_f(sum[9]);
-    S_bar[10] += vector_sum_f(sum[10]);
-    S_bar[11] += vector_sum_f(sum[11]);
-    S_bar[12] += vector_sum_f(sum[12]);
-    S_bar[13] += vector_sum_f(sum[13]);
-    S_bar[14] += vector_sum_f(sum[14]);
-    S_bar[15] += vector_sum_f(sum[15]);
-    S_bar[16] += vector_sum_f(sum[16]);
+    if (b < size) {
+        const vector_f *point = points + 17 * (size_t)near[b];
+        pair_backward_f(point, S, point + 8, point + 8 + 1, sum);
+    }
+    sums[0] += vector_sum_f(sum[0]);
+    sums[1] += vector_sum_f(sum[1]);
+    sums[2] += vector_sum_f(sum[2]);
+    sums[3] += vector_sum_f(sum[3]);
+    sums[4] += vector_sum_f(sum[4]);
+    sums[5] += vector_sum_f(sum[5]);
+    sums[6] += vector_sum_f(sum[6]);
+    sums[7] += vector_sum_f(sum[7]);
+    sums[8] += vector_sum_f(sum[8]);
+    sums[9] += vector_sum_f(sum[9]);
+    sums[10] += vector_sum_f(sum[10]);
+    sums[11] += vector_sum_f(sum[11]);
+    sums[12] += vector_sum_f(sum[12]);
+    sums[13] += vector_sum_f(sum[13]);
+    sums[14] += vector_sum_f(sum[14]);
 }
 
 /*
@@ -1871,12 +2038,12 @@ void so3_splats_vjp_f(
     size_t count, size_t splat_count, const float *SO3_RESTRICT x, const float *SO3_RESTRICT mu, const float *SO3_RESTRICT W, const float *SO3_RESTRICT amplitude, const float *SO3_RESTRICT width, const float *SO3_RESTRICT value_bar, const float *SO3_RESTRICT gradient_bar,
     float *SO3_RESTRICT mu_bar, float *SO3_RESTRICT W_bar, float *SO3_RESTRICT amplitude_bar, float *SO3_RESTRICT work, int threads) {
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
-    const size_t chunk = 131072 / (9 * sizeof(vector_f)) + 1;
+    const size_t chunk = 131072 / (17 * sizeof(vector_f)) + 1;
     const size_t rows = ((blocks + 2 - 1) / 2 + LANES_f - 1) / LANES_f * LANES_f;
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES_f ? part : LANES_f;
     vector_f *points = work_points_f(work);
-    vector_f *splats = work_splats_f(work, count), *places = work_blocks_f(work, count, splat_count);
+    vector_f *splats = work_reaches_f(work, count), *places = work_blocks_f(work, count, splat_count);
     float *constants = work_constants_f(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -1898,26 +2065,26 @@ void so3_splats_vjp_f(
         }
         OMP(omp for schedule(dynamic, 8))
         for (size_t block = 0; block < blocks; ++block)
-            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 9 * block);
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 17 * block);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
-            float sums[LANES_f][17] = {{0}};
-            uint32_t near[131072 / (9 * sizeof(vector_f)) + 2];
-            vector_f own_mu[4], own_W[9], own_amplitude[1], S_bar[17], bars[14];
+            float sums[LANES_f][15] = {{0}};
+            uint32_t near[131072 / (17 * sizeof(vector_f)) + 2];
+            vector_f own_mu[4], own_W[9], own_amplitude[1], own_sums[15], bars[14];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
                     const float *reach = width ? splat_at_f(splats, k) + 4 * LANES_f : NULL;
                     const size_t some = blocks_near_f(mu + 4 * k, reach, places, first, first + size, near);
-                    splat_sums_f(points + 9 * first, near, some, constants + 17 * k, sums[k - start]);
+                    splat_sums_f(points + 17 * first, near, some, constants + 17 * k, sums[k - start]);
                 }
             }
             vector_rows_f(mu, end, start, 4, own_mu);
             vector_rows_f(W, end, start, 9, own_W);
             vector_rows_f(amplitude, end, start, 1, own_amplitude);
-            vector_rows_f(sums[0], LANES_f, 0, 17, S_bar);
-            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 4, bars + 4 + 9);
+            vector_rows_f(sums[0], LANES_f, 0, 15, own_sums);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 4, bars + 4 + 9);
             vector_to_rows_f(bars, mu_bar, end, start, 4, 4);
             vector_to_rows_f(bars + 4, W_bar, end, start, 9, 9);
             vector_to_rows_f(bars + 4 + 9, amplitude_bar, end, start, 1, 1);
@@ -1941,15 +2108,15 @@ void so3_splats_rows_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, NULL, constants, NULL);
         OMP(omp for schedule(dynamic))
         for (size_t block = 0; block < blocks; ++block) {
-            vector_f point[9];
+            vector_f point[17];
             splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector_f own_mu[4], own_W[9], own_amplitude[1], S_bar[17] = {ZERO}, bars[14];
+                vector_f own_mu[4], own_W[9], own_amplitude[1], own_sums[15] = {ZERO}, bars[14];
                 for (int i = 0; i < 4; ++i) own_mu[i] = vector_of_f(mu[4 * k + i]);
                 for (int i = 0; i < 9; ++i) own_W[i] = vector_of_f(W[9 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 17 * k, point + 4, point + 4 + 1, S_bar);
-                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 4, bars + 4 + 9);
+                pair_backward_f(point, constants + 17 * k, point + 8, point + 8 + 1, own_sums);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 4, bars + 4 + 9);
                 vector_to_rows_f(bars, rows + 14 * k, count, block * LANES_f, 14, 14 * splat_count);
             }
         }
@@ -2023,7 +2190,7 @@ double so3_splats_order_f(
     size_t count, size_t splat_count, const float *SO3_RESTRICT x, const float *SO3_RESTRICT mu, const float *SO3_RESTRICT amplitude, const float *SO3_RESTRICT width,
     double limit, size_t *SO3_RESTRICT order, float *SO3_RESTRICT work) {
     const size_t block = 2 * LANES_f;
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     uint32_t near[256];
     double share = 0;
     for (size_t n = 0; n < count; ++n) order[n] = n;
@@ -2054,3 +2221,5 @@ double so3_splats_order_f(
     }
     return share;
 }
+
+#endif /* float */

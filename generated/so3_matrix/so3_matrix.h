@@ -11,7 +11,7 @@
  * inner                          5
  * norm                           6
  * flat                           0
- * exp                          121      <= 2     <= 2
+ * exp                          120      <= 2     <= 2
  * log                          138      <= 1     <= 1
  * distance                     100      <= 1     <= 1
  * log_abs_det                  136      <= 8    <= 16

@@ -10,7 +10,7 @@ to_tangent                    42
 inner                          5
 norm                           6
 flat                           0
-exp                          121      <= 2     <= 2
+exp                          120      <= 2     <= 2
 log                          138      <= 1     <= 1
 distance                     100      <= 1     <= 1
 log_abs_det                  136      <= 8    <= 16
@@ -595,19 +595,19 @@ class So3Matrix:
         product_2 = squared_2 * product
         product_3 = squared_3 * product
         gap = 1.0 - product_2 - product_3
-        scale_product = scale * (2.0 * cos_)
-        product_4 = v2 * scale_product
+        cos__product = cos_ * sinc_
+        product_4 = v2 * cos__product
         product_5 = 2.0 * v0
         product_6 = scale_squared * (v1 * product_5)
         total_2 = product_4 + product_6
         product_7 = scale_squared * (v2 * product_5)
-        product_8 = v1 * scale_product
+        product_8 = v1 * cos__product
         gap_2 = product_7 - product_8
         q0 = p0 * gap + p1 * total_2 + p2 * gap_2
         gap_3 = product_6 - product_4
         gap_4 = 1.0 - squared * product
         gap_5 = gap_4 - product_3
-        product_9 = v0 * scale_product
+        product_9 = v0 * cos__product
         product_10 = scale_squared * (v2 * (2.0 * v1))
         total_3 = product_9 + product_10
         q1 = p0 * gap_3 + p1 * gap_5 + p2 * total_3
@@ -1240,7 +1240,7 @@ class So3Matrix:
     ) -> tuple[Tensor, Tensor, Tensor]:
         """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu (K, D), W (K, d, T) and amplitude (K)."""
         S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
-        total = torch.zeros((len(S), len(mu)), dtype=x.dtype, device=x.device)
+        total = torch.zeros((), dtype=x.dtype, device=x.device)
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         for part, *bars in zip(*parts, strict=True):
             total = total + torch.stack(_sums(self._pair_bars(part, S, *bars), len(part), len(mu), 0))
@@ -1254,15 +1254,15 @@ class So3Matrix:
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         rows = []
         for part, *bars in zip(*parts, strict=True):
-            S_bar = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
-            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, S_bar)
+            sums = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
+            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, sums)
             rows.append(torch.cat([by_mu, by_W.flatten(-2), by_amplitude.unsqueeze(-1)], -1))
         return torch.cat(rows)
 
     def _pair_bars(
         self, x: Tensor, S: Sequence[Tensor], value_bar: Tensor, gradient_bar: Tensor
     ) -> tuple[Tensor, ...]:
-        """The derivatives in S of every pair, from those in the sums."""
+        """What every pair adds to the sums of its splat, from the derivatives in values and gradients."""
         X = [entry.unsqueeze(-1) for entry in self._point_features(x)]
         slope_bar = [entry.unsqueeze(-1) for entry in self._point_gradient_vjp(x, gradient_bar)]
         return self._pair_vjp(X, S, value_bar.unsqueeze(-1), slope_bar)
@@ -1276,6 +1276,12 @@ class So3Matrix:
         """S, what the pairs need of a splat alone."""
         mu0, mu1, mu2, mu3, mu4, mu5, mu6, mu7, mu8 = mu.unbind(-1)
         W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2 = W.flatten(-2).unbind(-1)
+        M0_0 = W0_0 * W0_0 + W1_0 * W1_0 + W2_0 * W2_0
+        M0_1 = W0_0 * W0_1 + W1_0 * W1_1 + W2_0 * W2_1
+        M0_2 = W0_0 * W0_2 + W1_0 * W1_2 + W2_0 * W2_2
+        M1_1 = W0_1 * W0_1 + W1_1 * W1_1 + W2_1 * W2_1
+        M1_2 = W0_1 * W0_2 + W1_1 * W1_2 + W2_1 * W2_2
+        M2_2 = W0_2 * W0_2 + W1_2 * W1_2 + W2_2 * W2_2
         return (
             mu0,
             mu1,
@@ -1296,12 +1302,21 @@ class So3Matrix:
             W2_1,
             W2_2,
             amplitude,
+            M0_0,
+            M0_1,
+            M0_2,
+            M1_1,
+            M1_2,
+            M2_2,
         )
 
     def _pair_value(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
         """The value of a splat at a point."""
         x0, x1, x2, x3, x4, x5, x6, x7, x8 = X
-        mu0, mu1, mu2, mu3, mu4, mu5, mu6, mu7, mu8, W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, amplitude = S
+        (
+            mu0, mu1, mu2, mu3, mu4, mu5, mu6, mu7, mu8, W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2,
+            amplitude, _, _, _, _, _, _,
+        ) = S
         R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8
         R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7
         R0_0 = x0 * mu0 + x3 * mu3 + x6 * mu6
@@ -1365,13 +1380,17 @@ class So3Matrix:
         z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2
         z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2
         log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2)
-        phi = amplitude * torch.exp(log_det_gap)
-        return (phi,)
+        phi = torch.exp(log_det_gap)
+        phi_2 = amplitude * phi
+        return (phi_2,)
 
     def _pair(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
         """The value of a splat at a point, and the slope, its derivatives in X."""
         x0, x1, x2, x3, x4, x5, x6, x7, x8 = X
-        mu0, mu1, mu2, mu3, mu4, mu5, mu6, mu7, mu8, W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, amplitude = S
+        (
+            mu0, mu1, mu2, mu3, mu4, mu5, mu6, mu7, mu8, W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2,
+            amplitude, _, _, _, _, _, _,
+        ) = S
         R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8
         R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7
         R0_0 = x0 * mu0 + x3 * mu3 + x6 * mu6
@@ -1440,16 +1459,14 @@ class So3Matrix:
         z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2
         z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2
         log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2)
-        phi = amplitude * torch.exp(log_det_gap)
-        z2_product = z2 * phi
-        z1_product = z1 * phi
-        z0_product = z0 * phi
-        by_v2 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product
-        by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product
-        by_v0 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product
-        by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0
+        phi = torch.exp(log_det_gap)
+        phi_2 = amplitude * phi
+        phi_product = phi_2 * (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0))
+        phi_product_2 = phi_2 * (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0))
+        phi_product_3 = phi_2 * (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0))
+        by_scale = -(g3 * phi_product) - g2 * phi_product_2 - g1 * phi_product_3
         by_t_over_norm_s = chosen * by_scale
-        total_3 = torch.where(near, 0.0, by_t_over_norm_s) + 0.5 * (2.0 * torch.where(near, 0.0, phi) / product)
+        total_3 = torch.where(near, 0.0, by_t_over_norm_s) + 0.5 * (2.0 * torch.where(near, 0.0, phi_2) / product)
         by_t = total_3 / norm_s
         by_atan2_norm_s_abs_g0 = 2.0 * by_t
         ratio = by_atan2_norm_s_abs_g0 / (near_chosen_2 + abs_g0 * abs_g0)
@@ -1459,7 +1476,7 @@ class So3Matrix:
         by_g0_ratio = by_g0 / row_length
         is_small_2 = total_2 == 0.0
         by_norm_s = abs_g0 * ratio - t_ratio * by_t
-        by_log_det_near = torch.where(near, phi, 0.0)
+        by_log_det_near = torch.where(near, phi_2, 0.0)
         by_t_over_norm_s_near = torch.where(near, by_t_over_norm_s, 0.0)
         t_over_norm_s_near_slope = _polynomial(near_chosen, _T_OVER_NORM_S_NEAR_SLOPE)
         by_log_det_series = norm_s_squared * by_log_det_near
@@ -1470,11 +1487,11 @@ class So3Matrix:
             log_det_series_slope, 0.0)
         )
         product_2 = 2.0 * by_norm_s_squared
-        by_g3 = scale * by_v2 + g3 * product_2
+        by_g3 = g3 * product_2 - scale * phi_product
         by_g3_ratio = by_g3 / row_length
-        by_g2 = scale * by_v1 + g2 * product_2
+        by_g2 = g2 * product_2 - scale * phi_product_2
         by_g2_ratio = by_g2 / row_length
-        by_g1 = scale * by_v0 + g1 * product_2
+        by_g1 = g1 * product_2 - scale * phi_product_3
         by_g1_ratio = by_g1 / row_length
         by_row_length = -(g0 * by_g0_ratio) - g3 * by_g3_ratio - g2 * by_g2_ratio - g1 * by_g1_ratio
         product_3 = 2.0 * torch.where(is_small_2, 0.0, by_row_length / (2.0 * torch.where(is_small_2, 1.0, row_length)))
@@ -1518,7 +1535,7 @@ class So3Matrix:
         by_x6 = mu7 * by_R1_0 + mu8 * by_R2_0 + mu6 * by_R0_0
         by_x7 = mu8 * by_R2_1 + mu6 * by_R0_1 + mu7 * by_R1_1
         by_x8 = mu7 * by_R1_2 + mu6 * by_R0_2 + mu8 * by_R2_2
-        return (phi, by_x0, by_x1, by_x2, by_x3, by_x4, by_x5, by_x6, by_x7, by_x8)
+        return (phi_2, by_x0, by_x1, by_x2, by_x3, by_x4, by_x5, by_x6, by_x7, by_x8)
 
     def _point_gradient(self, x: Tensor, slope: Sequence[Tensor]) -> Tensor:
         """The Riemannian gradient of a function whose derivatives in X are `slope`."""
@@ -1548,9 +1565,12 @@ class So3Matrix:
     def _pair_vjp(
         self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
     ) -> tuple[Tensor, ...]:
-        """The derivatives of value value_bar + slope . slope_bar in S."""
+        """What, summed over the points, makes the derivatives of value value_bar + slope . slope_bar."""
         x0, x1, x2, x3, x4, x5, x6, x7, x8 = X
-        mu0, mu1, mu2, mu3, mu4, mu5, mu6, mu7, mu8, W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, amplitude = S
+        (
+            mu0, mu1, mu2, mu3, mu4, mu5, mu6, mu7, mu8, W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, _, M0_0,
+            M0_1, M0_2, M1_1, M1_2, M2_2,
+        ) = S
         x0_bar, x1_bar, x2_bar, x3_bar, x4_bar, x5_bar, x6_bar, x7_bar, x8_bar = slope_bar
         R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8
         R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7
@@ -1565,76 +1585,75 @@ class So3Matrix:
         largest_2 = torch.where(is_less_2, square2, largest)
         square3 = 1.0 + R2_2 - R0_0 - R1_1
         is_less_3 = largest_2 < square3
+        R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7
+        R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8
+        R1_2_total = R1_2 + R2_1
         R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6
         R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8
         R0_2_total = R0_2 + R2_0
-        R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6
         R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7
-        R0_1_total = R0_1 + R1_0
-        R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8
-        R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7
-        R2_1_gap = R2_1 - R1_2
-        row_2 = torch.where(is_less, square1, R2_1_gap)
-        row_6 = torch.where(is_less_2, R0_1_total, row_2)
-        row_10 = torch.where(is_less_3, R0_2_total, row_6)
-        R1_2_total = R1_2 + R2_1
-        R0_2_gap = R0_2 - R2_0
-        row_3 = torch.where(is_less, R0_1_total, R0_2_gap)
-        row_7 = torch.where(is_less_2, square2, row_3)
-        row_11 = torch.where(is_less_3, R1_2_total, row_7)
+        R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6
         R1_0_gap = R1_0 - R0_1
         row_4 = torch.where(is_less, R0_2_total, R1_0_gap)
         row_8 = torch.where(is_less_2, R1_2_total, row_4)
         row_12 = torch.where(is_less_3, square3, row_8)
+        R0_1_total = R0_1 + R1_0
+        R2_1_gap = R2_1 - R1_2
+        row_2 = torch.where(is_less, square1, R2_1_gap)
+        row_6 = torch.where(is_less_2, R0_1_total, row_2)
+        row_10 = torch.where(is_less_3, R0_2_total, row_6)
+        R0_2_gap = R0_2 - R2_0
+        row_3 = torch.where(is_less, R0_1_total, R0_2_gap)
+        row_7 = torch.where(is_less_2, square2, row_3)
+        row_11 = torch.where(is_less_3, R1_2_total, row_7)
         row = torch.where(is_less, R2_1_gap, square0)
         row_5 = torch.where(is_less_2, R0_2_gap, row)
         row_9 = torch.where(is_less_3, R1_0_gap, row_5)
         total_2 = row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9
         row_length = _root(total_2)
+        g3 = row_12 / row_length
         g1 = row_10 / row_length
         g2 = row_11 / row_length
-        g3 = row_12 / row_length
         norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3
         near = norm_s_squared < 0.249287
-        near_chosen = torch.where(near, 4.011440628672975 * norm_s_squared, 0.0)
-        t_over_norm_s_near = _polynomial(near_chosen, _T_OVER_NORM_S_NEAR)
-        near_chosen_2 = torch.where(near, 1.0, norm_s_squared)
-        norm_s = torch.sqrt(near_chosen_2)
         g0 = row_9 / row_length
         abs_g0 = torch.abs(g0)
+        is_small = g0 < 0.0
+        chosen = _pick(is_small, -1.0, 1.0, g0)
+        near_chosen = torch.where(near, 4.011440628672975 * norm_s_squared, 0.0)
+        log_det_series = _polynomial(near_chosen, _LOG_DET_SERIES)
+        log_det_near = norm_s_squared * log_det_series
+        near_chosen_2 = torch.where(near, 1.0, norm_s_squared)
+        norm_s = torch.sqrt(near_chosen_2)
         atan2_norm_s_abs_g0 = torch.atan2(norm_s, abs_g0)
         t = 2.0 * atan2_norm_s_abs_g0
         t_ratio = t / norm_s
+        product = 0.5 * t_ratio
+        log_det = torch.where(near, log_det_near, 2.0 * torch.log(product))
+        t_over_norm_s_near = _polynomial(near_chosen, _T_OVER_NORM_S_NEAR)
         t_over_norm_s = torch.where(near, t_over_norm_s_near, t_ratio)
-        is_small = g0 < 0.0
-        chosen = _pick(is_small, -1.0, 1.0, g0)
         scale = t_over_norm_s * chosen
         v0 = g1 * scale
         v1 = g2 * scale
         v2 = g3 * scale
-        z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2
-        log_det_series = _polynomial(near_chosen, _LOG_DET_SERIES)
-        log_det_near = norm_s_squared * log_det_series
-        product = 0.5 * t_ratio
-        log_det = torch.where(near, log_det_near, 2.0 * torch.log(product))
         z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2
         z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2
+        z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2
         log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2)
-        exp_2 = torch.exp(log_det_gap)
-        phi = amplitude * exp_2
-        z2_product = z2 * phi
-        z1_product = z1 * phi
-        z0_product = z0 * phi
-        by_v2 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product
-        by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product
-        by_v0 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product
-        by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0
+        phi = torch.exp(log_det_gap)
+        total_3 = W2_2 * z2 + (W1_2 * z1 + W0_2 * z0)
+        phi_product = phi * total_3
+        total_4 = W2_1 * z2 + (W1_1 * z1 + W0_1 * z0)
+        phi_product_2 = phi * total_4
+        total_5 = W2_0 * z2 + (W1_0 * z1 + W0_0 * z0)
+        phi_product_3 = phi * total_5
+        by_scale = -(g3 * phi_product) - g2 * phi_product_2 - g1 * phi_product_3
         by_t_over_norm_s = chosen * by_scale
         ratio = 2.0 * torch.where(near, 0.0, phi) / product
         by_t = (torch.where(near, 0.0, by_t_over_norm_s) + 0.5 * ratio) / norm_s
         by_atan2_norm_s_abs_g0 = 2.0 * by_t
-        total_3 = near_chosen_2 + abs_g0 * abs_g0
-        ratio_2 = by_atan2_norm_s_abs_g0 / total_3
+        total_6 = near_chosen_2 + abs_g0 * abs_g0
+        ratio_2 = by_atan2_norm_s_abs_g0 / total_6
         by_norm_s = abs_g0 * ratio_2 - t_ratio * by_t
         norm_s_product = 2.0 * norm_s
         by_norm_s_ratio = by_norm_s / norm_s_product
@@ -1649,16 +1668,16 @@ class So3Matrix:
             log_det_series_slope, 0.0)
         )
         product_2 = 2.0 * by_norm_s_squared
-        by_g3 = scale * by_v2 + g3 * product_2
+        by_g3 = g3 * product_2 - scale * phi_product
         by_g3_ratio = by_g3 / row_length
         is_small_2 = total_2 == 0.0
         norm_s_product_2 = norm_s * ratio_2
         by_abs_g0 = -norm_s_product_2
         by_g0 = torch.where(is_small, norm_s_product_2, by_abs_g0)
         by_g0_ratio = by_g0 / row_length
-        by_g2 = scale * by_v1 + g2 * product_2
+        by_g2 = g2 * product_2 - scale * phi_product_2
         by_g2_ratio = by_g2 / row_length
-        by_g1 = scale * by_v0 + g1 * product_2
+        by_g1 = g1 * product_2 - scale * phi_product_3
         by_g1_ratio = by_g1 / row_length
         by_row_length = -(g0 * by_g0_ratio) - g3 * by_g3_ratio - g2 * by_g2_ratio - g1 * by_g1_ratio
         product_3 = 2.0 * torch.where(is_small_2, 1.0, row_length)
@@ -1679,14 +1698,14 @@ class So3Matrix:
         by_square1 = torch.where(is_less, by_row_2, 0.0)
         by_R0_0 = -by_square3 - by_square2 + (by_square0 + by_square1)
         by_row_3 = torch.where(is_less_2, 0.0, by_row_7)
-        total_4 = torch.where(is_less_2, by_row_5, 0.0) + torch.where(is_less, 0.0, by_row_3)
+        total_7 = torch.where(is_less_2, by_row_5, 0.0) + torch.where(is_less, 0.0, by_row_3)
         by_row_8 = torch.where(is_less_3, 0.0, by_row_12)
         by_row_4 = torch.where(is_less_2, 0.0, by_row_8)
-        total_5 = torch.where(is_less, by_row_4, 0.0) + torch.where(is_less_3, by_row_10, 0.0)
-        by_R0_2 = total_4 + total_5
-        total_6 = torch.where(is_less, by_row_3, 0.0) + torch.where(is_less_2, by_row_6, 0.0)
-        total_7 = torch.where(is_less_3, by_row_9, 0.0) + torch.where(is_less, 0.0, by_row_4)
-        by_R0_1 = total_6 - total_7
+        total_8 = torch.where(is_less, by_row_4, 0.0) + torch.where(is_less_3, by_row_10, 0.0)
+        by_R0_2 = total_7 + total_8
+        total_9 = torch.where(is_less, by_row_3, 0.0) + torch.where(is_less_2, by_row_6, 0.0)
+        total_10 = torch.where(is_less_3, by_row_9, 0.0) + torch.where(is_less, 0.0, by_row_4)
+        by_R0_1 = total_9 - total_10
         by_by_R0_2 = mu0 * x2_bar + mu3 * x5_bar + mu6 * x8_bar
         by_by_R2_0 = mu2 * x0_bar + mu5 * x3_bar + mu8 * x6_bar
         by_by_R0_2_gap = by_by_R0_2 - by_by_R2_0
@@ -1726,48 +1745,46 @@ class So3Matrix:
         gap = torch.where(is_small, by_by_g0, 0.0) - by_by_abs_g0
         by_by_g1 = (by_by_row_10 - g1 * by_by_row_length) / row_length
         by_by_g3 = (by_by_row_12 - g3 * by_by_row_length) / row_length
-        total_8 = g1 * by_by_g1 + g2 * by_by_g2 + g3 * by_by_g3
-        by_by_norm_s_squared = 2.0 * total_8
+        total_11 = g1 * by_by_g1 + g2 * by_by_g2 + g3 * by_by_g3
+        by_by_norm_s_squared = 2.0 * total_11
         by_by_norm_s = torch.where(near, 0.0, by_by_norm_s_squared) / norm_s_product
-        by_by_atan2_norm_s_abs_g0 = (norm_s * gap + abs_g0 * by_by_norm_s) / total_3
+        by_by_atan2_norm_s_abs_g0 = (norm_s * gap + abs_g0 * by_by_norm_s) / total_6
         by_by_t = 2.0 * by_by_atan2_norm_s_abs_g0 - t_ratio * by_by_norm_s
         by_by_t_ratio = by_by_t / norm_s
-        near_chosen_3 = torch.where(near, 8.02288125734595 * total_8, 0.0)
+        near_chosen_3 = torch.where(near, 8.02288125734595 * total_11, 0.0)
         by_by_t_over_norm_s_near = t_over_norm_s_near_slope * near_chosen_3
         by_by_t_over_norm_s = torch.where(near, 0.0, by_by_t_ratio) + torch.where(near, by_by_t_over_norm_s_near, 0.0)
         by_by_scale = chosen * by_by_t_over_norm_s
-        by_by_v0 = g1 * by_by_scale + scale * by_by_g1
-        by_by_v1 = g2 * by_by_scale + scale * by_by_g2
-        by_by_v2 = g3 * by_by_scale + scale * by_by_g3
-        gap_2 = -(W2_0 * by_by_v0) - W2_1 * by_by_v1 - W2_2 * by_by_v2
+        gap_2 = -(g1 * by_by_scale) - scale * by_by_g1
+        phi_product_4 = phi * gap_2
+        gap_3 = -(g2 * by_by_scale) - scale * by_by_g2
+        phi_product_5 = phi * gap_3
+        gap_4 = -(g3 * by_by_scale) - scale * by_by_g3
+        phi_product_6 = phi * gap_4
         ratio_4 = 0.5 * by_by_t_ratio / product
         by_by_log_det_series = log_det_series_slope * near_chosen_3
         by_by_log_det_near = norm_s_squared * by_by_log_det_series + log_det_series * by_by_norm_s_squared
-        gap_3 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2
-        total_9 = (
-            value_bar + torch.where(near, 0.0, 2.0 * ratio_4) + torch.where(near, by_by_log_det_near, 0.0) + z0 * gap_3
+        total_12 = (
+            value_bar + torch.where(near, 0.0, 2.0 * ratio_4) + torch.where(near, by_by_log_det_near, 0.0) + total_3 *
+            gap_4
         )
-        gap_4 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2
-        by_phi = total_9 + z1 * gap_4 + z2 * gap_2
-        by_log_det = exp_2 * (amplitude * by_phi)
-        by_z2 = phi * gap_2 - z2 * by_log_det
-        by_z1 = phi * gap_4 - z1 * by_log_det
-        by_z0 = phi * gap_3 - z0 * by_log_det
-        by_v1_2 = W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0
-        by_v2_2 = W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0
-        total_10 = by_v0 * by_by_g1 + by_v1 * by_by_g2 + by_v2 * by_by_g3 + g3 * by_v2_2 + g2 * by_v1_2
-        by_v0_2 = W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0
-        by_scale_2 = total_10 + g1 * by_v0_2
+        by_phi = total_12 + total_4 * gap_3 + total_5 * gap_2
+        by_log_det = phi * by_phi
+        by_v1 = M0_1 * phi_product_4 + M1_1 * phi_product_5 + M1_2 * phi_product_6 - total_4 * by_log_det
+        by_v2 = M0_2 * phi_product_4 + M1_2 * phi_product_5 + M2_2 * phi_product_6 - total_3 * by_log_det
+        total_13 = -(phi_product_3 * by_by_g1) - phi_product_2 * by_by_g2 - phi_product * by_by_g3 + g3 * by_v2
+        by_v0 = M0_0 * phi_product_4 + M0_1 * phi_product_5 + M0_2 * phi_product_6 - total_5 * by_log_det
+        by_scale_2 = total_13 + g2 * by_v1 + g1 * by_v0
         by_t_over_norm_s_2 = chosen * by_scale_2
         product_6 = 0.5 * (2.0 * torch.where(near, 0.0, by_log_det) / product - ratio * ratio_4)
         by_t_2 = (torch.where(near, 0.0, by_t_over_norm_s_2) - by_t * by_by_norm_s + product_6) / norm_s
         gap_5 = ratio_2 * gap - 2.0 * (by_norm_s_ratio * by_by_norm_s) - by_t * by_by_t_ratio - t_ratio * by_t_2
         by_atan2_norm_s_abs_g0_2 = 2.0 * by_t_2
-        ratio_5 = by_atan2_norm_s_abs_g0_2 / total_3
+        ratio_5 = by_atan2_norm_s_abs_g0_2 / total_6
         by_norm_s_2 = gap_5 + abs_g0 * ratio_5
         product_7 = ratio_2 * by_by_atan2_norm_s_abs_g0
         by_log_det_near_2 = torch.where(near, by_log_det, 0.0)
-        total_11 = (
+        total_14 = (
             by_log_det_near * by_by_log_det_series + torch.where(near, 0.0, by_norm_s_2 / norm_s_product - product_7) +
             log_det_series * by_log_det_near_2
         )
@@ -1782,10 +1799,10 @@ class So3Matrix:
             t_over_norm_s_near_slope_slope + t_over_norm_s_near_slope * by_t_over_norm_s_near_2 + log_det_series_slope *
             by_log_det_series_2, 0.0
         )
-        by_norm_s_squared_2 = total_11 + 4.011440628672975 * near_chosen_4
+        by_norm_s_squared_2 = total_14 + 4.011440628672975 * near_chosen_4
         product_8 = 2.0 * by_norm_s_squared_2
         by_g2_2 = (
-            product_2 * by_by_g2 - by_g2_ratio * by_by_row_length + by_v1 * by_by_scale + scale * by_v1_2 + g2 *
+            product_2 * by_by_g2 - by_g2_ratio * by_by_row_length - phi_product_2 * by_by_scale + scale * by_v1 + g2 *
             product_8
         )
         by_g2_ratio_2 = by_g2_2 / row_length
@@ -1797,12 +1814,12 @@ class So3Matrix:
         by_g0_ratio_2 = by_g0_2 / row_length
         gap_8 = gap_6 - by_g2_ratio * by_by_g2 - by_g3_ratio * by_by_g3 - by_g0_ratio * by_by_g0 - g0 * by_g0_ratio_2
         by_g3_2 = (
-            product_2 * by_by_g3 - by_g3_ratio * by_by_row_length + by_v2 * by_by_scale + scale * by_v2_2 + g3 *
+            product_2 * by_by_g3 - by_g3_ratio * by_by_row_length - phi_product * by_by_scale + scale * by_v2 + g3 *
             product_8
         )
         by_g3_ratio_2 = by_g3_2 / row_length
         by_g1_2 = (
-            product_2 * by_by_g1 - by_g1_ratio * by_by_row_length + by_v0 * by_by_scale + scale * by_v0_2 + g1 *
+            product_2 * by_by_g1 - by_g1_ratio * by_by_row_length - phi_product_3 * by_by_scale + scale * by_v0 + g1 *
             product_8
         )
         by_g1_ratio_2 = by_g1_2 / row_length
@@ -1813,18 +1830,18 @@ class So3Matrix:
         by_row_3_2 = torch.where(is_less_2, 0.0, by_row_7_2)
         by_row_10_2 = product_4 * by_by_row_10 + by_g1_ratio_2 + row_10 * product_9
         by_row_6_2 = torch.where(is_less_3, 0.0, by_row_10_2)
-        total_12 = torch.where(is_less, by_row_3_2, 0.0) + torch.where(is_less_2, by_row_6_2, 0.0)
+        total_15 = torch.where(is_less, by_row_3_2, 0.0) + torch.where(is_less_2, by_row_6_2, 0.0)
         by_row_9_2 = product_4 * by_by_row_9 + by_g0_ratio_2 + row_9 * product_9
         by_row_12_2 = product_4 * by_by_row_12 + by_g3_ratio_2 + row_12 * product_9
         by_row_8_2 = torch.where(is_less_3, 0.0, by_row_12_2)
         by_row_4_2 = torch.where(is_less_2, 0.0, by_row_8_2)
-        total_13 = torch.where(is_less_3, by_row_9_2, 0.0) + torch.where(is_less, 0.0, by_row_4_2)
-        by_R0_1_2 = total_12 - total_13
+        total_16 = torch.where(is_less_3, by_row_9_2, 0.0) + torch.where(is_less, 0.0, by_row_4_2)
+        by_R0_1_2 = total_15 - total_16
         by_row_5_2 = torch.where(is_less_3, 0.0, by_row_9_2)
-        total_14 = torch.where(is_less_2, by_row_5_2, 0.0) + torch.where(is_less, 0.0, by_row_3_2)
-        total_15 = torch.where(is_less, by_row_4_2, 0.0) + torch.where(is_less_3, by_row_10_2, 0.0)
-        by_R0_2_2 = total_14 + total_15
-        total_16 = by_R0_0 * x0_bar + by_R0_2 * x2_bar + by_R0_1 * x1_bar + x1 * by_R0_1_2 + x2 * by_R0_2_2
+        total_17 = torch.where(is_less_2, by_row_5_2, 0.0) + torch.where(is_less, 0.0, by_row_3_2)
+        total_18 = torch.where(is_less, by_row_4_2, 0.0) + torch.where(is_less_3, by_row_10_2, 0.0)
+        by_R0_2_2 = total_17 + total_18
+        total_19 = by_R0_0 * x0_bar + by_R0_2 * x2_bar + by_R0_1 * x1_bar + x1 * by_R0_1_2 + x2 * by_R0_2_2
         by_square3_2 = torch.where(is_less_3, by_row_12_2, 0.0)
         by_square2_2 = torch.where(is_less_2, by_row_7_2, 0.0)
         by_row_13 = torch.where(is_less_2, 0.0, by_row_5_2)
@@ -1833,62 +1850,84 @@ class So3Matrix:
         by_square1_2 = torch.where(is_less, by_row_2_2, 0.0)
         by_R0_0_2 = -by_square3_2 - by_square2_2 + (by_square0_2 + by_square1_2)
         by_R1_1 = by_square0 + (by_square2 - by_square3 - by_square1)
-        by_R1_0 = total_7 + total_6
-        total_17 = torch.where(is_less_2, by_row_8, 0.0) + torch.where(is_less_3, by_row_11, 0.0)
-        total_18 = torch.where(is_less, by_row, 0.0) + torch.where(is_less, 0.0, by_row_2)
-        by_R1_2 = total_17 - total_18
-        total_19 = torch.where(is_less_2, by_row_8_2, 0.0) + torch.where(is_less_3, by_row_11_2, 0.0)
-        total_20 = torch.where(is_less, by_row_13, 0.0) + torch.where(is_less, 0.0, by_row_2_2)
-        by_R1_2_2 = total_19 - total_20
-        by_R1_0_2 = total_13 + total_12
-        total_21 = by_R1_1 * x1_bar + by_R1_0 * x0_bar + by_R1_2 * x2_bar + x2 * by_R1_2_2 + x0 * by_R1_0_2
+        by_R1_0 = total_10 + total_9
+        total_20 = torch.where(is_less_2, by_row_8, 0.0) + torch.where(is_less_3, by_row_11, 0.0)
+        total_21 = torch.where(is_less, by_row, 0.0) + torch.where(is_less, 0.0, by_row_2)
+        by_R1_2 = total_20 - total_21
+        total_22 = torch.where(is_less_2, by_row_8_2, 0.0) + torch.where(is_less_3, by_row_11_2, 0.0)
+        total_23 = torch.where(is_less, by_row_13, 0.0) + torch.where(is_less, 0.0, by_row_2_2)
+        by_R1_2_2 = total_22 - total_23
+        by_R1_0_2 = total_16 + total_15
+        total_24 = by_R1_1 * x1_bar + by_R1_0 * x0_bar + by_R1_2 * x2_bar + x2 * by_R1_2_2 + x0 * by_R1_0_2
         by_R1_1_2 = by_square0_2 + (by_square2_2 - by_square3_2 - by_square1_2)
         by_R2_2 = by_square0 + (by_square3 - by_square2 - by_square1)
-        by_R2_0 = total_5 - total_4
-        by_R2_1 = total_17 + total_18
-        by_R2_1_2 = total_19 + total_20
-        by_R2_0_2 = total_15 - total_14
-        total_22 = by_R2_2 * x2_bar + by_R2_0 * x0_bar + by_R2_1 * x1_bar + x1 * by_R2_1_2 + x0 * by_R2_0_2
+        by_R2_0 = total_8 - total_7
+        by_R2_1 = total_20 + total_21
+        by_R2_1_2 = total_22 + total_23
+        by_R2_0_2 = total_18 - total_17
+        total_25 = by_R2_2 * x2_bar + by_R2_0 * x0_bar + by_R2_1 * x1_bar + x1 * by_R2_1_2 + x0 * by_R2_0_2
         by_R2_2_2 = by_square0_2 + (by_square3_2 - by_square2_2 - by_square1_2)
-        total_23 = by_R0_0 * x3_bar + by_R0_2 * x5_bar + by_R0_1 * x4_bar + x4 * by_R0_1_2 + x5 * by_R0_2_2
-        total_24 = by_R1_1 * x4_bar + by_R1_0 * x3_bar + by_R1_2 * x5_bar + x5 * by_R1_2_2 + x3 * by_R1_0_2
-        total_25 = by_R2_2 * x5_bar + by_R2_0 * x3_bar + by_R2_1 * x4_bar + x4 * by_R2_1_2 + x3 * by_R2_0_2
-        total_26 = by_R0_0 * x6_bar + by_R0_2 * x8_bar + by_R0_1 * x7_bar + x7 * by_R0_1_2 + x8 * by_R0_2_2
-        total_27 = by_R1_1 * x7_bar + by_R1_0 * x6_bar + by_R1_2 * x8_bar + x8 * by_R1_2_2 + x6 * by_R1_0_2
-        total_28 = by_R2_2 * x8_bar + by_R2_0 * x6_bar + by_R2_1 * x7_bar + x7 * by_R2_1_2 + x6 * by_R2_0_2
+        total_26 = by_R0_0 * x3_bar + by_R0_2 * x5_bar + by_R0_1 * x4_bar + x4 * by_R0_1_2 + x5 * by_R0_2_2
+        total_27 = by_R1_1 * x4_bar + by_R1_0 * x3_bar + by_R1_2 * x5_bar + x5 * by_R1_2_2 + x3 * by_R1_0_2
+        total_28 = by_R2_2 * x5_bar + by_R2_0 * x3_bar + by_R2_1 * x4_bar + x4 * by_R2_1_2 + x3 * by_R2_0_2
+        total_29 = by_R0_0 * x6_bar + by_R0_2 * x8_bar + by_R0_1 * x7_bar + x7 * by_R0_1_2 + x8 * by_R0_2_2
+        total_30 = by_R1_1 * x7_bar + by_R1_0 * x6_bar + by_R1_2 * x8_bar + x8 * by_R1_2_2 + x6 * by_R1_0_2
+        total_31 = by_R2_2 * x8_bar + by_R2_0 * x6_bar + by_R2_1 * x7_bar + x7 * by_R2_1_2 + x6 * by_R2_0_2
+        by_log_det_product = 0.5 * by_log_det
+        gap_9 = phi_product_4 - v0 * by_log_det_product
+        gap_10 = phi_product_5 - v1 * by_log_det_product
+        gap_11 = phi_product_6 - v2 * by_log_det_product
         return (
-            total_16 + x0 * by_R0_0_2,
-            total_21 + x1 * by_R1_1_2,
-            total_22 + x2 * by_R2_2_2,
-            total_23 + x3 * by_R0_0_2,
-            total_24 + x4 * by_R1_1_2,
-            total_25 + x5 * by_R2_2_2,
-            total_26 + x6 * by_R0_0_2,
-            total_27 + x7 * by_R1_1_2,
-            total_28 + x8 * by_R2_2_2,
-            v0 * by_z0 - z0_product * by_by_v0,
-            v1 * by_z0 - z0_product * by_by_v1,
-            v2 * by_z0 - z0_product * by_by_v2,
-            v0 * by_z1 - z1_product * by_by_v0,
-            v1 * by_z1 - z1_product * by_by_v1,
-            v2 * by_z1 - z1_product * by_by_v2,
-            v0 * by_z2 - z2_product * by_by_v0,
-            v1 * by_z2 - z2_product * by_by_v1,
-            v2 * by_z2 - z2_product * by_by_v2,
-            exp_2 * by_phi,
+            total_19 + x0 * by_R0_0_2,
+            total_24 + x1 * by_R1_1_2,
+            total_25 + x2 * by_R2_2_2,
+            total_26 + x3 * by_R0_0_2,
+            total_27 + x4 * by_R1_1_2,
+            total_28 + x5 * by_R2_2_2,
+            total_29 + x6 * by_R0_0_2,
+            total_30 + x7 * by_R1_1_2,
+            total_31 + x8 * by_R2_2_2,
+            by_log_det,
+            v0 * gap_9,
+            v0 * gap_10 + v1 * gap_9,
+            v0 * gap_11 + v2 * gap_9,
+            v1 * gap_10,
+            v1 * gap_11 + v2 * gap_10,
+            v2 * gap_11,
         )
 
     def _splat_constants_vjp(
-        self, mu: Tensor, W: Tensor, amplitude: Tensor, S_bar: Sequence[Tensor]
+        self, mu: Tensor, W: Tensor, amplitude: Tensor, sums: Sequence[Tensor]
     ) -> tuple[Tensor, Tensor, Tensor]:
-        """The derivatives in mu, W and amplitude from those in S."""
-        (
-            mu0_bar, mu1_bar, mu2_bar, mu3_bar, mu4_bar, mu5_bar, mu6_bar, mu7_bar, mu8_bar, W0_0_bar, W0_1_bar,
-            W0_2_bar, W1_0_bar, W1_1_bar, W1_2_bar, W2_0_bar, W2_1_bar, W2_2_bar, amplitude_bar,
-        ) = S_bar
-        mu_bar = _stack((mu0_bar, mu1_bar, mu2_bar, mu3_bar, mu4_bar, mu5_bar, mu6_bar, mu7_bar, mu8_bar))
-        W_bar = _stack((W0_0_bar, W0_1_bar, W0_2_bar, W1_0_bar, W1_1_bar, W1_2_bar, W2_0_bar, W2_1_bar, W2_2_bar))
-        return mu_bar, W_bar.unflatten(-1, (3, 3)), amplitude_bar
+        """The derivatives in mu, W and amplitude from those sums."""
+        W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2 = W.flatten(-2).unbind(-1)
+        sum0, sum1, sum2, sum3, sum4, sum5, sum6, sum7, sum8, sum9, sum10, sum11, sum12, sum13, sum14, sum15 = sums
+        product = 2.0 * sum10
+        product_2 = 2.0 * sum13
+        product_3 = 2.0 * sum15
+        mu_bar = _stack((
+            amplitude * sum0,
+            amplitude * sum1,
+            amplitude * sum2,
+            amplitude * sum3,
+            amplitude * sum4,
+            amplitude * sum5,
+            amplitude * sum6,
+            amplitude * sum7,
+            amplitude * sum8,
+        ))
+        W_bar = _stack((
+            amplitude * (W0_0 * product + W0_1 * sum11 + W0_2 * sum12),
+            amplitude * (W0_0 * sum11 + W0_1 * product_2 + W0_2 * sum14),
+            amplitude * (W0_0 * sum12 + W0_1 * sum14 + W0_2 * product_3),
+            amplitude * (W1_0 * product + W1_1 * sum11 + W1_2 * sum12),
+            amplitude * (W1_0 * sum11 + W1_1 * product_2 + W1_2 * sum14),
+            amplitude * (W1_0 * sum12 + W1_1 * sum14 + W1_2 * product_3),
+            amplitude * (W2_0 * product + W2_1 * sum11 + W2_2 * sum12),
+            amplitude * (W2_0 * sum11 + W2_1 * product_2 + W2_2 * sum14),
+            amplitude * (W2_0 * sum12 + W2_1 * sum14 + W2_2 * product_3),
+        ))
+        return mu_bar, W_bar.unflatten(-1, (3, 3)), sum9
 
 
 manifold = So3Matrix()

@@ -81,6 +81,8 @@ INLINE uint64_t flush_denormals(void) { return 0; }
 INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
 
+#if !defined(RSRM_ONLY_FLOAT) /* double */
+
 /* The same number in all lanes. */
 INLINE vector vector_of(double x) {
     const vector zero = ZERO;
@@ -122,24 +124,24 @@ INLINE vector vector_from_bits(vector_bits bits) {
 }
 
 /* x >= 0 with the sign of another. */
-INLINE vector vector_signed(vector x, vector sign) {
+INLINE vector signed_each(vector x, vector sign) {
     return vector_from_bits(vector_to_bits(x) | (vector_to_bits(sign) & 0x8000000000000000));
 }
 
 /* abs of every lane; one instruction where the machine has it. */
-INLINE vector vector_abs(vector x) {
+INLINE vector abs_each(vector x) {
     for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
     return x;
 }
 
 /* sqrt of every lane; one instruction where the machine has it. */
-INLINE vector vector_sqrt(vector x) {
+INLINE vector sqrt_each(vector x) {
     for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
     return x;
 }
 
 /* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
-INLINE vector vector_exp(vector x) {
+INLINE vector exp_each(vector x) {
     const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
     const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
     const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
@@ -149,7 +151,7 @@ INLINE vector vector_exp(vector x) {
 }
 
 /* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
-INLINE vector vector_log(vector x) {
+INLINE vector log_each(vector x) {
     const vector_bits bits = vector_to_bits(x), biased = (bits + 0x95f619980c433) >> 52; /* k + 1023 */
     const vector k = vector_from_bits(biased + 0x4338000000000000) - 6755399441056767.0;
     const vector f = vector_from_bits(bits - (biased << 52) + 0x3ff0000000000000) - 1, s = f / (2 + f), z = s * s;
@@ -162,8 +164,8 @@ INLINE vector vector_log(vector x) {
 }
 
 /* atan2, within 3 units in the last place. */
-INLINE vector vector_atan2(vector y, vector x) {
-    const vector a = vector_abs(y), b = vector_abs(x), one = vector_of(1);
+INLINE vector atan2_each(vector y, vector x) {
+    const vector a = abs_each(y), b = abs_each(x), one = vector_of(1);
     const vector less = vector_select(a > b, b, a), more = vector_select(a > b, a, b);
     const vector low = vector_select(less > 1.7976931348623157e308, one, less);
     const vector high = vector_select(less > 1.7976931348623157e308, one, vector_select(more == 0, one, more));
@@ -174,7 +176,7 @@ INLINE vector vector_atan2(vector y, vector x) {
     const vector first = vector_select(low > 0.4142135623730951 * high, 0.7853981633974483 + (angle + 3.061616997868383e-17), angle);
     const vector second = vector_select(a > b, 1.5707963267948966 - (first - 6.123233995736766e-17), first);
     const vector third = vector_select((vector_to_bits(x) & 0x8000000000000000) != 0, 3.141592653589793 - (second - 1.2246467991473532e-16), second);
-    return vector_signed(third, y);
+    return signed_each(third, y);
 }
 
 /* Of degree 13 on [0, 1], its relative error below 2^-56. */
@@ -280,6 +282,12 @@ OUTLINE void pair_constants(
     const vector W2_1 = W[7];
     const vector W2_2 = W[8];
     const vector its_amplitude = amplitude[0];
+    const vector M0_0 = W0_0 * W0_0 + W1_0 * W1_0 + W2_0 * W2_0;
+    const vector M0_1 = W0_0 * W0_1 + W1_0 * W1_1 + W2_0 * W2_1;
+    const vector M0_2 = W0_0 * W0_2 + W1_0 * W1_2 + W2_0 * W2_2;
+    const vector M1_1 = W0_1 * W0_1 + W1_1 * W1_1 + W2_1 * W2_1;
+    const vector M1_2 = W0_1 * W0_2 + W1_1 * W1_2 + W2_1 * W2_2;
+    const vector M2_2 = W0_2 * W0_2 + W1_2 * W1_2 + W2_2 * W2_2;
     S[0] = mu0;
     S[1] = mu1;
     S[2] = mu2;
@@ -299,6 +307,12 @@ OUTLINE void pair_constants(
     S[16] = W2_1;
     S[17] = W2_2;
     S[18] = its_amplitude;
+    S[19] = M0_0;
+    S[20] = M0_1;
+    S[21] = M0_2;
+    S[22] = M1_1;
+    S[23] = M1_2;
+    S[24] = M2_2;
 }
 
 /*
@@ -373,8 +387,7 @@ INLINE void pair_value(
     const vector row = vector_select(is_less, R2_1_gap, square0);
     const vector row_5 = vector_select(is_less_2, R0_2_gap, row);
     const vector row_9 = vector_select(is_less_3, R1_0_gap, row_5);
-    const vector row_length = vector_sqrt(row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 *
-        row_9);
+    const vector row_length = sqrt_each(row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9);
     const vector g1 = row_10 / row_length;
     const vector g2 = row_11 / row_length;
     const vector g3 = row_12 / row_length;
@@ -383,13 +396,13 @@ INLINE void pair_value(
     const vector near_chosen = vector_select(near, 4.011440628672975 * norm_s_squared, vector_of(0.0));
     const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
     const vector log_det_near = norm_s_squared * log_det_series;
-    const vector norm_s = vector_sqrt(vector_select(near, vector_of(1.0), norm_s_squared));
+    const vector norm_s = sqrt_each(vector_select(near, vector_of(1.0), norm_s_squared));
     const vector g0 = row_9 / row_length;
-    const vector abs_g0 = vector_abs(g0);
-    const vector atan2_norm_s_abs_g0 = vector_atan2(norm_s, abs_g0);
+    const vector abs_g0 = abs_each(g0);
+    const vector atan2_norm_s_abs_g0 = atan2_each(norm_s, abs_g0);
     const vector t = 2.0 * atan2_norm_s_abs_g0;
     const vector t_ratio = t / norm_s;
-    const vector log_det = vector_select(near, log_det_near, 2.0 * vector_log(0.5 * t_ratio));
+    const vector log_det = vector_select(near, log_det_near, 2.0 * log_each(0.5 * t_ratio));
     const vector t_over_norm_s_near = vector_polynomial_t_over_norm_s_near(near_chosen);
     const vector t_over_norm_s = vector_select(near, t_over_norm_s_near, t_ratio);
     const vector scale = t_over_norm_s * vector_select(g0 < 0.0, vector_of(-1.0), vector_of(1.0));
@@ -400,7 +413,8 @@ INLINE void pair_value(
     const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
     const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
     const vector log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
-    value[0] = value[0] + amplitude * vector_exp(log_det_gap);
+    const vector phi = exp_each(log_det_gap);
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -476,7 +490,7 @@ OUTLINE void pair_forward(
     const vector row_5 = vector_select(is_less_2, R0_2_gap, row);
     const vector row_9 = vector_select(is_less_3, R1_0_gap, row_5);
     const vector total_2 = row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9;
-    const vector row_length = vector_sqrt(total_2);
+    const vector row_length = sqrt_each(total_2);
     const vector g1 = row_10 / row_length;
     const vector g2 = row_11 / row_length;
     const vector g3 = row_12 / row_length;
@@ -486,14 +500,14 @@ OUTLINE void pair_forward(
     const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
     const vector log_det_near = norm_s_squared * log_det_series;
     const vector near_chosen_2 = vector_select(near, vector_of(1.0), norm_s_squared);
-    const vector norm_s = vector_sqrt(near_chosen_2);
+    const vector norm_s = sqrt_each(near_chosen_2);
     const vector g0 = row_9 / row_length;
-    const vector abs_g0 = vector_abs(g0);
-    const vector atan2_norm_s_abs_g0 = vector_atan2(norm_s, abs_g0);
+    const vector abs_g0 = abs_each(g0);
+    const vector atan2_norm_s_abs_g0 = atan2_each(norm_s, abs_g0);
     const vector t = 2.0 * atan2_norm_s_abs_g0;
     const vector t_ratio = t / norm_s;
     const vector product = 0.5 * t_ratio;
-    const vector log_det = vector_select(near, log_det_near, 2.0 * vector_log(product));
+    const vector log_det = vector_select(near, log_det_near, 2.0 * log_each(product));
     const vector t_over_norm_s_near = vector_polynomial_t_over_norm_s_near(near_chosen);
     const vector t_over_norm_s = vector_select(near, t_over_norm_s_near, t_ratio);
     const vector_mask is_small = g0 < 0.0;
@@ -506,17 +520,15 @@ OUTLINE void pair_forward(
     const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
     const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
     const vector log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector phi = amplitude * vector_exp(log_det_gap);
-    const vector z2_product = z2 * phi;
-    const vector z1_product = z1 * phi;
-    const vector z0_product = z0 * phi;
-    const vector by_v2 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product;
-    const vector by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product;
-    const vector by_v0 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product;
-    const vector by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
+    const vector phi = exp_each(log_det_gap);
+    const vector phi_2 = amplitude * phi;
+    const vector phi_product = phi_2 * (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0));
+    const vector phi_product_2 = phi_2 * (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0));
+    const vector phi_product_3 = phi_2 * (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0));
+    const vector by_scale = -(g3 * phi_product) - g2 * phi_product_2 - g1 * phi_product_3;
     const vector by_t_over_norm_s = chosen * by_scale;
     const vector total_3 = vector_select(near, vector_of(0.0), by_t_over_norm_s) + 0.5 * (2.0 *
-        vector_select(near, vector_of(0.0), phi) / product);
+        vector_select(near, vector_of(0.0), phi_2) / product);
     const vector by_t = total_3 / norm_s;
     const vector by_atan2_norm_s_abs_g0 = 2.0 * by_t;
     const vector ratio = by_atan2_norm_s_abs_g0 / (near_chosen_2 + abs_g0 * abs_g0);
@@ -526,7 +538,7 @@ OUTLINE void pair_forward(
     const vector by_g0_ratio = by_g0 / row_length;
     const vector_mask is_small_2 = total_2 == 0.0;
     const vector by_norm_s = abs_g0 * ratio - t_ratio * by_t;
-    const vector by_log_det_near = vector_select(near, phi, vector_of(0.0));
+    const vector by_log_det_near = vector_select(near, phi_2, vector_of(0.0));
     const vector by_t_over_norm_s_near = vector_select(near, by_t_over_norm_s, vector_of(0.0));
     const vector t_over_norm_s_near_slope = vector_polynomial_t_over_norm_s_near_slope(near_chosen);
     const vector by_log_det_series = norm_s_squared * by_log_det_near;
@@ -535,11 +547,11 @@ OUTLINE void pair_forward(
         log_det_series * by_log_det_near + 4.011440628672975 * vector_select(near, by_t_over_norm_s_near *
         t_over_norm_s_near_slope + by_log_det_series * log_det_series_slope, vector_of(0.0));
     const vector product_2 = 2.0 * by_norm_s_squared;
-    const vector by_g3 = scale * by_v2 + g3 * product_2;
+    const vector by_g3 = g3 * product_2 - scale * phi_product;
     const vector by_g3_ratio = by_g3 / row_length;
-    const vector by_g2 = scale * by_v1 + g2 * product_2;
+    const vector by_g2 = g2 * product_2 - scale * phi_product_2;
     const vector by_g2_ratio = by_g2 / row_length;
-    const vector by_g1 = scale * by_v0 + g1 * product_2;
+    const vector by_g1 = g1 * product_2 - scale * phi_product_3;
     const vector by_g1_ratio = by_g1 / row_length;
     const vector by_row_length = -(g0 * by_g0_ratio) - g3 * by_g3_ratio - g2 * by_g2_ratio - g1 * by_g1_ratio;
     const vector product_3 = 2.0 * vector_select(is_small_2, vector_of(0.0), by_row_length / (2.0 *
@@ -581,7 +593,7 @@ OUTLINE void pair_forward(
     const vector by_R1_2 = total_8 - total_9;
     const vector by_R0_2 = total_7 + total_6;
     const vector by_R2_2 = by_square0 + (by_square3 - by_square2 - by_square1);
-    value[0] = value[0] + phi;
+    value[0] = value[0] + phi_2;
     slope[0] = slope[0] + mu1 * by_R1_0 + mu2 * by_R2_0 + mu0 * by_R0_0;
     slope[1] = slope[1] + mu2 * by_R2_1 + mu0 * by_R0_1 + mu1 * by_R1_1;
     slope[2] = slope[2] + mu1 * by_R1_2 + mu0 * by_R0_2 + mu2 * by_R2_2;
@@ -648,59 +660,67 @@ OUTLINE void pair_gradient_vjp(
     slope_bar[8] = x6 * gradient_bar1 - x7 * gradient_bar0;
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp(
-    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
+    const vector *mu, const vector *W, const vector *amplitude, const vector *sums, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
     (void)mu;
-    (void)W;
-    (void)amplitude;
-    const vector mu0_bar = S_bar[0];
-    const vector mu1_bar = S_bar[1];
-    const vector mu2_bar = S_bar[2];
-    const vector mu3_bar = S_bar[3];
-    const vector mu4_bar = S_bar[4];
-    const vector mu5_bar = S_bar[5];
-    const vector mu6_bar = S_bar[6];
-    const vector mu7_bar = S_bar[7];
-    const vector mu8_bar = S_bar[8];
-    const vector W0_0_bar = S_bar[9];
-    const vector W0_1_bar = S_bar[10];
-    const vector W0_2_bar = S_bar[11];
-    const vector W1_0_bar = S_bar[12];
-    const vector W1_1_bar = S_bar[13];
-    const vector W1_2_bar = S_bar[14];
-    const vector W2_0_bar = S_bar[15];
-    const vector W2_1_bar = S_bar[16];
-    const vector W2_2_bar = S_bar[17];
-    const vector its_amplitude_bar = S_bar[18];
-    mu_bar[0] = mu0_bar;
-    mu_bar[1] = mu1_bar;
-    mu_bar[2] = mu2_bar;
-    mu_bar[3] = mu3_bar;
-    mu_bar[4] = mu4_bar;
-    mu_bar[5] = mu5_bar;
-    mu_bar[6] = mu6_bar;
-    mu_bar[7] = mu7_bar;
-    mu_bar[8] = mu8_bar;
-    W_bar[0] = W0_0_bar;
-    W_bar[1] = W0_1_bar;
-    W_bar[2] = W0_2_bar;
-    W_bar[3] = W1_0_bar;
-    W_bar[4] = W1_1_bar;
-    W_bar[5] = W1_2_bar;
-    W_bar[6] = W2_0_bar;
-    W_bar[7] = W2_1_bar;
-    W_bar[8] = W2_2_bar;
-    amplitude_bar[0] = its_amplitude_bar;
+    const vector W0_0 = W[0];
+    const vector W0_1 = W[1];
+    const vector W0_2 = W[2];
+    const vector W1_0 = W[3];
+    const vector W1_1 = W[4];
+    const vector W1_2 = W[5];
+    const vector W2_0 = W[6];
+    const vector W2_1 = W[7];
+    const vector W2_2 = W[8];
+    const vector its_amplitude = amplitude[0];
+    const vector sum0 = sums[0];
+    const vector sum1 = sums[1];
+    const vector sum2 = sums[2];
+    const vector sum3 = sums[3];
+    const vector sum4 = sums[4];
+    const vector sum5 = sums[5];
+    const vector sum6 = sums[6];
+    const vector sum7 = sums[7];
+    const vector sum8 = sums[8];
+    const vector sum9 = sums[9];
+    const vector sum10 = sums[10];
+    const vector sum11 = sums[11];
+    const vector sum12 = sums[12];
+    const vector sum13 = sums[13];
+    const vector sum14 = sums[14];
+    const vector sum15 = sums[15];
+    const vector product = 2.0 * sum10;
+    const vector product_2 = 2.0 * sum13;
+    const vector product_3 = 2.0 * sum15;
+    mu_bar[0] = its_amplitude * sum0;
+    mu_bar[1] = its_amplitude * sum1;
+    mu_bar[2] = its_amplitude * sum2;
+    mu_bar[3] = its_amplitude * sum3;
+    mu_bar[4] = its_amplitude * sum4;
+    mu_bar[5] = its_amplitude * sum5;
+    mu_bar[6] = its_amplitude * sum6;
+    mu_bar[7] = its_amplitude * sum7;
+    mu_bar[8] = its_amplitude * sum8;
+    W_bar[0] = its_amplitude * (W0_0 * product + W0_1 * sum11 + W0_2 * sum12);
+    W_bar[1] = its_amplitude * (W0_0 * sum11 + W0_1 * product_2 + W0_2 * sum14);
+    W_bar[2] = its_amplitude * (W0_0 * sum12 + W0_1 * sum14 + W0_2 * product_3);
+    W_bar[3] = its_amplitude * (W1_0 * product + W1_1 * sum11 + W1_2 * sum12);
+    W_bar[4] = its_amplitude * (W1_0 * sum11 + W1_1 * product_2 + W1_2 * sum14);
+    W_bar[5] = its_amplitude * (W1_0 * sum12 + W1_1 * sum14 + W1_2 * product_3);
+    W_bar[6] = its_amplitude * (W2_0 * product + W2_1 * sum11 + W2_2 * sum12);
+    W_bar[7] = its_amplitude * (W2_0 * sum11 + W2_1 * product_2 + W2_2 * sum14);
+    W_bar[8] = its_amplitude * (W2_0 * sum12 + W2_1 * sum14 + W2_2 * product_3);
+    amplitude_bar[0] = sum9;
 }
 
 /*
- * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 OUTLINE void pair_backward(
-    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
+    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
     const vector x0 = X[0];
     const vector x1 = X[1];
     const vector x2 = X[2];
@@ -728,7 +748,12 @@ OUTLINE void pair_backward(
     const double W2_0 = S[15];
     const double W2_1 = S[16];
     const double W2_2 = S[17];
-    const double amplitude = S[18];
+    const double M0_0 = S[19];
+    const double M0_1 = S[20];
+    const double M0_2 = S[21];
+    const double M1_1 = S[22];
+    const double M1_2 = S[23];
+    const double M2_2 = S[24];
     const vector its_value_bar = value_bar[0];
     const vector x0_bar = slope_bar[0];
     const vector x1_bar = slope_bar[1];
@@ -752,76 +777,75 @@ OUTLINE void pair_backward(
     const vector largest_2 = vector_select(is_less_2, square2, largest);
     const vector square3 = 1.0 + R2_2 - R0_0 - R1_1;
     const vector_mask is_less_3 = largest_2 < square3;
+    const vector R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7;
+    const vector R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8;
+    const vector R1_2_total = R1_2 + R2_1;
     const vector R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6;
     const vector R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8;
     const vector R0_2_total = R0_2 + R2_0;
-    const vector R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6;
     const vector R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7;
-    const vector R0_1_total = R0_1 + R1_0;
-    const vector R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8;
-    const vector R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7;
-    const vector R2_1_gap = R2_1 - R1_2;
-    const vector row_2 = vector_select(is_less, square1, R2_1_gap);
-    const vector row_6 = vector_select(is_less_2, R0_1_total, row_2);
-    const vector row_10 = vector_select(is_less_3, R0_2_total, row_6);
-    const vector R1_2_total = R1_2 + R2_1;
-    const vector R0_2_gap = R0_2 - R2_0;
-    const vector row_3 = vector_select(is_less, R0_1_total, R0_2_gap);
-    const vector row_7 = vector_select(is_less_2, square2, row_3);
-    const vector row_11 = vector_select(is_less_3, R1_2_total, row_7);
+    const vector R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6;
     const vector R1_0_gap = R1_0 - R0_1;
     const vector row_4 = vector_select(is_less, R0_2_total, R1_0_gap);
     const vector row_8 = vector_select(is_less_2, R1_2_total, row_4);
     const vector row_12 = vector_select(is_less_3, square3, row_8);
+    const vector R0_1_total = R0_1 + R1_0;
+    const vector R2_1_gap = R2_1 - R1_2;
+    const vector row_2 = vector_select(is_less, square1, R2_1_gap);
+    const vector row_6 = vector_select(is_less_2, R0_1_total, row_2);
+    const vector row_10 = vector_select(is_less_3, R0_2_total, row_6);
+    const vector R0_2_gap = R0_2 - R2_0;
+    const vector row_3 = vector_select(is_less, R0_1_total, R0_2_gap);
+    const vector row_7 = vector_select(is_less_2, square2, row_3);
+    const vector row_11 = vector_select(is_less_3, R1_2_total, row_7);
     const vector row = vector_select(is_less, R2_1_gap, square0);
     const vector row_5 = vector_select(is_less_2, R0_2_gap, row);
     const vector row_9 = vector_select(is_less_3, R1_0_gap, row_5);
     const vector total_2 = row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9;
-    const vector row_length = vector_sqrt(total_2);
+    const vector row_length = sqrt_each(total_2);
+    const vector g3 = row_12 / row_length;
     const vector g1 = row_10 / row_length;
     const vector g2 = row_11 / row_length;
-    const vector g3 = row_12 / row_length;
     const vector norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
     const vector_mask near = norm_s_squared < 0.249287;
-    const vector near_chosen = vector_select(near, 4.011440628672975 * norm_s_squared, vector_of(0.0));
-    const vector t_over_norm_s_near = vector_polynomial_t_over_norm_s_near(near_chosen);
-    const vector near_chosen_2 = vector_select(near, vector_of(1.0), norm_s_squared);
-    const vector norm_s = vector_sqrt(near_chosen_2);
     const vector g0 = row_9 / row_length;
-    const vector abs_g0 = vector_abs(g0);
-    const vector atan2_norm_s_abs_g0 = vector_atan2(norm_s, abs_g0);
-    const vector t = 2.0 * atan2_norm_s_abs_g0;
-    const vector t_ratio = t / norm_s;
-    const vector t_over_norm_s = vector_select(near, t_over_norm_s_near, t_ratio);
+    const vector abs_g0 = abs_each(g0);
     const vector_mask is_small = g0 < 0.0;
     const vector chosen = vector_select(is_small, vector_of(-1.0), vector_of(1.0));
+    const vector near_chosen = vector_select(near, 4.011440628672975 * norm_s_squared, vector_of(0.0));
+    const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
+    const vector log_det_near = norm_s_squared * log_det_series;
+    const vector near_chosen_2 = vector_select(near, vector_of(1.0), norm_s_squared);
+    const vector norm_s = sqrt_each(near_chosen_2);
+    const vector atan2_norm_s_abs_g0 = atan2_each(norm_s, abs_g0);
+    const vector t = 2.0 * atan2_norm_s_abs_g0;
+    const vector t_ratio = t / norm_s;
+    const vector product = 0.5 * t_ratio;
+    const vector log_det = vector_select(near, log_det_near, 2.0 * log_each(product));
+    const vector t_over_norm_s_near = vector_polynomial_t_over_norm_s_near(near_chosen);
+    const vector t_over_norm_s = vector_select(near, t_over_norm_s_near, t_ratio);
     const vector scale = t_over_norm_s * chosen;
     const vector v0 = g1 * scale;
     const vector v1 = g2 * scale;
     const vector v2 = g3 * scale;
-    const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-    const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
-    const vector log_det_near = norm_s_squared * log_det_series;
-    const vector product = 0.5 * t_ratio;
-    const vector log_det = vector_select(near, log_det_near, 2.0 * vector_log(product));
     const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
     const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+    const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
     const vector log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector exp_2 = vector_exp(log_det_gap);
-    const vector phi = amplitude * exp_2;
-    const vector z2_product = z2 * phi;
-    const vector z1_product = z1 * phi;
-    const vector z0_product = z0 * phi;
-    const vector by_v2 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product;
-    const vector by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product;
-    const vector by_v0 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product;
-    const vector by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
+    const vector phi = exp_each(log_det_gap);
+    const vector total_3 = W2_2 * z2 + (W1_2 * z1 + W0_2 * z0);
+    const vector phi_product = phi * total_3;
+    const vector total_4 = W2_1 * z2 + (W1_1 * z1 + W0_1 * z0);
+    const vector phi_product_2 = phi * total_4;
+    const vector total_5 = W2_0 * z2 + (W1_0 * z1 + W0_0 * z0);
+    const vector phi_product_3 = phi * total_5;
+    const vector by_scale = -(g3 * phi_product) - g2 * phi_product_2 - g1 * phi_product_3;
     const vector by_t_over_norm_s = chosen * by_scale;
     const vector ratio = 2.0 * vector_select(near, vector_of(0.0), phi) / product;
     const vector by_t = (vector_select(near, vector_of(0.0), by_t_over_norm_s) + 0.5 * ratio) / norm_s;
     const vector by_atan2_norm_s_abs_g0 = 2.0 * by_t;
-    const vector total_3 = near_chosen_2 + abs_g0 * abs_g0;
-    const vector ratio_2 = by_atan2_norm_s_abs_g0 / total_3;
+    const vector total_6 = near_chosen_2 + abs_g0 * abs_g0;
+    const vector ratio_2 = by_atan2_norm_s_abs_g0 / total_6;
     const vector by_norm_s = abs_g0 * ratio_2 - t_ratio * by_t;
     const vector norm_s_product = 2.0 * norm_s;
     const vector by_norm_s_ratio = by_norm_s / norm_s_product;
@@ -834,16 +858,16 @@ OUTLINE void pair_backward(
         by_log_det_near + 4.011440628672975 * vector_select(near, by_t_over_norm_s_near *
         t_over_norm_s_near_slope + by_log_det_series * log_det_series_slope, vector_of(0.0));
     const vector product_2 = 2.0 * by_norm_s_squared;
-    const vector by_g3 = scale * by_v2 + g3 * product_2;
+    const vector by_g3 = g3 * product_2 - scale * phi_product;
     const vector by_g3_ratio = by_g3 / row_length;
     const vector_mask is_small_2 = total_2 == 0.0;
     const vector norm_s_product_2 = norm_s * ratio_2;
     const vector by_abs_g0 = -norm_s_product_2;
     const vector by_g0 = vector_select(is_small, norm_s_product_2, by_abs_g0);
     const vector by_g0_ratio = by_g0 / row_length;
-    const vector by_g2 = scale * by_v1 + g2 * product_2;
+    const vector by_g2 = g2 * product_2 - scale * phi_product_2;
     const vector by_g2_ratio = by_g2 / row_length;
-    const vector by_g1 = scale * by_v0 + g1 * product_2;
+    const vector by_g1 = g1 * product_2 - scale * phi_product_3;
     const vector by_g1_ratio = by_g1 / row_length;
     const vector by_row_length = -(g0 * by_g0_ratio) - g3 * by_g3_ratio - g2 * by_g2_ratio - g1 * by_g1_ratio;
     const vector product_3 = 2.0 * vector_select(is_small_2, vector_of(1.0), row_length);
@@ -864,18 +888,18 @@ OUTLINE void pair_backward(
     const vector by_square1 = vector_select(is_less, by_row_2, vector_of(0.0));
     const vector by_R0_0 = -by_square3 - by_square2 + (by_square0 + by_square1);
     const vector by_row_3 = vector_select(is_less_2, vector_of(0.0), by_row_7);
-    const vector total_4 = vector_select(is_less_2, by_row_5, vector_of(0.0)) + vector_select(is_less,
+    const vector total_7 = vector_select(is_less_2, by_row_5, vector_of(0.0)) + vector_select(is_less,
         vector_of(0.0), by_row_3);
     const vector by_row_8 = vector_select(is_less_3, vector_of(0.0), by_row_12);
     const vector by_row_4 = vector_select(is_less_2, vector_of(0.0), by_row_8);
-    const vector total_5 = vector_select(is_less, by_row_4, vector_of(0.0)) + vector_select(is_less_3,
+    const vector total_8 = vector_select(is_less, by_row_4, vector_of(0.0)) + vector_select(is_less_3,
         by_row_10, vector_of(0.0));
-    const vector by_R0_2 = total_4 + total_5;
-    const vector total_6 = vector_select(is_less, by_row_3, vector_of(0.0)) + vector_select(is_less_2,
+    const vector by_R0_2 = total_7 + total_8;
+    const vector total_9 = vector_select(is_less, by_row_3, vector_of(0.0)) + vector_select(is_less_2,
         by_row_6, vector_of(0.0));
-    const vector total_7 = vector_select(is_less_3, by_row_9, vector_of(0.0)) + vector_select(is_less,
+    const vector total_10 = vector_select(is_less_3, by_row_9, vector_of(0.0)) + vector_select(is_less,
         vector_of(0.0), by_row_4);
-    const vector by_R0_1 = total_6 - total_7;
+    const vector by_R0_1 = total_9 - total_10;
     const vector by_by_R0_2 = mu0 * x2_bar + mu3 * x5_bar + mu6 * x8_bar;
     const vector by_by_R2_0 = mu2 * x0_bar + mu5 * x3_bar + mu8 * x6_bar;
     const vector by_by_R0_2_gap = by_by_R0_2 - by_by_R2_0;
@@ -928,40 +952,40 @@ OUTLINE void pair_backward(
     const vector gap = vector_select(is_small, by_by_g0, vector_of(0.0)) - by_by_abs_g0;
     const vector by_by_g1 = (by_by_row_10 - g1 * by_by_row_length) / row_length;
     const vector by_by_g3 = (by_by_row_12 - g3 * by_by_row_length) / row_length;
-    const vector total_8 = g1 * by_by_g1 + g2 * by_by_g2 + g3 * by_by_g3;
-    const vector by_by_norm_s_squared = 2.0 * total_8;
+    const vector total_11 = g1 * by_by_g1 + g2 * by_by_g2 + g3 * by_by_g3;
+    const vector by_by_norm_s_squared = 2.0 * total_11;
     const vector by_by_norm_s = vector_select(near, vector_of(0.0), by_by_norm_s_squared) / norm_s_product;
-    const vector by_by_atan2_norm_s_abs_g0 = (norm_s * gap + abs_g0 * by_by_norm_s) / total_3;
+    const vector by_by_atan2_norm_s_abs_g0 = (norm_s * gap + abs_g0 * by_by_norm_s) / total_6;
     const vector by_by_t = 2.0 * by_by_atan2_norm_s_abs_g0 - t_ratio * by_by_norm_s;
     const vector by_by_t_ratio = by_by_t / norm_s;
-    const vector near_chosen_3 = vector_select(near, 8.02288125734595 * total_8, vector_of(0.0));
+    const vector near_chosen_3 = vector_select(near, 8.02288125734595 * total_11, vector_of(0.0));
     const vector by_by_t_over_norm_s_near = t_over_norm_s_near_slope * near_chosen_3;
     const vector by_by_t_over_norm_s = vector_select(near, vector_of(0.0), by_by_t_ratio) +
         vector_select(near, by_by_t_over_norm_s_near, vector_of(0.0));
     const vector by_by_scale = chosen * by_by_t_over_norm_s;
-    const vector by_by_v0 = g1 * by_by_scale + scale * by_by_g1;
-    const vector by_by_v1 = g2 * by_by_scale + scale * by_by_g2;
-    const vector by_by_v2 = g3 * by_by_scale + scale * by_by_g3;
-    const vector gap_2 = -(W2_0 * by_by_v0) - W2_1 * by_by_v1 - W2_2 * by_by_v2;
+    const vector gap_2 = -(g1 * by_by_scale) - scale * by_by_g1;
+    const vector phi_product_4 = phi * gap_2;
+    const vector gap_3 = -(g2 * by_by_scale) - scale * by_by_g2;
+    const vector phi_product_5 = phi * gap_3;
+    const vector gap_4 = -(g3 * by_by_scale) - scale * by_by_g3;
+    const vector phi_product_6 = phi * gap_4;
     const vector ratio_4 = 0.5 * by_by_t_ratio / product;
     const vector by_by_log_det_series = log_det_series_slope * near_chosen_3;
     const vector by_by_log_det_near = norm_s_squared * by_by_log_det_series + log_det_series *
         by_by_norm_s_squared;
-    const vector gap_3 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2;
-    const vector total_9 = its_value_bar + vector_select(near, vector_of(0.0), 2.0 * ratio_4) +
-        vector_select(near, by_by_log_det_near, vector_of(0.0)) + z0 * gap_3;
-    const vector gap_4 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2;
-    const vector by_phi = total_9 + z1 * gap_4 + z2 * gap_2;
-    const vector by_log_det = exp_2 * (amplitude * by_phi);
-    const vector by_z2 = phi * gap_2 - z2 * by_log_det;
-    const vector by_z1 = phi * gap_4 - z1 * by_log_det;
-    const vector by_z0 = phi * gap_3 - z0 * by_log_det;
-    const vector by_v1_2 = W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
-    const vector by_v2_2 = W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0;
-    const vector total_10 = by_v0 * by_by_g1 + by_v1 * by_by_g2 + by_v2 * by_by_g3 + g3 * by_v2_2 + g2 *
-        by_v1_2;
-    const vector by_v0_2 = W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0;
-    const vector by_scale_2 = total_10 + g1 * by_v0_2;
+    const vector total_12 = its_value_bar + vector_select(near, vector_of(0.0), 2.0 * ratio_4) +
+        vector_select(near, by_by_log_det_near, vector_of(0.0)) + total_3 * gap_4;
+    const vector by_phi = total_12 + total_4 * gap_3 + total_5 * gap_2;
+    const vector by_log_det = phi * by_phi;
+    const vector by_v1 = M0_1 * phi_product_4 + M1_1 * phi_product_5 + M1_2 * phi_product_6 - total_4 *
+        by_log_det;
+    const vector by_v2 = M0_2 * phi_product_4 + M1_2 * phi_product_5 + M2_2 * phi_product_6 - total_3 *
+        by_log_det;
+    const vector total_13 = -(phi_product_3 * by_by_g1) - phi_product_2 * by_by_g2 - phi_product * by_by_g3 +
+        g3 * by_v2;
+    const vector by_v0 = M0_0 * phi_product_4 + M0_1 * phi_product_5 + M0_2 * phi_product_6 - total_5 *
+        by_log_det;
+    const vector by_scale_2 = total_13 + g2 * by_v1 + g1 * by_v0;
     const vector by_t_over_norm_s_2 = chosen * by_scale_2;
     const vector product_6 = 0.5 * (2.0 * vector_select(near, vector_of(0.0), by_log_det) / product - ratio *
         ratio_4);
@@ -970,11 +994,11 @@ OUTLINE void pair_backward(
     const vector gap_5 = ratio_2 * gap - 2.0 * (by_norm_s_ratio * by_by_norm_s) - by_t * by_by_t_ratio -
         t_ratio * by_t_2;
     const vector by_atan2_norm_s_abs_g0_2 = 2.0 * by_t_2;
-    const vector ratio_5 = by_atan2_norm_s_abs_g0_2 / total_3;
+    const vector ratio_5 = by_atan2_norm_s_abs_g0_2 / total_6;
     const vector by_norm_s_2 = gap_5 + abs_g0 * ratio_5;
     const vector product_7 = ratio_2 * by_by_atan2_norm_s_abs_g0;
     const vector by_log_det_near_2 = vector_select(near, by_log_det, vector_of(0.0));
-    const vector total_11 = by_log_det_near * by_by_log_det_series + vector_select(near, vector_of(0.0),
+    const vector total_14 = by_log_det_near * by_by_log_det_series + vector_select(near, vector_of(0.0),
         by_norm_s_2 / norm_s_product - product_7) + log_det_series * by_log_det_near_2;
     const vector by_log_det_series_slope = by_log_det_series * near_chosen_3;
     const vector log_det_series_slope_slope = vector_polynomial_log_det_series_slope_slope(near_chosen);
@@ -987,10 +1011,10 @@ OUTLINE void pair_backward(
     const vector near_chosen_4 = vector_select(near, by_log_det_series_slope * log_det_series_slope_slope +
         by_t_over_norm_s_near_slope * t_over_norm_s_near_slope_slope + t_over_norm_s_near_slope *
         by_t_over_norm_s_near_2 + log_det_series_slope * by_log_det_series_2, vector_of(0.0));
-    const vector by_norm_s_squared_2 = total_11 + 4.011440628672975 * near_chosen_4;
+    const vector by_norm_s_squared_2 = total_14 + 4.011440628672975 * near_chosen_4;
     const vector product_8 = 2.0 * by_norm_s_squared_2;
-    const vector by_g2_2 = product_2 * by_by_g2 - by_g2_ratio * by_by_row_length + by_v1 * by_by_scale + scale
-        * by_v1_2 + g2 * product_8;
+    const vector by_g2_2 = product_2 * by_by_g2 - by_g2_ratio * by_by_row_length - phi_product_2 * by_by_scale
+        + scale * by_v1 + g2 * product_8;
     const vector by_g2_ratio_2 = by_g2_2 / row_length;
     const vector gap_6 = vector_select(is_small_2, vector_of(0.0), -2.0 * (ratio_3 * by_by_row_length)) -
         by_g1_ratio * by_by_g1;
@@ -1002,11 +1026,11 @@ OUTLINE void pair_backward(
     const vector by_g0_ratio_2 = by_g0_2 / row_length;
     const vector gap_8 = gap_6 - by_g2_ratio * by_by_g2 - by_g3_ratio * by_by_g3 - by_g0_ratio * by_by_g0 - g0
         * by_g0_ratio_2;
-    const vector by_g3_2 = product_2 * by_by_g3 - by_g3_ratio * by_by_row_length + by_v2 * by_by_scale + scale
-        * by_v2_2 + g3 * product_8;
+    const vector by_g3_2 = product_2 * by_by_g3 - by_g3_ratio * by_by_row_length - phi_product * by_by_scale +
+        scale * by_v2 + g3 * product_8;
     const vector by_g3_ratio_2 = by_g3_2 / row_length;
-    const vector by_g1_2 = product_2 * by_by_g1 - by_g1_ratio * by_by_row_length + by_v0 * by_by_scale + scale
-        * by_v0_2 + g1 * product_8;
+    const vector by_g1_2 = product_2 * by_by_g1 - by_g1_ratio * by_by_row_length - phi_product_3 * by_by_scale
+        + scale * by_v0 + g1 * product_8;
     const vector by_g1_ratio_2 = by_g1_2 / row_length;
     const vector by_row_length_2 = gap_8 - g3 * by_g3_ratio_2 - g2 * by_g2_ratio_2 - g1 * by_g1_ratio_2;
     const vector product_9 = 2.0 * vector_select(is_small_2, vector_of(0.0), by_row_length_2 / product_3);
@@ -1015,21 +1039,21 @@ OUTLINE void pair_backward(
     const vector by_row_3_2 = vector_select(is_less_2, vector_of(0.0), by_row_7_2);
     const vector by_row_10_2 = product_4 * by_by_row_10 + by_g1_ratio_2 + row_10 * product_9;
     const vector by_row_6_2 = vector_select(is_less_3, vector_of(0.0), by_row_10_2);
-    const vector total_12 = vector_select(is_less, by_row_3_2, vector_of(0.0)) + vector_select(is_less_2,
+    const vector total_15 = vector_select(is_less, by_row_3_2, vector_of(0.0)) + vector_select(is_less_2,
         by_row_6_2, vector_of(0.0));
     const vector by_row_9_2 = product_4 * by_by_row_9 + by_g0_ratio_2 + row_9 * product_9;
     const vector by_row_12_2 = product_4 * by_by_row_12 + by_g3_ratio_2 + row_12 * product_9;
     const vector by_row_8_2 = vector_select(is_less_3, vector_of(0.0), by_row_12_2);
     const vector by_row_4_2 = vector_select(is_less_2, vector_of(0.0), by_row_8_2);
-    const vector total_13 = vector_select(is_less_3, by_row_9_2, vector_of(0.0)) + vector_select(is_less,
+    const vector total_16 = vector_select(is_less_3, by_row_9_2, vector_of(0.0)) + vector_select(is_less,
         vector_of(0.0), by_row_4_2);
-    const vector by_R0_1_2 = total_12 - total_13;
+    const vector by_R0_1_2 = total_15 - total_16;
     const vector by_row_5_2 = vector_select(is_less_3, vector_of(0.0), by_row_9_2);
-    const vector total_14 = vector_select(is_less_2, by_row_5_2, vector_of(0.0)) + vector_select(is_less,
+    const vector total_17 = vector_select(is_less_2, by_row_5_2, vector_of(0.0)) + vector_select(is_less,
         vector_of(0.0), by_row_3_2);
-    const vector total_15 = vector_select(is_less, by_row_4_2, vector_of(0.0)) + vector_select(is_less_3,
+    const vector total_18 = vector_select(is_less, by_row_4_2, vector_of(0.0)) + vector_select(is_less_3,
         by_row_10_2, vector_of(0.0));
-    const vector by_R0_2_2 = total_14 + total_15;
+    const vector by_R0_2_2 = total_17 + total_18;
     const vector by_square3_2 = vector_select(is_less_3, by_row_12_2, vector_of(0.0));
     const vector by_square2_2 = vector_select(is_less_2, by_row_7_2, vector_of(0.0));
     const vector by_row_13 = vector_select(is_less_2, vector_of(0.0), by_row_5_2);
@@ -1038,53 +1062,54 @@ OUTLINE void pair_backward(
     const vector by_square1_2 = vector_select(is_less, by_row_2_2, vector_of(0.0));
     const vector by_R0_0_2 = -by_square3_2 - by_square2_2 + (by_square0_2 + by_square1_2);
     const vector by_R1_1 = by_square0 + (by_square2 - by_square3 - by_square1);
-    const vector by_R1_0 = total_7 + total_6;
-    const vector total_17 = vector_select(is_less_2, by_row_8, vector_of(0.0)) + vector_select(is_less_3,
+    const vector by_R1_0 = total_10 + total_9;
+    const vector total_20 = vector_select(is_less_2, by_row_8, vector_of(0.0)) + vector_select(is_less_3,
         by_row_11, vector_of(0.0));
-    const vector total_18 = vector_select(is_less, by_row, vector_of(0.0)) + vector_select(is_less,
+    const vector total_21 = vector_select(is_less, by_row, vector_of(0.0)) + vector_select(is_less,
         vector_of(0.0), by_row_2);
-    const vector by_R1_2 = total_17 - total_18;
-    const vector total_19 = vector_select(is_less_2, by_row_8_2, vector_of(0.0)) + vector_select(is_less_3,
+    const vector by_R1_2 = total_20 - total_21;
+    const vector total_22 = vector_select(is_less_2, by_row_8_2, vector_of(0.0)) + vector_select(is_less_3,
         by_row_11_2, vector_of(0.0));
-    const vector total_20 = vector_select(is_less, by_row_13, vector_of(0.0)) + vector_select(is_less,
+    const vector total_23 = vector_select(is_less, by_row_13, vector_of(0.0)) + vector_select(is_less,
         vector_of(0.0), by_row_2_2);
-    const vector by_R1_2_2 = total_19 - total_20;
-    const vector by_R1_0_2 = total_13 + total_12;
+    const vector by_R1_2_2 = total_22 - total_23;
+    const vector by_R1_0_2 = total_16 + total_15;
     const vector by_R1_1_2 = by_square0_2 + (by_square2_2 - by_square3_2 - by_square1_2);
     const vector by_R2_2 = by_square0 + (by_square3 - by_square2 - by_square1);
-    const vector by_R2_0 = total_5 - total_4;
-    const vector by_R2_1 = total_17 + total_18;
-    const vector by_R2_1_2 = total_19 + total_20;
-    const vector by_R2_0_2 = total_15 - total_14;
+    const vector by_R2_0 = total_8 - total_7;
+    const vector by_R2_1 = total_20 + total_21;
+    const vector by_R2_1_2 = total_22 + total_23;
+    const vector by_R2_0_2 = total_18 - total_17;
     const vector by_R2_2_2 = by_square0_2 + (by_square3_2 - by_square2_2 - by_square1_2);
-    S_bar[0] = S_bar[0] + by_R0_0 * x0_bar + by_R0_2 * x2_bar + by_R0_1 * x1_bar + x1 * by_R0_1_2 + x2 *
+    const vector by_log_det_product = 0.5 * by_log_det;
+    const vector gap_9 = phi_product_4 - v0 * by_log_det_product;
+    const vector gap_10 = phi_product_5 - v1 * by_log_det_product;
+    const vector gap_11 = phi_product_6 - v2 * by_log_det_product;
+    sums[0] = sums[0] + by_R0_0 * x0_bar + by_R0_2 * x2_bar + by_R0_1 * x1_bar + x1 * by_R0_1_2 + x2 *
             by_R0_2_2 + x0 * by_R0_0_2;
-    S_bar[1] = S_bar[1] + by_R1_1 * x1_bar + by_R1_0 * x0_bar + by_R1_2 * x2_bar + x2 * by_R1_2_2 + x0 *
+    sums[1] = sums[1] + by_R1_1 * x1_bar + by_R1_0 * x0_bar + by_R1_2 * x2_bar + x2 * by_R1_2_2 + x0 *
             by_R1_0_2 + x1 * by_R1_1_2;
-    S_bar[2] = S_bar[2] + by_R2_2 * x2_bar + by_R2_0 * x0_bar + by_R2_1 * x1_bar + x1 * by_R2_1_2 + x0 *
+    sums[2] = sums[2] + by_R2_2 * x2_bar + by_R2_0 * x0_bar + by_R2_1 * x1_bar + x1 * by_R2_1_2 + x0 *
             by_R2_0_2 + x2 * by_R2_2_2;
-    S_bar[3] = S_bar[3] + by_R0_0 * x3_bar + by_R0_2 * x5_bar + by_R0_1 * x4_bar + x4 * by_R0_1_2 + x5 *
+    sums[3] = sums[3] + by_R0_0 * x3_bar + by_R0_2 * x5_bar + by_R0_1 * x4_bar + x4 * by_R0_1_2 + x5 *
             by_R0_2_2 + x3 * by_R0_0_2;
-    S_bar[4] = S_bar[4] + by_R1_1 * x4_bar + by_R1_0 * x3_bar + by_R1_2 * x5_bar + x5 * by_R1_2_2 + x3 *
+    sums[4] = sums[4] + by_R1_1 * x4_bar + by_R1_0 * x3_bar + by_R1_2 * x5_bar + x5 * by_R1_2_2 + x3 *
             by_R1_0_2 + x4 * by_R1_1_2;
-    S_bar[5] = S_bar[5] + by_R2_2 * x5_bar + by_R2_0 * x3_bar + by_R2_1 * x4_bar + x4 * by_R2_1_2 + x3 *
+    sums[5] = sums[5] + by_R2_2 * x5_bar + by_R2_0 * x3_bar + by_R2_1 * x4_bar + x4 * by_R2_1_2 + x3 *
             by_R2_0_2 + x5 * by_R2_2_2;
-    S_bar[6] = S_bar[6] + by_R0_0 * x6_bar + by_R0_2 * x8_bar + by_R0_1 * x7_bar + x7 * by_R0_1_2 + x8 *
+    sums[6] = sums[6] + by_R0_0 * x6_bar + by_R0_2 * x8_bar + by_R0_1 * x7_bar + x7 * by_R0_1_2 + x8 *
             by_R0_2_2 + x6 * by_R0_0_2;
-    S_bar[7] = S_bar[7] + by_R1_1 * x7_bar + by_R1_0 * x6_bar + by_R1_2 * x8_bar + x8 * by_R1_2_2 + x6 *
+    sums[7] = sums[7] + by_R1_1 * x7_bar + by_R1_0 * x6_bar + by_R1_2 * x8_bar + x8 * by_R1_2_2 + x6 *
             by_R1_0_2 + x7 * by_R1_1_2;
-    S_bar[8] = S_bar[8] + by_R2_2 * x8_bar + by_R2_0 * x6_bar + by_R2_1 * x7_bar + x7 * by_R2_1_2 + x6 *
+    sums[8] = sums[8] + by_R2_2 * x8_bar + by_R2_0 * x6_bar + by_R2_1 * x7_bar + x7 * by_R2_1_2 + x6 *
             by_R2_0_2 + x8 * by_R2_2_2;
-    S_bar[9] = S_bar[9] + v0 * by_z0 - z0_product * by_by_v0;
-    S_bar[10] = S_bar[10] + v1 * by_z0 - z0_product * by_by_v1;
-    S_bar[11] = S_bar[11] + v2 * by_z0 - z0_product * by_by_v2;
-    S_bar[12] = S_bar[12] + v0 * by_z1 - z1_product * by_by_v0;
-    S_bar[13] = S_bar[13] + v1 * by_z1 - z1_product * by_by_v1;
-    S_bar[14] = S_bar[14] + v2 * by_z1 - z1_product * by_by_v2;
-    S_bar[15] = S_bar[15] + v0 * by_z2 - z2_product * by_by_v0;
-    S_bar[16] = S_bar[16] + v1 * by_z2 - z2_product * by_by_v1;
-    S_bar[17] = S_bar[17] + v2 * by_z2 - z2_product * by_by_v2;
-    S_bar[18] = S_bar[18] + exp_2 * by_phi;
+    sums[9] = sums[9] + by_log_det;
+    sums[10] = sums[10] + v0 * gap_9;
+    sums[11] = sums[11] + v0 * gap_10 + v1 * gap_9;
+    sums[12] = sums[12] + v0 * gap_11 + v2 * gap_9;
+    sums[13] = sums[13] + v1 * gap_10;
+    sums[14] = sums[14] + v1 * gap_11 + v2 * gap_10;
+    sums[15] = sums[15] + v2 * gap_11;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -1116,7 +1141,7 @@ size_t so3_matrix_splats_work(size_t count, size_t splat_count, int threads) {
     (void)threads;
     const size_t points = (count + LANES - 1) / LANES, blocks = (points + 2 - 1) / 2;
     const size_t places = 0 * ((splat_count + LANES - 1) / LANES + (blocks + LANES - 1) / LANES);
-    return (points * 19 + places + 1) * LANES + 19 * splat_count;
+    return (points * 19 + places + 1) * LANES + 25 * splat_count;
 }
 
 static vector *work_points(double *work) {
@@ -1130,12 +1155,12 @@ INLINE const double *splat_at(const vector *splats, size_t k) {
     return (const double *)(splats + 0 * row) + (k - row * LANES);
 }
 
-static vector *work_splats(double *work, size_t count) {
+static vector *work_reaches(double *work, size_t count) {
     return work_points(work) + (count + LANES - 1) / LANES * 19;
 }
 
 static vector *work_blocks(double *work, size_t count, size_t splat_count) {
-    return work_splats(work, count) + 0 * ((splat_count + LANES - 1) / LANES);
+    return work_reaches(work, count) + 0 * ((splat_count + LANES - 1) / LANES);
 }
 
 static double *work_constants(double *work, size_t count, size_t splat_count) {
@@ -1167,13 +1192,13 @@ static size_t blocks_near(
 OUTLINE void splat_constants(
     size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, const double *width, double *constants,
     vector *splats) {
-    vector own_mu[9], own_W[9], own_amplitude[1], S[19];
+    vector own_mu[9], own_W[9], own_amplitude[1], S[25];
     vector_rows(mu, splat_count, start, 9, own_mu);
     vector_rows(W, splat_count, start, 9, own_W);
     vector_rows(amplitude, splat_count, start, 1, own_amplitude);
     if (width) splat_reach(own_mu, own_amplitude, width, splat_count, start, splats);
     pair_constants(own_mu, own_W, own_amplitude, S);
-    vector_to_rows(S, constants, splat_count, start, 19, 19);
+    vector_to_rows(S, constants, splat_count, start, 25, 25);
 }
 
 /* 2 vectors of points at a time stay in registers while all splats pass. */
@@ -1182,7 +1207,7 @@ void so3_matrix_splats(
     double *SO3_MATRIX_RESTRICT value, double *SO3_MATRIX_RESTRICT gradient, double *SO3_MATRIX_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1204,7 +1229,7 @@ void so3_matrix_splats(
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
                 for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 19 * near[i];
+                    const double *S = constants + 25 * near[i];
                     pair_forward(X[0], S, value_sum[0], slope_sum[0]);
                     pair_forward(X[1], S, value_sum[1], slope_sum[1]);
                 }
@@ -1224,7 +1249,7 @@ void so3_matrix_splats_value(
     double *SO3_MATRIX_RESTRICT value, double *SO3_MATRIX_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1245,7 +1270,7 @@ void so3_matrix_splats_value(
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
                 for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 19 * near[i];
+                    const double *S = constants + 25 * near[i];
                     pair_value(X[0], S, value_sum[0]);
                     pair_value(X[1], S, value_sum[1]);
                 }
@@ -1270,32 +1295,35 @@ OUTLINE void splat_points(
     vector_end(count, start, 9 + 1, point + 9);
 }
 
-/* Adds to S_bar what some vectors of points add to it, those in the list. */
-OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *S_bar) {
-    vector sum[19] = {ZERO};
-    for (size_t b = 0; b < size; ++b) {
+/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *sums) {
+    vector sum[16] = {ZERO};
+    size_t b = 0;
+    for (; b + 1 < size; b += 2) {
+        const vector *point = points + 19 * (size_t)near[b], *other = points + 19 * (size_t)near[b + 1];
+        pair_backward(point, S, point + 9, point + 9 + 1, sum);
+        pair_backward(other, S, other + 9, other + 9 + 1, sum);
+    }
+    if (b < size) {
         const vector *point = points + 19 * (size_t)near[b];
         pair_backward(point, S, point + 9, point + 9 + 1, sum);
     }
-    S_bar[0] += vector_sum(sum[0]);
-    S_bar[1] += vector_sum(sum[1]);
-    S_bar[2] += vector_sum(sum[2]);
-    S_bar[3] += vector_sum(sum[3]);
-    S_bar[4] += vector_sum(sum[4]);
-    S_bar[5] += vector_sum(sum[5]);
-    S_bar[6] += vector_sum(sum[6]);
-    S_bar[7] += vector_sum(sum[7]);
-    S_bar[8] += vector_sum(sum[8]);
-    S_bar[9] += vector_sum(sum[9]);
-    S_bar[10] += vector_sum(sum[10]);
-    S_bar[11] += vector_sum(sum[11]);
-    S_bar[12] += vector_sum(sum[12]);
-    S_bar[13] += vector_sum(sum[13]);
-    S_bar[14] += vector_sum(sum[14]);
-    S_bar[15] += vector_sum(sum[15]);
-    S_bar[16] += vector_sum(sum[16]);
-    S_bar[17] += vector_sum(sum[17]);
-    S_bar[18] += vector_sum(sum[18]);
+    sums[0] += vector_sum(sum[0]);
+    sums[1] += vector_sum(sum[1]);
+    sums[2] += vector_sum(sum[2]);
+    sums[3] += vector_sum(sum[3]);
+    sums[4] += vector_sum(sum[4]);
+    sums[5] += vector_sum(sum[5]);
+    sums[6] += vector_sum(sum[6]);
+    sums[7] += vector_sum(sum[7]);
+    sums[8] += vector_sum(sum[8]);
+    sums[9] += vector_sum(sum[9]);
+    sums[10] += vector_sum(sum[10]);
+    sums[11] += vector_sum(sum[11]);
+    sums[12] += vector_sum(sum[12]);
+    sums[13] += vector_sum(sum[13]);
+    sums[14] += vector_sum(sum[14]);
+    sums[15] += vector_sum(sum[15]);
 }
 
 /*
@@ -1311,7 +1339,7 @@ void so3_matrix_splats_vjp(
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES ? part : LANES;
     vector *points = work_points(work);
-    vector *splats = work_splats(work, count), *places = work_blocks(work, count, splat_count);
+    vector *splats = work_reaches(work, count), *places = work_blocks(work, count, splat_count);
     double *constants = work_constants(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -1337,22 +1365,22 @@ void so3_matrix_splats_vjp(
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
-            double sums[LANES][19] = {{0}};
+            double sums[LANES][16] = {{0}};
             uint32_t near[131072 / (19 * sizeof(vector)) + 2];
-            vector own_mu[9], own_W[9], own_amplitude[1], S_bar[19], bars[19];
+            vector own_mu[9], own_W[9], own_amplitude[1], own_sums[16], bars[19];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
                     const double *reach = width ? splat_at(splats, k) + 9 * LANES : NULL;
                     const size_t some = blocks_near(mu + 9 * k, reach, places, first, first + size, near);
-                    splat_sums(points + 19 * first, near, some, constants + 19 * k, sums[k - start]);
+                    splat_sums(points + 19 * first, near, some, constants + 25 * k, sums[k - start]);
                 }
             }
             vector_rows(mu, end, start, 9, own_mu);
             vector_rows(W, end, start, 9, own_W);
             vector_rows(amplitude, end, start, 1, own_amplitude);
-            vector_rows(sums[0], LANES, 0, 19, S_bar);
-            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 9, bars + 9 + 9);
+            vector_rows(sums[0], LANES, 0, 16, own_sums);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 9, bars + 9 + 9);
             vector_to_rows(bars, mu_bar, end, start, 9, 9);
             vector_to_rows(bars + 9, W_bar, end, start, 9, 9);
             vector_to_rows(bars + 9 + 9, amplitude_bar, end, start, 1, 1);
@@ -1379,12 +1407,12 @@ void so3_matrix_splats_rows(
             vector point[19];
             splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector own_mu[9], own_W[9], own_amplitude[1], S_bar[19] = {ZERO}, bars[19];
+                vector own_mu[9], own_W[9], own_amplitude[1], own_sums[16] = {ZERO}, bars[19];
                 for (int i = 0; i < 9; ++i) own_mu[i] = vector_of(mu[9 * k + i]);
                 for (int i = 0; i < 9; ++i) own_W[i] = vector_of(W[9 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 19 * k, point + 9, point + 9 + 1, S_bar);
-                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 9, bars + 9 + 9);
+                pair_backward(point, constants + 25 * k, point + 9, point + 9 + 1, own_sums);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 9, bars + 9 + 9);
                 vector_to_rows(bars, rows + 19 * k, count, block * LANES, 19, 19 * splat_count);
             }
         }
@@ -1400,6 +1428,10 @@ double so3_matrix_splats_order(
     for (size_t n = 0; n < count; ++n) order[n] = n;
     return 1;
 }
+
+#endif /* double */
+
+#if !defined(RSRM_ONLY_DOUBLE) /* float */
 
 /* The same number in all lanes. */
 INLINE vector_f vector_of_f(float x) {
@@ -1442,24 +1474,24 @@ INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
 }
 
 /* x >= 0 with the sign of another. */
-INLINE vector_f vector_signed_f(vector_f x, vector_f sign) {
+INLINE vector_f signed_each_f(vector_f x, vector_f sign) {
     return vector_from_bits_f(vector_to_bits_f(x) | (vector_to_bits_f(sign) & 0x80000000));
 }
 
 /* abs of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_abs_f(vector_f x) {
+INLINE vector_f abs_each_f(vector_f x) {
     for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
     return x;
 }
 
 /* sqrt of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_sqrt_f(vector_f x) {
+INLINE vector_f sqrt_each_f(vector_f x) {
     for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
     return x;
 }
 
 /* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
-INLINE vector_f vector_exp_f(vector_f x) {
+INLINE vector_f exp_each_f(vector_f x) {
     const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
     const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
     const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
@@ -1469,7 +1501,7 @@ INLINE vector_f vector_exp_f(vector_f x) {
 }
 
 /* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
-INLINE vector_f vector_log_f(vector_f x) {
+INLINE vector_f log_each_f(vector_f x) {
     const vector_bits_f bits = vector_to_bits_f(x), biased = (bits + 0x4afb0d) >> 23; /* k + 127 */
     const vector_f k = vector_from_bits_f(biased + 0x4b400000) - 12583039.0f;
     const vector_f f = vector_from_bits_f(bits - (biased << 23) + 0x3f800000) - 1, s = f / (2 + f), z = s * s;
@@ -1482,8 +1514,8 @@ INLINE vector_f vector_log_f(vector_f x) {
 }
 
 /* atan2, within 3 units in the last place. */
-INLINE vector_f vector_atan2_f(vector_f y, vector_f x) {
-    const vector_f a = vector_abs_f(y), b = vector_abs_f(x), one = vector_of_f(1);
+INLINE vector_f atan2_each_f(vector_f y, vector_f x) {
+    const vector_f a = abs_each_f(y), b = abs_each_f(x), one = vector_of_f(1);
     const vector_f less = vector_select_f(a > b, b, a), more = vector_select_f(a > b, a, b);
     const vector_f low = vector_select_f(less > 3.4028234663852886e38f, one, less);
     const vector_f high = vector_select_f(less > 3.4028234663852886e38f, one, vector_select_f(more == 0, one, more));
@@ -1494,7 +1526,7 @@ INLINE vector_f vector_atan2_f(vector_f y, vector_f x) {
     const vector_f first = vector_select_f(low > 0.4142135623730951f * high, 0.7853981852531433f + (angle + -2.1855695000931213e-08f), angle);
     const vector_f second = vector_select_f(a > b, 1.5707963705062866f - (first - -4.3711390001862426e-08f), first);
     const vector_f third = vector_select_f((vector_to_bits_f(x) & 0x80000000) != 0, 3.1415927410125732f - (second - -8.742278000372485e-08f), second);
-    return vector_signed_f(third, y);
+    return signed_each_f(third, y);
 }
 
 /* Of degree 6, within 2^-30 of that of double precision. */
@@ -1589,6 +1621,12 @@ OUTLINE void pair_constants_f(
     const vector_f W2_1 = W[7];
     const vector_f W2_2 = W[8];
     const vector_f its_amplitude = amplitude[0];
+    const vector_f M0_0 = W0_0 * W0_0 + W1_0 * W1_0 + W2_0 * W2_0;
+    const vector_f M0_1 = W0_0 * W0_1 + W1_0 * W1_1 + W2_0 * W2_1;
+    const vector_f M0_2 = W0_0 * W0_2 + W1_0 * W1_2 + W2_0 * W2_2;
+    const vector_f M1_1 = W0_1 * W0_1 + W1_1 * W1_1 + W2_1 * W2_1;
+    const vector_f M1_2 = W0_1 * W0_2 + W1_1 * W1_2 + W2_1 * W2_2;
+    const vector_f M2_2 = W0_2 * W0_2 + W1_2 * W1_2 + W2_2 * W2_2;
     S[0] = mu0;
     S[1] = mu1;
     S[2] = mu2;
@@ -1608,6 +1646,12 @@ OUTLINE void pair_constants_f(
     S[16] = W2_1;
     S[17] = W2_2;
     S[18] = its_amplitude;
+    S[19] = M0_0;
+    S[20] = M0_1;
+    S[21] = M0_2;
+    S[22] = M1_1;
+    S[23] = M1_2;
+    S[24] = M2_2;
 }
 
 /*
@@ -1682,7 +1726,7 @@ INLINE void pair_value_f(
     const vector_f row = vector_select_f(is_less, R2_1_gap, square0);
     const vector_f row_5 = vector_select_f(is_less_2, R0_2_gap, row);
     const vector_f row_9 = vector_select_f(is_less_3, R1_0_gap, row_5);
-    const vector_f row_length = vector_sqrt_f(row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 *
+    const vector_f row_length = sqrt_each_f(row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 *
         row_9);
     const vector_f g1 = row_10 / row_length;
     const vector_f g2 = row_11 / row_length;
@@ -1693,13 +1737,13 @@ INLINE void pair_value_f(
         vector_of_f(0.0f));
     const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
     const vector_f log_det_near = norm_s_squared * log_det_series;
-    const vector_f norm_s = vector_sqrt_f(vector_select_f(near, vector_of_f(1.0f), norm_s_squared));
+    const vector_f norm_s = sqrt_each_f(vector_select_f(near, vector_of_f(1.0f), norm_s_squared));
     const vector_f g0 = row_9 / row_length;
-    const vector_f abs_g0 = vector_abs_f(g0);
-    const vector_f atan2_norm_s_abs_g0 = vector_atan2_f(norm_s, abs_g0);
+    const vector_f abs_g0 = abs_each_f(g0);
+    const vector_f atan2_norm_s_abs_g0 = atan2_each_f(norm_s, abs_g0);
     const vector_f t = 2.0f * atan2_norm_s_abs_g0;
     const vector_f t_ratio = t / norm_s;
-    const vector_f log_det = vector_select_f(near, log_det_near, 2.0f * vector_log_f(0.5f * t_ratio));
+    const vector_f log_det = vector_select_f(near, log_det_near, 2.0f * log_each_f(0.5f * t_ratio));
     const vector_f t_over_norm_s_near = vector_polynomial_t_over_norm_s_near_f(near_chosen);
     const vector_f t_over_norm_s = vector_select_f(near, t_over_norm_s_near, t_ratio);
     const vector_f scale = t_over_norm_s * vector_select_f(g0 < 0.0f, vector_of_f(-1.0f), vector_of_f(1.0f));
@@ -1710,7 +1754,8 @@ INLINE void pair_value_f(
     const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
     const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
     const vector_f log_det_gap = log_det - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
-    value[0] = value[0] + amplitude * vector_exp_f(log_det_gap);
+    const vector_f phi = exp_each_f(log_det_gap);
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -1786,7 +1831,7 @@ OUTLINE void pair_forward_f(
     const vector_f row_5 = vector_select_f(is_less_2, R0_2_gap, row);
     const vector_f row_9 = vector_select_f(is_less_3, R1_0_gap, row_5);
     const vector_f total_2 = row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9;
-    const vector_f row_length = vector_sqrt_f(total_2);
+    const vector_f row_length = sqrt_each_f(total_2);
     const vector_f g1 = row_10 / row_length;
     const vector_f g2 = row_11 / row_length;
     const vector_f g3 = row_12 / row_length;
@@ -1797,14 +1842,14 @@ OUTLINE void pair_forward_f(
     const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
     const vector_f log_det_near = norm_s_squared * log_det_series;
     const vector_f near_chosen_2 = vector_select_f(near, vector_of_f(1.0f), norm_s_squared);
-    const vector_f norm_s = vector_sqrt_f(near_chosen_2);
+    const vector_f norm_s = sqrt_each_f(near_chosen_2);
     const vector_f g0 = row_9 / row_length;
-    const vector_f abs_g0 = vector_abs_f(g0);
-    const vector_f atan2_norm_s_abs_g0 = vector_atan2_f(norm_s, abs_g0);
+    const vector_f abs_g0 = abs_each_f(g0);
+    const vector_f atan2_norm_s_abs_g0 = atan2_each_f(norm_s, abs_g0);
     const vector_f t = 2.0f * atan2_norm_s_abs_g0;
     const vector_f t_ratio = t / norm_s;
     const vector_f product = 0.5f * t_ratio;
-    const vector_f log_det = vector_select_f(near, log_det_near, 2.0f * vector_log_f(product));
+    const vector_f log_det = vector_select_f(near, log_det_near, 2.0f * log_each_f(product));
     const vector_f t_over_norm_s_near = vector_polynomial_t_over_norm_s_near_f(near_chosen);
     const vector_f t_over_norm_s = vector_select_f(near, t_over_norm_s_near, t_ratio);
     const vector_mask_f is_small = g0 < 0.0f;
@@ -1817,17 +1862,15 @@ OUTLINE void pair_forward_f(
     const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
     const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
     const vector_f log_det_gap = log_det - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector_f phi = amplitude * vector_exp_f(log_det_gap);
-    const vector_f z2_product = z2 * phi;
-    const vector_f z1_product = z1 * phi;
-    const vector_f z0_product = z0 * phi;
-    const vector_f by_v2 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product;
-    const vector_f by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product;
-    const vector_f by_v0 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product;
-    const vector_f by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
+    const vector_f phi = exp_each_f(log_det_gap);
+    const vector_f phi_2 = amplitude * phi;
+    const vector_f phi_product = phi_2 * (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0));
+    const vector_f phi_product_2 = phi_2 * (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0));
+    const vector_f phi_product_3 = phi_2 * (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0));
+    const vector_f by_scale = -(g3 * phi_product) - g2 * phi_product_2 - g1 * phi_product_3;
     const vector_f by_t_over_norm_s = chosen * by_scale;
     const vector_f total_3 = vector_select_f(near, vector_of_f(0.0f), by_t_over_norm_s) + 0.5f * (2.0f *
-        vector_select_f(near, vector_of_f(0.0f), phi) / product);
+        vector_select_f(near, vector_of_f(0.0f), phi_2) / product);
     const vector_f by_t = total_3 / norm_s;
     const vector_f by_atan2_norm_s_abs_g0 = 2.0f * by_t;
     const vector_f ratio = by_atan2_norm_s_abs_g0 / (near_chosen_2 + abs_g0 * abs_g0);
@@ -1837,7 +1880,7 @@ OUTLINE void pair_forward_f(
     const vector_f by_g0_ratio = by_g0 / row_length;
     const vector_mask_f is_small_2 = total_2 == 0.0f;
     const vector_f by_norm_s = abs_g0 * ratio - t_ratio * by_t;
-    const vector_f by_log_det_near = vector_select_f(near, phi, vector_of_f(0.0f));
+    const vector_f by_log_det_near = vector_select_f(near, phi_2, vector_of_f(0.0f));
     const vector_f by_t_over_norm_s_near = vector_select_f(near, by_t_over_norm_s, vector_of_f(0.0f));
     const vector_f t_over_norm_s_near_slope = vector_polynomial_t_over_norm_s_near_slope_f(near_chosen);
     const vector_f by_log_det_series = norm_s_squared * by_log_det_near;
@@ -1846,11 +1889,11 @@ OUTLINE void pair_forward_f(
         log_det_series * by_log_det_near + 4.011440628672975f * vector_select_f(near, by_t_over_norm_s_near *
         t_over_norm_s_near_slope + by_log_det_series * log_det_series_slope, vector_of_f(0.0f));
     const vector_f product_2 = 2.0f * by_norm_s_squared;
-    const vector_f by_g3 = scale * by_v2 + g3 * product_2;
+    const vector_f by_g3 = g3 * product_2 - scale * phi_product;
     const vector_f by_g3_ratio = by_g3 / row_length;
-    const vector_f by_g2 = scale * by_v1 + g2 * product_2;
+    const vector_f by_g2 = g2 * product_2 - scale * phi_product_2;
     const vector_f by_g2_ratio = by_g2 / row_length;
-    const vector_f by_g1 = scale * by_v0 + g1 * product_2;
+    const vector_f by_g1 = g1 * product_2 - scale * phi_product_3;
     const vector_f by_g1_ratio = by_g1 / row_length;
     const vector_f by_row_length = -(g0 * by_g0_ratio) - g3 * by_g3_ratio - g2 * by_g2_ratio - g1 *
         by_g1_ratio;
@@ -1893,7 +1936,7 @@ OUTLINE void pair_forward_f(
     const vector_f by_R1_2 = total_8 - total_9;
     const vector_f by_R0_2 = total_7 + total_6;
     const vector_f by_R2_2 = by_square0 + (by_square3 - by_square2 - by_square1);
-    value[0] = value[0] + phi;
+    value[0] = value[0] + phi_2;
     slope[0] = slope[0] + mu1 * by_R1_0 + mu2 * by_R2_0 + mu0 * by_R0_0;
     slope[1] = slope[1] + mu2 * by_R2_1 + mu0 * by_R0_1 + mu1 * by_R1_1;
     slope[2] = slope[2] + mu1 * by_R1_2 + mu0 * by_R0_2 + mu2 * by_R2_2;
@@ -1960,59 +2003,67 @@ OUTLINE void pair_gradient_vjp_f(
     slope_bar[8] = x6 * gradient_bar1 - x7 * gradient_bar0;
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp_f(
-    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *sums, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
     (void)mu;
-    (void)W;
-    (void)amplitude;
-    const vector_f mu0_bar = S_bar[0];
-    const vector_f mu1_bar = S_bar[1];
-    const vector_f mu2_bar = S_bar[2];
-    const vector_f mu3_bar = S_bar[3];
-    const vector_f mu4_bar = S_bar[4];
-    const vector_f mu5_bar = S_bar[5];
-    const vector_f mu6_bar = S_bar[6];
-    const vector_f mu7_bar = S_bar[7];
-    const vector_f mu8_bar = S_bar[8];
-    const vector_f W0_0_bar = S_bar[9];
-    const vector_f W0_1_bar = S_bar[10];
-    const vector_f W0_2_bar = S_bar[11];
-    const vector_f W1_0_bar = S_bar[12];
-    const vector_f W1_1_bar = S_bar[13];
-    const vector_f W1_2_bar = S_bar[14];
-    const vector_f W2_0_bar = S_bar[15];
-    const vector_f W2_1_bar = S_bar[16];
-    const vector_f W2_2_bar = S_bar[17];
-    const vector_f its_amplitude_bar = S_bar[18];
-    mu_bar[0] = mu0_bar;
-    mu_bar[1] = mu1_bar;
-    mu_bar[2] = mu2_bar;
-    mu_bar[3] = mu3_bar;
-    mu_bar[4] = mu4_bar;
-    mu_bar[5] = mu5_bar;
-    mu_bar[6] = mu6_bar;
-    mu_bar[7] = mu7_bar;
-    mu_bar[8] = mu8_bar;
-    W_bar[0] = W0_0_bar;
-    W_bar[1] = W0_1_bar;
-    W_bar[2] = W0_2_bar;
-    W_bar[3] = W1_0_bar;
-    W_bar[4] = W1_1_bar;
-    W_bar[5] = W1_2_bar;
-    W_bar[6] = W2_0_bar;
-    W_bar[7] = W2_1_bar;
-    W_bar[8] = W2_2_bar;
-    amplitude_bar[0] = its_amplitude_bar;
+    const vector_f W0_0 = W[0];
+    const vector_f W0_1 = W[1];
+    const vector_f W0_2 = W[2];
+    const vector_f W1_0 = W[3];
+    const vector_f W1_1 = W[4];
+    const vector_f W1_2 = W[5];
+    const vector_f W2_0 = W[6];
+    const vector_f W2_1 = W[7];
+    const vector_f W2_2 = W[8];
+    const vector_f its_amplitude = amplitude[0];
+    const vector_f sum0 = sums[0];
+    const vector_f sum1 = sums[1];
+    const vector_f sum2 = sums[2];
+    const vector_f sum3 = sums[3];
+    const vector_f sum4 = sums[4];
+    const vector_f sum5 = sums[5];
+    const vector_f sum6 = sums[6];
+    const vector_f sum7 = sums[7];
+    const vector_f sum8 = sums[8];
+    const vector_f sum9 = sums[9];
+    const vector_f sum10 = sums[10];
+    const vector_f sum11 = sums[11];
+    const vector_f sum12 = sums[12];
+    const vector_f sum13 = sums[13];
+    const vector_f sum14 = sums[14];
+    const vector_f sum15 = sums[15];
+    const vector_f product = 2.0f * sum10;
+    const vector_f product_2 = 2.0f * sum13;
+    const vector_f product_3 = 2.0f * sum15;
+    mu_bar[0] = its_amplitude * sum0;
+    mu_bar[1] = its_amplitude * sum1;
+    mu_bar[2] = its_amplitude * sum2;
+    mu_bar[3] = its_amplitude * sum3;
+    mu_bar[4] = its_amplitude * sum4;
+    mu_bar[5] = its_amplitude * sum5;
+    mu_bar[6] = its_amplitude * sum6;
+    mu_bar[7] = its_amplitude * sum7;
+    mu_bar[8] = its_amplitude * sum8;
+    W_bar[0] = its_amplitude * (W0_0 * product + W0_1 * sum11 + W0_2 * sum12);
+    W_bar[1] = its_amplitude * (W0_0 * sum11 + W0_1 * product_2 + W0_2 * sum14);
+    W_bar[2] = its_amplitude * (W0_0 * sum12 + W0_1 * sum14 + W0_2 * product_3);
+    W_bar[3] = its_amplitude * (W1_0 * product + W1_1 * sum11 + W1_2 * sum12);
+    W_bar[4] = its_amplitude * (W1_0 * sum11 + W1_1 * product_2 + W1_2 * sum14);
+    W_bar[5] = its_amplitude * (W1_0 * sum12 + W1_1 * sum14 + W1_2 * product_3);
+    W_bar[6] = its_amplitude * (W2_0 * product + W2_1 * sum11 + W2_2 * sum12);
+    W_bar[7] = its_amplitude * (W2_0 * sum11 + W2_1 * product_2 + W2_2 * sum14);
+    W_bar[8] = its_amplitude * (W2_0 * sum12 + W2_1 * sum14 + W2_2 * product_3);
+    amplitude_bar[0] = sum9;
 }
 
 /*
- * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 OUTLINE void pair_backward_f(
-    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
+    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
     const vector_f x0 = X[0];
     const vector_f x1 = X[1];
     const vector_f x2 = X[2];
@@ -2040,7 +2091,12 @@ OUTLINE void pair_backward_f(
     const float W2_0 = S[15];
     const float W2_1 = S[16];
     const float W2_2 = S[17];
-    const float amplitude = S[18];
+    const float M0_0 = S[19];
+    const float M0_1 = S[20];
+    const float M0_2 = S[21];
+    const float M1_1 = S[22];
+    const float M1_2 = S[23];
+    const float M2_2 = S[24];
     const vector_f its_value_bar = value_bar[0];
     const vector_f x0_bar = slope_bar[0];
     const vector_f x1_bar = slope_bar[1];
@@ -2064,78 +2120,77 @@ OUTLINE void pair_backward_f(
     const vector_f largest_2 = vector_select_f(is_less_2, square2, largest);
     const vector_f square3 = 1.0f + R2_2 - R0_0 - R1_1;
     const vector_mask_f is_less_3 = largest_2 < square3;
+    const vector_f R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7;
+    const vector_f R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8;
+    const vector_f R1_2_total = R1_2 + R2_1;
     const vector_f R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6;
     const vector_f R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8;
     const vector_f R0_2_total = R0_2 + R2_0;
-    const vector_f R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6;
     const vector_f R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7;
-    const vector_f R0_1_total = R0_1 + R1_0;
-    const vector_f R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8;
-    const vector_f R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7;
-    const vector_f R2_1_gap = R2_1 - R1_2;
-    const vector_f row_2 = vector_select_f(is_less, square1, R2_1_gap);
-    const vector_f row_6 = vector_select_f(is_less_2, R0_1_total, row_2);
-    const vector_f row_10 = vector_select_f(is_less_3, R0_2_total, row_6);
-    const vector_f R1_2_total = R1_2 + R2_1;
-    const vector_f R0_2_gap = R0_2 - R2_0;
-    const vector_f row_3 = vector_select_f(is_less, R0_1_total, R0_2_gap);
-    const vector_f row_7 = vector_select_f(is_less_2, square2, row_3);
-    const vector_f row_11 = vector_select_f(is_less_3, R1_2_total, row_7);
+    const vector_f R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6;
     const vector_f R1_0_gap = R1_0 - R0_1;
     const vector_f row_4 = vector_select_f(is_less, R0_2_total, R1_0_gap);
     const vector_f row_8 = vector_select_f(is_less_2, R1_2_total, row_4);
     const vector_f row_12 = vector_select_f(is_less_3, square3, row_8);
+    const vector_f R0_1_total = R0_1 + R1_0;
+    const vector_f R2_1_gap = R2_1 - R1_2;
+    const vector_f row_2 = vector_select_f(is_less, square1, R2_1_gap);
+    const vector_f row_6 = vector_select_f(is_less_2, R0_1_total, row_2);
+    const vector_f row_10 = vector_select_f(is_less_3, R0_2_total, row_6);
+    const vector_f R0_2_gap = R0_2 - R2_0;
+    const vector_f row_3 = vector_select_f(is_less, R0_1_total, R0_2_gap);
+    const vector_f row_7 = vector_select_f(is_less_2, square2, row_3);
+    const vector_f row_11 = vector_select_f(is_less_3, R1_2_total, row_7);
     const vector_f row = vector_select_f(is_less, R2_1_gap, square0);
     const vector_f row_5 = vector_select_f(is_less_2, R0_2_gap, row);
     const vector_f row_9 = vector_select_f(is_less_3, R1_0_gap, row_5);
     const vector_f total_2 = row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9;
-    const vector_f row_length = vector_sqrt_f(total_2);
+    const vector_f row_length = sqrt_each_f(total_2);
+    const vector_f g3 = row_12 / row_length;
     const vector_f g1 = row_10 / row_length;
     const vector_f g2 = row_11 / row_length;
-    const vector_f g3 = row_12 / row_length;
     const vector_f norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
     const vector_mask_f near = norm_s_squared < 0.249287f;
-    const vector_f near_chosen = vector_select_f(near, 4.011440628672975f * norm_s_squared,
-        vector_of_f(0.0f));
-    const vector_f t_over_norm_s_near = vector_polynomial_t_over_norm_s_near_f(near_chosen);
-    const vector_f near_chosen_2 = vector_select_f(near, vector_of_f(1.0f), norm_s_squared);
-    const vector_f norm_s = vector_sqrt_f(near_chosen_2);
     const vector_f g0 = row_9 / row_length;
-    const vector_f abs_g0 = vector_abs_f(g0);
-    const vector_f atan2_norm_s_abs_g0 = vector_atan2_f(norm_s, abs_g0);
-    const vector_f t = 2.0f * atan2_norm_s_abs_g0;
-    const vector_f t_ratio = t / norm_s;
-    const vector_f t_over_norm_s = vector_select_f(near, t_over_norm_s_near, t_ratio);
+    const vector_f abs_g0 = abs_each_f(g0);
     const vector_mask_f is_small = g0 < 0.0f;
     const vector_f chosen = vector_select_f(is_small, vector_of_f(-1.0f), vector_of_f(1.0f));
+    const vector_f near_chosen = vector_select_f(near, 4.011440628672975f * norm_s_squared,
+        vector_of_f(0.0f));
+    const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
+    const vector_f log_det_near = norm_s_squared * log_det_series;
+    const vector_f near_chosen_2 = vector_select_f(near, vector_of_f(1.0f), norm_s_squared);
+    const vector_f norm_s = sqrt_each_f(near_chosen_2);
+    const vector_f atan2_norm_s_abs_g0 = atan2_each_f(norm_s, abs_g0);
+    const vector_f t = 2.0f * atan2_norm_s_abs_g0;
+    const vector_f t_ratio = t / norm_s;
+    const vector_f product = 0.5f * t_ratio;
+    const vector_f log_det = vector_select_f(near, log_det_near, 2.0f * log_each_f(product));
+    const vector_f t_over_norm_s_near = vector_polynomial_t_over_norm_s_near_f(near_chosen);
+    const vector_f t_over_norm_s = vector_select_f(near, t_over_norm_s_near, t_ratio);
     const vector_f scale = t_over_norm_s * chosen;
     const vector_f v0 = g1 * scale;
     const vector_f v1 = g2 * scale;
     const vector_f v2 = g3 * scale;
-    const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-    const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
-    const vector_f log_det_near = norm_s_squared * log_det_series;
-    const vector_f product = 0.5f * t_ratio;
-    const vector_f log_det = vector_select_f(near, log_det_near, 2.0f * vector_log_f(product));
     const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
     const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+    const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
     const vector_f log_det_gap = log_det - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector_f exp_2 = vector_exp_f(log_det_gap);
-    const vector_f phi = amplitude * exp_2;
-    const vector_f z2_product = z2 * phi;
-    const vector_f z1_product = z1 * phi;
-    const vector_f z0_product = z0 * phi;
-    const vector_f by_v2 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product;
-    const vector_f by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product;
-    const vector_f by_v0 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product;
-    const vector_f by_scale = g3 * by_v2 + g2 * by_v1 + g1 * by_v0;
+    const vector_f phi = exp_each_f(log_det_gap);
+    const vector_f total_3 = W2_2 * z2 + (W1_2 * z1 + W0_2 * z0);
+    const vector_f phi_product = phi * total_3;
+    const vector_f total_4 = W2_1 * z2 + (W1_1 * z1 + W0_1 * z0);
+    const vector_f phi_product_2 = phi * total_4;
+    const vector_f total_5 = W2_0 * z2 + (W1_0 * z1 + W0_0 * z0);
+    const vector_f phi_product_3 = phi * total_5;
+    const vector_f by_scale = -(g3 * phi_product) - g2 * phi_product_2 - g1 * phi_product_3;
     const vector_f by_t_over_norm_s = chosen * by_scale;
     const vector_f ratio = 2.0f * vector_select_f(near, vector_of_f(0.0f), phi) / product;
     const vector_f by_t = (vector_select_f(near, vector_of_f(0.0f), by_t_over_norm_s) + 0.5f * ratio) /
         norm_s;
     const vector_f by_atan2_norm_s_abs_g0 = 2.0f * by_t;
-    const vector_f total_3 = near_chosen_2 + abs_g0 * abs_g0;
-    const vector_f ratio_2 = by_atan2_norm_s_abs_g0 / total_3;
+    const vector_f total_6 = near_chosen_2 + abs_g0 * abs_g0;
+    const vector_f ratio_2 = by_atan2_norm_s_abs_g0 / total_6;
     const vector_f by_norm_s = abs_g0 * ratio_2 - t_ratio * by_t;
     const vector_f norm_s_product = 2.0f * norm_s;
     const vector_f by_norm_s_ratio = by_norm_s / norm_s_product;
@@ -2148,16 +2203,16 @@ OUTLINE void pair_backward_f(
         log_det_series * by_log_det_near + 4.011440628672975f * vector_select_f(near, by_t_over_norm_s_near *
         t_over_norm_s_near_slope + by_log_det_series * log_det_series_slope, vector_of_f(0.0f));
     const vector_f product_2 = 2.0f * by_norm_s_squared;
-    const vector_f by_g3 = scale * by_v2 + g3 * product_2;
+    const vector_f by_g3 = g3 * product_2 - scale * phi_product;
     const vector_f by_g3_ratio = by_g3 / row_length;
     const vector_mask_f is_small_2 = total_2 == 0.0f;
     const vector_f norm_s_product_2 = norm_s * ratio_2;
     const vector_f by_abs_g0 = -norm_s_product_2;
     const vector_f by_g0 = vector_select_f(is_small, norm_s_product_2, by_abs_g0);
     const vector_f by_g0_ratio = by_g0 / row_length;
-    const vector_f by_g2 = scale * by_v1 + g2 * product_2;
+    const vector_f by_g2 = g2 * product_2 - scale * phi_product_2;
     const vector_f by_g2_ratio = by_g2 / row_length;
-    const vector_f by_g1 = scale * by_v0 + g1 * product_2;
+    const vector_f by_g1 = g1 * product_2 - scale * phi_product_3;
     const vector_f by_g1_ratio = by_g1 / row_length;
     const vector_f by_row_length = -(g0 * by_g0_ratio) - g3 * by_g3_ratio - g2 * by_g2_ratio - g1 *
         by_g1_ratio;
@@ -2179,18 +2234,18 @@ OUTLINE void pair_backward_f(
     const vector_f by_square1 = vector_select_f(is_less, by_row_2, vector_of_f(0.0f));
     const vector_f by_R0_0 = -by_square3 - by_square2 + (by_square0 + by_square1);
     const vector_f by_row_3 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_7);
-    const vector_f total_4 = vector_select_f(is_less_2, by_row_5, vector_of_f(0.0f)) +
+    const vector_f total_7 = vector_select_f(is_less_2, by_row_5, vector_of_f(0.0f)) +
         vector_select_f(is_less, vector_of_f(0.0f), by_row_3);
     const vector_f by_row_8 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_12);
     const vector_f by_row_4 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_8);
-    const vector_f total_5 = vector_select_f(is_less, by_row_4, vector_of_f(0.0f)) +
+    const vector_f total_8 = vector_select_f(is_less, by_row_4, vector_of_f(0.0f)) +
         vector_select_f(is_less_3, by_row_10, vector_of_f(0.0f));
-    const vector_f by_R0_2 = total_4 + total_5;
-    const vector_f total_6 = vector_select_f(is_less, by_row_3, vector_of_f(0.0f)) +
+    const vector_f by_R0_2 = total_7 + total_8;
+    const vector_f total_9 = vector_select_f(is_less, by_row_3, vector_of_f(0.0f)) +
         vector_select_f(is_less_2, by_row_6, vector_of_f(0.0f));
-    const vector_f total_7 = vector_select_f(is_less_3, by_row_9, vector_of_f(0.0f)) +
+    const vector_f total_10 = vector_select_f(is_less_3, by_row_9, vector_of_f(0.0f)) +
         vector_select_f(is_less, vector_of_f(0.0f), by_row_4);
-    const vector_f by_R0_1 = total_6 - total_7;
+    const vector_f by_R0_1 = total_9 - total_10;
     const vector_f by_by_R0_2 = mu0 * x2_bar + mu3 * x5_bar + mu6 * x8_bar;
     const vector_f by_by_R2_0 = mu2 * x0_bar + mu5 * x3_bar + mu8 * x6_bar;
     const vector_f by_by_R0_2_gap = by_by_R0_2 - by_by_R2_0;
@@ -2243,41 +2298,41 @@ OUTLINE void pair_backward_f(
     const vector_f gap = vector_select_f(is_small, by_by_g0, vector_of_f(0.0f)) - by_by_abs_g0;
     const vector_f by_by_g1 = (by_by_row_10 - g1 * by_by_row_length) / row_length;
     const vector_f by_by_g3 = (by_by_row_12 - g3 * by_by_row_length) / row_length;
-    const vector_f total_8 = g1 * by_by_g1 + g2 * by_by_g2 + g3 * by_by_g3;
-    const vector_f by_by_norm_s_squared = 2.0f * total_8;
+    const vector_f total_11 = g1 * by_by_g1 + g2 * by_by_g2 + g3 * by_by_g3;
+    const vector_f by_by_norm_s_squared = 2.0f * total_11;
     const vector_f by_by_norm_s = vector_select_f(near, vector_of_f(0.0f), by_by_norm_s_squared) /
         norm_s_product;
-    const vector_f by_by_atan2_norm_s_abs_g0 = (norm_s * gap + abs_g0 * by_by_norm_s) / total_3;
+    const vector_f by_by_atan2_norm_s_abs_g0 = (norm_s * gap + abs_g0 * by_by_norm_s) / total_6;
     const vector_f by_by_t = 2.0f * by_by_atan2_norm_s_abs_g0 - t_ratio * by_by_norm_s;
     const vector_f by_by_t_ratio = by_by_t / norm_s;
-    const vector_f near_chosen_3 = vector_select_f(near, 8.02288125734595f * total_8, vector_of_f(0.0f));
+    const vector_f near_chosen_3 = vector_select_f(near, 8.02288125734595f * total_11, vector_of_f(0.0f));
     const vector_f by_by_t_over_norm_s_near = t_over_norm_s_near_slope * near_chosen_3;
     const vector_f by_by_t_over_norm_s = vector_select_f(near, vector_of_f(0.0f), by_by_t_ratio) +
         vector_select_f(near, by_by_t_over_norm_s_near, vector_of_f(0.0f));
     const vector_f by_by_scale = chosen * by_by_t_over_norm_s;
-    const vector_f by_by_v0 = g1 * by_by_scale + scale * by_by_g1;
-    const vector_f by_by_v1 = g2 * by_by_scale + scale * by_by_g2;
-    const vector_f by_by_v2 = g3 * by_by_scale + scale * by_by_g3;
-    const vector_f gap_2 = -(W2_0 * by_by_v0) - W2_1 * by_by_v1 - W2_2 * by_by_v2;
+    const vector_f gap_2 = -(g1 * by_by_scale) - scale * by_by_g1;
+    const vector_f phi_product_4 = phi * gap_2;
+    const vector_f gap_3 = -(g2 * by_by_scale) - scale * by_by_g2;
+    const vector_f phi_product_5 = phi * gap_3;
+    const vector_f gap_4 = -(g3 * by_by_scale) - scale * by_by_g3;
+    const vector_f phi_product_6 = phi * gap_4;
     const vector_f ratio_4 = 0.5f * by_by_t_ratio / product;
     const vector_f by_by_log_det_series = log_det_series_slope * near_chosen_3;
     const vector_f by_by_log_det_near = norm_s_squared * by_by_log_det_series + log_det_series *
         by_by_norm_s_squared;
-    const vector_f gap_3 = -(W0_0 * by_by_v0) - W0_1 * by_by_v1 - W0_2 * by_by_v2;
-    const vector_f total_9 = its_value_bar + vector_select_f(near, vector_of_f(0.0f), 2.0f * ratio_4) +
-        vector_select_f(near, by_by_log_det_near, vector_of_f(0.0f)) + z0 * gap_3;
-    const vector_f gap_4 = -(W1_0 * by_by_v0) - W1_1 * by_by_v1 - W1_2 * by_by_v2;
-    const vector_f by_phi = total_9 + z1 * gap_4 + z2 * gap_2;
-    const vector_f by_log_det = exp_2 * (amplitude * by_phi);
-    const vector_f by_z2 = phi * gap_2 - z2 * by_log_det;
-    const vector_f by_z1 = phi * gap_4 - z1 * by_log_det;
-    const vector_f by_z0 = phi * gap_3 - z0 * by_log_det;
-    const vector_f by_v1_2 = W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
-    const vector_f by_v2_2 = W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0;
-    const vector_f total_10 = by_v0 * by_by_g1 + by_v1 * by_by_g2 + by_v2 * by_by_g3 + g3 * by_v2_2 + g2 *
-        by_v1_2;
-    const vector_f by_v0_2 = W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0;
-    const vector_f by_scale_2 = total_10 + g1 * by_v0_2;
+    const vector_f total_12 = its_value_bar + vector_select_f(near, vector_of_f(0.0f), 2.0f * ratio_4) +
+        vector_select_f(near, by_by_log_det_near, vector_of_f(0.0f)) + total_3 * gap_4;
+    const vector_f by_phi = total_12 + total_4 * gap_3 + total_5 * gap_2;
+    const vector_f by_log_det = phi * by_phi;
+    const vector_f by_v1 = M0_1 * phi_product_4 + M1_1 * phi_product_5 + M1_2 * phi_product_6 - total_4 *
+        by_log_det;
+    const vector_f by_v2 = M0_2 * phi_product_4 + M1_2 * phi_product_5 + M2_2 * phi_product_6 - total_3 *
+        by_log_det;
+    const vector_f total_13 = -(phi_product_3 * by_by_g1) - phi_product_2 * by_by_g2 - phi_product * by_by_g3
+        + g3 * by_v2;
+    const vector_f by_v0 = M0_0 * phi_product_4 + M0_1 * phi_product_5 + M0_2 * phi_product_6 - total_5 *
+        by_log_det;
+    const vector_f by_scale_2 = total_13 + g2 * by_v1 + g1 * by_v0;
     const vector_f by_t_over_norm_s_2 = chosen * by_scale_2;
     const vector_f product_6 = 0.5f * (2.0f * vector_select_f(near, vector_of_f(0.0f), by_log_det) / product -
         ratio * ratio_4);
@@ -2286,11 +2341,11 @@ OUTLINE void pair_backward_f(
     const vector_f gap_5 = ratio_2 * gap - 2.0f * (by_norm_s_ratio * by_by_norm_s) - by_t * by_by_t_ratio -
         t_ratio * by_t_2;
     const vector_f by_atan2_norm_s_abs_g0_2 = 2.0f * by_t_2;
-    const vector_f ratio_5 = by_atan2_norm_s_abs_g0_2 / total_3;
+    const vector_f ratio_5 = by_atan2_norm_s_abs_g0_2 / total_6;
     const vector_f by_norm_s_2 = gap_5 + abs_g0 * ratio_5;
     const vector_f product_7 = ratio_2 * by_by_atan2_norm_s_abs_g0;
     const vector_f by_log_det_near_2 = vector_select_f(near, by_log_det, vector_of_f(0.0f));
-    const vector_f total_11 = by_log_det_near * by_by_log_det_series + vector_select_f(near,
+    const vector_f total_14 = by_log_det_near * by_by_log_det_series + vector_select_f(near,
         vector_of_f(0.0f), by_norm_s_2 / norm_s_product - product_7) + log_det_series * by_log_det_near_2;
     const vector_f by_log_det_series_slope = by_log_det_series * near_chosen_3;
     const vector_f log_det_series_slope_slope = vector_polynomial_log_det_series_slope_slope_f(near_chosen);
@@ -2303,10 +2358,10 @@ OUTLINE void pair_backward_f(
     const vector_f near_chosen_4 = vector_select_f(near, by_log_det_series_slope * log_det_series_slope_slope
         + by_t_over_norm_s_near_slope * t_over_norm_s_near_slope_slope + t_over_norm_s_near_slope *
         by_t_over_norm_s_near_2 + log_det_series_slope * by_log_det_series_2, vector_of_f(0.0f));
-    const vector_f by_norm_s_squared_2 = total_11 + 4.011440628672975f * near_chosen_4;
+    const vector_f by_norm_s_squared_2 = total_14 + 4.011440628672975f * near_chosen_4;
     const vector_f product_8 = 2.0f * by_norm_s_squared_2;
-    const vector_f by_g2_2 = product_2 * by_by_g2 - by_g2_ratio * by_by_row_length + by_v1 * by_by_scale +
-        scale * by_v1_2 + g2 * product_8;
+    const vector_f by_g2_2 = product_2 * by_by_g2 - by_g2_ratio * by_by_row_length - phi_product_2 *
+        by_by_scale + scale * by_v1 + g2 * product_8;
     const vector_f by_g2_ratio_2 = by_g2_2 / row_length;
     const vector_f gap_6 = vector_select_f(is_small_2, vector_of_f(0.0f), -2.0f * (ratio_3 *
         by_by_row_length)) - by_g1_ratio * by_by_g1;
@@ -2318,11 +2373,11 @@ OUTLINE void pair_backward_f(
     const vector_f by_g0_ratio_2 = by_g0_2 / row_length;
     const vector_f gap_8 = gap_6 - by_g2_ratio * by_by_g2 - by_g3_ratio * by_by_g3 - by_g0_ratio * by_by_g0 -
         g0 * by_g0_ratio_2;
-    const vector_f by_g3_2 = product_2 * by_by_g3 - by_g3_ratio * by_by_row_length + by_v2 * by_by_scale +
-        scale * by_v2_2 + g3 * product_8;
+    const vector_f by_g3_2 = product_2 * by_by_g3 - by_g3_ratio * by_by_row_length - phi_product * by_by_scale
+        + scale * by_v2 + g3 * product_8;
     const vector_f by_g3_ratio_2 = by_g3_2 / row_length;
-    const vector_f by_g1_2 = product_2 * by_by_g1 - by_g1_ratio * by_by_row_length + by_v0 * by_by_scale +
-        scale * by_v0_2 + g1 * product_8;
+    const vector_f by_g1_2 = product_2 * by_by_g1 - by_g1_ratio * by_by_row_length - phi_product_3 *
+        by_by_scale + scale * by_v0 + g1 * product_8;
     const vector_f by_g1_ratio_2 = by_g1_2 / row_length;
     const vector_f by_row_length_2 = gap_8 - g3 * by_g3_ratio_2 - g2 * by_g2_ratio_2 - g1 * by_g1_ratio_2;
     const vector_f product_9 = 2.0f * vector_select_f(is_small_2, vector_of_f(0.0f), by_row_length_2 /
@@ -2332,21 +2387,21 @@ OUTLINE void pair_backward_f(
     const vector_f by_row_3_2 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_7_2);
     const vector_f by_row_10_2 = product_4 * by_by_row_10 + by_g1_ratio_2 + row_10 * product_9;
     const vector_f by_row_6_2 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_10_2);
-    const vector_f total_12 = vector_select_f(is_less, by_row_3_2, vector_of_f(0.0f)) +
+    const vector_f total_15 = vector_select_f(is_less, by_row_3_2, vector_of_f(0.0f)) +
         vector_select_f(is_less_2, by_row_6_2, vector_of_f(0.0f));
     const vector_f by_row_9_2 = product_4 * by_by_row_9 + by_g0_ratio_2 + row_9 * product_9;
     const vector_f by_row_12_2 = product_4 * by_by_row_12 + by_g3_ratio_2 + row_12 * product_9;
     const vector_f by_row_8_2 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_12_2);
     const vector_f by_row_4_2 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_8_2);
-    const vector_f total_13 = vector_select_f(is_less_3, by_row_9_2, vector_of_f(0.0f)) +
+    const vector_f total_16 = vector_select_f(is_less_3, by_row_9_2, vector_of_f(0.0f)) +
         vector_select_f(is_less, vector_of_f(0.0f), by_row_4_2);
-    const vector_f by_R0_1_2 = total_12 - total_13;
+    const vector_f by_R0_1_2 = total_15 - total_16;
     const vector_f by_row_5_2 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_9_2);
-    const vector_f total_14 = vector_select_f(is_less_2, by_row_5_2, vector_of_f(0.0f)) +
+    const vector_f total_17 = vector_select_f(is_less_2, by_row_5_2, vector_of_f(0.0f)) +
         vector_select_f(is_less, vector_of_f(0.0f), by_row_3_2);
-    const vector_f total_15 = vector_select_f(is_less, by_row_4_2, vector_of_f(0.0f)) +
+    const vector_f total_18 = vector_select_f(is_less, by_row_4_2, vector_of_f(0.0f)) +
         vector_select_f(is_less_3, by_row_10_2, vector_of_f(0.0f));
-    const vector_f by_R0_2_2 = total_14 + total_15;
+    const vector_f by_R0_2_2 = total_17 + total_18;
     const vector_f by_square3_2 = vector_select_f(is_less_3, by_row_12_2, vector_of_f(0.0f));
     const vector_f by_square2_2 = vector_select_f(is_less_2, by_row_7_2, vector_of_f(0.0f));
     const vector_f by_row_13 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_5_2);
@@ -2355,53 +2410,54 @@ OUTLINE void pair_backward_f(
     const vector_f by_square1_2 = vector_select_f(is_less, by_row_2_2, vector_of_f(0.0f));
     const vector_f by_R0_0_2 = -by_square3_2 - by_square2_2 + (by_square0_2 + by_square1_2);
     const vector_f by_R1_1 = by_square0 + (by_square2 - by_square3 - by_square1);
-    const vector_f by_R1_0 = total_7 + total_6;
-    const vector_f total_17 = vector_select_f(is_less_2, by_row_8, vector_of_f(0.0f)) +
+    const vector_f by_R1_0 = total_10 + total_9;
+    const vector_f total_20 = vector_select_f(is_less_2, by_row_8, vector_of_f(0.0f)) +
         vector_select_f(is_less_3, by_row_11, vector_of_f(0.0f));
-    const vector_f total_18 = vector_select_f(is_less, by_row, vector_of_f(0.0f)) + vector_select_f(is_less,
+    const vector_f total_21 = vector_select_f(is_less, by_row, vector_of_f(0.0f)) + vector_select_f(is_less,
         vector_of_f(0.0f), by_row_2);
-    const vector_f by_R1_2 = total_17 - total_18;
-    const vector_f total_19 = vector_select_f(is_less_2, by_row_8_2, vector_of_f(0.0f)) +
+    const vector_f by_R1_2 = total_20 - total_21;
+    const vector_f total_22 = vector_select_f(is_less_2, by_row_8_2, vector_of_f(0.0f)) +
         vector_select_f(is_less_3, by_row_11_2, vector_of_f(0.0f));
-    const vector_f total_20 = vector_select_f(is_less, by_row_13, vector_of_f(0.0f)) +
+    const vector_f total_23 = vector_select_f(is_less, by_row_13, vector_of_f(0.0f)) +
         vector_select_f(is_less, vector_of_f(0.0f), by_row_2_2);
-    const vector_f by_R1_2_2 = total_19 - total_20;
-    const vector_f by_R1_0_2 = total_13 + total_12;
+    const vector_f by_R1_2_2 = total_22 - total_23;
+    const vector_f by_R1_0_2 = total_16 + total_15;
     const vector_f by_R1_1_2 = by_square0_2 + (by_square2_2 - by_square3_2 - by_square1_2);
     const vector_f by_R2_2 = by_square0 + (by_square3 - by_square2 - by_square1);
-    const vector_f by_R2_0 = total_5 - total_4;
-    const vector_f by_R2_1 = total_17 + total_18;
-    const vector_f by_R2_1_2 = total_19 + total_20;
-    const vector_f by_R2_0_2 = total_15 - total_14;
+    const vector_f by_R2_0 = total_8 - total_7;
+    const vector_f by_R2_1 = total_20 + total_21;
+    const vector_f by_R2_1_2 = total_22 + total_23;
+    const vector_f by_R2_0_2 = total_18 - total_17;
     const vector_f by_R2_2_2 = by_square0_2 + (by_square3_2 - by_square2_2 - by_square1_2);
-    S_bar[0] = S_bar[0] + by_R0_0 * x0_bar + by_R0_2 * x2_bar + by_R0_1 * x1_bar + x1 * by_R0_1_2 + x2 *
+    const vector_f by_log_det_product = 0.5f * by_log_det;
+    const vector_f gap_9 = phi_product_4 - v0 * by_log_det_product;
+    const vector_f gap_10 = phi_product_5 - v1 * by_log_det_product;
+    const vector_f gap_11 = phi_product_6 - v2 * by_log_det_product;
+    sums[0] = sums[0] + by_R0_0 * x0_bar + by_R0_2 * x2_bar + by_R0_1 * x1_bar + x1 * by_R0_1_2 + x2 *
             by_R0_2_2 + x0 * by_R0_0_2;
-    S_bar[1] = S_bar[1] + by_R1_1 * x1_bar + by_R1_0 * x0_bar + by_R1_2 * x2_bar + x2 * by_R1_2_2 + x0 *
+    sums[1] = sums[1] + by_R1_1 * x1_bar + by_R1_0 * x0_bar + by_R1_2 * x2_bar + x2 * by_R1_2_2 + x0 *
             by_R1_0_2 + x1 * by_R1_1_2;
-    S_bar[2] = S_bar[2] + by_R2_2 * x2_bar + by_R2_0 * x0_bar + by_R2_1 * x1_bar + x1 * by_R2_1_2 + x0 *
+    sums[2] = sums[2] + by_R2_2 * x2_bar + by_R2_0 * x0_bar + by_R2_1 * x1_bar + x1 * by_R2_1_2 + x0 *
             by_R2_0_2 + x2 * by_R2_2_2;
-    S_bar[3] = S_bar[3] + by_R0_0 * x3_bar + by_R0_2 * x5_bar + by_R0_1 * x4_bar + x4 * by_R0_1_2 + x5 *
+    sums[3] = sums[3] + by_R0_0 * x3_bar + by_R0_2 * x5_bar + by_R0_1 * x4_bar + x4 * by_R0_1_2 + x5 *
             by_R0_2_2 + x3 * by_R0_0_2;
-    S_bar[4] = S_bar[4] + by_R1_1 * x4_bar + by_R1_0 * x3_bar + by_R1_2 * x5_bar + x5 * by_R1_2_2 + x3 *
+    sums[4] = sums[4] + by_R1_1 * x4_bar + by_R1_0 * x3_bar + by_R1_2 * x5_bar + x5 * by_R1_2_2 + x3 *
             by_R1_0_2 + x4 * by_R1_1_2;
-    S_bar[5] = S_bar[5] + by_R2_2 * x5_bar + by_R2_0 * x3_bar + by_R2_1 * x4_bar + x4 * by_R2_1_2 + x3 *
+    sums[5] = sums[5] + by_R2_2 * x5_bar + by_R2_0 * x3_bar + by_R2_1 * x4_bar + x4 * by_R2_1_2 + x3 *
             by_R2_0_2 + x5 * by_R2_2_2;
-    S_bar[6] = S_bar[6] + by_R0_0 * x6_bar + by_R0_2 * x8_bar + by_R0_1 * x7_bar + x7 * by_R0_1_2 + x8 *
+    sums[6] = sums[6] + by_R0_0 * x6_bar + by_R0_2 * x8_bar + by_R0_1 * x7_bar + x7 * by_R0_1_2 + x8 *
             by_R0_2_2 + x6 * by_R0_0_2;
-    S_bar[7] = S_bar[7] + by_R1_1 * x7_bar + by_R1_0 * x6_bar + by_R1_2 * x8_bar + x8 * by_R1_2_2 + x6 *
+    sums[7] = sums[7] + by_R1_1 * x7_bar + by_R1_0 * x6_bar + by_R1_2 * x8_bar + x8 * by_R1_2_2 + x6 *
             by_R1_0_2 + x7 * by_R1_1_2;
-    S_bar[8] = S_bar[8] + by_R2_2 * x8_bar + by_R2_0 * x6_bar + by_R2_1 * x7_bar + x7 * by_R2_1_2 + x6 *
+    sums[8] = sums[8] + by_R2_2 * x8_bar + by_R2_0 * x6_bar + by_R2_1 * x7_bar + x7 * by_R2_1_2 + x6 *
             by_R2_0_2 + x8 * by_R2_2_2;
-    S_bar[9] = S_bar[9] + v0 * by_z0 - z0_product * by_by_v0;
-    S_bar[10] = S_bar[10] + v1 * by_z0 - z0_product * by_by_v1;
-    S_bar[11] = S_bar[11] + v2 * by_z0 - z0_product * by_by_v2;
-    S_bar[12] = S_bar[12] + v0 * by_z1 - z1_product * by_by_v0;
-    S_bar[13] = S_bar[13] + v1 * by_z1 - z1_product * by_by_v1;
-    S_bar[14] = S_bar[14] + v2 * by_z1 - z1_product * by_by_v2;
-    S_bar[15] = S_bar[15] + v0 * by_z2 - z2_product * by_by_v0;
-    S_bar[16] = S_bar[16] + v1 * by_z2 - z2_product * by_by_v1;
-    S_bar[17] = S_bar[17] + v2 * by_z2 - z2_product * by_by_v2;
-    S_bar[18] = S_bar[18] + exp_2 * by_phi;
+    sums[9] = sums[9] + by_log_det;
+    sums[10] = sums[10] + v0 * gap_9;
+    sums[11] = sums[11] + v0 * gap_10 + v1 * gap_9;
+    sums[12] = sums[12] + v0 * gap_11 + v2 * gap_9;
+    sums[13] = sums[13] + v1 * gap_10;
+    sums[14] = sums[14] + v1 * gap_11 + v2 * gap_10;
+    sums[15] = sums[15] + v2 * gap_11;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -2433,7 +2489,7 @@ size_t so3_matrix_splats_work_f(size_t count, size_t splat_count, int threads) {
     (void)threads;
     const size_t points = (count + LANES_f - 1) / LANES_f, blocks = (points + 2 - 1) / 2;
     const size_t places = 0 * ((splat_count + LANES_f - 1) / LANES_f + (blocks + LANES_f - 1) / LANES_f);
-    return (points * 19 + places + 1) * LANES_f + 19 * splat_count;
+    return (points * 19 + places + 1) * LANES_f + 25 * splat_count;
 }
 
 static vector_f *work_points_f(float *work) {
@@ -2447,12 +2503,12 @@ INLINE const float *splat_at_f(const vector_f *splats, size_t k) {
     return (const float *)(splats + 0 * row) + (k - row * LANES_f);
 }
 
-static vector_f *work_splats_f(float *work, size_t count) {
+static vector_f *work_reaches_f(float *work, size_t count) {
     return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 19;
 }
 
 static vector_f *work_blocks_f(float *work, size_t count, size_t splat_count) {
-    return work_splats_f(work, count) + 0 * ((splat_count + LANES_f - 1) / LANES_f);
+    return work_reaches_f(work, count) + 0 * ((splat_count + LANES_f - 1) / LANES_f);
 }
 
 static float *work_constants_f(float *work, size_t count, size_t splat_count) {
@@ -2484,13 +2540,13 @@ static size_t blocks_near_f(
 OUTLINE void splat_constants_f(
     size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, const float *width, float *constants,
     vector_f *splats) {
-    vector_f own_mu[9], own_W[9], own_amplitude[1], S[19];
+    vector_f own_mu[9], own_W[9], own_amplitude[1], S[25];
     vector_rows_f(mu, splat_count, start, 9, own_mu);
     vector_rows_f(W, splat_count, start, 9, own_W);
     vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
     if (width) splat_reach_f(own_mu, own_amplitude, width, splat_count, start, splats);
     pair_constants_f(own_mu, own_W, own_amplitude, S);
-    vector_to_rows_f(S, constants, splat_count, start, 19, 19);
+    vector_to_rows_f(S, constants, splat_count, start, 25, 25);
 }
 
 /* 2 vectors of points at a time stay in registers while all splats pass. */
@@ -2499,7 +2555,7 @@ void so3_matrix_splats_f(
     float *SO3_MATRIX_RESTRICT value, float *SO3_MATRIX_RESTRICT gradient, float *SO3_MATRIX_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -2521,7 +2577,7 @@ void so3_matrix_splats_f(
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
                 for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 19 * near[i];
+                    const float *S = constants + 25 * near[i];
                     pair_forward_f(X[0], S, value_sum[0], slope_sum[0]);
                     pair_forward_f(X[1], S, value_sum[1], slope_sum[1]);
                 }
@@ -2541,7 +2597,7 @@ void so3_matrix_splats_value_f(
     float *SO3_MATRIX_RESTRICT value, float *SO3_MATRIX_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -2562,7 +2618,7 @@ void so3_matrix_splats_value_f(
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
                 for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 19 * near[i];
+                    const float *S = constants + 25 * near[i];
                     pair_value_f(X[0], S, value_sum[0]);
                     pair_value_f(X[1], S, value_sum[1]);
                 }
@@ -2587,32 +2643,35 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 9 + 1, point + 9);
 }
 
-/* Adds to S_bar what some vectors of points add to it, those in the list. */
-OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *S_bar) {
-    vector_f sum[19] = {ZERO};
-    for (size_t b = 0; b < size; ++b) {
+/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *sums) {
+    vector_f sum[16] = {ZERO};
+    size_t b = 0;
+    for (; b + 1 < size; b += 2) {
+        const vector_f *point = points + 19 * (size_t)near[b], *other = points + 19 * (size_t)near[b + 1];
+        pair_backward_f(point, S, point + 9, point + 9 + 1, sum);
+        pair_backward_f(other, S, other + 9, other + 9 + 1, sum);
+    }
+    if (b < size) {
         const vector_f *point = points + 19 * (size_t)near[b];
         pair_backward_f(point, S, point + 9, point + 9 + 1, sum);
     }
-    S_bar[0] += vector_sum_f(sum[0]);
-    S_bar[1] += vector_sum_f(sum[1]);
-    S_bar[2] += vector_sum_f(sum[2]);
-    S_bar[3] += vector_sum_f(sum[3]);
-    S_bar[4] += vector_sum_f(sum[4]);
-    S_bar[5] += vector_sum_f(sum[5]);
-    S_bar[6] += vector_sum_f(sum[6]);
-    S_bar[7] += vector_sum_f(sum[7]);
-    S_bar[8] += vector_sum_f(sum[8]);
-    S_bar[9] += vector_sum_f(sum[9]);
-    S_bar[10] += vector_sum_f(sum[10]);
-    S_bar[11] += vector_sum_f(sum[11]);
-    S_bar[12] += vector_sum_f(sum[12]);
-    S_bar[13] += vector_sum_f(sum[13]);
-    S_bar[14] += vector_sum_f(sum[14]);
-    S_bar[15] += vector_sum_f(sum[15]);
-    S_bar[16] += vector_sum_f(sum[16]);
-    S_bar[17] += vector_sum_f(sum[17]);
-    S_bar[18] += vector_sum_f(sum[18]);
+    sums[0] += vector_sum_f(sum[0]);
+    sums[1] += vector_sum_f(sum[1]);
+    sums[2] += vector_sum_f(sum[2]);
+    sums[3] += vector_sum_f(sum[3]);
+    sums[4] += vector_sum_f(sum[4]);
+    sums[5] += vector_sum_f(sum[5]);
+    sums[6] += vector_sum_f(sum[6]);
+    sums[7] += vector_sum_f(sum[7]);
+    sums[8] += vector_sum_f(sum[8]);
+    sums[9] += vector_sum_f(sum[9]);
+    sums[10] += vector_sum_f(sum[10]);
+    sums[11] += vector_sum_f(sum[11]);
+    sums[12] += vector_sum_f(sum[12]);
+    sums[13] += vector_sum_f(sum[13]);
+    sums[14] += vector_sum_f(sum[14]);
+    sums[15] += vector_sum_f(sum[15]);
 }
 
 /*
@@ -2628,7 +2687,7 @@ void so3_matrix_splats_vjp_f(
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES_f ? part : LANES_f;
     vector_f *points = work_points_f(work);
-    vector_f *splats = work_splats_f(work, count), *places = work_blocks_f(work, count, splat_count);
+    vector_f *splats = work_reaches_f(work, count), *places = work_blocks_f(work, count, splat_count);
     float *constants = work_constants_f(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -2654,22 +2713,22 @@ void so3_matrix_splats_vjp_f(
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
-            float sums[LANES_f][19] = {{0}};
+            float sums[LANES_f][16] = {{0}};
             uint32_t near[131072 / (19 * sizeof(vector_f)) + 2];
-            vector_f own_mu[9], own_W[9], own_amplitude[1], S_bar[19], bars[19];
+            vector_f own_mu[9], own_W[9], own_amplitude[1], own_sums[16], bars[19];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
                     const float *reach = width ? splat_at_f(splats, k) + 9 * LANES_f : NULL;
                     const size_t some = blocks_near_f(mu + 9 * k, reach, places, first, first + size, near);
-                    splat_sums_f(points + 19 * first, near, some, constants + 19 * k, sums[k - start]);
+                    splat_sums_f(points + 19 * first, near, some, constants + 25 * k, sums[k - start]);
                 }
             }
             vector_rows_f(mu, end, start, 9, own_mu);
             vector_rows_f(W, end, start, 9, own_W);
             vector_rows_f(amplitude, end, start, 1, own_amplitude);
-            vector_rows_f(sums[0], LANES_f, 0, 19, S_bar);
-            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 9, bars + 9 + 9);
+            vector_rows_f(sums[0], LANES_f, 0, 16, own_sums);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 9, bars + 9 + 9);
             vector_to_rows_f(bars, mu_bar, end, start, 9, 9);
             vector_to_rows_f(bars + 9, W_bar, end, start, 9, 9);
             vector_to_rows_f(bars + 9 + 9, amplitude_bar, end, start, 1, 1);
@@ -2696,12 +2755,12 @@ void so3_matrix_splats_rows_f(
             vector_f point[19];
             splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector_f own_mu[9], own_W[9], own_amplitude[1], S_bar[19] = {ZERO}, bars[19];
+                vector_f own_mu[9], own_W[9], own_amplitude[1], own_sums[16] = {ZERO}, bars[19];
                 for (int i = 0; i < 9; ++i) own_mu[i] = vector_of_f(mu[9 * k + i]);
                 for (int i = 0; i < 9; ++i) own_W[i] = vector_of_f(W[9 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 19 * k, point + 9, point + 9 + 1, S_bar);
-                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 9, bars + 9 + 9);
+                pair_backward_f(point, constants + 25 * k, point + 9, point + 9 + 1, own_sums);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 9, bars + 9 + 9);
                 vector_to_rows_f(bars, rows + 19 * k, count, block * LANES_f, 19, 19 * splat_count);
             }
         }
@@ -2717,3 +2776,5 @@ double so3_matrix_splats_order_f(
     for (size_t n = 0; n < count; ++n) order[n] = n;
     return 1;
 }
+
+#endif /* float */

@@ -829,13 +829,11 @@ void spd_splat(
     const double total_2 = x[0] * r0_0 + x[2] * r0_1;
     const double total_3 = x[1] * r0_0 + x[3] * r0_1;
     const double entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
-    const double r0_0_product = 0.5 * r0_0;
     const double total_4 = x[0] * r0_1 + x[2] * r1_1;
     const double r0_1_product = 0.5 * r0_1;
     const double total_5 = x[1] * r0_1 + x[3] * r1_1;
-    const double r1_1_product = 0.5 * r1_1;
-    const double entry_0_1 = r0_0_product * total_4 + total_2 * r0_1_product + r0_1_product * total_5 +
-        total_3 * r1_1_product;
+    const double entry_0_1 = 0.5 * r0_0 * total_4 + total_2 * r0_1_product + r0_1_product * total_5 + total_3
+        * (0.5 * r1_1);
     const double entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
     double entry_0_0_eigh[6];
     {
@@ -880,14 +878,13 @@ void spd_splat(
     }
     const double by_entry_0_0 = logm_slope[0];
     const double by_entry_1_1 = logm_slope[2];
-    const double by_entry_0_1 = 2.0 * logm_slope[1];
-    const double product_2 = r0_1_product * by_entry_0_1;
-    const double total_7 = r1_1 * by_entry_1_1 + product_2;
-    const double total_8 = r0_1 * by_entry_1_1 + r0_0_product * by_entry_0_1;
-    const double total_9 = r1_1_product * by_entry_0_1 + r0_1 * by_entry_0_0;
+    const double r0_1_product_2 = r0_1 * logm_slope[1];
+    const double total_7 = r1_1 * by_entry_1_1 + r0_1_product_2;
+    const double total_8 = r0_1 * by_entry_1_1 + r0_0 * logm_slope[1];
+    const double total_9 = r1_1 * logm_slope[1] + r0_1 * by_entry_0_0;
     const double exponent_by_x3 = r1_1 * total_7 + r0_1 * total_9;
     const double exponent_by_x1 = r0_1 * total_7 + r0_0 * total_9;
-    const double total_10 = product_2 + r0_0 * by_entry_0_0;
+    const double total_10 = r0_1_product_2 + r0_0 * by_entry_0_0;
     const double exponent_by_x2 = r1_1 * total_8 + r0_1 * total_10;
     const double exponent_by_x0 = r0_1 * total_8 + r0_0 * total_10;
     const double df0 = phi * exponent_by_x0;
@@ -1775,13 +1772,11 @@ void spd_splat_f(
     const float total_2 = x[0] * r0_0 + x[2] * r0_1;
     const float total_3 = x[1] * r0_0 + x[3] * r0_1;
     const float entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
-    const float r0_0_product = 0.5f * r0_0;
     const float total_4 = x[0] * r0_1 + x[2] * r1_1;
     const float r0_1_product = 0.5f * r0_1;
     const float total_5 = x[1] * r0_1 + x[3] * r1_1;
-    const float r1_1_product = 0.5f * r1_1;
-    const float entry_0_1 = r0_0_product * total_4 + total_2 * r0_1_product + r0_1_product * total_5 + total_3
-        * r1_1_product;
+    const float entry_0_1 = 0.5f * r0_0 * total_4 + total_2 * r0_1_product + r0_1_product * total_5 + total_3
+        * (0.5f * r1_1);
     const float entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
     float entry_0_0_eigh[6];
     {
@@ -1826,14 +1821,13 @@ void spd_splat_f(
     }
     const float by_entry_0_0 = logm_slope[0];
     const float by_entry_1_1 = logm_slope[2];
-    const float by_entry_0_1 = 2.0f * logm_slope[1];
-    const float product_2 = r0_1_product * by_entry_0_1;
-    const float total_7 = r1_1 * by_entry_1_1 + product_2;
-    const float total_8 = r0_1 * by_entry_1_1 + r0_0_product * by_entry_0_1;
-    const float total_9 = r1_1_product * by_entry_0_1 + r0_1 * by_entry_0_0;
+    const float r0_1_product_2 = r0_1 * logm_slope[1];
+    const float total_7 = r1_1 * by_entry_1_1 + r0_1_product_2;
+    const float total_8 = r0_1 * by_entry_1_1 + r0_0 * logm_slope[1];
+    const float total_9 = r1_1 * logm_slope[1] + r0_1 * by_entry_0_0;
     const float exponent_by_x3 = r1_1 * total_7 + r0_1 * total_9;
     const float exponent_by_x1 = r0_1 * total_7 + r0_0 * total_9;
-    const float total_10 = product_2 + r0_0 * by_entry_0_0;
+    const float total_10 = r0_1_product_2 + r0_0 * by_entry_0_0;
     const float exponent_by_x2 = r1_1 * total_8 + r0_1 * total_10;
     const float exponent_by_x0 = r0_1 * total_8 + r0_0 * total_10;
     const float df0 = phi * exponent_by_x0;

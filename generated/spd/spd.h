@@ -18,7 +18,7 @@
  * riemannian_gradient          396
  * gradient_norm                402
  * transport                   1550
- * splat                       1363
+ * splat                       1362
  * splat_vjp                   2022
  *
  * Errors are the worst of 32 points against 60 digits, in units of the error that rounding the

@@ -17,7 +17,7 @@ log_abs_det                  795      <= 2     <= 8
 riemannian_gradient          396
 gradient_norm                402
 transport                   1550
-splat                       1363
+splat                       1362
 splat_vjp                   2022
 
 Errors are the worst of 32 points against 60 digits, in units of the error that rounding the
@@ -832,12 +832,10 @@ class Spd:
         total_2 = x0 * r0_0 + x2 * r0_1
         total_3 = x1 * r0_0 + x3 * r0_1
         entry_0_0 = r0_0 * total_2 + r0_1 * total_3
-        r0_0_product = 0.5 * r0_0
         total_4 = x0 * r0_1 + x2 * r1_1
         r0_1_product = 0.5 * r0_1
         total_5 = x1 * r0_1 + x3 * r1_1
-        r1_1_product = 0.5 * r1_1
-        entry_0_1 = r0_0_product * total_4 + total_2 * r0_1_product + r0_1_product * total_5 + total_3 * r1_1_product
+        entry_0_1 = 0.5 * r0_0 * total_4 + total_2 * r0_1_product + r0_1_product * total_5 + total_3 * (0.5 * r1_1)
         entry_1_1 = r0_1 * total_4 + r1_1 * total_5
         entry_0_0_eigh = _eigh(entry_0_0, entry_0_1, entry_1_1)
         logm = _spectral("log", entry_0_0_eigh)
@@ -866,14 +864,13 @@ class Spd:
         )
         by_entry_0_0 = logm_slope[..., 0]
         by_entry_1_1 = logm_slope[..., 2]
-        by_entry_0_1 = 2.0 * logm_slope[..., 1]
-        product_2 = r0_1_product * by_entry_0_1
-        total_7 = r1_1 * by_entry_1_1 + product_2
-        total_8 = r0_1 * by_entry_1_1 + r0_0_product * by_entry_0_1
-        total_9 = r1_1_product * by_entry_0_1 + r0_1 * by_entry_0_0
+        r0_1_product_2 = r0_1 * logm_slope[..., 1]
+        total_7 = r1_1 * by_entry_1_1 + r0_1_product_2
+        total_8 = r0_1 * by_entry_1_1 + r0_0 * logm_slope[..., 1]
+        total_9 = r1_1 * logm_slope[..., 1] + r0_1 * by_entry_0_0
         exponent_by_x3 = r1_1 * total_7 + r0_1 * total_9
         exponent_by_x1 = r0_1 * total_7 + r0_0 * total_9
-        total_10 = product_2 + r0_0 * by_entry_0_0
+        total_10 = r0_1_product_2 + r0_0 * by_entry_0_0
         exponent_by_x2 = r1_1 * total_8 + r0_1 * total_10
         exponent_by_x0 = r0_1 * total_8 + r0_0 * total_10
         df0 = phi * exponent_by_x0
@@ -1008,7 +1005,7 @@ class Spd:
     ) -> tuple[Tensor, Tensor, Tensor]:
         """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu (K, D), W (K, d, T) and amplitude (K)."""
         S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
-        total = torch.zeros((len(S), len(mu)), dtype=x.dtype, device=x.device)
+        total = torch.zeros((), dtype=x.dtype, device=x.device)
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         for part, *bars in zip(*parts, strict=True):
             total = total + torch.stack(_sums(self._pair_bars(part, S, *bars), len(part), len(mu), 0))
@@ -1022,15 +1019,15 @@ class Spd:
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         rows = []
         for part, *bars in zip(*parts, strict=True):
-            S_bar = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
-            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, S_bar)
+            sums = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
+            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, sums)
             rows.append(torch.cat([by_mu, by_W.flatten(-2), by_amplitude.unsqueeze(-1)], -1))
         return torch.cat(rows)
 
     def _pair_bars(
         self, x: Tensor, S: Sequence[Tensor], value_bar: Tensor, gradient_bar: Tensor
     ) -> tuple[Tensor, ...]:
-        """The derivatives in S of every pair, from those in the sums."""
+        """What every pair adds to the sums of its splat, from the derivatives in values and gradients."""
         X = [entry.unsqueeze(-1) for entry in self._point_features(x)]
         slope_bar = [entry.unsqueeze(-1) for entry in self._point_gradient_vjp(x, gradient_bar)]
         return self._pair_vjp(X, S, value_bar.unsqueeze(-1), slope_bar)
@@ -1050,6 +1047,12 @@ class Spd:
         r0_0 = invsqrtm[..., 0]
         r0_1 = invsqrtm[..., 1]
         r1_1 = invsqrtm[..., 2]
+        M0_0 = W0_0 * W0_0 + W1_0 * W1_0 + W2_0 * W2_0
+        M0_1 = W0_0 * W0_1 + W1_0 * W1_1 + W2_0 * W2_1
+        M0_2 = W0_0 * W0_2 + W1_0 * W1_2 + W2_0 * W2_2
+        M1_1 = W0_1 * W0_1 + W1_1 * W1_1 + W2_1 * W2_1
+        M1_2 = W0_1 * W0_2 + W1_1 * W1_2 + W2_1 * W2_2
+        M2_2 = W0_2 * W0_2 + W1_2 * W1_2 + W2_2 * W2_2
         return (
             W0_0,
             W0_1,
@@ -1067,6 +1070,12 @@ class Spd:
             0.5 * r0_0,
             0.5 * r0_1,
             0.5 * r1_1,
+            M0_0,
+            M0_1,
+            M0_2,
+            M1_1,
+            M1_2,
+            M2_2,
         )
 
     def _pair_value(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
@@ -1074,7 +1083,7 @@ class Spd:
         x0, x1, x2, x3 = X
         (
             W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, amplitude, r0_0, r0_1, r1_1, mul_of_one, mul_of_one_2,
-            mul_of_one_3,
+            mul_of_one_3, _, _, _, _, _, _,
         ) = S
         total_2 = x0 * r0_0 + x2 * r0_1
         total_3 = x1 * r0_0 + x3 * r0_1
@@ -1098,15 +1107,16 @@ class Spd:
         z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1
         z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1
         gap = -log_sinhc_sqrtm_value0_0 - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2)
-        phi = amplitude * torch.exp(gap)
-        return (phi,)
+        phi = torch.exp(gap)
+        phi_2 = amplitude * phi
+        return (phi_2,)
 
     def _pair(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
         """The value of a splat at a point, and the slope, its derivatives in X."""
         x0, x1, x2, x3 = X
         (
             W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, amplitude, r0_0, r0_1, r1_1, mul_of_one, mul_of_one_2,
-            mul_of_one_3,
+            mul_of_one_3, _, _, _, _, _, _,
         ) = S
         total_2 = x0 * r0_0 + x2 * r0_1
         total_3 = x1 * r0_0 + x3 * r0_1
@@ -1130,32 +1140,30 @@ class Spd:
         z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1
         z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1
         gap = -log_sinhc_sqrtm_value0_0 - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2)
-        phi = amplitude * torch.exp(gap)
-        z2_product = z2 * phi
-        z1_product = z1 * phi
-        z0_product = z0 * phi
-        log_sinhc_sqrtm_slope = _spectral_alone("log_sinhc_sqrt", entry_0_0_2_eigh, (-phi,))
+        phi = torch.exp(gap)
+        phi_2 = amplitude * phi
+        log_sinhc_sqrtm_slope = _spectral_alone("log_sinhc_sqrt", entry_0_0_2_eigh, (-phi_2,))
         by_entry_0_0_2 = log_sinhc_sqrtm_slope[..., 0]
         product = L0_0_gap * (0.5 * by_entry_0_0_2)
-        total_6 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product + product
-        by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product
-        gap_2 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product - product
+        gap_2 = product - phi_2 * (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0))
+        product_2 = 1.4142135623730951 * (phi_2 * (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0)))
+        minus = -(phi_2 * (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0)))
         logm_slope = _spectral_alone(
-            "log", entry_0_0_eigh, (total_6, 0.5 * (1.4142135623730951 * by_v1 + L0_1 * (2.0 * by_entry_0_0_2)), gap_2,)
+            "log", entry_0_0_eigh, (gap_2, 0.5 * (L0_1 * (2.0 * by_entry_0_0_2) - product_2), minus - product,)
         )
         by_entry_1_1 = logm_slope[..., 2]
         by_entry_0_1 = 2.0 * logm_slope[..., 1]
-        total_7 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1
-        product_2 = mul_of_one_2 * by_entry_0_1
+        total_6 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1
+        product_3 = mul_of_one_2 * by_entry_0_1
         by_entry_0_0 = logm_slope[..., 0]
-        total_8 = product_2 + r0_0 * by_entry_0_0
-        by_x0 = r0_1 * total_7 + r0_0 * total_8
-        total_9 = r1_1 * by_entry_1_1 + product_2
-        total_10 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0
-        by_x1 = r0_1 * total_9 + r0_0 * total_10
-        by_x2 = r1_1 * total_7 + r0_1 * total_8
-        by_x3 = r1_1 * total_9 + r0_1 * total_10
-        return (phi, by_x0, by_x1, by_x2, by_x3)
+        total_7 = product_3 + r0_0 * by_entry_0_0
+        by_x0 = r0_1 * total_6 + r0_0 * total_7
+        total_8 = r1_1 * by_entry_1_1 + product_3
+        total_9 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0
+        by_x1 = r0_1 * total_8 + r0_0 * total_9
+        by_x2 = r1_1 * total_6 + r0_1 * total_7
+        by_x3 = r1_1 * total_8 + r0_1 * total_9
+        return (phi_2, by_x0, by_x1, by_x2, by_x3)
 
     def _point_gradient(self, x: Tensor, slope: Sequence[Tensor]) -> Tensor:
         """The Riemannian gradient of a function whose derivatives in X are `slope`."""
@@ -1210,11 +1218,11 @@ class Spd:
     def _pair_vjp(
         self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
     ) -> tuple[Tensor, ...]:
-        """The derivatives of value value_bar + slope . slope_bar in S."""
+        """What, summed over the points, makes the derivatives of value value_bar + slope . slope_bar."""
         x0, x1, x2, x3 = X
         (
-            W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, amplitude, r0_0, r0_1, r1_1, mul_of_one, mul_of_one_2,
-            mul_of_one_3,
+            W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, _, r0_0, r0_1, r1_1, mul_of_one, mul_of_one_2,
+            mul_of_one_3, M0_0, M0_1, M0_2, M1_1, M1_2, M2_2,
         ) = S
         x0_bar, x1_bar, x2_bar, x3_bar = slope_bar
         total_2 = x0 * r0_0 + x2 * r0_1
@@ -1226,8 +1234,8 @@ class Spd:
         entry_1_1 = r0_1 * total_4 + r1_1 * total_5
         entry_0_0_eigh = _eigh(entry_0_0, entry_0_1, entry_1_1)
         logm = _spectral_alone("log", entry_0_0_eigh)
-        L0_0 = logm[..., 0]
         L0_1 = logm[..., 1]
+        L0_0 = logm[..., 0]
         L1_1 = logm[..., 2]
         L0_0_gap = L0_0 - L1_1
         entry_0_0_2 = L0_1 * L0_1 + 0.25 * (L0_0_gap * L0_0_gap)
@@ -1239,124 +1247,130 @@ class Spd:
         z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1
         z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1
         gap = -log_sinhc_sqrtm_value0_0 - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2)
-        exp_2 = torch.exp(gap)
-        phi = amplitude * exp_2
-        total_6 = r0_0 * x0_bar + r0_1 * x2_bar
-        total_7 = r0_0 * x1_bar + r0_1 * x3_bar
-        total_8 = r0_0 * total_6 + r0_1 * total_7
-        total_9 = r0_1 * x0_bar + r1_1 * x2_bar
-        total_10 = r0_1 * x1_bar + r1_1 * x3_bar
-        total_11 = total_6 + total_10
-        by_by_entry_0_1 = mul_of_one * total_9 + mul_of_one_2 * total_11 + mul_of_one_3 * total_7
-        total_12 = r0_1 * total_9 + r1_1 * total_10
-        logm_slope = _spectral_alone("log", entry_0_0_eigh, (total_8, by_by_entry_0_1, total_12,))
-        by_by_v1 = 1.4142135623730951 * logm_slope[..., 1]
-        gap_2 = -(W0_0 * logm_slope[..., 0]) - W0_1 * by_by_v1 - W0_2 * logm_slope[..., 2]
-        gap_3 = -(W1_0 * logm_slope[..., 0]) - W1_1 * by_by_v1 - W1_2 * logm_slope[..., 2]
-        gap_4 = -(W2_0 * logm_slope[..., 0]) - W2_1 * by_by_v1 - W2_2 * logm_slope[..., 2]
-        gap_5 = logm_slope[..., 0] - logm_slope[..., 2]
-        total_13 = 2.0 * (L0_1 * logm_slope[..., 1]) + 0.5 * (L0_0_gap * gap_5)
-        log_sinhc_sqrtm_slope = _spectral_alone("log_sinhc_sqrt", entry_0_0_2_eigh, (total_13,))
-        by_phi = value_bar + z0 * gap_2 + z1 * gap_3 + z2 * gap_4 - log_sinhc_sqrtm_slope[..., 0]
-        product = exp_2 * (amplitude * by_phi)
-        by_z0 = phi * gap_2 - z0 * product
-        z0_product = z0 * phi
-        by_z1 = phi * gap_3 - z1 * product
-        z1_product = z1 * phi
-        by_z2 = phi * gap_4 - z2 * product
-        z2_product = z2 * phi
+        phi = torch.exp(gap)
+        total_6 = W2_2 * z2 + (W1_2 * z1 + W0_2 * z0)
+        total_7 = r0_0 * x0_bar + r0_1 * x2_bar
+        total_8 = r0_0 * x1_bar + r0_1 * x3_bar
+        total_9 = r0_0 * total_7 + r0_1 * total_8
+        total_10 = r0_1 * x0_bar + r1_1 * x2_bar
+        total_11 = r0_1 * x1_bar + r1_1 * x3_bar
+        total_12 = total_7 + total_11
+        by_by_entry_0_1 = mul_of_one * total_10 + mul_of_one_2 * total_12 + mul_of_one_3 * total_8
+        total_13 = r0_1 * total_10 + r1_1 * total_11
+        logm_slope = _spectral_alone("log", entry_0_0_eigh, (total_9, by_by_entry_0_1, total_13,))
+        total_14 = W2_1 * z2 + (W1_1 * z1 + W0_1 * z0)
+        product = 1.4142135623730951 * logm_slope[..., 1]
+        total_15 = W2_0 * z2 + (W1_0 * z1 + W0_0 * z0)
+        gap_2 = logm_slope[..., 0] - logm_slope[..., 2]
+        total_16 = 2.0 * (L0_1 * logm_slope[..., 1]) + 0.5 * (L0_0_gap * gap_2)
+        log_sinhc_sqrtm_slope = _spectral_alone("log_sinhc_sqrt", entry_0_0_2_eigh, (total_16,))
+        by_phi = (
+            value_bar - total_6 * logm_slope[..., 2] - total_14 * product - total_15 * logm_slope[..., 0] -
+            log_sinhc_sqrtm_slope[..., 0]
+        )
+        phi_product = phi * by_phi
         phi_minus = -phi
         log_sinhc_sqrtm_slope_2 = _spectral_alone("log_sinhc_sqrt", entry_0_0_2_eigh, (phi_minus,))
         by_entry_0_0_2 = log_sinhc_sqrtm_slope_2[..., 0]
         product_2 = 0.5 * by_entry_0_0_2
         product_3 = L0_0_gap * product_2
-        total_14 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product + product_3
-        by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product
+        gap_3 = product_3 - phi * total_15
         product_4 = 2.0 * by_entry_0_0_2
-        product_5 = 0.5 * (1.4142135623730951 * by_v1 + L0_1 * product_4)
-        gap_6 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product - product_3
-        logm_slope_2 = _spectral_alone("log", entry_0_0_eigh, (total_14, product_5, gap_6,))
+        product_5 = 0.5 * (L0_1 * product_4 - 1.4142135623730951 * (phi * total_14))
+        gap_4 = -(phi * total_6) - product_3
+        logm_slope_2 = _spectral_alone("log", entry_0_0_eigh, (gap_3, product_5, gap_4,))
         by_entry_0_1 = 2.0 * logm_slope_2[..., 1]
         product_6 = mul_of_one_2 * by_entry_0_1
         by_entry_0_0 = logm_slope_2[..., 0]
-        total_15 = product_6 + r0_0 * by_entry_0_0
-        total_16 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0
+        total_17 = product_6 + r0_0 * by_entry_0_0
+        total_18 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0
         logm_derivative2 = _spectral_alone(
-            "log", entry_0_0_eigh, (total_14, product_5, gap_6,), (total_8, by_by_entry_0_1, total_12,)
+            "log", entry_0_0_eigh, (gap_3, product_5, gap_4,), (total_9, by_by_entry_0_1, total_13,)
         )
-        log_sinhc_sqrtm_derivative2 = _spectral_alone("log_sinhc_sqrt", entry_0_0_2_eigh, (phi_minus,), (total_13,))
-        log_sinhc_sqrtm_slope_3 = _spectral_alone("log_sinhc_sqrt", entry_0_0_2_eigh, (-product,))
+        phi_product_2 = phi * logm_slope[..., 0]
+        phi_product_3 = phi * product
+        phi_product_4 = phi * logm_slope[..., 2]
+        gap_5 = -(M0_0 * phi_product_2) - M0_1 * phi_product_3 - M0_2 * phi_product_4 - total_15 * phi_product
+        log_sinhc_sqrtm_derivative2 = _spectral_alone("log_sinhc_sqrt", entry_0_0_2_eigh, (phi_minus,), (total_16,))
+        log_sinhc_sqrtm_slope_3 = _spectral_alone("log_sinhc_sqrt", entry_0_0_2_eigh, (-phi_product,))
         by_entry_0_0_2_2 = log_sinhc_sqrtm_derivative2[..., 0] + log_sinhc_sqrtm_slope_3[..., 0]
-        total_17 = product_2 * gap_5 + L0_0_gap * (0.5 * by_entry_0_0_2_2)
-        by_v1_2 = W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0
+        total_19 = product_2 * gap_2 + L0_0_gap * (0.5 * by_entry_0_0_2_2)
+        by_v1 = -(M0_1 * phi_product_2) - M1_1 * phi_product_3 - M1_2 * phi_product_4 - total_14 * phi_product
+        gap_6 = -(M0_2 * phi_product_2) - M1_2 * phi_product_3 - M2_2 * phi_product_4 - total_6 * phi_product
         logm_slope_3 = _spectral_alone(
-            "log", entry_0_0_eigh, (W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0 + total_17, 0.5 * (product_4 *
-            logm_slope[..., 1] + 1.4142135623730951 * by_v1_2 + L0_1 * (2.0 * by_entry_0_0_2_2)), W2_2 * by_z2 + W1_2 *
-            by_z1 + W0_2 * by_z0 - total_17,)
+            "log", entry_0_0_eigh, (gap_5 + total_19, 0.5 * (product_4 * logm_slope[..., 1] + 1.4142135623730951 * by_v1
+            + L0_1 * (2.0 * by_entry_0_0_2_2)), gap_6 - total_19,)
         )
         by_entry_0_1_2 = 2.0 * logm_derivative2[..., 1] + 2.0 * logm_slope_3[..., 1]
         by_entry_0_0_3 = logm_derivative2[..., 0] + logm_slope_3[..., 0]
-        total_18 = mul_of_one_3 * by_entry_0_1_2 + r0_1 * by_entry_0_0_3
-        total_19 = (
-            total_15 * x0_bar + by_entry_0_0 * total_6 + total_16 * x1_bar + x1 * total_18 + total_2 * by_entry_0_0_3
+        total_20 = mul_of_one_3 * by_entry_0_1_2 + r0_1 * by_entry_0_0_3
+        total_21 = (
+            total_17 * x0_bar + by_entry_0_0 * total_7 + total_18 * x1_bar + x1 * total_20 + total_2 * by_entry_0_0_3
         )
         product_7 = mul_of_one_2 * by_entry_0_1_2
-        total_20 = product_7 + r0_0 * by_entry_0_0_3
+        total_22 = product_7 + r0_0 * by_entry_0_0_3
         by_entry_1_1 = logm_slope_2[..., 2]
-        total_21 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1
-        total_22 = r1_1 * by_entry_1_1 + product_6
-        total_23 = (
-            total_15 * x2_bar + total_16 * x3_bar + by_entry_0_0 * total_7 + total_21 * x0_bar + total_22 * x1_bar
+        total_23 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1
+        total_24 = r1_1 * by_entry_1_1 + product_6
+        total_25 = (
+            total_17 * x2_bar + total_18 * x3_bar + by_entry_0_0 * total_8 + total_23 * x0_bar + total_24 * x1_bar
         )
         by_entry_1_1_2 = logm_derivative2[..., 2] + logm_slope_3[..., 2]
-        total_24 = r1_1 * by_entry_1_1_2 + product_7
-        total_25 = r0_1 * by_entry_1_1_2 + mul_of_one * by_entry_0_1_2
-        total_26 = total_23 + by_entry_1_1 * total_9 + total_4 * by_entry_1_1_2 + x1 * total_24 + x0 * total_25
-        total_27 = (
-            total_21 * x2_bar + total_22 * x3_bar + by_entry_1_1 * total_10 + total_5 * by_entry_1_1_2 + x3 * total_24
+        total_26 = r1_1 * by_entry_1_1_2 + product_7
+        total_27 = r0_1 * by_entry_1_1_2 + mul_of_one * by_entry_0_1_2
+        total_28 = total_25 + by_entry_1_1 * total_10 + total_4 * by_entry_1_1_2 + x1 * total_26 + x0 * total_27
+        total_29 = (
+            total_23 * x2_bar + total_24 * x3_bar + by_entry_1_1 * total_11 + total_5 * by_entry_1_1_2 + x3 * total_26
         )
+        product_8 = 0.5 * phi_product
+        gap_7 = -phi_product_2 - L0_0 * product_8
+        gap_8 = -phi_product_3 - v1 * product_8
+        gap_9 = -phi_product_4 - L1_1 * product_8
         return (
-            L0_0 * by_z0 - z0_product * logm_slope[..., 0],
-            v1 * by_z0 - z0_product * by_by_v1,
-            L1_1 * by_z0 - z0_product * logm_slope[..., 2],
-            L0_0 * by_z1 - z1_product * logm_slope[..., 0],
-            v1 * by_z1 - z1_product * by_by_v1,
-            L1_1 * by_z1 - z1_product * logm_slope[..., 2],
-            L0_0 * by_z2 - z2_product * logm_slope[..., 0],
-            v1 * by_z2 - z2_product * by_by_v1,
-            L1_1 * by_z2 - z2_product * logm_slope[..., 2],
-            exp_2 * by_phi,
-            total_19 + x0 * total_20,
-            total_26 + total_3 * by_entry_0_0_3 + x3 * total_18 + x2 * total_20,
-            total_27 + x2 * total_25,
-            by_entry_0_1 * total_9 + total_4 * by_entry_0_1_2,
-            by_entry_0_1 * total_11 + total_5 * by_entry_0_1_2 + total_2 * by_entry_0_1_2,
-            by_entry_0_1 * total_7 + total_3 * by_entry_0_1_2,
+            phi_product,
+            total_21 + x0 * total_22,
+            total_28 + total_3 * by_entry_0_0_3 + x3 * total_20 + x2 * total_22,
+            total_29 + x2 * total_27,
+            by_entry_0_1 * total_10 + total_4 * by_entry_0_1_2,
+            by_entry_0_1 * total_12 + total_5 * by_entry_0_1_2 + total_2 * by_entry_0_1_2,
+            by_entry_0_1 * total_8 + total_3 * by_entry_0_1_2,
+            L0_0 * gap_7,
+            L0_0 * gap_8 + v1 * gap_7,
+            L0_0 * gap_9 + L1_1 * gap_7,
+            v1 * gap_8,
+            v1 * gap_9 + L1_1 * gap_8,
+            L1_1 * gap_9,
         )
 
     def _splat_constants_vjp(
-        self, mu: Tensor, W: Tensor, amplitude: Tensor, S_bar: Sequence[Tensor]
+        self, mu: Tensor, W: Tensor, amplitude: Tensor, sums: Sequence[Tensor]
     ) -> tuple[Tensor, Tensor, Tensor]:
-        """The derivatives in mu, W and amplitude from those in S."""
+        """The derivatives in mu, W and amplitude from those sums."""
         mu0, mu1, mu2, mu3 = mu.unbind(-1)
-        (
-            W0_0_bar, W0_1_bar, W0_2_bar, W1_0_bar, W1_1_bar, W1_2_bar, W2_0_bar, W2_1_bar, W2_2_bar, amplitude_bar,
-            r0_0_bar, r0_1_bar, r1_1_bar, mul_of_one_bar, mul_of_one_2_bar, mul_of_one_3_bar,
-        ) = S_bar
+        W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2 = W.flatten(-2).unbind(-1)
+        sum0, sum1, sum2, sum3, sum4, sum5, sum6, sum7, sum8, sum9, sum10, sum11, sum12 = sums
         p_0_1 = 0.5 * mu1 + 0.5 * mu2
         p_0_1_eigh = _eigh(mu0, p_0_1, mu3)
         invsqrtm_slope = _spectral_alone(
-            "invsqrt", p_0_1_eigh, (r0_0_bar + 0.5 * mul_of_one_bar, 0.5 * (r0_1_bar + 0.5 * mul_of_one_2_bar), r1_1_bar
-            + 0.5 * mul_of_one_3_bar,)
+            "invsqrt", p_0_1_eigh, (sum1 + 0.5 * sum4, 0.5 * (sum2 + 0.5 * sum5), sum3 + 0.5 * sum6,)
         )
-        mu_bar = _stack((
-            invsqrtm_slope[..., 0],
-            invsqrtm_slope[..., 1],
-            invsqrtm_slope[..., 1],
-            invsqrtm_slope[..., 2],
+        product = amplitude * invsqrtm_slope[..., 1]
+        product_2 = 2.0 * sum7
+        product_3 = 2.0 * sum10
+        product_4 = 2.0 * sum12
+        mu_bar = _stack((amplitude * invsqrtm_slope[..., 0], product, product, amplitude * invsqrtm_slope[..., 2]))
+        W_bar = _stack((
+            amplitude * (W0_0 * product_2 + W0_1 * sum8 + W0_2 * sum9),
+            amplitude * (W0_0 * sum8 + W0_1 * product_3 + W0_2 * sum11),
+            amplitude * (W0_0 * sum9 + W0_1 * sum11 + W0_2 * product_4),
+            amplitude * (W1_0 * product_2 + W1_1 * sum8 + W1_2 * sum9),
+            amplitude * (W1_0 * sum8 + W1_1 * product_3 + W1_2 * sum11),
+            amplitude * (W1_0 * sum9 + W1_1 * sum11 + W1_2 * product_4),
+            amplitude * (W2_0 * product_2 + W2_1 * sum8 + W2_2 * sum9),
+            amplitude * (W2_0 * sum8 + W2_1 * product_3 + W2_2 * sum11),
+            amplitude * (W2_0 * sum9 + W2_1 * sum11 + W2_2 * product_4),
         ))
-        W_bar = _stack((W0_0_bar, W0_1_bar, W0_2_bar, W1_0_bar, W1_1_bar, W1_2_bar, W2_0_bar, W2_1_bar, W2_2_bar))
-        return mu_bar, W_bar.unflatten(-1, (3, 3)), amplitude_bar
+        return mu_bar, W_bar.unflatten(-1, (3, 3)), sum0
 
 
 manifold = Spd()

@@ -81,6 +81,8 @@ INLINE uint64_t flush_denormals(void) { return 0; }
 INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
 
+#if !defined(RSRM_ONLY_FLOAT) /* double */
+
 /* The same number in all lanes. */
 INLINE vector vector_of(double x) {
     const vector zero = ZERO;
@@ -122,7 +124,7 @@ INLINE vector vector_from_bits(vector_bits bits) {
 }
 
 /* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
-INLINE vector vector_exp(vector x) {
+INLINE vector exp_each(vector x) {
     const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
     const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
     const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
@@ -567,6 +569,12 @@ OUTLINE void pair_constants(
     const vector r0_0 = invsqrtm[0];
     const vector r0_1 = invsqrtm[1];
     const vector r1_1 = invsqrtm[2];
+    const vector M0_0 = W0_0 * W0_0 + W1_0 * W1_0 + W2_0 * W2_0;
+    const vector M0_1 = W0_0 * W0_1 + W1_0 * W1_1 + W2_0 * W2_1;
+    const vector M0_2 = W0_0 * W0_2 + W1_0 * W1_2 + W2_0 * W2_2;
+    const vector M1_1 = W0_1 * W0_1 + W1_1 * W1_1 + W2_1 * W2_1;
+    const vector M1_2 = W0_1 * W0_2 + W1_1 * W1_2 + W2_1 * W2_2;
+    const vector M2_2 = W0_2 * W0_2 + W1_2 * W1_2 + W2_2 * W2_2;
     S[0] = W0_0;
     S[1] = W0_1;
     S[2] = W0_2;
@@ -583,6 +591,12 @@ OUTLINE void pair_constants(
     S[13] = 0.5 * r0_0;
     S[14] = 0.5 * r0_1;
     S[15] = 0.5 * r1_1;
+    S[16] = M0_0;
+    S[17] = M0_1;
+    S[18] = M0_2;
+    S[19] = M1_1;
+    S[20] = M1_2;
+    S[21] = M2_2;
 }
 
 /*
@@ -679,7 +693,8 @@ OUTLINE void pair_value(
     const vector z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
     const vector z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
     const vector gap = -log_sinhc_sqrtm_value0_0 - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
-    value[0] = value[0] + amplitude * vector_exp(gap);
+    const vector phi = exp_each(gap);
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -776,13 +791,11 @@ OUTLINE void pair_forward(
     const vector z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
     const vector z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
     const vector gap = -log_sinhc_sqrtm_value0_0 - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector phi = amplitude * vector_exp(gap);
-    const vector z2_product = z2 * phi;
-    const vector z1_product = z1 * phi;
-    const vector z0_product = z0 * phi;
+    const vector phi = exp_each(gap);
+    const vector phi_2 = amplitude * phi;
     vector log_sinhc_sqrtm_slope[1];
     {
-        const vector given_lanes[1] = {-phi};
+        const vector given_lanes[1] = {-phi_2};
         for (size_t lane = 0; lane < LANES; ++lane) {
             double given[1];
             for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
@@ -798,12 +811,12 @@ OUTLINE void pair_forward(
     }
     const vector by_entry_0_0_2 = log_sinhc_sqrtm_slope[0];
     const vector product = L0_0_gap * (0.5 * by_entry_0_0_2);
-    const vector total_6 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product + product;
-    const vector by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product;
-    const vector gap_2 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product - product;
+    const vector gap_2 = product - phi_2 * (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0));
+    const vector product_2 = 1.4142135623730951 * (phi_2 * (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0)));
+    const vector minus = -(phi_2 * (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0)));
     vector logm_slope[3];
     {
-        const vector given_lanes[3] = {total_6, 0.5 * (1.4142135623730951 * by_v1 + L0_1 * (2.0 * by_entry_0_0_2)), gap_2};
+        const vector given_lanes[3] = {gap_2, 0.5 * (L0_1 * (2.0 * by_entry_0_0_2) - product_2), minus - product};
         for (size_t lane = 0; lane < LANES; ++lane) {
             double given[3];
             for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
@@ -819,17 +832,17 @@ OUTLINE void pair_forward(
     }
     const vector by_entry_1_1 = logm_slope[2];
     const vector by_entry_0_1 = 2.0 * logm_slope[1];
-    const vector total_7 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1;
-    const vector product_2 = mul_of_one_2 * by_entry_0_1;
+    const vector total_6 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1;
+    const vector product_3 = mul_of_one_2 * by_entry_0_1;
     const vector by_entry_0_0 = logm_slope[0];
-    const vector total_8 = product_2 + r0_0 * by_entry_0_0;
-    const vector total_9 = r1_1 * by_entry_1_1 + product_2;
-    const vector total_10 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0;
-    value[0] = value[0] + phi;
-    slope[0] = slope[0] + r0_1 * total_7 + r0_0 * total_8;
-    slope[1] = slope[1] + r0_1 * total_9 + r0_0 * total_10;
-    slope[2] = slope[2] + r1_1 * total_7 + r0_1 * total_8;
-    slope[3] = slope[3] + r1_1 * total_9 + r0_1 * total_10;
+    const vector total_7 = product_3 + r0_0 * by_entry_0_0;
+    const vector total_8 = r1_1 * by_entry_1_1 + product_3;
+    const vector total_9 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0;
+    value[0] = value[0] + phi_2;
+    slope[0] = slope[0] + r0_1 * total_6 + r0_0 * total_7;
+    slope[1] = slope[1] + r0_1 * total_8 + r0_0 * total_9;
+    slope[2] = slope[2] + r1_1 * total_6 + r0_1 * total_7;
+    slope[3] = slope[3] + r1_1 * total_8 + r0_1 * total_9;
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -937,31 +950,36 @@ OUTLINE void pair_gradient_vjp(
             sqrtm_p0_1_squared * gradient_bar0;
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp(
-    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
-    (void)W;
-    (void)amplitude;
+    const vector *mu, const vector *W, const vector *amplitude, const vector *sums, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
     const vector mu0 = mu[0];
     const vector mu1 = mu[1];
     const vector mu2 = mu[2];
     const vector mu3 = mu[3];
-    const vector W0_0_bar = S_bar[0];
-    const vector W0_1_bar = S_bar[1];
-    const vector W0_2_bar = S_bar[2];
-    const vector W1_0_bar = S_bar[3];
-    const vector W1_1_bar = S_bar[4];
-    const vector W1_2_bar = S_bar[5];
-    const vector W2_0_bar = S_bar[6];
-    const vector W2_1_bar = S_bar[7];
-    const vector W2_2_bar = S_bar[8];
-    const vector its_amplitude_bar = S_bar[9];
-    const vector r0_0_bar = S_bar[10];
-    const vector r0_1_bar = S_bar[11];
-    const vector r1_1_bar = S_bar[12];
-    const vector mul_of_one_bar = S_bar[13];
-    const vector mul_of_one_2_bar = S_bar[14];
-    const vector mul_of_one_3_bar = S_bar[15];
+    const vector W0_0 = W[0];
+    const vector W0_1 = W[1];
+    const vector W0_2 = W[2];
+    const vector W1_0 = W[3];
+    const vector W1_1 = W[4];
+    const vector W1_2 = W[5];
+    const vector W2_0 = W[6];
+    const vector W2_1 = W[7];
+    const vector W2_2 = W[8];
+    const vector its_amplitude = amplitude[0];
+    const vector sum0 = sums[0];
+    const vector sum1 = sums[1];
+    const vector sum2 = sums[2];
+    const vector sum3 = sums[3];
+    const vector sum4 = sums[4];
+    const vector sum5 = sums[5];
+    const vector sum6 = sums[6];
+    const vector sum7 = sums[7];
+    const vector sum8 = sums[8];
+    const vector sum9 = sums[9];
+    const vector sum10 = sums[10];
+    const vector sum11 = sums[11];
+    const vector sum12 = sums[12];
     const vector p_0_1 = 0.5 * mu1 + 0.5 * mu2;
     vector p_0_1_eigh[6];
     {
@@ -979,7 +997,7 @@ OUTLINE void pair_constants_vjp(
     }
     vector invsqrtm_slope[3];
     {
-        const vector given_lanes[3] = {r0_0_bar + 0.5 * mul_of_one_bar, 0.5 * (r0_1_bar + 0.5 * mul_of_one_2_bar), r1_1_bar + 0.5 * mul_of_one_3_bar};
+        const vector given_lanes[3] = {sum1 + 0.5 * sum4, 0.5 * (sum2 + 0.5 * sum5), sum3 + 0.5 * sum6};
         for (size_t lane = 0; lane < LANES; ++lane) {
             double given[3];
             for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
@@ -993,29 +1011,33 @@ OUTLINE void pair_constants_vjp(
             for (int i = 0; i < 3; ++i) LANE(invsqrtm_slope[i], lane) = found[i];
         }
     }
-    mu_bar[0] = invsqrtm_slope[0];
-    mu_bar[1] = invsqrtm_slope[1];
-    mu_bar[2] = invsqrtm_slope[1];
-    mu_bar[3] = invsqrtm_slope[2];
-    W_bar[0] = W0_0_bar;
-    W_bar[1] = W0_1_bar;
-    W_bar[2] = W0_2_bar;
-    W_bar[3] = W1_0_bar;
-    W_bar[4] = W1_1_bar;
-    W_bar[5] = W1_2_bar;
-    W_bar[6] = W2_0_bar;
-    W_bar[7] = W2_1_bar;
-    W_bar[8] = W2_2_bar;
-    amplitude_bar[0] = its_amplitude_bar;
+    const vector product = its_amplitude * invsqrtm_slope[1];
+    const vector product_2 = 2.0 * sum7;
+    const vector product_3 = 2.0 * sum10;
+    const vector product_4 = 2.0 * sum12;
+    mu_bar[0] = its_amplitude * invsqrtm_slope[0];
+    mu_bar[1] = product;
+    mu_bar[2] = product;
+    mu_bar[3] = its_amplitude * invsqrtm_slope[2];
+    W_bar[0] = its_amplitude * (W0_0 * product_2 + W0_1 * sum8 + W0_2 * sum9);
+    W_bar[1] = its_amplitude * (W0_0 * sum8 + W0_1 * product_3 + W0_2 * sum11);
+    W_bar[2] = its_amplitude * (W0_0 * sum9 + W0_1 * sum11 + W0_2 * product_4);
+    W_bar[3] = its_amplitude * (W1_0 * product_2 + W1_1 * sum8 + W1_2 * sum9);
+    W_bar[4] = its_amplitude * (W1_0 * sum8 + W1_1 * product_3 + W1_2 * sum11);
+    W_bar[5] = its_amplitude * (W1_0 * sum9 + W1_1 * sum11 + W1_2 * product_4);
+    W_bar[6] = its_amplitude * (W2_0 * product_2 + W2_1 * sum8 + W2_2 * sum9);
+    W_bar[7] = its_amplitude * (W2_0 * sum8 + W2_1 * product_3 + W2_2 * sum11);
+    W_bar[8] = its_amplitude * (W2_0 * sum9 + W2_1 * sum11 + W2_2 * product_4);
+    amplitude_bar[0] = sum0;
 }
 
 /*
- * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 OUTLINE void pair_backward(
-    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
+    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
     const vector x0 = X[0];
     const vector x1 = X[1];
     const vector x2 = X[2];
@@ -1029,13 +1051,18 @@ OUTLINE void pair_backward(
     const double W2_0 = S[6];
     const double W2_1 = S[7];
     const double W2_2 = S[8];
-    const double amplitude = S[9];
     const double r0_0 = S[10];
     const double r0_1 = S[11];
     const double r1_1 = S[12];
     const double mul_of_one = S[13];
     const double mul_of_one_2 = S[14];
     const double mul_of_one_3 = S[15];
+    const double M0_0 = S[16];
+    const double M0_1 = S[17];
+    const double M0_2 = S[18];
+    const double M1_1 = S[19];
+    const double M1_2 = S[20];
+    const double M2_2 = S[21];
     const vector its_value_bar = value_bar[0];
     const vector x0_bar = slope_bar[0];
     const vector x1_bar = slope_bar[1];
@@ -1073,8 +1100,8 @@ OUTLINE void pair_backward(
             for (int i = 0; i < 3; ++i) LANE(logm[i], lane) = found[i];
         }
     }
-    const vector L0_0 = logm[0];
     const vector L0_1 = logm[1];
+    const vector L0_0 = logm[0];
     const vector L1_1 = logm[2];
     const vector L0_0_gap = L0_0 - L1_1;
     const vector entry_0_0_2 = L0_1 * L0_1 + 0.25 * (L0_0_gap * L0_0_gap);
@@ -1108,19 +1135,19 @@ OUTLINE void pair_backward(
     const vector z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
     const vector z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
     const vector gap = -log_sinhc_sqrtm_value0_0 - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector exp_2 = vector_exp(gap);
-    const vector phi = amplitude * exp_2;
-    const vector total_6 = r0_0 * x0_bar + r0_1 * x2_bar;
-    const vector total_7 = r0_0 * x1_bar + r0_1 * x3_bar;
-    const vector total_8 = r0_0 * total_6 + r0_1 * total_7;
-    const vector total_9 = r0_1 * x0_bar + r1_1 * x2_bar;
-    const vector total_10 = r0_1 * x1_bar + r1_1 * x3_bar;
-    const vector total_11 = total_6 + total_10;
-    const vector by_by_entry_0_1 = mul_of_one * total_9 + mul_of_one_2 * total_11 + mul_of_one_3 * total_7;
-    const vector total_12 = r0_1 * total_9 + r1_1 * total_10;
+    const vector phi = exp_each(gap);
+    const vector total_6 = W2_2 * z2 + (W1_2 * z1 + W0_2 * z0);
+    const vector total_7 = r0_0 * x0_bar + r0_1 * x2_bar;
+    const vector total_8 = r0_0 * x1_bar + r0_1 * x3_bar;
+    const vector total_9 = r0_0 * total_7 + r0_1 * total_8;
+    const vector total_10 = r0_1 * x0_bar + r1_1 * x2_bar;
+    const vector total_11 = r0_1 * x1_bar + r1_1 * x3_bar;
+    const vector total_12 = total_7 + total_11;
+    const vector by_by_entry_0_1 = mul_of_one * total_10 + mul_of_one_2 * total_12 + mul_of_one_3 * total_8;
+    const vector total_13 = r0_1 * total_10 + r1_1 * total_11;
     vector logm_slope[3];
     {
-        const vector given_lanes[3] = {total_8, by_by_entry_0_1, total_12};
+        const vector given_lanes[3] = {total_9, by_by_entry_0_1, total_13};
         for (size_t lane = 0; lane < LANES; ++lane) {
             double given[3];
             for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
@@ -1134,15 +1161,14 @@ OUTLINE void pair_backward(
             for (int i = 0; i < 3; ++i) LANE(logm_slope[i], lane) = found[i];
         }
     }
-    const vector by_by_v1 = 1.4142135623730951 * logm_slope[1];
-    const vector gap_2 = -(W0_0 * logm_slope[0]) - W0_1 * by_by_v1 - W0_2 * logm_slope[2];
-    const vector gap_3 = -(W1_0 * logm_slope[0]) - W1_1 * by_by_v1 - W1_2 * logm_slope[2];
-    const vector gap_4 = -(W2_0 * logm_slope[0]) - W2_1 * by_by_v1 - W2_2 * logm_slope[2];
-    const vector gap_5 = logm_slope[0] - logm_slope[2];
-    const vector total_13 = 2.0 * (L0_1 * logm_slope[1]) + 0.5 * (L0_0_gap * gap_5);
+    const vector total_14 = W2_1 * z2 + (W1_1 * z1 + W0_1 * z0);
+    const vector product = 1.4142135623730951 * logm_slope[1];
+    const vector total_15 = W2_0 * z2 + (W1_0 * z1 + W0_0 * z0);
+    const vector gap_2 = logm_slope[0] - logm_slope[2];
+    const vector total_16 = 2.0 * (L0_1 * logm_slope[1]) + 0.5 * (L0_0_gap * gap_2);
     vector log_sinhc_sqrtm_slope[1];
     {
-        const vector given_lanes[1] = {total_13};
+        const vector given_lanes[1] = {total_16};
         for (size_t lane = 0; lane < LANES; ++lane) {
             double given[1];
             for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
@@ -1156,14 +1182,9 @@ OUTLINE void pair_backward(
             for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope[i], lane) = found[i];
         }
     }
-    const vector by_phi = its_value_bar + z0 * gap_2 + z1 * gap_3 + z2 * gap_4 - log_sinhc_sqrtm_slope[0];
-    const vector product = exp_2 * (amplitude * by_phi);
-    const vector by_z0 = phi * gap_2 - z0 * product;
-    const vector z0_product = z0 * phi;
-    const vector by_z1 = phi * gap_3 - z1 * product;
-    const vector z1_product = z1 * phi;
-    const vector by_z2 = phi * gap_4 - z2 * product;
-    const vector z2_product = z2 * phi;
+    const vector by_phi = its_value_bar - total_6 * logm_slope[2] - total_14 * product - total_15 *
+        logm_slope[0] - log_sinhc_sqrtm_slope[0];
+    const vector phi_product = phi * by_phi;
     const vector phi_minus = -phi;
     vector log_sinhc_sqrtm_slope_2[1];
     {
@@ -1184,14 +1205,13 @@ OUTLINE void pair_backward(
     const vector by_entry_0_0_2 = log_sinhc_sqrtm_slope_2[0];
     const vector product_2 = 0.5 * by_entry_0_0_2;
     const vector product_3 = L0_0_gap * product_2;
-    const vector total_14 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product + product_3;
-    const vector by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product;
+    const vector gap_3 = product_3 - phi * total_15;
     const vector product_4 = 2.0 * by_entry_0_0_2;
-    const vector product_5 = 0.5 * (1.4142135623730951 * by_v1 + L0_1 * product_4);
-    const vector gap_6 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product - product_3;
+    const vector product_5 = 0.5 * (L0_1 * product_4 - 1.4142135623730951 * (phi * total_14));
+    const vector gap_4 = -(phi * total_6) - product_3;
     vector logm_slope_2[3];
     {
-        const vector given_lanes[3] = {total_14, product_5, gap_6};
+        const vector given_lanes[3] = {gap_3, product_5, gap_4};
         for (size_t lane = 0; lane < LANES; ++lane) {
             double given[3];
             for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
@@ -1208,11 +1228,11 @@ OUTLINE void pair_backward(
     const vector by_entry_0_1 = 2.0 * logm_slope_2[1];
     const vector product_6 = mul_of_one_2 * by_entry_0_1;
     const vector by_entry_0_0 = logm_slope_2[0];
-    const vector total_15 = product_6 + r0_0 * by_entry_0_0;
-    const vector total_16 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0;
+    const vector total_17 = product_6 + r0_0 * by_entry_0_0;
+    const vector total_18 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0;
     vector logm_derivative2[3];
     {
-        const vector given_lanes[6] = {total_14, product_5, gap_6, total_8, by_by_entry_0_1, total_12};
+        const vector given_lanes[6] = {gap_3, product_5, gap_4, total_9, by_by_entry_0_1, total_13};
         for (size_t lane = 0; lane < LANES; ++lane) {
             double given[6];
             for (int i = 0; i < 6; ++i) given[i] = LANE(given_lanes[i], lane);
@@ -1227,9 +1247,14 @@ OUTLINE void pair_backward(
             for (int i = 0; i < 3; ++i) LANE(logm_derivative2[i], lane) = found[i];
         }
     }
+    const vector phi_product_2 = phi * logm_slope[0];
+    const vector phi_product_3 = phi * product;
+    const vector phi_product_4 = phi * logm_slope[2];
+    const vector gap_5 = -(M0_0 * phi_product_2) - M0_1 * phi_product_3 - M0_2 * phi_product_4 - total_15 *
+        phi_product;
     vector log_sinhc_sqrtm_derivative2[1];
     {
-        const vector given_lanes[2] = {phi_minus, total_13};
+        const vector given_lanes[2] = {phi_minus, total_16};
         for (size_t lane = 0; lane < LANES; ++lane) {
             double given[2];
             for (int i = 0; i < 2; ++i) given[i] = LANE(given_lanes[i], lane);
@@ -1246,7 +1271,7 @@ OUTLINE void pair_backward(
     }
     vector log_sinhc_sqrtm_slope_3[1];
     {
-        const vector given_lanes[1] = {-product};
+        const vector given_lanes[1] = {-phi_product};
         for (size_t lane = 0; lane < LANES; ++lane) {
             double given[1];
             for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
@@ -1261,11 +1286,14 @@ OUTLINE void pair_backward(
         }
     }
     const vector by_entry_0_0_2_2 = log_sinhc_sqrtm_derivative2[0] + log_sinhc_sqrtm_slope_3[0];
-    const vector total_17 = product_2 * gap_5 + L0_0_gap * (0.5 * by_entry_0_0_2_2);
-    const vector by_v1_2 = W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
+    const vector total_19 = product_2 * gap_2 + L0_0_gap * (0.5 * by_entry_0_0_2_2);
+    const vector by_v1 = -(M0_1 * phi_product_2) - M1_1 * phi_product_3 - M1_2 * phi_product_4 - total_14 *
+        phi_product;
+    const vector gap_6 = -(M0_2 * phi_product_2) - M1_2 * phi_product_3 - M2_2 * phi_product_4 - total_6 *
+        phi_product;
     vector logm_slope_3[3];
     {
-        const vector given_lanes[3] = {W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0 + total_17, 0.5 * (product_4 * logm_slope[1] + 1.4142135623730951 * by_v1_2 + L0_1 * (2.0 * by_entry_0_0_2_2)), W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0 - total_17};
+        const vector given_lanes[3] = {gap_5 + total_19, 0.5 * (product_4 * logm_slope[1] + 1.4142135623730951 * by_v1 + L0_1 * (2.0 * by_entry_0_0_2_2)), gap_6 - total_19};
         for (size_t lane = 0; lane < LANES; ++lane) {
             double given[3];
             for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
@@ -1281,35 +1309,36 @@ OUTLINE void pair_backward(
     }
     const vector by_entry_0_1_2 = 2.0 * logm_derivative2[1] + 2.0 * logm_slope_3[1];
     const vector by_entry_0_0_3 = logm_derivative2[0] + logm_slope_3[0];
-    const vector total_18 = mul_of_one_3 * by_entry_0_1_2 + r0_1 * by_entry_0_0_3;
+    const vector total_20 = mul_of_one_3 * by_entry_0_1_2 + r0_1 * by_entry_0_0_3;
     const vector product_7 = mul_of_one_2 * by_entry_0_1_2;
-    const vector total_20 = product_7 + r0_0 * by_entry_0_0_3;
+    const vector total_22 = product_7 + r0_0 * by_entry_0_0_3;
     const vector by_entry_1_1 = logm_slope_2[2];
-    const vector total_21 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1;
-    const vector total_22 = r1_1 * by_entry_1_1 + product_6;
+    const vector total_23 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1;
+    const vector total_24 = r1_1 * by_entry_1_1 + product_6;
     const vector by_entry_1_1_2 = logm_derivative2[2] + logm_slope_3[2];
-    const vector total_24 = r1_1 * by_entry_1_1_2 + product_7;
-    const vector total_25 = r0_1 * by_entry_1_1_2 + mul_of_one * by_entry_0_1_2;
-    S_bar[0] = S_bar[0] + L0_0 * by_z0 - z0_product * logm_slope[0];
-    S_bar[1] = S_bar[1] + v1 * by_z0 - z0_product * by_by_v1;
-    S_bar[2] = S_bar[2] + L1_1 * by_z0 - z0_product * logm_slope[2];
-    S_bar[3] = S_bar[3] + L0_0 * by_z1 - z1_product * logm_slope[0];
-    S_bar[4] = S_bar[4] + v1 * by_z1 - z1_product * by_by_v1;
-    S_bar[5] = S_bar[5] + L1_1 * by_z1 - z1_product * logm_slope[2];
-    S_bar[6] = S_bar[6] + L0_0 * by_z2 - z2_product * logm_slope[0];
-    S_bar[7] = S_bar[7] + v1 * by_z2 - z2_product * by_by_v1;
-    S_bar[8] = S_bar[8] + L1_1 * by_z2 - z2_product * logm_slope[2];
-    S_bar[9] = S_bar[9] + exp_2 * by_phi;
-    S_bar[10] = S_bar[10] + total_15 * x0_bar + by_entry_0_0 * total_6 + total_16 * x1_bar + x1 * total_18 +
-            total_2 * by_entry_0_0_3 + x0 * total_20;
-    S_bar[11] = S_bar[11] + total_15 * x2_bar + total_16 * x3_bar + by_entry_0_0 * total_7 + total_21 * x0_bar
-            + total_22 * x1_bar + by_entry_1_1 * total_9 + total_4 * by_entry_1_1_2 + x1 * total_24 + x0 *
-            total_25 + total_3 * by_entry_0_0_3 + x3 * total_18 + x2 * total_20;
-    S_bar[12] = S_bar[12] + total_21 * x2_bar + total_22 * x3_bar + by_entry_1_1 * total_10 + total_5 *
-            by_entry_1_1_2 + x3 * total_24 + x2 * total_25;
-    S_bar[13] = S_bar[13] + by_entry_0_1 * total_9 + total_4 * by_entry_0_1_2;
-    S_bar[14] = S_bar[14] + by_entry_0_1 * total_11 + total_5 * by_entry_0_1_2 + total_2 * by_entry_0_1_2;
-    S_bar[15] = S_bar[15] + by_entry_0_1 * total_7 + total_3 * by_entry_0_1_2;
+    const vector total_26 = r1_1 * by_entry_1_1_2 + product_7;
+    const vector total_27 = r0_1 * by_entry_1_1_2 + mul_of_one * by_entry_0_1_2;
+    const vector product_8 = 0.5 * phi_product;
+    const vector gap_7 = -phi_product_2 - L0_0 * product_8;
+    const vector gap_8 = -phi_product_3 - v1 * product_8;
+    const vector gap_9 = -phi_product_4 - L1_1 * product_8;
+    sums[0] = sums[0] + phi_product;
+    sums[1] = sums[1] + total_17 * x0_bar + by_entry_0_0 * total_7 + total_18 * x1_bar + x1 * total_20 +
+            total_2 * by_entry_0_0_3 + x0 * total_22;
+    sums[2] = sums[2] + total_17 * x2_bar + total_18 * x3_bar + by_entry_0_0 * total_8 + total_23 * x0_bar +
+            total_24 * x1_bar + by_entry_1_1 * total_10 + total_4 * by_entry_1_1_2 + x1 * total_26 + x0 * total_27
+            + total_3 * by_entry_0_0_3 + x3 * total_20 + x2 * total_22;
+    sums[3] = sums[3] + total_23 * x2_bar + total_24 * x3_bar + by_entry_1_1 * total_11 + total_5 *
+            by_entry_1_1_2 + x3 * total_26 + x2 * total_27;
+    sums[4] = sums[4] + by_entry_0_1 * total_10 + total_4 * by_entry_0_1_2;
+    sums[5] = sums[5] + by_entry_0_1 * total_12 + total_5 * by_entry_0_1_2 + total_2 * by_entry_0_1_2;
+    sums[6] = sums[6] + by_entry_0_1 * total_8 + total_3 * by_entry_0_1_2;
+    sums[7] = sums[7] + L0_0 * gap_7;
+    sums[8] = sums[8] + L0_0 * gap_8 + v1 * gap_7;
+    sums[9] = sums[9] + L0_0 * gap_9 + L1_1 * gap_7;
+    sums[10] = sums[10] + v1 * gap_8;
+    sums[11] = sums[11] + v1 * gap_9 + L1_1 * gap_8;
+    sums[12] = sums[12] + L1_1 * gap_9;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -1341,7 +1370,7 @@ size_t spd_splats_work(size_t count, size_t splat_count, int threads) {
     (void)threads;
     const size_t points = (count + LANES - 1) / LANES, blocks = (points + 2 - 1) / 2;
     const size_t places = 0 * ((splat_count + LANES - 1) / LANES + (blocks + LANES - 1) / LANES);
-    return (points * 9 + places + 1) * LANES + 16 * splat_count;
+    return (points * 9 + places + 1) * LANES + 22 * splat_count;
 }
 
 static vector *work_points(double *work) {
@@ -1355,12 +1384,12 @@ INLINE const double *splat_at(const vector *splats, size_t k) {
     return (const double *)(splats + 0 * row) + (k - row * LANES);
 }
 
-static vector *work_splats(double *work, size_t count) {
+static vector *work_reaches(double *work, size_t count) {
     return work_points(work) + (count + LANES - 1) / LANES * 9;
 }
 
 static vector *work_blocks(double *work, size_t count, size_t splat_count) {
-    return work_splats(work, count) + 0 * ((splat_count + LANES - 1) / LANES);
+    return work_reaches(work, count) + 0 * ((splat_count + LANES - 1) / LANES);
 }
 
 static double *work_constants(double *work, size_t count, size_t splat_count) {
@@ -1392,13 +1421,13 @@ static size_t blocks_near(
 OUTLINE void splat_constants(
     size_t splat_count, size_t start, const double *mu, const double *W, const double *amplitude, const double *width, double *constants,
     vector *splats) {
-    vector own_mu[4], own_W[9], own_amplitude[1], S[16];
+    vector own_mu[4], own_W[9], own_amplitude[1], S[22];
     vector_rows(mu, splat_count, start, 4, own_mu);
     vector_rows(W, splat_count, start, 9, own_W);
     vector_rows(amplitude, splat_count, start, 1, own_amplitude);
     if (width) splat_reach(own_mu, own_amplitude, width, splat_count, start, splats);
     pair_constants(own_mu, own_W, own_amplitude, S);
-    vector_to_rows(S, constants, splat_count, start, 16, 16);
+    vector_to_rows(S, constants, splat_count, start, 22, 22);
 }
 
 /* 2 vectors of points at a time stay in registers while all splats pass. */
@@ -1407,7 +1436,7 @@ void spd_splats(
     double *SPD_RESTRICT value, double *SPD_RESTRICT gradient, double *SPD_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1429,7 +1458,7 @@ void spd_splats(
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
                 for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 16 * near[i];
+                    const double *S = constants + 22 * near[i];
                     pair_forward(X[0], S, value_sum[0], slope_sum[0]);
                     pair_forward(X[1], S, value_sum[1], slope_sum[1]);
                 }
@@ -1449,7 +1478,7 @@ void spd_splats_value(
     double *SPD_RESTRICT value, double *SPD_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1470,7 +1499,7 @@ void spd_splats_value(
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
                 for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 16 * near[i];
+                    const double *S = constants + 22 * near[i];
                     pair_value(X[0], S, value_sum[0]);
                     pair_value(X[1], S, value_sum[1]);
                 }
@@ -1495,29 +1524,32 @@ OUTLINE void splat_points(
     vector_end(count, start, 4 + 1, point + 4);
 }
 
-/* Adds to S_bar what some vectors of points add to it, those in the list. */
-OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *S_bar) {
-    vector sum[16] = {ZERO};
-    for (size_t b = 0; b < size; ++b) {
+/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *sums) {
+    vector sum[13] = {ZERO};
+    size_t b = 0;
+    for (; b + 1 < size; b += 2) {
+        const vector *point = points + 9 * (size_t)near[b], *other = points + 9 * (size_t)near[b + 1];
+        pair_backward(point, S, point + 4, point + 4 + 1, sum);
+        pair_backward(other, S, other + 4, other + 4 + 1, sum);
+    }
+    if (b < size) {
         const vector *point = points + 9 * (size_t)near[b];
         pair_backward(point, S, point + 4, point + 4 + 1, sum);
     }
-    S_bar[0] += vector_sum(sum[0]);
-    S_bar[1] += vector_sum(sum[1]);
-    S_bar[2] += vector_sum(sum[2]);
-    S_bar[3] += vector_sum(sum[3]);
-    S_bar[4] += vector_sum(sum[4]);
-    S_bar[5] += vector_sum(sum[5]);
-    S_bar[6] += vector_sum(sum[6]);
-    S_bar[7] += vector_sum(sum[7]);
-    S_bar[8] += vector_sum(sum[8]);
-    S_bar[9] += vector_sum(sum[9]);
-    S_bar[10] += vector_sum(sum[10]);
-    S_bar[11] += vector_sum(sum[11]);
-    S_bar[12] += vector_sum(sum[12]);
-    S_bar[13] += vector_sum(sum[13]);
-    S_bar[14] += vector_sum(sum[14]);
-    S_bar[15] += vector_sum(sum[15]);
+    sums[0] += vector_sum(sum[0]);
+    sums[1] += vector_sum(sum[1]);
+    sums[2] += vector_sum(sum[2]);
+    sums[3] += vector_sum(sum[3]);
+    sums[4] += vector_sum(sum[4]);
+    sums[5] += vector_sum(sum[5]);
+    sums[6] += vector_sum(sum[6]);
+    sums[7] += vector_sum(sum[7]);
+    sums[8] += vector_sum(sum[8]);
+    sums[9] += vector_sum(sum[9]);
+    sums[10] += vector_sum(sum[10]);
+    sums[11] += vector_sum(sum[11]);
+    sums[12] += vector_sum(sum[12]);
 }
 
 /*
@@ -1533,7 +1565,7 @@ void spd_splats_vjp(
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES ? part : LANES;
     vector *points = work_points(work);
-    vector *splats = work_splats(work, count), *places = work_blocks(work, count, splat_count);
+    vector *splats = work_reaches(work, count), *places = work_blocks(work, count, splat_count);
     double *constants = work_constants(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -1559,22 +1591,22 @@ void spd_splats_vjp(
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
-            double sums[LANES][16] = {{0}};
+            double sums[LANES][13] = {{0}};
             uint32_t near[131072 / (9 * sizeof(vector)) + 2];
-            vector own_mu[4], own_W[9], own_amplitude[1], S_bar[16], bars[14];
+            vector own_mu[4], own_W[9], own_amplitude[1], own_sums[13], bars[14];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
                     const double *reach = width ? splat_at(splats, k) + 4 * LANES : NULL;
                     const size_t some = blocks_near(mu + 4 * k, reach, places, first, first + size, near);
-                    splat_sums(points + 9 * first, near, some, constants + 16 * k, sums[k - start]);
+                    splat_sums(points + 9 * first, near, some, constants + 22 * k, sums[k - start]);
                 }
             }
             vector_rows(mu, end, start, 4, own_mu);
             vector_rows(W, end, start, 9, own_W);
             vector_rows(amplitude, end, start, 1, own_amplitude);
-            vector_rows(sums[0], LANES, 0, 16, S_bar);
-            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 4, bars + 4 + 9);
+            vector_rows(sums[0], LANES, 0, 13, own_sums);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 4, bars + 4 + 9);
             vector_to_rows(bars, mu_bar, end, start, 4, 4);
             vector_to_rows(bars + 4, W_bar, end, start, 9, 9);
             vector_to_rows(bars + 4 + 9, amplitude_bar, end, start, 1, 1);
@@ -1601,12 +1633,12 @@ void spd_splats_rows(
             vector point[9];
             splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector own_mu[4], own_W[9], own_amplitude[1], S_bar[16] = {ZERO}, bars[14];
+                vector own_mu[4], own_W[9], own_amplitude[1], own_sums[13] = {ZERO}, bars[14];
                 for (int i = 0; i < 4; ++i) own_mu[i] = vector_of(mu[4 * k + i]);
                 for (int i = 0; i < 9; ++i) own_W[i] = vector_of(W[9 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 16 * k, point + 4, point + 4 + 1, S_bar);
-                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 4, bars + 4 + 9);
+                pair_backward(point, constants + 22 * k, point + 4, point + 4 + 1, own_sums);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 4, bars + 4 + 9);
                 vector_to_rows(bars, rows + 14 * k, count, block * LANES, 14, 14 * splat_count);
             }
         }
@@ -1622,6 +1654,10 @@ double spd_splats_order(
     for (size_t n = 0; n < count; ++n) order[n] = n;
     return 1;
 }
+
+#endif /* double */
+
+#if !defined(RSRM_ONLY_DOUBLE) /* float */
 
 /* The same number in all lanes. */
 INLINE vector_f vector_of_f(float x) {
@@ -1664,7 +1700,7 @@ INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
 }
 
 /* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
-INLINE vector_f vector_exp_f(vector_f x) {
+INLINE vector_f exp_each_f(vector_f x) {
     const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
     const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
     const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
@@ -2109,6 +2145,12 @@ OUTLINE void pair_constants_f(
     const vector_f r0_0 = invsqrtm[0];
     const vector_f r0_1 = invsqrtm[1];
     const vector_f r1_1 = invsqrtm[2];
+    const vector_f M0_0 = W0_0 * W0_0 + W1_0 * W1_0 + W2_0 * W2_0;
+    const vector_f M0_1 = W0_0 * W0_1 + W1_0 * W1_1 + W2_0 * W2_1;
+    const vector_f M0_2 = W0_0 * W0_2 + W1_0 * W1_2 + W2_0 * W2_2;
+    const vector_f M1_1 = W0_1 * W0_1 + W1_1 * W1_1 + W2_1 * W2_1;
+    const vector_f M1_2 = W0_1 * W0_2 + W1_1 * W1_2 + W2_1 * W2_2;
+    const vector_f M2_2 = W0_2 * W0_2 + W1_2 * W1_2 + W2_2 * W2_2;
     S[0] = W0_0;
     S[1] = W0_1;
     S[2] = W0_2;
@@ -2125,6 +2167,12 @@ OUTLINE void pair_constants_f(
     S[13] = 0.5f * r0_0;
     S[14] = 0.5f * r0_1;
     S[15] = 0.5f * r1_1;
+    S[16] = M0_0;
+    S[17] = M0_1;
+    S[18] = M0_2;
+    S[19] = M1_1;
+    S[20] = M1_2;
+    S[21] = M2_2;
 }
 
 /*
@@ -2221,7 +2269,8 @@ OUTLINE void pair_value_f(
     const vector_f z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
     const vector_f z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
     const vector_f gap = -log_sinhc_sqrtm_value0_0 - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
-    value[0] = value[0] + amplitude * vector_exp_f(gap);
+    const vector_f phi = exp_each_f(gap);
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -2318,13 +2367,11 @@ OUTLINE void pair_forward_f(
     const vector_f z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
     const vector_f z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
     const vector_f gap = -log_sinhc_sqrtm_value0_0 - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector_f phi = amplitude * vector_exp_f(gap);
-    const vector_f z2_product = z2 * phi;
-    const vector_f z1_product = z1 * phi;
-    const vector_f z0_product = z0 * phi;
+    const vector_f phi = exp_each_f(gap);
+    const vector_f phi_2 = amplitude * phi;
     vector_f log_sinhc_sqrtm_slope[1];
     {
-        const vector_f given_lanes[1] = {-phi};
+        const vector_f given_lanes[1] = {-phi_2};
         for (size_t lane = 0; lane < LANES_f; ++lane) {
             float given[1];
             for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
@@ -2340,12 +2387,12 @@ OUTLINE void pair_forward_f(
     }
     const vector_f by_entry_0_0_2 = log_sinhc_sqrtm_slope[0];
     const vector_f product = L0_0_gap * (0.5f * by_entry_0_0_2);
-    const vector_f total_6 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product + product;
-    const vector_f by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product;
-    const vector_f gap_2 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product - product;
+    const vector_f gap_2 = product - phi_2 * (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0));
+    const vector_f product_2 = 1.4142135623730951f * (phi_2 * (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0)));
+    const vector_f minus = -(phi_2 * (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0)));
     vector_f logm_slope[3];
     {
-        const vector_f given_lanes[3] = {total_6, 0.5f * (1.4142135623730951f * by_v1 + L0_1 * (2.0f * by_entry_0_0_2)), gap_2};
+        const vector_f given_lanes[3] = {gap_2, 0.5f * (L0_1 * (2.0f * by_entry_0_0_2) - product_2), minus - product};
         for (size_t lane = 0; lane < LANES_f; ++lane) {
             float given[3];
             for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
@@ -2361,17 +2408,17 @@ OUTLINE void pair_forward_f(
     }
     const vector_f by_entry_1_1 = logm_slope[2];
     const vector_f by_entry_0_1 = 2.0f * logm_slope[1];
-    const vector_f total_7 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1;
-    const vector_f product_2 = mul_of_one_2 * by_entry_0_1;
+    const vector_f total_6 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1;
+    const vector_f product_3 = mul_of_one_2 * by_entry_0_1;
     const vector_f by_entry_0_0 = logm_slope[0];
-    const vector_f total_8 = product_2 + r0_0 * by_entry_0_0;
-    const vector_f total_9 = r1_1 * by_entry_1_1 + product_2;
-    const vector_f total_10 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0;
-    value[0] = value[0] + phi;
-    slope[0] = slope[0] + r0_1 * total_7 + r0_0 * total_8;
-    slope[1] = slope[1] + r0_1 * total_9 + r0_0 * total_10;
-    slope[2] = slope[2] + r1_1 * total_7 + r0_1 * total_8;
-    slope[3] = slope[3] + r1_1 * total_9 + r0_1 * total_10;
+    const vector_f total_7 = product_3 + r0_0 * by_entry_0_0;
+    const vector_f total_8 = r1_1 * by_entry_1_1 + product_3;
+    const vector_f total_9 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0;
+    value[0] = value[0] + phi_2;
+    slope[0] = slope[0] + r0_1 * total_6 + r0_0 * total_7;
+    slope[1] = slope[1] + r0_1 * total_8 + r0_0 * total_9;
+    slope[2] = slope[2] + r1_1 * total_6 + r0_1 * total_7;
+    slope[3] = slope[3] + r1_1 * total_8 + r0_1 * total_9;
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -2479,31 +2526,36 @@ OUTLINE void pair_gradient_vjp_f(
             sqrtm_p0_1_squared * gradient_bar0;
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp_f(
-    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
-    (void)W;
-    (void)amplitude;
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *sums, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
     const vector_f mu0 = mu[0];
     const vector_f mu1 = mu[1];
     const vector_f mu2 = mu[2];
     const vector_f mu3 = mu[3];
-    const vector_f W0_0_bar = S_bar[0];
-    const vector_f W0_1_bar = S_bar[1];
-    const vector_f W0_2_bar = S_bar[2];
-    const vector_f W1_0_bar = S_bar[3];
-    const vector_f W1_1_bar = S_bar[4];
-    const vector_f W1_2_bar = S_bar[5];
-    const vector_f W2_0_bar = S_bar[6];
-    const vector_f W2_1_bar = S_bar[7];
-    const vector_f W2_2_bar = S_bar[8];
-    const vector_f its_amplitude_bar = S_bar[9];
-    const vector_f r0_0_bar = S_bar[10];
-    const vector_f r0_1_bar = S_bar[11];
-    const vector_f r1_1_bar = S_bar[12];
-    const vector_f mul_of_one_bar = S_bar[13];
-    const vector_f mul_of_one_2_bar = S_bar[14];
-    const vector_f mul_of_one_3_bar = S_bar[15];
+    const vector_f W0_0 = W[0];
+    const vector_f W0_1 = W[1];
+    const vector_f W0_2 = W[2];
+    const vector_f W1_0 = W[3];
+    const vector_f W1_1 = W[4];
+    const vector_f W1_2 = W[5];
+    const vector_f W2_0 = W[6];
+    const vector_f W2_1 = W[7];
+    const vector_f W2_2 = W[8];
+    const vector_f its_amplitude = amplitude[0];
+    const vector_f sum0 = sums[0];
+    const vector_f sum1 = sums[1];
+    const vector_f sum2 = sums[2];
+    const vector_f sum3 = sums[3];
+    const vector_f sum4 = sums[4];
+    const vector_f sum5 = sums[5];
+    const vector_f sum6 = sums[6];
+    const vector_f sum7 = sums[7];
+    const vector_f sum8 = sums[8];
+    const vector_f sum9 = sums[9];
+    const vector_f sum10 = sums[10];
+    const vector_f sum11 = sums[11];
+    const vector_f sum12 = sums[12];
     const vector_f p_0_1 = 0.5f * mu1 + 0.5f * mu2;
     vector_f p_0_1_eigh[6];
     {
@@ -2521,7 +2573,7 @@ OUTLINE void pair_constants_vjp_f(
     }
     vector_f invsqrtm_slope[3];
     {
-        const vector_f given_lanes[3] = {r0_0_bar + 0.5f * mul_of_one_bar, 0.5f * (r0_1_bar + 0.5f * mul_of_one_2_bar), r1_1_bar + 0.5f * mul_of_one_3_bar};
+        const vector_f given_lanes[3] = {sum1 + 0.5f * sum4, 0.5f * (sum2 + 0.5f * sum5), sum3 + 0.5f * sum6};
         for (size_t lane = 0; lane < LANES_f; ++lane) {
             float given[3];
             for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
@@ -2535,29 +2587,33 @@ OUTLINE void pair_constants_vjp_f(
             for (int i = 0; i < 3; ++i) LANE(invsqrtm_slope[i], lane) = found[i];
         }
     }
-    mu_bar[0] = invsqrtm_slope[0];
-    mu_bar[1] = invsqrtm_slope[1];
-    mu_bar[2] = invsqrtm_slope[1];
-    mu_bar[3] = invsqrtm_slope[2];
-    W_bar[0] = W0_0_bar;
-    W_bar[1] = W0_1_bar;
-    W_bar[2] = W0_2_bar;
-    W_bar[3] = W1_0_bar;
-    W_bar[4] = W1_1_bar;
-    W_bar[5] = W1_2_bar;
-    W_bar[6] = W2_0_bar;
-    W_bar[7] = W2_1_bar;
-    W_bar[8] = W2_2_bar;
-    amplitude_bar[0] = its_amplitude_bar;
+    const vector_f product = its_amplitude * invsqrtm_slope[1];
+    const vector_f product_2 = 2.0f * sum7;
+    const vector_f product_3 = 2.0f * sum10;
+    const vector_f product_4 = 2.0f * sum12;
+    mu_bar[0] = its_amplitude * invsqrtm_slope[0];
+    mu_bar[1] = product;
+    mu_bar[2] = product;
+    mu_bar[3] = its_amplitude * invsqrtm_slope[2];
+    W_bar[0] = its_amplitude * (W0_0 * product_2 + W0_1 * sum8 + W0_2 * sum9);
+    W_bar[1] = its_amplitude * (W0_0 * sum8 + W0_1 * product_3 + W0_2 * sum11);
+    W_bar[2] = its_amplitude * (W0_0 * sum9 + W0_1 * sum11 + W0_2 * product_4);
+    W_bar[3] = its_amplitude * (W1_0 * product_2 + W1_1 * sum8 + W1_2 * sum9);
+    W_bar[4] = its_amplitude * (W1_0 * sum8 + W1_1 * product_3 + W1_2 * sum11);
+    W_bar[5] = its_amplitude * (W1_0 * sum9 + W1_1 * sum11 + W1_2 * product_4);
+    W_bar[6] = its_amplitude * (W2_0 * product_2 + W2_1 * sum8 + W2_2 * sum9);
+    W_bar[7] = its_amplitude * (W2_0 * sum8 + W2_1 * product_3 + W2_2 * sum11);
+    W_bar[8] = its_amplitude * (W2_0 * sum9 + W2_1 * sum11 + W2_2 * product_4);
+    amplitude_bar[0] = sum0;
 }
 
 /*
- * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 OUTLINE void pair_backward_f(
-    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
+    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
     const vector_f x0 = X[0];
     const vector_f x1 = X[1];
     const vector_f x2 = X[2];
@@ -2571,13 +2627,18 @@ OUTLINE void pair_backward_f(
     const float W2_0 = S[6];
     const float W2_1 = S[7];
     const float W2_2 = S[8];
-    const float amplitude = S[9];
     const float r0_0 = S[10];
     const float r0_1 = S[11];
     const float r1_1 = S[12];
     const float mul_of_one = S[13];
     const float mul_of_one_2 = S[14];
     const float mul_of_one_3 = S[15];
+    const float M0_0 = S[16];
+    const float M0_1 = S[17];
+    const float M0_2 = S[18];
+    const float M1_1 = S[19];
+    const float M1_2 = S[20];
+    const float M2_2 = S[21];
     const vector_f its_value_bar = value_bar[0];
     const vector_f x0_bar = slope_bar[0];
     const vector_f x1_bar = slope_bar[1];
@@ -2615,8 +2676,8 @@ OUTLINE void pair_backward_f(
             for (int i = 0; i < 3; ++i) LANE(logm[i], lane) = found[i];
         }
     }
-    const vector_f L0_0 = logm[0];
     const vector_f L0_1 = logm[1];
+    const vector_f L0_0 = logm[0];
     const vector_f L1_1 = logm[2];
     const vector_f L0_0_gap = L0_0 - L1_1;
     const vector_f entry_0_0_2 = L0_1 * L0_1 + 0.25f * (L0_0_gap * L0_0_gap);
@@ -2650,19 +2711,19 @@ OUTLINE void pair_backward_f(
     const vector_f z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
     const vector_f z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
     const vector_f gap = -log_sinhc_sqrtm_value0_0 - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector_f exp_2 = vector_exp_f(gap);
-    const vector_f phi = amplitude * exp_2;
-    const vector_f total_6 = r0_0 * x0_bar + r0_1 * x2_bar;
-    const vector_f total_7 = r0_0 * x1_bar + r0_1 * x3_bar;
-    const vector_f total_8 = r0_0 * total_6 + r0_1 * total_7;
-    const vector_f total_9 = r0_1 * x0_bar + r1_1 * x2_bar;
-    const vector_f total_10 = r0_1 * x1_bar + r1_1 * x3_bar;
-    const vector_f total_11 = total_6 + total_10;
-    const vector_f by_by_entry_0_1 = mul_of_one * total_9 + mul_of_one_2 * total_11 + mul_of_one_3 * total_7;
-    const vector_f total_12 = r0_1 * total_9 + r1_1 * total_10;
+    const vector_f phi = exp_each_f(gap);
+    const vector_f total_6 = W2_2 * z2 + (W1_2 * z1 + W0_2 * z0);
+    const vector_f total_7 = r0_0 * x0_bar + r0_1 * x2_bar;
+    const vector_f total_8 = r0_0 * x1_bar + r0_1 * x3_bar;
+    const vector_f total_9 = r0_0 * total_7 + r0_1 * total_8;
+    const vector_f total_10 = r0_1 * x0_bar + r1_1 * x2_bar;
+    const vector_f total_11 = r0_1 * x1_bar + r1_1 * x3_bar;
+    const vector_f total_12 = total_7 + total_11;
+    const vector_f by_by_entry_0_1 = mul_of_one * total_10 + mul_of_one_2 * total_12 + mul_of_one_3 * total_8;
+    const vector_f total_13 = r0_1 * total_10 + r1_1 * total_11;
     vector_f logm_slope[3];
     {
-        const vector_f given_lanes[3] = {total_8, by_by_entry_0_1, total_12};
+        const vector_f given_lanes[3] = {total_9, by_by_entry_0_1, total_13};
         for (size_t lane = 0; lane < LANES_f; ++lane) {
             float given[3];
             for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
@@ -2676,15 +2737,14 @@ OUTLINE void pair_backward_f(
             for (int i = 0; i < 3; ++i) LANE(logm_slope[i], lane) = found[i];
         }
     }
-    const vector_f by_by_v1 = 1.4142135623730951f * logm_slope[1];
-    const vector_f gap_2 = -(W0_0 * logm_slope[0]) - W0_1 * by_by_v1 - W0_2 * logm_slope[2];
-    const vector_f gap_3 = -(W1_0 * logm_slope[0]) - W1_1 * by_by_v1 - W1_2 * logm_slope[2];
-    const vector_f gap_4 = -(W2_0 * logm_slope[0]) - W2_1 * by_by_v1 - W2_2 * logm_slope[2];
-    const vector_f gap_5 = logm_slope[0] - logm_slope[2];
-    const vector_f total_13 = 2.0f * (L0_1 * logm_slope[1]) + 0.5f * (L0_0_gap * gap_5);
+    const vector_f total_14 = W2_1 * z2 + (W1_1 * z1 + W0_1 * z0);
+    const vector_f product = 1.4142135623730951f * logm_slope[1];
+    const vector_f total_15 = W2_0 * z2 + (W1_0 * z1 + W0_0 * z0);
+    const vector_f gap_2 = logm_slope[0] - logm_slope[2];
+    const vector_f total_16 = 2.0f * (L0_1 * logm_slope[1]) + 0.5f * (L0_0_gap * gap_2);
     vector_f log_sinhc_sqrtm_slope[1];
     {
-        const vector_f given_lanes[1] = {total_13};
+        const vector_f given_lanes[1] = {total_16};
         for (size_t lane = 0; lane < LANES_f; ++lane) {
             float given[1];
             for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
@@ -2698,14 +2758,9 @@ OUTLINE void pair_backward_f(
             for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope[i], lane) = found[i];
         }
     }
-    const vector_f by_phi = its_value_bar + z0 * gap_2 + z1 * gap_3 + z2 * gap_4 - log_sinhc_sqrtm_slope[0];
-    const vector_f product = exp_2 * (amplitude * by_phi);
-    const vector_f by_z0 = phi * gap_2 - z0 * product;
-    const vector_f z0_product = z0 * phi;
-    const vector_f by_z1 = phi * gap_3 - z1 * product;
-    const vector_f z1_product = z1 * phi;
-    const vector_f by_z2 = phi * gap_4 - z2 * product;
-    const vector_f z2_product = z2 * phi;
+    const vector_f by_phi = its_value_bar - total_6 * logm_slope[2] - total_14 * product - total_15 *
+        logm_slope[0] - log_sinhc_sqrtm_slope[0];
+    const vector_f phi_product = phi * by_phi;
     const vector_f phi_minus = -phi;
     vector_f log_sinhc_sqrtm_slope_2[1];
     {
@@ -2726,14 +2781,13 @@ OUTLINE void pair_backward_f(
     const vector_f by_entry_0_0_2 = log_sinhc_sqrtm_slope_2[0];
     const vector_f product_2 = 0.5f * by_entry_0_0_2;
     const vector_f product_3 = L0_0_gap * product_2;
-    const vector_f total_14 = -(W2_0 * z2_product) - W1_0 * z1_product - W0_0 * z0_product + product_3;
-    const vector_f by_v1 = -(W2_1 * z2_product) - W1_1 * z1_product - W0_1 * z0_product;
+    const vector_f gap_3 = product_3 - phi * total_15;
     const vector_f product_4 = 2.0f * by_entry_0_0_2;
-    const vector_f product_5 = 0.5f * (1.4142135623730951f * by_v1 + L0_1 * product_4);
-    const vector_f gap_6 = -(W2_2 * z2_product) - W1_2 * z1_product - W0_2 * z0_product - product_3;
+    const vector_f product_5 = 0.5f * (L0_1 * product_4 - 1.4142135623730951f * (phi * total_14));
+    const vector_f gap_4 = -(phi * total_6) - product_3;
     vector_f logm_slope_2[3];
     {
-        const vector_f given_lanes[3] = {total_14, product_5, gap_6};
+        const vector_f given_lanes[3] = {gap_3, product_5, gap_4};
         for (size_t lane = 0; lane < LANES_f; ++lane) {
             float given[3];
             for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
@@ -2750,11 +2804,11 @@ OUTLINE void pair_backward_f(
     const vector_f by_entry_0_1 = 2.0f * logm_slope_2[1];
     const vector_f product_6 = mul_of_one_2 * by_entry_0_1;
     const vector_f by_entry_0_0 = logm_slope_2[0];
-    const vector_f total_15 = product_6 + r0_0 * by_entry_0_0;
-    const vector_f total_16 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0;
+    const vector_f total_17 = product_6 + r0_0 * by_entry_0_0;
+    const vector_f total_18 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0;
     vector_f logm_derivative2[3];
     {
-        const vector_f given_lanes[6] = {total_14, product_5, gap_6, total_8, by_by_entry_0_1, total_12};
+        const vector_f given_lanes[6] = {gap_3, product_5, gap_4, total_9, by_by_entry_0_1, total_13};
         for (size_t lane = 0; lane < LANES_f; ++lane) {
             float given[6];
             for (int i = 0; i < 6; ++i) given[i] = LANE(given_lanes[i], lane);
@@ -2769,9 +2823,14 @@ OUTLINE void pair_backward_f(
             for (int i = 0; i < 3; ++i) LANE(logm_derivative2[i], lane) = found[i];
         }
     }
+    const vector_f phi_product_2 = phi * logm_slope[0];
+    const vector_f phi_product_3 = phi * product;
+    const vector_f phi_product_4 = phi * logm_slope[2];
+    const vector_f gap_5 = -(M0_0 * phi_product_2) - M0_1 * phi_product_3 - M0_2 * phi_product_4 - total_15 *
+        phi_product;
     vector_f log_sinhc_sqrtm_derivative2[1];
     {
-        const vector_f given_lanes[2] = {phi_minus, total_13};
+        const vector_f given_lanes[2] = {phi_minus, total_16};
         for (size_t lane = 0; lane < LANES_f; ++lane) {
             float given[2];
             for (int i = 0; i < 2; ++i) given[i] = LANE(given_lanes[i], lane);
@@ -2788,7 +2847,7 @@ OUTLINE void pair_backward_f(
     }
     vector_f log_sinhc_sqrtm_slope_3[1];
     {
-        const vector_f given_lanes[1] = {-product};
+        const vector_f given_lanes[1] = {-phi_product};
         for (size_t lane = 0; lane < LANES_f; ++lane) {
             float given[1];
             for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
@@ -2803,11 +2862,14 @@ OUTLINE void pair_backward_f(
         }
     }
     const vector_f by_entry_0_0_2_2 = log_sinhc_sqrtm_derivative2[0] + log_sinhc_sqrtm_slope_3[0];
-    const vector_f total_17 = product_2 * gap_5 + L0_0_gap * (0.5f * by_entry_0_0_2_2);
-    const vector_f by_v1_2 = W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
+    const vector_f total_19 = product_2 * gap_2 + L0_0_gap * (0.5f * by_entry_0_0_2_2);
+    const vector_f by_v1 = -(M0_1 * phi_product_2) - M1_1 * phi_product_3 - M1_2 * phi_product_4 - total_14 *
+        phi_product;
+    const vector_f gap_6 = -(M0_2 * phi_product_2) - M1_2 * phi_product_3 - M2_2 * phi_product_4 - total_6 *
+        phi_product;
     vector_f logm_slope_3[3];
     {
-        const vector_f given_lanes[3] = {W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0 + total_17, 0.5f * (product_4 * logm_slope[1] + 1.4142135623730951f * by_v1_2 + L0_1 * (2.0f * by_entry_0_0_2_2)), W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0 - total_17};
+        const vector_f given_lanes[3] = {gap_5 + total_19, 0.5f * (product_4 * logm_slope[1] + 1.4142135623730951f * by_v1 + L0_1 * (2.0f * by_entry_0_0_2_2)), gap_6 - total_19};
         for (size_t lane = 0; lane < LANES_f; ++lane) {
             float given[3];
             for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
@@ -2823,35 +2885,36 @@ OUTLINE void pair_backward_f(
     }
     const vector_f by_entry_0_1_2 = 2.0f * logm_derivative2[1] + 2.0f * logm_slope_3[1];
     const vector_f by_entry_0_0_3 = logm_derivative2[0] + logm_slope_3[0];
-    const vector_f total_18 = mul_of_one_3 * by_entry_0_1_2 + r0_1 * by_entry_0_0_3;
+    const vector_f total_20 = mul_of_one_3 * by_entry_0_1_2 + r0_1 * by_entry_0_0_3;
     const vector_f product_7 = mul_of_one_2 * by_entry_0_1_2;
-    const vector_f total_20 = product_7 + r0_0 * by_entry_0_0_3;
+    const vector_f total_22 = product_7 + r0_0 * by_entry_0_0_3;
     const vector_f by_entry_1_1 = logm_slope_2[2];
-    const vector_f total_21 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1;
-    const vector_f total_22 = r1_1 * by_entry_1_1 + product_6;
+    const vector_f total_23 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1;
+    const vector_f total_24 = r1_1 * by_entry_1_1 + product_6;
     const vector_f by_entry_1_1_2 = logm_derivative2[2] + logm_slope_3[2];
-    const vector_f total_24 = r1_1 * by_entry_1_1_2 + product_7;
-    const vector_f total_25 = r0_1 * by_entry_1_1_2 + mul_of_one * by_entry_0_1_2;
-    S_bar[0] = S_bar[0] + L0_0 * by_z0 - z0_product * logm_slope[0];
-    S_bar[1] = S_bar[1] + v1 * by_z0 - z0_product * by_by_v1;
-    S_bar[2] = S_bar[2] + L1_1 * by_z0 - z0_product * logm_slope[2];
-    S_bar[3] = S_bar[3] + L0_0 * by_z1 - z1_product * logm_slope[0];
-    S_bar[4] = S_bar[4] + v1 * by_z1 - z1_product * by_by_v1;
-    S_bar[5] = S_bar[5] + L1_1 * by_z1 - z1_product * logm_slope[2];
-    S_bar[6] = S_bar[6] + L0_0 * by_z2 - z2_product * logm_slope[0];
-    S_bar[7] = S_bar[7] + v1 * by_z2 - z2_product * by_by_v1;
-    S_bar[8] = S_bar[8] + L1_1 * by_z2 - z2_product * logm_slope[2];
-    S_bar[9] = S_bar[9] + exp_2 * by_phi;
-    S_bar[10] = S_bar[10] + total_15 * x0_bar + by_entry_0_0 * total_6 + total_16 * x1_bar + x1 * total_18 +
-            total_2 * by_entry_0_0_3 + x0 * total_20;
-    S_bar[11] = S_bar[11] + total_15 * x2_bar + total_16 * x3_bar + by_entry_0_0 * total_7 + total_21 * x0_bar
-            + total_22 * x1_bar + by_entry_1_1 * total_9 + total_4 * by_entry_1_1_2 + x1 * total_24 + x0 *
-            total_25 + total_3 * by_entry_0_0_3 + x3 * total_18 + x2 * total_20;
-    S_bar[12] = S_bar[12] + total_21 * x2_bar + total_22 * x3_bar + by_entry_1_1 * total_10 + total_5 *
-            by_entry_1_1_2 + x3 * total_24 + x2 * total_25;
-    S_bar[13] = S_bar[13] + by_entry_0_1 * total_9 + total_4 * by_entry_0_1_2;
-    S_bar[14] = S_bar[14] + by_entry_0_1 * total_11 + total_5 * by_entry_0_1_2 + total_2 * by_entry_0_1_2;
-    S_bar[15] = S_bar[15] + by_entry_0_1 * total_7 + total_3 * by_entry_0_1_2;
+    const vector_f total_26 = r1_1 * by_entry_1_1_2 + product_7;
+    const vector_f total_27 = r0_1 * by_entry_1_1_2 + mul_of_one * by_entry_0_1_2;
+    const vector_f product_8 = 0.5f * phi_product;
+    const vector_f gap_7 = -phi_product_2 - L0_0 * product_8;
+    const vector_f gap_8 = -phi_product_3 - v1 * product_8;
+    const vector_f gap_9 = -phi_product_4 - L1_1 * product_8;
+    sums[0] = sums[0] + phi_product;
+    sums[1] = sums[1] + total_17 * x0_bar + by_entry_0_0 * total_7 + total_18 * x1_bar + x1 * total_20 +
+            total_2 * by_entry_0_0_3 + x0 * total_22;
+    sums[2] = sums[2] + total_17 * x2_bar + total_18 * x3_bar + by_entry_0_0 * total_8 + total_23 * x0_bar +
+            total_24 * x1_bar + by_entry_1_1 * total_10 + total_4 * by_entry_1_1_2 + x1 * total_26 + x0 * total_27
+            + total_3 * by_entry_0_0_3 + x3 * total_20 + x2 * total_22;
+    sums[3] = sums[3] + total_23 * x2_bar + total_24 * x3_bar + by_entry_1_1 * total_11 + total_5 *
+            by_entry_1_1_2 + x3 * total_26 + x2 * total_27;
+    sums[4] = sums[4] + by_entry_0_1 * total_10 + total_4 * by_entry_0_1_2;
+    sums[5] = sums[5] + by_entry_0_1 * total_12 + total_5 * by_entry_0_1_2 + total_2 * by_entry_0_1_2;
+    sums[6] = sums[6] + by_entry_0_1 * total_8 + total_3 * by_entry_0_1_2;
+    sums[7] = sums[7] + L0_0 * gap_7;
+    sums[8] = sums[8] + L0_0 * gap_8 + v1 * gap_7;
+    sums[9] = sums[9] + L0_0 * gap_9 + L1_1 * gap_7;
+    sums[10] = sums[10] + v1 * gap_8;
+    sums[11] = sums[11] + v1 * gap_9 + L1_1 * gap_8;
+    sums[12] = sums[12] + L1_1 * gap_9;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -2883,7 +2946,7 @@ size_t spd_splats_work_f(size_t count, size_t splat_count, int threads) {
     (void)threads;
     const size_t points = (count + LANES_f - 1) / LANES_f, blocks = (points + 2 - 1) / 2;
     const size_t places = 0 * ((splat_count + LANES_f - 1) / LANES_f + (blocks + LANES_f - 1) / LANES_f);
-    return (points * 9 + places + 1) * LANES_f + 16 * splat_count;
+    return (points * 9 + places + 1) * LANES_f + 22 * splat_count;
 }
 
 static vector_f *work_points_f(float *work) {
@@ -2897,12 +2960,12 @@ INLINE const float *splat_at_f(const vector_f *splats, size_t k) {
     return (const float *)(splats + 0 * row) + (k - row * LANES_f);
 }
 
-static vector_f *work_splats_f(float *work, size_t count) {
+static vector_f *work_reaches_f(float *work, size_t count) {
     return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 9;
 }
 
 static vector_f *work_blocks_f(float *work, size_t count, size_t splat_count) {
-    return work_splats_f(work, count) + 0 * ((splat_count + LANES_f - 1) / LANES_f);
+    return work_reaches_f(work, count) + 0 * ((splat_count + LANES_f - 1) / LANES_f);
 }
 
 static float *work_constants_f(float *work, size_t count, size_t splat_count) {
@@ -2934,13 +2997,13 @@ static size_t blocks_near_f(
 OUTLINE void splat_constants_f(
     size_t splat_count, size_t start, const float *mu, const float *W, const float *amplitude, const float *width, float *constants,
     vector_f *splats) {
-    vector_f own_mu[4], own_W[9], own_amplitude[1], S[16];
+    vector_f own_mu[4], own_W[9], own_amplitude[1], S[22];
     vector_rows_f(mu, splat_count, start, 4, own_mu);
     vector_rows_f(W, splat_count, start, 9, own_W);
     vector_rows_f(amplitude, splat_count, start, 1, own_amplitude);
     if (width) splat_reach_f(own_mu, own_amplitude, width, splat_count, start, splats);
     pair_constants_f(own_mu, own_W, own_amplitude, S);
-    vector_to_rows_f(S, constants, splat_count, start, 16, 16);
+    vector_to_rows_f(S, constants, splat_count, start, 22, 22);
 }
 
 /* 2 vectors of points at a time stay in registers while all splats pass. */
@@ -2949,7 +3012,7 @@ void spd_splats_f(
     float *SPD_RESTRICT value, float *SPD_RESTRICT gradient, float *SPD_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -2971,7 +3034,7 @@ void spd_splats_f(
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
                 for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 16 * near[i];
+                    const float *S = constants + 22 * near[i];
                     pair_forward_f(X[0], S, value_sum[0], slope_sum[0]);
                     pair_forward_f(X[1], S, value_sum[1], slope_sum[1]);
                 }
@@ -2991,7 +3054,7 @@ void spd_splats_value_f(
     float *SPD_RESTRICT value, float *SPD_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -3012,7 +3075,7 @@ void spd_splats_value_f(
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
                 for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 16 * near[i];
+                    const float *S = constants + 22 * near[i];
                     pair_value_f(X[0], S, value_sum[0]);
                     pair_value_f(X[1], S, value_sum[1]);
                 }
@@ -3037,29 +3100,32 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 4 + 1, point + 4);
 }
 
-/* Adds to S_bar what some vectors of points add to it, those in the list. */
-OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *S_bar) {
-    vector_f sum[16] = {ZERO};
-    for (size_t b = 0; b < size; ++b) {
+/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *sums) {
+    vector_f sum[13] = {ZERO};
+    size_t b = 0;
+    for (; b + 1 < size; b += 2) {
+        const vector_f *point = points + 9 * (size_t)near[b], *other = points + 9 * (size_t)near[b + 1];
+        pair_backward_f(point, S, point + 4, point + 4 + 1, sum);
+        pair_backward_f(other, S, other + 4, other + 4 + 1, sum);
+    }
+    if (b < size) {
         const vector_f *point = points + 9 * (size_t)near[b];
         pair_backward_f(point, S, point + 4, point + 4 + 1, sum);
     }
-    S_bar[0] += vector_sum_f(sum[0]);
-    S_bar[1] += vector_sum_f(sum[1]);
-    S_bar[2] += vector_sum_f(sum[2]);
-    S_bar[3] += vector_sum_f(sum[3]);
-    S_bar[4] += vector_sum_f(sum[4]);
-    S_bar[5] += vector_sum_f(sum[5]);
-    S_bar[6] += vector_sum_f(sum[6]);
-    S_bar[7] += vector_sum_f(sum[7]);
-    S_bar[8] += vector_sum_f(sum[8]);
-    S_bar[9] += vector_sum_f(sum[9]);
-    S_bar[10] += vector_sum_f(sum[10]);
-    S_bar[11] += vector_sum_f(sum[11]);
-    S_bar[12] += vector_sum_f(sum[12]);
-    S_bar[13] += vector_sum_f(sum[13]);
-    S_bar[14] += vector_sum_f(sum[14]);
-    S_bar[15] += vector_sum_f(sum[15]);
+    sums[0] += vector_sum_f(sum[0]);
+    sums[1] += vector_sum_f(sum[1]);
+    sums[2] += vector_sum_f(sum[2]);
+    sums[3] += vector_sum_f(sum[3]);
+    sums[4] += vector_sum_f(sum[4]);
+    sums[5] += vector_sum_f(sum[5]);
+    sums[6] += vector_sum_f(sum[6]);
+    sums[7] += vector_sum_f(sum[7]);
+    sums[8] += vector_sum_f(sum[8]);
+    sums[9] += vector_sum_f(sum[9]);
+    sums[10] += vector_sum_f(sum[10]);
+    sums[11] += vector_sum_f(sum[11]);
+    sums[12] += vector_sum_f(sum[12]);
 }
 
 /*
@@ -3075,7 +3141,7 @@ void spd_splats_vjp_f(
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES_f ? part : LANES_f;
     vector_f *points = work_points_f(work);
-    vector_f *splats = work_splats_f(work, count), *places = work_blocks_f(work, count, splat_count);
+    vector_f *splats = work_reaches_f(work, count), *places = work_blocks_f(work, count, splat_count);
     float *constants = work_constants_f(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -3101,22 +3167,22 @@ void spd_splats_vjp_f(
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
-            float sums[LANES_f][16] = {{0}};
+            float sums[LANES_f][13] = {{0}};
             uint32_t near[131072 / (9 * sizeof(vector_f)) + 2];
-            vector_f own_mu[4], own_W[9], own_amplitude[1], S_bar[16], bars[14];
+            vector_f own_mu[4], own_W[9], own_amplitude[1], own_sums[13], bars[14];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
                     const float *reach = width ? splat_at_f(splats, k) + 4 * LANES_f : NULL;
                     const size_t some = blocks_near_f(mu + 4 * k, reach, places, first, first + size, near);
-                    splat_sums_f(points + 9 * first, near, some, constants + 16 * k, sums[k - start]);
+                    splat_sums_f(points + 9 * first, near, some, constants + 22 * k, sums[k - start]);
                 }
             }
             vector_rows_f(mu, end, start, 4, own_mu);
             vector_rows_f(W, end, start, 9, own_W);
             vector_rows_f(amplitude, end, start, 1, own_amplitude);
-            vector_rows_f(sums[0], LANES_f, 0, 16, S_bar);
-            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 4, bars + 4 + 9);
+            vector_rows_f(sums[0], LANES_f, 0, 13, own_sums);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 4, bars + 4 + 9);
             vector_to_rows_f(bars, mu_bar, end, start, 4, 4);
             vector_to_rows_f(bars + 4, W_bar, end, start, 9, 9);
             vector_to_rows_f(bars + 4 + 9, amplitude_bar, end, start, 1, 1);
@@ -3143,12 +3209,12 @@ void spd_splats_rows_f(
             vector_f point[9];
             splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector_f own_mu[4], own_W[9], own_amplitude[1], S_bar[16] = {ZERO}, bars[14];
+                vector_f own_mu[4], own_W[9], own_amplitude[1], own_sums[13] = {ZERO}, bars[14];
                 for (int i = 0; i < 4; ++i) own_mu[i] = vector_of_f(mu[4 * k + i]);
                 for (int i = 0; i < 9; ++i) own_W[i] = vector_of_f(W[9 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 16 * k, point + 4, point + 4 + 1, S_bar);
-                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 4, bars + 4 + 9);
+                pair_backward_f(point, constants + 22 * k, point + 4, point + 4 + 1, own_sums);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 4, bars + 4 + 9);
                 vector_to_rows_f(bars, rows + 14 * k, count, block * LANES_f, 14, 14 * splat_count);
             }
         }
@@ -3164,3 +3230,5 @@ double spd_splats_order_f(
     for (size_t n = 0; n < count; ++n) order[n] = n;
     return 1;
 }
+
+#endif /* float */

@@ -820,7 +820,7 @@ class Sphere:
     ) -> tuple[Tensor, Tensor, Tensor]:
         """The derivatives of <value, value_bar> + <gradient, gradient_bar> in mu (K, D), W (K, d, T) and amplitude (K)."""
         S = [entry.contiguous() for entry in self._splat_constants(mu, W, amplitude)]
-        total = torch.zeros((len(S), len(mu)), dtype=x.dtype, device=x.device)
+        total = torch.zeros((), dtype=x.dtype, device=x.device)
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         for part, *bars in zip(*parts, strict=True):
             total = total + torch.stack(_sums(self._pair_bars(part, S, *bars), len(part), len(mu), 0))
@@ -834,15 +834,15 @@ class Sphere:
         parts = (_chunks(tensor, len(mu)) for tensor in (x, value_bar, gradient_bar))
         rows = []
         for part, *bars in zip(*parts, strict=True):
-            S_bar = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
-            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, S_bar)
+            sums = [entry.expand(len(part), len(mu)) for entry in self._pair_bars(part, S, *bars)]
+            by_mu, by_W, by_amplitude = self._splat_constants_vjp(mu, W, amplitude, sums)
             rows.append(torch.cat([by_mu, by_W.flatten(-2), by_amplitude.unsqueeze(-1)], -1))
         return torch.cat(rows)
 
     def _pair_bars(
         self, x: Tensor, S: Sequence[Tensor], value_bar: Tensor, gradient_bar: Tensor
     ) -> tuple[Tensor, ...]:
-        """The derivatives in S of every pair, from those in the sums."""
+        """What every pair adds to the sums of its splat, from the derivatives in values and gradients."""
         X = [entry.unsqueeze(-1) for entry in self._point_features(x)]
         slope_bar = [entry.unsqueeze(-1) for entry in self._point_gradient_vjp(x, gradient_bar)]
         return self._pair_vjp(X, S, value_bar.unsqueeze(-1), slope_bar)
@@ -968,9 +968,9 @@ class Sphere:
     def _pair_vjp(
         self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
     ) -> tuple[Tensor, ...]:
-        """The derivatives of value value_bar + slope . slope_bar in S."""
+        """What, summed over the points, makes the derivatives of value value_bar + slope . slope_bar."""
         h0, h1, h2 = X
-        amplitude, M0, M1, M2, R0_0, R0_1, R0_2, R1_0, R1_1, R1_2, value_on_cut_locus = S
+        _, M0, M1, M2, R0_0, R0_1, R0_2, R1_0, R1_1, R1_2, value_on_cut_locus = S
         h0_bar, h1_bar, h2_bar = slope_bar
         eps = torch.full_like(h0, torch.finfo(h0.dtype).eps)
         total_2 = h0 + M0
@@ -1000,28 +1000,25 @@ class Sphere:
         gap_2 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar
         product_2 = 2.0 * (r0 * gap + r1 * gap_2)
         half_square_product = 2.0 * half_square
-        gap_3 = product + a_squared * product_2 - half_square_product * product
-        product_3 = amplitude * chosen
-        gap_4 = product_3 - product_3 * half_square_product
-        product_4 = eta_gap * gap_4
+        product_3 = chosen * (product + a_squared * product_2 - half_square_product * product)
+        gap_3 = chosen - chosen * half_square_product
+        product_4 = eta_gap * gap_3
         over_w_product_2 = over_w * product_4
         eta_slope = _polynomial(w_gap, _ETA_SLOPE)
-        product_5 = gap_4 * over_w_product
-        total_7 = chosen * (amplitude * value_bar) + chosen * (amplitude * gap_3)
-        by_half_square = -(2.0 * (product_3 * product)) - total_7
-        product_6 = (
-            eta_gap * (2.0 * a_squared * (product_3 * product_2) + total_7 + half_square_product * by_half_square)
-        )
+        product_5 = gap_3 * over_w_product
+        total_7 = chosen * value_bar + product_3
+        by_half_square = -(2.0 * (chosen * product)) - total_7
+        product_6 = eta_gap * (2.0 * a_squared * (chosen * product_2) + total_7 + half_square_product * by_half_square)
         total_8 = eta_slope * product_5 - over_w * over_w * (product_4 * total_6 - product_5) + product_6
         over_w_product_3 = over_w * total_8
-        product_7 = 2.0 * (product_3 * a_squared)
+        product_7 = 2.0 * (chosen * a_squared)
         product_8 = 2.0 * (a_squared * by_half_square)
         by_r0 = product_7 * gap + r0 * product_8
         r0_product = r0 * product_7
         by_r1 = product_7 * gap_2 + r1 * product_8
         r1_product = r1 * product_7
         return (
-            torch.where(on_cut_locus, value_on_cut_locus, a_product) * value_bar + chosen * gap_3,
+            torch.where(on_cut_locus, value_on_cut_locus, a_product) * value_bar + product_3,
             over_w_product_2 * h0_bar + h0 * over_w_product_3,
             over_w_product_2 * h1_bar + h1 * over_w_product_3,
             over_w_product_2 * h2_bar + h2 * over_w_product_3,
@@ -1031,48 +1028,47 @@ class Sphere:
             h0 * by_r1 - r1_product * h0_bar,
             h1 * by_r1 - r1_product * h1_bar,
             h2 * by_r1 - r1_product * h2_bar,
-            torch.full_like(slope_bar[0], 0.0),
         )
 
     def _splat_constants_vjp(
-        self, mu: Tensor, W: Tensor, amplitude: Tensor, S_bar: Sequence[Tensor]
+        self, mu: Tensor, W: Tensor, amplitude: Tensor, sums: Sequence[Tensor]
     ) -> tuple[Tensor, Tensor, Tensor]:
-        """The derivatives in mu, W and amplitude from those in S."""
+        """The derivatives in mu, W and amplitude from those sums."""
         mu0, mu1, mu2 = mu.unbind(-1)
         W0_0, W0_1, W0_2, W1_0, W1_1, W1_2 = W.flatten(-2).unbind(-1)
-        amplitude_bar, M0_bar, M1_bar, M2_bar, R0_0_bar, R0_1_bar, R0_2_bar, R1_0_bar, R1_1_bar, R1_2_bar, _ = S_bar
+        sum0, sum1, sum2, sum3, sum4, sum5, sum6, sum7, sum8, sum9 = sums
         by_normal_part = -(mu2 * W0_2) - mu1 * W0_1 - mu0 * W0_0
-        product = 1.4142135623730951 * R0_0_bar
-        product_2 = 1.4142135623730951 * R0_1_bar
-        product_3 = 1.4142135623730951 * R0_2_bar
+        product = 1.4142135623730951 * sum4
+        product_2 = 1.4142135623730951 * sum5
+        product_3 = 1.4142135623730951 * sum6
         by_by_normal_part = mu0 * product + mu1 * product_2 + mu2 * product_3
         by_normal_part_2 = -(mu2 * W1_2) - mu1 * W1_1 - mu0 * W1_0
-        product_4 = 1.4142135623730951 * R1_0_bar
-        product_5 = 1.4142135623730951 * R1_1_bar
-        product_6 = 1.4142135623730951 * R1_2_bar
+        product_4 = 1.4142135623730951 * sum7
+        product_5 = 1.4142135623730951 * sum8
+        product_6 = 1.4142135623730951 * sum9
         by_by_normal_part_2 = mu0 * product_4 + mu1 * product_5 + mu2 * product_6
         gap = (
-            0.5 * M0_bar + by_normal_part * product - W0_0 * by_by_normal_part + by_normal_part_2 * product_4 - W1_0 *
+            0.5 * sum1 + by_normal_part * product - W0_0 * by_by_normal_part + by_normal_part_2 * product_4 - W1_0 *
             by_by_normal_part_2
         )
         gap_2 = (
-            0.5 * M1_bar + by_normal_part * product_2 - W0_1 * by_by_normal_part + by_normal_part_2 * product_5 - W1_1 *
+            0.5 * sum2 + by_normal_part * product_2 - W0_1 * by_by_normal_part + by_normal_part_2 * product_5 - W1_1 *
             by_by_normal_part_2
         )
         gap_3 = (
-            0.5 * M2_bar + by_normal_part * product_3 - W0_2 * by_by_normal_part + by_normal_part_2 * product_6 - W1_2 *
+            0.5 * sum3 + by_normal_part * product_3 - W0_2 * by_by_normal_part + by_normal_part_2 * product_6 - W1_2 *
             by_by_normal_part_2
         )
-        mu_bar = _stack((gap, gap_2, gap_3))
+        mu_bar = _stack((amplitude * gap, amplitude * gap_2, amplitude * gap_3))
         W_bar = _stack((
-            product - mu0 * by_by_normal_part,
-            product_2 - mu1 * by_by_normal_part,
-            product_3 - mu2 * by_by_normal_part,
-            product_4 - mu0 * by_by_normal_part_2,
-            product_5 - mu1 * by_by_normal_part_2,
-            product_6 - mu2 * by_by_normal_part_2,
+            amplitude * (product - mu0 * by_by_normal_part),
+            amplitude * (product_2 - mu1 * by_by_normal_part),
+            amplitude * (product_3 - mu2 * by_by_normal_part),
+            amplitude * (product_4 - mu0 * by_by_normal_part_2),
+            amplitude * (product_5 - mu1 * by_by_normal_part_2),
+            amplitude * (product_6 - mu2 * by_by_normal_part_2),
         ))
-        return mu_bar, W_bar.unflatten(-1, (2, 3)), amplitude_bar
+        return mu_bar, W_bar.unflatten(-1, (2, 3)), sum0
 
 
 manifold = Sphere()

@@ -81,6 +81,8 @@ INLINE uint64_t flush_denormals(void) { return 0; }
 INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
 
+#if !defined(RSRM_ONLY_FLOAT) /* double */
+
 /* The same number in all lanes. */
 INLINE vector vector_of(double x) {
     const vector zero = ZERO;
@@ -122,24 +124,24 @@ INLINE vector vector_from_bits(vector_bits bits) {
 }
 
 /* x >= 0 with the sign of another. */
-INLINE vector vector_signed(vector x, vector sign) {
+INLINE vector signed_each(vector x, vector sign) {
     return vector_from_bits(vector_to_bits(x) | (vector_to_bits(sign) & 0x8000000000000000));
 }
 
 /* abs of every lane; one instruction where the machine has it. */
-INLINE vector vector_abs(vector x) {
+INLINE vector abs_each(vector x) {
     for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
     return x;
 }
 
 /* sqrt of every lane; one instruction where the machine has it. */
-INLINE vector vector_sqrt(vector x) {
+INLINE vector sqrt_each(vector x) {
     for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
     return x;
 }
 
 /* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
-INLINE vector vector_exp(vector x) {
+INLINE vector exp_each(vector x) {
     const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
     const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
     const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
@@ -149,7 +151,7 @@ INLINE vector vector_exp(vector x) {
 }
 
 /* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
-INLINE vector vector_log(vector x) {
+INLINE vector log_each(vector x) {
     const vector_bits bits = vector_to_bits(x), biased = (bits + 0x95f619980c433) >> 52; /* k + 1023 */
     const vector k = vector_from_bits(biased + 0x4338000000000000) - 6755399441056767.0;
     const vector f = vector_from_bits(bits - (biased << 52) + 0x3ff0000000000000) - 1, s = f / (2 + f), z = s * s;
@@ -162,8 +164,8 @@ INLINE vector vector_log(vector x) {
 }
 
 /* atan2, within 3 units in the last place. */
-INLINE vector vector_atan2(vector y, vector x) {
-    const vector a = vector_abs(y), b = vector_abs(x), one = vector_of(1);
+INLINE vector atan2_each(vector y, vector x) {
+    const vector a = abs_each(y), b = abs_each(x), one = vector_of(1);
     const vector less = vector_select(a > b, b, a), more = vector_select(a > b, a, b);
     const vector low = vector_select(less > 1.7976931348623157e308, one, less);
     const vector high = vector_select(less > 1.7976931348623157e308, one, vector_select(more == 0, one, more));
@@ -174,7 +176,7 @@ INLINE vector vector_atan2(vector y, vector x) {
     const vector first = vector_select(low > 0.4142135623730951 * high, 0.7853981633974483 + (angle + 3.061616997868383e-17), angle);
     const vector second = vector_select(a > b, 1.5707963267948966 - (first - 6.123233995736766e-17), first);
     const vector third = vector_select((vector_to_bits(x) & 0x8000000000000000) != 0, 3.141592653589793 - (second - 1.2246467991473532e-16), second);
-    return vector_signed(third, y);
+    return signed_each(third, y);
 }
 
 /* Of degree 22 on [0, 1], its relative error below 2^-56. */
@@ -241,14 +243,14 @@ OUTLINE void pair_constants(
     const vector R1_0 = 1.4142135623730951 * (W1_0 + mu0 * by_normal_part_2);
     const vector R1_1 = 1.4142135623730951 * (W1_1 + mu1 * by_normal_part_2);
     const vector R1_2 = 1.4142135623730951 * (W1_2 + mu2 * by_normal_part_2);
-    const vector log_value = vector_log(vector_of(0.7853981633974483 / DBL_EPSILON));
+    const vector log_value = log_each(vector_of(0.7853981633974483 / DBL_EPSILON));
     const vector squared = mu0 * mu0;
     const vector_mask is_small = squared < 0.5;
     const vector gap = 1.0 - squared;
-    const vector sine_to_axis0 = vector_sqrt(vector_select(is_small, gap, vector_of(1.0)));
+    const vector sine_to_axis0 = sqrt_each(vector_select(is_small, gap, vector_of(1.0)));
     const vector product = mu0 * mu1;
     const vector gap_2 = 1.0 - mu1 * mu1;
-    const vector sine_to_axis1 = vector_sqrt(vector_select(is_small, vector_of(1.0), gap_2));
+    const vector sine_to_axis1 = sqrt_each(vector_select(is_small, vector_of(1.0), gap_2));
     const vector product_2 = 3.141592653589793 * vector_select(is_small, gap / sine_to_axis0, -(product /
         sine_to_axis1));
     const vector product_3 = 3.141592653589793 * vector_select(is_small, -(product / sine_to_axis0), gap_2 /
@@ -257,7 +259,7 @@ OUTLINE void pair_constants(
         mu2 / sine_to_axis1));
     const vector total_2 = W0_0 * product_2 + W0_1 * product_3 + W0_2 * product_4;
     const vector total_3 = W1_0 * product_2 + W1_1 * product_3 + W1_2 * product_4;
-    const vector value_on_cut_locus = vector_exp(log_value - 0.5 * (total_2 * total_2 + total_3 * total_3));
+    const vector value_on_cut_locus = exp_each(log_value - 0.5 * (total_2 * total_2 + total_3 * total_3));
     S[0] = its_amplitude;
     S[1] = M0;
     S[2] = M1;
@@ -302,14 +304,14 @@ INLINE void pair_value(
     const vector total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4;
     const vector_mask on_cut_locus = total_5 <= 4.0 * (DBL_EPSILON * DBL_EPSILON);
     const vector u = vector_select(on_cut_locus, vector_of(1.0), total_5);
-    const vector w = vector_sqrt(u);
+    const vector w = sqrt_each(u);
     const vector eta = vector_polynomial_eta(1.0 - w);
     const vector a = 1.0 / (w * (w - eta * (1.0 - u)));
     const vector a_squared = a * a;
     const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
     const vector half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector gaussian = vector_exp(-half_square);
+    const vector gaussian = exp_each(-half_square);
     value[0] = value[0] + amplitude * vector_select(on_cut_locus, vector_of(value_on_cut_locus), a *
             gaussian);
 }
@@ -345,7 +347,7 @@ INLINE void pair_forward(
     const vector total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4;
     const vector_mask on_cut_locus = total_5 <= 4.0 * (DBL_EPSILON * DBL_EPSILON);
     const vector u = vector_select(on_cut_locus, vector_of(1.0), total_5);
-    const vector w = vector_sqrt(u);
+    const vector w = sqrt_each(u);
     const vector eta = vector_polynomial_eta(1.0 - w);
     const vector w_gap = w - eta * (1.0 - u);
     const vector a = 1.0 / (w * w_gap);
@@ -353,7 +355,7 @@ INLINE void pair_forward(
     const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
     const vector half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector gaussian = vector_exp(-half_square);
+    const vector gaussian = exp_each(-half_square);
     const vector a_product = a * gaussian;
     const vector product = amplitude * vector_select(on_cut_locus, vector_of(0.0), a_product);
     const vector product_2 = 2.0 * (product * a_squared);
@@ -400,10 +402,9 @@ OUTLINE void pair_gradient_vjp(
     slope_bar[2] = 0.5 * (gradient_bar2 + x2 * by_normal_part);
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp(
-    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
-    (void)amplitude;
+    const vector *mu, const vector *W, const vector *amplitude, const vector *sums, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
     const vector mu0 = mu[0];
     const vector mu1 = mu[1];
     const vector mu2 = mu[2];
@@ -413,42 +414,43 @@ OUTLINE void pair_constants_vjp(
     const vector W1_0 = W[3];
     const vector W1_1 = W[4];
     const vector W1_2 = W[5];
-    const vector its_amplitude_bar = S_bar[0];
-    const vector M0_bar = S_bar[1];
-    const vector M1_bar = S_bar[2];
-    const vector M2_bar = S_bar[3];
-    const vector R0_0_bar = S_bar[4];
-    const vector R0_1_bar = S_bar[5];
-    const vector R0_2_bar = S_bar[6];
-    const vector R1_0_bar = S_bar[7];
-    const vector R1_1_bar = S_bar[8];
-    const vector R1_2_bar = S_bar[9];
+    const vector its_amplitude = amplitude[0];
+    const vector sum0 = sums[0];
+    const vector sum1 = sums[1];
+    const vector sum2 = sums[2];
+    const vector sum3 = sums[3];
+    const vector sum4 = sums[4];
+    const vector sum5 = sums[5];
+    const vector sum6 = sums[6];
+    const vector sum7 = sums[7];
+    const vector sum8 = sums[8];
+    const vector sum9 = sums[9];
     const vector by_normal_part = -(mu2 * W0_2) - mu1 * W0_1 - mu0 * W0_0;
-    const vector product = 1.4142135623730951 * R0_0_bar;
-    const vector product_2 = 1.4142135623730951 * R0_1_bar;
-    const vector product_3 = 1.4142135623730951 * R0_2_bar;
+    const vector product = 1.4142135623730951 * sum4;
+    const vector product_2 = 1.4142135623730951 * sum5;
+    const vector product_3 = 1.4142135623730951 * sum6;
     const vector by_by_normal_part = mu0 * product + mu1 * product_2 + mu2 * product_3;
     const vector by_normal_part_2 = -(mu2 * W1_2) - mu1 * W1_1 - mu0 * W1_0;
-    const vector product_4 = 1.4142135623730951 * R1_0_bar;
-    const vector product_5 = 1.4142135623730951 * R1_1_bar;
-    const vector product_6 = 1.4142135623730951 * R1_2_bar;
+    const vector product_4 = 1.4142135623730951 * sum7;
+    const vector product_5 = 1.4142135623730951 * sum8;
+    const vector product_6 = 1.4142135623730951 * sum9;
     const vector by_by_normal_part_2 = mu0 * product_4 + mu1 * product_5 + mu2 * product_6;
-    const vector gap = 0.5 * M0_bar + by_normal_part * product - W0_0 * by_by_normal_part + by_normal_part_2 *
+    const vector gap = 0.5 * sum1 + by_normal_part * product - W0_0 * by_by_normal_part + by_normal_part_2 *
         product_4 - W1_0 * by_by_normal_part_2;
-    const vector gap_2 = 0.5 * M1_bar + by_normal_part * product_2 - W0_1 * by_by_normal_part +
-        by_normal_part_2 * product_5 - W1_1 * by_by_normal_part_2;
-    const vector gap_3 = 0.5 * M2_bar + by_normal_part * product_3 - W0_2 * by_by_normal_part +
-        by_normal_part_2 * product_6 - W1_2 * by_by_normal_part_2;
-    mu_bar[0] = gap;
-    mu_bar[1] = gap_2;
-    mu_bar[2] = gap_3;
-    W_bar[0] = product - mu0 * by_by_normal_part;
-    W_bar[1] = product_2 - mu1 * by_by_normal_part;
-    W_bar[2] = product_3 - mu2 * by_by_normal_part;
-    W_bar[3] = product_4 - mu0 * by_by_normal_part_2;
-    W_bar[4] = product_5 - mu1 * by_by_normal_part_2;
-    W_bar[5] = product_6 - mu2 * by_by_normal_part_2;
-    amplitude_bar[0] = its_amplitude_bar;
+    const vector gap_2 = 0.5 * sum2 + by_normal_part * product_2 - W0_1 * by_by_normal_part + by_normal_part_2
+        * product_5 - W1_1 * by_by_normal_part_2;
+    const vector gap_3 = 0.5 * sum3 + by_normal_part * product_3 - W0_2 * by_by_normal_part + by_normal_part_2
+        * product_6 - W1_2 * by_by_normal_part_2;
+    mu_bar[0] = its_amplitude * gap;
+    mu_bar[1] = its_amplitude * gap_2;
+    mu_bar[2] = its_amplitude * gap_3;
+    W_bar[0] = its_amplitude * (product - mu0 * by_by_normal_part);
+    W_bar[1] = its_amplitude * (product_2 - mu1 * by_by_normal_part);
+    W_bar[2] = its_amplitude * (product_3 - mu2 * by_by_normal_part);
+    W_bar[3] = its_amplitude * (product_4 - mu0 * by_by_normal_part_2);
+    W_bar[4] = its_amplitude * (product_5 - mu1 * by_by_normal_part_2);
+    W_bar[5] = its_amplitude * (product_6 - mu2 * by_by_normal_part_2);
+    amplitude_bar[0] = sum0;
 }
 
 /* The distances of some points q from one point p. */
@@ -464,20 +466,20 @@ OUTLINE void pair_distances(
     const vector d1 = q1 - p1;
     const vector d2 = q2 - p2;
     const vector norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
-    const vector norm_d = vector_sqrt(norm_d_squared);
+    const vector norm_d = sqrt_each(norm_d_squared);
     const vector q_plus_p0 = p0 + q0;
     const vector q_plus_p1 = p1 + q1;
     const vector q_plus_p2 = p2 + q2;
     const vector norm_q_plus_p_squared = q_plus_p0 * q_plus_p0 + q_plus_p1 * q_plus_p1 + q_plus_p2 *
         q_plus_p2;
-    const vector norm_q_plus_p = vector_sqrt(norm_q_plus_p_squared);
-    const vector atan2_value = vector_atan2(norm_d, norm_q_plus_p);
+    const vector norm_q_plus_p = sqrt_each(norm_q_plus_p_squared);
+    const vector atan2_value = atan2_each(norm_d, norm_q_plus_p);
     const vector t = 2.0 * atan2_value;
     distance[0] = t;
 }
 
 /*
- * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
  * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
@@ -486,11 +488,10 @@ OUTLINE void pair_distances(
  * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
  */
 INLINE void pair_backward(
-    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
+    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
     const vector h0 = X[0];
     const vector h1 = X[1];
     const vector h2 = X[2];
-    const double amplitude = S[0];
     const double M0 = S[1];
     const double M1 = S[2];
     const double M2 = S[3];
@@ -511,7 +512,7 @@ INLINE void pair_backward(
     const vector total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4;
     const vector_mask on_cut_locus = total_5 <= 4.0 * (DBL_EPSILON * DBL_EPSILON);
     const vector u = vector_select(on_cut_locus, vector_of(1.0), total_5);
-    const vector w = vector_sqrt(u);
+    const vector w = sqrt_each(u);
     const vector w_gap = 1.0 - w;
     const vector eta = vector_polynomial_eta(w_gap);
     const vector w_gap_2 = w - eta * (1.0 - u);
@@ -520,7 +521,7 @@ INLINE void pair_backward(
     const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
     const vector half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector gaussian = vector_exp(-half_square);
+    const vector gaussian = exp_each(-half_square);
     const vector a_product = a * gaussian;
     const vector chosen = vector_select(on_cut_locus, vector_of(0.0), a_product);
     const vector over_w = w_gap_2 * a;
@@ -532,37 +533,36 @@ INLINE void pair_backward(
     const vector gap_2 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar;
     const vector product_2 = 2.0 * (r0 * gap + r1 * gap_2);
     const vector half_square_product = 2.0 * half_square;
-    const vector gap_3 = product + a_squared * product_2 - half_square_product * product;
-    const vector product_3 = amplitude * chosen;
-    const vector gap_4 = product_3 - product_3 * half_square_product;
-    const vector product_4 = eta_gap * gap_4;
+    const vector product_3 = chosen * (product + a_squared * product_2 - half_square_product * product);
+    const vector gap_3 = chosen - chosen * half_square_product;
+    const vector product_4 = eta_gap * gap_3;
     const vector over_w_product_2 = over_w * product_4;
     const vector eta_slope = vector_polynomial_eta_slope(w_gap);
-    const vector product_5 = gap_4 * over_w_product;
-    const vector total_7 = chosen * (amplitude * its_value_bar) + chosen * (amplitude * gap_3);
-    const vector by_half_square = -2.0 * (product_3 * product) - total_7;
-    const vector product_6 = eta_gap * (2.0 * a_squared * (product_3 * product_2) + total_7 +
-        half_square_product * by_half_square);
+    const vector product_5 = gap_3 * over_w_product;
+    const vector total_7 = chosen * its_value_bar + product_3;
+    const vector by_half_square = -2.0 * (chosen * product) - total_7;
+    const vector product_6 = eta_gap * (2.0 * a_squared * (chosen * product_2) + total_7 + half_square_product
+        * by_half_square);
     const vector total_8 = eta_slope * product_5 - over_w * over_w * (product_4 * total_6 - product_5) +
         product_6;
     const vector over_w_product_3 = over_w * total_8;
-    const vector product_7 = 2.0 * (product_3 * a_squared);
+    const vector product_7 = 2.0 * (chosen * a_squared);
     const vector product_8 = 2.0 * (a_squared * by_half_square);
     const vector by_r0 = product_7 * gap + r0 * product_8;
     const vector r0_product = r0 * product_7;
     const vector by_r1 = product_7 * gap_2 + r1 * product_8;
     const vector r1_product = r1 * product_7;
-    S_bar[0] = S_bar[0] + vector_select(on_cut_locus, vector_of(value_on_cut_locus), a_product) *
-            its_value_bar + chosen * gap_3;
-    S_bar[1] = S_bar[1] + over_w_product_2 * h0_bar + h0 * over_w_product_3;
-    S_bar[2] = S_bar[2] + over_w_product_2 * h1_bar + h1 * over_w_product_3;
-    S_bar[3] = S_bar[3] + over_w_product_2 * h2_bar + h2 * over_w_product_3;
-    S_bar[4] = S_bar[4] + h0 * by_r0 - r0_product * h0_bar;
-    S_bar[5] = S_bar[5] + h1 * by_r0 - r0_product * h1_bar;
-    S_bar[6] = S_bar[6] + h2 * by_r0 - r0_product * h2_bar;
-    S_bar[7] = S_bar[7] + h0 * by_r1 - r1_product * h0_bar;
-    S_bar[8] = S_bar[8] + h1 * by_r1 - r1_product * h1_bar;
-    S_bar[9] = S_bar[9] + h2 * by_r1 - r1_product * h2_bar;
+    sums[0] = sums[0] + vector_select(on_cut_locus, vector_of(value_on_cut_locus), a_product) * its_value_bar
+            + product_3;
+    sums[1] = sums[1] + over_w_product_2 * h0_bar + h0 * over_w_product_3;
+    sums[2] = sums[2] + over_w_product_2 * h1_bar + h1 * over_w_product_3;
+    sums[3] = sums[3] + over_w_product_2 * h2_bar + h2 * over_w_product_3;
+    sums[4] = sums[4] + h0 * by_r0 - r0_product * h0_bar;
+    sums[5] = sums[5] + h1 * by_r0 - r0_product * h1_bar;
+    sums[6] = sums[6] + h2 * by_r0 - r0_product * h2_bar;
+    sums[7] = sums[7] + h0 * by_r1 - r1_product * h0_bar;
+    sums[8] = sums[8] + h1 * by_r1 - r1_product * h1_bar;
+    sums[9] = sums[9] + h2 * by_r1 - r1_product * h2_bar;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -608,12 +608,12 @@ INLINE const double *splat_at(const vector *splats, size_t k) {
     return (const double *)(splats + 4 * row) + (k - row * LANES);
 }
 
-static vector *work_splats(double *work, size_t count) {
+static vector *work_reaches(double *work, size_t count) {
     return work_points(work) + (count + LANES - 1) / LANES * 7;
 }
 
 static vector *work_blocks(double *work, size_t count, size_t splat_count) {
-    return work_splats(work, count) + 4 * ((splat_count + LANES - 1) / LANES);
+    return work_reaches(work, count) + 4 * ((splat_count + LANES - 1) / LANES);
 }
 
 static double *work_constants(double *work, size_t count, size_t splat_count) {
@@ -730,7 +730,7 @@ void sphere_splats(
     double *SPHERE_RESTRICT value, double *SPHERE_RESTRICT gradient, double *SPHERE_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -772,7 +772,7 @@ void sphere_splats_value(
     double *SPHERE_RESTRICT value, double *SPHERE_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -818,23 +818,29 @@ OUTLINE void splat_points(
     vector_end(count, start, 3 + 1, point + 3);
 }
 
-/* Adds to S_bar what some vectors of points add to it, those in the list. */
-OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *S_bar) {
-    vector sum[11] = {ZERO};
-    for (size_t b = 0; b < size; ++b) {
+/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *sums) {
+    vector sum[10] = {ZERO};
+    size_t b = 0;
+    for (; b + 1 < size; b += 2) {
+        const vector *point = points + 7 * (size_t)near[b], *other = points + 7 * (size_t)near[b + 1];
+        pair_backward(point, S, point + 3, point + 3 + 1, sum);
+        pair_backward(other, S, other + 3, other + 3 + 1, sum);
+    }
+    if (b < size) {
         const vector *point = points + 7 * (size_t)near[b];
         pair_backward(point, S, point + 3, point + 3 + 1, sum);
     }
-    S_bar[0] += vector_sum(sum[0]);
-    S_bar[1] += vector_sum(sum[1]);
-    S_bar[2] += vector_sum(sum[2]);
-    S_bar[3] += vector_sum(sum[3]);
-    S_bar[4] += vector_sum(sum[4]);
-    S_bar[5] += vector_sum(sum[5]);
-    S_bar[6] += vector_sum(sum[6]);
-    S_bar[7] += vector_sum(sum[7]);
-    S_bar[8] += vector_sum(sum[8]);
-    S_bar[9] += vector_sum(sum[9]);
+    sums[0] += vector_sum(sum[0]);
+    sums[1] += vector_sum(sum[1]);
+    sums[2] += vector_sum(sum[2]);
+    sums[3] += vector_sum(sum[3]);
+    sums[4] += vector_sum(sum[4]);
+    sums[5] += vector_sum(sum[5]);
+    sums[6] += vector_sum(sum[6]);
+    sums[7] += vector_sum(sum[7]);
+    sums[8] += vector_sum(sum[8]);
+    sums[9] += vector_sum(sum[9]);
 }
 
 /*
@@ -850,7 +856,7 @@ void sphere_splats_vjp(
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES ? part : LANES;
     vector *points = work_points(work);
-    vector *splats = work_splats(work, count), *places = work_blocks(work, count, splat_count);
+    vector *splats = work_reaches(work, count), *places = work_blocks(work, count, splat_count);
     double *constants = work_constants(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -876,9 +882,9 @@ void sphere_splats_vjp(
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
-            double sums[LANES][11] = {{0}};
+            double sums[LANES][10] = {{0}};
             uint32_t near[131072 / (7 * sizeof(vector)) + 2];
-            vector own_mu[3], own_W[6], own_amplitude[1], S_bar[11], bars[10];
+            vector own_mu[3], own_W[6], own_amplitude[1], own_sums[10], bars[10];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
@@ -890,8 +896,8 @@ void sphere_splats_vjp(
             vector_rows(mu, end, start, 3, own_mu);
             vector_rows(W, end, start, 6, own_W);
             vector_rows(amplitude, end, start, 1, own_amplitude);
-            vector_rows(sums[0], LANES, 0, 11, S_bar);
-            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 3, bars + 3 + 6);
+            vector_rows(sums[0], LANES, 0, 10, own_sums);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 3, bars + 3 + 6);
             vector_to_rows(bars, mu_bar, end, start, 3, 3);
             vector_to_rows(bars + 3, W_bar, end, start, 6, 6);
             vector_to_rows(bars + 3 + 6, amplitude_bar, end, start, 1, 1);
@@ -918,12 +924,12 @@ void sphere_splats_rows(
             vector point[7];
             splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector own_mu[3], own_W[6], own_amplitude[1], S_bar[11] = {ZERO}, bars[10];
+                vector own_mu[3], own_W[6], own_amplitude[1], own_sums[10] = {ZERO}, bars[10];
                 for (int i = 0; i < 3; ++i) own_mu[i] = vector_of(mu[3 * k + i]);
                 for (int i = 0; i < 6; ++i) own_W[i] = vector_of(W[6 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 11 * k, point + 3, point + 3 + 1, S_bar);
-                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 3, bars + 3 + 6);
+                pair_backward(point, constants + 11 * k, point + 3, point + 3 + 1, own_sums);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 3, bars + 3 + 6);
                 vector_to_rows(bars, rows + 10 * k, count, block * LANES, 10, 10 * splat_count);
             }
         }
@@ -997,7 +1003,7 @@ double sphere_splats_order(
     size_t count, size_t splat_count, const double *SPHERE_RESTRICT x, const double *SPHERE_RESTRICT mu, const double *SPHERE_RESTRICT amplitude, const double *SPHERE_RESTRICT width,
     double limit, size_t *SPHERE_RESTRICT order, double *SPHERE_RESTRICT work) {
     const size_t block = 2 * LANES;
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     uint32_t near[256];
     double share = 0;
     for (size_t n = 0; n < count; ++n) order[n] = n;
@@ -1028,6 +1034,10 @@ double sphere_splats_order(
     }
     return share;
 }
+
+#endif /* double */
+
+#if !defined(RSRM_ONLY_DOUBLE) /* float */
 
 /* The same number in all lanes. */
 INLINE vector_f vector_of_f(float x) {
@@ -1070,24 +1080,24 @@ INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
 }
 
 /* x >= 0 with the sign of another. */
-INLINE vector_f vector_signed_f(vector_f x, vector_f sign) {
+INLINE vector_f signed_each_f(vector_f x, vector_f sign) {
     return vector_from_bits_f(vector_to_bits_f(x) | (vector_to_bits_f(sign) & 0x80000000));
 }
 
 /* abs of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_abs_f(vector_f x) {
+INLINE vector_f abs_each_f(vector_f x) {
     for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
     return x;
 }
 
 /* sqrt of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_sqrt_f(vector_f x) {
+INLINE vector_f sqrt_each_f(vector_f x) {
     for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
     return x;
 }
 
 /* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
-INLINE vector_f vector_exp_f(vector_f x) {
+INLINE vector_f exp_each_f(vector_f x) {
     const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
     const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
     const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
@@ -1097,7 +1107,7 @@ INLINE vector_f vector_exp_f(vector_f x) {
 }
 
 /* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
-INLINE vector_f vector_log_f(vector_f x) {
+INLINE vector_f log_each_f(vector_f x) {
     const vector_bits_f bits = vector_to_bits_f(x), biased = (bits + 0x4afb0d) >> 23; /* k + 127 */
     const vector_f k = vector_from_bits_f(biased + 0x4b400000) - 12583039.0f;
     const vector_f f = vector_from_bits_f(bits - (biased << 23) + 0x3f800000) - 1, s = f / (2 + f), z = s * s;
@@ -1110,8 +1120,8 @@ INLINE vector_f vector_log_f(vector_f x) {
 }
 
 /* atan2, within 3 units in the last place. */
-INLINE vector_f vector_atan2_f(vector_f y, vector_f x) {
-    const vector_f a = vector_abs_f(y), b = vector_abs_f(x), one = vector_of_f(1);
+INLINE vector_f atan2_each_f(vector_f y, vector_f x) {
+    const vector_f a = abs_each_f(y), b = abs_each_f(x), one = vector_of_f(1);
     const vector_f less = vector_select_f(a > b, b, a), more = vector_select_f(a > b, a, b);
     const vector_f low = vector_select_f(less > 3.4028234663852886e38f, one, less);
     const vector_f high = vector_select_f(less > 3.4028234663852886e38f, one, vector_select_f(more == 0, one, more));
@@ -1122,7 +1132,7 @@ INLINE vector_f vector_atan2_f(vector_f y, vector_f x) {
     const vector_f first = vector_select_f(low > 0.4142135623730951f * high, 0.7853981852531433f + (angle + -2.1855695000931213e-08f), angle);
     const vector_f second = vector_select_f(a > b, 1.5707963705062866f - (first - -4.3711390001862426e-08f), first);
     const vector_f third = vector_select_f((vector_to_bits_f(x) & 0x80000000) != 0, 3.1415927410125732f - (second - -8.742278000372485e-08f), second);
-    return vector_signed_f(third, y);
+    return signed_each_f(third, y);
 }
 
 /* Of degree 11, within 2^-29 of that of double precision. */
@@ -1182,14 +1192,14 @@ OUTLINE void pair_constants_f(
     const vector_f R1_0 = 1.4142135623730951f * (W1_0 + mu0 * by_normal_part_2);
     const vector_f R1_1 = 1.4142135623730951f * (W1_1 + mu1 * by_normal_part_2);
     const vector_f R1_2 = 1.4142135623730951f * (W1_2 + mu2 * by_normal_part_2);
-    const vector_f log_value = vector_log_f(vector_of_f(0.7853981633974483f / FLT_EPSILON));
+    const vector_f log_value = log_each_f(vector_of_f(0.7853981633974483f / FLT_EPSILON));
     const vector_f squared = mu0 * mu0;
     const vector_mask_f is_small = squared < 0.5f;
     const vector_f gap = 1.0f - squared;
-    const vector_f sine_to_axis0 = vector_sqrt_f(vector_select_f(is_small, gap, vector_of_f(1.0f)));
+    const vector_f sine_to_axis0 = sqrt_each_f(vector_select_f(is_small, gap, vector_of_f(1.0f)));
     const vector_f product = mu0 * mu1;
     const vector_f gap_2 = 1.0f - mu1 * mu1;
-    const vector_f sine_to_axis1 = vector_sqrt_f(vector_select_f(is_small, vector_of_f(1.0f), gap_2));
+    const vector_f sine_to_axis1 = sqrt_each_f(vector_select_f(is_small, vector_of_f(1.0f), gap_2));
     const vector_f product_2 = 3.141592653589793f * vector_select_f(is_small, gap / sine_to_axis0, -(product /
         sine_to_axis1));
     const vector_f product_3 = 3.141592653589793f * vector_select_f(is_small, -(product / sine_to_axis0),
@@ -1198,7 +1208,7 @@ OUTLINE void pair_constants_f(
         -(mu1 * mu2 / sine_to_axis1));
     const vector_f total_2 = W0_0 * product_2 + W0_1 * product_3 + W0_2 * product_4;
     const vector_f total_3 = W1_0 * product_2 + W1_1 * product_3 + W1_2 * product_4;
-    const vector_f value_on_cut_locus = vector_exp_f(log_value - 0.5f * (total_2 * total_2 + total_3 *
+    const vector_f value_on_cut_locus = exp_each_f(log_value - 0.5f * (total_2 * total_2 + total_3 *
         total_3));
     S[0] = its_amplitude;
     S[1] = M0;
@@ -1244,14 +1254,14 @@ INLINE void pair_value_f(
     const vector_f total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4;
     const vector_mask_f on_cut_locus = total_5 <= 4.0f * (FLT_EPSILON * FLT_EPSILON);
     const vector_f u = vector_select_f(on_cut_locus, vector_of_f(1.0f), total_5);
-    const vector_f w = vector_sqrt_f(u);
+    const vector_f w = sqrt_each_f(u);
     const vector_f eta = vector_polynomial_eta_f(1.0f - w);
     const vector_f a = 1.0f / (w * (w - eta * (1.0f - u)));
     const vector_f a_squared = a * a;
     const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
     const vector_f half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector_f gaussian = vector_exp_f(-half_square);
+    const vector_f gaussian = exp_each_f(-half_square);
     value[0] = value[0] + amplitude * vector_select_f(on_cut_locus, vector_of_f(value_on_cut_locus), a *
             gaussian);
 }
@@ -1287,7 +1297,7 @@ INLINE void pair_forward_f(
     const vector_f total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4;
     const vector_mask_f on_cut_locus = total_5 <= 4.0f * (FLT_EPSILON * FLT_EPSILON);
     const vector_f u = vector_select_f(on_cut_locus, vector_of_f(1.0f), total_5);
-    const vector_f w = vector_sqrt_f(u);
+    const vector_f w = sqrt_each_f(u);
     const vector_f eta = vector_polynomial_eta_f(1.0f - w);
     const vector_f w_gap = w - eta * (1.0f - u);
     const vector_f a = 1.0f / (w * w_gap);
@@ -1295,7 +1305,7 @@ INLINE void pair_forward_f(
     const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
     const vector_f half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector_f gaussian = vector_exp_f(-half_square);
+    const vector_f gaussian = exp_each_f(-half_square);
     const vector_f a_product = a * gaussian;
     const vector_f product = amplitude * vector_select_f(on_cut_locus, vector_of_f(0.0f), a_product);
     const vector_f product_2 = 2.0f * (product * a_squared);
@@ -1343,10 +1353,9 @@ OUTLINE void pair_gradient_vjp_f(
     slope_bar[2] = 0.5f * (gradient_bar2 + x2 * by_normal_part);
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp_f(
-    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
-    (void)amplitude;
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *sums, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
     const vector_f mu0 = mu[0];
     const vector_f mu1 = mu[1];
     const vector_f mu2 = mu[2];
@@ -1356,42 +1365,43 @@ OUTLINE void pair_constants_vjp_f(
     const vector_f W1_0 = W[3];
     const vector_f W1_1 = W[4];
     const vector_f W1_2 = W[5];
-    const vector_f its_amplitude_bar = S_bar[0];
-    const vector_f M0_bar = S_bar[1];
-    const vector_f M1_bar = S_bar[2];
-    const vector_f M2_bar = S_bar[3];
-    const vector_f R0_0_bar = S_bar[4];
-    const vector_f R0_1_bar = S_bar[5];
-    const vector_f R0_2_bar = S_bar[6];
-    const vector_f R1_0_bar = S_bar[7];
-    const vector_f R1_1_bar = S_bar[8];
-    const vector_f R1_2_bar = S_bar[9];
+    const vector_f its_amplitude = amplitude[0];
+    const vector_f sum0 = sums[0];
+    const vector_f sum1 = sums[1];
+    const vector_f sum2 = sums[2];
+    const vector_f sum3 = sums[3];
+    const vector_f sum4 = sums[4];
+    const vector_f sum5 = sums[5];
+    const vector_f sum6 = sums[6];
+    const vector_f sum7 = sums[7];
+    const vector_f sum8 = sums[8];
+    const vector_f sum9 = sums[9];
     const vector_f by_normal_part = -(mu2 * W0_2) - mu1 * W0_1 - mu0 * W0_0;
-    const vector_f product = 1.4142135623730951f * R0_0_bar;
-    const vector_f product_2 = 1.4142135623730951f * R0_1_bar;
-    const vector_f product_3 = 1.4142135623730951f * R0_2_bar;
+    const vector_f product = 1.4142135623730951f * sum4;
+    const vector_f product_2 = 1.4142135623730951f * sum5;
+    const vector_f product_3 = 1.4142135623730951f * sum6;
     const vector_f by_by_normal_part = mu0 * product + mu1 * product_2 + mu2 * product_3;
     const vector_f by_normal_part_2 = -(mu2 * W1_2) - mu1 * W1_1 - mu0 * W1_0;
-    const vector_f product_4 = 1.4142135623730951f * R1_0_bar;
-    const vector_f product_5 = 1.4142135623730951f * R1_1_bar;
-    const vector_f product_6 = 1.4142135623730951f * R1_2_bar;
+    const vector_f product_4 = 1.4142135623730951f * sum7;
+    const vector_f product_5 = 1.4142135623730951f * sum8;
+    const vector_f product_6 = 1.4142135623730951f * sum9;
     const vector_f by_by_normal_part_2 = mu0 * product_4 + mu1 * product_5 + mu2 * product_6;
-    const vector_f gap = 0.5f * M0_bar + by_normal_part * product - W0_0 * by_by_normal_part +
-        by_normal_part_2 * product_4 - W1_0 * by_by_normal_part_2;
-    const vector_f gap_2 = 0.5f * M1_bar + by_normal_part * product_2 - W0_1 * by_by_normal_part +
+    const vector_f gap = 0.5f * sum1 + by_normal_part * product - W0_0 * by_by_normal_part + by_normal_part_2
+        * product_4 - W1_0 * by_by_normal_part_2;
+    const vector_f gap_2 = 0.5f * sum2 + by_normal_part * product_2 - W0_1 * by_by_normal_part +
         by_normal_part_2 * product_5 - W1_1 * by_by_normal_part_2;
-    const vector_f gap_3 = 0.5f * M2_bar + by_normal_part * product_3 - W0_2 * by_by_normal_part +
+    const vector_f gap_3 = 0.5f * sum3 + by_normal_part * product_3 - W0_2 * by_by_normal_part +
         by_normal_part_2 * product_6 - W1_2 * by_by_normal_part_2;
-    mu_bar[0] = gap;
-    mu_bar[1] = gap_2;
-    mu_bar[2] = gap_3;
-    W_bar[0] = product - mu0 * by_by_normal_part;
-    W_bar[1] = product_2 - mu1 * by_by_normal_part;
-    W_bar[2] = product_3 - mu2 * by_by_normal_part;
-    W_bar[3] = product_4 - mu0 * by_by_normal_part_2;
-    W_bar[4] = product_5 - mu1 * by_by_normal_part_2;
-    W_bar[5] = product_6 - mu2 * by_by_normal_part_2;
-    amplitude_bar[0] = its_amplitude_bar;
+    mu_bar[0] = its_amplitude * gap;
+    mu_bar[1] = its_amplitude * gap_2;
+    mu_bar[2] = its_amplitude * gap_3;
+    W_bar[0] = its_amplitude * (product - mu0 * by_by_normal_part);
+    W_bar[1] = its_amplitude * (product_2 - mu1 * by_by_normal_part);
+    W_bar[2] = its_amplitude * (product_3 - mu2 * by_by_normal_part);
+    W_bar[3] = its_amplitude * (product_4 - mu0 * by_by_normal_part_2);
+    W_bar[4] = its_amplitude * (product_5 - mu1 * by_by_normal_part_2);
+    W_bar[5] = its_amplitude * (product_6 - mu2 * by_by_normal_part_2);
+    amplitude_bar[0] = sum0;
 }
 
 /* The distances of some points q from one point p. */
@@ -1407,20 +1417,20 @@ OUTLINE void pair_distances_f(
     const vector_f d1 = q1 - p1;
     const vector_f d2 = q2 - p2;
     const vector_f norm_d_squared = d0 * d0 + d1 * d1 + d2 * d2;
-    const vector_f norm_d = vector_sqrt_f(norm_d_squared);
+    const vector_f norm_d = sqrt_each_f(norm_d_squared);
     const vector_f q_plus_p0 = p0 + q0;
     const vector_f q_plus_p1 = p1 + q1;
     const vector_f q_plus_p2 = p2 + q2;
     const vector_f norm_q_plus_p_squared = q_plus_p0 * q_plus_p0 + q_plus_p1 * q_plus_p1 + q_plus_p2 *
         q_plus_p2;
-    const vector_f norm_q_plus_p = vector_sqrt_f(norm_q_plus_p_squared);
-    const vector_f atan2_value = vector_atan2_f(norm_d, norm_q_plus_p);
+    const vector_f norm_q_plus_p = sqrt_each_f(norm_q_plus_p_squared);
+    const vector_f atan2_value = atan2_each_f(norm_d, norm_q_plus_p);
     const vector_f t = 2.0f * atan2_value;
     distance[0] = t;
 }
 
 /*
- * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
  * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
@@ -1429,11 +1439,10 @@ OUTLINE void pair_distances_f(
  * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
  */
 INLINE void pair_backward_f(
-    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
+    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
     const vector_f h0 = X[0];
     const vector_f h1 = X[1];
     const vector_f h2 = X[2];
-    const float amplitude = S[0];
     const float M0 = S[1];
     const float M1 = S[2];
     const float M2 = S[3];
@@ -1454,7 +1463,7 @@ INLINE void pair_backward_f(
     const vector_f total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4;
     const vector_mask_f on_cut_locus = total_5 <= 4.0f * (FLT_EPSILON * FLT_EPSILON);
     const vector_f u = vector_select_f(on_cut_locus, vector_of_f(1.0f), total_5);
-    const vector_f w = vector_sqrt_f(u);
+    const vector_f w = sqrt_each_f(u);
     const vector_f w_gap = 1.0f - w;
     const vector_f eta = vector_polynomial_eta_f(w_gap);
     const vector_f w_gap_2 = w - eta * (1.0f - u);
@@ -1463,7 +1472,7 @@ INLINE void pair_backward_f(
     const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
     const vector_f half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector_f gaussian = vector_exp_f(-half_square);
+    const vector_f gaussian = exp_each_f(-half_square);
     const vector_f a_product = a * gaussian;
     const vector_f chosen = vector_select_f(on_cut_locus, vector_of_f(0.0f), a_product);
     const vector_f over_w = w_gap_2 * a;
@@ -1475,37 +1484,36 @@ INLINE void pair_backward_f(
     const vector_f gap_2 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar;
     const vector_f product_2 = 2.0f * (r0 * gap + r1 * gap_2);
     const vector_f half_square_product = 2.0f * half_square;
-    const vector_f gap_3 = product + a_squared * product_2 - half_square_product * product;
-    const vector_f product_3 = amplitude * chosen;
-    const vector_f gap_4 = product_3 - product_3 * half_square_product;
-    const vector_f product_4 = eta_gap * gap_4;
+    const vector_f product_3 = chosen * (product + a_squared * product_2 - half_square_product * product);
+    const vector_f gap_3 = chosen - chosen * half_square_product;
+    const vector_f product_4 = eta_gap * gap_3;
     const vector_f over_w_product_2 = over_w * product_4;
     const vector_f eta_slope = vector_polynomial_eta_slope_f(w_gap);
-    const vector_f product_5 = gap_4 * over_w_product;
-    const vector_f total_7 = chosen * (amplitude * its_value_bar) + chosen * (amplitude * gap_3);
-    const vector_f by_half_square = -2.0f * (product_3 * product) - total_7;
-    const vector_f product_6 = eta_gap * (2.0f * a_squared * (product_3 * product_2) + total_7 +
+    const vector_f product_5 = gap_3 * over_w_product;
+    const vector_f total_7 = chosen * its_value_bar + product_3;
+    const vector_f by_half_square = -2.0f * (chosen * product) - total_7;
+    const vector_f product_6 = eta_gap * (2.0f * a_squared * (chosen * product_2) + total_7 +
         half_square_product * by_half_square);
     const vector_f total_8 = eta_slope * product_5 - over_w * over_w * (product_4 * total_6 - product_5) +
         product_6;
     const vector_f over_w_product_3 = over_w * total_8;
-    const vector_f product_7 = 2.0f * (product_3 * a_squared);
+    const vector_f product_7 = 2.0f * (chosen * a_squared);
     const vector_f product_8 = 2.0f * (a_squared * by_half_square);
     const vector_f by_r0 = product_7 * gap + r0 * product_8;
     const vector_f r0_product = r0 * product_7;
     const vector_f by_r1 = product_7 * gap_2 + r1 * product_8;
     const vector_f r1_product = r1 * product_7;
-    S_bar[0] = S_bar[0] + vector_select_f(on_cut_locus, vector_of_f(value_on_cut_locus), a_product) *
-            its_value_bar + chosen * gap_3;
-    S_bar[1] = S_bar[1] + over_w_product_2 * h0_bar + h0 * over_w_product_3;
-    S_bar[2] = S_bar[2] + over_w_product_2 * h1_bar + h1 * over_w_product_3;
-    S_bar[3] = S_bar[3] + over_w_product_2 * h2_bar + h2 * over_w_product_3;
-    S_bar[4] = S_bar[4] + h0 * by_r0 - r0_product * h0_bar;
-    S_bar[5] = S_bar[5] + h1 * by_r0 - r0_product * h1_bar;
-    S_bar[6] = S_bar[6] + h2 * by_r0 - r0_product * h2_bar;
-    S_bar[7] = S_bar[7] + h0 * by_r1 - r1_product * h0_bar;
-    S_bar[8] = S_bar[8] + h1 * by_r1 - r1_product * h1_bar;
-    S_bar[9] = S_bar[9] + h2 * by_r1 - r1_product * h2_bar;
+    sums[0] = sums[0] + vector_select_f(on_cut_locus, vector_of_f(value_on_cut_locus), a_product) *
+            its_value_bar + product_3;
+    sums[1] = sums[1] + over_w_product_2 * h0_bar + h0 * over_w_product_3;
+    sums[2] = sums[2] + over_w_product_2 * h1_bar + h1 * over_w_product_3;
+    sums[3] = sums[3] + over_w_product_2 * h2_bar + h2 * over_w_product_3;
+    sums[4] = sums[4] + h0 * by_r0 - r0_product * h0_bar;
+    sums[5] = sums[5] + h1 * by_r0 - r0_product * h1_bar;
+    sums[6] = sums[6] + h2 * by_r0 - r0_product * h2_bar;
+    sums[7] = sums[7] + h0 * by_r1 - r1_product * h0_bar;
+    sums[8] = sums[8] + h1 * by_r1 - r1_product * h1_bar;
+    sums[9] = sums[9] + h2 * by_r1 - r1_product * h2_bar;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -1551,12 +1559,12 @@ INLINE const float *splat_at_f(const vector_f *splats, size_t k) {
     return (const float *)(splats + 4 * row) + (k - row * LANES_f);
 }
 
-static vector_f *work_splats_f(float *work, size_t count) {
+static vector_f *work_reaches_f(float *work, size_t count) {
     return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 7;
 }
 
 static vector_f *work_blocks_f(float *work, size_t count, size_t splat_count) {
-    return work_splats_f(work, count) + 4 * ((splat_count + LANES_f - 1) / LANES_f);
+    return work_reaches_f(work, count) + 4 * ((splat_count + LANES_f - 1) / LANES_f);
 }
 
 static float *work_constants_f(float *work, size_t count, size_t splat_count) {
@@ -1673,7 +1681,7 @@ void sphere_splats_f(
     float *SPHERE_RESTRICT value, float *SPHERE_RESTRICT gradient, float *SPHERE_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1715,7 +1723,7 @@ void sphere_splats_value_f(
     float *SPHERE_RESTRICT value, float *SPHERE_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1761,23 +1769,29 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 3 + 1, point + 3);
 }
 
-/* Adds to S_bar what some vectors of points add to it, those in the list. */
-OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *S_bar) {
-    vector_f sum[11] = {ZERO};
-    for (size_t b = 0; b < size; ++b) {
+/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *sums) {
+    vector_f sum[10] = {ZERO};
+    size_t b = 0;
+    for (; b + 1 < size; b += 2) {
+        const vector_f *point = points + 7 * (size_t)near[b], *other = points + 7 * (size_t)near[b + 1];
+        pair_backward_f(point, S, point + 3, point + 3 + 1, sum);
+        pair_backward_f(other, S, other + 3, other + 3 + 1, sum);
+    }
+    if (b < size) {
         const vector_f *point = points + 7 * (size_t)near[b];
         pair_backward_f(point, S, point + 3, point + 3 + 1, sum);
     }
-    S_bar[0] += vector_sum_f(sum[0]);
-    S_bar[1] += vector_sum_f(sum[1]);
-    S_bar[2] += vector_sum_f(sum[2]);
-    S_bar[3] += vector_sum_f(sum[3]);
-    S_bar[4] += vector_sum_f(sum[4]);
-    S_bar[5] += vector_sum_f(sum[5]);
-    S_bar[6] += vector_sum_f(sum[6]);
-    S_bar[7] += vector_sum_f(sum[7]);
-    S_bar[8] += vector_sum_f(sum[8]);
-    S_bar[9] += vector_sum_f(sum[9]);
+    sums[0] += vector_sum_f(sum[0]);
+    sums[1] += vector_sum_f(sum[1]);
+    sums[2] += vector_sum_f(sum[2]);
+    sums[3] += vector_sum_f(sum[3]);
+    sums[4] += vector_sum_f(sum[4]);
+    sums[5] += vector_sum_f(sum[5]);
+    sums[6] += vector_sum_f(sum[6]);
+    sums[7] += vector_sum_f(sum[7]);
+    sums[8] += vector_sum_f(sum[8]);
+    sums[9] += vector_sum_f(sum[9]);
 }
 
 /*
@@ -1793,7 +1807,7 @@ void sphere_splats_vjp_f(
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES_f ? part : LANES_f;
     vector_f *points = work_points_f(work);
-    vector_f *splats = work_splats_f(work, count), *places = work_blocks_f(work, count, splat_count);
+    vector_f *splats = work_reaches_f(work, count), *places = work_blocks_f(work, count, splat_count);
     float *constants = work_constants_f(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -1819,9 +1833,9 @@ void sphere_splats_vjp_f(
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
-            float sums[LANES_f][11] = {{0}};
+            float sums[LANES_f][10] = {{0}};
             uint32_t near[131072 / (7 * sizeof(vector_f)) + 2];
-            vector_f own_mu[3], own_W[6], own_amplitude[1], S_bar[11], bars[10];
+            vector_f own_mu[3], own_W[6], own_amplitude[1], own_sums[10], bars[10];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
@@ -1833,8 +1847,8 @@ void sphere_splats_vjp_f(
             vector_rows_f(mu, end, start, 3, own_mu);
             vector_rows_f(W, end, start, 6, own_W);
             vector_rows_f(amplitude, end, start, 1, own_amplitude);
-            vector_rows_f(sums[0], LANES_f, 0, 11, S_bar);
-            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 3, bars + 3 + 6);
+            vector_rows_f(sums[0], LANES_f, 0, 10, own_sums);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 3, bars + 3 + 6);
             vector_to_rows_f(bars, mu_bar, end, start, 3, 3);
             vector_to_rows_f(bars + 3, W_bar, end, start, 6, 6);
             vector_to_rows_f(bars + 3 + 6, amplitude_bar, end, start, 1, 1);
@@ -1861,12 +1875,12 @@ void sphere_splats_rows_f(
             vector_f point[7];
             splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector_f own_mu[3], own_W[6], own_amplitude[1], S_bar[11] = {ZERO}, bars[10];
+                vector_f own_mu[3], own_W[6], own_amplitude[1], own_sums[10] = {ZERO}, bars[10];
                 for (int i = 0; i < 3; ++i) own_mu[i] = vector_of_f(mu[3 * k + i]);
                 for (int i = 0; i < 6; ++i) own_W[i] = vector_of_f(W[6 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 11 * k, point + 3, point + 3 + 1, S_bar);
-                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 3, bars + 3 + 6);
+                pair_backward_f(point, constants + 11 * k, point + 3, point + 3 + 1, own_sums);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 3, bars + 3 + 6);
                 vector_to_rows_f(bars, rows + 10 * k, count, block * LANES_f, 10, 10 * splat_count);
             }
         }
@@ -1940,7 +1954,7 @@ double sphere_splats_order_f(
     size_t count, size_t splat_count, const float *SPHERE_RESTRICT x, const float *SPHERE_RESTRICT mu, const float *SPHERE_RESTRICT amplitude, const float *SPHERE_RESTRICT width,
     double limit, size_t *SPHERE_RESTRICT order, float *SPHERE_RESTRICT work) {
     const size_t block = 2 * LANES_f;
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     uint32_t near[256];
     double share = 0;
     for (size_t n = 0; n < count; ++n) order[n] = n;
@@ -1971,3 +1985,5 @@ double sphere_splats_order_f(
     }
     return share;
 }
+
+#endif /* float */

@@ -11,11 +11,9 @@
 /* x, periodic coordinates wrapped */
 void torus_project(const double *TORUS_RESTRICT x, double *TORUS_RESTRICT p_out) {
     const double round_2 = rint(0.15915494309189535 * x[0]);
-    const double p0 = x[0] - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double p0 = x[0] - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double round_3 = rint(0.15915494309189535 * x[1]);
-    const double p1 = x[1] - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const double p1 = x[1] - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     p_out[0] = p0;
     p_out[1] = p1;
 }
@@ -96,12 +94,10 @@ void torus_flat_batch(
 void torus_exp(const double *TORUS_RESTRICT p, const double *TORUS_RESTRICT v, double *TORUS_RESTRICT q_out) {
     const double total_2 = p[0] + v[0];
     const double round_2 = rint(0.15915494309189535 * total_2);
-    const double q0 = total_2 - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double q0 = total_2 - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double total_3 = p[1] + v[1];
     const double round_3 = rint(0.15915494309189535 * total_3);
-    const double q1 = total_3 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const double q1 = total_3 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     q_out[0] = q0;
     q_out[1] = q1;
 }
@@ -118,12 +114,10 @@ void torus_exp_batch(
 void torus_log(const double *TORUS_RESTRICT p, const double *TORUS_RESTRICT q, double *TORUS_RESTRICT v_out) {
     const double gap = q[0] - p[0];
     const double round_2 = rint(0.15915494309189535 * gap);
-    const double v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double gap_2 = q[1] - p[1];
     const double round_3 = rint(0.15915494309189535 * gap_2);
-    const double v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const double v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     v_out[0] = v0;
     v_out[1] = v1;
 }
@@ -140,12 +134,10 @@ void torus_log_batch(
 double torus_distance(const double *TORUS_RESTRICT p, const double *TORUS_RESTRICT q) {
     const double gap = q[0] - p[0];
     const double round_2 = rint(0.15915494309189535 * gap);
-    const double log0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double log0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double gap_2 = q[1] - p[1];
     const double round_3 = rint(0.15915494309189535 * gap_2);
-    const double log1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const double log1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     return sqrt(log0 * log0 + log1 * log1);
 }
 
@@ -232,11 +224,9 @@ void torus_sample(
     double *TORUS_RESTRICT p_out) {
     (void)normal;
     const double round_2 = rint(uniform[0]);
-    const double p0 = 6.283185307179586 * uniform[0] - 6.28125 * round_2 - 0.0019350051879882812 * round_2 -
-        3.019915981956753e-07 * round_2;
+    const double p0 = 6.283185307179586 * uniform[0] - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double round_3 = rint(uniform[1]);
-    const double p1 = 6.283185307179586 * uniform[1] - 6.28125 * round_3 - 0.0019350051879882812 * round_3 -
-        3.019915981956753e-07 * round_3;
+    const double p1 = 6.283185307179586 * uniform[1] - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     p_out[0] = p0;
     p_out[1] = p1;
 }
@@ -259,12 +249,10 @@ void torus_splat(
     double *TORUS_RESTRICT gradient_out) {
     const double gap = x[0] - mu[0];
     const double round_2 = rint(0.15915494309189535 * gap);
-    const double v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const double v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const double gap_2 = x[1] - mu[1];
     const double round_3 = rint(0.15915494309189535 * gap_2);
-    const double v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const double v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const double z0 = W[0] * v0 + W[1] * v1;
     const double z1 = W[2] * v0 + W[3] * v1;
     const double exp_2 = exp(-(0.5 * (z0 * z0 + z1 * z1)));
@@ -315,11 +303,9 @@ void torus_frame(const double *TORUS_RESTRICT p, double *TORUS_RESTRICT frame) {
 /* x, periodic coordinates wrapped */
 void torus_project_f(const float *TORUS_RESTRICT x, float *TORUS_RESTRICT p_out) {
     const float round_2 = rintf(0.15915494309189535f * x[0]);
-    const float p0 = x[0] - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float p0 = x[0] - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float round_3 = rintf(0.15915494309189535f * x[1]);
-    const float p1 = x[1] - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f *
-        round_3;
+    const float p1 = x[1] - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     p_out[0] = p0;
     p_out[1] = p1;
 }
@@ -400,12 +386,10 @@ void torus_flat_batch_f(
 void torus_exp_f(const float *TORUS_RESTRICT p, const float *TORUS_RESTRICT v, float *TORUS_RESTRICT q_out) {
     const float total_2 = p[0] + v[0];
     const float round_2 = rintf(0.15915494309189535f * total_2);
-    const float q0 = total_2 - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f
-        * round_2;
+    const float q0 = total_2 - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float total_3 = p[1] + v[1];
     const float round_3 = rintf(0.15915494309189535f * total_3);
-    const float q1 = total_3 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
-        * round_3;
+    const float q1 = total_3 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     q_out[0] = q0;
     q_out[1] = q1;
 }
@@ -422,12 +406,10 @@ void torus_exp_batch_f(
 void torus_log_f(const float *TORUS_RESTRICT p, const float *TORUS_RESTRICT q, float *TORUS_RESTRICT v_out) {
     const float gap = q[0] - p[0];
     const float round_2 = rintf(0.15915494309189535f * gap);
-    const float v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float gap_2 = q[1] - p[1];
     const float round_3 = rintf(0.15915494309189535f * gap_2);
-    const float v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f *
-        round_3;
+    const float v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     v_out[0] = v0;
     v_out[1] = v1;
 }
@@ -444,12 +426,10 @@ void torus_log_batch_f(
 float torus_distance_f(const float *TORUS_RESTRICT p, const float *TORUS_RESTRICT q) {
     const float gap = q[0] - p[0];
     const float round_2 = rintf(0.15915494309189535f * gap);
-    const float log0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float log0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float gap_2 = q[1] - p[1];
     const float round_3 = rintf(0.15915494309189535f * gap_2);
-    const float log1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
-        * round_3;
+    const float log1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     return sqrtf(log0 * log0 + log1 * log1);
 }
 
@@ -536,11 +516,9 @@ void torus_sample_f(
     float *TORUS_RESTRICT p_out) {
     (void)normal;
     const float round_2 = rintf(uniform[0]);
-    const float p0 = 6.283185307179586f * uniform[0] - 6.28125f * round_2 - 0.0019350051879882812f * round_2 -
-        3.019915981956753e-07f * round_2;
+    const float p0 = 6.283185307179586f * uniform[0] - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float round_3 = rintf(uniform[1]);
-    const float p1 = 6.283185307179586f * uniform[1] - 6.28125f * round_3 - 0.0019350051879882812f * round_3 -
-        3.019915981956753e-07f * round_3;
+    const float p1 = 6.283185307179586f * uniform[1] - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     p_out[0] = p0;
     p_out[1] = p1;
 }
@@ -563,12 +541,10 @@ void torus_splat_f(
     float *TORUS_RESTRICT gradient_out) {
     const float gap = x[0] - mu[0];
     const float round_2 = rintf(0.15915494309189535f * gap);
-    const float v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const float v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const float gap_2 = x[1] - mu[1];
     const float round_3 = rintf(0.15915494309189535f * gap_2);
-    const float v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f *
-        round_3;
+    const float v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const float z0 = W[0] * v0 + W[1] * v1;
     const float z1 = W[2] * v0 + W[3] * v1;
     const float exp_2 = expf(-(0.5f * (z0 * z0 + z1 * z1)));

@@ -6,21 +6,21 @@
  * log |det D Log|: found to be 0, checked against the determinant.
  *
  *                       operations   float64  float32
- * project                       16
+ * project                       12
  * to_tangent                     0
  * inner                          3
  * norm                           4
  * flat                           0
- * exp                           18      <= 1     <= 1
- * log                           18      <= 1     <= 1
- * distance                      22      <= 1     <= 1
+ * exp                           14      <= 1     <= 1
+ * log                           14      <= 1     <= 1
+ * distance                      18      <= 1     <= 1
  * log_abs_det                    0      <= 1     <= 1
  * riemannian_gradient            0
  * gradient_norm                  4
  * transport                      0
- * sample                        16
- * splat                         41
- * splat_vjp                     80
+ * sample                        12
+ * splat                         37
+ * splat_vjp                     76
  *
  * Errors are the worst of 36 points against 60 digits, in units of the error that rounding the
  * inputs and the output to the precision alone would cause.

@@ -81,6 +81,8 @@ INLINE uint64_t flush_denormals(void) { return 0; }
 INLINE void restore_denormals(uint64_t mode) { (void)mode; }
 #endif
 
+#if !defined(RSRM_ONLY_FLOAT) /* double */
+
 /* The same number in all lanes. */
 INLINE vector vector_of(double x) {
     const vector zero = ZERO;
@@ -121,26 +123,22 @@ INLINE vector vector_from_bits(vector_bits bits) {
     return x;
 }
 
-/* round of every lane; one instruction where the machine has it. */
-INLINE vector vector_round(vector x) {
-    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = rint(LANE(x, i));
-    return x;
-}
+/* round to even, of numbers below 2^51; of larger ones, a whole number close by. */
+INLINE vector round_each(vector x) { return (x + 6755399441055744.0) - 6755399441055744.0; }
 
 /* sqrt of every lane; one instruction where the machine has it. */
-INLINE vector vector_sqrt(vector x) {
+INLINE vector sqrt_each(vector x) {
     for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
     return x;
 }
 
-/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
-INLINE vector vector_exp(vector x) {
-    const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
-    const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
-    const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
-    const vector scale = vector_from_bits((vector_to_bits(shifted) + 1022) << 52); /* 2^(k - 1) */
-    const vector y = vector_select(x > 709.782712893384, vector_of(HUGE_VAL), (scale + scale * part) * 2);
-    return vector_select(x < -707.9, vector_of(0), y);
+/* exp(-s / 2) of s >= 0, as 2^k exp(-r / 2), |r| <= log(2), within 1 unit in the last place; below 3.8e-308 it is 0. */
+INLINE vector gaussian_each(vector s) {
+    const vector shifted = s * -0.7213475204444817 + 6755399441056767.0, k = shifted - 6755399441056767.0;
+    const vector r = (s + k * 1.3862943611202354) + k * -3.447888905122967e-13;
+    const vector part = r * (-0.5 + r * (0.12500000000000003 + r * (-0.020833333333333336 + r * (0.0026041666666640085 + r * (-0.0002604166666665645 + r * (2.170138893314011e-05 + r * (-1.5500992080508208e-06 + r * (9.688094258687923e-08 + r * (-5.382278997037427e-09 + r * (2.697273970216642e-10 + r * -1.2256046482356944e-11))))))))));
+    const vector scale = vector_from_bits(vector_to_bits(shifted) << 52); /* 2^k */
+    return vector_select(s > 1415.8, vector_of(0), scale + scale * part);
 }
 
 /* What pairs read of points x. */
@@ -188,17 +186,15 @@ INLINE void pair_value(
     const double W1_1 = S[5];
     const double amplitude = S[6];
     const vector gap = x0 - mu0;
-    const vector round_2 = vector_round(0.15915494309189535 * gap);
-    const vector v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const vector round_2 = round_each(0.15915494309189535 * gap);
+    const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const vector gap_2 = x1 - mu1;
-    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
-    const vector v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const vector round_3 = round_each(0.15915494309189535 * gap_2);
+    const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const vector z0 = W0_0 * v0 + W0_1 * v1;
     const vector z1 = W1_0 * v0 + W1_1 * v1;
-    const vector exp_2 = vector_exp(-0.5 * (z0 * z0 + z1 * z1));
-    value[0] = value[0] + amplitude * exp_2;
+    const vector phi = gaussian_each(z0 * z0 + z1 * z1);
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -218,22 +214,18 @@ INLINE void pair_forward(
     const double W1_1 = S[5];
     const double amplitude = S[6];
     const vector gap = x0 - mu0;
-    const vector round_2 = vector_round(0.15915494309189535 * gap);
-    const vector v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const vector round_2 = round_each(0.15915494309189535 * gap);
+    const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const vector gap_2 = x1 - mu1;
-    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
-    const vector v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const vector round_3 = round_each(0.15915494309189535 * gap_2);
+    const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const vector z0 = W0_0 * v0 + W0_1 * v1;
     const vector z1 = W1_0 * v0 + W1_1 * v1;
-    const vector exp_2 = vector_exp(-0.5 * (z0 * z0 + z1 * z1));
-    const vector phi = amplitude * exp_2;
-    const vector z1_product = z1 * phi;
-    const vector z0_product = z0 * phi;
-    value[0] = value[0] + phi;
-    slope[0] = slope[0] - W1_0 * z1_product - W0_0 * z0_product;
-    slope[1] = slope[1] - W1_1 * z1_product - W0_1 * z0_product;
+    const vector phi = gaussian_each(z0 * z0 + z1 * z1);
+    const vector phi_2 = amplitude * phi;
+    value[0] = value[0] + phi_2;
+    slope[0] = slope[0] - phi_2 * (W1_0 * z1 + W0_0 * z0);
+    slope[1] = slope[1] - phi_2 * (W1_1 * z1 + W0_1 * z0);
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -256,26 +248,33 @@ OUTLINE void pair_gradient_vjp(
     slope_bar[1] = gradient_bar1;
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp(
-    const vector *mu, const vector *W, const vector *amplitude, const vector *S_bar, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
+    const vector *mu, const vector *W, const vector *amplitude, const vector *sums, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
     (void)mu;
-    (void)W;
-    (void)amplitude;
-    const vector mu0_bar = S_bar[0];
-    const vector mu1_bar = S_bar[1];
-    const vector W0_0_bar = S_bar[2];
-    const vector W0_1_bar = S_bar[3];
-    const vector W1_0_bar = S_bar[4];
-    const vector W1_1_bar = S_bar[5];
-    const vector its_amplitude_bar = S_bar[6];
-    mu_bar[0] = mu0_bar;
-    mu_bar[1] = mu1_bar;
-    W_bar[0] = W0_0_bar;
-    W_bar[1] = W0_1_bar;
-    W_bar[2] = W1_0_bar;
-    W_bar[3] = W1_1_bar;
-    amplitude_bar[0] = its_amplitude_bar;
+    const vector W0_0 = W[0];
+    const vector W0_1 = W[1];
+    const vector W1_0 = W[2];
+    const vector W1_1 = W[3];
+    const vector its_amplitude = amplitude[0];
+    const vector sum0 = sums[0];
+    const vector sum1 = sums[1];
+    const vector sum2 = sums[2];
+    const vector sum3 = sums[3];
+    const vector sum4 = sums[4];
+    const vector sum5 = sums[5];
+    const vector M0_0 = W0_0 * W0_0 + W1_0 * W1_0;
+    const vector M0_1 = W0_0 * W0_1 + W1_0 * W1_1;
+    const vector M1_1 = W0_1 * W0_1 + W1_1 * W1_1;
+    const vector product = 2.0 * sum3;
+    const vector product_2 = 2.0 * sum5;
+    mu_bar[0] = its_amplitude * (M0_0 * sum0 + M0_1 * sum1);
+    mu_bar[1] = its_amplitude * (M0_1 * sum0 + M1_1 * sum1);
+    W_bar[0] = its_amplitude * (W0_0 * product + W0_1 * sum4);
+    W_bar[1] = its_amplitude * (W0_0 * sum4 + W0_1 * product_2);
+    W_bar[2] = its_amplitude * (W1_0 * product + W1_1 * sum4);
+    W_bar[3] = its_amplitude * (W1_0 * sum4 + W1_1 * product_2);
+    amplitude_bar[0] = sum2;
 }
 
 /* The distances of some points q from one point p. */
@@ -286,23 +285,21 @@ OUTLINE void pair_distances(
     const vector q0 = q[0];
     const vector q1 = q[1];
     const vector gap = q0 - p0;
-    const vector round_2 = vector_round(0.15915494309189535 * gap);
-    const vector log0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const vector round_2 = round_each(0.15915494309189535 * gap);
+    const vector log0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const vector gap_2 = q1 - p1;
-    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
-    const vector log1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
-    distance[0] = vector_sqrt(log0 * log0 + log1 * log1);
+    const vector round_3 = round_each(0.15915494309189535 * gap_2);
+    const vector log1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
+    distance[0] = sqrt_each(log0 * log0 + log1 * log1);
 }
 
 /*
- * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_backward(
-    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *S_bar) {
+    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
     const vector x0 = X[0];
     const vector x1 = X[1];
     const double mu0 = S[0];
@@ -311,37 +308,31 @@ INLINE void pair_backward(
     const double W0_1 = S[3];
     const double W1_0 = S[4];
     const double W1_1 = S[5];
-    const double amplitude = S[6];
     const vector its_value_bar = value_bar[0];
     const vector x0_bar = slope_bar[0];
     const vector x1_bar = slope_bar[1];
     const vector gap = x0 - mu0;
-    const vector round_2 = vector_round(0.15915494309189535 * gap);
-    const vector v0 = gap - 6.28125 * round_2 - 0.0019350051879882812 * round_2 - 3.019915981956753e-07 *
-        round_2;
+    const vector round_2 = round_each(0.15915494309189535 * gap);
+    const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
     const vector gap_2 = x1 - mu1;
-    const vector round_3 = vector_round(0.15915494309189535 * gap_2);
-    const vector v1 = gap_2 - 6.28125 * round_3 - 0.0019350051879882812 * round_3 - 3.019915981956753e-07 *
-        round_3;
+    const vector round_3 = round_each(0.15915494309189535 * gap_2);
+    const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     const vector z0 = W0_0 * v0 + W0_1 * v1;
     const vector z1 = W1_0 * v0 + W1_1 * v1;
-    const vector exp_2 = vector_exp(-0.5 * (z0 * z0 + z1 * z1));
-    const vector phi = amplitude * exp_2;
-    const vector gap_3 = -(W1_0 * x0_bar) - W1_1 * x1_bar;
-    const vector gap_4 = -(W0_0 * x0_bar) - W0_1 * x1_bar;
-    const vector by_phi = its_value_bar + z0 * gap_4 + z1 * gap_3;
-    const vector product = exp_2 * (amplitude * by_phi);
-    const vector by_z1 = phi * gap_3 - z1 * product;
-    const vector by_z0 = phi * gap_4 - z0 * product;
-    const vector z0_product = z0 * phi;
-    const vector z1_product = z1 * phi;
-    S_bar[0] = S_bar[0] - W1_0 * by_z1 - W0_0 * by_z0;
-    S_bar[1] = S_bar[1] - W1_1 * by_z1 - W0_1 * by_z0;
-    S_bar[2] = S_bar[2] + v0 * by_z0 - z0_product * x0_bar;
-    S_bar[3] = S_bar[3] + v1 * by_z0 - z0_product * x1_bar;
-    S_bar[4] = S_bar[4] + v0 * by_z1 - z1_product * x0_bar;
-    S_bar[5] = S_bar[5] + v1 * by_z1 - z1_product * x1_bar;
-    S_bar[6] = S_bar[6] + exp_2 * by_phi;
+    const vector phi = gaussian_each(z0 * z0 + z1 * z1);
+    const vector phi_product = phi * x0_bar;
+    const vector by_phi = its_value_bar - (W1_1 * z1 + W0_1 * z0) * x1_bar - (W1_0 * z1 + W0_0 * z0) * x0_bar;
+    const vector phi_product_2 = phi * by_phi;
+    const vector phi_product_3 = phi * x1_bar;
+    const vector product = 0.5 * phi_product_2;
+    const vector gap_3 = -phi_product - v0 * product;
+    const vector gap_4 = -phi_product_3 - v1 * product;
+    sums[0] = sums[0] + phi_product + v0 * phi_product_2;
+    sums[1] = sums[1] + phi_product_3 + v1 * phi_product_2;
+    sums[2] = sums[2] + phi_product_2;
+    sums[3] = sums[3] + v0 * gap_3;
+    sums[4] = sums[4] + v0 * gap_4 + v1 * gap_3;
+    sums[5] = sums[5] + v1 * gap_4;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -387,12 +378,12 @@ INLINE const double *splat_at(const vector *splats, size_t k) {
     return (const double *)(splats + 3 * row) + (k - row * LANES);
 }
 
-static vector *work_splats(double *work, size_t count) {
+static vector *work_reaches(double *work, size_t count) {
     return work_points(work) + (count + LANES - 1) / LANES * 5;
 }
 
 static vector *work_blocks(double *work, size_t count, size_t splat_count) {
-    return work_splats(work, count) + 3 * ((splat_count + LANES - 1) / LANES);
+    return work_reaches(work, count) + 3 * ((splat_count + LANES - 1) / LANES);
 }
 
 static double *work_constants(double *work, size_t count, size_t splat_count) {
@@ -509,7 +500,7 @@ void torus_splats(
     double *TORUS_RESTRICT value, double *TORUS_RESTRICT gradient, double *TORUS_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -551,7 +542,7 @@ void torus_splats_value(
     double *TORUS_RESTRICT value, double *TORUS_RESTRICT work, int threads) {
     (void)threads;
     double *constants = work_constants(work, 0, splat_count);
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -597,20 +588,25 @@ OUTLINE void splat_points(
     vector_end(count, start, 2 + 1, point + 2);
 }
 
-/* Adds to S_bar what some vectors of points add to it, those in the list. */
-OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *S_bar) {
-    vector sum[7] = {ZERO};
-    for (size_t b = 0; b < size; ++b) {
+/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *sums) {
+    vector sum[6] = {ZERO};
+    size_t b = 0;
+    for (; b + 1 < size; b += 2) {
+        const vector *point = points + 5 * (size_t)near[b], *other = points + 5 * (size_t)near[b + 1];
+        pair_backward(point, S, point + 2, point + 2 + 1, sum);
+        pair_backward(other, S, other + 2, other + 2 + 1, sum);
+    }
+    if (b < size) {
         const vector *point = points + 5 * (size_t)near[b];
         pair_backward(point, S, point + 2, point + 2 + 1, sum);
     }
-    S_bar[0] += vector_sum(sum[0]);
-    S_bar[1] += vector_sum(sum[1]);
-    S_bar[2] += vector_sum(sum[2]);
-    S_bar[3] += vector_sum(sum[3]);
-    S_bar[4] += vector_sum(sum[4]);
-    S_bar[5] += vector_sum(sum[5]);
-    S_bar[6] += vector_sum(sum[6]);
+    sums[0] += vector_sum(sum[0]);
+    sums[1] += vector_sum(sum[1]);
+    sums[2] += vector_sum(sum[2]);
+    sums[3] += vector_sum(sum[3]);
+    sums[4] += vector_sum(sum[4]);
+    sums[5] += vector_sum(sum[5]);
 }
 
 /*
@@ -626,7 +622,7 @@ void torus_splats_vjp(
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES ? part : LANES;
     vector *points = work_points(work);
-    vector *splats = work_splats(work, count), *places = work_blocks(work, count, splat_count);
+    vector *splats = work_reaches(work, count), *places = work_blocks(work, count, splat_count);
     double *constants = work_constants(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -652,9 +648,9 @@ void torus_splats_vjp(
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
-            double sums[LANES][7] = {{0}};
+            double sums[LANES][6] = {{0}};
             uint32_t near[131072 / (5 * sizeof(vector)) + 2];
-            vector own_mu[2], own_W[4], own_amplitude[1], S_bar[7], bars[7];
+            vector own_mu[2], own_W[4], own_amplitude[1], own_sums[6], bars[7];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
@@ -666,8 +662,8 @@ void torus_splats_vjp(
             vector_rows(mu, end, start, 2, own_mu);
             vector_rows(W, end, start, 4, own_W);
             vector_rows(amplitude, end, start, 1, own_amplitude);
-            vector_rows(sums[0], LANES, 0, 7, S_bar);
-            pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+            vector_rows(sums[0], LANES, 0, 6, own_sums);
+            pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 4);
             vector_to_rows(bars, mu_bar, end, start, 2, 2);
             vector_to_rows(bars + 2, W_bar, end, start, 4, 4);
             vector_to_rows(bars + 2 + 4, amplitude_bar, end, start, 1, 1);
@@ -694,12 +690,12 @@ void torus_splats_rows(
             vector point[5];
             splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector own_mu[2], own_W[4], own_amplitude[1], S_bar[7] = {ZERO}, bars[7];
+                vector own_mu[2], own_W[4], own_amplitude[1], own_sums[6] = {ZERO}, bars[7];
                 for (int i = 0; i < 2; ++i) own_mu[i] = vector_of(mu[2 * k + i]);
                 for (int i = 0; i < 4; ++i) own_W[i] = vector_of(W[4 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 7 * k, point + 2, point + 2 + 1, S_bar);
-                pair_constants_vjp(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+                pair_backward(point, constants + 7 * k, point + 2, point + 2 + 1, own_sums);
+                pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 4);
                 vector_to_rows(bars, rows + 7 * k, count, block * LANES, 7, 7 * splat_count);
             }
         }
@@ -773,7 +769,7 @@ double torus_splats_order(
     size_t count, size_t splat_count, const double *TORUS_RESTRICT x, const double *TORUS_RESTRICT mu, const double *TORUS_RESTRICT amplitude, const double *TORUS_RESTRICT width,
     double limit, size_t *TORUS_RESTRICT order, double *TORUS_RESTRICT work) {
     const size_t block = 2 * LANES;
-    vector *splats = work_splats(work, 0);
+    vector *splats = work_reaches(work, 0);
     uint32_t near[256];
     double share = 0;
     for (size_t n = 0; n < count; ++n) order[n] = n;
@@ -804,6 +800,10 @@ double torus_splats_order(
     }
     return share;
 }
+
+#endif /* double */
+
+#if !defined(RSRM_ONLY_DOUBLE) /* float */
 
 /* The same number in all lanes. */
 INLINE vector_f vector_of_f(float x) {
@@ -845,26 +845,22 @@ INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
     return x;
 }
 
-/* round of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_round_f(vector_f x) {
-    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = rintf(LANE(x, i));
-    return x;
-}
+/* round to even, of numbers below 2^22; of larger ones, a whole number close by. */
+INLINE vector_f round_each_f(vector_f x) { return (x + 12582912.0f) - 12582912.0f; }
 
 /* sqrt of every lane; one instruction where the machine has it. */
-INLINE vector_f vector_sqrt_f(vector_f x) {
+INLINE vector_f sqrt_each_f(vector_f x) {
     for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
     return x;
 }
 
-/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
-INLINE vector_f vector_exp_f(vector_f x) {
-    const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
-    const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
-    const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
-    const vector_f scale = vector_from_bits_f((vector_to_bits_f(shifted) + 126) << 23); /* 2^(k - 1) */
-    const vector_f y = vector_select_f(x > 88.722839f, vector_of_f(HUGE_VALF), (scale + scale * part) * 2);
-    return vector_select_f(x < -86.9f, vector_of_f(0), y);
+/* exp(-s / 2) of s >= 0, as 2^k exp(-r / 2), |r| <= log(2), within 1 unit in the last place; below 1.8e-38 it is 0. */
+INLINE vector_f gaussian_each_f(vector_f s) {
+    const vector_f shifted = s * -0.7213475204444817f + 12583039.0f, k = shifted - 12583039.0f;
+    const vector_f r = (s + k * 1.38629150390625f) + k * 2.8572136406188345e-06f;
+    const vector_f part = r * (-0.5f + r * (0.125f + r * (-0.020833221247803655f + r * (0.0026041596642423803f + r * (-0.0002613493009373264f + r * 2.1759659078889598e-05f)))));
+    const vector_f scale = vector_from_bits_f(vector_to_bits_f(shifted) << 23); /* 2^k */
+    return vector_select_f(s > 173.8f, vector_of_f(0), scale + scale * part);
 }
 
 /* What pairs read of points x. */
@@ -912,17 +908,15 @@ INLINE void pair_value_f(
     const float W1_1 = S[5];
     const float amplitude = S[6];
     const vector_f gap = x0 - mu0;
-    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
-    const vector_f v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+    const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const vector_f gap_2 = x1 - mu1;
-    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
-    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
-        * round_3;
+    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const vector_f z0 = W0_0 * v0 + W0_1 * v1;
     const vector_f z1 = W1_0 * v0 + W1_1 * v1;
-    const vector_f exp_2 = vector_exp_f(-0.5f * (z0 * z0 + z1 * z1));
-    value[0] = value[0] + amplitude * exp_2;
+    const vector_f phi = gaussian_each_f(z0 * z0 + z1 * z1);
+    value[0] = value[0] + amplitude * phi;
 }
 
 /*
@@ -942,22 +936,18 @@ INLINE void pair_forward_f(
     const float W1_1 = S[5];
     const float amplitude = S[6];
     const vector_f gap = x0 - mu0;
-    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
-    const vector_f v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+    const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const vector_f gap_2 = x1 - mu1;
-    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
-    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
-        * round_3;
+    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const vector_f z0 = W0_0 * v0 + W0_1 * v1;
     const vector_f z1 = W1_0 * v0 + W1_1 * v1;
-    const vector_f exp_2 = vector_exp_f(-0.5f * (z0 * z0 + z1 * z1));
-    const vector_f phi = amplitude * exp_2;
-    const vector_f z1_product = z1 * phi;
-    const vector_f z0_product = z0 * phi;
-    value[0] = value[0] + phi;
-    slope[0] = slope[0] - W1_0 * z1_product - W0_0 * z0_product;
-    slope[1] = slope[1] - W1_1 * z1_product - W0_1 * z0_product;
+    const vector_f phi = gaussian_each_f(z0 * z0 + z1 * z1);
+    const vector_f phi_2 = amplitude * phi;
+    value[0] = value[0] + phi_2;
+    slope[0] = slope[0] - phi_2 * (W1_0 * z1 + W0_0 * z0);
+    slope[1] = slope[1] - phi_2 * (W1_1 * z1 + W0_1 * z0);
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -980,26 +970,33 @@ OUTLINE void pair_gradient_vjp_f(
     slope_bar[1] = gradient_bar1;
 }
 
-/* The adjoints of some splats' parameters, of that of S. */
+/* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp_f(
-    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *S_bar, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
+    const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *sums, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
     (void)mu;
-    (void)W;
-    (void)amplitude;
-    const vector_f mu0_bar = S_bar[0];
-    const vector_f mu1_bar = S_bar[1];
-    const vector_f W0_0_bar = S_bar[2];
-    const vector_f W0_1_bar = S_bar[3];
-    const vector_f W1_0_bar = S_bar[4];
-    const vector_f W1_1_bar = S_bar[5];
-    const vector_f its_amplitude_bar = S_bar[6];
-    mu_bar[0] = mu0_bar;
-    mu_bar[1] = mu1_bar;
-    W_bar[0] = W0_0_bar;
-    W_bar[1] = W0_1_bar;
-    W_bar[2] = W1_0_bar;
-    W_bar[3] = W1_1_bar;
-    amplitude_bar[0] = its_amplitude_bar;
+    const vector_f W0_0 = W[0];
+    const vector_f W0_1 = W[1];
+    const vector_f W1_0 = W[2];
+    const vector_f W1_1 = W[3];
+    const vector_f its_amplitude = amplitude[0];
+    const vector_f sum0 = sums[0];
+    const vector_f sum1 = sums[1];
+    const vector_f sum2 = sums[2];
+    const vector_f sum3 = sums[3];
+    const vector_f sum4 = sums[4];
+    const vector_f sum5 = sums[5];
+    const vector_f M0_0 = W0_0 * W0_0 + W1_0 * W1_0;
+    const vector_f M0_1 = W0_0 * W0_1 + W1_0 * W1_1;
+    const vector_f M1_1 = W0_1 * W0_1 + W1_1 * W1_1;
+    const vector_f product = 2.0f * sum3;
+    const vector_f product_2 = 2.0f * sum5;
+    mu_bar[0] = its_amplitude * (M0_0 * sum0 + M0_1 * sum1);
+    mu_bar[1] = its_amplitude * (M0_1 * sum0 + M1_1 * sum1);
+    W_bar[0] = its_amplitude * (W0_0 * product + W0_1 * sum4);
+    W_bar[1] = its_amplitude * (W0_0 * sum4 + W0_1 * product_2);
+    W_bar[2] = its_amplitude * (W1_0 * product + W1_1 * sum4);
+    W_bar[3] = its_amplitude * (W1_0 * sum4 + W1_1 * product_2);
+    amplitude_bar[0] = sum2;
 }
 
 /* The distances of some points q from one point p. */
@@ -1010,23 +1007,21 @@ OUTLINE void pair_distances_f(
     const vector_f q0 = q[0];
     const vector_f q1 = q[1];
     const vector_f gap = q0 - p0;
-    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
-    const vector_f log0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f
-        * round_2;
+    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+    const vector_f log0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const vector_f gap_2 = q1 - p1;
-    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
-    const vector_f log1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 -
-        3.019915981956753e-07f * round_3;
-    distance[0] = vector_sqrt_f(log0 * log0 + log1 * log1);
+    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+    const vector_f log1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
+    distance[0] = sqrt_each_f(log0 * log0 + log1 * log1);
 }
 
 /*
- * Adds the derivatives of phi value_bar + slope . slope_bar in S, of a splat at some points.
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_backward_f(
-    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *S_bar) {
+    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
     const vector_f x0 = X[0];
     const vector_f x1 = X[1];
     const float mu0 = S[0];
@@ -1035,37 +1030,32 @@ INLINE void pair_backward_f(
     const float W0_1 = S[3];
     const float W1_0 = S[4];
     const float W1_1 = S[5];
-    const float amplitude = S[6];
     const vector_f its_value_bar = value_bar[0];
     const vector_f x0_bar = slope_bar[0];
     const vector_f x1_bar = slope_bar[1];
     const vector_f gap = x0 - mu0;
-    const vector_f round_2 = vector_round_f(0.15915494309189535f * gap);
-    const vector_f v0 = gap - 6.28125f * round_2 - 0.0019350051879882812f * round_2 - 3.019915981956753e-07f *
-        round_2;
+    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+    const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
     const vector_f gap_2 = x1 - mu1;
-    const vector_f round_3 = vector_round_f(0.15915494309189535f * gap_2);
-    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.0019350051879882812f * round_3 - 3.019915981956753e-07f
-        * round_3;
+    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     const vector_f z0 = W0_0 * v0 + W0_1 * v1;
     const vector_f z1 = W1_0 * v0 + W1_1 * v1;
-    const vector_f exp_2 = vector_exp_f(-0.5f * (z0 * z0 + z1 * z1));
-    const vector_f phi = amplitude * exp_2;
-    const vector_f gap_3 = -(W1_0 * x0_bar) - W1_1 * x1_bar;
-    const vector_f gap_4 = -(W0_0 * x0_bar) - W0_1 * x1_bar;
-    const vector_f by_phi = its_value_bar + z0 * gap_4 + z1 * gap_3;
-    const vector_f product = exp_2 * (amplitude * by_phi);
-    const vector_f by_z1 = phi * gap_3 - z1 * product;
-    const vector_f by_z0 = phi * gap_4 - z0 * product;
-    const vector_f z0_product = z0 * phi;
-    const vector_f z1_product = z1 * phi;
-    S_bar[0] = S_bar[0] - W1_0 * by_z1 - W0_0 * by_z0;
-    S_bar[1] = S_bar[1] - W1_1 * by_z1 - W0_1 * by_z0;
-    S_bar[2] = S_bar[2] + v0 * by_z0 - z0_product * x0_bar;
-    S_bar[3] = S_bar[3] + v1 * by_z0 - z0_product * x1_bar;
-    S_bar[4] = S_bar[4] + v0 * by_z1 - z1_product * x0_bar;
-    S_bar[5] = S_bar[5] + v1 * by_z1 - z1_product * x1_bar;
-    S_bar[6] = S_bar[6] + exp_2 * by_phi;
+    const vector_f phi = gaussian_each_f(z0 * z0 + z1 * z1);
+    const vector_f phi_product = phi * x0_bar;
+    const vector_f by_phi = its_value_bar - (W1_1 * z1 + W0_1 * z0) * x1_bar - (W1_0 * z1 + W0_0 * z0) *
+        x0_bar;
+    const vector_f phi_product_2 = phi * by_phi;
+    const vector_f phi_product_3 = phi * x1_bar;
+    const vector_f product = 0.5f * phi_product_2;
+    const vector_f gap_3 = -phi_product - v0 * product;
+    const vector_f gap_4 = -phi_product_3 - v1 * product;
+    sums[0] = sums[0] + phi_product + v0 * phi_product_2;
+    sums[1] = sums[1] + phi_product_3 + v1 * phi_product_2;
+    sums[2] = sums[2] + phi_product_2;
+    sums[3] = sums[3] + v0 * gap_3;
+    sums[4] = sums[4] + v0 * gap_4 + v1 * gap_3;
+    sums[5] = sums[5] + v1 * gap_4;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -1111,12 +1101,12 @@ INLINE const float *splat_at_f(const vector_f *splats, size_t k) {
     return (const float *)(splats + 3 * row) + (k - row * LANES_f);
 }
 
-static vector_f *work_splats_f(float *work, size_t count) {
+static vector_f *work_reaches_f(float *work, size_t count) {
     return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 5;
 }
 
 static vector_f *work_blocks_f(float *work, size_t count, size_t splat_count) {
-    return work_splats_f(work, count) + 3 * ((splat_count + LANES_f - 1) / LANES_f);
+    return work_reaches_f(work, count) + 3 * ((splat_count + LANES_f - 1) / LANES_f);
 }
 
 static float *work_constants_f(float *work, size_t count, size_t splat_count) {
@@ -1233,7 +1223,7 @@ void torus_splats_f(
     float *TORUS_RESTRICT value, float *TORUS_RESTRICT gradient, float *TORUS_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1275,7 +1265,7 @@ void torus_splats_value_f(
     float *TORUS_RESTRICT value, float *TORUS_RESTRICT work, int threads) {
     (void)threads;
     float *constants = work_constants_f(work, 0, splat_count);
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
         const uint64_t mode = flush_denormals();
@@ -1321,20 +1311,25 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 2 + 1, point + 2);
 }
 
-/* Adds to S_bar what some vectors of points add to it, those in the list. */
-OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *S_bar) {
-    vector_f sum[7] = {ZERO};
-    for (size_t b = 0; b < size; ++b) {
+/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *sums) {
+    vector_f sum[6] = {ZERO};
+    size_t b = 0;
+    for (; b + 1 < size; b += 2) {
+        const vector_f *point = points + 5 * (size_t)near[b], *other = points + 5 * (size_t)near[b + 1];
+        pair_backward_f(point, S, point + 2, point + 2 + 1, sum);
+        pair_backward_f(other, S, other + 2, other + 2 + 1, sum);
+    }
+    if (b < size) {
         const vector_f *point = points + 5 * (size_t)near[b];
         pair_backward_f(point, S, point + 2, point + 2 + 1, sum);
     }
-    S_bar[0] += vector_sum_f(sum[0]);
-    S_bar[1] += vector_sum_f(sum[1]);
-    S_bar[2] += vector_sum_f(sum[2]);
-    S_bar[3] += vector_sum_f(sum[3]);
-    S_bar[4] += vector_sum_f(sum[4]);
-    S_bar[5] += vector_sum_f(sum[5]);
-    S_bar[6] += vector_sum_f(sum[6]);
+    sums[0] += vector_sum_f(sum[0]);
+    sums[1] += vector_sum_f(sum[1]);
+    sums[2] += vector_sum_f(sum[2]);
+    sums[3] += vector_sum_f(sum[3]);
+    sums[4] += vector_sum_f(sum[4]);
+    sums[5] += vector_sum_f(sum[5]);
 }
 
 /*
@@ -1350,7 +1345,7 @@ void torus_splats_vjp_f(
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES_f ? part : LANES_f;
     vector_f *points = work_points_f(work);
-    vector_f *splats = work_splats_f(work, count), *places = work_blocks_f(work, count, splat_count);
+    vector_f *splats = work_reaches_f(work, count), *places = work_blocks_f(work, count, splat_count);
     float *constants = work_constants_f(work, count, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -1376,9 +1371,9 @@ void torus_splats_vjp_f(
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
-            float sums[LANES_f][7] = {{0}};
+            float sums[LANES_f][6] = {{0}};
             uint32_t near[131072 / (5 * sizeof(vector_f)) + 2];
-            vector_f own_mu[2], own_W[4], own_amplitude[1], S_bar[7], bars[7];
+            vector_f own_mu[2], own_W[4], own_amplitude[1], own_sums[6], bars[7];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
@@ -1390,8 +1385,8 @@ void torus_splats_vjp_f(
             vector_rows_f(mu, end, start, 2, own_mu);
             vector_rows_f(W, end, start, 4, own_W);
             vector_rows_f(amplitude, end, start, 1, own_amplitude);
-            vector_rows_f(sums[0], LANES_f, 0, 7, S_bar);
-            pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+            vector_rows_f(sums[0], LANES_f, 0, 6, own_sums);
+            pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 4);
             vector_to_rows_f(bars, mu_bar, end, start, 2, 2);
             vector_to_rows_f(bars + 2, W_bar, end, start, 4, 4);
             vector_to_rows_f(bars + 2 + 4, amplitude_bar, end, start, 1, 1);
@@ -1418,12 +1413,12 @@ void torus_splats_rows_f(
             vector_f point[5];
             splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
-                vector_f own_mu[2], own_W[4], own_amplitude[1], S_bar[7] = {ZERO}, bars[7];
+                vector_f own_mu[2], own_W[4], own_amplitude[1], own_sums[6] = {ZERO}, bars[7];
                 for (int i = 0; i < 2; ++i) own_mu[i] = vector_of_f(mu[2 * k + i]);
                 for (int i = 0; i < 4; ++i) own_W[i] = vector_of_f(W[4 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 7 * k, point + 2, point + 2 + 1, S_bar);
-                pair_constants_vjp_f(own_mu, own_W, own_amplitude, S_bar, bars, bars + 2, bars + 2 + 4);
+                pair_backward_f(point, constants + 7 * k, point + 2, point + 2 + 1, own_sums);
+                pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 4);
                 vector_to_rows_f(bars, rows + 7 * k, count, block * LANES_f, 7, 7 * splat_count);
             }
         }
@@ -1497,7 +1492,7 @@ double torus_splats_order_f(
     size_t count, size_t splat_count, const float *TORUS_RESTRICT x, const float *TORUS_RESTRICT mu, const float *TORUS_RESTRICT amplitude, const float *TORUS_RESTRICT width,
     double limit, size_t *TORUS_RESTRICT order, float *TORUS_RESTRICT work) {
     const size_t block = 2 * LANES_f;
-    vector_f *splats = work_splats_f(work, 0);
+    vector_f *splats = work_reaches_f(work, 0);
     uint32_t near[256];
     double share = 0;
     for (size_t n = 0; n < count; ++n) order[n] = n;
@@ -1528,3 +1523,5 @@ double torus_splats_order_f(
     }
     return share;
 }
+
+#endif /* float */
