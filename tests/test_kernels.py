@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import ctypes
 import logging
 import os
 import random
+import shutil
 import subprocess
 import sys
 import threading
@@ -14,13 +16,15 @@ from pathlib import Path
 from typing import Any
 
 import mpmath as mp
+import numpy as np
 import pytest
 import torch
-from compiled import NAMES, geometry, needs_compiler, program, summing
+from compiled import MANIFOLDS, NAMES, geometry, needs_compiler, program, summing
 from torch import Tensor
 
 import rsrm_gen
 from rsrm_gen import Manifold, UserError, load
+from rsrm_gen.compiler import native
 from rsrm_gen.compiler.derive.sampling import sampler_of
 from rsrm_gen.compiler.lower import interpret
 from rsrm_gen.manifold import not_finite
@@ -594,3 +598,30 @@ def test_without_a_compiler_torch_sums_and_one_line_says_so(tmp_path: Path) -> N
     assert ran.stdout == "[2.0, 2.0] torch, cpu\nC is wanted for sums of splats, but there is no C compiler\n"
     assert ran.stderr.count("\n") == 1
     assert "no C compiler found" in ran.stderr
+
+
+@pytest.mark.parametrize("name", ["torus", "sphere"])
+def test_clang_sums_what_the_usual_compiler_sums(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    if shutil.which("clang") is None:
+        pytest.skip("no clang on this machine")
+    m = load(name)
+    generator = torch.Generator().manual_seed(3)
+    x, mu = m.sample(37, generator).double(), m.sample(11, generator).double()
+    W, amplitude = 2 * m.flat(mu[:, None], m.frame(mu)), torch.ones(11, dtype=torch.float64)
+    inputs = [np.ascontiguousarray(t.numpy()) for t in (x, mu, W, amplitude)]
+    found = []
+    for cc in (None, "clang"):
+        if cc:
+            monkeypatch.setenv("CC", cc)
+        native.compiler.cache_clear()
+        files = {path.name: path.read_text() for path in (MANIFOLDS.parent / "generated" / name).glob("*.[ch]")}
+        library = native.compiled(files, f"{name}_splats.c", native.FAST)
+        work = native.scratch(library, name, len(x), len(mu), 1, np.float64)
+        value, gradient = np.empty(len(x)), np.empty((len(x), m.tangent_size))
+        function = getattr(library, f"{name}_splats")
+        pointers = map(native.pointer, (*inputs, None, value, gradient, work))
+        function(ctypes.c_size_t(len(x)), ctypes.c_size_t(len(mu)), *pointers, ctypes.c_int(1))
+        found.append((value, gradient))
+    native.compiler.cache_clear()
+    for ours, theirs in zip(*found, strict=True):
+        np.testing.assert_allclose(ours, theirs, rtol=1e-12, atol=1e-12)
