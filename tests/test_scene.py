@@ -119,7 +119,12 @@ MISTAKES = {
         "capacity of 3",
     ),
     "thin shape": ("steps: 9", "objective: eikonal, splats: {shape: 0.01}", "scene.yaml:6:40", "min_singular"),
-    "widths in no order": ("steps: 9", "splats: {min_width: 0.02, max_width: 0.01}", "scene.yaml:6:20", "less than min_width"),
+    "widths in no order": (
+        "steps: 9",
+        "splats: {min_width: 0.02, max_width: 0.01}",
+        "scene.yaml:6:20",
+        "less than min_width",
+    ),
     "too wide a domain": (
         "training",
         "domain: {center: [0, 0, 1], radius: 4}\ntraining",
