@@ -75,8 +75,8 @@ def foot(found: Sequence[Contest], command: str) -> str:
             "Seconds are those of one thread of the processor; the field's training counts once for all queries.",
             "Costs are exact integrals of the slowness along the paths, by one quadrature for all methods, over the least"
             " cost; means and quantiles are over the paths that were found.",
-            "Points: median number of points that a planner looked at. A planner calls Python for every cost, which takes"
-            " two to three times as long as the integral itself; an implementation in C++ would look at that many more.",
+            "Points: median number of points that a planner looked at. It calls Python for every cost, which takes up to two"
+            " and a half times as long as the integral alone; one that is C++ throughout would look at more.",
             "Nothing is smoothed afterwards.",
             *(f"Least cost: {reference}." for reference in references),
         ]
