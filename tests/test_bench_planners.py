@@ -185,7 +185,7 @@ def test_the_command_writes_its_tables(
         cli.main(["bench", "planners", str(run), *options])
     assert caught.value.code in (0, None)
     assert "BIT*, 0.1 s" in capsys.readouterr().out
-    assert f"`rsrm bench planners --quick {run}`" in files[0].read_text()
+    assert f"`rsrm bench planners {run} --starts 6 --seconds 0.1 --seconds 1`" in files[0].read_text()
     assert len(json.loads(files[1].read_text())[0]["queries"]) == 6 * 3
 
 

@@ -301,13 +301,15 @@ def planners_command(
     chosen = _chosen(planner, PLANNERS, "planner")
     search = sampling_planners()
     budgets = seconds or ([0.1, 1] if quick else [0.1, 1, 10])
+    count = 6 if quick else starts
     with _progress() as say:
-        found = contests(runs, search, chosen, budgets, 6 if quick else starts, say)
+        found = contests(runs, search, chosen, budgets, count, say)
     console, shown = _console(), tables(found)
     for table in shown:
         console.print(table.rich())
         console.print()
-    words = foot(found, f"rsrm bench planners{' --quick' if quick else ''} {' '.join(map(str, runs))}")
+    options = [f"--starts {count}", *(f"--seconds {budget:g}" for budget in budgets)]
+    words = foot(found, " ".join(["rsrm bench planners", *map(str, runs), *options]))
     console.print(words, style="dim", highlight=False, markup=False)
     if markdown is not None:
         write_markdown(markdown, shown, words)
