@@ -30,7 +30,7 @@ MAY_IMPORT = {
     "rows": {*INPUT, "manifold", "native"},
     "load": {*INPUT, "version", "manifold", "spec", "driver", "native", "kernels", "rows"},
     "trainer": {*INPUT, "version", "manifold", "load", "native", "rows", "package", "bench"},
-    "bench": {*INPUT, "version", "manifold", "load", "native", "driver", *STAGES, "trainer"},
+    "bench": {*INPUT, "version", "manifold", "rows", "load", "native", "driver", *STAGES, "trainer"},
     "testing": {*INPUT, "driver", "cli", "spec", "audit"},
     "package": {"errors", "version", "manifold", "load"},
     **{stage: {*INPUT, "version", "budget", *STAGES[:i]} for i, stage in enumerate(STAGES)},

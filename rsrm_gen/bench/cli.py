@@ -51,6 +51,7 @@ STEP_CASES: tuple[tuple[str, Parameters], ...] = (
 )
 STEP_SIZES = ((1024, 128), (4096, 512), (16384, 2048))
 CONTENDER_KEYS = ["eager", "analytic", "compiled", "jax", "jax-analytic", "ours", "kernel", "culled"]
+PLANNERS = ["RRT*", "BIT*"]
 PAPER_METHODS = ["recipe", "mlp", "mlp-small", "ours", "ours-half", "ours-quarter"]
 
 Manifolds = Annotated[
@@ -279,6 +280,50 @@ def paper_command(
         raise typer.Exit(1)
 
 
+@app.command("planners")
+def planners_command(
+    runs: Annotated[list[Path], typer.Argument(metavar="RUN...", help="Folders of `rsrm train`.", show_default=False)],
+    starts: Annotated[int, typer.Option(min=1, help="Free starts of each scene, evenly of all kinds.")] = 20,
+    seconds: Annotated[
+        list[float] | None, typer.Option(min=0.001, help="CPU seconds a query; several times; 0.1, 1 and 10.")
+    ] = None,
+    planner: Annotated[list[str] | None, typer.Option(help="RRT* or BIT*; several times; both.")] = None,
+    quick: Annotated[bool, typer.Option("--quick", help="Six starts, 0.1 and 1 s.")] = False,
+    markdown: Markdown = None,
+    json: Json = None,
+) -> None:
+    """Sampling planners of OMPL beside the descent of trained fields: what they find, what it costs, how long it takes.
+
+    \b
+    rsrm bench planners runs/torus               RRT* and BIT* after 0.1, 1 and 10 s: seven minutes a scene
+    rsrm bench planners runs/* --quick           a quarter of a minute a scene
+    rsrm bench planners runs/torus --planner 'BIT*' --seconds 5 --starts 50
+
+    It needs OMPL: pip install 'rsrm-gen[ompl]'.
+    """
+    from rsrm_gen.bench.planners.contest import contests, sampling_planners
+    from rsrm_gen.bench.planners.tables import document, foot, tables
+    from rsrm_gen.bench.table import write_json, write_markdown
+
+    chosen = _chosen(planner, PLANNERS, "planner")
+    search = sampling_planners()
+    budgets = seconds or ([0.1, 1] if quick else [0.1, 1, 10])
+    count = 6 if quick else starts
+    with _progress() as say:
+        found = contests(runs, search, chosen, budgets, count, say)
+    console, shown = _console(), tables(found)
+    for table in shown:
+        console.print(table.rich())
+        console.print()
+    options = [f"--starts {count}", *(f"--seconds {budget:g}" for budget in budgets)]
+    words = foot(found, " ".join(["rsrm bench planners", *map(str, runs), *options]))
+    console.print(words, style="dim", highlight=False, markup=False)
+    if markdown is not None:
+        write_markdown(markdown, shown, words)
+    if json is not None:
+        write_json(json, document(found))
+
+
 def _with_the_plane(methods: list[str] | None, manifolds: list[str] | None, scenes: Path | None) -> bool:
     """Whether the case in the Euclidean plane is wanted too: where it is named, and where nothing is chosen."""
     return "euclidean" in manifolds if manifolds else methods is None and scenes is None
@@ -294,7 +339,12 @@ def _size(text: str) -> tuple[int, int]:
 
 def _chosen(given: list[str] | None, default: list[str], what: str) -> list[str]:
     """What was given, each one of those there are."""
-    known = {"precision": ["float32", "float64"], "contender": CONTENDER_KEYS, "method": PAPER_METHODS}[what]
+    known = {
+        "precision": ["float32", "float64"],
+        "contender": CONTENDER_KEYS,
+        "method": PAPER_METHODS,
+        "planner": PLANNERS,
+    }[what]
     for word in given or ():
         if word not in known:
             raise UserError(f"`{word}` is no {what}", hint=f"one of {', '.join(known)}")

@@ -141,6 +141,34 @@ void segments(size_t count, const double *p, const double *q, const struct geome
     }
 }
 
+/* The cost of one segment as `segments` has it, for who asks for one at a time: here the rule's points are what is worked
+ * on together. */
+double segment(const double *p, const double *q, const struct geometry *g, const struct medium *m, size_t order,
+               const double *node, const double *weight, double panel) {
+    double v[TANGENT], length, cost = 0;
+    if (!g->geodesic) { /* its speed changes on the way */
+        segments(1, p, q, g, m, order, node, weight, panel, 1, &cost, &length);
+        return cost;
+    }
+    g->log(1, p, q, v);
+    g->norm(1, p, v, &length);
+    const double wanted = ceil(length / panel);
+    const size_t panels = wanted >= 1 && wanted < 1e4 ? (size_t)wanted : 1, count = panels * order;
+    for (size_t at = 0; at < count; at += BLOCK) {
+        const size_t n = smaller(BLOCK, count - at);
+        double from[BLOCK * POINT], w[BLOCK * TANGENT], x[BLOCK * POINT], s[BLOCK];
+        for (size_t i = 0; i < n; ++i) {
+            const double t = ((double)((at + i) / order) + node[(at + i) % order]) / (double)panels;
+            memcpy(from + i * POINT, p, POINT * sizeof(double));
+            for (size_t c = 0; c < TANGENT; ++c) w[i * TANGENT + c] = t * v[c];
+        }
+        g->exp(n, from, w, x);
+        slowness(g, m, n, x, s);
+        for (size_t i = 0; i < n; ++i) cost += weight[(at + i) % order] * s[i];
+    }
+    return cost * length / (double)panels;
+}
+
 /* What one thread needs for a curve of up to `most` nodes. */
 struct work {
     double *all, *spaced, *trial, *best, *along, *basis, *slope, *curvature, *factor, *step, *move, *at_node, *cost;

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import ctypes
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
@@ -222,6 +222,19 @@ class Terrain:
         )  # fmt: skip
         return cost, length
 
+    def one_by_one(self) -> Callable[[int, int], float]:
+        """`segments` for who asks for one at a time: the addresses of two points (D,) of float64 to a cost, in microseconds."""
+        rule = (GAUSS[0] + 1) / 2, GAUSS[1] / 2  # kept: C has their addresses
+        integrate, order, panel = self._library.segment, len(rule[0]), 3 * self.usual.spacing
+        node, weight = map(_address, rule)
+        geometry, medium = ctypes.byref(self._geometry), ctypes.byref(self._medium)
+
+        def segment(p: int, q: int, rule: tuple[Array, Array] = rule) -> float:
+            cost: float = integrate(p, q, geometry, medium, order, node, weight, panel)
+            return cost
+
+        return segment
+
     def measure(self, curves: Curves) -> tuple[Array, Array]:
         """The exact costs (B,) and the lengths (B,) of curves."""
         if not len(curves):
@@ -331,7 +344,7 @@ def _library(dim: int, point_size: int, tangent_size: int) -> ctypes.CDLL:
     for name, types in _SIGNATURES.items():
         function = getattr(library, name)
         function.restype, function.argtypes = ctypes.c_int, [_TYPES[letter] for letter in types]
-    library.segments.restype = None
+    library.segments.restype, library.segment.restype = None, ctypes.c_double
     return library
 
 
@@ -340,7 +353,7 @@ _TYPES: dict[str, Any] = {
     "n": ctypes.c_size_t, "i": ctypes.c_int, "d": ctypes.c_double, "p": ctypes.c_void_p,
     "g": ctypes.POINTER(_Geometry), "m": ctypes.POINTER(_Medium), "s": ctypes.POINTER(_Settings),
 }  # fmt: skip
-_SIGNATURES = {"segments": "nppgmnppdipp", "resample": "nppppngi", "relax": "nppngmnpsi"}
+_SIGNATURES = {"segments": "nppgmnppdipp", "segment": "ppgmnppd", "resample": "nppppngi", "relax": "nppngmnpsi"}
 
 
 def _address(array: Array) -> int:

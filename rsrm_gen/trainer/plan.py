@@ -12,6 +12,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from rsrm_gen.manifold import Manifold
 from rsrm_gen.trainer.model import ArrivalTime
 from rsrm_gen.trainer.scene import Scene
 
@@ -103,13 +104,22 @@ def _downhill(arrival: ArrivalTime, x: Tensor) -> Tensor:
     return torch.where(usable, -gradient / torch.where(usable, norm, 1.0), 0.0)
 
 
+def _lengths(manifold: Manifold, p: Tensor, q: Tensor, v: Tensor) -> Tensor:
+    """The lengths (m,) of the segments t -> Exp_p(t v) from p to q (m, D); of a retraction by its middle, where the metric
+    is what it is on average, wrong by the third order."""
+    if manifold.maps == "geodesic":
+        return manifold.norm(p, v)
+    middle = manifold.exp(p, v / 2)
+    return manifold.norm(middle, manifold.log(middle, q) - manifold.log(middle, p))
+
+
 @torch.no_grad()
 def _measure(scene: Scene, path: Tensor) -> Tensor:
     """Cost, length and least signed distance of the geodesics that join the points (m, D): (3,)."""
     if len(path) < 2:
         return torch.stack([path.new_zeros(()), path.new_zeros(()), scene.signed_distance(path).amin()])
     p, v = path[:-1], scene.manifold.log(path[:-1], path[1:])
-    lengths = scene.manifold.norm(p, v)
+    lengths = _lengths(scene.manifold, p, path[1:], v)
     nodes, weights = np.polynomial.legendre.leggauss(5)
     at = p.new_tensor((nodes + 1) / 2)
     x = scene.manifold.exp(p[:, None], at[:, None] * v[:, None])

@@ -93,7 +93,8 @@ class Scene:
         """Whether points lie in the domain: (...) of bool."""
         if self.domain is None:
             return torch.ones(x.shape[:-1], dtype=torch.bool)
-        return self.manifold.distance(x, self.domain.center) <= self.domain.radius
+        # From the centre, as points are sampled: by a retraction's metric it is another distance back.
+        return self.manifold.distance(self.domain.center, x) <= self.domain.radius
 
     def into_domain(self, x: Tensor) -> Tensor:
         """Points as they are inside the domain, else the nearest point of its boundary: (..., D)."""
