@@ -202,7 +202,8 @@ def test_a_run_whose_manifold_was_replaced_by_one_dimension_has_no_field(tmp_pat
 
     scene_file = tmp_path / "scene.yaml"
     scene_file.write_text(
-        f"scene: one turn\nmanifold: circle\ngoal: [1, 0]\ntraining: {TRAINING.replace('{', '{objective: eikonal, ', 1)}\n"
+    training = TRAINING.replace("{", "{objective: eikonal, ", 1)
+    scene_file.write_text(f"scene: one turn\nmanifold: circle\ngoal: [1, 0]\ntraining: {training}\n")
     )
     from rsrm_gen.trainer.scene import read_scene
 
