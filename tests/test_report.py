@@ -201,10 +201,8 @@ def test_a_run_whose_manifold_was_replaced_by_one_dimension_has_no_field(tmp_pat
     import rsrm_gen
 
     scene_file = tmp_path / "scene.yaml"
-    scene_file.write_text(
     training = TRAINING.replace("{", "{objective: eikonal, ", 1)
     scene_file.write_text(f"scene: one turn\nmanifold: circle\ngoal: [1, 0]\ntraining: {training}\n")
-    )
     from rsrm_gen.trainer.scene import read_scene
 
     scene = read_scene(scene_file, rsrm_gen.load("circle"))
