@@ -202,7 +202,7 @@ def _print_planning(found: Planning, console: Console) -> None:
     title = "descent of T from free starts; cost of the paths over the reference's"
     table = Table(title=title, title_justify="left", box=None, pad_edge=False, header_style="dim", title_style="")
     table.add_column("", no_wrap=True)
-    for heading in ("starts", "reach the goal", "enter an obstacle", "mean", "median", "p95", "worst"):
+    for heading in ("starts", "arrive", "hit an obstacle", "mean", "median", "p95", "worst"):
         table.add_column(heading, justify="right", no_wrap=True)
     for row in found.rows:
         shares = (f"{100 * share:.1f} %" for share in (row.reached, row.entered))
