@@ -143,7 +143,7 @@ def benchmark(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Three scenes on a plain manifold, of which the paper is made to know; gives the folder of the scenes."""
     monkeypatch.setattr("rsrm_gen.trainer.scene.load", lambda name, kernels=None, **parameters: PLAIN[name])
     monkeypatch.setitem(published(), PLAIN["T2"].name, published()["torus"].model_copy(update={"network": SMALL}))
-    monkeypatch.setattr(judge, "solve_reference", lambda scene, console=None: ZeroReference())
+    monkeypatch.setattr(judge, "solve_truth", lambda scene, console=None: ZeroReference())
     monkeypatch.setattr(judge, "evaluate_all", evaluated)
     monkeypatch.setattr(judge, "planning", planned)
     scenes = tmp_path / "scenes"

@@ -12,7 +12,9 @@ from rsrm_gen.trainer.settings import BellmanTraining, EikonalTraining, PathsTra
 
 PAGE = (Path(__file__).parent.parent / "docs" / "scenes.md").read_text()
 EXAMPLES = re.findall(r"^```yaml\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
-KEYS = {key for cell in re.findall(r"^\| ((?:`\w+`(?:, )?)+) \|", PAGE, re.MULTILINE) for key in re.findall(r"\w+", cell)}
+KEYS = {
+    key for cell in re.findall(r"^\| ((?:`\w+`(?:, )?)+) \|", PAGE, re.MULTILINE) for key in re.findall(r"\w+", cell)
+}
 
 
 @pytest.mark.parametrize("text", EXAMPLES)
@@ -24,4 +26,4 @@ def test_an_example_is_a_scene(tmp_path: Path, text: str) -> None:
 
 def test_the_tables_name_every_key() -> None:
     models = (SceneDocument, PathsTraining, BellmanTraining, EikonalTraining)
-    assert KEYS == {name for model in models for name in model.model_fields}
+    assert {name for model in models for name in model.model_fields} == KEYS

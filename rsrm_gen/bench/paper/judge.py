@@ -13,9 +13,9 @@ from rsrm_gen.trainer.evaluate import ErrorRow, evaluate_all
 from rsrm_gen.trainer.model import ArrivalTime
 from rsrm_gen.trainer.objectives.residual import Residual
 from rsrm_gen.trainer.planning import planning
-from rsrm_gen.trainer.reference import solve_reference
 from rsrm_gen.trainer.run import Summary, load_run
 from rsrm_gen.trainer.scene import Scene
+from rsrm_gen.trainer.truth import solve_truth
 
 LOSS_POINTS, LOSS_BATCH = 16384, 4096
 LOSS_EXCLUSION = 0.25  # around the goal, as the paper's recipe leaves it out; a length
@@ -24,7 +24,7 @@ LOSS_EXCLUSION = 0.25  # around the goal, as the paper's recipe leaves it out; a
 def judged(job: Job, summary: Summary, others: float | None, console: Console | None = None) -> Row:
     """The row of a job whose training is finished; `others` is what other programs used when it began."""
     scene, arrival = job.scene, trained(job)
-    reference = solve_reference(scene, console=console)
+    reference = solve_truth(scene, console=console)
     evaluation = evaluate_all(scene, {"field": arrival.time}, reference)
     field, distance = (_row(evaluation.rows, name) for name in ("field", "T = d"))
     plans = planning(arrival, scene, reference.time)
