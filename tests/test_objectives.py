@@ -8,11 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from runs import interrupted_after, new_run, same
 from scenes import GENERATED, generated, seeded, small_scene
 
-from rsrm_gen.trainer.run import Arrays, Metric, RunFolder, load_run
+from rsrm_gen.trainer.run import load_run
 from rsrm_gen.trainer.scene import Scene
-from rsrm_gen.trainer.train import Outcome, train
+from rsrm_gen.trainer.train import train
 
 SETTINGS = {
     "paths": "{objective: paths, steps: 8, points: 600, splats: 30, checkpoint_every: 2}",
@@ -23,25 +24,6 @@ SETTINGS = {
 
 def scene_of(folder: Path, name: str, objective: str) -> Scene:
     return small_scene(folder, name, SETTINGS[objective], manifold=generated(name))
-
-
-def new_run(scene: Scene, path: Path) -> RunFolder:
-    folder = RunFolder(path)
-    folder.create(scene)
-    return folder
-
-
-def same(a: Arrays, b: Arrays) -> bool:
-    timeless = a.keys() - {"seconds"}
-    return a.keys() == b.keys() and all(np.array_equal(a[name], b[name]) for name in timeless)
-
-
-def interrupted_after(step: int, scene: Scene, folder: RunFolder) -> Outcome:
-    def ctrl_c(metric: Metric) -> None:
-        if metric.step == step:
-            signal.raise_signal(signal.SIGINT)
-
-    return train(scene, folder, progress=ctrl_c)
 
 
 @pytest.mark.parametrize("objective", SETTINGS)

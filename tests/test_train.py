@@ -9,37 +9,18 @@ import numpy as np
 import pytest
 import torch
 from plain_manifolds import PLAIN
+from runs import interrupted_after, new_run, same
 from scenes import random_field, seeded, small_scene
 
 from rsrm_gen.errors import UserError
 from rsrm_gen.trainer.objectives.eikonal import Eikonal
 from rsrm_gen.trainer.objectives.residual import Residual
 from rsrm_gen.trainer.optimise import AdamW
-from rsrm_gen.trainer.run import Arrays, Metric, RunFolder
-from rsrm_gen.trainer.scene import Scene
-from rsrm_gen.trainer.train import Outcome, train
+from rsrm_gen.trainer.run import Metric
+from rsrm_gen.trainer.train import train
 
 # Changes at steps 10, 20 and 30 of 40: the interruption at 15 lies between two of them.
 SHORT = "{steps: 40, points: 64, checkpoint_every: 15, splats: {initial: 8, add: 4, every: 10, prune_below: 0.02}}"
-
-
-def new_run(scene: Scene, path: Path) -> RunFolder:
-    folder = RunFolder(path)
-    folder.create(scene)
-    return folder
-
-
-def interrupted_after(step: int, scene: Scene, folder: RunFolder) -> Outcome:
-    def ctrl_c(metric: Metric) -> None:
-        if metric.step == step:
-            signal.raise_signal(signal.SIGINT)
-
-    return train(scene, folder, progress=ctrl_c)
-
-
-def same(a: Arrays, b: Arrays) -> bool:
-    timeless = a.keys() - {"seconds"}
-    return a.keys() == b.keys() and all(np.array_equal(a[name], b[name]) for name in timeless)
 
 
 @pytest.mark.parametrize("name", PLAIN)

@@ -126,12 +126,16 @@ def smooth_base(manifold: Manifold, goal: Tensor) -> Base:
     return distance
 
 
+def metric_varies(manifold: Manifold, p: Tensor) -> bool:
+    """Whether <u, v>_p has p in its formula; p is any point (D,)."""
+    p = p.detach().clone().requires_grad_()
+    with torch.enable_grad():
+        return manifold.flat(p, p.new_ones(manifold.tangent_size)).requires_grad
+
+
 def _is_flat(manifold: Manifold, goal: Tensor) -> bool:
     """Whether the metric of a chart has no coordinate in its formula, and geodesics are straight lines."""
-    p = goal.detach().clone().requires_grad_()
-    with torch.enable_grad():
-        varies = manifold.flat(p, torch.ones_like(p)).requires_grad
-    if varies or manifold.maps != "geodesic":
+    if metric_varies(manifold, goal) or manifold.maps != "geodesic":
         return False
     v = torch.eye(len(goal), dtype=goal.dtype) / 8
     ends = manifold.exp(goal.expand_as(v), v)

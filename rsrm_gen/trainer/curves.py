@@ -85,13 +85,15 @@ class Curves:
     def take(self, rows: Array) -> Curves:
         """Those with these indices (R,)."""
         counts = self.counts[rows]
-        offsets = _offsets(counts)
+        offsets = offsets_of(counts)
         index = np.arange(offsets[-1]) + np.repeat(self.offsets[:-1][rows] - offsets[:-1], counts)
         return Curves(self.nodes[index], offsets)
 
-    def joined(self, others: Curves) -> Curves:
+    def joined(self, *others: Curves) -> Curves:
         """These, and the others after them."""
-        return Curves(np.concatenate([self.nodes, others.nodes]), _offsets(np.append(self.counts, others.counts)))
+        every = (self, *others)
+        offsets = offsets_of(np.concatenate([curves.counts for curves in every]))
+        return Curves(np.concatenate([curves.nodes for curves in every]), offsets)
 
     def replaced(self, rows: Array, others: Curves) -> Curves:
         """These, the ones with indices `rows` (R,) replaced by the R others."""
@@ -105,7 +107,8 @@ class Curves:
         return Curves(np.insert(self.nodes, where, starts, axis=0), self.offsets + np.arange(len(self) + 1))
 
 
-def _offsets(counts: Array) -> Array:
+def offsets_of(counts: Array) -> Array:
+    """Where the curves with so many nodes (B,) begin, and the end: (B + 1,)."""
     return np.concatenate([np.zeros(1, np.int64), np.cumsum(counts, dtype=np.int64)])
 
 
@@ -258,7 +261,7 @@ class Terrain:
 
     def resampled(self, curves: Curves, counts: Array) -> Curves:
         """The same curves with so many nodes (B,) each, two or more, at equal distances."""
-        offsets = _offsets(counts)
+        offsets = offsets_of(counts)
         nodes = np.empty((offsets[-1], self.manifold.point_size))
         given = [np.ascontiguousarray(a) for a in (curves.offsets, curves.nodes)]
         most = int(max(curves.counts.max(initial=0), 1))

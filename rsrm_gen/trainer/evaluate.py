@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Protocol
@@ -182,12 +182,9 @@ def _samples(scene: Scene, count: int) -> Cells:
 
 
 def print_evaluation(evaluation: Evaluation, console: Console) -> None:
-    """One quiet table."""
+    """Two quiet tables."""
     title = f"{evaluation.title}: error of T in {evaluation.cells} free cells"
-    table = Table(title=title, title_justify="left", box=None, pad_edge=False, header_style="dim", title_style="")
-    table.add_column("")
-    for heading in ("RMS (paper)", "RMS (volume)", "p95", "max"):
-        table.add_column(heading, justify="right")
+    table = _table(title, ("RMS (paper)", "RMS (volume)", "p95", "max"))
     for row in evaluation.rows:
         table.add_row(row.name, *(f"{value:.5f}" for value in (row.paper, row.rms, row.p95, row.maximum)))
     own = f"{evaluation.reference_rms:.5f}", "", f"{evaluation.reference_maximum:.5f}"
@@ -198,12 +195,18 @@ def print_evaluation(evaluation: Evaluation, console: Console) -> None:
         _print_planning(evaluation.planning, console)
 
 
-def _print_planning(found: Planning, console: Console) -> None:
-    title = "descent of T from free starts; cost of the paths over the reference's"
+def _table(title: str, headings: Sequence[str]) -> Table:
+    """Without lines; the first column names its rows."""
     table = Table(title=title, title_justify="left", box=None, pad_edge=False, header_style="dim", title_style="")
     table.add_column("", no_wrap=True)
-    for heading in ("starts", "arrive", "hit an obstacle", "mean", "median", "p95", "worst"):
+    for heading in headings:
         table.add_column(heading, justify="right", no_wrap=True)
+    return table
+
+
+def _print_planning(found: Planning, console: Console) -> None:
+    title = "descent of T from free starts; cost of the paths over the reference's"
+    table = _table(title, ("starts", "arrive", "hit an obstacle", "mean", "median", "p95", "worst"))
     for row in found.rows:
         shares = (f"{100 * share:.1f} %" for share in (row.reached, row.entered))
         ratios = ("-" if r is None else f"{r:.4f}" for r in (row.mean, row.median, row.p95, row.worst))

@@ -38,7 +38,7 @@ from rsrm_gen.trainer.gauss_newton import (
 )
 from rsrm_gen.trainer.model import SplatField
 from rsrm_gen.trainer.response import Response
-from rsrm_gen.trainer.run import Arrays, fill_rows
+from rsrm_gen.trainer.run import Arrays, fill_rows, first_rows
 
 CANDIDATES = 16  # points looked at for each centre that is chosen
 OVERLAP = 1.24  # standard deviations of a first splat for each distance to a neighbour
@@ -67,12 +67,6 @@ class Schedule:
     iterations: int = 30
     relocate: dict[int, float] = field(default_factory=dict)
     bounds: tuple[float, float] = (1e-3, math.inf)  # of the singular values of A
-
-
-def two_phases(bounds: tuple[float, float]) -> tuple[Schedule, Schedule]:
-    """To shape splats on some of the points, then on more of them: measured to be worth what it costs in two dimensions."""
-    first = Schedule(14, dict.fromkeys((2, 4, 6, 8, 10, 12), 0.06), bounds)
-    return first, Schedule(20, {2: 0.04, 6: 0.03, 10: 0.02}, bounds)
 
 
 def shape_bounds(manifold: Manifold, x: Tensor) -> tuple[float, float]:
@@ -256,8 +250,7 @@ class Fit:
 
     def arrays(self) -> Arrays:
         """All that changes, as plain arrays."""
-        buffers = self.field.buffers_of_splats()
-        arrays: Arrays = {name: rows[: self.field.count].numpy().copy() for name, rows in buffers.items()}
+        arrays = first_rows(self.field.buffers_of_splats(), self.field.count)
         numbers = {"iteration": self.iteration, "phase_start": self.phase_start, "damping": self.damping}
         return {**arrays, **{name: np.array(number) for name, number in numbers.items()}}
 

@@ -67,12 +67,7 @@ class Labels:
 
     def joined(self, others: Labels) -> Labels:
         """These, and the others after them."""
-        joined = {
-            field.name: np.concatenate([getattr(self, field.name), getattr(others, field.name)])
-            for field in fields(self)
-            if field.name != "curves"
-        }
-        return Labels(**joined, curves=self.curves.joined(others.curves))
+        return _joined([self, others])
 
 
 @one_thread()
@@ -161,11 +156,11 @@ def _labelled(terrain: Terrain, curves: Curves, settings: Relaxation | None) -> 
 
 def _joined(parts: list[Labels]) -> Labels:
     whole = {
-        name: np.concatenate([getattr(part, name) for part in parts]) for name in ("x", "time", "gradient", "error")
+        field.name: np.concatenate([getattr(part, field.name) for part in parts])
+        for field in fields(Labels)
+        if field.name != "curves"
     }
-    counts = np.concatenate([part.curves.counts for part in parts])
-    nodes = np.concatenate([part.curves.nodes for part in parts])
-    return Labels(**whole, curves=Curves(nodes, np.concatenate([np.zeros(1, np.int64), np.cumsum(counts)])))
+    return Labels(**whole, curves=Curves.joined(*(part.curves for part in parts)))
 
 
 def _pinned(curves: Curves, starts: Array, goal: Array) -> Curves:

@@ -17,7 +17,7 @@ from torch import Tensor
 
 from rsrm_gen.manifold import Manifold
 from rsrm_gen.trainer.arithmetic import Splats, arithmetic
-from rsrm_gen.trainer.base import Base, Distance
+from rsrm_gen.trainer.base import Base, Distance, metric_varies
 from rsrm_gen.trainer.link import Link
 
 WORTH_WIDTHS = 2**18  # pairs of a point and a splat, below which leaving far ones out gains less than widths cost
@@ -66,8 +66,7 @@ class SplatField:
         self.mu = torch.zeros(capacity, D, dtype=dtype)
         self.frame = torch.zeros(capacity, d, T, dtype=dtype)
         p = torch.zeros(D, dtype=dtype, requires_grad=True)
-        # Whether <u, v>_p has p in its formula.
-        self.metric_varies = manifold.flat(p, torch.ones(T, dtype=dtype)).requires_grad
+        self.metric_varies = metric_varies(manifold, p)
         self.covectors_are_vectors = _is_identity(manifold.flat, p, T)
         self.gradients_are_vectors = D == T and _is_identity(manifold.riemannian_gradient, p, T)
         # Vectors of d numbers have no normal part: without a metric that varies, a frame stays orthonormal as it is.

@@ -105,7 +105,7 @@ def _downhill(arrival: ArrivalTime, x: Tensor) -> Tensor:
 
 
 def _lengths(manifold: Manifold, p: Tensor, q: Tensor, v: Tensor) -> Tensor:
-    """The lengths (m,) of the segments t -> Exp_p(t v) from p to q (m, D); of a retraction by its middle, where the metric
+    """The lengths (...) of the segments t -> Exp_p(t v) from p to q (..., D); of a retraction by its middle, where the metric
     is what it is on average, wrong by the third order."""
     if manifold.maps == "geodesic":
         return manifold.norm(p, v)
@@ -113,16 +113,31 @@ def _lengths(manifold: Manifold, p: Tensor, q: Tensor, v: Tensor) -> Tensor:
     return manifold.norm(middle, manifold.log(middle, q) - manifold.log(middle, p))
 
 
+@dataclass(frozen=True)
+class Segments:
+    """Segments t -> Exp_p(t Log_p(q)) and what they cost."""
+
+    cost: Tensor  # (...) the integral of the slowness
+    length: Tensor  # (...)
+    points: Tensor  # (..., n, D) where the slowness was asked for
+
+
+@torch.no_grad()
+def segments(scene: Scene, p: Tensor, q: Tensor) -> Segments:
+    """From p to q, (..., D), by Gauss's quadrature with five points."""
+    v = scene.manifold.log(p, q)
+    nodes, weights = np.polynomial.legendre.leggauss(5)
+    at = p.new_tensor((nodes + 1) / 2)
+    points = scene.manifold.exp(p[..., None, :], at[:, None] * v[..., None, :])
+    lengths = _lengths(scene.manifold, p, q, v)
+    return Segments(lengths * (scene.slowness(points) @ p.new_tensor(weights / 2)), lengths, points)
+
+
 @torch.no_grad()
 def _measure(scene: Scene, path: Tensor) -> Tensor:
     """Cost, length and least signed distance of the geodesics that join the points (m, D): (3,)."""
     if len(path) < 2:
         return torch.stack([path.new_zeros(()), path.new_zeros(()), scene.signed_distance(path).amin()])
-    p, v = path[:-1], scene.manifold.log(path[:-1], path[1:])
-    lengths = _lengths(scene.manifold, p, path[1:], v)
-    nodes, weights = np.polynomial.legendre.leggauss(5)
-    at = p.new_tensor((nodes + 1) / 2)
-    x = scene.manifold.exp(p[:, None], at[:, None] * v[:, None])
-    mean = scene.slowness(x) @ p.new_tensor(weights / 2)
-    clearance = torch.minimum(scene.signed_distance(x).amin(), scene.signed_distance(path).amin())
-    return torch.stack([(lengths * mean).sum(), lengths.sum(), clearance])
+    way = segments(scene, path[:-1], path[1:])
+    clearance = torch.minimum(scene.signed_distance(way.points).amin(), scene.signed_distance(path).amin())
+    return torch.stack([way.cost.sum(), way.length.sum(), clearance])

@@ -15,7 +15,6 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-import platform
 import time
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -25,7 +24,6 @@ import numpy as np
 import torch
 from torch import Generator, Tensor
 
-import rsrm_gen
 from rsrm_gen.errors import UserError
 from rsrm_gen.files import write_text_whole
 from rsrm_gen.load import load_in_rows
@@ -34,7 +32,7 @@ from rsrm_gen.trainer.fit import Fit, Schedule, Targets, shape_bounds
 from rsrm_gen.trainer.gauss_newton import effective_count
 from rsrm_gen.trainer.model import SplatField
 from rsrm_gen.trainer.response import Affine
-from rsrm_gen.trainer.run import Metric, RunFolder, fill_rows
+from rsrm_gen.trainer.run import Metric, RunFolder, fill_rows, versions
 from rsrm_gen.trainer.samples import Samples, read_samples, spread
 from rsrm_gen.trainer.train import Progress
 
@@ -127,27 +125,12 @@ def regress(
 
 def create(folder: RunFolder, settings: Regression, manifold: Manifold, force: bool = False) -> None:
     """Make the run folder of a new fit; one that holds a checkpoint is only replaced by `force`."""
-    if folder.checkpoint.exists() and not force:
-        hint = f"go on with `--resume {folder.path}`, write elsewhere with `-o`, or replace it with `--force`"
-        raise UserError(f"{folder.path} already holds a training", hint=hint)
-    try:
-        folder.path.mkdir(parents=True, exist_ok=True)
-        folder.checkpoint.unlink(missing_ok=True)
-        folder.forget_results()
-        folder.metrics.write_text("")
-    except OSError as error:
-        raise UserError(f"cannot write to {folder.path}: {error.strerror}") from None
-    versions = {
-        "rsrm-gen": rsrm_gen.__version__,
-        "torch": str(torch.__version__),
-        "numpy": np.__version__,
-        "python": platform.python_version(),
-    }
+    folder.clear(force)
     kept = {
         "settings": asdict(settings),
         "content_hash": manifold.content_hash,
         "data_hash": _hash(Path(settings.data)),
-        "versions": versions,
+        "versions": versions(),
     }
     write_text_whole(folder.path / "fit.json", json.dumps(kept, indent=2) + "\n")
 

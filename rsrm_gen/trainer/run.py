@@ -81,6 +81,12 @@ class RunFolder:
 
     def create(self, scene: Scene, force: bool = False) -> None:
         """Make the folder for a new training; one that holds a checkpoint is only replaced by `force`."""
+        self.clear(force)
+        write_text_whole(self.path / "scene.yaml", _scene_text(scene, self.path))
+        self.write_settings(scene)
+
+    def clear(self, force: bool) -> None:
+        """Make the folder, without a checkpoint, metrics and results; one that holds a checkpoint only by `force`."""
         if self.checkpoint.exists() and not force:
             hint = f"go on with `--resume {self.path}`, write elsewhere with `-o`, or replace it with `--force`"
             raise UserError(f"{self.path} already holds a training", hint=hint)
@@ -91,8 +97,6 @@ class RunFolder:
             self.metrics.write_text("")
         except OSError as error:
             raise UserError(f"cannot write to {self.path}: {error.strerror}") from None
-        write_text_whole(self.path / "scene.yaml", _scene_text(scene, self.path))
-        self.write_settings(scene)
 
     def forget_results(self) -> None:
         """Remove what was said and drawn of a field that is about to change."""
@@ -101,17 +105,11 @@ class RunFolder:
 
     def write_settings(self, scene: Scene) -> None:
         """Keep the resolved settings and the versions that run."""
-        versions = {
-            "rsrm-gen": rsrm_gen.__version__,
-            "torch": str(torch.__version__),
-            "numpy": np.__version__,
-            "python": platform.python_version(),
-        }
         settings = {
             "manifold": scene.manifold.name,
             "content_hash": scene.manifold.content_hash,
             "training": scene.training.model_dump(mode="json"),
-            "versions": versions,
+            "versions": versions(),
         }
         write_text_whole(self.path / "settings.json", json.dumps(settings, indent=2) + "\n")
 
@@ -192,6 +190,21 @@ def new_arrival(scene: Scene, capacity: int) -> ArrivalTime:
     smooth = isinstance(link, BasedLink) and link.base == "smooth"
     base = smooth_base(scene.manifold, scene.goal) if smooth else Distance(scene.manifold, scene.goal)
     return ArrivalTime(field, make_link(link), scene.manifold, scene.goal, base)
+
+
+def versions() -> dict[str, str]:
+    """Of what runs."""
+    return {
+        "rsrm-gen": rsrm_gen.__version__,
+        "torch": str(torch.__version__),
+        "numpy": np.__version__,
+        "python": platform.python_version(),
+    }
+
+
+def first_rows(buffers: dict[str, torch.Tensor], count: int) -> Arrays:
+    """Copies of so many rows at the front of buffers, for a checkpoint."""
+    return {name: rows[:count].numpy().copy() for name, rows in buffers.items()}
 
 
 def fill_rows(buffers: dict[str, torch.Tensor], arrays: Arrays, path: Path) -> int:

@@ -21,7 +21,7 @@ from torch import Tensor
 
 from rsrm_gen.errors import UserError
 from rsrm_gen.files import cache_folder, write_whole
-from rsrm_gen.trainer.curves import Curves, Terrain
+from rsrm_gen.trainer.curves import Curves, Terrain, offsets_of
 from rsrm_gen.trainer.labels import Labels, exchanged, extended, label, labels_of, offered
 from rsrm_gen.trainer.reference import Reference, scene_key, solve_reference
 from rsrm_gen.trainer.scene import Scene
@@ -49,8 +49,6 @@ class Check:
 
     rms: float
     maximum: float
-    grid_rms: float  # the grid's own error, by its own account
-    grid_maximum: float
 
 
 class Truth:
@@ -127,7 +125,7 @@ class Truth:
             difference = self.grid.time(torch.from_numpy(labels.x)).numpy() - labels.time
             difference = difference[np.isfinite(difference)]
             rms, largest = float(np.sqrt(np.mean(difference**2))), float(np.abs(difference).max(initial=0.0))
-            self.check = Check(rms, largest, self.grid.error, self.grid.max_error)
+            self.check = Check(rms, largest)
 
     def _key(self, x: Tensor) -> str:
         """A hash of all that the labels depend on."""
@@ -186,8 +184,7 @@ def back_traced(grid: Reference, x: Tensor, step: float, difference: float) -> C
     trails.append(scene.goal.expand_as(x))
     row = torch.cat(rows)
     order = row.argsort(stable=True)
-    offsets = np.concatenate([np.zeros(1, np.int64), np.cumsum(np.bincount(row.numpy(), minlength=len(x)))])
-    return Curves(torch.cat(trails)[order].numpy(), offsets)
+    return Curves(torch.cat(trails)[order].numpy(), offsets_of(np.bincount(row.numpy(), minlength=len(x))))
 
 
 def _downhill(grid: Reference, y: Tensor, difference: Tensor) -> Tensor:

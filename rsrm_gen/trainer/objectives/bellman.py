@@ -18,8 +18,8 @@ import torch
 from torch import Tensor
 
 from rsrm_gen.trainer.fit import Fit, Schedule, Targets
-from rsrm_gen.trainer.objectives.objective import Tell, width_bounds
-from rsrm_gen.trainer.plan import plan
+from rsrm_gen.trainer.objectives.objective import Tell, random_numbers, width_bounds
+from rsrm_gen.trainer.plan import plan, segments
 from rsrm_gen.trainer.response import Arrival
 from rsrm_gen.trainer.run import Arrays, new_arrival
 from rsrm_gen.trainer.scene import Scene
@@ -32,7 +32,6 @@ SHAPES_EVERY = 5  # sweeps between two iterations of Gauss-Newton
 ROLLOUTS = 6  # the last part of the steps fits paths of the field: one in so many
 ROLLOUTS_EVERY = 5  # of these steps have the same paths
 STEP = 0.05  # of a descent
-QUADRATURE = 5  # points of a geodesic's cost
 
 
 class Bellman:
@@ -54,9 +53,8 @@ class Bellman:
         weight = (scene.law.free / scene.slowness(self.x)).square()
         schedule = Schedule(iterations=self.steps, bounds=width_bounds(scene.manifold, scene.training.splats, self.x))
         self.fit = Fit(self.arrival.field, Arrival(self.arrival), Targets(self.x, self.direct, weight), schedule)
-        self.paid = torch.full_like(
-            self.direct, math.inf
-        )  # the least cost of a path that the field has led to the goal
+        # The least cost of a path on which the field has led to the goal.
+        self.paid = torch.full_like(self.direct, math.inf)
 
     def begin(self) -> None:
         """Splats that give the costs of the geodesics to the goal."""
@@ -132,31 +130,20 @@ class Bellman:
         self.paid = torch.from_numpy(arrays["paid"])
         self.step = int(arrays["step"])
 
-    def _generator(self, purpose: int) -> torch.Generator:
-        state = np.random.SeedSequence((self.settings.seed, purpose)).generate_state(1, np.uint64)
-        return torch.Generator().manual_seed(int(state[0]))
-
     def _points(self) -> Tensor:
-        x = self.scene.sample(self.settings.points, self._generator(0))
+        x = self.scene.sample(self.settings.points, random_numbers(self.settings.seed, 0))
         return x[self.scene.manifold.distance(x, self.scene.goal.expand_as(x)) > 0]
 
     def _fan(self) -> Tensor:
         """Where the fixed steps from each point end, within the domain: (N, U, D)."""
         x, M = self.x, self.scene.manifold
-        directions = fan(M.dim, self._generator(1)).to(x.dtype)
+        directions = fan(M.dim, random_numbers(self.settings.seed, 1)).to(x.dtype)
         steps = torch.cat([ring * self.settings.reach * directions for ring in RINGS])
         return self.scene.into_domain(M.exp(x[:, None], torch.einsum("ud,ndt->nut", steps, M.frame(x))))
 
     def _cost(self, ends: Tensor) -> Tensor:
         """The costs (N, U) of the geodesics from the points to ends (N, U, D)."""
-        M = self.scene.manifold
-        x = self.x[:, None].expand_as(ends)
-        v = M.log(x, ends)
-        node, weight = np.polynomial.legendre.leggauss(QUADRATURE)
-        mean = torch.zeros(ends.shape[:-1], dtype=ends.dtype)
-        for at, w in zip((node + 1) / 2, weight / 2, strict=True):
-            mean += float(w) * self.scene.slowness(M.exp(x, float(at) * v))
-        return M.norm(x, v) * mean
+        return segments(self.scene, self.x[:, None].expand_as(ends), ends).cost
 
 
 def fan(dim: int, generator: torch.Generator) -> Tensor:

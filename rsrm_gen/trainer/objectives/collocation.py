@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from typing import Literal, get_args
 
-import numpy as np
 import torch
 from torch import Tensor
 
@@ -17,6 +16,7 @@ from rsrm_gen.errors import UserError
 from rsrm_gen.trainer.arithmetic import Points
 from rsrm_gen.trainer.clock import NO_CLOCK, Clock
 from rsrm_gen.trainer.model import ArrivalTime
+from rsrm_gen.trainer.objectives.objective import random_numbers
 from rsrm_gen.trainer.objectives.residual import Residual
 from rsrm_gen.trainer.scene import Scene
 from rsrm_gen.trainer.settings import EikonalTraining
@@ -70,9 +70,7 @@ class Collocation:
 
 def generator(seed: int, purpose: Purpose, step: int = 0) -> torch.Generator:
     """The random numbers of a training with this seed for one purpose at one step."""
-    entropy = (seed, step, PURPOSES.index(purpose))
-    state = np.random.SeedSequence(entropy).generate_state(1, np.uint64)
-    return torch.Generator().manual_seed(int(state[0]))
+    return random_numbers(seed, step, PURPOSES.index(purpose))
 
 
 def learning_rate(settings: EikonalTraining, step: int) -> float:

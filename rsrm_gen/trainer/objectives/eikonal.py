@@ -15,7 +15,7 @@ from rsrm_gen.trainer.density import make_density, pick_apart, pick_spread
 from rsrm_gen.trainer.objectives.collocation import BLOCK, Collocation, Purpose, generator, learning_rate
 from rsrm_gen.trainer.objectives.residual import Residual
 from rsrm_gen.trainer.optimise import AdamW
-from rsrm_gen.trainer.run import Arrays, fill_rows, new_arrival
+from rsrm_gen.trainer.run import Arrays, fill_rows, first_rows, new_arrival
 from rsrm_gen.trainer.scene import Scene
 from rsrm_gen.trainer.settings import EikonalTraining
 
@@ -90,8 +90,7 @@ class Eikonal:
     def arrays(self) -> Arrays:
         """Everything that changes, as plain arrays: active rows only."""
         buffers = {**self.field.buffers_of_splats(), **self.adam.buffers_of_splats()}
-        arrays: Arrays = {name: rows[: self.field.count].numpy() for name, rows in buffers.items()}
-        return {**arrays, "step": np.array(self.step)}
+        return {**first_rows(buffers, self.field.count), "step": np.array(self.step)}
 
     def restore(self, arrays: Arrays, path: Path) -> None:
         """Go back to what `arrays` gave; it was read from `path`."""

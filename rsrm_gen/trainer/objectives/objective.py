@@ -7,6 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Protocol
 
+import numpy as np
+import torch
 from torch import Tensor
 
 from rsrm_gen.manifold import Manifold
@@ -45,6 +47,12 @@ class Objective(Protocol):
     def restore(self, arrays: Arrays, path: Path) -> None:
         """Go back to what `arrays` gave; it was read from `path`."""
         ...
+
+
+def random_numbers(*entropy: int) -> torch.Generator:
+    """A generator that follows from these numbers alone: the seed, and what it is for."""
+    state = np.random.SeedSequence(entropy).generate_state(1, np.uint64)
+    return torch.Generator().manual_seed(int(state[0]))
 
 
 def width_bounds(manifold: Manifold, splats: Splats, x: Tensor) -> tuple[float, float]:

@@ -19,13 +19,13 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from rsrm_gen.trainer.curves import Array, Curves, Terrain
+from rsrm_gen.trainer.curves import Curves, Terrain
 from rsrm_gen.trainer.fit import Fit, Schedule, Targets
 from rsrm_gen.trainer.labels import Labels, exchanged, extended, label, offered, weighed
-from rsrm_gen.trainer.objectives.objective import Tell, width_bounds
+from rsrm_gen.trainer.objectives.objective import Tell, random_numbers, width_bounds
 from rsrm_gen.trainer.plan import plan
 from rsrm_gen.trainer.response import Arrival
-from rsrm_gen.trainer.run import Arrays, new_arrival
+from rsrm_gen.trainer.run import Arrays, first_rows, new_arrival
 from rsrm_gen.trainer.sampling import sample_points
 from rsrm_gen.trainer.scene import Scene
 from rsrm_gen.trainer.settings import PathsTraining
@@ -68,7 +68,8 @@ class Paths:
             self.labels = label(self.terrain, self.points[: len(self.points) // 2], self._progress)
         elif self.step == self.first:
             self.labels = self._refined(self.labels, self.points[len(self.labels) :])
-            self._fit().aim(self._targets(), self._schedule(self.step))
+            targets = self._targets()
+            self._fit().aim(targets, self._schedule(self.step, targets))
         fit = self._fit()
         if not self.arrival.field.count:
             fit.place(self.settings.splats.count)
@@ -82,8 +83,13 @@ class Paths:
 
     def _fit(self) -> Fit:
         if self.fit is None:
-            self.fit = Fit(self.arrival.field, Arrival(self.arrival), self._targets(), self._schedule(self.step))
+            self.fit = self._new_fit(self.step)
         return self.fit
+
+    def _new_fit(self, step: int) -> Fit:
+        """A fit in the part of the training that this step belongs to."""
+        targets = self._targets()
+        return Fit(self.arrival.field, Arrival(self.arrival), targets, self._schedule(step, targets))
 
     def _targets(self) -> Targets:
         assert self.labels is not None
@@ -91,18 +97,17 @@ class Paths:
         weight = torch.from_numpy(weighed(self.terrain, x))
         return Targets(*(t.to(self.scene.goal.dtype) for t in (x, torch.from_numpy(self.labels.time), weight)))
 
-    def _schedule(self, step: int) -> Schedule:
+    def _schedule(self, step: int, targets: Targets) -> Schedule:
         first = step < self.first
         count = self.first if first else self.steps - self.first
         moved = MOVED_FIRST if first else MOVED_THEN
         relocate = {max(round(part * count), 1): share for part, share in moved.items()}
-        return Schedule(count, relocate, width_bounds(self.scene.manifold, self.settings.splats, self._targets().x))
+        return Schedule(count, relocate, width_bounds(self.scene.manifold, self.settings.splats, targets.x))
 
     @cached_property
     def points(self) -> Tensor:
         """All points that get labels, in an order of which every part is spread out: (N, D), float64."""
-        state = np.random.SeedSequence(self.settings.seed).generate_state(1, np.uint64)
-        generator = torch.Generator().manual_seed(int(state[0]))
+        generator = random_numbers(self.settings.seed)
         x = sample_points(self.scene, self.settings.labelled, generator)
         return x[torch.randperm(len(x), generator=generator)]
 
@@ -134,9 +139,8 @@ class Paths:
 
     def arrays(self) -> Arrays:
         """The splats, the damping, and the labels with their paths."""
-        buffers = self.arrival.field.buffers_of_splats()
-        splats: dict[str, Array] = {name: rows[: self.arrival.field.count].numpy() for name, rows in buffers.items()}
-        fit = self.fit.arrays() if self.fit else splats
+        field = self.arrival.field
+        fit = self.fit.arrays() if self.fit else first_rows(field.buffers_of_splats(), field.count)
         labels = {f"label_{name}": rows for name, rows in self.labels.arrays().items()} if self.labels else {}
         return {**fit, **labels, "step": np.array(self.step)}
 
@@ -148,5 +152,5 @@ class Paths:
         known = {name.removeprefix("label_"): rows for name, rows in arrays.items() if name.startswith("label_")}
         self.labels = Labels.from_arrays(known)
         # The phase of the fit that the last iteration belonged to; the next one may begin another.
-        self.fit = Fit(self.arrival.field, Arrival(self.arrival), self._targets(), self._schedule(self.step - 1))
+        self.fit = self._new_fit(self.step - 1)
         self.fit.restore(arrays, path)
