@@ -83,10 +83,10 @@ def test_slopes_and_losses_agree(d: int, T: int, link: str, squared: bool) -> No
 @needs_compiler
 def test_points_near_the_goal_are_left_out_of_their_part() -> None:
     given = numbers()
-    x, distance, toward, slowness = given(60, 3), given(60).abs(), given(60, 2), given(60)
+    there, distance = Points(given(60, 3), given(60), given(60, 2), given(60)), given(60).abs()
     distance[7], distance[0], distance[40:60] = 0, 9, 0.1  # one part without a point
     for least in (0.3, -1.0, 100.0):
-        compare(2, 2, lambda a, least=least: a.far(3, least, x, distance, toward, slowness))
+        compare(2, 2, lambda a, least=least: a.far(3, least, distance, there))
 
 
 @needs_compiler

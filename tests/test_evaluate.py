@@ -12,7 +12,7 @@ import pytest
 import torch
 from plain_manifolds import PLAIN, FlatTorus, Rotations
 from rich.console import Console
-from scenes import small_scene
+from scenes import generated, small_scene
 from torch import Tensor
 
 from rsrm_gen.errors import UserError
@@ -133,15 +133,17 @@ def test_no_training_at_all_is_a_row_of_its_own(tmp_path: Path) -> None:
 def test_a_run_is_judged_and_the_verdict_kept(tmp_path: Path) -> None:
     training = "{steps: 3, points: 32, splats: {initial: 4}}"
     folder = RunFolder(tmp_path / "run")
-    scene = small_scene(tmp_path, "H2", training)
+    scene = small_scene(tmp_path, "H2", training, manifold=generated("H2"))
     folder.create(scene)
     train(scene, folder)
     evaluation = evaluate_run(folder.path, manifold=scene.manifold, cells=64)
+    field, fitted, distance = evaluation.rows
+    assert fitted.rms < min(field.rms, distance.rms) / 2
     assert json.loads((folder.path / "evaluation.json").read_text()) == json.loads(json.dumps(asdict(evaluation)))
     assert not [file for file in folder.path.iterdir() if file.name.startswith(".")]
     console = Console(file=io.StringIO(), width=100)
     print_evaluation(evaluation, console)
     said = console.file.getvalue()
     assert f"{evaluation.rows[0].paper:.5f}" in said
-    for line in ("small H2", "field", "T = d", "reference's own error"):
+    for line in ("small H2", "field", "fitted to the reference", "T = d", "reference's own error"):
         assert line in said

@@ -13,12 +13,14 @@ from plain_manifolds import PLAIN
 from scenes import random_field, seeded, small_scene
 from torch import Tensor
 
+from rsrm_gen.files import bundled
 from rsrm_gen.load import load
 from rsrm_gen.manifold import Manifold
 from rsrm_gen.trainer.link import Exponential, Link, Quotient
 from rsrm_gen.trainer.model import ArrivalTime, SplatField
 from rsrm_gen.trainer.objectives.residual import Residual
-from rsrm_gen.trainer.scene import Scene
+from rsrm_gen.trainer.run import new_arrival
+from rsrm_gen.trainer.scene import Scene, read_scene
 
 
 def plain_slope(scene: Scene, link: str, x: Tensor, v: Tensor, mu: Tensor, E: Tensor, A: Tensor) -> Tensor:
@@ -100,6 +102,21 @@ def test_generated_code_gives_the_gradients_of_double_differentiation_by_hand(tm
     ours = named(scene.manifold, columns)
     for key, gradient in gradients.items():
         assert float((ours[key] - gradient).norm() / gradient.norm()) < 1e-9, key
+
+
+@pytest.mark.parametrize("name", ["torus", "rotations", "arm"])
+def test_the_residual_is_that_of_the_arrival_times_own_slope(name: str) -> None:
+    """By differences, on smooth bases and on a retraction, along which -Log / d is not the gradient of d."""
+    scene = read_scene(bundled("examples") / f"{name}.yaml").in_double()
+    M, h = scene.manifold, 1e-5
+    x = scene.sample(40, seeded(2))
+    arrival = new_arrival(scene, 6)
+    arrival.field = random_field(M, x[:6], seeded(1))
+    steps = h * M.frame(x[6:])
+    ahead, behind = (arrival.time(M.exp(x[6:, None], s * steps).flatten(0, 1)).view(-1, M.dim) for s in (1, -1))
+    slope = (ahead - behind).norm(dim=1) / (2 * h)
+    _, residuals = Residual(scene, "squared").loss(arrival, x[6:])
+    torch.testing.assert_close(residuals, (slope - scene.slowness(x[6:])) ** 2, rtol=1e-5, atol=1e-5)
 
 
 def doubly_differentiated(

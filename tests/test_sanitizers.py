@@ -84,12 +84,13 @@ def calls(program: Program) -> Iterator[tuple[Routine, Precision]]:
             yield routine, precision
 
 
-def driver(program: Program) -> str:
+def driver(program: Program, splats: tuple[int, ...] = SPLATS, threads: int = 1) -> str:
     """A C program that runs all functions at the rows of a file."""
     blocks = [_block(program, routine, precision) for routine, precision in calls(program)]
     frames = [_frame(program, precision) for precision in PRECISIONS]
     body = "\n".join([*blocks, *frames])
-    preamble = PREAMBLE.replace("COUNTS", ", ".join(map(str, COUNTS))).replace("SPLATS", ", ".join(map(str, SPLATS)))
+    preamble = PREAMBLE.replace("COUNTS", ", ".join(map(str, COUNTS))).replace("SPLATS", ", ".join(map(str, splats)))
+    body = body.replace("THREADS", str(threads))
     return (
         f'#include "{program.name}.h"\n{preamble}\nint main(int argc, char **argv) {{\n'
         f'    if (argc != 2 || (rows = fopen(argv[1], "rb")) == NULL) return 2;\n{body}\n    return fclose(rows);\n}}\n'
@@ -103,7 +104,9 @@ def _block(program: Program, routine: Routine, precision: Precision) -> str:
         lines += [_scalar(program, routine, precision)]
         lines.append(f"for (size_t c = 0; c < {len(COUNTS)}; ++c) {_batch(program, routine, precision)}")
     if routine.name in ("splat", "splat_vjp"):
-        loops = f"for (size_t c = 0; c < {len(COUNTS)}; ++c) for (size_t k = 0; k < {len(SPLATS)}; ++k)"
+        loops = (
+            f"for (size_t c = 0; c < {len(COUNTS)}; ++c) for (size_t k = 0; k < sizeof splats / sizeof *splats; ++k)"
+        )
         lines.append(f"{loops} {_sums(program, routine, precision)}")
     lines += [f"free({a.name});" for a in inputs]
     return "    {\n" + "\n".join(f"        {line}" for line in lines) + "\n    }"
@@ -146,7 +149,7 @@ def _sums(program: Program, routine: Routine, precision: Precision) -> str:
             "splats_vjp": [Array(r.name, r.size, True) for r in results],
             "splats_rows": [Array("rows_out", size, by_pair=True)],
         }
-    work = f"{program.name}_splats_work{precision.tag}(counts[c], splats[k], 1)"
+    work = f"{program.name}_splats_work{precision.tag}(counts[c], splats[k], THREADS)"
     inputs = arrays(routine)
     calls = []
     for name, given in functions.items():
@@ -192,7 +195,7 @@ def _called(
     lines += [f"{t} *work = ({t} *)malloc({work} * sizeof({t}));"] if work else []
     parts = [f"{a.name}_part" for a in inputs]
     given = ", ".join([*counts, *parts[:4], *([width] if width else []), *parts[4:], *(r.name for r in results)])
-    given += ", work, 1" if work else ""
+    given += ", work, THREADS" if work else ""
     names = [*(f"{a.name}_part" for a in inputs), *(r.name for r in results), *(["work"] if work else [])]
     return "{ " + " ".join([*lines, f"{name}({given});", *(f"free({name});" for name in names)]) + " }"
 

@@ -20,6 +20,7 @@ COLORS = {
     "jax-analytic": "#b3a9d0",
     "ours": "#2a7f62",
     "kernel": "#8fc9b3",
+    "culled": "#c9e8dc",
 }
 STYLE: Any = {"font.size": 8, "axes.spines.top": False, "axes.spines.right": False, "svg.hashsalt": "rsrm"}
 WIDTH = 0.84  # of a manifold's bars together

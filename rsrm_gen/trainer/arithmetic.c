@@ -34,11 +34,10 @@ void slowness(size_t count, size_t balls, const REAL *restrict distances, const 
     for (size_t n = 0; n < count; ++n) s[n] = outside + rise / (1 + exp(s[n] * per_width));
 }
 
-/* grad d = -Log / d, where `toward` is the Log to the goal; 0 at the goal itself. Points nearer than `least` are left
- * out, the others stay in their order: how many of each part of `count` points. */
-void far_points(size_t parts, size_t count, size_t size, double least, const REAL *restrict x,
-                const REAL *restrict distance, const REAL *restrict toward, const REAL *restrict s,
-                REAL *restrict far_x, REAL *restrict far_distance, REAL *restrict away, REAL *restrict far_s,
+/* Points nearer than `least` are left out, the others stay in their order: how many of each part of `count` points. */
+void far_points(size_t parts, size_t count, size_t size, double least, const REAL *restrict distance,
+                const REAL *restrict x, const REAL *restrict base, const REAL *restrict away, const REAL *restrict s,
+                REAL *restrict far_x, REAL *restrict far_base, REAL *restrict far_away, REAL *restrict far_s,
                 size_t *restrict counts) {
     size_t kept = 0;
     for (size_t part = 0; part < parts; ++part) {
@@ -47,16 +46,12 @@ void far_points(size_t parts, size_t count, size_t size, double least, const REA
             for (next = n; next < end && distance[next] > (REAL)least; ++next);
             const size_t run = next - n;
             memcpy(far_x + kept * size, x + n * size, run * size * sizeof(REAL));
-            memcpy(far_distance + kept, distance + n, run * sizeof(REAL));
+            memcpy(far_base + kept, base + n, run * sizeof(REAL));
+            memcpy(far_away + kept * TANGENT, away + n * TANGENT, run * TANGENT * sizeof(REAL));
             memcpy(far_s + kept, s + n, run * sizeof(REAL));
-            memcpy(away + kept * TANGENT, toward + n * TANGENT, run * TANGENT * sizeof(REAL));
             kept += run;
         }
         counts[part] = kept - before;
-    }
-    for (size_t n = 0; n < kept; ++n) {
-        const REAL scale = -1 / (far_distance[n] > 0 ? far_distance[n] : 1);
-        for (size_t t = 0; t < TANGENT; ++t) away[n * TANGENT + t] *= scale;
     }
 }
 

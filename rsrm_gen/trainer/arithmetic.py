@@ -40,9 +40,13 @@ class Points:
     """N points and what the loss needs to know of them, which does not change with the field."""
 
     x: Tensor  # (N, D)
-    distance: Tensor  # (N,), to the goal
+    base: Tensor  # (N,), what the link multiplies: see base.py
     away: Tensor  # (N, T), its gradient
     slowness: Tensor  # (N,)
+
+    def tensors(self) -> tuple[Tensor, ...]:
+        """All of it, in the order of the fields."""
+        return self.x, self.base, self.away, self.slowness
 
 
 @dataclass(frozen=True)
@@ -63,10 +67,10 @@ class Splats:
 
 @dataclass(frozen=True)
 class Slope:
-    """grad T at N points and the partial derivatives of T(d, f) that it was made of."""
+    """grad T at N points and the partial derivatives of T(b, f) that it was made of."""
 
     gradient: Tensor  # (N, T)
-    partials: Tensor  # (4, N): dT/dd, dT/df, d^2T/dd df, d^2T/df^2
+    partials: Tensor  # (4, N): dT/db, dT/df, d^2T/db df, d^2T/df^2
 
 
 @dataclass(frozen=True)
@@ -82,11 +86,8 @@ class Loss:
 class Arithmetic(Protocol):
     """What `InTorch` and `InC` both offer."""
 
-    def far(
-        self, parts: int, least: float, x: Tensor, distance: Tensor, toward: Tensor, slowness: Tensor
-    ) -> list[Points]:
-        """The points x (N, D) in so many equal parts, those alone that are farther than `least` from the goal, whose
-        Log at them is `toward` (N, T)."""
+    def far(self, parts: int, least: float, distance: Tensor, points: Points) -> list[Points]:
+        """The points in so many equal parts, those alone whose distance (N,) to the goal is more than `least`."""
         ...
 
     def slowness(self, distances: Tensor, radii: Tensor, free: float, obstacle: float, width: float) -> Tensor:
@@ -146,13 +147,11 @@ class InTorch:
     def __init__(self, dim: int) -> None:
         self.dim = dim
 
-    def far(
-        self, parts: int, least: float, x: Tensor, distance: Tensor, toward: Tensor, slowness: Tensor
-    ) -> list[Points]:
+    def far(self, parts: int, least: float, distance: Tensor, points: Points) -> list[Points]:
         """The points farther than `least` from the goal."""
-        away = toward / -torch.where(distance > 0, distance, 1.0)[:, None]  # zero at the goal itself
-        chunks = zip(*(t.chunk(parts) for t in (x, distance, away, slowness)), strict=True)
-        return [Points(*(t[chunk[1] > least] for t in chunk)) for chunk in chunks]
+        far = (distance > least).chunk(parts)
+        chunks = zip(*(t.chunk(parts) for t in points.tensors()), strict=True)
+        return [Points(*(t[kept] for t in chunk)) for kept, chunk in zip(far, chunks, strict=True)]
 
     def slowness(self, distances: Tensor, radii: Tensor, free: float, obstacle: float, width: float) -> Tensor:
         """The slowness."""
@@ -178,7 +177,7 @@ class InTorch:
 
     def slope(self, link: Link, points: Points, f: Tensor, df: Tensor) -> Slope:
         """grad T."""
-        partials = torch.stack(link.derivatives(points.distance, f))
+        partials = torch.stack(link.derivatives(points.base, f))
         return Slope(partials[0, :, None] * points.away + partials[1, :, None] * df, partials)
 
     def eikonal(self, squared: bool, points: Points, slope: Slope, covector: Tensor, df: Tensor) -> Loss:
@@ -264,14 +263,13 @@ class InC:
             function.restype, function.argtypes = result, [_TYPES[letter] for letter in types]
         self.library: Any = library
 
-    def far(
-        self, parts: int, least: float, x: Tensor, distance: Tensor, toward: Tensor, slowness: Tensor
-    ) -> list[Points]:
+    def far(self, parts: int, least: float, distance: Tensor, points: Points) -> list[Points]:
         """The points farther than `least` from the goal."""
-        given = x.contiguous(), distance.contiguous(), toward.contiguous(), slowness.contiguous()
+        count, size = points.x.shape
+        distance, given = distance.contiguous(), [t.contiguous() for t in points.tensors()]
         made = [torch.empty_like(t) for t in given]
         counts = (ctypes.c_size_t * parts)()
-        self.library.far_points(parts, len(x) // parts, x.shape[1], least, *_addresses(*given, *made), counts)
+        self.library.far_points(parts, count // parts, size, least, *_addresses(distance, *given, *made), counts)
         ends = list(itertools.accumulate(counts, initial=0))
         return [Points(*(t[start:end] for t in made)) for start, end in itertools.pairwise(ends)]
 
@@ -309,7 +307,7 @@ class InC:
         else:
             return InTorch(self.dim).slope(link, points, f, df)
         gradient, partials = torch.empty_like(df), df.new_empty(4, len(df))
-        addresses = _addresses(points.distance, points.away, f, df, partials, gradient)
+        addresses = _addresses(points.base, points.away, f, df, partials, gradient)
         self.library.arrival_gradient(len(df), *form, *addresses)
         return Slope(gradient, partials)
 
@@ -353,7 +351,7 @@ class InC:
 # The C functions: what they return and take. n: a size, i: an int, d: a double, p: an address.
 _TYPES = {"n": ctypes.c_size_t, "i": ctypes.c_int, "d": ctypes.c_double, "p": ctypes.c_void_p}
 _SIGNATURES: dict[str, tuple[Any, str]] = {
-    "far_points": (None, "nnnd" + 9 * "p"),
+    "far_points": (None, "nnnd" + 10 * "p"),
     "slowness": (None, "nnppdddp"),
     "map_splats": (None, "nnd" + 6 * "p"),
     "map_splats_adjoint": (None, "n" + 9 * "p"),

@@ -202,8 +202,13 @@ def _picture(console: Console, run: Path) -> None:
 
 
 @app.command("eval")
-def _eval(run: RunArgument) -> None:
-    """Judge a field by a reference solution, beside what no training at all would give.
+def _eval(
+    run: RunArgument,
+    with_fitted: Annotated[
+        bool, typer.Option("--fitted/--no-fitted", help="Also the model fitted to the reference.")
+    ] = True,
+) -> None:
+    """Judge a field by a reference solution, beside what no training at all would give, and what so many splats could hold.
 
     \b
     rsrm eval runs/scene
@@ -212,7 +217,7 @@ def _eval(run: RunArgument) -> None:
     with _extra("a reference solution", "reference"):
         from rsrm_gen.trainer.evaluate import evaluate_run, print_evaluation
 
-        print_evaluation(evaluate_run(run, console), console)
+        print_evaluation(evaluate_run(run, console, with_fitted=with_fitted), console)
 
 
 @app.command("plan")

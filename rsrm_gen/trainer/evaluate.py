@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Sequence
+from contextlib import nullcontext
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Protocol
@@ -21,12 +22,15 @@ from torch import Generator, Tensor
 from rsrm_gen.errors import UserError
 from rsrm_gen.files import write_text_whole
 from rsrm_gen.manifold import Manifold
+from rsrm_gen.trainer.fitted import can_be_fitted, fitted
+from rsrm_gen.trainer.model import ArrivalTime
 from rsrm_gen.trainer.planning import Planning, planning
-from rsrm_gen.trainer.run import load_run
+from rsrm_gen.trainer.run import Run, load_run
 from rsrm_gen.trainer.scene import Scene
 from rsrm_gen.trainer.truth import solve_truth
 
 BATCH = 2048
+FITTED = "fitted to the reference"
 
 TimeFunction = Callable[[Tensor], Tensor]
 
@@ -64,18 +68,39 @@ class Evaluation:
 
 
 def evaluate_run(
-    path: Path, console: Console | None = None, manifold: Manifold | None = None, cells: int | None = None
+    path: Path,
+    console: Console | None = None,
+    manifold: Manifold | None = None,
+    cells: int | None = None,
+    with_fitted: bool = True,
 ) -> Evaluation:
     """Judge the trained field of a run folder, and keep the verdict there as evaluation.json.
 
-    `manifold` stands in for the one the scene names, `cells` for the reference's resolution.
+    `manifold` stands in for the one the scene names, `cells` for the reference's resolution. `with_fitted`: also judge the
+    same model fitted to the reference, where that takes seconds (fitted.py).
     """
     run = load_run(path, manifold)
     truth = solve_truth(run.scene, cells, console)
-    evaluation = evaluate_all(run.scene, {"field": run.arrival.time}, truth)
+    fields: dict[str, TimeFunction] = {"field": run.arrival.time}
+    if with_fitted and (model := _fitted(run, truth, console)):
+        fields[FITTED] = model.time
+    evaluation = evaluate_all(run.scene, fields, truth)
     evaluation = replace(evaluation, planning=planning(run.arrival, run.scene, truth.time))
     write_text_whole(path / "evaluation.json", json.dumps(asdict(evaluation), indent=2) + "\n")
     return evaluation
+
+
+def _fitted(run: Run, truth: Solution, console: Console | None) -> ArrivalTime | None:
+    cells = free_cells(run.scene).points
+    if not can_be_fitted(run.arrival, len(cells)):
+        return None
+    with console.status(FITTED) if console else nullcontext() as status:
+
+        def tell(done: int, whole: int) -> None:
+            if status:
+                status.update(f"{FITTED}: {done} of {whole} iterations")
+
+        return fitted(run.arrival, cells, truth.time(cells), tell)
 
 
 class Solution(Protocol):

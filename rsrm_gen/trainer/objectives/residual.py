@@ -39,7 +39,8 @@ class Residual:
         for center, distance in zip(centers, distances, strict=True):
             distance.copy_(manifold.distance(x, center))
         slowness = arithmetic.slowness(distances, self.scene.radii, law.free, law.obstacle, law.width)
-        return arithmetic.far(parts, exclusion, x, manifold.distance(x, goal), manifold.log(x, goal), slowness)
+        points = Points(x, *arrival.base.value_and_gradient(x), slowness)
+        return arithmetic.far(parts, exclusion, manifold.distance(x, goal), points)
 
     def _centers(self, count: int) -> Tensor:
         """The goal and the obstacles' centres, each as so many rows: (1 + m, N, D)."""
