@@ -283,6 +283,15 @@ def test_medians_ratios_shares_and_goals_are_what_they_say() -> None:
     json.dumps(result.document(), allow_nan=False)
 
 
+def test_every_contender_can_be_drawn(tmp_path: Path) -> None:
+    draw = pytest.importorskip("rsrm_gen.bench.kernel_plot").draw
+    entries = tuple(replace(known().entries[0], contender=contender.key) for contender in CONTENDERS)
+    draw(replace(known(), entries=entries, contenders=CONTENDERS), tmp_path / "all.svg")
+    drawn = (tmp_path / "all.svg").read_text(encoding="utf-8")
+    for contender in CONTENDERS:
+        assert contender.name in drawn
+
+
 def test_a_run_beside_other_programs_is_called_disturbed() -> None:
     result = known()
     assert "DISTURBED" not in foot(result)
