@@ -48,6 +48,7 @@ WIDEST = 0.22  # of the injectivity radius, on a compact manifold: little is lef
 SMALLEST = 1e-30  # where no row says anything
 FIRST_DAMPING, EASE, RAISE = 1e-2, 0.4, 4.0
 LEAST_DAMPING, LARGEST_DAMPING = 1e-7, 1e6
+WORSE = 2.0  # times the cost before
 FREE = 0.999  # of the largest weight: what counts as free space in the report
 
 
@@ -183,7 +184,7 @@ class Fit:
 
     def _step(self, equations: NormalEquations, cost: float) -> bool:
         """Try steps, each damped more than the last, until one lowers the cost."""
-        before = {name: rows.clone() for name, rows in self.field.buffers_of_splats().items()}
+        before = self._rows()
         for _ in range(6):
             step = equations.step(self.damping)
             if step is not None:
@@ -191,10 +192,16 @@ class Fit:
                 if self._cost(self.values(self.targets.x)) < cost:  # false where it is not a number
                     self.damping = max(self.damping * EASE, LEAST_DAMPING)
                     return True
-                for name, rows in self.field.buffers_of_splats().items():
-                    rows.copy_(before[name])
+                self._restore_rows(before)
             self.damping *= RAISE
         return False
+
+    def _rows(self) -> dict[str, Tensor]:
+        return {name: rows.clone() for name, rows in self.field.buffers_of_splats().items()}
+
+    def _restore_rows(self, kept: dict[str, Tensor]) -> None:
+        for name, rows in self.field.buffers_of_splats().items():
+            rows.copy_(kept[name])
 
     def values(self, x: Tensor) -> Tensor:
         """f (N,) at x (N, D)."""
@@ -216,7 +223,8 @@ class Fit:
         return math.sqrt(residual.sum() / weight.sum()), math.sqrt(residual[free].sum() / weight[free].sum())
 
     def _relocate(self, share: float) -> int:
-        """Move that share of the splats, those that could be missed best, to the largest residuals; how many."""
+        """Move that share of the splats, those that could be missed best, to the largest residuals; how many. What makes
+        the fit much worse (the weights are solved for f, and T is not linear in it) is taken back."""
         count = int(share * self.field.count)
         if count == 0:
             return 0
@@ -226,7 +234,7 @@ class Fit:
         matrix = curvature(self.field, self.sample, row, amplitudes_alone(self.field), torch.float64)
         inverse = torch.cholesky_inverse(torch.linalg.cholesky(self._ridged(matrix, row))).diagonal()
         missed = amplitudes(self.field).double().square() / inverse
-        centers = self._worst(f, count)
+        centers, cost, before = self._worst(f, count), self._cost(f), self._rows()
         gone = missed.argsort(stable=True)[: len(centers)]
         kept = torch.ones(self.field.count, dtype=torch.bool)
         kept[gone] = False
@@ -237,6 +245,9 @@ class Fit:
         self.field.A[first : self.field.count] *= spacing[:, None, None] * (OVERLAP / 2)
         self._bound()
         self.solve_amplitudes()
+        if not self._cost(self.values(self.targets.x)) < WORSE * cost:
+            self._restore_rows(before)
+            return 0
         return len(centers)
 
     def worst(self, count: int) -> Tensor:

@@ -30,7 +30,7 @@ from torch import Tensor
 from rsrm_gen.compiler.native import FAST, compiled, compiler
 from rsrm_gen.trainer.arithmetic import REALS, Splats
 from rsrm_gen.trainer.blocks import Block, blocks
-from rsrm_gen.trainer.model import SplatField, width
+from rsrm_gen.trainer.model import SplatField
 
 SOURCE = Path(__file__).with_suffix(".c")
 BLOCK = 512  # points of which rows of the Jacobian are there at the same time
@@ -103,7 +103,7 @@ def curvature(
     `to_parameters` (K, D + d T + 1, Q) says which parameters, as `effective_map` does. Products are summed in `dtype`.
     """
     splats, Q = field.splats(), to_parameters.shape[-1]
-    widths = width(field.A[: field.count].movedim(0, -1))
+    widths = torch.linalg.svdvals(field.A[: field.count])
     matrix = torch.zeros(field.count * Q, field.count * Q, dtype=dtype)
     parameters = torch.arange(field.count * Q).view(-1, Q)
     add = adder(dtype)
@@ -149,16 +149,18 @@ def gradient(field: SplatField, x: Tensor, slope: Tensor, residual: Tensor, to_p
 
 
 def _near(field: SplatField, splats: Splats, widths: Tensor, part: Block, reach: float) -> Tensor:
-    """The splats (k,) that come within so many standard deviations of a block's points."""
+    """The splats (k,) that come within so many standard deviations of a block's points; widths (K, d) are the singular
+    values of A, falling."""
     manifold = field.manifold
     near = torch.arange(field.count)
     if manifold.maps == "geodesic":  # else distances need not be those of a metric
         distance = manifold.distance(part.center.expand_as(splats.mu), splats.mu)
-        near = near[~(distance - part.radius > reach * widths)]  # one that is not finite is not known to be far
+        near = near[~(distance - part.radius > reach * widths[:, 0])]  # one that is not finite is not known to be far
     size = len(near), len(part.probes), manifold.point_size
     toward = manifold.log(splats.mu[near][:, None].expand(size), part.probes.expand(size))
     z = (splats.W[near] @ toward.mT).square().sum(1).amin(1).sqrt()
-    return near[~(z > reach + part.cover / widths[near])]
+    # No point is more standard deviations from its probe than it would be across the splat.
+    return near[~(z > reach + part.cover / widths[near, -1])]
 
 
 def _rows(field: SplatField, splats: Splats, x: Tensor, slope: Tensor, near: Tensor, to_parameters: Tensor) -> Tensor:
