@@ -600,7 +600,7 @@ def test_without_a_compiler_torch_sums_and_one_line_says_so(tmp_path: Path) -> N
     assert "no C compiler found" in ran.stderr
 
 
-@pytest.mark.parametrize("name", ["torus", "sphere"])
+@pytest.mark.parametrize("name", ["torus", "sphere", "so3", "so3_matrix"])
 def test_clang_sums_what_the_usual_compiler_sums(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     if shutil.which("clang") is None:
         pytest.skip("no clang on this machine")

@@ -4,15 +4,20 @@ from __future__ import annotations
 
 import json
 import signal
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from compiled import needs_compiler
 from runs import interrupted_after, new_run, same
 from scenes import GENERATED, generated, seeded, small_scene
 
+from rsrm_gen.trainer.evaluate import free_cells
+from rsrm_gen.trainer.objectives import make_objective
 from rsrm_gen.trainer.run import load_run
-from rsrm_gen.trainer.scene import Scene
+from rsrm_gen.trainer.scene import Scene, read_scene
+from rsrm_gen.trainer.settings import training_of
 from rsrm_gen.trainer.train import train
 
 SETTINGS = {
@@ -77,3 +82,26 @@ def test_it_comes_nearer_to_the_arrival_time_than_the_distance(tmp_path: Path, n
     assert outcome.summary.loss < 0.2
     assert json.loads((folder.path / "settings.json").read_text())["training"]["objective"] == {"kind": objective}
     assert bool(run.arrival.time(scene.sample(50, seeded())).isfinite().all())
+
+
+@needs_compiler
+def test_coordinates_make_no_difference_to_what_is_learnt(tmp_path: Path) -> None:
+    """The hyperbolic plane as a disk and as a hyperboloid: two fields of one scene, both near the same truth."""
+    training = {"objective": "paths", "splats": 60, "points": 6000}
+    examples = Path(__file__).parent.parent / "examples"
+    sheet, disk = (
+        replace(read_scene(examples / f"{name}.yaml"), training=training_of(training))
+        for name in ("paper/hyperbolic-1", "poincare")
+    )
+    fields = []
+    for scene in (sheet, disk):
+        objective = make_objective(scene)
+        objective.begin()
+        while objective.step < objective.steps:
+            objective.advance()
+        fields.append(objective.arrival)
+    cells = free_cells(sheet).points
+    on_sheet, on_disk = fields[0].time(cells.float()), fields[1].time((cells[:, 1:] / (1 + cells[:, :1])).float())
+    apart, time = (on_sheet - on_disk).square().mean().sqrt(), on_sheet.mean()
+    assert float(apart) < 0.01 * float(time)
+    assert float((on_sheet / on_disk - 1).abs().median()) < 0.01

@@ -15,18 +15,15 @@ from rsrm_gen.trainer.sampling import sample_points
 DOMAIN_RADIUS = 3.0
 
 
-@pytest.mark.parametrize("polar", [0.0, 0.6, 1.0])
 @pytest.mark.parametrize("name", ["torus", "sphere", "hyperbolic", "so3", "circle"])
-def test_there_are_as_many_as_asked_for_on_the_manifold_and_the_same_for_a_seed(
-    name: str, polar: float, tmp_path: Path
-) -> None:
+def test_there_are_as_many_as_asked_for_on_the_manifold_and_the_same_for_a_seed(name: str, tmp_path: Path) -> None:
     scene = curve_scene(tmp_path, name)
-    x = sample_points(scene, 500, seeded(), polar)
+    x = sample_points(scene, 500, seeded())
     assert x.shape == (500, scene.manifold.point_size)
     assert x.dtype == torch.float64
     assert torch.allclose(scene.manifold.project(x), x, atol=1e-12)
-    assert torch.equal(x, sample_points(scene, 500, seeded(), polar))
-    assert not torch.equal(x, sample_points(scene, 500, seeded(1), polar))
+    assert torch.equal(x, sample_points(scene, 500, seeded()))
+    assert not torch.equal(x, sample_points(scene, 500, seeded(1)))
 
 
 @pytest.mark.parametrize("name", ["torus", "sphere", "so3"])
@@ -61,9 +58,3 @@ def test_a_domain_is_filled_a_little_beyond_its_rim(tmp_path: Path) -> None:
     assert scene.domain is not None
     r = scene.manifold.distance(scene.domain.center, sample_points(scene, 1000, seeded()))
     assert DOMAIN_RADIUS < float(r.max()) < 1.1 * DOMAIN_RADIUS
-
-
-def test_a_polar_sample_is_uniform_in_the_distance_from_the_goal(tmp_path: Path) -> None:
-    scene = curve_scene(tmp_path, "hyperbolic")
-    r = scene.manifold.distance(scene.goal, sample_points(scene, 1000, seeded(), 1.0)).sort().values
-    assert float((r / r.max() - torch.linspace(0, 1, 1000)).abs().max()) < 0.02

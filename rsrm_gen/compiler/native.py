@@ -34,10 +34,8 @@ TRIED = ("-Og", *QUICK)  # the same for the audit, products fused alike, compile
 OPENMP = ("-fopenmp",)
 # What is independent among a pair's hundred operations is mixed before registers are given out.
 SCHEDULED = ("-fschedule-insns", "-fsched-pressure")
-# clang 14 at -O3 inlines the loops of sums of splats to other numbers; at -O2 they are right. Only clang knows the first flag.
-CLANG = ("-Qunused-arguments", "-O2")
 WHERE_KNOWN: dict[tuple[str, ...], tuple[tuple[str, ...], ...]] = {
-    FAST: (SCHEDULED, CLANG, OPENMP),
+    FAST: (SCHEDULED, OPENMP),
     TRIED: (OPENMP,),
 }  # flags that not every compiler has
 

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 import torch
 from torch import Generator, Tensor
-from torch.quasirandom import SobolEngine
 
 from rsrm_gen.manifold import Manifold
 from rsrm_gen.trainer.curves import length_unit
@@ -24,25 +21,17 @@ CROWD = 8  # neighbours by which a crowd is told
 SHARPNESS = 8  # of the weight of a neighbour, as its distance falls
 
 
-def sample_points(scene: Scene, count: int, generator: Generator, polar: float = 0.0) -> Tensor:
-    """Points (count, D) in float64, evenly spread in volume; a part `polar` of them is uniform in the distance from the
-    goal and the direction there instead, which puts more near the goal."""
+def sample_points(scene: Scene, count: int, generator: Generator) -> Tensor:
+    """Points (count, D) in float64, evenly spread in volume."""
     scene = scene.in_double()
-    near = round(polar * count)
-    pool = _drawn(scene, DRAWN * (count - near), lambda n: _in_volume(scene, n, generator), generator)
-    points = [_thinned_in_parts(scene, pool, count - near)]
-    if near:
-        seed = int(torch.randint(2**31, (), generator=generator))
-        engine = SobolEngine(1 + scene.manifold.dim, scramble=True, seed=seed)  # type: ignore[no-untyped-call]
-        points.append(_drawn(scene, near, lambda n: _about_goal(scene, engine, n), generator)[:near])
-    return torch.cat(points)
+    return _thinned_in_parts(scene, _drawn(scene, DRAWN * count, generator), count)
 
 
-def _drawn(scene: Scene, count: int, draw: Callable[[int], Tensor], generator: Generator) -> Tensor:
-    """At least so many of the points that `draw` gives, with fewer of the deep ones."""
+def _drawn(scene: Scene, count: int, generator: Generator) -> Tensor:
+    """At least so many random points, with fewer of the deep ones."""
     found = [scene.goal.new_empty(0, len(scene.goal))]
     while sum(map(len, found)) < count:
-        x = draw(max(count, 64))
+        x = _in_volume(scene, max(count, 64), generator)
         lucky = torch.rand(len(x), generator=generator, dtype=torch.float64) < DEEPER
         found.append(x[~_is_deep(scene, x) | lucky])
     return torch.cat(found)
@@ -52,31 +41,12 @@ def _is_deep(scene: Scene, x: Tensor) -> Tensor:
     return scene.signed_distance(x) < -SHELL * length_unit(scene)
 
 
-def _reach(scene: Scene, radius: float) -> float:
-    """A radius, and the rim beyond it, as far as Exp goes."""
-    return min(radius + RIM * length_unit(scene), scene.manifold.injectivity_radius)
-
-
 def _in_volume(scene: Scene, count: int, generator: Generator) -> Tensor:
     if scene.domain is None:
         return scene.sample(count, generator)
-    radius = _reach(scene, scene.domain.radius)
+    # The rim too, as far as Exp goes.
+    radius = min(scene.domain.radius + RIM * length_unit(scene), scene.manifold.injectivity_radius)
     return scene.manifold.sample_ball(scene.domain.center, radius, count, generator)
-
-
-def _about_goal(scene: Scene, engine: SobolEngine, count: int) -> Tensor:
-    """Exp_goal(r u), r uniform, as far as the domain goes; u a unit vector, uniform in direction."""
-    M, domain = scene.manifold, scene.domain
-    farthest = M.injectivity_radius
-    if domain is not None:
-        farthest = _reach(scene, domain.radius + float(M.distance(domain.center, scene.goal)))
-    numbers = engine.draw(count, dtype=torch.float64).clamp(1e-9, 1 - 1e-9)
-    normal = torch.erfinv(2 * numbers[:, 1:] - 1)
-    direction = normal / normal.norm(dim=1, keepdim=True).clamp_min(1e-30)
-    x = M.project(M.exp(scene.goal.expand(count, -1), farthest * numbers[:, :1] * (direction @ M.frame(scene.goal))))
-    if domain is None:
-        return x
-    return x[M.distance(x, domain.center) <= _reach(scene, domain.radius)]
 
 
 def _thinned_in_parts(scene: Scene, x: Tensor, count: int) -> Tensor:

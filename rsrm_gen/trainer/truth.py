@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import hashlib
 import zipfile
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
@@ -22,8 +22,9 @@ from torch import Tensor
 from rsrm_gen.errors import UserError
 from rsrm_gen.files import cache_folder, write_whole
 from rsrm_gen.trainer.curves import Curves, Terrain, offsets_of
-from rsrm_gen.trainer.labels import Labels, exchanged, extended, label, labels_of, offered
+from rsrm_gen.trainer.labels import Labels, Progress, exchanged, extended, label, labels_of, offered
 from rsrm_gen.trainer.reference import Reference, scene_key, solve_reference
+from rsrm_gen.trainer.sampling import sample_points
 from rsrm_gen.trainer.scene import Scene
 
 VERSION = 1  # of the method: part of the name under which results are kept
@@ -31,6 +32,7 @@ STEP = 0.05  # of following the grid's solution back, in units of the scene's sm
 DIFFERENCE = 0.02  # of the grid's solution, for its slope; the same unit
 TOO_LONG = 1.5  # times the longest path that T could pay for, after which a trail is given up
 FINER = 0.5  # times the usual spacing of nodes
+SUPPORT = 8192  # points of a roadmap, at least
 SAMPLE = 512  # curves whose nodes are doubled again, for the error
 
 
@@ -111,9 +113,14 @@ class Truth:
                     labels = offered(self.terrain, labels, rows, traced, progress)
                 return labels.take(rows)
             if traced is None:
-                return label(self.terrain, x, progress)
+                return self._by_roadmap(x, progress)
             labels = labels_of(self.terrain, traced, "relax", progress)
             return exchanged(self.terrain, labels, np.ones(len(x), bool), progress)
+
+    def _by_roadmap(self, x: Tensor, progress: Progress) -> Labels:
+        """Labels of x (N, D), among so many points that their roadmap is no coarse one."""
+        more = sample_points(self.scene, max(SUPPORT - len(x), 0), torch.Generator().manual_seed(0))
+        return label(self.terrain, torch.cat([x, more]), progress).take(np.arange(len(x)))
 
     def _look_at(self, labels: Labels) -> None:
         """Measure the error, and compare with the grid."""
@@ -133,14 +140,14 @@ class Truth:
             VERSION,
             scene_key(self.scene),
             self.terrain.usual,
-            self.grid and self.grid.grid,
+            self.grid.grid if self.grid else SUPPORT,
             self.known is not None,
         ]
         return hashlib.sha256(repr(said).encode() + x.numpy().tobytes()).hexdigest()[:32]
 
 
 @contextmanager
-def _shown(console: Console | None, count: int) -> Iterator[Callable[[str, int, int], None]]:
+def _shown(console: Console | None, count: int) -> Iterator[Progress]:
     if console is None:
         yield lambda what, done, whole: None
         return
