@@ -11,8 +11,8 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from c_drivers import driver, oracle_rows, rows
 from compiled import NAMES, files, program
-from test_sanitizers import driver, oracle_rows, rows
 
 SPLATS = (1, 70)  # fewer than a vector has, and enough for every thread
 THREADS = 4

@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 
 SETTLE, WATCH = 0.02, 0.1  # seconds until our own threads have gone to sleep, and to watch the others
-LOUD = 0.1  # cores used by others above which a run is disturbed
+LOUD = 0.15  # cores used by others above which a run is disturbed: more than one tick of the watch
 
 
 def busy_cores() -> float | None:
