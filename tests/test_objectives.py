@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from compiled import needs_compiler
-from runs import interrupted_after, new_run, same
 from scenes import GENERATED, generated, seeded, small_scene
+from small_runs import interrupted_after, new_run, same
 
 from rsrm_gen.trainer.evaluate import free_cells
 from rsrm_gen.trainer.objectives import make_objective

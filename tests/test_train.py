@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 import torch
 from plain_manifolds import PLAIN
-from runs import interrupted_after, new_run, same
 from scenes import random_field, seeded, small_scene
+from small_runs import interrupted_after, new_run, same
 
 from rsrm_gen.errors import UserError
 from rsrm_gen.trainer.objectives.eikonal import Eikonal
