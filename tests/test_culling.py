@@ -96,7 +96,7 @@ def test_culled_sums_are_the_dense_ones_within_the_bound(case: str, dtype: torch
     difference = dense.norm(tensors[0], found[1] - whole[1])
     assert bool((difference <= dropped * steep + rounding * dense.norm(tensors[0], whole[1]).max()).all())
     for ours, truth in zip(found[2:], whole[2:], strict=True):
-        assert float((ours - truth).norm()) <= 64 * rounding * float(truth.norm())  # sums of points in another order
+        assert float((ours - truth).norm()) <= 256 * rounding * float(truth.norm())  # sums of points in another order
 
 
 def near_part(m: Any, tensors: Splats) -> float:

@@ -808,13 +808,19 @@ class Hyperbolic:
         M1 = 0.5 * mu1
         M2 = 0.5 * mu2
         by_normal_part = mu2 * W0_2 + mu1 * W0_1 + mu0 * W0_0
-        R0_0 = 1.4142135623730951 * (W0_0 - mu0 * by_normal_part)
-        R0_1 = 1.4142135623730951 * (W0_1 + mu1 * by_normal_part)
-        R0_2 = 1.4142135623730951 * (W0_2 + mu2 * by_normal_part)
+        gap = W0_0 - mu0 * by_normal_part
+        R0_0 = gap + gap
+        total_2 = W0_1 + mu1 * by_normal_part
+        R0_1 = total_2 + total_2
+        total_3 = W0_2 + mu2 * by_normal_part
+        R0_2 = total_3 + total_3
         by_normal_part_2 = mu2 * W1_2 + mu1 * W1_1 + mu0 * W1_0
-        R1_0 = 1.4142135623730951 * (W1_0 - mu0 * by_normal_part_2)
-        R1_1 = 1.4142135623730951 * (W1_1 + mu1 * by_normal_part_2)
-        R1_2 = 1.4142135623730951 * (W1_2 + mu2 * by_normal_part_2)
+        gap_2 = W1_0 - mu0 * by_normal_part_2
+        R1_0 = gap_2 + gap_2
+        total_4 = W1_1 + mu1 * by_normal_part_2
+        R1_1 = total_4 + total_4
+        total_5 = W1_2 + mu2 * by_normal_part_2
+        R1_2 = total_5 + total_5
         return (amplitude, M0, M1, M2, R0_0, R0_1, R0_2, R1_0, R1_1, R1_2)
 
     def _pair_value(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
@@ -837,8 +843,8 @@ class Hyperbolic:
         a_squared = a * a
         r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2
         r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2
-        half_square = a_squared * (r0 * r0 + r1 * r1)
-        gaussian = torch.exp(-half_square)
+        square = a_squared * (r0 * r0 + r1 * r1)
+        gaussian = torch.exp(-(0.5 * square))
         phi = a * gaussian
         phi_2 = amplitude * phi
         return (phi_2,)
@@ -864,15 +870,15 @@ class Hyperbolic:
         a_squared = a * a
         r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2
         r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2
-        half_square = a_squared * (r0 * r0 + r1 * r1)
-        gaussian = torch.exp(-half_square)
+        square = a_squared * (r0 * r0 + r1 * r1)
+        gaussian = torch.exp(-(0.5 * square))
         phi = a * gaussian
         phi_2 = amplitude * phi
-        product = 2.0 * (phi_2 * a_squared)
-        r1_product = r1 * product
-        r0_product = r0 * product
+        phi_product = phi_2 * a_squared
+        r1_product = r1 * phi_product
+        r0_product = r0 * phi_product
         over_w = w_total * a
-        over_w_product = over_w * ((near_chosen_2 - over_w) * (phi_2 - phi_2 * (2.0 * half_square)))
+        over_w_product = over_w * ((near_chosen_2 - over_w) * (phi_2 - phi_2 * square))
         by_h0 = -(R1_0 * r1_product) - R0_0 * r0_product + M0 * over_w_product
         by_h1 = -(R1_1 * r1_product) - R0_1 * r0_product - M1 * over_w_product
         by_h2 = -(R1_2 * r1_product) - R0_2 * r0_product - M2 * over_w_product
@@ -927,41 +933,38 @@ class Hyperbolic:
         a_squared = a * a
         r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2
         r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2
-        half_square = a_squared * (r0 * r0 + r1 * r1)
-        gaussian = torch.exp(-half_square)
+        square = a_squared * (r0 * r0 + r1 * r1)
+        gaussian = torch.exp(-(0.5 * square))
         phi = a * gaussian
         over_w = w_total * a
         over_w_gap = near_chosen_2 - over_w
         gap_2 = M0 * h0_bar - M1 * h1_bar - M2 * h2_bar
         over_w_product = over_w * gap_2
         product_4 = over_w_gap * over_w_product
-        gap_3 = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar
-        gap_4 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar
-        product_5 = 2.0 * (r0 * gap_3 + r1 * gap_4)
-        half_square_product = 2.0 * half_square
-        by_phi = value_bar + product_4 + a_squared * product_5 - half_square_product * product_4
+        gap_3 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar
+        gap_4 = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar
+        total_2 = r1 * gap_3 + r0 * gap_4
+        by_phi = value_bar + product_4 + a_squared * total_2 - square * product_4
         phi_product = phi * by_phi
-        phi_gap = phi - phi * half_square_product
-        product_6 = over_w_gap * phi_gap
-        over_w_product_2 = over_w * product_6
+        phi_gap = phi - phi * square
+        product_5 = over_w_gap * phi_gap
+        over_w_product_2 = over_w * product_5
         eta_slope = _polynomial(product, _ETA_SLOPE)
-        product_7 = phi_gap * over_w_product
-        product_8 = (
+        product_6 = phi_gap * over_w_product
+        product_7 = (
             torch.where(near, eta_slope, (2.0 + near_chosen) * (product_3 * product_3) - product_2 * (product_2 +
-            w_product)) * product_7
+            w_product)) * product_6
         )
-        by_half_square = -(2.0 * (phi * product_4)) - phi_product
-        product_9 = (
-            over_w_gap * (2.0 * a_squared * (phi * product_5) + phi_product + half_square_product * by_half_square)
-        )
-        total_2 = product_8 - over_w * over_w * (product_6 * gap_2 - product_7) + product_9
-        over_w_product_3 = over_w * total_2
-        product_10 = 2.0 * (phi * a_squared)
-        product_11 = 2.0 * (a_squared * by_half_square)
-        by_r0 = product_10 * gap_3 + r0 * product_11
-        r0_product = r0 * product_10
-        by_r1 = product_10 * gap_4 + r1 * product_11
-        r1_product = r1 * product_10
+        gap_5 = -(2.0 * (phi * product_4)) - phi_product
+        product_8 = over_w_gap * (2.0 * a_squared * (phi * total_2) + phi_product + square * gap_5)
+        total_3 = product_7 - over_w * over_w * (product_5 * gap_2 - product_6) + product_8
+        over_w_product_3 = over_w * total_3
+        phi_product_2 = phi * a_squared
+        a_squared_product = a_squared * gap_5
+        by_r0 = phi_product_2 * gap_4 + r0 * a_squared_product
+        r0_product = r0 * phi_product_2
+        by_r1 = phi_product_2 * gap_3 + r1 * a_squared_product
+        r1_product = r1 * phi_product_2
         return (
             phi_product,
             over_w_product_2 * h0_bar + h0 * over_w_product_3,
@@ -983,35 +986,35 @@ class Hyperbolic:
         W0_0, W0_1, W0_2, W1_0, W1_1, W1_2 = W.flatten(-2).unbind(-1)
         sum0, sum1, sum2, sum3, sum4, sum5, sum6, sum7, sum8, sum9 = sums
         by_normal_part = mu2 * W0_2 + mu1 * W0_1 + mu0 * W0_0
-        product = 1.4142135623730951 * sum4
-        product_2 = 1.4142135623730951 * sum5
-        product_3 = 1.4142135623730951 * sum6
-        by_by_normal_part = mu1 * product_2 - mu0 * product + mu2 * product_3
+        total_2 = sum4 + sum4
+        total_3 = sum5 + sum5
+        total_4 = sum6 + sum6
+        by_by_normal_part = mu1 * total_3 - mu0 * total_2 + mu2 * total_4
         by_normal_part_2 = mu2 * W1_2 + mu1 * W1_1 + mu0 * W1_0
-        product_4 = 1.4142135623730951 * sum7
-        product_5 = 1.4142135623730951 * sum8
-        product_6 = 1.4142135623730951 * sum9
-        by_by_normal_part_2 = mu1 * product_5 - mu0 * product_4 + mu2 * product_6
-        total_2 = (
-            0.5 * sum1 - by_normal_part * product + W0_0 * by_by_normal_part - by_normal_part_2 * product_4 + W1_0 *
+        total_5 = sum7 + sum7
+        total_6 = sum8 + sum8
+        total_7 = sum9 + sum9
+        by_by_normal_part_2 = mu1 * total_6 - mu0 * total_5 + mu2 * total_7
+        total_8 = (
+            0.5 * sum1 - by_normal_part * total_2 + W0_0 * by_by_normal_part - by_normal_part_2 * total_5 + W1_0 *
             by_by_normal_part_2
         )
-        total_3 = (
-            0.5 * sum2 + by_normal_part * product_2 + W0_1 * by_by_normal_part + by_normal_part_2 * product_5 + W1_1 *
+        total_9 = (
+            0.5 * sum2 + by_normal_part * total_3 + W0_1 * by_by_normal_part + by_normal_part_2 * total_6 + W1_1 *
             by_by_normal_part_2
         )
-        total_4 = (
-            0.5 * sum3 + by_normal_part * product_3 + W0_2 * by_by_normal_part + by_normal_part_2 * product_6 + W1_2 *
+        total_10 = (
+            0.5 * sum3 + by_normal_part * total_4 + W0_2 * by_by_normal_part + by_normal_part_2 * total_7 + W1_2 *
             by_by_normal_part_2
         )
-        mu_bar = _stack((amplitude * total_2, amplitude * total_3, amplitude * total_4))
+        mu_bar = _stack((amplitude * total_8, amplitude * total_9, amplitude * total_10))
         W_bar = _stack((
-            amplitude * (product + mu0 * by_by_normal_part),
-            amplitude * (product_2 + mu1 * by_by_normal_part),
-            amplitude * (product_3 + mu2 * by_by_normal_part),
-            amplitude * (product_4 + mu0 * by_by_normal_part_2),
-            amplitude * (product_5 + mu1 * by_by_normal_part_2),
-            amplitude * (product_6 + mu2 * by_by_normal_part_2),
+            amplitude * (total_2 + mu0 * by_by_normal_part),
+            amplitude * (total_3 + mu1 * by_by_normal_part),
+            amplitude * (total_4 + mu2 * by_by_normal_part),
+            amplitude * (total_5 + mu0 * by_by_normal_part_2),
+            amplitude * (total_6 + mu1 * by_by_normal_part_2),
+            amplitude * (total_7 + mu2 * by_by_normal_part_2),
         ))
         return mu_bar, W_bar.unflatten(-1, (2, 3)), sum0
 

@@ -141,14 +141,13 @@ INLINE vector sqrt_each(vector x) {
     return x;
 }
 
-/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
-INLINE vector exp_each(vector x) {
-    const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
-    const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
-    const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
-    const vector scale = vector_from_bits((vector_to_bits(shifted) + 1022) << 52); /* 2^(k - 1) */
-    const vector y = vector_select(x > 709.782712893384, vector_of(HUGE_VAL), (scale + scale * part) * 2);
-    return vector_select(x < -707.9, vector_of(0), y);
+/* exp(-s / 2) of s >= 0, as 2^k exp(-r / 2), |r| <= log(2), within 1 unit in the last place; below 3.8e-308 it is 0. */
+INLINE vector gaussian_each(vector s) {
+    const vector shifted = s * -0.7213475204444817 + 6755399441056767.0, k = shifted - 6755399441056767.0;
+    const vector r = (s + k * 1.3862943611202354) + k * -3.447888905122967e-13;
+    const vector part = r * (-0.5 + r * (0.12500000000000003 + r * (-0.020833333333333336 + r * (0.0026041666666640085 + r * (-0.0002604166666665645 + r * (2.170138893314011e-05 + r * (-1.5500992080508208e-06 + r * (9.688094258687923e-08 + r * (-5.382278997037427e-09 + r * (2.697273970216642e-10 + r * -1.2256046482356944e-11))))))))));
+    const vector scale = vector_from_bits(vector_to_bits(shifted) << 52); /* 2^k */
+    return vector_select(s > 1415.8, vector_of(0), scale + scale * part);
 }
 
 /* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
@@ -226,13 +225,19 @@ OUTLINE void pair_constants(
     const vector M1 = 0.5 * mu1;
     const vector M2 = 0.5 * mu2;
     const vector by_normal_part = mu2 * W0_2 + mu1 * W0_1 + mu0 * W0_0;
-    const vector R0_0 = 1.4142135623730951 * (W0_0 - mu0 * by_normal_part);
-    const vector R0_1 = 1.4142135623730951 * (W0_1 + mu1 * by_normal_part);
-    const vector R0_2 = 1.4142135623730951 * (W0_2 + mu2 * by_normal_part);
+    const vector gap = W0_0 - mu0 * by_normal_part;
+    const vector R0_0 = gap + gap;
+    const vector total_2 = W0_1 + mu1 * by_normal_part;
+    const vector R0_1 = total_2 + total_2;
+    const vector total_3 = W0_2 + mu2 * by_normal_part;
+    const vector R0_2 = total_3 + total_3;
     const vector by_normal_part_2 = mu2 * W1_2 + mu1 * W1_1 + mu0 * W1_0;
-    const vector R1_0 = 1.4142135623730951 * (W1_0 - mu0 * by_normal_part_2);
-    const vector R1_1 = 1.4142135623730951 * (W1_1 + mu1 * by_normal_part_2);
-    const vector R1_2 = 1.4142135623730951 * (W1_2 + mu2 * by_normal_part_2);
+    const vector gap_2 = W1_0 - mu0 * by_normal_part_2;
+    const vector R1_0 = gap_2 + gap_2;
+    const vector total_4 = W1_1 + mu1 * by_normal_part_2;
+    const vector R1_1 = total_4 + total_4;
+    const vector total_5 = W1_2 + mu2 * by_normal_part_2;
+    const vector R1_2 = total_5 + total_5;
     S[0] = its_amplitude;
     S[1] = M0;
     S[2] = M1;
@@ -248,11 +253,11 @@ OUTLINE void pair_constants(
 /*
  * Adds the values phi of a splat at some points.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_value(
     const vector *X, const double *S, vector *value) {
@@ -286,8 +291,8 @@ INLINE void pair_value(
     const vector a_squared = a * a;
     const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
-    const vector half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector gaussian = exp_each(-half_square);
+    const vector square = a_squared * (r0 * r0 + r1 * r1);
+    const vector gaussian = gaussian_each(square);
     const vector phi = a * gaussian;
     value[0] = value[0] + amplitude * phi;
 }
@@ -295,11 +300,11 @@ INLINE void pair_value(
 /*
  * Adds the values phi of a splat at some points, and slope = d phi / d X.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_forward(
     const vector *X, const double *S, vector *value, vector *slope) {
@@ -334,15 +339,15 @@ INLINE void pair_forward(
     const vector a_squared = a * a;
     const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
-    const vector half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector gaussian = exp_each(-half_square);
+    const vector square = a_squared * (r0 * r0 + r1 * r1);
+    const vector gaussian = gaussian_each(square);
     const vector phi = a * gaussian;
     const vector phi_2 = amplitude * phi;
-    const vector product = 2.0 * (phi_2 * a_squared);
-    const vector r1_product = r1 * product;
-    const vector r0_product = r0 * product;
+    const vector phi_product = phi_2 * a_squared;
+    const vector r1_product = r1 * phi_product;
+    const vector r0_product = r0 * phi_product;
     const vector over_w = w_total * a;
-    const vector over_w_product = over_w * ((near_chosen_2 - over_w) * (phi_2 - phi_2 * (2.0 * half_square)));
+    const vector over_w_product = over_w * ((near_chosen_2 - over_w) * (phi_2 - phi_2 * square));
     value[0] = value[0] + phi_2;
     slope[0] = slope[0] - R1_0 * r1_product - R0_0 * r0_product + M0 * over_w_product;
     slope[1] = slope[1] - R1_1 * r1_product - R0_1 * r0_product - M1 * over_w_product;
@@ -406,30 +411,30 @@ OUTLINE void pair_constants_vjp(
     const vector sum8 = sums[8];
     const vector sum9 = sums[9];
     const vector by_normal_part = mu2 * W0_2 + mu1 * W0_1 + mu0 * W0_0;
-    const vector product = 1.4142135623730951 * sum4;
-    const vector product_2 = 1.4142135623730951 * sum5;
-    const vector product_3 = 1.4142135623730951 * sum6;
-    const vector by_by_normal_part = mu1 * product_2 - mu0 * product + mu2 * product_3;
+    const vector total_2 = sum4 + sum4;
+    const vector total_3 = sum5 + sum5;
+    const vector total_4 = sum6 + sum6;
+    const vector by_by_normal_part = mu1 * total_3 - mu0 * total_2 + mu2 * total_4;
     const vector by_normal_part_2 = mu2 * W1_2 + mu1 * W1_1 + mu0 * W1_0;
-    const vector product_4 = 1.4142135623730951 * sum7;
-    const vector product_5 = 1.4142135623730951 * sum8;
-    const vector product_6 = 1.4142135623730951 * sum9;
-    const vector by_by_normal_part_2 = mu1 * product_5 - mu0 * product_4 + mu2 * product_6;
-    const vector total_2 = 0.5 * sum1 - by_normal_part * product + W0_0 * by_by_normal_part - by_normal_part_2
-        * product_4 + W1_0 * by_by_normal_part_2;
-    const vector total_3 = 0.5 * sum2 + by_normal_part * product_2 + W0_1 * by_by_normal_part +
-        by_normal_part_2 * product_5 + W1_1 * by_by_normal_part_2;
-    const vector total_4 = 0.5 * sum3 + by_normal_part * product_3 + W0_2 * by_by_normal_part +
-        by_normal_part_2 * product_6 + W1_2 * by_by_normal_part_2;
-    mu_bar[0] = its_amplitude * total_2;
-    mu_bar[1] = its_amplitude * total_3;
-    mu_bar[2] = its_amplitude * total_4;
-    W_bar[0] = its_amplitude * (product + mu0 * by_by_normal_part);
-    W_bar[1] = its_amplitude * (product_2 + mu1 * by_by_normal_part);
-    W_bar[2] = its_amplitude * (product_3 + mu2 * by_by_normal_part);
-    W_bar[3] = its_amplitude * (product_4 + mu0 * by_by_normal_part_2);
-    W_bar[4] = its_amplitude * (product_5 + mu1 * by_by_normal_part_2);
-    W_bar[5] = its_amplitude * (product_6 + mu2 * by_by_normal_part_2);
+    const vector total_5 = sum7 + sum7;
+    const vector total_6 = sum8 + sum8;
+    const vector total_7 = sum9 + sum9;
+    const vector by_by_normal_part_2 = mu1 * total_6 - mu0 * total_5 + mu2 * total_7;
+    const vector total_8 = 0.5 * sum1 - by_normal_part * total_2 + W0_0 * by_by_normal_part - by_normal_part_2
+        * total_5 + W1_0 * by_by_normal_part_2;
+    const vector total_9 = 0.5 * sum2 + by_normal_part * total_3 + W0_1 * by_by_normal_part + by_normal_part_2
+        * total_6 + W1_1 * by_by_normal_part_2;
+    const vector total_10 = 0.5 * sum3 + by_normal_part * total_4 + W0_2 * by_by_normal_part +
+        by_normal_part_2 * total_7 + W1_2 * by_by_normal_part_2;
+    mu_bar[0] = its_amplitude * total_8;
+    mu_bar[1] = its_amplitude * total_9;
+    mu_bar[2] = its_amplitude * total_10;
+    W_bar[0] = its_amplitude * (total_2 + mu0 * by_by_normal_part);
+    W_bar[1] = its_amplitude * (total_3 + mu1 * by_by_normal_part);
+    W_bar[2] = its_amplitude * (total_4 + mu2 * by_by_normal_part);
+    W_bar[3] = its_amplitude * (total_5 + mu0 * by_by_normal_part_2);
+    W_bar[4] = its_amplitude * (total_6 + mu1 * by_by_normal_part_2);
+    W_bar[5] = its_amplitude * (total_7 + mu2 * by_by_normal_part_2);
     amplitude_bar[0] = sum0;
 }
 
@@ -470,11 +475,11 @@ OUTLINE void pair_distances(
 /*
  * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_backward(
     const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
@@ -515,38 +520,36 @@ INLINE void pair_backward(
     const vector a_squared = a * a;
     const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
-    const vector half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector gaussian = exp_each(-half_square);
+    const vector square = a_squared * (r0 * r0 + r1 * r1);
+    const vector gaussian = gaussian_each(square);
     const vector phi = a * gaussian;
     const vector over_w = w_total * a;
     const vector over_w_gap = near_chosen_2 - over_w;
     const vector gap_2 = M0 * h0_bar - M1 * h1_bar - M2 * h2_bar;
     const vector over_w_product = over_w * gap_2;
     const vector product_4 = over_w_gap * over_w_product;
-    const vector gap_3 = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar;
-    const vector gap_4 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar;
-    const vector product_5 = 2.0 * (r0 * gap_3 + r1 * gap_4);
-    const vector half_square_product = 2.0 * half_square;
-    const vector by_phi = its_value_bar + product_4 + a_squared * product_5 - half_square_product * product_4;
+    const vector gap_3 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar;
+    const vector gap_4 = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar;
+    const vector total_2 = r1 * gap_3 + r0 * gap_4;
+    const vector by_phi = its_value_bar + product_4 + a_squared * total_2 - square * product_4;
     const vector phi_product = phi * by_phi;
-    const vector phi_gap = phi - phi * half_square_product;
-    const vector product_6 = over_w_gap * phi_gap;
-    const vector over_w_product_2 = over_w * product_6;
+    const vector phi_gap = phi - phi * square;
+    const vector product_5 = over_w_gap * phi_gap;
+    const vector over_w_product_2 = over_w * product_5;
     const vector eta_slope = vector_polynomial_eta_slope(product);
-    const vector product_7 = phi_gap * over_w_product;
-    const vector product_8 = vector_select(near, eta_slope, (2.0 + near_chosen) * (product_3 * product_3) -
-        product_2 * (product_2 + w_product)) * product_7;
-    const vector by_half_square = -2.0 * (phi * product_4) - phi_product;
-    const vector product_9 = over_w_gap * (2.0 * a_squared * (phi * product_5) + phi_product +
-        half_square_product * by_half_square);
-    const vector total_2 = product_8 - over_w * over_w * (product_6 * gap_2 - product_7) + product_9;
-    const vector over_w_product_3 = over_w * total_2;
-    const vector product_10 = 2.0 * (phi * a_squared);
-    const vector product_11 = 2.0 * (a_squared * by_half_square);
-    const vector by_r0 = product_10 * gap_3 + r0 * product_11;
-    const vector r0_product = r0 * product_10;
-    const vector by_r1 = product_10 * gap_4 + r1 * product_11;
-    const vector r1_product = r1 * product_10;
+    const vector product_6 = phi_gap * over_w_product;
+    const vector product_7 = vector_select(near, eta_slope, (2.0 + near_chosen) * (product_3 * product_3) -
+        product_2 * (product_2 + w_product)) * product_6;
+    const vector gap_5 = -2.0 * (phi * product_4) - phi_product;
+    const vector product_8 = over_w_gap * (2.0 * a_squared * (phi * total_2) + phi_product + square * gap_5);
+    const vector total_3 = product_7 - over_w * over_w * (product_5 * gap_2 - product_6) + product_8;
+    const vector over_w_product_3 = over_w * total_3;
+    const vector phi_product_2 = phi * a_squared;
+    const vector a_squared_product = a_squared * gap_5;
+    const vector by_r0 = phi_product_2 * gap_4 + r0 * a_squared_product;
+    const vector r0_product = r0 * phi_product_2;
+    const vector by_r1 = phi_product_2 * gap_3 + r1 * a_squared_product;
+    const vector r1_product = r1 * phi_product_2;
     sums[0] = sums[0] + phi_product;
     sums[1] = sums[1] + over_w_product_2 * h0_bar + h0 * over_w_product_3;
     sums[2] = sums[2] - over_w_product_2 * h1_bar - h1 * over_w_product_3;
@@ -1090,14 +1093,13 @@ INLINE vector_f sqrt_each_f(vector_f x) {
     return x;
 }
 
-/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
-INLINE vector_f exp_each_f(vector_f x) {
-    const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
-    const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
-    const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
-    const vector_f scale = vector_from_bits_f((vector_to_bits_f(shifted) + 126) << 23); /* 2^(k - 1) */
-    const vector_f y = vector_select_f(x > 88.722839f, vector_of_f(HUGE_VALF), (scale + scale * part) * 2);
-    return vector_select_f(x < -86.9f, vector_of_f(0), y);
+/* exp(-s / 2) of s >= 0, as 2^k exp(-r / 2), |r| <= log(2), within 1 unit in the last place; below 1.8e-38 it is 0. */
+INLINE vector_f gaussian_each_f(vector_f s) {
+    const vector_f shifted = s * -0.7213475204444817f + 12583039.0f, k = shifted - 12583039.0f;
+    const vector_f r = (s + k * 1.38629150390625f) + k * 2.8572136406188345e-06f;
+    const vector_f part = r * (-0.5f + r * (0.125f + r * (-0.020833221247803655f + r * (0.0026041596642423803f + r * (-0.0002613493009373264f + r * 2.1759659078889598e-05f)))));
+    const vector_f scale = vector_from_bits_f(vector_to_bits_f(shifted) << 23); /* 2^k */
+    return vector_select_f(s > 173.8f, vector_of_f(0), scale + scale * part);
 }
 
 /* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
@@ -1172,13 +1174,19 @@ OUTLINE void pair_constants_f(
     const vector_f M1 = 0.5f * mu1;
     const vector_f M2 = 0.5f * mu2;
     const vector_f by_normal_part = mu2 * W0_2 + mu1 * W0_1 + mu0 * W0_0;
-    const vector_f R0_0 = 1.4142135623730951f * (W0_0 - mu0 * by_normal_part);
-    const vector_f R0_1 = 1.4142135623730951f * (W0_1 + mu1 * by_normal_part);
-    const vector_f R0_2 = 1.4142135623730951f * (W0_2 + mu2 * by_normal_part);
+    const vector_f gap = W0_0 - mu0 * by_normal_part;
+    const vector_f R0_0 = gap + gap;
+    const vector_f total_2 = W0_1 + mu1 * by_normal_part;
+    const vector_f R0_1 = total_2 + total_2;
+    const vector_f total_3 = W0_2 + mu2 * by_normal_part;
+    const vector_f R0_2 = total_3 + total_3;
     const vector_f by_normal_part_2 = mu2 * W1_2 + mu1 * W1_1 + mu0 * W1_0;
-    const vector_f R1_0 = 1.4142135623730951f * (W1_0 - mu0 * by_normal_part_2);
-    const vector_f R1_1 = 1.4142135623730951f * (W1_1 + mu1 * by_normal_part_2);
-    const vector_f R1_2 = 1.4142135623730951f * (W1_2 + mu2 * by_normal_part_2);
+    const vector_f gap_2 = W1_0 - mu0 * by_normal_part_2;
+    const vector_f R1_0 = gap_2 + gap_2;
+    const vector_f total_4 = W1_1 + mu1 * by_normal_part_2;
+    const vector_f R1_1 = total_4 + total_4;
+    const vector_f total_5 = W1_2 + mu2 * by_normal_part_2;
+    const vector_f R1_2 = total_5 + total_5;
     S[0] = its_amplitude;
     S[1] = M0;
     S[2] = M1;
@@ -1194,11 +1202,11 @@ OUTLINE void pair_constants_f(
 /*
  * Adds the values phi of a splat at some points.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_value_f(
     const vector_f *X, const float *S, vector_f *value) {
@@ -1232,8 +1240,8 @@ INLINE void pair_value_f(
     const vector_f a_squared = a * a;
     const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
-    const vector_f half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector_f gaussian = exp_each_f(-half_square);
+    const vector_f square = a_squared * (r0 * r0 + r1 * r1);
+    const vector_f gaussian = gaussian_each_f(square);
     const vector_f phi = a * gaussian;
     value[0] = value[0] + amplitude * phi;
 }
@@ -1241,11 +1249,11 @@ INLINE void pair_value_f(
 /*
  * Adds the values phi of a splat at some points, and slope = d phi / d X.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_forward_f(
     const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
@@ -1280,16 +1288,15 @@ INLINE void pair_forward_f(
     const vector_f a_squared = a * a;
     const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
-    const vector_f half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector_f gaussian = exp_each_f(-half_square);
+    const vector_f square = a_squared * (r0 * r0 + r1 * r1);
+    const vector_f gaussian = gaussian_each_f(square);
     const vector_f phi = a * gaussian;
     const vector_f phi_2 = amplitude * phi;
-    const vector_f product = 2.0f * (phi_2 * a_squared);
-    const vector_f r1_product = r1 * product;
-    const vector_f r0_product = r0 * product;
+    const vector_f phi_product = phi_2 * a_squared;
+    const vector_f r1_product = r1 * phi_product;
+    const vector_f r0_product = r0 * phi_product;
     const vector_f over_w = w_total * a;
-    const vector_f over_w_product = over_w * ((near_chosen_2 - over_w) * (phi_2 - phi_2 * (2.0f *
-        half_square)));
+    const vector_f over_w_product = over_w * ((near_chosen_2 - over_w) * (phi_2 - phi_2 * square));
     value[0] = value[0] + phi_2;
     slope[0] = slope[0] - R1_0 * r1_product - R0_0 * r0_product + M0 * over_w_product;
     slope[1] = slope[1] - R1_1 * r1_product - R0_1 * r0_product - M1 * over_w_product;
@@ -1353,30 +1360,30 @@ OUTLINE void pair_constants_vjp_f(
     const vector_f sum8 = sums[8];
     const vector_f sum9 = sums[9];
     const vector_f by_normal_part = mu2 * W0_2 + mu1 * W0_1 + mu0 * W0_0;
-    const vector_f product = 1.4142135623730951f * sum4;
-    const vector_f product_2 = 1.4142135623730951f * sum5;
-    const vector_f product_3 = 1.4142135623730951f * sum6;
-    const vector_f by_by_normal_part = mu1 * product_2 - mu0 * product + mu2 * product_3;
+    const vector_f total_2 = sum4 + sum4;
+    const vector_f total_3 = sum5 + sum5;
+    const vector_f total_4 = sum6 + sum6;
+    const vector_f by_by_normal_part = mu1 * total_3 - mu0 * total_2 + mu2 * total_4;
     const vector_f by_normal_part_2 = mu2 * W1_2 + mu1 * W1_1 + mu0 * W1_0;
-    const vector_f product_4 = 1.4142135623730951f * sum7;
-    const vector_f product_5 = 1.4142135623730951f * sum8;
-    const vector_f product_6 = 1.4142135623730951f * sum9;
-    const vector_f by_by_normal_part_2 = mu1 * product_5 - mu0 * product_4 + mu2 * product_6;
-    const vector_f total_2 = 0.5f * sum1 - by_normal_part * product + W0_0 * by_by_normal_part -
-        by_normal_part_2 * product_4 + W1_0 * by_by_normal_part_2;
-    const vector_f total_3 = 0.5f * sum2 + by_normal_part * product_2 + W0_1 * by_by_normal_part +
-        by_normal_part_2 * product_5 + W1_1 * by_by_normal_part_2;
-    const vector_f total_4 = 0.5f * sum3 + by_normal_part * product_3 + W0_2 * by_by_normal_part +
-        by_normal_part_2 * product_6 + W1_2 * by_by_normal_part_2;
-    mu_bar[0] = its_amplitude * total_2;
-    mu_bar[1] = its_amplitude * total_3;
-    mu_bar[2] = its_amplitude * total_4;
-    W_bar[0] = its_amplitude * (product + mu0 * by_by_normal_part);
-    W_bar[1] = its_amplitude * (product_2 + mu1 * by_by_normal_part);
-    W_bar[2] = its_amplitude * (product_3 + mu2 * by_by_normal_part);
-    W_bar[3] = its_amplitude * (product_4 + mu0 * by_by_normal_part_2);
-    W_bar[4] = its_amplitude * (product_5 + mu1 * by_by_normal_part_2);
-    W_bar[5] = its_amplitude * (product_6 + mu2 * by_by_normal_part_2);
+    const vector_f total_5 = sum7 + sum7;
+    const vector_f total_6 = sum8 + sum8;
+    const vector_f total_7 = sum9 + sum9;
+    const vector_f by_by_normal_part_2 = mu1 * total_6 - mu0 * total_5 + mu2 * total_7;
+    const vector_f total_8 = 0.5f * sum1 - by_normal_part * total_2 + W0_0 * by_by_normal_part -
+        by_normal_part_2 * total_5 + W1_0 * by_by_normal_part_2;
+    const vector_f total_9 = 0.5f * sum2 + by_normal_part * total_3 + W0_1 * by_by_normal_part +
+        by_normal_part_2 * total_6 + W1_1 * by_by_normal_part_2;
+    const vector_f total_10 = 0.5f * sum3 + by_normal_part * total_4 + W0_2 * by_by_normal_part +
+        by_normal_part_2 * total_7 + W1_2 * by_by_normal_part_2;
+    mu_bar[0] = its_amplitude * total_8;
+    mu_bar[1] = its_amplitude * total_9;
+    mu_bar[2] = its_amplitude * total_10;
+    W_bar[0] = its_amplitude * (total_2 + mu0 * by_by_normal_part);
+    W_bar[1] = its_amplitude * (total_3 + mu1 * by_by_normal_part);
+    W_bar[2] = its_amplitude * (total_4 + mu2 * by_by_normal_part);
+    W_bar[3] = its_amplitude * (total_5 + mu0 * by_by_normal_part_2);
+    W_bar[4] = its_amplitude * (total_6 + mu1 * by_by_normal_part_2);
+    W_bar[5] = its_amplitude * (total_7 + mu2 * by_by_normal_part_2);
     amplitude_bar[0] = sum0;
 }
 
@@ -1418,11 +1425,11 @@ OUTLINE void pair_distances_f(
 /*
  * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_backward_f(
     const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
@@ -1463,39 +1470,37 @@ INLINE void pair_backward_f(
     const vector_f a_squared = a * a;
     const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
-    const vector_f half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector_f gaussian = exp_each_f(-half_square);
+    const vector_f square = a_squared * (r0 * r0 + r1 * r1);
+    const vector_f gaussian = gaussian_each_f(square);
     const vector_f phi = a * gaussian;
     const vector_f over_w = w_total * a;
     const vector_f over_w_gap = near_chosen_2 - over_w;
     const vector_f gap_2 = M0 * h0_bar - M1 * h1_bar - M2 * h2_bar;
     const vector_f over_w_product = over_w * gap_2;
     const vector_f product_4 = over_w_gap * over_w_product;
-    const vector_f gap_3 = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar;
-    const vector_f gap_4 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar;
-    const vector_f product_5 = 2.0f * (r0 * gap_3 + r1 * gap_4);
-    const vector_f half_square_product = 2.0f * half_square;
-    const vector_f by_phi = its_value_bar + product_4 + a_squared * product_5 - half_square_product *
-        product_4;
+    const vector_f gap_3 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar;
+    const vector_f gap_4 = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar;
+    const vector_f total_2 = r1 * gap_3 + r0 * gap_4;
+    const vector_f by_phi = its_value_bar + product_4 + a_squared * total_2 - square * product_4;
     const vector_f phi_product = phi * by_phi;
-    const vector_f phi_gap = phi - phi * half_square_product;
-    const vector_f product_6 = over_w_gap * phi_gap;
-    const vector_f over_w_product_2 = over_w * product_6;
+    const vector_f phi_gap = phi - phi * square;
+    const vector_f product_5 = over_w_gap * phi_gap;
+    const vector_f over_w_product_2 = over_w * product_5;
     const vector_f eta_slope = vector_polynomial_eta_slope_f(product);
-    const vector_f product_7 = phi_gap * over_w_product;
-    const vector_f product_8 = vector_select_f(near, eta_slope, (2.0f + near_chosen) * (product_3 * product_3)
-        - product_2 * (product_2 + w_product)) * product_7;
-    const vector_f by_half_square = -2.0f * (phi * product_4) - phi_product;
-    const vector_f product_9 = over_w_gap * (2.0f * a_squared * (phi * product_5) + phi_product +
-        half_square_product * by_half_square);
-    const vector_f total_2 = product_8 - over_w * over_w * (product_6 * gap_2 - product_7) + product_9;
-    const vector_f over_w_product_3 = over_w * total_2;
-    const vector_f product_10 = 2.0f * (phi * a_squared);
-    const vector_f product_11 = 2.0f * (a_squared * by_half_square);
-    const vector_f by_r0 = product_10 * gap_3 + r0 * product_11;
-    const vector_f r0_product = r0 * product_10;
-    const vector_f by_r1 = product_10 * gap_4 + r1 * product_11;
-    const vector_f r1_product = r1 * product_10;
+    const vector_f product_6 = phi_gap * over_w_product;
+    const vector_f product_7 = vector_select_f(near, eta_slope, (2.0f + near_chosen) * (product_3 * product_3)
+        - product_2 * (product_2 + w_product)) * product_6;
+    const vector_f gap_5 = -2.0f * (phi * product_4) - phi_product;
+    const vector_f product_8 = over_w_gap * (2.0f * a_squared * (phi * total_2) + phi_product + square *
+        gap_5);
+    const vector_f total_3 = product_7 - over_w * over_w * (product_5 * gap_2 - product_6) + product_8;
+    const vector_f over_w_product_3 = over_w * total_3;
+    const vector_f phi_product_2 = phi * a_squared;
+    const vector_f a_squared_product = a_squared * gap_5;
+    const vector_f by_r0 = phi_product_2 * gap_4 + r0 * a_squared_product;
+    const vector_f r0_product = r0 * phi_product_2;
+    const vector_f by_r1 = phi_product_2 * gap_3 + r1 * a_squared_product;
+    const vector_f r1_product = r1 * phi_product_2;
     sums[0] = sums[0] + phi_product;
     sums[1] = sums[1] + over_w_product_2 * h0_bar + h0 * over_w_product_3;
     sums[2] = sums[2] - over_w_product_2 * h1_bar - h1 * over_w_product_3;

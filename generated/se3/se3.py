@@ -801,11 +801,7 @@ class Se3:
     def _point_features(self, x: Tensor) -> tuple[Tensor, ...]:
         """X, what the pairs need of a point alone."""
         x0, x1, x2, x3, x4, x5, x6 = x.unbind(-1)
-        rotation_h0 = 0.5 * x3
-        rotation_h1 = 0.5 * x4
-        rotation_h2 = 0.5 * x5
-        rotation_h3 = 0.5 * x6
-        return (x0, x1, x2, x3, x4, x5, x6, rotation_h0, rotation_h1, rotation_h2, rotation_h3)
+        return (x0, x1, x2, x3, x4, x5, x6)
 
     def _splat_constants(self, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, ...]:
         """S, what the pairs need of a splat alone."""
@@ -826,34 +822,34 @@ class Se3:
         M1_2 = total_6 + W5_1 * W5_2
         total_7 = W0_2 * W0_2 + W1_2 * W1_2 + W2_2 * W2_2 + W3_2 * W3_2 + W4_2 * W4_2
         M2_2 = total_7 + W5_2 * W5_2
-        rotation_M3 = 2.0 * mu6
-        rotation_M2 = 2.0 * mu5
-        rotation_M1 = 2.0 * mu4
-        rotation_R0_0 = 2.0 * (-(W0_5 * rotation_M3) - W0_4 * rotation_M2 - W0_3 * rotation_M1)
-        rotation_M0 = 2.0 * mu3
-        rotation_R0_1 = 2.0 * (W0_5 * rotation_M2 - W0_4 * rotation_M3 + W0_3 * rotation_M0)
-        rotation_R0_2 = 2.0 * (W0_4 * rotation_M0 - W0_5 * rotation_M1 + W0_3 * rotation_M3)
-        rotation_R0_3 = 2.0 * (W0_5 * rotation_M0 + W0_4 * rotation_M1 - W0_3 * rotation_M2)
-        rotation_R1_0 = 2.0 * (-(W1_5 * rotation_M3) - W1_4 * rotation_M2 - W1_3 * rotation_M1)
-        rotation_R1_1 = 2.0 * (W1_5 * rotation_M2 - W1_4 * rotation_M3 + W1_3 * rotation_M0)
-        rotation_R1_2 = 2.0 * (W1_4 * rotation_M0 - W1_5 * rotation_M1 + W1_3 * rotation_M3)
-        rotation_R1_3 = 2.0 * (W1_5 * rotation_M0 + W1_4 * rotation_M1 - W1_3 * rotation_M2)
-        rotation_R2_0 = 2.0 * (-(W2_5 * rotation_M3) - W2_4 * rotation_M2 - W2_3 * rotation_M1)
-        rotation_R2_1 = 2.0 * (W2_5 * rotation_M2 - W2_4 * rotation_M3 + W2_3 * rotation_M0)
-        rotation_R2_2 = 2.0 * (W2_4 * rotation_M0 - W2_5 * rotation_M1 + W2_3 * rotation_M3)
-        rotation_R2_3 = 2.0 * (W2_5 * rotation_M0 + W2_4 * rotation_M1 - W2_3 * rotation_M2)
-        rotation_R3_0 = 2.0 * (-(W3_5 * rotation_M3) - W3_4 * rotation_M2 - W3_3 * rotation_M1)
-        rotation_R3_1 = 2.0 * (W3_5 * rotation_M2 - W3_4 * rotation_M3 + W3_3 * rotation_M0)
-        rotation_R3_2 = 2.0 * (W3_4 * rotation_M0 - W3_5 * rotation_M1 + W3_3 * rotation_M3)
-        rotation_R3_3 = 2.0 * (W3_5 * rotation_M0 + W3_4 * rotation_M1 - W3_3 * rotation_M2)
-        rotation_R4_0 = 2.0 * (-(W4_5 * rotation_M3) - W4_4 * rotation_M2 - W4_3 * rotation_M1)
-        rotation_R4_1 = 2.0 * (W4_5 * rotation_M2 - W4_4 * rotation_M3 + W4_3 * rotation_M0)
-        rotation_R4_2 = 2.0 * (W4_4 * rotation_M0 - W4_5 * rotation_M1 + W4_3 * rotation_M3)
-        rotation_R4_3 = 2.0 * (W4_5 * rotation_M0 + W4_4 * rotation_M1 - W4_3 * rotation_M2)
-        rotation_R5_0 = 2.0 * (-(W5_5 * rotation_M3) - W5_4 * rotation_M2 - W5_3 * rotation_M1)
-        rotation_R5_1 = 2.0 * (W5_5 * rotation_M2 - W5_4 * rotation_M3 + W5_3 * rotation_M0)
-        rotation_R5_2 = 2.0 * (W5_4 * rotation_M0 - W5_5 * rotation_M1 + W5_3 * rotation_M3)
-        rotation_R5_3 = 2.0 * (W5_5 * rotation_M0 + W5_4 * rotation_M1 - W5_3 * rotation_M2)
+        product = 2.0 * mu3
+        product_2 = 2.0 * mu4
+        product_3 = 2.0 * mu5
+        rotation_R0_3 = W0_5 * product + W0_4 * product_2 - W0_3 * product_3
+        product_4 = 2.0 * mu6
+        rotation_R0_0 = -(W0_5 * product_4) - W0_4 * product_3 - W0_3 * product_2
+        rotation_R0_2 = W0_4 * product - W0_5 * product_2 + W0_3 * product_4
+        rotation_R0_1 = W0_5 * product_3 - W0_4 * product_4 + W0_3 * product
+        rotation_R1_3 = W1_5 * product + W1_4 * product_2 - W1_3 * product_3
+        rotation_R1_0 = -(W1_5 * product_4) - W1_4 * product_3 - W1_3 * product_2
+        rotation_R1_2 = W1_4 * product - W1_5 * product_2 + W1_3 * product_4
+        rotation_R1_1 = W1_5 * product_3 - W1_4 * product_4 + W1_3 * product
+        rotation_R2_3 = W2_5 * product + W2_4 * product_2 - W2_3 * product_3
+        rotation_R2_0 = -(W2_5 * product_4) - W2_4 * product_3 - W2_3 * product_2
+        rotation_R2_2 = W2_4 * product - W2_5 * product_2 + W2_3 * product_4
+        rotation_R2_1 = W2_5 * product_3 - W2_4 * product_4 + W2_3 * product
+        rotation_R3_3 = W3_5 * product + W3_4 * product_2 - W3_3 * product_3
+        rotation_R3_0 = -(W3_5 * product_4) - W3_4 * product_3 - W3_3 * product_2
+        rotation_R3_2 = W3_4 * product - W3_5 * product_2 + W3_3 * product_4
+        rotation_R3_1 = W3_5 * product_3 - W3_4 * product_4 + W3_3 * product
+        rotation_R4_3 = W4_5 * product + W4_4 * product_2 - W4_3 * product_3
+        rotation_R4_0 = -(W4_5 * product_4) - W4_4 * product_3 - W4_3 * product_2
+        rotation_R4_2 = W4_4 * product - W4_5 * product_2 + W4_3 * product_4
+        rotation_R4_1 = W4_5 * product_3 - W4_4 * product_4 + W4_3 * product
+        rotation_R5_3 = W5_5 * product + W5_4 * product_2 - W5_3 * product_3
+        rotation_R5_0 = -(W5_5 * product_4) - W5_4 * product_3 - W5_3 * product_2
+        rotation_R5_2 = W5_4 * product - W5_5 * product_2 + W5_3 * product_4
+        rotation_R5_1 = W5_5 * product_3 - W5_4 * product_4 + W5_3 * product
         total_8 = (
             W0_0 * rotation_R0_0 + W1_0 * rotation_R1_0 + W2_0 * rotation_R2_0 + W3_0 * rotation_R3_0 + W4_0 *
             rotation_R4_0
@@ -930,35 +926,35 @@ class Se3:
         )
         M3_5 = total_22 + rotation_R5_0 * rotation_R5_2
         total_23 = (
-            rotation_R0_0 * rotation_R0_3 + rotation_R1_0 * rotation_R1_3 + rotation_R2_0 * rotation_R2_3 +
-            rotation_R3_0 * rotation_R3_3 + rotation_R4_0 * rotation_R4_3
+            rotation_R0_3 * rotation_R0_0 + rotation_R1_3 * rotation_R1_0 + rotation_R2_3 * rotation_R2_0 +
+            rotation_R3_3 * rotation_R3_0 + rotation_R4_3 * rotation_R4_0
         )
-        M3_6 = total_23 + rotation_R5_0 * rotation_R5_3
+        M3_6 = total_23 + rotation_R5_3 * rotation_R5_0
         total_24 = (
             rotation_R0_1 * rotation_R0_1 + rotation_R1_1 * rotation_R1_1 + rotation_R2_1 * rotation_R2_1 +
             rotation_R3_1 * rotation_R3_1 + rotation_R4_1 * rotation_R4_1
         )
         M4_4 = total_24 + rotation_R5_1 * rotation_R5_1
         total_25 = (
-            rotation_R0_1 * rotation_R0_2 + rotation_R1_1 * rotation_R1_2 + rotation_R2_1 * rotation_R2_2 +
-            rotation_R3_1 * rotation_R3_2 + rotation_R4_1 * rotation_R4_2
+            rotation_R0_2 * rotation_R0_1 + rotation_R1_2 * rotation_R1_1 + rotation_R2_2 * rotation_R2_1 +
+            rotation_R3_2 * rotation_R3_1 + rotation_R4_2 * rotation_R4_1
         )
-        M4_5 = total_25 + rotation_R5_1 * rotation_R5_2
+        M4_5 = total_25 + rotation_R5_2 * rotation_R5_1
         total_26 = (
-            rotation_R0_1 * rotation_R0_3 + rotation_R1_1 * rotation_R1_3 + rotation_R2_1 * rotation_R2_3 +
-            rotation_R3_1 * rotation_R3_3 + rotation_R4_1 * rotation_R4_3
+            rotation_R0_3 * rotation_R0_1 + rotation_R1_3 * rotation_R1_1 + rotation_R2_3 * rotation_R2_1 +
+            rotation_R3_3 * rotation_R3_1 + rotation_R4_3 * rotation_R4_1
         )
-        M4_6 = total_26 + rotation_R5_1 * rotation_R5_3
+        M4_6 = total_26 + rotation_R5_3 * rotation_R5_1
         total_27 = (
             rotation_R0_2 * rotation_R0_2 + rotation_R1_2 * rotation_R1_2 + rotation_R2_2 * rotation_R2_2 +
             rotation_R3_2 * rotation_R3_2 + rotation_R4_2 * rotation_R4_2
         )
         M5_5 = total_27 + rotation_R5_2 * rotation_R5_2
         total_28 = (
-            rotation_R0_2 * rotation_R0_3 + rotation_R1_2 * rotation_R1_3 + rotation_R2_2 * rotation_R2_3 +
-            rotation_R3_2 * rotation_R3_3 + rotation_R4_2 * rotation_R4_3
+            rotation_R0_3 * rotation_R0_2 + rotation_R1_3 * rotation_R1_2 + rotation_R2_3 * rotation_R2_2 +
+            rotation_R3_3 * rotation_R3_2 + rotation_R4_3 * rotation_R4_2
         )
-        M5_6 = total_28 + rotation_R5_2 * rotation_R5_3
+        M5_6 = total_28 + rotation_R5_3 * rotation_R5_2
         total_29 = (
             rotation_R0_3 * rotation_R0_3 + rotation_R1_3 * rotation_R1_3 + rotation_R2_3 * rotation_R2_3 +
             rotation_R3_3 * rotation_R3_3 + rotation_R4_3 * rotation_R4_3
@@ -997,30 +993,30 @@ class Se3:
             M1_1,
             M1_2,
             M2_2,
-            rotation_R0_0,
-            rotation_R0_1,
-            rotation_R0_2,
             rotation_R0_3,
-            rotation_R1_0,
-            rotation_R1_1,
-            rotation_R1_2,
+            rotation_R0_0,
+            rotation_R0_2,
+            rotation_R0_1,
             rotation_R1_3,
-            rotation_R2_0,
-            rotation_R2_1,
-            rotation_R2_2,
+            rotation_R1_0,
+            rotation_R1_2,
+            rotation_R1_1,
             rotation_R2_3,
-            rotation_R3_0,
-            rotation_R3_1,
-            rotation_R3_2,
+            rotation_R2_0,
+            rotation_R2_2,
+            rotation_R2_1,
             rotation_R3_3,
-            rotation_R4_0,
-            rotation_R4_1,
-            rotation_R4_2,
+            rotation_R3_0,
+            rotation_R3_2,
+            rotation_R3_1,
             rotation_R4_3,
-            rotation_R5_0,
-            rotation_R5_1,
-            rotation_R5_2,
+            rotation_R4_0,
+            rotation_R4_2,
+            rotation_R4_1,
             rotation_R5_3,
+            rotation_R5_0,
+            rotation_R5_2,
+            rotation_R5_1,
             M0_3,
             M0_4,
             M0_5,
@@ -1047,14 +1043,14 @@ class Se3:
 
     def _pair_value(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
         """The value of a splat at a point."""
-        x0, x1, x2, x3, x4, x5, x6, rotation_h0, rotation_h1, rotation_h2, rotation_h3 = X
+        x0, x1, x2, x3, x4, x5, x6 = X
         (
             mu0, mu1, mu2, mu3, mu4, mu5, mu6, W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, W3_0, W3_1, W3_2,
-            W4_0, W4_1, W4_2, W5_0, W5_1, W5_2, amplitude, _, _, _, _, _, _, rotation_R0_0, rotation_R0_1,
-            rotation_R0_2, rotation_R0_3, rotation_R1_0, rotation_R1_1, rotation_R1_2, rotation_R1_3, rotation_R2_0,
-            rotation_R2_1, rotation_R2_2, rotation_R2_3, rotation_R3_0, rotation_R3_1, rotation_R3_2, rotation_R3_3,
-            rotation_R4_0, rotation_R4_1, rotation_R4_2, rotation_R4_3, rotation_R5_0, rotation_R5_1, rotation_R5_2,
-            rotation_R5_3, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+            W4_0, W4_1, W4_2, W5_0, W5_1, W5_2, amplitude, _, _, _, _, _, _, rotation_R0_3, rotation_R0_0,
+            rotation_R0_2, rotation_R0_1, rotation_R1_3, rotation_R1_0, rotation_R1_2, rotation_R1_1, rotation_R2_3,
+            rotation_R2_0, rotation_R2_2, rotation_R2_1, rotation_R3_3, rotation_R3_0, rotation_R3_2, rotation_R3_1,
+            rotation_R4_3, rotation_R4_0, rotation_R4_2, rotation_R4_1, rotation_R5_3, rotation_R5_0, rotation_R5_2,
+            rotation_R5_1, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
         ) = S
         rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6
         rotation_abs_g0 = torch.abs(rotation_g0)
@@ -1064,11 +1060,11 @@ class Se3:
         v1 = x1 - mu1
         v2 = x2 - mu2
         rotation_a_chosen = torch.where(rotation_g0 < 0.0, -rotation_a, rotation_a)
-        product = rotation_h0 * rotation_a_chosen
-        product_2 = rotation_h1 * rotation_a_chosen
+        product = x3 * rotation_a_chosen
+        product_2 = x4 * rotation_a_chosen
         total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 * product_2
-        product_3 = rotation_h2 * rotation_a_chosen
-        product_4 = rotation_h3 * rotation_a_chosen
+        product_3 = x5 * rotation_a_chosen
+        product_4 = x6 * rotation_a_chosen
         total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4
         total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 * product_2
         total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4
@@ -1088,14 +1084,14 @@ class Se3:
 
     def _pair(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
         """The value of a splat at a point, and the slope, its derivatives in X."""
-        x0, x1, x2, x3, x4, x5, x6, rotation_h0, rotation_h1, rotation_h2, rotation_h3 = X
+        x0, x1, x2, x3, x4, x5, x6 = X
         (
             mu0, mu1, mu2, mu3, mu4, mu5, mu6, W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, W3_0, W3_1, W3_2,
-            W4_0, W4_1, W4_2, W5_0, W5_1, W5_2, amplitude, _, _, _, _, _, _, rotation_R0_0, rotation_R0_1,
-            rotation_R0_2, rotation_R0_3, rotation_R1_0, rotation_R1_1, rotation_R1_2, rotation_R1_3, rotation_R2_0,
-            rotation_R2_1, rotation_R2_2, rotation_R2_3, rotation_R3_0, rotation_R3_1, rotation_R3_2, rotation_R3_3,
-            rotation_R4_0, rotation_R4_1, rotation_R4_2, rotation_R4_3, rotation_R5_0, rotation_R5_1, rotation_R5_2,
-            rotation_R5_3, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+            W4_0, W4_1, W4_2, W5_0, W5_1, W5_2, amplitude, _, _, _, _, _, _, rotation_R0_3, rotation_R0_0,
+            rotation_R0_2, rotation_R0_1, rotation_R1_3, rotation_R1_0, rotation_R1_2, rotation_R1_1, rotation_R2_3,
+            rotation_R2_0, rotation_R2_2, rotation_R2_1, rotation_R3_3, rotation_R3_0, rotation_R3_2, rotation_R3_1,
+            rotation_R4_3, rotation_R4_0, rotation_R4_2, rotation_R4_1, rotation_R5_3, rotation_R5_0, rotation_R5_2,
+            rotation_R5_1, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
         ) = S
         rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6
         rotation_abs_g0 = torch.abs(rotation_g0)
@@ -1106,11 +1102,11 @@ class Se3:
         v2 = x2 - mu2
         is_small = rotation_g0 < 0.0
         rotation_a_chosen = torch.where(is_small, -rotation_a, rotation_a)
-        product = rotation_h0 * rotation_a_chosen
-        product_2 = rotation_h1 * rotation_a_chosen
+        product = x3 * rotation_a_chosen
+        product_2 = x4 * rotation_a_chosen
         total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 * product_2
-        product_3 = rotation_h2 * rotation_a_chosen
-        product_4 = rotation_h3 * rotation_a_chosen
+        product_3 = x5 * rotation_a_chosen
+        product_4 = x6 * rotation_a_chosen
         total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4
         total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 * product_2
         total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4
@@ -1152,46 +1148,23 @@ class Se3:
             rotation_R4_0 * total_11
         )
         phi_product_4 = phi_2 * (total_21 + rotation_R5_0 * total_14)
-        gap = (
-            -(rotation_h3 * phi_product) - rotation_h2 * phi_product_2 - rotation_h1 * phi_product_3 - rotation_h0 *
-            phi_product_4
-        )
+        gap = -(x6 * phi_product) - x5 * phi_product_2 - x4 * phi_product_3 - x3 * phi_product_4
         by_rotation_abs_g0 = rotation_eta * (2.0 * phi_2 + rotation_a_chosen * gap)
         by_rotation_g0 = torch.where(is_small, -by_rotation_abs_g0, by_rotation_abs_g0)
-        by_x3 = mu3 * by_rotation_g0
-        by_x4 = mu4 * by_rotation_g0
-        by_x5 = mu5 * by_rotation_g0
-        by_x6 = mu6 * by_rotation_g0
-        by_rotation_h0 = -(rotation_a_chosen * phi_product_4)
-        by_rotation_h1 = -(rotation_a_chosen * phi_product_3)
-        by_rotation_h2 = -(rotation_a_chosen * phi_product_2)
-        by_rotation_h3 = -(rotation_a_chosen * phi_product)
-        return (
-            phi_2,
-            by_v0,
-            by_v1,
-            by_v2,
-            by_x3,
-            by_x4,
-            by_x5,
-            by_x6,
-            by_rotation_h0,
-            by_rotation_h1,
-            by_rotation_h2,
-            by_rotation_h3,
-        )
+        by_x3 = mu3 * by_rotation_g0 - rotation_a_chosen * phi_product_4
+        by_x4 = mu4 * by_rotation_g0 - rotation_a_chosen * phi_product_3
+        by_x5 = mu5 * by_rotation_g0 - rotation_a_chosen * phi_product_2
+        by_x6 = mu6 * by_rotation_g0 - rotation_a_chosen * phi_product
+        return (phi_2, by_v0, by_v1, by_v2, by_x3, by_x4, by_x5, by_x6)
 
     def _point_gradient(self, x: Tensor, slope: Sequence[Tensor]) -> Tensor:
         """The Riemannian gradient of a function whose derivatives in X are `slope`."""
         _, _, _, x3, x4, x5, x6 = x.unbind(-1)
-        (
-            slope_x0, slope_x1, slope_x2, slope_x3, slope_x4, slope_x5, slope_x6, slope_rotation_h0, slope_rotation_h1,
-            slope_rotation_h2, slope_rotation_h3,
-        ) = slope
-        product = 0.5 * (slope_x4 + 0.5 * slope_rotation_h1)
-        product_2 = 0.5 * (slope_x5 + 0.5 * slope_rotation_h2)
-        product_3 = 0.5 * (slope_x3 + 0.5 * slope_rotation_h0)
-        product_4 = 0.5 * (slope_x6 + 0.5 * slope_rotation_h3)
+        slope_x0, slope_x1, slope_x2, slope_x3, slope_x4, slope_x5, slope_x6 = slope
+        product = 0.5 * slope_x4
+        product_2 = 0.5 * slope_x5
+        product_3 = 0.5 * slope_x3
+        product_4 = 0.5 * slope_x6
         return _stack((
             slope_x0,
             slope_x1,
@@ -1207,42 +1180,32 @@ class Se3:
         (
             gradient_bar0, gradient_bar1, gradient_bar2, gradient_bar3, gradient_bar4, gradient_bar5,
         ) = gradient_bar.unbind(-1)
-        gap = -(x6 * gradient_bar5) - x5 * gradient_bar4 - x4 * gradient_bar3
-        total_2 = x5 * gradient_bar5 - x6 * gradient_bar4 + x3 * gradient_bar3
-        total_3 = x3 * gradient_bar4 - x4 * gradient_bar5 + x6 * gradient_bar3
-        gap_2 = x3 * gradient_bar5 + x4 * gradient_bar4 - x5 * gradient_bar3
+        product = 0.5 * (-(x6 * gradient_bar5) - x5 * gradient_bar4 - x4 * gradient_bar3)
         return (
             gradient_bar0,
             gradient_bar1,
             gradient_bar2,
-            0.5 * gap,
-            0.5 * total_2,
-            0.5 * total_3,
-            0.5 * gap_2,
-            0.25 * gap,
-            0.25 * total_2,
-            0.25 * total_3,
-            0.25 * gap_2,
+            product,
+            0.5 * (x5 * gradient_bar5 - x6 * gradient_bar4 + x3 * gradient_bar3),
+            0.5 * (x3 * gradient_bar4 - x4 * gradient_bar5 + x6 * gradient_bar3),
+            0.5 * (x3 * gradient_bar5 + x4 * gradient_bar4 - x5 * gradient_bar3),
         )
 
     def _pair_vjp(
         self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
     ) -> tuple[Tensor, ...]:
         """What, summed over the points, makes the derivatives of value value_bar + slope . slope_bar."""
-        x0, x1, x2, x3, x4, x5, x6, rotation_h0, rotation_h1, rotation_h2, rotation_h3 = X
+        x0, x1, x2, x3, x4, x5, x6 = X
         (
             mu0, mu1, mu2, mu3, mu4, mu5, mu6, W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2, W3_0, W3_1, W3_2,
-            W4_0, W4_1, W4_2, W5_0, W5_1, W5_2, _, M0_0, M0_1, M0_2, M1_1, M1_2, M2_2, rotation_R0_0, rotation_R0_1,
-            rotation_R0_2, rotation_R0_3, rotation_R1_0, rotation_R1_1, rotation_R1_2, rotation_R1_3, rotation_R2_0,
-            rotation_R2_1, rotation_R2_2, rotation_R2_3, rotation_R3_0, rotation_R3_1, rotation_R3_2, rotation_R3_3,
-            rotation_R4_0, rotation_R4_1, rotation_R4_2, rotation_R4_3, rotation_R5_0, rotation_R5_1, rotation_R5_2,
-            rotation_R5_3, M0_3, M0_4, M0_5, M0_6, M1_3, M1_4, M1_5, M1_6, M2_3, M2_4, M2_5, M2_6, M3_3, M3_4, M3_5,
+            W4_0, W4_1, W4_2, W5_0, W5_1, W5_2, _, M0_0, M0_1, M0_2, M1_1, M1_2, M2_2, rotation_R0_3, rotation_R0_0,
+            rotation_R0_2, rotation_R0_1, rotation_R1_3, rotation_R1_0, rotation_R1_2, rotation_R1_1, rotation_R2_3,
+            rotation_R2_0, rotation_R2_2, rotation_R2_1, rotation_R3_3, rotation_R3_0, rotation_R3_2, rotation_R3_1,
+            rotation_R4_3, rotation_R4_0, rotation_R4_2, rotation_R4_1, rotation_R5_3, rotation_R5_0, rotation_R5_2,
+            rotation_R5_1, M0_3, M0_4, M0_5, M0_6, M1_3, M1_4, M1_5, M1_6, M2_3, M2_4, M2_5, M2_6, M3_3, M3_4, M3_5,
             M3_6, M4_4, M4_5, M4_6, M5_5, M5_6, M6_6,
         ) = S
-        (
-            x0_bar, x1_bar, x2_bar, x3_bar, x4_bar, x5_bar, x6_bar, rotation_h0_bar, rotation_h1_bar, rotation_h2_bar,
-            rotation_h3_bar,
-        ) = slope_bar
+        x0_bar, x1_bar, x2_bar, x3_bar, x4_bar, x5_bar, x6_bar = slope_bar
         v0 = x0 - mu0
         v1 = x1 - mu1
         v2 = x2 - mu2
@@ -1253,11 +1216,11 @@ class Se3:
         rotation_eta = _polynomial(gap, _ROTATION_ETA)
         rotation_a = 1.0 / (rotation_abs_g0 - rotation_eta * (1.0 - rotation_abs_g0 * rotation_abs_g0))
         rotation_a_chosen = torch.where(is_small, -rotation_a, rotation_a)
-        product = rotation_h0 * rotation_a_chosen
-        product_2 = rotation_h1 * rotation_a_chosen
+        product = x3 * rotation_a_chosen
+        product_2 = x4 * rotation_a_chosen
         total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 * product_2
-        product_3 = rotation_h2 * rotation_a_chosen
-        product_4 = rotation_h3 * rotation_a_chosen
+        product_3 = x5 * rotation_a_chosen
+        product_4 = x6 * rotation_a_chosen
         total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4
         total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 * product_2
         total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4
@@ -1285,25 +1248,25 @@ class Se3:
         )
         product_5 = rotation_eta * by_by_rotation_abs_g0
         product_6 = rotation_a_chosen * product_5
-        gap_2 = -(rotation_h3 * product_6) - rotation_a_chosen * rotation_h3_bar
+        gap_2 = -(x6 * product_6) - rotation_a_chosen * x6_bar
         total_19 = (
             rotation_R0_2 * total_3 + rotation_R1_2 * total_5 + rotation_R2_2 * total_7 + rotation_R3_2 * total_9 +
             rotation_R4_2 * total_11
         )
         total_20 = total_19 + rotation_R5_2 * total_14
-        gap_3 = -(rotation_h2 * product_6) - rotation_a_chosen * rotation_h2_bar
+        gap_3 = -(x5 * product_6) - rotation_a_chosen * x5_bar
         total_21 = (
             rotation_R0_1 * total_3 + rotation_R1_1 * total_5 + rotation_R2_1 * total_7 + rotation_R3_1 * total_9 +
             rotation_R4_1 * total_11
         )
         total_22 = total_21 + rotation_R5_1 * total_14
-        gap_4 = -(rotation_h1 * product_6) - rotation_a_chosen * rotation_h1_bar
+        gap_4 = -(x4 * product_6) - rotation_a_chosen * x4_bar
         total_23 = (
             rotation_R0_0 * total_3 + rotation_R1_0 * total_5 + rotation_R2_0 * total_7 + rotation_R3_0 * total_9 +
             rotation_R4_0 * total_11
         )
         total_24 = total_23 + rotation_R5_0 * total_14
-        gap_5 = -(rotation_h0 * product_6) - rotation_a_chosen * rotation_h0_bar
+        gap_5 = -(x3 * product_6) - rotation_a_chosen * x3_bar
         total_25 = value_bar + total_18 * gap_2 + total_20 * gap_3 + total_22 * gap_4 + total_24 * gap_5
         total_26 = W0_2 * total_3 + W1_2 * total_5 + W2_2 * total_7 + W3_2 * total_9 + W4_2 * total_11
         total_27 = total_26 + W5_2 * total_14
@@ -1328,17 +1291,14 @@ class Se3:
         phi_product_10 = phi * total_20
         phi_product_11 = phi * total_22
         phi_product_12 = phi * total_24
-        gap_9 = (
-            -(rotation_h3 * phi_product_9) - rotation_h2 * phi_product_10 - rotation_h1 * phi_product_11 - rotation_h0 *
-            phi_product_12
-        )
+        gap_9 = -(x6 * phi_product_9) - x5 * phi_product_10 - x4 * phi_product_11 - x3 * phi_product_12
         total_33 = 2.0 * phi + rotation_a_chosen * gap_9
         by_rotation_abs_g0 = rotation_eta * total_33
         by_rotation_g0 = torch.where(is_small, -by_rotation_abs_g0, by_rotation_abs_g0)
         rotation_eta_slope = _polynomial(gap, _ROTATION_ETA_SLOPE)
         gap_10 = (
-            gap_9 * product_5 - phi_product_12 * rotation_h0_bar - phi_product_11 * rotation_h1_bar - phi_product_10 *
-            rotation_h2_bar - phi_product_9 * rotation_h3_bar
+            gap_9 * product_5 - phi_product_12 * x3_bar - phi_product_11 * x4_bar - phi_product_10 * x5_bar -
+            phi_product_9 * x6_bar
         )
         total_34 = -(M0_6 * phi_product_2) - M1_6 * phi_product_3 - M2_6 * phi_product_4 + M3_6 * phi_product_5
         gap_11 = total_34 + M4_6 * phi_product_6 + M5_6 * phi_product_7 + M6_6 * phi_product_8 - total_18 * phi_product
@@ -1348,7 +1308,7 @@ class Se3:
         gap_13 = total_36 + M4_4 * phi_product_6 + M4_5 * phi_product_7 + M4_6 * phi_product_8 - total_22 * phi_product
         total_37 = -(M0_3 * phi_product_2) - M1_3 * phi_product_3 - M2_3 * phi_product_4 + M3_3 * phi_product_5
         gap_14 = total_37 + M3_4 * phi_product_6 + M3_5 * phi_product_7 + M3_6 * phi_product_8 - total_24 * phi_product
-        total_38 = gap_10 + rotation_h3 * gap_11 + rotation_h2 * gap_12 + rotation_h1 * gap_13 + rotation_h0 * gap_14
+        total_38 = gap_10 + x6 * gap_11 + x5 * gap_12 + x4 * gap_13 + x3 * gap_14
         by_rotation_abs_g0_2 = (
             rotation_eta_slope * (total_33 * by_by_rotation_abs_g0) + rotation_eta * (2.0 * phi_product +
             rotation_a_chosen * total_38)
@@ -1415,263 +1375,283 @@ class Se3:
             sum17, sum18, sum19, sum20, sum21, sum22, sum23, sum24, sum25, sum26, sum27, sum28, sum29, sum30, sum31,
             sum32, sum33, sum34, sum35,
         ) = sums
-        rotation_M3 = 2.0 * mu6
-        rotation_M2 = 2.0 * mu5
-        rotation_M1 = 2.0 * mu4
-        rotation_R5_0 = 2.0 * (-(W5_5 * rotation_M3) - W5_4 * rotation_M2 - W5_3 * rotation_M1)
-        rotation_M0 = 2.0 * mu3
-        rotation_R5_1 = 2.0 * (W5_5 * rotation_M2 - W5_4 * rotation_M3 + W5_3 * rotation_M0)
-        product = 2.0 * sum30
-        total_2 = W5_0 * sum15 + W5_1 * sum19 + W5_2 * sum23 + rotation_R5_0 * sum27 + rotation_R5_1 * product
-        rotation_R5_2 = 2.0 * (W5_4 * rotation_M0 - W5_5 * rotation_M1 + W5_3 * rotation_M3)
-        rotation_R5_3 = 2.0 * (W5_5 * rotation_M0 + W5_4 * rotation_M1 - W5_3 * rotation_M2)
+        product = 2.0 * mu6
+        product_2 = 2.0 * mu5
+        product_3 = 2.0 * mu4
+        rotation_R5_0 = -(W5_5 * product) - W5_4 * product_2 - W5_3 * product_3
+        product_4 = 2.0 * mu3
+        rotation_R5_1 = W5_5 * product_2 - W5_4 * product + W5_3 * product_4
+        product_5 = 2.0 * sum30
+        total_2 = W5_0 * sum15 + W5_1 * sum19 + W5_2 * sum23 + rotation_R5_0 * sum27 + rotation_R5_1 * product_5
+        rotation_R5_2 = W5_4 * product_4 - W5_5 * product_3 + W5_3 * product
+        rotation_R5_3 = W5_5 * product_4 + W5_4 * product_3 - W5_3 * product_2
         by_rotation_R5_1 = total_2 + rotation_R5_2 * sum31 + rotation_R5_3 * sum32
-        product_2 = 2.0 * by_rotation_R5_1
-        rotation_R4_0 = 2.0 * (-(W4_5 * rotation_M3) - W4_4 * rotation_M2 - W4_3 * rotation_M1)
-        rotation_R4_1 = 2.0 * (W4_5 * rotation_M2 - W4_4 * rotation_M3 + W4_3 * rotation_M0)
-        total_3 = W4_0 * sum15 + W4_1 * sum19 + W4_2 * sum23 + rotation_R4_0 * sum27 + rotation_R4_1 * product
-        rotation_R4_2 = 2.0 * (W4_4 * rotation_M0 - W4_5 * rotation_M1 + W4_3 * rotation_M3)
-        rotation_R4_3 = 2.0 * (W4_5 * rotation_M0 + W4_4 * rotation_M1 - W4_3 * rotation_M2)
+        rotation_R4_0 = -(W4_5 * product) - W4_4 * product_2 - W4_3 * product_3
+        rotation_R4_1 = W4_5 * product_2 - W4_4 * product + W4_3 * product_4
+        total_3 = W4_0 * sum15 + W4_1 * sum19 + W4_2 * sum23 + rotation_R4_0 * sum27 + rotation_R4_1 * product_5
+        rotation_R4_2 = W4_4 * product_4 - W4_5 * product_3 + W4_3 * product
+        rotation_R4_3 = W4_5 * product_4 + W4_4 * product_3 - W4_3 * product_2
         by_rotation_R4_1 = total_3 + rotation_R4_2 * sum31 + rotation_R4_3 * sum32
-        product_3 = 2.0 * by_rotation_R4_1
-        rotation_R3_0 = 2.0 * (-(W3_5 * rotation_M3) - W3_4 * rotation_M2 - W3_3 * rotation_M1)
-        rotation_R3_1 = 2.0 * (W3_5 * rotation_M2 - W3_4 * rotation_M3 + W3_3 * rotation_M0)
-        total_4 = W3_0 * sum15 + W3_1 * sum19 + W3_2 * sum23 + rotation_R3_0 * sum27 + rotation_R3_1 * product
-        rotation_R3_2 = 2.0 * (W3_4 * rotation_M0 - W3_5 * rotation_M1 + W3_3 * rotation_M3)
-        rotation_R3_3 = 2.0 * (W3_5 * rotation_M0 + W3_4 * rotation_M1 - W3_3 * rotation_M2)
+        rotation_R3_0 = -(W3_5 * product) - W3_4 * product_2 - W3_3 * product_3
+        rotation_R3_1 = W3_5 * product_2 - W3_4 * product + W3_3 * product_4
+        total_4 = W3_0 * sum15 + W3_1 * sum19 + W3_2 * sum23 + rotation_R3_0 * sum27 + rotation_R3_1 * product_5
+        rotation_R3_2 = W3_4 * product_4 - W3_5 * product_3 + W3_3 * product
+        rotation_R3_3 = W3_5 * product_4 + W3_4 * product_3 - W3_3 * product_2
         by_rotation_R3_1 = total_4 + rotation_R3_2 * sum31 + rotation_R3_3 * sum32
-        product_4 = 2.0 * by_rotation_R3_1
-        rotation_R2_0 = 2.0 * (-(W2_5 * rotation_M3) - W2_4 * rotation_M2 - W2_3 * rotation_M1)
-        rotation_R2_1 = 2.0 * (W2_5 * rotation_M2 - W2_4 * rotation_M3 + W2_3 * rotation_M0)
-        total_5 = W2_0 * sum15 + W2_1 * sum19 + W2_2 * sum23 + rotation_R2_0 * sum27 + rotation_R2_1 * product
-        rotation_R2_2 = 2.0 * (W2_4 * rotation_M0 - W2_5 * rotation_M1 + W2_3 * rotation_M3)
-        rotation_R2_3 = 2.0 * (W2_5 * rotation_M0 + W2_4 * rotation_M1 - W2_3 * rotation_M2)
+        rotation_R2_0 = -(W2_5 * product) - W2_4 * product_2 - W2_3 * product_3
+        rotation_R2_1 = W2_5 * product_2 - W2_4 * product + W2_3 * product_4
+        total_5 = W2_0 * sum15 + W2_1 * sum19 + W2_2 * sum23 + rotation_R2_0 * sum27 + rotation_R2_1 * product_5
+        rotation_R2_2 = W2_4 * product_4 - W2_5 * product_3 + W2_3 * product
+        rotation_R2_3 = W2_5 * product_4 + W2_4 * product_3 - W2_3 * product_2
         by_rotation_R2_1 = total_5 + rotation_R2_2 * sum31 + rotation_R2_3 * sum32
-        product_5 = 2.0 * by_rotation_R2_1
-        rotation_R1_0 = 2.0 * (-(W1_5 * rotation_M3) - W1_4 * rotation_M2 - W1_3 * rotation_M1)
-        rotation_R1_1 = 2.0 * (W1_5 * rotation_M2 - W1_4 * rotation_M3 + W1_3 * rotation_M0)
-        total_6 = W1_0 * sum15 + W1_1 * sum19 + W1_2 * sum23 + rotation_R1_0 * sum27 + rotation_R1_1 * product
-        rotation_R1_2 = 2.0 * (W1_4 * rotation_M0 - W1_5 * rotation_M1 + W1_3 * rotation_M3)
-        rotation_R1_3 = 2.0 * (W1_5 * rotation_M0 + W1_4 * rotation_M1 - W1_3 * rotation_M2)
+        rotation_R1_0 = -(W1_5 * product) - W1_4 * product_2 - W1_3 * product_3
+        rotation_R1_1 = W1_5 * product_2 - W1_4 * product + W1_3 * product_4
+        total_6 = W1_0 * sum15 + W1_1 * sum19 + W1_2 * sum23 + rotation_R1_0 * sum27 + rotation_R1_1 * product_5
+        rotation_R1_2 = W1_4 * product_4 - W1_5 * product_3 + W1_3 * product
+        rotation_R1_3 = W1_5 * product_4 + W1_4 * product_3 - W1_3 * product_2
         by_rotation_R1_1 = total_6 + rotation_R1_2 * sum31 + rotation_R1_3 * sum32
-        product_6 = 2.0 * by_rotation_R1_1
-        total_7 = W5_3 * product_2 + W4_3 * product_3 + W3_3 * product_4 + W2_3 * product_5 + W1_3 * product_6
-        rotation_R0_0 = 2.0 * (-(W0_5 * rotation_M3) - W0_4 * rotation_M2 - W0_3 * rotation_M1)
-        rotation_R0_1 = 2.0 * (W0_5 * rotation_M2 - W0_4 * rotation_M3 + W0_3 * rotation_M0)
-        total_8 = W0_0 * sum15 + W0_1 * sum19 + W0_2 * sum23 + rotation_R0_0 * sum27 + rotation_R0_1 * product
-        rotation_R0_2 = 2.0 * (W0_4 * rotation_M0 - W0_5 * rotation_M1 + W0_3 * rotation_M3)
-        rotation_R0_3 = 2.0 * (W0_5 * rotation_M0 + W0_4 * rotation_M1 - W0_3 * rotation_M2)
+        total_7 = (
+            W5_3 * by_rotation_R5_1 + W4_3 * by_rotation_R4_1 + W3_3 * by_rotation_R3_1 + W2_3 * by_rotation_R2_1 + W1_3
+            * by_rotation_R1_1
+        )
+        rotation_R0_0 = -(W0_5 * product) - W0_4 * product_2 - W0_3 * product_3
+        rotation_R0_1 = W0_5 * product_2 - W0_4 * product + W0_3 * product_4
+        total_8 = W0_0 * sum15 + W0_1 * sum19 + W0_2 * sum23 + rotation_R0_0 * sum27 + rotation_R0_1 * product_5
+        rotation_R0_2 = W0_4 * product_4 - W0_5 * product_3 + W0_3 * product
+        rotation_R0_3 = W0_5 * product_4 + W0_4 * product_3 - W0_3 * product_2
         by_rotation_R0_1 = total_8 + rotation_R0_2 * sum31 + rotation_R0_3 * sum32
-        product_7 = 2.0 * by_rotation_R0_1
         total_9 = W5_0 * sum16 + W5_1 * sum20 + W5_2 * sum24 + rotation_R5_0 * sum28 + rotation_R5_1 * sum31
-        product_8 = 2.0 * sum33
-        by_rotation_R5_2 = total_9 + rotation_R5_2 * product_8 + rotation_R5_3 * sum34
-        product_9 = 2.0 * by_rotation_R5_2
+        product_6 = 2.0 * sum33
+        by_rotation_R5_2 = total_9 + rotation_R5_2 * product_6 + rotation_R5_3 * sum34
         total_10 = W4_0 * sum16 + W4_1 * sum20 + W4_2 * sum24 + rotation_R4_0 * sum28 + rotation_R4_1 * sum31
-        by_rotation_R4_2 = total_10 + rotation_R4_2 * product_8 + rotation_R4_3 * sum34
-        product_10 = 2.0 * by_rotation_R4_2
+        by_rotation_R4_2 = total_10 + rotation_R4_2 * product_6 + rotation_R4_3 * sum34
         total_11 = W3_0 * sum16 + W3_1 * sum20 + W3_2 * sum24 + rotation_R3_0 * sum28 + rotation_R3_1 * sum31
-        by_rotation_R3_2 = total_11 + rotation_R3_2 * product_8 + rotation_R3_3 * sum34
-        product_11 = 2.0 * by_rotation_R3_2
-        total_12 = total_7 + W0_3 * product_7 + W5_4 * product_9 + W4_4 * product_10 + W3_4 * product_11
+        by_rotation_R3_2 = total_11 + rotation_R3_2 * product_6 + rotation_R3_3 * sum34
+        total_12 = (
+            total_7 + W0_3 * by_rotation_R0_1 + W5_4 * by_rotation_R5_2 + W4_4 * by_rotation_R4_2 + W3_4 *
+            by_rotation_R3_2
+        )
         total_13 = W2_0 * sum16 + W2_1 * sum20 + W2_2 * sum24 + rotation_R2_0 * sum28 + rotation_R2_1 * sum31
-        by_rotation_R2_2 = total_13 + rotation_R2_2 * product_8 + rotation_R2_3 * sum34
-        product_12 = 2.0 * by_rotation_R2_2
+        by_rotation_R2_2 = total_13 + rotation_R2_2 * product_6 + rotation_R2_3 * sum34
         total_14 = W1_0 * sum16 + W1_1 * sum20 + W1_2 * sum24 + rotation_R1_0 * sum28 + rotation_R1_1 * sum31
-        by_rotation_R1_2 = total_14 + rotation_R1_2 * product_8 + rotation_R1_3 * sum34
-        product_13 = 2.0 * by_rotation_R1_2
+        by_rotation_R1_2 = total_14 + rotation_R1_2 * product_6 + rotation_R1_3 * sum34
         total_15 = W0_0 * sum16 + W0_1 * sum20 + W0_2 * sum24 + rotation_R0_0 * sum28 + rotation_R0_1 * sum31
-        by_rotation_R0_2 = total_15 + rotation_R0_2 * product_8 + rotation_R0_3 * sum34
-        product_14 = 2.0 * by_rotation_R0_2
+        by_rotation_R0_2 = total_15 + rotation_R0_2 * product_6 + rotation_R0_3 * sum34
         total_16 = W5_0 * sum17 + W5_1 * sum21 + W5_2 * sum25 + rotation_R5_0 * sum29 + rotation_R5_1 * sum32
-        product_15 = 2.0 * sum35
-        by_rotation_R5_3 = total_16 + rotation_R5_2 * sum34 + rotation_R5_3 * product_15
-        product_16 = 2.0 * by_rotation_R5_3
-        total_17 = total_12 + W2_4 * product_12 + W1_4 * product_13 + W0_4 * product_14 + W5_5 * product_16
+        product_7 = 2.0 * sum35
+        by_rotation_R5_3 = total_16 + rotation_R5_2 * sum34 + rotation_R5_3 * product_7
+        total_17 = (
+            total_12 + W2_4 * by_rotation_R2_2 + W1_4 * by_rotation_R1_2 + W0_4 * by_rotation_R0_2 + W5_5 *
+            by_rotation_R5_3
+        )
         total_18 = W4_0 * sum17 + W4_1 * sum21 + W4_2 * sum25 + rotation_R4_0 * sum29 + rotation_R4_1 * sum32
-        by_rotation_R4_3 = total_18 + rotation_R4_2 * sum34 + rotation_R4_3 * product_15
-        product_17 = 2.0 * by_rotation_R4_3
+        by_rotation_R4_3 = total_18 + rotation_R4_2 * sum34 + rotation_R4_3 * product_7
         total_19 = W3_0 * sum17 + W3_1 * sum21 + W3_2 * sum25 + rotation_R3_0 * sum29 + rotation_R3_1 * sum32
-        by_rotation_R3_3 = total_19 + rotation_R3_2 * sum34 + rotation_R3_3 * product_15
-        product_18 = 2.0 * by_rotation_R3_3
+        by_rotation_R3_3 = total_19 + rotation_R3_2 * sum34 + rotation_R3_3 * product_7
         total_20 = W2_0 * sum17 + W2_1 * sum21 + W2_2 * sum25 + rotation_R2_0 * sum29 + rotation_R2_1 * sum32
-        by_rotation_R2_3 = total_20 + rotation_R2_2 * sum34 + rotation_R2_3 * product_15
-        product_19 = 2.0 * by_rotation_R2_3
+        by_rotation_R2_3 = total_20 + rotation_R2_2 * sum34 + rotation_R2_3 * product_7
         total_21 = W1_0 * sum17 + W1_1 * sum21 + W1_2 * sum25 + rotation_R1_0 * sum29 + rotation_R1_1 * sum32
-        by_rotation_R1_3 = total_21 + rotation_R1_2 * sum34 + rotation_R1_3 * product_15
-        product_20 = 2.0 * by_rotation_R1_3
-        total_22 = total_17 + W4_5 * product_17 + W3_5 * product_18 + W2_5 * product_19 + W1_5 * product_20
+        by_rotation_R1_3 = total_21 + rotation_R1_2 * sum34 + rotation_R1_3 * product_7
+        total_22 = (
+            total_17 + W4_5 * by_rotation_R4_3 + W3_5 * by_rotation_R3_3 + W2_5 * by_rotation_R2_3 + W1_5 *
+            by_rotation_R1_3
+        )
         total_23 = W0_0 * sum17 + W0_1 * sum21 + W0_2 * sum25 + rotation_R0_0 * sum29 + rotation_R0_1 * sum32
-        by_rotation_R0_3 = total_23 + rotation_R0_2 * sum34 + rotation_R0_3 * product_15
-        product_21 = 2.0 * by_rotation_R0_3
-        by_rotation_M0 = total_22 + W0_5 * product_21
-        product_22 = 2.0 * sum26
-        total_24 = W5_0 * sum14 + W5_1 * sum18 + W5_2 * sum22 + rotation_R5_0 * product_22 + rotation_R5_1 * sum27
+        by_rotation_R0_3 = total_23 + rotation_R0_2 * sum34 + rotation_R0_3 * product_7
+        product_8 = amplitude * (sum3 + 2.0 * (total_22 + W0_5 * by_rotation_R0_3))
+        product_9 = 2.0 * sum26
+        total_24 = W5_0 * sum14 + W5_1 * sum18 + W5_2 * sum22 + rotation_R5_0 * product_9 + rotation_R5_1 * sum27
         by_rotation_R5_0 = total_24 + rotation_R5_2 * sum28 + rotation_R5_3 * sum29
-        product_23 = 2.0 * by_rotation_R5_0
-        total_25 = W4_0 * sum14 + W4_1 * sum18 + W4_2 * sum22 + rotation_R4_0 * product_22 + rotation_R4_1 * sum27
+        total_25 = W4_0 * sum14 + W4_1 * sum18 + W4_2 * sum22 + rotation_R4_0 * product_9 + rotation_R4_1 * sum27
         by_rotation_R4_0 = total_25 + rotation_R4_2 * sum28 + rotation_R4_3 * sum29
-        product_24 = 2.0 * by_rotation_R4_0
-        total_26 = W3_0 * sum14 + W3_1 * sum18 + W3_2 * sum22 + rotation_R3_0 * product_22 + rotation_R3_1 * sum27
+        total_26 = W3_0 * sum14 + W3_1 * sum18 + W3_2 * sum22 + rotation_R3_0 * product_9 + rotation_R3_1 * sum27
         by_rotation_R3_0 = total_26 + rotation_R3_2 * sum28 + rotation_R3_3 * sum29
-        product_25 = 2.0 * by_rotation_R3_0
-        total_27 = W2_0 * sum14 + W2_1 * sum18 + W2_2 * sum22 + rotation_R2_0 * product_22 + rotation_R2_1 * sum27
+        total_27 = W2_0 * sum14 + W2_1 * sum18 + W2_2 * sum22 + rotation_R2_0 * product_9 + rotation_R2_1 * sum27
         by_rotation_R2_0 = total_27 + rotation_R2_2 * sum28 + rotation_R2_3 * sum29
-        product_26 = 2.0 * by_rotation_R2_0
-        gap = -(W5_3 * product_23) - W4_3 * product_24 - W3_3 * product_25 - W2_3 * product_26
-        total_28 = W1_0 * sum14 + W1_1 * sum18 + W1_2 * sum22 + rotation_R1_0 * product_22 + rotation_R1_1 * sum27
+        gap = -(W5_3 * by_rotation_R5_0) - W4_3 * by_rotation_R4_0 - W3_3 * by_rotation_R3_0 - W2_3 * by_rotation_R2_0
+        total_28 = W1_0 * sum14 + W1_1 * sum18 + W1_2 * sum22 + rotation_R1_0 * product_9 + rotation_R1_1 * sum27
         by_rotation_R1_0 = total_28 + rotation_R1_2 * sum28 + rotation_R1_3 * sum29
-        product_27 = 2.0 * by_rotation_R1_0
-        total_29 = W0_0 * sum14 + W0_1 * sum18 + W0_2 * sum22 + rotation_R0_0 * product_22 + rotation_R0_1 * sum27
+        total_29 = W0_0 * sum14 + W0_1 * sum18 + W0_2 * sum22 + rotation_R0_0 * product_9 + rotation_R0_1 * sum27
         by_rotation_R0_0 = total_29 + rotation_R0_2 * sum28 + rotation_R0_3 * sum29
-        product_28 = 2.0 * by_rotation_R0_0
-        gap_2 = gap - W1_3 * product_27 - W0_3 * product_28 - W5_5 * product_9 - W4_5 * product_10
-        gap_3 = gap_2 - W3_5 * product_11 - W2_5 * product_12 - W1_5 * product_13 - W0_5 * product_14
-        total_30 = gap_3 + W5_4 * product_16 + W4_4 * product_17 + W3_4 * product_18 + W2_4 * product_19
-        by_rotation_M1 = total_30 + W1_4 * product_20 + W0_4 * product_21
-        gap_4 = -(W5_4 * product_23) - W4_4 * product_24 - W3_4 * product_25 - W2_4 * product_26
-        total_31 = gap_4 - W1_4 * product_27 - W0_4 * product_28 + W5_5 * product_2 + W4_5 * product_3
-        total_32 = total_31 + W3_5 * product_4 + W2_5 * product_5 + W1_5 * product_6 + W0_5 * product_7
-        gap_5 = total_32 - W5_3 * product_16 - W4_3 * product_17 - W3_3 * product_18 - W2_3 * product_19
-        by_rotation_M2 = gap_5 - W1_3 * product_20 - W0_3 * product_21
-        gap_6 = -(W5_5 * product_23) - W4_5 * product_24 - W3_5 * product_25 - W2_5 * product_26
-        gap_7 = gap_6 - W1_5 * product_27 - W0_5 * product_28 - W5_4 * product_2 - W4_4 * product_3
-        gap_8 = gap_7 - W3_4 * product_4 - W2_4 * product_5 - W1_4 * product_6 - W0_4 * product_7
-        total_33 = gap_8 + W5_3 * product_9 + W4_3 * product_10 + W3_3 * product_11 + W2_3 * product_12
-        by_rotation_M3 = total_33 + W1_3 * product_13 + W0_3 * product_14
-        product_29 = 2.0 * sum8
-        total_34 = W0_0 * product_29 + W0_1 * sum9 + W0_2 * sum10 + rotation_R0_0 * sum14 + rotation_R0_1 * sum15
-        product_30 = 2.0 * sum11
-        total_35 = W0_0 * sum9 + W0_1 * product_30 + W0_2 * sum12 + rotation_R0_0 * sum18 + rotation_R0_1 * sum19
-        product_31 = 2.0 * sum13
-        total_36 = W0_0 * sum10 + W0_1 * sum12 + W0_2 * product_31 + rotation_R0_0 * sum22 + rotation_R0_1 * sum23
-        product_32 = (
-            amplitude * (rotation_M0 * product_7 - rotation_M1 * product_28 + rotation_M3 * product_14 - rotation_M2 *
-            product_21)
+        gap_2 = (
+            gap - W1_3 * by_rotation_R1_0 - W0_3 * by_rotation_R0_0 - W5_5 * by_rotation_R5_2 - W4_5 * by_rotation_R4_2
         )
-        total_37 = (
-            -(rotation_M2 * product_28) - rotation_M3 * product_7 + rotation_M0 * product_14 + rotation_M1 * product_21
+        gap_3 = (
+            gap_2 - W3_5 * by_rotation_R3_2 - W2_5 * by_rotation_R2_2 - W1_5 * by_rotation_R1_2 - W0_5 *
+            by_rotation_R0_2
         )
-        product_33 = (
-            amplitude * (rotation_M2 * product_7 - rotation_M3 * product_28 - rotation_M1 * product_14 + rotation_M0 *
-            product_21)
+        total_30 = (
+            gap_3 + W5_4 * by_rotation_R5_3 + W4_4 * by_rotation_R4_3 + W3_4 * by_rotation_R3_3 + W2_4 *
+            by_rotation_R2_3
         )
-        total_38 = W1_0 * product_29 + W1_1 * sum9 + W1_2 * sum10 + rotation_R1_0 * sum14 + rotation_R1_1 * sum15
-        total_39 = W1_0 * sum9 + W1_1 * product_30 + W1_2 * sum12 + rotation_R1_0 * sum18 + rotation_R1_1 * sum19
-        total_40 = W1_0 * sum10 + W1_1 * sum12 + W1_2 * product_31 + rotation_R1_0 * sum22 + rotation_R1_1 * sum23
-        product_34 = (
-            amplitude * (rotation_M0 * product_6 - rotation_M1 * product_27 + rotation_M3 * product_13 - rotation_M2 *
-            product_20)
+        total_31 = sum4 + 2.0 * (total_30 + W1_4 * by_rotation_R1_3 + W0_4 * by_rotation_R0_3)
+        gap_4 = -(W5_4 * by_rotation_R5_0) - W4_4 * by_rotation_R4_0 - W3_4 * by_rotation_R3_0 - W2_4 * by_rotation_R2_0
+        total_32 = (
+            gap_4 - W1_4 * by_rotation_R1_0 - W0_4 * by_rotation_R0_0 + W5_5 * by_rotation_R5_1 + W4_5 *
+            by_rotation_R4_1
         )
-        total_41 = (
-            -(rotation_M2 * product_27) - rotation_M3 * product_6 + rotation_M0 * product_13 + rotation_M1 * product_20
+        total_33 = (
+            total_32 + W3_5 * by_rotation_R3_1 + W2_5 * by_rotation_R2_1 + W1_5 * by_rotation_R1_1 + W0_5 *
+            by_rotation_R0_1
         )
-        product_35 = (
-            amplitude * (rotation_M2 * product_6 - rotation_M3 * product_27 - rotation_M1 * product_13 + rotation_M0 *
-            product_20)
+        gap_5 = (
+            total_33 - W5_3 * by_rotation_R5_3 - W4_3 * by_rotation_R4_3 - W3_3 * by_rotation_R3_3 - W2_3 *
+            by_rotation_R2_3
         )
-        total_42 = W2_0 * product_29 + W2_1 * sum9 + W2_2 * sum10 + rotation_R2_0 * sum14 + rotation_R2_1 * sum15
-        total_43 = W2_0 * sum9 + W2_1 * product_30 + W2_2 * sum12 + rotation_R2_0 * sum18 + rotation_R2_1 * sum19
-        total_44 = W2_0 * sum10 + W2_1 * sum12 + W2_2 * product_31 + rotation_R2_0 * sum22 + rotation_R2_1 * sum23
-        product_36 = (
-            amplitude * (rotation_M0 * product_5 - rotation_M1 * product_26 + rotation_M3 * product_12 - rotation_M2 *
-            product_19)
+        total_34 = sum5 + 2.0 * (gap_5 - W1_3 * by_rotation_R1_3 - W0_3 * by_rotation_R0_3)
+        gap_6 = -(W5_5 * by_rotation_R5_0) - W4_5 * by_rotation_R4_0 - W3_5 * by_rotation_R3_0 - W2_5 * by_rotation_R2_0
+        gap_7 = (
+            gap_6 - W1_5 * by_rotation_R1_0 - W0_5 * by_rotation_R0_0 - W5_4 * by_rotation_R5_1 - W4_4 *
+            by_rotation_R4_1
         )
-        total_45 = (
-            -(rotation_M2 * product_26) - rotation_M3 * product_5 + rotation_M0 * product_12 + rotation_M1 * product_19
+        gap_8 = (
+            gap_7 - W3_4 * by_rotation_R3_1 - W2_4 * by_rotation_R2_1 - W1_4 * by_rotation_R1_1 - W0_4 *
+            by_rotation_R0_1
         )
-        product_37 = (
-            amplitude * (rotation_M2 * product_5 - rotation_M3 * product_26 - rotation_M1 * product_12 + rotation_M0 *
-            product_19)
+        total_35 = (
+            gap_8 + W5_3 * by_rotation_R5_2 + W4_3 * by_rotation_R4_2 + W3_3 * by_rotation_R3_2 + W2_3 *
+            by_rotation_R2_2
         )
-        total_46 = W3_0 * product_29 + W3_1 * sum9 + W3_2 * sum10 + rotation_R3_0 * sum14 + rotation_R3_1 * sum15
-        total_47 = W3_0 * sum9 + W3_1 * product_30 + W3_2 * sum12 + rotation_R3_0 * sum18 + rotation_R3_1 * sum19
-        total_48 = W3_0 * sum10 + W3_1 * sum12 + W3_2 * product_31 + rotation_R3_0 * sum22 + rotation_R3_1 * sum23
-        product_38 = (
-            amplitude * (rotation_M0 * product_4 - rotation_M1 * product_25 + rotation_M3 * product_11 - rotation_M2 *
-            product_18)
+        total_36 = sum6 + 2.0 * (total_35 + W1_3 * by_rotation_R1_2 + W0_3 * by_rotation_R0_2)
+        product_10 = 2.0 * sum8
+        total_37 = W0_0 * product_10 + W0_1 * sum9 + W0_2 * sum10 + rotation_R0_0 * sum14 + rotation_R0_1 * sum15
+        product_11 = 2.0 * sum11
+        total_38 = W0_0 * sum9 + W0_1 * product_11 + W0_2 * sum12 + rotation_R0_0 * sum18 + rotation_R0_1 * sum19
+        product_12 = 2.0 * sum13
+        total_39 = W0_0 * sum10 + W0_1 * sum12 + W0_2 * product_12 + rotation_R0_0 * sum22 + rotation_R0_1 * sum23
+        product_13 = (
+            amplitude * (product_4 * by_rotation_R0_1 - product_3 * by_rotation_R0_0 + product * by_rotation_R0_2 -
+            product_2 * by_rotation_R0_3)
         )
-        total_49 = (
-            -(rotation_M2 * product_25) - rotation_M3 * product_4 + rotation_M0 * product_11 + rotation_M1 * product_18
+        total_40 = (
+            -(product_2 * by_rotation_R0_0) - product * by_rotation_R0_1 + product_4 * by_rotation_R0_2 + product_3 *
+            by_rotation_R0_3
         )
-        product_39 = (
-            amplitude * (rotation_M2 * product_4 - rotation_M3 * product_25 - rotation_M1 * product_11 + rotation_M0 *
-            product_18)
+        product_14 = (
+            amplitude * (product_2 * by_rotation_R0_1 - product * by_rotation_R0_0 - product_3 * by_rotation_R0_2 +
+            product_4 * by_rotation_R0_3)
         )
-        total_50 = W4_0 * product_29 + W4_1 * sum9 + W4_2 * sum10 + rotation_R4_0 * sum14 + rotation_R4_1 * sum15
-        total_51 = W4_0 * sum9 + W4_1 * product_30 + W4_2 * sum12 + rotation_R4_0 * sum18 + rotation_R4_1 * sum19
-        total_52 = W4_0 * sum10 + W4_1 * sum12 + W4_2 * product_31 + rotation_R4_0 * sum22 + rotation_R4_1 * sum23
-        product_40 = (
-            amplitude * (rotation_M0 * product_3 - rotation_M1 * product_24 + rotation_M3 * product_10 - rotation_M2 *
-            product_17)
+        total_41 = W1_0 * product_10 + W1_1 * sum9 + W1_2 * sum10 + rotation_R1_0 * sum14 + rotation_R1_1 * sum15
+        total_42 = W1_0 * sum9 + W1_1 * product_11 + W1_2 * sum12 + rotation_R1_0 * sum18 + rotation_R1_1 * sum19
+        total_43 = W1_0 * sum10 + W1_1 * sum12 + W1_2 * product_12 + rotation_R1_0 * sum22 + rotation_R1_1 * sum23
+        product_15 = (
+            amplitude * (product_4 * by_rotation_R1_1 - product_3 * by_rotation_R1_0 + product * by_rotation_R1_2 -
+            product_2 * by_rotation_R1_3)
         )
-        total_53 = (
-            -(rotation_M2 * product_24) - rotation_M3 * product_3 + rotation_M0 * product_10 + rotation_M1 * product_17
+        total_44 = (
+            -(product_2 * by_rotation_R1_0) - product * by_rotation_R1_1 + product_4 * by_rotation_R1_2 + product_3 *
+            by_rotation_R1_3
         )
-        product_41 = (
-            amplitude * (rotation_M2 * product_3 - rotation_M3 * product_24 - rotation_M1 * product_10 + rotation_M0 *
-            product_17)
+        product_16 = (
+            amplitude * (product_2 * by_rotation_R1_1 - product * by_rotation_R1_0 - product_3 * by_rotation_R1_2 +
+            product_4 * by_rotation_R1_3)
         )
-        total_54 = W5_0 * product_29 + W5_1 * sum9 + W5_2 * sum10 + rotation_R5_0 * sum14 + rotation_R5_1 * sum15
-        total_55 = W5_0 * sum9 + W5_1 * product_30 + W5_2 * sum12 + rotation_R5_0 * sum18 + rotation_R5_1 * sum19
-        total_56 = W5_0 * sum10 + W5_1 * sum12 + W5_2 * product_31 + rotation_R5_0 * sum22 + rotation_R5_1 * sum23
-        product_42 = (
-            amplitude * (rotation_M0 * product_2 - rotation_M1 * product_23 + rotation_M3 * product_9 - rotation_M2 *
-            product_16)
+        total_45 = W2_0 * product_10 + W2_1 * sum9 + W2_2 * sum10 + rotation_R2_0 * sum14 + rotation_R2_1 * sum15
+        total_46 = W2_0 * sum9 + W2_1 * product_11 + W2_2 * sum12 + rotation_R2_0 * sum18 + rotation_R2_1 * sum19
+        total_47 = W2_0 * sum10 + W2_1 * sum12 + W2_2 * product_12 + rotation_R2_0 * sum22 + rotation_R2_1 * sum23
+        product_17 = (
+            amplitude * (product_4 * by_rotation_R2_1 - product_3 * by_rotation_R2_0 + product * by_rotation_R2_2 -
+            product_2 * by_rotation_R2_3)
         )
-        total_57 = (
-            -(rotation_M2 * product_23) - rotation_M3 * product_2 + rotation_M0 * product_9 + rotation_M1 * product_16
+        total_48 = (
+            -(product_2 * by_rotation_R2_0) - product * by_rotation_R2_1 + product_4 * by_rotation_R2_2 + product_3 *
+            by_rotation_R2_3
         )
-        product_43 = (
-            amplitude * (rotation_M2 * product_2 - rotation_M3 * product_23 - rotation_M1 * product_9 + rotation_M0 *
-            product_16)
+        product_18 = (
+            amplitude * (product_2 * by_rotation_R2_1 - product * by_rotation_R2_0 - product_3 * by_rotation_R2_2 +
+            product_4 * by_rotation_R2_3)
+        )
+        total_49 = W3_0 * product_10 + W3_1 * sum9 + W3_2 * sum10 + rotation_R3_0 * sum14 + rotation_R3_1 * sum15
+        total_50 = W3_0 * sum9 + W3_1 * product_11 + W3_2 * sum12 + rotation_R3_0 * sum18 + rotation_R3_1 * sum19
+        total_51 = W3_0 * sum10 + W3_1 * sum12 + W3_2 * product_12 + rotation_R3_0 * sum22 + rotation_R3_1 * sum23
+        product_19 = (
+            amplitude * (product_4 * by_rotation_R3_1 - product_3 * by_rotation_R3_0 + product * by_rotation_R3_2 -
+            product_2 * by_rotation_R3_3)
+        )
+        total_52 = (
+            -(product_2 * by_rotation_R3_0) - product * by_rotation_R3_1 + product_4 * by_rotation_R3_2 + product_3 *
+            by_rotation_R3_3
+        )
+        product_20 = (
+            amplitude * (product_2 * by_rotation_R3_1 - product * by_rotation_R3_0 - product_3 * by_rotation_R3_2 +
+            product_4 * by_rotation_R3_3)
+        )
+        total_53 = W4_0 * product_10 + W4_1 * sum9 + W4_2 * sum10 + rotation_R4_0 * sum14 + rotation_R4_1 * sum15
+        total_54 = W4_0 * sum9 + W4_1 * product_11 + W4_2 * sum12 + rotation_R4_0 * sum18 + rotation_R4_1 * sum19
+        total_55 = W4_0 * sum10 + W4_1 * sum12 + W4_2 * product_12 + rotation_R4_0 * sum22 + rotation_R4_1 * sum23
+        product_21 = (
+            amplitude * (product_4 * by_rotation_R4_1 - product_3 * by_rotation_R4_0 + product * by_rotation_R4_2 -
+            product_2 * by_rotation_R4_3)
+        )
+        total_56 = (
+            -(product_2 * by_rotation_R4_0) - product * by_rotation_R4_1 + product_4 * by_rotation_R4_2 + product_3 *
+            by_rotation_R4_3
+        )
+        product_22 = (
+            amplitude * (product_2 * by_rotation_R4_1 - product * by_rotation_R4_0 - product_3 * by_rotation_R4_2 +
+            product_4 * by_rotation_R4_3)
+        )
+        total_57 = W5_0 * product_10 + W5_1 * sum9 + W5_2 * sum10 + rotation_R5_0 * sum14 + rotation_R5_1 * sum15
+        total_58 = W5_0 * sum9 + W5_1 * product_11 + W5_2 * sum12 + rotation_R5_0 * sum18 + rotation_R5_1 * sum19
+        total_59 = W5_0 * sum10 + W5_1 * sum12 + W5_2 * product_12 + rotation_R5_0 * sum22 + rotation_R5_1 * sum23
+        product_23 = (
+            amplitude * (product_4 * by_rotation_R5_1 - product_3 * by_rotation_R5_0 + product * by_rotation_R5_2 -
+            product_2 * by_rotation_R5_3)
+        )
+        total_60 = (
+            -(product_2 * by_rotation_R5_0) - product * by_rotation_R5_1 + product_4 * by_rotation_R5_2 + product_3 *
+            by_rotation_R5_3
+        )
+        product_24 = (
+            amplitude * (product_2 * by_rotation_R5_1 - product * by_rotation_R5_0 - product_3 * by_rotation_R5_2 +
+            product_4 * by_rotation_R5_3)
         )
         mu_bar = _stack((
             amplitude * sum0,
             amplitude * sum1,
             amplitude * sum2,
-            amplitude * (sum3 + 2.0 * by_rotation_M0),
-            amplitude * (sum4 + 2.0 * by_rotation_M1),
-            amplitude * (sum5 + 2.0 * by_rotation_M2),
-            amplitude * (sum6 + 2.0 * by_rotation_M3),
+            product_8,
+            amplitude * total_31,
+            amplitude * total_34,
+            amplitude * total_36,
         ))
         W_bar = _stack((
-            amplitude * (total_34 + rotation_R0_2 * sum16 + rotation_R0_3 * sum17),
-            amplitude * (total_35 + rotation_R0_2 * sum20 + rotation_R0_3 * sum21),
-            amplitude * (total_36 + rotation_R0_2 * sum24 + rotation_R0_3 * sum25),
-            product_32,
-            amplitude * total_37,
-            product_33,
-            amplitude * (total_38 + rotation_R1_2 * sum16 + rotation_R1_3 * sum17),
-            amplitude * (total_39 + rotation_R1_2 * sum20 + rotation_R1_3 * sum21),
-            amplitude * (total_40 + rotation_R1_2 * sum24 + rotation_R1_3 * sum25),
-            product_34,
-            amplitude * total_41,
-            product_35,
-            amplitude * (total_42 + rotation_R2_2 * sum16 + rotation_R2_3 * sum17),
-            amplitude * (total_43 + rotation_R2_2 * sum20 + rotation_R2_3 * sum21),
-            amplitude * (total_44 + rotation_R2_2 * sum24 + rotation_R2_3 * sum25),
-            product_36,
-            amplitude * total_45,
-            product_37,
-            amplitude * (total_46 + rotation_R3_2 * sum16 + rotation_R3_3 * sum17),
-            amplitude * (total_47 + rotation_R3_2 * sum20 + rotation_R3_3 * sum21),
-            amplitude * (total_48 + rotation_R3_2 * sum24 + rotation_R3_3 * sum25),
-            product_38,
-            amplitude * total_49,
-            product_39,
-            amplitude * (total_50 + rotation_R4_2 * sum16 + rotation_R4_3 * sum17),
-            amplitude * (total_51 + rotation_R4_2 * sum20 + rotation_R4_3 * sum21),
-            amplitude * (total_52 + rotation_R4_2 * sum24 + rotation_R4_3 * sum25),
-            product_40,
-            amplitude * total_53,
-            product_41,
-            amplitude * (total_54 + rotation_R5_2 * sum16 + rotation_R5_3 * sum17),
-            amplitude * (total_55 + rotation_R5_2 * sum20 + rotation_R5_3 * sum21),
-            amplitude * (total_56 + rotation_R5_2 * sum24 + rotation_R5_3 * sum25),
-            product_42,
-            amplitude * total_57,
-            product_43,
+            amplitude * (total_37 + rotation_R0_2 * sum16 + rotation_R0_3 * sum17),
+            amplitude * (total_38 + rotation_R0_2 * sum20 + rotation_R0_3 * sum21),
+            amplitude * (total_39 + rotation_R0_2 * sum24 + rotation_R0_3 * sum25),
+            product_13,
+            amplitude * total_40,
+            product_14,
+            amplitude * (total_41 + rotation_R1_2 * sum16 + rotation_R1_3 * sum17),
+            amplitude * (total_42 + rotation_R1_2 * sum20 + rotation_R1_3 * sum21),
+            amplitude * (total_43 + rotation_R1_2 * sum24 + rotation_R1_3 * sum25),
+            product_15,
+            amplitude * total_44,
+            product_16,
+            amplitude * (total_45 + rotation_R2_2 * sum16 + rotation_R2_3 * sum17),
+            amplitude * (total_46 + rotation_R2_2 * sum20 + rotation_R2_3 * sum21),
+            amplitude * (total_47 + rotation_R2_2 * sum24 + rotation_R2_3 * sum25),
+            product_17,
+            amplitude * total_48,
+            product_18,
+            amplitude * (total_49 + rotation_R3_2 * sum16 + rotation_R3_3 * sum17),
+            amplitude * (total_50 + rotation_R3_2 * sum20 + rotation_R3_3 * sum21),
+            amplitude * (total_51 + rotation_R3_2 * sum24 + rotation_R3_3 * sum25),
+            product_19,
+            amplitude * total_52,
+            product_20,
+            amplitude * (total_53 + rotation_R4_2 * sum16 + rotation_R4_3 * sum17),
+            amplitude * (total_54 + rotation_R4_2 * sum20 + rotation_R4_3 * sum21),
+            amplitude * (total_55 + rotation_R4_2 * sum24 + rotation_R4_3 * sum25),
+            product_21,
+            amplitude * total_56,
+            product_22,
+            amplitude * (total_57 + rotation_R5_2 * sum16 + rotation_R5_3 * sum17),
+            amplitude * (total_58 + rotation_R5_2 * sum20 + rotation_R5_3 * sum21),
+            amplitude * (total_59 + rotation_R5_2 * sum24 + rotation_R5_3 * sum25),
+            product_23,
+            amplitude * total_60,
+            product_24,
         ))
         return mu_bar, W_bar.unflatten(-1, (6, 6)), sum7
 

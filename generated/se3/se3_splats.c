@@ -202,10 +202,6 @@ OUTLINE void pair_features(
     const vector x4 = x[4];
     const vector x5 = x[5];
     const vector x6 = x[6];
-    const vector rotation_h0 = 0.5 * x3;
-    const vector rotation_h1 = 0.5 * x4;
-    const vector rotation_h2 = 0.5 * x5;
-    const vector rotation_h3 = 0.5 * x6;
     X[0] = x0;
     X[1] = x1;
     X[2] = x2;
@@ -213,10 +209,6 @@ OUTLINE void pair_features(
     X[4] = x4;
     X[5] = x5;
     X[6] = x6;
-    X[7] = rotation_h0;
-    X[8] = rotation_h1;
-    X[9] = rotation_h2;
-    X[10] = rotation_h3;
 }
 
 /* What pairs read of a splat, of some splats. */
@@ -278,34 +270,34 @@ OUTLINE void pair_constants(
     const vector M1_2 = total_6 + W5_1 * W5_2;
     const vector total_7 = W0_2 * W0_2 + W1_2 * W1_2 + W2_2 * W2_2 + W3_2 * W3_2 + W4_2 * W4_2;
     const vector M2_2 = total_7 + W5_2 * W5_2;
-    const vector rotation_M3 = 2.0 * mu6;
-    const vector rotation_M2 = 2.0 * mu5;
-    const vector rotation_M1 = 2.0 * mu4;
-    const vector rotation_R0_0 = 2.0 * (-(W0_5 * rotation_M3) - W0_4 * rotation_M2 - W0_3 * rotation_M1);
-    const vector rotation_M0 = 2.0 * mu3;
-    const vector rotation_R0_1 = 2.0 * (W0_5 * rotation_M2 - W0_4 * rotation_M3 + W0_3 * rotation_M0);
-    const vector rotation_R0_2 = 2.0 * (W0_4 * rotation_M0 - W0_5 * rotation_M1 + W0_3 * rotation_M3);
-    const vector rotation_R0_3 = 2.0 * (W0_5 * rotation_M0 + W0_4 * rotation_M1 - W0_3 * rotation_M2);
-    const vector rotation_R1_0 = 2.0 * (-(W1_5 * rotation_M3) - W1_4 * rotation_M2 - W1_3 * rotation_M1);
-    const vector rotation_R1_1 = 2.0 * (W1_5 * rotation_M2 - W1_4 * rotation_M3 + W1_3 * rotation_M0);
-    const vector rotation_R1_2 = 2.0 * (W1_4 * rotation_M0 - W1_5 * rotation_M1 + W1_3 * rotation_M3);
-    const vector rotation_R1_3 = 2.0 * (W1_5 * rotation_M0 + W1_4 * rotation_M1 - W1_3 * rotation_M2);
-    const vector rotation_R2_0 = 2.0 * (-(W2_5 * rotation_M3) - W2_4 * rotation_M2 - W2_3 * rotation_M1);
-    const vector rotation_R2_1 = 2.0 * (W2_5 * rotation_M2 - W2_4 * rotation_M3 + W2_3 * rotation_M0);
-    const vector rotation_R2_2 = 2.0 * (W2_4 * rotation_M0 - W2_5 * rotation_M1 + W2_3 * rotation_M3);
-    const vector rotation_R2_3 = 2.0 * (W2_5 * rotation_M0 + W2_4 * rotation_M1 - W2_3 * rotation_M2);
-    const vector rotation_R3_0 = 2.0 * (-(W3_5 * rotation_M3) - W3_4 * rotation_M2 - W3_3 * rotation_M1);
-    const vector rotation_R3_1 = 2.0 * (W3_5 * rotation_M2 - W3_4 * rotation_M3 + W3_3 * rotation_M0);
-    const vector rotation_R3_2 = 2.0 * (W3_4 * rotation_M0 - W3_5 * rotation_M1 + W3_3 * rotation_M3);
-    const vector rotation_R3_3 = 2.0 * (W3_5 * rotation_M0 + W3_4 * rotation_M1 - W3_3 * rotation_M2);
-    const vector rotation_R4_0 = 2.0 * (-(W4_5 * rotation_M3) - W4_4 * rotation_M2 - W4_3 * rotation_M1);
-    const vector rotation_R4_1 = 2.0 * (W4_5 * rotation_M2 - W4_4 * rotation_M3 + W4_3 * rotation_M0);
-    const vector rotation_R4_2 = 2.0 * (W4_4 * rotation_M0 - W4_5 * rotation_M1 + W4_3 * rotation_M3);
-    const vector rotation_R4_3 = 2.0 * (W4_5 * rotation_M0 + W4_4 * rotation_M1 - W4_3 * rotation_M2);
-    const vector rotation_R5_0 = 2.0 * (-(W5_5 * rotation_M3) - W5_4 * rotation_M2 - W5_3 * rotation_M1);
-    const vector rotation_R5_1 = 2.0 * (W5_5 * rotation_M2 - W5_4 * rotation_M3 + W5_3 * rotation_M0);
-    const vector rotation_R5_2 = 2.0 * (W5_4 * rotation_M0 - W5_5 * rotation_M1 + W5_3 * rotation_M3);
-    const vector rotation_R5_3 = 2.0 * (W5_5 * rotation_M0 + W5_4 * rotation_M1 - W5_3 * rotation_M2);
+    const vector product = 2.0 * mu3;
+    const vector product_2 = 2.0 * mu4;
+    const vector product_3 = 2.0 * mu5;
+    const vector rotation_R0_3 = W0_5 * product + W0_4 * product_2 - W0_3 * product_3;
+    const vector product_4 = 2.0 * mu6;
+    const vector rotation_R0_0 = -(W0_5 * product_4) - W0_4 * product_3 - W0_3 * product_2;
+    const vector rotation_R0_2 = W0_4 * product - W0_5 * product_2 + W0_3 * product_4;
+    const vector rotation_R0_1 = W0_5 * product_3 - W0_4 * product_4 + W0_3 * product;
+    const vector rotation_R1_3 = W1_5 * product + W1_4 * product_2 - W1_3 * product_3;
+    const vector rotation_R1_0 = -(W1_5 * product_4) - W1_4 * product_3 - W1_3 * product_2;
+    const vector rotation_R1_2 = W1_4 * product - W1_5 * product_2 + W1_3 * product_4;
+    const vector rotation_R1_1 = W1_5 * product_3 - W1_4 * product_4 + W1_3 * product;
+    const vector rotation_R2_3 = W2_5 * product + W2_4 * product_2 - W2_3 * product_3;
+    const vector rotation_R2_0 = -(W2_5 * product_4) - W2_4 * product_3 - W2_3 * product_2;
+    const vector rotation_R2_2 = W2_4 * product - W2_5 * product_2 + W2_3 * product_4;
+    const vector rotation_R2_1 = W2_5 * product_3 - W2_4 * product_4 + W2_3 * product;
+    const vector rotation_R3_3 = W3_5 * product + W3_4 * product_2 - W3_3 * product_3;
+    const vector rotation_R3_0 = -(W3_5 * product_4) - W3_4 * product_3 - W3_3 * product_2;
+    const vector rotation_R3_2 = W3_4 * product - W3_5 * product_2 + W3_3 * product_4;
+    const vector rotation_R3_1 = W3_5 * product_3 - W3_4 * product_4 + W3_3 * product;
+    const vector rotation_R4_3 = W4_5 * product + W4_4 * product_2 - W4_3 * product_3;
+    const vector rotation_R4_0 = -(W4_5 * product_4) - W4_4 * product_3 - W4_3 * product_2;
+    const vector rotation_R4_2 = W4_4 * product - W4_5 * product_2 + W4_3 * product_4;
+    const vector rotation_R4_1 = W4_5 * product_3 - W4_4 * product_4 + W4_3 * product;
+    const vector rotation_R5_3 = W5_5 * product + W5_4 * product_2 - W5_3 * product_3;
+    const vector rotation_R5_0 = -(W5_5 * product_4) - W5_4 * product_3 - W5_3 * product_2;
+    const vector rotation_R5_2 = W5_4 * product - W5_5 * product_2 + W5_3 * product_4;
+    const vector rotation_R5_1 = W5_5 * product_3 - W5_4 * product_4 + W5_3 * product;
     const vector total_8 = W0_0 * rotation_R0_0 + W1_0 * rotation_R1_0 + W2_0 * rotation_R2_0 + W3_0 *
         rotation_R3_0 + W4_0 * rotation_R4_0;
     const vector M0_3 = total_8 + W5_0 * rotation_R5_0;
@@ -351,24 +343,24 @@ OUTLINE void pair_constants(
     const vector total_22 = rotation_R0_0 * rotation_R0_2 + rotation_R1_0 * rotation_R1_2 + rotation_R2_0 *
         rotation_R2_2 + rotation_R3_0 * rotation_R3_2 + rotation_R4_0 * rotation_R4_2;
     const vector M3_5 = total_22 + rotation_R5_0 * rotation_R5_2;
-    const vector total_23 = rotation_R0_0 * rotation_R0_3 + rotation_R1_0 * rotation_R1_3 + rotation_R2_0 *
-        rotation_R2_3 + rotation_R3_0 * rotation_R3_3 + rotation_R4_0 * rotation_R4_3;
-    const vector M3_6 = total_23 + rotation_R5_0 * rotation_R5_3;
+    const vector total_23 = rotation_R0_3 * rotation_R0_0 + rotation_R1_3 * rotation_R1_0 + rotation_R2_3 *
+        rotation_R2_0 + rotation_R3_3 * rotation_R3_0 + rotation_R4_3 * rotation_R4_0;
+    const vector M3_6 = total_23 + rotation_R5_3 * rotation_R5_0;
     const vector total_24 = rotation_R0_1 * rotation_R0_1 + rotation_R1_1 * rotation_R1_1 + rotation_R2_1 *
         rotation_R2_1 + rotation_R3_1 * rotation_R3_1 + rotation_R4_1 * rotation_R4_1;
     const vector M4_4 = total_24 + rotation_R5_1 * rotation_R5_1;
-    const vector total_25 = rotation_R0_1 * rotation_R0_2 + rotation_R1_1 * rotation_R1_2 + rotation_R2_1 *
-        rotation_R2_2 + rotation_R3_1 * rotation_R3_2 + rotation_R4_1 * rotation_R4_2;
-    const vector M4_5 = total_25 + rotation_R5_1 * rotation_R5_2;
-    const vector total_26 = rotation_R0_1 * rotation_R0_3 + rotation_R1_1 * rotation_R1_3 + rotation_R2_1 *
-        rotation_R2_3 + rotation_R3_1 * rotation_R3_3 + rotation_R4_1 * rotation_R4_3;
-    const vector M4_6 = total_26 + rotation_R5_1 * rotation_R5_3;
+    const vector total_25 = rotation_R0_2 * rotation_R0_1 + rotation_R1_2 * rotation_R1_1 + rotation_R2_2 *
+        rotation_R2_1 + rotation_R3_2 * rotation_R3_1 + rotation_R4_2 * rotation_R4_1;
+    const vector M4_5 = total_25 + rotation_R5_2 * rotation_R5_1;
+    const vector total_26 = rotation_R0_3 * rotation_R0_1 + rotation_R1_3 * rotation_R1_1 + rotation_R2_3 *
+        rotation_R2_1 + rotation_R3_3 * rotation_R3_1 + rotation_R4_3 * rotation_R4_1;
+    const vector M4_6 = total_26 + rotation_R5_3 * rotation_R5_1;
     const vector total_27 = rotation_R0_2 * rotation_R0_2 + rotation_R1_2 * rotation_R1_2 + rotation_R2_2 *
         rotation_R2_2 + rotation_R3_2 * rotation_R3_2 + rotation_R4_2 * rotation_R4_2;
     const vector M5_5 = total_27 + rotation_R5_2 * rotation_R5_2;
-    const vector total_28 = rotation_R0_2 * rotation_R0_3 + rotation_R1_2 * rotation_R1_3 + rotation_R2_2 *
-        rotation_R2_3 + rotation_R3_2 * rotation_R3_3 + rotation_R4_2 * rotation_R4_3;
-    const vector M5_6 = total_28 + rotation_R5_2 * rotation_R5_3;
+    const vector total_28 = rotation_R0_3 * rotation_R0_2 + rotation_R1_3 * rotation_R1_2 + rotation_R2_3 *
+        rotation_R2_2 + rotation_R3_3 * rotation_R3_2 + rotation_R4_3 * rotation_R4_2;
+    const vector M5_6 = total_28 + rotation_R5_3 * rotation_R5_2;
     const vector total_29 = rotation_R0_3 * rotation_R0_3 + rotation_R1_3 * rotation_R1_3 + rotation_R2_3 *
         rotation_R2_3 + rotation_R3_3 * rotation_R3_3 + rotation_R4_3 * rotation_R4_3;
     const vector M6_6 = total_29 + rotation_R5_3 * rotation_R5_3;
@@ -404,30 +396,30 @@ OUTLINE void pair_constants(
     S[29] = M1_1;
     S[30] = M1_2;
     S[31] = M2_2;
-    S[32] = rotation_R0_0;
-    S[33] = rotation_R0_1;
+    S[32] = rotation_R0_3;
+    S[33] = rotation_R0_0;
     S[34] = rotation_R0_2;
-    S[35] = rotation_R0_3;
-    S[36] = rotation_R1_0;
-    S[37] = rotation_R1_1;
+    S[35] = rotation_R0_1;
+    S[36] = rotation_R1_3;
+    S[37] = rotation_R1_0;
     S[38] = rotation_R1_2;
-    S[39] = rotation_R1_3;
-    S[40] = rotation_R2_0;
-    S[41] = rotation_R2_1;
+    S[39] = rotation_R1_1;
+    S[40] = rotation_R2_3;
+    S[41] = rotation_R2_0;
     S[42] = rotation_R2_2;
-    S[43] = rotation_R2_3;
-    S[44] = rotation_R3_0;
-    S[45] = rotation_R3_1;
+    S[43] = rotation_R2_1;
+    S[44] = rotation_R3_3;
+    S[45] = rotation_R3_0;
     S[46] = rotation_R3_2;
-    S[47] = rotation_R3_3;
-    S[48] = rotation_R4_0;
-    S[49] = rotation_R4_1;
+    S[47] = rotation_R3_1;
+    S[48] = rotation_R4_3;
+    S[49] = rotation_R4_0;
     S[50] = rotation_R4_2;
-    S[51] = rotation_R4_3;
-    S[52] = rotation_R5_0;
-    S[53] = rotation_R5_1;
+    S[51] = rotation_R4_1;
+    S[52] = rotation_R5_3;
+    S[53] = rotation_R5_0;
     S[54] = rotation_R5_2;
-    S[55] = rotation_R5_3;
+    S[55] = rotation_R5_1;
     S[56] = M0_3;
     S[57] = M0_4;
     S[58] = M0_5;
@@ -455,7 +447,7 @@ OUTLINE void pair_constants(
 /*
  * Adds the values phi of a splat at some points.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
@@ -470,10 +462,6 @@ INLINE void pair_value(
     const vector x4 = X[4];
     const vector x5 = X[5];
     const vector x6 = X[6];
-    const vector rotation_h0 = X[7];
-    const vector rotation_h1 = X[8];
-    const vector rotation_h2 = X[9];
-    const vector rotation_h3 = X[10];
     const double mu0 = S[0];
     const double mu1 = S[1];
     const double mu2 = S[2];
@@ -500,30 +488,30 @@ INLINE void pair_value(
     const double W5_1 = S[23];
     const double W5_2 = S[24];
     const double amplitude = S[25];
-    const double rotation_R0_0 = S[32];
-    const double rotation_R0_1 = S[33];
+    const double rotation_R0_3 = S[32];
+    const double rotation_R0_0 = S[33];
     const double rotation_R0_2 = S[34];
-    const double rotation_R0_3 = S[35];
-    const double rotation_R1_0 = S[36];
-    const double rotation_R1_1 = S[37];
+    const double rotation_R0_1 = S[35];
+    const double rotation_R1_3 = S[36];
+    const double rotation_R1_0 = S[37];
     const double rotation_R1_2 = S[38];
-    const double rotation_R1_3 = S[39];
-    const double rotation_R2_0 = S[40];
-    const double rotation_R2_1 = S[41];
+    const double rotation_R1_1 = S[39];
+    const double rotation_R2_3 = S[40];
+    const double rotation_R2_0 = S[41];
     const double rotation_R2_2 = S[42];
-    const double rotation_R2_3 = S[43];
-    const double rotation_R3_0 = S[44];
-    const double rotation_R3_1 = S[45];
+    const double rotation_R2_1 = S[43];
+    const double rotation_R3_3 = S[44];
+    const double rotation_R3_0 = S[45];
     const double rotation_R3_2 = S[46];
-    const double rotation_R3_3 = S[47];
-    const double rotation_R4_0 = S[48];
-    const double rotation_R4_1 = S[49];
+    const double rotation_R3_1 = S[47];
+    const double rotation_R4_3 = S[48];
+    const double rotation_R4_0 = S[49];
     const double rotation_R4_2 = S[50];
-    const double rotation_R4_3 = S[51];
-    const double rotation_R5_0 = S[52];
-    const double rotation_R5_1 = S[53];
+    const double rotation_R4_1 = S[51];
+    const double rotation_R5_3 = S[52];
+    const double rotation_R5_0 = S[53];
     const double rotation_R5_2 = S[54];
-    const double rotation_R5_3 = S[55];
+    const double rotation_R5_1 = S[55];
     const vector rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6;
     const vector rotation_abs_g0 = abs_each(rotation_g0);
     const vector rotation_eta = vector_polynomial_rotation_eta(1.0 - rotation_abs_g0);
@@ -533,12 +521,12 @@ INLINE void pair_value(
     const vector v1 = x1 - mu1;
     const vector v2 = x2 - mu2;
     const vector rotation_a_chosen = vector_select(rotation_g0 < 0.0, -rotation_a, rotation_a);
-    const vector product = rotation_h0 * rotation_a_chosen;
-    const vector product_2 = rotation_h1 * rotation_a_chosen;
+    const vector product = x3 * rotation_a_chosen;
+    const vector product_2 = x4 * rotation_a_chosen;
     const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
         product_2;
-    const vector product_3 = rotation_h2 * rotation_a_chosen;
-    const vector product_4 = rotation_h3 * rotation_a_chosen;
+    const vector product_3 = x5 * rotation_a_chosen;
+    const vector product_4 = x6 * rotation_a_chosen;
     const vector total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
     const vector total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
         product_2;
@@ -565,7 +553,7 @@ INLINE void pair_value(
 /*
  * Adds the values phi of a splat at some points, and slope = d phi / d X.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
@@ -580,10 +568,6 @@ INLINE void pair_forward(
     const vector x4 = X[4];
     const vector x5 = X[5];
     const vector x6 = X[6];
-    const vector rotation_h0 = X[7];
-    const vector rotation_h1 = X[8];
-    const vector rotation_h2 = X[9];
-    const vector rotation_h3 = X[10];
     const double mu0 = S[0];
     const double mu1 = S[1];
     const double mu2 = S[2];
@@ -610,30 +594,30 @@ INLINE void pair_forward(
     const double W5_1 = S[23];
     const double W5_2 = S[24];
     const double amplitude = S[25];
-    const double rotation_R0_0 = S[32];
-    const double rotation_R0_1 = S[33];
+    const double rotation_R0_3 = S[32];
+    const double rotation_R0_0 = S[33];
     const double rotation_R0_2 = S[34];
-    const double rotation_R0_3 = S[35];
-    const double rotation_R1_0 = S[36];
-    const double rotation_R1_1 = S[37];
+    const double rotation_R0_1 = S[35];
+    const double rotation_R1_3 = S[36];
+    const double rotation_R1_0 = S[37];
     const double rotation_R1_2 = S[38];
-    const double rotation_R1_3 = S[39];
-    const double rotation_R2_0 = S[40];
-    const double rotation_R2_1 = S[41];
+    const double rotation_R1_1 = S[39];
+    const double rotation_R2_3 = S[40];
+    const double rotation_R2_0 = S[41];
     const double rotation_R2_2 = S[42];
-    const double rotation_R2_3 = S[43];
-    const double rotation_R3_0 = S[44];
-    const double rotation_R3_1 = S[45];
+    const double rotation_R2_1 = S[43];
+    const double rotation_R3_3 = S[44];
+    const double rotation_R3_0 = S[45];
     const double rotation_R3_2 = S[46];
-    const double rotation_R3_3 = S[47];
-    const double rotation_R4_0 = S[48];
-    const double rotation_R4_1 = S[49];
+    const double rotation_R3_1 = S[47];
+    const double rotation_R4_3 = S[48];
+    const double rotation_R4_0 = S[49];
     const double rotation_R4_2 = S[50];
-    const double rotation_R4_3 = S[51];
-    const double rotation_R5_0 = S[52];
-    const double rotation_R5_1 = S[53];
+    const double rotation_R4_1 = S[51];
+    const double rotation_R5_3 = S[52];
+    const double rotation_R5_0 = S[53];
     const double rotation_R5_2 = S[54];
-    const double rotation_R5_3 = S[55];
+    const double rotation_R5_1 = S[55];
     const vector rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6;
     const vector rotation_abs_g0 = abs_each(rotation_g0);
     const vector rotation_eta = vector_polynomial_rotation_eta(1.0 - rotation_abs_g0);
@@ -644,12 +628,12 @@ INLINE void pair_forward(
     const vector v2 = x2 - mu2;
     const vector_mask is_small = rotation_g0 < 0.0;
     const vector rotation_a_chosen = vector_select(is_small, -rotation_a, rotation_a);
-    const vector product = rotation_h0 * rotation_a_chosen;
-    const vector product_2 = rotation_h1 * rotation_a_chosen;
+    const vector product = x3 * rotation_a_chosen;
+    const vector product_2 = x4 * rotation_a_chosen;
     const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
         product_2;
-    const vector product_3 = rotation_h2 * rotation_a_chosen;
-    const vector product_4 = rotation_h3 * rotation_a_chosen;
+    const vector product_3 = x5 * rotation_a_chosen;
+    const vector product_4 = x6 * rotation_a_chosen;
     const vector total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
     const vector total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
         product_2;
@@ -689,22 +673,17 @@ INLINE void pair_forward(
     const vector total_21 = rotation_R0_0 * total_3 + rotation_R1_0 * total_5 + rotation_R2_0 * total_7 +
         rotation_R3_0 * total_9 + rotation_R4_0 * total_11;
     const vector phi_product_4 = phi_2 * (total_21 + rotation_R5_0 * total_14);
-    const vector gap = -(rotation_h3 * phi_product) - rotation_h2 * phi_product_2 - rotation_h1 *
-        phi_product_3 - rotation_h0 * phi_product_4;
+    const vector gap = -(x6 * phi_product) - x5 * phi_product_2 - x4 * phi_product_3 - x3 * phi_product_4;
     const vector by_rotation_abs_g0 = rotation_eta * (2.0 * phi_2 + rotation_a_chosen * gap);
     const vector by_rotation_g0 = vector_select(is_small, -by_rotation_abs_g0, by_rotation_abs_g0);
     value[0] = value[0] + phi_2;
     slope[0] = slope[0] - phi_2 * (total_15 + W5_0 * total_14);
     slope[1] = slope[1] - phi_2 * (total_16 + W5_1 * total_14);
     slope[2] = slope[2] - phi_2 * (total_17 + W5_2 * total_14);
-    slope[3] = slope[3] + mu3 * by_rotation_g0;
-    slope[4] = slope[4] + mu4 * by_rotation_g0;
-    slope[5] = slope[5] + mu5 * by_rotation_g0;
-    slope[6] = slope[6] + mu6 * by_rotation_g0;
-    slope[7] = slope[7] - rotation_a_chosen * phi_product_4;
-    slope[8] = slope[8] - rotation_a_chosen * phi_product_3;
-    slope[9] = slope[9] - rotation_a_chosen * phi_product_2;
-    slope[10] = slope[10] - rotation_a_chosen * phi_product;
+    slope[3] = slope[3] + mu3 * by_rotation_g0 - rotation_a_chosen * phi_product_4;
+    slope[4] = slope[4] + mu4 * by_rotation_g0 - rotation_a_chosen * phi_product_3;
+    slope[5] = slope[5] + mu5 * by_rotation_g0 - rotation_a_chosen * phi_product_2;
+    slope[6] = slope[6] + mu6 * by_rotation_g0 - rotation_a_chosen * phi_product;
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -721,14 +700,10 @@ OUTLINE void pair_gradient(
     const vector slope_x4 = slope[4];
     const vector slope_x5 = slope[5];
     const vector slope_x6 = slope[6];
-    const vector slope_rotation_h0 = slope[7];
-    const vector slope_rotation_h1 = slope[8];
-    const vector slope_rotation_h2 = slope[9];
-    const vector slope_rotation_h3 = slope[10];
-    const vector product = 0.5 * (slope_x4 + 0.5 * slope_rotation_h1);
-    const vector product_2 = 0.5 * (slope_x5 + 0.5 * slope_rotation_h2);
-    const vector product_3 = 0.5 * (slope_x3 + 0.5 * slope_rotation_h0);
-    const vector product_4 = 0.5 * (slope_x6 + 0.5 * slope_rotation_h3);
+    const vector product = 0.5 * slope_x4;
+    const vector product_2 = 0.5 * slope_x5;
+    const vector product_3 = 0.5 * slope_x3;
+    const vector product_4 = 0.5 * slope_x6;
     gradient[0] = slope_x0;
     gradient[1] = slope_x1;
     gradient[2] = slope_x2;
@@ -750,21 +725,14 @@ OUTLINE void pair_gradient_vjp(
     const vector gradient_bar3 = gradient_bar[3];
     const vector gradient_bar4 = gradient_bar[4];
     const vector gradient_bar5 = gradient_bar[5];
-    const vector gap = -(x6 * gradient_bar5) - x5 * gradient_bar4 - x4 * gradient_bar3;
-    const vector total_2 = x5 * gradient_bar5 - x6 * gradient_bar4 + x3 * gradient_bar3;
-    const vector total_3 = x3 * gradient_bar4 - x4 * gradient_bar5 + x6 * gradient_bar3;
-    const vector gap_2 = x3 * gradient_bar5 + x4 * gradient_bar4 - x5 * gradient_bar3;
+    const vector product = 0.5 * (-(x6 * gradient_bar5) - x5 * gradient_bar4 - x4 * gradient_bar3);
     slope_bar[0] = gradient_bar0;
     slope_bar[1] = gradient_bar1;
     slope_bar[2] = gradient_bar2;
-    slope_bar[3] = 0.5 * gap;
-    slope_bar[4] = 0.5 * total_2;
-    slope_bar[5] = 0.5 * total_3;
-    slope_bar[6] = 0.5 * gap_2;
-    slope_bar[7] = 0.25 * gap;
-    slope_bar[8] = 0.25 * total_2;
-    slope_bar[9] = 0.25 * total_3;
-    slope_bar[10] = 0.25 * gap_2;
+    slope_bar[3] = product;
+    slope_bar[4] = 0.5 * (x5 * gradient_bar5 - x6 * gradient_bar4 + x3 * gradient_bar3);
+    slope_bar[5] = 0.5 * (x3 * gradient_bar4 - x4 * gradient_bar5 + x6 * gradient_bar3);
+    slope_bar[6] = 0.5 * (x3 * gradient_bar5 + x4 * gradient_bar4 - x5 * gradient_bar3);
 }
 
 /* The adjoints of some splats' parameters, of their sums over the points. */
@@ -847,282 +815,264 @@ OUTLINE void pair_constants_vjp(
     const vector sum33 = sums[33];
     const vector sum34 = sums[34];
     const vector sum35 = sums[35];
-    const vector rotation_M3 = 2.0 * mu6;
-    const vector rotation_M2 = 2.0 * mu5;
-    const vector rotation_M1 = 2.0 * mu4;
-    const vector rotation_R5_0 = 2.0 * (-(W5_5 * rotation_M3) - W5_4 * rotation_M2 - W5_3 * rotation_M1);
-    const vector rotation_M0 = 2.0 * mu3;
-    const vector rotation_R5_1 = 2.0 * (W5_5 * rotation_M2 - W5_4 * rotation_M3 + W5_3 * rotation_M0);
-    const vector product = 2.0 * sum30;
+    const vector product = 2.0 * mu6;
+    const vector product_2 = 2.0 * mu5;
+    const vector product_3 = 2.0 * mu4;
+    const vector rotation_R5_0 = -(W5_5 * product) - W5_4 * product_2 - W5_3 * product_3;
+    const vector product_4 = 2.0 * mu3;
+    const vector rotation_R5_1 = W5_5 * product_2 - W5_4 * product + W5_3 * product_4;
+    const vector product_5 = 2.0 * sum30;
     const vector total_2 = W5_0 * sum15 + W5_1 * sum19 + W5_2 * sum23 + rotation_R5_0 * sum27 + rotation_R5_1
-        * product;
-    const vector rotation_R5_2 = 2.0 * (W5_4 * rotation_M0 - W5_5 * rotation_M1 + W5_3 * rotation_M3);
-    const vector rotation_R5_3 = 2.0 * (W5_5 * rotation_M0 + W5_4 * rotation_M1 - W5_3 * rotation_M2);
+        * product_5;
+    const vector rotation_R5_2 = W5_4 * product_4 - W5_5 * product_3 + W5_3 * product;
+    const vector rotation_R5_3 = W5_5 * product_4 + W5_4 * product_3 - W5_3 * product_2;
     const vector by_rotation_R5_1 = total_2 + rotation_R5_2 * sum31 + rotation_R5_3 * sum32;
-    const vector product_2 = 2.0 * by_rotation_R5_1;
-    const vector rotation_R4_0 = 2.0 * (-(W4_5 * rotation_M3) - W4_4 * rotation_M2 - W4_3 * rotation_M1);
-    const vector rotation_R4_1 = 2.0 * (W4_5 * rotation_M2 - W4_4 * rotation_M3 + W4_3 * rotation_M0);
+    const vector rotation_R4_0 = -(W4_5 * product) - W4_4 * product_2 - W4_3 * product_3;
+    const vector rotation_R4_1 = W4_5 * product_2 - W4_4 * product + W4_3 * product_4;
     const vector total_3 = W4_0 * sum15 + W4_1 * sum19 + W4_2 * sum23 + rotation_R4_0 * sum27 + rotation_R4_1
-        * product;
-    const vector rotation_R4_2 = 2.0 * (W4_4 * rotation_M0 - W4_5 * rotation_M1 + W4_3 * rotation_M3);
-    const vector rotation_R4_3 = 2.0 * (W4_5 * rotation_M0 + W4_4 * rotation_M1 - W4_3 * rotation_M2);
+        * product_5;
+    const vector rotation_R4_2 = W4_4 * product_4 - W4_5 * product_3 + W4_3 * product;
+    const vector rotation_R4_3 = W4_5 * product_4 + W4_4 * product_3 - W4_3 * product_2;
     const vector by_rotation_R4_1 = total_3 + rotation_R4_2 * sum31 + rotation_R4_3 * sum32;
-    const vector product_3 = 2.0 * by_rotation_R4_1;
-    const vector rotation_R3_0 = 2.0 * (-(W3_5 * rotation_M3) - W3_4 * rotation_M2 - W3_3 * rotation_M1);
-    const vector rotation_R3_1 = 2.0 * (W3_5 * rotation_M2 - W3_4 * rotation_M3 + W3_3 * rotation_M0);
+    const vector rotation_R3_0 = -(W3_5 * product) - W3_4 * product_2 - W3_3 * product_3;
+    const vector rotation_R3_1 = W3_5 * product_2 - W3_4 * product + W3_3 * product_4;
     const vector total_4 = W3_0 * sum15 + W3_1 * sum19 + W3_2 * sum23 + rotation_R3_0 * sum27 + rotation_R3_1
-        * product;
-    const vector rotation_R3_2 = 2.0 * (W3_4 * rotation_M0 - W3_5 * rotation_M1 + W3_3 * rotation_M3);
-    const vector rotation_R3_3 = 2.0 * (W3_5 * rotation_M0 + W3_4 * rotation_M1 - W3_3 * rotation_M2);
+        * product_5;
+    const vector rotation_R3_2 = W3_4 * product_4 - W3_5 * product_3 + W3_3 * product;
+    const vector rotation_R3_3 = W3_5 * product_4 + W3_4 * product_3 - W3_3 * product_2;
     const vector by_rotation_R3_1 = total_4 + rotation_R3_2 * sum31 + rotation_R3_3 * sum32;
-    const vector product_4 = 2.0 * by_rotation_R3_1;
-    const vector rotation_R2_0 = 2.0 * (-(W2_5 * rotation_M3) - W2_4 * rotation_M2 - W2_3 * rotation_M1);
-    const vector rotation_R2_1 = 2.0 * (W2_5 * rotation_M2 - W2_4 * rotation_M3 + W2_3 * rotation_M0);
+    const vector rotation_R2_0 = -(W2_5 * product) - W2_4 * product_2 - W2_3 * product_3;
+    const vector rotation_R2_1 = W2_5 * product_2 - W2_4 * product + W2_3 * product_4;
     const vector total_5 = W2_0 * sum15 + W2_1 * sum19 + W2_2 * sum23 + rotation_R2_0 * sum27 + rotation_R2_1
-        * product;
-    const vector rotation_R2_2 = 2.0 * (W2_4 * rotation_M0 - W2_5 * rotation_M1 + W2_3 * rotation_M3);
-    const vector rotation_R2_3 = 2.0 * (W2_5 * rotation_M0 + W2_4 * rotation_M1 - W2_3 * rotation_M2);
+        * product_5;
+    const vector rotation_R2_2 = W2_4 * product_4 - W2_5 * product_3 + W2_3 * product;
+    const vector rotation_R2_3 = W2_5 * product_4 + W2_4 * product_3 - W2_3 * product_2;
     const vector by_rotation_R2_1 = total_5 + rotation_R2_2 * sum31 + rotation_R2_3 * sum32;
-    const vector product_5 = 2.0 * by_rotation_R2_1;
-    const vector rotation_R1_0 = 2.0 * (-(W1_5 * rotation_M3) - W1_4 * rotation_M2 - W1_3 * rotation_M1);
-    const vector rotation_R1_1 = 2.0 * (W1_5 * rotation_M2 - W1_4 * rotation_M3 + W1_3 * rotation_M0);
+    const vector rotation_R1_0 = -(W1_5 * product) - W1_4 * product_2 - W1_3 * product_3;
+    const vector rotation_R1_1 = W1_5 * product_2 - W1_4 * product + W1_3 * product_4;
     const vector total_6 = W1_0 * sum15 + W1_1 * sum19 + W1_2 * sum23 + rotation_R1_0 * sum27 + rotation_R1_1
-        * product;
-    const vector rotation_R1_2 = 2.0 * (W1_4 * rotation_M0 - W1_5 * rotation_M1 + W1_3 * rotation_M3);
-    const vector rotation_R1_3 = 2.0 * (W1_5 * rotation_M0 + W1_4 * rotation_M1 - W1_3 * rotation_M2);
+        * product_5;
+    const vector rotation_R1_2 = W1_4 * product_4 - W1_5 * product_3 + W1_3 * product;
+    const vector rotation_R1_3 = W1_5 * product_4 + W1_4 * product_3 - W1_3 * product_2;
     const vector by_rotation_R1_1 = total_6 + rotation_R1_2 * sum31 + rotation_R1_3 * sum32;
-    const vector product_6 = 2.0 * by_rotation_R1_1;
-    const vector total_7 = W5_3 * product_2 + W4_3 * product_3 + W3_3 * product_4 + W2_3 * product_5 + W1_3 *
-        product_6;
-    const vector rotation_R0_0 = 2.0 * (-(W0_5 * rotation_M3) - W0_4 * rotation_M2 - W0_3 * rotation_M1);
-    const vector rotation_R0_1 = 2.0 * (W0_5 * rotation_M2 - W0_4 * rotation_M3 + W0_3 * rotation_M0);
+    const vector total_7 = W5_3 * by_rotation_R5_1 + W4_3 * by_rotation_R4_1 + W3_3 * by_rotation_R3_1 + W2_3
+        * by_rotation_R2_1 + W1_3 * by_rotation_R1_1;
+    const vector rotation_R0_0 = -(W0_5 * product) - W0_4 * product_2 - W0_3 * product_3;
+    const vector rotation_R0_1 = W0_5 * product_2 - W0_4 * product + W0_3 * product_4;
     const vector total_8 = W0_0 * sum15 + W0_1 * sum19 + W0_2 * sum23 + rotation_R0_0 * sum27 + rotation_R0_1
-        * product;
-    const vector rotation_R0_2 = 2.0 * (W0_4 * rotation_M0 - W0_5 * rotation_M1 + W0_3 * rotation_M3);
-    const vector rotation_R0_3 = 2.0 * (W0_5 * rotation_M0 + W0_4 * rotation_M1 - W0_3 * rotation_M2);
+        * product_5;
+    const vector rotation_R0_2 = W0_4 * product_4 - W0_5 * product_3 + W0_3 * product;
+    const vector rotation_R0_3 = W0_5 * product_4 + W0_4 * product_3 - W0_3 * product_2;
     const vector by_rotation_R0_1 = total_8 + rotation_R0_2 * sum31 + rotation_R0_3 * sum32;
-    const vector product_7 = 2.0 * by_rotation_R0_1;
     const vector total_9 = W5_0 * sum16 + W5_1 * sum20 + W5_2 * sum24 + rotation_R5_0 * sum28 + rotation_R5_1
         * sum31;
-    const vector product_8 = 2.0 * sum33;
-    const vector by_rotation_R5_2 = total_9 + rotation_R5_2 * product_8 + rotation_R5_3 * sum34;
-    const vector product_9 = 2.0 * by_rotation_R5_2;
+    const vector product_6 = 2.0 * sum33;
+    const vector by_rotation_R5_2 = total_9 + rotation_R5_2 * product_6 + rotation_R5_3 * sum34;
     const vector total_10 = W4_0 * sum16 + W4_1 * sum20 + W4_2 * sum24 + rotation_R4_0 * sum28 + rotation_R4_1
         * sum31;
-    const vector by_rotation_R4_2 = total_10 + rotation_R4_2 * product_8 + rotation_R4_3 * sum34;
-    const vector product_10 = 2.0 * by_rotation_R4_2;
+    const vector by_rotation_R4_2 = total_10 + rotation_R4_2 * product_6 + rotation_R4_3 * sum34;
     const vector total_11 = W3_0 * sum16 + W3_1 * sum20 + W3_2 * sum24 + rotation_R3_0 * sum28 + rotation_R3_1
         * sum31;
-    const vector by_rotation_R3_2 = total_11 + rotation_R3_2 * product_8 + rotation_R3_3 * sum34;
-    const vector product_11 = 2.0 * by_rotation_R3_2;
-    const vector total_12 = total_7 + W0_3 * product_7 + W5_4 * product_9 + W4_4 * product_10 + W3_4 *
-        product_11;
+    const vector by_rotation_R3_2 = total_11 + rotation_R3_2 * product_6 + rotation_R3_3 * sum34;
+    const vector total_12 = total_7 + W0_3 * by_rotation_R0_1 + W5_4 * by_rotation_R5_2 + W4_4 *
+        by_rotation_R4_2 + W3_4 * by_rotation_R3_2;
     const vector total_13 = W2_0 * sum16 + W2_1 * sum20 + W2_2 * sum24 + rotation_R2_0 * sum28 + rotation_R2_1
         * sum31;
-    const vector by_rotation_R2_2 = total_13 + rotation_R2_2 * product_8 + rotation_R2_3 * sum34;
-    const vector product_12 = 2.0 * by_rotation_R2_2;
+    const vector by_rotation_R2_2 = total_13 + rotation_R2_2 * product_6 + rotation_R2_3 * sum34;
     const vector total_14 = W1_0 * sum16 + W1_1 * sum20 + W1_2 * sum24 + rotation_R1_0 * sum28 + rotation_R1_1
         * sum31;
-    const vector by_rotation_R1_2 = total_14 + rotation_R1_2 * product_8 + rotation_R1_3 * sum34;
-    const vector product_13 = 2.0 * by_rotation_R1_2;
+    const vector by_rotation_R1_2 = total_14 + rotation_R1_2 * product_6 + rotation_R1_3 * sum34;
     const vector total_15 = W0_0 * sum16 + W0_1 * sum20 + W0_2 * sum24 + rotation_R0_0 * sum28 + rotation_R0_1
         * sum31;
-    const vector by_rotation_R0_2 = total_15 + rotation_R0_2 * product_8 + rotation_R0_3 * sum34;
-    const vector product_14 = 2.0 * by_rotation_R0_2;
+    const vector by_rotation_R0_2 = total_15 + rotation_R0_2 * product_6 + rotation_R0_3 * sum34;
     const vector total_16 = W5_0 * sum17 + W5_1 * sum21 + W5_2 * sum25 + rotation_R5_0 * sum29 + rotation_R5_1
         * sum32;
-    const vector product_15 = 2.0 * sum35;
-    const vector by_rotation_R5_3 = total_16 + rotation_R5_2 * sum34 + rotation_R5_3 * product_15;
-    const vector product_16 = 2.0 * by_rotation_R5_3;
-    const vector total_17 = total_12 + W2_4 * product_12 + W1_4 * product_13 + W0_4 * product_14 + W5_5 *
-        product_16;
+    const vector product_7 = 2.0 * sum35;
+    const vector by_rotation_R5_3 = total_16 + rotation_R5_2 * sum34 + rotation_R5_3 * product_7;
+    const vector total_17 = total_12 + W2_4 * by_rotation_R2_2 + W1_4 * by_rotation_R1_2 + W0_4 *
+        by_rotation_R0_2 + W5_5 * by_rotation_R5_3;
     const vector total_18 = W4_0 * sum17 + W4_1 * sum21 + W4_2 * sum25 + rotation_R4_0 * sum29 + rotation_R4_1
         * sum32;
-    const vector by_rotation_R4_3 = total_18 + rotation_R4_2 * sum34 + rotation_R4_3 * product_15;
-    const vector product_17 = 2.0 * by_rotation_R4_3;
+    const vector by_rotation_R4_3 = total_18 + rotation_R4_2 * sum34 + rotation_R4_3 * product_7;
     const vector total_19 = W3_0 * sum17 + W3_1 * sum21 + W3_2 * sum25 + rotation_R3_0 * sum29 + rotation_R3_1
         * sum32;
-    const vector by_rotation_R3_3 = total_19 + rotation_R3_2 * sum34 + rotation_R3_3 * product_15;
-    const vector product_18 = 2.0 * by_rotation_R3_3;
+    const vector by_rotation_R3_3 = total_19 + rotation_R3_2 * sum34 + rotation_R3_3 * product_7;
     const vector total_20 = W2_0 * sum17 + W2_1 * sum21 + W2_2 * sum25 + rotation_R2_0 * sum29 + rotation_R2_1
         * sum32;
-    const vector by_rotation_R2_3 = total_20 + rotation_R2_2 * sum34 + rotation_R2_3 * product_15;
-    const vector product_19 = 2.0 * by_rotation_R2_3;
+    const vector by_rotation_R2_3 = total_20 + rotation_R2_2 * sum34 + rotation_R2_3 * product_7;
     const vector total_21 = W1_0 * sum17 + W1_1 * sum21 + W1_2 * sum25 + rotation_R1_0 * sum29 + rotation_R1_1
         * sum32;
-    const vector by_rotation_R1_3 = total_21 + rotation_R1_2 * sum34 + rotation_R1_3 * product_15;
-    const vector product_20 = 2.0 * by_rotation_R1_3;
-    const vector total_22 = total_17 + W4_5 * product_17 + W3_5 * product_18 + W2_5 * product_19 + W1_5 *
-        product_20;
+    const vector by_rotation_R1_3 = total_21 + rotation_R1_2 * sum34 + rotation_R1_3 * product_7;
+    const vector total_22 = total_17 + W4_5 * by_rotation_R4_3 + W3_5 * by_rotation_R3_3 + W2_5 *
+        by_rotation_R2_3 + W1_5 * by_rotation_R1_3;
     const vector total_23 = W0_0 * sum17 + W0_1 * sum21 + W0_2 * sum25 + rotation_R0_0 * sum29 + rotation_R0_1
         * sum32;
-    const vector by_rotation_R0_3 = total_23 + rotation_R0_2 * sum34 + rotation_R0_3 * product_15;
-    const vector product_21 = 2.0 * by_rotation_R0_3;
-    const vector by_rotation_M0 = total_22 + W0_5 * product_21;
-    const vector product_22 = 2.0 * sum26;
-    const vector total_24 = W5_0 * sum14 + W5_1 * sum18 + W5_2 * sum22 + rotation_R5_0 * product_22 +
+    const vector by_rotation_R0_3 = total_23 + rotation_R0_2 * sum34 + rotation_R0_3 * product_7;
+    const vector product_8 = its_amplitude * (sum3 + 2.0 * (total_22 + W0_5 * by_rotation_R0_3));
+    const vector product_9 = 2.0 * sum26;
+    const vector total_24 = W5_0 * sum14 + W5_1 * sum18 + W5_2 * sum22 + rotation_R5_0 * product_9 +
         rotation_R5_1 * sum27;
     const vector by_rotation_R5_0 = total_24 + rotation_R5_2 * sum28 + rotation_R5_3 * sum29;
-    const vector product_23 = 2.0 * by_rotation_R5_0;
-    const vector total_25 = W4_0 * sum14 + W4_1 * sum18 + W4_2 * sum22 + rotation_R4_0 * product_22 +
+    const vector total_25 = W4_0 * sum14 + W4_1 * sum18 + W4_2 * sum22 + rotation_R4_0 * product_9 +
         rotation_R4_1 * sum27;
     const vector by_rotation_R4_0 = total_25 + rotation_R4_2 * sum28 + rotation_R4_3 * sum29;
-    const vector product_24 = 2.0 * by_rotation_R4_0;
-    const vector total_26 = W3_0 * sum14 + W3_1 * sum18 + W3_2 * sum22 + rotation_R3_0 * product_22 +
+    const vector total_26 = W3_0 * sum14 + W3_1 * sum18 + W3_2 * sum22 + rotation_R3_0 * product_9 +
         rotation_R3_1 * sum27;
     const vector by_rotation_R3_0 = total_26 + rotation_R3_2 * sum28 + rotation_R3_3 * sum29;
-    const vector product_25 = 2.0 * by_rotation_R3_0;
-    const vector total_27 = W2_0 * sum14 + W2_1 * sum18 + W2_2 * sum22 + rotation_R2_0 * product_22 +
+    const vector total_27 = W2_0 * sum14 + W2_1 * sum18 + W2_2 * sum22 + rotation_R2_0 * product_9 +
         rotation_R2_1 * sum27;
     const vector by_rotation_R2_0 = total_27 + rotation_R2_2 * sum28 + rotation_R2_3 * sum29;
-    const vector product_26 = 2.0 * by_rotation_R2_0;
-    const vector gap = -(W5_3 * product_23) - W4_3 * product_24 - W3_3 * product_25 - W2_3 * product_26;
-    const vector total_28 = W1_0 * sum14 + W1_1 * sum18 + W1_2 * sum22 + rotation_R1_0 * product_22 +
+    const vector gap = -(W5_3 * by_rotation_R5_0) - W4_3 * by_rotation_R4_0 - W3_3 * by_rotation_R3_0 - W2_3 *
+        by_rotation_R2_0;
+    const vector total_28 = W1_0 * sum14 + W1_1 * sum18 + W1_2 * sum22 + rotation_R1_0 * product_9 +
         rotation_R1_1 * sum27;
     const vector by_rotation_R1_0 = total_28 + rotation_R1_2 * sum28 + rotation_R1_3 * sum29;
-    const vector product_27 = 2.0 * by_rotation_R1_0;
-    const vector total_29 = W0_0 * sum14 + W0_1 * sum18 + W0_2 * sum22 + rotation_R0_0 * product_22 +
+    const vector total_29 = W0_0 * sum14 + W0_1 * sum18 + W0_2 * sum22 + rotation_R0_0 * product_9 +
         rotation_R0_1 * sum27;
     const vector by_rotation_R0_0 = total_29 + rotation_R0_2 * sum28 + rotation_R0_3 * sum29;
-    const vector product_28 = 2.0 * by_rotation_R0_0;
-    const vector gap_2 = gap - W1_3 * product_27 - W0_3 * product_28 - W5_5 * product_9 - W4_5 * product_10;
-    const vector gap_3 = gap_2 - W3_5 * product_11 - W2_5 * product_12 - W1_5 * product_13 - W0_5 *
-        product_14;
-    const vector total_30 = gap_3 + W5_4 * product_16 + W4_4 * product_17 + W3_4 * product_18 + W2_4 *
-        product_19;
-    const vector by_rotation_M1 = total_30 + W1_4 * product_20 + W0_4 * product_21;
-    const vector gap_4 = -(W5_4 * product_23) - W4_4 * product_24 - W3_4 * product_25 - W2_4 * product_26;
-    const vector total_31 = gap_4 - W1_4 * product_27 - W0_4 * product_28 + W5_5 * product_2 + W4_5 *
-        product_3;
-    const vector total_32 = total_31 + W3_5 * product_4 + W2_5 * product_5 + W1_5 * product_6 + W0_5 *
-        product_7;
-    const vector gap_5 = total_32 - W5_3 * product_16 - W4_3 * product_17 - W3_3 * product_18 - W2_3 *
-        product_19;
-    const vector by_rotation_M2 = gap_5 - W1_3 * product_20 - W0_3 * product_21;
-    const vector gap_6 = -(W5_5 * product_23) - W4_5 * product_24 - W3_5 * product_25 - W2_5 * product_26;
-    const vector gap_7 = gap_6 - W1_5 * product_27 - W0_5 * product_28 - W5_4 * product_2 - W4_4 * product_3;
-    const vector gap_8 = gap_7 - W3_4 * product_4 - W2_4 * product_5 - W1_4 * product_6 - W0_4 * product_7;
-    const vector total_33 = gap_8 + W5_3 * product_9 + W4_3 * product_10 + W3_3 * product_11 + W2_3 *
-        product_12;
-    const vector by_rotation_M3 = total_33 + W1_3 * product_13 + W0_3 * product_14;
-    const vector product_29 = 2.0 * sum8;
-    const vector total_34 = W0_0 * product_29 + W0_1 * sum9 + W0_2 * sum10 + rotation_R0_0 * sum14 +
+    const vector gap_2 = gap - W1_3 * by_rotation_R1_0 - W0_3 * by_rotation_R0_0 - W5_5 * by_rotation_R5_2 -
+        W4_5 * by_rotation_R4_2;
+    const vector gap_3 = gap_2 - W3_5 * by_rotation_R3_2 - W2_5 * by_rotation_R2_2 - W1_5 * by_rotation_R1_2 -
+        W0_5 * by_rotation_R0_2;
+    const vector total_30 = gap_3 + W5_4 * by_rotation_R5_3 + W4_4 * by_rotation_R4_3 + W3_4 *
+        by_rotation_R3_3 + W2_4 * by_rotation_R2_3;
+    const vector total_31 = sum4 + 2.0 * (total_30 + W1_4 * by_rotation_R1_3 + W0_4 * by_rotation_R0_3);
+    const vector gap_4 = -(W5_4 * by_rotation_R5_0) - W4_4 * by_rotation_R4_0 - W3_4 * by_rotation_R3_0 - W2_4
+        * by_rotation_R2_0;
+    const vector total_32 = gap_4 - W1_4 * by_rotation_R1_0 - W0_4 * by_rotation_R0_0 + W5_5 *
+        by_rotation_R5_1 + W4_5 * by_rotation_R4_1;
+    const vector total_33 = total_32 + W3_5 * by_rotation_R3_1 + W2_5 * by_rotation_R2_1 + W1_5 *
+        by_rotation_R1_1 + W0_5 * by_rotation_R0_1;
+    const vector gap_5 = total_33 - W5_3 * by_rotation_R5_3 - W4_3 * by_rotation_R4_3 - W3_3 *
+        by_rotation_R3_3 - W2_3 * by_rotation_R2_3;
+    const vector total_34 = sum5 + 2.0 * (gap_5 - W1_3 * by_rotation_R1_3 - W0_3 * by_rotation_R0_3);
+    const vector gap_6 = -(W5_5 * by_rotation_R5_0) - W4_5 * by_rotation_R4_0 - W3_5 * by_rotation_R3_0 - W2_5
+        * by_rotation_R2_0;
+    const vector gap_7 = gap_6 - W1_5 * by_rotation_R1_0 - W0_5 * by_rotation_R0_0 - W5_4 * by_rotation_R5_1 -
+        W4_4 * by_rotation_R4_1;
+    const vector gap_8 = gap_7 - W3_4 * by_rotation_R3_1 - W2_4 * by_rotation_R2_1 - W1_4 * by_rotation_R1_1 -
+        W0_4 * by_rotation_R0_1;
+    const vector total_35 = gap_8 + W5_3 * by_rotation_R5_2 + W4_3 * by_rotation_R4_2 + W3_3 *
+        by_rotation_R3_2 + W2_3 * by_rotation_R2_2;
+    const vector total_36 = sum6 + 2.0 * (total_35 + W1_3 * by_rotation_R1_2 + W0_3 * by_rotation_R0_2);
+    const vector product_10 = 2.0 * sum8;
+    const vector total_37 = W0_0 * product_10 + W0_1 * sum9 + W0_2 * sum10 + rotation_R0_0 * sum14 +
         rotation_R0_1 * sum15;
-    const vector product_30 = 2.0 * sum11;
-    const vector total_35 = W0_0 * sum9 + W0_1 * product_30 + W0_2 * sum12 + rotation_R0_0 * sum18 +
+    const vector product_11 = 2.0 * sum11;
+    const vector total_38 = W0_0 * sum9 + W0_1 * product_11 + W0_2 * sum12 + rotation_R0_0 * sum18 +
         rotation_R0_1 * sum19;
-    const vector product_31 = 2.0 * sum13;
-    const vector total_36 = W0_0 * sum10 + W0_1 * sum12 + W0_2 * product_31 + rotation_R0_0 * sum22 +
+    const vector product_12 = 2.0 * sum13;
+    const vector total_39 = W0_0 * sum10 + W0_1 * sum12 + W0_2 * product_12 + rotation_R0_0 * sum22 +
         rotation_R0_1 * sum23;
-    const vector product_32 = its_amplitude * (rotation_M0 * product_7 - rotation_M1 * product_28 +
-        rotation_M3 * product_14 - rotation_M2 * product_21);
-    const vector total_37 = -(rotation_M2 * product_28) - rotation_M3 * product_7 + rotation_M0 * product_14 +
-        rotation_M1 * product_21;
-    const vector product_33 = its_amplitude * (rotation_M2 * product_7 - rotation_M3 * product_28 -
-        rotation_M1 * product_14 + rotation_M0 * product_21);
-    const vector total_38 = W1_0 * product_29 + W1_1 * sum9 + W1_2 * sum10 + rotation_R1_0 * sum14 +
+    const vector product_13 = its_amplitude * (product_4 * by_rotation_R0_1 - product_3 * by_rotation_R0_0 +
+        product * by_rotation_R0_2 - product_2 * by_rotation_R0_3);
+    const vector total_40 = -(product_2 * by_rotation_R0_0) - product * by_rotation_R0_1 + product_4 *
+        by_rotation_R0_2 + product_3 * by_rotation_R0_3;
+    const vector product_14 = its_amplitude * (product_2 * by_rotation_R0_1 - product * by_rotation_R0_0 -
+        product_3 * by_rotation_R0_2 + product_4 * by_rotation_R0_3);
+    const vector total_41 = W1_0 * product_10 + W1_1 * sum9 + W1_2 * sum10 + rotation_R1_0 * sum14 +
         rotation_R1_1 * sum15;
-    const vector total_39 = W1_0 * sum9 + W1_1 * product_30 + W1_2 * sum12 + rotation_R1_0 * sum18 +
+    const vector total_42 = W1_0 * sum9 + W1_1 * product_11 + W1_2 * sum12 + rotation_R1_0 * sum18 +
         rotation_R1_1 * sum19;
-    const vector total_40 = W1_0 * sum10 + W1_1 * sum12 + W1_2 * product_31 + rotation_R1_0 * sum22 +
+    const vector total_43 = W1_0 * sum10 + W1_1 * sum12 + W1_2 * product_12 + rotation_R1_0 * sum22 +
         rotation_R1_1 * sum23;
-    const vector product_34 = its_amplitude * (rotation_M0 * product_6 - rotation_M1 * product_27 +
-        rotation_M3 * product_13 - rotation_M2 * product_20);
-    const vector total_41 = -(rotation_M2 * product_27) - rotation_M3 * product_6 + rotation_M0 * product_13 +
-        rotation_M1 * product_20;
-    const vector product_35 = its_amplitude * (rotation_M2 * product_6 - rotation_M3 * product_27 -
-        rotation_M1 * product_13 + rotation_M0 * product_20);
-    const vector total_42 = W2_0 * product_29 + W2_1 * sum9 + W2_2 * sum10 + rotation_R2_0 * sum14 +
+    const vector product_15 = its_amplitude * (product_4 * by_rotation_R1_1 - product_3 * by_rotation_R1_0 +
+        product * by_rotation_R1_2 - product_2 * by_rotation_R1_3);
+    const vector total_44 = -(product_2 * by_rotation_R1_0) - product * by_rotation_R1_1 + product_4 *
+        by_rotation_R1_2 + product_3 * by_rotation_R1_3;
+    const vector product_16 = its_amplitude * (product_2 * by_rotation_R1_1 - product * by_rotation_R1_0 -
+        product_3 * by_rotation_R1_2 + product_4 * by_rotation_R1_3);
+    const vector total_45 = W2_0 * product_10 + W2_1 * sum9 + W2_2 * sum10 + rotation_R2_0 * sum14 +
         rotation_R2_1 * sum15;
-    const vector total_43 = W2_0 * sum9 + W2_1 * product_30 + W2_2 * sum12 + rotation_R2_0 * sum18 +
+    const vector total_46 = W2_0 * sum9 + W2_1 * product_11 + W2_2 * sum12 + rotation_R2_0 * sum18 +
         rotation_R2_1 * sum19;
-    const vector total_44 = W2_0 * sum10 + W2_1 * sum12 + W2_2 * product_31 + rotation_R2_0 * sum22 +
+    const vector total_47 = W2_0 * sum10 + W2_1 * sum12 + W2_2 * product_12 + rotation_R2_0 * sum22 +
         rotation_R2_1 * sum23;
-    const vector product_36 = its_amplitude * (rotation_M0 * product_5 - rotation_M1 * product_26 +
-        rotation_M3 * product_12 - rotation_M2 * product_19);
-    const vector total_45 = -(rotation_M2 * product_26) - rotation_M3 * product_5 + rotation_M0 * product_12 +
-        rotation_M1 * product_19;
-    const vector product_37 = its_amplitude * (rotation_M2 * product_5 - rotation_M3 * product_26 -
-        rotation_M1 * product_12 + rotation_M0 * product_19);
-    const vector total_46 = W3_0 * product_29 + W3_1 * sum9 + W3_2 * sum10 + rotation_R3_0 * sum14 +
+    const vector product_17 = its_amplitude * (product_4 * by_rotation_R2_1 - product_3 * by_rotation_R2_0 +
+        product * by_rotation_R2_2 - product_2 * by_rotation_R2_3);
+    const vector total_48 = -(product_2 * by_rotation_R2_0) - product * by_rotation_R2_1 + product_4 *
+        by_rotation_R2_2 + product_3 * by_rotation_R2_3;
+    const vector product_18 = its_amplitude * (product_2 * by_rotation_R2_1 - product * by_rotation_R2_0 -
+        product_3 * by_rotation_R2_2 + product_4 * by_rotation_R2_3);
+    const vector total_49 = W3_0 * product_10 + W3_1 * sum9 + W3_2 * sum10 + rotation_R3_0 * sum14 +
         rotation_R3_1 * sum15;
-    const vector total_47 = W3_0 * sum9 + W3_1 * product_30 + W3_2 * sum12 + rotation_R3_0 * sum18 +
+    const vector total_50 = W3_0 * sum9 + W3_1 * product_11 + W3_2 * sum12 + rotation_R3_0 * sum18 +
         rotation_R3_1 * sum19;
-    const vector total_48 = W3_0 * sum10 + W3_1 * sum12 + W3_2 * product_31 + rotation_R3_0 * sum22 +
+    const vector total_51 = W3_0 * sum10 + W3_1 * sum12 + W3_2 * product_12 + rotation_R3_0 * sum22 +
         rotation_R3_1 * sum23;
-    const vector product_38 = its_amplitude * (rotation_M0 * product_4 - rotation_M1 * product_25 +
-        rotation_M3 * product_11 - rotation_M2 * product_18);
-    const vector total_49 = -(rotation_M2 * product_25) - rotation_M3 * product_4 + rotation_M0 * product_11 +
-        rotation_M1 * product_18;
-    const vector product_39 = its_amplitude * (rotation_M2 * product_4 - rotation_M3 * product_25 -
-        rotation_M1 * product_11 + rotation_M0 * product_18);
-    const vector total_50 = W4_0 * product_29 + W4_1 * sum9 + W4_2 * sum10 + rotation_R4_0 * sum14 +
+    const vector product_19 = its_amplitude * (product_4 * by_rotation_R3_1 - product_3 * by_rotation_R3_0 +
+        product * by_rotation_R3_2 - product_2 * by_rotation_R3_3);
+    const vector total_52 = -(product_2 * by_rotation_R3_0) - product * by_rotation_R3_1 + product_4 *
+        by_rotation_R3_2 + product_3 * by_rotation_R3_3;
+    const vector product_20 = its_amplitude * (product_2 * by_rotation_R3_1 - product * by_rotation_R3_0 -
+        product_3 * by_rotation_R3_2 + product_4 * by_rotation_R3_3);
+    const vector total_53 = W4_0 * product_10 + W4_1 * sum9 + W4_2 * sum10 + rotation_R4_0 * sum14 +
         rotation_R4_1 * sum15;
-    const vector total_51 = W4_0 * sum9 + W4_1 * product_30 + W4_2 * sum12 + rotation_R4_0 * sum18 +
+    const vector total_54 = W4_0 * sum9 + W4_1 * product_11 + W4_2 * sum12 + rotation_R4_0 * sum18 +
         rotation_R4_1 * sum19;
-    const vector total_52 = W4_0 * sum10 + W4_1 * sum12 + W4_2 * product_31 + rotation_R4_0 * sum22 +
+    const vector total_55 = W4_0 * sum10 + W4_1 * sum12 + W4_2 * product_12 + rotation_R4_0 * sum22 +
         rotation_R4_1 * sum23;
-    const vector product_40 = its_amplitude * (rotation_M0 * product_3 - rotation_M1 * product_24 +
-        rotation_M3 * product_10 - rotation_M2 * product_17);
-    const vector total_53 = -(rotation_M2 * product_24) - rotation_M3 * product_3 + rotation_M0 * product_10 +
-        rotation_M1 * product_17;
-    const vector product_41 = its_amplitude * (rotation_M2 * product_3 - rotation_M3 * product_24 -
-        rotation_M1 * product_10 + rotation_M0 * product_17);
-    const vector total_54 = W5_0 * product_29 + W5_1 * sum9 + W5_2 * sum10 + rotation_R5_0 * sum14 +
+    const vector product_21 = its_amplitude * (product_4 * by_rotation_R4_1 - product_3 * by_rotation_R4_0 +
+        product * by_rotation_R4_2 - product_2 * by_rotation_R4_3);
+    const vector total_56 = -(product_2 * by_rotation_R4_0) - product * by_rotation_R4_1 + product_4 *
+        by_rotation_R4_2 + product_3 * by_rotation_R4_3;
+    const vector product_22 = its_amplitude * (product_2 * by_rotation_R4_1 - product * by_rotation_R4_0 -
+        product_3 * by_rotation_R4_2 + product_4 * by_rotation_R4_3);
+    const vector total_57 = W5_0 * product_10 + W5_1 * sum9 + W5_2 * sum10 + rotation_R5_0 * sum14 +
         rotation_R5_1 * sum15;
-    const vector total_55 = W5_0 * sum9 + W5_1 * product_30 + W5_2 * sum12 + rotation_R5_0 * sum18 +
+    const vector total_58 = W5_0 * sum9 + W5_1 * product_11 + W5_2 * sum12 + rotation_R5_0 * sum18 +
         rotation_R5_1 * sum19;
-    const vector total_56 = W5_0 * sum10 + W5_1 * sum12 + W5_2 * product_31 + rotation_R5_0 * sum22 +
+    const vector total_59 = W5_0 * sum10 + W5_1 * sum12 + W5_2 * product_12 + rotation_R5_0 * sum22 +
         rotation_R5_1 * sum23;
-    const vector product_42 = its_amplitude * (rotation_M0 * product_2 - rotation_M1 * product_23 +
-        rotation_M3 * product_9 - rotation_M2 * product_16);
-    const vector total_57 = -(rotation_M2 * product_23) - rotation_M3 * product_2 + rotation_M0 * product_9 +
-        rotation_M1 * product_16;
-    const vector product_43 = its_amplitude * (rotation_M2 * product_2 - rotation_M3 * product_23 -
-        rotation_M1 * product_9 + rotation_M0 * product_16);
+    const vector product_23 = its_amplitude * (product_4 * by_rotation_R5_1 - product_3 * by_rotation_R5_0 +
+        product * by_rotation_R5_2 - product_2 * by_rotation_R5_3);
+    const vector total_60 = -(product_2 * by_rotation_R5_0) - product * by_rotation_R5_1 + product_4 *
+        by_rotation_R5_2 + product_3 * by_rotation_R5_3;
+    const vector product_24 = its_amplitude * (product_2 * by_rotation_R5_1 - product * by_rotation_R5_0 -
+        product_3 * by_rotation_R5_2 + product_4 * by_rotation_R5_3);
     mu_bar[0] = its_amplitude * sum0;
     mu_bar[1] = its_amplitude * sum1;
     mu_bar[2] = its_amplitude * sum2;
-    mu_bar[3] = its_amplitude * (sum3 + 2.0 * by_rotation_M0);
-    mu_bar[4] = its_amplitude * (sum4 + 2.0 * by_rotation_M1);
-    mu_bar[5] = its_amplitude * (sum5 + 2.0 * by_rotation_M2);
-    mu_bar[6] = its_amplitude * (sum6 + 2.0 * by_rotation_M3);
-    W_bar[0] = its_amplitude * (total_34 + rotation_R0_2 * sum16 + rotation_R0_3 * sum17);
-    W_bar[1] = its_amplitude * (total_35 + rotation_R0_2 * sum20 + rotation_R0_3 * sum21);
-    W_bar[2] = its_amplitude * (total_36 + rotation_R0_2 * sum24 + rotation_R0_3 * sum25);
-    W_bar[3] = product_32;
-    W_bar[4] = its_amplitude * total_37;
-    W_bar[5] = product_33;
-    W_bar[6] = its_amplitude * (total_38 + rotation_R1_2 * sum16 + rotation_R1_3 * sum17);
-    W_bar[7] = its_amplitude * (total_39 + rotation_R1_2 * sum20 + rotation_R1_3 * sum21);
-    W_bar[8] = its_amplitude * (total_40 + rotation_R1_2 * sum24 + rotation_R1_3 * sum25);
-    W_bar[9] = product_34;
-    W_bar[10] = its_amplitude * total_41;
-    W_bar[11] = product_35;
-    W_bar[12] = its_amplitude * (total_42 + rotation_R2_2 * sum16 + rotation_R2_3 * sum17);
-    W_bar[13] = its_amplitude * (total_43 + rotation_R2_2 * sum20 + rotation_R2_3 * sum21);
-    W_bar[14] = its_amplitude * (total_44 + rotation_R2_2 * sum24 + rotation_R2_3 * sum25);
-    W_bar[15] = product_36;
-    W_bar[16] = its_amplitude * total_45;
-    W_bar[17] = product_37;
-    W_bar[18] = its_amplitude * (total_46 + rotation_R3_2 * sum16 + rotation_R3_3 * sum17);
-    W_bar[19] = its_amplitude * (total_47 + rotation_R3_2 * sum20 + rotation_R3_3 * sum21);
-    W_bar[20] = its_amplitude * (total_48 + rotation_R3_2 * sum24 + rotation_R3_3 * sum25);
-    W_bar[21] = product_38;
-    W_bar[22] = its_amplitude * total_49;
-    W_bar[23] = product_39;
-    W_bar[24] = its_amplitude * (total_50 + rotation_R4_2 * sum16 + rotation_R4_3 * sum17);
-    W_bar[25] = its_amplitude * (total_51 + rotation_R4_2 * sum20 + rotation_R4_3 * sum21);
-    W_bar[26] = its_amplitude * (total_52 + rotation_R4_2 * sum24 + rotation_R4_3 * sum25);
-    W_bar[27] = product_40;
-    W_bar[28] = its_amplitude * total_53;
-    W_bar[29] = product_41;
-    W_bar[30] = its_amplitude * (total_54 + rotation_R5_2 * sum16 + rotation_R5_3 * sum17);
-    W_bar[31] = its_amplitude * (total_55 + rotation_R5_2 * sum20 + rotation_R5_3 * sum21);
-    W_bar[32] = its_amplitude * (total_56 + rotation_R5_2 * sum24 + rotation_R5_3 * sum25);
-    W_bar[33] = product_42;
-    W_bar[34] = its_amplitude * total_57;
-    W_bar[35] = product_43;
+    mu_bar[3] = product_8;
+    mu_bar[4] = its_amplitude * total_31;
+    mu_bar[5] = its_amplitude * total_34;
+    mu_bar[6] = its_amplitude * total_36;
+    W_bar[0] = its_amplitude * (total_37 + rotation_R0_2 * sum16 + rotation_R0_3 * sum17);
+    W_bar[1] = its_amplitude * (total_38 + rotation_R0_2 * sum20 + rotation_R0_3 * sum21);
+    W_bar[2] = its_amplitude * (total_39 + rotation_R0_2 * sum24 + rotation_R0_3 * sum25);
+    W_bar[3] = product_13;
+    W_bar[4] = its_amplitude * total_40;
+    W_bar[5] = product_14;
+    W_bar[6] = its_amplitude * (total_41 + rotation_R1_2 * sum16 + rotation_R1_3 * sum17);
+    W_bar[7] = its_amplitude * (total_42 + rotation_R1_2 * sum20 + rotation_R1_3 * sum21);
+    W_bar[8] = its_amplitude * (total_43 + rotation_R1_2 * sum24 + rotation_R1_3 * sum25);
+    W_bar[9] = product_15;
+    W_bar[10] = its_amplitude * total_44;
+    W_bar[11] = product_16;
+    W_bar[12] = its_amplitude * (total_45 + rotation_R2_2 * sum16 + rotation_R2_3 * sum17);
+    W_bar[13] = its_amplitude * (total_46 + rotation_R2_2 * sum20 + rotation_R2_3 * sum21);
+    W_bar[14] = its_amplitude * (total_47 + rotation_R2_2 * sum24 + rotation_R2_3 * sum25);
+    W_bar[15] = product_17;
+    W_bar[16] = its_amplitude * total_48;
+    W_bar[17] = product_18;
+    W_bar[18] = its_amplitude * (total_49 + rotation_R3_2 * sum16 + rotation_R3_3 * sum17);
+    W_bar[19] = its_amplitude * (total_50 + rotation_R3_2 * sum20 + rotation_R3_3 * sum21);
+    W_bar[20] = its_amplitude * (total_51 + rotation_R3_2 * sum24 + rotation_R3_3 * sum25);
+    W_bar[21] = product_19;
+    W_bar[22] = its_amplitude * total_52;
+    W_bar[23] = product_20;
+    W_bar[24] = its_amplitude * (total_53 + rotation_R4_2 * sum16 + rotation_R4_3 * sum17);
+    W_bar[25] = its_amplitude * (total_54 + rotation_R4_2 * sum20 + rotation_R4_3 * sum21);
+    W_bar[26] = its_amplitude * (total_55 + rotation_R4_2 * sum24 + rotation_R4_3 * sum25);
+    W_bar[27] = product_21;
+    W_bar[28] = its_amplitude * total_56;
+    W_bar[29] = product_22;
+    W_bar[30] = its_amplitude * (total_57 + rotation_R5_2 * sum16 + rotation_R5_3 * sum17);
+    W_bar[31] = its_amplitude * (total_58 + rotation_R5_2 * sum20 + rotation_R5_3 * sum21);
+    W_bar[32] = its_amplitude * (total_59 + rotation_R5_2 * sum24 + rotation_R5_3 * sum25);
+    W_bar[33] = product_23;
+    W_bar[34] = its_amplitude * total_60;
+    W_bar[35] = product_24;
     amplitude_bar[0] = sum7;
 }
 
@@ -1164,7 +1114,7 @@ OUTLINE void pair_distances(
 /*
  * The factors of whose products are what is summed over the points.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
@@ -1179,10 +1129,6 @@ OUTLINE void pair_factors(
     const vector x4 = X[4];
     const vector x5 = X[5];
     const vector x6 = X[6];
-    const vector rotation_h0 = X[7];
-    const vector rotation_h1 = X[8];
-    const vector rotation_h2 = X[9];
-    const vector rotation_h3 = X[10];
     const double mu0 = S[0];
     const double mu1 = S[1];
     const double mu2 = S[2];
@@ -1214,30 +1160,30 @@ OUTLINE void pair_factors(
     const double M1_1 = S[29];
     const double M1_2 = S[30];
     const double M2_2 = S[31];
-    const double rotation_R0_0 = S[32];
-    const double rotation_R0_1 = S[33];
+    const double rotation_R0_3 = S[32];
+    const double rotation_R0_0 = S[33];
     const double rotation_R0_2 = S[34];
-    const double rotation_R0_3 = S[35];
-    const double rotation_R1_0 = S[36];
-    const double rotation_R1_1 = S[37];
+    const double rotation_R0_1 = S[35];
+    const double rotation_R1_3 = S[36];
+    const double rotation_R1_0 = S[37];
     const double rotation_R1_2 = S[38];
-    const double rotation_R1_3 = S[39];
-    const double rotation_R2_0 = S[40];
-    const double rotation_R2_1 = S[41];
+    const double rotation_R1_1 = S[39];
+    const double rotation_R2_3 = S[40];
+    const double rotation_R2_0 = S[41];
     const double rotation_R2_2 = S[42];
-    const double rotation_R2_3 = S[43];
-    const double rotation_R3_0 = S[44];
-    const double rotation_R3_1 = S[45];
+    const double rotation_R2_1 = S[43];
+    const double rotation_R3_3 = S[44];
+    const double rotation_R3_0 = S[45];
     const double rotation_R3_2 = S[46];
-    const double rotation_R3_3 = S[47];
-    const double rotation_R4_0 = S[48];
-    const double rotation_R4_1 = S[49];
+    const double rotation_R3_1 = S[47];
+    const double rotation_R4_3 = S[48];
+    const double rotation_R4_0 = S[49];
     const double rotation_R4_2 = S[50];
-    const double rotation_R4_3 = S[51];
-    const double rotation_R5_0 = S[52];
-    const double rotation_R5_1 = S[53];
+    const double rotation_R4_1 = S[51];
+    const double rotation_R5_3 = S[52];
+    const double rotation_R5_0 = S[53];
     const double rotation_R5_2 = S[54];
-    const double rotation_R5_3 = S[55];
+    const double rotation_R5_1 = S[55];
     const double M0_3 = S[56];
     const double M0_4 = S[57];
     const double M0_5 = S[58];
@@ -1268,10 +1214,6 @@ OUTLINE void pair_factors(
     const vector x4_bar = slope_bar[4];
     const vector x5_bar = slope_bar[5];
     const vector x6_bar = slope_bar[6];
-    const vector rotation_h0_bar = slope_bar[7];
-    const vector rotation_h1_bar = slope_bar[8];
-    const vector rotation_h2_bar = slope_bar[9];
-    const vector rotation_h3_bar = slope_bar[10];
     const vector v0 = x0 - mu0;
     const vector v1 = x1 - mu1;
     const vector v2 = x2 - mu2;
@@ -1283,12 +1225,12 @@ OUTLINE void pair_factors(
     const vector rotation_a = 1.0 / (rotation_abs_g0 - rotation_eta * (1.0 - rotation_abs_g0 *
         rotation_abs_g0));
     const vector rotation_a_chosen = vector_select(is_small, -rotation_a, rotation_a);
-    const vector product = rotation_h0 * rotation_a_chosen;
-    const vector product_2 = rotation_h1 * rotation_a_chosen;
+    const vector product = x3 * rotation_a_chosen;
+    const vector product_2 = x4 * rotation_a_chosen;
     const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
         product_2;
-    const vector product_3 = rotation_h2 * rotation_a_chosen;
-    const vector product_4 = rotation_h3 * rotation_a_chosen;
+    const vector product_3 = x5 * rotation_a_chosen;
+    const vector product_4 = x6 * rotation_a_chosen;
     const vector total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
     const vector total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
         product_2;
@@ -1320,19 +1262,19 @@ OUTLINE void pair_factors(
         vector_select(is_small, by_by_rotation_g0, vector_of(0.0));
     const vector product_5 = rotation_eta * by_by_rotation_abs_g0;
     const vector product_6 = rotation_a_chosen * product_5;
-    const vector gap_2 = -(rotation_h3 * product_6) - rotation_a_chosen * rotation_h3_bar;
+    const vector gap_2 = -(x6 * product_6) - rotation_a_chosen * x6_bar;
     const vector total_19 = rotation_R0_2 * total_3 + rotation_R1_2 * total_5 + rotation_R2_2 * total_7 +
         rotation_R3_2 * total_9 + rotation_R4_2 * total_11;
     const vector total_20 = total_19 + rotation_R5_2 * total_14;
-    const vector gap_3 = -(rotation_h2 * product_6) - rotation_a_chosen * rotation_h2_bar;
+    const vector gap_3 = -(x5 * product_6) - rotation_a_chosen * x5_bar;
     const vector total_21 = rotation_R0_1 * total_3 + rotation_R1_1 * total_5 + rotation_R2_1 * total_7 +
         rotation_R3_1 * total_9 + rotation_R4_1 * total_11;
     const vector total_22 = total_21 + rotation_R5_1 * total_14;
-    const vector gap_4 = -(rotation_h1 * product_6) - rotation_a_chosen * rotation_h1_bar;
+    const vector gap_4 = -(x4 * product_6) - rotation_a_chosen * x4_bar;
     const vector total_23 = rotation_R0_0 * total_3 + rotation_R1_0 * total_5 + rotation_R2_0 * total_7 +
         rotation_R3_0 * total_9 + rotation_R4_0 * total_11;
     const vector total_24 = total_23 + rotation_R5_0 * total_14;
-    const vector gap_5 = -(rotation_h0 * product_6) - rotation_a_chosen * rotation_h0_bar;
+    const vector gap_5 = -(x3 * product_6) - rotation_a_chosen * x3_bar;
     const vector total_25 = its_value_bar + total_18 * gap_2 + total_20 * gap_3 + total_22 * gap_4 + total_24
         * gap_5;
     const vector total_26 = W0_2 * total_3 + W1_2 * total_5 + W2_2 * total_7 + W3_2 * total_9 + W4_2 *
@@ -1367,14 +1309,14 @@ OUTLINE void pair_factors(
     const vector phi_product_10 = phi * total_20;
     const vector phi_product_11 = phi * total_22;
     const vector phi_product_12 = phi * total_24;
-    const vector gap_9 = -(rotation_h3 * phi_product_9) - rotation_h2 * phi_product_10 - rotation_h1 *
-        phi_product_11 - rotation_h0 * phi_product_12;
+    const vector gap_9 = -(x6 * phi_product_9) - x5 * phi_product_10 - x4 * phi_product_11 - x3 *
+        phi_product_12;
     const vector total_33 = 2.0 * phi + rotation_a_chosen * gap_9;
     const vector by_rotation_abs_g0 = rotation_eta * total_33;
     const vector by_rotation_g0 = vector_select(is_small, -by_rotation_abs_g0, by_rotation_abs_g0);
     const vector rotation_eta_slope = vector_polynomial_rotation_eta_slope(gap);
-    const vector gap_10 = gap_9 * product_5 - phi_product_12 * rotation_h0_bar - phi_product_11 *
-        rotation_h1_bar - phi_product_10 * rotation_h2_bar - phi_product_9 * rotation_h3_bar;
+    const vector gap_10 = gap_9 * product_5 - phi_product_12 * x3_bar - phi_product_11 * x4_bar -
+        phi_product_10 * x5_bar - phi_product_9 * x6_bar;
     const vector total_34 = -(M0_6 * phi_product_2) - M1_6 * phi_product_3 - M2_6 * phi_product_4 + M3_6 *
         phi_product_5;
     const vector gap_11 = total_34 + M4_6 * phi_product_6 + M5_6 * phi_product_7 + M6_6 * phi_product_8 -
@@ -1391,8 +1333,7 @@ OUTLINE void pair_factors(
         phi_product_5;
     const vector gap_14 = total_37 + M3_4 * phi_product_6 + M3_5 * phi_product_7 + M3_6 * phi_product_8 -
         total_24 * phi_product;
-    const vector total_38 = gap_10 + rotation_h3 * gap_11 + rotation_h2 * gap_12 + rotation_h1 * gap_13 +
-        rotation_h0 * gap_14;
+    const vector total_38 = gap_10 + x6 * gap_11 + x5 * gap_12 + x4 * gap_13 + x3 * gap_14;
     const vector by_rotation_abs_g0_2 = rotation_eta_slope * (total_33 * by_by_rotation_abs_g0) + rotation_eta
         * (2.0 * phi_product + rotation_a_chosen * total_38);
     const vector by_rotation_g0_2 = vector_select(is_small, -by_rotation_abs_g0_2, by_rotation_abs_g0_2);
@@ -1448,10 +1389,10 @@ INLINE void pair_products_0(const vector *factor, const vector *point, vector *s
 INLINE void pair_products_1(const vector *factor, const vector *point, vector *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[11] * point[15] + point[3] * factor[12];
-    sum[1] = sum[1] + factor[11] * point[16] + point[4] * factor[12];
-    sum[2] = sum[2] + factor[11] * point[17] + point[5] * factor[12];
-    sum[3] = sum[3] + factor[11] * point[18] + point[6] * factor[12];
+    sum[0] = sum[0] + factor[11] * point[11] + point[3] * factor[12];
+    sum[1] = sum[1] + factor[11] * point[12] + point[4] * factor[12];
+    sum[2] = sum[2] + factor[11] * point[13] + point[5] * factor[12];
+    sum[3] = sum[3] + factor[11] * point[14] + point[6] * factor[12];
     sum[4] = sum[4] + factor[3] * factor[16];
     sum[5] = sum[5] + factor[2] * factor[16] + factor[3] * factor[15];
     sum[6] = sum[6] + factor[2] * factor[17] + factor[4] * factor[15];
@@ -1504,12 +1445,12 @@ OUTLINE void vector_end(size_t count, size_t start, size_t size, vector *columns
         for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
 }
 
-/* Scratch memory: 23 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
+/* Scratch memory: 15 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
 size_t se3_splats_work(size_t count, size_t splat_count, int threads) {
     (void)threads;
     const size_t points = (count + LANES - 1) / LANES, blocks = (points + 2 - 1) / 2;
     const size_t places = 8 * ((splat_count + LANES - 1) / LANES + (blocks + LANES - 1) / LANES);
-    return (points * 23 + places + 1) * LANES + 78 * splat_count;
+    return (points * 15 + places + 1) * LANES + 78 * splat_count;
 }
 
 static vector *work_points(double *work) {
@@ -1524,7 +1465,7 @@ INLINE const double *splat_at(const vector *splats, size_t k) {
 }
 
 static vector *work_reaches(double *work, size_t count) {
-    return work_points(work) + (count + LANES - 1) / LANES * 23;
+    return work_points(work) + (count + LANES - 1) / LANES * 15;
 }
 
 static vector *work_blocks(double *work, size_t count, size_t splat_count) {
@@ -1654,8 +1595,8 @@ void se3_splats(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[2][7], X[2][11], grad[6];
-            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][11] = {{ZERO}};
+            vector at[2][7], X[2][7], grad[6];
+            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][7] = {{ZERO}};
             double place[7 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
@@ -1696,7 +1637,7 @@ void se3_splats_value(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[7], X[2][11], value_sum[2][1] = {{ZERO}};
+            vector at[7], X[2][7], value_sum[2][1] = {{ZERO}};
             double place[7 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
@@ -1723,14 +1664,14 @@ void se3_splats_value(
 /* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
 OUTLINE void splat_points(
     size_t count, size_t start, const double *x, const double *value_bar, const double *gradient_bar, vector *point) {
-    vector at[7], grad_bar[6], slope_bar[11];
+    vector at[7], grad_bar[6], slope_bar[7];
     vector_rows(x, count, start, 7, at);
     vector_rows(gradient_bar, count, start, 6, grad_bar);
-    vector_rows(value_bar, count, start, 1, point + 11);
+    vector_rows(value_bar, count, start, 1, point + 7);
     pair_features(at, point);
     pair_gradient_vjp(at, grad_bar, slope_bar);
-    for (int i = 0; i < 11; ++i) point[11 + 1 + i] = slope_bar[i];
-    vector_end(count, start, 11 + 1, point + 11);
+    for (int i = 0; i < 7; ++i) point[7 + 1 + i] = slope_bar[i];
+    vector_end(count, start, 7 + 1, point + 7);
 }
 
 /* Adds to sums what one vector of points adds to it. */
@@ -1797,12 +1738,12 @@ OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t count
     for (size_t start = 0; start < count; start += 16, near += 16) {
         const size_t size = count - start < 16 ? count - start : 16;
         for (size_t b = 0; b < size; ++b) {
-            const vector *at = points + 23 * (size_t)near[b];
-            pair_factors(at, S, at + 11, at + 11 + 1, factor + 20 * b);
+            const vector *at = points + 15 * (size_t)near[b];
+            pair_factors(at, S, at + 7, at + 7 + 1, factor + 20 * b);
         }
         {
             vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_0(factor + 20 * b, points + 23 * (size_t)near[b], sum);
+            for (size_t b = 0; b < size; ++b) pair_products_0(factor + 20 * b, points + 15 * (size_t)near[b], sum);
             total[0] += sum[0];
             total[1] += sum[1];
             total[2] += sum[2];
@@ -1818,7 +1759,7 @@ OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t count
         }
         {
             vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_1(factor + 20 * b, points + 23 * (size_t)near[b], sum);
+            for (size_t b = 0; b < size; ++b) pair_products_1(factor + 20 * b, points + 15 * (size_t)near[b], sum);
             total[3] += sum[0];
             total[4] += sum[1];
             total[5] += sum[2];
@@ -1834,7 +1775,7 @@ OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t count
         }
         {
             vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_2(factor + 20 * b, points + 23 * (size_t)near[b], sum);
+            for (size_t b = 0; b < size; ++b) pair_products_2(factor + 20 * b, points + 15 * (size_t)near[b], sum);
             total[17] += sum[0];
             total[35] += sum[1];
             total[21] += sum[2];
@@ -1860,7 +1801,7 @@ void se3_splats_vjp(
     size_t count, size_t splat_count, const double *SE3_RESTRICT x, const double *SE3_RESTRICT mu, const double *SE3_RESTRICT W, const double *SE3_RESTRICT amplitude, const double *SE3_RESTRICT width, const double *SE3_RESTRICT value_bar, const double *SE3_RESTRICT gradient_bar,
     double *SE3_RESTRICT mu_bar, double *SE3_RESTRICT W_bar, double *SE3_RESTRICT amplitude_bar, double *SE3_RESTRICT work, int threads) {
     const size_t blocks = (count + LANES - 1) / LANES;
-    const size_t chunk = 131072 / (23 * sizeof(vector)) + 1;
+    const size_t chunk = 131072 / (15 * sizeof(vector)) + 1;
     const size_t rows = ((blocks + 2 - 1) / 2 + LANES - 1) / LANES * LANES;
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES ? part : LANES;
@@ -1887,19 +1828,19 @@ void se3_splats_vjp(
         }
         OMP(omp for schedule(dynamic, 8))
         for (size_t block = 0; block < blocks; ++block)
-            splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 23 * block);
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 15 * block);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
             double sums[LANES][36] = {{0}};
-            uint32_t near[131072 / (23 * sizeof(vector)) + 2];
+            uint32_t near[131072 / (15 * sizeof(vector)) + 2];
             vector own_mu[7], own_W[36], own_amplitude[1], own_sums[36], bars[44];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
                     const double *reach = width ? splat_at(splats, k) + 7 * LANES : NULL;
                     const size_t some = blocks_near(mu + 7 * k, reach, places, first, first + size, near);
-                    splat_sums(points + 23 * first, near, some, constants + 78 * k, sums[k - start]);
+                    splat_sums(points + 15 * first, near, some, constants + 78 * k, sums[k - start]);
                 }
             }
             vector_rows(mu, end, start, 7, own_mu);
@@ -1930,14 +1871,14 @@ void se3_splats_rows(
             splat_constants(splat_count, start, mu, W, amplitude, NULL, constants, NULL);
         OMP(omp for schedule(dynamic))
         for (size_t block = 0; block < blocks; ++block) {
-            vector point[23];
+            vector point[15];
             splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
                 vector own_mu[7], own_W[36], own_amplitude[1], own_sums[36] = {ZERO}, bars[44];
                 for (int i = 0; i < 7; ++i) own_mu[i] = vector_of(mu[7 * k + i]);
                 for (int i = 0; i < 36; ++i) own_W[i] = vector_of(W[36 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 78 * k, point + 11, point + 11 + 1, own_sums);
+                pair_backward(point, constants + 78 * k, point + 7, point + 7 + 1, own_sums);
                 pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 7, bars + 7 + 36);
                 vector_to_rows(bars, rows + 44 * k, count, block * LANES, 44, 44 * splat_count);
             }
@@ -2159,10 +2100,6 @@ OUTLINE void pair_features_f(
     const vector_f x4 = x[4];
     const vector_f x5 = x[5];
     const vector_f x6 = x[6];
-    const vector_f rotation_h0 = 0.5f * x3;
-    const vector_f rotation_h1 = 0.5f * x4;
-    const vector_f rotation_h2 = 0.5f * x5;
-    const vector_f rotation_h3 = 0.5f * x6;
     X[0] = x0;
     X[1] = x1;
     X[2] = x2;
@@ -2170,10 +2107,6 @@ OUTLINE void pair_features_f(
     X[4] = x4;
     X[5] = x5;
     X[6] = x6;
-    X[7] = rotation_h0;
-    X[8] = rotation_h1;
-    X[9] = rotation_h2;
-    X[10] = rotation_h3;
 }
 
 /* What pairs read of a splat, of some splats. */
@@ -2235,34 +2168,34 @@ OUTLINE void pair_constants_f(
     const vector_f M1_2 = total_6 + W5_1 * W5_2;
     const vector_f total_7 = W0_2 * W0_2 + W1_2 * W1_2 + W2_2 * W2_2 + W3_2 * W3_2 + W4_2 * W4_2;
     const vector_f M2_2 = total_7 + W5_2 * W5_2;
-    const vector_f rotation_M3 = 2.0f * mu6;
-    const vector_f rotation_M2 = 2.0f * mu5;
-    const vector_f rotation_M1 = 2.0f * mu4;
-    const vector_f rotation_R0_0 = 2.0f * (-(W0_5 * rotation_M3) - W0_4 * rotation_M2 - W0_3 * rotation_M1);
-    const vector_f rotation_M0 = 2.0f * mu3;
-    const vector_f rotation_R0_1 = 2.0f * (W0_5 * rotation_M2 - W0_4 * rotation_M3 + W0_3 * rotation_M0);
-    const vector_f rotation_R0_2 = 2.0f * (W0_4 * rotation_M0 - W0_5 * rotation_M1 + W0_3 * rotation_M3);
-    const vector_f rotation_R0_3 = 2.0f * (W0_5 * rotation_M0 + W0_4 * rotation_M1 - W0_3 * rotation_M2);
-    const vector_f rotation_R1_0 = 2.0f * (-(W1_5 * rotation_M3) - W1_4 * rotation_M2 - W1_3 * rotation_M1);
-    const vector_f rotation_R1_1 = 2.0f * (W1_5 * rotation_M2 - W1_4 * rotation_M3 + W1_3 * rotation_M0);
-    const vector_f rotation_R1_2 = 2.0f * (W1_4 * rotation_M0 - W1_5 * rotation_M1 + W1_3 * rotation_M3);
-    const vector_f rotation_R1_3 = 2.0f * (W1_5 * rotation_M0 + W1_4 * rotation_M1 - W1_3 * rotation_M2);
-    const vector_f rotation_R2_0 = 2.0f * (-(W2_5 * rotation_M3) - W2_4 * rotation_M2 - W2_3 * rotation_M1);
-    const vector_f rotation_R2_1 = 2.0f * (W2_5 * rotation_M2 - W2_4 * rotation_M3 + W2_3 * rotation_M0);
-    const vector_f rotation_R2_2 = 2.0f * (W2_4 * rotation_M0 - W2_5 * rotation_M1 + W2_3 * rotation_M3);
-    const vector_f rotation_R2_3 = 2.0f * (W2_5 * rotation_M0 + W2_4 * rotation_M1 - W2_3 * rotation_M2);
-    const vector_f rotation_R3_0 = 2.0f * (-(W3_5 * rotation_M3) - W3_4 * rotation_M2 - W3_3 * rotation_M1);
-    const vector_f rotation_R3_1 = 2.0f * (W3_5 * rotation_M2 - W3_4 * rotation_M3 + W3_3 * rotation_M0);
-    const vector_f rotation_R3_2 = 2.0f * (W3_4 * rotation_M0 - W3_5 * rotation_M1 + W3_3 * rotation_M3);
-    const vector_f rotation_R3_3 = 2.0f * (W3_5 * rotation_M0 + W3_4 * rotation_M1 - W3_3 * rotation_M2);
-    const vector_f rotation_R4_0 = 2.0f * (-(W4_5 * rotation_M3) - W4_4 * rotation_M2 - W4_3 * rotation_M1);
-    const vector_f rotation_R4_1 = 2.0f * (W4_5 * rotation_M2 - W4_4 * rotation_M3 + W4_3 * rotation_M0);
-    const vector_f rotation_R4_2 = 2.0f * (W4_4 * rotation_M0 - W4_5 * rotation_M1 + W4_3 * rotation_M3);
-    const vector_f rotation_R4_3 = 2.0f * (W4_5 * rotation_M0 + W4_4 * rotation_M1 - W4_3 * rotation_M2);
-    const vector_f rotation_R5_0 = 2.0f * (-(W5_5 * rotation_M3) - W5_4 * rotation_M2 - W5_3 * rotation_M1);
-    const vector_f rotation_R5_1 = 2.0f * (W5_5 * rotation_M2 - W5_4 * rotation_M3 + W5_3 * rotation_M0);
-    const vector_f rotation_R5_2 = 2.0f * (W5_4 * rotation_M0 - W5_5 * rotation_M1 + W5_3 * rotation_M3);
-    const vector_f rotation_R5_3 = 2.0f * (W5_5 * rotation_M0 + W5_4 * rotation_M1 - W5_3 * rotation_M2);
+    const vector_f product = 2.0f * mu3;
+    const vector_f product_2 = 2.0f * mu4;
+    const vector_f product_3 = 2.0f * mu5;
+    const vector_f rotation_R0_3 = W0_5 * product + W0_4 * product_2 - W0_3 * product_3;
+    const vector_f product_4 = 2.0f * mu6;
+    const vector_f rotation_R0_0 = -(W0_5 * product_4) - W0_4 * product_3 - W0_3 * product_2;
+    const vector_f rotation_R0_2 = W0_4 * product - W0_5 * product_2 + W0_3 * product_4;
+    const vector_f rotation_R0_1 = W0_5 * product_3 - W0_4 * product_4 + W0_3 * product;
+    const vector_f rotation_R1_3 = W1_5 * product + W1_4 * product_2 - W1_3 * product_3;
+    const vector_f rotation_R1_0 = -(W1_5 * product_4) - W1_4 * product_3 - W1_3 * product_2;
+    const vector_f rotation_R1_2 = W1_4 * product - W1_5 * product_2 + W1_3 * product_4;
+    const vector_f rotation_R1_1 = W1_5 * product_3 - W1_4 * product_4 + W1_3 * product;
+    const vector_f rotation_R2_3 = W2_5 * product + W2_4 * product_2 - W2_3 * product_3;
+    const vector_f rotation_R2_0 = -(W2_5 * product_4) - W2_4 * product_3 - W2_3 * product_2;
+    const vector_f rotation_R2_2 = W2_4 * product - W2_5 * product_2 + W2_3 * product_4;
+    const vector_f rotation_R2_1 = W2_5 * product_3 - W2_4 * product_4 + W2_3 * product;
+    const vector_f rotation_R3_3 = W3_5 * product + W3_4 * product_2 - W3_3 * product_3;
+    const vector_f rotation_R3_0 = -(W3_5 * product_4) - W3_4 * product_3 - W3_3 * product_2;
+    const vector_f rotation_R3_2 = W3_4 * product - W3_5 * product_2 + W3_3 * product_4;
+    const vector_f rotation_R3_1 = W3_5 * product_3 - W3_4 * product_4 + W3_3 * product;
+    const vector_f rotation_R4_3 = W4_5 * product + W4_4 * product_2 - W4_3 * product_3;
+    const vector_f rotation_R4_0 = -(W4_5 * product_4) - W4_4 * product_3 - W4_3 * product_2;
+    const vector_f rotation_R4_2 = W4_4 * product - W4_5 * product_2 + W4_3 * product_4;
+    const vector_f rotation_R4_1 = W4_5 * product_3 - W4_4 * product_4 + W4_3 * product;
+    const vector_f rotation_R5_3 = W5_5 * product + W5_4 * product_2 - W5_3 * product_3;
+    const vector_f rotation_R5_0 = -(W5_5 * product_4) - W5_4 * product_3 - W5_3 * product_2;
+    const vector_f rotation_R5_2 = W5_4 * product - W5_5 * product_2 + W5_3 * product_4;
+    const vector_f rotation_R5_1 = W5_5 * product_3 - W5_4 * product_4 + W5_3 * product;
     const vector_f total_8 = W0_0 * rotation_R0_0 + W1_0 * rotation_R1_0 + W2_0 * rotation_R2_0 + W3_0 *
         rotation_R3_0 + W4_0 * rotation_R4_0;
     const vector_f M0_3 = total_8 + W5_0 * rotation_R5_0;
@@ -2308,24 +2241,24 @@ OUTLINE void pair_constants_f(
     const vector_f total_22 = rotation_R0_0 * rotation_R0_2 + rotation_R1_0 * rotation_R1_2 + rotation_R2_0 *
         rotation_R2_2 + rotation_R3_0 * rotation_R3_2 + rotation_R4_0 * rotation_R4_2;
     const vector_f M3_5 = total_22 + rotation_R5_0 * rotation_R5_2;
-    const vector_f total_23 = rotation_R0_0 * rotation_R0_3 + rotation_R1_0 * rotation_R1_3 + rotation_R2_0 *
-        rotation_R2_3 + rotation_R3_0 * rotation_R3_3 + rotation_R4_0 * rotation_R4_3;
-    const vector_f M3_6 = total_23 + rotation_R5_0 * rotation_R5_3;
+    const vector_f total_23 = rotation_R0_3 * rotation_R0_0 + rotation_R1_3 * rotation_R1_0 + rotation_R2_3 *
+        rotation_R2_0 + rotation_R3_3 * rotation_R3_0 + rotation_R4_3 * rotation_R4_0;
+    const vector_f M3_6 = total_23 + rotation_R5_3 * rotation_R5_0;
     const vector_f total_24 = rotation_R0_1 * rotation_R0_1 + rotation_R1_1 * rotation_R1_1 + rotation_R2_1 *
         rotation_R2_1 + rotation_R3_1 * rotation_R3_1 + rotation_R4_1 * rotation_R4_1;
     const vector_f M4_4 = total_24 + rotation_R5_1 * rotation_R5_1;
-    const vector_f total_25 = rotation_R0_1 * rotation_R0_2 + rotation_R1_1 * rotation_R1_2 + rotation_R2_1 *
-        rotation_R2_2 + rotation_R3_1 * rotation_R3_2 + rotation_R4_1 * rotation_R4_2;
-    const vector_f M4_5 = total_25 + rotation_R5_1 * rotation_R5_2;
-    const vector_f total_26 = rotation_R0_1 * rotation_R0_3 + rotation_R1_1 * rotation_R1_3 + rotation_R2_1 *
-        rotation_R2_3 + rotation_R3_1 * rotation_R3_3 + rotation_R4_1 * rotation_R4_3;
-    const vector_f M4_6 = total_26 + rotation_R5_1 * rotation_R5_3;
+    const vector_f total_25 = rotation_R0_2 * rotation_R0_1 + rotation_R1_2 * rotation_R1_1 + rotation_R2_2 *
+        rotation_R2_1 + rotation_R3_2 * rotation_R3_1 + rotation_R4_2 * rotation_R4_1;
+    const vector_f M4_5 = total_25 + rotation_R5_2 * rotation_R5_1;
+    const vector_f total_26 = rotation_R0_3 * rotation_R0_1 + rotation_R1_3 * rotation_R1_1 + rotation_R2_3 *
+        rotation_R2_1 + rotation_R3_3 * rotation_R3_1 + rotation_R4_3 * rotation_R4_1;
+    const vector_f M4_6 = total_26 + rotation_R5_3 * rotation_R5_1;
     const vector_f total_27 = rotation_R0_2 * rotation_R0_2 + rotation_R1_2 * rotation_R1_2 + rotation_R2_2 *
         rotation_R2_2 + rotation_R3_2 * rotation_R3_2 + rotation_R4_2 * rotation_R4_2;
     const vector_f M5_5 = total_27 + rotation_R5_2 * rotation_R5_2;
-    const vector_f total_28 = rotation_R0_2 * rotation_R0_3 + rotation_R1_2 * rotation_R1_3 + rotation_R2_2 *
-        rotation_R2_3 + rotation_R3_2 * rotation_R3_3 + rotation_R4_2 * rotation_R4_3;
-    const vector_f M5_6 = total_28 + rotation_R5_2 * rotation_R5_3;
+    const vector_f total_28 = rotation_R0_3 * rotation_R0_2 + rotation_R1_3 * rotation_R1_2 + rotation_R2_3 *
+        rotation_R2_2 + rotation_R3_3 * rotation_R3_2 + rotation_R4_3 * rotation_R4_2;
+    const vector_f M5_6 = total_28 + rotation_R5_3 * rotation_R5_2;
     const vector_f total_29 = rotation_R0_3 * rotation_R0_3 + rotation_R1_3 * rotation_R1_3 + rotation_R2_3 *
         rotation_R2_3 + rotation_R3_3 * rotation_R3_3 + rotation_R4_3 * rotation_R4_3;
     const vector_f M6_6 = total_29 + rotation_R5_3 * rotation_R5_3;
@@ -2361,30 +2294,30 @@ OUTLINE void pair_constants_f(
     S[29] = M1_1;
     S[30] = M1_2;
     S[31] = M2_2;
-    S[32] = rotation_R0_0;
-    S[33] = rotation_R0_1;
+    S[32] = rotation_R0_3;
+    S[33] = rotation_R0_0;
     S[34] = rotation_R0_2;
-    S[35] = rotation_R0_3;
-    S[36] = rotation_R1_0;
-    S[37] = rotation_R1_1;
+    S[35] = rotation_R0_1;
+    S[36] = rotation_R1_3;
+    S[37] = rotation_R1_0;
     S[38] = rotation_R1_2;
-    S[39] = rotation_R1_3;
-    S[40] = rotation_R2_0;
-    S[41] = rotation_R2_1;
+    S[39] = rotation_R1_1;
+    S[40] = rotation_R2_3;
+    S[41] = rotation_R2_0;
     S[42] = rotation_R2_2;
-    S[43] = rotation_R2_3;
-    S[44] = rotation_R3_0;
-    S[45] = rotation_R3_1;
+    S[43] = rotation_R2_1;
+    S[44] = rotation_R3_3;
+    S[45] = rotation_R3_0;
     S[46] = rotation_R3_2;
-    S[47] = rotation_R3_3;
-    S[48] = rotation_R4_0;
-    S[49] = rotation_R4_1;
+    S[47] = rotation_R3_1;
+    S[48] = rotation_R4_3;
+    S[49] = rotation_R4_0;
     S[50] = rotation_R4_2;
-    S[51] = rotation_R4_3;
-    S[52] = rotation_R5_0;
-    S[53] = rotation_R5_1;
+    S[51] = rotation_R4_1;
+    S[52] = rotation_R5_3;
+    S[53] = rotation_R5_0;
     S[54] = rotation_R5_2;
-    S[55] = rotation_R5_3;
+    S[55] = rotation_R5_1;
     S[56] = M0_3;
     S[57] = M0_4;
     S[58] = M0_5;
@@ -2412,7 +2345,7 @@ OUTLINE void pair_constants_f(
 /*
  * Adds the values phi of a splat at some points.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
@@ -2427,10 +2360,6 @@ INLINE void pair_value_f(
     const vector_f x4 = X[4];
     const vector_f x5 = X[5];
     const vector_f x6 = X[6];
-    const vector_f rotation_h0 = X[7];
-    const vector_f rotation_h1 = X[8];
-    const vector_f rotation_h2 = X[9];
-    const vector_f rotation_h3 = X[10];
     const float mu0 = S[0];
     const float mu1 = S[1];
     const float mu2 = S[2];
@@ -2457,30 +2386,30 @@ INLINE void pair_value_f(
     const float W5_1 = S[23];
     const float W5_2 = S[24];
     const float amplitude = S[25];
-    const float rotation_R0_0 = S[32];
-    const float rotation_R0_1 = S[33];
+    const float rotation_R0_3 = S[32];
+    const float rotation_R0_0 = S[33];
     const float rotation_R0_2 = S[34];
-    const float rotation_R0_3 = S[35];
-    const float rotation_R1_0 = S[36];
-    const float rotation_R1_1 = S[37];
+    const float rotation_R0_1 = S[35];
+    const float rotation_R1_3 = S[36];
+    const float rotation_R1_0 = S[37];
     const float rotation_R1_2 = S[38];
-    const float rotation_R1_3 = S[39];
-    const float rotation_R2_0 = S[40];
-    const float rotation_R2_1 = S[41];
+    const float rotation_R1_1 = S[39];
+    const float rotation_R2_3 = S[40];
+    const float rotation_R2_0 = S[41];
     const float rotation_R2_2 = S[42];
-    const float rotation_R2_3 = S[43];
-    const float rotation_R3_0 = S[44];
-    const float rotation_R3_1 = S[45];
+    const float rotation_R2_1 = S[43];
+    const float rotation_R3_3 = S[44];
+    const float rotation_R3_0 = S[45];
     const float rotation_R3_2 = S[46];
-    const float rotation_R3_3 = S[47];
-    const float rotation_R4_0 = S[48];
-    const float rotation_R4_1 = S[49];
+    const float rotation_R3_1 = S[47];
+    const float rotation_R4_3 = S[48];
+    const float rotation_R4_0 = S[49];
     const float rotation_R4_2 = S[50];
-    const float rotation_R4_3 = S[51];
-    const float rotation_R5_0 = S[52];
-    const float rotation_R5_1 = S[53];
+    const float rotation_R4_1 = S[51];
+    const float rotation_R5_3 = S[52];
+    const float rotation_R5_0 = S[53];
     const float rotation_R5_2 = S[54];
-    const float rotation_R5_3 = S[55];
+    const float rotation_R5_1 = S[55];
     const vector_f rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6;
     const vector_f rotation_abs_g0 = abs_each_f(rotation_g0);
     const vector_f rotation_eta = vector_polynomial_rotation_eta_f(1.0f - rotation_abs_g0);
@@ -2490,12 +2419,12 @@ INLINE void pair_value_f(
     const vector_f v1 = x1 - mu1;
     const vector_f v2 = x2 - mu2;
     const vector_f rotation_a_chosen = vector_select_f(rotation_g0 < 0.0f, -rotation_a, rotation_a);
-    const vector_f product = rotation_h0 * rotation_a_chosen;
-    const vector_f product_2 = rotation_h1 * rotation_a_chosen;
+    const vector_f product = x3 * rotation_a_chosen;
+    const vector_f product_2 = x4 * rotation_a_chosen;
     const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
         product_2;
-    const vector_f product_3 = rotation_h2 * rotation_a_chosen;
-    const vector_f product_4 = rotation_h3 * rotation_a_chosen;
+    const vector_f product_3 = x5 * rotation_a_chosen;
+    const vector_f product_4 = x6 * rotation_a_chosen;
     const vector_f total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
     const vector_f total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
         product_2;
@@ -2522,7 +2451,7 @@ INLINE void pair_value_f(
 /*
  * Adds the values phi of a splat at some points, and slope = d phi / d X.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
@@ -2537,10 +2466,6 @@ INLINE void pair_forward_f(
     const vector_f x4 = X[4];
     const vector_f x5 = X[5];
     const vector_f x6 = X[6];
-    const vector_f rotation_h0 = X[7];
-    const vector_f rotation_h1 = X[8];
-    const vector_f rotation_h2 = X[9];
-    const vector_f rotation_h3 = X[10];
     const float mu0 = S[0];
     const float mu1 = S[1];
     const float mu2 = S[2];
@@ -2567,30 +2492,30 @@ INLINE void pair_forward_f(
     const float W5_1 = S[23];
     const float W5_2 = S[24];
     const float amplitude = S[25];
-    const float rotation_R0_0 = S[32];
-    const float rotation_R0_1 = S[33];
+    const float rotation_R0_3 = S[32];
+    const float rotation_R0_0 = S[33];
     const float rotation_R0_2 = S[34];
-    const float rotation_R0_3 = S[35];
-    const float rotation_R1_0 = S[36];
-    const float rotation_R1_1 = S[37];
+    const float rotation_R0_1 = S[35];
+    const float rotation_R1_3 = S[36];
+    const float rotation_R1_0 = S[37];
     const float rotation_R1_2 = S[38];
-    const float rotation_R1_3 = S[39];
-    const float rotation_R2_0 = S[40];
-    const float rotation_R2_1 = S[41];
+    const float rotation_R1_1 = S[39];
+    const float rotation_R2_3 = S[40];
+    const float rotation_R2_0 = S[41];
     const float rotation_R2_2 = S[42];
-    const float rotation_R2_3 = S[43];
-    const float rotation_R3_0 = S[44];
-    const float rotation_R3_1 = S[45];
+    const float rotation_R2_1 = S[43];
+    const float rotation_R3_3 = S[44];
+    const float rotation_R3_0 = S[45];
     const float rotation_R3_2 = S[46];
-    const float rotation_R3_3 = S[47];
-    const float rotation_R4_0 = S[48];
-    const float rotation_R4_1 = S[49];
+    const float rotation_R3_1 = S[47];
+    const float rotation_R4_3 = S[48];
+    const float rotation_R4_0 = S[49];
     const float rotation_R4_2 = S[50];
-    const float rotation_R4_3 = S[51];
-    const float rotation_R5_0 = S[52];
-    const float rotation_R5_1 = S[53];
+    const float rotation_R4_1 = S[51];
+    const float rotation_R5_3 = S[52];
+    const float rotation_R5_0 = S[53];
     const float rotation_R5_2 = S[54];
-    const float rotation_R5_3 = S[55];
+    const float rotation_R5_1 = S[55];
     const vector_f rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6;
     const vector_f rotation_abs_g0 = abs_each_f(rotation_g0);
     const vector_f rotation_eta = vector_polynomial_rotation_eta_f(1.0f - rotation_abs_g0);
@@ -2601,12 +2526,12 @@ INLINE void pair_forward_f(
     const vector_f v2 = x2 - mu2;
     const vector_mask_f is_small = rotation_g0 < 0.0f;
     const vector_f rotation_a_chosen = vector_select_f(is_small, -rotation_a, rotation_a);
-    const vector_f product = rotation_h0 * rotation_a_chosen;
-    const vector_f product_2 = rotation_h1 * rotation_a_chosen;
+    const vector_f product = x3 * rotation_a_chosen;
+    const vector_f product_2 = x4 * rotation_a_chosen;
     const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
         product_2;
-    const vector_f product_3 = rotation_h2 * rotation_a_chosen;
-    const vector_f product_4 = rotation_h3 * rotation_a_chosen;
+    const vector_f product_3 = x5 * rotation_a_chosen;
+    const vector_f product_4 = x6 * rotation_a_chosen;
     const vector_f total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
     const vector_f total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
         product_2;
@@ -2646,22 +2571,17 @@ INLINE void pair_forward_f(
     const vector_f total_21 = rotation_R0_0 * total_3 + rotation_R1_0 * total_5 + rotation_R2_0 * total_7 +
         rotation_R3_0 * total_9 + rotation_R4_0 * total_11;
     const vector_f phi_product_4 = phi_2 * (total_21 + rotation_R5_0 * total_14);
-    const vector_f gap = -(rotation_h3 * phi_product) - rotation_h2 * phi_product_2 - rotation_h1 *
-        phi_product_3 - rotation_h0 * phi_product_4;
+    const vector_f gap = -(x6 * phi_product) - x5 * phi_product_2 - x4 * phi_product_3 - x3 * phi_product_4;
     const vector_f by_rotation_abs_g0 = rotation_eta * (2.0f * phi_2 + rotation_a_chosen * gap);
     const vector_f by_rotation_g0 = vector_select_f(is_small, -by_rotation_abs_g0, by_rotation_abs_g0);
     value[0] = value[0] + phi_2;
     slope[0] = slope[0] - phi_2 * (total_15 + W5_0 * total_14);
     slope[1] = slope[1] - phi_2 * (total_16 + W5_1 * total_14);
     slope[2] = slope[2] - phi_2 * (total_17 + W5_2 * total_14);
-    slope[3] = slope[3] + mu3 * by_rotation_g0;
-    slope[4] = slope[4] + mu4 * by_rotation_g0;
-    slope[5] = slope[5] + mu5 * by_rotation_g0;
-    slope[6] = slope[6] + mu6 * by_rotation_g0;
-    slope[7] = slope[7] - rotation_a_chosen * phi_product_4;
-    slope[8] = slope[8] - rotation_a_chosen * phi_product_3;
-    slope[9] = slope[9] - rotation_a_chosen * phi_product_2;
-    slope[10] = slope[10] - rotation_a_chosen * phi_product;
+    slope[3] = slope[3] + mu3 * by_rotation_g0 - rotation_a_chosen * phi_product_4;
+    slope[4] = slope[4] + mu4 * by_rotation_g0 - rotation_a_chosen * phi_product_3;
+    slope[5] = slope[5] + mu5 * by_rotation_g0 - rotation_a_chosen * phi_product_2;
+    slope[6] = slope[6] + mu6 * by_rotation_g0 - rotation_a_chosen * phi_product;
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -2678,14 +2598,10 @@ OUTLINE void pair_gradient_f(
     const vector_f slope_x4 = slope[4];
     const vector_f slope_x5 = slope[5];
     const vector_f slope_x6 = slope[6];
-    const vector_f slope_rotation_h0 = slope[7];
-    const vector_f slope_rotation_h1 = slope[8];
-    const vector_f slope_rotation_h2 = slope[9];
-    const vector_f slope_rotation_h3 = slope[10];
-    const vector_f product = 0.5f * (slope_x4 + 0.5f * slope_rotation_h1);
-    const vector_f product_2 = 0.5f * (slope_x5 + 0.5f * slope_rotation_h2);
-    const vector_f product_3 = 0.5f * (slope_x3 + 0.5f * slope_rotation_h0);
-    const vector_f product_4 = 0.5f * (slope_x6 + 0.5f * slope_rotation_h3);
+    const vector_f product = 0.5f * slope_x4;
+    const vector_f product_2 = 0.5f * slope_x5;
+    const vector_f product_3 = 0.5f * slope_x3;
+    const vector_f product_4 = 0.5f * slope_x6;
     gradient[0] = slope_x0;
     gradient[1] = slope_x1;
     gradient[2] = slope_x2;
@@ -2707,21 +2623,14 @@ OUTLINE void pair_gradient_vjp_f(
     const vector_f gradient_bar3 = gradient_bar[3];
     const vector_f gradient_bar4 = gradient_bar[4];
     const vector_f gradient_bar5 = gradient_bar[5];
-    const vector_f gap = -(x6 * gradient_bar5) - x5 * gradient_bar4 - x4 * gradient_bar3;
-    const vector_f total_2 = x5 * gradient_bar5 - x6 * gradient_bar4 + x3 * gradient_bar3;
-    const vector_f total_3 = x3 * gradient_bar4 - x4 * gradient_bar5 + x6 * gradient_bar3;
-    const vector_f gap_2 = x3 * gradient_bar5 + x4 * gradient_bar4 - x5 * gradient_bar3;
+    const vector_f product = 0.5f * (-(x6 * gradient_bar5) - x5 * gradient_bar4 - x4 * gradient_bar3);
     slope_bar[0] = gradient_bar0;
     slope_bar[1] = gradient_bar1;
     slope_bar[2] = gradient_bar2;
-    slope_bar[3] = 0.5f * gap;
-    slope_bar[4] = 0.5f * total_2;
-    slope_bar[5] = 0.5f * total_3;
-    slope_bar[6] = 0.5f * gap_2;
-    slope_bar[7] = 0.25f * gap;
-    slope_bar[8] = 0.25f * total_2;
-    slope_bar[9] = 0.25f * total_3;
-    slope_bar[10] = 0.25f * gap_2;
+    slope_bar[3] = product;
+    slope_bar[4] = 0.5f * (x5 * gradient_bar5 - x6 * gradient_bar4 + x3 * gradient_bar3);
+    slope_bar[5] = 0.5f * (x3 * gradient_bar4 - x4 * gradient_bar5 + x6 * gradient_bar3);
+    slope_bar[6] = 0.5f * (x3 * gradient_bar5 + x4 * gradient_bar4 - x5 * gradient_bar3);
 }
 
 /* The adjoints of some splats' parameters, of their sums over the points. */
@@ -2804,283 +2713,264 @@ OUTLINE void pair_constants_vjp_f(
     const vector_f sum33 = sums[33];
     const vector_f sum34 = sums[34];
     const vector_f sum35 = sums[35];
-    const vector_f rotation_M3 = 2.0f * mu6;
-    const vector_f rotation_M2 = 2.0f * mu5;
-    const vector_f rotation_M1 = 2.0f * mu4;
-    const vector_f rotation_R5_0 = 2.0f * (-(W5_5 * rotation_M3) - W5_4 * rotation_M2 - W5_3 * rotation_M1);
-    const vector_f rotation_M0 = 2.0f * mu3;
-    const vector_f rotation_R5_1 = 2.0f * (W5_5 * rotation_M2 - W5_4 * rotation_M3 + W5_3 * rotation_M0);
-    const vector_f product = 2.0f * sum30;
+    const vector_f product = 2.0f * mu6;
+    const vector_f product_2 = 2.0f * mu5;
+    const vector_f product_3 = 2.0f * mu4;
+    const vector_f rotation_R5_0 = -(W5_5 * product) - W5_4 * product_2 - W5_3 * product_3;
+    const vector_f product_4 = 2.0f * mu3;
+    const vector_f rotation_R5_1 = W5_5 * product_2 - W5_4 * product + W5_3 * product_4;
+    const vector_f product_5 = 2.0f * sum30;
     const vector_f total_2 = W5_0 * sum15 + W5_1 * sum19 + W5_2 * sum23 + rotation_R5_0 * sum27 +
-        rotation_R5_1 * product;
-    const vector_f rotation_R5_2 = 2.0f * (W5_4 * rotation_M0 - W5_5 * rotation_M1 + W5_3 * rotation_M3);
-    const vector_f rotation_R5_3 = 2.0f * (W5_5 * rotation_M0 + W5_4 * rotation_M1 - W5_3 * rotation_M2);
+        rotation_R5_1 * product_5;
+    const vector_f rotation_R5_2 = W5_4 * product_4 - W5_5 * product_3 + W5_3 * product;
+    const vector_f rotation_R5_3 = W5_5 * product_4 + W5_4 * product_3 - W5_3 * product_2;
     const vector_f by_rotation_R5_1 = total_2 + rotation_R5_2 * sum31 + rotation_R5_3 * sum32;
-    const vector_f product_2 = 2.0f * by_rotation_R5_1;
-    const vector_f rotation_R4_0 = 2.0f * (-(W4_5 * rotation_M3) - W4_4 * rotation_M2 - W4_3 * rotation_M1);
-    const vector_f rotation_R4_1 = 2.0f * (W4_5 * rotation_M2 - W4_4 * rotation_M3 + W4_3 * rotation_M0);
+    const vector_f rotation_R4_0 = -(W4_5 * product) - W4_4 * product_2 - W4_3 * product_3;
+    const vector_f rotation_R4_1 = W4_5 * product_2 - W4_4 * product + W4_3 * product_4;
     const vector_f total_3 = W4_0 * sum15 + W4_1 * sum19 + W4_2 * sum23 + rotation_R4_0 * sum27 +
-        rotation_R4_1 * product;
-    const vector_f rotation_R4_2 = 2.0f * (W4_4 * rotation_M0 - W4_5 * rotation_M1 + W4_3 * rotation_M3);
-    const vector_f rotation_R4_3 = 2.0f * (W4_5 * rotation_M0 + W4_4 * rotation_M1 - W4_3 * rotation_M2);
+        rotation_R4_1 * product_5;
+    const vector_f rotation_R4_2 = W4_4 * product_4 - W4_5 * product_3 + W4_3 * product;
+    const vector_f rotation_R4_3 = W4_5 * product_4 + W4_4 * product_3 - W4_3 * product_2;
     const vector_f by_rotation_R4_1 = total_3 + rotation_R4_2 * sum31 + rotation_R4_3 * sum32;
-    const vector_f product_3 = 2.0f * by_rotation_R4_1;
-    const vector_f rotation_R3_0 = 2.0f * (-(W3_5 * rotation_M3) - W3_4 * rotation_M2 - W3_3 * rotation_M1);
-    const vector_f rotation_R3_1 = 2.0f * (W3_5 * rotation_M2 - W3_4 * rotation_M3 + W3_3 * rotation_M0);
+    const vector_f rotation_R3_0 = -(W3_5 * product) - W3_4 * product_2 - W3_3 * product_3;
+    const vector_f rotation_R3_1 = W3_5 * product_2 - W3_4 * product + W3_3 * product_4;
     const vector_f total_4 = W3_0 * sum15 + W3_1 * sum19 + W3_2 * sum23 + rotation_R3_0 * sum27 +
-        rotation_R3_1 * product;
-    const vector_f rotation_R3_2 = 2.0f * (W3_4 * rotation_M0 - W3_5 * rotation_M1 + W3_3 * rotation_M3);
-    const vector_f rotation_R3_3 = 2.0f * (W3_5 * rotation_M0 + W3_4 * rotation_M1 - W3_3 * rotation_M2);
+        rotation_R3_1 * product_5;
+    const vector_f rotation_R3_2 = W3_4 * product_4 - W3_5 * product_3 + W3_3 * product;
+    const vector_f rotation_R3_3 = W3_5 * product_4 + W3_4 * product_3 - W3_3 * product_2;
     const vector_f by_rotation_R3_1 = total_4 + rotation_R3_2 * sum31 + rotation_R3_3 * sum32;
-    const vector_f product_4 = 2.0f * by_rotation_R3_1;
-    const vector_f rotation_R2_0 = 2.0f * (-(W2_5 * rotation_M3) - W2_4 * rotation_M2 - W2_3 * rotation_M1);
-    const vector_f rotation_R2_1 = 2.0f * (W2_5 * rotation_M2 - W2_4 * rotation_M3 + W2_3 * rotation_M0);
+    const vector_f rotation_R2_0 = -(W2_5 * product) - W2_4 * product_2 - W2_3 * product_3;
+    const vector_f rotation_R2_1 = W2_5 * product_2 - W2_4 * product + W2_3 * product_4;
     const vector_f total_5 = W2_0 * sum15 + W2_1 * sum19 + W2_2 * sum23 + rotation_R2_0 * sum27 +
-        rotation_R2_1 * product;
-    const vector_f rotation_R2_2 = 2.0f * (W2_4 * rotation_M0 - W2_5 * rotation_M1 + W2_3 * rotation_M3);
-    const vector_f rotation_R2_3 = 2.0f * (W2_5 * rotation_M0 + W2_4 * rotation_M1 - W2_3 * rotation_M2);
+        rotation_R2_1 * product_5;
+    const vector_f rotation_R2_2 = W2_4 * product_4 - W2_5 * product_3 + W2_3 * product;
+    const vector_f rotation_R2_3 = W2_5 * product_4 + W2_4 * product_3 - W2_3 * product_2;
     const vector_f by_rotation_R2_1 = total_5 + rotation_R2_2 * sum31 + rotation_R2_3 * sum32;
-    const vector_f product_5 = 2.0f * by_rotation_R2_1;
-    const vector_f rotation_R1_0 = 2.0f * (-(W1_5 * rotation_M3) - W1_4 * rotation_M2 - W1_3 * rotation_M1);
-    const vector_f rotation_R1_1 = 2.0f * (W1_5 * rotation_M2 - W1_4 * rotation_M3 + W1_3 * rotation_M0);
+    const vector_f rotation_R1_0 = -(W1_5 * product) - W1_4 * product_2 - W1_3 * product_3;
+    const vector_f rotation_R1_1 = W1_5 * product_2 - W1_4 * product + W1_3 * product_4;
     const vector_f total_6 = W1_0 * sum15 + W1_1 * sum19 + W1_2 * sum23 + rotation_R1_0 * sum27 +
-        rotation_R1_1 * product;
-    const vector_f rotation_R1_2 = 2.0f * (W1_4 * rotation_M0 - W1_5 * rotation_M1 + W1_3 * rotation_M3);
-    const vector_f rotation_R1_3 = 2.0f * (W1_5 * rotation_M0 + W1_4 * rotation_M1 - W1_3 * rotation_M2);
+        rotation_R1_1 * product_5;
+    const vector_f rotation_R1_2 = W1_4 * product_4 - W1_5 * product_3 + W1_3 * product;
+    const vector_f rotation_R1_3 = W1_5 * product_4 + W1_4 * product_3 - W1_3 * product_2;
     const vector_f by_rotation_R1_1 = total_6 + rotation_R1_2 * sum31 + rotation_R1_3 * sum32;
-    const vector_f product_6 = 2.0f * by_rotation_R1_1;
-    const vector_f total_7 = W5_3 * product_2 + W4_3 * product_3 + W3_3 * product_4 + W2_3 * product_5 + W1_3
-        * product_6;
-    const vector_f rotation_R0_0 = 2.0f * (-(W0_5 * rotation_M3) - W0_4 * rotation_M2 - W0_3 * rotation_M1);
-    const vector_f rotation_R0_1 = 2.0f * (W0_5 * rotation_M2 - W0_4 * rotation_M3 + W0_3 * rotation_M0);
+    const vector_f total_7 = W5_3 * by_rotation_R5_1 + W4_3 * by_rotation_R4_1 + W3_3 * by_rotation_R3_1 +
+        W2_3 * by_rotation_R2_1 + W1_3 * by_rotation_R1_1;
+    const vector_f rotation_R0_0 = -(W0_5 * product) - W0_4 * product_2 - W0_3 * product_3;
+    const vector_f rotation_R0_1 = W0_5 * product_2 - W0_4 * product + W0_3 * product_4;
     const vector_f total_8 = W0_0 * sum15 + W0_1 * sum19 + W0_2 * sum23 + rotation_R0_0 * sum27 +
-        rotation_R0_1 * product;
-    const vector_f rotation_R0_2 = 2.0f * (W0_4 * rotation_M0 - W0_5 * rotation_M1 + W0_3 * rotation_M3);
-    const vector_f rotation_R0_3 = 2.0f * (W0_5 * rotation_M0 + W0_4 * rotation_M1 - W0_3 * rotation_M2);
+        rotation_R0_1 * product_5;
+    const vector_f rotation_R0_2 = W0_4 * product_4 - W0_5 * product_3 + W0_3 * product;
+    const vector_f rotation_R0_3 = W0_5 * product_4 + W0_4 * product_3 - W0_3 * product_2;
     const vector_f by_rotation_R0_1 = total_8 + rotation_R0_2 * sum31 + rotation_R0_3 * sum32;
-    const vector_f product_7 = 2.0f * by_rotation_R0_1;
     const vector_f total_9 = W5_0 * sum16 + W5_1 * sum20 + W5_2 * sum24 + rotation_R5_0 * sum28 +
         rotation_R5_1 * sum31;
-    const vector_f product_8 = 2.0f * sum33;
-    const vector_f by_rotation_R5_2 = total_9 + rotation_R5_2 * product_8 + rotation_R5_3 * sum34;
-    const vector_f product_9 = 2.0f * by_rotation_R5_2;
+    const vector_f product_6 = 2.0f * sum33;
+    const vector_f by_rotation_R5_2 = total_9 + rotation_R5_2 * product_6 + rotation_R5_3 * sum34;
     const vector_f total_10 = W4_0 * sum16 + W4_1 * sum20 + W4_2 * sum24 + rotation_R4_0 * sum28 +
         rotation_R4_1 * sum31;
-    const vector_f by_rotation_R4_2 = total_10 + rotation_R4_2 * product_8 + rotation_R4_3 * sum34;
-    const vector_f product_10 = 2.0f * by_rotation_R4_2;
+    const vector_f by_rotation_R4_2 = total_10 + rotation_R4_2 * product_6 + rotation_R4_3 * sum34;
     const vector_f total_11 = W3_0 * sum16 + W3_1 * sum20 + W3_2 * sum24 + rotation_R3_0 * sum28 +
         rotation_R3_1 * sum31;
-    const vector_f by_rotation_R3_2 = total_11 + rotation_R3_2 * product_8 + rotation_R3_3 * sum34;
-    const vector_f product_11 = 2.0f * by_rotation_R3_2;
-    const vector_f total_12 = total_7 + W0_3 * product_7 + W5_4 * product_9 + W4_4 * product_10 + W3_4 *
-        product_11;
+    const vector_f by_rotation_R3_2 = total_11 + rotation_R3_2 * product_6 + rotation_R3_3 * sum34;
+    const vector_f total_12 = total_7 + W0_3 * by_rotation_R0_1 + W5_4 * by_rotation_R5_2 + W4_4 *
+        by_rotation_R4_2 + W3_4 * by_rotation_R3_2;
     const vector_f total_13 = W2_0 * sum16 + W2_1 * sum20 + W2_2 * sum24 + rotation_R2_0 * sum28 +
         rotation_R2_1 * sum31;
-    const vector_f by_rotation_R2_2 = total_13 + rotation_R2_2 * product_8 + rotation_R2_3 * sum34;
-    const vector_f product_12 = 2.0f * by_rotation_R2_2;
+    const vector_f by_rotation_R2_2 = total_13 + rotation_R2_2 * product_6 + rotation_R2_3 * sum34;
     const vector_f total_14 = W1_0 * sum16 + W1_1 * sum20 + W1_2 * sum24 + rotation_R1_0 * sum28 +
         rotation_R1_1 * sum31;
-    const vector_f by_rotation_R1_2 = total_14 + rotation_R1_2 * product_8 + rotation_R1_3 * sum34;
-    const vector_f product_13 = 2.0f * by_rotation_R1_2;
+    const vector_f by_rotation_R1_2 = total_14 + rotation_R1_2 * product_6 + rotation_R1_3 * sum34;
     const vector_f total_15 = W0_0 * sum16 + W0_1 * sum20 + W0_2 * sum24 + rotation_R0_0 * sum28 +
         rotation_R0_1 * sum31;
-    const vector_f by_rotation_R0_2 = total_15 + rotation_R0_2 * product_8 + rotation_R0_3 * sum34;
-    const vector_f product_14 = 2.0f * by_rotation_R0_2;
+    const vector_f by_rotation_R0_2 = total_15 + rotation_R0_2 * product_6 + rotation_R0_3 * sum34;
     const vector_f total_16 = W5_0 * sum17 + W5_1 * sum21 + W5_2 * sum25 + rotation_R5_0 * sum29 +
         rotation_R5_1 * sum32;
-    const vector_f product_15 = 2.0f * sum35;
-    const vector_f by_rotation_R5_3 = total_16 + rotation_R5_2 * sum34 + rotation_R5_3 * product_15;
-    const vector_f product_16 = 2.0f * by_rotation_R5_3;
-    const vector_f total_17 = total_12 + W2_4 * product_12 + W1_4 * product_13 + W0_4 * product_14 + W5_5 *
-        product_16;
+    const vector_f product_7 = 2.0f * sum35;
+    const vector_f by_rotation_R5_3 = total_16 + rotation_R5_2 * sum34 + rotation_R5_3 * product_7;
+    const vector_f total_17 = total_12 + W2_4 * by_rotation_R2_2 + W1_4 * by_rotation_R1_2 + W0_4 *
+        by_rotation_R0_2 + W5_5 * by_rotation_R5_3;
     const vector_f total_18 = W4_0 * sum17 + W4_1 * sum21 + W4_2 * sum25 + rotation_R4_0 * sum29 +
         rotation_R4_1 * sum32;
-    const vector_f by_rotation_R4_3 = total_18 + rotation_R4_2 * sum34 + rotation_R4_3 * product_15;
-    const vector_f product_17 = 2.0f * by_rotation_R4_3;
+    const vector_f by_rotation_R4_3 = total_18 + rotation_R4_2 * sum34 + rotation_R4_3 * product_7;
     const vector_f total_19 = W3_0 * sum17 + W3_1 * sum21 + W3_2 * sum25 + rotation_R3_0 * sum29 +
         rotation_R3_1 * sum32;
-    const vector_f by_rotation_R3_3 = total_19 + rotation_R3_2 * sum34 + rotation_R3_3 * product_15;
-    const vector_f product_18 = 2.0f * by_rotation_R3_3;
+    const vector_f by_rotation_R3_3 = total_19 + rotation_R3_2 * sum34 + rotation_R3_3 * product_7;
     const vector_f total_20 = W2_0 * sum17 + W2_1 * sum21 + W2_2 * sum25 + rotation_R2_0 * sum29 +
         rotation_R2_1 * sum32;
-    const vector_f by_rotation_R2_3 = total_20 + rotation_R2_2 * sum34 + rotation_R2_3 * product_15;
-    const vector_f product_19 = 2.0f * by_rotation_R2_3;
+    const vector_f by_rotation_R2_3 = total_20 + rotation_R2_2 * sum34 + rotation_R2_3 * product_7;
     const vector_f total_21 = W1_0 * sum17 + W1_1 * sum21 + W1_2 * sum25 + rotation_R1_0 * sum29 +
         rotation_R1_1 * sum32;
-    const vector_f by_rotation_R1_3 = total_21 + rotation_R1_2 * sum34 + rotation_R1_3 * product_15;
-    const vector_f product_20 = 2.0f * by_rotation_R1_3;
-    const vector_f total_22 = total_17 + W4_5 * product_17 + W3_5 * product_18 + W2_5 * product_19 + W1_5 *
-        product_20;
+    const vector_f by_rotation_R1_3 = total_21 + rotation_R1_2 * sum34 + rotation_R1_3 * product_7;
+    const vector_f total_22 = total_17 + W4_5 * by_rotation_R4_3 + W3_5 * by_rotation_R3_3 + W2_5 *
+        by_rotation_R2_3 + W1_5 * by_rotation_R1_3;
     const vector_f total_23 = W0_0 * sum17 + W0_1 * sum21 + W0_2 * sum25 + rotation_R0_0 * sum29 +
         rotation_R0_1 * sum32;
-    const vector_f by_rotation_R0_3 = total_23 + rotation_R0_2 * sum34 + rotation_R0_3 * product_15;
-    const vector_f product_21 = 2.0f * by_rotation_R0_3;
-    const vector_f by_rotation_M0 = total_22 + W0_5 * product_21;
-    const vector_f product_22 = 2.0f * sum26;
-    const vector_f total_24 = W5_0 * sum14 + W5_1 * sum18 + W5_2 * sum22 + rotation_R5_0 * product_22 +
+    const vector_f by_rotation_R0_3 = total_23 + rotation_R0_2 * sum34 + rotation_R0_3 * product_7;
+    const vector_f product_8 = its_amplitude * (sum3 + 2.0f * (total_22 + W0_5 * by_rotation_R0_3));
+    const vector_f product_9 = 2.0f * sum26;
+    const vector_f total_24 = W5_0 * sum14 + W5_1 * sum18 + W5_2 * sum22 + rotation_R5_0 * product_9 +
         rotation_R5_1 * sum27;
     const vector_f by_rotation_R5_0 = total_24 + rotation_R5_2 * sum28 + rotation_R5_3 * sum29;
-    const vector_f product_23 = 2.0f * by_rotation_R5_0;
-    const vector_f total_25 = W4_0 * sum14 + W4_1 * sum18 + W4_2 * sum22 + rotation_R4_0 * product_22 +
+    const vector_f total_25 = W4_0 * sum14 + W4_1 * sum18 + W4_2 * sum22 + rotation_R4_0 * product_9 +
         rotation_R4_1 * sum27;
     const vector_f by_rotation_R4_0 = total_25 + rotation_R4_2 * sum28 + rotation_R4_3 * sum29;
-    const vector_f product_24 = 2.0f * by_rotation_R4_0;
-    const vector_f total_26 = W3_0 * sum14 + W3_1 * sum18 + W3_2 * sum22 + rotation_R3_0 * product_22 +
+    const vector_f total_26 = W3_0 * sum14 + W3_1 * sum18 + W3_2 * sum22 + rotation_R3_0 * product_9 +
         rotation_R3_1 * sum27;
     const vector_f by_rotation_R3_0 = total_26 + rotation_R3_2 * sum28 + rotation_R3_3 * sum29;
-    const vector_f product_25 = 2.0f * by_rotation_R3_0;
-    const vector_f total_27 = W2_0 * sum14 + W2_1 * sum18 + W2_2 * sum22 + rotation_R2_0 * product_22 +
+    const vector_f total_27 = W2_0 * sum14 + W2_1 * sum18 + W2_2 * sum22 + rotation_R2_0 * product_9 +
         rotation_R2_1 * sum27;
     const vector_f by_rotation_R2_0 = total_27 + rotation_R2_2 * sum28 + rotation_R2_3 * sum29;
-    const vector_f product_26 = 2.0f * by_rotation_R2_0;
-    const vector_f gap = -(W5_3 * product_23) - W4_3 * product_24 - W3_3 * product_25 - W2_3 * product_26;
-    const vector_f total_28 = W1_0 * sum14 + W1_1 * sum18 + W1_2 * sum22 + rotation_R1_0 * product_22 +
+    const vector_f gap = -(W5_3 * by_rotation_R5_0) - W4_3 * by_rotation_R4_0 - W3_3 * by_rotation_R3_0 - W2_3
+        * by_rotation_R2_0;
+    const vector_f total_28 = W1_0 * sum14 + W1_1 * sum18 + W1_2 * sum22 + rotation_R1_0 * product_9 +
         rotation_R1_1 * sum27;
     const vector_f by_rotation_R1_0 = total_28 + rotation_R1_2 * sum28 + rotation_R1_3 * sum29;
-    const vector_f product_27 = 2.0f * by_rotation_R1_0;
-    const vector_f total_29 = W0_0 * sum14 + W0_1 * sum18 + W0_2 * sum22 + rotation_R0_0 * product_22 +
+    const vector_f total_29 = W0_0 * sum14 + W0_1 * sum18 + W0_2 * sum22 + rotation_R0_0 * product_9 +
         rotation_R0_1 * sum27;
     const vector_f by_rotation_R0_0 = total_29 + rotation_R0_2 * sum28 + rotation_R0_3 * sum29;
-    const vector_f product_28 = 2.0f * by_rotation_R0_0;
-    const vector_f gap_2 = gap - W1_3 * product_27 - W0_3 * product_28 - W5_5 * product_9 - W4_5 * product_10;
-    const vector_f gap_3 = gap_2 - W3_5 * product_11 - W2_5 * product_12 - W1_5 * product_13 - W0_5 *
-        product_14;
-    const vector_f total_30 = gap_3 + W5_4 * product_16 + W4_4 * product_17 + W3_4 * product_18 + W2_4 *
-        product_19;
-    const vector_f by_rotation_M1 = total_30 + W1_4 * product_20 + W0_4 * product_21;
-    const vector_f gap_4 = -(W5_4 * product_23) - W4_4 * product_24 - W3_4 * product_25 - W2_4 * product_26;
-    const vector_f total_31 = gap_4 - W1_4 * product_27 - W0_4 * product_28 + W5_5 * product_2 + W4_5 *
-        product_3;
-    const vector_f total_32 = total_31 + W3_5 * product_4 + W2_5 * product_5 + W1_5 * product_6 + W0_5 *
-        product_7;
-    const vector_f gap_5 = total_32 - W5_3 * product_16 - W4_3 * product_17 - W3_3 * product_18 - W2_3 *
-        product_19;
-    const vector_f by_rotation_M2 = gap_5 - W1_3 * product_20 - W0_3 * product_21;
-    const vector_f gap_6 = -(W5_5 * product_23) - W4_5 * product_24 - W3_5 * product_25 - W2_5 * product_26;
-    const vector_f gap_7 = gap_6 - W1_5 * product_27 - W0_5 * product_28 - W5_4 * product_2 - W4_4 *
-        product_3;
-    const vector_f gap_8 = gap_7 - W3_4 * product_4 - W2_4 * product_5 - W1_4 * product_6 - W0_4 * product_7;
-    const vector_f total_33 = gap_8 + W5_3 * product_9 + W4_3 * product_10 + W3_3 * product_11 + W2_3 *
-        product_12;
-    const vector_f by_rotation_M3 = total_33 + W1_3 * product_13 + W0_3 * product_14;
-    const vector_f product_29 = 2.0f * sum8;
-    const vector_f total_34 = W0_0 * product_29 + W0_1 * sum9 + W0_2 * sum10 + rotation_R0_0 * sum14 +
+    const vector_f gap_2 = gap - W1_3 * by_rotation_R1_0 - W0_3 * by_rotation_R0_0 - W5_5 * by_rotation_R5_2 -
+        W4_5 * by_rotation_R4_2;
+    const vector_f gap_3 = gap_2 - W3_5 * by_rotation_R3_2 - W2_5 * by_rotation_R2_2 - W1_5 * by_rotation_R1_2
+        - W0_5 * by_rotation_R0_2;
+    const vector_f total_30 = gap_3 + W5_4 * by_rotation_R5_3 + W4_4 * by_rotation_R4_3 + W3_4 *
+        by_rotation_R3_3 + W2_4 * by_rotation_R2_3;
+    const vector_f total_31 = sum4 + 2.0f * (total_30 + W1_4 * by_rotation_R1_3 + W0_4 * by_rotation_R0_3);
+    const vector_f gap_4 = -(W5_4 * by_rotation_R5_0) - W4_4 * by_rotation_R4_0 - W3_4 * by_rotation_R3_0 -
+        W2_4 * by_rotation_R2_0;
+    const vector_f total_32 = gap_4 - W1_4 * by_rotation_R1_0 - W0_4 * by_rotation_R0_0 + W5_5 *
+        by_rotation_R5_1 + W4_5 * by_rotation_R4_1;
+    const vector_f total_33 = total_32 + W3_5 * by_rotation_R3_1 + W2_5 * by_rotation_R2_1 + W1_5 *
+        by_rotation_R1_1 + W0_5 * by_rotation_R0_1;
+    const vector_f gap_5 = total_33 - W5_3 * by_rotation_R5_3 - W4_3 * by_rotation_R4_3 - W3_3 *
+        by_rotation_R3_3 - W2_3 * by_rotation_R2_3;
+    const vector_f total_34 = sum5 + 2.0f * (gap_5 - W1_3 * by_rotation_R1_3 - W0_3 * by_rotation_R0_3);
+    const vector_f gap_6 = -(W5_5 * by_rotation_R5_0) - W4_5 * by_rotation_R4_0 - W3_5 * by_rotation_R3_0 -
+        W2_5 * by_rotation_R2_0;
+    const vector_f gap_7 = gap_6 - W1_5 * by_rotation_R1_0 - W0_5 * by_rotation_R0_0 - W5_4 * by_rotation_R5_1
+        - W4_4 * by_rotation_R4_1;
+    const vector_f gap_8 = gap_7 - W3_4 * by_rotation_R3_1 - W2_4 * by_rotation_R2_1 - W1_4 * by_rotation_R1_1
+        - W0_4 * by_rotation_R0_1;
+    const vector_f total_35 = gap_8 + W5_3 * by_rotation_R5_2 + W4_3 * by_rotation_R4_2 + W3_3 *
+        by_rotation_R3_2 + W2_3 * by_rotation_R2_2;
+    const vector_f total_36 = sum6 + 2.0f * (total_35 + W1_3 * by_rotation_R1_2 + W0_3 * by_rotation_R0_2);
+    const vector_f product_10 = 2.0f * sum8;
+    const vector_f total_37 = W0_0 * product_10 + W0_1 * sum9 + W0_2 * sum10 + rotation_R0_0 * sum14 +
         rotation_R0_1 * sum15;
-    const vector_f product_30 = 2.0f * sum11;
-    const vector_f total_35 = W0_0 * sum9 + W0_1 * product_30 + W0_2 * sum12 + rotation_R0_0 * sum18 +
+    const vector_f product_11 = 2.0f * sum11;
+    const vector_f total_38 = W0_0 * sum9 + W0_1 * product_11 + W0_2 * sum12 + rotation_R0_0 * sum18 +
         rotation_R0_1 * sum19;
-    const vector_f product_31 = 2.0f * sum13;
-    const vector_f total_36 = W0_0 * sum10 + W0_1 * sum12 + W0_2 * product_31 + rotation_R0_0 * sum22 +
+    const vector_f product_12 = 2.0f * sum13;
+    const vector_f total_39 = W0_0 * sum10 + W0_1 * sum12 + W0_2 * product_12 + rotation_R0_0 * sum22 +
         rotation_R0_1 * sum23;
-    const vector_f product_32 = its_amplitude * (rotation_M0 * product_7 - rotation_M1 * product_28 +
-        rotation_M3 * product_14 - rotation_M2 * product_21);
-    const vector_f total_37 = -(rotation_M2 * product_28) - rotation_M3 * product_7 + rotation_M0 * product_14
-        + rotation_M1 * product_21;
-    const vector_f product_33 = its_amplitude * (rotation_M2 * product_7 - rotation_M3 * product_28 -
-        rotation_M1 * product_14 + rotation_M0 * product_21);
-    const vector_f total_38 = W1_0 * product_29 + W1_1 * sum9 + W1_2 * sum10 + rotation_R1_0 * sum14 +
+    const vector_f product_13 = its_amplitude * (product_4 * by_rotation_R0_1 - product_3 * by_rotation_R0_0 +
+        product * by_rotation_R0_2 - product_2 * by_rotation_R0_3);
+    const vector_f total_40 = -(product_2 * by_rotation_R0_0) - product * by_rotation_R0_1 + product_4 *
+        by_rotation_R0_2 + product_3 * by_rotation_R0_3;
+    const vector_f product_14 = its_amplitude * (product_2 * by_rotation_R0_1 - product * by_rotation_R0_0 -
+        product_3 * by_rotation_R0_2 + product_4 * by_rotation_R0_3);
+    const vector_f total_41 = W1_0 * product_10 + W1_1 * sum9 + W1_2 * sum10 + rotation_R1_0 * sum14 +
         rotation_R1_1 * sum15;
-    const vector_f total_39 = W1_0 * sum9 + W1_1 * product_30 + W1_2 * sum12 + rotation_R1_0 * sum18 +
+    const vector_f total_42 = W1_0 * sum9 + W1_1 * product_11 + W1_2 * sum12 + rotation_R1_0 * sum18 +
         rotation_R1_1 * sum19;
-    const vector_f total_40 = W1_0 * sum10 + W1_1 * sum12 + W1_2 * product_31 + rotation_R1_0 * sum22 +
+    const vector_f total_43 = W1_0 * sum10 + W1_1 * sum12 + W1_2 * product_12 + rotation_R1_0 * sum22 +
         rotation_R1_1 * sum23;
-    const vector_f product_34 = its_amplitude * (rotation_M0 * product_6 - rotation_M1 * product_27 +
-        rotation_M3 * product_13 - rotation_M2 * product_20);
-    const vector_f total_41 = -(rotation_M2 * product_27) - rotation_M3 * product_6 + rotation_M0 * product_13
-        + rotation_M1 * product_20;
-    const vector_f product_35 = its_amplitude * (rotation_M2 * product_6 - rotation_M3 * product_27 -
-        rotation_M1 * product_13 + rotation_M0 * product_20);
-    const vector_f total_42 = W2_0 * product_29 + W2_1 * sum9 + W2_2 * sum10 + rotation_R2_0 * sum14 +
+    const vector_f product_15 = its_amplitude * (product_4 * by_rotation_R1_1 - product_3 * by_rotation_R1_0 +
+        product * by_rotation_R1_2 - product_2 * by_rotation_R1_3);
+    const vector_f total_44 = -(product_2 * by_rotation_R1_0) - product * by_rotation_R1_1 + product_4 *
+        by_rotation_R1_2 + product_3 * by_rotation_R1_3;
+    const vector_f product_16 = its_amplitude * (product_2 * by_rotation_R1_1 - product * by_rotation_R1_0 -
+        product_3 * by_rotation_R1_2 + product_4 * by_rotation_R1_3);
+    const vector_f total_45 = W2_0 * product_10 + W2_1 * sum9 + W2_2 * sum10 + rotation_R2_0 * sum14 +
         rotation_R2_1 * sum15;
-    const vector_f total_43 = W2_0 * sum9 + W2_1 * product_30 + W2_2 * sum12 + rotation_R2_0 * sum18 +
+    const vector_f total_46 = W2_0 * sum9 + W2_1 * product_11 + W2_2 * sum12 + rotation_R2_0 * sum18 +
         rotation_R2_1 * sum19;
-    const vector_f total_44 = W2_0 * sum10 + W2_1 * sum12 + W2_2 * product_31 + rotation_R2_0 * sum22 +
+    const vector_f total_47 = W2_0 * sum10 + W2_1 * sum12 + W2_2 * product_12 + rotation_R2_0 * sum22 +
         rotation_R2_1 * sum23;
-    const vector_f product_36 = its_amplitude * (rotation_M0 * product_5 - rotation_M1 * product_26 +
-        rotation_M3 * product_12 - rotation_M2 * product_19);
-    const vector_f total_45 = -(rotation_M2 * product_26) - rotation_M3 * product_5 + rotation_M0 * product_12
-        + rotation_M1 * product_19;
-    const vector_f product_37 = its_amplitude * (rotation_M2 * product_5 - rotation_M3 * product_26 -
-        rotation_M1 * product_12 + rotation_M0 * product_19);
-    const vector_f total_46 = W3_0 * product_29 + W3_1 * sum9 + W3_2 * sum10 + rotation_R3_0 * sum14 +
+    const vector_f product_17 = its_amplitude * (product_4 * by_rotation_R2_1 - product_3 * by_rotation_R2_0 +
+        product * by_rotation_R2_2 - product_2 * by_rotation_R2_3);
+    const vector_f total_48 = -(product_2 * by_rotation_R2_0) - product * by_rotation_R2_1 + product_4 *
+        by_rotation_R2_2 + product_3 * by_rotation_R2_3;
+    const vector_f product_18 = its_amplitude * (product_2 * by_rotation_R2_1 - product * by_rotation_R2_0 -
+        product_3 * by_rotation_R2_2 + product_4 * by_rotation_R2_3);
+    const vector_f total_49 = W3_0 * product_10 + W3_1 * sum9 + W3_2 * sum10 + rotation_R3_0 * sum14 +
         rotation_R3_1 * sum15;
-    const vector_f total_47 = W3_0 * sum9 + W3_1 * product_30 + W3_2 * sum12 + rotation_R3_0 * sum18 +
+    const vector_f total_50 = W3_0 * sum9 + W3_1 * product_11 + W3_2 * sum12 + rotation_R3_0 * sum18 +
         rotation_R3_1 * sum19;
-    const vector_f total_48 = W3_0 * sum10 + W3_1 * sum12 + W3_2 * product_31 + rotation_R3_0 * sum22 +
+    const vector_f total_51 = W3_0 * sum10 + W3_1 * sum12 + W3_2 * product_12 + rotation_R3_0 * sum22 +
         rotation_R3_1 * sum23;
-    const vector_f product_38 = its_amplitude * (rotation_M0 * product_4 - rotation_M1 * product_25 +
-        rotation_M3 * product_11 - rotation_M2 * product_18);
-    const vector_f total_49 = -(rotation_M2 * product_25) - rotation_M3 * product_4 + rotation_M0 * product_11
-        + rotation_M1 * product_18;
-    const vector_f product_39 = its_amplitude * (rotation_M2 * product_4 - rotation_M3 * product_25 -
-        rotation_M1 * product_11 + rotation_M0 * product_18);
-    const vector_f total_50 = W4_0 * product_29 + W4_1 * sum9 + W4_2 * sum10 + rotation_R4_0 * sum14 +
+    const vector_f product_19 = its_amplitude * (product_4 * by_rotation_R3_1 - product_3 * by_rotation_R3_0 +
+        product * by_rotation_R3_2 - product_2 * by_rotation_R3_3);
+    const vector_f total_52 = -(product_2 * by_rotation_R3_0) - product * by_rotation_R3_1 + product_4 *
+        by_rotation_R3_2 + product_3 * by_rotation_R3_3;
+    const vector_f product_20 = its_amplitude * (product_2 * by_rotation_R3_1 - product * by_rotation_R3_0 -
+        product_3 * by_rotation_R3_2 + product_4 * by_rotation_R3_3);
+    const vector_f total_53 = W4_0 * product_10 + W4_1 * sum9 + W4_2 * sum10 + rotation_R4_0 * sum14 +
         rotation_R4_1 * sum15;
-    const vector_f total_51 = W4_0 * sum9 + W4_1 * product_30 + W4_2 * sum12 + rotation_R4_0 * sum18 +
+    const vector_f total_54 = W4_0 * sum9 + W4_1 * product_11 + W4_2 * sum12 + rotation_R4_0 * sum18 +
         rotation_R4_1 * sum19;
-    const vector_f total_52 = W4_0 * sum10 + W4_1 * sum12 + W4_2 * product_31 + rotation_R4_0 * sum22 +
+    const vector_f total_55 = W4_0 * sum10 + W4_1 * sum12 + W4_2 * product_12 + rotation_R4_0 * sum22 +
         rotation_R4_1 * sum23;
-    const vector_f product_40 = its_amplitude * (rotation_M0 * product_3 - rotation_M1 * product_24 +
-        rotation_M3 * product_10 - rotation_M2 * product_17);
-    const vector_f total_53 = -(rotation_M2 * product_24) - rotation_M3 * product_3 + rotation_M0 * product_10
-        + rotation_M1 * product_17;
-    const vector_f product_41 = its_amplitude * (rotation_M2 * product_3 - rotation_M3 * product_24 -
-        rotation_M1 * product_10 + rotation_M0 * product_17);
-    const vector_f total_54 = W5_0 * product_29 + W5_1 * sum9 + W5_2 * sum10 + rotation_R5_0 * sum14 +
+    const vector_f product_21 = its_amplitude * (product_4 * by_rotation_R4_1 - product_3 * by_rotation_R4_0 +
+        product * by_rotation_R4_2 - product_2 * by_rotation_R4_3);
+    const vector_f total_56 = -(product_2 * by_rotation_R4_0) - product * by_rotation_R4_1 + product_4 *
+        by_rotation_R4_2 + product_3 * by_rotation_R4_3;
+    const vector_f product_22 = its_amplitude * (product_2 * by_rotation_R4_1 - product * by_rotation_R4_0 -
+        product_3 * by_rotation_R4_2 + product_4 * by_rotation_R4_3);
+    const vector_f total_57 = W5_0 * product_10 + W5_1 * sum9 + W5_2 * sum10 + rotation_R5_0 * sum14 +
         rotation_R5_1 * sum15;
-    const vector_f total_55 = W5_0 * sum9 + W5_1 * product_30 + W5_2 * sum12 + rotation_R5_0 * sum18 +
+    const vector_f total_58 = W5_0 * sum9 + W5_1 * product_11 + W5_2 * sum12 + rotation_R5_0 * sum18 +
         rotation_R5_1 * sum19;
-    const vector_f total_56 = W5_0 * sum10 + W5_1 * sum12 + W5_2 * product_31 + rotation_R5_0 * sum22 +
+    const vector_f total_59 = W5_0 * sum10 + W5_1 * sum12 + W5_2 * product_12 + rotation_R5_0 * sum22 +
         rotation_R5_1 * sum23;
-    const vector_f product_42 = its_amplitude * (rotation_M0 * product_2 - rotation_M1 * product_23 +
-        rotation_M3 * product_9 - rotation_M2 * product_16);
-    const vector_f total_57 = -(rotation_M2 * product_23) - rotation_M3 * product_2 + rotation_M0 * product_9
-        + rotation_M1 * product_16;
-    const vector_f product_43 = its_amplitude * (rotation_M2 * product_2 - rotation_M3 * product_23 -
-        rotation_M1 * product_9 + rotation_M0 * product_16);
+    const vector_f product_23 = its_amplitude * (product_4 * by_rotation_R5_1 - product_3 * by_rotation_R5_0 +
+        product * by_rotation_R5_2 - product_2 * by_rotation_R5_3);
+    const vector_f total_60 = -(product_2 * by_rotation_R5_0) - product * by_rotation_R5_1 + product_4 *
+        by_rotation_R5_2 + product_3 * by_rotation_R5_3;
+    const vector_f product_24 = its_amplitude * (product_2 * by_rotation_R5_1 - product * by_rotation_R5_0 -
+        product_3 * by_rotation_R5_2 + product_4 * by_rotation_R5_3);
     mu_bar[0] = its_amplitude * sum0;
     mu_bar[1] = its_amplitude * sum1;
     mu_bar[2] = its_amplitude * sum2;
-    mu_bar[3] = its_amplitude * (sum3 + 2.0f * by_rotation_M0);
-    mu_bar[4] = its_amplitude * (sum4 + 2.0f * by_rotation_M1);
-    mu_bar[5] = its_amplitude * (sum5 + 2.0f * by_rotation_M2);
-    mu_bar[6] = its_amplitude * (sum6 + 2.0f * by_rotation_M3);
-    W_bar[0] = its_amplitude * (total_34 + rotation_R0_2 * sum16 + rotation_R0_3 * sum17);
-    W_bar[1] = its_amplitude * (total_35 + rotation_R0_2 * sum20 + rotation_R0_3 * sum21);
-    W_bar[2] = its_amplitude * (total_36 + rotation_R0_2 * sum24 + rotation_R0_3 * sum25);
-    W_bar[3] = product_32;
-    W_bar[4] = its_amplitude * total_37;
-    W_bar[5] = product_33;
-    W_bar[6] = its_amplitude * (total_38 + rotation_R1_2 * sum16 + rotation_R1_3 * sum17);
-    W_bar[7] = its_amplitude * (total_39 + rotation_R1_2 * sum20 + rotation_R1_3 * sum21);
-    W_bar[8] = its_amplitude * (total_40 + rotation_R1_2 * sum24 + rotation_R1_3 * sum25);
-    W_bar[9] = product_34;
-    W_bar[10] = its_amplitude * total_41;
-    W_bar[11] = product_35;
-    W_bar[12] = its_amplitude * (total_42 + rotation_R2_2 * sum16 + rotation_R2_3 * sum17);
-    W_bar[13] = its_amplitude * (total_43 + rotation_R2_2 * sum20 + rotation_R2_3 * sum21);
-    W_bar[14] = its_amplitude * (total_44 + rotation_R2_2 * sum24 + rotation_R2_3 * sum25);
-    W_bar[15] = product_36;
-    W_bar[16] = its_amplitude * total_45;
-    W_bar[17] = product_37;
-    W_bar[18] = its_amplitude * (total_46 + rotation_R3_2 * sum16 + rotation_R3_3 * sum17);
-    W_bar[19] = its_amplitude * (total_47 + rotation_R3_2 * sum20 + rotation_R3_3 * sum21);
-    W_bar[20] = its_amplitude * (total_48 + rotation_R3_2 * sum24 + rotation_R3_3 * sum25);
-    W_bar[21] = product_38;
-    W_bar[22] = its_amplitude * total_49;
-    W_bar[23] = product_39;
-    W_bar[24] = its_amplitude * (total_50 + rotation_R4_2 * sum16 + rotation_R4_3 * sum17);
-    W_bar[25] = its_amplitude * (total_51 + rotation_R4_2 * sum20 + rotation_R4_3 * sum21);
-    W_bar[26] = its_amplitude * (total_52 + rotation_R4_2 * sum24 + rotation_R4_3 * sum25);
-    W_bar[27] = product_40;
-    W_bar[28] = its_amplitude * total_53;
-    W_bar[29] = product_41;
-    W_bar[30] = its_amplitude * (total_54 + rotation_R5_2 * sum16 + rotation_R5_3 * sum17);
-    W_bar[31] = its_amplitude * (total_55 + rotation_R5_2 * sum20 + rotation_R5_3 * sum21);
-    W_bar[32] = its_amplitude * (total_56 + rotation_R5_2 * sum24 + rotation_R5_3 * sum25);
-    W_bar[33] = product_42;
-    W_bar[34] = its_amplitude * total_57;
-    W_bar[35] = product_43;
+    mu_bar[3] = product_8;
+    mu_bar[4] = its_amplitude * total_31;
+    mu_bar[5] = its_amplitude * total_34;
+    mu_bar[6] = its_amplitude * total_36;
+    W_bar[0] = its_amplitude * (total_37 + rotation_R0_2 * sum16 + rotation_R0_3 * sum17);
+    W_bar[1] = its_amplitude * (total_38 + rotation_R0_2 * sum20 + rotation_R0_3 * sum21);
+    W_bar[2] = its_amplitude * (total_39 + rotation_R0_2 * sum24 + rotation_R0_3 * sum25);
+    W_bar[3] = product_13;
+    W_bar[4] = its_amplitude * total_40;
+    W_bar[5] = product_14;
+    W_bar[6] = its_amplitude * (total_41 + rotation_R1_2 * sum16 + rotation_R1_3 * sum17);
+    W_bar[7] = its_amplitude * (total_42 + rotation_R1_2 * sum20 + rotation_R1_3 * sum21);
+    W_bar[8] = its_amplitude * (total_43 + rotation_R1_2 * sum24 + rotation_R1_3 * sum25);
+    W_bar[9] = product_15;
+    W_bar[10] = its_amplitude * total_44;
+    W_bar[11] = product_16;
+    W_bar[12] = its_amplitude * (total_45 + rotation_R2_2 * sum16 + rotation_R2_3 * sum17);
+    W_bar[13] = its_amplitude * (total_46 + rotation_R2_2 * sum20 + rotation_R2_3 * sum21);
+    W_bar[14] = its_amplitude * (total_47 + rotation_R2_2 * sum24 + rotation_R2_3 * sum25);
+    W_bar[15] = product_17;
+    W_bar[16] = its_amplitude * total_48;
+    W_bar[17] = product_18;
+    W_bar[18] = its_amplitude * (total_49 + rotation_R3_2 * sum16 + rotation_R3_3 * sum17);
+    W_bar[19] = its_amplitude * (total_50 + rotation_R3_2 * sum20 + rotation_R3_3 * sum21);
+    W_bar[20] = its_amplitude * (total_51 + rotation_R3_2 * sum24 + rotation_R3_3 * sum25);
+    W_bar[21] = product_19;
+    W_bar[22] = its_amplitude * total_52;
+    W_bar[23] = product_20;
+    W_bar[24] = its_amplitude * (total_53 + rotation_R4_2 * sum16 + rotation_R4_3 * sum17);
+    W_bar[25] = its_amplitude * (total_54 + rotation_R4_2 * sum20 + rotation_R4_3 * sum21);
+    W_bar[26] = its_amplitude * (total_55 + rotation_R4_2 * sum24 + rotation_R4_3 * sum25);
+    W_bar[27] = product_21;
+    W_bar[28] = its_amplitude * total_56;
+    W_bar[29] = product_22;
+    W_bar[30] = its_amplitude * (total_57 + rotation_R5_2 * sum16 + rotation_R5_3 * sum17);
+    W_bar[31] = its_amplitude * (total_58 + rotation_R5_2 * sum20 + rotation_R5_3 * sum21);
+    W_bar[32] = its_amplitude * (total_59 + rotation_R5_2 * sum24 + rotation_R5_3 * sum25);
+    W_bar[33] = product_23;
+    W_bar[34] = its_amplitude * total_60;
+    W_bar[35] = product_24;
     amplitude_bar[0] = sum7;
 }
 
@@ -3122,7 +3012,7 @@ OUTLINE void pair_distances_f(
 /*
  * The factors of whose products are what is summed over the points.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
@@ -3137,10 +3027,6 @@ OUTLINE void pair_factors_f(
     const vector_f x4 = X[4];
     const vector_f x5 = X[5];
     const vector_f x6 = X[6];
-    const vector_f rotation_h0 = X[7];
-    const vector_f rotation_h1 = X[8];
-    const vector_f rotation_h2 = X[9];
-    const vector_f rotation_h3 = X[10];
     const float mu0 = S[0];
     const float mu1 = S[1];
     const float mu2 = S[2];
@@ -3172,30 +3058,30 @@ OUTLINE void pair_factors_f(
     const float M1_1 = S[29];
     const float M1_2 = S[30];
     const float M2_2 = S[31];
-    const float rotation_R0_0 = S[32];
-    const float rotation_R0_1 = S[33];
+    const float rotation_R0_3 = S[32];
+    const float rotation_R0_0 = S[33];
     const float rotation_R0_2 = S[34];
-    const float rotation_R0_3 = S[35];
-    const float rotation_R1_0 = S[36];
-    const float rotation_R1_1 = S[37];
+    const float rotation_R0_1 = S[35];
+    const float rotation_R1_3 = S[36];
+    const float rotation_R1_0 = S[37];
     const float rotation_R1_2 = S[38];
-    const float rotation_R1_3 = S[39];
-    const float rotation_R2_0 = S[40];
-    const float rotation_R2_1 = S[41];
+    const float rotation_R1_1 = S[39];
+    const float rotation_R2_3 = S[40];
+    const float rotation_R2_0 = S[41];
     const float rotation_R2_2 = S[42];
-    const float rotation_R2_3 = S[43];
-    const float rotation_R3_0 = S[44];
-    const float rotation_R3_1 = S[45];
+    const float rotation_R2_1 = S[43];
+    const float rotation_R3_3 = S[44];
+    const float rotation_R3_0 = S[45];
     const float rotation_R3_2 = S[46];
-    const float rotation_R3_3 = S[47];
-    const float rotation_R4_0 = S[48];
-    const float rotation_R4_1 = S[49];
+    const float rotation_R3_1 = S[47];
+    const float rotation_R4_3 = S[48];
+    const float rotation_R4_0 = S[49];
     const float rotation_R4_2 = S[50];
-    const float rotation_R4_3 = S[51];
-    const float rotation_R5_0 = S[52];
-    const float rotation_R5_1 = S[53];
+    const float rotation_R4_1 = S[51];
+    const float rotation_R5_3 = S[52];
+    const float rotation_R5_0 = S[53];
     const float rotation_R5_2 = S[54];
-    const float rotation_R5_3 = S[55];
+    const float rotation_R5_1 = S[55];
     const float M0_3 = S[56];
     const float M0_4 = S[57];
     const float M0_5 = S[58];
@@ -3226,10 +3112,6 @@ OUTLINE void pair_factors_f(
     const vector_f x4_bar = slope_bar[4];
     const vector_f x5_bar = slope_bar[5];
     const vector_f x6_bar = slope_bar[6];
-    const vector_f rotation_h0_bar = slope_bar[7];
-    const vector_f rotation_h1_bar = slope_bar[8];
-    const vector_f rotation_h2_bar = slope_bar[9];
-    const vector_f rotation_h3_bar = slope_bar[10];
     const vector_f v0 = x0 - mu0;
     const vector_f v1 = x1 - mu1;
     const vector_f v2 = x2 - mu2;
@@ -3241,12 +3123,12 @@ OUTLINE void pair_factors_f(
     const vector_f rotation_a = 1.0f / (rotation_abs_g0 - rotation_eta * (1.0f - rotation_abs_g0 *
         rotation_abs_g0));
     const vector_f rotation_a_chosen = vector_select_f(is_small, -rotation_a, rotation_a);
-    const vector_f product = rotation_h0 * rotation_a_chosen;
-    const vector_f product_2 = rotation_h1 * rotation_a_chosen;
+    const vector_f product = x3 * rotation_a_chosen;
+    const vector_f product_2 = x4 * rotation_a_chosen;
     const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
         product_2;
-    const vector_f product_3 = rotation_h2 * rotation_a_chosen;
-    const vector_f product_4 = rotation_h3 * rotation_a_chosen;
+    const vector_f product_3 = x5 * rotation_a_chosen;
+    const vector_f product_4 = x6 * rotation_a_chosen;
     const vector_f total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
     const vector_f total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
         product_2;
@@ -3278,19 +3160,19 @@ OUTLINE void pair_factors_f(
         vector_select_f(is_small, by_by_rotation_g0, vector_of_f(0.0f));
     const vector_f product_5 = rotation_eta * by_by_rotation_abs_g0;
     const vector_f product_6 = rotation_a_chosen * product_5;
-    const vector_f gap_2 = -(rotation_h3 * product_6) - rotation_a_chosen * rotation_h3_bar;
+    const vector_f gap_2 = -(x6 * product_6) - rotation_a_chosen * x6_bar;
     const vector_f total_19 = rotation_R0_2 * total_3 + rotation_R1_2 * total_5 + rotation_R2_2 * total_7 +
         rotation_R3_2 * total_9 + rotation_R4_2 * total_11;
     const vector_f total_20 = total_19 + rotation_R5_2 * total_14;
-    const vector_f gap_3 = -(rotation_h2 * product_6) - rotation_a_chosen * rotation_h2_bar;
+    const vector_f gap_3 = -(x5 * product_6) - rotation_a_chosen * x5_bar;
     const vector_f total_21 = rotation_R0_1 * total_3 + rotation_R1_1 * total_5 + rotation_R2_1 * total_7 +
         rotation_R3_1 * total_9 + rotation_R4_1 * total_11;
     const vector_f total_22 = total_21 + rotation_R5_1 * total_14;
-    const vector_f gap_4 = -(rotation_h1 * product_6) - rotation_a_chosen * rotation_h1_bar;
+    const vector_f gap_4 = -(x4 * product_6) - rotation_a_chosen * x4_bar;
     const vector_f total_23 = rotation_R0_0 * total_3 + rotation_R1_0 * total_5 + rotation_R2_0 * total_7 +
         rotation_R3_0 * total_9 + rotation_R4_0 * total_11;
     const vector_f total_24 = total_23 + rotation_R5_0 * total_14;
-    const vector_f gap_5 = -(rotation_h0 * product_6) - rotation_a_chosen * rotation_h0_bar;
+    const vector_f gap_5 = -(x3 * product_6) - rotation_a_chosen * x3_bar;
     const vector_f total_25 = its_value_bar + total_18 * gap_2 + total_20 * gap_3 + total_22 * gap_4 +
         total_24 * gap_5;
     const vector_f total_26 = W0_2 * total_3 + W1_2 * total_5 + W2_2 * total_7 + W3_2 * total_9 + W4_2 *
@@ -3325,14 +3207,14 @@ OUTLINE void pair_factors_f(
     const vector_f phi_product_10 = phi * total_20;
     const vector_f phi_product_11 = phi * total_22;
     const vector_f phi_product_12 = phi * total_24;
-    const vector_f gap_9 = -(rotation_h3 * phi_product_9) - rotation_h2 * phi_product_10 - rotation_h1 *
-        phi_product_11 - rotation_h0 * phi_product_12;
+    const vector_f gap_9 = -(x6 * phi_product_9) - x5 * phi_product_10 - x4 * phi_product_11 - x3 *
+        phi_product_12;
     const vector_f total_33 = 2.0f * phi + rotation_a_chosen * gap_9;
     const vector_f by_rotation_abs_g0 = rotation_eta * total_33;
     const vector_f by_rotation_g0 = vector_select_f(is_small, -by_rotation_abs_g0, by_rotation_abs_g0);
     const vector_f rotation_eta_slope = vector_polynomial_rotation_eta_slope_f(gap);
-    const vector_f gap_10 = gap_9 * product_5 - phi_product_12 * rotation_h0_bar - phi_product_11 *
-        rotation_h1_bar - phi_product_10 * rotation_h2_bar - phi_product_9 * rotation_h3_bar;
+    const vector_f gap_10 = gap_9 * product_5 - phi_product_12 * x3_bar - phi_product_11 * x4_bar -
+        phi_product_10 * x5_bar - phi_product_9 * x6_bar;
     const vector_f total_34 = -(M0_6 * phi_product_2) - M1_6 * phi_product_3 - M2_6 * phi_product_4 + M3_6 *
         phi_product_5;
     const vector_f gap_11 = total_34 + M4_6 * phi_product_6 + M5_6 * phi_product_7 + M6_6 * phi_product_8 -
@@ -3349,8 +3231,7 @@ OUTLINE void pair_factors_f(
         phi_product_5;
     const vector_f gap_14 = total_37 + M3_4 * phi_product_6 + M3_5 * phi_product_7 + M3_6 * phi_product_8 -
         total_24 * phi_product;
-    const vector_f total_38 = gap_10 + rotation_h3 * gap_11 + rotation_h2 * gap_12 + rotation_h1 * gap_13 +
-        rotation_h0 * gap_14;
+    const vector_f total_38 = gap_10 + x6 * gap_11 + x5 * gap_12 + x4 * gap_13 + x3 * gap_14;
     const vector_f by_rotation_abs_g0_2 = rotation_eta_slope * (total_33 * by_by_rotation_abs_g0) +
         rotation_eta * (2.0f * phi_product + rotation_a_chosen * total_38);
     const vector_f by_rotation_g0_2 = vector_select_f(is_small, -by_rotation_abs_g0_2, by_rotation_abs_g0_2);
@@ -3406,10 +3287,10 @@ INLINE void pair_products_0_f(const vector_f *factor, const vector_f *point, vec
 INLINE void pair_products_1_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
     (void)factor;
     (void)point;
-    sum[0] = sum[0] + factor[11] * point[15] + point[3] * factor[12];
-    sum[1] = sum[1] + factor[11] * point[16] + point[4] * factor[12];
-    sum[2] = sum[2] + factor[11] * point[17] + point[5] * factor[12];
-    sum[3] = sum[3] + factor[11] * point[18] + point[6] * factor[12];
+    sum[0] = sum[0] + factor[11] * point[11] + point[3] * factor[12];
+    sum[1] = sum[1] + factor[11] * point[12] + point[4] * factor[12];
+    sum[2] = sum[2] + factor[11] * point[13] + point[5] * factor[12];
+    sum[3] = sum[3] + factor[11] * point[14] + point[6] * factor[12];
     sum[4] = sum[4] + factor[3] * factor[16];
     sum[5] = sum[5] + factor[2] * factor[16] + factor[3] * factor[15];
     sum[6] = sum[6] + factor[2] * factor[17] + factor[4] * factor[15];
@@ -3462,12 +3343,12 @@ OUTLINE void vector_end_f(size_t count, size_t start, size_t size, vector_f *col
         for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
 }
 
-/* Scratch memory: 23 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
+/* Scratch memory: 15 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
 size_t se3_splats_work_f(size_t count, size_t splat_count, int threads) {
     (void)threads;
     const size_t points = (count + LANES_f - 1) / LANES_f, blocks = (points + 2 - 1) / 2;
     const size_t places = 8 * ((splat_count + LANES_f - 1) / LANES_f + (blocks + LANES_f - 1) / LANES_f);
-    return (points * 23 + places + 1) * LANES_f + 78 * splat_count;
+    return (points * 15 + places + 1) * LANES_f + 78 * splat_count;
 }
 
 static vector_f *work_points_f(float *work) {
@@ -3482,7 +3363,7 @@ INLINE const float *splat_at_f(const vector_f *splats, size_t k) {
 }
 
 static vector_f *work_reaches_f(float *work, size_t count) {
-    return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 23;
+    return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 15;
 }
 
 static vector_f *work_blocks_f(float *work, size_t count, size_t splat_count) {
@@ -3612,8 +3493,8 @@ void se3_splats_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[2][7], X[2][11], grad[6];
-            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][11] = {{ZERO}};
+            vector_f at[2][7], X[2][7], grad[6];
+            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][7] = {{ZERO}};
             float place[7 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
@@ -3654,7 +3535,7 @@ void se3_splats_value_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[7], X[2][11], value_sum[2][1] = {{ZERO}};
+            vector_f at[7], X[2][7], value_sum[2][1] = {{ZERO}};
             float place[7 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
@@ -3681,14 +3562,14 @@ void se3_splats_value_f(
 /* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
 OUTLINE void splat_points_f(
     size_t count, size_t start, const float *x, const float *value_bar, const float *gradient_bar, vector_f *point) {
-    vector_f at[7], grad_bar[6], slope_bar[11];
+    vector_f at[7], grad_bar[6], slope_bar[7];
     vector_rows_f(x, count, start, 7, at);
     vector_rows_f(gradient_bar, count, start, 6, grad_bar);
-    vector_rows_f(value_bar, count, start, 1, point + 11);
+    vector_rows_f(value_bar, count, start, 1, point + 7);
     pair_features_f(at, point);
     pair_gradient_vjp_f(at, grad_bar, slope_bar);
-    for (int i = 0; i < 11; ++i) point[11 + 1 + i] = slope_bar[i];
-    vector_end_f(count, start, 11 + 1, point + 11);
+    for (int i = 0; i < 7; ++i) point[7 + 1 + i] = slope_bar[i];
+    vector_end_f(count, start, 7 + 1, point + 7);
 }
 
 /* Adds to sums what one vector of points adds to it. */
@@ -3755,12 +3636,12 @@ OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t c
     for (size_t start = 0; start < count; start += 16, near += 16) {
         const size_t size = count - start < 16 ? count - start : 16;
         for (size_t b = 0; b < size; ++b) {
-            const vector_f *at = points + 23 * (size_t)near[b];
-            pair_factors_f(at, S, at + 11, at + 11 + 1, factor + 20 * b);
+            const vector_f *at = points + 15 * (size_t)near[b];
+            pair_factors_f(at, S, at + 7, at + 7 + 1, factor + 20 * b);
         }
         {
             vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_0_f(factor + 20 * b, points + 23 * (size_t)near[b], sum);
+            for (size_t b = 0; b < size; ++b) pair_products_0_f(factor + 20 * b, points + 15 * (size_t)near[b], sum);
             total[0] += sum[0];
             total[1] += sum[1];
             total[2] += sum[2];
@@ -3776,7 +3657,7 @@ OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t c
         }
         {
             vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_1_f(factor + 20 * b, points + 23 * (size_t)near[b], sum);
+            for (size_t b = 0; b < size; ++b) pair_products_1_f(factor + 20 * b, points + 15 * (size_t)near[b], sum);
             total[3] += sum[0];
             total[4] += sum[1];
             total[5] += sum[2];
@@ -3792,7 +3673,7 @@ OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t c
         }
         {
             vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_2_f(factor + 20 * b, points + 23 * (size_t)near[b], sum);
+            for (size_t b = 0; b < size; ++b) pair_products_2_f(factor + 20 * b, points + 15 * (size_t)near[b], sum);
             total[17] += sum[0];
             total[35] += sum[1];
             total[21] += sum[2];
@@ -3818,7 +3699,7 @@ void se3_splats_vjp_f(
     size_t count, size_t splat_count, const float *SE3_RESTRICT x, const float *SE3_RESTRICT mu, const float *SE3_RESTRICT W, const float *SE3_RESTRICT amplitude, const float *SE3_RESTRICT width, const float *SE3_RESTRICT value_bar, const float *SE3_RESTRICT gradient_bar,
     float *SE3_RESTRICT mu_bar, float *SE3_RESTRICT W_bar, float *SE3_RESTRICT amplitude_bar, float *SE3_RESTRICT work, int threads) {
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
-    const size_t chunk = 131072 / (23 * sizeof(vector_f)) + 1;
+    const size_t chunk = 131072 / (15 * sizeof(vector_f)) + 1;
     const size_t rows = ((blocks + 2 - 1) / 2 + LANES_f - 1) / LANES_f * LANES_f;
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES_f ? part : LANES_f;
@@ -3845,19 +3726,19 @@ void se3_splats_vjp_f(
         }
         OMP(omp for schedule(dynamic, 8))
         for (size_t block = 0; block < blocks; ++block)
-            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 23 * block);
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 15 * block);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
             float sums[LANES_f][36] = {{0}};
-            uint32_t near[131072 / (23 * sizeof(vector_f)) + 2];
+            uint32_t near[131072 / (15 * sizeof(vector_f)) + 2];
             vector_f own_mu[7], own_W[36], own_amplitude[1], own_sums[36], bars[44];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
                     const float *reach = width ? splat_at_f(splats, k) + 7 * LANES_f : NULL;
                     const size_t some = blocks_near_f(mu + 7 * k, reach, places, first, first + size, near);
-                    splat_sums_f(points + 23 * first, near, some, constants + 78 * k, sums[k - start]);
+                    splat_sums_f(points + 15 * first, near, some, constants + 78 * k, sums[k - start]);
                 }
             }
             vector_rows_f(mu, end, start, 7, own_mu);
@@ -3888,14 +3769,14 @@ void se3_splats_rows_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, NULL, constants, NULL);
         OMP(omp for schedule(dynamic))
         for (size_t block = 0; block < blocks; ++block) {
-            vector_f point[23];
+            vector_f point[15];
             splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
                 vector_f own_mu[7], own_W[36], own_amplitude[1], own_sums[36] = {ZERO}, bars[44];
                 for (int i = 0; i < 7; ++i) own_mu[i] = vector_of_f(mu[7 * k + i]);
                 for (int i = 0; i < 36; ++i) own_W[i] = vector_of_f(W[36 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 78 * k, point + 11, point + 11 + 1, own_sums);
+                pair_backward_f(point, constants + 78 * k, point + 7, point + 7 + 1, own_sums);
                 pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 7, bars + 7 + 36);
                 vector_to_rows_f(bars, rows + 44 * k, count, block * LANES_f, 44, 44 * splat_count);
             }

@@ -762,93 +762,81 @@ class So3:
     def _point_features(self, x: Tensor) -> tuple[Tensor, ...]:
         """X, what the pairs need of a point alone."""
         x0, x1, x2, x3 = x.unbind(-1)
-        h0 = 0.5 * x0
-        h1 = 0.5 * x1
-        h2 = 0.5 * x2
-        h3 = 0.5 * x3
-        return (x0, x1, x2, x3, h0, h1, h2, h3)
+        return (x0, x1, x2, x3)
 
     def _splat_constants(self, mu: Tensor, W: Tensor, amplitude: Tensor) -> tuple[Tensor, ...]:
         """S, what the pairs need of a splat alone."""
         mu0, mu1, mu2, mu3 = mu.unbind(-1)
         W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2 = W.flatten(-2).unbind(-1)
-        M3 = 2.0 * mu3
-        M2 = 2.0 * mu2
-        M1 = 2.0 * mu1
-        R0_0 = 1.4142135623730951 * (-(W0_2 * M3) - W0_1 * M2 - W0_0 * M1)
-        M0 = 2.0 * mu0
-        R0_1 = 1.4142135623730951 * (W0_2 * M2 - W0_1 * M3 + W0_0 * M0)
-        R0_2 = 1.4142135623730951 * (W0_1 * M0 - W0_2 * M1 + W0_0 * M3)
-        R0_3 = 1.4142135623730951 * (W0_2 * M0 + W0_1 * M1 - W0_0 * M2)
-        R1_0 = 1.4142135623730951 * (-(W1_2 * M3) - W1_1 * M2 - W1_0 * M1)
-        R1_1 = 1.4142135623730951 * (W1_2 * M2 - W1_1 * M3 + W1_0 * M0)
-        R1_2 = 1.4142135623730951 * (W1_1 * M0 - W1_2 * M1 + W1_0 * M3)
-        R1_3 = 1.4142135623730951 * (W1_2 * M0 + W1_1 * M1 - W1_0 * M2)
-        R2_0 = 1.4142135623730951 * (-(W2_2 * M3) - W2_1 * M2 - W2_0 * M1)
-        R2_1 = 1.4142135623730951 * (W2_2 * M2 - W2_1 * M3 + W2_0 * M0)
-        R2_2 = 1.4142135623730951 * (W2_1 * M0 - W2_2 * M1 + W2_0 * M3)
-        R2_3 = 1.4142135623730951 * (W2_2 * M0 + W2_1 * M1 - W2_0 * M2)
-        return (mu0, mu1, mu2, mu3, amplitude, R0_0, R0_1, R0_2, R0_3, R1_0, R1_1, R1_2, R1_3, R2_0, R2_1, R2_2, R2_3)
+        product = 2.0 * mu0
+        product_2 = 2.0 * mu1
+        product_3 = 2.0 * mu2
+        R0_3 = W0_2 * product + W0_1 * product_2 - W0_0 * product_3
+        product_4 = 2.0 * mu3
+        R0_0 = -(W0_2 * product_4) - W0_1 * product_3 - W0_0 * product_2
+        R0_2 = W0_1 * product - W0_2 * product_2 + W0_0 * product_4
+        R0_1 = W0_2 * product_3 - W0_1 * product_4 + W0_0 * product
+        R1_3 = W1_2 * product + W1_1 * product_2 - W1_0 * product_3
+        R1_0 = -(W1_2 * product_4) - W1_1 * product_3 - W1_0 * product_2
+        R1_2 = W1_1 * product - W1_2 * product_2 + W1_0 * product_4
+        R1_1 = W1_2 * product_3 - W1_1 * product_4 + W1_0 * product
+        R2_3 = W2_2 * product + W2_1 * product_2 - W2_0 * product_3
+        R2_0 = -(W2_2 * product_4) - W2_1 * product_3 - W2_0 * product_2
+        R2_2 = W2_1 * product - W2_2 * product_2 + W2_0 * product_4
+        R2_1 = W2_2 * product_3 - W2_1 * product_4 + W2_0 * product
+        return (mu0, mu1, mu2, mu3, amplitude, R0_3, R0_0, R0_2, R0_1, R1_3, R1_0, R1_2, R1_1, R2_3, R2_0, R2_2, R2_1)
 
     def _pair_value(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
         """The value of a splat at a point."""
-        x0, x1, x2, x3, h0, h1, h2, h3 = X
-        mu0, mu1, mu2, mu3, amplitude, R0_0, R0_1, R0_2, R0_3, R1_0, R1_1, R1_2, R1_3, R2_0, R2_1, R2_2, R2_3 = S
+        x0, x1, x2, x3 = X
+        mu0, mu1, mu2, mu3, amplitude, R0_3, R0_0, R0_2, R0_1, R1_3, R1_0, R1_2, R1_1, R2_3, R2_0, R2_2, R2_1 = S
         g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3
         abs_g0 = torch.abs(g0)
         eta = _polynomial(1.0 - abs_g0, _ETA)
         a = 1.0 / (abs_g0 - eta * (1.0 - abs_g0 * abs_g0))
         a_squared = a * a
-        r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3
-        r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3
-        r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3
-        half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2)
-        gaussian = torch.exp(-half_square)
+        r0 = x0 * R0_0 + x1 * R0_1 + x2 * R0_2 + x3 * R0_3
+        r1 = x0 * R1_0 + x1 * R1_1 + x2 * R1_2 + x3 * R1_3
+        r2 = x0 * R2_0 + x1 * R2_1 + x2 * R2_2 + x3 * R2_3
+        square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2)
+        gaussian = torch.exp(-(0.5 * square))
         phi = a * (a * gaussian)
         phi_2 = amplitude * phi
         return (phi_2,)
 
     def _pair(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
         """The value of a splat at a point, and the slope, its derivatives in X."""
-        x0, x1, x2, x3, h0, h1, h2, h3 = X
-        mu0, mu1, mu2, mu3, amplitude, R0_0, R0_1, R0_2, R0_3, R1_0, R1_1, R1_2, R1_3, R2_0, R2_1, R2_2, R2_3 = S
+        x0, x1, x2, x3 = X
+        mu0, mu1, mu2, mu3, amplitude, R0_3, R0_0, R0_2, R0_1, R1_3, R1_0, R1_2, R1_1, R2_3, R2_0, R2_2, R2_1 = S
         g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3
         abs_g0 = torch.abs(g0)
         eta = _polynomial(1.0 - abs_g0, _ETA)
         a = 1.0 / (abs_g0 - eta * (1.0 - abs_g0 * abs_g0))
         a_squared = a * a
-        r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3
-        r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3
-        r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3
-        half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2)
-        gaussian = torch.exp(-half_square)
+        r0 = x0 * R0_0 + x1 * R0_1 + x2 * R0_2 + x3 * R0_3
+        r1 = x0 * R1_0 + x1 * R1_1 + x2 * R1_2 + x3 * R1_3
+        r2 = x0 * R2_0 + x1 * R2_1 + x2 * R2_2 + x3 * R2_3
+        square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2)
+        gaussian = torch.exp(-(0.5 * square))
         phi = a * (a * gaussian)
         phi_2 = amplitude * phi
-        by_abs_g0 = eta * (2.0 * phi_2 - phi_2 * (2.0 * half_square))
+        by_abs_g0 = eta * (2.0 * phi_2 - phi_2 * square)
         by_g0 = torch.where(g0 < 0.0, -by_abs_g0, by_abs_g0)
-        by_x0 = mu0 * by_g0
-        by_x1 = mu1 * by_g0
-        by_x2 = mu2 * by_g0
-        by_x3 = mu3 * by_g0
         phi_product = phi_2 * a_squared
-        product = 2.0 * (R0_0 * r0 + R1_0 * r1 + R2_0 * r2) * phi_product
-        by_h0 = -product
-        product_2 = 2.0 * (R0_1 * r0 + R1_1 * r1 + R2_1 * r2) * phi_product
-        by_h1 = -product_2
-        product_3 = 2.0 * (R0_2 * r0 + R1_2 * r1 + R2_2 * r2) * phi_product
-        by_h2 = -product_3
-        product_4 = 2.0 * (R0_3 * r0 + R1_3 * r1 + R2_3 * r2) * phi_product
-        by_h3 = -product_4
-        return (phi_2, by_x0, by_x1, by_x2, by_x3, by_h0, by_h1, by_h2, by_h3)
+        by_x0 = mu0 * by_g0 - (R0_0 * r0 + R1_0 * r1 + R2_0 * r2) * phi_product
+        by_x1 = mu1 * by_g0 - (R0_1 * r0 + R1_1 * r1 + R2_1 * r2) * phi_product
+        by_x2 = mu2 * by_g0 - (R0_2 * r0 + R1_2 * r1 + R2_2 * r2) * phi_product
+        by_x3 = mu3 * by_g0 - (R0_3 * r0 + R1_3 * r1 + R2_3 * r2) * phi_product
+        return (phi_2, by_x0, by_x1, by_x2, by_x3)
 
     def _point_gradient(self, x: Tensor, slope: Sequence[Tensor]) -> Tensor:
         """The Riemannian gradient of a function whose derivatives in X are `slope`."""
         x0, x1, x2, x3 = x.unbind(-1)
-        slope_x0, slope_x1, slope_x2, slope_x3, slope_h0, slope_h1, slope_h2, slope_h3 = slope
-        product = 0.5 * (slope_x1 + 0.5 * slope_h1)
-        product_2 = 0.5 * (slope_x2 + 0.5 * slope_h2)
-        product_3 = 0.5 * (slope_x0 + 0.5 * slope_h0)
-        product_4 = 0.5 * (slope_x3 + 0.5 * slope_h3)
+        slope_x0, slope_x1, slope_x2, slope_x3 = slope
+        product = 0.5 * slope_x1
+        product_2 = 0.5 * slope_x2
+        product_3 = 0.5 * slope_x0
+        product_4 = 0.5 * slope_x3
         return _stack((
             x0 * product + x3 * product_2 - x1 * product_3 - x2 * product_4,
             x0 * product_2 + x1 * product_4 - x2 * product_3 - x3 * product,
@@ -859,28 +847,21 @@ class So3:
         """The derivatives of gradient . gradient_bar in `slope`."""
         x0, x1, x2, x3 = x.unbind(-1)
         gradient_bar0, gradient_bar1, gradient_bar2 = gradient_bar.unbind(-1)
-        gap = -(x3 * gradient_bar2) - x2 * gradient_bar1 - x1 * gradient_bar0
-        total_2 = x2 * gradient_bar2 - x3 * gradient_bar1 + x0 * gradient_bar0
-        total_3 = x0 * gradient_bar1 - x1 * gradient_bar2 + x3 * gradient_bar0
-        gap_2 = x0 * gradient_bar2 + x1 * gradient_bar1 - x2 * gradient_bar0
+        product = 0.5 * (-(x3 * gradient_bar2) - x2 * gradient_bar1 - x1 * gradient_bar0)
         return (
-            0.5 * gap,
-            0.5 * total_2,
-            0.5 * total_3,
-            0.5 * gap_2,
-            0.25 * gap,
-            0.25 * total_2,
-            0.25 * total_3,
-            0.25 * gap_2,
+            product,
+            0.5 * (x2 * gradient_bar2 - x3 * gradient_bar1 + x0 * gradient_bar0),
+            0.5 * (x0 * gradient_bar1 - x1 * gradient_bar2 + x3 * gradient_bar0),
+            0.5 * (x0 * gradient_bar2 + x1 * gradient_bar1 - x2 * gradient_bar0),
         )
 
     def _pair_vjp(
         self, X: Sequence[Tensor], S: Sequence[Tensor], value_bar: Tensor, slope_bar: Sequence[Tensor]
     ) -> tuple[Tensor, ...]:
         """What, summed over the points, makes the derivatives of value value_bar + slope . slope_bar."""
-        x0, x1, x2, x3, h0, h1, h2, h3 = X
-        mu0, mu1, mu2, mu3, _, R0_0, R0_1, R0_2, R0_3, R1_0, R1_1, R1_2, R1_3, R2_0, R2_1, R2_2, R2_3 = S
-        x0_bar, x1_bar, x2_bar, x3_bar, h0_bar, h1_bar, h2_bar, h3_bar = slope_bar
+        x0, x1, x2, x3 = X
+        mu0, mu1, mu2, mu3, _, R0_3, R0_0, R0_2, R0_1, R1_3, R1_0, R1_2, R1_1, R2_3, R2_0, R2_2, R2_1 = S
+        x0_bar, x1_bar, x2_bar, x3_bar = slope_bar
         g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3
         is_small = g0 < 0.0
         abs_g0 = torch.abs(g0)
@@ -888,55 +869,51 @@ class So3:
         eta = _polynomial(abs_g0_gap, _ETA)
         a = 1.0 / (abs_g0 - eta * (1.0 - abs_g0 * abs_g0))
         a_squared = a * a
-        r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3
-        r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3
-        r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3
-        half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2)
-        gaussian = torch.exp(-half_square)
+        r0 = x0 * R0_0 + x1 * R0_1 + x2 * R0_2 + x3 * R0_3
+        r1 = x0 * R1_0 + x1 * R1_1 + x2 * R1_2 + x3 * R1_3
+        r2 = x0 * R2_0 + x1 * R2_1 + x2 * R2_2 + x3 * R2_3
+        square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2)
+        gaussian = torch.exp(-(0.5 * square))
         phi = a * (a * gaussian)
-        half_square_product = 2.0 * half_square
-        gap = 2.0 * phi - phi * half_square_product
+        gap = 2.0 * phi - phi * square
         by_abs_g0 = eta * gap
         by_g0 = torch.where(is_small, -by_abs_g0, by_abs_g0)
         eta_slope = _polynomial(abs_g0_gap, _ETA_SLOPE)
         by_by_g0 = mu0 * x0_bar + mu1 * x1_bar + mu2 * x2_bar + mu3 * x3_bar
         by_by_abs_g0 = torch.where(is_small, 0.0, by_by_g0) - torch.where(is_small, by_by_g0, 0.0)
-        product = 2.0 * (R0_3 * r0 + R1_3 * r1 + R2_3 * r2) * h3_bar
-        product_2 = 2.0 * (R0_2 * r0 + R1_2 * r1 + R2_2 * r2) * h2_bar
-        product_3 = 2.0 * (R0_1 * r0 + R1_1 * r1 + R2_1 * r2) * h1_bar
-        product_4 = 2.0 * (R0_0 * r0 + R1_0 * r1 + R2_0 * r2) * h0_bar
-        gap_2 = -product - product_2 - product_3 - product_4
+        minus = -((R0_3 * r0 + R1_3 * r1 + R2_3 * r2) * x3_bar)
+        gap_2 = minus - (R0_2 * r0 + R1_2 * r1 + R2_2 * r2) * x2_bar
+        gap_3 = gap_2 - (R0_1 * r0 + R1_1 * r1 + R2_1 * r2) * x1_bar
+        gap_4 = gap_3 - (R0_0 * r0 + R1_0 * r1 + R2_0 * r2) * x0_bar
         eta_product = eta * by_by_abs_g0
-        by_phi = value_bar + a_squared * gap_2 - half_square_product * eta_product + 2.0 * eta_product
+        by_phi = value_bar + a_squared * gap_4 - square * eta_product + 2.0 * eta_product
         phi_product = phi * by_phi
-        by_half_square = -(2.0 * (phi * eta_product)) - phi_product
-        eta_product_2 = (
-            eta * (2.0 * a_squared * (phi * gap_2) + 2.0 * phi_product + half_square_product * by_half_square)
-        )
+        gap_5 = -(2.0 * (phi * eta_product)) - phi_product
+        eta_product_2 = eta * (2.0 * a_squared * (phi * gap_4) + 2.0 * phi_product + square * gap_5)
         by_abs_g0_2 = eta_slope * (gap * by_by_abs_g0) + eta_product_2
         by_g0_2 = torch.where(is_small, -by_abs_g0_2, by_abs_g0_2)
-        a_squared_product = a_squared * by_half_square
+        product = 0.5 * (a_squared * gap_5)
         phi_product_2 = phi * a_squared
-        gap_3 = h0 * a_squared_product - 2.0 * (phi_product_2 * h0_bar)
-        gap_4 = h1 * a_squared_product - 2.0 * (phi_product_2 * h1_bar)
-        gap_5 = h2 * a_squared_product - 2.0 * (phi_product_2 * h2_bar)
-        gap_6 = h3 * a_squared_product - 2.0 * (phi_product_2 * h3_bar)
+        gap_6 = x0 * product - phi_product_2 * x0_bar
+        gap_7 = x1 * product - phi_product_2 * x1_bar
+        gap_8 = x2 * product - phi_product_2 * x2_bar
+        gap_9 = x3 * product - phi_product_2 * x3_bar
         return (
             by_g0 * x0_bar + x0 * by_g0_2,
             by_g0 * x1_bar + x1 * by_g0_2,
             by_g0 * x2_bar + x2 * by_g0_2,
             by_g0 * x3_bar + x3 * by_g0_2,
             phi_product,
-            h0 * gap_3,
-            h0 * gap_4 + h1 * gap_3,
-            h0 * gap_5 + h2 * gap_3,
-            h0 * gap_6 + h3 * gap_3,
-            h1 * gap_4,
-            h1 * gap_5 + h2 * gap_4,
-            h1 * gap_6 + h3 * gap_4,
-            h2 * gap_5,
-            h2 * gap_6 + h3 * gap_5,
-            h3 * gap_6,
+            x0 * gap_6,
+            x0 * gap_7 + x1 * gap_6,
+            x0 * gap_8 + x2 * gap_6,
+            x0 * gap_9 + x3 * gap_6,
+            x1 * gap_7,
+            x1 * gap_8 + x2 * gap_7,
+            x1 * gap_9 + x3 * gap_7,
+            x2 * gap_8,
+            x2 * gap_9 + x3 * gap_8,
+            x3 * gap_9,
         )
 
     def _splat_constants_vjp(
@@ -946,109 +923,69 @@ class So3:
         mu0, mu1, mu2, mu3 = mu.unbind(-1)
         W0_0, W0_1, W0_2, W1_0, W1_1, W1_2, W2_0, W2_1, W2_2 = W.flatten(-2).unbind(-1)
         sum0, sum1, sum2, sum3, sum4, sum5, sum6, sum7, sum8, sum9, sum10, sum11, sum12, sum13, sum14 = sums
-        M3 = 2.0 * mu3
-        M2 = 2.0 * mu2
-        M1 = 2.0 * mu1
-        R2_0 = 1.4142135623730951 * (-(W2_2 * M3) - W2_1 * M2 - W2_0 * M1)
-        M0 = 2.0 * mu0
-        R2_1 = 1.4142135623730951 * (W2_2 * M2 - W2_1 * M3 + W2_0 * M0)
-        product = 2.0 * sum9
-        R2_2 = 1.4142135623730951 * (W2_1 * M0 - W2_2 * M1 + W2_0 * M3)
-        R2_3 = 1.4142135623730951 * (W2_2 * M0 + W2_1 * M1 - W2_0 * M2)
-        by_R2_1 = R2_0 * sum6 + R2_1 * product + R2_2 * sum10 + R2_3 * sum11
-        by_R2_1_product = 1.4142135623730951 * by_R2_1
-        R1_0 = 1.4142135623730951 * (-(W1_2 * M3) - W1_1 * M2 - W1_0 * M1)
-        R1_1 = 1.4142135623730951 * (W1_2 * M2 - W1_1 * M3 + W1_0 * M0)
-        R1_2 = 1.4142135623730951 * (W1_1 * M0 - W1_2 * M1 + W1_0 * M3)
-        R1_3 = 1.4142135623730951 * (W1_2 * M0 + W1_1 * M1 - W1_0 * M2)
-        by_R1_1 = R1_0 * sum6 + R1_1 * product + R1_2 * sum10 + R1_3 * sum11
-        by_R1_1_product = 1.4142135623730951 * by_R1_1
-        R0_0 = 1.4142135623730951 * (-(W0_2 * M3) - W0_1 * M2 - W0_0 * M1)
-        R0_1 = 1.4142135623730951 * (W0_2 * M2 - W0_1 * M3 + W0_0 * M0)
-        R0_2 = 1.4142135623730951 * (W0_1 * M0 - W0_2 * M1 + W0_0 * M3)
-        R0_3 = 1.4142135623730951 * (W0_2 * M0 + W0_1 * M1 - W0_0 * M2)
-        by_R0_1 = R0_0 * sum6 + R0_1 * product + R0_2 * sum10 + R0_3 * sum11
-        by_R0_1_product = 1.4142135623730951 * by_R0_1
-        product_2 = 2.0 * sum12
-        by_R2_2 = R2_0 * sum7 + R2_1 * sum10 + R2_2 * product_2 + R2_3 * sum13
-        by_R2_2_product = 1.4142135623730951 * by_R2_2
-        by_R1_2 = R1_0 * sum7 + R1_1 * sum10 + R1_2 * product_2 + R1_3 * sum13
-        by_R1_2_product = 1.4142135623730951 * by_R1_2
-        total_2 = (
-            W2_0 * by_R2_1_product + W1_0 * by_R1_1_product + W0_0 * by_R0_1_product + W2_1 * by_R2_2_product + W1_1 *
-            by_R1_2_product
-        )
-        by_R0_2 = R0_0 * sum7 + R0_1 * sum10 + R0_2 * product_2 + R0_3 * sum13
-        by_R0_2_product = 1.4142135623730951 * by_R0_2
-        product_3 = 2.0 * sum14
-        by_R2_3 = R2_0 * sum8 + R2_1 * sum11 + R2_2 * sum13 + R2_3 * product_3
-        by_R2_3_product = 1.4142135623730951 * by_R2_3
-        by_R1_3 = R1_0 * sum8 + R1_1 * sum11 + R1_2 * sum13 + R1_3 * product_3
-        by_R1_3_product = 1.4142135623730951 * by_R1_3
-        by_R0_3 = R0_0 * sum8 + R0_1 * sum11 + R0_2 * sum13 + R0_3 * product_3
-        by_R0_3_product = 1.4142135623730951 * by_R0_3
-        by_M0 = (
-            total_2 + W0_1 * by_R0_2_product + W2_2 * by_R2_3_product + W1_2 * by_R1_3_product + W0_2 * by_R0_3_product
-        )
-        product_4 = 2.0 * sum5
-        by_R2_0 = R2_0 * product_4 + R2_1 * sum6 + R2_2 * sum7 + R2_3 * sum8
-        by_R2_0_product = 1.4142135623730951 * by_R2_0
-        by_R1_0 = R1_0 * product_4 + R1_1 * sum6 + R1_2 * sum7 + R1_3 * sum8
-        by_R1_0_product = 1.4142135623730951 * by_R1_0
-        by_R0_0 = R0_0 * product_4 + R0_1 * sum6 + R0_2 * sum7 + R0_3 * sum8
-        by_R0_0_product = 1.4142135623730951 * by_R0_0
-        gap = -(W2_0 * by_R2_0_product) - W1_0 * by_R1_0_product - W0_0 * by_R0_0_product - W2_2 * by_R2_2_product
-        total_3 = (
-            gap - W1_2 * by_R1_2_product - W0_2 * by_R0_2_product + W2_1 * by_R2_3_product + W1_1 * by_R1_3_product
-        )
-        by_M1 = total_3 + W0_1 * by_R0_3_product
-        total_4 = -(W2_1 * by_R2_0_product) - W1_1 * by_R1_0_product - W0_1 * by_R0_0_product + W2_2 * by_R2_1_product
-        gap_2 = (
-            total_4 + W1_2 * by_R1_1_product + W0_2 * by_R0_1_product - W2_0 * by_R2_3_product - W1_0 * by_R1_3_product
-        )
-        by_M2 = gap_2 - W0_0 * by_R0_3_product
-        gap_3 = -(W2_2 * by_R2_0_product) - W1_2 * by_R1_0_product - W0_2 * by_R0_0_product - W2_1 * by_R2_1_product
-        total_5 = (
-            gap_3 - W1_1 * by_R1_1_product - W0_1 * by_R0_1_product + W2_0 * by_R2_2_product + W1_0 * by_R1_2_product
-        )
-        by_M3 = total_5 + W0_0 * by_R0_2_product
-        product_5 = (
-            amplitude * (M0 * by_R0_1_product - M1 * by_R0_0_product + M3 * by_R0_2_product - M2 * by_R0_3_product)
-        )
-        total_6 = -(M2 * by_R0_0_product) - M3 * by_R0_1_product + M0 * by_R0_2_product + M1 * by_R0_3_product
-        product_6 = (
-            amplitude * (M2 * by_R0_1_product - M3 * by_R0_0_product - M1 * by_R0_2_product + M0 * by_R0_3_product)
-        )
-        product_7 = (
-            amplitude * (M0 * by_R1_1_product - M1 * by_R1_0_product + M3 * by_R1_2_product - M2 * by_R1_3_product)
-        )
-        total_7 = -(M2 * by_R1_0_product) - M3 * by_R1_1_product + M0 * by_R1_2_product + M1 * by_R1_3_product
-        product_8 = (
-            amplitude * (M2 * by_R1_1_product - M3 * by_R1_0_product - M1 * by_R1_2_product + M0 * by_R1_3_product)
-        )
-        product_9 = (
-            amplitude * (M0 * by_R2_1_product - M1 * by_R2_0_product + M3 * by_R2_2_product - M2 * by_R2_3_product)
-        )
-        total_8 = -(M2 * by_R2_0_product) - M3 * by_R2_1_product + M0 * by_R2_2_product + M1 * by_R2_3_product
-        product_10 = (
-            amplitude * (M2 * by_R2_1_product - M3 * by_R2_0_product - M1 * by_R2_2_product + M0 * by_R2_3_product)
-        )
-        mu_bar = _stack((
-            amplitude * (sum0 + 2.0 * by_M0),
-            amplitude * (sum1 + 2.0 * by_M1),
-            amplitude * (sum2 + 2.0 * by_M2),
-            amplitude * (sum3 + 2.0 * by_M3),
-        ))
+        product = 2.0 * mu3
+        product_2 = 2.0 * mu2
+        product_3 = 2.0 * mu1
+        R2_0 = -(W2_2 * product) - W2_1 * product_2 - W2_0 * product_3
+        product_4 = 2.0 * mu0
+        R2_1 = W2_2 * product_2 - W2_1 * product + W2_0 * product_4
+        product_5 = 2.0 * sum9
+        R2_2 = W2_1 * product_4 - W2_2 * product_3 + W2_0 * product
+        R2_3 = W2_2 * product_4 + W2_1 * product_3 - W2_0 * product_2
+        by_R2_1 = R2_0 * sum6 + R2_1 * product_5 + R2_2 * sum10 + R2_3 * sum11
+        R1_0 = -(W1_2 * product) - W1_1 * product_2 - W1_0 * product_3
+        R1_1 = W1_2 * product_2 - W1_1 * product + W1_0 * product_4
+        R1_2 = W1_1 * product_4 - W1_2 * product_3 + W1_0 * product
+        R1_3 = W1_2 * product_4 + W1_1 * product_3 - W1_0 * product_2
+        by_R1_1 = R1_0 * sum6 + R1_1 * product_5 + R1_2 * sum10 + R1_3 * sum11
+        R0_0 = -(W0_2 * product) - W0_1 * product_2 - W0_0 * product_3
+        R0_1 = W0_2 * product_2 - W0_1 * product + W0_0 * product_4
+        R0_2 = W0_1 * product_4 - W0_2 * product_3 + W0_0 * product
+        R0_3 = W0_2 * product_4 + W0_1 * product_3 - W0_0 * product_2
+        by_R0_1 = R0_0 * sum6 + R0_1 * product_5 + R0_2 * sum10 + R0_3 * sum11
+        product_6 = 2.0 * sum12
+        by_R2_2 = R2_0 * sum7 + R2_1 * sum10 + R2_2 * product_6 + R2_3 * sum13
+        by_R1_2 = R1_0 * sum7 + R1_1 * sum10 + R1_2 * product_6 + R1_3 * sum13
+        total_2 = W2_0 * by_R2_1 + W1_0 * by_R1_1 + W0_0 * by_R0_1 + W2_1 * by_R2_2 + W1_1 * by_R1_2
+        by_R0_2 = R0_0 * sum7 + R0_1 * sum10 + R0_2 * product_6 + R0_3 * sum13
+        product_7 = 2.0 * sum14
+        by_R2_3 = R2_0 * sum8 + R2_1 * sum11 + R2_2 * sum13 + R2_3 * product_7
+        by_R1_3 = R1_0 * sum8 + R1_1 * sum11 + R1_2 * sum13 + R1_3 * product_7
+        by_R0_3 = R0_0 * sum8 + R0_1 * sum11 + R0_2 * sum13 + R0_3 * product_7
+        total_3 = total_2 + W0_1 * by_R0_2 + W2_2 * by_R2_3 + W1_2 * by_R1_3 + W0_2 * by_R0_3
+        product_8 = 2.0 * sum5
+        by_R2_0 = R2_0 * product_8 + R2_1 * sum6 + R2_2 * sum7 + R2_3 * sum8
+        by_R1_0 = R1_0 * product_8 + R1_1 * sum6 + R1_2 * sum7 + R1_3 * sum8
+        by_R0_0 = R0_0 * product_8 + R0_1 * sum6 + R0_2 * sum7 + R0_3 * sum8
+        gap = -(W2_0 * by_R2_0) - W1_0 * by_R1_0 - W0_0 * by_R0_0 - W2_2 * by_R2_2
+        total_4 = gap - W1_2 * by_R1_2 - W0_2 * by_R0_2 + W2_1 * by_R2_3 + W1_1 * by_R1_3
+        product_9 = amplitude * (sum1 + 2.0 * (total_4 + W0_1 * by_R0_3))
+        total_5 = -(W2_1 * by_R2_0) - W1_1 * by_R1_0 - W0_1 * by_R0_0 + W2_2 * by_R2_1
+        gap_2 = total_5 + W1_2 * by_R1_1 + W0_2 * by_R0_1 - W2_0 * by_R2_3 - W1_0 * by_R1_3
+        product_10 = amplitude * (sum2 + 2.0 * (gap_2 - W0_0 * by_R0_3))
+        gap_3 = -(W2_2 * by_R2_0) - W1_2 * by_R1_0 - W0_2 * by_R0_0 - W2_1 * by_R2_1
+        total_6 = gap_3 - W1_1 * by_R1_1 - W0_1 * by_R0_1 + W2_0 * by_R2_2 + W1_0 * by_R1_2
+        product_11 = amplitude * (sum3 + 2.0 * (total_6 + W0_0 * by_R0_2))
+        product_12 = amplitude * (product_4 * by_R0_1 - product_3 * by_R0_0 + product * by_R0_2 - product_2 * by_R0_3)
+        total_7 = -(product_2 * by_R0_0) - product * by_R0_1 + product_4 * by_R0_2 + product_3 * by_R0_3
+        product_13 = amplitude * (product_2 * by_R0_1 - product * by_R0_0 - product_3 * by_R0_2 + product_4 * by_R0_3)
+        product_14 = amplitude * (product_4 * by_R1_1 - product_3 * by_R1_0 + product * by_R1_2 - product_2 * by_R1_3)
+        total_8 = -(product_2 * by_R1_0) - product * by_R1_1 + product_4 * by_R1_2 + product_3 * by_R1_3
+        product_15 = amplitude * (product_2 * by_R1_1 - product * by_R1_0 - product_3 * by_R1_2 + product_4 * by_R1_3)
+        product_16 = amplitude * (product_4 * by_R2_1 - product_3 * by_R2_0 + product * by_R2_2 - product_2 * by_R2_3)
+        total_9 = -(product_2 * by_R2_0) - product * by_R2_1 + product_4 * by_R2_2 + product_3 * by_R2_3
+        product_17 = amplitude * (product_2 * by_R2_1 - product * by_R2_0 - product_3 * by_R2_2 + product_4 * by_R2_3)
+        mu_bar = _stack((amplitude * (sum0 + 2.0 * total_3), product_9, product_10, product_11))
         W_bar = _stack((
-            product_5,
-            amplitude * total_6,
-            product_6,
-            product_7,
+            product_12,
             amplitude * total_7,
-            product_8,
-            product_9,
+            product_13,
+            product_14,
             amplitude * total_8,
-            product_10,
+            product_15,
+            product_16,
+            amplitude * total_9,
+            product_17,
         ))
         return mu_bar, W_bar.unflatten(-1, (3, 3)), sum4
 

@@ -141,14 +141,13 @@ INLINE vector sqrt_each(vector x) {
     return x;
 }
 
-/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 3e-308 it is 0. */
-INLINE vector exp_each(vector x) {
-    const vector shifted = x * 1.4426950408889634 + 6755399441055744.0, k = shifted - 6755399441055744.0;
-    const vector r = (x - k * 0.6931471805601177) - k * -1.7239444525614835e-13;
-    const vector part = r + r * r * (0.5000000000000001 + r * (0.16666666666666669 + r * (0.041666666666624136 + r * (0.008333333333330063 + r * (0.001388888891720967 + r * (0.00019841269863050506 + r * (2.4801521302241082e-05 + r * (2.7557268464831627e-06 + r * (2.7620085455018414e-07 + r * 2.510038319586702e-08)))))))));
-    const vector scale = vector_from_bits((vector_to_bits(shifted) + 1022) << 52); /* 2^(k - 1) */
-    const vector y = vector_select(x > 709.782712893384, vector_of(HUGE_VAL), (scale + scale * part) * 2);
-    return vector_select(x < -707.9, vector_of(0), y);
+/* exp(-s / 2) of s >= 0, as 2^k exp(-r / 2), |r| <= log(2), within 1 unit in the last place; below 3.8e-308 it is 0. */
+INLINE vector gaussian_each(vector s) {
+    const vector shifted = s * -0.7213475204444817 + 6755399441056767.0, k = shifted - 6755399441056767.0;
+    const vector r = (s + k * 1.3862943611202354) + k * -3.447888905122967e-13;
+    const vector part = r * (-0.5 + r * (0.12500000000000003 + r * (-0.020833333333333336 + r * (0.0026041666666640085 + r * (-0.0002604166666665645 + r * (2.170138893314011e-05 + r * (-1.5500992080508208e-06 + r * (9.688094258687923e-08 + r * (-5.382278997037427e-09 + r * (2.697273970216642e-10 + r * -1.2256046482356944e-11))))))))));
+    const vector scale = vector_from_bits(vector_to_bits(shifted) << 52); /* 2^k */
+    return vector_select(s > 1415.8, vector_of(0), scale + scale * part);
 }
 
 /* atan2, within 3 units in the last place. */
@@ -200,18 +199,10 @@ OUTLINE void pair_features(
     const vector x1 = x[1];
     const vector x2 = x[2];
     const vector x3 = x[3];
-    const vector h0 = 0.5 * x0;
-    const vector h1 = 0.5 * x1;
-    const vector h2 = 0.5 * x2;
-    const vector h3 = 0.5 * x3;
     X[0] = x0;
     X[1] = x1;
     X[2] = x2;
     X[3] = x3;
-    X[4] = h0;
-    X[5] = h1;
-    X[6] = h2;
-    X[7] = h3;
 }
 
 /* What pairs read of a splat, of some splats. */
@@ -231,49 +222,49 @@ OUTLINE void pair_constants(
     const vector W2_1 = W[7];
     const vector W2_2 = W[8];
     const vector its_amplitude = amplitude[0];
-    const vector M3 = 2.0 * mu3;
-    const vector M2 = 2.0 * mu2;
-    const vector M1 = 2.0 * mu1;
-    const vector R0_0 = 1.4142135623730951 * (-(W0_2 * M3) - W0_1 * M2 - W0_0 * M1);
-    const vector M0 = 2.0 * mu0;
-    const vector R0_1 = 1.4142135623730951 * (W0_2 * M2 - W0_1 * M3 + W0_0 * M0);
-    const vector R0_2 = 1.4142135623730951 * (W0_1 * M0 - W0_2 * M1 + W0_0 * M3);
-    const vector R0_3 = 1.4142135623730951 * (W0_2 * M0 + W0_1 * M1 - W0_0 * M2);
-    const vector R1_0 = 1.4142135623730951 * (-(W1_2 * M3) - W1_1 * M2 - W1_0 * M1);
-    const vector R1_1 = 1.4142135623730951 * (W1_2 * M2 - W1_1 * M3 + W1_0 * M0);
-    const vector R1_2 = 1.4142135623730951 * (W1_1 * M0 - W1_2 * M1 + W1_0 * M3);
-    const vector R1_3 = 1.4142135623730951 * (W1_2 * M0 + W1_1 * M1 - W1_0 * M2);
-    const vector R2_0 = 1.4142135623730951 * (-(W2_2 * M3) - W2_1 * M2 - W2_0 * M1);
-    const vector R2_1 = 1.4142135623730951 * (W2_2 * M2 - W2_1 * M3 + W2_0 * M0);
-    const vector R2_2 = 1.4142135623730951 * (W2_1 * M0 - W2_2 * M1 + W2_0 * M3);
-    const vector R2_3 = 1.4142135623730951 * (W2_2 * M0 + W2_1 * M1 - W2_0 * M2);
+    const vector product = 2.0 * mu0;
+    const vector product_2 = 2.0 * mu1;
+    const vector product_3 = 2.0 * mu2;
+    const vector R0_3 = W0_2 * product + W0_1 * product_2 - W0_0 * product_3;
+    const vector product_4 = 2.0 * mu3;
+    const vector R0_0 = -(W0_2 * product_4) - W0_1 * product_3 - W0_0 * product_2;
+    const vector R0_2 = W0_1 * product - W0_2 * product_2 + W0_0 * product_4;
+    const vector R0_1 = W0_2 * product_3 - W0_1 * product_4 + W0_0 * product;
+    const vector R1_3 = W1_2 * product + W1_1 * product_2 - W1_0 * product_3;
+    const vector R1_0 = -(W1_2 * product_4) - W1_1 * product_3 - W1_0 * product_2;
+    const vector R1_2 = W1_1 * product - W1_2 * product_2 + W1_0 * product_4;
+    const vector R1_1 = W1_2 * product_3 - W1_1 * product_4 + W1_0 * product;
+    const vector R2_3 = W2_2 * product + W2_1 * product_2 - W2_0 * product_3;
+    const vector R2_0 = -(W2_2 * product_4) - W2_1 * product_3 - W2_0 * product_2;
+    const vector R2_2 = W2_1 * product - W2_2 * product_2 + W2_0 * product_4;
+    const vector R2_1 = W2_2 * product_3 - W2_1 * product_4 + W2_0 * product;
     S[0] = mu0;
     S[1] = mu1;
     S[2] = mu2;
     S[3] = mu3;
     S[4] = its_amplitude;
-    S[5] = R0_0;
-    S[6] = R0_1;
+    S[5] = R0_3;
+    S[6] = R0_0;
     S[7] = R0_2;
-    S[8] = R0_3;
-    S[9] = R1_0;
-    S[10] = R1_1;
+    S[8] = R0_1;
+    S[9] = R1_3;
+    S[10] = R1_0;
     S[11] = R1_2;
-    S[12] = R1_3;
-    S[13] = R2_0;
-    S[14] = R2_1;
+    S[12] = R1_1;
+    S[13] = R2_3;
+    S[14] = R2_0;
     S[15] = R2_2;
-    S[16] = R2_3;
+    S[16] = R2_1;
 }
 
 /*
  * Adds the values phi of a splat at some points.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_value(
     const vector *X, const double *S, vector *value) {
@@ -281,37 +272,33 @@ INLINE void pair_value(
     const vector x1 = X[1];
     const vector x2 = X[2];
     const vector x3 = X[3];
-    const vector h0 = X[4];
-    const vector h1 = X[5];
-    const vector h2 = X[6];
-    const vector h3 = X[7];
     const double mu0 = S[0];
     const double mu1 = S[1];
     const double mu2 = S[2];
     const double mu3 = S[3];
     const double amplitude = S[4];
-    const double R0_0 = S[5];
-    const double R0_1 = S[6];
+    const double R0_3 = S[5];
+    const double R0_0 = S[6];
     const double R0_2 = S[7];
-    const double R0_3 = S[8];
-    const double R1_0 = S[9];
-    const double R1_1 = S[10];
+    const double R0_1 = S[8];
+    const double R1_3 = S[9];
+    const double R1_0 = S[10];
     const double R1_2 = S[11];
-    const double R1_3 = S[12];
-    const double R2_0 = S[13];
-    const double R2_1 = S[14];
+    const double R1_1 = S[12];
+    const double R2_3 = S[13];
+    const double R2_0 = S[14];
     const double R2_2 = S[15];
-    const double R2_3 = S[16];
+    const double R2_1 = S[16];
     const vector g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
     const vector abs_g0 = abs_each(g0);
     const vector eta = vector_polynomial_eta(1.0 - abs_g0);
     const vector a = 1.0 / (abs_g0 - eta * (1.0 - abs_g0 * abs_g0));
     const vector a_squared = a * a;
-    const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3;
-    const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3;
-    const vector r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3;
-    const vector half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
-    const vector gaussian = exp_each(-half_square);
+    const vector r0 = x0 * R0_0 + x1 * R0_1 + x2 * R0_2 + x3 * R0_3;
+    const vector r1 = x0 * R1_0 + x1 * R1_1 + x2 * R1_2 + x3 * R1_3;
+    const vector r2 = x0 * R2_0 + x1 * R2_1 + x2 * R2_2 + x3 * R2_3;
+    const vector square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
+    const vector gaussian = gaussian_each(square);
     const vector phi = a * (a * gaussian);
     value[0] = value[0] + amplitude * phi;
 }
@@ -319,11 +306,11 @@ INLINE void pair_value(
 /*
  * Adds the values phi of a splat at some points, and slope = d phi / d X.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_forward(
     const vector *X, const double *S, vector *value, vector *slope) {
@@ -331,51 +318,43 @@ INLINE void pair_forward(
     const vector x1 = X[1];
     const vector x2 = X[2];
     const vector x3 = X[3];
-    const vector h0 = X[4];
-    const vector h1 = X[5];
-    const vector h2 = X[6];
-    const vector h3 = X[7];
     const double mu0 = S[0];
     const double mu1 = S[1];
     const double mu2 = S[2];
     const double mu3 = S[3];
     const double amplitude = S[4];
-    const double R0_0 = S[5];
-    const double R0_1 = S[6];
+    const double R0_3 = S[5];
+    const double R0_0 = S[6];
     const double R0_2 = S[7];
-    const double R0_3 = S[8];
-    const double R1_0 = S[9];
-    const double R1_1 = S[10];
+    const double R0_1 = S[8];
+    const double R1_3 = S[9];
+    const double R1_0 = S[10];
     const double R1_2 = S[11];
-    const double R1_3 = S[12];
-    const double R2_0 = S[13];
-    const double R2_1 = S[14];
+    const double R1_1 = S[12];
+    const double R2_3 = S[13];
+    const double R2_0 = S[14];
     const double R2_2 = S[15];
-    const double R2_3 = S[16];
+    const double R2_1 = S[16];
     const vector g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
     const vector abs_g0 = abs_each(g0);
     const vector eta = vector_polynomial_eta(1.0 - abs_g0);
     const vector a = 1.0 / (abs_g0 - eta * (1.0 - abs_g0 * abs_g0));
     const vector a_squared = a * a;
-    const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3;
-    const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3;
-    const vector r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3;
-    const vector half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
-    const vector gaussian = exp_each(-half_square);
+    const vector r0 = x0 * R0_0 + x1 * R0_1 + x2 * R0_2 + x3 * R0_3;
+    const vector r1 = x0 * R1_0 + x1 * R1_1 + x2 * R1_2 + x3 * R1_3;
+    const vector r2 = x0 * R2_0 + x1 * R2_1 + x2 * R2_2 + x3 * R2_3;
+    const vector square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
+    const vector gaussian = gaussian_each(square);
     const vector phi = a * (a * gaussian);
     const vector phi_2 = amplitude * phi;
-    const vector by_abs_g0 = eta * (2.0 * phi_2 - phi_2 * (2.0 * half_square));
+    const vector by_abs_g0 = eta * (2.0 * phi_2 - phi_2 * square);
     const vector by_g0 = vector_select(g0 < 0.0, -by_abs_g0, by_abs_g0);
     const vector phi_product = phi_2 * a_squared;
     value[0] = value[0] + phi_2;
-    slope[0] = slope[0] + mu0 * by_g0;
-    slope[1] = slope[1] + mu1 * by_g0;
-    slope[2] = slope[2] + mu2 * by_g0;
-    slope[3] = slope[3] + mu3 * by_g0;
-    slope[4] = slope[4] - (2.0 * (R0_0 * r0 + R1_0 * r1 + R2_0 * r2)) * phi_product;
-    slope[5] = slope[5] - (2.0 * (R0_1 * r0 + R1_1 * r1 + R2_1 * r2)) * phi_product;
-    slope[6] = slope[6] - (2.0 * (R0_2 * r0 + R1_2 * r1 + R2_2 * r2)) * phi_product;
-    slope[7] = slope[7] - (2.0 * (R0_3 * r0 + R1_3 * r1 + R2_3 * r2)) * phi_product;
+    slope[0] = slope[0] + mu0 * by_g0 - (R0_0 * r0 + R1_0 * r1 + R2_0 * r2) * phi_product;
+    slope[1] = slope[1] + mu1 * by_g0 - (R0_1 * r0 + R1_1 * r1 + R2_1 * r2) * phi_product;
+    slope[2] = slope[2] + mu2 * by_g0 - (R0_2 * r0 + R1_2 * r1 + R2_2 * r2) * phi_product;
+    slope[3] = slope[3] + mu3 * by_g0 - (R0_3 * r0 + R1_3 * r1 + R2_3 * r2) * phi_product;
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -389,14 +368,10 @@ OUTLINE void pair_gradient(
     const vector slope_x1 = slope[1];
     const vector slope_x2 = slope[2];
     const vector slope_x3 = slope[3];
-    const vector slope_h0 = slope[4];
-    const vector slope_h1 = slope[5];
-    const vector slope_h2 = slope[6];
-    const vector slope_h3 = slope[7];
-    const vector product = 0.5 * (slope_x1 + 0.5 * slope_h1);
-    const vector product_2 = 0.5 * (slope_x2 + 0.5 * slope_h2);
-    const vector product_3 = 0.5 * (slope_x0 + 0.5 * slope_h0);
-    const vector product_4 = 0.5 * (slope_x3 + 0.5 * slope_h3);
+    const vector product = 0.5 * slope_x1;
+    const vector product_2 = 0.5 * slope_x2;
+    const vector product_3 = 0.5 * slope_x0;
+    const vector product_4 = 0.5 * slope_x3;
     gradient[0] = x0 * product + x3 * product_2 - x1 * product_3 - x2 * product_4;
     gradient[1] = x0 * product_2 + x1 * product_4 - x2 * product_3 - x3 * product;
     gradient[2] = x2 * product + x0 * product_4 - x3 * product_3 - x1 * product_2;
@@ -412,18 +387,11 @@ OUTLINE void pair_gradient_vjp(
     const vector gradient_bar0 = gradient_bar[0];
     const vector gradient_bar1 = gradient_bar[1];
     const vector gradient_bar2 = gradient_bar[2];
-    const vector gap = -(x3 * gradient_bar2) - x2 * gradient_bar1 - x1 * gradient_bar0;
-    const vector total_2 = x2 * gradient_bar2 - x3 * gradient_bar1 + x0 * gradient_bar0;
-    const vector total_3 = x0 * gradient_bar1 - x1 * gradient_bar2 + x3 * gradient_bar0;
-    const vector gap_2 = x0 * gradient_bar2 + x1 * gradient_bar1 - x2 * gradient_bar0;
-    slope_bar[0] = 0.5 * gap;
-    slope_bar[1] = 0.5 * total_2;
-    slope_bar[2] = 0.5 * total_3;
-    slope_bar[3] = 0.5 * gap_2;
-    slope_bar[4] = 0.25 * gap;
-    slope_bar[5] = 0.25 * total_2;
-    slope_bar[6] = 0.25 * total_3;
-    slope_bar[7] = 0.25 * gap_2;
+    const vector product = 0.5 * (-(x3 * gradient_bar2) - x2 * gradient_bar1 - x1 * gradient_bar0);
+    slope_bar[0] = product;
+    slope_bar[1] = 0.5 * (x2 * gradient_bar2 - x3 * gradient_bar1 + x0 * gradient_bar0);
+    slope_bar[2] = 0.5 * (x0 * gradient_bar1 - x1 * gradient_bar2 + x3 * gradient_bar0);
+    slope_bar[3] = 0.5 * (x0 * gradient_bar2 + x1 * gradient_bar1 - x2 * gradient_bar0);
 }
 
 /* The adjoints of some splats' parameters, of their sums over the points. */
@@ -458,100 +426,80 @@ OUTLINE void pair_constants_vjp(
     const vector sum12 = sums[12];
     const vector sum13 = sums[13];
     const vector sum14 = sums[14];
-    const vector M3 = 2.0 * mu3;
-    const vector M2 = 2.0 * mu2;
-    const vector M1 = 2.0 * mu1;
-    const vector R2_0 = 1.4142135623730951 * (-(W2_2 * M3) - W2_1 * M2 - W2_0 * M1);
-    const vector M0 = 2.0 * mu0;
-    const vector R2_1 = 1.4142135623730951 * (W2_2 * M2 - W2_1 * M3 + W2_0 * M0);
-    const vector product = 2.0 * sum9;
-    const vector R2_2 = 1.4142135623730951 * (W2_1 * M0 - W2_2 * M1 + W2_0 * M3);
-    const vector R2_3 = 1.4142135623730951 * (W2_2 * M0 + W2_1 * M1 - W2_0 * M2);
-    const vector by_R2_1 = R2_0 * sum6 + R2_1 * product + R2_2 * sum10 + R2_3 * sum11;
-    const vector by_R2_1_product = 1.4142135623730951 * by_R2_1;
-    const vector R1_0 = 1.4142135623730951 * (-(W1_2 * M3) - W1_1 * M2 - W1_0 * M1);
-    const vector R1_1 = 1.4142135623730951 * (W1_2 * M2 - W1_1 * M3 + W1_0 * M0);
-    const vector R1_2 = 1.4142135623730951 * (W1_1 * M0 - W1_2 * M1 + W1_0 * M3);
-    const vector R1_3 = 1.4142135623730951 * (W1_2 * M0 + W1_1 * M1 - W1_0 * M2);
-    const vector by_R1_1 = R1_0 * sum6 + R1_1 * product + R1_2 * sum10 + R1_3 * sum11;
-    const vector by_R1_1_product = 1.4142135623730951 * by_R1_1;
-    const vector R0_0 = 1.4142135623730951 * (-(W0_2 * M3) - W0_1 * M2 - W0_0 * M1);
-    const vector R0_1 = 1.4142135623730951 * (W0_2 * M2 - W0_1 * M3 + W0_0 * M0);
-    const vector R0_2 = 1.4142135623730951 * (W0_1 * M0 - W0_2 * M1 + W0_0 * M3);
-    const vector R0_3 = 1.4142135623730951 * (W0_2 * M0 + W0_1 * M1 - W0_0 * M2);
-    const vector by_R0_1 = R0_0 * sum6 + R0_1 * product + R0_2 * sum10 + R0_3 * sum11;
-    const vector by_R0_1_product = 1.4142135623730951 * by_R0_1;
-    const vector product_2 = 2.0 * sum12;
-    const vector by_R2_2 = R2_0 * sum7 + R2_1 * sum10 + R2_2 * product_2 + R2_3 * sum13;
-    const vector by_R2_2_product = 1.4142135623730951 * by_R2_2;
-    const vector by_R1_2 = R1_0 * sum7 + R1_1 * sum10 + R1_2 * product_2 + R1_3 * sum13;
-    const vector by_R1_2_product = 1.4142135623730951 * by_R1_2;
-    const vector total_2 = W2_0 * by_R2_1_product + W1_0 * by_R1_1_product + W0_0 * by_R0_1_product + W2_1 *
-        by_R2_2_product + W1_1 * by_R1_2_product;
-    const vector by_R0_2 = R0_0 * sum7 + R0_1 * sum10 + R0_2 * product_2 + R0_3 * sum13;
-    const vector by_R0_2_product = 1.4142135623730951 * by_R0_2;
-    const vector product_3 = 2.0 * sum14;
-    const vector by_R2_3 = R2_0 * sum8 + R2_1 * sum11 + R2_2 * sum13 + R2_3 * product_3;
-    const vector by_R2_3_product = 1.4142135623730951 * by_R2_3;
-    const vector by_R1_3 = R1_0 * sum8 + R1_1 * sum11 + R1_2 * sum13 + R1_3 * product_3;
-    const vector by_R1_3_product = 1.4142135623730951 * by_R1_3;
-    const vector by_R0_3 = R0_0 * sum8 + R0_1 * sum11 + R0_2 * sum13 + R0_3 * product_3;
-    const vector by_R0_3_product = 1.4142135623730951 * by_R0_3;
-    const vector by_M0 = total_2 + W0_1 * by_R0_2_product + W2_2 * by_R2_3_product + W1_2 * by_R1_3_product +
-        W0_2 * by_R0_3_product;
-    const vector product_4 = 2.0 * sum5;
-    const vector by_R2_0 = R2_0 * product_4 + R2_1 * sum6 + R2_2 * sum7 + R2_3 * sum8;
-    const vector by_R2_0_product = 1.4142135623730951 * by_R2_0;
-    const vector by_R1_0 = R1_0 * product_4 + R1_1 * sum6 + R1_2 * sum7 + R1_3 * sum8;
-    const vector by_R1_0_product = 1.4142135623730951 * by_R1_0;
-    const vector by_R0_0 = R0_0 * product_4 + R0_1 * sum6 + R0_2 * sum7 + R0_3 * sum8;
-    const vector by_R0_0_product = 1.4142135623730951 * by_R0_0;
-    const vector gap = -(W2_0 * by_R2_0_product) - W1_0 * by_R1_0_product - W0_0 * by_R0_0_product - W2_2 *
-        by_R2_2_product;
-    const vector total_3 = gap - W1_2 * by_R1_2_product - W0_2 * by_R0_2_product + W2_1 * by_R2_3_product +
-        W1_1 * by_R1_3_product;
-    const vector by_M1 = total_3 + W0_1 * by_R0_3_product;
-    const vector total_4 = -(W2_1 * by_R2_0_product) - W1_1 * by_R1_0_product - W0_1 * by_R0_0_product + W2_2
-        * by_R2_1_product;
-    const vector gap_2 = total_4 + W1_2 * by_R1_1_product + W0_2 * by_R0_1_product - W2_0 * by_R2_3_product -
-        W1_0 * by_R1_3_product;
-    const vector by_M2 = gap_2 - W0_0 * by_R0_3_product;
-    const vector gap_3 = -(W2_2 * by_R2_0_product) - W1_2 * by_R1_0_product - W0_2 * by_R0_0_product - W2_1 *
-        by_R2_1_product;
-    const vector total_5 = gap_3 - W1_1 * by_R1_1_product - W0_1 * by_R0_1_product + W2_0 * by_R2_2_product +
-        W1_0 * by_R1_2_product;
-    const vector by_M3 = total_5 + W0_0 * by_R0_2_product;
-    const vector product_5 = its_amplitude * (M0 * by_R0_1_product - M1 * by_R0_0_product + M3 *
-        by_R0_2_product - M2 * by_R0_3_product);
-    const vector total_6 = -(M2 * by_R0_0_product) - M3 * by_R0_1_product + M0 * by_R0_2_product + M1 *
-        by_R0_3_product;
-    const vector product_6 = its_amplitude * (M2 * by_R0_1_product - M3 * by_R0_0_product - M1 *
-        by_R0_2_product + M0 * by_R0_3_product);
-    const vector product_7 = its_amplitude * (M0 * by_R1_1_product - M1 * by_R1_0_product + M3 *
-        by_R1_2_product - M2 * by_R1_3_product);
-    const vector total_7 = -(M2 * by_R1_0_product) - M3 * by_R1_1_product + M0 * by_R1_2_product + M1 *
-        by_R1_3_product;
-    const vector product_8 = its_amplitude * (M2 * by_R1_1_product - M3 * by_R1_0_product - M1 *
-        by_R1_2_product + M0 * by_R1_3_product);
-    const vector product_9 = its_amplitude * (M0 * by_R2_1_product - M1 * by_R2_0_product + M3 *
-        by_R2_2_product - M2 * by_R2_3_product);
-    const vector total_8 = -(M2 * by_R2_0_product) - M3 * by_R2_1_product + M0 * by_R2_2_product + M1 *
-        by_R2_3_product;
-    const vector product_10 = its_amplitude * (M2 * by_R2_1_product - M3 * by_R2_0_product - M1 *
-        by_R2_2_product + M0 * by_R2_3_product);
-    mu_bar[0] = its_amplitude * (sum0 + 2.0 * by_M0);
-    mu_bar[1] = its_amplitude * (sum1 + 2.0 * by_M1);
-    mu_bar[2] = its_amplitude * (sum2 + 2.0 * by_M2);
-    mu_bar[3] = its_amplitude * (sum3 + 2.0 * by_M3);
-    W_bar[0] = product_5;
-    W_bar[1] = its_amplitude * total_6;
-    W_bar[2] = product_6;
-    W_bar[3] = product_7;
-    W_bar[4] = its_amplitude * total_7;
-    W_bar[5] = product_8;
-    W_bar[6] = product_9;
-    W_bar[7] = its_amplitude * total_8;
-    W_bar[8] = product_10;
+    const vector product = 2.0 * mu3;
+    const vector product_2 = 2.0 * mu2;
+    const vector product_3 = 2.0 * mu1;
+    const vector R2_0 = -(W2_2 * product) - W2_1 * product_2 - W2_0 * product_3;
+    const vector product_4 = 2.0 * mu0;
+    const vector R2_1 = W2_2 * product_2 - W2_1 * product + W2_0 * product_4;
+    const vector product_5 = 2.0 * sum9;
+    const vector R2_2 = W2_1 * product_4 - W2_2 * product_3 + W2_0 * product;
+    const vector R2_3 = W2_2 * product_4 + W2_1 * product_3 - W2_0 * product_2;
+    const vector by_R2_1 = R2_0 * sum6 + R2_1 * product_5 + R2_2 * sum10 + R2_3 * sum11;
+    const vector R1_0 = -(W1_2 * product) - W1_1 * product_2 - W1_0 * product_3;
+    const vector R1_1 = W1_2 * product_2 - W1_1 * product + W1_0 * product_4;
+    const vector R1_2 = W1_1 * product_4 - W1_2 * product_3 + W1_0 * product;
+    const vector R1_3 = W1_2 * product_4 + W1_1 * product_3 - W1_0 * product_2;
+    const vector by_R1_1 = R1_0 * sum6 + R1_1 * product_5 + R1_2 * sum10 + R1_3 * sum11;
+    const vector R0_0 = -(W0_2 * product) - W0_1 * product_2 - W0_0 * product_3;
+    const vector R0_1 = W0_2 * product_2 - W0_1 * product + W0_0 * product_4;
+    const vector R0_2 = W0_1 * product_4 - W0_2 * product_3 + W0_0 * product;
+    const vector R0_3 = W0_2 * product_4 + W0_1 * product_3 - W0_0 * product_2;
+    const vector by_R0_1 = R0_0 * sum6 + R0_1 * product_5 + R0_2 * sum10 + R0_3 * sum11;
+    const vector product_6 = 2.0 * sum12;
+    const vector by_R2_2 = R2_0 * sum7 + R2_1 * sum10 + R2_2 * product_6 + R2_3 * sum13;
+    const vector by_R1_2 = R1_0 * sum7 + R1_1 * sum10 + R1_2 * product_6 + R1_3 * sum13;
+    const vector total_2 = W2_0 * by_R2_1 + W1_0 * by_R1_1 + W0_0 * by_R0_1 + W2_1 * by_R2_2 + W1_1 * by_R1_2;
+    const vector by_R0_2 = R0_0 * sum7 + R0_1 * sum10 + R0_2 * product_6 + R0_3 * sum13;
+    const vector product_7 = 2.0 * sum14;
+    const vector by_R2_3 = R2_0 * sum8 + R2_1 * sum11 + R2_2 * sum13 + R2_3 * product_7;
+    const vector by_R1_3 = R1_0 * sum8 + R1_1 * sum11 + R1_2 * sum13 + R1_3 * product_7;
+    const vector by_R0_3 = R0_0 * sum8 + R0_1 * sum11 + R0_2 * sum13 + R0_3 * product_7;
+    const vector total_3 = total_2 + W0_1 * by_R0_2 + W2_2 * by_R2_3 + W1_2 * by_R1_3 + W0_2 * by_R0_3;
+    const vector product_8 = 2.0 * sum5;
+    const vector by_R2_0 = R2_0 * product_8 + R2_1 * sum6 + R2_2 * sum7 + R2_3 * sum8;
+    const vector by_R1_0 = R1_0 * product_8 + R1_1 * sum6 + R1_2 * sum7 + R1_3 * sum8;
+    const vector by_R0_0 = R0_0 * product_8 + R0_1 * sum6 + R0_2 * sum7 + R0_3 * sum8;
+    const vector gap = -(W2_0 * by_R2_0) - W1_0 * by_R1_0 - W0_0 * by_R0_0 - W2_2 * by_R2_2;
+    const vector total_4 = gap - W1_2 * by_R1_2 - W0_2 * by_R0_2 + W2_1 * by_R2_3 + W1_1 * by_R1_3;
+    const vector product_9 = its_amplitude * (sum1 + 2.0 * (total_4 + W0_1 * by_R0_3));
+    const vector total_5 = -(W2_1 * by_R2_0) - W1_1 * by_R1_0 - W0_1 * by_R0_0 + W2_2 * by_R2_1;
+    const vector gap_2 = total_5 + W1_2 * by_R1_1 + W0_2 * by_R0_1 - W2_0 * by_R2_3 - W1_0 * by_R1_3;
+    const vector product_10 = its_amplitude * (sum2 + 2.0 * (gap_2 - W0_0 * by_R0_3));
+    const vector gap_3 = -(W2_2 * by_R2_0) - W1_2 * by_R1_0 - W0_2 * by_R0_0 - W2_1 * by_R2_1;
+    const vector total_6 = gap_3 - W1_1 * by_R1_1 - W0_1 * by_R0_1 + W2_0 * by_R2_2 + W1_0 * by_R1_2;
+    const vector product_11 = its_amplitude * (sum3 + 2.0 * (total_6 + W0_0 * by_R0_2));
+    const vector product_12 = its_amplitude * (product_4 * by_R0_1 - product_3 * by_R0_0 + product * by_R0_2 -
+        product_2 * by_R0_3);
+    const vector total_7 = -(product_2 * by_R0_0) - product * by_R0_1 + product_4 * by_R0_2 + product_3 *
+        by_R0_3;
+    const vector product_13 = its_amplitude * (product_2 * by_R0_1 - product * by_R0_0 - product_3 * by_R0_2 +
+        product_4 * by_R0_3);
+    const vector product_14 = its_amplitude * (product_4 * by_R1_1 - product_3 * by_R1_0 + product * by_R1_2 -
+        product_2 * by_R1_3);
+    const vector total_8 = -(product_2 * by_R1_0) - product * by_R1_1 + product_4 * by_R1_2 + product_3 *
+        by_R1_3;
+    const vector product_15 = its_amplitude * (product_2 * by_R1_1 - product * by_R1_0 - product_3 * by_R1_2 +
+        product_4 * by_R1_3);
+    const vector product_16 = its_amplitude * (product_4 * by_R2_1 - product_3 * by_R2_0 + product * by_R2_2 -
+        product_2 * by_R2_3);
+    const vector total_9 = -(product_2 * by_R2_0) - product * by_R2_1 + product_4 * by_R2_2 + product_3 *
+        by_R2_3;
+    const vector product_17 = its_amplitude * (product_2 * by_R2_1 - product * by_R2_0 - product_3 * by_R2_2 +
+        product_4 * by_R2_3);
+    mu_bar[0] = its_amplitude * (sum0 + 2.0 * total_3);
+    mu_bar[1] = product_9;
+    mu_bar[2] = product_10;
+    mu_bar[3] = product_11;
+    W_bar[0] = product_12;
+    W_bar[1] = its_amplitude * total_7;
+    W_bar[2] = product_13;
+    W_bar[3] = product_14;
+    W_bar[4] = its_amplitude * total_8;
+    W_bar[5] = product_15;
+    W_bar[6] = product_16;
+    W_bar[7] = its_amplitude * total_9;
+    W_bar[8] = product_17;
     amplitude_bar[0] = sum4;
 }
 
@@ -581,11 +529,11 @@ OUTLINE void pair_distances(
 /*
  * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_backward(
     const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
@@ -593,35 +541,27 @@ INLINE void pair_backward(
     const vector x1 = X[1];
     const vector x2 = X[2];
     const vector x3 = X[3];
-    const vector h0 = X[4];
-    const vector h1 = X[5];
-    const vector h2 = X[6];
-    const vector h3 = X[7];
     const double mu0 = S[0];
     const double mu1 = S[1];
     const double mu2 = S[2];
     const double mu3 = S[3];
-    const double R0_0 = S[5];
-    const double R0_1 = S[6];
+    const double R0_3 = S[5];
+    const double R0_0 = S[6];
     const double R0_2 = S[7];
-    const double R0_3 = S[8];
-    const double R1_0 = S[9];
-    const double R1_1 = S[10];
+    const double R0_1 = S[8];
+    const double R1_3 = S[9];
+    const double R1_0 = S[10];
     const double R1_2 = S[11];
-    const double R1_3 = S[12];
-    const double R2_0 = S[13];
-    const double R2_1 = S[14];
+    const double R1_1 = S[12];
+    const double R2_3 = S[13];
+    const double R2_0 = S[14];
     const double R2_2 = S[15];
-    const double R2_3 = S[16];
+    const double R2_1 = S[16];
     const vector its_value_bar = value_bar[0];
     const vector x0_bar = slope_bar[0];
     const vector x1_bar = slope_bar[1];
     const vector x2_bar = slope_bar[2];
     const vector x3_bar = slope_bar[3];
-    const vector h0_bar = slope_bar[4];
-    const vector h1_bar = slope_bar[5];
-    const vector h2_bar = slope_bar[6];
-    const vector h3_bar = slope_bar[7];
     const vector g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
     const vector_mask is_small = g0 < 0.0;
     const vector abs_g0 = abs_each(g0);
@@ -629,55 +569,51 @@ INLINE void pair_backward(
     const vector eta = vector_polynomial_eta(abs_g0_gap);
     const vector a = 1.0 / (abs_g0 - eta * (1.0 - abs_g0 * abs_g0));
     const vector a_squared = a * a;
-    const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3;
-    const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3;
-    const vector r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3;
-    const vector half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
-    const vector gaussian = exp_each(-half_square);
+    const vector r0 = x0 * R0_0 + x1 * R0_1 + x2 * R0_2 + x3 * R0_3;
+    const vector r1 = x0 * R1_0 + x1 * R1_1 + x2 * R1_2 + x3 * R1_3;
+    const vector r2 = x0 * R2_0 + x1 * R2_1 + x2 * R2_2 + x3 * R2_3;
+    const vector square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
+    const vector gaussian = gaussian_each(square);
     const vector phi = a * (a * gaussian);
-    const vector half_square_product = 2.0 * half_square;
-    const vector gap = 2.0 * phi - phi * half_square_product;
+    const vector gap = 2.0 * phi - phi * square;
     const vector by_abs_g0 = eta * gap;
     const vector by_g0 = vector_select(is_small, -by_abs_g0, by_abs_g0);
     const vector eta_slope = vector_polynomial_eta_slope(abs_g0_gap);
     const vector by_by_g0 = mu0 * x0_bar + mu1 * x1_bar + mu2 * x2_bar + mu3 * x3_bar;
     const vector by_by_abs_g0 = vector_select(is_small, vector_of(0.0), by_by_g0) - vector_select(is_small,
         by_by_g0, vector_of(0.0));
-    const vector product = 2.0 * (R0_3 * r0 + R1_3 * r1 + R2_3 * r2) * h3_bar;
-    const vector product_2 = 2.0 * (R0_2 * r0 + R1_2 * r1 + R2_2 * r2) * h2_bar;
-    const vector product_3 = 2.0 * (R0_1 * r0 + R1_1 * r1 + R2_1 * r2) * h1_bar;
-    const vector product_4 = 2.0 * (R0_0 * r0 + R1_0 * r1 + R2_0 * r2) * h0_bar;
-    const vector gap_2 = -product - product_2 - product_3 - product_4;
+    const vector minus = -((R0_3 * r0 + R1_3 * r1 + R2_3 * r2) * x3_bar);
+    const vector gap_2 = minus - (R0_2 * r0 + R1_2 * r1 + R2_2 * r2) * x2_bar;
+    const vector gap_3 = gap_2 - (R0_1 * r0 + R1_1 * r1 + R2_1 * r2) * x1_bar;
+    const vector gap_4 = gap_3 - (R0_0 * r0 + R1_0 * r1 + R2_0 * r2) * x0_bar;
     const vector eta_product = eta * by_by_abs_g0;
-    const vector by_phi = its_value_bar + a_squared * gap_2 - half_square_product * eta_product + 2.0 *
-        eta_product;
+    const vector by_phi = its_value_bar + a_squared * gap_4 - square * eta_product + 2.0 * eta_product;
     const vector phi_product = phi * by_phi;
-    const vector by_half_square = -2.0 * (phi * eta_product) - phi_product;
-    const vector eta_product_2 = eta * (2.0 * a_squared * (phi * gap_2) + 2.0 * phi_product +
-        half_square_product * by_half_square);
+    const vector gap_5 = -2.0 * (phi * eta_product) - phi_product;
+    const vector eta_product_2 = eta * (2.0 * a_squared * (phi * gap_4) + 2.0 * phi_product + square * gap_5);
     const vector by_abs_g0_2 = eta_slope * (gap * by_by_abs_g0) + eta_product_2;
     const vector by_g0_2 = vector_select(is_small, -by_abs_g0_2, by_abs_g0_2);
-    const vector a_squared_product = a_squared * by_half_square;
+    const vector product = 0.5 * (a_squared * gap_5);
     const vector phi_product_2 = phi * a_squared;
-    const vector gap_3 = h0 * a_squared_product - 2.0 * (phi_product_2 * h0_bar);
-    const vector gap_4 = h1 * a_squared_product - 2.0 * (phi_product_2 * h1_bar);
-    const vector gap_5 = h2 * a_squared_product - 2.0 * (phi_product_2 * h2_bar);
-    const vector gap_6 = h3 * a_squared_product - 2.0 * (phi_product_2 * h3_bar);
+    const vector gap_6 = x0 * product - phi_product_2 * x0_bar;
+    const vector gap_7 = x1 * product - phi_product_2 * x1_bar;
+    const vector gap_8 = x2 * product - phi_product_2 * x2_bar;
+    const vector gap_9 = x3 * product - phi_product_2 * x3_bar;
     sums[0] = sums[0] + by_g0 * x0_bar + x0 * by_g0_2;
     sums[1] = sums[1] + by_g0 * x1_bar + x1 * by_g0_2;
     sums[2] = sums[2] + by_g0 * x2_bar + x2 * by_g0_2;
     sums[3] = sums[3] + by_g0 * x3_bar + x3 * by_g0_2;
     sums[4] = sums[4] + phi_product;
-    sums[5] = sums[5] + h0 * gap_3;
-    sums[6] = sums[6] + h0 * gap_4 + h1 * gap_3;
-    sums[7] = sums[7] + h0 * gap_5 + h2 * gap_3;
-    sums[8] = sums[8] + h0 * gap_6 + h3 * gap_3;
-    sums[9] = sums[9] + h1 * gap_4;
-    sums[10] = sums[10] + h1 * gap_5 + h2 * gap_4;
-    sums[11] = sums[11] + h1 * gap_6 + h3 * gap_4;
-    sums[12] = sums[12] + h2 * gap_5;
-    sums[13] = sums[13] + h2 * gap_6 + h3 * gap_5;
-    sums[14] = sums[14] + h3 * gap_6;
+    sums[5] = sums[5] + x0 * gap_6;
+    sums[6] = sums[6] + x0 * gap_7 + x1 * gap_6;
+    sums[7] = sums[7] + x0 * gap_8 + x2 * gap_6;
+    sums[8] = sums[8] + x0 * gap_9 + x3 * gap_6;
+    sums[9] = sums[9] + x1 * gap_7;
+    sums[10] = sums[10] + x1 * gap_8 + x2 * gap_7;
+    sums[11] = sums[11] + x1 * gap_9 + x3 * gap_7;
+    sums[12] = sums[12] + x2 * gap_8;
+    sums[13] = sums[13] + x2 * gap_9 + x3 * gap_8;
+    sums[14] = sums[14] + x3 * gap_9;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -704,12 +640,12 @@ OUTLINE void vector_end(size_t count, size_t start, size_t size, vector *columns
         for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
 }
 
-/* Scratch memory: 17 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
+/* Scratch memory: 9 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
 size_t so3_splats_work(size_t count, size_t splat_count, int threads) {
     (void)threads;
     const size_t points = (count + LANES - 1) / LANES, blocks = (points + 2 - 1) / 2;
     const size_t places = 5 * ((splat_count + LANES - 1) / LANES + (blocks + LANES - 1) / LANES);
-    return (points * 17 + places + 1) * LANES + 17 * splat_count;
+    return (points * 9 + places + 1) * LANES + 17 * splat_count;
 }
 
 static vector *work_points(double *work) {
@@ -724,7 +660,7 @@ INLINE const double *splat_at(const vector *splats, size_t k) {
 }
 
 static vector *work_reaches(double *work, size_t count) {
-    return work_points(work) + (count + LANES - 1) / LANES * 17;
+    return work_points(work) + (count + LANES - 1) / LANES * 9;
 }
 
 static vector *work_blocks(double *work, size_t count, size_t splat_count) {
@@ -854,8 +790,8 @@ void so3_splats(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[2][4], X[2][8], grad[3];
-            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][8] = {{ZERO}};
+            vector at[2][4], X[2][4], grad[3];
+            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][4] = {{ZERO}};
             double place[4 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
@@ -896,7 +832,7 @@ void so3_splats_value(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[4], X[2][8], value_sum[2][1] = {{ZERO}};
+            vector at[4], X[2][4], value_sum[2][1] = {{ZERO}};
             double place[4 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
@@ -923,14 +859,14 @@ void so3_splats_value(
 /* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
 OUTLINE void splat_points(
     size_t count, size_t start, const double *x, const double *value_bar, const double *gradient_bar, vector *point) {
-    vector at[4], grad_bar[3], slope_bar[8];
+    vector at[4], grad_bar[3], slope_bar[4];
     vector_rows(x, count, start, 4, at);
     vector_rows(gradient_bar, count, start, 3, grad_bar);
-    vector_rows(value_bar, count, start, 1, point + 8);
+    vector_rows(value_bar, count, start, 1, point + 4);
     pair_features(at, point);
     pair_gradient_vjp(at, grad_bar, slope_bar);
-    for (int i = 0; i < 8; ++i) point[8 + 1 + i] = slope_bar[i];
-    vector_end(count, start, 8 + 1, point + 8);
+    for (int i = 0; i < 4; ++i) point[4 + 1 + i] = slope_bar[i];
+    vector_end(count, start, 4 + 1, point + 4);
 }
 
 /* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
@@ -938,13 +874,13 @@ OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size,
     vector sum[15] = {ZERO};
     size_t b = 0;
     for (; b + 1 < size; b += 2) {
-        const vector *point = points + 17 * (size_t)near[b], *other = points + 17 * (size_t)near[b + 1];
-        pair_backward(point, S, point + 8, point + 8 + 1, sum);
-        pair_backward(other, S, other + 8, other + 8 + 1, sum);
+        const vector *point = points + 9 * (size_t)near[b], *other = points + 9 * (size_t)near[b + 1];
+        pair_backward(point, S, point + 4, point + 4 + 1, sum);
+        pair_backward(other, S, other + 4, other + 4 + 1, sum);
     }
     if (b < size) {
-        const vector *point = points + 17 * (size_t)near[b];
-        pair_backward(point, S, point + 8, point + 8 + 1, sum);
+        const vector *point = points + 9 * (size_t)near[b];
+        pair_backward(point, S, point + 4, point + 4 + 1, sum);
     }
     sums[0] += vector_sum(sum[0]);
     sums[1] += vector_sum(sum[1]);
@@ -971,7 +907,7 @@ void so3_splats_vjp(
     size_t count, size_t splat_count, const double *SO3_RESTRICT x, const double *SO3_RESTRICT mu, const double *SO3_RESTRICT W, const double *SO3_RESTRICT amplitude, const double *SO3_RESTRICT width, const double *SO3_RESTRICT value_bar, const double *SO3_RESTRICT gradient_bar,
     double *SO3_RESTRICT mu_bar, double *SO3_RESTRICT W_bar, double *SO3_RESTRICT amplitude_bar, double *SO3_RESTRICT work, int threads) {
     const size_t blocks = (count + LANES - 1) / LANES;
-    const size_t chunk = 131072 / (17 * sizeof(vector)) + 1;
+    const size_t chunk = 131072 / (9 * sizeof(vector)) + 1;
     const size_t rows = ((blocks + 2 - 1) / 2 + LANES - 1) / LANES * LANES;
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES ? part : LANES;
@@ -998,19 +934,19 @@ void so3_splats_vjp(
         }
         OMP(omp for schedule(dynamic, 8))
         for (size_t block = 0; block < blocks; ++block)
-            splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 17 * block);
+            splat_points(count, block * LANES, x, value_bar, gradient_bar, points + 9 * block);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
             double sums[LANES][15] = {{0}};
-            uint32_t near[131072 / (17 * sizeof(vector)) + 2];
+            uint32_t near[131072 / (9 * sizeof(vector)) + 2];
             vector own_mu[4], own_W[9], own_amplitude[1], own_sums[15], bars[14];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
                     const double *reach = width ? splat_at(splats, k) + 4 * LANES : NULL;
                     const size_t some = blocks_near(mu + 4 * k, reach, places, first, first + size, near);
-                    splat_sums(points + 17 * first, near, some, constants + 17 * k, sums[k - start]);
+                    splat_sums(points + 9 * first, near, some, constants + 17 * k, sums[k - start]);
                 }
             }
             vector_rows(mu, end, start, 4, own_mu);
@@ -1041,14 +977,14 @@ void so3_splats_rows(
             splat_constants(splat_count, start, mu, W, amplitude, NULL, constants, NULL);
         OMP(omp for schedule(dynamic))
         for (size_t block = 0; block < blocks; ++block) {
-            vector point[17];
+            vector point[9];
             splat_points(count, block * LANES, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
                 vector own_mu[4], own_W[9], own_amplitude[1], own_sums[15] = {ZERO}, bars[14];
                 for (int i = 0; i < 4; ++i) own_mu[i] = vector_of(mu[4 * k + i]);
                 for (int i = 0; i < 9; ++i) own_W[i] = vector_of(W[9 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 17 * k, point + 8, point + 8 + 1, own_sums);
+                pair_backward(point, constants + 17 * k, point + 4, point + 4 + 1, own_sums);
                 pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 4, bars + 4 + 9);
                 vector_to_rows(bars, rows + 14 * k, count, block * LANES, 14, 14 * splat_count);
             }
@@ -1216,14 +1152,13 @@ INLINE vector_f sqrt_each_f(vector_f x) {
     return x;
 }
 
-/* exp = 2^k exp(r), |r| <= log(2) / 2, within 1 unit in the last place; below 1.6e-38 it is 0. */
-INLINE vector_f exp_each_f(vector_f x) {
-    const vector_f shifted = x * 1.4426950408889634f + 12582912.0f, k = shifted - 12582912.0f;
-    const vector_f r = (x - k * 0.693145751953125f) - k * 1.4286068203094173e-06f;
-    const vector_f part = r + r * r * (0.5f + r * (0.16666576998242924f + r * (0.041666554627878084f + r * (0.008363177629994445f + r * 0.0013926181810489343f))));
-    const vector_f scale = vector_from_bits_f((vector_to_bits_f(shifted) + 126) << 23); /* 2^(k - 1) */
-    const vector_f y = vector_select_f(x > 88.722839f, vector_of_f(HUGE_VALF), (scale + scale * part) * 2);
-    return vector_select_f(x < -86.9f, vector_of_f(0), y);
+/* exp(-s / 2) of s >= 0, as 2^k exp(-r / 2), |r| <= log(2), within 1 unit in the last place; below 1.8e-38 it is 0. */
+INLINE vector_f gaussian_each_f(vector_f s) {
+    const vector_f shifted = s * -0.7213475204444817f + 12583039.0f, k = shifted - 12583039.0f;
+    const vector_f r = (s + k * 1.38629150390625f) + k * 2.8572136406188345e-06f;
+    const vector_f part = r * (-0.5f + r * (0.125f + r * (-0.020833221247803655f + r * (0.0026041596642423803f + r * (-0.0002613493009373264f + r * 2.1759659078889598e-05f)))));
+    const vector_f scale = vector_from_bits_f(vector_to_bits_f(shifted) << 23); /* 2^k */
+    return vector_select_f(s > 173.8f, vector_of_f(0), scale + scale * part);
 }
 
 /* atan2, within 3 units in the last place. */
@@ -1268,18 +1203,10 @@ OUTLINE void pair_features_f(
     const vector_f x1 = x[1];
     const vector_f x2 = x[2];
     const vector_f x3 = x[3];
-    const vector_f h0 = 0.5f * x0;
-    const vector_f h1 = 0.5f * x1;
-    const vector_f h2 = 0.5f * x2;
-    const vector_f h3 = 0.5f * x3;
     X[0] = x0;
     X[1] = x1;
     X[2] = x2;
     X[3] = x3;
-    X[4] = h0;
-    X[5] = h1;
-    X[6] = h2;
-    X[7] = h3;
 }
 
 /* What pairs read of a splat, of some splats. */
@@ -1299,49 +1226,49 @@ OUTLINE void pair_constants_f(
     const vector_f W2_1 = W[7];
     const vector_f W2_2 = W[8];
     const vector_f its_amplitude = amplitude[0];
-    const vector_f M3 = 2.0f * mu3;
-    const vector_f M2 = 2.0f * mu2;
-    const vector_f M1 = 2.0f * mu1;
-    const vector_f R0_0 = 1.4142135623730951f * (-(W0_2 * M3) - W0_1 * M2 - W0_0 * M1);
-    const vector_f M0 = 2.0f * mu0;
-    const vector_f R0_1 = 1.4142135623730951f * (W0_2 * M2 - W0_1 * M3 + W0_0 * M0);
-    const vector_f R0_2 = 1.4142135623730951f * (W0_1 * M0 - W0_2 * M1 + W0_0 * M3);
-    const vector_f R0_3 = 1.4142135623730951f * (W0_2 * M0 + W0_1 * M1 - W0_0 * M2);
-    const vector_f R1_0 = 1.4142135623730951f * (-(W1_2 * M3) - W1_1 * M2 - W1_0 * M1);
-    const vector_f R1_1 = 1.4142135623730951f * (W1_2 * M2 - W1_1 * M3 + W1_0 * M0);
-    const vector_f R1_2 = 1.4142135623730951f * (W1_1 * M0 - W1_2 * M1 + W1_0 * M3);
-    const vector_f R1_3 = 1.4142135623730951f * (W1_2 * M0 + W1_1 * M1 - W1_0 * M2);
-    const vector_f R2_0 = 1.4142135623730951f * (-(W2_2 * M3) - W2_1 * M2 - W2_0 * M1);
-    const vector_f R2_1 = 1.4142135623730951f * (W2_2 * M2 - W2_1 * M3 + W2_0 * M0);
-    const vector_f R2_2 = 1.4142135623730951f * (W2_1 * M0 - W2_2 * M1 + W2_0 * M3);
-    const vector_f R2_3 = 1.4142135623730951f * (W2_2 * M0 + W2_1 * M1 - W2_0 * M2);
+    const vector_f product = 2.0f * mu0;
+    const vector_f product_2 = 2.0f * mu1;
+    const vector_f product_3 = 2.0f * mu2;
+    const vector_f R0_3 = W0_2 * product + W0_1 * product_2 - W0_0 * product_3;
+    const vector_f product_4 = 2.0f * mu3;
+    const vector_f R0_0 = -(W0_2 * product_4) - W0_1 * product_3 - W0_0 * product_2;
+    const vector_f R0_2 = W0_1 * product - W0_2 * product_2 + W0_0 * product_4;
+    const vector_f R0_1 = W0_2 * product_3 - W0_1 * product_4 + W0_0 * product;
+    const vector_f R1_3 = W1_2 * product + W1_1 * product_2 - W1_0 * product_3;
+    const vector_f R1_0 = -(W1_2 * product_4) - W1_1 * product_3 - W1_0 * product_2;
+    const vector_f R1_2 = W1_1 * product - W1_2 * product_2 + W1_0 * product_4;
+    const vector_f R1_1 = W1_2 * product_3 - W1_1 * product_4 + W1_0 * product;
+    const vector_f R2_3 = W2_2 * product + W2_1 * product_2 - W2_0 * product_3;
+    const vector_f R2_0 = -(W2_2 * product_4) - W2_1 * product_3 - W2_0 * product_2;
+    const vector_f R2_2 = W2_1 * product - W2_2 * product_2 + W2_0 * product_4;
+    const vector_f R2_1 = W2_2 * product_3 - W2_1 * product_4 + W2_0 * product;
     S[0] = mu0;
     S[1] = mu1;
     S[2] = mu2;
     S[3] = mu3;
     S[4] = its_amplitude;
-    S[5] = R0_0;
-    S[6] = R0_1;
+    S[5] = R0_3;
+    S[6] = R0_0;
     S[7] = R0_2;
-    S[8] = R0_3;
-    S[9] = R1_0;
-    S[10] = R1_1;
+    S[8] = R0_1;
+    S[9] = R1_3;
+    S[10] = R1_0;
     S[11] = R1_2;
-    S[12] = R1_3;
-    S[13] = R2_0;
-    S[14] = R2_1;
+    S[12] = R1_1;
+    S[13] = R2_3;
+    S[14] = R2_0;
     S[15] = R2_2;
-    S[16] = R2_3;
+    S[16] = R2_1;
 }
 
 /*
  * Adds the values phi of a splat at some points.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_value_f(
     const vector_f *X, const float *S, vector_f *value) {
@@ -1349,37 +1276,33 @@ INLINE void pair_value_f(
     const vector_f x1 = X[1];
     const vector_f x2 = X[2];
     const vector_f x3 = X[3];
-    const vector_f h0 = X[4];
-    const vector_f h1 = X[5];
-    const vector_f h2 = X[6];
-    const vector_f h3 = X[7];
     const float mu0 = S[0];
     const float mu1 = S[1];
     const float mu2 = S[2];
     const float mu3 = S[3];
     const float amplitude = S[4];
-    const float R0_0 = S[5];
-    const float R0_1 = S[6];
+    const float R0_3 = S[5];
+    const float R0_0 = S[6];
     const float R0_2 = S[7];
-    const float R0_3 = S[8];
-    const float R1_0 = S[9];
-    const float R1_1 = S[10];
+    const float R0_1 = S[8];
+    const float R1_3 = S[9];
+    const float R1_0 = S[10];
     const float R1_2 = S[11];
-    const float R1_3 = S[12];
-    const float R2_0 = S[13];
-    const float R2_1 = S[14];
+    const float R1_1 = S[12];
+    const float R2_3 = S[13];
+    const float R2_0 = S[14];
     const float R2_2 = S[15];
-    const float R2_3 = S[16];
+    const float R2_1 = S[16];
     const vector_f g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
     const vector_f abs_g0 = abs_each_f(g0);
     const vector_f eta = vector_polynomial_eta_f(1.0f - abs_g0);
     const vector_f a = 1.0f / (abs_g0 - eta * (1.0f - abs_g0 * abs_g0));
     const vector_f a_squared = a * a;
-    const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3;
-    const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3;
-    const vector_f r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3;
-    const vector_f half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
-    const vector_f gaussian = exp_each_f(-half_square);
+    const vector_f r0 = x0 * R0_0 + x1 * R0_1 + x2 * R0_2 + x3 * R0_3;
+    const vector_f r1 = x0 * R1_0 + x1 * R1_1 + x2 * R1_2 + x3 * R1_3;
+    const vector_f r2 = x0 * R2_0 + x1 * R2_1 + x2 * R2_2 + x3 * R2_3;
+    const vector_f square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
+    const vector_f gaussian = gaussian_each_f(square);
     const vector_f phi = a * (a * gaussian);
     value[0] = value[0] + amplitude * phi;
 }
@@ -1387,11 +1310,11 @@ INLINE void pair_value_f(
 /*
  * Adds the values phi of a splat at some points, and slope = d phi / d X.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_forward_f(
     const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
@@ -1399,51 +1322,43 @@ INLINE void pair_forward_f(
     const vector_f x1 = X[1];
     const vector_f x2 = X[2];
     const vector_f x3 = X[3];
-    const vector_f h0 = X[4];
-    const vector_f h1 = X[5];
-    const vector_f h2 = X[6];
-    const vector_f h3 = X[7];
     const float mu0 = S[0];
     const float mu1 = S[1];
     const float mu2 = S[2];
     const float mu3 = S[3];
     const float amplitude = S[4];
-    const float R0_0 = S[5];
-    const float R0_1 = S[6];
+    const float R0_3 = S[5];
+    const float R0_0 = S[6];
     const float R0_2 = S[7];
-    const float R0_3 = S[8];
-    const float R1_0 = S[9];
-    const float R1_1 = S[10];
+    const float R0_1 = S[8];
+    const float R1_3 = S[9];
+    const float R1_0 = S[10];
     const float R1_2 = S[11];
-    const float R1_3 = S[12];
-    const float R2_0 = S[13];
-    const float R2_1 = S[14];
+    const float R1_1 = S[12];
+    const float R2_3 = S[13];
+    const float R2_0 = S[14];
     const float R2_2 = S[15];
-    const float R2_3 = S[16];
+    const float R2_1 = S[16];
     const vector_f g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
     const vector_f abs_g0 = abs_each_f(g0);
     const vector_f eta = vector_polynomial_eta_f(1.0f - abs_g0);
     const vector_f a = 1.0f / (abs_g0 - eta * (1.0f - abs_g0 * abs_g0));
     const vector_f a_squared = a * a;
-    const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3;
-    const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3;
-    const vector_f r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3;
-    const vector_f half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
-    const vector_f gaussian = exp_each_f(-half_square);
+    const vector_f r0 = x0 * R0_0 + x1 * R0_1 + x2 * R0_2 + x3 * R0_3;
+    const vector_f r1 = x0 * R1_0 + x1 * R1_1 + x2 * R1_2 + x3 * R1_3;
+    const vector_f r2 = x0 * R2_0 + x1 * R2_1 + x2 * R2_2 + x3 * R2_3;
+    const vector_f square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
+    const vector_f gaussian = gaussian_each_f(square);
     const vector_f phi = a * (a * gaussian);
     const vector_f phi_2 = amplitude * phi;
-    const vector_f by_abs_g0 = eta * (2.0f * phi_2 - phi_2 * (2.0f * half_square));
+    const vector_f by_abs_g0 = eta * (2.0f * phi_2 - phi_2 * square);
     const vector_f by_g0 = vector_select_f(g0 < 0.0f, -by_abs_g0, by_abs_g0);
     const vector_f phi_product = phi_2 * a_squared;
     value[0] = value[0] + phi_2;
-    slope[0] = slope[0] + mu0 * by_g0;
-    slope[1] = slope[1] + mu1 * by_g0;
-    slope[2] = slope[2] + mu2 * by_g0;
-    slope[3] = slope[3] + mu3 * by_g0;
-    slope[4] = slope[4] - (2.0f * (R0_0 * r0 + R1_0 * r1 + R2_0 * r2)) * phi_product;
-    slope[5] = slope[5] - (2.0f * (R0_1 * r0 + R1_1 * r1 + R2_1 * r2)) * phi_product;
-    slope[6] = slope[6] - (2.0f * (R0_2 * r0 + R1_2 * r1 + R2_2 * r2)) * phi_product;
-    slope[7] = slope[7] - (2.0f * (R0_3 * r0 + R1_3 * r1 + R2_3 * r2)) * phi_product;
+    slope[0] = slope[0] + mu0 * by_g0 - (R0_0 * r0 + R1_0 * r1 + R2_0 * r2) * phi_product;
+    slope[1] = slope[1] + mu1 * by_g0 - (R0_1 * r0 + R1_1 * r1 + R2_1 * r2) * phi_product;
+    slope[2] = slope[2] + mu2 * by_g0 - (R0_2 * r0 + R1_2 * r1 + R2_2 * r2) * phi_product;
+    slope[3] = slope[3] + mu3 * by_g0 - (R0_3 * r0 + R1_3 * r1 + R2_3 * r2) * phi_product;
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -1457,14 +1372,10 @@ OUTLINE void pair_gradient_f(
     const vector_f slope_x1 = slope[1];
     const vector_f slope_x2 = slope[2];
     const vector_f slope_x3 = slope[3];
-    const vector_f slope_h0 = slope[4];
-    const vector_f slope_h1 = slope[5];
-    const vector_f slope_h2 = slope[6];
-    const vector_f slope_h3 = slope[7];
-    const vector_f product = 0.5f * (slope_x1 + 0.5f * slope_h1);
-    const vector_f product_2 = 0.5f * (slope_x2 + 0.5f * slope_h2);
-    const vector_f product_3 = 0.5f * (slope_x0 + 0.5f * slope_h0);
-    const vector_f product_4 = 0.5f * (slope_x3 + 0.5f * slope_h3);
+    const vector_f product = 0.5f * slope_x1;
+    const vector_f product_2 = 0.5f * slope_x2;
+    const vector_f product_3 = 0.5f * slope_x0;
+    const vector_f product_4 = 0.5f * slope_x3;
     gradient[0] = x0 * product + x3 * product_2 - x1 * product_3 - x2 * product_4;
     gradient[1] = x0 * product_2 + x1 * product_4 - x2 * product_3 - x3 * product;
     gradient[2] = x2 * product + x0 * product_4 - x3 * product_3 - x1 * product_2;
@@ -1480,18 +1391,11 @@ OUTLINE void pair_gradient_vjp_f(
     const vector_f gradient_bar0 = gradient_bar[0];
     const vector_f gradient_bar1 = gradient_bar[1];
     const vector_f gradient_bar2 = gradient_bar[2];
-    const vector_f gap = -(x3 * gradient_bar2) - x2 * gradient_bar1 - x1 * gradient_bar0;
-    const vector_f total_2 = x2 * gradient_bar2 - x3 * gradient_bar1 + x0 * gradient_bar0;
-    const vector_f total_3 = x0 * gradient_bar1 - x1 * gradient_bar2 + x3 * gradient_bar0;
-    const vector_f gap_2 = x0 * gradient_bar2 + x1 * gradient_bar1 - x2 * gradient_bar0;
-    slope_bar[0] = 0.5f * gap;
-    slope_bar[1] = 0.5f * total_2;
-    slope_bar[2] = 0.5f * total_3;
-    slope_bar[3] = 0.5f * gap_2;
-    slope_bar[4] = 0.25f * gap;
-    slope_bar[5] = 0.25f * total_2;
-    slope_bar[6] = 0.25f * total_3;
-    slope_bar[7] = 0.25f * gap_2;
+    const vector_f product = 0.5f * (-(x3 * gradient_bar2) - x2 * gradient_bar1 - x1 * gradient_bar0);
+    slope_bar[0] = product;
+    slope_bar[1] = 0.5f * (x2 * gradient_bar2 - x3 * gradient_bar1 + x0 * gradient_bar0);
+    slope_bar[2] = 0.5f * (x0 * gradient_bar1 - x1 * gradient_bar2 + x3 * gradient_bar0);
+    slope_bar[3] = 0.5f * (x0 * gradient_bar2 + x1 * gradient_bar1 - x2 * gradient_bar0);
 }
 
 /* The adjoints of some splats' parameters, of their sums over the points. */
@@ -1526,100 +1430,81 @@ OUTLINE void pair_constants_vjp_f(
     const vector_f sum12 = sums[12];
     const vector_f sum13 = sums[13];
     const vector_f sum14 = sums[14];
-    const vector_f M3 = 2.0f * mu3;
-    const vector_f M2 = 2.0f * mu2;
-    const vector_f M1 = 2.0f * mu1;
-    const vector_f R2_0 = 1.4142135623730951f * (-(W2_2 * M3) - W2_1 * M2 - W2_0 * M1);
-    const vector_f M0 = 2.0f * mu0;
-    const vector_f R2_1 = 1.4142135623730951f * (W2_2 * M2 - W2_1 * M3 + W2_0 * M0);
-    const vector_f product = 2.0f * sum9;
-    const vector_f R2_2 = 1.4142135623730951f * (W2_1 * M0 - W2_2 * M1 + W2_0 * M3);
-    const vector_f R2_3 = 1.4142135623730951f * (W2_2 * M0 + W2_1 * M1 - W2_0 * M2);
-    const vector_f by_R2_1 = R2_0 * sum6 + R2_1 * product + R2_2 * sum10 + R2_3 * sum11;
-    const vector_f by_R2_1_product = 1.4142135623730951f * by_R2_1;
-    const vector_f R1_0 = 1.4142135623730951f * (-(W1_2 * M3) - W1_1 * M2 - W1_0 * M1);
-    const vector_f R1_1 = 1.4142135623730951f * (W1_2 * M2 - W1_1 * M3 + W1_0 * M0);
-    const vector_f R1_2 = 1.4142135623730951f * (W1_1 * M0 - W1_2 * M1 + W1_0 * M3);
-    const vector_f R1_3 = 1.4142135623730951f * (W1_2 * M0 + W1_1 * M1 - W1_0 * M2);
-    const vector_f by_R1_1 = R1_0 * sum6 + R1_1 * product + R1_2 * sum10 + R1_3 * sum11;
-    const vector_f by_R1_1_product = 1.4142135623730951f * by_R1_1;
-    const vector_f R0_0 = 1.4142135623730951f * (-(W0_2 * M3) - W0_1 * M2 - W0_0 * M1);
-    const vector_f R0_1 = 1.4142135623730951f * (W0_2 * M2 - W0_1 * M3 + W0_0 * M0);
-    const vector_f R0_2 = 1.4142135623730951f * (W0_1 * M0 - W0_2 * M1 + W0_0 * M3);
-    const vector_f R0_3 = 1.4142135623730951f * (W0_2 * M0 + W0_1 * M1 - W0_0 * M2);
-    const vector_f by_R0_1 = R0_0 * sum6 + R0_1 * product + R0_2 * sum10 + R0_3 * sum11;
-    const vector_f by_R0_1_product = 1.4142135623730951f * by_R0_1;
-    const vector_f product_2 = 2.0f * sum12;
-    const vector_f by_R2_2 = R2_0 * sum7 + R2_1 * sum10 + R2_2 * product_2 + R2_3 * sum13;
-    const vector_f by_R2_2_product = 1.4142135623730951f * by_R2_2;
-    const vector_f by_R1_2 = R1_0 * sum7 + R1_1 * sum10 + R1_2 * product_2 + R1_3 * sum13;
-    const vector_f by_R1_2_product = 1.4142135623730951f * by_R1_2;
-    const vector_f total_2 = W2_0 * by_R2_1_product + W1_0 * by_R1_1_product + W0_0 * by_R0_1_product + W2_1 *
-        by_R2_2_product + W1_1 * by_R1_2_product;
-    const vector_f by_R0_2 = R0_0 * sum7 + R0_1 * sum10 + R0_2 * product_2 + R0_3 * sum13;
-    const vector_f by_R0_2_product = 1.4142135623730951f * by_R0_2;
-    const vector_f product_3 = 2.0f * sum14;
-    const vector_f by_R2_3 = R2_0 * sum8 + R2_1 * sum11 + R2_2 * sum13 + R2_3 * product_3;
-    const vector_f by_R2_3_product = 1.4142135623730951f * by_R2_3;
-    const vector_f by_R1_3 = R1_0 * sum8 + R1_1 * sum11 + R1_2 * sum13 + R1_3 * product_3;
-    const vector_f by_R1_3_product = 1.4142135623730951f * by_R1_3;
-    const vector_f by_R0_3 = R0_0 * sum8 + R0_1 * sum11 + R0_2 * sum13 + R0_3 * product_3;
-    const vector_f by_R0_3_product = 1.4142135623730951f * by_R0_3;
-    const vector_f by_M0 = total_2 + W0_1 * by_R0_2_product + W2_2 * by_R2_3_product + W1_2 * by_R1_3_product
-        + W0_2 * by_R0_3_product;
-    const vector_f product_4 = 2.0f * sum5;
-    const vector_f by_R2_0 = R2_0 * product_4 + R2_1 * sum6 + R2_2 * sum7 + R2_3 * sum8;
-    const vector_f by_R2_0_product = 1.4142135623730951f * by_R2_0;
-    const vector_f by_R1_0 = R1_0 * product_4 + R1_1 * sum6 + R1_2 * sum7 + R1_3 * sum8;
-    const vector_f by_R1_0_product = 1.4142135623730951f * by_R1_0;
-    const vector_f by_R0_0 = R0_0 * product_4 + R0_1 * sum6 + R0_2 * sum7 + R0_3 * sum8;
-    const vector_f by_R0_0_product = 1.4142135623730951f * by_R0_0;
-    const vector_f gap = -(W2_0 * by_R2_0_product) - W1_0 * by_R1_0_product - W0_0 * by_R0_0_product - W2_2 *
-        by_R2_2_product;
-    const vector_f total_3 = gap - W1_2 * by_R1_2_product - W0_2 * by_R0_2_product + W2_1 * by_R2_3_product +
-        W1_1 * by_R1_3_product;
-    const vector_f by_M1 = total_3 + W0_1 * by_R0_3_product;
-    const vector_f total_4 = -(W2_1 * by_R2_0_product) - W1_1 * by_R1_0_product - W0_1 * by_R0_0_product +
-        W2_2 * by_R2_1_product;
-    const vector_f gap_2 = total_4 + W1_2 * by_R1_1_product + W0_2 * by_R0_1_product - W2_0 * by_R2_3_product
-        - W1_0 * by_R1_3_product;
-    const vector_f by_M2 = gap_2 - W0_0 * by_R0_3_product;
-    const vector_f gap_3 = -(W2_2 * by_R2_0_product) - W1_2 * by_R1_0_product - W0_2 * by_R0_0_product - W2_1
-        * by_R2_1_product;
-    const vector_f total_5 = gap_3 - W1_1 * by_R1_1_product - W0_1 * by_R0_1_product + W2_0 * by_R2_2_product
-        + W1_0 * by_R1_2_product;
-    const vector_f by_M3 = total_5 + W0_0 * by_R0_2_product;
-    const vector_f product_5 = its_amplitude * (M0 * by_R0_1_product - M1 * by_R0_0_product + M3 *
-        by_R0_2_product - M2 * by_R0_3_product);
-    const vector_f total_6 = -(M2 * by_R0_0_product) - M3 * by_R0_1_product + M0 * by_R0_2_product + M1 *
-        by_R0_3_product;
-    const vector_f product_6 = its_amplitude * (M2 * by_R0_1_product - M3 * by_R0_0_product - M1 *
-        by_R0_2_product + M0 * by_R0_3_product);
-    const vector_f product_7 = its_amplitude * (M0 * by_R1_1_product - M1 * by_R1_0_product + M3 *
-        by_R1_2_product - M2 * by_R1_3_product);
-    const vector_f total_7 = -(M2 * by_R1_0_product) - M3 * by_R1_1_product + M0 * by_R1_2_product + M1 *
-        by_R1_3_product;
-    const vector_f product_8 = its_amplitude * (M2 * by_R1_1_product - M3 * by_R1_0_product - M1 *
-        by_R1_2_product + M0 * by_R1_3_product);
-    const vector_f product_9 = its_amplitude * (M0 * by_R2_1_product - M1 * by_R2_0_product + M3 *
-        by_R2_2_product - M2 * by_R2_3_product);
-    const vector_f total_8 = -(M2 * by_R2_0_product) - M3 * by_R2_1_product + M0 * by_R2_2_product + M1 *
-        by_R2_3_product;
-    const vector_f product_10 = its_amplitude * (M2 * by_R2_1_product - M3 * by_R2_0_product - M1 *
-        by_R2_2_product + M0 * by_R2_3_product);
-    mu_bar[0] = its_amplitude * (sum0 + 2.0f * by_M0);
-    mu_bar[1] = its_amplitude * (sum1 + 2.0f * by_M1);
-    mu_bar[2] = its_amplitude * (sum2 + 2.0f * by_M2);
-    mu_bar[3] = its_amplitude * (sum3 + 2.0f * by_M3);
-    W_bar[0] = product_5;
-    W_bar[1] = its_amplitude * total_6;
-    W_bar[2] = product_6;
-    W_bar[3] = product_7;
-    W_bar[4] = its_amplitude * total_7;
-    W_bar[5] = product_8;
-    W_bar[6] = product_9;
-    W_bar[7] = its_amplitude * total_8;
-    W_bar[8] = product_10;
+    const vector_f product = 2.0f * mu3;
+    const vector_f product_2 = 2.0f * mu2;
+    const vector_f product_3 = 2.0f * mu1;
+    const vector_f R2_0 = -(W2_2 * product) - W2_1 * product_2 - W2_0 * product_3;
+    const vector_f product_4 = 2.0f * mu0;
+    const vector_f R2_1 = W2_2 * product_2 - W2_1 * product + W2_0 * product_4;
+    const vector_f product_5 = 2.0f * sum9;
+    const vector_f R2_2 = W2_1 * product_4 - W2_2 * product_3 + W2_0 * product;
+    const vector_f R2_3 = W2_2 * product_4 + W2_1 * product_3 - W2_0 * product_2;
+    const vector_f by_R2_1 = R2_0 * sum6 + R2_1 * product_5 + R2_2 * sum10 + R2_3 * sum11;
+    const vector_f R1_0 = -(W1_2 * product) - W1_1 * product_2 - W1_0 * product_3;
+    const vector_f R1_1 = W1_2 * product_2 - W1_1 * product + W1_0 * product_4;
+    const vector_f R1_2 = W1_1 * product_4 - W1_2 * product_3 + W1_0 * product;
+    const vector_f R1_3 = W1_2 * product_4 + W1_1 * product_3 - W1_0 * product_2;
+    const vector_f by_R1_1 = R1_0 * sum6 + R1_1 * product_5 + R1_2 * sum10 + R1_3 * sum11;
+    const vector_f R0_0 = -(W0_2 * product) - W0_1 * product_2 - W0_0 * product_3;
+    const vector_f R0_1 = W0_2 * product_2 - W0_1 * product + W0_0 * product_4;
+    const vector_f R0_2 = W0_1 * product_4 - W0_2 * product_3 + W0_0 * product;
+    const vector_f R0_3 = W0_2 * product_4 + W0_1 * product_3 - W0_0 * product_2;
+    const vector_f by_R0_1 = R0_0 * sum6 + R0_1 * product_5 + R0_2 * sum10 + R0_3 * sum11;
+    const vector_f product_6 = 2.0f * sum12;
+    const vector_f by_R2_2 = R2_0 * sum7 + R2_1 * sum10 + R2_2 * product_6 + R2_3 * sum13;
+    const vector_f by_R1_2 = R1_0 * sum7 + R1_1 * sum10 + R1_2 * product_6 + R1_3 * sum13;
+    const vector_f total_2 = W2_0 * by_R2_1 + W1_0 * by_R1_1 + W0_0 * by_R0_1 + W2_1 * by_R2_2 + W1_1 *
+        by_R1_2;
+    const vector_f by_R0_2 = R0_0 * sum7 + R0_1 * sum10 + R0_2 * product_6 + R0_3 * sum13;
+    const vector_f product_7 = 2.0f * sum14;
+    const vector_f by_R2_3 = R2_0 * sum8 + R2_1 * sum11 + R2_2 * sum13 + R2_3 * product_7;
+    const vector_f by_R1_3 = R1_0 * sum8 + R1_1 * sum11 + R1_2 * sum13 + R1_3 * product_7;
+    const vector_f by_R0_3 = R0_0 * sum8 + R0_1 * sum11 + R0_2 * sum13 + R0_3 * product_7;
+    const vector_f total_3 = total_2 + W0_1 * by_R0_2 + W2_2 * by_R2_3 + W1_2 * by_R1_3 + W0_2 * by_R0_3;
+    const vector_f product_8 = 2.0f * sum5;
+    const vector_f by_R2_0 = R2_0 * product_8 + R2_1 * sum6 + R2_2 * sum7 + R2_3 * sum8;
+    const vector_f by_R1_0 = R1_0 * product_8 + R1_1 * sum6 + R1_2 * sum7 + R1_3 * sum8;
+    const vector_f by_R0_0 = R0_0 * product_8 + R0_1 * sum6 + R0_2 * sum7 + R0_3 * sum8;
+    const vector_f gap = -(W2_0 * by_R2_0) - W1_0 * by_R1_0 - W0_0 * by_R0_0 - W2_2 * by_R2_2;
+    const vector_f total_4 = gap - W1_2 * by_R1_2 - W0_2 * by_R0_2 + W2_1 * by_R2_3 + W1_1 * by_R1_3;
+    const vector_f product_9 = its_amplitude * (sum1 + 2.0f * (total_4 + W0_1 * by_R0_3));
+    const vector_f total_5 = -(W2_1 * by_R2_0) - W1_1 * by_R1_0 - W0_1 * by_R0_0 + W2_2 * by_R2_1;
+    const vector_f gap_2 = total_5 + W1_2 * by_R1_1 + W0_2 * by_R0_1 - W2_0 * by_R2_3 - W1_0 * by_R1_3;
+    const vector_f product_10 = its_amplitude * (sum2 + 2.0f * (gap_2 - W0_0 * by_R0_3));
+    const vector_f gap_3 = -(W2_2 * by_R2_0) - W1_2 * by_R1_0 - W0_2 * by_R0_0 - W2_1 * by_R2_1;
+    const vector_f total_6 = gap_3 - W1_1 * by_R1_1 - W0_1 * by_R0_1 + W2_0 * by_R2_2 + W1_0 * by_R1_2;
+    const vector_f product_11 = its_amplitude * (sum3 + 2.0f * (total_6 + W0_0 * by_R0_2));
+    const vector_f product_12 = its_amplitude * (product_4 * by_R0_1 - product_3 * by_R0_0 + product * by_R0_2
+        - product_2 * by_R0_3);
+    const vector_f total_7 = -(product_2 * by_R0_0) - product * by_R0_1 + product_4 * by_R0_2 + product_3 *
+        by_R0_3;
+    const vector_f product_13 = its_amplitude * (product_2 * by_R0_1 - product * by_R0_0 - product_3 * by_R0_2
+        + product_4 * by_R0_3);
+    const vector_f product_14 = its_amplitude * (product_4 * by_R1_1 - product_3 * by_R1_0 + product * by_R1_2
+        - product_2 * by_R1_3);
+    const vector_f total_8 = -(product_2 * by_R1_0) - product * by_R1_1 + product_4 * by_R1_2 + product_3 *
+        by_R1_3;
+    const vector_f product_15 = its_amplitude * (product_2 * by_R1_1 - product * by_R1_0 - product_3 * by_R1_2
+        + product_4 * by_R1_3);
+    const vector_f product_16 = its_amplitude * (product_4 * by_R2_1 - product_3 * by_R2_0 + product * by_R2_2
+        - product_2 * by_R2_3);
+    const vector_f total_9 = -(product_2 * by_R2_0) - product * by_R2_1 + product_4 * by_R2_2 + product_3 *
+        by_R2_3;
+    const vector_f product_17 = its_amplitude * (product_2 * by_R2_1 - product * by_R2_0 - product_3 * by_R2_2
+        + product_4 * by_R2_3);
+    mu_bar[0] = its_amplitude * (sum0 + 2.0f * total_3);
+    mu_bar[1] = product_9;
+    mu_bar[2] = product_10;
+    mu_bar[3] = product_11;
+    W_bar[0] = product_12;
+    W_bar[1] = its_amplitude * total_7;
+    W_bar[2] = product_13;
+    W_bar[3] = product_14;
+    W_bar[4] = its_amplitude * total_8;
+    W_bar[5] = product_15;
+    W_bar[6] = product_16;
+    W_bar[7] = its_amplitude * total_9;
+    W_bar[8] = product_17;
     amplitude_bar[0] = sum4;
 }
 
@@ -1649,11 +1534,11 @@ OUTLINE void pair_distances_f(
 /*
  * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_backward_f(
     const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
@@ -1661,35 +1546,27 @@ INLINE void pair_backward_f(
     const vector_f x1 = X[1];
     const vector_f x2 = X[2];
     const vector_f x3 = X[3];
-    const vector_f h0 = X[4];
-    const vector_f h1 = X[5];
-    const vector_f h2 = X[6];
-    const vector_f h3 = X[7];
     const float mu0 = S[0];
     const float mu1 = S[1];
     const float mu2 = S[2];
     const float mu3 = S[3];
-    const float R0_0 = S[5];
-    const float R0_1 = S[6];
+    const float R0_3 = S[5];
+    const float R0_0 = S[6];
     const float R0_2 = S[7];
-    const float R0_3 = S[8];
-    const float R1_0 = S[9];
-    const float R1_1 = S[10];
+    const float R0_1 = S[8];
+    const float R1_3 = S[9];
+    const float R1_0 = S[10];
     const float R1_2 = S[11];
-    const float R1_3 = S[12];
-    const float R2_0 = S[13];
-    const float R2_1 = S[14];
+    const float R1_1 = S[12];
+    const float R2_3 = S[13];
+    const float R2_0 = S[14];
     const float R2_2 = S[15];
-    const float R2_3 = S[16];
+    const float R2_1 = S[16];
     const vector_f its_value_bar = value_bar[0];
     const vector_f x0_bar = slope_bar[0];
     const vector_f x1_bar = slope_bar[1];
     const vector_f x2_bar = slope_bar[2];
     const vector_f x3_bar = slope_bar[3];
-    const vector_f h0_bar = slope_bar[4];
-    const vector_f h1_bar = slope_bar[5];
-    const vector_f h2_bar = slope_bar[6];
-    const vector_f h3_bar = slope_bar[7];
     const vector_f g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
     const vector_mask_f is_small = g0 < 0.0f;
     const vector_f abs_g0 = abs_each_f(g0);
@@ -1697,55 +1574,52 @@ INLINE void pair_backward_f(
     const vector_f eta = vector_polynomial_eta_f(abs_g0_gap);
     const vector_f a = 1.0f / (abs_g0 - eta * (1.0f - abs_g0 * abs_g0));
     const vector_f a_squared = a * a;
-    const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2 + h3 * R0_3;
-    const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2 + h3 * R1_3;
-    const vector_f r2 = h0 * R2_0 + h1 * R2_1 + h2 * R2_2 + h3 * R2_3;
-    const vector_f half_square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
-    const vector_f gaussian = exp_each_f(-half_square);
+    const vector_f r0 = x0 * R0_0 + x1 * R0_1 + x2 * R0_2 + x3 * R0_3;
+    const vector_f r1 = x0 * R1_0 + x1 * R1_1 + x2 * R1_2 + x3 * R1_3;
+    const vector_f r2 = x0 * R2_0 + x1 * R2_1 + x2 * R2_2 + x3 * R2_3;
+    const vector_f square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
+    const vector_f gaussian = gaussian_each_f(square);
     const vector_f phi = a * (a * gaussian);
-    const vector_f half_square_product = 2.0f * half_square;
-    const vector_f gap = 2.0f * phi - phi * half_square_product;
+    const vector_f gap = 2.0f * phi - phi * square;
     const vector_f by_abs_g0 = eta * gap;
     const vector_f by_g0 = vector_select_f(is_small, -by_abs_g0, by_abs_g0);
     const vector_f eta_slope = vector_polynomial_eta_slope_f(abs_g0_gap);
     const vector_f by_by_g0 = mu0 * x0_bar + mu1 * x1_bar + mu2 * x2_bar + mu3 * x3_bar;
     const vector_f by_by_abs_g0 = vector_select_f(is_small, vector_of_f(0.0f), by_by_g0) -
         vector_select_f(is_small, by_by_g0, vector_of_f(0.0f));
-    const vector_f product = 2.0f * (R0_3 * r0 + R1_3 * r1 + R2_3 * r2) * h3_bar;
-    const vector_f product_2 = 2.0f * (R0_2 * r0 + R1_2 * r1 + R2_2 * r2) * h2_bar;
-    const vector_f product_3 = 2.0f * (R0_1 * r0 + R1_1 * r1 + R2_1 * r2) * h1_bar;
-    const vector_f product_4 = 2.0f * (R0_0 * r0 + R1_0 * r1 + R2_0 * r2) * h0_bar;
-    const vector_f gap_2 = -product - product_2 - product_3 - product_4;
+    const vector_f minus = -((R0_3 * r0 + R1_3 * r1 + R2_3 * r2) * x3_bar);
+    const vector_f gap_2 = minus - (R0_2 * r0 + R1_2 * r1 + R2_2 * r2) * x2_bar;
+    const vector_f gap_3 = gap_2 - (R0_1 * r0 + R1_1 * r1 + R2_1 * r2) * x1_bar;
+    const vector_f gap_4 = gap_3 - (R0_0 * r0 + R1_0 * r1 + R2_0 * r2) * x0_bar;
     const vector_f eta_product = eta * by_by_abs_g0;
-    const vector_f by_phi = its_value_bar + a_squared * gap_2 - half_square_product * eta_product + 2.0f *
-        eta_product;
+    const vector_f by_phi = its_value_bar + a_squared * gap_4 - square * eta_product + 2.0f * eta_product;
     const vector_f phi_product = phi * by_phi;
-    const vector_f by_half_square = -2.0f * (phi * eta_product) - phi_product;
-    const vector_f eta_product_2 = eta * (2.0f * a_squared * (phi * gap_2) + 2.0f * phi_product +
-        half_square_product * by_half_square);
+    const vector_f gap_5 = -2.0f * (phi * eta_product) - phi_product;
+    const vector_f eta_product_2 = eta * (2.0f * a_squared * (phi * gap_4) + 2.0f * phi_product + square *
+        gap_5);
     const vector_f by_abs_g0_2 = eta_slope * (gap * by_by_abs_g0) + eta_product_2;
     const vector_f by_g0_2 = vector_select_f(is_small, -by_abs_g0_2, by_abs_g0_2);
-    const vector_f a_squared_product = a_squared * by_half_square;
+    const vector_f product = 0.5f * (a_squared * gap_5);
     const vector_f phi_product_2 = phi * a_squared;
-    const vector_f gap_3 = h0 * a_squared_product - 2.0f * (phi_product_2 * h0_bar);
-    const vector_f gap_4 = h1 * a_squared_product - 2.0f * (phi_product_2 * h1_bar);
-    const vector_f gap_5 = h2 * a_squared_product - 2.0f * (phi_product_2 * h2_bar);
-    const vector_f gap_6 = h3 * a_squared_product - 2.0f * (phi_product_2 * h3_bar);
+    const vector_f gap_6 = x0 * product - phi_product_2 * x0_bar;
+    const vector_f gap_7 = x1 * product - phi_product_2 * x1_bar;
+    const vector_f gap_8 = x2 * product - phi_product_2 * x2_bar;
+    const vector_f gap_9 = x3 * product - phi_product_2 * x3_bar;
     sums[0] = sums[0] + by_g0 * x0_bar + x0 * by_g0_2;
     sums[1] = sums[1] + by_g0 * x1_bar + x1 * by_g0_2;
     sums[2] = sums[2] + by_g0 * x2_bar + x2 * by_g0_2;
     sums[3] = sums[3] + by_g0 * x3_bar + x3 * by_g0_2;
     sums[4] = sums[4] + phi_product;
-    sums[5] = sums[5] + h0 * gap_3;
-    sums[6] = sums[6] + h0 * gap_4 + h1 * gap_3;
-    sums[7] = sums[7] + h0 * gap_5 + h2 * gap_3;
-    sums[8] = sums[8] + h0 * gap_6 + h3 * gap_3;
-    sums[9] = sums[9] + h1 * gap_4;
-    sums[10] = sums[10] + h1 * gap_5 + h2 * gap_4;
-    sums[11] = sums[11] + h1 * gap_6 + h3 * gap_4;
-    sums[12] = sums[12] + h2 * gap_5;
-    sums[13] = sums[13] + h2 * gap_6 + h3 * gap_5;
-    sums[14] = sums[14] + h3 * gap_6;
+    sums[5] = sums[5] + x0 * gap_6;
+    sums[6] = sums[6] + x0 * gap_7 + x1 * gap_6;
+    sums[7] = sums[7] + x0 * gap_8 + x2 * gap_6;
+    sums[8] = sums[8] + x0 * gap_9 + x3 * gap_6;
+    sums[9] = sums[9] + x1 * gap_7;
+    sums[10] = sums[10] + x1 * gap_8 + x2 * gap_7;
+    sums[11] = sums[11] + x1 * gap_9 + x3 * gap_7;
+    sums[12] = sums[12] + x2 * gap_8;
+    sums[13] = sums[13] + x2 * gap_9 + x3 * gap_8;
+    sums[14] = sums[14] + x3 * gap_9;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -1772,12 +1646,12 @@ OUTLINE void vector_end_f(size_t count, size_t start, size_t size, vector_f *col
         for (size_t i = 0; i < size; ++i) LANE(columns[i], lane) = 0;
 }
 
-/* Scratch memory: 17 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
+/* Scratch memory: 9 vectors for LANES points, where splats and blocks of points are, the constants of the splats. */
 size_t so3_splats_work_f(size_t count, size_t splat_count, int threads) {
     (void)threads;
     const size_t points = (count + LANES_f - 1) / LANES_f, blocks = (points + 2 - 1) / 2;
     const size_t places = 5 * ((splat_count + LANES_f - 1) / LANES_f + (blocks + LANES_f - 1) / LANES_f);
-    return (points * 17 + places + 1) * LANES_f + 17 * splat_count;
+    return (points * 9 + places + 1) * LANES_f + 17 * splat_count;
 }
 
 static vector_f *work_points_f(float *work) {
@@ -1792,7 +1666,7 @@ INLINE const float *splat_at_f(const vector_f *splats, size_t k) {
 }
 
 static vector_f *work_reaches_f(float *work, size_t count) {
-    return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 17;
+    return work_points_f(work) + (count + LANES_f - 1) / LANES_f * 9;
 }
 
 static vector_f *work_blocks_f(float *work, size_t count, size_t splat_count) {
@@ -1922,8 +1796,8 @@ void so3_splats_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[2][4], X[2][8], grad[3];
-            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][8] = {{ZERO}};
+            vector_f at[2][4], X[2][4], grad[3];
+            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][4] = {{ZERO}};
             float place[4 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
@@ -1964,7 +1838,7 @@ void so3_splats_value_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[4], X[2][8], value_sum[2][1] = {{ZERO}};
+            vector_f at[4], X[2][4], value_sum[2][1] = {{ZERO}};
             float place[4 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
@@ -1991,14 +1865,14 @@ void so3_splats_value_f(
 /* What backward reads of LANES points: X, value_bar, slope_bar; the adjoints past the end are zero. */
 OUTLINE void splat_points_f(
     size_t count, size_t start, const float *x, const float *value_bar, const float *gradient_bar, vector_f *point) {
-    vector_f at[4], grad_bar[3], slope_bar[8];
+    vector_f at[4], grad_bar[3], slope_bar[4];
     vector_rows_f(x, count, start, 4, at);
     vector_rows_f(gradient_bar, count, start, 3, grad_bar);
-    vector_rows_f(value_bar, count, start, 1, point + 8);
+    vector_rows_f(value_bar, count, start, 1, point + 4);
     pair_features_f(at, point);
     pair_gradient_vjp_f(at, grad_bar, slope_bar);
-    for (int i = 0; i < 8; ++i) point[8 + 1 + i] = slope_bar[i];
-    vector_end_f(count, start, 8 + 1, point + 8);
+    for (int i = 0; i < 4; ++i) point[4 + 1 + i] = slope_bar[i];
+    vector_end_f(count, start, 4 + 1, point + 4);
 }
 
 /* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
@@ -2006,13 +1880,13 @@ OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t s
     vector_f sum[15] = {ZERO};
     size_t b = 0;
     for (; b + 1 < size; b += 2) {
-        const vector_f *point = points + 17 * (size_t)near[b], *other = points + 17 * (size_t)near[b + 1];
-        pair_backward_f(point, S, point + 8, point + 8 + 1, sum);
-        pair_backward_f(other, S, other + 8, other + 8 + 1, sum);
+        const vector_f *point = points + 9 * (size_t)near[b], *other = points + 9 * (size_t)near[b + 1];
+        pair_backward_f(point, S, point + 4, point + 4 + 1, sum);
+        pair_backward_f(other, S, other + 4, other + 4 + 1, sum);
     }
     if (b < size) {
-        const vector_f *point = points + 17 * (size_t)near[b];
-        pair_backward_f(point, S, point + 8, point + 8 + 1, sum);
+        const vector_f *point = points + 9 * (size_t)near[b];
+        pair_backward_f(point, S, point + 4, point + 4 + 1, sum);
     }
     sums[0] += vector_sum_f(sum[0]);
     sums[1] += vector_sum_f(sum[1]);
@@ -2039,7 +1913,7 @@ void so3_splats_vjp_f(
     size_t count, size_t splat_count, const float *SO3_RESTRICT x, const float *SO3_RESTRICT mu, const float *SO3_RESTRICT W, const float *SO3_RESTRICT amplitude, const float *SO3_RESTRICT width, const float *SO3_RESTRICT value_bar, const float *SO3_RESTRICT gradient_bar,
     float *SO3_RESTRICT mu_bar, float *SO3_RESTRICT W_bar, float *SO3_RESTRICT amplitude_bar, float *SO3_RESTRICT work, int threads) {
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
-    const size_t chunk = 131072 / (17 * sizeof(vector_f)) + 1;
+    const size_t chunk = 131072 / (9 * sizeof(vector_f)) + 1;
     const size_t rows = ((blocks + 2 - 1) / 2 + LANES_f - 1) / LANES_f * LANES_f;
     const size_t part = splat_count / (4 * (size_t)(threads > 1 ? threads : 1)) + 1;
     const size_t share = part < LANES_f ? part : LANES_f;
@@ -2066,19 +1940,19 @@ void so3_splats_vjp_f(
         }
         OMP(omp for schedule(dynamic, 8))
         for (size_t block = 0; block < blocks; ++block)
-            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 17 * block);
+            splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, points + 9 * block);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < splat_count; start += share) {
             const size_t end = start + share < splat_count ? start + share : splat_count;
             float sums[LANES_f][15] = {{0}};
-            uint32_t near[131072 / (17 * sizeof(vector_f)) + 2];
+            uint32_t near[131072 / (9 * sizeof(vector_f)) + 2];
             vector_f own_mu[4], own_W[9], own_amplitude[1], own_sums[15], bars[14];
             for (size_t first = 0; first < blocks; first += chunk) {
                 const size_t size = first + chunk < blocks ? chunk : blocks - first;
                 for (size_t k = start; k < end; ++k) {
                     const float *reach = width ? splat_at_f(splats, k) + 4 * LANES_f : NULL;
                     const size_t some = blocks_near_f(mu + 4 * k, reach, places, first, first + size, near);
-                    splat_sums_f(points + 17 * first, near, some, constants + 17 * k, sums[k - start]);
+                    splat_sums_f(points + 9 * first, near, some, constants + 17 * k, sums[k - start]);
                 }
             }
             vector_rows_f(mu, end, start, 4, own_mu);
@@ -2109,14 +1983,14 @@ void so3_splats_rows_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, NULL, constants, NULL);
         OMP(omp for schedule(dynamic))
         for (size_t block = 0; block < blocks; ++block) {
-            vector_f point[17];
+            vector_f point[9];
             splat_points_f(count, block * LANES_f, x, value_bar, gradient_bar, point);
             for (size_t k = 0; k < splat_count; ++k) {
                 vector_f own_mu[4], own_W[9], own_amplitude[1], own_sums[15] = {ZERO}, bars[14];
                 for (int i = 0; i < 4; ++i) own_mu[i] = vector_of_f(mu[4 * k + i]);
                 for (int i = 0; i < 9; ++i) own_W[i] = vector_of_f(W[9 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 17 * k, point + 8, point + 8 + 1, own_sums);
+                pair_backward_f(point, constants + 17 * k, point + 4, point + 4 + 1, own_sums);
                 pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 4, bars + 4 + 9);
                 vector_to_rows_f(bars, rows + 14 * k, count, block * LANES_f, 14, 14 * splat_count);
             }

@@ -864,13 +864,19 @@ class Sphere:
         M1 = 0.5 * mu1
         M2 = 0.5 * mu2
         by_normal_part = -(mu2 * W0_2) - mu1 * W0_1 - mu0 * W0_0
-        R0_0 = 1.4142135623730951 * (W0_0 + mu0 * by_normal_part)
-        R0_1 = 1.4142135623730951 * (W0_1 + mu1 * by_normal_part)
-        R0_2 = 1.4142135623730951 * (W0_2 + mu2 * by_normal_part)
+        total_2 = W0_0 + mu0 * by_normal_part
+        R0_0 = total_2 + total_2
+        total_3 = W0_1 + mu1 * by_normal_part
+        R0_1 = total_3 + total_3
+        total_4 = W0_2 + mu2 * by_normal_part
+        R0_2 = total_4 + total_4
         by_normal_part_2 = -(mu2 * W1_2) - mu1 * W1_1 - mu0 * W1_0
-        R1_0 = 1.4142135623730951 * (W1_0 + mu0 * by_normal_part_2)
-        R1_1 = 1.4142135623730951 * (W1_1 + mu1 * by_normal_part_2)
-        R1_2 = 1.4142135623730951 * (W1_2 + mu2 * by_normal_part_2)
+        total_5 = W1_0 + mu0 * by_normal_part_2
+        R1_0 = total_5 + total_5
+        total_6 = W1_1 + mu1 * by_normal_part_2
+        R1_1 = total_6 + total_6
+        total_7 = W1_2 + mu2 * by_normal_part_2
+        R1_2 = total_7 + total_7
         log_value = torch.log(0.7853981633974483 / eps)
         squared = mu0 * mu0
         is_small = squared < 0.5
@@ -884,9 +890,9 @@ class Sphere:
         product_4 = (
             3.141592653589793 * torch.where(is_small, -(mu0 * mu2 / sine_to_axis0), -(mu1 * mu2 / sine_to_axis1))
         )
-        total_2 = W0_0 * product_2 + W0_1 * product_3 + W0_2 * product_4
-        total_3 = W1_0 * product_2 + W1_1 * product_3 + W1_2 * product_4
-        value_on_cut_locus = torch.exp(log_value - 0.5 * (total_2 * total_2 + total_3 * total_3))
+        total_8 = W0_0 * product_2 + W0_1 * product_3 + W0_2 * product_4
+        total_9 = W1_0 * product_2 + W1_1 * product_3 + W1_2 * product_4
+        value_on_cut_locus = torch.exp(log_value - 0.5 * (total_8 * total_8 + total_9 * total_9))
         return (amplitude, M0, M1, M2, R0_0, R0_1, R0_2, R1_0, R1_1, R1_2, value_on_cut_locus)
 
     def _pair_value(self, X: Sequence[Tensor], S: Sequence[Tensor]) -> tuple[Tensor, ...]:
@@ -894,9 +900,9 @@ class Sphere:
         h0, h1, h2 = X
         amplitude, M0, M1, M2, R0_0, R0_1, R0_2, R1_0, R1_1, R1_2, value_on_cut_locus = S
         eps = torch.full_like(h0, torch.finfo(h0.dtype).eps)
-        total_2 = h0 + M0
-        total_3 = h1 + M1
-        total_4 = h2 + M2
+        total_2 = M0 + h0
+        total_3 = M1 + h1
+        total_4 = M2 + h2
         total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4
         on_cut_locus = total_5 <= 4.0 * (eps * eps)
         u = torch.where(on_cut_locus, 1.0, total_5)
@@ -906,8 +912,8 @@ class Sphere:
         a_squared = a * a
         r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2
         r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2
-        half_square = a_squared * (r0 * r0 + r1 * r1)
-        gaussian = torch.exp(-half_square)
+        square = a_squared * (r0 * r0 + r1 * r1)
+        gaussian = torch.exp(-(0.5 * square))
         phi = amplitude * torch.where(on_cut_locus, value_on_cut_locus, a * gaussian)
         return (phi,)
 
@@ -916,9 +922,9 @@ class Sphere:
         h0, h1, h2 = X
         amplitude, M0, M1, M2, R0_0, R0_1, R0_2, R1_0, R1_1, R1_2, value_on_cut_locus = S
         eps = torch.full_like(h0, torch.finfo(h0.dtype).eps)
-        total_2 = h0 + M0
-        total_3 = h1 + M1
-        total_4 = h2 + M2
+        total_2 = M0 + h0
+        total_3 = M1 + h1
+        total_4 = M2 + h2
         total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4
         on_cut_locus = total_5 <= 4.0 * (eps * eps)
         u = torch.where(on_cut_locus, 1.0, total_5)
@@ -929,16 +935,16 @@ class Sphere:
         a_squared = a * a
         r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2
         r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2
-        half_square = a_squared * (r0 * r0 + r1 * r1)
-        gaussian = torch.exp(-half_square)
+        square = a_squared * (r0 * r0 + r1 * r1)
+        gaussian = torch.exp(-(0.5 * square))
         a_product = a * gaussian
         phi = amplitude * torch.where(on_cut_locus, value_on_cut_locus, a_product)
         product = amplitude * torch.where(on_cut_locus, 0.0, a_product)
-        product_2 = 2.0 * (product * a_squared)
-        r1_product = r1 * product_2
-        r0_product = r0 * product_2
+        a_squared_product = product * a_squared
+        r1_product = r1 * a_squared_product
+        r0_product = r0 * a_squared_product
         over_w = w_gap * a
-        over_w_product = over_w * ((eta - over_w) * (product - product * (2.0 * half_square)))
+        over_w_product = over_w * ((eta - over_w) * (product - product * square))
         by_h0 = -(R1_0 * r1_product) - R0_0 * r0_product + M0 * over_w_product
         by_h1 = -(R1_1 * r1_product) - R0_1 * r0_product + M1 * over_w_product
         by_h2 = -(R1_2 * r1_product) - R0_2 * r0_product + M2 * over_w_product
@@ -973,9 +979,9 @@ class Sphere:
         _, M0, M1, M2, R0_0, R0_1, R0_2, R1_0, R1_1, R1_2, value_on_cut_locus = S
         h0_bar, h1_bar, h2_bar = slope_bar
         eps = torch.full_like(h0, torch.finfo(h0.dtype).eps)
-        total_2 = h0 + M0
-        total_3 = h1 + M1
-        total_4 = h2 + M2
+        total_2 = M0 + h0
+        total_3 = M1 + h1
+        total_4 = M2 + h2
         total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4
         on_cut_locus = total_5 <= 4.0 * (eps * eps)
         u = torch.where(on_cut_locus, 1.0, total_5)
@@ -987,8 +993,8 @@ class Sphere:
         a_squared = a * a
         r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2
         r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2
-        half_square = a_squared * (r0 * r0 + r1 * r1)
-        gaussian = torch.exp(-half_square)
+        square = a_squared * (r0 * r0 + r1 * r1)
+        gaussian = torch.exp(-(0.5 * square))
         a_product = a * gaussian
         chosen = torch.where(on_cut_locus, 0.0, a_product)
         over_w = w_gap_2 * a
@@ -996,29 +1002,28 @@ class Sphere:
         total_6 = M0 * h0_bar + M1 * h1_bar + M2 * h2_bar
         over_w_product = over_w * total_6
         product = eta_gap * over_w_product
-        gap = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar
-        gap_2 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar
-        product_2 = 2.0 * (r0 * gap + r1 * gap_2)
-        half_square_product = 2.0 * half_square
-        product_3 = chosen * (product + a_squared * product_2 - half_square_product * product)
-        gap_3 = chosen - chosen * half_square_product
-        product_4 = eta_gap * gap_3
-        over_w_product_2 = over_w * product_4
+        gap = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar
+        gap_2 = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar
+        total_7 = r1 * gap + r0 * gap_2
+        product_2 = chosen * (product + a_squared * total_7 - square * product)
+        gap_3 = chosen - chosen * square
+        product_3 = eta_gap * gap_3
+        over_w_product_2 = over_w * product_3
         eta_slope = _polynomial(w_gap, _ETA_SLOPE)
-        product_5 = gap_3 * over_w_product
-        total_7 = chosen * value_bar + product_3
-        by_half_square = -(2.0 * (chosen * product)) - total_7
-        product_6 = eta_gap * (2.0 * a_squared * (chosen * product_2) + total_7 + half_square_product * by_half_square)
-        total_8 = eta_slope * product_5 - over_w * over_w * (product_4 * total_6 - product_5) + product_6
-        over_w_product_3 = over_w * total_8
-        product_7 = 2.0 * (chosen * a_squared)
-        product_8 = 2.0 * (a_squared * by_half_square)
-        by_r0 = product_7 * gap + r0 * product_8
-        r0_product = r0 * product_7
-        by_r1 = product_7 * gap_2 + r1 * product_8
-        r1_product = r1 * product_7
+        product_4 = gap_3 * over_w_product
+        total_8 = chosen * value_bar + product_2
+        gap_4 = -(2.0 * (chosen * product)) - total_8
+        product_5 = eta_gap * (2.0 * a_squared * (chosen * total_7) + total_8 + square * gap_4)
+        total_9 = eta_slope * product_4 - over_w * over_w * (product_3 * total_6 - product_4) + product_5
+        over_w_product_3 = over_w * total_9
+        a_squared_product = chosen * a_squared
+        a_squared_product_2 = a_squared * gap_4
+        by_r0 = a_squared_product * gap_2 + r0 * a_squared_product_2
+        r0_product = r0 * a_squared_product
+        by_r1 = a_squared_product * gap + r1 * a_squared_product_2
+        r1_product = r1 * a_squared_product
         return (
-            torch.where(on_cut_locus, value_on_cut_locus, a_product) * value_bar + product_3,
+            torch.where(on_cut_locus, value_on_cut_locus, a_product) * value_bar + product_2,
             over_w_product_2 * h0_bar + h0 * over_w_product_3,
             over_w_product_2 * h1_bar + h1 * over_w_product_3,
             over_w_product_2 * h2_bar + h2 * over_w_product_3,
@@ -1038,35 +1043,35 @@ class Sphere:
         W0_0, W0_1, W0_2, W1_0, W1_1, W1_2 = W.flatten(-2).unbind(-1)
         sum0, sum1, sum2, sum3, sum4, sum5, sum6, sum7, sum8, sum9 = sums
         by_normal_part = -(mu2 * W0_2) - mu1 * W0_1 - mu0 * W0_0
-        product = 1.4142135623730951 * sum4
-        product_2 = 1.4142135623730951 * sum5
-        product_3 = 1.4142135623730951 * sum6
-        by_by_normal_part = mu0 * product + mu1 * product_2 + mu2 * product_3
+        total_2 = sum4 + sum4
+        total_3 = sum5 + sum5
+        total_4 = sum6 + sum6
+        by_by_normal_part = mu0 * total_2 + mu1 * total_3 + mu2 * total_4
         by_normal_part_2 = -(mu2 * W1_2) - mu1 * W1_1 - mu0 * W1_0
-        product_4 = 1.4142135623730951 * sum7
-        product_5 = 1.4142135623730951 * sum8
-        product_6 = 1.4142135623730951 * sum9
-        by_by_normal_part_2 = mu0 * product_4 + mu1 * product_5 + mu2 * product_6
+        total_5 = sum7 + sum7
+        total_6 = sum8 + sum8
+        total_7 = sum9 + sum9
+        by_by_normal_part_2 = mu0 * total_5 + mu1 * total_6 + mu2 * total_7
         gap = (
-            0.5 * sum1 + by_normal_part * product - W0_0 * by_by_normal_part + by_normal_part_2 * product_4 - W1_0 *
+            0.5 * sum1 + by_normal_part * total_2 - W0_0 * by_by_normal_part + by_normal_part_2 * total_5 - W1_0 *
             by_by_normal_part_2
         )
         gap_2 = (
-            0.5 * sum2 + by_normal_part * product_2 - W0_1 * by_by_normal_part + by_normal_part_2 * product_5 - W1_1 *
+            0.5 * sum2 + by_normal_part * total_3 - W0_1 * by_by_normal_part + by_normal_part_2 * total_6 - W1_1 *
             by_by_normal_part_2
         )
         gap_3 = (
-            0.5 * sum3 + by_normal_part * product_3 - W0_2 * by_by_normal_part + by_normal_part_2 * product_6 - W1_2 *
+            0.5 * sum3 + by_normal_part * total_4 - W0_2 * by_by_normal_part + by_normal_part_2 * total_7 - W1_2 *
             by_by_normal_part_2
         )
         mu_bar = _stack((amplitude * gap, amplitude * gap_2, amplitude * gap_3))
         W_bar = _stack((
-            amplitude * (product - mu0 * by_by_normal_part),
-            amplitude * (product_2 - mu1 * by_by_normal_part),
-            amplitude * (product_3 - mu2 * by_by_normal_part),
-            amplitude * (product_4 - mu0 * by_by_normal_part_2),
-            amplitude * (product_5 - mu1 * by_by_normal_part_2),
-            amplitude * (product_6 - mu2 * by_by_normal_part_2),
+            amplitude * (total_2 - mu0 * by_by_normal_part),
+            amplitude * (total_3 - mu1 * by_by_normal_part),
+            amplitude * (total_4 - mu2 * by_by_normal_part),
+            amplitude * (total_5 - mu0 * by_by_normal_part_2),
+            amplitude * (total_6 - mu1 * by_by_normal_part_2),
+            amplitude * (total_7 - mu2 * by_by_normal_part_2),
         ))
         return mu_bar, W_bar.unflatten(-1, (2, 3)), sum0
 

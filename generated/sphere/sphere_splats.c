@@ -151,6 +151,15 @@ INLINE vector exp_each(vector x) {
     return vector_select(x < -707.9, vector_of(0), y);
 }
 
+/* exp(-s / 2) of s >= 0, as 2^k exp(-r / 2), |r| <= log(2), within 1 unit in the last place; below 3.8e-308 it is 0. */
+INLINE vector gaussian_each(vector s) {
+    const vector shifted = s * -0.7213475204444817 + 6755399441056767.0, k = shifted - 6755399441056767.0;
+    const vector r = (s + k * 1.3862943611202354) + k * -3.447888905122967e-13;
+    const vector part = r * (-0.5 + r * (0.12500000000000003 + r * (-0.020833333333333336 + r * (0.0026041666666640085 + r * (-0.0002604166666665645 + r * (2.170138893314011e-05 + r * (-1.5500992080508208e-06 + r * (9.688094258687923e-08 + r * (-5.382278997037427e-09 + r * (2.697273970216642e-10 + r * -1.2256046482356944e-11))))))))));
+    const vector scale = vector_from_bits(vector_to_bits(shifted) << 52); /* 2^k */
+    return vector_select(s > 1415.8, vector_of(0), scale + scale * part);
+}
+
 /* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
 INLINE vector log_each(vector x) {
     const vector_bits bits = vector_to_bits(x), biased = (bits + 0x95f619980c433) >> 52; /* k + 1023 */
@@ -237,13 +246,19 @@ OUTLINE void pair_constants(
     const vector M1 = 0.5 * mu1;
     const vector M2 = 0.5 * mu2;
     const vector by_normal_part = -(mu2 * W0_2) - mu1 * W0_1 - mu0 * W0_0;
-    const vector R0_0 = 1.4142135623730951 * (W0_0 + mu0 * by_normal_part);
-    const vector R0_1 = 1.4142135623730951 * (W0_1 + mu1 * by_normal_part);
-    const vector R0_2 = 1.4142135623730951 * (W0_2 + mu2 * by_normal_part);
+    const vector total_2 = W0_0 + mu0 * by_normal_part;
+    const vector R0_0 = total_2 + total_2;
+    const vector total_3 = W0_1 + mu1 * by_normal_part;
+    const vector R0_1 = total_3 + total_3;
+    const vector total_4 = W0_2 + mu2 * by_normal_part;
+    const vector R0_2 = total_4 + total_4;
     const vector by_normal_part_2 = -(mu2 * W1_2) - mu1 * W1_1 - mu0 * W1_0;
-    const vector R1_0 = 1.4142135623730951 * (W1_0 + mu0 * by_normal_part_2);
-    const vector R1_1 = 1.4142135623730951 * (W1_1 + mu1 * by_normal_part_2);
-    const vector R1_2 = 1.4142135623730951 * (W1_2 + mu2 * by_normal_part_2);
+    const vector total_5 = W1_0 + mu0 * by_normal_part_2;
+    const vector R1_0 = total_5 + total_5;
+    const vector total_6 = W1_1 + mu1 * by_normal_part_2;
+    const vector R1_1 = total_6 + total_6;
+    const vector total_7 = W1_2 + mu2 * by_normal_part_2;
+    const vector R1_2 = total_7 + total_7;
     const vector log_value = log_each(vector_of(0.7853981633974483 / DBL_EPSILON));
     const vector squared = mu0 * mu0;
     const vector_mask is_small = squared < 0.5;
@@ -258,9 +273,9 @@ OUTLINE void pair_constants(
         sine_to_axis1);
     const vector product_4 = 3.141592653589793 * vector_select(is_small, -(mu0 * mu2 / sine_to_axis0), -(mu1 *
         mu2 / sine_to_axis1));
-    const vector total_2 = W0_0 * product_2 + W0_1 * product_3 + W0_2 * product_4;
-    const vector total_3 = W1_0 * product_2 + W1_1 * product_3 + W1_2 * product_4;
-    const vector value_on_cut_locus = exp_each(log_value - 0.5 * (total_2 * total_2 + total_3 * total_3));
+    const vector total_8 = W0_0 * product_2 + W0_1 * product_3 + W0_2 * product_4;
+    const vector total_9 = W1_0 * product_2 + W1_1 * product_3 + W1_2 * product_4;
+    const vector value_on_cut_locus = exp_each(log_value - 0.5 * (total_8 * total_8 + total_9 * total_9));
     S[0] = its_amplitude;
     S[1] = M0;
     S[2] = M1;
@@ -277,11 +292,11 @@ OUTLINE void pair_constants(
 /*
  * Adds the values phi of a splat at some points.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_value(
     const vector *X, const double *S, vector *value) {
@@ -299,9 +314,9 @@ INLINE void pair_value(
     const double R1_1 = S[8];
     const double R1_2 = S[9];
     const double value_on_cut_locus = S[10];
-    const vector total_2 = h0 + M0;
-    const vector total_3 = h1 + M1;
-    const vector total_4 = h2 + M2;
+    const vector total_2 = M0 + h0;
+    const vector total_3 = M1 + h1;
+    const vector total_4 = M2 + h2;
     const vector total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4;
     const vector_mask on_cut_locus = total_5 <= 4.0 * (DBL_EPSILON * DBL_EPSILON);
     const vector u = vector_select(on_cut_locus, vector_of(1.0), total_5);
@@ -311,8 +326,8 @@ INLINE void pair_value(
     const vector a_squared = a * a;
     const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
-    const vector half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector gaussian = exp_each(-half_square);
+    const vector square = a_squared * (r0 * r0 + r1 * r1);
+    const vector gaussian = gaussian_each(square);
     value[0] = value[0] + amplitude * vector_select(on_cut_locus, vector_of(value_on_cut_locus), a *
             gaussian);
 }
@@ -320,11 +335,11 @@ INLINE void pair_value(
 /*
  * Adds the values phi of a splat at some points, and slope = d phi / d X.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_forward(
     const vector *X, const double *S, vector *value, vector *slope) {
@@ -342,9 +357,9 @@ INLINE void pair_forward(
     const double R1_1 = S[8];
     const double R1_2 = S[9];
     const double value_on_cut_locus = S[10];
-    const vector total_2 = h0 + M0;
-    const vector total_3 = h1 + M1;
-    const vector total_4 = h2 + M2;
+    const vector total_2 = M0 + h0;
+    const vector total_3 = M1 + h1;
+    const vector total_4 = M2 + h2;
     const vector total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4;
     const vector_mask on_cut_locus = total_5 <= 4.0 * (DBL_EPSILON * DBL_EPSILON);
     const vector u = vector_select(on_cut_locus, vector_of(1.0), total_5);
@@ -355,15 +370,15 @@ INLINE void pair_forward(
     const vector a_squared = a * a;
     const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
-    const vector half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector gaussian = exp_each(-half_square);
+    const vector square = a_squared * (r0 * r0 + r1 * r1);
+    const vector gaussian = gaussian_each(square);
     const vector a_product = a * gaussian;
     const vector product = amplitude * vector_select(on_cut_locus, vector_of(0.0), a_product);
-    const vector product_2 = 2.0 * (product * a_squared);
-    const vector r1_product = r1 * product_2;
-    const vector r0_product = r0 * product_2;
+    const vector a_squared_product = product * a_squared;
+    const vector r1_product = r1 * a_squared_product;
+    const vector r0_product = r0 * a_squared_product;
     const vector over_w = w_gap * a;
-    const vector over_w_product = over_w * ((eta - over_w) * (product - product * (2.0 * half_square)));
+    const vector over_w_product = over_w * ((eta - over_w) * (product - product * square));
     value[0] = value[0] + amplitude * vector_select(on_cut_locus, vector_of(value_on_cut_locus), a_product);
     slope[0] = slope[0] - R1_0 * r1_product - R0_0 * r0_product + M0 * over_w_product;
     slope[1] = slope[1] - R1_1 * r1_product - R0_1 * r0_product + M1 * over_w_product;
@@ -427,30 +442,30 @@ OUTLINE void pair_constants_vjp(
     const vector sum8 = sums[8];
     const vector sum9 = sums[9];
     const vector by_normal_part = -(mu2 * W0_2) - mu1 * W0_1 - mu0 * W0_0;
-    const vector product = 1.4142135623730951 * sum4;
-    const vector product_2 = 1.4142135623730951 * sum5;
-    const vector product_3 = 1.4142135623730951 * sum6;
-    const vector by_by_normal_part = mu0 * product + mu1 * product_2 + mu2 * product_3;
+    const vector total_2 = sum4 + sum4;
+    const vector total_3 = sum5 + sum5;
+    const vector total_4 = sum6 + sum6;
+    const vector by_by_normal_part = mu0 * total_2 + mu1 * total_3 + mu2 * total_4;
     const vector by_normal_part_2 = -(mu2 * W1_2) - mu1 * W1_1 - mu0 * W1_0;
-    const vector product_4 = 1.4142135623730951 * sum7;
-    const vector product_5 = 1.4142135623730951 * sum8;
-    const vector product_6 = 1.4142135623730951 * sum9;
-    const vector by_by_normal_part_2 = mu0 * product_4 + mu1 * product_5 + mu2 * product_6;
-    const vector gap = 0.5 * sum1 + by_normal_part * product - W0_0 * by_by_normal_part + by_normal_part_2 *
-        product_4 - W1_0 * by_by_normal_part_2;
-    const vector gap_2 = 0.5 * sum2 + by_normal_part * product_2 - W0_1 * by_by_normal_part + by_normal_part_2
-        * product_5 - W1_1 * by_by_normal_part_2;
-    const vector gap_3 = 0.5 * sum3 + by_normal_part * product_3 - W0_2 * by_by_normal_part + by_normal_part_2
-        * product_6 - W1_2 * by_by_normal_part_2;
+    const vector total_5 = sum7 + sum7;
+    const vector total_6 = sum8 + sum8;
+    const vector total_7 = sum9 + sum9;
+    const vector by_by_normal_part_2 = mu0 * total_5 + mu1 * total_6 + mu2 * total_7;
+    const vector gap = 0.5 * sum1 + by_normal_part * total_2 - W0_0 * by_by_normal_part + by_normal_part_2 *
+        total_5 - W1_0 * by_by_normal_part_2;
+    const vector gap_2 = 0.5 * sum2 + by_normal_part * total_3 - W0_1 * by_by_normal_part + by_normal_part_2 *
+        total_6 - W1_1 * by_by_normal_part_2;
+    const vector gap_3 = 0.5 * sum3 + by_normal_part * total_4 - W0_2 * by_by_normal_part + by_normal_part_2 *
+        total_7 - W1_2 * by_by_normal_part_2;
     mu_bar[0] = its_amplitude * gap;
     mu_bar[1] = its_amplitude * gap_2;
     mu_bar[2] = its_amplitude * gap_3;
-    W_bar[0] = its_amplitude * (product - mu0 * by_by_normal_part);
-    W_bar[1] = its_amplitude * (product_2 - mu1 * by_by_normal_part);
-    W_bar[2] = its_amplitude * (product_3 - mu2 * by_by_normal_part);
-    W_bar[3] = its_amplitude * (product_4 - mu0 * by_by_normal_part_2);
-    W_bar[4] = its_amplitude * (product_5 - mu1 * by_by_normal_part_2);
-    W_bar[5] = its_amplitude * (product_6 - mu2 * by_by_normal_part_2);
+    W_bar[0] = its_amplitude * (total_2 - mu0 * by_by_normal_part);
+    W_bar[1] = its_amplitude * (total_3 - mu1 * by_by_normal_part);
+    W_bar[2] = its_amplitude * (total_4 - mu2 * by_by_normal_part);
+    W_bar[3] = its_amplitude * (total_5 - mu0 * by_by_normal_part_2);
+    W_bar[4] = its_amplitude * (total_6 - mu1 * by_by_normal_part_2);
+    W_bar[5] = its_amplitude * (total_7 - mu2 * by_by_normal_part_2);
     amplitude_bar[0] = sum0;
 }
 
@@ -482,11 +497,11 @@ OUTLINE void pair_distances(
 /*
  * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_backward(
     const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
@@ -507,9 +522,9 @@ INLINE void pair_backward(
     const vector h0_bar = slope_bar[0];
     const vector h1_bar = slope_bar[1];
     const vector h2_bar = slope_bar[2];
-    const vector total_2 = h0 + M0;
-    const vector total_3 = h1 + M1;
-    const vector total_4 = h2 + M2;
+    const vector total_2 = M0 + h0;
+    const vector total_3 = M1 + h1;
+    const vector total_4 = M2 + h2;
     const vector total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4;
     const vector_mask on_cut_locus = total_5 <= 4.0 * (DBL_EPSILON * DBL_EPSILON);
     const vector u = vector_select(on_cut_locus, vector_of(1.0), total_5);
@@ -521,8 +536,8 @@ INLINE void pair_backward(
     const vector a_squared = a * a;
     const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
-    const vector half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector gaussian = exp_each(-half_square);
+    const vector square = a_squared * (r0 * r0 + r1 * r1);
+    const vector gaussian = gaussian_each(square);
     const vector a_product = a * gaussian;
     const vector chosen = vector_select(on_cut_locus, vector_of(0.0), a_product);
     const vector over_w = w_gap_2 * a;
@@ -530,31 +545,29 @@ INLINE void pair_backward(
     const vector total_6 = M0 * h0_bar + M1 * h1_bar + M2 * h2_bar;
     const vector over_w_product = over_w * total_6;
     const vector product = eta_gap * over_w_product;
-    const vector gap = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar;
-    const vector gap_2 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar;
-    const vector product_2 = 2.0 * (r0 * gap + r1 * gap_2);
-    const vector half_square_product = 2.0 * half_square;
-    const vector product_3 = chosen * (product + a_squared * product_2 - half_square_product * product);
-    const vector gap_3 = chosen - chosen * half_square_product;
-    const vector product_4 = eta_gap * gap_3;
-    const vector over_w_product_2 = over_w * product_4;
+    const vector gap = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar;
+    const vector gap_2 = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar;
+    const vector total_7 = r1 * gap + r0 * gap_2;
+    const vector product_2 = chosen * (product + a_squared * total_7 - square * product);
+    const vector gap_3 = chosen - chosen * square;
+    const vector product_3 = eta_gap * gap_3;
+    const vector over_w_product_2 = over_w * product_3;
     const vector eta_slope = vector_polynomial_eta_slope(w_gap);
-    const vector product_5 = gap_3 * over_w_product;
-    const vector total_7 = chosen * its_value_bar + product_3;
-    const vector by_half_square = -2.0 * (chosen * product) - total_7;
-    const vector product_6 = eta_gap * (2.0 * a_squared * (chosen * product_2) + total_7 + half_square_product
-        * by_half_square);
-    const vector total_8 = eta_slope * product_5 - over_w * over_w * (product_4 * total_6 - product_5) +
-        product_6;
-    const vector over_w_product_3 = over_w * total_8;
-    const vector product_7 = 2.0 * (chosen * a_squared);
-    const vector product_8 = 2.0 * (a_squared * by_half_square);
-    const vector by_r0 = product_7 * gap + r0 * product_8;
-    const vector r0_product = r0 * product_7;
-    const vector by_r1 = product_7 * gap_2 + r1 * product_8;
-    const vector r1_product = r1 * product_7;
+    const vector product_4 = gap_3 * over_w_product;
+    const vector total_8 = chosen * its_value_bar + product_2;
+    const vector gap_4 = -2.0 * (chosen * product) - total_8;
+    const vector product_5 = eta_gap * (2.0 * a_squared * (chosen * total_7) + total_8 + square * gap_4);
+    const vector total_9 = eta_slope * product_4 - over_w * over_w * (product_3 * total_6 - product_4) +
+        product_5;
+    const vector over_w_product_3 = over_w * total_9;
+    const vector a_squared_product = chosen * a_squared;
+    const vector a_squared_product_2 = a_squared * gap_4;
+    const vector by_r0 = a_squared_product * gap_2 + r0 * a_squared_product_2;
+    const vector r0_product = r0 * a_squared_product;
+    const vector by_r1 = a_squared_product * gap + r1 * a_squared_product_2;
+    const vector r1_product = r1 * a_squared_product;
     sums[0] = sums[0] + vector_select(on_cut_locus, vector_of(value_on_cut_locus), a_product) * its_value_bar
-            + product_3;
+            + product_2;
     sums[1] = sums[1] + over_w_product_2 * h0_bar + h0 * over_w_product_3;
     sums[2] = sums[2] + over_w_product_2 * h1_bar + h1 * over_w_product_3;
     sums[3] = sums[3] + over_w_product_2 * h2_bar + h2 * over_w_product_3;
@@ -1107,6 +1120,15 @@ INLINE vector_f exp_each_f(vector_f x) {
     return vector_select_f(x < -86.9f, vector_of_f(0), y);
 }
 
+/* exp(-s / 2) of s >= 0, as 2^k exp(-r / 2), |r| <= log(2), within 1 unit in the last place; below 1.8e-38 it is 0. */
+INLINE vector_f gaussian_each_f(vector_f s) {
+    const vector_f shifted = s * -0.7213475204444817f + 12583039.0f, k = shifted - 12583039.0f;
+    const vector_f r = (s + k * 1.38629150390625f) + k * 2.8572136406188345e-06f;
+    const vector_f part = r * (-0.5f + r * (0.125f + r * (-0.020833221247803655f + r * (0.0026041596642423803f + r * (-0.0002613493009373264f + r * 2.1759659078889598e-05f)))));
+    const vector_f scale = vector_from_bits_f(vector_to_bits_f(shifted) << 23); /* 2^k */
+    return vector_select_f(s > 173.8f, vector_of_f(0), scale + scale * part);
+}
+
 /* log = k log 2 + log m, sqrt(1/2) <= m < sqrt(2), within 1 unit in the last place. */
 INLINE vector_f log_each_f(vector_f x) {
     const vector_bits_f bits = vector_to_bits_f(x), biased = (bits + 0x4afb0d) >> 23; /* k + 127 */
@@ -1186,13 +1208,19 @@ OUTLINE void pair_constants_f(
     const vector_f M1 = 0.5f * mu1;
     const vector_f M2 = 0.5f * mu2;
     const vector_f by_normal_part = -(mu2 * W0_2) - mu1 * W0_1 - mu0 * W0_0;
-    const vector_f R0_0 = 1.4142135623730951f * (W0_0 + mu0 * by_normal_part);
-    const vector_f R0_1 = 1.4142135623730951f * (W0_1 + mu1 * by_normal_part);
-    const vector_f R0_2 = 1.4142135623730951f * (W0_2 + mu2 * by_normal_part);
+    const vector_f total_2 = W0_0 + mu0 * by_normal_part;
+    const vector_f R0_0 = total_2 + total_2;
+    const vector_f total_3 = W0_1 + mu1 * by_normal_part;
+    const vector_f R0_1 = total_3 + total_3;
+    const vector_f total_4 = W0_2 + mu2 * by_normal_part;
+    const vector_f R0_2 = total_4 + total_4;
     const vector_f by_normal_part_2 = -(mu2 * W1_2) - mu1 * W1_1 - mu0 * W1_0;
-    const vector_f R1_0 = 1.4142135623730951f * (W1_0 + mu0 * by_normal_part_2);
-    const vector_f R1_1 = 1.4142135623730951f * (W1_1 + mu1 * by_normal_part_2);
-    const vector_f R1_2 = 1.4142135623730951f * (W1_2 + mu2 * by_normal_part_2);
+    const vector_f total_5 = W1_0 + mu0 * by_normal_part_2;
+    const vector_f R1_0 = total_5 + total_5;
+    const vector_f total_6 = W1_1 + mu1 * by_normal_part_2;
+    const vector_f R1_1 = total_6 + total_6;
+    const vector_f total_7 = W1_2 + mu2 * by_normal_part_2;
+    const vector_f R1_2 = total_7 + total_7;
     const vector_f log_value = log_each_f(vector_of_f(0.7853981633974483f / FLT_EPSILON));
     const vector_f squared = mu0 * mu0;
     const vector_mask_f is_small = squared < 0.5f;
@@ -1207,10 +1235,10 @@ OUTLINE void pair_constants_f(
         gap_2 / sine_to_axis1);
     const vector_f product_4 = 3.141592653589793f * vector_select_f(is_small, -(mu0 * mu2 / sine_to_axis0),
         -(mu1 * mu2 / sine_to_axis1));
-    const vector_f total_2 = W0_0 * product_2 + W0_1 * product_3 + W0_2 * product_4;
-    const vector_f total_3 = W1_0 * product_2 + W1_1 * product_3 + W1_2 * product_4;
-    const vector_f value_on_cut_locus = exp_each_f(log_value - 0.5f * (total_2 * total_2 + total_3 *
-        total_3));
+    const vector_f total_8 = W0_0 * product_2 + W0_1 * product_3 + W0_2 * product_4;
+    const vector_f total_9 = W1_0 * product_2 + W1_1 * product_3 + W1_2 * product_4;
+    const vector_f value_on_cut_locus = exp_each_f(log_value - 0.5f * (total_8 * total_8 + total_9 *
+        total_9));
     S[0] = its_amplitude;
     S[1] = M0;
     S[2] = M1;
@@ -1227,11 +1255,11 @@ OUTLINE void pair_constants_f(
 /*
  * Adds the values phi of a splat at some points.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_value_f(
     const vector_f *X, const float *S, vector_f *value) {
@@ -1249,9 +1277,9 @@ INLINE void pair_value_f(
     const float R1_1 = S[8];
     const float R1_2 = S[9];
     const float value_on_cut_locus = S[10];
-    const vector_f total_2 = h0 + M0;
-    const vector_f total_3 = h1 + M1;
-    const vector_f total_4 = h2 + M2;
+    const vector_f total_2 = M0 + h0;
+    const vector_f total_3 = M1 + h1;
+    const vector_f total_4 = M2 + h2;
     const vector_f total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4;
     const vector_mask_f on_cut_locus = total_5 <= 4.0f * (FLT_EPSILON * FLT_EPSILON);
     const vector_f u = vector_select_f(on_cut_locus, vector_of_f(1.0f), total_5);
@@ -1261,8 +1289,8 @@ INLINE void pair_value_f(
     const vector_f a_squared = a * a;
     const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
-    const vector_f half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector_f gaussian = exp_each_f(-half_square);
+    const vector_f square = a_squared * (r0 * r0 + r1 * r1);
+    const vector_f gaussian = gaussian_each_f(square);
     value[0] = value[0] + amplitude * vector_select_f(on_cut_locus, vector_of_f(value_on_cut_locus), a *
             gaussian);
 }
@@ -1270,11 +1298,11 @@ INLINE void pair_value_f(
 /*
  * Adds the values phi of a splat at some points, and slope = d phi / d X.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_forward_f(
     const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
@@ -1292,9 +1320,9 @@ INLINE void pair_forward_f(
     const float R1_1 = S[8];
     const float R1_2 = S[9];
     const float value_on_cut_locus = S[10];
-    const vector_f total_2 = h0 + M0;
-    const vector_f total_3 = h1 + M1;
-    const vector_f total_4 = h2 + M2;
+    const vector_f total_2 = M0 + h0;
+    const vector_f total_3 = M1 + h1;
+    const vector_f total_4 = M2 + h2;
     const vector_f total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4;
     const vector_mask_f on_cut_locus = total_5 <= 4.0f * (FLT_EPSILON * FLT_EPSILON);
     const vector_f u = vector_select_f(on_cut_locus, vector_of_f(1.0f), total_5);
@@ -1305,15 +1333,15 @@ INLINE void pair_forward_f(
     const vector_f a_squared = a * a;
     const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
-    const vector_f half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector_f gaussian = exp_each_f(-half_square);
+    const vector_f square = a_squared * (r0 * r0 + r1 * r1);
+    const vector_f gaussian = gaussian_each_f(square);
     const vector_f a_product = a * gaussian;
     const vector_f product = amplitude * vector_select_f(on_cut_locus, vector_of_f(0.0f), a_product);
-    const vector_f product_2 = 2.0f * (product * a_squared);
-    const vector_f r1_product = r1 * product_2;
-    const vector_f r0_product = r0 * product_2;
+    const vector_f a_squared_product = product * a_squared;
+    const vector_f r1_product = r1 * a_squared_product;
+    const vector_f r0_product = r0 * a_squared_product;
     const vector_f over_w = w_gap * a;
-    const vector_f over_w_product = over_w * ((eta - over_w) * (product - product * (2.0f * half_square)));
+    const vector_f over_w_product = over_w * ((eta - over_w) * (product - product * square));
     value[0] = value[0] + amplitude * vector_select_f(on_cut_locus, vector_of_f(value_on_cut_locus),
             a_product);
     slope[0] = slope[0] - R1_0 * r1_product - R0_0 * r0_product + M0 * over_w_product;
@@ -1378,30 +1406,30 @@ OUTLINE void pair_constants_vjp_f(
     const vector_f sum8 = sums[8];
     const vector_f sum9 = sums[9];
     const vector_f by_normal_part = -(mu2 * W0_2) - mu1 * W0_1 - mu0 * W0_0;
-    const vector_f product = 1.4142135623730951f * sum4;
-    const vector_f product_2 = 1.4142135623730951f * sum5;
-    const vector_f product_3 = 1.4142135623730951f * sum6;
-    const vector_f by_by_normal_part = mu0 * product + mu1 * product_2 + mu2 * product_3;
+    const vector_f total_2 = sum4 + sum4;
+    const vector_f total_3 = sum5 + sum5;
+    const vector_f total_4 = sum6 + sum6;
+    const vector_f by_by_normal_part = mu0 * total_2 + mu1 * total_3 + mu2 * total_4;
     const vector_f by_normal_part_2 = -(mu2 * W1_2) - mu1 * W1_1 - mu0 * W1_0;
-    const vector_f product_4 = 1.4142135623730951f * sum7;
-    const vector_f product_5 = 1.4142135623730951f * sum8;
-    const vector_f product_6 = 1.4142135623730951f * sum9;
-    const vector_f by_by_normal_part_2 = mu0 * product_4 + mu1 * product_5 + mu2 * product_6;
-    const vector_f gap = 0.5f * sum1 + by_normal_part * product - W0_0 * by_by_normal_part + by_normal_part_2
-        * product_4 - W1_0 * by_by_normal_part_2;
-    const vector_f gap_2 = 0.5f * sum2 + by_normal_part * product_2 - W0_1 * by_by_normal_part +
-        by_normal_part_2 * product_5 - W1_1 * by_by_normal_part_2;
-    const vector_f gap_3 = 0.5f * sum3 + by_normal_part * product_3 - W0_2 * by_by_normal_part +
-        by_normal_part_2 * product_6 - W1_2 * by_by_normal_part_2;
+    const vector_f total_5 = sum7 + sum7;
+    const vector_f total_6 = sum8 + sum8;
+    const vector_f total_7 = sum9 + sum9;
+    const vector_f by_by_normal_part_2 = mu0 * total_5 + mu1 * total_6 + mu2 * total_7;
+    const vector_f gap = 0.5f * sum1 + by_normal_part * total_2 - W0_0 * by_by_normal_part + by_normal_part_2
+        * total_5 - W1_0 * by_by_normal_part_2;
+    const vector_f gap_2 = 0.5f * sum2 + by_normal_part * total_3 - W0_1 * by_by_normal_part +
+        by_normal_part_2 * total_6 - W1_1 * by_by_normal_part_2;
+    const vector_f gap_3 = 0.5f * sum3 + by_normal_part * total_4 - W0_2 * by_by_normal_part +
+        by_normal_part_2 * total_7 - W1_2 * by_by_normal_part_2;
     mu_bar[0] = its_amplitude * gap;
     mu_bar[1] = its_amplitude * gap_2;
     mu_bar[2] = its_amplitude * gap_3;
-    W_bar[0] = its_amplitude * (product - mu0 * by_by_normal_part);
-    W_bar[1] = its_amplitude * (product_2 - mu1 * by_by_normal_part);
-    W_bar[2] = its_amplitude * (product_3 - mu2 * by_by_normal_part);
-    W_bar[3] = its_amplitude * (product_4 - mu0 * by_by_normal_part_2);
-    W_bar[4] = its_amplitude * (product_5 - mu1 * by_by_normal_part_2);
-    W_bar[5] = its_amplitude * (product_6 - mu2 * by_by_normal_part_2);
+    W_bar[0] = its_amplitude * (total_2 - mu0 * by_by_normal_part);
+    W_bar[1] = its_amplitude * (total_3 - mu1 * by_by_normal_part);
+    W_bar[2] = its_amplitude * (total_4 - mu2 * by_by_normal_part);
+    W_bar[3] = its_amplitude * (total_5 - mu0 * by_by_normal_part_2);
+    W_bar[4] = its_amplitude * (total_6 - mu1 * by_by_normal_part_2);
+    W_bar[5] = its_amplitude * (total_7 - mu2 * by_by_normal_part_2);
     amplitude_bar[0] = sum0;
 }
 
@@ -1433,11 +1461,11 @@ OUTLINE void pair_distances_f(
 /*
  * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
  *
- * h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
  * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)
+ * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_backward_f(
     const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
@@ -1458,9 +1486,9 @@ INLINE void pair_backward_f(
     const vector_f h0_bar = slope_bar[0];
     const vector_f h1_bar = slope_bar[1];
     const vector_f h2_bar = slope_bar[2];
-    const vector_f total_2 = h0 + M0;
-    const vector_f total_3 = h1 + M1;
-    const vector_f total_4 = h2 + M2;
+    const vector_f total_2 = M0 + h0;
+    const vector_f total_3 = M1 + h1;
+    const vector_f total_4 = M2 + h2;
     const vector_f total_5 = total_2 * total_2 + total_3 * total_3 + total_4 * total_4;
     const vector_mask_f on_cut_locus = total_5 <= 4.0f * (FLT_EPSILON * FLT_EPSILON);
     const vector_f u = vector_select_f(on_cut_locus, vector_of_f(1.0f), total_5);
@@ -1472,8 +1500,8 @@ INLINE void pair_backward_f(
     const vector_f a_squared = a * a;
     const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
     const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
-    const vector_f half_square = a_squared * (r0 * r0 + r1 * r1);
-    const vector_f gaussian = exp_each_f(-half_square);
+    const vector_f square = a_squared * (r0 * r0 + r1 * r1);
+    const vector_f gaussian = gaussian_each_f(square);
     const vector_f a_product = a * gaussian;
     const vector_f chosen = vector_select_f(on_cut_locus, vector_of_f(0.0f), a_product);
     const vector_f over_w = w_gap_2 * a;
@@ -1481,31 +1509,29 @@ INLINE void pair_backward_f(
     const vector_f total_6 = M0 * h0_bar + M1 * h1_bar + M2 * h2_bar;
     const vector_f over_w_product = over_w * total_6;
     const vector_f product = eta_gap * over_w_product;
-    const vector_f gap = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar;
-    const vector_f gap_2 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar;
-    const vector_f product_2 = 2.0f * (r0 * gap + r1 * gap_2);
-    const vector_f half_square_product = 2.0f * half_square;
-    const vector_f product_3 = chosen * (product + a_squared * product_2 - half_square_product * product);
-    const vector_f gap_3 = chosen - chosen * half_square_product;
-    const vector_f product_4 = eta_gap * gap_3;
-    const vector_f over_w_product_2 = over_w * product_4;
+    const vector_f gap = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar;
+    const vector_f gap_2 = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar;
+    const vector_f total_7 = r1 * gap + r0 * gap_2;
+    const vector_f product_2 = chosen * (product + a_squared * total_7 - square * product);
+    const vector_f gap_3 = chosen - chosen * square;
+    const vector_f product_3 = eta_gap * gap_3;
+    const vector_f over_w_product_2 = over_w * product_3;
     const vector_f eta_slope = vector_polynomial_eta_slope_f(w_gap);
-    const vector_f product_5 = gap_3 * over_w_product;
-    const vector_f total_7 = chosen * its_value_bar + product_3;
-    const vector_f by_half_square = -2.0f * (chosen * product) - total_7;
-    const vector_f product_6 = eta_gap * (2.0f * a_squared * (chosen * product_2) + total_7 +
-        half_square_product * by_half_square);
-    const vector_f total_8 = eta_slope * product_5 - over_w * over_w * (product_4 * total_6 - product_5) +
-        product_6;
-    const vector_f over_w_product_3 = over_w * total_8;
-    const vector_f product_7 = 2.0f * (chosen * a_squared);
-    const vector_f product_8 = 2.0f * (a_squared * by_half_square);
-    const vector_f by_r0 = product_7 * gap + r0 * product_8;
-    const vector_f r0_product = r0 * product_7;
-    const vector_f by_r1 = product_7 * gap_2 + r1 * product_8;
-    const vector_f r1_product = r1 * product_7;
+    const vector_f product_4 = gap_3 * over_w_product;
+    const vector_f total_8 = chosen * its_value_bar + product_2;
+    const vector_f gap_4 = -2.0f * (chosen * product) - total_8;
+    const vector_f product_5 = eta_gap * (2.0f * a_squared * (chosen * total_7) + total_8 + square * gap_4);
+    const vector_f total_9 = eta_slope * product_4 - over_w * over_w * (product_3 * total_6 - product_4) +
+        product_5;
+    const vector_f over_w_product_3 = over_w * total_9;
+    const vector_f a_squared_product = chosen * a_squared;
+    const vector_f a_squared_product_2 = a_squared * gap_4;
+    const vector_f by_r0 = a_squared_product * gap_2 + r0 * a_squared_product_2;
+    const vector_f r0_product = r0 * a_squared_product;
+    const vector_f by_r1 = a_squared_product * gap + r1 * a_squared_product_2;
+    const vector_f r1_product = r1 * a_squared_product;
     sums[0] = sums[0] + vector_select_f(on_cut_locus, vector_of_f(value_on_cut_locus), a_product) *
-            its_value_bar + product_3;
+            its_value_bar + product_2;
     sums[1] = sums[1] + over_w_product_2 * h0_bar + h0 * over_w_product_3;
     sums[2] = sums[2] + over_w_product_2 * h1_bar + h1 * over_w_product_3;
     sums[3] = sums[3] + over_w_product_2 * h2_bar + h2 * over_w_product_3;

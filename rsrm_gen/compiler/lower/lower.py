@@ -98,8 +98,7 @@ class _Splat:
         graph = self.graph
         if self.size > len(self.rows) or not pays(len(self.rows), self.size):
             return None
-        half_square = graph.mul(graph.constant(sp.Rational(1, 2)), quadratic(graph, self.rows, self.log))
-        exponent = graph.sub(self.log_det, half_square)
+        exponent = graph.sub(self.log_det, quadratic(graph, self.rows, self.log))
         phi = graph.named("phi", graph.mul(self.amplitude.nodes[0], graph.function("exp", exponent)))
         return replace(plain, phi=phi, exponent=exponent, by_exponent=phi)
 

@@ -1,4 +1,4 @@
-"""|R v|^2 with its derivatives by the matrix M = R^T R, of which it is a function.
+"""|R v|^2 / 2 with its derivatives by the matrix M = R^T R, of which it is a function.
 
 Summed over many points, the derivatives in the n (n + 1) / 2 entries of M are fewer and cheaper than those in the d n of
 R, and those of R follow once a splat. Its value is computed from R all the same, because M has the square of R's
@@ -13,6 +13,7 @@ import sympy as sp
 
 from rsrm_gen.compiler.lower.ir import Graph, Node, Packed, dot
 
+HALF = sp.Rational(1, 2)
 LARGEST = 8  # columns of R, beyond which what is done once a splat, d n^2 products, takes the C compiler seconds
 
 
@@ -21,10 +22,17 @@ def pays(rows: int, columns: int) -> bool:
     return columns + 1 < 2 * rows and columns <= LARGEST
 
 
-def quadratic(graph: Graph, R: Sequence[Packed], v: Packed) -> Node:
-    """|R v|^2 as a function of v and M; the linear forms of M v are noted in `graph.forms`.
+def half_square(graph: Graph, z: Sequence[Node]) -> Node:
+    """|z|^2 / 2, whose derivatives are z: no factor 2 to cancel the half."""
+    square = graph.declared(graph.mul(graph.constant(HALF), dot(graph, z, z)), *z)
+    graph.slopes[square] = tuple(z)
+    return square
 
-    u = M v = R^T (R v) is known to be M v, with a derivative by M (t) and one by v: d (v . u) = v . dt + 2 u . dv.
+
+def quadratic(graph: Graph, R: Sequence[Packed], v: Packed) -> Node:
+    """|R v|^2 / 2 as a function of v and M; the linear forms of M v are noted in `graph.forms`.
+
+    u = M v = R^T (R v) is known to be M v, with a derivative by M (t) and one by v: d (v . u) / 2 = v . dt / 2 + u . dv.
     """
     columns = list(zip(*R, strict=True))
     size = len(columns)
@@ -32,7 +40,7 @@ def quadratic(graph: Graph, R: Sequence[Packed], v: Packed) -> Node:
         [graph.named(f"M{min(j, k)}_{max(j, k)}", dot(graph, columns[j], columns[k])) for k in range(size)]
         for j in range(size)
     ]
-    z = [dot(graph, row, v) for i, row in enumerate(R)]
+    z = [dot(graph, row, v) for row in R]
     u = []
     by_M = []
     for column, row in zip(columns, M, strict=True):
@@ -44,6 +52,8 @@ def quadratic(graph: Graph, R: Sequence[Packed], v: Packed) -> Node:
         by_M.append(t)
         u.append(both)
         graph.forms[both] = dot(graph, row, v)
-    square = graph.declared(dot(graph, z, z), *by_M, *v)
-    graph.slopes[square] = (*v, *(graph.mul(graph.constant(sp.Integer(2)), e) for e in u))
-    return square
+    square = graph.declared(dot(graph, z, z), *by_M)
+    graph.slopes[square] = v
+    half = graph.declared(graph.mul(graph.constant(HALF), square.arguments[0]), square, *v)
+    graph.slopes[half] = (graph.constant(HALF), *u)
+    return half

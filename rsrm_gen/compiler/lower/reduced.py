@@ -6,7 +6,7 @@ w = sqrt((1 + c) / 2), c = <mu, x>, and eta = d log A / dw, which is one polynom
     1 / A = w - (1 - w^2) eta,   a = A / w,   d log a / dw = eta - 1 / w,   z = a R x,   R = W (tangent part at mu).
 
 The factors 2 of it are gone into the rows: the point counts by its half h = x / 2, the centre by M = mu / 2, so that
-w^2 = <h + M, h + M> and dw = d<M, h> / w; and r = sqrt(2) R h, so that |z|^2 / 2 = a^2 |r|^2.
+w^2 = <h + M, h + M> and dw = d<M, h> / w; and the rows of R by their double, so that z = a r, r = R h.
 
 In a product every factor has its own form, or the author's formulas. The routines of single splats keep those.
 """
@@ -25,18 +25,18 @@ from rsrm_gen.compiler.lower.differentiate import gradient
 from rsrm_gen.compiler.lower.from_sympy import inline
 from rsrm_gen.compiler.lower.ir import Graph, Node, Packed, dot
 from rsrm_gen.compiler.lower.pairs import SplatNodes
-from rsrm_gen.compiler.lower.quadratic import pays, quadratic
+from rsrm_gen.compiler.lower.quadratic import half_square, pays, quadratic
 from rsrm_gen.compiler.spec import ProductSpec
 
 HALF = sp.Rational(1, 2)
 
 # What is said of a pair's function in generated code.
-FORMULA = """h = x / 2, M = mu / 2 (2 mu where x and -x are one point)
+FORMULA = """h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
 w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
 eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
 Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
 """
-ALONE = "r = R h = W (tangent part of x) / sqrt(2), phi = amplitude a^k exp(-a^2 |r|^2)"
+ALONE = "r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)"
 SEVERAL_PARTS = "r = R h = W (tangent part of x), z = a r + what other factors add, phi = amplitude a^k exp(-|z|^2 / 2)"
 
 
@@ -89,7 +89,7 @@ class _Form:
         self.tangent_size = tangent_size
         self.far_out = far_out  # whether a part reaches far out in its coordinates
         self.alone = alone  # whether there is one part only
-        self.half_square: Node = graph.constant(0)  # |z|^2 / 2, of the only part
+        self.half: Node = graph.constant(0)  # |z|^2 / 2, of the only part
         self.z: list[Packed] = []  # what each part adds to z, of several
         self.rows_of: list[list[Packed]] = []  # what of W, or R, each of several parts is multiplied by,
         self.columns_of: list[Packed] = []  # and what it multiplies, so that both give z
@@ -125,13 +125,12 @@ class _Form:
     def add_radial(self, part: Part, radial: Radial) -> None:
         """A part in the radial form."""
         graph, (mu, x) = self.graph, self.points(part)
-        h = tuple(graph.named(f"{part.prefix}h{j}", graph.mul(graph.constant(HALF), c)) for j, c in enumerate(x))
-        shape = _Profile(graph, radial, part.prefix, mu, h)
-        R = self.rows(part)
+        shape = _Profile(graph, radial, part.prefix, mu, x)
+        R, h = self.rows(part, radial), shape.h
         r = [graph.named(f"{part.prefix}r{i}", dot(graph, row, h)) for i, row in enumerate(R)]
         if self.alone:
-            square = quadratic(graph, R, h) if self.by_matrix(len(h)) else dot(graph, r, r)
-            self.half_square = shape.times_square(square)
+            half = quadratic(graph, R, h) if self.by_matrix(len(h)) else half_square(graph, r)
+            self.half = shape.times_square(half, dot(graph, r, r))
         else:
             self.z.append(tuple(graph.mul(shape.signed_a, e) for e in r))
             self.rows_of.append(R)
@@ -141,17 +140,18 @@ class _Form:
         if shape.on_cut is not None:
             self.at_cut.append((shape.on_cut, self.value_at_cut(part, mu)))
 
-    def rows(self, part: Part) -> list[Packed]:
-        """R, or R / sqrt(2) of the only part."""
+    def rows(self, part: Part, radial: Radial) -> list[Packed]:
+        """R, with R h = W (tangent part of x): covectors at the part's centre, or twice that."""
         graph, (mu, _) = self.graph, self.points(part)
         vector = tuple(graph.input(f"{part.prefix}vector{j}") for j in range(len(mu)))
         tangent = inline(graph, part.geometry["to_tangent"], mu, vector, prefix=part.prefix)
-        scale = graph.constant(sp.sqrt(2) if self.alone else 2)
         rows = []
         for i in range(self.dim):
             # The covector of a vector's tangent part; by the adjoint of the map, whose matrix loses digits far out.
             row = gradient(graph, dot(graph, self.covector(i, part), tangent), vector)
-            rows.append(tuple(graph.named(f"{part.prefix}R{i}_{j}", graph.mul(scale, e)) for j, e in enumerate(row)))
+            if not radial.folded:  # a sum, because 2 and the 1 / 2 of h would cancel, and points count by both x and h
+                row = tuple(graph.add(e, e) for e in row)
+            rows.append(tuple(graph.named(f"{part.prefix}R{i}_{j}", e) for j, e in enumerate(row)))
         return rows
 
     def value_at_cut(self, part: Part, mu: Packed) -> Node:
@@ -168,25 +168,26 @@ class _Form:
         """Whether sums are by R^T R: not with hyperboloids, far out on which R is large, and its square loses digits."""
         return pays(self.dim, columns) and not self.far_out
 
-    def half_square_of_all(self) -> Node:
+    def half_square(self) -> Node:
         """|z|^2 / 2, z the sum of what the parts add."""
         graph = self.graph
+        if self.alone:
+            return self.half
         v = tuple(c for columns in self.columns_of for c in columns)
         if self.by_matrix(len(v)):
             rows = [tuple(c for part in parts for c in part) for parts in zip(*self.rows_of, strict=True)]
-            return graph.mul(graph.constant(HALF), quadratic(graph, rows, v))
+            return quadratic(graph, rows, v)
         z = []
         for i, (first, *others) in enumerate(zip(*self.z, strict=True)):
             for other in others:
                 first = graph.add(first, other)
             z.append(graph.named(f"z{i}", first))
-        return graph.mul(graph.constant(HALF), dot(graph, z, z))
+        return half_square(graph, z)
 
     def splat_nodes(self) -> SplatNodes:
         """phi, the exponent whose derivatives give phi's, and the factor between them."""
         graph = self.graph
-        half_square = graph.named("half_square", self.half_square) if self.alone else self.half_square_of_all()
-        exponent = inside = graph.neg(half_square)
+        exponent = inside = graph.neg(self.half_square())
         for log_det in self.log_dets:
             exponent = graph.add(exponent, log_det)
         for log_det in self.exponents:
@@ -211,13 +212,14 @@ class _Form:
 class _Profile:
     """a and log a as functions of c = <mu, x>, and where the cut locus is; `log_a` is good for its derivatives only."""
 
-    def __init__(self, graph: Graph, radial: Radial, prefix: str, mu: Packed, h: Packed) -> None:
+    def __init__(self, graph: Graph, radial: Radial, prefix: str, mu: Packed, x: Packed) -> None:
         self.graph = graph
         self.prefix = prefix
         self.on_cut: Node | None = None
         self.form = [[graph.constant(f) for f in row] for row in radial.form]
-        scale = graph.constant(2 if radial.folded else HALF)
+        scale = graph.constant(1 if radial.folded else HALF)
         M = tuple(self.named(f"M{j}", graph.mul(scale, c)) for j, c in enumerate(mu))
+        self.h = h = tuple(self.named(f"h{j}", graph.mul(scale, c)) for j, c in enumerate(x))
         product = dot(graph, self.image(M), h)  # c / 4, or c where it is folded
         if radial.folded:
             self.of_folded(product)
@@ -326,9 +328,12 @@ class _Profile:
         self.a_squared = graph.declared(self.named("a_squared", self.square(a)), self.log_a)
         graph.slopes[self.a_squared] = (graph.mul(self.number(2), self.a_squared),)
 
-    def times_square(self, square: Node) -> Node:
-        """a^2 times a number that does not depend on a."""
+    def times_square(self, half: Node, square: Node) -> Node:
+        """a^2 times half a square that does not depend on a: as p = s / 2, dp = s d log a + a^2 d half."""
         graph = self.graph
-        product = graph.declared(graph.mul(self.a_squared.arguments[0], square), self.log_a, square)
-        graph.slopes[product] = (graph.mul(self.number(2), product), self.a_squared)
+        whole = self.named("square", graph.mul(self.a_squared.arguments[0], square))
+        product = graph.declared(graph.mul(self.number(HALF), whole), self.log_a, half)
+        s = graph.declared(whole, product)
+        graph.slopes[s] = (self.number(2),)
+        graph.slopes[product] = (s, self.a_squared)
         return product
