@@ -24,7 +24,6 @@
 #endif
 #define LANE(vector, i) (vector)[i]
 #define ZERO {0}
-#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
 typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
 typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
 typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
@@ -34,7 +33,6 @@ typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
 #else
 #define LANE(vector, i) (vector)
 #define ZERO 0
-#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
 typedef double vector;
 typedef float vector_f;
 typedef int64_t vector_mask;
@@ -49,6 +47,17 @@ typedef uint32_t vector_bits_f;
 #else
 #define INLINE static inline
 #define OUTLINE static
+#endif
+/* UNROLLED: the few turns of a loop one after another. EACH_LANE: of a loop that gcc makes one instruction, if it stays a loop. */
+#if defined(__clang__)
+#define UNROLLED _Pragma("clang loop unroll(full)")
+#define EACH_LANE
+#elif defined(__GNUC__) && __GNUC__ >= 8
+#define UNROLLED _Pragma("GCC unroll 8")
+#define EACH_LANE _Pragma("GCC unroll 1")
+#else
+#define UNROLLED
+#define EACH_LANE
 #endif
 #define LANES (sizeof(vector) / sizeof(double))
 #define LANES_f (sizeof(vector_f) / sizeof(float))
@@ -90,9 +99,14 @@ INLINE vector vector_of(double x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector vector_select(vector_mask mask, vector x, vector y) {
-    return SELECT(vector, vector_mask, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector)((mask & (vector_mask)x) | (~mask & (vector_mask)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -131,7 +145,7 @@ INLINE vector signed_each(vector x, vector sign) {
 
 /* abs of every lane; one instruction where the machine has it. */
 INLINE vector abs_each(vector x) {
-    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
     return x;
 }
 
@@ -244,85 +258,193 @@ OUTLINE void pair_constants(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_value(
-    const vector *X, const double *S, vector *value) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector mul_of_one = X[2];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double W0_0 = S[2];
-    const double W0_1 = S[3];
-    const double W1_0 = S[4];
-    const double W1_1 = S[5];
-    const double amplitude = S[6];
-    const double sub_of_one = S[7];
-    const vector sin_p1_plus_q1 = sin_each(x1 + mu1);
-    const vector sin_p1_minus_q1 = sin_each(mu1 - x1);
-    const vector difference = sin_p1_plus_q1 * (0.25 * sin_p1_minus_q1);
-    const vector total_2 = sub_of_one - mul_of_one;
-    const vector atanh_value = atanh_each(difference / total_2);
-    const vector gap = x0 - mu0;
-    const vector round_2 = round_each(0.15915494309189535 * gap);
-    const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
-    const vector gap_2 = x1 - mu1;
-    const vector round_3 = round_each(0.15915494309189535 * gap_2);
-    const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
-    const vector z0 = W0_0 * v0 + W0_1 * v1;
-    const vector z1 = W1_0 * v0 + W1_1 * v1;
-    const vector phi = exp_each(atanh_value - 0.5 * (z0 * z0 + z1 * z1));
-    value[0] = value[0] + amplitude * phi;
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values) {
+    struct { vector sin_p1_plus_q1, sin_p1_minus_q1, atanh_value, phi; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 11 * near[k];
+        const double mu1 = S[1];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 3 * b;
+            const vector x1 = X[1];
+            const vector sin_p1_plus_q1 = sin_each(x1 + mu1);
+            const vector sin_p1_minus_q1 = sin_each(mu1 - x1);
+            kept[k][b].sin_p1_plus_q1 = sin_p1_plus_q1;
+            kept[k][b].sin_p1_minus_q1 = sin_p1_minus_q1;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 11 * near[k];
+        const double sub_of_one = S[7];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 3 * b;
+            const vector sin_p1_plus_q1 = kept[k][b].sin_p1_plus_q1;
+            const vector sin_p1_minus_q1 = kept[k][b].sin_p1_minus_q1;
+            const vector mul_of_one = X[2];
+            const vector difference = sin_p1_plus_q1 * (0.25 * sin_p1_minus_q1);
+            const vector total_2 = sub_of_one - mul_of_one;
+            const vector atanh_value = atanh_each(difference / total_2);
+            kept[k][b].atanh_value = atanh_value;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 11 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double W0_0 = S[2];
+        const double W0_1 = S[3];
+        const double W1_0 = S[4];
+        const double W1_1 = S[5];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 3 * b;
+            const vector atanh_value = kept[k][b].atanh_value;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector gap = x0 - mu0;
+            const vector round_2 = round_each(0.15915494309189535 * gap);
+            const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
+            const vector gap_2 = x1 - mu1;
+            const vector round_3 = round_each(0.15915494309189535 * gap_2);
+            const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
+            const vector z0 = W0_0 * v0 + W0_1 * v1;
+            const vector z1 = W1_0 * v0 + W1_1 * v1;
+            const vector phi = exp_each(atanh_value - 0.5 * (z0 * z0 + z1 * z1));
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 11 * near[k];
+        const double amplitude = S[6];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector *value = values + b;
+            const vector phi = kept[k][b].phi;
+            value[0] = value[0] + amplitude * phi;
+        }
+    }
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_forward(
-    const vector *X, const double *S, vector *value, vector *slope) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector mul_of_one = X[2];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double W0_0 = S[2];
-    const double W0_1 = S[3];
-    const double W1_0 = S[4];
-    const double W1_1 = S[5];
-    const double amplitude = S[6];
-    const double sub_of_one = S[7];
-    const vector total_2 = x1 + mu1;
-    const vector sin_p1_plus_q1 = sin_each(total_2);
-    const vector gap = mu1 - x1;
-    const vector sin_p1_minus_q1 = sin_each(gap);
-    const vector product = 0.25 * sin_p1_minus_q1;
-    const vector difference = sin_p1_plus_q1 * product;
-    const vector total_3 = sub_of_one - mul_of_one;
-    const vector difference_ratio = difference / total_3;
-    const vector atanh_value = atanh_each(difference_ratio);
-    const vector gap_2 = x0 - mu0;
-    const vector round_2 = round_each(0.15915494309189535 * gap_2);
-    const vector v0 = gap_2 - 6.28125 * round_2 - 0.001935307179586477 * round_2;
-    const vector gap_3 = x1 - mu1;
-    const vector round_3 = round_each(0.15915494309189535 * gap_3);
-    const vector v1 = gap_3 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
-    const vector z0 = W0_0 * v0 + W0_1 * v1;
-    const vector z1 = W1_0 * v0 + W1_1 * v1;
-    const vector phi = exp_each(atanh_value - 0.5 * (z0 * z0 + z1 * z1));
-    const vector phi_2 = amplitude * phi;
-    const vector by_difference = phi_2 / (1.0 - difference_ratio * difference_ratio) / total_3;
-    const vector by_sin_p1_minus_q1 = 0.25 * (sin_p1_plus_q1 * by_difference);
-    const vector by_sin_p1_plus_q1 = product * by_difference;
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] - phi_2 * (W1_0 * z1 + W0_0 * z0);
-    slope[1] = slope[1] - phi_2 * (W1_1 * z1 + W0_1 * z0) - by_sin_p1_minus_q1 * cos_each(gap) +
-            by_sin_p1_plus_q1 * cos_each(total_2);
-    slope[2] = slope[2] + difference_ratio * by_difference;
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values, vector *slopes) {
+    struct { vector total_2, sin_p1_plus_q1, gap, sin_p1_minus_q1, product, total_3, difference_ratio,
+            atanh_value, z0, z1, phi, phi_2, by_difference; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 11 * near[k];
+        const double mu1 = S[1];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 3 * b;
+            const vector x1 = X[1];
+            const vector total_2 = x1 + mu1;
+            const vector sin_p1_plus_q1 = sin_each(total_2);
+            const vector gap = mu1 - x1;
+            const vector sin_p1_minus_q1 = sin_each(gap);
+            kept[k][b].total_2 = total_2;
+            kept[k][b].sin_p1_plus_q1 = sin_p1_plus_q1;
+            kept[k][b].gap = gap;
+            kept[k][b].sin_p1_minus_q1 = sin_p1_minus_q1;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 11 * near[k];
+        const double sub_of_one = S[7];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 3 * b;
+            const vector sin_p1_plus_q1 = kept[k][b].sin_p1_plus_q1;
+            const vector sin_p1_minus_q1 = kept[k][b].sin_p1_minus_q1;
+            const vector mul_of_one = X[2];
+            const vector product = 0.25 * sin_p1_minus_q1;
+            const vector difference = sin_p1_plus_q1 * product;
+            const vector total_3 = sub_of_one - mul_of_one;
+            const vector difference_ratio = difference / total_3;
+            kept[k][b].product = product;
+            kept[k][b].total_3 = total_3;
+            kept[k][b].difference_ratio = difference_ratio;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector difference_ratio = kept[k][b].difference_ratio;
+            const vector atanh_value = atanh_each(difference_ratio);
+            kept[k][b].atanh_value = atanh_value;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 11 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double W0_0 = S[2];
+        const double W0_1 = S[3];
+        const double W1_0 = S[4];
+        const double W1_1 = S[5];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 3 * b;
+            const vector atanh_value = kept[k][b].atanh_value;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector gap_2 = x0 - mu0;
+            const vector round_2 = round_each(0.15915494309189535 * gap_2);
+            const vector v0 = gap_2 - 6.28125 * round_2 - 0.001935307179586477 * round_2;
+            const vector gap_3 = x1 - mu1;
+            const vector round_3 = round_each(0.15915494309189535 * gap_3);
+            const vector v1 = gap_3 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
+            const vector z0 = W0_0 * v0 + W0_1 * v1;
+            const vector z1 = W1_0 * v0 + W1_1 * v1;
+            const vector phi = exp_each(atanh_value - 0.5 * (z0 * z0 + z1 * z1));
+            kept[k][b].z0 = z0;
+            kept[k][b].z1 = z1;
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 11 * near[k];
+        const double amplitude = S[6];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector total_3 = kept[k][b].total_3;
+            const vector difference_ratio = kept[k][b].difference_ratio;
+            const vector phi = kept[k][b].phi;
+            const vector phi_2 = amplitude * phi;
+            const vector by_difference = phi_2 / (1.0 - difference_ratio * difference_ratio) / total_3;
+            kept[k][b].phi_2 = phi_2;
+            kept[k][b].by_difference = by_difference;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 11 * near[k];
+        const double W0_0 = S[2];
+        const double W0_1 = S[3];
+        const double W1_0 = S[4];
+        const double W1_1 = S[5];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector *value = values + b;
+            vector *slope = slopes + 3 * b;
+            const vector total_2 = kept[k][b].total_2;
+            const vector sin_p1_plus_q1 = kept[k][b].sin_p1_plus_q1;
+            const vector gap = kept[k][b].gap;
+            const vector product = kept[k][b].product;
+            const vector difference_ratio = kept[k][b].difference_ratio;
+            const vector z0 = kept[k][b].z0;
+            const vector z1 = kept[k][b].z1;
+            const vector phi_2 = kept[k][b].phi_2;
+            const vector by_difference = kept[k][b].by_difference;
+            const vector by_sin_p1_minus_q1 = 0.25 * (sin_p1_plus_q1 * by_difference);
+            const vector by_sin_p1_plus_q1 = product * by_difference;
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] - phi_2 * (W1_0 * z1 + W0_0 * z0);
+            slope[1] = slope[1] - phi_2 * (W1_1 * z1 + W0_1 * z0) - by_sin_p1_minus_q1 * cos_each(gap) +
+                    by_sin_p1_plus_q1 * cos_each(total_2);
+            slope[2] = slope[2] + difference_ratio * by_difference;
+        }
+    }
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -360,6 +482,198 @@ OUTLINE void pair_gradient_vjp(
     slope_bar[2] = minus;
 }
 
+/*
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
+INLINE void pair_backward(
+    size_t count, const vector *points, const uint32_t *near, const double *S, vector *sums) {
+    struct { vector v0, v1, z1, z0, total_2, total_3, sin_p1_plus_q1, gap_3, sin_p1_minus_q1, product,
+            total_4, difference_ratio, atanh_value, phi, cos_2, by_by_sin_p1_plus_q1, cos_3, product_2, ratio,
+            gap_4, ratio_2, total_5, by_atanh_value, phi_ratio, by_difference, total_6, by_difference_2; }
+            kept[16];
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 7 * (size_t)near[i];
+        const vector x1 = X[1];
+        const double mu1 = S[1];
+        const vector total_3 = x1 + mu1;
+        const vector sin_p1_plus_q1 = sin_each(total_3);
+        const vector gap_3 = mu1 - x1;
+        const vector sin_p1_minus_q1 = sin_each(gap_3);
+        kept[i].total_3 = total_3;
+        kept[i].sin_p1_plus_q1 = sin_p1_plus_q1;
+        kept[i].gap_3 = gap_3;
+        kept[i].sin_p1_minus_q1 = sin_p1_minus_q1;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 7 * (size_t)near[i];
+        const vector sin_p1_plus_q1 = kept[i].sin_p1_plus_q1;
+        const vector sin_p1_minus_q1 = kept[i].sin_p1_minus_q1;
+        const vector mul_of_one = X[2];
+        const double sub_of_one = S[7];
+        const vector product = 0.25 * sin_p1_minus_q1;
+        const vector difference = sin_p1_plus_q1 * product;
+        const vector total_4 = sub_of_one - mul_of_one;
+        const vector difference_ratio = difference / total_4;
+        kept[i].product = product;
+        kept[i].total_4 = total_4;
+        kept[i].difference_ratio = difference_ratio;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector difference_ratio = kept[i].difference_ratio;
+        const vector atanh_value = atanh_each(difference_ratio);
+        kept[i].atanh_value = atanh_value;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 7 * (size_t)near[i];
+        const vector total_3 = kept[i].total_3;
+        const vector gap_3 = kept[i].gap_3;
+        const vector atanh_value = kept[i].atanh_value;
+        const vector x0 = X[0];
+        const vector x1 = X[1];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double W0_0 = S[2];
+        const double W0_1 = S[3];
+        const double W1_0 = S[4];
+        const double W1_1 = S[5];
+        const vector gap = x0 - mu0;
+        const vector round_2 = round_each(0.15915494309189535 * gap);
+        const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
+        const vector gap_2 = x1 - mu1;
+        const vector round_3 = round_each(0.15915494309189535 * gap_2);
+        const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
+        const vector z1 = W1_0 * v0 + W1_1 * v1;
+        const vector z0 = W0_0 * v0 + W0_1 * v1;
+        const vector phi = exp_each(atanh_value - 0.5 * (z0 * z0 + z1 * z1));
+        const vector cos_2 = cos_each(total_3);
+        const vector cos_3 = cos_each(gap_3);
+        kept[i].v0 = v0;
+        kept[i].v1 = v1;
+        kept[i].z1 = z1;
+        kept[i].z0 = z0;
+        kept[i].phi = phi;
+        kept[i].cos_2 = cos_2;
+        kept[i].cos_3 = cos_3;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *slope_bar = points + 7 * (size_t)near[i] + 3 + 1;
+        const vector sin_p1_plus_q1 = kept[i].sin_p1_plus_q1;
+        const vector product = kept[i].product;
+        const vector total_4 = kept[i].total_4;
+        const vector difference_ratio = kept[i].difference_ratio;
+        const vector phi = kept[i].phi;
+        const vector cos_2 = kept[i].cos_2;
+        const vector cos_3 = kept[i].cos_3;
+        const vector x1_bar = slope_bar[1];
+        const vector mul_of_one_bar = slope_bar[2];
+        const vector by_by_sin_p1_plus_q1 = cos_2 * x1_bar;
+        const vector product_2 = 0.25 * (cos_3 * x1_bar);
+        const vector by_by_difference = product * by_by_sin_p1_plus_q1 - sin_p1_plus_q1 * product_2 +
+            difference_ratio * mul_of_one_bar;
+        const vector ratio = by_by_difference / total_4;
+        const vector gap_4 = 1.0 - difference_ratio * difference_ratio;
+        const vector phi_ratio = phi / gap_4;
+        kept[i].by_by_sin_p1_plus_q1 = by_by_sin_p1_plus_q1;
+        kept[i].product_2 = product_2;
+        kept[i].ratio = ratio;
+        kept[i].gap_4 = gap_4;
+        kept[i].phi_ratio = phi_ratio;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector total_4 = kept[i].total_4;
+        const vector ratio = kept[i].ratio;
+        const vector gap_4 = kept[i].gap_4;
+        const vector phi_ratio = kept[i].phi_ratio;
+        const vector ratio_2 = ratio / gap_4;
+        const vector by_difference = phi_ratio / total_4;
+        kept[i].ratio_2 = ratio_2;
+        kept[i].by_difference = by_difference;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *value_bar = points + 7 * (size_t)near[i] + 3;
+        const vector *slope_bar = points + 7 * (size_t)near[i] + 3 + 1;
+        const vector z1 = kept[i].z1;
+        const vector z0 = kept[i].z0;
+        const vector difference_ratio = kept[i].difference_ratio;
+        const vector phi = kept[i].phi;
+        const vector gap_4 = kept[i].gap_4;
+        const vector ratio_2 = kept[i].ratio_2;
+        const vector phi_ratio = kept[i].phi_ratio;
+        const vector by_difference = kept[i].by_difference;
+        const double W0_0 = S[2];
+        const double W0_1 = S[3];
+        const double W1_0 = S[4];
+        const double W1_1 = S[5];
+        const vector its_value_bar = value_bar[0];
+        const vector x0_bar = slope_bar[0];
+        const vector x1_bar = slope_bar[1];
+        const vector mul_of_one_bar = slope_bar[2];
+        const vector total_2 = W1_0 * z1 + W0_0 * z0;
+        const vector total_5 = W1_1 * z1 + W0_1 * z0;
+        const vector by_phi = its_value_bar + ratio_2 - total_5 * x1_bar - total_2 * x0_bar;
+        const vector by_atanh_value = phi * by_phi;
+        const vector total_6 = by_difference * mul_of_one_bar + difference_ratio * (2.0 * (phi_ratio * ratio_2)) +
+            by_atanh_value / gap_4;
+        kept[i].total_2 = total_2;
+        kept[i].total_5 = total_5;
+        kept[i].by_atanh_value = by_atanh_value;
+        kept[i].total_6 = total_6;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector total_4 = kept[i].total_4;
+        const vector total_6 = kept[i].total_6;
+        const vector by_difference_2 = total_6 / total_4;
+        kept[i].by_difference_2 = by_difference_2;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *slope_bar = points + 7 * (size_t)near[i] + 3 + 1;
+        const vector v0 = kept[i].v0;
+        const vector v1 = kept[i].v1;
+        const vector total_2 = kept[i].total_2;
+        const vector sin_p1_plus_q1 = kept[i].sin_p1_plus_q1;
+        const vector sin_p1_minus_q1 = kept[i].sin_p1_minus_q1;
+        const vector product = kept[i].product;
+        const vector difference_ratio = kept[i].difference_ratio;
+        const vector phi = kept[i].phi;
+        const vector cos_2 = kept[i].cos_2;
+        const vector by_by_sin_p1_plus_q1 = kept[i].by_by_sin_p1_plus_q1;
+        const vector cos_3 = kept[i].cos_3;
+        const vector product_2 = kept[i].product_2;
+        const vector ratio = kept[i].ratio;
+        const vector total_5 = kept[i].total_5;
+        const vector by_atanh_value = kept[i].by_atanh_value;
+        const vector by_difference = kept[i].by_difference;
+        const vector by_difference_2 = kept[i].by_difference_2;
+        const double M0_0 = S[8];
+        const double M0_1 = S[9];
+        const double M1_1 = S[10];
+        const vector x0_bar = slope_bar[0];
+        const vector x1_bar = slope_bar[1];
+        const vector phi_product = phi * x0_bar;
+        const vector phi_product_2 = phi * x1_bar;
+        const vector by_sin_p1_minus_q1 = 0.25 * (sin_p1_plus_q1 * by_difference);
+        const vector by_sin_p1_minus_q1_2 = 0.25 * (by_difference * by_by_sin_p1_plus_q1 + sin_p1_plus_q1 *
+            by_difference_2);
+        const vector by_sin_p1_plus_q1 = product * by_difference_2 - by_difference * product_2;
+        const vector by_sin_p1_plus_q1_2 = product * by_difference;
+        const vector product_3 = 0.5 * by_atanh_value;
+        const vector gap_5 = -phi_product - v0 * product_3;
+        const vector gap_6 = -phi_product_2 - v1 * product_3;
+        sums[0] = sums[0] + total_2 * by_atanh_value + M0_0 * phi_product + M0_1 * phi_product_2;
+        sums[1] = sums[1] + total_5 * by_atanh_value + M0_1 * phi_product + M1_1 * phi_product_2 + sin_p1_minus_q1
+                * (by_sin_p1_minus_q1 * x1_bar) + cos_3 * by_sin_p1_minus_q1_2 + cos_2 * by_sin_p1_plus_q1 -
+                sin_p1_plus_q1 * (by_sin_p1_plus_q1_2 * x1_bar);
+        sums[2] = sums[2] + by_atanh_value;
+        sums[3] = sums[3] - by_difference * ratio - difference_ratio * by_difference_2;
+        sums[4] = sums[4] + v0 * gap_5;
+        sums[5] = sums[5] + v0 * gap_6 + v1 * gap_5;
+        sums[6] = sums[6] + v1 * gap_6;
+    }
+}
+
 /* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp(
     const vector *mu, const vector *W, const vector *amplitude, const vector *sums, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
@@ -387,87 +701,6 @@ OUTLINE void pair_constants_vjp(
     W_bar[2] = its_amplitude * (W1_0 * product_2 + W1_1 * sum5);
     W_bar[3] = its_amplitude * (W1_0 * sum5 + W1_1 * product_3);
     amplitude_bar[0] = sum2;
-}
-
-/*
- * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
- *
- * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
- */
-INLINE void pair_backward(
-    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector mul_of_one = X[2];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double W0_0 = S[2];
-    const double W0_1 = S[3];
-    const double W1_0 = S[4];
-    const double W1_1 = S[5];
-    const double sub_of_one = S[7];
-    const double M0_0 = S[8];
-    const double M0_1 = S[9];
-    const double M1_1 = S[10];
-    const vector its_value_bar = value_bar[0];
-    const vector x0_bar = slope_bar[0];
-    const vector x1_bar = slope_bar[1];
-    const vector mul_of_one_bar = slope_bar[2];
-    const vector gap = x0 - mu0;
-    const vector round_2 = round_each(0.15915494309189535 * gap);
-    const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
-    const vector gap_2 = x1 - mu1;
-    const vector round_3 = round_each(0.15915494309189535 * gap_2);
-    const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
-    const vector z1 = W1_0 * v0 + W1_1 * v1;
-    const vector z0 = W0_0 * v0 + W0_1 * v1;
-    const vector total_2 = W1_0 * z1 + W0_0 * z0;
-    const vector total_3 = x1 + mu1;
-    const vector sin_p1_plus_q1 = sin_each(total_3);
-    const vector gap_3 = mu1 - x1;
-    const vector sin_p1_minus_q1 = sin_each(gap_3);
-    const vector product = 0.25 * sin_p1_minus_q1;
-    const vector difference = sin_p1_plus_q1 * product;
-    const vector total_4 = sub_of_one - mul_of_one;
-    const vector difference_ratio = difference / total_4;
-    const vector atanh_value = atanh_each(difference_ratio);
-    const vector phi = exp_each(atanh_value - 0.5 * (z0 * z0 + z1 * z1));
-    const vector cos_2 = cos_each(total_3);
-    const vector by_by_sin_p1_plus_q1 = cos_2 * x1_bar;
-    const vector cos_3 = cos_each(gap_3);
-    const vector product_2 = 0.25 * (cos_3 * x1_bar);
-    const vector by_by_difference = product * by_by_sin_p1_plus_q1 - sin_p1_plus_q1 * product_2 +
-        difference_ratio * mul_of_one_bar;
-    const vector ratio = by_by_difference / total_4;
-    const vector gap_4 = 1.0 - difference_ratio * difference_ratio;
-    const vector ratio_2 = ratio / gap_4;
-    const vector total_5 = W1_1 * z1 + W0_1 * z0;
-    const vector by_phi = its_value_bar + ratio_2 - total_5 * x1_bar - total_2 * x0_bar;
-    const vector by_atanh_value = phi * by_phi;
-    const vector phi_product = phi * x0_bar;
-    const vector phi_product_2 = phi * x1_bar;
-    const vector phi_ratio = phi / gap_4;
-    const vector by_difference = phi_ratio / total_4;
-    const vector by_sin_p1_minus_q1 = 0.25 * (sin_p1_plus_q1 * by_difference);
-    const vector total_6 = by_difference * mul_of_one_bar + difference_ratio * (2.0 * (phi_ratio * ratio_2)) +
-        by_atanh_value / gap_4;
-    const vector by_difference_2 = total_6 / total_4;
-    const vector by_sin_p1_minus_q1_2 = 0.25 * (by_difference * by_by_sin_p1_plus_q1 + sin_p1_plus_q1 *
-        by_difference_2);
-    const vector by_sin_p1_plus_q1 = product * by_difference_2 - by_difference * product_2;
-    const vector by_sin_p1_plus_q1_2 = product * by_difference;
-    const vector product_3 = 0.5 * by_atanh_value;
-    const vector gap_5 = -phi_product - v0 * product_3;
-    const vector gap_6 = -phi_product_2 - v1 * product_3;
-    sums[0] = sums[0] + total_2 * by_atanh_value + M0_0 * phi_product + M0_1 * phi_product_2;
-    sums[1] = sums[1] + total_5 * by_atanh_value + M0_1 * phi_product + M1_1 * phi_product_2 + sin_p1_minus_q1
-            * (by_sin_p1_minus_q1 * x1_bar) + cos_3 * by_sin_p1_minus_q1_2 + cos_2 * by_sin_p1_plus_q1 -
-            sin_p1_plus_q1 * (by_sin_p1_plus_q1_2 * x1_bar);
-    sums[2] = sums[2] + by_atanh_value;
-    sums[3] = sums[3] - by_difference * ratio - difference_ratio * by_difference_2;
-    sums[4] = sums[4] + v0 * gap_5;
-    sums[5] = sums[5] + v0 * gap_6 + v1 * gap_5;
-    sums[6] = sums[6] + v1 * gap_6;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -559,7 +792,7 @@ OUTLINE void splat_constants(
     vector_to_rows(S, constants, splat_count, start, 11, 11);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void arm2_splats(
     size_t count, size_t splat_count, const double *ARM2_RESTRICT x, const double *ARM2_RESTRICT mu, const double *ARM2_RESTRICT W, const double *ARM2_RESTRICT amplitude, const double *ARM2_RESTRICT width,
     double *ARM2_RESTRICT value, double *ARM2_RESTRICT gradient, double *ARM2_RESTRICT work, int threads) {
@@ -574,27 +807,26 @@ void arm2_splats(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[2][2], X[2][3], grad[2];
-            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][3] = {{ZERO}};
+            vector at[2][2], X[2 * 3], grad[2];
+            vector value_sum[2] = {ZERO}, slope_sum[2 * 3] = {ZERO};
             double place[2 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 2, at[b]);
-                pair_features(at[b], X[b]);
+                pair_features(at[b], X + 3 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 11 * near[i];
-                    pair_forward(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient(at[b], slope_sum[b], grad);
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                pair_gradient(at[b], slope_sum + 3 * b, grad);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
                 vector_to_rows(grad, gradient, count, start + b * LANES, 2, 2);
             }
         }
@@ -616,25 +848,24 @@ void arm2_splats_value(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[2], X[2][3], value_sum[2][1] = {{ZERO}};
+            vector at[2], X[2 * 3], value_sum[2] = {ZERO};
             double place[2 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 2, at);
-                pair_features(at, X[b]);
+                pair_features(at, X + 3 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 11 * near[i];
-                    pair_value(X[0], S, value_sum[0]);
-                    pair_value(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -653,19 +884,11 @@ OUTLINE void splat_points(
     vector_end(count, start, 3 + 1, point + 3);
 }
 
-/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+/* Adds to sums what some vectors of points add to them, those in the list. */
 OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *sums) {
     vector sum[7] = {ZERO};
-    size_t b = 0;
-    for (; b + 1 < size; b += 2) {
-        const vector *point = points + 7 * (size_t)near[b], *other = points + 7 * (size_t)near[b + 1];
-        pair_backward(point, S, point + 3, point + 3 + 1, sum);
-        pair_backward(other, S, other + 3, other + 3 + 1, sum);
-    }
-    if (b < size) {
-        const vector *point = points + 7 * (size_t)near[b];
-        pair_backward(point, S, point + 3, point + 3 + 1, sum);
-    }
+    for (size_t b = 0; b < size; b += 16)
+        pair_backward(size - b < 16 ? size - b : 16, points, near + b, S, sum);
     sums[0] += vector_sum(sum[0]);
     sums[1] += vector_sum(sum[1]);
     sums[2] += vector_sum(sum[2]);
@@ -744,6 +967,7 @@ void arm2_splats_rows(
     double *ARM2_RESTRICT rows, double *ARM2_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES - 1) / LANES;
+    const uint32_t only = 0;
     double *constants = work_constants(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -760,7 +984,7 @@ void arm2_splats_rows(
                 for (int i = 0; i < 2; ++i) own_mu[i] = vector_of(mu[2 * k + i]);
                 for (int i = 0; i < 4; ++i) own_W[i] = vector_of(W[4 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 11 * k, point + 3, point + 3 + 1, own_sums);
+                pair_backward(1, point, &only, constants + 11 * k, own_sums);
                 pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 4);
                 vector_to_rows(bars, rows + 7 * k, count, block * LANES, 7, 7 * splat_count);
             }
@@ -788,9 +1012,14 @@ INLINE vector_f vector_of_f(float x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector_f vector_select_f(vector_mask_f mask, vector_f x, vector_f y) {
-    return SELECT(vector_f, vector_mask_f, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector_f)((mask & (vector_mask_f)x) | (~mask & (vector_mask_f)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -829,7 +1058,7 @@ INLINE vector_f signed_each_f(vector_f x, vector_f sign) {
 
 /* abs of every lane; one instruction where the machine has it. */
 INLINE vector_f abs_each_f(vector_f x) {
-    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
     return x;
 }
 
@@ -942,85 +1171,193 @@ OUTLINE void pair_constants_f(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_value_f(
-    const vector_f *X, const float *S, vector_f *value) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f mul_of_one = X[2];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float W0_0 = S[2];
-    const float W0_1 = S[3];
-    const float W1_0 = S[4];
-    const float W1_1 = S[5];
-    const float amplitude = S[6];
-    const float sub_of_one = S[7];
-    const vector_f sin_p1_plus_q1 = sin_each_f(x1 + mu1);
-    const vector_f sin_p1_minus_q1 = sin_each_f(mu1 - x1);
-    const vector_f difference = sin_p1_plus_q1 * (0.25f * sin_p1_minus_q1);
-    const vector_f total_2 = sub_of_one - mul_of_one;
-    const vector_f atanh_value = atanh_each_f(difference / total_2);
-    const vector_f gap = x0 - mu0;
-    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
-    const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
-    const vector_f gap_2 = x1 - mu1;
-    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
-    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
-    const vector_f z0 = W0_0 * v0 + W0_1 * v1;
-    const vector_f z1 = W1_0 * v0 + W1_1 * v1;
-    const vector_f phi = exp_each_f(atanh_value - 0.5f * (z0 * z0 + z1 * z1));
-    value[0] = value[0] + amplitude * phi;
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values) {
+    struct { vector_f sin_p1_plus_q1, sin_p1_minus_q1, atanh_value, phi; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 11 * near[k];
+        const float mu1 = S[1];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 3 * b;
+            const vector_f x1 = X[1];
+            const vector_f sin_p1_plus_q1 = sin_each_f(x1 + mu1);
+            const vector_f sin_p1_minus_q1 = sin_each_f(mu1 - x1);
+            kept[k][b].sin_p1_plus_q1 = sin_p1_plus_q1;
+            kept[k][b].sin_p1_minus_q1 = sin_p1_minus_q1;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 11 * near[k];
+        const float sub_of_one = S[7];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 3 * b;
+            const vector_f sin_p1_plus_q1 = kept[k][b].sin_p1_plus_q1;
+            const vector_f sin_p1_minus_q1 = kept[k][b].sin_p1_minus_q1;
+            const vector_f mul_of_one = X[2];
+            const vector_f difference = sin_p1_plus_q1 * (0.25f * sin_p1_minus_q1);
+            const vector_f total_2 = sub_of_one - mul_of_one;
+            const vector_f atanh_value = atanh_each_f(difference / total_2);
+            kept[k][b].atanh_value = atanh_value;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 11 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float W0_0 = S[2];
+        const float W0_1 = S[3];
+        const float W1_0 = S[4];
+        const float W1_1 = S[5];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 3 * b;
+            const vector_f atanh_value = kept[k][b].atanh_value;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f gap = x0 - mu0;
+            const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+            const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
+            const vector_f gap_2 = x1 - mu1;
+            const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+            const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
+            const vector_f z0 = W0_0 * v0 + W0_1 * v1;
+            const vector_f z1 = W1_0 * v0 + W1_1 * v1;
+            const vector_f phi = exp_each_f(atanh_value - 0.5f * (z0 * z0 + z1 * z1));
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 11 * near[k];
+        const float amplitude = S[6];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector_f *value = values + b;
+            const vector_f phi = kept[k][b].phi;
+            value[0] = value[0] + amplitude * phi;
+        }
+    }
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_forward_f(
-    const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f mul_of_one = X[2];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float W0_0 = S[2];
-    const float W0_1 = S[3];
-    const float W1_0 = S[4];
-    const float W1_1 = S[5];
-    const float amplitude = S[6];
-    const float sub_of_one = S[7];
-    const vector_f total_2 = x1 + mu1;
-    const vector_f sin_p1_plus_q1 = sin_each_f(total_2);
-    const vector_f gap = mu1 - x1;
-    const vector_f sin_p1_minus_q1 = sin_each_f(gap);
-    const vector_f product = 0.25f * sin_p1_minus_q1;
-    const vector_f difference = sin_p1_plus_q1 * product;
-    const vector_f total_3 = sub_of_one - mul_of_one;
-    const vector_f difference_ratio = difference / total_3;
-    const vector_f atanh_value = atanh_each_f(difference_ratio);
-    const vector_f gap_2 = x0 - mu0;
-    const vector_f round_2 = round_each_f(0.15915494309189535f * gap_2);
-    const vector_f v0 = gap_2 - 6.28125f * round_2 - 0.001935307179586477f * round_2;
-    const vector_f gap_3 = x1 - mu1;
-    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_3);
-    const vector_f v1 = gap_3 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
-    const vector_f z0 = W0_0 * v0 + W0_1 * v1;
-    const vector_f z1 = W1_0 * v0 + W1_1 * v1;
-    const vector_f phi = exp_each_f(atanh_value - 0.5f * (z0 * z0 + z1 * z1));
-    const vector_f phi_2 = amplitude * phi;
-    const vector_f by_difference = phi_2 / (1.0f - difference_ratio * difference_ratio) / total_3;
-    const vector_f by_sin_p1_minus_q1 = 0.25f * (sin_p1_plus_q1 * by_difference);
-    const vector_f by_sin_p1_plus_q1 = product * by_difference;
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] - phi_2 * (W1_0 * z1 + W0_0 * z0);
-    slope[1] = slope[1] - phi_2 * (W1_1 * z1 + W0_1 * z0) - by_sin_p1_minus_q1 * cos_each_f(gap) +
-            by_sin_p1_plus_q1 * cos_each_f(total_2);
-    slope[2] = slope[2] + difference_ratio * by_difference;
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values, vector_f *slopes) {
+    struct { vector_f total_2, sin_p1_plus_q1, gap, sin_p1_minus_q1, product, total_3, difference_ratio,
+            atanh_value, z0, z1, phi, phi_2, by_difference; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 11 * near[k];
+        const float mu1 = S[1];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 3 * b;
+            const vector_f x1 = X[1];
+            const vector_f total_2 = x1 + mu1;
+            const vector_f sin_p1_plus_q1 = sin_each_f(total_2);
+            const vector_f gap = mu1 - x1;
+            const vector_f sin_p1_minus_q1 = sin_each_f(gap);
+            kept[k][b].total_2 = total_2;
+            kept[k][b].sin_p1_plus_q1 = sin_p1_plus_q1;
+            kept[k][b].gap = gap;
+            kept[k][b].sin_p1_minus_q1 = sin_p1_minus_q1;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 11 * near[k];
+        const float sub_of_one = S[7];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 3 * b;
+            const vector_f sin_p1_plus_q1 = kept[k][b].sin_p1_plus_q1;
+            const vector_f sin_p1_minus_q1 = kept[k][b].sin_p1_minus_q1;
+            const vector_f mul_of_one = X[2];
+            const vector_f product = 0.25f * sin_p1_minus_q1;
+            const vector_f difference = sin_p1_plus_q1 * product;
+            const vector_f total_3 = sub_of_one - mul_of_one;
+            const vector_f difference_ratio = difference / total_3;
+            kept[k][b].product = product;
+            kept[k][b].total_3 = total_3;
+            kept[k][b].difference_ratio = difference_ratio;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f difference_ratio = kept[k][b].difference_ratio;
+            const vector_f atanh_value = atanh_each_f(difference_ratio);
+            kept[k][b].atanh_value = atanh_value;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 11 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float W0_0 = S[2];
+        const float W0_1 = S[3];
+        const float W1_0 = S[4];
+        const float W1_1 = S[5];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 3 * b;
+            const vector_f atanh_value = kept[k][b].atanh_value;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f gap_2 = x0 - mu0;
+            const vector_f round_2 = round_each_f(0.15915494309189535f * gap_2);
+            const vector_f v0 = gap_2 - 6.28125f * round_2 - 0.001935307179586477f * round_2;
+            const vector_f gap_3 = x1 - mu1;
+            const vector_f round_3 = round_each_f(0.15915494309189535f * gap_3);
+            const vector_f v1 = gap_3 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
+            const vector_f z0 = W0_0 * v0 + W0_1 * v1;
+            const vector_f z1 = W1_0 * v0 + W1_1 * v1;
+            const vector_f phi = exp_each_f(atanh_value - 0.5f * (z0 * z0 + z1 * z1));
+            kept[k][b].z0 = z0;
+            kept[k][b].z1 = z1;
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 11 * near[k];
+        const float amplitude = S[6];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f total_3 = kept[k][b].total_3;
+            const vector_f difference_ratio = kept[k][b].difference_ratio;
+            const vector_f phi = kept[k][b].phi;
+            const vector_f phi_2 = amplitude * phi;
+            const vector_f by_difference = phi_2 / (1.0f - difference_ratio * difference_ratio) / total_3;
+            kept[k][b].phi_2 = phi_2;
+            kept[k][b].by_difference = by_difference;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 11 * near[k];
+        const float W0_0 = S[2];
+        const float W0_1 = S[3];
+        const float W1_0 = S[4];
+        const float W1_1 = S[5];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector_f *value = values + b;
+            vector_f *slope = slopes + 3 * b;
+            const vector_f total_2 = kept[k][b].total_2;
+            const vector_f sin_p1_plus_q1 = kept[k][b].sin_p1_plus_q1;
+            const vector_f gap = kept[k][b].gap;
+            const vector_f product = kept[k][b].product;
+            const vector_f difference_ratio = kept[k][b].difference_ratio;
+            const vector_f z0 = kept[k][b].z0;
+            const vector_f z1 = kept[k][b].z1;
+            const vector_f phi_2 = kept[k][b].phi_2;
+            const vector_f by_difference = kept[k][b].by_difference;
+            const vector_f by_sin_p1_minus_q1 = 0.25f * (sin_p1_plus_q1 * by_difference);
+            const vector_f by_sin_p1_plus_q1 = product * by_difference;
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] - phi_2 * (W1_0 * z1 + W0_0 * z0);
+            slope[1] = slope[1] - phi_2 * (W1_1 * z1 + W0_1 * z0) - by_sin_p1_minus_q1 * cos_each_f(gap) +
+                    by_sin_p1_plus_q1 * cos_each_f(total_2);
+            slope[2] = slope[2] + difference_ratio * by_difference;
+        }
+    }
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -1058,6 +1395,198 @@ OUTLINE void pair_gradient_vjp_f(
     slope_bar[2] = minus;
 }
 
+/*
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
+INLINE void pair_backward_f(
+    size_t count, const vector_f *points, const uint32_t *near, const float *S, vector_f *sums) {
+    struct { vector_f v0, v1, z1, z0, total_2, total_3, sin_p1_plus_q1, gap_3, sin_p1_minus_q1, product,
+            total_4, difference_ratio, atanh_value, phi, cos_2, by_by_sin_p1_plus_q1, cos_3, product_2, ratio,
+            gap_4, ratio_2, total_5, by_atanh_value, phi_ratio, by_difference, total_6, by_difference_2; }
+            kept[16];
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 7 * (size_t)near[i];
+        const vector_f x1 = X[1];
+        const float mu1 = S[1];
+        const vector_f total_3 = x1 + mu1;
+        const vector_f sin_p1_plus_q1 = sin_each_f(total_3);
+        const vector_f gap_3 = mu1 - x1;
+        const vector_f sin_p1_minus_q1 = sin_each_f(gap_3);
+        kept[i].total_3 = total_3;
+        kept[i].sin_p1_plus_q1 = sin_p1_plus_q1;
+        kept[i].gap_3 = gap_3;
+        kept[i].sin_p1_minus_q1 = sin_p1_minus_q1;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 7 * (size_t)near[i];
+        const vector_f sin_p1_plus_q1 = kept[i].sin_p1_plus_q1;
+        const vector_f sin_p1_minus_q1 = kept[i].sin_p1_minus_q1;
+        const vector_f mul_of_one = X[2];
+        const float sub_of_one = S[7];
+        const vector_f product = 0.25f * sin_p1_minus_q1;
+        const vector_f difference = sin_p1_plus_q1 * product;
+        const vector_f total_4 = sub_of_one - mul_of_one;
+        const vector_f difference_ratio = difference / total_4;
+        kept[i].product = product;
+        kept[i].total_4 = total_4;
+        kept[i].difference_ratio = difference_ratio;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f difference_ratio = kept[i].difference_ratio;
+        const vector_f atanh_value = atanh_each_f(difference_ratio);
+        kept[i].atanh_value = atanh_value;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 7 * (size_t)near[i];
+        const vector_f total_3 = kept[i].total_3;
+        const vector_f gap_3 = kept[i].gap_3;
+        const vector_f atanh_value = kept[i].atanh_value;
+        const vector_f x0 = X[0];
+        const vector_f x1 = X[1];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float W0_0 = S[2];
+        const float W0_1 = S[3];
+        const float W1_0 = S[4];
+        const float W1_1 = S[5];
+        const vector_f gap = x0 - mu0;
+        const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+        const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
+        const vector_f gap_2 = x1 - mu1;
+        const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+        const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
+        const vector_f z1 = W1_0 * v0 + W1_1 * v1;
+        const vector_f z0 = W0_0 * v0 + W0_1 * v1;
+        const vector_f phi = exp_each_f(atanh_value - 0.5f * (z0 * z0 + z1 * z1));
+        const vector_f cos_2 = cos_each_f(total_3);
+        const vector_f cos_3 = cos_each_f(gap_3);
+        kept[i].v0 = v0;
+        kept[i].v1 = v1;
+        kept[i].z1 = z1;
+        kept[i].z0 = z0;
+        kept[i].phi = phi;
+        kept[i].cos_2 = cos_2;
+        kept[i].cos_3 = cos_3;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *slope_bar = points + 7 * (size_t)near[i] + 3 + 1;
+        const vector_f sin_p1_plus_q1 = kept[i].sin_p1_plus_q1;
+        const vector_f product = kept[i].product;
+        const vector_f total_4 = kept[i].total_4;
+        const vector_f difference_ratio = kept[i].difference_ratio;
+        const vector_f phi = kept[i].phi;
+        const vector_f cos_2 = kept[i].cos_2;
+        const vector_f cos_3 = kept[i].cos_3;
+        const vector_f x1_bar = slope_bar[1];
+        const vector_f mul_of_one_bar = slope_bar[2];
+        const vector_f by_by_sin_p1_plus_q1 = cos_2 * x1_bar;
+        const vector_f product_2 = 0.25f * (cos_3 * x1_bar);
+        const vector_f by_by_difference = product * by_by_sin_p1_plus_q1 - sin_p1_plus_q1 * product_2 +
+            difference_ratio * mul_of_one_bar;
+        const vector_f ratio = by_by_difference / total_4;
+        const vector_f gap_4 = 1.0f - difference_ratio * difference_ratio;
+        const vector_f phi_ratio = phi / gap_4;
+        kept[i].by_by_sin_p1_plus_q1 = by_by_sin_p1_plus_q1;
+        kept[i].product_2 = product_2;
+        kept[i].ratio = ratio;
+        kept[i].gap_4 = gap_4;
+        kept[i].phi_ratio = phi_ratio;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f total_4 = kept[i].total_4;
+        const vector_f ratio = kept[i].ratio;
+        const vector_f gap_4 = kept[i].gap_4;
+        const vector_f phi_ratio = kept[i].phi_ratio;
+        const vector_f ratio_2 = ratio / gap_4;
+        const vector_f by_difference = phi_ratio / total_4;
+        kept[i].ratio_2 = ratio_2;
+        kept[i].by_difference = by_difference;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *value_bar = points + 7 * (size_t)near[i] + 3;
+        const vector_f *slope_bar = points + 7 * (size_t)near[i] + 3 + 1;
+        const vector_f z1 = kept[i].z1;
+        const vector_f z0 = kept[i].z0;
+        const vector_f difference_ratio = kept[i].difference_ratio;
+        const vector_f phi = kept[i].phi;
+        const vector_f gap_4 = kept[i].gap_4;
+        const vector_f ratio_2 = kept[i].ratio_2;
+        const vector_f phi_ratio = kept[i].phi_ratio;
+        const vector_f by_difference = kept[i].by_difference;
+        const float W0_0 = S[2];
+        const float W0_1 = S[3];
+        const float W1_0 = S[4];
+        const float W1_1 = S[5];
+        const vector_f its_value_bar = value_bar[0];
+        const vector_f x0_bar = slope_bar[0];
+        const vector_f x1_bar = slope_bar[1];
+        const vector_f mul_of_one_bar = slope_bar[2];
+        const vector_f total_2 = W1_0 * z1 + W0_0 * z0;
+        const vector_f total_5 = W1_1 * z1 + W0_1 * z0;
+        const vector_f by_phi = its_value_bar + ratio_2 - total_5 * x1_bar - total_2 * x0_bar;
+        const vector_f by_atanh_value = phi * by_phi;
+        const vector_f total_6 = by_difference * mul_of_one_bar + difference_ratio * (2.0f * (phi_ratio *
+            ratio_2)) + by_atanh_value / gap_4;
+        kept[i].total_2 = total_2;
+        kept[i].total_5 = total_5;
+        kept[i].by_atanh_value = by_atanh_value;
+        kept[i].total_6 = total_6;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f total_4 = kept[i].total_4;
+        const vector_f total_6 = kept[i].total_6;
+        const vector_f by_difference_2 = total_6 / total_4;
+        kept[i].by_difference_2 = by_difference_2;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *slope_bar = points + 7 * (size_t)near[i] + 3 + 1;
+        const vector_f v0 = kept[i].v0;
+        const vector_f v1 = kept[i].v1;
+        const vector_f total_2 = kept[i].total_2;
+        const vector_f sin_p1_plus_q1 = kept[i].sin_p1_plus_q1;
+        const vector_f sin_p1_minus_q1 = kept[i].sin_p1_minus_q1;
+        const vector_f product = kept[i].product;
+        const vector_f difference_ratio = kept[i].difference_ratio;
+        const vector_f phi = kept[i].phi;
+        const vector_f cos_2 = kept[i].cos_2;
+        const vector_f by_by_sin_p1_plus_q1 = kept[i].by_by_sin_p1_plus_q1;
+        const vector_f cos_3 = kept[i].cos_3;
+        const vector_f product_2 = kept[i].product_2;
+        const vector_f ratio = kept[i].ratio;
+        const vector_f total_5 = kept[i].total_5;
+        const vector_f by_atanh_value = kept[i].by_atanh_value;
+        const vector_f by_difference = kept[i].by_difference;
+        const vector_f by_difference_2 = kept[i].by_difference_2;
+        const float M0_0 = S[8];
+        const float M0_1 = S[9];
+        const float M1_1 = S[10];
+        const vector_f x0_bar = slope_bar[0];
+        const vector_f x1_bar = slope_bar[1];
+        const vector_f phi_product = phi * x0_bar;
+        const vector_f phi_product_2 = phi * x1_bar;
+        const vector_f by_sin_p1_minus_q1 = 0.25f * (sin_p1_plus_q1 * by_difference);
+        const vector_f by_sin_p1_minus_q1_2 = 0.25f * (by_difference * by_by_sin_p1_plus_q1 + sin_p1_plus_q1 *
+            by_difference_2);
+        const vector_f by_sin_p1_plus_q1 = product * by_difference_2 - by_difference * product_2;
+        const vector_f by_sin_p1_plus_q1_2 = product * by_difference;
+        const vector_f product_3 = 0.5f * by_atanh_value;
+        const vector_f gap_5 = -phi_product - v0 * product_3;
+        const vector_f gap_6 = -phi_product_2 - v1 * product_3;
+        sums[0] = sums[0] + total_2 * by_atanh_value + M0_0 * phi_product + M0_1 * phi_product_2;
+        sums[1] = sums[1] + total_5 * by_atanh_value + M0_1 * phi_product + M1_1 * phi_product_2 + sin_p1_minus_q1
+                * (by_sin_p1_minus_q1 * x1_bar) + cos_3 * by_sin_p1_minus_q1_2 + cos_2 * by_sin_p1_plus_q1 -
+                sin_p1_plus_q1 * (by_sin_p1_plus_q1_2 * x1_bar);
+        sums[2] = sums[2] + by_atanh_value;
+        sums[3] = sums[3] - by_difference * ratio - difference_ratio * by_difference_2;
+        sums[4] = sums[4] + v0 * gap_5;
+        sums[5] = sums[5] + v0 * gap_6 + v1 * gap_5;
+        sums[6] = sums[6] + v1 * gap_6;
+    }
+}
+
 /* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp_f(
     const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *sums, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
@@ -1085,87 +1614,6 @@ OUTLINE void pair_constants_vjp_f(
     W_bar[2] = its_amplitude * (W1_0 * product_2 + W1_1 * sum5);
     W_bar[3] = its_amplitude * (W1_0 * sum5 + W1_1 * product_3);
     amplitude_bar[0] = sum2;
-}
-
-/*
- * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
- *
- * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
- */
-INLINE void pair_backward_f(
-    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f mul_of_one = X[2];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float W0_0 = S[2];
-    const float W0_1 = S[3];
-    const float W1_0 = S[4];
-    const float W1_1 = S[5];
-    const float sub_of_one = S[7];
-    const float M0_0 = S[8];
-    const float M0_1 = S[9];
-    const float M1_1 = S[10];
-    const vector_f its_value_bar = value_bar[0];
-    const vector_f x0_bar = slope_bar[0];
-    const vector_f x1_bar = slope_bar[1];
-    const vector_f mul_of_one_bar = slope_bar[2];
-    const vector_f gap = x0 - mu0;
-    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
-    const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
-    const vector_f gap_2 = x1 - mu1;
-    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
-    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
-    const vector_f z1 = W1_0 * v0 + W1_1 * v1;
-    const vector_f z0 = W0_0 * v0 + W0_1 * v1;
-    const vector_f total_2 = W1_0 * z1 + W0_0 * z0;
-    const vector_f total_3 = x1 + mu1;
-    const vector_f sin_p1_plus_q1 = sin_each_f(total_3);
-    const vector_f gap_3 = mu1 - x1;
-    const vector_f sin_p1_minus_q1 = sin_each_f(gap_3);
-    const vector_f product = 0.25f * sin_p1_minus_q1;
-    const vector_f difference = sin_p1_plus_q1 * product;
-    const vector_f total_4 = sub_of_one - mul_of_one;
-    const vector_f difference_ratio = difference / total_4;
-    const vector_f atanh_value = atanh_each_f(difference_ratio);
-    const vector_f phi = exp_each_f(atanh_value - 0.5f * (z0 * z0 + z1 * z1));
-    const vector_f cos_2 = cos_each_f(total_3);
-    const vector_f by_by_sin_p1_plus_q1 = cos_2 * x1_bar;
-    const vector_f cos_3 = cos_each_f(gap_3);
-    const vector_f product_2 = 0.25f * (cos_3 * x1_bar);
-    const vector_f by_by_difference = product * by_by_sin_p1_plus_q1 - sin_p1_plus_q1 * product_2 +
-        difference_ratio * mul_of_one_bar;
-    const vector_f ratio = by_by_difference / total_4;
-    const vector_f gap_4 = 1.0f - difference_ratio * difference_ratio;
-    const vector_f ratio_2 = ratio / gap_4;
-    const vector_f total_5 = W1_1 * z1 + W0_1 * z0;
-    const vector_f by_phi = its_value_bar + ratio_2 - total_5 * x1_bar - total_2 * x0_bar;
-    const vector_f by_atanh_value = phi * by_phi;
-    const vector_f phi_product = phi * x0_bar;
-    const vector_f phi_product_2 = phi * x1_bar;
-    const vector_f phi_ratio = phi / gap_4;
-    const vector_f by_difference = phi_ratio / total_4;
-    const vector_f by_sin_p1_minus_q1 = 0.25f * (sin_p1_plus_q1 * by_difference);
-    const vector_f total_6 = by_difference * mul_of_one_bar + difference_ratio * (2.0f * (phi_ratio *
-        ratio_2)) + by_atanh_value / gap_4;
-    const vector_f by_difference_2 = total_6 / total_4;
-    const vector_f by_sin_p1_minus_q1_2 = 0.25f * (by_difference * by_by_sin_p1_plus_q1 + sin_p1_plus_q1 *
-        by_difference_2);
-    const vector_f by_sin_p1_plus_q1 = product * by_difference_2 - by_difference * product_2;
-    const vector_f by_sin_p1_plus_q1_2 = product * by_difference;
-    const vector_f product_3 = 0.5f * by_atanh_value;
-    const vector_f gap_5 = -phi_product - v0 * product_3;
-    const vector_f gap_6 = -phi_product_2 - v1 * product_3;
-    sums[0] = sums[0] + total_2 * by_atanh_value + M0_0 * phi_product + M0_1 * phi_product_2;
-    sums[1] = sums[1] + total_5 * by_atanh_value + M0_1 * phi_product + M1_1 * phi_product_2 + sin_p1_minus_q1
-            * (by_sin_p1_minus_q1 * x1_bar) + cos_3 * by_sin_p1_minus_q1_2 + cos_2 * by_sin_p1_plus_q1 -
-            sin_p1_plus_q1 * (by_sin_p1_plus_q1_2 * x1_bar);
-    sums[2] = sums[2] + by_atanh_value;
-    sums[3] = sums[3] - by_difference * ratio - difference_ratio * by_difference_2;
-    sums[4] = sums[4] + v0 * gap_5;
-    sums[5] = sums[5] + v0 * gap_6 + v1 * gap_5;
-    sums[6] = sums[6] + v1 * gap_6;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -1257,7 +1705,7 @@ OUTLINE void splat_constants_f(
     vector_to_rows_f(S, constants, splat_count, start, 11, 11);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void arm2_splats_f(
     size_t count, size_t splat_count, const float *ARM2_RESTRICT x, const float *ARM2_RESTRICT mu, const float *ARM2_RESTRICT W, const float *ARM2_RESTRICT amplitude, const float *ARM2_RESTRICT width,
     float *ARM2_RESTRICT value, float *ARM2_RESTRICT gradient, float *ARM2_RESTRICT work, int threads) {
@@ -1272,27 +1720,26 @@ void arm2_splats_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[2][2], X[2][3], grad[2];
-            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][3] = {{ZERO}};
+            vector_f at[2][2], X[2 * 3], grad[2];
+            vector_f value_sum[2] = {ZERO}, slope_sum[2 * 3] = {ZERO};
             float place[2 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 2, at[b]);
-                pair_features_f(at[b], X[b]);
+                pair_features_f(at[b], X + 3 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 11 * near[i];
-                    pair_forward_f(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward_f(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward_f(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient_f(at[b], slope_sum[b], grad);
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                pair_gradient_f(at[b], slope_sum + 3 * b, grad);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
                 vector_to_rows_f(grad, gradient, count, start + b * LANES_f, 2, 2);
             }
         }
@@ -1314,25 +1761,24 @@ void arm2_splats_value_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[2], X[2][3], value_sum[2][1] = {{ZERO}};
+            vector_f at[2], X[2 * 3], value_sum[2] = {ZERO};
             float place[2 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 2, at);
-                pair_features_f(at, X[b]);
+                pair_features_f(at, X + 3 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 11 * near[i];
-                    pair_value_f(X[0], S, value_sum[0]);
-                    pair_value_f(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value_f(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -1351,19 +1797,11 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 3 + 1, point + 3);
 }
 
-/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+/* Adds to sums what some vectors of points add to them, those in the list. */
 OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *sums) {
     vector_f sum[7] = {ZERO};
-    size_t b = 0;
-    for (; b + 1 < size; b += 2) {
-        const vector_f *point = points + 7 * (size_t)near[b], *other = points + 7 * (size_t)near[b + 1];
-        pair_backward_f(point, S, point + 3, point + 3 + 1, sum);
-        pair_backward_f(other, S, other + 3, other + 3 + 1, sum);
-    }
-    if (b < size) {
-        const vector_f *point = points + 7 * (size_t)near[b];
-        pair_backward_f(point, S, point + 3, point + 3 + 1, sum);
-    }
+    for (size_t b = 0; b < size; b += 16)
+        pair_backward_f(size - b < 16 ? size - b : 16, points, near + b, S, sum);
     sums[0] += vector_sum_f(sum[0]);
     sums[1] += vector_sum_f(sum[1]);
     sums[2] += vector_sum_f(sum[2]);
@@ -1442,6 +1880,7 @@ void arm2_splats_rows_f(
     float *ARM2_RESTRICT rows, float *ARM2_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    const uint32_t only = 0;
     float *constants = work_constants_f(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -1458,7 +1897,7 @@ void arm2_splats_rows_f(
                 for (int i = 0; i < 2; ++i) own_mu[i] = vector_of_f(mu[2 * k + i]);
                 for (int i = 0; i < 4; ++i) own_W[i] = vector_of_f(W[4 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 11 * k, point + 3, point + 3 + 1, own_sums);
+                pair_backward_f(1, point, &only, constants + 11 * k, own_sums);
                 pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 4);
                 vector_to_rows_f(bars, rows + 7 * k, count, block * LANES_f, 7, 7 * splat_count);
             }

@@ -24,7 +24,6 @@
 #endif
 #define LANE(vector, i) (vector)[i]
 #define ZERO {0}
-#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
 typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
 typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
 typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
@@ -34,7 +33,6 @@ typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
 #else
 #define LANE(vector, i) (vector)
 #define ZERO 0
-#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
 typedef double vector;
 typedef float vector_f;
 typedef int64_t vector_mask;
@@ -49,6 +47,17 @@ typedef uint32_t vector_bits_f;
 #else
 #define INLINE static inline
 #define OUTLINE static
+#endif
+/* UNROLLED: the few turns of a loop one after another. EACH_LANE: of a loop that gcc makes one instruction, if it stays a loop. */
+#if defined(__clang__)
+#define UNROLLED _Pragma("clang loop unroll(full)")
+#define EACH_LANE
+#elif defined(__GNUC__) && __GNUC__ >= 8
+#define UNROLLED _Pragma("GCC unroll 8")
+#define EACH_LANE _Pragma("GCC unroll 1")
+#else
+#define UNROLLED
+#define EACH_LANE
 #endif
 #define LANES (sizeof(vector) / sizeof(double))
 #define LANES_f (sizeof(vector_f) / sizeof(float))
@@ -90,9 +99,14 @@ INLINE vector vector_of(double x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector vector_select(vector_mask mask, vector x, vector y) {
-    return SELECT(vector, vector_mask, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector)((mask & (vector_mask)x) | (~mask & (vector_mask)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -131,7 +145,7 @@ INLINE vector signed_each(vector x, vector sign) {
 
 /* abs of every lane; one instruction where the machine has it. */
 INLINE vector abs_each(vector x) {
-    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
     return x;
 }
 
@@ -183,55 +197,122 @@ OUTLINE void pair_constants(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_value(
-    const vector *X, const double *S, vector *value) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double W0_0 = S[2];
-    const double amplitude = S[3];
-    const vector d1 = x1 - mu1;
-    const vector d0 = x0 - mu0;
-    const vector s = mu0 * d1 - mu1 * d0;
-    const vector dot_p_q = x0 * mu0 + x1 * mu1;
-    const vector t = atan2_each(s, dot_p_q);
-    const vector z0 = W0_0 * t;
-    const vector phi = gaussian_each(z0 * z0);
-    value[0] = value[0] + amplitude * phi;
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values) {
+    struct { vector t, phi; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 4 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 2 * b;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector d1 = x1 - mu1;
+            const vector d0 = x0 - mu0;
+            const vector s = mu0 * d1 - mu1 * d0;
+            const vector dot_p_q = x0 * mu0 + x1 * mu1;
+            const vector t = atan2_each(s, dot_p_q);
+            kept[k][b].t = t;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 4 * near[k];
+        const double W0_0 = S[2];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector t = kept[k][b].t;
+            const vector z0 = W0_0 * t;
+            const vector phi = gaussian_each(z0 * z0);
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 4 * near[k];
+        const double amplitude = S[3];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector *value = values + b;
+            const vector phi = kept[k][b].phi;
+            value[0] = value[0] + amplitude * phi;
+        }
+    }
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_forward(
-    const vector *X, const double *S, vector *value, vector *slope) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double W0_0 = S[2];
-    const double amplitude = S[3];
-    const vector d1 = x1 - mu1;
-    const vector d0 = x0 - mu0;
-    const vector s = mu0 * d1 - mu1 * d0;
-    const vector dot_p_q = x0 * mu0 + x1 * mu1;
-    const vector t = atan2_each(s, dot_p_q);
-    const vector z0 = W0_0 * t;
-    const vector phi = gaussian_each(z0 * z0);
-    const vector phi_2 = amplitude * phi;
-    const vector ratio = W0_0 * (z0 * phi_2) / (dot_p_q * dot_p_q + s * s);
-    const vector by_dot_p_q = s * ratio;
-    const vector dot_p_q_product = dot_p_q * ratio;
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] + mu0 * by_dot_p_q + mu1 * dot_p_q_product;
-    slope[1] = slope[1] + mu1 * by_dot_p_q - mu0 * dot_p_q_product;
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values, vector *slopes) {
+    struct { vector s, dot_p_q, t, z0, phi, phi_2, ratio; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 4 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 2 * b;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector d1 = x1 - mu1;
+            const vector d0 = x0 - mu0;
+            const vector s = mu0 * d1 - mu1 * d0;
+            const vector dot_p_q = x0 * mu0 + x1 * mu1;
+            const vector t = atan2_each(s, dot_p_q);
+            kept[k][b].s = s;
+            kept[k][b].dot_p_q = dot_p_q;
+            kept[k][b].t = t;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 4 * near[k];
+        const double W0_0 = S[2];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector t = kept[k][b].t;
+            const vector z0 = W0_0 * t;
+            const vector phi = gaussian_each(z0 * z0);
+            kept[k][b].z0 = z0;
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 4 * near[k];
+        const double W0_0 = S[2];
+        const double amplitude = S[3];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector s = kept[k][b].s;
+            const vector dot_p_q = kept[k][b].dot_p_q;
+            const vector z0 = kept[k][b].z0;
+            const vector phi = kept[k][b].phi;
+            const vector phi_2 = amplitude * phi;
+            const vector ratio = W0_0 * (z0 * phi_2) / (dot_p_q * dot_p_q + s * s);
+            kept[k][b].phi_2 = phi_2;
+            kept[k][b].ratio = ratio;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 4 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector *value = values + b;
+            vector *slope = slopes + 2 * b;
+            const vector s = kept[k][b].s;
+            const vector dot_p_q = kept[k][b].dot_p_q;
+            const vector phi_2 = kept[k][b].phi_2;
+            const vector ratio = kept[k][b].ratio;
+            const vector by_dot_p_q = s * ratio;
+            const vector dot_p_q_product = dot_p_q * ratio;
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] + mu0 * by_dot_p_q + mu1 * dot_p_q_product;
+            slope[1] = slope[1] + mu1 * by_dot_p_q - mu0 * dot_p_q_product;
+        }
+    }
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -252,6 +333,114 @@ OUTLINE void pair_gradient_vjp(
     const vector gradient_bar0 = gradient_bar[0];
     slope_bar[0] = -(x1 * gradient_bar0);
     slope_bar[1] = x0 * gradient_bar0;
+}
+
+/*
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
+INLINE void pair_backward(
+    size_t count, const vector *points, const uint32_t *near, const double *S, vector *sums) {
+    struct { vector d1, d0, s, dot_p_q, t, z0, phi, z0_product, total_2, ratio, gap, by_by_dot_p_q, ratio_2,
+            phi_product, by_z0, by_t_ratio; } kept[16];
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 5 * (size_t)near[i];
+        const vector x0 = X[0];
+        const vector x1 = X[1];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const vector d1 = x1 - mu1;
+        const vector d0 = x0 - mu0;
+        const vector s = mu0 * d1 - mu1 * d0;
+        const vector dot_p_q = x0 * mu0 + x1 * mu1;
+        const vector t = atan2_each(s, dot_p_q);
+        kept[i].d1 = d1;
+        kept[i].d0 = d0;
+        kept[i].s = s;
+        kept[i].dot_p_q = dot_p_q;
+        kept[i].t = t;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *slope_bar = points + 5 * (size_t)near[i] + 2 + 1;
+        const vector s = kept[i].s;
+        const vector dot_p_q = kept[i].dot_p_q;
+        const vector t = kept[i].t;
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double W0_0 = S[2];
+        const vector x0_bar = slope_bar[0];
+        const vector x1_bar = slope_bar[1];
+        const vector z0 = W0_0 * t;
+        const vector phi = gaussian_each(z0 * z0);
+        const vector total_2 = dot_p_q * dot_p_q + s * s;
+        const vector gap = mu1 * x0_bar - mu0 * x1_bar;
+        const vector by_by_dot_p_q = mu0 * x0_bar + mu1 * x1_bar;
+        const vector ratio_2 = (s * by_by_dot_p_q + dot_p_q * gap) / total_2;
+        kept[i].z0 = z0;
+        kept[i].phi = phi;
+        kept[i].total_2 = total_2;
+        kept[i].gap = gap;
+        kept[i].by_by_dot_p_q = by_by_dot_p_q;
+        kept[i].ratio_2 = ratio_2;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *value_bar = points + 5 * (size_t)near[i] + 2;
+        const vector z0 = kept[i].z0;
+        const vector phi = kept[i].phi;
+        const vector total_2 = kept[i].total_2;
+        const vector ratio_2 = kept[i].ratio_2;
+        const double W0_0 = S[2];
+        const vector its_value_bar = value_bar[0];
+        const vector z0_product = z0 * phi;
+        const vector ratio = W0_0 * z0_product / total_2;
+        const vector product_2 = W0_0 * ratio_2;
+        const vector by_phi = its_value_bar + z0 * product_2;
+        const vector phi_product = phi * by_phi;
+        const vector by_z0 = phi * product_2 - z0 * phi_product;
+        const vector by_t = W0_0 * by_z0;
+        const vector by_t_ratio = by_t / total_2;
+        kept[i].z0_product = z0_product;
+        kept[i].ratio = ratio;
+        kept[i].phi_product = phi_product;
+        kept[i].by_z0 = by_z0;
+        kept[i].by_t_ratio = by_t_ratio;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 5 * (size_t)near[i];
+        const vector *slope_bar = points + 5 * (size_t)near[i] + 2 + 1;
+        const vector d1 = kept[i].d1;
+        const vector d0 = kept[i].d0;
+        const vector s = kept[i].s;
+        const vector dot_p_q = kept[i].dot_p_q;
+        const vector t = kept[i].t;
+        const vector z0_product = kept[i].z0_product;
+        const vector ratio = kept[i].ratio;
+        const vector gap = kept[i].gap;
+        const vector by_by_dot_p_q = kept[i].by_by_dot_p_q;
+        const vector ratio_2 = kept[i].ratio_2;
+        const vector phi_product = kept[i].phi_product;
+        const vector by_z0 = kept[i].by_z0;
+        const vector by_t_ratio = kept[i].by_t_ratio;
+        const vector x0 = X[0];
+        const vector x1 = X[1];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const vector x0_bar = slope_bar[0];
+        const vector x1_bar = slope_bar[1];
+        const vector by_dot_p_q = s * ratio;
+        const vector dot_p_q_product = dot_p_q * ratio;
+        const vector product = 2.0 * (ratio * ratio_2);
+        const vector by_dot_p_q_2 = ratio * gap - dot_p_q * product - s * by_t_ratio;
+        const vector by_s = ratio * by_by_dot_p_q - s * product + dot_p_q * by_t_ratio;
+        sums[0] = sums[0] + by_dot_p_q * x0_bar - dot_p_q_product * x1_bar + x0 * by_dot_p_q_2 + mu1 * by_s + d1 *
+                by_s;
+        sums[1] = sums[1] + dot_p_q_product * x0_bar + by_dot_p_q * x1_bar + x1 * by_dot_p_q_2 - d0 * by_s - mu0 *
+                by_s;
+        sums[2] = sums[2] + z0_product * ratio_2 + t * by_z0;
+        sums[3] = sums[3] + phi_product;
+    }
 }
 
 /* The adjoints of some splats' parameters, of their sums over the points. */
@@ -284,53 +473,6 @@ OUTLINE void pair_distances(
     const vector t = atan2_each(s, dot_p_q);
     const vector abs_t = abs_each(t);
     distance[0] = abs_t;
-}
-
-/*
- * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
- *
- * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
- */
-INLINE void pair_backward(
-    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double W0_0 = S[2];
-    const vector its_value_bar = value_bar[0];
-    const vector x0_bar = slope_bar[0];
-    const vector x1_bar = slope_bar[1];
-    const vector d1 = x1 - mu1;
-    const vector d0 = x0 - mu0;
-    const vector s = mu0 * d1 - mu1 * d0;
-    const vector dot_p_q = x0 * mu0 + x1 * mu1;
-    const vector t = atan2_each(s, dot_p_q);
-    const vector z0 = W0_0 * t;
-    const vector phi = gaussian_each(z0 * z0);
-    const vector z0_product = z0 * phi;
-    const vector total_2 = dot_p_q * dot_p_q + s * s;
-    const vector ratio = W0_0 * z0_product / total_2;
-    const vector by_dot_p_q = s * ratio;
-    const vector dot_p_q_product = dot_p_q * ratio;
-    const vector gap = mu1 * x0_bar - mu0 * x1_bar;
-    const vector by_by_dot_p_q = mu0 * x0_bar + mu1 * x1_bar;
-    const vector ratio_2 = (s * by_by_dot_p_q + dot_p_q * gap) / total_2;
-    const vector product = 2.0 * (ratio * ratio_2);
-    const vector product_2 = W0_0 * ratio_2;
-    const vector by_phi = its_value_bar + z0 * product_2;
-    const vector phi_product = phi * by_phi;
-    const vector by_z0 = phi * product_2 - z0 * phi_product;
-    const vector by_t = W0_0 * by_z0;
-    const vector by_t_ratio = by_t / total_2;
-    const vector by_dot_p_q_2 = ratio * gap - dot_p_q * product - s * by_t_ratio;
-    const vector by_s = ratio * by_by_dot_p_q - s * product + dot_p_q * by_t_ratio;
-    sums[0] = sums[0] + by_dot_p_q * x0_bar - dot_p_q_product * x1_bar + x0 * by_dot_p_q_2 + mu1 * by_s + d1 *
-            by_s;
-    sums[1] = sums[1] + dot_p_q_product * x0_bar + by_dot_p_q * x1_bar + x1 * by_dot_p_q_2 - d0 * by_s - mu0 *
-            by_s;
-    sums[2] = sums[2] + z0_product * ratio_2 + t * by_z0;
-    sums[3] = sums[3] + phi_product;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -492,7 +634,7 @@ OUTLINE void splat_constants(
     vector_to_rows(S, constants, splat_count, start, 4, 4);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void circle_splats(
     size_t count, size_t splat_count, const double *CIRCLE_RESTRICT x, const double *CIRCLE_RESTRICT mu, const double *CIRCLE_RESTRICT W, const double *CIRCLE_RESTRICT amplitude, const double *CIRCLE_RESTRICT width,
     double *CIRCLE_RESTRICT value, double *CIRCLE_RESTRICT gradient, double *CIRCLE_RESTRICT work, int threads) {
@@ -507,27 +649,26 @@ void circle_splats(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[2][2], X[2][2], grad[1];
-            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][2] = {{ZERO}};
+            vector at[2][2], X[2 * 2], grad[1];
+            vector value_sum[2] = {ZERO}, slope_sum[2 * 2] = {ZERO};
             double place[2 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 2, at[b]);
-                pair_features(at[b], X[b]);
+                pair_features(at[b], X + 2 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 4 * near[i];
-                    pair_forward(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient(at[b], slope_sum[b], grad);
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                pair_gradient(at[b], slope_sum + 2 * b, grad);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
                 vector_to_rows(grad, gradient, count, start + b * LANES, 1, 1);
             }
         }
@@ -549,25 +690,24 @@ void circle_splats_value(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[2], X[2][2], value_sum[2][1] = {{ZERO}};
+            vector at[2], X[2 * 2], value_sum[2] = {ZERO};
             double place[2 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 2, at);
-                pair_features(at, X[b]);
+                pair_features(at, X + 2 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 4 * near[i];
-                    pair_value(X[0], S, value_sum[0]);
-                    pair_value(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -586,19 +726,11 @@ OUTLINE void splat_points(
     vector_end(count, start, 2 + 1, point + 2);
 }
 
-/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+/* Adds to sums what some vectors of points add to them, those in the list. */
 OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *sums) {
     vector sum[4] = {ZERO};
-    size_t b = 0;
-    for (; b + 1 < size; b += 2) {
-        const vector *point = points + 5 * (size_t)near[b], *other = points + 5 * (size_t)near[b + 1];
-        pair_backward(point, S, point + 2, point + 2 + 1, sum);
-        pair_backward(other, S, other + 2, other + 2 + 1, sum);
-    }
-    if (b < size) {
-        const vector *point = points + 5 * (size_t)near[b];
-        pair_backward(point, S, point + 2, point + 2 + 1, sum);
-    }
+    for (size_t b = 0; b < size; b += 16)
+        pair_backward(size - b < 16 ? size - b : 16, points, near + b, S, sum);
     sums[0] += vector_sum(sum[0]);
     sums[1] += vector_sum(sum[1]);
     sums[2] += vector_sum(sum[2]);
@@ -674,6 +806,7 @@ void circle_splats_rows(
     double *CIRCLE_RESTRICT rows, double *CIRCLE_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES - 1) / LANES;
+    const uint32_t only = 0;
     double *constants = work_constants(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -690,7 +823,7 @@ void circle_splats_rows(
                 for (int i = 0; i < 2; ++i) own_mu[i] = vector_of(mu[2 * k + i]);
                 for (int i = 0; i < 1; ++i) own_W[i] = vector_of(W[1 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 4 * k, point + 2, point + 2 + 1, own_sums);
+                pair_backward(1, point, &only, constants + 4 * k, own_sums);
                 pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 1);
                 vector_to_rows(bars, rows + 4 * k, count, block * LANES, 4, 4 * splat_count);
             }
@@ -807,9 +940,14 @@ INLINE vector_f vector_of_f(float x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector_f vector_select_f(vector_mask_f mask, vector_f x, vector_f y) {
-    return SELECT(vector_f, vector_mask_f, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector_f)((mask & (vector_mask_f)x) | (~mask & (vector_mask_f)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -848,7 +986,7 @@ INLINE vector_f signed_each_f(vector_f x, vector_f sign) {
 
 /* abs of every lane; one instruction where the machine has it. */
 INLINE vector_f abs_each_f(vector_f x) {
-    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
     return x;
 }
 
@@ -900,55 +1038,122 @@ OUTLINE void pair_constants_f(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_value_f(
-    const vector_f *X, const float *S, vector_f *value) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float W0_0 = S[2];
-    const float amplitude = S[3];
-    const vector_f d1 = x1 - mu1;
-    const vector_f d0 = x0 - mu0;
-    const vector_f s = mu0 * d1 - mu1 * d0;
-    const vector_f dot_p_q = x0 * mu0 + x1 * mu1;
-    const vector_f t = atan2_each_f(s, dot_p_q);
-    const vector_f z0 = W0_0 * t;
-    const vector_f phi = gaussian_each_f(z0 * z0);
-    value[0] = value[0] + amplitude * phi;
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values) {
+    struct { vector_f t, phi; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 4 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 2 * b;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f d1 = x1 - mu1;
+            const vector_f d0 = x0 - mu0;
+            const vector_f s = mu0 * d1 - mu1 * d0;
+            const vector_f dot_p_q = x0 * mu0 + x1 * mu1;
+            const vector_f t = atan2_each_f(s, dot_p_q);
+            kept[k][b].t = t;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 4 * near[k];
+        const float W0_0 = S[2];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f t = kept[k][b].t;
+            const vector_f z0 = W0_0 * t;
+            const vector_f phi = gaussian_each_f(z0 * z0);
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 4 * near[k];
+        const float amplitude = S[3];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector_f *value = values + b;
+            const vector_f phi = kept[k][b].phi;
+            value[0] = value[0] + amplitude * phi;
+        }
+    }
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_forward_f(
-    const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float W0_0 = S[2];
-    const float amplitude = S[3];
-    const vector_f d1 = x1 - mu1;
-    const vector_f d0 = x0 - mu0;
-    const vector_f s = mu0 * d1 - mu1 * d0;
-    const vector_f dot_p_q = x0 * mu0 + x1 * mu1;
-    const vector_f t = atan2_each_f(s, dot_p_q);
-    const vector_f z0 = W0_0 * t;
-    const vector_f phi = gaussian_each_f(z0 * z0);
-    const vector_f phi_2 = amplitude * phi;
-    const vector_f ratio = W0_0 * (z0 * phi_2) / (dot_p_q * dot_p_q + s * s);
-    const vector_f by_dot_p_q = s * ratio;
-    const vector_f dot_p_q_product = dot_p_q * ratio;
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] + mu0 * by_dot_p_q + mu1 * dot_p_q_product;
-    slope[1] = slope[1] + mu1 * by_dot_p_q - mu0 * dot_p_q_product;
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values, vector_f *slopes) {
+    struct { vector_f s, dot_p_q, t, z0, phi, phi_2, ratio; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 4 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 2 * b;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f d1 = x1 - mu1;
+            const vector_f d0 = x0 - mu0;
+            const vector_f s = mu0 * d1 - mu1 * d0;
+            const vector_f dot_p_q = x0 * mu0 + x1 * mu1;
+            const vector_f t = atan2_each_f(s, dot_p_q);
+            kept[k][b].s = s;
+            kept[k][b].dot_p_q = dot_p_q;
+            kept[k][b].t = t;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 4 * near[k];
+        const float W0_0 = S[2];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f t = kept[k][b].t;
+            const vector_f z0 = W0_0 * t;
+            const vector_f phi = gaussian_each_f(z0 * z0);
+            kept[k][b].z0 = z0;
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 4 * near[k];
+        const float W0_0 = S[2];
+        const float amplitude = S[3];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f s = kept[k][b].s;
+            const vector_f dot_p_q = kept[k][b].dot_p_q;
+            const vector_f z0 = kept[k][b].z0;
+            const vector_f phi = kept[k][b].phi;
+            const vector_f phi_2 = amplitude * phi;
+            const vector_f ratio = W0_0 * (z0 * phi_2) / (dot_p_q * dot_p_q + s * s);
+            kept[k][b].phi_2 = phi_2;
+            kept[k][b].ratio = ratio;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 4 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector_f *value = values + b;
+            vector_f *slope = slopes + 2 * b;
+            const vector_f s = kept[k][b].s;
+            const vector_f dot_p_q = kept[k][b].dot_p_q;
+            const vector_f phi_2 = kept[k][b].phi_2;
+            const vector_f ratio = kept[k][b].ratio;
+            const vector_f by_dot_p_q = s * ratio;
+            const vector_f dot_p_q_product = dot_p_q * ratio;
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] + mu0 * by_dot_p_q + mu1 * dot_p_q_product;
+            slope[1] = slope[1] + mu1 * by_dot_p_q - mu0 * dot_p_q_product;
+        }
+    }
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -969,6 +1174,114 @@ OUTLINE void pair_gradient_vjp_f(
     const vector_f gradient_bar0 = gradient_bar[0];
     slope_bar[0] = -(x1 * gradient_bar0);
     slope_bar[1] = x0 * gradient_bar0;
+}
+
+/*
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
+INLINE void pair_backward_f(
+    size_t count, const vector_f *points, const uint32_t *near, const float *S, vector_f *sums) {
+    struct { vector_f d1, d0, s, dot_p_q, t, z0, phi, z0_product, total_2, ratio, gap, by_by_dot_p_q, ratio_2,
+            phi_product, by_z0, by_t_ratio; } kept[16];
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 5 * (size_t)near[i];
+        const vector_f x0 = X[0];
+        const vector_f x1 = X[1];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const vector_f d1 = x1 - mu1;
+        const vector_f d0 = x0 - mu0;
+        const vector_f s = mu0 * d1 - mu1 * d0;
+        const vector_f dot_p_q = x0 * mu0 + x1 * mu1;
+        const vector_f t = atan2_each_f(s, dot_p_q);
+        kept[i].d1 = d1;
+        kept[i].d0 = d0;
+        kept[i].s = s;
+        kept[i].dot_p_q = dot_p_q;
+        kept[i].t = t;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *slope_bar = points + 5 * (size_t)near[i] + 2 + 1;
+        const vector_f s = kept[i].s;
+        const vector_f dot_p_q = kept[i].dot_p_q;
+        const vector_f t = kept[i].t;
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float W0_0 = S[2];
+        const vector_f x0_bar = slope_bar[0];
+        const vector_f x1_bar = slope_bar[1];
+        const vector_f z0 = W0_0 * t;
+        const vector_f phi = gaussian_each_f(z0 * z0);
+        const vector_f total_2 = dot_p_q * dot_p_q + s * s;
+        const vector_f gap = mu1 * x0_bar - mu0 * x1_bar;
+        const vector_f by_by_dot_p_q = mu0 * x0_bar + mu1 * x1_bar;
+        const vector_f ratio_2 = (s * by_by_dot_p_q + dot_p_q * gap) / total_2;
+        kept[i].z0 = z0;
+        kept[i].phi = phi;
+        kept[i].total_2 = total_2;
+        kept[i].gap = gap;
+        kept[i].by_by_dot_p_q = by_by_dot_p_q;
+        kept[i].ratio_2 = ratio_2;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *value_bar = points + 5 * (size_t)near[i] + 2;
+        const vector_f z0 = kept[i].z0;
+        const vector_f phi = kept[i].phi;
+        const vector_f total_2 = kept[i].total_2;
+        const vector_f ratio_2 = kept[i].ratio_2;
+        const float W0_0 = S[2];
+        const vector_f its_value_bar = value_bar[0];
+        const vector_f z0_product = z0 * phi;
+        const vector_f ratio = W0_0 * z0_product / total_2;
+        const vector_f product_2 = W0_0 * ratio_2;
+        const vector_f by_phi = its_value_bar + z0 * product_2;
+        const vector_f phi_product = phi * by_phi;
+        const vector_f by_z0 = phi * product_2 - z0 * phi_product;
+        const vector_f by_t = W0_0 * by_z0;
+        const vector_f by_t_ratio = by_t / total_2;
+        kept[i].z0_product = z0_product;
+        kept[i].ratio = ratio;
+        kept[i].phi_product = phi_product;
+        kept[i].by_z0 = by_z0;
+        kept[i].by_t_ratio = by_t_ratio;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 5 * (size_t)near[i];
+        const vector_f *slope_bar = points + 5 * (size_t)near[i] + 2 + 1;
+        const vector_f d1 = kept[i].d1;
+        const vector_f d0 = kept[i].d0;
+        const vector_f s = kept[i].s;
+        const vector_f dot_p_q = kept[i].dot_p_q;
+        const vector_f t = kept[i].t;
+        const vector_f z0_product = kept[i].z0_product;
+        const vector_f ratio = kept[i].ratio;
+        const vector_f gap = kept[i].gap;
+        const vector_f by_by_dot_p_q = kept[i].by_by_dot_p_q;
+        const vector_f ratio_2 = kept[i].ratio_2;
+        const vector_f phi_product = kept[i].phi_product;
+        const vector_f by_z0 = kept[i].by_z0;
+        const vector_f by_t_ratio = kept[i].by_t_ratio;
+        const vector_f x0 = X[0];
+        const vector_f x1 = X[1];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const vector_f x0_bar = slope_bar[0];
+        const vector_f x1_bar = slope_bar[1];
+        const vector_f by_dot_p_q = s * ratio;
+        const vector_f dot_p_q_product = dot_p_q * ratio;
+        const vector_f product = 2.0f * (ratio * ratio_2);
+        const vector_f by_dot_p_q_2 = ratio * gap - dot_p_q * product - s * by_t_ratio;
+        const vector_f by_s = ratio * by_by_dot_p_q - s * product + dot_p_q * by_t_ratio;
+        sums[0] = sums[0] + by_dot_p_q * x0_bar - dot_p_q_product * x1_bar + x0 * by_dot_p_q_2 + mu1 * by_s + d1 *
+                by_s;
+        sums[1] = sums[1] + dot_p_q_product * x0_bar + by_dot_p_q * x1_bar + x1 * by_dot_p_q_2 - d0 * by_s - mu0 *
+                by_s;
+        sums[2] = sums[2] + z0_product * ratio_2 + t * by_z0;
+        sums[3] = sums[3] + phi_product;
+    }
 }
 
 /* The adjoints of some splats' parameters, of their sums over the points. */
@@ -1001,53 +1314,6 @@ OUTLINE void pair_distances_f(
     const vector_f t = atan2_each_f(s, dot_p_q);
     const vector_f abs_t = abs_each_f(t);
     distance[0] = abs_t;
-}
-
-/*
- * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
- *
- * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
- */
-INLINE void pair_backward_f(
-    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float W0_0 = S[2];
-    const vector_f its_value_bar = value_bar[0];
-    const vector_f x0_bar = slope_bar[0];
-    const vector_f x1_bar = slope_bar[1];
-    const vector_f d1 = x1 - mu1;
-    const vector_f d0 = x0 - mu0;
-    const vector_f s = mu0 * d1 - mu1 * d0;
-    const vector_f dot_p_q = x0 * mu0 + x1 * mu1;
-    const vector_f t = atan2_each_f(s, dot_p_q);
-    const vector_f z0 = W0_0 * t;
-    const vector_f phi = gaussian_each_f(z0 * z0);
-    const vector_f z0_product = z0 * phi;
-    const vector_f total_2 = dot_p_q * dot_p_q + s * s;
-    const vector_f ratio = W0_0 * z0_product / total_2;
-    const vector_f by_dot_p_q = s * ratio;
-    const vector_f dot_p_q_product = dot_p_q * ratio;
-    const vector_f gap = mu1 * x0_bar - mu0 * x1_bar;
-    const vector_f by_by_dot_p_q = mu0 * x0_bar + mu1 * x1_bar;
-    const vector_f ratio_2 = (s * by_by_dot_p_q + dot_p_q * gap) / total_2;
-    const vector_f product = 2.0f * (ratio * ratio_2);
-    const vector_f product_2 = W0_0 * ratio_2;
-    const vector_f by_phi = its_value_bar + z0 * product_2;
-    const vector_f phi_product = phi * by_phi;
-    const vector_f by_z0 = phi * product_2 - z0 * phi_product;
-    const vector_f by_t = W0_0 * by_z0;
-    const vector_f by_t_ratio = by_t / total_2;
-    const vector_f by_dot_p_q_2 = ratio * gap - dot_p_q * product - s * by_t_ratio;
-    const vector_f by_s = ratio * by_by_dot_p_q - s * product + dot_p_q * by_t_ratio;
-    sums[0] = sums[0] + by_dot_p_q * x0_bar - dot_p_q_product * x1_bar + x0 * by_dot_p_q_2 + mu1 * by_s + d1 *
-            by_s;
-    sums[1] = sums[1] + dot_p_q_product * x0_bar + by_dot_p_q * x1_bar + x1 * by_dot_p_q_2 - d0 * by_s - mu0 *
-            by_s;
-    sums[2] = sums[2] + z0_product * ratio_2 + t * by_z0;
-    sums[3] = sums[3] + phi_product;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -1209,7 +1475,7 @@ OUTLINE void splat_constants_f(
     vector_to_rows_f(S, constants, splat_count, start, 4, 4);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void circle_splats_f(
     size_t count, size_t splat_count, const float *CIRCLE_RESTRICT x, const float *CIRCLE_RESTRICT mu, const float *CIRCLE_RESTRICT W, const float *CIRCLE_RESTRICT amplitude, const float *CIRCLE_RESTRICT width,
     float *CIRCLE_RESTRICT value, float *CIRCLE_RESTRICT gradient, float *CIRCLE_RESTRICT work, int threads) {
@@ -1224,27 +1490,26 @@ void circle_splats_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[2][2], X[2][2], grad[1];
-            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][2] = {{ZERO}};
+            vector_f at[2][2], X[2 * 2], grad[1];
+            vector_f value_sum[2] = {ZERO}, slope_sum[2 * 2] = {ZERO};
             float place[2 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 2, at[b]);
-                pair_features_f(at[b], X[b]);
+                pair_features_f(at[b], X + 2 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 4 * near[i];
-                    pair_forward_f(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward_f(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward_f(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient_f(at[b], slope_sum[b], grad);
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                pair_gradient_f(at[b], slope_sum + 2 * b, grad);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
                 vector_to_rows_f(grad, gradient, count, start + b * LANES_f, 1, 1);
             }
         }
@@ -1266,25 +1531,24 @@ void circle_splats_value_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[2], X[2][2], value_sum[2][1] = {{ZERO}};
+            vector_f at[2], X[2 * 2], value_sum[2] = {ZERO};
             float place[2 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 2, at);
-                pair_features_f(at, X[b]);
+                pair_features_f(at, X + 2 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 4 * near[i];
-                    pair_value_f(X[0], S, value_sum[0]);
-                    pair_value_f(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value_f(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -1303,19 +1567,11 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 2 + 1, point + 2);
 }
 
-/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+/* Adds to sums what some vectors of points add to them, those in the list. */
 OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *sums) {
     vector_f sum[4] = {ZERO};
-    size_t b = 0;
-    for (; b + 1 < size; b += 2) {
-        const vector_f *point = points + 5 * (size_t)near[b], *other = points + 5 * (size_t)near[b + 1];
-        pair_backward_f(point, S, point + 2, point + 2 + 1, sum);
-        pair_backward_f(other, S, other + 2, other + 2 + 1, sum);
-    }
-    if (b < size) {
-        const vector_f *point = points + 5 * (size_t)near[b];
-        pair_backward_f(point, S, point + 2, point + 2 + 1, sum);
-    }
+    for (size_t b = 0; b < size; b += 16)
+        pair_backward_f(size - b < 16 ? size - b : 16, points, near + b, S, sum);
     sums[0] += vector_sum_f(sum[0]);
     sums[1] += vector_sum_f(sum[1]);
     sums[2] += vector_sum_f(sum[2]);
@@ -1391,6 +1647,7 @@ void circle_splats_rows_f(
     float *CIRCLE_RESTRICT rows, float *CIRCLE_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    const uint32_t only = 0;
     float *constants = work_constants_f(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -1407,7 +1664,7 @@ void circle_splats_rows_f(
                 for (int i = 0; i < 2; ++i) own_mu[i] = vector_of_f(mu[2 * k + i]);
                 for (int i = 0; i < 1; ++i) own_W[i] = vector_of_f(W[1 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 4 * k, point + 2, point + 2 + 1, own_sums);
+                pair_backward_f(1, point, &only, constants + 4 * k, own_sums);
                 pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 1);
                 vector_to_rows_f(bars, rows + 4 * k, count, block * LANES_f, 4, 4 * splat_count);
             }

@@ -24,7 +24,6 @@
 #endif
 #define LANE(vector, i) (vector)[i]
 #define ZERO {0}
-#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
 typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
 typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
 typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
@@ -34,7 +33,6 @@ typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
 #else
 #define LANE(vector, i) (vector)
 #define ZERO 0
-#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
 typedef double vector;
 typedef float vector_f;
 typedef int64_t vector_mask;
@@ -49,6 +47,17 @@ typedef uint32_t vector_bits_f;
 #else
 #define INLINE static inline
 #define OUTLINE static
+#endif
+/* UNROLLED: the few turns of a loop one after another. EACH_LANE: of a loop that gcc makes one instruction, if it stays a loop. */
+#if defined(__clang__)
+#define UNROLLED _Pragma("clang loop unroll(full)")
+#define EACH_LANE
+#elif defined(__GNUC__) && __GNUC__ >= 8
+#define UNROLLED _Pragma("GCC unroll 8")
+#define EACH_LANE _Pragma("GCC unroll 1")
+#else
+#define UNROLLED
+#define EACH_LANE
 #endif
 #define LANES (sizeof(vector) / sizeof(double))
 #define LANES_f (sizeof(vector_f) / sizeof(float))
@@ -90,9 +99,14 @@ INLINE vector vector_of(double x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector vector_select(vector_mask mask, vector x, vector y) {
-    return SELECT(vector, vector_mask, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector)((mask & (vector_mask)x) | (~mask & (vector_mask)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -129,7 +143,7 @@ INLINE vector round_each(vector x) { return (x + 6755399441055744.0) - 675539944
 
 /* sqrt of every lane; one instruction where the machine has it. */
 INLINE vector sqrt_each(vector x) {
-    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
     return x;
 }
 
@@ -603,748 +617,1005 @@ OUTLINE void pair_constants(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 OUTLINE void pair_value(
-    const vector *X, const double *S, vector *value) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector x2 = X[2];
-    const vector x3 = X[3];
-    const vector x4 = X[4];
-    const vector x5 = X[5];
-    const vector x6 = X[6];
-    const vector x7 = X[7];
-    const vector x8 = X[8];
-    const vector x9 = X[9];
-    const vector x10 = X[10];
-    const vector x11 = X[11];
-    const vector x12 = X[12];
-    const vector x13 = X[13];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double mu2 = S[2];
-    const double mu3 = S[3];
-    const double mu4 = S[4];
-    const double mu5 = S[5];
-    const double mu6 = S[6];
-    const double mu7 = S[7];
-    const double mu8 = S[8];
-    const double mu9 = S[9];
-    const double mu10 = S[10];
-    const double mu11 = S[11];
-    const double mu12 = S[12];
-    const double mu13 = S[13];
-    const double W0_0 = S[14];
-    const double W0_1 = S[15];
-    const double W0_2 = S[16];
-    const double W0_3 = S[17];
-    const double W0_4 = S[18];
-    const double W0_5 = S[19];
-    const double W0_6 = S[20];
-    const double W0_7 = S[21];
-    const double W0_8 = S[22];
-    const double W0_9 = S[23];
-    const double W0_10 = S[24];
-    const double W0_11 = S[25];
-    const double W0_12 = S[26];
-    const double W0_13 = S[27];
-    const double W1_0 = S[28];
-    const double W1_1 = S[29];
-    const double W1_2 = S[30];
-    const double W1_3 = S[31];
-    const double W1_4 = S[32];
-    const double W1_5 = S[33];
-    const double W1_6 = S[34];
-    const double W1_7 = S[35];
-    const double W1_8 = S[36];
-    const double W1_9 = S[37];
-    const double W1_10 = S[38];
-    const double W1_11 = S[39];
-    const double W1_12 = S[40];
-    const double W1_13 = S[41];
-    const double W2_0 = S[42];
-    const double W2_1 = S[43];
-    const double W2_2 = S[44];
-    const double W2_3 = S[45];
-    const double W2_4 = S[46];
-    const double W2_5 = S[47];
-    const double W2_6 = S[48];
-    const double W2_7 = S[49];
-    const double W2_8 = S[50];
-    const double W2_9 = S[51];
-    const double W2_10 = S[52];
-    const double W2_11 = S[53];
-    const double W2_12 = S[54];
-    const double W2_13 = S[55];
-    const double W3_0 = S[56];
-    const double W3_1 = S[57];
-    const double W3_2 = S[58];
-    const double W3_3 = S[59];
-    const double W3_4 = S[60];
-    const double W3_5 = S[61];
-    const double W3_6 = S[62];
-    const double W3_7 = S[63];
-    const double W3_8 = S[64];
-    const double W3_9 = S[65];
-    const double W3_10 = S[66];
-    const double W3_11 = S[67];
-    const double W3_12 = S[68];
-    const double W3_13 = S[69];
-    const double W4_0 = S[70];
-    const double W4_1 = S[71];
-    const double W4_2 = S[72];
-    const double W4_3 = S[73];
-    const double W4_4 = S[74];
-    const double W4_5 = S[75];
-    const double W4_6 = S[76];
-    const double W4_7 = S[77];
-    const double W4_8 = S[78];
-    const double W4_9 = S[79];
-    const double W4_10 = S[80];
-    const double W4_11 = S[81];
-    const double W4_12 = S[82];
-    const double W4_13 = S[83];
-    const double W5_0 = S[84];
-    const double W5_1 = S[85];
-    const double W5_2 = S[86];
-    const double W5_3 = S[87];
-    const double W5_4 = S[88];
-    const double W5_5 = S[89];
-    const double W5_6 = S[90];
-    const double W5_7 = S[91];
-    const double W5_8 = S[92];
-    const double W5_9 = S[93];
-    const double W5_10 = S[94];
-    const double W5_11 = S[95];
-    const double W5_12 = S[96];
-    const double W5_13 = S[97];
-    const double W6_0 = S[98];
-    const double W6_1 = S[99];
-    const double W6_2 = S[100];
-    const double W6_3 = S[101];
-    const double W6_4 = S[102];
-    const double W6_5 = S[103];
-    const double W6_6 = S[104];
-    const double W6_7 = S[105];
-    const double W6_8 = S[106];
-    const double W6_9 = S[107];
-    const double W6_10 = S[108];
-    const double W6_11 = S[109];
-    const double W6_12 = S[110];
-    const double W6_13 = S[111];
-    const double W7_0 = S[112];
-    const double W7_1 = S[113];
-    const double W7_2 = S[114];
-    const double W7_3 = S[115];
-    const double W7_4 = S[116];
-    const double W7_5 = S[117];
-    const double W7_6 = S[118];
-    const double W7_7 = S[119];
-    const double W7_8 = S[120];
-    const double W7_9 = S[121];
-    const double W7_10 = S[122];
-    const double W7_11 = S[123];
-    const double W7_12 = S[124];
-    const double W7_13 = S[125];
-    const double W8_0 = S[126];
-    const double W8_1 = S[127];
-    const double W8_2 = S[128];
-    const double W8_3 = S[129];
-    const double W8_4 = S[130];
-    const double W8_5 = S[131];
-    const double W8_6 = S[132];
-    const double W8_7 = S[133];
-    const double W8_8 = S[134];
-    const double W8_9 = S[135];
-    const double W8_10 = S[136];
-    const double W8_11 = S[137];
-    const double W8_12 = S[138];
-    const double W8_13 = S[139];
-    const double W9_0 = S[140];
-    const double W9_1 = S[141];
-    const double W9_2 = S[142];
-    const double W9_3 = S[143];
-    const double W9_4 = S[144];
-    const double W9_5 = S[145];
-    const double W9_6 = S[146];
-    const double W9_7 = S[147];
-    const double W9_8 = S[148];
-    const double W9_9 = S[149];
-    const double W9_10 = S[150];
-    const double W9_11 = S[151];
-    const double W9_12 = S[152];
-    const double W9_13 = S[153];
-    const double W10_0 = S[154];
-    const double W10_1 = S[155];
-    const double W10_2 = S[156];
-    const double W10_3 = S[157];
-    const double W10_4 = S[158];
-    const double W10_5 = S[159];
-    const double W10_6 = S[160];
-    const double W10_7 = S[161];
-    const double W10_8 = S[162];
-    const double W10_9 = S[163];
-    const double W10_10 = S[164];
-    const double W10_11 = S[165];
-    const double W10_12 = S[166];
-    const double W10_13 = S[167];
-    const double W11_0 = S[168];
-    const double W11_1 = S[169];
-    const double W11_2 = S[170];
-    const double W11_3 = S[171];
-    const double W11_4 = S[172];
-    const double W11_5 = S[173];
-    const double W11_6 = S[174];
-    const double W11_7 = S[175];
-    const double W11_8 = S[176];
-    const double W11_9 = S[177];
-    const double W11_10 = S[178];
-    const double W11_11 = S[179];
-    const double W11_12 = S[180];
-    const double W11_13 = S[181];
-    const double W12_0 = S[182];
-    const double W12_1 = S[183];
-    const double W12_2 = S[184];
-    const double W12_3 = S[185];
-    const double W12_4 = S[186];
-    const double W12_5 = S[187];
-    const double W12_6 = S[188];
-    const double W12_7 = S[189];
-    const double W12_8 = S[190];
-    const double W12_9 = S[191];
-    const double W12_10 = S[192];
-    const double W12_11 = S[193];
-    const double W12_12 = S[194];
-    const double W12_13 = S[195];
-    const double W13_0 = S[196];
-    const double W13_1 = S[197];
-    const double W13_2 = S[198];
-    const double W13_3 = S[199];
-    const double W13_4 = S[200];
-    const double W13_5 = S[201];
-    const double W13_6 = S[202];
-    const double W13_7 = S[203];
-    const double W13_8 = S[204];
-    const double W13_9 = S[205];
-    const double W13_10 = S[206];
-    const double W13_11 = S[207];
-    const double W13_12 = S[208];
-    const double W13_13 = S[209];
-    const double amplitude = S[210];
-    const vector gap = x0 - mu0;
-    const vector round_2 = round_each(0.15915494309189535 * gap);
-    const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
-    const vector gap_2 = x1 - mu1;
-    const vector round_3 = round_each(0.15915494309189535 * gap_2);
-    const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
-    const vector gap_3 = x2 - mu2;
-    const vector round_4 = round_each(0.15915494309189535 * gap_3);
-    const vector v2 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
-    const vector gap_4 = x3 - mu3;
-    const vector round_5 = round_each(0.15915494309189535 * gap_4);
-    const vector v3 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
-    const vector gap_5 = x4 - mu4;
-    const vector round_6 = round_each(0.15915494309189535 * gap_5);
-    const vector v4 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
-    const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-    const vector gap_6 = x5 - mu5;
-    const vector round_7 = round_each(0.15915494309189535 * gap_6);
-    const vector v5 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
-    const vector gap_7 = x6 - mu6;
-    const vector round_8 = round_each(0.15915494309189535 * gap_7);
-    const vector v6 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
-    const vector gap_8 = x7 - mu7;
-    const vector round_9 = round_each(0.15915494309189535 * gap_8);
-    const vector v7 = gap_8 - 6.28125 * round_9 - 0.001935307179586477 * round_9;
-    const vector gap_9 = x8 - mu8;
-    const vector round_10 = round_each(0.15915494309189535 * gap_9);
-    const vector v8 = gap_9 - 6.28125 * round_10 - 0.001935307179586477 * round_10;
-    const vector total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
-    const vector gap_10 = x9 - mu9;
-    const vector round_11 = round_each(0.15915494309189535 * gap_10);
-    const vector v9 = gap_10 - 6.28125 * round_11 - 0.001935307179586477 * round_11;
-    const vector gap_11 = x10 - mu10;
-    const vector round_12 = round_each(0.15915494309189535 * gap_11);
-    const vector v10 = gap_11 - 6.28125 * round_12 - 0.001935307179586477 * round_12;
-    const vector gap_12 = x11 - mu11;
-    const vector round_13 = round_each(0.15915494309189535 * gap_12);
-    const vector v11 = gap_12 - 6.28125 * round_13 - 0.001935307179586477 * round_13;
-    const vector gap_13 = x12 - mu12;
-    const vector round_14 = round_each(0.15915494309189535 * gap_13);
-    const vector v12 = gap_13 - 6.28125 * round_14 - 0.001935307179586477 * round_14;
-    const vector total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
-    const vector gap_14 = x13 - mu13;
-    const vector round_15 = round_each(0.15915494309189535 * gap_14);
-    const vector v13 = gap_14 - 6.28125 * round_15 - 0.001935307179586477 * round_15;
-    const vector z0 = total_4 + W0_13 * v13;
-    const vector total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-    const vector total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
-    const vector total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12;
-    const vector z1 = total_7 + W1_13 * v13;
-    const vector total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-    const vector total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
-    const vector total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12;
-    const vector z2 = total_10 + W2_13 * v13;
-    const vector total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-    const vector total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
-    const vector total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12;
-    const vector z3 = total_13 + W3_13 * v13;
-    const vector total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-    const vector total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
-    const vector total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12;
-    const vector z4 = total_16 + W4_13 * v13;
-    const vector total_17 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-    const vector total_18 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-    const vector total_19 = total_18 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
-    const vector total_20 = total_19 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12;
-    const vector z5 = total_20 + W5_13 * v13;
-    const vector total_21 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
-    const vector total_22 = total_21 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
-    const vector total_23 = total_22 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12;
-    const vector z6 = total_23 + W6_13 * v13;
-    const vector total_24 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
-    const vector total_25 = total_24 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
-    const vector total_26 = total_25 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12;
-    const vector z7 = total_26 + W7_13 * v13;
-    const vector total_27 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
-    const vector total_28 = total_27 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
-    const vector total_29 = total_28 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12;
-    const vector z8 = total_29 + W8_13 * v13;
-    const vector total_30 = total_17 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-    const vector total_31 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4;
-    const vector total_32 = total_31 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8;
-    const vector total_33 = total_32 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12;
-    const vector z9 = total_33 + W9_13 * v13;
-    const vector total_34 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4;
-    const vector total_35 = total_34 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8;
-    const vector total_36 = total_35 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12;
-    const vector z10 = total_36 + W10_13 * v13;
-    const vector total_37 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4;
-    const vector total_38 = total_37 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8;
-    const vector total_39 = total_38 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12;
-    const vector z11 = total_39 + W11_13 * v13;
-    const vector total_40 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4;
-    const vector total_41 = total_40 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8;
-    const vector total_42 = total_41 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12;
-    const vector z12 = total_42 + W12_13 * v13;
-    const vector total_43 = total_30 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12;
-    const vector total_44 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4;
-    const vector total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
-    const vector total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
-    const vector z13 = total_46 + W13_13 * v13;
-    const vector phi = gaussian_each(total_43 + z13 * z13);
-    value[0] = value[0] + amplitude * phi;
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values) {
+    struct { vector phi; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 211 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double mu2 = S[2];
+        const double mu3 = S[3];
+        const double mu4 = S[4];
+        const double mu5 = S[5];
+        const double mu6 = S[6];
+        const double mu7 = S[7];
+        const double mu8 = S[8];
+        const double mu9 = S[9];
+        const double mu10 = S[10];
+        const double mu11 = S[11];
+        const double mu12 = S[12];
+        const double mu13 = S[13];
+        const double W0_0 = S[14];
+        const double W0_1 = S[15];
+        const double W0_2 = S[16];
+        const double W0_3 = S[17];
+        const double W0_4 = S[18];
+        const double W0_5 = S[19];
+        const double W0_6 = S[20];
+        const double W0_7 = S[21];
+        const double W0_8 = S[22];
+        const double W0_9 = S[23];
+        const double W0_10 = S[24];
+        const double W0_11 = S[25];
+        const double W0_12 = S[26];
+        const double W0_13 = S[27];
+        const double W1_0 = S[28];
+        const double W1_1 = S[29];
+        const double W1_2 = S[30];
+        const double W1_3 = S[31];
+        const double W1_4 = S[32];
+        const double W1_5 = S[33];
+        const double W1_6 = S[34];
+        const double W1_7 = S[35];
+        const double W1_8 = S[36];
+        const double W1_9 = S[37];
+        const double W1_10 = S[38];
+        const double W1_11 = S[39];
+        const double W1_12 = S[40];
+        const double W1_13 = S[41];
+        const double W2_0 = S[42];
+        const double W2_1 = S[43];
+        const double W2_2 = S[44];
+        const double W2_3 = S[45];
+        const double W2_4 = S[46];
+        const double W2_5 = S[47];
+        const double W2_6 = S[48];
+        const double W2_7 = S[49];
+        const double W2_8 = S[50];
+        const double W2_9 = S[51];
+        const double W2_10 = S[52];
+        const double W2_11 = S[53];
+        const double W2_12 = S[54];
+        const double W2_13 = S[55];
+        const double W3_0 = S[56];
+        const double W3_1 = S[57];
+        const double W3_2 = S[58];
+        const double W3_3 = S[59];
+        const double W3_4 = S[60];
+        const double W3_5 = S[61];
+        const double W3_6 = S[62];
+        const double W3_7 = S[63];
+        const double W3_8 = S[64];
+        const double W3_9 = S[65];
+        const double W3_10 = S[66];
+        const double W3_11 = S[67];
+        const double W3_12 = S[68];
+        const double W3_13 = S[69];
+        const double W4_0 = S[70];
+        const double W4_1 = S[71];
+        const double W4_2 = S[72];
+        const double W4_3 = S[73];
+        const double W4_4 = S[74];
+        const double W4_5 = S[75];
+        const double W4_6 = S[76];
+        const double W4_7 = S[77];
+        const double W4_8 = S[78];
+        const double W4_9 = S[79];
+        const double W4_10 = S[80];
+        const double W4_11 = S[81];
+        const double W4_12 = S[82];
+        const double W4_13 = S[83];
+        const double W5_0 = S[84];
+        const double W5_1 = S[85];
+        const double W5_2 = S[86];
+        const double W5_3 = S[87];
+        const double W5_4 = S[88];
+        const double W5_5 = S[89];
+        const double W5_6 = S[90];
+        const double W5_7 = S[91];
+        const double W5_8 = S[92];
+        const double W5_9 = S[93];
+        const double W5_10 = S[94];
+        const double W5_11 = S[95];
+        const double W5_12 = S[96];
+        const double W5_13 = S[97];
+        const double W6_0 = S[98];
+        const double W6_1 = S[99];
+        const double W6_2 = S[100];
+        const double W6_3 = S[101];
+        const double W6_4 = S[102];
+        const double W6_5 = S[103];
+        const double W6_6 = S[104];
+        const double W6_7 = S[105];
+        const double W6_8 = S[106];
+        const double W6_9 = S[107];
+        const double W6_10 = S[108];
+        const double W6_11 = S[109];
+        const double W6_12 = S[110];
+        const double W6_13 = S[111];
+        const double W7_0 = S[112];
+        const double W7_1 = S[113];
+        const double W7_2 = S[114];
+        const double W7_3 = S[115];
+        const double W7_4 = S[116];
+        const double W7_5 = S[117];
+        const double W7_6 = S[118];
+        const double W7_7 = S[119];
+        const double W7_8 = S[120];
+        const double W7_9 = S[121];
+        const double W7_10 = S[122];
+        const double W7_11 = S[123];
+        const double W7_12 = S[124];
+        const double W7_13 = S[125];
+        const double W8_0 = S[126];
+        const double W8_1 = S[127];
+        const double W8_2 = S[128];
+        const double W8_3 = S[129];
+        const double W8_4 = S[130];
+        const double W8_5 = S[131];
+        const double W8_6 = S[132];
+        const double W8_7 = S[133];
+        const double W8_8 = S[134];
+        const double W8_9 = S[135];
+        const double W8_10 = S[136];
+        const double W8_11 = S[137];
+        const double W8_12 = S[138];
+        const double W8_13 = S[139];
+        const double W9_0 = S[140];
+        const double W9_1 = S[141];
+        const double W9_2 = S[142];
+        const double W9_3 = S[143];
+        const double W9_4 = S[144];
+        const double W9_5 = S[145];
+        const double W9_6 = S[146];
+        const double W9_7 = S[147];
+        const double W9_8 = S[148];
+        const double W9_9 = S[149];
+        const double W9_10 = S[150];
+        const double W9_11 = S[151];
+        const double W9_12 = S[152];
+        const double W9_13 = S[153];
+        const double W10_0 = S[154];
+        const double W10_1 = S[155];
+        const double W10_2 = S[156];
+        const double W10_3 = S[157];
+        const double W10_4 = S[158];
+        const double W10_5 = S[159];
+        const double W10_6 = S[160];
+        const double W10_7 = S[161];
+        const double W10_8 = S[162];
+        const double W10_9 = S[163];
+        const double W10_10 = S[164];
+        const double W10_11 = S[165];
+        const double W10_12 = S[166];
+        const double W10_13 = S[167];
+        const double W11_0 = S[168];
+        const double W11_1 = S[169];
+        const double W11_2 = S[170];
+        const double W11_3 = S[171];
+        const double W11_4 = S[172];
+        const double W11_5 = S[173];
+        const double W11_6 = S[174];
+        const double W11_7 = S[175];
+        const double W11_8 = S[176];
+        const double W11_9 = S[177];
+        const double W11_10 = S[178];
+        const double W11_11 = S[179];
+        const double W11_12 = S[180];
+        const double W11_13 = S[181];
+        const double W12_0 = S[182];
+        const double W12_1 = S[183];
+        const double W12_2 = S[184];
+        const double W12_3 = S[185];
+        const double W12_4 = S[186];
+        const double W12_5 = S[187];
+        const double W12_6 = S[188];
+        const double W12_7 = S[189];
+        const double W12_8 = S[190];
+        const double W12_9 = S[191];
+        const double W12_10 = S[192];
+        const double W12_11 = S[193];
+        const double W12_12 = S[194];
+        const double W12_13 = S[195];
+        const double W13_0 = S[196];
+        const double W13_1 = S[197];
+        const double W13_2 = S[198];
+        const double W13_3 = S[199];
+        const double W13_4 = S[200];
+        const double W13_5 = S[201];
+        const double W13_6 = S[202];
+        const double W13_7 = S[203];
+        const double W13_8 = S[204];
+        const double W13_9 = S[205];
+        const double W13_10 = S[206];
+        const double W13_11 = S[207];
+        const double W13_12 = S[208];
+        const double W13_13 = S[209];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 14 * b;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector x2 = X[2];
+            const vector x3 = X[3];
+            const vector x4 = X[4];
+            const vector x5 = X[5];
+            const vector x6 = X[6];
+            const vector x7 = X[7];
+            const vector x8 = X[8];
+            const vector x9 = X[9];
+            const vector x10 = X[10];
+            const vector x11 = X[11];
+            const vector x12 = X[12];
+            const vector x13 = X[13];
+            const vector gap = x0 - mu0;
+            const vector round_2 = round_each(0.15915494309189535 * gap);
+            const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
+            const vector gap_2 = x1 - mu1;
+            const vector round_3 = round_each(0.15915494309189535 * gap_2);
+            const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
+            const vector gap_3 = x2 - mu2;
+            const vector round_4 = round_each(0.15915494309189535 * gap_3);
+            const vector v2 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
+            const vector gap_4 = x3 - mu3;
+            const vector round_5 = round_each(0.15915494309189535 * gap_4);
+            const vector v3 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
+            const vector gap_5 = x4 - mu4;
+            const vector round_6 = round_each(0.15915494309189535 * gap_5);
+            const vector v4 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
+            const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+            const vector gap_6 = x5 - mu5;
+            const vector round_7 = round_each(0.15915494309189535 * gap_6);
+            const vector v5 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
+            const vector gap_7 = x6 - mu6;
+            const vector round_8 = round_each(0.15915494309189535 * gap_7);
+            const vector v6 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
+            const vector gap_8 = x7 - mu7;
+            const vector round_9 = round_each(0.15915494309189535 * gap_8);
+            const vector v7 = gap_8 - 6.28125 * round_9 - 0.001935307179586477 * round_9;
+            const vector gap_9 = x8 - mu8;
+            const vector round_10 = round_each(0.15915494309189535 * gap_9);
+            const vector v8 = gap_9 - 6.28125 * round_10 - 0.001935307179586477 * round_10;
+            const vector total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+            const vector gap_10 = x9 - mu9;
+            const vector round_11 = round_each(0.15915494309189535 * gap_10);
+            const vector v9 = gap_10 - 6.28125 * round_11 - 0.001935307179586477 * round_11;
+            const vector gap_11 = x10 - mu10;
+            const vector round_12 = round_each(0.15915494309189535 * gap_11);
+            const vector v10 = gap_11 - 6.28125 * round_12 - 0.001935307179586477 * round_12;
+            const vector gap_12 = x11 - mu11;
+            const vector round_13 = round_each(0.15915494309189535 * gap_12);
+            const vector v11 = gap_12 - 6.28125 * round_13 - 0.001935307179586477 * round_13;
+            const vector gap_13 = x12 - mu12;
+            const vector round_14 = round_each(0.15915494309189535 * gap_13);
+            const vector v12 = gap_13 - 6.28125 * round_14 - 0.001935307179586477 * round_14;
+            const vector total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
+            const vector gap_14 = x13 - mu13;
+            const vector round_15 = round_each(0.15915494309189535 * gap_14);
+            const vector v13 = gap_14 - 6.28125 * round_15 - 0.001935307179586477 * round_15;
+            const vector z0 = total_4 + W0_13 * v13;
+            const vector total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+            const vector total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+            const vector total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12;
+            const vector z1 = total_7 + W1_13 * v13;
+            const vector total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+            const vector total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+            const vector total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12;
+            const vector z2 = total_10 + W2_13 * v13;
+            const vector total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+            const vector total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+            const vector total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12;
+            const vector z3 = total_13 + W3_13 * v13;
+            const vector total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+            const vector total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+            const vector total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12;
+            const vector z4 = total_16 + W4_13 * v13;
+            const vector total_17 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+            const vector total_18 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+            const vector total_19 = total_18 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+            const vector total_20 = total_19 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12;
+            const vector z5 = total_20 + W5_13 * v13;
+            const vector total_21 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+            const vector total_22 = total_21 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+            const vector total_23 = total_22 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12;
+            const vector z6 = total_23 + W6_13 * v13;
+            const vector total_24 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+            const vector total_25 = total_24 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+            const vector total_26 = total_25 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12;
+            const vector z7 = total_26 + W7_13 * v13;
+            const vector total_27 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+            const vector total_28 = total_27 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+            const vector total_29 = total_28 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12;
+            const vector z8 = total_29 + W8_13 * v13;
+            const vector total_30 = total_17 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+            const vector total_31 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4;
+            const vector total_32 = total_31 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8;
+            const vector total_33 = total_32 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12;
+            const vector z9 = total_33 + W9_13 * v13;
+            const vector total_34 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4;
+            const vector total_35 = total_34 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8;
+            const vector total_36 = total_35 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12;
+            const vector z10 = total_36 + W10_13 * v13;
+            const vector total_37 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4;
+            const vector total_38 = total_37 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8;
+            const vector total_39 = total_38 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12;
+            const vector z11 = total_39 + W11_13 * v13;
+            const vector total_40 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4;
+            const vector total_41 = total_40 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8;
+            const vector total_42 = total_41 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12;
+            const vector z12 = total_42 + W12_13 * v13;
+            const vector total_43 = total_30 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12;
+            const vector total_44 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4;
+            const vector total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
+            const vector total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
+            const vector z13 = total_46 + W13_13 * v13;
+            const vector phi = gaussian_each(total_43 + z13 * z13);
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 211 * near[k];
+        const double amplitude = S[210];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector *value = values + b;
+            const vector phi = kept[k][b].phi;
+            value[0] = value[0] + amplitude * phi;
+        }
+    }
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 OUTLINE void pair_forward(
-    const vector *X, const double *S, vector *value, vector *slope) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector x2 = X[2];
-    const vector x3 = X[3];
-    const vector x4 = X[4];
-    const vector x5 = X[5];
-    const vector x6 = X[6];
-    const vector x7 = X[7];
-    const vector x8 = X[8];
-    const vector x9 = X[9];
-    const vector x10 = X[10];
-    const vector x11 = X[11];
-    const vector x12 = X[12];
-    const vector x13 = X[13];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double mu2 = S[2];
-    const double mu3 = S[3];
-    const double mu4 = S[4];
-    const double mu5 = S[5];
-    const double mu6 = S[6];
-    const double mu7 = S[7];
-    const double mu8 = S[8];
-    const double mu9 = S[9];
-    const double mu10 = S[10];
-    const double mu11 = S[11];
-    const double mu12 = S[12];
-    const double mu13 = S[13];
-    const double W0_0 = S[14];
-    const double W0_1 = S[15];
-    const double W0_2 = S[16];
-    const double W0_3 = S[17];
-    const double W0_4 = S[18];
-    const double W0_5 = S[19];
-    const double W0_6 = S[20];
-    const double W0_7 = S[21];
-    const double W0_8 = S[22];
-    const double W0_9 = S[23];
-    const double W0_10 = S[24];
-    const double W0_11 = S[25];
-    const double W0_12 = S[26];
-    const double W0_13 = S[27];
-    const double W1_0 = S[28];
-    const double W1_1 = S[29];
-    const double W1_2 = S[30];
-    const double W1_3 = S[31];
-    const double W1_4 = S[32];
-    const double W1_5 = S[33];
-    const double W1_6 = S[34];
-    const double W1_7 = S[35];
-    const double W1_8 = S[36];
-    const double W1_9 = S[37];
-    const double W1_10 = S[38];
-    const double W1_11 = S[39];
-    const double W1_12 = S[40];
-    const double W1_13 = S[41];
-    const double W2_0 = S[42];
-    const double W2_1 = S[43];
-    const double W2_2 = S[44];
-    const double W2_3 = S[45];
-    const double W2_4 = S[46];
-    const double W2_5 = S[47];
-    const double W2_6 = S[48];
-    const double W2_7 = S[49];
-    const double W2_8 = S[50];
-    const double W2_9 = S[51];
-    const double W2_10 = S[52];
-    const double W2_11 = S[53];
-    const double W2_12 = S[54];
-    const double W2_13 = S[55];
-    const double W3_0 = S[56];
-    const double W3_1 = S[57];
-    const double W3_2 = S[58];
-    const double W3_3 = S[59];
-    const double W3_4 = S[60];
-    const double W3_5 = S[61];
-    const double W3_6 = S[62];
-    const double W3_7 = S[63];
-    const double W3_8 = S[64];
-    const double W3_9 = S[65];
-    const double W3_10 = S[66];
-    const double W3_11 = S[67];
-    const double W3_12 = S[68];
-    const double W3_13 = S[69];
-    const double W4_0 = S[70];
-    const double W4_1 = S[71];
-    const double W4_2 = S[72];
-    const double W4_3 = S[73];
-    const double W4_4 = S[74];
-    const double W4_5 = S[75];
-    const double W4_6 = S[76];
-    const double W4_7 = S[77];
-    const double W4_8 = S[78];
-    const double W4_9 = S[79];
-    const double W4_10 = S[80];
-    const double W4_11 = S[81];
-    const double W4_12 = S[82];
-    const double W4_13 = S[83];
-    const double W5_0 = S[84];
-    const double W5_1 = S[85];
-    const double W5_2 = S[86];
-    const double W5_3 = S[87];
-    const double W5_4 = S[88];
-    const double W5_5 = S[89];
-    const double W5_6 = S[90];
-    const double W5_7 = S[91];
-    const double W5_8 = S[92];
-    const double W5_9 = S[93];
-    const double W5_10 = S[94];
-    const double W5_11 = S[95];
-    const double W5_12 = S[96];
-    const double W5_13 = S[97];
-    const double W6_0 = S[98];
-    const double W6_1 = S[99];
-    const double W6_2 = S[100];
-    const double W6_3 = S[101];
-    const double W6_4 = S[102];
-    const double W6_5 = S[103];
-    const double W6_6 = S[104];
-    const double W6_7 = S[105];
-    const double W6_8 = S[106];
-    const double W6_9 = S[107];
-    const double W6_10 = S[108];
-    const double W6_11 = S[109];
-    const double W6_12 = S[110];
-    const double W6_13 = S[111];
-    const double W7_0 = S[112];
-    const double W7_1 = S[113];
-    const double W7_2 = S[114];
-    const double W7_3 = S[115];
-    const double W7_4 = S[116];
-    const double W7_5 = S[117];
-    const double W7_6 = S[118];
-    const double W7_7 = S[119];
-    const double W7_8 = S[120];
-    const double W7_9 = S[121];
-    const double W7_10 = S[122];
-    const double W7_11 = S[123];
-    const double W7_12 = S[124];
-    const double W7_13 = S[125];
-    const double W8_0 = S[126];
-    const double W8_1 = S[127];
-    const double W8_2 = S[128];
-    const double W8_3 = S[129];
-    const double W8_4 = S[130];
-    const double W8_5 = S[131];
-    const double W8_6 = S[132];
-    const double W8_7 = S[133];
-    const double W8_8 = S[134];
-    const double W8_9 = S[135];
-    const double W8_10 = S[136];
-    const double W8_11 = S[137];
-    const double W8_12 = S[138];
-    const double W8_13 = S[139];
-    const double W9_0 = S[140];
-    const double W9_1 = S[141];
-    const double W9_2 = S[142];
-    const double W9_3 = S[143];
-    const double W9_4 = S[144];
-    const double W9_5 = S[145];
-    const double W9_6 = S[146];
-    const double W9_7 = S[147];
-    const double W9_8 = S[148];
-    const double W9_9 = S[149];
-    const double W9_10 = S[150];
-    const double W9_11 = S[151];
-    const double W9_12 = S[152];
-    const double W9_13 = S[153];
-    const double W10_0 = S[154];
-    const double W10_1 = S[155];
-    const double W10_2 = S[156];
-    const double W10_3 = S[157];
-    const double W10_4 = S[158];
-    const double W10_5 = S[159];
-    const double W10_6 = S[160];
-    const double W10_7 = S[161];
-    const double W10_8 = S[162];
-    const double W10_9 = S[163];
-    const double W10_10 = S[164];
-    const double W10_11 = S[165];
-    const double W10_12 = S[166];
-    const double W10_13 = S[167];
-    const double W11_0 = S[168];
-    const double W11_1 = S[169];
-    const double W11_2 = S[170];
-    const double W11_3 = S[171];
-    const double W11_4 = S[172];
-    const double W11_5 = S[173];
-    const double W11_6 = S[174];
-    const double W11_7 = S[175];
-    const double W11_8 = S[176];
-    const double W11_9 = S[177];
-    const double W11_10 = S[178];
-    const double W11_11 = S[179];
-    const double W11_12 = S[180];
-    const double W11_13 = S[181];
-    const double W12_0 = S[182];
-    const double W12_1 = S[183];
-    const double W12_2 = S[184];
-    const double W12_3 = S[185];
-    const double W12_4 = S[186];
-    const double W12_5 = S[187];
-    const double W12_6 = S[188];
-    const double W12_7 = S[189];
-    const double W12_8 = S[190];
-    const double W12_9 = S[191];
-    const double W12_10 = S[192];
-    const double W12_11 = S[193];
-    const double W12_12 = S[194];
-    const double W12_13 = S[195];
-    const double W13_0 = S[196];
-    const double W13_1 = S[197];
-    const double W13_2 = S[198];
-    const double W13_3 = S[199];
-    const double W13_4 = S[200];
-    const double W13_5 = S[201];
-    const double W13_6 = S[202];
-    const double W13_7 = S[203];
-    const double W13_8 = S[204];
-    const double W13_9 = S[205];
-    const double W13_10 = S[206];
-    const double W13_11 = S[207];
-    const double W13_12 = S[208];
-    const double W13_13 = S[209];
-    const double amplitude = S[210];
-    const vector gap = x0 - mu0;
-    const vector round_2 = round_each(0.15915494309189535 * gap);
-    const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
-    const vector gap_2 = x1 - mu1;
-    const vector round_3 = round_each(0.15915494309189535 * gap_2);
-    const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
-    const vector gap_3 = x2 - mu2;
-    const vector round_4 = round_each(0.15915494309189535 * gap_3);
-    const vector v2 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
-    const vector gap_4 = x3 - mu3;
-    const vector round_5 = round_each(0.15915494309189535 * gap_4);
-    const vector v3 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
-    const vector gap_5 = x4 - mu4;
-    const vector round_6 = round_each(0.15915494309189535 * gap_5);
-    const vector v4 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
-    const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-    const vector gap_6 = x5 - mu5;
-    const vector round_7 = round_each(0.15915494309189535 * gap_6);
-    const vector v5 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
-    const vector gap_7 = x6 - mu6;
-    const vector round_8 = round_each(0.15915494309189535 * gap_7);
-    const vector v6 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
-    const vector gap_8 = x7 - mu7;
-    const vector round_9 = round_each(0.15915494309189535 * gap_8);
-    const vector v7 = gap_8 - 6.28125 * round_9 - 0.001935307179586477 * round_9;
-    const vector gap_9 = x8 - mu8;
-    const vector round_10 = round_each(0.15915494309189535 * gap_9);
-    const vector v8 = gap_9 - 6.28125 * round_10 - 0.001935307179586477 * round_10;
-    const vector total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
-    const vector gap_10 = x9 - mu9;
-    const vector round_11 = round_each(0.15915494309189535 * gap_10);
-    const vector v9 = gap_10 - 6.28125 * round_11 - 0.001935307179586477 * round_11;
-    const vector gap_11 = x10 - mu10;
-    const vector round_12 = round_each(0.15915494309189535 * gap_11);
-    const vector v10 = gap_11 - 6.28125 * round_12 - 0.001935307179586477 * round_12;
-    const vector gap_12 = x11 - mu11;
-    const vector round_13 = round_each(0.15915494309189535 * gap_12);
-    const vector v11 = gap_12 - 6.28125 * round_13 - 0.001935307179586477 * round_13;
-    const vector gap_13 = x12 - mu12;
-    const vector round_14 = round_each(0.15915494309189535 * gap_13);
-    const vector v12 = gap_13 - 6.28125 * round_14 - 0.001935307179586477 * round_14;
-    const vector total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
-    const vector gap_14 = x13 - mu13;
-    const vector round_15 = round_each(0.15915494309189535 * gap_14);
-    const vector v13 = gap_14 - 6.28125 * round_15 - 0.001935307179586477 * round_15;
-    const vector z0 = total_4 + W0_13 * v13;
-    const vector total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-    const vector total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
-    const vector total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12;
-    const vector z1 = total_7 + W1_13 * v13;
-    const vector total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-    const vector total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
-    const vector total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12;
-    const vector z2 = total_10 + W2_13 * v13;
-    const vector total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-    const vector total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
-    const vector total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12;
-    const vector z3 = total_13 + W3_13 * v13;
-    const vector total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-    const vector total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
-    const vector total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12;
-    const vector z4 = total_16 + W4_13 * v13;
-    const vector total_17 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-    const vector total_18 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-    const vector total_19 = total_18 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
-    const vector total_20 = total_19 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12;
-    const vector z5 = total_20 + W5_13 * v13;
-    const vector total_21 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
-    const vector total_22 = total_21 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
-    const vector total_23 = total_22 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12;
-    const vector z6 = total_23 + W6_13 * v13;
-    const vector total_24 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
-    const vector total_25 = total_24 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
-    const vector total_26 = total_25 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12;
-    const vector z7 = total_26 + W7_13 * v13;
-    const vector total_27 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
-    const vector total_28 = total_27 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
-    const vector total_29 = total_28 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12;
-    const vector z8 = total_29 + W8_13 * v13;
-    const vector total_30 = total_17 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-    const vector total_31 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4;
-    const vector total_32 = total_31 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8;
-    const vector total_33 = total_32 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12;
-    const vector z9 = total_33 + W9_13 * v13;
-    const vector total_34 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4;
-    const vector total_35 = total_34 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8;
-    const vector total_36 = total_35 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12;
-    const vector z10 = total_36 + W10_13 * v13;
-    const vector total_37 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4;
-    const vector total_38 = total_37 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8;
-    const vector total_39 = total_38 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12;
-    const vector z11 = total_39 + W11_13 * v13;
-    const vector total_40 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4;
-    const vector total_41 = total_40 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8;
-    const vector total_42 = total_41 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12;
-    const vector z12 = total_42 + W12_13 * v13;
-    const vector total_43 = total_30 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12;
-    const vector total_44 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4;
-    const vector total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
-    const vector total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
-    const vector z13 = total_46 + W13_13 * v13;
-    const vector phi = gaussian_each(total_43 + z13 * z13);
-    const vector phi_2 = amplitude * phi;
-    const vector z13_product = z13 * phi_2;
-    const vector z12_product = z12 * phi_2;
-    const vector z11_product = z11 * phi_2;
-    const vector z10_product = z10 * phi_2;
-    const vector z9_product = z9 * phi_2;
-    const vector z8_product = z8 * phi_2;
-    const vector z7_product = z7 * phi_2;
-    const vector z6_product = z6 * phi_2;
-    const vector z5_product = z5 * phi_2;
-    const vector z4_product = z4 * phi_2;
-    const vector z3_product = z3 * phi_2;
-    const vector z2_product = z2 * phi_2;
-    const vector z1_product = z1 * phi_2;
-    const vector z0_product = z0 * phi_2;
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] - W13_0 * z13_product - W12_0 * z12_product - W11_0 * z11_product - W10_0 *
-            z10_product - W9_0 * z9_product - W8_0 * z8_product - W7_0 * z7_product - W6_0 * z6_product - W5_0 *
-            z5_product - W4_0 * z4_product - W3_0 * z3_product - W2_0 * z2_product - W1_0 * z1_product - W0_0 *
-            z0_product;
-    slope[1] = slope[1] - W13_1 * z13_product - W12_1 * z12_product - W11_1 * z11_product - W10_1 *
-            z10_product - W9_1 * z9_product - W8_1 * z8_product - W7_1 * z7_product - W6_1 * z6_product - W5_1 *
-            z5_product - W4_1 * z4_product - W3_1 * z3_product - W2_1 * z2_product - W1_1 * z1_product - W0_1 *
-            z0_product;
-    slope[2] = slope[2] - W13_2 * z13_product - W12_2 * z12_product - W11_2 * z11_product - W10_2 *
-            z10_product - W9_2 * z9_product - W8_2 * z8_product - W7_2 * z7_product - W6_2 * z6_product - W5_2 *
-            z5_product - W4_2 * z4_product - W3_2 * z3_product - W2_2 * z2_product - W1_2 * z1_product - W0_2 *
-            z0_product;
-    slope[3] = slope[3] - W13_3 * z13_product - W12_3 * z12_product - W11_3 * z11_product - W10_3 *
-            z10_product - W9_3 * z9_product - W8_3 * z8_product - W7_3 * z7_product - W6_3 * z6_product - W5_3 *
-            z5_product - W4_3 * z4_product - W3_3 * z3_product - W2_3 * z2_product - W1_3 * z1_product - W0_3 *
-            z0_product;
-    slope[4] = slope[4] - W13_4 * z13_product - W12_4 * z12_product - W11_4 * z11_product - W10_4 *
-            z10_product - W9_4 * z9_product - W8_4 * z8_product - W7_4 * z7_product - W6_4 * z6_product - W5_4 *
-            z5_product - W4_4 * z4_product - W3_4 * z3_product - W2_4 * z2_product - W1_4 * z1_product - W0_4 *
-            z0_product;
-    slope[5] = slope[5] - W13_5 * z13_product - W12_5 * z12_product - W11_5 * z11_product - W10_5 *
-            z10_product - W9_5 * z9_product - W8_5 * z8_product - W7_5 * z7_product - W6_5 * z6_product - W5_5 *
-            z5_product - W4_5 * z4_product - W3_5 * z3_product - W2_5 * z2_product - W1_5 * z1_product - W0_5 *
-            z0_product;
-    slope[6] = slope[6] - W13_6 * z13_product - W12_6 * z12_product - W11_6 * z11_product - W10_6 *
-            z10_product - W9_6 * z9_product - W8_6 * z8_product - W7_6 * z7_product - W6_6 * z6_product - W5_6 *
-            z5_product - W4_6 * z4_product - W3_6 * z3_product - W2_6 * z2_product - W1_6 * z1_product - W0_6 *
-            z0_product;
-    slope[7] = slope[7] - W13_7 * z13_product - W12_7 * z12_product - W11_7 * z11_product - W10_7 *
-            z10_product - W9_7 * z9_product - W8_7 * z8_product - W7_7 * z7_product - W6_7 * z6_product - W5_7 *
-            z5_product - W4_7 * z4_product - W3_7 * z3_product - W2_7 * z2_product - W1_7 * z1_product - W0_7 *
-            z0_product;
-    slope[8] = slope[8] - W13_8 * z13_product - W12_8 * z12_product - W11_8 * z11_product - W10_8 *
-            z10_product - W9_8 * z9_product - W8_8 * z8_product - W7_8 * z7_product - W6_8 * z6_product - W5_8 *
-            z5_product - W4_8 * z4_product - W3_8 * z3_product - W2_8 * z2_product - W1_8 * z1_product - W0_8 *
-            z0_product;
-    slope[9] = slope[9] - W13_9 * z13_product - W12_9 * z12_product - W11_9 * z11_product - W10_9 *
-            z10_product - W9_9 * z9_product - W8_9 * z8_product - W7_9 * z7_product - W6_9 * z6_product - W5_9 *
-            z5_product - W4_9 * z4_product - W3_9 * z3_product - W2_9 * z2_product - W1_9 * z1_product - W0_9 *
-            z0_product;
-    slope[10] = slope[10] - W13_10 * z13_product - W12_10 * z12_product - W11_10 * z11_product - W10_10 *
-            z10_product - W9_10 * z9_product - W8_10 * z8_product - W7_10 * z7_product - W6_10 * z6_product -
-            W5_10 * z5_product - W4_10 * z4_product - W3_10 * z3_product - W2_10 * z2_product - W1_10 * z1_product
-            - W0_10 * z0_product;
-    slope[11] = slope[11] - W13_11 * z13_product - W12_11 * z12_product - W11_11 * z11_product - W10_11 *
-            z10_product - W9_11 * z9_product - W8_11 * z8_product - W7_11 * z7_product - W6_11 * z6_product -
-            W5_11 * z5_product - W4_11 * z4_product - W3_11 * z3_product - W2_11 * z2_product - W1_11 * z1_product
-            - W0_11 * z0_product;
-    slope[12] = slope[12] - W13_12 * z13_product - W12_12 * z12_product - W11_12 * z11_product - W10_12 *
-            z10_product - W9_12 * z9_product - W8_12 * z8_product - W7_12 * z7_product - W6_12 * z6_product -
-            W5_12 * z5_product - W4_12 * z4_product - W3_12 * z3_product - W2_12 * z2_product - W1_12 * z1_product
-            - W0_12 * z0_product;
-    slope[13] = slope[13] - W13_13 * z13_product - W12_13 * z12_product - W11_13 * z11_product - W10_13 *
-            z10_product - W9_13 * z9_product - W8_13 * z8_product - W7_13 * z7_product - W6_13 * z6_product -
-            W5_13 * z5_product - W4_13 * z4_product - W3_13 * z3_product - W2_13 * z2_product - W1_13 * z1_product
-            - W0_13 * z0_product;
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values, vector *slopes) {
+    struct { vector z0, z1, z2, z3, z4, z5, z6, z7, z8, z9, z10, z11, z12, z13, phi; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 211 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double mu2 = S[2];
+        const double mu3 = S[3];
+        const double mu4 = S[4];
+        const double mu5 = S[5];
+        const double mu6 = S[6];
+        const double mu7 = S[7];
+        const double mu8 = S[8];
+        const double mu9 = S[9];
+        const double mu10 = S[10];
+        const double mu11 = S[11];
+        const double mu12 = S[12];
+        const double mu13 = S[13];
+        const double W0_0 = S[14];
+        const double W0_1 = S[15];
+        const double W0_2 = S[16];
+        const double W0_3 = S[17];
+        const double W0_4 = S[18];
+        const double W0_5 = S[19];
+        const double W0_6 = S[20];
+        const double W0_7 = S[21];
+        const double W0_8 = S[22];
+        const double W0_9 = S[23];
+        const double W0_10 = S[24];
+        const double W0_11 = S[25];
+        const double W0_12 = S[26];
+        const double W0_13 = S[27];
+        const double W1_0 = S[28];
+        const double W1_1 = S[29];
+        const double W1_2 = S[30];
+        const double W1_3 = S[31];
+        const double W1_4 = S[32];
+        const double W1_5 = S[33];
+        const double W1_6 = S[34];
+        const double W1_7 = S[35];
+        const double W1_8 = S[36];
+        const double W1_9 = S[37];
+        const double W1_10 = S[38];
+        const double W1_11 = S[39];
+        const double W1_12 = S[40];
+        const double W1_13 = S[41];
+        const double W2_0 = S[42];
+        const double W2_1 = S[43];
+        const double W2_2 = S[44];
+        const double W2_3 = S[45];
+        const double W2_4 = S[46];
+        const double W2_5 = S[47];
+        const double W2_6 = S[48];
+        const double W2_7 = S[49];
+        const double W2_8 = S[50];
+        const double W2_9 = S[51];
+        const double W2_10 = S[52];
+        const double W2_11 = S[53];
+        const double W2_12 = S[54];
+        const double W2_13 = S[55];
+        const double W3_0 = S[56];
+        const double W3_1 = S[57];
+        const double W3_2 = S[58];
+        const double W3_3 = S[59];
+        const double W3_4 = S[60];
+        const double W3_5 = S[61];
+        const double W3_6 = S[62];
+        const double W3_7 = S[63];
+        const double W3_8 = S[64];
+        const double W3_9 = S[65];
+        const double W3_10 = S[66];
+        const double W3_11 = S[67];
+        const double W3_12 = S[68];
+        const double W3_13 = S[69];
+        const double W4_0 = S[70];
+        const double W4_1 = S[71];
+        const double W4_2 = S[72];
+        const double W4_3 = S[73];
+        const double W4_4 = S[74];
+        const double W4_5 = S[75];
+        const double W4_6 = S[76];
+        const double W4_7 = S[77];
+        const double W4_8 = S[78];
+        const double W4_9 = S[79];
+        const double W4_10 = S[80];
+        const double W4_11 = S[81];
+        const double W4_12 = S[82];
+        const double W4_13 = S[83];
+        const double W5_0 = S[84];
+        const double W5_1 = S[85];
+        const double W5_2 = S[86];
+        const double W5_3 = S[87];
+        const double W5_4 = S[88];
+        const double W5_5 = S[89];
+        const double W5_6 = S[90];
+        const double W5_7 = S[91];
+        const double W5_8 = S[92];
+        const double W5_9 = S[93];
+        const double W5_10 = S[94];
+        const double W5_11 = S[95];
+        const double W5_12 = S[96];
+        const double W5_13 = S[97];
+        const double W6_0 = S[98];
+        const double W6_1 = S[99];
+        const double W6_2 = S[100];
+        const double W6_3 = S[101];
+        const double W6_4 = S[102];
+        const double W6_5 = S[103];
+        const double W6_6 = S[104];
+        const double W6_7 = S[105];
+        const double W6_8 = S[106];
+        const double W6_9 = S[107];
+        const double W6_10 = S[108];
+        const double W6_11 = S[109];
+        const double W6_12 = S[110];
+        const double W6_13 = S[111];
+        const double W7_0 = S[112];
+        const double W7_1 = S[113];
+        const double W7_2 = S[114];
+        const double W7_3 = S[115];
+        const double W7_4 = S[116];
+        const double W7_5 = S[117];
+        const double W7_6 = S[118];
+        const double W7_7 = S[119];
+        const double W7_8 = S[120];
+        const double W7_9 = S[121];
+        const double W7_10 = S[122];
+        const double W7_11 = S[123];
+        const double W7_12 = S[124];
+        const double W7_13 = S[125];
+        const double W8_0 = S[126];
+        const double W8_1 = S[127];
+        const double W8_2 = S[128];
+        const double W8_3 = S[129];
+        const double W8_4 = S[130];
+        const double W8_5 = S[131];
+        const double W8_6 = S[132];
+        const double W8_7 = S[133];
+        const double W8_8 = S[134];
+        const double W8_9 = S[135];
+        const double W8_10 = S[136];
+        const double W8_11 = S[137];
+        const double W8_12 = S[138];
+        const double W8_13 = S[139];
+        const double W9_0 = S[140];
+        const double W9_1 = S[141];
+        const double W9_2 = S[142];
+        const double W9_3 = S[143];
+        const double W9_4 = S[144];
+        const double W9_5 = S[145];
+        const double W9_6 = S[146];
+        const double W9_7 = S[147];
+        const double W9_8 = S[148];
+        const double W9_9 = S[149];
+        const double W9_10 = S[150];
+        const double W9_11 = S[151];
+        const double W9_12 = S[152];
+        const double W9_13 = S[153];
+        const double W10_0 = S[154];
+        const double W10_1 = S[155];
+        const double W10_2 = S[156];
+        const double W10_3 = S[157];
+        const double W10_4 = S[158];
+        const double W10_5 = S[159];
+        const double W10_6 = S[160];
+        const double W10_7 = S[161];
+        const double W10_8 = S[162];
+        const double W10_9 = S[163];
+        const double W10_10 = S[164];
+        const double W10_11 = S[165];
+        const double W10_12 = S[166];
+        const double W10_13 = S[167];
+        const double W11_0 = S[168];
+        const double W11_1 = S[169];
+        const double W11_2 = S[170];
+        const double W11_3 = S[171];
+        const double W11_4 = S[172];
+        const double W11_5 = S[173];
+        const double W11_6 = S[174];
+        const double W11_7 = S[175];
+        const double W11_8 = S[176];
+        const double W11_9 = S[177];
+        const double W11_10 = S[178];
+        const double W11_11 = S[179];
+        const double W11_12 = S[180];
+        const double W11_13 = S[181];
+        const double W12_0 = S[182];
+        const double W12_1 = S[183];
+        const double W12_2 = S[184];
+        const double W12_3 = S[185];
+        const double W12_4 = S[186];
+        const double W12_5 = S[187];
+        const double W12_6 = S[188];
+        const double W12_7 = S[189];
+        const double W12_8 = S[190];
+        const double W12_9 = S[191];
+        const double W12_10 = S[192];
+        const double W12_11 = S[193];
+        const double W12_12 = S[194];
+        const double W12_13 = S[195];
+        const double W13_0 = S[196];
+        const double W13_1 = S[197];
+        const double W13_2 = S[198];
+        const double W13_3 = S[199];
+        const double W13_4 = S[200];
+        const double W13_5 = S[201];
+        const double W13_6 = S[202];
+        const double W13_7 = S[203];
+        const double W13_8 = S[204];
+        const double W13_9 = S[205];
+        const double W13_10 = S[206];
+        const double W13_11 = S[207];
+        const double W13_12 = S[208];
+        const double W13_13 = S[209];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 14 * b;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector x2 = X[2];
+            const vector x3 = X[3];
+            const vector x4 = X[4];
+            const vector x5 = X[5];
+            const vector x6 = X[6];
+            const vector x7 = X[7];
+            const vector x8 = X[8];
+            const vector x9 = X[9];
+            const vector x10 = X[10];
+            const vector x11 = X[11];
+            const vector x12 = X[12];
+            const vector x13 = X[13];
+            const vector gap = x0 - mu0;
+            const vector round_2 = round_each(0.15915494309189535 * gap);
+            const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
+            const vector gap_2 = x1 - mu1;
+            const vector round_3 = round_each(0.15915494309189535 * gap_2);
+            const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
+            const vector gap_3 = x2 - mu2;
+            const vector round_4 = round_each(0.15915494309189535 * gap_3);
+            const vector v2 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
+            const vector gap_4 = x3 - mu3;
+            const vector round_5 = round_each(0.15915494309189535 * gap_4);
+            const vector v3 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
+            const vector gap_5 = x4 - mu4;
+            const vector round_6 = round_each(0.15915494309189535 * gap_5);
+            const vector v4 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
+            const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+            const vector gap_6 = x5 - mu5;
+            const vector round_7 = round_each(0.15915494309189535 * gap_6);
+            const vector v5 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
+            const vector gap_7 = x6 - mu6;
+            const vector round_8 = round_each(0.15915494309189535 * gap_7);
+            const vector v6 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
+            const vector gap_8 = x7 - mu7;
+            const vector round_9 = round_each(0.15915494309189535 * gap_8);
+            const vector v7 = gap_8 - 6.28125 * round_9 - 0.001935307179586477 * round_9;
+            const vector gap_9 = x8 - mu8;
+            const vector round_10 = round_each(0.15915494309189535 * gap_9);
+            const vector v8 = gap_9 - 6.28125 * round_10 - 0.001935307179586477 * round_10;
+            const vector total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+            const vector gap_10 = x9 - mu9;
+            const vector round_11 = round_each(0.15915494309189535 * gap_10);
+            const vector v9 = gap_10 - 6.28125 * round_11 - 0.001935307179586477 * round_11;
+            const vector gap_11 = x10 - mu10;
+            const vector round_12 = round_each(0.15915494309189535 * gap_11);
+            const vector v10 = gap_11 - 6.28125 * round_12 - 0.001935307179586477 * round_12;
+            const vector gap_12 = x11 - mu11;
+            const vector round_13 = round_each(0.15915494309189535 * gap_12);
+            const vector v11 = gap_12 - 6.28125 * round_13 - 0.001935307179586477 * round_13;
+            const vector gap_13 = x12 - mu12;
+            const vector round_14 = round_each(0.15915494309189535 * gap_13);
+            const vector v12 = gap_13 - 6.28125 * round_14 - 0.001935307179586477 * round_14;
+            const vector total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
+            const vector gap_14 = x13 - mu13;
+            const vector round_15 = round_each(0.15915494309189535 * gap_14);
+            const vector v13 = gap_14 - 6.28125 * round_15 - 0.001935307179586477 * round_15;
+            const vector z0 = total_4 + W0_13 * v13;
+            const vector total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+            const vector total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+            const vector total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12;
+            const vector z1 = total_7 + W1_13 * v13;
+            const vector total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+            const vector total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+            const vector total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12;
+            const vector z2 = total_10 + W2_13 * v13;
+            const vector total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+            const vector total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+            const vector total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12;
+            const vector z3 = total_13 + W3_13 * v13;
+            const vector total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+            const vector total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+            const vector total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12;
+            const vector z4 = total_16 + W4_13 * v13;
+            const vector total_17 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+            const vector total_18 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+            const vector total_19 = total_18 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+            const vector total_20 = total_19 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12;
+            const vector z5 = total_20 + W5_13 * v13;
+            const vector total_21 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+            const vector total_22 = total_21 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+            const vector total_23 = total_22 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12;
+            const vector z6 = total_23 + W6_13 * v13;
+            const vector total_24 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+            const vector total_25 = total_24 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+            const vector total_26 = total_25 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12;
+            const vector z7 = total_26 + W7_13 * v13;
+            const vector total_27 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+            const vector total_28 = total_27 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+            const vector total_29 = total_28 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12;
+            const vector z8 = total_29 + W8_13 * v13;
+            const vector total_30 = total_17 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+            const vector total_31 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4;
+            const vector total_32 = total_31 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8;
+            const vector total_33 = total_32 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12;
+            const vector z9 = total_33 + W9_13 * v13;
+            const vector total_34 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4;
+            const vector total_35 = total_34 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8;
+            const vector total_36 = total_35 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12;
+            const vector z10 = total_36 + W10_13 * v13;
+            const vector total_37 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4;
+            const vector total_38 = total_37 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8;
+            const vector total_39 = total_38 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12;
+            const vector z11 = total_39 + W11_13 * v13;
+            const vector total_40 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4;
+            const vector total_41 = total_40 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8;
+            const vector total_42 = total_41 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12;
+            const vector z12 = total_42 + W12_13 * v13;
+            const vector total_43 = total_30 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12;
+            const vector total_44 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4;
+            const vector total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
+            const vector total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
+            const vector z13 = total_46 + W13_13 * v13;
+            const vector phi = gaussian_each(total_43 + z13 * z13);
+            kept[k][b].z0 = z0;
+            kept[k][b].z1 = z1;
+            kept[k][b].z2 = z2;
+            kept[k][b].z3 = z3;
+            kept[k][b].z4 = z4;
+            kept[k][b].z5 = z5;
+            kept[k][b].z6 = z6;
+            kept[k][b].z7 = z7;
+            kept[k][b].z8 = z8;
+            kept[k][b].z9 = z9;
+            kept[k][b].z10 = z10;
+            kept[k][b].z11 = z11;
+            kept[k][b].z12 = z12;
+            kept[k][b].z13 = z13;
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 211 * near[k];
+        const double W0_0 = S[14];
+        const double W0_1 = S[15];
+        const double W0_2 = S[16];
+        const double W0_3 = S[17];
+        const double W0_4 = S[18];
+        const double W0_5 = S[19];
+        const double W0_6 = S[20];
+        const double W0_7 = S[21];
+        const double W0_8 = S[22];
+        const double W0_9 = S[23];
+        const double W0_10 = S[24];
+        const double W0_11 = S[25];
+        const double W0_12 = S[26];
+        const double W0_13 = S[27];
+        const double W1_0 = S[28];
+        const double W1_1 = S[29];
+        const double W1_2 = S[30];
+        const double W1_3 = S[31];
+        const double W1_4 = S[32];
+        const double W1_5 = S[33];
+        const double W1_6 = S[34];
+        const double W1_7 = S[35];
+        const double W1_8 = S[36];
+        const double W1_9 = S[37];
+        const double W1_10 = S[38];
+        const double W1_11 = S[39];
+        const double W1_12 = S[40];
+        const double W1_13 = S[41];
+        const double W2_0 = S[42];
+        const double W2_1 = S[43];
+        const double W2_2 = S[44];
+        const double W2_3 = S[45];
+        const double W2_4 = S[46];
+        const double W2_5 = S[47];
+        const double W2_6 = S[48];
+        const double W2_7 = S[49];
+        const double W2_8 = S[50];
+        const double W2_9 = S[51];
+        const double W2_10 = S[52];
+        const double W2_11 = S[53];
+        const double W2_12 = S[54];
+        const double W2_13 = S[55];
+        const double W3_0 = S[56];
+        const double W3_1 = S[57];
+        const double W3_2 = S[58];
+        const double W3_3 = S[59];
+        const double W3_4 = S[60];
+        const double W3_5 = S[61];
+        const double W3_6 = S[62];
+        const double W3_7 = S[63];
+        const double W3_8 = S[64];
+        const double W3_9 = S[65];
+        const double W3_10 = S[66];
+        const double W3_11 = S[67];
+        const double W3_12 = S[68];
+        const double W3_13 = S[69];
+        const double W4_0 = S[70];
+        const double W4_1 = S[71];
+        const double W4_2 = S[72];
+        const double W4_3 = S[73];
+        const double W4_4 = S[74];
+        const double W4_5 = S[75];
+        const double W4_6 = S[76];
+        const double W4_7 = S[77];
+        const double W4_8 = S[78];
+        const double W4_9 = S[79];
+        const double W4_10 = S[80];
+        const double W4_11 = S[81];
+        const double W4_12 = S[82];
+        const double W4_13 = S[83];
+        const double W5_0 = S[84];
+        const double W5_1 = S[85];
+        const double W5_2 = S[86];
+        const double W5_3 = S[87];
+        const double W5_4 = S[88];
+        const double W5_5 = S[89];
+        const double W5_6 = S[90];
+        const double W5_7 = S[91];
+        const double W5_8 = S[92];
+        const double W5_9 = S[93];
+        const double W5_10 = S[94];
+        const double W5_11 = S[95];
+        const double W5_12 = S[96];
+        const double W5_13 = S[97];
+        const double W6_0 = S[98];
+        const double W6_1 = S[99];
+        const double W6_2 = S[100];
+        const double W6_3 = S[101];
+        const double W6_4 = S[102];
+        const double W6_5 = S[103];
+        const double W6_6 = S[104];
+        const double W6_7 = S[105];
+        const double W6_8 = S[106];
+        const double W6_9 = S[107];
+        const double W6_10 = S[108];
+        const double W6_11 = S[109];
+        const double W6_12 = S[110];
+        const double W6_13 = S[111];
+        const double W7_0 = S[112];
+        const double W7_1 = S[113];
+        const double W7_2 = S[114];
+        const double W7_3 = S[115];
+        const double W7_4 = S[116];
+        const double W7_5 = S[117];
+        const double W7_6 = S[118];
+        const double W7_7 = S[119];
+        const double W7_8 = S[120];
+        const double W7_9 = S[121];
+        const double W7_10 = S[122];
+        const double W7_11 = S[123];
+        const double W7_12 = S[124];
+        const double W7_13 = S[125];
+        const double W8_0 = S[126];
+        const double W8_1 = S[127];
+        const double W8_2 = S[128];
+        const double W8_3 = S[129];
+        const double W8_4 = S[130];
+        const double W8_5 = S[131];
+        const double W8_6 = S[132];
+        const double W8_7 = S[133];
+        const double W8_8 = S[134];
+        const double W8_9 = S[135];
+        const double W8_10 = S[136];
+        const double W8_11 = S[137];
+        const double W8_12 = S[138];
+        const double W8_13 = S[139];
+        const double W9_0 = S[140];
+        const double W9_1 = S[141];
+        const double W9_2 = S[142];
+        const double W9_3 = S[143];
+        const double W9_4 = S[144];
+        const double W9_5 = S[145];
+        const double W9_6 = S[146];
+        const double W9_7 = S[147];
+        const double W9_8 = S[148];
+        const double W9_9 = S[149];
+        const double W9_10 = S[150];
+        const double W9_11 = S[151];
+        const double W9_12 = S[152];
+        const double W9_13 = S[153];
+        const double W10_0 = S[154];
+        const double W10_1 = S[155];
+        const double W10_2 = S[156];
+        const double W10_3 = S[157];
+        const double W10_4 = S[158];
+        const double W10_5 = S[159];
+        const double W10_6 = S[160];
+        const double W10_7 = S[161];
+        const double W10_8 = S[162];
+        const double W10_9 = S[163];
+        const double W10_10 = S[164];
+        const double W10_11 = S[165];
+        const double W10_12 = S[166];
+        const double W10_13 = S[167];
+        const double W11_0 = S[168];
+        const double W11_1 = S[169];
+        const double W11_2 = S[170];
+        const double W11_3 = S[171];
+        const double W11_4 = S[172];
+        const double W11_5 = S[173];
+        const double W11_6 = S[174];
+        const double W11_7 = S[175];
+        const double W11_8 = S[176];
+        const double W11_9 = S[177];
+        const double W11_10 = S[178];
+        const double W11_11 = S[179];
+        const double W11_12 = S[180];
+        const double W11_13 = S[181];
+        const double W12_0 = S[182];
+        const double W12_1 = S[183];
+        const double W12_2 = S[184];
+        const double W12_3 = S[185];
+        const double W12_4 = S[186];
+        const double W12_5 = S[187];
+        const double W12_6 = S[188];
+        const double W12_7 = S[189];
+        const double W12_8 = S[190];
+        const double W12_9 = S[191];
+        const double W12_10 = S[192];
+        const double W12_11 = S[193];
+        const double W12_12 = S[194];
+        const double W12_13 = S[195];
+        const double W13_0 = S[196];
+        const double W13_1 = S[197];
+        const double W13_2 = S[198];
+        const double W13_3 = S[199];
+        const double W13_4 = S[200];
+        const double W13_5 = S[201];
+        const double W13_6 = S[202];
+        const double W13_7 = S[203];
+        const double W13_8 = S[204];
+        const double W13_9 = S[205];
+        const double W13_10 = S[206];
+        const double W13_11 = S[207];
+        const double W13_12 = S[208];
+        const double W13_13 = S[209];
+        const double amplitude = S[210];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector *value = values + b;
+            vector *slope = slopes + 14 * b;
+            const vector z0 = kept[k][b].z0;
+            const vector z1 = kept[k][b].z1;
+            const vector z2 = kept[k][b].z2;
+            const vector z3 = kept[k][b].z3;
+            const vector z4 = kept[k][b].z4;
+            const vector z5 = kept[k][b].z5;
+            const vector z6 = kept[k][b].z6;
+            const vector z7 = kept[k][b].z7;
+            const vector z8 = kept[k][b].z8;
+            const vector z9 = kept[k][b].z9;
+            const vector z10 = kept[k][b].z10;
+            const vector z11 = kept[k][b].z11;
+            const vector z12 = kept[k][b].z12;
+            const vector z13 = kept[k][b].z13;
+            const vector phi = kept[k][b].phi;
+            const vector phi_2 = amplitude * phi;
+            const vector z13_product = z13 * phi_2;
+            const vector z12_product = z12 * phi_2;
+            const vector z11_product = z11 * phi_2;
+            const vector z10_product = z10 * phi_2;
+            const vector z9_product = z9 * phi_2;
+            const vector z8_product = z8 * phi_2;
+            const vector z7_product = z7 * phi_2;
+            const vector z6_product = z6 * phi_2;
+            const vector z5_product = z5 * phi_2;
+            const vector z4_product = z4 * phi_2;
+            const vector z3_product = z3 * phi_2;
+            const vector z2_product = z2 * phi_2;
+            const vector z1_product = z1 * phi_2;
+            const vector z0_product = z0 * phi_2;
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] - W13_0 * z13_product - W12_0 * z12_product - W11_0 * z11_product - W10_0 *
+                    z10_product - W9_0 * z9_product - W8_0 * z8_product - W7_0 * z7_product - W6_0 * z6_product - W5_0 *
+                    z5_product - W4_0 * z4_product - W3_0 * z3_product - W2_0 * z2_product - W1_0 * z1_product - W0_0 *
+                    z0_product;
+            slope[1] = slope[1] - W13_1 * z13_product - W12_1 * z12_product - W11_1 * z11_product - W10_1 *
+                    z10_product - W9_1 * z9_product - W8_1 * z8_product - W7_1 * z7_product - W6_1 * z6_product - W5_1 *
+                    z5_product - W4_1 * z4_product - W3_1 * z3_product - W2_1 * z2_product - W1_1 * z1_product - W0_1 *
+                    z0_product;
+            slope[2] = slope[2] - W13_2 * z13_product - W12_2 * z12_product - W11_2 * z11_product - W10_2 *
+                    z10_product - W9_2 * z9_product - W8_2 * z8_product - W7_2 * z7_product - W6_2 * z6_product - W5_2 *
+                    z5_product - W4_2 * z4_product - W3_2 * z3_product - W2_2 * z2_product - W1_2 * z1_product - W0_2 *
+                    z0_product;
+            slope[3] = slope[3] - W13_3 * z13_product - W12_3 * z12_product - W11_3 * z11_product - W10_3 *
+                    z10_product - W9_3 * z9_product - W8_3 * z8_product - W7_3 * z7_product - W6_3 * z6_product - W5_3 *
+                    z5_product - W4_3 * z4_product - W3_3 * z3_product - W2_3 * z2_product - W1_3 * z1_product - W0_3 *
+                    z0_product;
+            slope[4] = slope[4] - W13_4 * z13_product - W12_4 * z12_product - W11_4 * z11_product - W10_4 *
+                    z10_product - W9_4 * z9_product - W8_4 * z8_product - W7_4 * z7_product - W6_4 * z6_product - W5_4 *
+                    z5_product - W4_4 * z4_product - W3_4 * z3_product - W2_4 * z2_product - W1_4 * z1_product - W0_4 *
+                    z0_product;
+            slope[5] = slope[5] - W13_5 * z13_product - W12_5 * z12_product - W11_5 * z11_product - W10_5 *
+                    z10_product - W9_5 * z9_product - W8_5 * z8_product - W7_5 * z7_product - W6_5 * z6_product - W5_5 *
+                    z5_product - W4_5 * z4_product - W3_5 * z3_product - W2_5 * z2_product - W1_5 * z1_product - W0_5 *
+                    z0_product;
+            slope[6] = slope[6] - W13_6 * z13_product - W12_6 * z12_product - W11_6 * z11_product - W10_6 *
+                    z10_product - W9_6 * z9_product - W8_6 * z8_product - W7_6 * z7_product - W6_6 * z6_product - W5_6 *
+                    z5_product - W4_6 * z4_product - W3_6 * z3_product - W2_6 * z2_product - W1_6 * z1_product - W0_6 *
+                    z0_product;
+            slope[7] = slope[7] - W13_7 * z13_product - W12_7 * z12_product - W11_7 * z11_product - W10_7 *
+                    z10_product - W9_7 * z9_product - W8_7 * z8_product - W7_7 * z7_product - W6_7 * z6_product - W5_7 *
+                    z5_product - W4_7 * z4_product - W3_7 * z3_product - W2_7 * z2_product - W1_7 * z1_product - W0_7 *
+                    z0_product;
+            slope[8] = slope[8] - W13_8 * z13_product - W12_8 * z12_product - W11_8 * z11_product - W10_8 *
+                    z10_product - W9_8 * z9_product - W8_8 * z8_product - W7_8 * z7_product - W6_8 * z6_product - W5_8 *
+                    z5_product - W4_8 * z4_product - W3_8 * z3_product - W2_8 * z2_product - W1_8 * z1_product - W0_8 *
+                    z0_product;
+            slope[9] = slope[9] - W13_9 * z13_product - W12_9 * z12_product - W11_9 * z11_product - W10_9 *
+                    z10_product - W9_9 * z9_product - W8_9 * z8_product - W7_9 * z7_product - W6_9 * z6_product - W5_9 *
+                    z5_product - W4_9 * z4_product - W3_9 * z3_product - W2_9 * z2_product - W1_9 * z1_product - W0_9 *
+                    z0_product;
+            slope[10] = slope[10] - W13_10 * z13_product - W12_10 * z12_product - W11_10 * z11_product - W10_10 *
+                    z10_product - W9_10 * z9_product - W8_10 * z8_product - W7_10 * z7_product - W6_10 * z6_product -
+                    W5_10 * z5_product - W4_10 * z4_product - W3_10 * z3_product - W2_10 * z2_product - W1_10 * z1_product
+                    - W0_10 * z0_product;
+            slope[11] = slope[11] - W13_11 * z13_product - W12_11 * z12_product - W11_11 * z11_product - W10_11 *
+                    z10_product - W9_11 * z9_product - W8_11 * z8_product - W7_11 * z7_product - W6_11 * z6_product -
+                    W5_11 * z5_product - W4_11 * z4_product - W3_11 * z3_product - W2_11 * z2_product - W1_11 * z1_product
+                    - W0_11 * z0_product;
+            slope[12] = slope[12] - W13_12 * z13_product - W12_12 * z12_product - W11_12 * z11_product - W10_12 *
+                    z10_product - W9_12 * z9_product - W8_12 * z8_product - W7_12 * z7_product - W6_12 * z6_product -
+                    W5_12 * z5_product - W4_12 * z4_product - W3_12 * z3_product - W2_12 * z2_product - W1_12 * z1_product
+                    - W0_12 * z0_product;
+            slope[13] = slope[13] - W13_13 * z13_product - W12_13 * z12_product - W11_13 * z11_product - W10_13 *
+                    z10_product - W9_13 * z9_product - W8_13 * z8_product - W7_13 * z7_product - W6_13 * z6_product -
+                    W5_13 * z5_product - W4_13 * z4_product - W3_13 * z3_product - W2_13 * z2_product - W1_13 * z1_product
+                    - W0_13 * z0_product;
+        }
+    }
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -1413,6 +1684,1146 @@ OUTLINE void pair_gradient_vjp(
     slope_bar[11] = gradient_bar11;
     slope_bar[12] = gradient_bar12;
     slope_bar[13] = gradient_bar13;
+}
+
+/*
+ * The factors of whose products are what is summed over the points, for some vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
+OUTLINE void pair_factors(
+    size_t count, const vector *points, const uint32_t *near, const double *S, vector *factors) {
+    struct { vector v0, v1, v2, v3, v4, v5, v6, v7, v8, v9, v10, v11, v12, v13, z0, z1, z2, z3, z4, z5, z6,
+            z7, z8, z9, z10, z11, z12, z13, phi; } kept[6];
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 29 * (size_t)near[i];
+        const vector x0 = X[0];
+        const vector x1 = X[1];
+        const vector x2 = X[2];
+        const vector x3 = X[3];
+        const vector x4 = X[4];
+        const vector x5 = X[5];
+        const vector x6 = X[6];
+        const vector x7 = X[7];
+        const vector x8 = X[8];
+        const vector x9 = X[9];
+        const vector x10 = X[10];
+        const vector x11 = X[11];
+        const vector x12 = X[12];
+        const vector x13 = X[13];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double mu2 = S[2];
+        const double mu3 = S[3];
+        const double mu4 = S[4];
+        const double mu5 = S[5];
+        const double mu6 = S[6];
+        const double mu7 = S[7];
+        const double mu8 = S[8];
+        const double mu9 = S[9];
+        const double mu10 = S[10];
+        const double mu11 = S[11];
+        const double mu12 = S[12];
+        const double mu13 = S[13];
+        const double W0_0 = S[14];
+        const double W0_1 = S[15];
+        const double W0_2 = S[16];
+        const double W0_3 = S[17];
+        const double W0_4 = S[18];
+        const double W0_5 = S[19];
+        const double W0_6 = S[20];
+        const double W0_7 = S[21];
+        const double W0_8 = S[22];
+        const double W0_9 = S[23];
+        const double W0_10 = S[24];
+        const double W0_11 = S[25];
+        const double W0_12 = S[26];
+        const double W0_13 = S[27];
+        const double W1_0 = S[28];
+        const double W1_1 = S[29];
+        const double W1_2 = S[30];
+        const double W1_3 = S[31];
+        const double W1_4 = S[32];
+        const double W1_5 = S[33];
+        const double W1_6 = S[34];
+        const double W1_7 = S[35];
+        const double W1_8 = S[36];
+        const double W1_9 = S[37];
+        const double W1_10 = S[38];
+        const double W1_11 = S[39];
+        const double W1_12 = S[40];
+        const double W1_13 = S[41];
+        const double W2_0 = S[42];
+        const double W2_1 = S[43];
+        const double W2_2 = S[44];
+        const double W2_3 = S[45];
+        const double W2_4 = S[46];
+        const double W2_5 = S[47];
+        const double W2_6 = S[48];
+        const double W2_7 = S[49];
+        const double W2_8 = S[50];
+        const double W2_9 = S[51];
+        const double W2_10 = S[52];
+        const double W2_11 = S[53];
+        const double W2_12 = S[54];
+        const double W2_13 = S[55];
+        const double W3_0 = S[56];
+        const double W3_1 = S[57];
+        const double W3_2 = S[58];
+        const double W3_3 = S[59];
+        const double W3_4 = S[60];
+        const double W3_5 = S[61];
+        const double W3_6 = S[62];
+        const double W3_7 = S[63];
+        const double W3_8 = S[64];
+        const double W3_9 = S[65];
+        const double W3_10 = S[66];
+        const double W3_11 = S[67];
+        const double W3_12 = S[68];
+        const double W3_13 = S[69];
+        const double W4_0 = S[70];
+        const double W4_1 = S[71];
+        const double W4_2 = S[72];
+        const double W4_3 = S[73];
+        const double W4_4 = S[74];
+        const double W4_5 = S[75];
+        const double W4_6 = S[76];
+        const double W4_7 = S[77];
+        const double W4_8 = S[78];
+        const double W4_9 = S[79];
+        const double W4_10 = S[80];
+        const double W4_11 = S[81];
+        const double W4_12 = S[82];
+        const double W4_13 = S[83];
+        const double W5_0 = S[84];
+        const double W5_1 = S[85];
+        const double W5_2 = S[86];
+        const double W5_3 = S[87];
+        const double W5_4 = S[88];
+        const double W5_5 = S[89];
+        const double W5_6 = S[90];
+        const double W5_7 = S[91];
+        const double W5_8 = S[92];
+        const double W5_9 = S[93];
+        const double W5_10 = S[94];
+        const double W5_11 = S[95];
+        const double W5_12 = S[96];
+        const double W5_13 = S[97];
+        const double W6_0 = S[98];
+        const double W6_1 = S[99];
+        const double W6_2 = S[100];
+        const double W6_3 = S[101];
+        const double W6_4 = S[102];
+        const double W6_5 = S[103];
+        const double W6_6 = S[104];
+        const double W6_7 = S[105];
+        const double W6_8 = S[106];
+        const double W6_9 = S[107];
+        const double W6_10 = S[108];
+        const double W6_11 = S[109];
+        const double W6_12 = S[110];
+        const double W6_13 = S[111];
+        const double W7_0 = S[112];
+        const double W7_1 = S[113];
+        const double W7_2 = S[114];
+        const double W7_3 = S[115];
+        const double W7_4 = S[116];
+        const double W7_5 = S[117];
+        const double W7_6 = S[118];
+        const double W7_7 = S[119];
+        const double W7_8 = S[120];
+        const double W7_9 = S[121];
+        const double W7_10 = S[122];
+        const double W7_11 = S[123];
+        const double W7_12 = S[124];
+        const double W7_13 = S[125];
+        const double W8_0 = S[126];
+        const double W8_1 = S[127];
+        const double W8_2 = S[128];
+        const double W8_3 = S[129];
+        const double W8_4 = S[130];
+        const double W8_5 = S[131];
+        const double W8_6 = S[132];
+        const double W8_7 = S[133];
+        const double W8_8 = S[134];
+        const double W8_9 = S[135];
+        const double W8_10 = S[136];
+        const double W8_11 = S[137];
+        const double W8_12 = S[138];
+        const double W8_13 = S[139];
+        const double W9_0 = S[140];
+        const double W9_1 = S[141];
+        const double W9_2 = S[142];
+        const double W9_3 = S[143];
+        const double W9_4 = S[144];
+        const double W9_5 = S[145];
+        const double W9_6 = S[146];
+        const double W9_7 = S[147];
+        const double W9_8 = S[148];
+        const double W9_9 = S[149];
+        const double W9_10 = S[150];
+        const double W9_11 = S[151];
+        const double W9_12 = S[152];
+        const double W9_13 = S[153];
+        const double W10_0 = S[154];
+        const double W10_1 = S[155];
+        const double W10_2 = S[156];
+        const double W10_3 = S[157];
+        const double W10_4 = S[158];
+        const double W10_5 = S[159];
+        const double W10_6 = S[160];
+        const double W10_7 = S[161];
+        const double W10_8 = S[162];
+        const double W10_9 = S[163];
+        const double W10_10 = S[164];
+        const double W10_11 = S[165];
+        const double W10_12 = S[166];
+        const double W10_13 = S[167];
+        const double W11_0 = S[168];
+        const double W11_1 = S[169];
+        const double W11_2 = S[170];
+        const double W11_3 = S[171];
+        const double W11_4 = S[172];
+        const double W11_5 = S[173];
+        const double W11_6 = S[174];
+        const double W11_7 = S[175];
+        const double W11_8 = S[176];
+        const double W11_9 = S[177];
+        const double W11_10 = S[178];
+        const double W11_11 = S[179];
+        const double W11_12 = S[180];
+        const double W11_13 = S[181];
+        const double W12_0 = S[182];
+        const double W12_1 = S[183];
+        const double W12_2 = S[184];
+        const double W12_3 = S[185];
+        const double W12_4 = S[186];
+        const double W12_5 = S[187];
+        const double W12_6 = S[188];
+        const double W12_7 = S[189];
+        const double W12_8 = S[190];
+        const double W12_9 = S[191];
+        const double W12_10 = S[192];
+        const double W12_11 = S[193];
+        const double W12_12 = S[194];
+        const double W12_13 = S[195];
+        const double W13_0 = S[196];
+        const double W13_1 = S[197];
+        const double W13_2 = S[198];
+        const double W13_3 = S[199];
+        const double W13_4 = S[200];
+        const double W13_5 = S[201];
+        const double W13_6 = S[202];
+        const double W13_7 = S[203];
+        const double W13_8 = S[204];
+        const double W13_9 = S[205];
+        const double W13_10 = S[206];
+        const double W13_11 = S[207];
+        const double W13_12 = S[208];
+        const double W13_13 = S[209];
+        const vector gap = x0 - mu0;
+        const vector round_2 = round_each(0.15915494309189535 * gap);
+        const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
+        const vector gap_2 = x1 - mu1;
+        const vector round_3 = round_each(0.15915494309189535 * gap_2);
+        const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
+        const vector gap_3 = x2 - mu2;
+        const vector round_4 = round_each(0.15915494309189535 * gap_3);
+        const vector v2 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
+        const vector gap_4 = x3 - mu3;
+        const vector round_5 = round_each(0.15915494309189535 * gap_4);
+        const vector v3 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
+        const vector gap_5 = x4 - mu4;
+        const vector round_6 = round_each(0.15915494309189535 * gap_5);
+        const vector v4 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
+        const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+        const vector gap_6 = x5 - mu5;
+        const vector round_7 = round_each(0.15915494309189535 * gap_6);
+        const vector v5 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
+        const vector gap_7 = x6 - mu6;
+        const vector round_8 = round_each(0.15915494309189535 * gap_7);
+        const vector v6 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
+        const vector gap_8 = x7 - mu7;
+        const vector round_9 = round_each(0.15915494309189535 * gap_8);
+        const vector v7 = gap_8 - 6.28125 * round_9 - 0.001935307179586477 * round_9;
+        const vector gap_9 = x8 - mu8;
+        const vector round_10 = round_each(0.15915494309189535 * gap_9);
+        const vector v8 = gap_9 - 6.28125 * round_10 - 0.001935307179586477 * round_10;
+        const vector total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+        const vector gap_10 = x9 - mu9;
+        const vector round_11 = round_each(0.15915494309189535 * gap_10);
+        const vector v9 = gap_10 - 6.28125 * round_11 - 0.001935307179586477 * round_11;
+        const vector gap_11 = x10 - mu10;
+        const vector round_12 = round_each(0.15915494309189535 * gap_11);
+        const vector v10 = gap_11 - 6.28125 * round_12 - 0.001935307179586477 * round_12;
+        const vector gap_12 = x11 - mu11;
+        const vector round_13 = round_each(0.15915494309189535 * gap_12);
+        const vector v11 = gap_12 - 6.28125 * round_13 - 0.001935307179586477 * round_13;
+        const vector gap_13 = x12 - mu12;
+        const vector round_14 = round_each(0.15915494309189535 * gap_13);
+        const vector v12 = gap_13 - 6.28125 * round_14 - 0.001935307179586477 * round_14;
+        const vector total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
+        const vector gap_14 = x13 - mu13;
+        const vector round_15 = round_each(0.15915494309189535 * gap_14);
+        const vector v13 = gap_14 - 6.28125 * round_15 - 0.001935307179586477 * round_15;
+        const vector z0 = total_4 + W0_13 * v13;
+        const vector total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+        const vector total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+        const vector total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12;
+        const vector z1 = total_7 + W1_13 * v13;
+        const vector total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+        const vector total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+        const vector total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12;
+        const vector z2 = total_10 + W2_13 * v13;
+        const vector total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+        const vector total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+        const vector total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12;
+        const vector z3 = total_13 + W3_13 * v13;
+        const vector total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+        const vector total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+        const vector total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12;
+        const vector z4 = total_16 + W4_13 * v13;
+        const vector total_17 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+        const vector total_18 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+        const vector total_19 = total_18 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+        const vector total_20 = total_19 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12;
+        const vector z5 = total_20 + W5_13 * v13;
+        const vector total_21 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+        const vector total_22 = total_21 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+        const vector total_23 = total_22 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12;
+        const vector z6 = total_23 + W6_13 * v13;
+        const vector total_24 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+        const vector total_25 = total_24 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+        const vector total_26 = total_25 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12;
+        const vector z7 = total_26 + W7_13 * v13;
+        const vector total_27 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+        const vector total_28 = total_27 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+        const vector total_29 = total_28 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12;
+        const vector z8 = total_29 + W8_13 * v13;
+        const vector total_30 = total_17 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+        const vector total_31 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4;
+        const vector total_32 = total_31 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8;
+        const vector total_33 = total_32 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12;
+        const vector z9 = total_33 + W9_13 * v13;
+        const vector total_34 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4;
+        const vector total_35 = total_34 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8;
+        const vector total_36 = total_35 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12;
+        const vector z10 = total_36 + W10_13 * v13;
+        const vector total_37 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4;
+        const vector total_38 = total_37 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8;
+        const vector total_39 = total_38 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12;
+        const vector z11 = total_39 + W11_13 * v13;
+        const vector total_40 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4;
+        const vector total_41 = total_40 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8;
+        const vector total_42 = total_41 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12;
+        const vector z12 = total_42 + W12_13 * v13;
+        const vector total_43 = total_30 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12;
+        const vector total_44 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4;
+        const vector total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
+        const vector total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
+        const vector z13 = total_46 + W13_13 * v13;
+        const vector phi = gaussian_each(total_43 + z13 * z13);
+        kept[i].v0 = v0;
+        kept[i].v1 = v1;
+        kept[i].v2 = v2;
+        kept[i].v3 = v3;
+        kept[i].v4 = v4;
+        kept[i].v5 = v5;
+        kept[i].v6 = v6;
+        kept[i].v7 = v7;
+        kept[i].v8 = v8;
+        kept[i].v9 = v9;
+        kept[i].v10 = v10;
+        kept[i].v11 = v11;
+        kept[i].v12 = v12;
+        kept[i].v13 = v13;
+        kept[i].z0 = z0;
+        kept[i].z1 = z1;
+        kept[i].z2 = z2;
+        kept[i].z3 = z3;
+        kept[i].z4 = z4;
+        kept[i].z5 = z5;
+        kept[i].z6 = z6;
+        kept[i].z7 = z7;
+        kept[i].z8 = z8;
+        kept[i].z9 = z9;
+        kept[i].z10 = z10;
+        kept[i].z11 = z11;
+        kept[i].z12 = z12;
+        kept[i].z13 = z13;
+        kept[i].phi = phi;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *value_bar = points + 29 * (size_t)near[i] + 14;
+        const vector *slope_bar = points + 29 * (size_t)near[i] + 14 + 1;
+        vector *factor = factors + 57 * i;
+        const vector v0 = kept[i].v0;
+        const vector v1 = kept[i].v1;
+        const vector v2 = kept[i].v2;
+        const vector v3 = kept[i].v3;
+        const vector v4 = kept[i].v4;
+        const vector v5 = kept[i].v5;
+        const vector v6 = kept[i].v6;
+        const vector v7 = kept[i].v7;
+        const vector v8 = kept[i].v8;
+        const vector v9 = kept[i].v9;
+        const vector v10 = kept[i].v10;
+        const vector v11 = kept[i].v11;
+        const vector v12 = kept[i].v12;
+        const vector v13 = kept[i].v13;
+        const vector z0 = kept[i].z0;
+        const vector z1 = kept[i].z1;
+        const vector z2 = kept[i].z2;
+        const vector z3 = kept[i].z3;
+        const vector z4 = kept[i].z4;
+        const vector z5 = kept[i].z5;
+        const vector z6 = kept[i].z6;
+        const vector z7 = kept[i].z7;
+        const vector z8 = kept[i].z8;
+        const vector z9 = kept[i].z9;
+        const vector z10 = kept[i].z10;
+        const vector z11 = kept[i].z11;
+        const vector z12 = kept[i].z12;
+        const vector z13 = kept[i].z13;
+        const vector phi = kept[i].phi;
+        const double W0_0 = S[14];
+        const double W0_1 = S[15];
+        const double W0_2 = S[16];
+        const double W0_3 = S[17];
+        const double W0_4 = S[18];
+        const double W0_5 = S[19];
+        const double W0_6 = S[20];
+        const double W0_7 = S[21];
+        const double W0_8 = S[22];
+        const double W0_9 = S[23];
+        const double W0_10 = S[24];
+        const double W0_11 = S[25];
+        const double W0_12 = S[26];
+        const double W0_13 = S[27];
+        const double W1_0 = S[28];
+        const double W1_1 = S[29];
+        const double W1_2 = S[30];
+        const double W1_3 = S[31];
+        const double W1_4 = S[32];
+        const double W1_5 = S[33];
+        const double W1_6 = S[34];
+        const double W1_7 = S[35];
+        const double W1_8 = S[36];
+        const double W1_9 = S[37];
+        const double W1_10 = S[38];
+        const double W1_11 = S[39];
+        const double W1_12 = S[40];
+        const double W1_13 = S[41];
+        const double W2_0 = S[42];
+        const double W2_1 = S[43];
+        const double W2_2 = S[44];
+        const double W2_3 = S[45];
+        const double W2_4 = S[46];
+        const double W2_5 = S[47];
+        const double W2_6 = S[48];
+        const double W2_7 = S[49];
+        const double W2_8 = S[50];
+        const double W2_9 = S[51];
+        const double W2_10 = S[52];
+        const double W2_11 = S[53];
+        const double W2_12 = S[54];
+        const double W2_13 = S[55];
+        const double W3_0 = S[56];
+        const double W3_1 = S[57];
+        const double W3_2 = S[58];
+        const double W3_3 = S[59];
+        const double W3_4 = S[60];
+        const double W3_5 = S[61];
+        const double W3_6 = S[62];
+        const double W3_7 = S[63];
+        const double W3_8 = S[64];
+        const double W3_9 = S[65];
+        const double W3_10 = S[66];
+        const double W3_11 = S[67];
+        const double W3_12 = S[68];
+        const double W3_13 = S[69];
+        const double W4_0 = S[70];
+        const double W4_1 = S[71];
+        const double W4_2 = S[72];
+        const double W4_3 = S[73];
+        const double W4_4 = S[74];
+        const double W4_5 = S[75];
+        const double W4_6 = S[76];
+        const double W4_7 = S[77];
+        const double W4_8 = S[78];
+        const double W4_9 = S[79];
+        const double W4_10 = S[80];
+        const double W4_11 = S[81];
+        const double W4_12 = S[82];
+        const double W4_13 = S[83];
+        const double W5_0 = S[84];
+        const double W5_1 = S[85];
+        const double W5_2 = S[86];
+        const double W5_3 = S[87];
+        const double W5_4 = S[88];
+        const double W5_5 = S[89];
+        const double W5_6 = S[90];
+        const double W5_7 = S[91];
+        const double W5_8 = S[92];
+        const double W5_9 = S[93];
+        const double W5_10 = S[94];
+        const double W5_11 = S[95];
+        const double W5_12 = S[96];
+        const double W5_13 = S[97];
+        const double W6_0 = S[98];
+        const double W6_1 = S[99];
+        const double W6_2 = S[100];
+        const double W6_3 = S[101];
+        const double W6_4 = S[102];
+        const double W6_5 = S[103];
+        const double W6_6 = S[104];
+        const double W6_7 = S[105];
+        const double W6_8 = S[106];
+        const double W6_9 = S[107];
+        const double W6_10 = S[108];
+        const double W6_11 = S[109];
+        const double W6_12 = S[110];
+        const double W6_13 = S[111];
+        const double W7_0 = S[112];
+        const double W7_1 = S[113];
+        const double W7_2 = S[114];
+        const double W7_3 = S[115];
+        const double W7_4 = S[116];
+        const double W7_5 = S[117];
+        const double W7_6 = S[118];
+        const double W7_7 = S[119];
+        const double W7_8 = S[120];
+        const double W7_9 = S[121];
+        const double W7_10 = S[122];
+        const double W7_11 = S[123];
+        const double W7_12 = S[124];
+        const double W7_13 = S[125];
+        const double W8_0 = S[126];
+        const double W8_1 = S[127];
+        const double W8_2 = S[128];
+        const double W8_3 = S[129];
+        const double W8_4 = S[130];
+        const double W8_5 = S[131];
+        const double W8_6 = S[132];
+        const double W8_7 = S[133];
+        const double W8_8 = S[134];
+        const double W8_9 = S[135];
+        const double W8_10 = S[136];
+        const double W8_11 = S[137];
+        const double W8_12 = S[138];
+        const double W8_13 = S[139];
+        const double W9_0 = S[140];
+        const double W9_1 = S[141];
+        const double W9_2 = S[142];
+        const double W9_3 = S[143];
+        const double W9_4 = S[144];
+        const double W9_5 = S[145];
+        const double W9_6 = S[146];
+        const double W9_7 = S[147];
+        const double W9_8 = S[148];
+        const double W9_9 = S[149];
+        const double W9_10 = S[150];
+        const double W9_11 = S[151];
+        const double W9_12 = S[152];
+        const double W9_13 = S[153];
+        const double W10_0 = S[154];
+        const double W10_1 = S[155];
+        const double W10_2 = S[156];
+        const double W10_3 = S[157];
+        const double W10_4 = S[158];
+        const double W10_5 = S[159];
+        const double W10_6 = S[160];
+        const double W10_7 = S[161];
+        const double W10_8 = S[162];
+        const double W10_9 = S[163];
+        const double W10_10 = S[164];
+        const double W10_11 = S[165];
+        const double W10_12 = S[166];
+        const double W10_13 = S[167];
+        const double W11_0 = S[168];
+        const double W11_1 = S[169];
+        const double W11_2 = S[170];
+        const double W11_3 = S[171];
+        const double W11_4 = S[172];
+        const double W11_5 = S[173];
+        const double W11_6 = S[174];
+        const double W11_7 = S[175];
+        const double W11_8 = S[176];
+        const double W11_9 = S[177];
+        const double W11_10 = S[178];
+        const double W11_11 = S[179];
+        const double W11_12 = S[180];
+        const double W11_13 = S[181];
+        const double W12_0 = S[182];
+        const double W12_1 = S[183];
+        const double W12_2 = S[184];
+        const double W12_3 = S[185];
+        const double W12_4 = S[186];
+        const double W12_5 = S[187];
+        const double W12_6 = S[188];
+        const double W12_7 = S[189];
+        const double W12_8 = S[190];
+        const double W12_9 = S[191];
+        const double W12_10 = S[192];
+        const double W12_11 = S[193];
+        const double W12_12 = S[194];
+        const double W12_13 = S[195];
+        const double W13_0 = S[196];
+        const double W13_1 = S[197];
+        const double W13_2 = S[198];
+        const double W13_3 = S[199];
+        const double W13_4 = S[200];
+        const double W13_5 = S[201];
+        const double W13_6 = S[202];
+        const double W13_7 = S[203];
+        const double W13_8 = S[204];
+        const double W13_9 = S[205];
+        const double W13_10 = S[206];
+        const double W13_11 = S[207];
+        const double W13_12 = S[208];
+        const double W13_13 = S[209];
+        const vector its_value_bar = value_bar[0];
+        const vector x0_bar = slope_bar[0];
+        const vector x1_bar = slope_bar[1];
+        const vector x2_bar = slope_bar[2];
+        const vector x3_bar = slope_bar[3];
+        const vector x4_bar = slope_bar[4];
+        const vector x5_bar = slope_bar[5];
+        const vector x6_bar = slope_bar[6];
+        const vector x7_bar = slope_bar[7];
+        const vector x8_bar = slope_bar[8];
+        const vector x9_bar = slope_bar[9];
+        const vector x10_bar = slope_bar[10];
+        const vector x11_bar = slope_bar[11];
+        const vector x12_bar = slope_bar[12];
+        const vector x13_bar = slope_bar[13];
+        const vector gap_15 = -(W13_0 * x0_bar) - W13_1 * x1_bar - W13_2 * x2_bar - W13_3 * x3_bar;
+        const vector gap_16 = gap_15 - W13_4 * x4_bar - W13_5 * x5_bar - W13_6 * x6_bar - W13_7 * x7_bar;
+        const vector gap_17 = gap_16 - W13_8 * x8_bar - W13_9 * x9_bar - W13_10 * x10_bar - W13_11 * x11_bar;
+        const vector gap_18 = gap_17 - W13_12 * x12_bar - W13_13 * x13_bar;
+        const vector gap_19 = -(W0_0 * x0_bar) - W0_1 * x1_bar - W0_2 * x2_bar - W0_3 * x3_bar;
+        const vector gap_20 = gap_19 - W0_4 * x4_bar - W0_5 * x5_bar - W0_6 * x6_bar - W0_7 * x7_bar;
+        const vector gap_21 = gap_20 - W0_8 * x8_bar - W0_9 * x9_bar - W0_10 * x10_bar - W0_11 * x11_bar;
+        const vector gap_22 = gap_21 - W0_12 * x12_bar - W0_13 * x13_bar;
+        const vector gap_23 = -(W1_0 * x0_bar) - W1_1 * x1_bar - W1_2 * x2_bar - W1_3 * x3_bar;
+        const vector gap_24 = gap_23 - W1_4 * x4_bar - W1_5 * x5_bar - W1_6 * x6_bar - W1_7 * x7_bar;
+        const vector gap_25 = gap_24 - W1_8 * x8_bar - W1_9 * x9_bar - W1_10 * x10_bar - W1_11 * x11_bar;
+        const vector gap_26 = gap_25 - W1_12 * x12_bar - W1_13 * x13_bar;
+        const vector gap_27 = -(W2_0 * x0_bar) - W2_1 * x1_bar - W2_2 * x2_bar - W2_3 * x3_bar;
+        const vector gap_28 = gap_27 - W2_4 * x4_bar - W2_5 * x5_bar - W2_6 * x6_bar - W2_7 * x7_bar;
+        const vector gap_29 = gap_28 - W2_8 * x8_bar - W2_9 * x9_bar - W2_10 * x10_bar - W2_11 * x11_bar;
+        const vector gap_30 = gap_29 - W2_12 * x12_bar - W2_13 * x13_bar;
+        const vector gap_31 = -(W3_0 * x0_bar) - W3_1 * x1_bar - W3_2 * x2_bar - W3_3 * x3_bar;
+        const vector gap_32 = gap_31 - W3_4 * x4_bar - W3_5 * x5_bar - W3_6 * x6_bar - W3_7 * x7_bar;
+        const vector gap_33 = gap_32 - W3_8 * x8_bar - W3_9 * x9_bar - W3_10 * x10_bar - W3_11 * x11_bar;
+        const vector gap_34 = gap_33 - W3_12 * x12_bar - W3_13 * x13_bar;
+        const vector total_47 = its_value_bar + z0 * gap_22 + z1 * gap_26 + z2 * gap_30 + z3 * gap_34;
+        const vector gap_35 = -(W4_0 * x0_bar) - W4_1 * x1_bar - W4_2 * x2_bar - W4_3 * x3_bar;
+        const vector gap_36 = gap_35 - W4_4 * x4_bar - W4_5 * x5_bar - W4_6 * x6_bar - W4_7 * x7_bar;
+        const vector gap_37 = gap_36 - W4_8 * x8_bar - W4_9 * x9_bar - W4_10 * x10_bar - W4_11 * x11_bar;
+        const vector gap_38 = gap_37 - W4_12 * x12_bar - W4_13 * x13_bar;
+        const vector gap_39 = -(W5_0 * x0_bar) - W5_1 * x1_bar - W5_2 * x2_bar - W5_3 * x3_bar;
+        const vector gap_40 = gap_39 - W5_4 * x4_bar - W5_5 * x5_bar - W5_6 * x6_bar - W5_7 * x7_bar;
+        const vector gap_41 = gap_40 - W5_8 * x8_bar - W5_9 * x9_bar - W5_10 * x10_bar - W5_11 * x11_bar;
+        const vector gap_42 = gap_41 - W5_12 * x12_bar - W5_13 * x13_bar;
+        const vector gap_43 = -(W6_0 * x0_bar) - W6_1 * x1_bar - W6_2 * x2_bar - W6_3 * x3_bar;
+        const vector gap_44 = gap_43 - W6_4 * x4_bar - W6_5 * x5_bar - W6_6 * x6_bar - W6_7 * x7_bar;
+        const vector gap_45 = gap_44 - W6_8 * x8_bar - W6_9 * x9_bar - W6_10 * x10_bar - W6_11 * x11_bar;
+        const vector gap_46 = gap_45 - W6_12 * x12_bar - W6_13 * x13_bar;
+        const vector gap_47 = -(W7_0 * x0_bar) - W7_1 * x1_bar - W7_2 * x2_bar - W7_3 * x3_bar;
+        const vector gap_48 = gap_47 - W7_4 * x4_bar - W7_5 * x5_bar - W7_6 * x6_bar - W7_7 * x7_bar;
+        const vector gap_49 = gap_48 - W7_8 * x8_bar - W7_9 * x9_bar - W7_10 * x10_bar - W7_11 * x11_bar;
+        const vector gap_50 = gap_49 - W7_12 * x12_bar - W7_13 * x13_bar;
+        const vector total_48 = total_47 + z4 * gap_38 + z5 * gap_42 + z6 * gap_46 + z7 * gap_50;
+        const vector gap_51 = -(W8_0 * x0_bar) - W8_1 * x1_bar - W8_2 * x2_bar - W8_3 * x3_bar;
+        const vector gap_52 = gap_51 - W8_4 * x4_bar - W8_5 * x5_bar - W8_6 * x6_bar - W8_7 * x7_bar;
+        const vector gap_53 = gap_52 - W8_8 * x8_bar - W8_9 * x9_bar - W8_10 * x10_bar - W8_11 * x11_bar;
+        const vector gap_54 = gap_53 - W8_12 * x12_bar - W8_13 * x13_bar;
+        const vector gap_55 = -(W9_0 * x0_bar) - W9_1 * x1_bar - W9_2 * x2_bar - W9_3 * x3_bar;
+        const vector gap_56 = gap_55 - W9_4 * x4_bar - W9_5 * x5_bar - W9_6 * x6_bar - W9_7 * x7_bar;
+        const vector gap_57 = gap_56 - W9_8 * x8_bar - W9_9 * x9_bar - W9_10 * x10_bar - W9_11 * x11_bar;
+        const vector gap_58 = gap_57 - W9_12 * x12_bar - W9_13 * x13_bar;
+        const vector gap_59 = -(W10_0 * x0_bar) - W10_1 * x1_bar - W10_2 * x2_bar - W10_3 * x3_bar;
+        const vector gap_60 = gap_59 - W10_4 * x4_bar - W10_5 * x5_bar - W10_6 * x6_bar - W10_7 * x7_bar;
+        const vector gap_61 = gap_60 - W10_8 * x8_bar - W10_9 * x9_bar - W10_10 * x10_bar - W10_11 * x11_bar;
+        const vector gap_62 = gap_61 - W10_12 * x12_bar - W10_13 * x13_bar;
+        const vector gap_63 = -(W11_0 * x0_bar) - W11_1 * x1_bar - W11_2 * x2_bar - W11_3 * x3_bar;
+        const vector gap_64 = gap_63 - W11_4 * x4_bar - W11_5 * x5_bar - W11_6 * x6_bar - W11_7 * x7_bar;
+        const vector gap_65 = gap_64 - W11_8 * x8_bar - W11_9 * x9_bar - W11_10 * x10_bar - W11_11 * x11_bar;
+        const vector gap_66 = gap_65 - W11_12 * x12_bar - W11_13 * x13_bar;
+        const vector total_49 = total_48 + z8 * gap_54 + z9 * gap_58 + z10 * gap_62 + z11 * gap_66;
+        const vector gap_67 = -(W12_0 * x0_bar) - W12_1 * x1_bar - W12_2 * x2_bar - W12_3 * x3_bar;
+        const vector gap_68 = gap_67 - W12_4 * x4_bar - W12_5 * x5_bar - W12_6 * x6_bar - W12_7 * x7_bar;
+        const vector gap_69 = gap_68 - W12_8 * x8_bar - W12_9 * x9_bar - W12_10 * x10_bar - W12_11 * x11_bar;
+        const vector gap_70 = gap_69 - W12_12 * x12_bar - W12_13 * x13_bar;
+        const vector by_phi = total_49 + z12 * gap_70 + z13 * gap_18;
+        const vector phi_product = phi * by_phi;
+        const vector by_z13 = phi * gap_18 - z13 * phi_product;
+        const vector by_z12 = phi * gap_70 - z12 * phi_product;
+        const vector by_z11 = phi * gap_66 - z11 * phi_product;
+        const vector by_z10 = phi * gap_62 - z10 * phi_product;
+        const vector by_z9 = phi * gap_58 - z9 * phi_product;
+        const vector total_50 = W13_0 * by_z13 + W12_0 * by_z12 + W11_0 * by_z11 + W10_0 * by_z10 + W9_0 * by_z9;
+        const vector by_z8 = phi * gap_54 - z8 * phi_product;
+        const vector by_z7 = phi * gap_50 - z7 * phi_product;
+        const vector by_z6 = phi * gap_46 - z6 * phi_product;
+        const vector by_z5 = phi * gap_42 - z5 * phi_product;
+        const vector total_51 = total_50 + W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5;
+        const vector by_z4 = phi * gap_38 - z4 * phi_product;
+        const vector by_z3 = phi * gap_34 - z3 * phi_product;
+        const vector by_z2 = phi * gap_30 - z2 * phi_product;
+        const vector by_z1 = phi * gap_26 - z1 * phi_product;
+        const vector total_52 = total_51 + W4_0 * by_z4 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1;
+        const vector by_z0 = phi * gap_22 - z0 * phi_product;
+        const vector by_v0 = total_52 + W0_0 * by_z0;
+        const vector total_53 = W13_1 * by_z13 + W12_1 * by_z12 + W11_1 * by_z11 + W10_1 * by_z10 + W9_1 * by_z9;
+        const vector total_54 = total_53 + W8_1 * by_z8 + W7_1 * by_z7 + W6_1 * by_z6 + W5_1 * by_z5;
+        const vector total_55 = total_54 + W4_1 * by_z4 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1;
+        const vector by_v1 = total_55 + W0_1 * by_z0;
+        const vector total_56 = W13_2 * by_z13 + W12_2 * by_z12 + W11_2 * by_z11 + W10_2 * by_z10 + W9_2 * by_z9;
+        const vector total_57 = total_56 + W8_2 * by_z8 + W7_2 * by_z7 + W6_2 * by_z6 + W5_2 * by_z5;
+        const vector total_58 = total_57 + W4_2 * by_z4 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1;
+        const vector by_v2 = total_58 + W0_2 * by_z0;
+        const vector total_59 = W13_3 * by_z13 + W12_3 * by_z12 + W11_3 * by_z11 + W10_3 * by_z10 + W9_3 * by_z9;
+        const vector total_60 = total_59 + W8_3 * by_z8 + W7_3 * by_z7 + W6_3 * by_z6 + W5_3 * by_z5;
+        const vector total_61 = total_60 + W4_3 * by_z4 + W3_3 * by_z3 + W2_3 * by_z2 + W1_3 * by_z1;
+        const vector by_v3 = total_61 + W0_3 * by_z0;
+        const vector total_62 = W13_4 * by_z13 + W12_4 * by_z12 + W11_4 * by_z11 + W10_4 * by_z10 + W9_4 * by_z9;
+        const vector total_63 = total_62 + W8_4 * by_z8 + W7_4 * by_z7 + W6_4 * by_z6 + W5_4 * by_z5;
+        const vector total_64 = total_63 + W4_4 * by_z4 + W3_4 * by_z3 + W2_4 * by_z2 + W1_4 * by_z1;
+        const vector by_v4 = total_64 + W0_4 * by_z0;
+        const vector total_65 = W13_5 * by_z13 + W12_5 * by_z12 + W11_5 * by_z11 + W10_5 * by_z10 + W9_5 * by_z9;
+        const vector total_66 = total_65 + W8_5 * by_z8 + W7_5 * by_z7 + W6_5 * by_z6 + W5_5 * by_z5;
+        const vector total_67 = total_66 + W4_5 * by_z4 + W3_5 * by_z3 + W2_5 * by_z2 + W1_5 * by_z1;
+        const vector by_v5 = total_67 + W0_5 * by_z0;
+        const vector total_68 = W13_6 * by_z13 + W12_6 * by_z12 + W11_6 * by_z11 + W10_6 * by_z10 + W9_6 * by_z9;
+        const vector total_69 = total_68 + W8_6 * by_z8 + W7_6 * by_z7 + W6_6 * by_z6 + W5_6 * by_z5;
+        const vector total_70 = total_69 + W4_6 * by_z4 + W3_6 * by_z3 + W2_6 * by_z2 + W1_6 * by_z1;
+        const vector by_v6 = total_70 + W0_6 * by_z0;
+        const vector total_71 = W13_7 * by_z13 + W12_7 * by_z12 + W11_7 * by_z11 + W10_7 * by_z10 + W9_7 * by_z9;
+        const vector total_72 = total_71 + W8_7 * by_z8 + W7_7 * by_z7 + W6_7 * by_z6 + W5_7 * by_z5;
+        const vector total_73 = total_72 + W4_7 * by_z4 + W3_7 * by_z3 + W2_7 * by_z2 + W1_7 * by_z1;
+        const vector by_v7 = total_73 + W0_7 * by_z0;
+        const vector total_74 = W13_8 * by_z13 + W12_8 * by_z12 + W11_8 * by_z11 + W10_8 * by_z10 + W9_8 * by_z9;
+        const vector total_75 = total_74 + W8_8 * by_z8 + W7_8 * by_z7 + W6_8 * by_z6 + W5_8 * by_z5;
+        const vector total_76 = total_75 + W4_8 * by_z4 + W3_8 * by_z3 + W2_8 * by_z2 + W1_8 * by_z1;
+        const vector by_v8 = total_76 + W0_8 * by_z0;
+        const vector total_77 = W13_9 * by_z13 + W12_9 * by_z12 + W11_9 * by_z11 + W10_9 * by_z10 + W9_9 * by_z9;
+        const vector total_78 = total_77 + W8_9 * by_z8 + W7_9 * by_z7 + W6_9 * by_z6 + W5_9 * by_z5;
+        const vector total_79 = total_78 + W4_9 * by_z4 + W3_9 * by_z3 + W2_9 * by_z2 + W1_9 * by_z1;
+        const vector by_v9 = total_79 + W0_9 * by_z0;
+        const vector total_80 = W13_10 * by_z13 + W12_10 * by_z12 + W11_10 * by_z11 + W10_10 * by_z10 + W9_10 *
+            by_z9;
+        const vector total_81 = total_80 + W8_10 * by_z8 + W7_10 * by_z7 + W6_10 * by_z6 + W5_10 * by_z5;
+        const vector total_82 = total_81 + W4_10 * by_z4 + W3_10 * by_z3 + W2_10 * by_z2 + W1_10 * by_z1;
+        const vector by_v10 = total_82 + W0_10 * by_z0;
+        const vector total_83 = W13_11 * by_z13 + W12_11 * by_z12 + W11_11 * by_z11 + W10_11 * by_z10 + W9_11 *
+            by_z9;
+        const vector total_84 = total_83 + W8_11 * by_z8 + W7_11 * by_z7 + W6_11 * by_z6 + W5_11 * by_z5;
+        const vector total_85 = total_84 + W4_11 * by_z4 + W3_11 * by_z3 + W2_11 * by_z2 + W1_11 * by_z1;
+        const vector by_v11 = total_85 + W0_11 * by_z0;
+        const vector total_86 = W13_12 * by_z13 + W12_12 * by_z12 + W11_12 * by_z11 + W10_12 * by_z10 + W9_12 *
+            by_z9;
+        const vector total_87 = total_86 + W8_12 * by_z8 + W7_12 * by_z7 + W6_12 * by_z6 + W5_12 * by_z5;
+        const vector total_88 = total_87 + W4_12 * by_z4 + W3_12 * by_z3 + W2_12 * by_z2 + W1_12 * by_z1;
+        const vector by_v12 = total_88 + W0_12 * by_z0;
+        const vector total_89 = W13_13 * by_z13 + W12_13 * by_z12 + W11_13 * by_z11 + W10_13 * by_z10 + W9_13 *
+            by_z9;
+        const vector total_90 = total_89 + W8_13 * by_z8 + W7_13 * by_z7 + W6_13 * by_z6 + W5_13 * by_z5;
+        const vector total_91 = total_90 + W4_13 * by_z4 + W3_13 * by_z3 + W2_13 * by_z2 + W1_13 * by_z1;
+        const vector by_v13 = total_91 + W0_13 * by_z0;
+        const vector z0_product = z0 * phi;
+        const vector z1_product = z1 * phi;
+        const vector z2_product = z2 * phi;
+        const vector z3_product = z3 * phi;
+        const vector z4_product = z4 * phi;
+        const vector z5_product = z5 * phi;
+        const vector z6_product = z6 * phi;
+        const vector z7_product = z7 * phi;
+        const vector z8_product = z8 * phi;
+        const vector z9_product = z9 * phi;
+        const vector z10_product = z10 * phi;
+        const vector z11_product = z11 * phi;
+        const vector z12_product = z12 * phi;
+        const vector z13_product = z13 * phi;
+        factor[0] = v0;
+        factor[1] = v1;
+        factor[2] = v2;
+        factor[3] = v3;
+        factor[4] = v4;
+        factor[5] = v5;
+        factor[6] = v6;
+        factor[7] = v7;
+        factor[8] = v8;
+        factor[9] = v9;
+        factor[10] = v10;
+        factor[11] = v11;
+        factor[12] = v12;
+        factor[13] = v13;
+        factor[14] = phi_product;
+        factor[15] = by_z13;
+        factor[16] = by_z12;
+        factor[17] = by_z11;
+        factor[18] = by_z10;
+        factor[19] = by_z9;
+        factor[20] = by_z8;
+        factor[21] = by_z7;
+        factor[22] = by_z6;
+        factor[23] = by_z5;
+        factor[24] = by_z4;
+        factor[25] = by_z3;
+        factor[26] = by_z2;
+        factor[27] = by_z1;
+        factor[28] = by_z0;
+        factor[29] = -by_v0;
+        factor[30] = -by_v1;
+        factor[31] = -by_v2;
+        factor[32] = -by_v3;
+        factor[33] = -by_v4;
+        factor[34] = -by_v5;
+        factor[35] = -by_v6;
+        factor[36] = -by_v7;
+        factor[37] = -by_v8;
+        factor[38] = -by_v9;
+        factor[39] = -by_v10;
+        factor[40] = -by_v11;
+        factor[41] = -by_v12;
+        factor[42] = -by_v13;
+        factor[43] = z0_product;
+        factor[44] = z1_product;
+        factor[45] = z2_product;
+        factor[46] = z3_product;
+        factor[47] = z4_product;
+        factor[48] = z5_product;
+        factor[49] = z6_product;
+        factor[50] = z7_product;
+        factor[51] = z8_product;
+        factor[52] = z9_product;
+        factor[53] = z10_product;
+        factor[54] = z11_product;
+        factor[55] = z12_product;
+        factor[56] = z13_product;
+    }
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_0(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[29];
+    sum[1] = sum[1] + factor[30];
+    sum[2] = sum[2] + factor[31];
+    sum[3] = sum[3] + factor[32];
+    sum[4] = sum[4] + factor[33];
+    sum[5] = sum[5] + factor[34];
+    sum[6] = sum[6] + factor[35];
+    sum[7] = sum[7] + factor[36];
+    sum[8] = sum[8] + factor[37];
+    sum[9] = sum[9] + factor[38];
+    sum[10] = sum[10] + factor[39];
+    sum[11] = sum[11] + factor[40];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_1(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[41];
+    sum[1] = sum[1] + factor[42];
+    sum[2] = sum[2] + factor[14];
+    sum[3] = sum[3] + factor[0] * factor[28] - factor[43] * point[15];
+    sum[4] = sum[4] + factor[1] * factor[28] - factor[43] * point[16];
+    sum[5] = sum[5] + factor[2] * factor[28] - factor[43] * point[17];
+    sum[6] = sum[6] + factor[3] * factor[28] - factor[43] * point[18];
+    sum[7] = sum[7] + factor[4] * factor[28] - factor[43] * point[19];
+    sum[8] = sum[8] + factor[5] * factor[28] - factor[43] * point[20];
+    sum[9] = sum[9] + factor[6] * factor[28] - factor[43] * point[21];
+    sum[10] = sum[10] + factor[7] * factor[28] - factor[43] * point[22];
+    sum[11] = sum[11] + factor[8] * factor[28] - factor[43] * point[23];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_2(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[9] * factor[28] - factor[43] * point[24];
+    sum[1] = sum[1] + factor[10] * factor[28] - factor[43] * point[25];
+    sum[2] = sum[2] + factor[11] * factor[28] - factor[43] * point[26];
+    sum[3] = sum[3] + factor[12] * factor[28] - factor[43] * point[27];
+    sum[4] = sum[4] + factor[13] * factor[28] - factor[43] * point[28];
+    sum[5] = sum[5] + factor[9] * factor[27] - factor[44] * point[24];
+    sum[6] = sum[6] + factor[10] * factor[27] - factor[44] * point[25];
+    sum[7] = sum[7] + factor[11] * factor[27] - factor[44] * point[26];
+    sum[8] = sum[8] + factor[12] * factor[27] - factor[44] * point[27];
+    sum[9] = sum[9] + factor[13] * factor[27] - factor[44] * point[28];
+    sum[10] = sum[10] + factor[0] * factor[27] - factor[44] * point[15];
+    sum[11] = sum[11] + factor[1] * factor[27] - factor[44] * point[16];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_3(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[27] - factor[44] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[27] - factor[44] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[27] - factor[44] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[27] - factor[44] * point[20];
+    sum[4] = sum[4] + factor[6] * factor[27] - factor[44] * point[21];
+    sum[5] = sum[5] + factor[7] * factor[27] - factor[44] * point[22];
+    sum[6] = sum[6] + factor[8] * factor[27] - factor[44] * point[23];
+    sum[7] = sum[7] + factor[2] * factor[26] - factor[45] * point[17];
+    sum[8] = sum[8] + factor[3] * factor[26] - factor[45] * point[18];
+    sum[9] = sum[9] + factor[4] * factor[26] - factor[45] * point[19];
+    sum[10] = sum[10] + factor[5] * factor[26] - factor[45] * point[20];
+    sum[11] = sum[11] + factor[6] * factor[26] - factor[45] * point[21];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_4(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[26] - factor[45] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[26] - factor[45] * point[16];
+    sum[2] = sum[2] + factor[7] * factor[26] - factor[45] * point[22];
+    sum[3] = sum[3] + factor[8] * factor[26] - factor[45] * point[23];
+    sum[4] = sum[4] + factor[9] * factor[26] - factor[45] * point[24];
+    sum[5] = sum[5] + factor[10] * factor[26] - factor[45] * point[25];
+    sum[6] = sum[6] + factor[11] * factor[26] - factor[45] * point[26];
+    sum[7] = sum[7] + factor[12] * factor[26] - factor[45] * point[27];
+    sum[8] = sum[8] + factor[13] * factor[26] - factor[45] * point[28];
+    sum[9] = sum[9] + factor[0] * factor[25] - factor[46] * point[15];
+    sum[10] = sum[10] + factor[1] * factor[25] - factor[46] * point[16];
+    sum[11] = sum[11] + factor[7] * factor[25] - factor[46] * point[22];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_5(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[25] - factor[46] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[25] - factor[46] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[25] - factor[46] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[25] - factor[46] * point[20];
+    sum[4] = sum[4] + factor[6] * factor[25] - factor[46] * point[21];
+    sum[5] = sum[5] + factor[8] * factor[25] - factor[46] * point[23];
+    sum[6] = sum[6] + factor[9] * factor[25] - factor[46] * point[24];
+    sum[7] = sum[7] + factor[10] * factor[25] - factor[46] * point[25];
+    sum[8] = sum[8] + factor[11] * factor[25] - factor[46] * point[26];
+    sum[9] = sum[9] + factor[12] * factor[25] - factor[46] * point[27];
+    sum[10] = sum[10] + factor[13] * factor[25] - factor[46] * point[28];
+    sum[11] = sum[11] + factor[2] * factor[24] - factor[47] * point[17];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_6(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[24] - factor[47] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[24] - factor[47] * point[16];
+    sum[2] = sum[2] + factor[3] * factor[24] - factor[47] * point[18];
+    sum[3] = sum[3] + factor[4] * factor[24] - factor[47] * point[19];
+    sum[4] = sum[4] + factor[5] * factor[24] - factor[47] * point[20];
+    sum[5] = sum[5] + factor[6] * factor[24] - factor[47] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[24] - factor[47] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[24] - factor[47] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[24] - factor[47] * point[24];
+    sum[9] = sum[9] + factor[10] * factor[24] - factor[47] * point[25];
+    sum[10] = sum[10] + factor[11] * factor[24] - factor[47] * point[26];
+    sum[11] = sum[11] + factor[12] * factor[24] - factor[47] * point[27];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_7(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[13] * factor[24] - factor[47] * point[28];
+    sum[1] = sum[1] + factor[13] * factor[23] - factor[48] * point[28];
+    sum[2] = sum[2] + factor[0] * factor[23] - factor[48] * point[15];
+    sum[3] = sum[3] + factor[1] * factor[23] - factor[48] * point[16];
+    sum[4] = sum[4] + factor[2] * factor[23] - factor[48] * point[17];
+    sum[5] = sum[5] + factor[3] * factor[23] - factor[48] * point[18];
+    sum[6] = sum[6] + factor[4] * factor[23] - factor[48] * point[19];
+    sum[7] = sum[7] + factor[5] * factor[23] - factor[48] * point[20];
+    sum[8] = sum[8] + factor[6] * factor[23] - factor[48] * point[21];
+    sum[9] = sum[9] + factor[7] * factor[23] - factor[48] * point[22];
+    sum[10] = sum[10] + factor[8] * factor[23] - factor[48] * point[23];
+    sum[11] = sum[11] + factor[9] * factor[23] - factor[48] * point[24];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_8(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[10] * factor[23] - factor[48] * point[25];
+    sum[1] = sum[1] + factor[11] * factor[23] - factor[48] * point[26];
+    sum[2] = sum[2] + factor[12] * factor[23] - factor[48] * point[27];
+    sum[3] = sum[3] + factor[10] * factor[22] - factor[49] * point[25];
+    sum[4] = sum[4] + factor[11] * factor[22] - factor[49] * point[26];
+    sum[5] = sum[5] + factor[12] * factor[22] - factor[49] * point[27];
+    sum[6] = sum[6] + factor[0] * factor[22] - factor[49] * point[15];
+    sum[7] = sum[7] + factor[1] * factor[22] - factor[49] * point[16];
+    sum[8] = sum[8] + factor[2] * factor[22] - factor[49] * point[17];
+    sum[9] = sum[9] + factor[3] * factor[22] - factor[49] * point[18];
+    sum[10] = sum[10] + factor[4] * factor[22] - factor[49] * point[19];
+    sum[11] = sum[11] + factor[5] * factor[22] - factor[49] * point[20];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_9(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[6] * factor[22] - factor[49] * point[21];
+    sum[1] = sum[1] + factor[7] * factor[22] - factor[49] * point[22];
+    sum[2] = sum[2] + factor[8] * factor[22] - factor[49] * point[23];
+    sum[3] = sum[3] + factor[9] * factor[22] - factor[49] * point[24];
+    sum[4] = sum[4] + factor[13] * factor[22] - factor[49] * point[28];
+    sum[5] = sum[5] + factor[6] * factor[21] - factor[50] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[21] - factor[50] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[21] - factor[50] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[21] - factor[50] * point[24];
+    sum[9] = sum[9] + factor[13] * factor[21] - factor[50] * point[28];
+    sum[10] = sum[10] + factor[0] * factor[21] - factor[50] * point[15];
+    sum[11] = sum[11] + factor[1] * factor[21] - factor[50] * point[16];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_10(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[21] - factor[50] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[21] - factor[50] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[21] - factor[50] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[21] - factor[50] * point[20];
+    sum[4] = sum[4] + factor[10] * factor[21] - factor[50] * point[25];
+    sum[5] = sum[5] + factor[11] * factor[21] - factor[50] * point[26];
+    sum[6] = sum[6] + factor[12] * factor[21] - factor[50] * point[27];
+    sum[7] = sum[7] + factor[2] * factor[20] - factor[51] * point[17];
+    sum[8] = sum[8] + factor[3] * factor[20] - factor[51] * point[18];
+    sum[9] = sum[9] + factor[4] * factor[20] - factor[51] * point[19];
+    sum[10] = sum[10] + factor[5] * factor[20] - factor[51] * point[20];
+    sum[11] = sum[11] + factor[10] * factor[20] - factor[51] * point[25];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_11(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[20] - factor[51] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[20] - factor[51] * point[16];
+    sum[2] = sum[2] + factor[6] * factor[20] - factor[51] * point[21];
+    sum[3] = sum[3] + factor[7] * factor[20] - factor[51] * point[22];
+    sum[4] = sum[4] + factor[8] * factor[20] - factor[51] * point[23];
+    sum[5] = sum[5] + factor[9] * factor[20] - factor[51] * point[24];
+    sum[6] = sum[6] + factor[11] * factor[20] - factor[51] * point[26];
+    sum[7] = sum[7] + factor[12] * factor[20] - factor[51] * point[27];
+    sum[8] = sum[8] + factor[13] * factor[20] - factor[51] * point[28];
+    sum[9] = sum[9] + factor[0] * factor[19] - factor[52] * point[15];
+    sum[10] = sum[10] + factor[1] * factor[19] - factor[52] * point[16];
+    sum[11] = sum[11] + factor[6] * factor[19] - factor[52] * point[21];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_12(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[19] - factor[52] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[19] - factor[52] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[19] - factor[52] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[19] - factor[52] * point[20];
+    sum[4] = sum[4] + factor[7] * factor[19] - factor[52] * point[22];
+    sum[5] = sum[5] + factor[8] * factor[19] - factor[52] * point[23];
+    sum[6] = sum[6] + factor[9] * factor[19] - factor[52] * point[24];
+    sum[7] = sum[7] + factor[10] * factor[19] - factor[52] * point[25];
+    sum[8] = sum[8] + factor[11] * factor[19] - factor[52] * point[26];
+    sum[9] = sum[9] + factor[12] * factor[19] - factor[52] * point[27];
+    sum[10] = sum[10] + factor[13] * factor[19] - factor[52] * point[28];
+    sum[11] = sum[11] + factor[2] * factor[18] - factor[53] * point[17];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_13(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[18] - factor[53] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[18] - factor[53] * point[16];
+    sum[2] = sum[2] + factor[3] * factor[18] - factor[53] * point[18];
+    sum[3] = sum[3] + factor[4] * factor[18] - factor[53] * point[19];
+    sum[4] = sum[4] + factor[5] * factor[18] - factor[53] * point[20];
+    sum[5] = sum[5] + factor[6] * factor[18] - factor[53] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[18] - factor[53] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[18] - factor[53] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[18] - factor[53] * point[24];
+    sum[9] = sum[9] + factor[10] * factor[18] - factor[53] * point[25];
+    sum[10] = sum[10] + factor[11] * factor[18] - factor[53] * point[26];
+    sum[11] = sum[11] + factor[12] * factor[18] - factor[53] * point[27];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_14(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[13] * factor[18] - factor[53] * point[28];
+    sum[1] = sum[1] + factor[13] * factor[17] - factor[54] * point[28];
+    sum[2] = sum[2] + factor[0] * factor[17] - factor[54] * point[15];
+    sum[3] = sum[3] + factor[1] * factor[17] - factor[54] * point[16];
+    sum[4] = sum[4] + factor[2] * factor[17] - factor[54] * point[17];
+    sum[5] = sum[5] + factor[3] * factor[17] - factor[54] * point[18];
+    sum[6] = sum[6] + factor[4] * factor[17] - factor[54] * point[19];
+    sum[7] = sum[7] + factor[5] * factor[17] - factor[54] * point[20];
+    sum[8] = sum[8] + factor[6] * factor[17] - factor[54] * point[21];
+    sum[9] = sum[9] + factor[7] * factor[17] - factor[54] * point[22];
+    sum[10] = sum[10] + factor[8] * factor[17] - factor[54] * point[23];
+    sum[11] = sum[11] + factor[9] * factor[17] - factor[54] * point[24];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_15(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[10] * factor[17] - factor[54] * point[25];
+    sum[1] = sum[1] + factor[11] * factor[17] - factor[54] * point[26];
+    sum[2] = sum[2] + factor[12] * factor[17] - factor[54] * point[27];
+    sum[3] = sum[3] + factor[10] * factor[16] - factor[55] * point[25];
+    sum[4] = sum[4] + factor[11] * factor[16] - factor[55] * point[26];
+    sum[5] = sum[5] + factor[12] * factor[16] - factor[55] * point[27];
+    sum[6] = sum[6] + factor[0] * factor[16] - factor[55] * point[15];
+    sum[7] = sum[7] + factor[1] * factor[16] - factor[55] * point[16];
+    sum[8] = sum[8] + factor[2] * factor[16] - factor[55] * point[17];
+    sum[9] = sum[9] + factor[3] * factor[16] - factor[55] * point[18];
+    sum[10] = sum[10] + factor[4] * factor[16] - factor[55] * point[19];
+    sum[11] = sum[11] + factor[5] * factor[16] - factor[55] * point[20];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_16(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[6] * factor[16] - factor[55] * point[21];
+    sum[1] = sum[1] + factor[7] * factor[16] - factor[55] * point[22];
+    sum[2] = sum[2] + factor[8] * factor[16] - factor[55] * point[23];
+    sum[3] = sum[3] + factor[9] * factor[16] - factor[55] * point[24];
+    sum[4] = sum[4] + factor[13] * factor[16] - factor[55] * point[28];
+    sum[5] = sum[5] + factor[6] * factor[15] - factor[56] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[15] - factor[56] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[15] - factor[56] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[15] - factor[56] * point[24];
+    sum[9] = sum[9] + factor[13] * factor[15] - factor[56] * point[28];
+    sum[10] = sum[10] + factor[0] * factor[15] - factor[56] * point[15];
+    sum[11] = sum[11] + factor[1] * factor[15] - factor[56] * point[16];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_17(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[15] - factor[56] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[15] - factor[56] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[15] - factor[56] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[15] - factor[56] * point[20];
+    sum[4] = sum[4] + factor[10] * factor[15] - factor[56] * point[25];
+    sum[5] = sum[5] + factor[11] * factor[15] - factor[56] * point[26];
+    sum[6] = sum[6] + factor[12] * factor[15] - factor[56] * point[27];
 }
 
 /* The adjoints of some splats' parameters, of their sums over the points. */
@@ -1927,881 +3338,6 @@ OUTLINE void pair_distances(
     distance[0] = sqrt_each(total_4 + arm2_log6 * arm2_log6);
 }
 
-/*
- * The factors of whose products are what is summed over the points.
- *
- * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
- */
-OUTLINE void pair_factors(
-    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *factor) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector x2 = X[2];
-    const vector x3 = X[3];
-    const vector x4 = X[4];
-    const vector x5 = X[5];
-    const vector x6 = X[6];
-    const vector x7 = X[7];
-    const vector x8 = X[8];
-    const vector x9 = X[9];
-    const vector x10 = X[10];
-    const vector x11 = X[11];
-    const vector x12 = X[12];
-    const vector x13 = X[13];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double mu2 = S[2];
-    const double mu3 = S[3];
-    const double mu4 = S[4];
-    const double mu5 = S[5];
-    const double mu6 = S[6];
-    const double mu7 = S[7];
-    const double mu8 = S[8];
-    const double mu9 = S[9];
-    const double mu10 = S[10];
-    const double mu11 = S[11];
-    const double mu12 = S[12];
-    const double mu13 = S[13];
-    const double W0_0 = S[14];
-    const double W0_1 = S[15];
-    const double W0_2 = S[16];
-    const double W0_3 = S[17];
-    const double W0_4 = S[18];
-    const double W0_5 = S[19];
-    const double W0_6 = S[20];
-    const double W0_7 = S[21];
-    const double W0_8 = S[22];
-    const double W0_9 = S[23];
-    const double W0_10 = S[24];
-    const double W0_11 = S[25];
-    const double W0_12 = S[26];
-    const double W0_13 = S[27];
-    const double W1_0 = S[28];
-    const double W1_1 = S[29];
-    const double W1_2 = S[30];
-    const double W1_3 = S[31];
-    const double W1_4 = S[32];
-    const double W1_5 = S[33];
-    const double W1_6 = S[34];
-    const double W1_7 = S[35];
-    const double W1_8 = S[36];
-    const double W1_9 = S[37];
-    const double W1_10 = S[38];
-    const double W1_11 = S[39];
-    const double W1_12 = S[40];
-    const double W1_13 = S[41];
-    const double W2_0 = S[42];
-    const double W2_1 = S[43];
-    const double W2_2 = S[44];
-    const double W2_3 = S[45];
-    const double W2_4 = S[46];
-    const double W2_5 = S[47];
-    const double W2_6 = S[48];
-    const double W2_7 = S[49];
-    const double W2_8 = S[50];
-    const double W2_9 = S[51];
-    const double W2_10 = S[52];
-    const double W2_11 = S[53];
-    const double W2_12 = S[54];
-    const double W2_13 = S[55];
-    const double W3_0 = S[56];
-    const double W3_1 = S[57];
-    const double W3_2 = S[58];
-    const double W3_3 = S[59];
-    const double W3_4 = S[60];
-    const double W3_5 = S[61];
-    const double W3_6 = S[62];
-    const double W3_7 = S[63];
-    const double W3_8 = S[64];
-    const double W3_9 = S[65];
-    const double W3_10 = S[66];
-    const double W3_11 = S[67];
-    const double W3_12 = S[68];
-    const double W3_13 = S[69];
-    const double W4_0 = S[70];
-    const double W4_1 = S[71];
-    const double W4_2 = S[72];
-    const double W4_3 = S[73];
-    const double W4_4 = S[74];
-    const double W4_5 = S[75];
-    const double W4_6 = S[76];
-    const double W4_7 = S[77];
-    const double W4_8 = S[78];
-    const double W4_9 = S[79];
-    const double W4_10 = S[80];
-    const double W4_11 = S[81];
-    const double W4_12 = S[82];
-    const double W4_13 = S[83];
-    const double W5_0 = S[84];
-    const double W5_1 = S[85];
-    const double W5_2 = S[86];
-    const double W5_3 = S[87];
-    const double W5_4 = S[88];
-    const double W5_5 = S[89];
-    const double W5_6 = S[90];
-    const double W5_7 = S[91];
-    const double W5_8 = S[92];
-    const double W5_9 = S[93];
-    const double W5_10 = S[94];
-    const double W5_11 = S[95];
-    const double W5_12 = S[96];
-    const double W5_13 = S[97];
-    const double W6_0 = S[98];
-    const double W6_1 = S[99];
-    const double W6_2 = S[100];
-    const double W6_3 = S[101];
-    const double W6_4 = S[102];
-    const double W6_5 = S[103];
-    const double W6_6 = S[104];
-    const double W6_7 = S[105];
-    const double W6_8 = S[106];
-    const double W6_9 = S[107];
-    const double W6_10 = S[108];
-    const double W6_11 = S[109];
-    const double W6_12 = S[110];
-    const double W6_13 = S[111];
-    const double W7_0 = S[112];
-    const double W7_1 = S[113];
-    const double W7_2 = S[114];
-    const double W7_3 = S[115];
-    const double W7_4 = S[116];
-    const double W7_5 = S[117];
-    const double W7_6 = S[118];
-    const double W7_7 = S[119];
-    const double W7_8 = S[120];
-    const double W7_9 = S[121];
-    const double W7_10 = S[122];
-    const double W7_11 = S[123];
-    const double W7_12 = S[124];
-    const double W7_13 = S[125];
-    const double W8_0 = S[126];
-    const double W8_1 = S[127];
-    const double W8_2 = S[128];
-    const double W8_3 = S[129];
-    const double W8_4 = S[130];
-    const double W8_5 = S[131];
-    const double W8_6 = S[132];
-    const double W8_7 = S[133];
-    const double W8_8 = S[134];
-    const double W8_9 = S[135];
-    const double W8_10 = S[136];
-    const double W8_11 = S[137];
-    const double W8_12 = S[138];
-    const double W8_13 = S[139];
-    const double W9_0 = S[140];
-    const double W9_1 = S[141];
-    const double W9_2 = S[142];
-    const double W9_3 = S[143];
-    const double W9_4 = S[144];
-    const double W9_5 = S[145];
-    const double W9_6 = S[146];
-    const double W9_7 = S[147];
-    const double W9_8 = S[148];
-    const double W9_9 = S[149];
-    const double W9_10 = S[150];
-    const double W9_11 = S[151];
-    const double W9_12 = S[152];
-    const double W9_13 = S[153];
-    const double W10_0 = S[154];
-    const double W10_1 = S[155];
-    const double W10_2 = S[156];
-    const double W10_3 = S[157];
-    const double W10_4 = S[158];
-    const double W10_5 = S[159];
-    const double W10_6 = S[160];
-    const double W10_7 = S[161];
-    const double W10_8 = S[162];
-    const double W10_9 = S[163];
-    const double W10_10 = S[164];
-    const double W10_11 = S[165];
-    const double W10_12 = S[166];
-    const double W10_13 = S[167];
-    const double W11_0 = S[168];
-    const double W11_1 = S[169];
-    const double W11_2 = S[170];
-    const double W11_3 = S[171];
-    const double W11_4 = S[172];
-    const double W11_5 = S[173];
-    const double W11_6 = S[174];
-    const double W11_7 = S[175];
-    const double W11_8 = S[176];
-    const double W11_9 = S[177];
-    const double W11_10 = S[178];
-    const double W11_11 = S[179];
-    const double W11_12 = S[180];
-    const double W11_13 = S[181];
-    const double W12_0 = S[182];
-    const double W12_1 = S[183];
-    const double W12_2 = S[184];
-    const double W12_3 = S[185];
-    const double W12_4 = S[186];
-    const double W12_5 = S[187];
-    const double W12_6 = S[188];
-    const double W12_7 = S[189];
-    const double W12_8 = S[190];
-    const double W12_9 = S[191];
-    const double W12_10 = S[192];
-    const double W12_11 = S[193];
-    const double W12_12 = S[194];
-    const double W12_13 = S[195];
-    const double W13_0 = S[196];
-    const double W13_1 = S[197];
-    const double W13_2 = S[198];
-    const double W13_3 = S[199];
-    const double W13_4 = S[200];
-    const double W13_5 = S[201];
-    const double W13_6 = S[202];
-    const double W13_7 = S[203];
-    const double W13_8 = S[204];
-    const double W13_9 = S[205];
-    const double W13_10 = S[206];
-    const double W13_11 = S[207];
-    const double W13_12 = S[208];
-    const double W13_13 = S[209];
-    const vector its_value_bar = value_bar[0];
-    const vector x0_bar = slope_bar[0];
-    const vector x1_bar = slope_bar[1];
-    const vector x2_bar = slope_bar[2];
-    const vector x3_bar = slope_bar[3];
-    const vector x4_bar = slope_bar[4];
-    const vector x5_bar = slope_bar[5];
-    const vector x6_bar = slope_bar[6];
-    const vector x7_bar = slope_bar[7];
-    const vector x8_bar = slope_bar[8];
-    const vector x9_bar = slope_bar[9];
-    const vector x10_bar = slope_bar[10];
-    const vector x11_bar = slope_bar[11];
-    const vector x12_bar = slope_bar[12];
-    const vector x13_bar = slope_bar[13];
-    const vector gap = x0 - mu0;
-    const vector round_2 = round_each(0.15915494309189535 * gap);
-    const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
-    const vector gap_2 = x1 - mu1;
-    const vector round_3 = round_each(0.15915494309189535 * gap_2);
-    const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
-    const vector gap_3 = x2 - mu2;
-    const vector round_4 = round_each(0.15915494309189535 * gap_3);
-    const vector v2 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
-    const vector gap_4 = x3 - mu3;
-    const vector round_5 = round_each(0.15915494309189535 * gap_4);
-    const vector v3 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
-    const vector gap_5 = x4 - mu4;
-    const vector round_6 = round_each(0.15915494309189535 * gap_5);
-    const vector v4 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
-    const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-    const vector gap_6 = x5 - mu5;
-    const vector round_7 = round_each(0.15915494309189535 * gap_6);
-    const vector v5 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
-    const vector gap_7 = x6 - mu6;
-    const vector round_8 = round_each(0.15915494309189535 * gap_7);
-    const vector v6 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
-    const vector gap_8 = x7 - mu7;
-    const vector round_9 = round_each(0.15915494309189535 * gap_8);
-    const vector v7 = gap_8 - 6.28125 * round_9 - 0.001935307179586477 * round_9;
-    const vector gap_9 = x8 - mu8;
-    const vector round_10 = round_each(0.15915494309189535 * gap_9);
-    const vector v8 = gap_9 - 6.28125 * round_10 - 0.001935307179586477 * round_10;
-    const vector total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
-    const vector gap_10 = x9 - mu9;
-    const vector round_11 = round_each(0.15915494309189535 * gap_10);
-    const vector v9 = gap_10 - 6.28125 * round_11 - 0.001935307179586477 * round_11;
-    const vector gap_11 = x10 - mu10;
-    const vector round_12 = round_each(0.15915494309189535 * gap_11);
-    const vector v10 = gap_11 - 6.28125 * round_12 - 0.001935307179586477 * round_12;
-    const vector gap_12 = x11 - mu11;
-    const vector round_13 = round_each(0.15915494309189535 * gap_12);
-    const vector v11 = gap_12 - 6.28125 * round_13 - 0.001935307179586477 * round_13;
-    const vector gap_13 = x12 - mu12;
-    const vector round_14 = round_each(0.15915494309189535 * gap_13);
-    const vector v12 = gap_13 - 6.28125 * round_14 - 0.001935307179586477 * round_14;
-    const vector total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
-    const vector gap_14 = x13 - mu13;
-    const vector round_15 = round_each(0.15915494309189535 * gap_14);
-    const vector v13 = gap_14 - 6.28125 * round_15 - 0.001935307179586477 * round_15;
-    const vector z0 = total_4 + W0_13 * v13;
-    const vector total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-    const vector total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
-    const vector total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12;
-    const vector z1 = total_7 + W1_13 * v13;
-    const vector total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-    const vector total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
-    const vector total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12;
-    const vector z2 = total_10 + W2_13 * v13;
-    const vector total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-    const vector total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
-    const vector total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12;
-    const vector z3 = total_13 + W3_13 * v13;
-    const vector total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-    const vector total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
-    const vector total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12;
-    const vector z4 = total_16 + W4_13 * v13;
-    const vector total_17 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-    const vector total_18 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-    const vector total_19 = total_18 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
-    const vector total_20 = total_19 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12;
-    const vector z5 = total_20 + W5_13 * v13;
-    const vector total_21 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
-    const vector total_22 = total_21 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
-    const vector total_23 = total_22 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12;
-    const vector z6 = total_23 + W6_13 * v13;
-    const vector total_24 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
-    const vector total_25 = total_24 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
-    const vector total_26 = total_25 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12;
-    const vector z7 = total_26 + W7_13 * v13;
-    const vector total_27 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
-    const vector total_28 = total_27 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
-    const vector total_29 = total_28 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12;
-    const vector z8 = total_29 + W8_13 * v13;
-    const vector total_30 = total_17 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-    const vector total_31 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4;
-    const vector total_32 = total_31 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8;
-    const vector total_33 = total_32 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12;
-    const vector z9 = total_33 + W9_13 * v13;
-    const vector total_34 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4;
-    const vector total_35 = total_34 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8;
-    const vector total_36 = total_35 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12;
-    const vector z10 = total_36 + W10_13 * v13;
-    const vector total_37 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4;
-    const vector total_38 = total_37 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8;
-    const vector total_39 = total_38 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12;
-    const vector z11 = total_39 + W11_13 * v13;
-    const vector total_40 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4;
-    const vector total_41 = total_40 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8;
-    const vector total_42 = total_41 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12;
-    const vector z12 = total_42 + W12_13 * v13;
-    const vector total_43 = total_30 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12;
-    const vector total_44 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4;
-    const vector total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
-    const vector total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
-    const vector z13 = total_46 + W13_13 * v13;
-    const vector phi = gaussian_each(total_43 + z13 * z13);
-    const vector gap_15 = -(W13_0 * x0_bar) - W13_1 * x1_bar - W13_2 * x2_bar - W13_3 * x3_bar;
-    const vector gap_16 = gap_15 - W13_4 * x4_bar - W13_5 * x5_bar - W13_6 * x6_bar - W13_7 * x7_bar;
-    const vector gap_17 = gap_16 - W13_8 * x8_bar - W13_9 * x9_bar - W13_10 * x10_bar - W13_11 * x11_bar;
-    const vector gap_18 = gap_17 - W13_12 * x12_bar - W13_13 * x13_bar;
-    const vector gap_19 = -(W0_0 * x0_bar) - W0_1 * x1_bar - W0_2 * x2_bar - W0_3 * x3_bar;
-    const vector gap_20 = gap_19 - W0_4 * x4_bar - W0_5 * x5_bar - W0_6 * x6_bar - W0_7 * x7_bar;
-    const vector gap_21 = gap_20 - W0_8 * x8_bar - W0_9 * x9_bar - W0_10 * x10_bar - W0_11 * x11_bar;
-    const vector gap_22 = gap_21 - W0_12 * x12_bar - W0_13 * x13_bar;
-    const vector gap_23 = -(W1_0 * x0_bar) - W1_1 * x1_bar - W1_2 * x2_bar - W1_3 * x3_bar;
-    const vector gap_24 = gap_23 - W1_4 * x4_bar - W1_5 * x5_bar - W1_6 * x6_bar - W1_7 * x7_bar;
-    const vector gap_25 = gap_24 - W1_8 * x8_bar - W1_9 * x9_bar - W1_10 * x10_bar - W1_11 * x11_bar;
-    const vector gap_26 = gap_25 - W1_12 * x12_bar - W1_13 * x13_bar;
-    const vector gap_27 = -(W2_0 * x0_bar) - W2_1 * x1_bar - W2_2 * x2_bar - W2_3 * x3_bar;
-    const vector gap_28 = gap_27 - W2_4 * x4_bar - W2_5 * x5_bar - W2_6 * x6_bar - W2_7 * x7_bar;
-    const vector gap_29 = gap_28 - W2_8 * x8_bar - W2_9 * x9_bar - W2_10 * x10_bar - W2_11 * x11_bar;
-    const vector gap_30 = gap_29 - W2_12 * x12_bar - W2_13 * x13_bar;
-    const vector gap_31 = -(W3_0 * x0_bar) - W3_1 * x1_bar - W3_2 * x2_bar - W3_3 * x3_bar;
-    const vector gap_32 = gap_31 - W3_4 * x4_bar - W3_5 * x5_bar - W3_6 * x6_bar - W3_7 * x7_bar;
-    const vector gap_33 = gap_32 - W3_8 * x8_bar - W3_9 * x9_bar - W3_10 * x10_bar - W3_11 * x11_bar;
-    const vector gap_34 = gap_33 - W3_12 * x12_bar - W3_13 * x13_bar;
-    const vector total_47 = its_value_bar + z0 * gap_22 + z1 * gap_26 + z2 * gap_30 + z3 * gap_34;
-    const vector gap_35 = -(W4_0 * x0_bar) - W4_1 * x1_bar - W4_2 * x2_bar - W4_3 * x3_bar;
-    const vector gap_36 = gap_35 - W4_4 * x4_bar - W4_5 * x5_bar - W4_6 * x6_bar - W4_7 * x7_bar;
-    const vector gap_37 = gap_36 - W4_8 * x8_bar - W4_9 * x9_bar - W4_10 * x10_bar - W4_11 * x11_bar;
-    const vector gap_38 = gap_37 - W4_12 * x12_bar - W4_13 * x13_bar;
-    const vector gap_39 = -(W5_0 * x0_bar) - W5_1 * x1_bar - W5_2 * x2_bar - W5_3 * x3_bar;
-    const vector gap_40 = gap_39 - W5_4 * x4_bar - W5_5 * x5_bar - W5_6 * x6_bar - W5_7 * x7_bar;
-    const vector gap_41 = gap_40 - W5_8 * x8_bar - W5_9 * x9_bar - W5_10 * x10_bar - W5_11 * x11_bar;
-    const vector gap_42 = gap_41 - W5_12 * x12_bar - W5_13 * x13_bar;
-    const vector gap_43 = -(W6_0 * x0_bar) - W6_1 * x1_bar - W6_2 * x2_bar - W6_3 * x3_bar;
-    const vector gap_44 = gap_43 - W6_4 * x4_bar - W6_5 * x5_bar - W6_6 * x6_bar - W6_7 * x7_bar;
-    const vector gap_45 = gap_44 - W6_8 * x8_bar - W6_9 * x9_bar - W6_10 * x10_bar - W6_11 * x11_bar;
-    const vector gap_46 = gap_45 - W6_12 * x12_bar - W6_13 * x13_bar;
-    const vector gap_47 = -(W7_0 * x0_bar) - W7_1 * x1_bar - W7_2 * x2_bar - W7_3 * x3_bar;
-    const vector gap_48 = gap_47 - W7_4 * x4_bar - W7_5 * x5_bar - W7_6 * x6_bar - W7_7 * x7_bar;
-    const vector gap_49 = gap_48 - W7_8 * x8_bar - W7_9 * x9_bar - W7_10 * x10_bar - W7_11 * x11_bar;
-    const vector gap_50 = gap_49 - W7_12 * x12_bar - W7_13 * x13_bar;
-    const vector total_48 = total_47 + z4 * gap_38 + z5 * gap_42 + z6 * gap_46 + z7 * gap_50;
-    const vector gap_51 = -(W8_0 * x0_bar) - W8_1 * x1_bar - W8_2 * x2_bar - W8_3 * x3_bar;
-    const vector gap_52 = gap_51 - W8_4 * x4_bar - W8_5 * x5_bar - W8_6 * x6_bar - W8_7 * x7_bar;
-    const vector gap_53 = gap_52 - W8_8 * x8_bar - W8_9 * x9_bar - W8_10 * x10_bar - W8_11 * x11_bar;
-    const vector gap_54 = gap_53 - W8_12 * x12_bar - W8_13 * x13_bar;
-    const vector gap_55 = -(W9_0 * x0_bar) - W9_1 * x1_bar - W9_2 * x2_bar - W9_3 * x3_bar;
-    const vector gap_56 = gap_55 - W9_4 * x4_bar - W9_5 * x5_bar - W9_6 * x6_bar - W9_7 * x7_bar;
-    const vector gap_57 = gap_56 - W9_8 * x8_bar - W9_9 * x9_bar - W9_10 * x10_bar - W9_11 * x11_bar;
-    const vector gap_58 = gap_57 - W9_12 * x12_bar - W9_13 * x13_bar;
-    const vector gap_59 = -(W10_0 * x0_bar) - W10_1 * x1_bar - W10_2 * x2_bar - W10_3 * x3_bar;
-    const vector gap_60 = gap_59 - W10_4 * x4_bar - W10_5 * x5_bar - W10_6 * x6_bar - W10_7 * x7_bar;
-    const vector gap_61 = gap_60 - W10_8 * x8_bar - W10_9 * x9_bar - W10_10 * x10_bar - W10_11 * x11_bar;
-    const vector gap_62 = gap_61 - W10_12 * x12_bar - W10_13 * x13_bar;
-    const vector gap_63 = -(W11_0 * x0_bar) - W11_1 * x1_bar - W11_2 * x2_bar - W11_3 * x3_bar;
-    const vector gap_64 = gap_63 - W11_4 * x4_bar - W11_5 * x5_bar - W11_6 * x6_bar - W11_7 * x7_bar;
-    const vector gap_65 = gap_64 - W11_8 * x8_bar - W11_9 * x9_bar - W11_10 * x10_bar - W11_11 * x11_bar;
-    const vector gap_66 = gap_65 - W11_12 * x12_bar - W11_13 * x13_bar;
-    const vector total_49 = total_48 + z8 * gap_54 + z9 * gap_58 + z10 * gap_62 + z11 * gap_66;
-    const vector gap_67 = -(W12_0 * x0_bar) - W12_1 * x1_bar - W12_2 * x2_bar - W12_3 * x3_bar;
-    const vector gap_68 = gap_67 - W12_4 * x4_bar - W12_5 * x5_bar - W12_6 * x6_bar - W12_7 * x7_bar;
-    const vector gap_69 = gap_68 - W12_8 * x8_bar - W12_9 * x9_bar - W12_10 * x10_bar - W12_11 * x11_bar;
-    const vector gap_70 = gap_69 - W12_12 * x12_bar - W12_13 * x13_bar;
-    const vector by_phi = total_49 + z12 * gap_70 + z13 * gap_18;
-    const vector phi_product = phi * by_phi;
-    const vector by_z13 = phi * gap_18 - z13 * phi_product;
-    const vector by_z12 = phi * gap_70 - z12 * phi_product;
-    const vector by_z11 = phi * gap_66 - z11 * phi_product;
-    const vector by_z10 = phi * gap_62 - z10 * phi_product;
-    const vector by_z9 = phi * gap_58 - z9 * phi_product;
-    const vector total_50 = W13_0 * by_z13 + W12_0 * by_z12 + W11_0 * by_z11 + W10_0 * by_z10 + W9_0 * by_z9;
-    const vector by_z8 = phi * gap_54 - z8 * phi_product;
-    const vector by_z7 = phi * gap_50 - z7 * phi_product;
-    const vector by_z6 = phi * gap_46 - z6 * phi_product;
-    const vector by_z5 = phi * gap_42 - z5 * phi_product;
-    const vector total_51 = total_50 + W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5;
-    const vector by_z4 = phi * gap_38 - z4 * phi_product;
-    const vector by_z3 = phi * gap_34 - z3 * phi_product;
-    const vector by_z2 = phi * gap_30 - z2 * phi_product;
-    const vector by_z1 = phi * gap_26 - z1 * phi_product;
-    const vector total_52 = total_51 + W4_0 * by_z4 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1;
-    const vector by_z0 = phi * gap_22 - z0 * phi_product;
-    const vector by_v0 = total_52 + W0_0 * by_z0;
-    const vector total_53 = W13_1 * by_z13 + W12_1 * by_z12 + W11_1 * by_z11 + W10_1 * by_z10 + W9_1 * by_z9;
-    const vector total_54 = total_53 + W8_1 * by_z8 + W7_1 * by_z7 + W6_1 * by_z6 + W5_1 * by_z5;
-    const vector total_55 = total_54 + W4_1 * by_z4 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1;
-    const vector by_v1 = total_55 + W0_1 * by_z0;
-    const vector total_56 = W13_2 * by_z13 + W12_2 * by_z12 + W11_2 * by_z11 + W10_2 * by_z10 + W9_2 * by_z9;
-    const vector total_57 = total_56 + W8_2 * by_z8 + W7_2 * by_z7 + W6_2 * by_z6 + W5_2 * by_z5;
-    const vector total_58 = total_57 + W4_2 * by_z4 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1;
-    const vector by_v2 = total_58 + W0_2 * by_z0;
-    const vector total_59 = W13_3 * by_z13 + W12_3 * by_z12 + W11_3 * by_z11 + W10_3 * by_z10 + W9_3 * by_z9;
-    const vector total_60 = total_59 + W8_3 * by_z8 + W7_3 * by_z7 + W6_3 * by_z6 + W5_3 * by_z5;
-    const vector total_61 = total_60 + W4_3 * by_z4 + W3_3 * by_z3 + W2_3 * by_z2 + W1_3 * by_z1;
-    const vector by_v3 = total_61 + W0_3 * by_z0;
-    const vector total_62 = W13_4 * by_z13 + W12_4 * by_z12 + W11_4 * by_z11 + W10_4 * by_z10 + W9_4 * by_z9;
-    const vector total_63 = total_62 + W8_4 * by_z8 + W7_4 * by_z7 + W6_4 * by_z6 + W5_4 * by_z5;
-    const vector total_64 = total_63 + W4_4 * by_z4 + W3_4 * by_z3 + W2_4 * by_z2 + W1_4 * by_z1;
-    const vector by_v4 = total_64 + W0_4 * by_z0;
-    const vector total_65 = W13_5 * by_z13 + W12_5 * by_z12 + W11_5 * by_z11 + W10_5 * by_z10 + W9_5 * by_z9;
-    const vector total_66 = total_65 + W8_5 * by_z8 + W7_5 * by_z7 + W6_5 * by_z6 + W5_5 * by_z5;
-    const vector total_67 = total_66 + W4_5 * by_z4 + W3_5 * by_z3 + W2_5 * by_z2 + W1_5 * by_z1;
-    const vector by_v5 = total_67 + W0_5 * by_z0;
-    const vector total_68 = W13_6 * by_z13 + W12_6 * by_z12 + W11_6 * by_z11 + W10_6 * by_z10 + W9_6 * by_z9;
-    const vector total_69 = total_68 + W8_6 * by_z8 + W7_6 * by_z7 + W6_6 * by_z6 + W5_6 * by_z5;
-    const vector total_70 = total_69 + W4_6 * by_z4 + W3_6 * by_z3 + W2_6 * by_z2 + W1_6 * by_z1;
-    const vector by_v6 = total_70 + W0_6 * by_z0;
-    const vector total_71 = W13_7 * by_z13 + W12_7 * by_z12 + W11_7 * by_z11 + W10_7 * by_z10 + W9_7 * by_z9;
-    const vector total_72 = total_71 + W8_7 * by_z8 + W7_7 * by_z7 + W6_7 * by_z6 + W5_7 * by_z5;
-    const vector total_73 = total_72 + W4_7 * by_z4 + W3_7 * by_z3 + W2_7 * by_z2 + W1_7 * by_z1;
-    const vector by_v7 = total_73 + W0_7 * by_z0;
-    const vector total_74 = W13_8 * by_z13 + W12_8 * by_z12 + W11_8 * by_z11 + W10_8 * by_z10 + W9_8 * by_z9;
-    const vector total_75 = total_74 + W8_8 * by_z8 + W7_8 * by_z7 + W6_8 * by_z6 + W5_8 * by_z5;
-    const vector total_76 = total_75 + W4_8 * by_z4 + W3_8 * by_z3 + W2_8 * by_z2 + W1_8 * by_z1;
-    const vector by_v8 = total_76 + W0_8 * by_z0;
-    const vector total_77 = W13_9 * by_z13 + W12_9 * by_z12 + W11_9 * by_z11 + W10_9 * by_z10 + W9_9 * by_z9;
-    const vector total_78 = total_77 + W8_9 * by_z8 + W7_9 * by_z7 + W6_9 * by_z6 + W5_9 * by_z5;
-    const vector total_79 = total_78 + W4_9 * by_z4 + W3_9 * by_z3 + W2_9 * by_z2 + W1_9 * by_z1;
-    const vector by_v9 = total_79 + W0_9 * by_z0;
-    const vector total_80 = W13_10 * by_z13 + W12_10 * by_z12 + W11_10 * by_z11 + W10_10 * by_z10 + W9_10 *
-        by_z9;
-    const vector total_81 = total_80 + W8_10 * by_z8 + W7_10 * by_z7 + W6_10 * by_z6 + W5_10 * by_z5;
-    const vector total_82 = total_81 + W4_10 * by_z4 + W3_10 * by_z3 + W2_10 * by_z2 + W1_10 * by_z1;
-    const vector by_v10 = total_82 + W0_10 * by_z0;
-    const vector total_83 = W13_11 * by_z13 + W12_11 * by_z12 + W11_11 * by_z11 + W10_11 * by_z10 + W9_11 *
-        by_z9;
-    const vector total_84 = total_83 + W8_11 * by_z8 + W7_11 * by_z7 + W6_11 * by_z6 + W5_11 * by_z5;
-    const vector total_85 = total_84 + W4_11 * by_z4 + W3_11 * by_z3 + W2_11 * by_z2 + W1_11 * by_z1;
-    const vector by_v11 = total_85 + W0_11 * by_z0;
-    const vector total_86 = W13_12 * by_z13 + W12_12 * by_z12 + W11_12 * by_z11 + W10_12 * by_z10 + W9_12 *
-        by_z9;
-    const vector total_87 = total_86 + W8_12 * by_z8 + W7_12 * by_z7 + W6_12 * by_z6 + W5_12 * by_z5;
-    const vector total_88 = total_87 + W4_12 * by_z4 + W3_12 * by_z3 + W2_12 * by_z2 + W1_12 * by_z1;
-    const vector by_v12 = total_88 + W0_12 * by_z0;
-    const vector total_89 = W13_13 * by_z13 + W12_13 * by_z12 + W11_13 * by_z11 + W10_13 * by_z10 + W9_13 *
-        by_z9;
-    const vector total_90 = total_89 + W8_13 * by_z8 + W7_13 * by_z7 + W6_13 * by_z6 + W5_13 * by_z5;
-    const vector total_91 = total_90 + W4_13 * by_z4 + W3_13 * by_z3 + W2_13 * by_z2 + W1_13 * by_z1;
-    const vector by_v13 = total_91 + W0_13 * by_z0;
-    const vector z0_product = z0 * phi;
-    const vector z1_product = z1 * phi;
-    const vector z2_product = z2 * phi;
-    const vector z3_product = z3 * phi;
-    const vector z4_product = z4 * phi;
-    const vector z5_product = z5 * phi;
-    const vector z6_product = z6 * phi;
-    const vector z7_product = z7 * phi;
-    const vector z8_product = z8 * phi;
-    const vector z9_product = z9 * phi;
-    const vector z10_product = z10 * phi;
-    const vector z11_product = z11 * phi;
-    const vector z12_product = z12 * phi;
-    const vector z13_product = z13 * phi;
-    factor[0] = v0;
-    factor[1] = v1;
-    factor[2] = v2;
-    factor[3] = v3;
-    factor[4] = v4;
-    factor[5] = v5;
-    factor[6] = v6;
-    factor[7] = v7;
-    factor[8] = v8;
-    factor[9] = v9;
-    factor[10] = v10;
-    factor[11] = v11;
-    factor[12] = v12;
-    factor[13] = v13;
-    factor[14] = phi_product;
-    factor[15] = by_z13;
-    factor[16] = by_z12;
-    factor[17] = by_z11;
-    factor[18] = by_z10;
-    factor[19] = by_z9;
-    factor[20] = by_z8;
-    factor[21] = by_z7;
-    factor[22] = by_z6;
-    factor[23] = by_z5;
-    factor[24] = by_z4;
-    factor[25] = by_z3;
-    factor[26] = by_z2;
-    factor[27] = by_z1;
-    factor[28] = by_z0;
-    factor[29] = -by_v0;
-    factor[30] = -by_v1;
-    factor[31] = -by_v2;
-    factor[32] = -by_v3;
-    factor[33] = -by_v4;
-    factor[34] = -by_v5;
-    factor[35] = -by_v6;
-    factor[36] = -by_v7;
-    factor[37] = -by_v8;
-    factor[38] = -by_v9;
-    factor[39] = -by_v10;
-    factor[40] = -by_v11;
-    factor[41] = -by_v12;
-    factor[42] = -by_v13;
-    factor[43] = z0_product;
-    factor[44] = z1_product;
-    factor[45] = z2_product;
-    factor[46] = z3_product;
-    factor[47] = z4_product;
-    factor[48] = z5_product;
-    factor[49] = z6_product;
-    factor[50] = z7_product;
-    factor[51] = z8_product;
-    factor[52] = z9_product;
-    factor[53] = z10_product;
-    factor[54] = z11_product;
-    factor[55] = z12_product;
-    factor[56] = z13_product;
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_0(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[29];
-    sum[1] = sum[1] + factor[30];
-    sum[2] = sum[2] + factor[31];
-    sum[3] = sum[3] + factor[32];
-    sum[4] = sum[4] + factor[33];
-    sum[5] = sum[5] + factor[34];
-    sum[6] = sum[6] + factor[35];
-    sum[7] = sum[7] + factor[36];
-    sum[8] = sum[8] + factor[37];
-    sum[9] = sum[9] + factor[38];
-    sum[10] = sum[10] + factor[39];
-    sum[11] = sum[11] + factor[40];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_1(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[41];
-    sum[1] = sum[1] + factor[42];
-    sum[2] = sum[2] + factor[14];
-    sum[3] = sum[3] + factor[0] * factor[28] - factor[43] * point[15];
-    sum[4] = sum[4] + factor[1] * factor[28] - factor[43] * point[16];
-    sum[5] = sum[5] + factor[2] * factor[28] - factor[43] * point[17];
-    sum[6] = sum[6] + factor[3] * factor[28] - factor[43] * point[18];
-    sum[7] = sum[7] + factor[4] * factor[28] - factor[43] * point[19];
-    sum[8] = sum[8] + factor[5] * factor[28] - factor[43] * point[20];
-    sum[9] = sum[9] + factor[6] * factor[28] - factor[43] * point[21];
-    sum[10] = sum[10] + factor[7] * factor[28] - factor[43] * point[22];
-    sum[11] = sum[11] + factor[8] * factor[28] - factor[43] * point[23];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_2(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[9] * factor[28] - factor[43] * point[24];
-    sum[1] = sum[1] + factor[10] * factor[28] - factor[43] * point[25];
-    sum[2] = sum[2] + factor[11] * factor[28] - factor[43] * point[26];
-    sum[3] = sum[3] + factor[12] * factor[28] - factor[43] * point[27];
-    sum[4] = sum[4] + factor[13] * factor[28] - factor[43] * point[28];
-    sum[5] = sum[5] + factor[9] * factor[27] - factor[44] * point[24];
-    sum[6] = sum[6] + factor[10] * factor[27] - factor[44] * point[25];
-    sum[7] = sum[7] + factor[11] * factor[27] - factor[44] * point[26];
-    sum[8] = sum[8] + factor[12] * factor[27] - factor[44] * point[27];
-    sum[9] = sum[9] + factor[13] * factor[27] - factor[44] * point[28];
-    sum[10] = sum[10] + factor[0] * factor[27] - factor[44] * point[15];
-    sum[11] = sum[11] + factor[1] * factor[27] - factor[44] * point[16];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_3(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[2] * factor[27] - factor[44] * point[17];
-    sum[1] = sum[1] + factor[3] * factor[27] - factor[44] * point[18];
-    sum[2] = sum[2] + factor[4] * factor[27] - factor[44] * point[19];
-    sum[3] = sum[3] + factor[5] * factor[27] - factor[44] * point[20];
-    sum[4] = sum[4] + factor[6] * factor[27] - factor[44] * point[21];
-    sum[5] = sum[5] + factor[7] * factor[27] - factor[44] * point[22];
-    sum[6] = sum[6] + factor[8] * factor[27] - factor[44] * point[23];
-    sum[7] = sum[7] + factor[2] * factor[26] - factor[45] * point[17];
-    sum[8] = sum[8] + factor[3] * factor[26] - factor[45] * point[18];
-    sum[9] = sum[9] + factor[4] * factor[26] - factor[45] * point[19];
-    sum[10] = sum[10] + factor[5] * factor[26] - factor[45] * point[20];
-    sum[11] = sum[11] + factor[6] * factor[26] - factor[45] * point[21];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_4(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[0] * factor[26] - factor[45] * point[15];
-    sum[1] = sum[1] + factor[1] * factor[26] - factor[45] * point[16];
-    sum[2] = sum[2] + factor[7] * factor[26] - factor[45] * point[22];
-    sum[3] = sum[3] + factor[8] * factor[26] - factor[45] * point[23];
-    sum[4] = sum[4] + factor[9] * factor[26] - factor[45] * point[24];
-    sum[5] = sum[5] + factor[10] * factor[26] - factor[45] * point[25];
-    sum[6] = sum[6] + factor[11] * factor[26] - factor[45] * point[26];
-    sum[7] = sum[7] + factor[12] * factor[26] - factor[45] * point[27];
-    sum[8] = sum[8] + factor[13] * factor[26] - factor[45] * point[28];
-    sum[9] = sum[9] + factor[0] * factor[25] - factor[46] * point[15];
-    sum[10] = sum[10] + factor[1] * factor[25] - factor[46] * point[16];
-    sum[11] = sum[11] + factor[7] * factor[25] - factor[46] * point[22];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_5(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[2] * factor[25] - factor[46] * point[17];
-    sum[1] = sum[1] + factor[3] * factor[25] - factor[46] * point[18];
-    sum[2] = sum[2] + factor[4] * factor[25] - factor[46] * point[19];
-    sum[3] = sum[3] + factor[5] * factor[25] - factor[46] * point[20];
-    sum[4] = sum[4] + factor[6] * factor[25] - factor[46] * point[21];
-    sum[5] = sum[5] + factor[8] * factor[25] - factor[46] * point[23];
-    sum[6] = sum[6] + factor[9] * factor[25] - factor[46] * point[24];
-    sum[7] = sum[7] + factor[10] * factor[25] - factor[46] * point[25];
-    sum[8] = sum[8] + factor[11] * factor[25] - factor[46] * point[26];
-    sum[9] = sum[9] + factor[12] * factor[25] - factor[46] * point[27];
-    sum[10] = sum[10] + factor[13] * factor[25] - factor[46] * point[28];
-    sum[11] = sum[11] + factor[2] * factor[24] - factor[47] * point[17];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_6(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[0] * factor[24] - factor[47] * point[15];
-    sum[1] = sum[1] + factor[1] * factor[24] - factor[47] * point[16];
-    sum[2] = sum[2] + factor[3] * factor[24] - factor[47] * point[18];
-    sum[3] = sum[3] + factor[4] * factor[24] - factor[47] * point[19];
-    sum[4] = sum[4] + factor[5] * factor[24] - factor[47] * point[20];
-    sum[5] = sum[5] + factor[6] * factor[24] - factor[47] * point[21];
-    sum[6] = sum[6] + factor[7] * factor[24] - factor[47] * point[22];
-    sum[7] = sum[7] + factor[8] * factor[24] - factor[47] * point[23];
-    sum[8] = sum[8] + factor[9] * factor[24] - factor[47] * point[24];
-    sum[9] = sum[9] + factor[10] * factor[24] - factor[47] * point[25];
-    sum[10] = sum[10] + factor[11] * factor[24] - factor[47] * point[26];
-    sum[11] = sum[11] + factor[12] * factor[24] - factor[47] * point[27];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_7(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[13] * factor[24] - factor[47] * point[28];
-    sum[1] = sum[1] + factor[13] * factor[23] - factor[48] * point[28];
-    sum[2] = sum[2] + factor[0] * factor[23] - factor[48] * point[15];
-    sum[3] = sum[3] + factor[1] * factor[23] - factor[48] * point[16];
-    sum[4] = sum[4] + factor[2] * factor[23] - factor[48] * point[17];
-    sum[5] = sum[5] + factor[3] * factor[23] - factor[48] * point[18];
-    sum[6] = sum[6] + factor[4] * factor[23] - factor[48] * point[19];
-    sum[7] = sum[7] + factor[5] * factor[23] - factor[48] * point[20];
-    sum[8] = sum[8] + factor[6] * factor[23] - factor[48] * point[21];
-    sum[9] = sum[9] + factor[7] * factor[23] - factor[48] * point[22];
-    sum[10] = sum[10] + factor[8] * factor[23] - factor[48] * point[23];
-    sum[11] = sum[11] + factor[9] * factor[23] - factor[48] * point[24];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_8(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[10] * factor[23] - factor[48] * point[25];
-    sum[1] = sum[1] + factor[11] * factor[23] - factor[48] * point[26];
-    sum[2] = sum[2] + factor[12] * factor[23] - factor[48] * point[27];
-    sum[3] = sum[3] + factor[10] * factor[22] - factor[49] * point[25];
-    sum[4] = sum[4] + factor[11] * factor[22] - factor[49] * point[26];
-    sum[5] = sum[5] + factor[12] * factor[22] - factor[49] * point[27];
-    sum[6] = sum[6] + factor[0] * factor[22] - factor[49] * point[15];
-    sum[7] = sum[7] + factor[1] * factor[22] - factor[49] * point[16];
-    sum[8] = sum[8] + factor[2] * factor[22] - factor[49] * point[17];
-    sum[9] = sum[9] + factor[3] * factor[22] - factor[49] * point[18];
-    sum[10] = sum[10] + factor[4] * factor[22] - factor[49] * point[19];
-    sum[11] = sum[11] + factor[5] * factor[22] - factor[49] * point[20];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_9(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[6] * factor[22] - factor[49] * point[21];
-    sum[1] = sum[1] + factor[7] * factor[22] - factor[49] * point[22];
-    sum[2] = sum[2] + factor[8] * factor[22] - factor[49] * point[23];
-    sum[3] = sum[3] + factor[9] * factor[22] - factor[49] * point[24];
-    sum[4] = sum[4] + factor[13] * factor[22] - factor[49] * point[28];
-    sum[5] = sum[5] + factor[6] * factor[21] - factor[50] * point[21];
-    sum[6] = sum[6] + factor[7] * factor[21] - factor[50] * point[22];
-    sum[7] = sum[7] + factor[8] * factor[21] - factor[50] * point[23];
-    sum[8] = sum[8] + factor[9] * factor[21] - factor[50] * point[24];
-    sum[9] = sum[9] + factor[13] * factor[21] - factor[50] * point[28];
-    sum[10] = sum[10] + factor[0] * factor[21] - factor[50] * point[15];
-    sum[11] = sum[11] + factor[1] * factor[21] - factor[50] * point[16];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_10(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[2] * factor[21] - factor[50] * point[17];
-    sum[1] = sum[1] + factor[3] * factor[21] - factor[50] * point[18];
-    sum[2] = sum[2] + factor[4] * factor[21] - factor[50] * point[19];
-    sum[3] = sum[3] + factor[5] * factor[21] - factor[50] * point[20];
-    sum[4] = sum[4] + factor[10] * factor[21] - factor[50] * point[25];
-    sum[5] = sum[5] + factor[11] * factor[21] - factor[50] * point[26];
-    sum[6] = sum[6] + factor[12] * factor[21] - factor[50] * point[27];
-    sum[7] = sum[7] + factor[2] * factor[20] - factor[51] * point[17];
-    sum[8] = sum[8] + factor[3] * factor[20] - factor[51] * point[18];
-    sum[9] = sum[9] + factor[4] * factor[20] - factor[51] * point[19];
-    sum[10] = sum[10] + factor[5] * factor[20] - factor[51] * point[20];
-    sum[11] = sum[11] + factor[10] * factor[20] - factor[51] * point[25];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_11(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[0] * factor[20] - factor[51] * point[15];
-    sum[1] = sum[1] + factor[1] * factor[20] - factor[51] * point[16];
-    sum[2] = sum[2] + factor[6] * factor[20] - factor[51] * point[21];
-    sum[3] = sum[3] + factor[7] * factor[20] - factor[51] * point[22];
-    sum[4] = sum[4] + factor[8] * factor[20] - factor[51] * point[23];
-    sum[5] = sum[5] + factor[9] * factor[20] - factor[51] * point[24];
-    sum[6] = sum[6] + factor[11] * factor[20] - factor[51] * point[26];
-    sum[7] = sum[7] + factor[12] * factor[20] - factor[51] * point[27];
-    sum[8] = sum[8] + factor[13] * factor[20] - factor[51] * point[28];
-    sum[9] = sum[9] + factor[0] * factor[19] - factor[52] * point[15];
-    sum[10] = sum[10] + factor[1] * factor[19] - factor[52] * point[16];
-    sum[11] = sum[11] + factor[6] * factor[19] - factor[52] * point[21];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_12(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[2] * factor[19] - factor[52] * point[17];
-    sum[1] = sum[1] + factor[3] * factor[19] - factor[52] * point[18];
-    sum[2] = sum[2] + factor[4] * factor[19] - factor[52] * point[19];
-    sum[3] = sum[3] + factor[5] * factor[19] - factor[52] * point[20];
-    sum[4] = sum[4] + factor[7] * factor[19] - factor[52] * point[22];
-    sum[5] = sum[5] + factor[8] * factor[19] - factor[52] * point[23];
-    sum[6] = sum[6] + factor[9] * factor[19] - factor[52] * point[24];
-    sum[7] = sum[7] + factor[10] * factor[19] - factor[52] * point[25];
-    sum[8] = sum[8] + factor[11] * factor[19] - factor[52] * point[26];
-    sum[9] = sum[9] + factor[12] * factor[19] - factor[52] * point[27];
-    sum[10] = sum[10] + factor[13] * factor[19] - factor[52] * point[28];
-    sum[11] = sum[11] + factor[2] * factor[18] - factor[53] * point[17];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_13(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[0] * factor[18] - factor[53] * point[15];
-    sum[1] = sum[1] + factor[1] * factor[18] - factor[53] * point[16];
-    sum[2] = sum[2] + factor[3] * factor[18] - factor[53] * point[18];
-    sum[3] = sum[3] + factor[4] * factor[18] - factor[53] * point[19];
-    sum[4] = sum[4] + factor[5] * factor[18] - factor[53] * point[20];
-    sum[5] = sum[5] + factor[6] * factor[18] - factor[53] * point[21];
-    sum[6] = sum[6] + factor[7] * factor[18] - factor[53] * point[22];
-    sum[7] = sum[7] + factor[8] * factor[18] - factor[53] * point[23];
-    sum[8] = sum[8] + factor[9] * factor[18] - factor[53] * point[24];
-    sum[9] = sum[9] + factor[10] * factor[18] - factor[53] * point[25];
-    sum[10] = sum[10] + factor[11] * factor[18] - factor[53] * point[26];
-    sum[11] = sum[11] + factor[12] * factor[18] - factor[53] * point[27];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_14(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[13] * factor[18] - factor[53] * point[28];
-    sum[1] = sum[1] + factor[13] * factor[17] - factor[54] * point[28];
-    sum[2] = sum[2] + factor[0] * factor[17] - factor[54] * point[15];
-    sum[3] = sum[3] + factor[1] * factor[17] - factor[54] * point[16];
-    sum[4] = sum[4] + factor[2] * factor[17] - factor[54] * point[17];
-    sum[5] = sum[5] + factor[3] * factor[17] - factor[54] * point[18];
-    sum[6] = sum[6] + factor[4] * factor[17] - factor[54] * point[19];
-    sum[7] = sum[7] + factor[5] * factor[17] - factor[54] * point[20];
-    sum[8] = sum[8] + factor[6] * factor[17] - factor[54] * point[21];
-    sum[9] = sum[9] + factor[7] * factor[17] - factor[54] * point[22];
-    sum[10] = sum[10] + factor[8] * factor[17] - factor[54] * point[23];
-    sum[11] = sum[11] + factor[9] * factor[17] - factor[54] * point[24];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_15(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[10] * factor[17] - factor[54] * point[25];
-    sum[1] = sum[1] + factor[11] * factor[17] - factor[54] * point[26];
-    sum[2] = sum[2] + factor[12] * factor[17] - factor[54] * point[27];
-    sum[3] = sum[3] + factor[10] * factor[16] - factor[55] * point[25];
-    sum[4] = sum[4] + factor[11] * factor[16] - factor[55] * point[26];
-    sum[5] = sum[5] + factor[12] * factor[16] - factor[55] * point[27];
-    sum[6] = sum[6] + factor[0] * factor[16] - factor[55] * point[15];
-    sum[7] = sum[7] + factor[1] * factor[16] - factor[55] * point[16];
-    sum[8] = sum[8] + factor[2] * factor[16] - factor[55] * point[17];
-    sum[9] = sum[9] + factor[3] * factor[16] - factor[55] * point[18];
-    sum[10] = sum[10] + factor[4] * factor[16] - factor[55] * point[19];
-    sum[11] = sum[11] + factor[5] * factor[16] - factor[55] * point[20];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_16(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[6] * factor[16] - factor[55] * point[21];
-    sum[1] = sum[1] + factor[7] * factor[16] - factor[55] * point[22];
-    sum[2] = sum[2] + factor[8] * factor[16] - factor[55] * point[23];
-    sum[3] = sum[3] + factor[9] * factor[16] - factor[55] * point[24];
-    sum[4] = sum[4] + factor[13] * factor[16] - factor[55] * point[28];
-    sum[5] = sum[5] + factor[6] * factor[15] - factor[56] * point[21];
-    sum[6] = sum[6] + factor[7] * factor[15] - factor[56] * point[22];
-    sum[7] = sum[7] + factor[8] * factor[15] - factor[56] * point[23];
-    sum[8] = sum[8] + factor[9] * factor[15] - factor[56] * point[24];
-    sum[9] = sum[9] + factor[13] * factor[15] - factor[56] * point[28];
-    sum[10] = sum[10] + factor[0] * factor[15] - factor[56] * point[15];
-    sum[11] = sum[11] + factor[1] * factor[15] - factor[56] * point[16];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_17(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[2] * factor[15] - factor[56] * point[17];
-    sum[1] = sum[1] + factor[3] * factor[15] - factor[56] * point[18];
-    sum[2] = sum[2] + factor[4] * factor[15] - factor[56] * point[19];
-    sum[3] = sum[3] + factor[5] * factor[15] - factor[56] * point[20];
-    sum[4] = sum[4] + factor[10] * factor[15] - factor[56] * point[25];
-    sum[5] = sum[5] + factor[11] * factor[15] - factor[56] * point[26];
-    sum[6] = sum[6] + factor[12] * factor[15] - factor[56] * point[27];
-}
-
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
 OUTLINE void vector_rows(const double *rows, size_t count, size_t start, size_t size, vector *columns) {
     for (size_t i = 0; i < size; ++i) {
@@ -2961,7 +3497,7 @@ OUTLINE void splat_constants(
     vector_to_rows(S, constants, splat_count, start, 211, 211);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void dual_arm_splats(
     size_t count, size_t splat_count, const double *DUAL_ARM_RESTRICT x, const double *DUAL_ARM_RESTRICT mu, const double *DUAL_ARM_RESTRICT W, const double *DUAL_ARM_RESTRICT amplitude, const double *DUAL_ARM_RESTRICT width,
     double *DUAL_ARM_RESTRICT value, double *DUAL_ARM_RESTRICT gradient, double *DUAL_ARM_RESTRICT work, int threads) {
@@ -2976,27 +3512,26 @@ void dual_arm_splats(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[2][14], X[2][14], grad[14];
-            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][14] = {{ZERO}};
+            vector at[2][14], X[2 * 14], grad[14];
+            vector value_sum[2] = {ZERO}, slope_sum[2 * 14] = {ZERO};
             double place[14 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 14, at[b]);
-                pair_features(at[b], X[b]);
+                pair_features(at[b], X + 14 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 211 * near[i];
-                    pair_forward(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient(at[b], slope_sum[b], grad);
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                pair_gradient(at[b], slope_sum + 14 * b, grad);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
                 vector_to_rows(grad, gradient, count, start + b * LANES, 14, 14);
             }
         }
@@ -3018,25 +3553,24 @@ void dual_arm_splats_value(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[14], X[2][14], value_sum[2][1] = {{ZERO}};
+            vector at[14], X[2 * 14], value_sum[2] = {ZERO};
             double place[14 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 14, at);
-                pair_features(at, X[b]);
+                pair_features(at, X + 14 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 211 * near[i];
-                    pair_value(X[0], S, value_sum[0]);
-                    pair_value(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -3055,14 +3589,14 @@ OUTLINE void splat_points(
     vector_end(count, start, 14 + 1, point + 14);
 }
 
-/* Adds to sums what one vector of points adds to it. */
+/* Adds what makes the derivatives, of a splat at some vectors of points: their factors, then the products of these. */
 INLINE void pair_backward(
-    const vector *point, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
-    vector factor[57];
-    pair_factors(point, S, value_bar, slope_bar, factor);
+    size_t count, const vector *points, const uint32_t *near, const double *S, vector *sums) {
+    vector factor[6 * 57];
+    pair_factors(count, points, near, S, factor);
     {
         vector sum[12] = {ZERO};
-        pair_products_0(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_0(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[0] += sum[0];
         sums[1] += sum[1];
         sums[2] += sum[2];
@@ -3078,7 +3612,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_1(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_1(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[12] += sum[0];
         sums[13] += sum[1];
         sums[210] += sum[2];
@@ -3094,7 +3628,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_2(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_2(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[23] += sum[0];
         sums[24] += sum[1];
         sums[25] += sum[2];
@@ -3110,7 +3644,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_3(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_3(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[30] += sum[0];
         sums[31] += sum[1];
         sums[32] += sum[2];
@@ -3126,7 +3660,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_4(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_4(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[42] += sum[0];
         sums[43] += sum[1];
         sums[49] += sum[2];
@@ -3142,7 +3676,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_5(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_5(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[58] += sum[0];
         sums[59] += sum[1];
         sums[60] += sum[2];
@@ -3158,7 +3692,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_6(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_6(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[70] += sum[0];
         sums[71] += sum[1];
         sums[73] += sum[2];
@@ -3174,7 +3708,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_7(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_7(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[83] += sum[0];
         sums[97] += sum[1];
         sums[84] += sum[2];
@@ -3190,7 +3724,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_8(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_8(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[94] += sum[0];
         sums[95] += sum[1];
         sums[96] += sum[2];
@@ -3206,7 +3740,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_9(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_9(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[104] += sum[0];
         sums[105] += sum[1];
         sums[106] += sum[2];
@@ -3222,7 +3756,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_10(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_10(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[114] += sum[0];
         sums[115] += sum[1];
         sums[116] += sum[2];
@@ -3238,7 +3772,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_11(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_11(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[126] += sum[0];
         sums[127] += sum[1];
         sums[132] += sum[2];
@@ -3254,7 +3788,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_12(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_12(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[142] += sum[0];
         sums[143] += sum[1];
         sums[144] += sum[2];
@@ -3270,7 +3804,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_13(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_13(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[154] += sum[0];
         sums[155] += sum[1];
         sums[157] += sum[2];
@@ -3286,7 +3820,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_14(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_14(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[167] += sum[0];
         sums[181] += sum[1];
         sums[168] += sum[2];
@@ -3302,7 +3836,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_15(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_15(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[178] += sum[0];
         sums[179] += sum[1];
         sums[180] += sum[2];
@@ -3318,7 +3852,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_16(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_16(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[188] += sum[0];
         sums[189] += sum[1];
         sums[190] += sum[2];
@@ -3334,7 +3868,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[7] = {ZERO};
-        pair_products_17(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_17(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[198] += sum[0];
         sums[199] += sum[1];
         sums[200] += sum[2];
@@ -3345,303 +3879,12 @@ INLINE void pair_backward(
     }
 }
 
-/*
- * Adds to sums what some vectors of points add to it, those in the list: factors of 6 vectors at a time, then their
- * products.
- */
-OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t count, const double *S, double *sums) {
-    vector factor[6 * 57], total[211] = {ZERO};
-    for (size_t start = 0; start < count; start += 6, near += 6) {
-        const size_t size = count - start < 6 ? count - start : 6;
-        for (size_t b = 0; b < size; ++b) {
-            const vector *at = points + 29 * (size_t)near[b];
-            pair_factors(at, S, at + 14, at + 14 + 1, factor + 57 * b);
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_0(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[0] += sum[0];
-            total[1] += sum[1];
-            total[2] += sum[2];
-            total[3] += sum[3];
-            total[4] += sum[4];
-            total[5] += sum[5];
-            total[6] += sum[6];
-            total[7] += sum[7];
-            total[8] += sum[8];
-            total[9] += sum[9];
-            total[10] += sum[10];
-            total[11] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_1(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[12] += sum[0];
-            total[13] += sum[1];
-            total[210] += sum[2];
-            total[14] += sum[3];
-            total[15] += sum[4];
-            total[16] += sum[5];
-            total[17] += sum[6];
-            total[18] += sum[7];
-            total[19] += sum[8];
-            total[20] += sum[9];
-            total[21] += sum[10];
-            total[22] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_2(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[23] += sum[0];
-            total[24] += sum[1];
-            total[25] += sum[2];
-            total[26] += sum[3];
-            total[27] += sum[4];
-            total[37] += sum[5];
-            total[38] += sum[6];
-            total[39] += sum[7];
-            total[40] += sum[8];
-            total[41] += sum[9];
-            total[28] += sum[10];
-            total[29] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_3(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[30] += sum[0];
-            total[31] += sum[1];
-            total[32] += sum[2];
-            total[33] += sum[3];
-            total[34] += sum[4];
-            total[35] += sum[5];
-            total[36] += sum[6];
-            total[44] += sum[7];
-            total[45] += sum[8];
-            total[46] += sum[9];
-            total[47] += sum[10];
-            total[48] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_4(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[42] += sum[0];
-            total[43] += sum[1];
-            total[49] += sum[2];
-            total[50] += sum[3];
-            total[51] += sum[4];
-            total[52] += sum[5];
-            total[53] += sum[6];
-            total[54] += sum[7];
-            total[55] += sum[8];
-            total[56] += sum[9];
-            total[57] += sum[10];
-            total[63] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_5(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[58] += sum[0];
-            total[59] += sum[1];
-            total[60] += sum[2];
-            total[61] += sum[3];
-            total[62] += sum[4];
-            total[64] += sum[5];
-            total[65] += sum[6];
-            total[66] += sum[7];
-            total[67] += sum[8];
-            total[68] += sum[9];
-            total[69] += sum[10];
-            total[72] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_6(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[70] += sum[0];
-            total[71] += sum[1];
-            total[73] += sum[2];
-            total[74] += sum[3];
-            total[75] += sum[4];
-            total[76] += sum[5];
-            total[77] += sum[6];
-            total[78] += sum[7];
-            total[79] += sum[8];
-            total[80] += sum[9];
-            total[81] += sum[10];
-            total[82] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_7(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[83] += sum[0];
-            total[97] += sum[1];
-            total[84] += sum[2];
-            total[85] += sum[3];
-            total[86] += sum[4];
-            total[87] += sum[5];
-            total[88] += sum[6];
-            total[89] += sum[7];
-            total[90] += sum[8];
-            total[91] += sum[9];
-            total[92] += sum[10];
-            total[93] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_8(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[94] += sum[0];
-            total[95] += sum[1];
-            total[96] += sum[2];
-            total[108] += sum[3];
-            total[109] += sum[4];
-            total[110] += sum[5];
-            total[98] += sum[6];
-            total[99] += sum[7];
-            total[100] += sum[8];
-            total[101] += sum[9];
-            total[102] += sum[10];
-            total[103] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_9(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[104] += sum[0];
-            total[105] += sum[1];
-            total[106] += sum[2];
-            total[107] += sum[3];
-            total[111] += sum[4];
-            total[118] += sum[5];
-            total[119] += sum[6];
-            total[120] += sum[7];
-            total[121] += sum[8];
-            total[125] += sum[9];
-            total[112] += sum[10];
-            total[113] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_10(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[114] += sum[0];
-            total[115] += sum[1];
-            total[116] += sum[2];
-            total[117] += sum[3];
-            total[122] += sum[4];
-            total[123] += sum[5];
-            total[124] += sum[6];
-            total[128] += sum[7];
-            total[129] += sum[8];
-            total[130] += sum[9];
-            total[131] += sum[10];
-            total[136] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_11(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[126] += sum[0];
-            total[127] += sum[1];
-            total[132] += sum[2];
-            total[133] += sum[3];
-            total[134] += sum[4];
-            total[135] += sum[5];
-            total[137] += sum[6];
-            total[138] += sum[7];
-            total[139] += sum[8];
-            total[140] += sum[9];
-            total[141] += sum[10];
-            total[146] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_12(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[142] += sum[0];
-            total[143] += sum[1];
-            total[144] += sum[2];
-            total[145] += sum[3];
-            total[147] += sum[4];
-            total[148] += sum[5];
-            total[149] += sum[6];
-            total[150] += sum[7];
-            total[151] += sum[8];
-            total[152] += sum[9];
-            total[153] += sum[10];
-            total[156] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_13(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[154] += sum[0];
-            total[155] += sum[1];
-            total[157] += sum[2];
-            total[158] += sum[3];
-            total[159] += sum[4];
-            total[160] += sum[5];
-            total[161] += sum[6];
-            total[162] += sum[7];
-            total[163] += sum[8];
-            total[164] += sum[9];
-            total[165] += sum[10];
-            total[166] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_14(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[167] += sum[0];
-            total[181] += sum[1];
-            total[168] += sum[2];
-            total[169] += sum[3];
-            total[170] += sum[4];
-            total[171] += sum[5];
-            total[172] += sum[6];
-            total[173] += sum[7];
-            total[174] += sum[8];
-            total[175] += sum[9];
-            total[176] += sum[10];
-            total[177] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_15(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[178] += sum[0];
-            total[179] += sum[1];
-            total[180] += sum[2];
-            total[192] += sum[3];
-            total[193] += sum[4];
-            total[194] += sum[5];
-            total[182] += sum[6];
-            total[183] += sum[7];
-            total[184] += sum[8];
-            total[185] += sum[9];
-            total[186] += sum[10];
-            total[187] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_16(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[188] += sum[0];
-            total[189] += sum[1];
-            total[190] += sum[2];
-            total[191] += sum[3];
-            total[195] += sum[4];
-            total[202] += sum[5];
-            total[203] += sum[6];
-            total[204] += sum[7];
-            total[205] += sum[8];
-            total[209] += sum[9];
-            total[196] += sum[10];
-            total[197] += sum[11];
-        }
-        {
-            vector sum[7] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_17(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[198] += sum[0];
-            total[199] += sum[1];
-            total[200] += sum[2];
-            total[201] += sum[3];
-            total[206] += sum[4];
-            total[207] += sum[5];
-            total[208] += sum[6];
-        }
-    }
-    for (size_t i = 0; i < 211; ++i) sums[i] += vector_sum(total[i]);
+/* Adds to sums what some vectors of points add to them, those in the list. */
+OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *sums) {
+    vector sum[211] = {ZERO};
+    for (size_t b = 0; b < size; b += 6)
+        pair_backward(size - b < 6 ? size - b : 6, points, near + b, S, sum);
+    for (size_t i = 0; i < 211; ++i) sums[i] += vector_sum(sum[i]);
 }
 
 /*
@@ -3713,6 +3956,7 @@ void dual_arm_splats_rows(
     double *DUAL_ARM_RESTRICT rows, double *DUAL_ARM_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES - 1) / LANES;
+    const uint32_t only = 0;
     double *constants = work_constants(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -3729,7 +3973,7 @@ void dual_arm_splats_rows(
                 for (int i = 0; i < 14; ++i) own_mu[i] = vector_of(mu[14 * k + i]);
                 for (int i = 0; i < 196; ++i) own_W[i] = vector_of(W[196 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 211 * k, point + 14, point + 14 + 1, own_sums);
+                pair_backward(1, point, &only, constants + 211 * k, own_sums);
                 pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 14, bars + 14 + 196);
                 vector_to_rows(bars, rows + 211 * k, count, block * LANES, 211, 211 * splat_count);
             }
@@ -3846,9 +4090,14 @@ INLINE vector_f vector_of_f(float x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector_f vector_select_f(vector_mask_f mask, vector_f x, vector_f y) {
-    return SELECT(vector_f, vector_mask_f, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector_f)((mask & (vector_mask_f)x) | (~mask & (vector_mask_f)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -3885,7 +4134,7 @@ INLINE vector_f round_each_f(vector_f x) { return (x + 12582912.0f) - 12582912.0
 
 /* sqrt of every lane; one instruction where the machine has it. */
 INLINE vector_f sqrt_each_f(vector_f x) {
-    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
     return x;
 }
 
@@ -4359,748 +4608,1006 @@ OUTLINE void pair_constants_f(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 OUTLINE void pair_value_f(
-    const vector_f *X, const float *S, vector_f *value) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f x2 = X[2];
-    const vector_f x3 = X[3];
-    const vector_f x4 = X[4];
-    const vector_f x5 = X[5];
-    const vector_f x6 = X[6];
-    const vector_f x7 = X[7];
-    const vector_f x8 = X[8];
-    const vector_f x9 = X[9];
-    const vector_f x10 = X[10];
-    const vector_f x11 = X[11];
-    const vector_f x12 = X[12];
-    const vector_f x13 = X[13];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float mu2 = S[2];
-    const float mu3 = S[3];
-    const float mu4 = S[4];
-    const float mu5 = S[5];
-    const float mu6 = S[6];
-    const float mu7 = S[7];
-    const float mu8 = S[8];
-    const float mu9 = S[9];
-    const float mu10 = S[10];
-    const float mu11 = S[11];
-    const float mu12 = S[12];
-    const float mu13 = S[13];
-    const float W0_0 = S[14];
-    const float W0_1 = S[15];
-    const float W0_2 = S[16];
-    const float W0_3 = S[17];
-    const float W0_4 = S[18];
-    const float W0_5 = S[19];
-    const float W0_6 = S[20];
-    const float W0_7 = S[21];
-    const float W0_8 = S[22];
-    const float W0_9 = S[23];
-    const float W0_10 = S[24];
-    const float W0_11 = S[25];
-    const float W0_12 = S[26];
-    const float W0_13 = S[27];
-    const float W1_0 = S[28];
-    const float W1_1 = S[29];
-    const float W1_2 = S[30];
-    const float W1_3 = S[31];
-    const float W1_4 = S[32];
-    const float W1_5 = S[33];
-    const float W1_6 = S[34];
-    const float W1_7 = S[35];
-    const float W1_8 = S[36];
-    const float W1_9 = S[37];
-    const float W1_10 = S[38];
-    const float W1_11 = S[39];
-    const float W1_12 = S[40];
-    const float W1_13 = S[41];
-    const float W2_0 = S[42];
-    const float W2_1 = S[43];
-    const float W2_2 = S[44];
-    const float W2_3 = S[45];
-    const float W2_4 = S[46];
-    const float W2_5 = S[47];
-    const float W2_6 = S[48];
-    const float W2_7 = S[49];
-    const float W2_8 = S[50];
-    const float W2_9 = S[51];
-    const float W2_10 = S[52];
-    const float W2_11 = S[53];
-    const float W2_12 = S[54];
-    const float W2_13 = S[55];
-    const float W3_0 = S[56];
-    const float W3_1 = S[57];
-    const float W3_2 = S[58];
-    const float W3_3 = S[59];
-    const float W3_4 = S[60];
-    const float W3_5 = S[61];
-    const float W3_6 = S[62];
-    const float W3_7 = S[63];
-    const float W3_8 = S[64];
-    const float W3_9 = S[65];
-    const float W3_10 = S[66];
-    const float W3_11 = S[67];
-    const float W3_12 = S[68];
-    const float W3_13 = S[69];
-    const float W4_0 = S[70];
-    const float W4_1 = S[71];
-    const float W4_2 = S[72];
-    const float W4_3 = S[73];
-    const float W4_4 = S[74];
-    const float W4_5 = S[75];
-    const float W4_6 = S[76];
-    const float W4_7 = S[77];
-    const float W4_8 = S[78];
-    const float W4_9 = S[79];
-    const float W4_10 = S[80];
-    const float W4_11 = S[81];
-    const float W4_12 = S[82];
-    const float W4_13 = S[83];
-    const float W5_0 = S[84];
-    const float W5_1 = S[85];
-    const float W5_2 = S[86];
-    const float W5_3 = S[87];
-    const float W5_4 = S[88];
-    const float W5_5 = S[89];
-    const float W5_6 = S[90];
-    const float W5_7 = S[91];
-    const float W5_8 = S[92];
-    const float W5_9 = S[93];
-    const float W5_10 = S[94];
-    const float W5_11 = S[95];
-    const float W5_12 = S[96];
-    const float W5_13 = S[97];
-    const float W6_0 = S[98];
-    const float W6_1 = S[99];
-    const float W6_2 = S[100];
-    const float W6_3 = S[101];
-    const float W6_4 = S[102];
-    const float W6_5 = S[103];
-    const float W6_6 = S[104];
-    const float W6_7 = S[105];
-    const float W6_8 = S[106];
-    const float W6_9 = S[107];
-    const float W6_10 = S[108];
-    const float W6_11 = S[109];
-    const float W6_12 = S[110];
-    const float W6_13 = S[111];
-    const float W7_0 = S[112];
-    const float W7_1 = S[113];
-    const float W7_2 = S[114];
-    const float W7_3 = S[115];
-    const float W7_4 = S[116];
-    const float W7_5 = S[117];
-    const float W7_6 = S[118];
-    const float W7_7 = S[119];
-    const float W7_8 = S[120];
-    const float W7_9 = S[121];
-    const float W7_10 = S[122];
-    const float W7_11 = S[123];
-    const float W7_12 = S[124];
-    const float W7_13 = S[125];
-    const float W8_0 = S[126];
-    const float W8_1 = S[127];
-    const float W8_2 = S[128];
-    const float W8_3 = S[129];
-    const float W8_4 = S[130];
-    const float W8_5 = S[131];
-    const float W8_6 = S[132];
-    const float W8_7 = S[133];
-    const float W8_8 = S[134];
-    const float W8_9 = S[135];
-    const float W8_10 = S[136];
-    const float W8_11 = S[137];
-    const float W8_12 = S[138];
-    const float W8_13 = S[139];
-    const float W9_0 = S[140];
-    const float W9_1 = S[141];
-    const float W9_2 = S[142];
-    const float W9_3 = S[143];
-    const float W9_4 = S[144];
-    const float W9_5 = S[145];
-    const float W9_6 = S[146];
-    const float W9_7 = S[147];
-    const float W9_8 = S[148];
-    const float W9_9 = S[149];
-    const float W9_10 = S[150];
-    const float W9_11 = S[151];
-    const float W9_12 = S[152];
-    const float W9_13 = S[153];
-    const float W10_0 = S[154];
-    const float W10_1 = S[155];
-    const float W10_2 = S[156];
-    const float W10_3 = S[157];
-    const float W10_4 = S[158];
-    const float W10_5 = S[159];
-    const float W10_6 = S[160];
-    const float W10_7 = S[161];
-    const float W10_8 = S[162];
-    const float W10_9 = S[163];
-    const float W10_10 = S[164];
-    const float W10_11 = S[165];
-    const float W10_12 = S[166];
-    const float W10_13 = S[167];
-    const float W11_0 = S[168];
-    const float W11_1 = S[169];
-    const float W11_2 = S[170];
-    const float W11_3 = S[171];
-    const float W11_4 = S[172];
-    const float W11_5 = S[173];
-    const float W11_6 = S[174];
-    const float W11_7 = S[175];
-    const float W11_8 = S[176];
-    const float W11_9 = S[177];
-    const float W11_10 = S[178];
-    const float W11_11 = S[179];
-    const float W11_12 = S[180];
-    const float W11_13 = S[181];
-    const float W12_0 = S[182];
-    const float W12_1 = S[183];
-    const float W12_2 = S[184];
-    const float W12_3 = S[185];
-    const float W12_4 = S[186];
-    const float W12_5 = S[187];
-    const float W12_6 = S[188];
-    const float W12_7 = S[189];
-    const float W12_8 = S[190];
-    const float W12_9 = S[191];
-    const float W12_10 = S[192];
-    const float W12_11 = S[193];
-    const float W12_12 = S[194];
-    const float W12_13 = S[195];
-    const float W13_0 = S[196];
-    const float W13_1 = S[197];
-    const float W13_2 = S[198];
-    const float W13_3 = S[199];
-    const float W13_4 = S[200];
-    const float W13_5 = S[201];
-    const float W13_6 = S[202];
-    const float W13_7 = S[203];
-    const float W13_8 = S[204];
-    const float W13_9 = S[205];
-    const float W13_10 = S[206];
-    const float W13_11 = S[207];
-    const float W13_12 = S[208];
-    const float W13_13 = S[209];
-    const float amplitude = S[210];
-    const vector_f gap = x0 - mu0;
-    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
-    const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
-    const vector_f gap_2 = x1 - mu1;
-    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
-    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
-    const vector_f gap_3 = x2 - mu2;
-    const vector_f round_4 = round_each_f(0.15915494309189535f * gap_3);
-    const vector_f v2 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
-    const vector_f gap_4 = x3 - mu3;
-    const vector_f round_5 = round_each_f(0.15915494309189535f * gap_4);
-    const vector_f v3 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
-    const vector_f gap_5 = x4 - mu4;
-    const vector_f round_6 = round_each_f(0.15915494309189535f * gap_5);
-    const vector_f v4 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
-    const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-    const vector_f gap_6 = x5 - mu5;
-    const vector_f round_7 = round_each_f(0.15915494309189535f * gap_6);
-    const vector_f v5 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
-    const vector_f gap_7 = x6 - mu6;
-    const vector_f round_8 = round_each_f(0.15915494309189535f * gap_7);
-    const vector_f v6 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
-    const vector_f gap_8 = x7 - mu7;
-    const vector_f round_9 = round_each_f(0.15915494309189535f * gap_8);
-    const vector_f v7 = gap_8 - 6.28125f * round_9 - 0.001935307179586477f * round_9;
-    const vector_f gap_9 = x8 - mu8;
-    const vector_f round_10 = round_each_f(0.15915494309189535f * gap_9);
-    const vector_f v8 = gap_9 - 6.28125f * round_10 - 0.001935307179586477f * round_10;
-    const vector_f total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
-    const vector_f gap_10 = x9 - mu9;
-    const vector_f round_11 = round_each_f(0.15915494309189535f * gap_10);
-    const vector_f v9 = gap_10 - 6.28125f * round_11 - 0.001935307179586477f * round_11;
-    const vector_f gap_11 = x10 - mu10;
-    const vector_f round_12 = round_each_f(0.15915494309189535f * gap_11);
-    const vector_f v10 = gap_11 - 6.28125f * round_12 - 0.001935307179586477f * round_12;
-    const vector_f gap_12 = x11 - mu11;
-    const vector_f round_13 = round_each_f(0.15915494309189535f * gap_12);
-    const vector_f v11 = gap_12 - 6.28125f * round_13 - 0.001935307179586477f * round_13;
-    const vector_f gap_13 = x12 - mu12;
-    const vector_f round_14 = round_each_f(0.15915494309189535f * gap_13);
-    const vector_f v12 = gap_13 - 6.28125f * round_14 - 0.001935307179586477f * round_14;
-    const vector_f total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
-    const vector_f gap_14 = x13 - mu13;
-    const vector_f round_15 = round_each_f(0.15915494309189535f * gap_14);
-    const vector_f v13 = gap_14 - 6.28125f * round_15 - 0.001935307179586477f * round_15;
-    const vector_f z0 = total_4 + W0_13 * v13;
-    const vector_f total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-    const vector_f total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
-    const vector_f total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12;
-    const vector_f z1 = total_7 + W1_13 * v13;
-    const vector_f total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-    const vector_f total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
-    const vector_f total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12;
-    const vector_f z2 = total_10 + W2_13 * v13;
-    const vector_f total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-    const vector_f total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
-    const vector_f total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12;
-    const vector_f z3 = total_13 + W3_13 * v13;
-    const vector_f total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-    const vector_f total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
-    const vector_f total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12;
-    const vector_f z4 = total_16 + W4_13 * v13;
-    const vector_f total_17 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-    const vector_f total_18 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-    const vector_f total_19 = total_18 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
-    const vector_f total_20 = total_19 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12;
-    const vector_f z5 = total_20 + W5_13 * v13;
-    const vector_f total_21 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
-    const vector_f total_22 = total_21 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
-    const vector_f total_23 = total_22 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12;
-    const vector_f z6 = total_23 + W6_13 * v13;
-    const vector_f total_24 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
-    const vector_f total_25 = total_24 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
-    const vector_f total_26 = total_25 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12;
-    const vector_f z7 = total_26 + W7_13 * v13;
-    const vector_f total_27 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
-    const vector_f total_28 = total_27 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
-    const vector_f total_29 = total_28 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12;
-    const vector_f z8 = total_29 + W8_13 * v13;
-    const vector_f total_30 = total_17 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-    const vector_f total_31 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4;
-    const vector_f total_32 = total_31 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8;
-    const vector_f total_33 = total_32 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12;
-    const vector_f z9 = total_33 + W9_13 * v13;
-    const vector_f total_34 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4;
-    const vector_f total_35 = total_34 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8;
-    const vector_f total_36 = total_35 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12;
-    const vector_f z10 = total_36 + W10_13 * v13;
-    const vector_f total_37 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4;
-    const vector_f total_38 = total_37 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8;
-    const vector_f total_39 = total_38 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12;
-    const vector_f z11 = total_39 + W11_13 * v13;
-    const vector_f total_40 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4;
-    const vector_f total_41 = total_40 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8;
-    const vector_f total_42 = total_41 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12;
-    const vector_f z12 = total_42 + W12_13 * v13;
-    const vector_f total_43 = total_30 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12;
-    const vector_f total_44 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4;
-    const vector_f total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
-    const vector_f total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
-    const vector_f z13 = total_46 + W13_13 * v13;
-    const vector_f phi = gaussian_each_f(total_43 + z13 * z13);
-    value[0] = value[0] + amplitude * phi;
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values) {
+    struct { vector_f phi; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 211 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float mu2 = S[2];
+        const float mu3 = S[3];
+        const float mu4 = S[4];
+        const float mu5 = S[5];
+        const float mu6 = S[6];
+        const float mu7 = S[7];
+        const float mu8 = S[8];
+        const float mu9 = S[9];
+        const float mu10 = S[10];
+        const float mu11 = S[11];
+        const float mu12 = S[12];
+        const float mu13 = S[13];
+        const float W0_0 = S[14];
+        const float W0_1 = S[15];
+        const float W0_2 = S[16];
+        const float W0_3 = S[17];
+        const float W0_4 = S[18];
+        const float W0_5 = S[19];
+        const float W0_6 = S[20];
+        const float W0_7 = S[21];
+        const float W0_8 = S[22];
+        const float W0_9 = S[23];
+        const float W0_10 = S[24];
+        const float W0_11 = S[25];
+        const float W0_12 = S[26];
+        const float W0_13 = S[27];
+        const float W1_0 = S[28];
+        const float W1_1 = S[29];
+        const float W1_2 = S[30];
+        const float W1_3 = S[31];
+        const float W1_4 = S[32];
+        const float W1_5 = S[33];
+        const float W1_6 = S[34];
+        const float W1_7 = S[35];
+        const float W1_8 = S[36];
+        const float W1_9 = S[37];
+        const float W1_10 = S[38];
+        const float W1_11 = S[39];
+        const float W1_12 = S[40];
+        const float W1_13 = S[41];
+        const float W2_0 = S[42];
+        const float W2_1 = S[43];
+        const float W2_2 = S[44];
+        const float W2_3 = S[45];
+        const float W2_4 = S[46];
+        const float W2_5 = S[47];
+        const float W2_6 = S[48];
+        const float W2_7 = S[49];
+        const float W2_8 = S[50];
+        const float W2_9 = S[51];
+        const float W2_10 = S[52];
+        const float W2_11 = S[53];
+        const float W2_12 = S[54];
+        const float W2_13 = S[55];
+        const float W3_0 = S[56];
+        const float W3_1 = S[57];
+        const float W3_2 = S[58];
+        const float W3_3 = S[59];
+        const float W3_4 = S[60];
+        const float W3_5 = S[61];
+        const float W3_6 = S[62];
+        const float W3_7 = S[63];
+        const float W3_8 = S[64];
+        const float W3_9 = S[65];
+        const float W3_10 = S[66];
+        const float W3_11 = S[67];
+        const float W3_12 = S[68];
+        const float W3_13 = S[69];
+        const float W4_0 = S[70];
+        const float W4_1 = S[71];
+        const float W4_2 = S[72];
+        const float W4_3 = S[73];
+        const float W4_4 = S[74];
+        const float W4_5 = S[75];
+        const float W4_6 = S[76];
+        const float W4_7 = S[77];
+        const float W4_8 = S[78];
+        const float W4_9 = S[79];
+        const float W4_10 = S[80];
+        const float W4_11 = S[81];
+        const float W4_12 = S[82];
+        const float W4_13 = S[83];
+        const float W5_0 = S[84];
+        const float W5_1 = S[85];
+        const float W5_2 = S[86];
+        const float W5_3 = S[87];
+        const float W5_4 = S[88];
+        const float W5_5 = S[89];
+        const float W5_6 = S[90];
+        const float W5_7 = S[91];
+        const float W5_8 = S[92];
+        const float W5_9 = S[93];
+        const float W5_10 = S[94];
+        const float W5_11 = S[95];
+        const float W5_12 = S[96];
+        const float W5_13 = S[97];
+        const float W6_0 = S[98];
+        const float W6_1 = S[99];
+        const float W6_2 = S[100];
+        const float W6_3 = S[101];
+        const float W6_4 = S[102];
+        const float W6_5 = S[103];
+        const float W6_6 = S[104];
+        const float W6_7 = S[105];
+        const float W6_8 = S[106];
+        const float W6_9 = S[107];
+        const float W6_10 = S[108];
+        const float W6_11 = S[109];
+        const float W6_12 = S[110];
+        const float W6_13 = S[111];
+        const float W7_0 = S[112];
+        const float W7_1 = S[113];
+        const float W7_2 = S[114];
+        const float W7_3 = S[115];
+        const float W7_4 = S[116];
+        const float W7_5 = S[117];
+        const float W7_6 = S[118];
+        const float W7_7 = S[119];
+        const float W7_8 = S[120];
+        const float W7_9 = S[121];
+        const float W7_10 = S[122];
+        const float W7_11 = S[123];
+        const float W7_12 = S[124];
+        const float W7_13 = S[125];
+        const float W8_0 = S[126];
+        const float W8_1 = S[127];
+        const float W8_2 = S[128];
+        const float W8_3 = S[129];
+        const float W8_4 = S[130];
+        const float W8_5 = S[131];
+        const float W8_6 = S[132];
+        const float W8_7 = S[133];
+        const float W8_8 = S[134];
+        const float W8_9 = S[135];
+        const float W8_10 = S[136];
+        const float W8_11 = S[137];
+        const float W8_12 = S[138];
+        const float W8_13 = S[139];
+        const float W9_0 = S[140];
+        const float W9_1 = S[141];
+        const float W9_2 = S[142];
+        const float W9_3 = S[143];
+        const float W9_4 = S[144];
+        const float W9_5 = S[145];
+        const float W9_6 = S[146];
+        const float W9_7 = S[147];
+        const float W9_8 = S[148];
+        const float W9_9 = S[149];
+        const float W9_10 = S[150];
+        const float W9_11 = S[151];
+        const float W9_12 = S[152];
+        const float W9_13 = S[153];
+        const float W10_0 = S[154];
+        const float W10_1 = S[155];
+        const float W10_2 = S[156];
+        const float W10_3 = S[157];
+        const float W10_4 = S[158];
+        const float W10_5 = S[159];
+        const float W10_6 = S[160];
+        const float W10_7 = S[161];
+        const float W10_8 = S[162];
+        const float W10_9 = S[163];
+        const float W10_10 = S[164];
+        const float W10_11 = S[165];
+        const float W10_12 = S[166];
+        const float W10_13 = S[167];
+        const float W11_0 = S[168];
+        const float W11_1 = S[169];
+        const float W11_2 = S[170];
+        const float W11_3 = S[171];
+        const float W11_4 = S[172];
+        const float W11_5 = S[173];
+        const float W11_6 = S[174];
+        const float W11_7 = S[175];
+        const float W11_8 = S[176];
+        const float W11_9 = S[177];
+        const float W11_10 = S[178];
+        const float W11_11 = S[179];
+        const float W11_12 = S[180];
+        const float W11_13 = S[181];
+        const float W12_0 = S[182];
+        const float W12_1 = S[183];
+        const float W12_2 = S[184];
+        const float W12_3 = S[185];
+        const float W12_4 = S[186];
+        const float W12_5 = S[187];
+        const float W12_6 = S[188];
+        const float W12_7 = S[189];
+        const float W12_8 = S[190];
+        const float W12_9 = S[191];
+        const float W12_10 = S[192];
+        const float W12_11 = S[193];
+        const float W12_12 = S[194];
+        const float W12_13 = S[195];
+        const float W13_0 = S[196];
+        const float W13_1 = S[197];
+        const float W13_2 = S[198];
+        const float W13_3 = S[199];
+        const float W13_4 = S[200];
+        const float W13_5 = S[201];
+        const float W13_6 = S[202];
+        const float W13_7 = S[203];
+        const float W13_8 = S[204];
+        const float W13_9 = S[205];
+        const float W13_10 = S[206];
+        const float W13_11 = S[207];
+        const float W13_12 = S[208];
+        const float W13_13 = S[209];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 14 * b;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f x2 = X[2];
+            const vector_f x3 = X[3];
+            const vector_f x4 = X[4];
+            const vector_f x5 = X[5];
+            const vector_f x6 = X[6];
+            const vector_f x7 = X[7];
+            const vector_f x8 = X[8];
+            const vector_f x9 = X[9];
+            const vector_f x10 = X[10];
+            const vector_f x11 = X[11];
+            const vector_f x12 = X[12];
+            const vector_f x13 = X[13];
+            const vector_f gap = x0 - mu0;
+            const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+            const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
+            const vector_f gap_2 = x1 - mu1;
+            const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+            const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
+            const vector_f gap_3 = x2 - mu2;
+            const vector_f round_4 = round_each_f(0.15915494309189535f * gap_3);
+            const vector_f v2 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
+            const vector_f gap_4 = x3 - mu3;
+            const vector_f round_5 = round_each_f(0.15915494309189535f * gap_4);
+            const vector_f v3 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
+            const vector_f gap_5 = x4 - mu4;
+            const vector_f round_6 = round_each_f(0.15915494309189535f * gap_5);
+            const vector_f v4 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
+            const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+            const vector_f gap_6 = x5 - mu5;
+            const vector_f round_7 = round_each_f(0.15915494309189535f * gap_6);
+            const vector_f v5 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
+            const vector_f gap_7 = x6 - mu6;
+            const vector_f round_8 = round_each_f(0.15915494309189535f * gap_7);
+            const vector_f v6 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
+            const vector_f gap_8 = x7 - mu7;
+            const vector_f round_9 = round_each_f(0.15915494309189535f * gap_8);
+            const vector_f v7 = gap_8 - 6.28125f * round_9 - 0.001935307179586477f * round_9;
+            const vector_f gap_9 = x8 - mu8;
+            const vector_f round_10 = round_each_f(0.15915494309189535f * gap_9);
+            const vector_f v8 = gap_9 - 6.28125f * round_10 - 0.001935307179586477f * round_10;
+            const vector_f total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+            const vector_f gap_10 = x9 - mu9;
+            const vector_f round_11 = round_each_f(0.15915494309189535f * gap_10);
+            const vector_f v9 = gap_10 - 6.28125f * round_11 - 0.001935307179586477f * round_11;
+            const vector_f gap_11 = x10 - mu10;
+            const vector_f round_12 = round_each_f(0.15915494309189535f * gap_11);
+            const vector_f v10 = gap_11 - 6.28125f * round_12 - 0.001935307179586477f * round_12;
+            const vector_f gap_12 = x11 - mu11;
+            const vector_f round_13 = round_each_f(0.15915494309189535f * gap_12);
+            const vector_f v11 = gap_12 - 6.28125f * round_13 - 0.001935307179586477f * round_13;
+            const vector_f gap_13 = x12 - mu12;
+            const vector_f round_14 = round_each_f(0.15915494309189535f * gap_13);
+            const vector_f v12 = gap_13 - 6.28125f * round_14 - 0.001935307179586477f * round_14;
+            const vector_f total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
+            const vector_f gap_14 = x13 - mu13;
+            const vector_f round_15 = round_each_f(0.15915494309189535f * gap_14);
+            const vector_f v13 = gap_14 - 6.28125f * round_15 - 0.001935307179586477f * round_15;
+            const vector_f z0 = total_4 + W0_13 * v13;
+            const vector_f total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+            const vector_f total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+            const vector_f total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12;
+            const vector_f z1 = total_7 + W1_13 * v13;
+            const vector_f total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+            const vector_f total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+            const vector_f total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12;
+            const vector_f z2 = total_10 + W2_13 * v13;
+            const vector_f total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+            const vector_f total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+            const vector_f total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12;
+            const vector_f z3 = total_13 + W3_13 * v13;
+            const vector_f total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+            const vector_f total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+            const vector_f total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12;
+            const vector_f z4 = total_16 + W4_13 * v13;
+            const vector_f total_17 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+            const vector_f total_18 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+            const vector_f total_19 = total_18 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+            const vector_f total_20 = total_19 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12;
+            const vector_f z5 = total_20 + W5_13 * v13;
+            const vector_f total_21 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+            const vector_f total_22 = total_21 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+            const vector_f total_23 = total_22 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12;
+            const vector_f z6 = total_23 + W6_13 * v13;
+            const vector_f total_24 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+            const vector_f total_25 = total_24 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+            const vector_f total_26 = total_25 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12;
+            const vector_f z7 = total_26 + W7_13 * v13;
+            const vector_f total_27 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+            const vector_f total_28 = total_27 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+            const vector_f total_29 = total_28 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12;
+            const vector_f z8 = total_29 + W8_13 * v13;
+            const vector_f total_30 = total_17 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+            const vector_f total_31 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4;
+            const vector_f total_32 = total_31 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8;
+            const vector_f total_33 = total_32 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12;
+            const vector_f z9 = total_33 + W9_13 * v13;
+            const vector_f total_34 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4;
+            const vector_f total_35 = total_34 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8;
+            const vector_f total_36 = total_35 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12;
+            const vector_f z10 = total_36 + W10_13 * v13;
+            const vector_f total_37 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4;
+            const vector_f total_38 = total_37 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8;
+            const vector_f total_39 = total_38 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12;
+            const vector_f z11 = total_39 + W11_13 * v13;
+            const vector_f total_40 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4;
+            const vector_f total_41 = total_40 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8;
+            const vector_f total_42 = total_41 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12;
+            const vector_f z12 = total_42 + W12_13 * v13;
+            const vector_f total_43 = total_30 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12;
+            const vector_f total_44 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4;
+            const vector_f total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
+            const vector_f total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
+            const vector_f z13 = total_46 + W13_13 * v13;
+            const vector_f phi = gaussian_each_f(total_43 + z13 * z13);
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 211 * near[k];
+        const float amplitude = S[210];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector_f *value = values + b;
+            const vector_f phi = kept[k][b].phi;
+            value[0] = value[0] + amplitude * phi;
+        }
+    }
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 OUTLINE void pair_forward_f(
-    const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f x2 = X[2];
-    const vector_f x3 = X[3];
-    const vector_f x4 = X[4];
-    const vector_f x5 = X[5];
-    const vector_f x6 = X[6];
-    const vector_f x7 = X[7];
-    const vector_f x8 = X[8];
-    const vector_f x9 = X[9];
-    const vector_f x10 = X[10];
-    const vector_f x11 = X[11];
-    const vector_f x12 = X[12];
-    const vector_f x13 = X[13];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float mu2 = S[2];
-    const float mu3 = S[3];
-    const float mu4 = S[4];
-    const float mu5 = S[5];
-    const float mu6 = S[6];
-    const float mu7 = S[7];
-    const float mu8 = S[8];
-    const float mu9 = S[9];
-    const float mu10 = S[10];
-    const float mu11 = S[11];
-    const float mu12 = S[12];
-    const float mu13 = S[13];
-    const float W0_0 = S[14];
-    const float W0_1 = S[15];
-    const float W0_2 = S[16];
-    const float W0_3 = S[17];
-    const float W0_4 = S[18];
-    const float W0_5 = S[19];
-    const float W0_6 = S[20];
-    const float W0_7 = S[21];
-    const float W0_8 = S[22];
-    const float W0_9 = S[23];
-    const float W0_10 = S[24];
-    const float W0_11 = S[25];
-    const float W0_12 = S[26];
-    const float W0_13 = S[27];
-    const float W1_0 = S[28];
-    const float W1_1 = S[29];
-    const float W1_2 = S[30];
-    const float W1_3 = S[31];
-    const float W1_4 = S[32];
-    const float W1_5 = S[33];
-    const float W1_6 = S[34];
-    const float W1_7 = S[35];
-    const float W1_8 = S[36];
-    const float W1_9 = S[37];
-    const float W1_10 = S[38];
-    const float W1_11 = S[39];
-    const float W1_12 = S[40];
-    const float W1_13 = S[41];
-    const float W2_0 = S[42];
-    const float W2_1 = S[43];
-    const float W2_2 = S[44];
-    const float W2_3 = S[45];
-    const float W2_4 = S[46];
-    const float W2_5 = S[47];
-    const float W2_6 = S[48];
-    const float W2_7 = S[49];
-    const float W2_8 = S[50];
-    const float W2_9 = S[51];
-    const float W2_10 = S[52];
-    const float W2_11 = S[53];
-    const float W2_12 = S[54];
-    const float W2_13 = S[55];
-    const float W3_0 = S[56];
-    const float W3_1 = S[57];
-    const float W3_2 = S[58];
-    const float W3_3 = S[59];
-    const float W3_4 = S[60];
-    const float W3_5 = S[61];
-    const float W3_6 = S[62];
-    const float W3_7 = S[63];
-    const float W3_8 = S[64];
-    const float W3_9 = S[65];
-    const float W3_10 = S[66];
-    const float W3_11 = S[67];
-    const float W3_12 = S[68];
-    const float W3_13 = S[69];
-    const float W4_0 = S[70];
-    const float W4_1 = S[71];
-    const float W4_2 = S[72];
-    const float W4_3 = S[73];
-    const float W4_4 = S[74];
-    const float W4_5 = S[75];
-    const float W4_6 = S[76];
-    const float W4_7 = S[77];
-    const float W4_8 = S[78];
-    const float W4_9 = S[79];
-    const float W4_10 = S[80];
-    const float W4_11 = S[81];
-    const float W4_12 = S[82];
-    const float W4_13 = S[83];
-    const float W5_0 = S[84];
-    const float W5_1 = S[85];
-    const float W5_2 = S[86];
-    const float W5_3 = S[87];
-    const float W5_4 = S[88];
-    const float W5_5 = S[89];
-    const float W5_6 = S[90];
-    const float W5_7 = S[91];
-    const float W5_8 = S[92];
-    const float W5_9 = S[93];
-    const float W5_10 = S[94];
-    const float W5_11 = S[95];
-    const float W5_12 = S[96];
-    const float W5_13 = S[97];
-    const float W6_0 = S[98];
-    const float W6_1 = S[99];
-    const float W6_2 = S[100];
-    const float W6_3 = S[101];
-    const float W6_4 = S[102];
-    const float W6_5 = S[103];
-    const float W6_6 = S[104];
-    const float W6_7 = S[105];
-    const float W6_8 = S[106];
-    const float W6_9 = S[107];
-    const float W6_10 = S[108];
-    const float W6_11 = S[109];
-    const float W6_12 = S[110];
-    const float W6_13 = S[111];
-    const float W7_0 = S[112];
-    const float W7_1 = S[113];
-    const float W7_2 = S[114];
-    const float W7_3 = S[115];
-    const float W7_4 = S[116];
-    const float W7_5 = S[117];
-    const float W7_6 = S[118];
-    const float W7_7 = S[119];
-    const float W7_8 = S[120];
-    const float W7_9 = S[121];
-    const float W7_10 = S[122];
-    const float W7_11 = S[123];
-    const float W7_12 = S[124];
-    const float W7_13 = S[125];
-    const float W8_0 = S[126];
-    const float W8_1 = S[127];
-    const float W8_2 = S[128];
-    const float W8_3 = S[129];
-    const float W8_4 = S[130];
-    const float W8_5 = S[131];
-    const float W8_6 = S[132];
-    const float W8_7 = S[133];
-    const float W8_8 = S[134];
-    const float W8_9 = S[135];
-    const float W8_10 = S[136];
-    const float W8_11 = S[137];
-    const float W8_12 = S[138];
-    const float W8_13 = S[139];
-    const float W9_0 = S[140];
-    const float W9_1 = S[141];
-    const float W9_2 = S[142];
-    const float W9_3 = S[143];
-    const float W9_4 = S[144];
-    const float W9_5 = S[145];
-    const float W9_6 = S[146];
-    const float W9_7 = S[147];
-    const float W9_8 = S[148];
-    const float W9_9 = S[149];
-    const float W9_10 = S[150];
-    const float W9_11 = S[151];
-    const float W9_12 = S[152];
-    const float W9_13 = S[153];
-    const float W10_0 = S[154];
-    const float W10_1 = S[155];
-    const float W10_2 = S[156];
-    const float W10_3 = S[157];
-    const float W10_4 = S[158];
-    const float W10_5 = S[159];
-    const float W10_6 = S[160];
-    const float W10_7 = S[161];
-    const float W10_8 = S[162];
-    const float W10_9 = S[163];
-    const float W10_10 = S[164];
-    const float W10_11 = S[165];
-    const float W10_12 = S[166];
-    const float W10_13 = S[167];
-    const float W11_0 = S[168];
-    const float W11_1 = S[169];
-    const float W11_2 = S[170];
-    const float W11_3 = S[171];
-    const float W11_4 = S[172];
-    const float W11_5 = S[173];
-    const float W11_6 = S[174];
-    const float W11_7 = S[175];
-    const float W11_8 = S[176];
-    const float W11_9 = S[177];
-    const float W11_10 = S[178];
-    const float W11_11 = S[179];
-    const float W11_12 = S[180];
-    const float W11_13 = S[181];
-    const float W12_0 = S[182];
-    const float W12_1 = S[183];
-    const float W12_2 = S[184];
-    const float W12_3 = S[185];
-    const float W12_4 = S[186];
-    const float W12_5 = S[187];
-    const float W12_6 = S[188];
-    const float W12_7 = S[189];
-    const float W12_8 = S[190];
-    const float W12_9 = S[191];
-    const float W12_10 = S[192];
-    const float W12_11 = S[193];
-    const float W12_12 = S[194];
-    const float W12_13 = S[195];
-    const float W13_0 = S[196];
-    const float W13_1 = S[197];
-    const float W13_2 = S[198];
-    const float W13_3 = S[199];
-    const float W13_4 = S[200];
-    const float W13_5 = S[201];
-    const float W13_6 = S[202];
-    const float W13_7 = S[203];
-    const float W13_8 = S[204];
-    const float W13_9 = S[205];
-    const float W13_10 = S[206];
-    const float W13_11 = S[207];
-    const float W13_12 = S[208];
-    const float W13_13 = S[209];
-    const float amplitude = S[210];
-    const vector_f gap = x0 - mu0;
-    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
-    const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
-    const vector_f gap_2 = x1 - mu1;
-    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
-    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
-    const vector_f gap_3 = x2 - mu2;
-    const vector_f round_4 = round_each_f(0.15915494309189535f * gap_3);
-    const vector_f v2 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
-    const vector_f gap_4 = x3 - mu3;
-    const vector_f round_5 = round_each_f(0.15915494309189535f * gap_4);
-    const vector_f v3 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
-    const vector_f gap_5 = x4 - mu4;
-    const vector_f round_6 = round_each_f(0.15915494309189535f * gap_5);
-    const vector_f v4 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
-    const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-    const vector_f gap_6 = x5 - mu5;
-    const vector_f round_7 = round_each_f(0.15915494309189535f * gap_6);
-    const vector_f v5 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
-    const vector_f gap_7 = x6 - mu6;
-    const vector_f round_8 = round_each_f(0.15915494309189535f * gap_7);
-    const vector_f v6 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
-    const vector_f gap_8 = x7 - mu7;
-    const vector_f round_9 = round_each_f(0.15915494309189535f * gap_8);
-    const vector_f v7 = gap_8 - 6.28125f * round_9 - 0.001935307179586477f * round_9;
-    const vector_f gap_9 = x8 - mu8;
-    const vector_f round_10 = round_each_f(0.15915494309189535f * gap_9);
-    const vector_f v8 = gap_9 - 6.28125f * round_10 - 0.001935307179586477f * round_10;
-    const vector_f total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
-    const vector_f gap_10 = x9 - mu9;
-    const vector_f round_11 = round_each_f(0.15915494309189535f * gap_10);
-    const vector_f v9 = gap_10 - 6.28125f * round_11 - 0.001935307179586477f * round_11;
-    const vector_f gap_11 = x10 - mu10;
-    const vector_f round_12 = round_each_f(0.15915494309189535f * gap_11);
-    const vector_f v10 = gap_11 - 6.28125f * round_12 - 0.001935307179586477f * round_12;
-    const vector_f gap_12 = x11 - mu11;
-    const vector_f round_13 = round_each_f(0.15915494309189535f * gap_12);
-    const vector_f v11 = gap_12 - 6.28125f * round_13 - 0.001935307179586477f * round_13;
-    const vector_f gap_13 = x12 - mu12;
-    const vector_f round_14 = round_each_f(0.15915494309189535f * gap_13);
-    const vector_f v12 = gap_13 - 6.28125f * round_14 - 0.001935307179586477f * round_14;
-    const vector_f total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
-    const vector_f gap_14 = x13 - mu13;
-    const vector_f round_15 = round_each_f(0.15915494309189535f * gap_14);
-    const vector_f v13 = gap_14 - 6.28125f * round_15 - 0.001935307179586477f * round_15;
-    const vector_f z0 = total_4 + W0_13 * v13;
-    const vector_f total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-    const vector_f total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
-    const vector_f total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12;
-    const vector_f z1 = total_7 + W1_13 * v13;
-    const vector_f total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-    const vector_f total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
-    const vector_f total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12;
-    const vector_f z2 = total_10 + W2_13 * v13;
-    const vector_f total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-    const vector_f total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
-    const vector_f total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12;
-    const vector_f z3 = total_13 + W3_13 * v13;
-    const vector_f total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-    const vector_f total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
-    const vector_f total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12;
-    const vector_f z4 = total_16 + W4_13 * v13;
-    const vector_f total_17 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-    const vector_f total_18 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-    const vector_f total_19 = total_18 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
-    const vector_f total_20 = total_19 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12;
-    const vector_f z5 = total_20 + W5_13 * v13;
-    const vector_f total_21 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
-    const vector_f total_22 = total_21 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
-    const vector_f total_23 = total_22 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12;
-    const vector_f z6 = total_23 + W6_13 * v13;
-    const vector_f total_24 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
-    const vector_f total_25 = total_24 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
-    const vector_f total_26 = total_25 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12;
-    const vector_f z7 = total_26 + W7_13 * v13;
-    const vector_f total_27 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
-    const vector_f total_28 = total_27 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
-    const vector_f total_29 = total_28 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12;
-    const vector_f z8 = total_29 + W8_13 * v13;
-    const vector_f total_30 = total_17 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-    const vector_f total_31 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4;
-    const vector_f total_32 = total_31 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8;
-    const vector_f total_33 = total_32 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12;
-    const vector_f z9 = total_33 + W9_13 * v13;
-    const vector_f total_34 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4;
-    const vector_f total_35 = total_34 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8;
-    const vector_f total_36 = total_35 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12;
-    const vector_f z10 = total_36 + W10_13 * v13;
-    const vector_f total_37 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4;
-    const vector_f total_38 = total_37 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8;
-    const vector_f total_39 = total_38 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12;
-    const vector_f z11 = total_39 + W11_13 * v13;
-    const vector_f total_40 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4;
-    const vector_f total_41 = total_40 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8;
-    const vector_f total_42 = total_41 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12;
-    const vector_f z12 = total_42 + W12_13 * v13;
-    const vector_f total_43 = total_30 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12;
-    const vector_f total_44 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4;
-    const vector_f total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
-    const vector_f total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
-    const vector_f z13 = total_46 + W13_13 * v13;
-    const vector_f phi = gaussian_each_f(total_43 + z13 * z13);
-    const vector_f phi_2 = amplitude * phi;
-    const vector_f z13_product = z13 * phi_2;
-    const vector_f z12_product = z12 * phi_2;
-    const vector_f z11_product = z11 * phi_2;
-    const vector_f z10_product = z10 * phi_2;
-    const vector_f z9_product = z9 * phi_2;
-    const vector_f z8_product = z8 * phi_2;
-    const vector_f z7_product = z7 * phi_2;
-    const vector_f z6_product = z6 * phi_2;
-    const vector_f z5_product = z5 * phi_2;
-    const vector_f z4_product = z4 * phi_2;
-    const vector_f z3_product = z3 * phi_2;
-    const vector_f z2_product = z2 * phi_2;
-    const vector_f z1_product = z1 * phi_2;
-    const vector_f z0_product = z0 * phi_2;
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] - W13_0 * z13_product - W12_0 * z12_product - W11_0 * z11_product - W10_0 *
-            z10_product - W9_0 * z9_product - W8_0 * z8_product - W7_0 * z7_product - W6_0 * z6_product - W5_0 *
-            z5_product - W4_0 * z4_product - W3_0 * z3_product - W2_0 * z2_product - W1_0 * z1_product - W0_0 *
-            z0_product;
-    slope[1] = slope[1] - W13_1 * z13_product - W12_1 * z12_product - W11_1 * z11_product - W10_1 *
-            z10_product - W9_1 * z9_product - W8_1 * z8_product - W7_1 * z7_product - W6_1 * z6_product - W5_1 *
-            z5_product - W4_1 * z4_product - W3_1 * z3_product - W2_1 * z2_product - W1_1 * z1_product - W0_1 *
-            z0_product;
-    slope[2] = slope[2] - W13_2 * z13_product - W12_2 * z12_product - W11_2 * z11_product - W10_2 *
-            z10_product - W9_2 * z9_product - W8_2 * z8_product - W7_2 * z7_product - W6_2 * z6_product - W5_2 *
-            z5_product - W4_2 * z4_product - W3_2 * z3_product - W2_2 * z2_product - W1_2 * z1_product - W0_2 *
-            z0_product;
-    slope[3] = slope[3] - W13_3 * z13_product - W12_3 * z12_product - W11_3 * z11_product - W10_3 *
-            z10_product - W9_3 * z9_product - W8_3 * z8_product - W7_3 * z7_product - W6_3 * z6_product - W5_3 *
-            z5_product - W4_3 * z4_product - W3_3 * z3_product - W2_3 * z2_product - W1_3 * z1_product - W0_3 *
-            z0_product;
-    slope[4] = slope[4] - W13_4 * z13_product - W12_4 * z12_product - W11_4 * z11_product - W10_4 *
-            z10_product - W9_4 * z9_product - W8_4 * z8_product - W7_4 * z7_product - W6_4 * z6_product - W5_4 *
-            z5_product - W4_4 * z4_product - W3_4 * z3_product - W2_4 * z2_product - W1_4 * z1_product - W0_4 *
-            z0_product;
-    slope[5] = slope[5] - W13_5 * z13_product - W12_5 * z12_product - W11_5 * z11_product - W10_5 *
-            z10_product - W9_5 * z9_product - W8_5 * z8_product - W7_5 * z7_product - W6_5 * z6_product - W5_5 *
-            z5_product - W4_5 * z4_product - W3_5 * z3_product - W2_5 * z2_product - W1_5 * z1_product - W0_5 *
-            z0_product;
-    slope[6] = slope[6] - W13_6 * z13_product - W12_6 * z12_product - W11_6 * z11_product - W10_6 *
-            z10_product - W9_6 * z9_product - W8_6 * z8_product - W7_6 * z7_product - W6_6 * z6_product - W5_6 *
-            z5_product - W4_6 * z4_product - W3_6 * z3_product - W2_6 * z2_product - W1_6 * z1_product - W0_6 *
-            z0_product;
-    slope[7] = slope[7] - W13_7 * z13_product - W12_7 * z12_product - W11_7 * z11_product - W10_7 *
-            z10_product - W9_7 * z9_product - W8_7 * z8_product - W7_7 * z7_product - W6_7 * z6_product - W5_7 *
-            z5_product - W4_7 * z4_product - W3_7 * z3_product - W2_7 * z2_product - W1_7 * z1_product - W0_7 *
-            z0_product;
-    slope[8] = slope[8] - W13_8 * z13_product - W12_8 * z12_product - W11_8 * z11_product - W10_8 *
-            z10_product - W9_8 * z9_product - W8_8 * z8_product - W7_8 * z7_product - W6_8 * z6_product - W5_8 *
-            z5_product - W4_8 * z4_product - W3_8 * z3_product - W2_8 * z2_product - W1_8 * z1_product - W0_8 *
-            z0_product;
-    slope[9] = slope[9] - W13_9 * z13_product - W12_9 * z12_product - W11_9 * z11_product - W10_9 *
-            z10_product - W9_9 * z9_product - W8_9 * z8_product - W7_9 * z7_product - W6_9 * z6_product - W5_9 *
-            z5_product - W4_9 * z4_product - W3_9 * z3_product - W2_9 * z2_product - W1_9 * z1_product - W0_9 *
-            z0_product;
-    slope[10] = slope[10] - W13_10 * z13_product - W12_10 * z12_product - W11_10 * z11_product - W10_10 *
-            z10_product - W9_10 * z9_product - W8_10 * z8_product - W7_10 * z7_product - W6_10 * z6_product -
-            W5_10 * z5_product - W4_10 * z4_product - W3_10 * z3_product - W2_10 * z2_product - W1_10 * z1_product
-            - W0_10 * z0_product;
-    slope[11] = slope[11] - W13_11 * z13_product - W12_11 * z12_product - W11_11 * z11_product - W10_11 *
-            z10_product - W9_11 * z9_product - W8_11 * z8_product - W7_11 * z7_product - W6_11 * z6_product -
-            W5_11 * z5_product - W4_11 * z4_product - W3_11 * z3_product - W2_11 * z2_product - W1_11 * z1_product
-            - W0_11 * z0_product;
-    slope[12] = slope[12] - W13_12 * z13_product - W12_12 * z12_product - W11_12 * z11_product - W10_12 *
-            z10_product - W9_12 * z9_product - W8_12 * z8_product - W7_12 * z7_product - W6_12 * z6_product -
-            W5_12 * z5_product - W4_12 * z4_product - W3_12 * z3_product - W2_12 * z2_product - W1_12 * z1_product
-            - W0_12 * z0_product;
-    slope[13] = slope[13] - W13_13 * z13_product - W12_13 * z12_product - W11_13 * z11_product - W10_13 *
-            z10_product - W9_13 * z9_product - W8_13 * z8_product - W7_13 * z7_product - W6_13 * z6_product -
-            W5_13 * z5_product - W4_13 * z4_product - W3_13 * z3_product - W2_13 * z2_product - W1_13 * z1_product
-            - W0_13 * z0_product;
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values, vector_f *slopes) {
+    struct { vector_f z0, z1, z2, z3, z4, z5, z6, z7, z8, z9, z10, z11, z12, z13, phi; }
+            kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 211 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float mu2 = S[2];
+        const float mu3 = S[3];
+        const float mu4 = S[4];
+        const float mu5 = S[5];
+        const float mu6 = S[6];
+        const float mu7 = S[7];
+        const float mu8 = S[8];
+        const float mu9 = S[9];
+        const float mu10 = S[10];
+        const float mu11 = S[11];
+        const float mu12 = S[12];
+        const float mu13 = S[13];
+        const float W0_0 = S[14];
+        const float W0_1 = S[15];
+        const float W0_2 = S[16];
+        const float W0_3 = S[17];
+        const float W0_4 = S[18];
+        const float W0_5 = S[19];
+        const float W0_6 = S[20];
+        const float W0_7 = S[21];
+        const float W0_8 = S[22];
+        const float W0_9 = S[23];
+        const float W0_10 = S[24];
+        const float W0_11 = S[25];
+        const float W0_12 = S[26];
+        const float W0_13 = S[27];
+        const float W1_0 = S[28];
+        const float W1_1 = S[29];
+        const float W1_2 = S[30];
+        const float W1_3 = S[31];
+        const float W1_4 = S[32];
+        const float W1_5 = S[33];
+        const float W1_6 = S[34];
+        const float W1_7 = S[35];
+        const float W1_8 = S[36];
+        const float W1_9 = S[37];
+        const float W1_10 = S[38];
+        const float W1_11 = S[39];
+        const float W1_12 = S[40];
+        const float W1_13 = S[41];
+        const float W2_0 = S[42];
+        const float W2_1 = S[43];
+        const float W2_2 = S[44];
+        const float W2_3 = S[45];
+        const float W2_4 = S[46];
+        const float W2_5 = S[47];
+        const float W2_6 = S[48];
+        const float W2_7 = S[49];
+        const float W2_8 = S[50];
+        const float W2_9 = S[51];
+        const float W2_10 = S[52];
+        const float W2_11 = S[53];
+        const float W2_12 = S[54];
+        const float W2_13 = S[55];
+        const float W3_0 = S[56];
+        const float W3_1 = S[57];
+        const float W3_2 = S[58];
+        const float W3_3 = S[59];
+        const float W3_4 = S[60];
+        const float W3_5 = S[61];
+        const float W3_6 = S[62];
+        const float W3_7 = S[63];
+        const float W3_8 = S[64];
+        const float W3_9 = S[65];
+        const float W3_10 = S[66];
+        const float W3_11 = S[67];
+        const float W3_12 = S[68];
+        const float W3_13 = S[69];
+        const float W4_0 = S[70];
+        const float W4_1 = S[71];
+        const float W4_2 = S[72];
+        const float W4_3 = S[73];
+        const float W4_4 = S[74];
+        const float W4_5 = S[75];
+        const float W4_6 = S[76];
+        const float W4_7 = S[77];
+        const float W4_8 = S[78];
+        const float W4_9 = S[79];
+        const float W4_10 = S[80];
+        const float W4_11 = S[81];
+        const float W4_12 = S[82];
+        const float W4_13 = S[83];
+        const float W5_0 = S[84];
+        const float W5_1 = S[85];
+        const float W5_2 = S[86];
+        const float W5_3 = S[87];
+        const float W5_4 = S[88];
+        const float W5_5 = S[89];
+        const float W5_6 = S[90];
+        const float W5_7 = S[91];
+        const float W5_8 = S[92];
+        const float W5_9 = S[93];
+        const float W5_10 = S[94];
+        const float W5_11 = S[95];
+        const float W5_12 = S[96];
+        const float W5_13 = S[97];
+        const float W6_0 = S[98];
+        const float W6_1 = S[99];
+        const float W6_2 = S[100];
+        const float W6_3 = S[101];
+        const float W6_4 = S[102];
+        const float W6_5 = S[103];
+        const float W6_6 = S[104];
+        const float W6_7 = S[105];
+        const float W6_8 = S[106];
+        const float W6_9 = S[107];
+        const float W6_10 = S[108];
+        const float W6_11 = S[109];
+        const float W6_12 = S[110];
+        const float W6_13 = S[111];
+        const float W7_0 = S[112];
+        const float W7_1 = S[113];
+        const float W7_2 = S[114];
+        const float W7_3 = S[115];
+        const float W7_4 = S[116];
+        const float W7_5 = S[117];
+        const float W7_6 = S[118];
+        const float W7_7 = S[119];
+        const float W7_8 = S[120];
+        const float W7_9 = S[121];
+        const float W7_10 = S[122];
+        const float W7_11 = S[123];
+        const float W7_12 = S[124];
+        const float W7_13 = S[125];
+        const float W8_0 = S[126];
+        const float W8_1 = S[127];
+        const float W8_2 = S[128];
+        const float W8_3 = S[129];
+        const float W8_4 = S[130];
+        const float W8_5 = S[131];
+        const float W8_6 = S[132];
+        const float W8_7 = S[133];
+        const float W8_8 = S[134];
+        const float W8_9 = S[135];
+        const float W8_10 = S[136];
+        const float W8_11 = S[137];
+        const float W8_12 = S[138];
+        const float W8_13 = S[139];
+        const float W9_0 = S[140];
+        const float W9_1 = S[141];
+        const float W9_2 = S[142];
+        const float W9_3 = S[143];
+        const float W9_4 = S[144];
+        const float W9_5 = S[145];
+        const float W9_6 = S[146];
+        const float W9_7 = S[147];
+        const float W9_8 = S[148];
+        const float W9_9 = S[149];
+        const float W9_10 = S[150];
+        const float W9_11 = S[151];
+        const float W9_12 = S[152];
+        const float W9_13 = S[153];
+        const float W10_0 = S[154];
+        const float W10_1 = S[155];
+        const float W10_2 = S[156];
+        const float W10_3 = S[157];
+        const float W10_4 = S[158];
+        const float W10_5 = S[159];
+        const float W10_6 = S[160];
+        const float W10_7 = S[161];
+        const float W10_8 = S[162];
+        const float W10_9 = S[163];
+        const float W10_10 = S[164];
+        const float W10_11 = S[165];
+        const float W10_12 = S[166];
+        const float W10_13 = S[167];
+        const float W11_0 = S[168];
+        const float W11_1 = S[169];
+        const float W11_2 = S[170];
+        const float W11_3 = S[171];
+        const float W11_4 = S[172];
+        const float W11_5 = S[173];
+        const float W11_6 = S[174];
+        const float W11_7 = S[175];
+        const float W11_8 = S[176];
+        const float W11_9 = S[177];
+        const float W11_10 = S[178];
+        const float W11_11 = S[179];
+        const float W11_12 = S[180];
+        const float W11_13 = S[181];
+        const float W12_0 = S[182];
+        const float W12_1 = S[183];
+        const float W12_2 = S[184];
+        const float W12_3 = S[185];
+        const float W12_4 = S[186];
+        const float W12_5 = S[187];
+        const float W12_6 = S[188];
+        const float W12_7 = S[189];
+        const float W12_8 = S[190];
+        const float W12_9 = S[191];
+        const float W12_10 = S[192];
+        const float W12_11 = S[193];
+        const float W12_12 = S[194];
+        const float W12_13 = S[195];
+        const float W13_0 = S[196];
+        const float W13_1 = S[197];
+        const float W13_2 = S[198];
+        const float W13_3 = S[199];
+        const float W13_4 = S[200];
+        const float W13_5 = S[201];
+        const float W13_6 = S[202];
+        const float W13_7 = S[203];
+        const float W13_8 = S[204];
+        const float W13_9 = S[205];
+        const float W13_10 = S[206];
+        const float W13_11 = S[207];
+        const float W13_12 = S[208];
+        const float W13_13 = S[209];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 14 * b;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f x2 = X[2];
+            const vector_f x3 = X[3];
+            const vector_f x4 = X[4];
+            const vector_f x5 = X[5];
+            const vector_f x6 = X[6];
+            const vector_f x7 = X[7];
+            const vector_f x8 = X[8];
+            const vector_f x9 = X[9];
+            const vector_f x10 = X[10];
+            const vector_f x11 = X[11];
+            const vector_f x12 = X[12];
+            const vector_f x13 = X[13];
+            const vector_f gap = x0 - mu0;
+            const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+            const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
+            const vector_f gap_2 = x1 - mu1;
+            const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+            const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
+            const vector_f gap_3 = x2 - mu2;
+            const vector_f round_4 = round_each_f(0.15915494309189535f * gap_3);
+            const vector_f v2 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
+            const vector_f gap_4 = x3 - mu3;
+            const vector_f round_5 = round_each_f(0.15915494309189535f * gap_4);
+            const vector_f v3 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
+            const vector_f gap_5 = x4 - mu4;
+            const vector_f round_6 = round_each_f(0.15915494309189535f * gap_5);
+            const vector_f v4 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
+            const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+            const vector_f gap_6 = x5 - mu5;
+            const vector_f round_7 = round_each_f(0.15915494309189535f * gap_6);
+            const vector_f v5 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
+            const vector_f gap_7 = x6 - mu6;
+            const vector_f round_8 = round_each_f(0.15915494309189535f * gap_7);
+            const vector_f v6 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
+            const vector_f gap_8 = x7 - mu7;
+            const vector_f round_9 = round_each_f(0.15915494309189535f * gap_8);
+            const vector_f v7 = gap_8 - 6.28125f * round_9 - 0.001935307179586477f * round_9;
+            const vector_f gap_9 = x8 - mu8;
+            const vector_f round_10 = round_each_f(0.15915494309189535f * gap_9);
+            const vector_f v8 = gap_9 - 6.28125f * round_10 - 0.001935307179586477f * round_10;
+            const vector_f total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+            const vector_f gap_10 = x9 - mu9;
+            const vector_f round_11 = round_each_f(0.15915494309189535f * gap_10);
+            const vector_f v9 = gap_10 - 6.28125f * round_11 - 0.001935307179586477f * round_11;
+            const vector_f gap_11 = x10 - mu10;
+            const vector_f round_12 = round_each_f(0.15915494309189535f * gap_11);
+            const vector_f v10 = gap_11 - 6.28125f * round_12 - 0.001935307179586477f * round_12;
+            const vector_f gap_12 = x11 - mu11;
+            const vector_f round_13 = round_each_f(0.15915494309189535f * gap_12);
+            const vector_f v11 = gap_12 - 6.28125f * round_13 - 0.001935307179586477f * round_13;
+            const vector_f gap_13 = x12 - mu12;
+            const vector_f round_14 = round_each_f(0.15915494309189535f * gap_13);
+            const vector_f v12 = gap_13 - 6.28125f * round_14 - 0.001935307179586477f * round_14;
+            const vector_f total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
+            const vector_f gap_14 = x13 - mu13;
+            const vector_f round_15 = round_each_f(0.15915494309189535f * gap_14);
+            const vector_f v13 = gap_14 - 6.28125f * round_15 - 0.001935307179586477f * round_15;
+            const vector_f z0 = total_4 + W0_13 * v13;
+            const vector_f total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+            const vector_f total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+            const vector_f total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12;
+            const vector_f z1 = total_7 + W1_13 * v13;
+            const vector_f total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+            const vector_f total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+            const vector_f total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12;
+            const vector_f z2 = total_10 + W2_13 * v13;
+            const vector_f total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+            const vector_f total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+            const vector_f total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12;
+            const vector_f z3 = total_13 + W3_13 * v13;
+            const vector_f total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+            const vector_f total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+            const vector_f total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12;
+            const vector_f z4 = total_16 + W4_13 * v13;
+            const vector_f total_17 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+            const vector_f total_18 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+            const vector_f total_19 = total_18 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+            const vector_f total_20 = total_19 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12;
+            const vector_f z5 = total_20 + W5_13 * v13;
+            const vector_f total_21 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+            const vector_f total_22 = total_21 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+            const vector_f total_23 = total_22 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12;
+            const vector_f z6 = total_23 + W6_13 * v13;
+            const vector_f total_24 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+            const vector_f total_25 = total_24 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+            const vector_f total_26 = total_25 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12;
+            const vector_f z7 = total_26 + W7_13 * v13;
+            const vector_f total_27 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+            const vector_f total_28 = total_27 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+            const vector_f total_29 = total_28 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12;
+            const vector_f z8 = total_29 + W8_13 * v13;
+            const vector_f total_30 = total_17 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+            const vector_f total_31 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4;
+            const vector_f total_32 = total_31 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8;
+            const vector_f total_33 = total_32 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12;
+            const vector_f z9 = total_33 + W9_13 * v13;
+            const vector_f total_34 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4;
+            const vector_f total_35 = total_34 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8;
+            const vector_f total_36 = total_35 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12;
+            const vector_f z10 = total_36 + W10_13 * v13;
+            const vector_f total_37 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4;
+            const vector_f total_38 = total_37 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8;
+            const vector_f total_39 = total_38 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12;
+            const vector_f z11 = total_39 + W11_13 * v13;
+            const vector_f total_40 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4;
+            const vector_f total_41 = total_40 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8;
+            const vector_f total_42 = total_41 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12;
+            const vector_f z12 = total_42 + W12_13 * v13;
+            const vector_f total_43 = total_30 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12;
+            const vector_f total_44 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4;
+            const vector_f total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
+            const vector_f total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
+            const vector_f z13 = total_46 + W13_13 * v13;
+            const vector_f phi = gaussian_each_f(total_43 + z13 * z13);
+            kept[k][b].z0 = z0;
+            kept[k][b].z1 = z1;
+            kept[k][b].z2 = z2;
+            kept[k][b].z3 = z3;
+            kept[k][b].z4 = z4;
+            kept[k][b].z5 = z5;
+            kept[k][b].z6 = z6;
+            kept[k][b].z7 = z7;
+            kept[k][b].z8 = z8;
+            kept[k][b].z9 = z9;
+            kept[k][b].z10 = z10;
+            kept[k][b].z11 = z11;
+            kept[k][b].z12 = z12;
+            kept[k][b].z13 = z13;
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 211 * near[k];
+        const float W0_0 = S[14];
+        const float W0_1 = S[15];
+        const float W0_2 = S[16];
+        const float W0_3 = S[17];
+        const float W0_4 = S[18];
+        const float W0_5 = S[19];
+        const float W0_6 = S[20];
+        const float W0_7 = S[21];
+        const float W0_8 = S[22];
+        const float W0_9 = S[23];
+        const float W0_10 = S[24];
+        const float W0_11 = S[25];
+        const float W0_12 = S[26];
+        const float W0_13 = S[27];
+        const float W1_0 = S[28];
+        const float W1_1 = S[29];
+        const float W1_2 = S[30];
+        const float W1_3 = S[31];
+        const float W1_4 = S[32];
+        const float W1_5 = S[33];
+        const float W1_6 = S[34];
+        const float W1_7 = S[35];
+        const float W1_8 = S[36];
+        const float W1_9 = S[37];
+        const float W1_10 = S[38];
+        const float W1_11 = S[39];
+        const float W1_12 = S[40];
+        const float W1_13 = S[41];
+        const float W2_0 = S[42];
+        const float W2_1 = S[43];
+        const float W2_2 = S[44];
+        const float W2_3 = S[45];
+        const float W2_4 = S[46];
+        const float W2_5 = S[47];
+        const float W2_6 = S[48];
+        const float W2_7 = S[49];
+        const float W2_8 = S[50];
+        const float W2_9 = S[51];
+        const float W2_10 = S[52];
+        const float W2_11 = S[53];
+        const float W2_12 = S[54];
+        const float W2_13 = S[55];
+        const float W3_0 = S[56];
+        const float W3_1 = S[57];
+        const float W3_2 = S[58];
+        const float W3_3 = S[59];
+        const float W3_4 = S[60];
+        const float W3_5 = S[61];
+        const float W3_6 = S[62];
+        const float W3_7 = S[63];
+        const float W3_8 = S[64];
+        const float W3_9 = S[65];
+        const float W3_10 = S[66];
+        const float W3_11 = S[67];
+        const float W3_12 = S[68];
+        const float W3_13 = S[69];
+        const float W4_0 = S[70];
+        const float W4_1 = S[71];
+        const float W4_2 = S[72];
+        const float W4_3 = S[73];
+        const float W4_4 = S[74];
+        const float W4_5 = S[75];
+        const float W4_6 = S[76];
+        const float W4_7 = S[77];
+        const float W4_8 = S[78];
+        const float W4_9 = S[79];
+        const float W4_10 = S[80];
+        const float W4_11 = S[81];
+        const float W4_12 = S[82];
+        const float W4_13 = S[83];
+        const float W5_0 = S[84];
+        const float W5_1 = S[85];
+        const float W5_2 = S[86];
+        const float W5_3 = S[87];
+        const float W5_4 = S[88];
+        const float W5_5 = S[89];
+        const float W5_6 = S[90];
+        const float W5_7 = S[91];
+        const float W5_8 = S[92];
+        const float W5_9 = S[93];
+        const float W5_10 = S[94];
+        const float W5_11 = S[95];
+        const float W5_12 = S[96];
+        const float W5_13 = S[97];
+        const float W6_0 = S[98];
+        const float W6_1 = S[99];
+        const float W6_2 = S[100];
+        const float W6_3 = S[101];
+        const float W6_4 = S[102];
+        const float W6_5 = S[103];
+        const float W6_6 = S[104];
+        const float W6_7 = S[105];
+        const float W6_8 = S[106];
+        const float W6_9 = S[107];
+        const float W6_10 = S[108];
+        const float W6_11 = S[109];
+        const float W6_12 = S[110];
+        const float W6_13 = S[111];
+        const float W7_0 = S[112];
+        const float W7_1 = S[113];
+        const float W7_2 = S[114];
+        const float W7_3 = S[115];
+        const float W7_4 = S[116];
+        const float W7_5 = S[117];
+        const float W7_6 = S[118];
+        const float W7_7 = S[119];
+        const float W7_8 = S[120];
+        const float W7_9 = S[121];
+        const float W7_10 = S[122];
+        const float W7_11 = S[123];
+        const float W7_12 = S[124];
+        const float W7_13 = S[125];
+        const float W8_0 = S[126];
+        const float W8_1 = S[127];
+        const float W8_2 = S[128];
+        const float W8_3 = S[129];
+        const float W8_4 = S[130];
+        const float W8_5 = S[131];
+        const float W8_6 = S[132];
+        const float W8_7 = S[133];
+        const float W8_8 = S[134];
+        const float W8_9 = S[135];
+        const float W8_10 = S[136];
+        const float W8_11 = S[137];
+        const float W8_12 = S[138];
+        const float W8_13 = S[139];
+        const float W9_0 = S[140];
+        const float W9_1 = S[141];
+        const float W9_2 = S[142];
+        const float W9_3 = S[143];
+        const float W9_4 = S[144];
+        const float W9_5 = S[145];
+        const float W9_6 = S[146];
+        const float W9_7 = S[147];
+        const float W9_8 = S[148];
+        const float W9_9 = S[149];
+        const float W9_10 = S[150];
+        const float W9_11 = S[151];
+        const float W9_12 = S[152];
+        const float W9_13 = S[153];
+        const float W10_0 = S[154];
+        const float W10_1 = S[155];
+        const float W10_2 = S[156];
+        const float W10_3 = S[157];
+        const float W10_4 = S[158];
+        const float W10_5 = S[159];
+        const float W10_6 = S[160];
+        const float W10_7 = S[161];
+        const float W10_8 = S[162];
+        const float W10_9 = S[163];
+        const float W10_10 = S[164];
+        const float W10_11 = S[165];
+        const float W10_12 = S[166];
+        const float W10_13 = S[167];
+        const float W11_0 = S[168];
+        const float W11_1 = S[169];
+        const float W11_2 = S[170];
+        const float W11_3 = S[171];
+        const float W11_4 = S[172];
+        const float W11_5 = S[173];
+        const float W11_6 = S[174];
+        const float W11_7 = S[175];
+        const float W11_8 = S[176];
+        const float W11_9 = S[177];
+        const float W11_10 = S[178];
+        const float W11_11 = S[179];
+        const float W11_12 = S[180];
+        const float W11_13 = S[181];
+        const float W12_0 = S[182];
+        const float W12_1 = S[183];
+        const float W12_2 = S[184];
+        const float W12_3 = S[185];
+        const float W12_4 = S[186];
+        const float W12_5 = S[187];
+        const float W12_6 = S[188];
+        const float W12_7 = S[189];
+        const float W12_8 = S[190];
+        const float W12_9 = S[191];
+        const float W12_10 = S[192];
+        const float W12_11 = S[193];
+        const float W12_12 = S[194];
+        const float W12_13 = S[195];
+        const float W13_0 = S[196];
+        const float W13_1 = S[197];
+        const float W13_2 = S[198];
+        const float W13_3 = S[199];
+        const float W13_4 = S[200];
+        const float W13_5 = S[201];
+        const float W13_6 = S[202];
+        const float W13_7 = S[203];
+        const float W13_8 = S[204];
+        const float W13_9 = S[205];
+        const float W13_10 = S[206];
+        const float W13_11 = S[207];
+        const float W13_12 = S[208];
+        const float W13_13 = S[209];
+        const float amplitude = S[210];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector_f *value = values + b;
+            vector_f *slope = slopes + 14 * b;
+            const vector_f z0 = kept[k][b].z0;
+            const vector_f z1 = kept[k][b].z1;
+            const vector_f z2 = kept[k][b].z2;
+            const vector_f z3 = kept[k][b].z3;
+            const vector_f z4 = kept[k][b].z4;
+            const vector_f z5 = kept[k][b].z5;
+            const vector_f z6 = kept[k][b].z6;
+            const vector_f z7 = kept[k][b].z7;
+            const vector_f z8 = kept[k][b].z8;
+            const vector_f z9 = kept[k][b].z9;
+            const vector_f z10 = kept[k][b].z10;
+            const vector_f z11 = kept[k][b].z11;
+            const vector_f z12 = kept[k][b].z12;
+            const vector_f z13 = kept[k][b].z13;
+            const vector_f phi = kept[k][b].phi;
+            const vector_f phi_2 = amplitude * phi;
+            const vector_f z13_product = z13 * phi_2;
+            const vector_f z12_product = z12 * phi_2;
+            const vector_f z11_product = z11 * phi_2;
+            const vector_f z10_product = z10 * phi_2;
+            const vector_f z9_product = z9 * phi_2;
+            const vector_f z8_product = z8 * phi_2;
+            const vector_f z7_product = z7 * phi_2;
+            const vector_f z6_product = z6 * phi_2;
+            const vector_f z5_product = z5 * phi_2;
+            const vector_f z4_product = z4 * phi_2;
+            const vector_f z3_product = z3 * phi_2;
+            const vector_f z2_product = z2 * phi_2;
+            const vector_f z1_product = z1 * phi_2;
+            const vector_f z0_product = z0 * phi_2;
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] - W13_0 * z13_product - W12_0 * z12_product - W11_0 * z11_product - W10_0 *
+                    z10_product - W9_0 * z9_product - W8_0 * z8_product - W7_0 * z7_product - W6_0 * z6_product - W5_0 *
+                    z5_product - W4_0 * z4_product - W3_0 * z3_product - W2_0 * z2_product - W1_0 * z1_product - W0_0 *
+                    z0_product;
+            slope[1] = slope[1] - W13_1 * z13_product - W12_1 * z12_product - W11_1 * z11_product - W10_1 *
+                    z10_product - W9_1 * z9_product - W8_1 * z8_product - W7_1 * z7_product - W6_1 * z6_product - W5_1 *
+                    z5_product - W4_1 * z4_product - W3_1 * z3_product - W2_1 * z2_product - W1_1 * z1_product - W0_1 *
+                    z0_product;
+            slope[2] = slope[2] - W13_2 * z13_product - W12_2 * z12_product - W11_2 * z11_product - W10_2 *
+                    z10_product - W9_2 * z9_product - W8_2 * z8_product - W7_2 * z7_product - W6_2 * z6_product - W5_2 *
+                    z5_product - W4_2 * z4_product - W3_2 * z3_product - W2_2 * z2_product - W1_2 * z1_product - W0_2 *
+                    z0_product;
+            slope[3] = slope[3] - W13_3 * z13_product - W12_3 * z12_product - W11_3 * z11_product - W10_3 *
+                    z10_product - W9_3 * z9_product - W8_3 * z8_product - W7_3 * z7_product - W6_3 * z6_product - W5_3 *
+                    z5_product - W4_3 * z4_product - W3_3 * z3_product - W2_3 * z2_product - W1_3 * z1_product - W0_3 *
+                    z0_product;
+            slope[4] = slope[4] - W13_4 * z13_product - W12_4 * z12_product - W11_4 * z11_product - W10_4 *
+                    z10_product - W9_4 * z9_product - W8_4 * z8_product - W7_4 * z7_product - W6_4 * z6_product - W5_4 *
+                    z5_product - W4_4 * z4_product - W3_4 * z3_product - W2_4 * z2_product - W1_4 * z1_product - W0_4 *
+                    z0_product;
+            slope[5] = slope[5] - W13_5 * z13_product - W12_5 * z12_product - W11_5 * z11_product - W10_5 *
+                    z10_product - W9_5 * z9_product - W8_5 * z8_product - W7_5 * z7_product - W6_5 * z6_product - W5_5 *
+                    z5_product - W4_5 * z4_product - W3_5 * z3_product - W2_5 * z2_product - W1_5 * z1_product - W0_5 *
+                    z0_product;
+            slope[6] = slope[6] - W13_6 * z13_product - W12_6 * z12_product - W11_6 * z11_product - W10_6 *
+                    z10_product - W9_6 * z9_product - W8_6 * z8_product - W7_6 * z7_product - W6_6 * z6_product - W5_6 *
+                    z5_product - W4_6 * z4_product - W3_6 * z3_product - W2_6 * z2_product - W1_6 * z1_product - W0_6 *
+                    z0_product;
+            slope[7] = slope[7] - W13_7 * z13_product - W12_7 * z12_product - W11_7 * z11_product - W10_7 *
+                    z10_product - W9_7 * z9_product - W8_7 * z8_product - W7_7 * z7_product - W6_7 * z6_product - W5_7 *
+                    z5_product - W4_7 * z4_product - W3_7 * z3_product - W2_7 * z2_product - W1_7 * z1_product - W0_7 *
+                    z0_product;
+            slope[8] = slope[8] - W13_8 * z13_product - W12_8 * z12_product - W11_8 * z11_product - W10_8 *
+                    z10_product - W9_8 * z9_product - W8_8 * z8_product - W7_8 * z7_product - W6_8 * z6_product - W5_8 *
+                    z5_product - W4_8 * z4_product - W3_8 * z3_product - W2_8 * z2_product - W1_8 * z1_product - W0_8 *
+                    z0_product;
+            slope[9] = slope[9] - W13_9 * z13_product - W12_9 * z12_product - W11_9 * z11_product - W10_9 *
+                    z10_product - W9_9 * z9_product - W8_9 * z8_product - W7_9 * z7_product - W6_9 * z6_product - W5_9 *
+                    z5_product - W4_9 * z4_product - W3_9 * z3_product - W2_9 * z2_product - W1_9 * z1_product - W0_9 *
+                    z0_product;
+            slope[10] = slope[10] - W13_10 * z13_product - W12_10 * z12_product - W11_10 * z11_product - W10_10 *
+                    z10_product - W9_10 * z9_product - W8_10 * z8_product - W7_10 * z7_product - W6_10 * z6_product -
+                    W5_10 * z5_product - W4_10 * z4_product - W3_10 * z3_product - W2_10 * z2_product - W1_10 * z1_product
+                    - W0_10 * z0_product;
+            slope[11] = slope[11] - W13_11 * z13_product - W12_11 * z12_product - W11_11 * z11_product - W10_11 *
+                    z10_product - W9_11 * z9_product - W8_11 * z8_product - W7_11 * z7_product - W6_11 * z6_product -
+                    W5_11 * z5_product - W4_11 * z4_product - W3_11 * z3_product - W2_11 * z2_product - W1_11 * z1_product
+                    - W0_11 * z0_product;
+            slope[12] = slope[12] - W13_12 * z13_product - W12_12 * z12_product - W11_12 * z11_product - W10_12 *
+                    z10_product - W9_12 * z9_product - W8_12 * z8_product - W7_12 * z7_product - W6_12 * z6_product -
+                    W5_12 * z5_product - W4_12 * z4_product - W3_12 * z3_product - W2_12 * z2_product - W1_12 * z1_product
+                    - W0_12 * z0_product;
+            slope[13] = slope[13] - W13_13 * z13_product - W12_13 * z12_product - W11_13 * z11_product - W10_13 *
+                    z10_product - W9_13 * z9_product - W8_13 * z8_product - W7_13 * z7_product - W6_13 * z6_product -
+                    W5_13 * z5_product - W4_13 * z4_product - W3_13 * z3_product - W2_13 * z2_product - W1_13 * z1_product
+                    - W0_13 * z0_product;
+        }
+    }
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -5169,6 +5676,1156 @@ OUTLINE void pair_gradient_vjp_f(
     slope_bar[11] = gradient_bar11;
     slope_bar[12] = gradient_bar12;
     slope_bar[13] = gradient_bar13;
+}
+
+/*
+ * The factors of whose products are what is summed over the points, for some vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
+OUTLINE void pair_factors_f(
+    size_t count, const vector_f *points, const uint32_t *near, const float *S, vector_f *factors) {
+    struct { vector_f v0, v1, v2, v3, v4, v5, v6, v7, v8, v9, v10, v11, v12, v13, z0, z1, z2, z3, z4, z5, z6,
+            z7, z8, z9, z10, z11, z12, z13, phi; } kept[6];
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 29 * (size_t)near[i];
+        const vector_f x0 = X[0];
+        const vector_f x1 = X[1];
+        const vector_f x2 = X[2];
+        const vector_f x3 = X[3];
+        const vector_f x4 = X[4];
+        const vector_f x5 = X[5];
+        const vector_f x6 = X[6];
+        const vector_f x7 = X[7];
+        const vector_f x8 = X[8];
+        const vector_f x9 = X[9];
+        const vector_f x10 = X[10];
+        const vector_f x11 = X[11];
+        const vector_f x12 = X[12];
+        const vector_f x13 = X[13];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float mu2 = S[2];
+        const float mu3 = S[3];
+        const float mu4 = S[4];
+        const float mu5 = S[5];
+        const float mu6 = S[6];
+        const float mu7 = S[7];
+        const float mu8 = S[8];
+        const float mu9 = S[9];
+        const float mu10 = S[10];
+        const float mu11 = S[11];
+        const float mu12 = S[12];
+        const float mu13 = S[13];
+        const float W0_0 = S[14];
+        const float W0_1 = S[15];
+        const float W0_2 = S[16];
+        const float W0_3 = S[17];
+        const float W0_4 = S[18];
+        const float W0_5 = S[19];
+        const float W0_6 = S[20];
+        const float W0_7 = S[21];
+        const float W0_8 = S[22];
+        const float W0_9 = S[23];
+        const float W0_10 = S[24];
+        const float W0_11 = S[25];
+        const float W0_12 = S[26];
+        const float W0_13 = S[27];
+        const float W1_0 = S[28];
+        const float W1_1 = S[29];
+        const float W1_2 = S[30];
+        const float W1_3 = S[31];
+        const float W1_4 = S[32];
+        const float W1_5 = S[33];
+        const float W1_6 = S[34];
+        const float W1_7 = S[35];
+        const float W1_8 = S[36];
+        const float W1_9 = S[37];
+        const float W1_10 = S[38];
+        const float W1_11 = S[39];
+        const float W1_12 = S[40];
+        const float W1_13 = S[41];
+        const float W2_0 = S[42];
+        const float W2_1 = S[43];
+        const float W2_2 = S[44];
+        const float W2_3 = S[45];
+        const float W2_4 = S[46];
+        const float W2_5 = S[47];
+        const float W2_6 = S[48];
+        const float W2_7 = S[49];
+        const float W2_8 = S[50];
+        const float W2_9 = S[51];
+        const float W2_10 = S[52];
+        const float W2_11 = S[53];
+        const float W2_12 = S[54];
+        const float W2_13 = S[55];
+        const float W3_0 = S[56];
+        const float W3_1 = S[57];
+        const float W3_2 = S[58];
+        const float W3_3 = S[59];
+        const float W3_4 = S[60];
+        const float W3_5 = S[61];
+        const float W3_6 = S[62];
+        const float W3_7 = S[63];
+        const float W3_8 = S[64];
+        const float W3_9 = S[65];
+        const float W3_10 = S[66];
+        const float W3_11 = S[67];
+        const float W3_12 = S[68];
+        const float W3_13 = S[69];
+        const float W4_0 = S[70];
+        const float W4_1 = S[71];
+        const float W4_2 = S[72];
+        const float W4_3 = S[73];
+        const float W4_4 = S[74];
+        const float W4_5 = S[75];
+        const float W4_6 = S[76];
+        const float W4_7 = S[77];
+        const float W4_8 = S[78];
+        const float W4_9 = S[79];
+        const float W4_10 = S[80];
+        const float W4_11 = S[81];
+        const float W4_12 = S[82];
+        const float W4_13 = S[83];
+        const float W5_0 = S[84];
+        const float W5_1 = S[85];
+        const float W5_2 = S[86];
+        const float W5_3 = S[87];
+        const float W5_4 = S[88];
+        const float W5_5 = S[89];
+        const float W5_6 = S[90];
+        const float W5_7 = S[91];
+        const float W5_8 = S[92];
+        const float W5_9 = S[93];
+        const float W5_10 = S[94];
+        const float W5_11 = S[95];
+        const float W5_12 = S[96];
+        const float W5_13 = S[97];
+        const float W6_0 = S[98];
+        const float W6_1 = S[99];
+        const float W6_2 = S[100];
+        const float W6_3 = S[101];
+        const float W6_4 = S[102];
+        const float W6_5 = S[103];
+        const float W6_6 = S[104];
+        const float W6_7 = S[105];
+        const float W6_8 = S[106];
+        const float W6_9 = S[107];
+        const float W6_10 = S[108];
+        const float W6_11 = S[109];
+        const float W6_12 = S[110];
+        const float W6_13 = S[111];
+        const float W7_0 = S[112];
+        const float W7_1 = S[113];
+        const float W7_2 = S[114];
+        const float W7_3 = S[115];
+        const float W7_4 = S[116];
+        const float W7_5 = S[117];
+        const float W7_6 = S[118];
+        const float W7_7 = S[119];
+        const float W7_8 = S[120];
+        const float W7_9 = S[121];
+        const float W7_10 = S[122];
+        const float W7_11 = S[123];
+        const float W7_12 = S[124];
+        const float W7_13 = S[125];
+        const float W8_0 = S[126];
+        const float W8_1 = S[127];
+        const float W8_2 = S[128];
+        const float W8_3 = S[129];
+        const float W8_4 = S[130];
+        const float W8_5 = S[131];
+        const float W8_6 = S[132];
+        const float W8_7 = S[133];
+        const float W8_8 = S[134];
+        const float W8_9 = S[135];
+        const float W8_10 = S[136];
+        const float W8_11 = S[137];
+        const float W8_12 = S[138];
+        const float W8_13 = S[139];
+        const float W9_0 = S[140];
+        const float W9_1 = S[141];
+        const float W9_2 = S[142];
+        const float W9_3 = S[143];
+        const float W9_4 = S[144];
+        const float W9_5 = S[145];
+        const float W9_6 = S[146];
+        const float W9_7 = S[147];
+        const float W9_8 = S[148];
+        const float W9_9 = S[149];
+        const float W9_10 = S[150];
+        const float W9_11 = S[151];
+        const float W9_12 = S[152];
+        const float W9_13 = S[153];
+        const float W10_0 = S[154];
+        const float W10_1 = S[155];
+        const float W10_2 = S[156];
+        const float W10_3 = S[157];
+        const float W10_4 = S[158];
+        const float W10_5 = S[159];
+        const float W10_6 = S[160];
+        const float W10_7 = S[161];
+        const float W10_8 = S[162];
+        const float W10_9 = S[163];
+        const float W10_10 = S[164];
+        const float W10_11 = S[165];
+        const float W10_12 = S[166];
+        const float W10_13 = S[167];
+        const float W11_0 = S[168];
+        const float W11_1 = S[169];
+        const float W11_2 = S[170];
+        const float W11_3 = S[171];
+        const float W11_4 = S[172];
+        const float W11_5 = S[173];
+        const float W11_6 = S[174];
+        const float W11_7 = S[175];
+        const float W11_8 = S[176];
+        const float W11_9 = S[177];
+        const float W11_10 = S[178];
+        const float W11_11 = S[179];
+        const float W11_12 = S[180];
+        const float W11_13 = S[181];
+        const float W12_0 = S[182];
+        const float W12_1 = S[183];
+        const float W12_2 = S[184];
+        const float W12_3 = S[185];
+        const float W12_4 = S[186];
+        const float W12_5 = S[187];
+        const float W12_6 = S[188];
+        const float W12_7 = S[189];
+        const float W12_8 = S[190];
+        const float W12_9 = S[191];
+        const float W12_10 = S[192];
+        const float W12_11 = S[193];
+        const float W12_12 = S[194];
+        const float W12_13 = S[195];
+        const float W13_0 = S[196];
+        const float W13_1 = S[197];
+        const float W13_2 = S[198];
+        const float W13_3 = S[199];
+        const float W13_4 = S[200];
+        const float W13_5 = S[201];
+        const float W13_6 = S[202];
+        const float W13_7 = S[203];
+        const float W13_8 = S[204];
+        const float W13_9 = S[205];
+        const float W13_10 = S[206];
+        const float W13_11 = S[207];
+        const float W13_12 = S[208];
+        const float W13_13 = S[209];
+        const vector_f gap = x0 - mu0;
+        const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+        const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
+        const vector_f gap_2 = x1 - mu1;
+        const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+        const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
+        const vector_f gap_3 = x2 - mu2;
+        const vector_f round_4 = round_each_f(0.15915494309189535f * gap_3);
+        const vector_f v2 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
+        const vector_f gap_4 = x3 - mu3;
+        const vector_f round_5 = round_each_f(0.15915494309189535f * gap_4);
+        const vector_f v3 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
+        const vector_f gap_5 = x4 - mu4;
+        const vector_f round_6 = round_each_f(0.15915494309189535f * gap_5);
+        const vector_f v4 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
+        const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+        const vector_f gap_6 = x5 - mu5;
+        const vector_f round_7 = round_each_f(0.15915494309189535f * gap_6);
+        const vector_f v5 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
+        const vector_f gap_7 = x6 - mu6;
+        const vector_f round_8 = round_each_f(0.15915494309189535f * gap_7);
+        const vector_f v6 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
+        const vector_f gap_8 = x7 - mu7;
+        const vector_f round_9 = round_each_f(0.15915494309189535f * gap_8);
+        const vector_f v7 = gap_8 - 6.28125f * round_9 - 0.001935307179586477f * round_9;
+        const vector_f gap_9 = x8 - mu8;
+        const vector_f round_10 = round_each_f(0.15915494309189535f * gap_9);
+        const vector_f v8 = gap_9 - 6.28125f * round_10 - 0.001935307179586477f * round_10;
+        const vector_f total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+        const vector_f gap_10 = x9 - mu9;
+        const vector_f round_11 = round_each_f(0.15915494309189535f * gap_10);
+        const vector_f v9 = gap_10 - 6.28125f * round_11 - 0.001935307179586477f * round_11;
+        const vector_f gap_11 = x10 - mu10;
+        const vector_f round_12 = round_each_f(0.15915494309189535f * gap_11);
+        const vector_f v10 = gap_11 - 6.28125f * round_12 - 0.001935307179586477f * round_12;
+        const vector_f gap_12 = x11 - mu11;
+        const vector_f round_13 = round_each_f(0.15915494309189535f * gap_12);
+        const vector_f v11 = gap_12 - 6.28125f * round_13 - 0.001935307179586477f * round_13;
+        const vector_f gap_13 = x12 - mu12;
+        const vector_f round_14 = round_each_f(0.15915494309189535f * gap_13);
+        const vector_f v12 = gap_13 - 6.28125f * round_14 - 0.001935307179586477f * round_14;
+        const vector_f total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
+        const vector_f gap_14 = x13 - mu13;
+        const vector_f round_15 = round_each_f(0.15915494309189535f * gap_14);
+        const vector_f v13 = gap_14 - 6.28125f * round_15 - 0.001935307179586477f * round_15;
+        const vector_f z0 = total_4 + W0_13 * v13;
+        const vector_f total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+        const vector_f total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+        const vector_f total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12;
+        const vector_f z1 = total_7 + W1_13 * v13;
+        const vector_f total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+        const vector_f total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+        const vector_f total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12;
+        const vector_f z2 = total_10 + W2_13 * v13;
+        const vector_f total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+        const vector_f total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+        const vector_f total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12;
+        const vector_f z3 = total_13 + W3_13 * v13;
+        const vector_f total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+        const vector_f total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+        const vector_f total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12;
+        const vector_f z4 = total_16 + W4_13 * v13;
+        const vector_f total_17 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+        const vector_f total_18 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+        const vector_f total_19 = total_18 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+        const vector_f total_20 = total_19 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12;
+        const vector_f z5 = total_20 + W5_13 * v13;
+        const vector_f total_21 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+        const vector_f total_22 = total_21 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+        const vector_f total_23 = total_22 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12;
+        const vector_f z6 = total_23 + W6_13 * v13;
+        const vector_f total_24 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+        const vector_f total_25 = total_24 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+        const vector_f total_26 = total_25 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12;
+        const vector_f z7 = total_26 + W7_13 * v13;
+        const vector_f total_27 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+        const vector_f total_28 = total_27 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+        const vector_f total_29 = total_28 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12;
+        const vector_f z8 = total_29 + W8_13 * v13;
+        const vector_f total_30 = total_17 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+        const vector_f total_31 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4;
+        const vector_f total_32 = total_31 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8;
+        const vector_f total_33 = total_32 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12;
+        const vector_f z9 = total_33 + W9_13 * v13;
+        const vector_f total_34 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4;
+        const vector_f total_35 = total_34 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8;
+        const vector_f total_36 = total_35 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12;
+        const vector_f z10 = total_36 + W10_13 * v13;
+        const vector_f total_37 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4;
+        const vector_f total_38 = total_37 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8;
+        const vector_f total_39 = total_38 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12;
+        const vector_f z11 = total_39 + W11_13 * v13;
+        const vector_f total_40 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4;
+        const vector_f total_41 = total_40 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8;
+        const vector_f total_42 = total_41 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12;
+        const vector_f z12 = total_42 + W12_13 * v13;
+        const vector_f total_43 = total_30 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12;
+        const vector_f total_44 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4;
+        const vector_f total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
+        const vector_f total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
+        const vector_f z13 = total_46 + W13_13 * v13;
+        const vector_f phi = gaussian_each_f(total_43 + z13 * z13);
+        kept[i].v0 = v0;
+        kept[i].v1 = v1;
+        kept[i].v2 = v2;
+        kept[i].v3 = v3;
+        kept[i].v4 = v4;
+        kept[i].v5 = v5;
+        kept[i].v6 = v6;
+        kept[i].v7 = v7;
+        kept[i].v8 = v8;
+        kept[i].v9 = v9;
+        kept[i].v10 = v10;
+        kept[i].v11 = v11;
+        kept[i].v12 = v12;
+        kept[i].v13 = v13;
+        kept[i].z0 = z0;
+        kept[i].z1 = z1;
+        kept[i].z2 = z2;
+        kept[i].z3 = z3;
+        kept[i].z4 = z4;
+        kept[i].z5 = z5;
+        kept[i].z6 = z6;
+        kept[i].z7 = z7;
+        kept[i].z8 = z8;
+        kept[i].z9 = z9;
+        kept[i].z10 = z10;
+        kept[i].z11 = z11;
+        kept[i].z12 = z12;
+        kept[i].z13 = z13;
+        kept[i].phi = phi;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *value_bar = points + 29 * (size_t)near[i] + 14;
+        const vector_f *slope_bar = points + 29 * (size_t)near[i] + 14 + 1;
+        vector_f *factor = factors + 57 * i;
+        const vector_f v0 = kept[i].v0;
+        const vector_f v1 = kept[i].v1;
+        const vector_f v2 = kept[i].v2;
+        const vector_f v3 = kept[i].v3;
+        const vector_f v4 = kept[i].v4;
+        const vector_f v5 = kept[i].v5;
+        const vector_f v6 = kept[i].v6;
+        const vector_f v7 = kept[i].v7;
+        const vector_f v8 = kept[i].v8;
+        const vector_f v9 = kept[i].v9;
+        const vector_f v10 = kept[i].v10;
+        const vector_f v11 = kept[i].v11;
+        const vector_f v12 = kept[i].v12;
+        const vector_f v13 = kept[i].v13;
+        const vector_f z0 = kept[i].z0;
+        const vector_f z1 = kept[i].z1;
+        const vector_f z2 = kept[i].z2;
+        const vector_f z3 = kept[i].z3;
+        const vector_f z4 = kept[i].z4;
+        const vector_f z5 = kept[i].z5;
+        const vector_f z6 = kept[i].z6;
+        const vector_f z7 = kept[i].z7;
+        const vector_f z8 = kept[i].z8;
+        const vector_f z9 = kept[i].z9;
+        const vector_f z10 = kept[i].z10;
+        const vector_f z11 = kept[i].z11;
+        const vector_f z12 = kept[i].z12;
+        const vector_f z13 = kept[i].z13;
+        const vector_f phi = kept[i].phi;
+        const float W0_0 = S[14];
+        const float W0_1 = S[15];
+        const float W0_2 = S[16];
+        const float W0_3 = S[17];
+        const float W0_4 = S[18];
+        const float W0_5 = S[19];
+        const float W0_6 = S[20];
+        const float W0_7 = S[21];
+        const float W0_8 = S[22];
+        const float W0_9 = S[23];
+        const float W0_10 = S[24];
+        const float W0_11 = S[25];
+        const float W0_12 = S[26];
+        const float W0_13 = S[27];
+        const float W1_0 = S[28];
+        const float W1_1 = S[29];
+        const float W1_2 = S[30];
+        const float W1_3 = S[31];
+        const float W1_4 = S[32];
+        const float W1_5 = S[33];
+        const float W1_6 = S[34];
+        const float W1_7 = S[35];
+        const float W1_8 = S[36];
+        const float W1_9 = S[37];
+        const float W1_10 = S[38];
+        const float W1_11 = S[39];
+        const float W1_12 = S[40];
+        const float W1_13 = S[41];
+        const float W2_0 = S[42];
+        const float W2_1 = S[43];
+        const float W2_2 = S[44];
+        const float W2_3 = S[45];
+        const float W2_4 = S[46];
+        const float W2_5 = S[47];
+        const float W2_6 = S[48];
+        const float W2_7 = S[49];
+        const float W2_8 = S[50];
+        const float W2_9 = S[51];
+        const float W2_10 = S[52];
+        const float W2_11 = S[53];
+        const float W2_12 = S[54];
+        const float W2_13 = S[55];
+        const float W3_0 = S[56];
+        const float W3_1 = S[57];
+        const float W3_2 = S[58];
+        const float W3_3 = S[59];
+        const float W3_4 = S[60];
+        const float W3_5 = S[61];
+        const float W3_6 = S[62];
+        const float W3_7 = S[63];
+        const float W3_8 = S[64];
+        const float W3_9 = S[65];
+        const float W3_10 = S[66];
+        const float W3_11 = S[67];
+        const float W3_12 = S[68];
+        const float W3_13 = S[69];
+        const float W4_0 = S[70];
+        const float W4_1 = S[71];
+        const float W4_2 = S[72];
+        const float W4_3 = S[73];
+        const float W4_4 = S[74];
+        const float W4_5 = S[75];
+        const float W4_6 = S[76];
+        const float W4_7 = S[77];
+        const float W4_8 = S[78];
+        const float W4_9 = S[79];
+        const float W4_10 = S[80];
+        const float W4_11 = S[81];
+        const float W4_12 = S[82];
+        const float W4_13 = S[83];
+        const float W5_0 = S[84];
+        const float W5_1 = S[85];
+        const float W5_2 = S[86];
+        const float W5_3 = S[87];
+        const float W5_4 = S[88];
+        const float W5_5 = S[89];
+        const float W5_6 = S[90];
+        const float W5_7 = S[91];
+        const float W5_8 = S[92];
+        const float W5_9 = S[93];
+        const float W5_10 = S[94];
+        const float W5_11 = S[95];
+        const float W5_12 = S[96];
+        const float W5_13 = S[97];
+        const float W6_0 = S[98];
+        const float W6_1 = S[99];
+        const float W6_2 = S[100];
+        const float W6_3 = S[101];
+        const float W6_4 = S[102];
+        const float W6_5 = S[103];
+        const float W6_6 = S[104];
+        const float W6_7 = S[105];
+        const float W6_8 = S[106];
+        const float W6_9 = S[107];
+        const float W6_10 = S[108];
+        const float W6_11 = S[109];
+        const float W6_12 = S[110];
+        const float W6_13 = S[111];
+        const float W7_0 = S[112];
+        const float W7_1 = S[113];
+        const float W7_2 = S[114];
+        const float W7_3 = S[115];
+        const float W7_4 = S[116];
+        const float W7_5 = S[117];
+        const float W7_6 = S[118];
+        const float W7_7 = S[119];
+        const float W7_8 = S[120];
+        const float W7_9 = S[121];
+        const float W7_10 = S[122];
+        const float W7_11 = S[123];
+        const float W7_12 = S[124];
+        const float W7_13 = S[125];
+        const float W8_0 = S[126];
+        const float W8_1 = S[127];
+        const float W8_2 = S[128];
+        const float W8_3 = S[129];
+        const float W8_4 = S[130];
+        const float W8_5 = S[131];
+        const float W8_6 = S[132];
+        const float W8_7 = S[133];
+        const float W8_8 = S[134];
+        const float W8_9 = S[135];
+        const float W8_10 = S[136];
+        const float W8_11 = S[137];
+        const float W8_12 = S[138];
+        const float W8_13 = S[139];
+        const float W9_0 = S[140];
+        const float W9_1 = S[141];
+        const float W9_2 = S[142];
+        const float W9_3 = S[143];
+        const float W9_4 = S[144];
+        const float W9_5 = S[145];
+        const float W9_6 = S[146];
+        const float W9_7 = S[147];
+        const float W9_8 = S[148];
+        const float W9_9 = S[149];
+        const float W9_10 = S[150];
+        const float W9_11 = S[151];
+        const float W9_12 = S[152];
+        const float W9_13 = S[153];
+        const float W10_0 = S[154];
+        const float W10_1 = S[155];
+        const float W10_2 = S[156];
+        const float W10_3 = S[157];
+        const float W10_4 = S[158];
+        const float W10_5 = S[159];
+        const float W10_6 = S[160];
+        const float W10_7 = S[161];
+        const float W10_8 = S[162];
+        const float W10_9 = S[163];
+        const float W10_10 = S[164];
+        const float W10_11 = S[165];
+        const float W10_12 = S[166];
+        const float W10_13 = S[167];
+        const float W11_0 = S[168];
+        const float W11_1 = S[169];
+        const float W11_2 = S[170];
+        const float W11_3 = S[171];
+        const float W11_4 = S[172];
+        const float W11_5 = S[173];
+        const float W11_6 = S[174];
+        const float W11_7 = S[175];
+        const float W11_8 = S[176];
+        const float W11_9 = S[177];
+        const float W11_10 = S[178];
+        const float W11_11 = S[179];
+        const float W11_12 = S[180];
+        const float W11_13 = S[181];
+        const float W12_0 = S[182];
+        const float W12_1 = S[183];
+        const float W12_2 = S[184];
+        const float W12_3 = S[185];
+        const float W12_4 = S[186];
+        const float W12_5 = S[187];
+        const float W12_6 = S[188];
+        const float W12_7 = S[189];
+        const float W12_8 = S[190];
+        const float W12_9 = S[191];
+        const float W12_10 = S[192];
+        const float W12_11 = S[193];
+        const float W12_12 = S[194];
+        const float W12_13 = S[195];
+        const float W13_0 = S[196];
+        const float W13_1 = S[197];
+        const float W13_2 = S[198];
+        const float W13_3 = S[199];
+        const float W13_4 = S[200];
+        const float W13_5 = S[201];
+        const float W13_6 = S[202];
+        const float W13_7 = S[203];
+        const float W13_8 = S[204];
+        const float W13_9 = S[205];
+        const float W13_10 = S[206];
+        const float W13_11 = S[207];
+        const float W13_12 = S[208];
+        const float W13_13 = S[209];
+        const vector_f its_value_bar = value_bar[0];
+        const vector_f x0_bar = slope_bar[0];
+        const vector_f x1_bar = slope_bar[1];
+        const vector_f x2_bar = slope_bar[2];
+        const vector_f x3_bar = slope_bar[3];
+        const vector_f x4_bar = slope_bar[4];
+        const vector_f x5_bar = slope_bar[5];
+        const vector_f x6_bar = slope_bar[6];
+        const vector_f x7_bar = slope_bar[7];
+        const vector_f x8_bar = slope_bar[8];
+        const vector_f x9_bar = slope_bar[9];
+        const vector_f x10_bar = slope_bar[10];
+        const vector_f x11_bar = slope_bar[11];
+        const vector_f x12_bar = slope_bar[12];
+        const vector_f x13_bar = slope_bar[13];
+        const vector_f gap_15 = -(W13_0 * x0_bar) - W13_1 * x1_bar - W13_2 * x2_bar - W13_3 * x3_bar;
+        const vector_f gap_16 = gap_15 - W13_4 * x4_bar - W13_5 * x5_bar - W13_6 * x6_bar - W13_7 * x7_bar;
+        const vector_f gap_17 = gap_16 - W13_8 * x8_bar - W13_9 * x9_bar - W13_10 * x10_bar - W13_11 * x11_bar;
+        const vector_f gap_18 = gap_17 - W13_12 * x12_bar - W13_13 * x13_bar;
+        const vector_f gap_19 = -(W0_0 * x0_bar) - W0_1 * x1_bar - W0_2 * x2_bar - W0_3 * x3_bar;
+        const vector_f gap_20 = gap_19 - W0_4 * x4_bar - W0_5 * x5_bar - W0_6 * x6_bar - W0_7 * x7_bar;
+        const vector_f gap_21 = gap_20 - W0_8 * x8_bar - W0_9 * x9_bar - W0_10 * x10_bar - W0_11 * x11_bar;
+        const vector_f gap_22 = gap_21 - W0_12 * x12_bar - W0_13 * x13_bar;
+        const vector_f gap_23 = -(W1_0 * x0_bar) - W1_1 * x1_bar - W1_2 * x2_bar - W1_3 * x3_bar;
+        const vector_f gap_24 = gap_23 - W1_4 * x4_bar - W1_5 * x5_bar - W1_6 * x6_bar - W1_7 * x7_bar;
+        const vector_f gap_25 = gap_24 - W1_8 * x8_bar - W1_9 * x9_bar - W1_10 * x10_bar - W1_11 * x11_bar;
+        const vector_f gap_26 = gap_25 - W1_12 * x12_bar - W1_13 * x13_bar;
+        const vector_f gap_27 = -(W2_0 * x0_bar) - W2_1 * x1_bar - W2_2 * x2_bar - W2_3 * x3_bar;
+        const vector_f gap_28 = gap_27 - W2_4 * x4_bar - W2_5 * x5_bar - W2_6 * x6_bar - W2_7 * x7_bar;
+        const vector_f gap_29 = gap_28 - W2_8 * x8_bar - W2_9 * x9_bar - W2_10 * x10_bar - W2_11 * x11_bar;
+        const vector_f gap_30 = gap_29 - W2_12 * x12_bar - W2_13 * x13_bar;
+        const vector_f gap_31 = -(W3_0 * x0_bar) - W3_1 * x1_bar - W3_2 * x2_bar - W3_3 * x3_bar;
+        const vector_f gap_32 = gap_31 - W3_4 * x4_bar - W3_5 * x5_bar - W3_6 * x6_bar - W3_7 * x7_bar;
+        const vector_f gap_33 = gap_32 - W3_8 * x8_bar - W3_9 * x9_bar - W3_10 * x10_bar - W3_11 * x11_bar;
+        const vector_f gap_34 = gap_33 - W3_12 * x12_bar - W3_13 * x13_bar;
+        const vector_f total_47 = its_value_bar + z0 * gap_22 + z1 * gap_26 + z2 * gap_30 + z3 * gap_34;
+        const vector_f gap_35 = -(W4_0 * x0_bar) - W4_1 * x1_bar - W4_2 * x2_bar - W4_3 * x3_bar;
+        const vector_f gap_36 = gap_35 - W4_4 * x4_bar - W4_5 * x5_bar - W4_6 * x6_bar - W4_7 * x7_bar;
+        const vector_f gap_37 = gap_36 - W4_8 * x8_bar - W4_9 * x9_bar - W4_10 * x10_bar - W4_11 * x11_bar;
+        const vector_f gap_38 = gap_37 - W4_12 * x12_bar - W4_13 * x13_bar;
+        const vector_f gap_39 = -(W5_0 * x0_bar) - W5_1 * x1_bar - W5_2 * x2_bar - W5_3 * x3_bar;
+        const vector_f gap_40 = gap_39 - W5_4 * x4_bar - W5_5 * x5_bar - W5_6 * x6_bar - W5_7 * x7_bar;
+        const vector_f gap_41 = gap_40 - W5_8 * x8_bar - W5_9 * x9_bar - W5_10 * x10_bar - W5_11 * x11_bar;
+        const vector_f gap_42 = gap_41 - W5_12 * x12_bar - W5_13 * x13_bar;
+        const vector_f gap_43 = -(W6_0 * x0_bar) - W6_1 * x1_bar - W6_2 * x2_bar - W6_3 * x3_bar;
+        const vector_f gap_44 = gap_43 - W6_4 * x4_bar - W6_5 * x5_bar - W6_6 * x6_bar - W6_7 * x7_bar;
+        const vector_f gap_45 = gap_44 - W6_8 * x8_bar - W6_9 * x9_bar - W6_10 * x10_bar - W6_11 * x11_bar;
+        const vector_f gap_46 = gap_45 - W6_12 * x12_bar - W6_13 * x13_bar;
+        const vector_f gap_47 = -(W7_0 * x0_bar) - W7_1 * x1_bar - W7_2 * x2_bar - W7_3 * x3_bar;
+        const vector_f gap_48 = gap_47 - W7_4 * x4_bar - W7_5 * x5_bar - W7_6 * x6_bar - W7_7 * x7_bar;
+        const vector_f gap_49 = gap_48 - W7_8 * x8_bar - W7_9 * x9_bar - W7_10 * x10_bar - W7_11 * x11_bar;
+        const vector_f gap_50 = gap_49 - W7_12 * x12_bar - W7_13 * x13_bar;
+        const vector_f total_48 = total_47 + z4 * gap_38 + z5 * gap_42 + z6 * gap_46 + z7 * gap_50;
+        const vector_f gap_51 = -(W8_0 * x0_bar) - W8_1 * x1_bar - W8_2 * x2_bar - W8_3 * x3_bar;
+        const vector_f gap_52 = gap_51 - W8_4 * x4_bar - W8_5 * x5_bar - W8_6 * x6_bar - W8_7 * x7_bar;
+        const vector_f gap_53 = gap_52 - W8_8 * x8_bar - W8_9 * x9_bar - W8_10 * x10_bar - W8_11 * x11_bar;
+        const vector_f gap_54 = gap_53 - W8_12 * x12_bar - W8_13 * x13_bar;
+        const vector_f gap_55 = -(W9_0 * x0_bar) - W9_1 * x1_bar - W9_2 * x2_bar - W9_3 * x3_bar;
+        const vector_f gap_56 = gap_55 - W9_4 * x4_bar - W9_5 * x5_bar - W9_6 * x6_bar - W9_7 * x7_bar;
+        const vector_f gap_57 = gap_56 - W9_8 * x8_bar - W9_9 * x9_bar - W9_10 * x10_bar - W9_11 * x11_bar;
+        const vector_f gap_58 = gap_57 - W9_12 * x12_bar - W9_13 * x13_bar;
+        const vector_f gap_59 = -(W10_0 * x0_bar) - W10_1 * x1_bar - W10_2 * x2_bar - W10_3 * x3_bar;
+        const vector_f gap_60 = gap_59 - W10_4 * x4_bar - W10_5 * x5_bar - W10_6 * x6_bar - W10_7 * x7_bar;
+        const vector_f gap_61 = gap_60 - W10_8 * x8_bar - W10_9 * x9_bar - W10_10 * x10_bar - W10_11 * x11_bar;
+        const vector_f gap_62 = gap_61 - W10_12 * x12_bar - W10_13 * x13_bar;
+        const vector_f gap_63 = -(W11_0 * x0_bar) - W11_1 * x1_bar - W11_2 * x2_bar - W11_3 * x3_bar;
+        const vector_f gap_64 = gap_63 - W11_4 * x4_bar - W11_5 * x5_bar - W11_6 * x6_bar - W11_7 * x7_bar;
+        const vector_f gap_65 = gap_64 - W11_8 * x8_bar - W11_9 * x9_bar - W11_10 * x10_bar - W11_11 * x11_bar;
+        const vector_f gap_66 = gap_65 - W11_12 * x12_bar - W11_13 * x13_bar;
+        const vector_f total_49 = total_48 + z8 * gap_54 + z9 * gap_58 + z10 * gap_62 + z11 * gap_66;
+        const vector_f gap_67 = -(W12_0 * x0_bar) - W12_1 * x1_bar - W12_2 * x2_bar - W12_3 * x3_bar;
+        const vector_f gap_68 = gap_67 - W12_4 * x4_bar - W12_5 * x5_bar - W12_6 * x6_bar - W12_7 * x7_bar;
+        const vector_f gap_69 = gap_68 - W12_8 * x8_bar - W12_9 * x9_bar - W12_10 * x10_bar - W12_11 * x11_bar;
+        const vector_f gap_70 = gap_69 - W12_12 * x12_bar - W12_13 * x13_bar;
+        const vector_f by_phi = total_49 + z12 * gap_70 + z13 * gap_18;
+        const vector_f phi_product = phi * by_phi;
+        const vector_f by_z13 = phi * gap_18 - z13 * phi_product;
+        const vector_f by_z12 = phi * gap_70 - z12 * phi_product;
+        const vector_f by_z11 = phi * gap_66 - z11 * phi_product;
+        const vector_f by_z10 = phi * gap_62 - z10 * phi_product;
+        const vector_f by_z9 = phi * gap_58 - z9 * phi_product;
+        const vector_f total_50 = W13_0 * by_z13 + W12_0 * by_z12 + W11_0 * by_z11 + W10_0 * by_z10 + W9_0 *
+            by_z9;
+        const vector_f by_z8 = phi * gap_54 - z8 * phi_product;
+        const vector_f by_z7 = phi * gap_50 - z7 * phi_product;
+        const vector_f by_z6 = phi * gap_46 - z6 * phi_product;
+        const vector_f by_z5 = phi * gap_42 - z5 * phi_product;
+        const vector_f total_51 = total_50 + W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5;
+        const vector_f by_z4 = phi * gap_38 - z4 * phi_product;
+        const vector_f by_z3 = phi * gap_34 - z3 * phi_product;
+        const vector_f by_z2 = phi * gap_30 - z2 * phi_product;
+        const vector_f by_z1 = phi * gap_26 - z1 * phi_product;
+        const vector_f total_52 = total_51 + W4_0 * by_z4 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1;
+        const vector_f by_z0 = phi * gap_22 - z0 * phi_product;
+        const vector_f by_v0 = total_52 + W0_0 * by_z0;
+        const vector_f total_53 = W13_1 * by_z13 + W12_1 * by_z12 + W11_1 * by_z11 + W10_1 * by_z10 + W9_1 *
+            by_z9;
+        const vector_f total_54 = total_53 + W8_1 * by_z8 + W7_1 * by_z7 + W6_1 * by_z6 + W5_1 * by_z5;
+        const vector_f total_55 = total_54 + W4_1 * by_z4 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1;
+        const vector_f by_v1 = total_55 + W0_1 * by_z0;
+        const vector_f total_56 = W13_2 * by_z13 + W12_2 * by_z12 + W11_2 * by_z11 + W10_2 * by_z10 + W9_2 *
+            by_z9;
+        const vector_f total_57 = total_56 + W8_2 * by_z8 + W7_2 * by_z7 + W6_2 * by_z6 + W5_2 * by_z5;
+        const vector_f total_58 = total_57 + W4_2 * by_z4 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1;
+        const vector_f by_v2 = total_58 + W0_2 * by_z0;
+        const vector_f total_59 = W13_3 * by_z13 + W12_3 * by_z12 + W11_3 * by_z11 + W10_3 * by_z10 + W9_3 *
+            by_z9;
+        const vector_f total_60 = total_59 + W8_3 * by_z8 + W7_3 * by_z7 + W6_3 * by_z6 + W5_3 * by_z5;
+        const vector_f total_61 = total_60 + W4_3 * by_z4 + W3_3 * by_z3 + W2_3 * by_z2 + W1_3 * by_z1;
+        const vector_f by_v3 = total_61 + W0_3 * by_z0;
+        const vector_f total_62 = W13_4 * by_z13 + W12_4 * by_z12 + W11_4 * by_z11 + W10_4 * by_z10 + W9_4 *
+            by_z9;
+        const vector_f total_63 = total_62 + W8_4 * by_z8 + W7_4 * by_z7 + W6_4 * by_z6 + W5_4 * by_z5;
+        const vector_f total_64 = total_63 + W4_4 * by_z4 + W3_4 * by_z3 + W2_4 * by_z2 + W1_4 * by_z1;
+        const vector_f by_v4 = total_64 + W0_4 * by_z0;
+        const vector_f total_65 = W13_5 * by_z13 + W12_5 * by_z12 + W11_5 * by_z11 + W10_5 * by_z10 + W9_5 *
+            by_z9;
+        const vector_f total_66 = total_65 + W8_5 * by_z8 + W7_5 * by_z7 + W6_5 * by_z6 + W5_5 * by_z5;
+        const vector_f total_67 = total_66 + W4_5 * by_z4 + W3_5 * by_z3 + W2_5 * by_z2 + W1_5 * by_z1;
+        const vector_f by_v5 = total_67 + W0_5 * by_z0;
+        const vector_f total_68 = W13_6 * by_z13 + W12_6 * by_z12 + W11_6 * by_z11 + W10_6 * by_z10 + W9_6 *
+            by_z9;
+        const vector_f total_69 = total_68 + W8_6 * by_z8 + W7_6 * by_z7 + W6_6 * by_z6 + W5_6 * by_z5;
+        const vector_f total_70 = total_69 + W4_6 * by_z4 + W3_6 * by_z3 + W2_6 * by_z2 + W1_6 * by_z1;
+        const vector_f by_v6 = total_70 + W0_6 * by_z0;
+        const vector_f total_71 = W13_7 * by_z13 + W12_7 * by_z12 + W11_7 * by_z11 + W10_7 * by_z10 + W9_7 *
+            by_z9;
+        const vector_f total_72 = total_71 + W8_7 * by_z8 + W7_7 * by_z7 + W6_7 * by_z6 + W5_7 * by_z5;
+        const vector_f total_73 = total_72 + W4_7 * by_z4 + W3_7 * by_z3 + W2_7 * by_z2 + W1_7 * by_z1;
+        const vector_f by_v7 = total_73 + W0_7 * by_z0;
+        const vector_f total_74 = W13_8 * by_z13 + W12_8 * by_z12 + W11_8 * by_z11 + W10_8 * by_z10 + W9_8 *
+            by_z9;
+        const vector_f total_75 = total_74 + W8_8 * by_z8 + W7_8 * by_z7 + W6_8 * by_z6 + W5_8 * by_z5;
+        const vector_f total_76 = total_75 + W4_8 * by_z4 + W3_8 * by_z3 + W2_8 * by_z2 + W1_8 * by_z1;
+        const vector_f by_v8 = total_76 + W0_8 * by_z0;
+        const vector_f total_77 = W13_9 * by_z13 + W12_9 * by_z12 + W11_9 * by_z11 + W10_9 * by_z10 + W9_9 *
+            by_z9;
+        const vector_f total_78 = total_77 + W8_9 * by_z8 + W7_9 * by_z7 + W6_9 * by_z6 + W5_9 * by_z5;
+        const vector_f total_79 = total_78 + W4_9 * by_z4 + W3_9 * by_z3 + W2_9 * by_z2 + W1_9 * by_z1;
+        const vector_f by_v9 = total_79 + W0_9 * by_z0;
+        const vector_f total_80 = W13_10 * by_z13 + W12_10 * by_z12 + W11_10 * by_z11 + W10_10 * by_z10 + W9_10 *
+            by_z9;
+        const vector_f total_81 = total_80 + W8_10 * by_z8 + W7_10 * by_z7 + W6_10 * by_z6 + W5_10 * by_z5;
+        const vector_f total_82 = total_81 + W4_10 * by_z4 + W3_10 * by_z3 + W2_10 * by_z2 + W1_10 * by_z1;
+        const vector_f by_v10 = total_82 + W0_10 * by_z0;
+        const vector_f total_83 = W13_11 * by_z13 + W12_11 * by_z12 + W11_11 * by_z11 + W10_11 * by_z10 + W9_11 *
+            by_z9;
+        const vector_f total_84 = total_83 + W8_11 * by_z8 + W7_11 * by_z7 + W6_11 * by_z6 + W5_11 * by_z5;
+        const vector_f total_85 = total_84 + W4_11 * by_z4 + W3_11 * by_z3 + W2_11 * by_z2 + W1_11 * by_z1;
+        const vector_f by_v11 = total_85 + W0_11 * by_z0;
+        const vector_f total_86 = W13_12 * by_z13 + W12_12 * by_z12 + W11_12 * by_z11 + W10_12 * by_z10 + W9_12 *
+            by_z9;
+        const vector_f total_87 = total_86 + W8_12 * by_z8 + W7_12 * by_z7 + W6_12 * by_z6 + W5_12 * by_z5;
+        const vector_f total_88 = total_87 + W4_12 * by_z4 + W3_12 * by_z3 + W2_12 * by_z2 + W1_12 * by_z1;
+        const vector_f by_v12 = total_88 + W0_12 * by_z0;
+        const vector_f total_89 = W13_13 * by_z13 + W12_13 * by_z12 + W11_13 * by_z11 + W10_13 * by_z10 + W9_13 *
+            by_z9;
+        const vector_f total_90 = total_89 + W8_13 * by_z8 + W7_13 * by_z7 + W6_13 * by_z6 + W5_13 * by_z5;
+        const vector_f total_91 = total_90 + W4_13 * by_z4 + W3_13 * by_z3 + W2_13 * by_z2 + W1_13 * by_z1;
+        const vector_f by_v13 = total_91 + W0_13 * by_z0;
+        const vector_f z0_product = z0 * phi;
+        const vector_f z1_product = z1 * phi;
+        const vector_f z2_product = z2 * phi;
+        const vector_f z3_product = z3 * phi;
+        const vector_f z4_product = z4 * phi;
+        const vector_f z5_product = z5 * phi;
+        const vector_f z6_product = z6 * phi;
+        const vector_f z7_product = z7 * phi;
+        const vector_f z8_product = z8 * phi;
+        const vector_f z9_product = z9 * phi;
+        const vector_f z10_product = z10 * phi;
+        const vector_f z11_product = z11 * phi;
+        const vector_f z12_product = z12 * phi;
+        const vector_f z13_product = z13 * phi;
+        factor[0] = v0;
+        factor[1] = v1;
+        factor[2] = v2;
+        factor[3] = v3;
+        factor[4] = v4;
+        factor[5] = v5;
+        factor[6] = v6;
+        factor[7] = v7;
+        factor[8] = v8;
+        factor[9] = v9;
+        factor[10] = v10;
+        factor[11] = v11;
+        factor[12] = v12;
+        factor[13] = v13;
+        factor[14] = phi_product;
+        factor[15] = by_z13;
+        factor[16] = by_z12;
+        factor[17] = by_z11;
+        factor[18] = by_z10;
+        factor[19] = by_z9;
+        factor[20] = by_z8;
+        factor[21] = by_z7;
+        factor[22] = by_z6;
+        factor[23] = by_z5;
+        factor[24] = by_z4;
+        factor[25] = by_z3;
+        factor[26] = by_z2;
+        factor[27] = by_z1;
+        factor[28] = by_z0;
+        factor[29] = -by_v0;
+        factor[30] = -by_v1;
+        factor[31] = -by_v2;
+        factor[32] = -by_v3;
+        factor[33] = -by_v4;
+        factor[34] = -by_v5;
+        factor[35] = -by_v6;
+        factor[36] = -by_v7;
+        factor[37] = -by_v8;
+        factor[38] = -by_v9;
+        factor[39] = -by_v10;
+        factor[40] = -by_v11;
+        factor[41] = -by_v12;
+        factor[42] = -by_v13;
+        factor[43] = z0_product;
+        factor[44] = z1_product;
+        factor[45] = z2_product;
+        factor[46] = z3_product;
+        factor[47] = z4_product;
+        factor[48] = z5_product;
+        factor[49] = z6_product;
+        factor[50] = z7_product;
+        factor[51] = z8_product;
+        factor[52] = z9_product;
+        factor[53] = z10_product;
+        factor[54] = z11_product;
+        factor[55] = z12_product;
+        factor[56] = z13_product;
+    }
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_0_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[29];
+    sum[1] = sum[1] + factor[30];
+    sum[2] = sum[2] + factor[31];
+    sum[3] = sum[3] + factor[32];
+    sum[4] = sum[4] + factor[33];
+    sum[5] = sum[5] + factor[34];
+    sum[6] = sum[6] + factor[35];
+    sum[7] = sum[7] + factor[36];
+    sum[8] = sum[8] + factor[37];
+    sum[9] = sum[9] + factor[38];
+    sum[10] = sum[10] + factor[39];
+    sum[11] = sum[11] + factor[40];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_1_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[41];
+    sum[1] = sum[1] + factor[42];
+    sum[2] = sum[2] + factor[14];
+    sum[3] = sum[3] + factor[0] * factor[28] - factor[43] * point[15];
+    sum[4] = sum[4] + factor[1] * factor[28] - factor[43] * point[16];
+    sum[5] = sum[5] + factor[2] * factor[28] - factor[43] * point[17];
+    sum[6] = sum[6] + factor[3] * factor[28] - factor[43] * point[18];
+    sum[7] = sum[7] + factor[4] * factor[28] - factor[43] * point[19];
+    sum[8] = sum[8] + factor[5] * factor[28] - factor[43] * point[20];
+    sum[9] = sum[9] + factor[6] * factor[28] - factor[43] * point[21];
+    sum[10] = sum[10] + factor[7] * factor[28] - factor[43] * point[22];
+    sum[11] = sum[11] + factor[8] * factor[28] - factor[43] * point[23];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_2_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[9] * factor[28] - factor[43] * point[24];
+    sum[1] = sum[1] + factor[10] * factor[28] - factor[43] * point[25];
+    sum[2] = sum[2] + factor[11] * factor[28] - factor[43] * point[26];
+    sum[3] = sum[3] + factor[12] * factor[28] - factor[43] * point[27];
+    sum[4] = sum[4] + factor[13] * factor[28] - factor[43] * point[28];
+    sum[5] = sum[5] + factor[9] * factor[27] - factor[44] * point[24];
+    sum[6] = sum[6] + factor[10] * factor[27] - factor[44] * point[25];
+    sum[7] = sum[7] + factor[11] * factor[27] - factor[44] * point[26];
+    sum[8] = sum[8] + factor[12] * factor[27] - factor[44] * point[27];
+    sum[9] = sum[9] + factor[13] * factor[27] - factor[44] * point[28];
+    sum[10] = sum[10] + factor[0] * factor[27] - factor[44] * point[15];
+    sum[11] = sum[11] + factor[1] * factor[27] - factor[44] * point[16];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_3_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[27] - factor[44] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[27] - factor[44] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[27] - factor[44] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[27] - factor[44] * point[20];
+    sum[4] = sum[4] + factor[6] * factor[27] - factor[44] * point[21];
+    sum[5] = sum[5] + factor[7] * factor[27] - factor[44] * point[22];
+    sum[6] = sum[6] + factor[8] * factor[27] - factor[44] * point[23];
+    sum[7] = sum[7] + factor[2] * factor[26] - factor[45] * point[17];
+    sum[8] = sum[8] + factor[3] * factor[26] - factor[45] * point[18];
+    sum[9] = sum[9] + factor[4] * factor[26] - factor[45] * point[19];
+    sum[10] = sum[10] + factor[5] * factor[26] - factor[45] * point[20];
+    sum[11] = sum[11] + factor[6] * factor[26] - factor[45] * point[21];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_4_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[26] - factor[45] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[26] - factor[45] * point[16];
+    sum[2] = sum[2] + factor[7] * factor[26] - factor[45] * point[22];
+    sum[3] = sum[3] + factor[8] * factor[26] - factor[45] * point[23];
+    sum[4] = sum[4] + factor[9] * factor[26] - factor[45] * point[24];
+    sum[5] = sum[5] + factor[10] * factor[26] - factor[45] * point[25];
+    sum[6] = sum[6] + factor[11] * factor[26] - factor[45] * point[26];
+    sum[7] = sum[7] + factor[12] * factor[26] - factor[45] * point[27];
+    sum[8] = sum[8] + factor[13] * factor[26] - factor[45] * point[28];
+    sum[9] = sum[9] + factor[0] * factor[25] - factor[46] * point[15];
+    sum[10] = sum[10] + factor[1] * factor[25] - factor[46] * point[16];
+    sum[11] = sum[11] + factor[7] * factor[25] - factor[46] * point[22];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_5_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[25] - factor[46] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[25] - factor[46] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[25] - factor[46] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[25] - factor[46] * point[20];
+    sum[4] = sum[4] + factor[6] * factor[25] - factor[46] * point[21];
+    sum[5] = sum[5] + factor[8] * factor[25] - factor[46] * point[23];
+    sum[6] = sum[6] + factor[9] * factor[25] - factor[46] * point[24];
+    sum[7] = sum[7] + factor[10] * factor[25] - factor[46] * point[25];
+    sum[8] = sum[8] + factor[11] * factor[25] - factor[46] * point[26];
+    sum[9] = sum[9] + factor[12] * factor[25] - factor[46] * point[27];
+    sum[10] = sum[10] + factor[13] * factor[25] - factor[46] * point[28];
+    sum[11] = sum[11] + factor[2] * factor[24] - factor[47] * point[17];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_6_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[24] - factor[47] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[24] - factor[47] * point[16];
+    sum[2] = sum[2] + factor[3] * factor[24] - factor[47] * point[18];
+    sum[3] = sum[3] + factor[4] * factor[24] - factor[47] * point[19];
+    sum[4] = sum[4] + factor[5] * factor[24] - factor[47] * point[20];
+    sum[5] = sum[5] + factor[6] * factor[24] - factor[47] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[24] - factor[47] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[24] - factor[47] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[24] - factor[47] * point[24];
+    sum[9] = sum[9] + factor[10] * factor[24] - factor[47] * point[25];
+    sum[10] = sum[10] + factor[11] * factor[24] - factor[47] * point[26];
+    sum[11] = sum[11] + factor[12] * factor[24] - factor[47] * point[27];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_7_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[13] * factor[24] - factor[47] * point[28];
+    sum[1] = sum[1] + factor[13] * factor[23] - factor[48] * point[28];
+    sum[2] = sum[2] + factor[0] * factor[23] - factor[48] * point[15];
+    sum[3] = sum[3] + factor[1] * factor[23] - factor[48] * point[16];
+    sum[4] = sum[4] + factor[2] * factor[23] - factor[48] * point[17];
+    sum[5] = sum[5] + factor[3] * factor[23] - factor[48] * point[18];
+    sum[6] = sum[6] + factor[4] * factor[23] - factor[48] * point[19];
+    sum[7] = sum[7] + factor[5] * factor[23] - factor[48] * point[20];
+    sum[8] = sum[8] + factor[6] * factor[23] - factor[48] * point[21];
+    sum[9] = sum[9] + factor[7] * factor[23] - factor[48] * point[22];
+    sum[10] = sum[10] + factor[8] * factor[23] - factor[48] * point[23];
+    sum[11] = sum[11] + factor[9] * factor[23] - factor[48] * point[24];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_8_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[10] * factor[23] - factor[48] * point[25];
+    sum[1] = sum[1] + factor[11] * factor[23] - factor[48] * point[26];
+    sum[2] = sum[2] + factor[12] * factor[23] - factor[48] * point[27];
+    sum[3] = sum[3] + factor[10] * factor[22] - factor[49] * point[25];
+    sum[4] = sum[4] + factor[11] * factor[22] - factor[49] * point[26];
+    sum[5] = sum[5] + factor[12] * factor[22] - factor[49] * point[27];
+    sum[6] = sum[6] + factor[0] * factor[22] - factor[49] * point[15];
+    sum[7] = sum[7] + factor[1] * factor[22] - factor[49] * point[16];
+    sum[8] = sum[8] + factor[2] * factor[22] - factor[49] * point[17];
+    sum[9] = sum[9] + factor[3] * factor[22] - factor[49] * point[18];
+    sum[10] = sum[10] + factor[4] * factor[22] - factor[49] * point[19];
+    sum[11] = sum[11] + factor[5] * factor[22] - factor[49] * point[20];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_9_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[6] * factor[22] - factor[49] * point[21];
+    sum[1] = sum[1] + factor[7] * factor[22] - factor[49] * point[22];
+    sum[2] = sum[2] + factor[8] * factor[22] - factor[49] * point[23];
+    sum[3] = sum[3] + factor[9] * factor[22] - factor[49] * point[24];
+    sum[4] = sum[4] + factor[13] * factor[22] - factor[49] * point[28];
+    sum[5] = sum[5] + factor[6] * factor[21] - factor[50] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[21] - factor[50] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[21] - factor[50] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[21] - factor[50] * point[24];
+    sum[9] = sum[9] + factor[13] * factor[21] - factor[50] * point[28];
+    sum[10] = sum[10] + factor[0] * factor[21] - factor[50] * point[15];
+    sum[11] = sum[11] + factor[1] * factor[21] - factor[50] * point[16];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_10_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[21] - factor[50] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[21] - factor[50] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[21] - factor[50] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[21] - factor[50] * point[20];
+    sum[4] = sum[4] + factor[10] * factor[21] - factor[50] * point[25];
+    sum[5] = sum[5] + factor[11] * factor[21] - factor[50] * point[26];
+    sum[6] = sum[6] + factor[12] * factor[21] - factor[50] * point[27];
+    sum[7] = sum[7] + factor[2] * factor[20] - factor[51] * point[17];
+    sum[8] = sum[8] + factor[3] * factor[20] - factor[51] * point[18];
+    sum[9] = sum[9] + factor[4] * factor[20] - factor[51] * point[19];
+    sum[10] = sum[10] + factor[5] * factor[20] - factor[51] * point[20];
+    sum[11] = sum[11] + factor[10] * factor[20] - factor[51] * point[25];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_11_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[20] - factor[51] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[20] - factor[51] * point[16];
+    sum[2] = sum[2] + factor[6] * factor[20] - factor[51] * point[21];
+    sum[3] = sum[3] + factor[7] * factor[20] - factor[51] * point[22];
+    sum[4] = sum[4] + factor[8] * factor[20] - factor[51] * point[23];
+    sum[5] = sum[5] + factor[9] * factor[20] - factor[51] * point[24];
+    sum[6] = sum[6] + factor[11] * factor[20] - factor[51] * point[26];
+    sum[7] = sum[7] + factor[12] * factor[20] - factor[51] * point[27];
+    sum[8] = sum[8] + factor[13] * factor[20] - factor[51] * point[28];
+    sum[9] = sum[9] + factor[0] * factor[19] - factor[52] * point[15];
+    sum[10] = sum[10] + factor[1] * factor[19] - factor[52] * point[16];
+    sum[11] = sum[11] + factor[6] * factor[19] - factor[52] * point[21];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_12_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[19] - factor[52] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[19] - factor[52] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[19] - factor[52] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[19] - factor[52] * point[20];
+    sum[4] = sum[4] + factor[7] * factor[19] - factor[52] * point[22];
+    sum[5] = sum[5] + factor[8] * factor[19] - factor[52] * point[23];
+    sum[6] = sum[6] + factor[9] * factor[19] - factor[52] * point[24];
+    sum[7] = sum[7] + factor[10] * factor[19] - factor[52] * point[25];
+    sum[8] = sum[8] + factor[11] * factor[19] - factor[52] * point[26];
+    sum[9] = sum[9] + factor[12] * factor[19] - factor[52] * point[27];
+    sum[10] = sum[10] + factor[13] * factor[19] - factor[52] * point[28];
+    sum[11] = sum[11] + factor[2] * factor[18] - factor[53] * point[17];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_13_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[18] - factor[53] * point[15];
+    sum[1] = sum[1] + factor[1] * factor[18] - factor[53] * point[16];
+    sum[2] = sum[2] + factor[3] * factor[18] - factor[53] * point[18];
+    sum[3] = sum[3] + factor[4] * factor[18] - factor[53] * point[19];
+    sum[4] = sum[4] + factor[5] * factor[18] - factor[53] * point[20];
+    sum[5] = sum[5] + factor[6] * factor[18] - factor[53] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[18] - factor[53] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[18] - factor[53] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[18] - factor[53] * point[24];
+    sum[9] = sum[9] + factor[10] * factor[18] - factor[53] * point[25];
+    sum[10] = sum[10] + factor[11] * factor[18] - factor[53] * point[26];
+    sum[11] = sum[11] + factor[12] * factor[18] - factor[53] * point[27];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_14_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[13] * factor[18] - factor[53] * point[28];
+    sum[1] = sum[1] + factor[13] * factor[17] - factor[54] * point[28];
+    sum[2] = sum[2] + factor[0] * factor[17] - factor[54] * point[15];
+    sum[3] = sum[3] + factor[1] * factor[17] - factor[54] * point[16];
+    sum[4] = sum[4] + factor[2] * factor[17] - factor[54] * point[17];
+    sum[5] = sum[5] + factor[3] * factor[17] - factor[54] * point[18];
+    sum[6] = sum[6] + factor[4] * factor[17] - factor[54] * point[19];
+    sum[7] = sum[7] + factor[5] * factor[17] - factor[54] * point[20];
+    sum[8] = sum[8] + factor[6] * factor[17] - factor[54] * point[21];
+    sum[9] = sum[9] + factor[7] * factor[17] - factor[54] * point[22];
+    sum[10] = sum[10] + factor[8] * factor[17] - factor[54] * point[23];
+    sum[11] = sum[11] + factor[9] * factor[17] - factor[54] * point[24];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_15_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[10] * factor[17] - factor[54] * point[25];
+    sum[1] = sum[1] + factor[11] * factor[17] - factor[54] * point[26];
+    sum[2] = sum[2] + factor[12] * factor[17] - factor[54] * point[27];
+    sum[3] = sum[3] + factor[10] * factor[16] - factor[55] * point[25];
+    sum[4] = sum[4] + factor[11] * factor[16] - factor[55] * point[26];
+    sum[5] = sum[5] + factor[12] * factor[16] - factor[55] * point[27];
+    sum[6] = sum[6] + factor[0] * factor[16] - factor[55] * point[15];
+    sum[7] = sum[7] + factor[1] * factor[16] - factor[55] * point[16];
+    sum[8] = sum[8] + factor[2] * factor[16] - factor[55] * point[17];
+    sum[9] = sum[9] + factor[3] * factor[16] - factor[55] * point[18];
+    sum[10] = sum[10] + factor[4] * factor[16] - factor[55] * point[19];
+    sum[11] = sum[11] + factor[5] * factor[16] - factor[55] * point[20];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_16_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[6] * factor[16] - factor[55] * point[21];
+    sum[1] = sum[1] + factor[7] * factor[16] - factor[55] * point[22];
+    sum[2] = sum[2] + factor[8] * factor[16] - factor[55] * point[23];
+    sum[3] = sum[3] + factor[9] * factor[16] - factor[55] * point[24];
+    sum[4] = sum[4] + factor[13] * factor[16] - factor[55] * point[28];
+    sum[5] = sum[5] + factor[6] * factor[15] - factor[56] * point[21];
+    sum[6] = sum[6] + factor[7] * factor[15] - factor[56] * point[22];
+    sum[7] = sum[7] + factor[8] * factor[15] - factor[56] * point[23];
+    sum[8] = sum[8] + factor[9] * factor[15] - factor[56] * point[24];
+    sum[9] = sum[9] + factor[13] * factor[15] - factor[56] * point[28];
+    sum[10] = sum[10] + factor[0] * factor[15] - factor[56] * point[15];
+    sum[11] = sum[11] + factor[1] * factor[15] - factor[56] * point[16];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_17_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[15] - factor[56] * point[17];
+    sum[1] = sum[1] + factor[3] * factor[15] - factor[56] * point[18];
+    sum[2] = sum[2] + factor[4] * factor[15] - factor[56] * point[19];
+    sum[3] = sum[3] + factor[5] * factor[15] - factor[56] * point[20];
+    sum[4] = sum[4] + factor[10] * factor[15] - factor[56] * point[25];
+    sum[5] = sum[5] + factor[11] * factor[15] - factor[56] * point[26];
+    sum[6] = sum[6] + factor[12] * factor[15] - factor[56] * point[27];
 }
 
 /* The adjoints of some splats' parameters, of their sums over the points. */
@@ -5683,891 +7340,6 @@ OUTLINE void pair_distances_f(
     distance[0] = sqrt_each_f(total_4 + arm2_log6 * arm2_log6);
 }
 
-/*
- * The factors of whose products are what is summed over the points.
- *
- * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
- */
-OUTLINE void pair_factors_f(
-    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *factor) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f x2 = X[2];
-    const vector_f x3 = X[3];
-    const vector_f x4 = X[4];
-    const vector_f x5 = X[5];
-    const vector_f x6 = X[6];
-    const vector_f x7 = X[7];
-    const vector_f x8 = X[8];
-    const vector_f x9 = X[9];
-    const vector_f x10 = X[10];
-    const vector_f x11 = X[11];
-    const vector_f x12 = X[12];
-    const vector_f x13 = X[13];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float mu2 = S[2];
-    const float mu3 = S[3];
-    const float mu4 = S[4];
-    const float mu5 = S[5];
-    const float mu6 = S[6];
-    const float mu7 = S[7];
-    const float mu8 = S[8];
-    const float mu9 = S[9];
-    const float mu10 = S[10];
-    const float mu11 = S[11];
-    const float mu12 = S[12];
-    const float mu13 = S[13];
-    const float W0_0 = S[14];
-    const float W0_1 = S[15];
-    const float W0_2 = S[16];
-    const float W0_3 = S[17];
-    const float W0_4 = S[18];
-    const float W0_5 = S[19];
-    const float W0_6 = S[20];
-    const float W0_7 = S[21];
-    const float W0_8 = S[22];
-    const float W0_9 = S[23];
-    const float W0_10 = S[24];
-    const float W0_11 = S[25];
-    const float W0_12 = S[26];
-    const float W0_13 = S[27];
-    const float W1_0 = S[28];
-    const float W1_1 = S[29];
-    const float W1_2 = S[30];
-    const float W1_3 = S[31];
-    const float W1_4 = S[32];
-    const float W1_5 = S[33];
-    const float W1_6 = S[34];
-    const float W1_7 = S[35];
-    const float W1_8 = S[36];
-    const float W1_9 = S[37];
-    const float W1_10 = S[38];
-    const float W1_11 = S[39];
-    const float W1_12 = S[40];
-    const float W1_13 = S[41];
-    const float W2_0 = S[42];
-    const float W2_1 = S[43];
-    const float W2_2 = S[44];
-    const float W2_3 = S[45];
-    const float W2_4 = S[46];
-    const float W2_5 = S[47];
-    const float W2_6 = S[48];
-    const float W2_7 = S[49];
-    const float W2_8 = S[50];
-    const float W2_9 = S[51];
-    const float W2_10 = S[52];
-    const float W2_11 = S[53];
-    const float W2_12 = S[54];
-    const float W2_13 = S[55];
-    const float W3_0 = S[56];
-    const float W3_1 = S[57];
-    const float W3_2 = S[58];
-    const float W3_3 = S[59];
-    const float W3_4 = S[60];
-    const float W3_5 = S[61];
-    const float W3_6 = S[62];
-    const float W3_7 = S[63];
-    const float W3_8 = S[64];
-    const float W3_9 = S[65];
-    const float W3_10 = S[66];
-    const float W3_11 = S[67];
-    const float W3_12 = S[68];
-    const float W3_13 = S[69];
-    const float W4_0 = S[70];
-    const float W4_1 = S[71];
-    const float W4_2 = S[72];
-    const float W4_3 = S[73];
-    const float W4_4 = S[74];
-    const float W4_5 = S[75];
-    const float W4_6 = S[76];
-    const float W4_7 = S[77];
-    const float W4_8 = S[78];
-    const float W4_9 = S[79];
-    const float W4_10 = S[80];
-    const float W4_11 = S[81];
-    const float W4_12 = S[82];
-    const float W4_13 = S[83];
-    const float W5_0 = S[84];
-    const float W5_1 = S[85];
-    const float W5_2 = S[86];
-    const float W5_3 = S[87];
-    const float W5_4 = S[88];
-    const float W5_5 = S[89];
-    const float W5_6 = S[90];
-    const float W5_7 = S[91];
-    const float W5_8 = S[92];
-    const float W5_9 = S[93];
-    const float W5_10 = S[94];
-    const float W5_11 = S[95];
-    const float W5_12 = S[96];
-    const float W5_13 = S[97];
-    const float W6_0 = S[98];
-    const float W6_1 = S[99];
-    const float W6_2 = S[100];
-    const float W6_3 = S[101];
-    const float W6_4 = S[102];
-    const float W6_5 = S[103];
-    const float W6_6 = S[104];
-    const float W6_7 = S[105];
-    const float W6_8 = S[106];
-    const float W6_9 = S[107];
-    const float W6_10 = S[108];
-    const float W6_11 = S[109];
-    const float W6_12 = S[110];
-    const float W6_13 = S[111];
-    const float W7_0 = S[112];
-    const float W7_1 = S[113];
-    const float W7_2 = S[114];
-    const float W7_3 = S[115];
-    const float W7_4 = S[116];
-    const float W7_5 = S[117];
-    const float W7_6 = S[118];
-    const float W7_7 = S[119];
-    const float W7_8 = S[120];
-    const float W7_9 = S[121];
-    const float W7_10 = S[122];
-    const float W7_11 = S[123];
-    const float W7_12 = S[124];
-    const float W7_13 = S[125];
-    const float W8_0 = S[126];
-    const float W8_1 = S[127];
-    const float W8_2 = S[128];
-    const float W8_3 = S[129];
-    const float W8_4 = S[130];
-    const float W8_5 = S[131];
-    const float W8_6 = S[132];
-    const float W8_7 = S[133];
-    const float W8_8 = S[134];
-    const float W8_9 = S[135];
-    const float W8_10 = S[136];
-    const float W8_11 = S[137];
-    const float W8_12 = S[138];
-    const float W8_13 = S[139];
-    const float W9_0 = S[140];
-    const float W9_1 = S[141];
-    const float W9_2 = S[142];
-    const float W9_3 = S[143];
-    const float W9_4 = S[144];
-    const float W9_5 = S[145];
-    const float W9_6 = S[146];
-    const float W9_7 = S[147];
-    const float W9_8 = S[148];
-    const float W9_9 = S[149];
-    const float W9_10 = S[150];
-    const float W9_11 = S[151];
-    const float W9_12 = S[152];
-    const float W9_13 = S[153];
-    const float W10_0 = S[154];
-    const float W10_1 = S[155];
-    const float W10_2 = S[156];
-    const float W10_3 = S[157];
-    const float W10_4 = S[158];
-    const float W10_5 = S[159];
-    const float W10_6 = S[160];
-    const float W10_7 = S[161];
-    const float W10_8 = S[162];
-    const float W10_9 = S[163];
-    const float W10_10 = S[164];
-    const float W10_11 = S[165];
-    const float W10_12 = S[166];
-    const float W10_13 = S[167];
-    const float W11_0 = S[168];
-    const float W11_1 = S[169];
-    const float W11_2 = S[170];
-    const float W11_3 = S[171];
-    const float W11_4 = S[172];
-    const float W11_5 = S[173];
-    const float W11_6 = S[174];
-    const float W11_7 = S[175];
-    const float W11_8 = S[176];
-    const float W11_9 = S[177];
-    const float W11_10 = S[178];
-    const float W11_11 = S[179];
-    const float W11_12 = S[180];
-    const float W11_13 = S[181];
-    const float W12_0 = S[182];
-    const float W12_1 = S[183];
-    const float W12_2 = S[184];
-    const float W12_3 = S[185];
-    const float W12_4 = S[186];
-    const float W12_5 = S[187];
-    const float W12_6 = S[188];
-    const float W12_7 = S[189];
-    const float W12_8 = S[190];
-    const float W12_9 = S[191];
-    const float W12_10 = S[192];
-    const float W12_11 = S[193];
-    const float W12_12 = S[194];
-    const float W12_13 = S[195];
-    const float W13_0 = S[196];
-    const float W13_1 = S[197];
-    const float W13_2 = S[198];
-    const float W13_3 = S[199];
-    const float W13_4 = S[200];
-    const float W13_5 = S[201];
-    const float W13_6 = S[202];
-    const float W13_7 = S[203];
-    const float W13_8 = S[204];
-    const float W13_9 = S[205];
-    const float W13_10 = S[206];
-    const float W13_11 = S[207];
-    const float W13_12 = S[208];
-    const float W13_13 = S[209];
-    const vector_f its_value_bar = value_bar[0];
-    const vector_f x0_bar = slope_bar[0];
-    const vector_f x1_bar = slope_bar[1];
-    const vector_f x2_bar = slope_bar[2];
-    const vector_f x3_bar = slope_bar[3];
-    const vector_f x4_bar = slope_bar[4];
-    const vector_f x5_bar = slope_bar[5];
-    const vector_f x6_bar = slope_bar[6];
-    const vector_f x7_bar = slope_bar[7];
-    const vector_f x8_bar = slope_bar[8];
-    const vector_f x9_bar = slope_bar[9];
-    const vector_f x10_bar = slope_bar[10];
-    const vector_f x11_bar = slope_bar[11];
-    const vector_f x12_bar = slope_bar[12];
-    const vector_f x13_bar = slope_bar[13];
-    const vector_f gap = x0 - mu0;
-    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
-    const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
-    const vector_f gap_2 = x1 - mu1;
-    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
-    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
-    const vector_f gap_3 = x2 - mu2;
-    const vector_f round_4 = round_each_f(0.15915494309189535f * gap_3);
-    const vector_f v2 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
-    const vector_f gap_4 = x3 - mu3;
-    const vector_f round_5 = round_each_f(0.15915494309189535f * gap_4);
-    const vector_f v3 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
-    const vector_f gap_5 = x4 - mu4;
-    const vector_f round_6 = round_each_f(0.15915494309189535f * gap_5);
-    const vector_f v4 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
-    const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-    const vector_f gap_6 = x5 - mu5;
-    const vector_f round_7 = round_each_f(0.15915494309189535f * gap_6);
-    const vector_f v5 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
-    const vector_f gap_7 = x6 - mu6;
-    const vector_f round_8 = round_each_f(0.15915494309189535f * gap_7);
-    const vector_f v6 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
-    const vector_f gap_8 = x7 - mu7;
-    const vector_f round_9 = round_each_f(0.15915494309189535f * gap_8);
-    const vector_f v7 = gap_8 - 6.28125f * round_9 - 0.001935307179586477f * round_9;
-    const vector_f gap_9 = x8 - mu8;
-    const vector_f round_10 = round_each_f(0.15915494309189535f * gap_9);
-    const vector_f v8 = gap_9 - 6.28125f * round_10 - 0.001935307179586477f * round_10;
-    const vector_f total_3 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
-    const vector_f gap_10 = x9 - mu9;
-    const vector_f round_11 = round_each_f(0.15915494309189535f * gap_10);
-    const vector_f v9 = gap_10 - 6.28125f * round_11 - 0.001935307179586477f * round_11;
-    const vector_f gap_11 = x10 - mu10;
-    const vector_f round_12 = round_each_f(0.15915494309189535f * gap_11);
-    const vector_f v10 = gap_11 - 6.28125f * round_12 - 0.001935307179586477f * round_12;
-    const vector_f gap_12 = x11 - mu11;
-    const vector_f round_13 = round_each_f(0.15915494309189535f * gap_12);
-    const vector_f v11 = gap_12 - 6.28125f * round_13 - 0.001935307179586477f * round_13;
-    const vector_f gap_13 = x12 - mu12;
-    const vector_f round_14 = round_each_f(0.15915494309189535f * gap_13);
-    const vector_f v12 = gap_13 - 6.28125f * round_14 - 0.001935307179586477f * round_14;
-    const vector_f total_4 = total_3 + W0_9 * v9 + W0_10 * v10 + W0_11 * v11 + W0_12 * v12;
-    const vector_f gap_14 = x13 - mu13;
-    const vector_f round_15 = round_each_f(0.15915494309189535f * gap_14);
-    const vector_f v13 = gap_14 - 6.28125f * round_15 - 0.001935307179586477f * round_15;
-    const vector_f z0 = total_4 + W0_13 * v13;
-    const vector_f total_5 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-    const vector_f total_6 = total_5 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
-    const vector_f total_7 = total_6 + W1_9 * v9 + W1_10 * v10 + W1_11 * v11 + W1_12 * v12;
-    const vector_f z1 = total_7 + W1_13 * v13;
-    const vector_f total_8 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-    const vector_f total_9 = total_8 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
-    const vector_f total_10 = total_9 + W2_9 * v9 + W2_10 * v10 + W2_11 * v11 + W2_12 * v12;
-    const vector_f z2 = total_10 + W2_13 * v13;
-    const vector_f total_11 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-    const vector_f total_12 = total_11 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
-    const vector_f total_13 = total_12 + W3_9 * v9 + W3_10 * v10 + W3_11 * v11 + W3_12 * v12;
-    const vector_f z3 = total_13 + W3_13 * v13;
-    const vector_f total_14 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-    const vector_f total_15 = total_14 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
-    const vector_f total_16 = total_15 + W4_9 * v9 + W4_10 * v10 + W4_11 * v11 + W4_12 * v12;
-    const vector_f z4 = total_16 + W4_13 * v13;
-    const vector_f total_17 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-    const vector_f total_18 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-    const vector_f total_19 = total_18 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
-    const vector_f total_20 = total_19 + W5_9 * v9 + W5_10 * v10 + W5_11 * v11 + W5_12 * v12;
-    const vector_f z5 = total_20 + W5_13 * v13;
-    const vector_f total_21 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
-    const vector_f total_22 = total_21 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
-    const vector_f total_23 = total_22 + W6_9 * v9 + W6_10 * v10 + W6_11 * v11 + W6_12 * v12;
-    const vector_f z6 = total_23 + W6_13 * v13;
-    const vector_f total_24 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
-    const vector_f total_25 = total_24 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
-    const vector_f total_26 = total_25 + W7_9 * v9 + W7_10 * v10 + W7_11 * v11 + W7_12 * v12;
-    const vector_f z7 = total_26 + W7_13 * v13;
-    const vector_f total_27 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
-    const vector_f total_28 = total_27 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
-    const vector_f total_29 = total_28 + W8_9 * v9 + W8_10 * v10 + W8_11 * v11 + W8_12 * v12;
-    const vector_f z8 = total_29 + W8_13 * v13;
-    const vector_f total_30 = total_17 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-    const vector_f total_31 = W9_0 * v0 + W9_1 * v1 + W9_2 * v2 + W9_3 * v3 + W9_4 * v4;
-    const vector_f total_32 = total_31 + W9_5 * v5 + W9_6 * v6 + W9_7 * v7 + W9_8 * v8;
-    const vector_f total_33 = total_32 + W9_9 * v9 + W9_10 * v10 + W9_11 * v11 + W9_12 * v12;
-    const vector_f z9 = total_33 + W9_13 * v13;
-    const vector_f total_34 = W10_0 * v0 + W10_1 * v1 + W10_2 * v2 + W10_3 * v3 + W10_4 * v4;
-    const vector_f total_35 = total_34 + W10_5 * v5 + W10_6 * v6 + W10_7 * v7 + W10_8 * v8;
-    const vector_f total_36 = total_35 + W10_9 * v9 + W10_10 * v10 + W10_11 * v11 + W10_12 * v12;
-    const vector_f z10 = total_36 + W10_13 * v13;
-    const vector_f total_37 = W11_0 * v0 + W11_1 * v1 + W11_2 * v2 + W11_3 * v3 + W11_4 * v4;
-    const vector_f total_38 = total_37 + W11_5 * v5 + W11_6 * v6 + W11_7 * v7 + W11_8 * v8;
-    const vector_f total_39 = total_38 + W11_9 * v9 + W11_10 * v10 + W11_11 * v11 + W11_12 * v12;
-    const vector_f z11 = total_39 + W11_13 * v13;
-    const vector_f total_40 = W12_0 * v0 + W12_1 * v1 + W12_2 * v2 + W12_3 * v3 + W12_4 * v4;
-    const vector_f total_41 = total_40 + W12_5 * v5 + W12_6 * v6 + W12_7 * v7 + W12_8 * v8;
-    const vector_f total_42 = total_41 + W12_9 * v9 + W12_10 * v10 + W12_11 * v11 + W12_12 * v12;
-    const vector_f z12 = total_42 + W12_13 * v13;
-    const vector_f total_43 = total_30 + z9 * z9 + z10 * z10 + z11 * z11 + z12 * z12;
-    const vector_f total_44 = W13_0 * v0 + W13_1 * v1 + W13_2 * v2 + W13_3 * v3 + W13_4 * v4;
-    const vector_f total_45 = total_44 + W13_5 * v5 + W13_6 * v6 + W13_7 * v7 + W13_8 * v8;
-    const vector_f total_46 = total_45 + W13_9 * v9 + W13_10 * v10 + W13_11 * v11 + W13_12 * v12;
-    const vector_f z13 = total_46 + W13_13 * v13;
-    const vector_f phi = gaussian_each_f(total_43 + z13 * z13);
-    const vector_f gap_15 = -(W13_0 * x0_bar) - W13_1 * x1_bar - W13_2 * x2_bar - W13_3 * x3_bar;
-    const vector_f gap_16 = gap_15 - W13_4 * x4_bar - W13_5 * x5_bar - W13_6 * x6_bar - W13_7 * x7_bar;
-    const vector_f gap_17 = gap_16 - W13_8 * x8_bar - W13_9 * x9_bar - W13_10 * x10_bar - W13_11 * x11_bar;
-    const vector_f gap_18 = gap_17 - W13_12 * x12_bar - W13_13 * x13_bar;
-    const vector_f gap_19 = -(W0_0 * x0_bar) - W0_1 * x1_bar - W0_2 * x2_bar - W0_3 * x3_bar;
-    const vector_f gap_20 = gap_19 - W0_4 * x4_bar - W0_5 * x5_bar - W0_6 * x6_bar - W0_7 * x7_bar;
-    const vector_f gap_21 = gap_20 - W0_8 * x8_bar - W0_9 * x9_bar - W0_10 * x10_bar - W0_11 * x11_bar;
-    const vector_f gap_22 = gap_21 - W0_12 * x12_bar - W0_13 * x13_bar;
-    const vector_f gap_23 = -(W1_0 * x0_bar) - W1_1 * x1_bar - W1_2 * x2_bar - W1_3 * x3_bar;
-    const vector_f gap_24 = gap_23 - W1_4 * x4_bar - W1_5 * x5_bar - W1_6 * x6_bar - W1_7 * x7_bar;
-    const vector_f gap_25 = gap_24 - W1_8 * x8_bar - W1_9 * x9_bar - W1_10 * x10_bar - W1_11 * x11_bar;
-    const vector_f gap_26 = gap_25 - W1_12 * x12_bar - W1_13 * x13_bar;
-    const vector_f gap_27 = -(W2_0 * x0_bar) - W2_1 * x1_bar - W2_2 * x2_bar - W2_3 * x3_bar;
-    const vector_f gap_28 = gap_27 - W2_4 * x4_bar - W2_5 * x5_bar - W2_6 * x6_bar - W2_7 * x7_bar;
-    const vector_f gap_29 = gap_28 - W2_8 * x8_bar - W2_9 * x9_bar - W2_10 * x10_bar - W2_11 * x11_bar;
-    const vector_f gap_30 = gap_29 - W2_12 * x12_bar - W2_13 * x13_bar;
-    const vector_f gap_31 = -(W3_0 * x0_bar) - W3_1 * x1_bar - W3_2 * x2_bar - W3_3 * x3_bar;
-    const vector_f gap_32 = gap_31 - W3_4 * x4_bar - W3_5 * x5_bar - W3_6 * x6_bar - W3_7 * x7_bar;
-    const vector_f gap_33 = gap_32 - W3_8 * x8_bar - W3_9 * x9_bar - W3_10 * x10_bar - W3_11 * x11_bar;
-    const vector_f gap_34 = gap_33 - W3_12 * x12_bar - W3_13 * x13_bar;
-    const vector_f total_47 = its_value_bar + z0 * gap_22 + z1 * gap_26 + z2 * gap_30 + z3 * gap_34;
-    const vector_f gap_35 = -(W4_0 * x0_bar) - W4_1 * x1_bar - W4_2 * x2_bar - W4_3 * x3_bar;
-    const vector_f gap_36 = gap_35 - W4_4 * x4_bar - W4_5 * x5_bar - W4_6 * x6_bar - W4_7 * x7_bar;
-    const vector_f gap_37 = gap_36 - W4_8 * x8_bar - W4_9 * x9_bar - W4_10 * x10_bar - W4_11 * x11_bar;
-    const vector_f gap_38 = gap_37 - W4_12 * x12_bar - W4_13 * x13_bar;
-    const vector_f gap_39 = -(W5_0 * x0_bar) - W5_1 * x1_bar - W5_2 * x2_bar - W5_3 * x3_bar;
-    const vector_f gap_40 = gap_39 - W5_4 * x4_bar - W5_5 * x5_bar - W5_6 * x6_bar - W5_7 * x7_bar;
-    const vector_f gap_41 = gap_40 - W5_8 * x8_bar - W5_9 * x9_bar - W5_10 * x10_bar - W5_11 * x11_bar;
-    const vector_f gap_42 = gap_41 - W5_12 * x12_bar - W5_13 * x13_bar;
-    const vector_f gap_43 = -(W6_0 * x0_bar) - W6_1 * x1_bar - W6_2 * x2_bar - W6_3 * x3_bar;
-    const vector_f gap_44 = gap_43 - W6_4 * x4_bar - W6_5 * x5_bar - W6_6 * x6_bar - W6_7 * x7_bar;
-    const vector_f gap_45 = gap_44 - W6_8 * x8_bar - W6_9 * x9_bar - W6_10 * x10_bar - W6_11 * x11_bar;
-    const vector_f gap_46 = gap_45 - W6_12 * x12_bar - W6_13 * x13_bar;
-    const vector_f gap_47 = -(W7_0 * x0_bar) - W7_1 * x1_bar - W7_2 * x2_bar - W7_3 * x3_bar;
-    const vector_f gap_48 = gap_47 - W7_4 * x4_bar - W7_5 * x5_bar - W7_6 * x6_bar - W7_7 * x7_bar;
-    const vector_f gap_49 = gap_48 - W7_8 * x8_bar - W7_9 * x9_bar - W7_10 * x10_bar - W7_11 * x11_bar;
-    const vector_f gap_50 = gap_49 - W7_12 * x12_bar - W7_13 * x13_bar;
-    const vector_f total_48 = total_47 + z4 * gap_38 + z5 * gap_42 + z6 * gap_46 + z7 * gap_50;
-    const vector_f gap_51 = -(W8_0 * x0_bar) - W8_1 * x1_bar - W8_2 * x2_bar - W8_3 * x3_bar;
-    const vector_f gap_52 = gap_51 - W8_4 * x4_bar - W8_5 * x5_bar - W8_6 * x6_bar - W8_7 * x7_bar;
-    const vector_f gap_53 = gap_52 - W8_8 * x8_bar - W8_9 * x9_bar - W8_10 * x10_bar - W8_11 * x11_bar;
-    const vector_f gap_54 = gap_53 - W8_12 * x12_bar - W8_13 * x13_bar;
-    const vector_f gap_55 = -(W9_0 * x0_bar) - W9_1 * x1_bar - W9_2 * x2_bar - W9_3 * x3_bar;
-    const vector_f gap_56 = gap_55 - W9_4 * x4_bar - W9_5 * x5_bar - W9_6 * x6_bar - W9_7 * x7_bar;
-    const vector_f gap_57 = gap_56 - W9_8 * x8_bar - W9_9 * x9_bar - W9_10 * x10_bar - W9_11 * x11_bar;
-    const vector_f gap_58 = gap_57 - W9_12 * x12_bar - W9_13 * x13_bar;
-    const vector_f gap_59 = -(W10_0 * x0_bar) - W10_1 * x1_bar - W10_2 * x2_bar - W10_3 * x3_bar;
-    const vector_f gap_60 = gap_59 - W10_4 * x4_bar - W10_5 * x5_bar - W10_6 * x6_bar - W10_7 * x7_bar;
-    const vector_f gap_61 = gap_60 - W10_8 * x8_bar - W10_9 * x9_bar - W10_10 * x10_bar - W10_11 * x11_bar;
-    const vector_f gap_62 = gap_61 - W10_12 * x12_bar - W10_13 * x13_bar;
-    const vector_f gap_63 = -(W11_0 * x0_bar) - W11_1 * x1_bar - W11_2 * x2_bar - W11_3 * x3_bar;
-    const vector_f gap_64 = gap_63 - W11_4 * x4_bar - W11_5 * x5_bar - W11_6 * x6_bar - W11_7 * x7_bar;
-    const vector_f gap_65 = gap_64 - W11_8 * x8_bar - W11_9 * x9_bar - W11_10 * x10_bar - W11_11 * x11_bar;
-    const vector_f gap_66 = gap_65 - W11_12 * x12_bar - W11_13 * x13_bar;
-    const vector_f total_49 = total_48 + z8 * gap_54 + z9 * gap_58 + z10 * gap_62 + z11 * gap_66;
-    const vector_f gap_67 = -(W12_0 * x0_bar) - W12_1 * x1_bar - W12_2 * x2_bar - W12_3 * x3_bar;
-    const vector_f gap_68 = gap_67 - W12_4 * x4_bar - W12_5 * x5_bar - W12_6 * x6_bar - W12_7 * x7_bar;
-    const vector_f gap_69 = gap_68 - W12_8 * x8_bar - W12_9 * x9_bar - W12_10 * x10_bar - W12_11 * x11_bar;
-    const vector_f gap_70 = gap_69 - W12_12 * x12_bar - W12_13 * x13_bar;
-    const vector_f by_phi = total_49 + z12 * gap_70 + z13 * gap_18;
-    const vector_f phi_product = phi * by_phi;
-    const vector_f by_z13 = phi * gap_18 - z13 * phi_product;
-    const vector_f by_z12 = phi * gap_70 - z12 * phi_product;
-    const vector_f by_z11 = phi * gap_66 - z11 * phi_product;
-    const vector_f by_z10 = phi * gap_62 - z10 * phi_product;
-    const vector_f by_z9 = phi * gap_58 - z9 * phi_product;
-    const vector_f total_50 = W13_0 * by_z13 + W12_0 * by_z12 + W11_0 * by_z11 + W10_0 * by_z10 + W9_0 *
-        by_z9;
-    const vector_f by_z8 = phi * gap_54 - z8 * phi_product;
-    const vector_f by_z7 = phi * gap_50 - z7 * phi_product;
-    const vector_f by_z6 = phi * gap_46 - z6 * phi_product;
-    const vector_f by_z5 = phi * gap_42 - z5 * phi_product;
-    const vector_f total_51 = total_50 + W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5;
-    const vector_f by_z4 = phi * gap_38 - z4 * phi_product;
-    const vector_f by_z3 = phi * gap_34 - z3 * phi_product;
-    const vector_f by_z2 = phi * gap_30 - z2 * phi_product;
-    const vector_f by_z1 = phi * gap_26 - z1 * phi_product;
-    const vector_f total_52 = total_51 + W4_0 * by_z4 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1;
-    const vector_f by_z0 = phi * gap_22 - z0 * phi_product;
-    const vector_f by_v0 = total_52 + W0_0 * by_z0;
-    const vector_f total_53 = W13_1 * by_z13 + W12_1 * by_z12 + W11_1 * by_z11 + W10_1 * by_z10 + W9_1 *
-        by_z9;
-    const vector_f total_54 = total_53 + W8_1 * by_z8 + W7_1 * by_z7 + W6_1 * by_z6 + W5_1 * by_z5;
-    const vector_f total_55 = total_54 + W4_1 * by_z4 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1;
-    const vector_f by_v1 = total_55 + W0_1 * by_z0;
-    const vector_f total_56 = W13_2 * by_z13 + W12_2 * by_z12 + W11_2 * by_z11 + W10_2 * by_z10 + W9_2 *
-        by_z9;
-    const vector_f total_57 = total_56 + W8_2 * by_z8 + W7_2 * by_z7 + W6_2 * by_z6 + W5_2 * by_z5;
-    const vector_f total_58 = total_57 + W4_2 * by_z4 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1;
-    const vector_f by_v2 = total_58 + W0_2 * by_z0;
-    const vector_f total_59 = W13_3 * by_z13 + W12_3 * by_z12 + W11_3 * by_z11 + W10_3 * by_z10 + W9_3 *
-        by_z9;
-    const vector_f total_60 = total_59 + W8_3 * by_z8 + W7_3 * by_z7 + W6_3 * by_z6 + W5_3 * by_z5;
-    const vector_f total_61 = total_60 + W4_3 * by_z4 + W3_3 * by_z3 + W2_3 * by_z2 + W1_3 * by_z1;
-    const vector_f by_v3 = total_61 + W0_3 * by_z0;
-    const vector_f total_62 = W13_4 * by_z13 + W12_4 * by_z12 + W11_4 * by_z11 + W10_4 * by_z10 + W9_4 *
-        by_z9;
-    const vector_f total_63 = total_62 + W8_4 * by_z8 + W7_4 * by_z7 + W6_4 * by_z6 + W5_4 * by_z5;
-    const vector_f total_64 = total_63 + W4_4 * by_z4 + W3_4 * by_z3 + W2_4 * by_z2 + W1_4 * by_z1;
-    const vector_f by_v4 = total_64 + W0_4 * by_z0;
-    const vector_f total_65 = W13_5 * by_z13 + W12_5 * by_z12 + W11_5 * by_z11 + W10_5 * by_z10 + W9_5 *
-        by_z9;
-    const vector_f total_66 = total_65 + W8_5 * by_z8 + W7_5 * by_z7 + W6_5 * by_z6 + W5_5 * by_z5;
-    const vector_f total_67 = total_66 + W4_5 * by_z4 + W3_5 * by_z3 + W2_5 * by_z2 + W1_5 * by_z1;
-    const vector_f by_v5 = total_67 + W0_5 * by_z0;
-    const vector_f total_68 = W13_6 * by_z13 + W12_6 * by_z12 + W11_6 * by_z11 + W10_6 * by_z10 + W9_6 *
-        by_z9;
-    const vector_f total_69 = total_68 + W8_6 * by_z8 + W7_6 * by_z7 + W6_6 * by_z6 + W5_6 * by_z5;
-    const vector_f total_70 = total_69 + W4_6 * by_z4 + W3_6 * by_z3 + W2_6 * by_z2 + W1_6 * by_z1;
-    const vector_f by_v6 = total_70 + W0_6 * by_z0;
-    const vector_f total_71 = W13_7 * by_z13 + W12_7 * by_z12 + W11_7 * by_z11 + W10_7 * by_z10 + W9_7 *
-        by_z9;
-    const vector_f total_72 = total_71 + W8_7 * by_z8 + W7_7 * by_z7 + W6_7 * by_z6 + W5_7 * by_z5;
-    const vector_f total_73 = total_72 + W4_7 * by_z4 + W3_7 * by_z3 + W2_7 * by_z2 + W1_7 * by_z1;
-    const vector_f by_v7 = total_73 + W0_7 * by_z0;
-    const vector_f total_74 = W13_8 * by_z13 + W12_8 * by_z12 + W11_8 * by_z11 + W10_8 * by_z10 + W9_8 *
-        by_z9;
-    const vector_f total_75 = total_74 + W8_8 * by_z8 + W7_8 * by_z7 + W6_8 * by_z6 + W5_8 * by_z5;
-    const vector_f total_76 = total_75 + W4_8 * by_z4 + W3_8 * by_z3 + W2_8 * by_z2 + W1_8 * by_z1;
-    const vector_f by_v8 = total_76 + W0_8 * by_z0;
-    const vector_f total_77 = W13_9 * by_z13 + W12_9 * by_z12 + W11_9 * by_z11 + W10_9 * by_z10 + W9_9 *
-        by_z9;
-    const vector_f total_78 = total_77 + W8_9 * by_z8 + W7_9 * by_z7 + W6_9 * by_z6 + W5_9 * by_z5;
-    const vector_f total_79 = total_78 + W4_9 * by_z4 + W3_9 * by_z3 + W2_9 * by_z2 + W1_9 * by_z1;
-    const vector_f by_v9 = total_79 + W0_9 * by_z0;
-    const vector_f total_80 = W13_10 * by_z13 + W12_10 * by_z12 + W11_10 * by_z11 + W10_10 * by_z10 + W9_10 *
-        by_z9;
-    const vector_f total_81 = total_80 + W8_10 * by_z8 + W7_10 * by_z7 + W6_10 * by_z6 + W5_10 * by_z5;
-    const vector_f total_82 = total_81 + W4_10 * by_z4 + W3_10 * by_z3 + W2_10 * by_z2 + W1_10 * by_z1;
-    const vector_f by_v10 = total_82 + W0_10 * by_z0;
-    const vector_f total_83 = W13_11 * by_z13 + W12_11 * by_z12 + W11_11 * by_z11 + W10_11 * by_z10 + W9_11 *
-        by_z9;
-    const vector_f total_84 = total_83 + W8_11 * by_z8 + W7_11 * by_z7 + W6_11 * by_z6 + W5_11 * by_z5;
-    const vector_f total_85 = total_84 + W4_11 * by_z4 + W3_11 * by_z3 + W2_11 * by_z2 + W1_11 * by_z1;
-    const vector_f by_v11 = total_85 + W0_11 * by_z0;
-    const vector_f total_86 = W13_12 * by_z13 + W12_12 * by_z12 + W11_12 * by_z11 + W10_12 * by_z10 + W9_12 *
-        by_z9;
-    const vector_f total_87 = total_86 + W8_12 * by_z8 + W7_12 * by_z7 + W6_12 * by_z6 + W5_12 * by_z5;
-    const vector_f total_88 = total_87 + W4_12 * by_z4 + W3_12 * by_z3 + W2_12 * by_z2 + W1_12 * by_z1;
-    const vector_f by_v12 = total_88 + W0_12 * by_z0;
-    const vector_f total_89 = W13_13 * by_z13 + W12_13 * by_z12 + W11_13 * by_z11 + W10_13 * by_z10 + W9_13 *
-        by_z9;
-    const vector_f total_90 = total_89 + W8_13 * by_z8 + W7_13 * by_z7 + W6_13 * by_z6 + W5_13 * by_z5;
-    const vector_f total_91 = total_90 + W4_13 * by_z4 + W3_13 * by_z3 + W2_13 * by_z2 + W1_13 * by_z1;
-    const vector_f by_v13 = total_91 + W0_13 * by_z0;
-    const vector_f z0_product = z0 * phi;
-    const vector_f z1_product = z1 * phi;
-    const vector_f z2_product = z2 * phi;
-    const vector_f z3_product = z3 * phi;
-    const vector_f z4_product = z4 * phi;
-    const vector_f z5_product = z5 * phi;
-    const vector_f z6_product = z6 * phi;
-    const vector_f z7_product = z7 * phi;
-    const vector_f z8_product = z8 * phi;
-    const vector_f z9_product = z9 * phi;
-    const vector_f z10_product = z10 * phi;
-    const vector_f z11_product = z11 * phi;
-    const vector_f z12_product = z12 * phi;
-    const vector_f z13_product = z13 * phi;
-    factor[0] = v0;
-    factor[1] = v1;
-    factor[2] = v2;
-    factor[3] = v3;
-    factor[4] = v4;
-    factor[5] = v5;
-    factor[6] = v6;
-    factor[7] = v7;
-    factor[8] = v8;
-    factor[9] = v9;
-    factor[10] = v10;
-    factor[11] = v11;
-    factor[12] = v12;
-    factor[13] = v13;
-    factor[14] = phi_product;
-    factor[15] = by_z13;
-    factor[16] = by_z12;
-    factor[17] = by_z11;
-    factor[18] = by_z10;
-    factor[19] = by_z9;
-    factor[20] = by_z8;
-    factor[21] = by_z7;
-    factor[22] = by_z6;
-    factor[23] = by_z5;
-    factor[24] = by_z4;
-    factor[25] = by_z3;
-    factor[26] = by_z2;
-    factor[27] = by_z1;
-    factor[28] = by_z0;
-    factor[29] = -by_v0;
-    factor[30] = -by_v1;
-    factor[31] = -by_v2;
-    factor[32] = -by_v3;
-    factor[33] = -by_v4;
-    factor[34] = -by_v5;
-    factor[35] = -by_v6;
-    factor[36] = -by_v7;
-    factor[37] = -by_v8;
-    factor[38] = -by_v9;
-    factor[39] = -by_v10;
-    factor[40] = -by_v11;
-    factor[41] = -by_v12;
-    factor[42] = -by_v13;
-    factor[43] = z0_product;
-    factor[44] = z1_product;
-    factor[45] = z2_product;
-    factor[46] = z3_product;
-    factor[47] = z4_product;
-    factor[48] = z5_product;
-    factor[49] = z6_product;
-    factor[50] = z7_product;
-    factor[51] = z8_product;
-    factor[52] = z9_product;
-    factor[53] = z10_product;
-    factor[54] = z11_product;
-    factor[55] = z12_product;
-    factor[56] = z13_product;
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_0_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[29];
-    sum[1] = sum[1] + factor[30];
-    sum[2] = sum[2] + factor[31];
-    sum[3] = sum[3] + factor[32];
-    sum[4] = sum[4] + factor[33];
-    sum[5] = sum[5] + factor[34];
-    sum[6] = sum[6] + factor[35];
-    sum[7] = sum[7] + factor[36];
-    sum[8] = sum[8] + factor[37];
-    sum[9] = sum[9] + factor[38];
-    sum[10] = sum[10] + factor[39];
-    sum[11] = sum[11] + factor[40];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_1_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[41];
-    sum[1] = sum[1] + factor[42];
-    sum[2] = sum[2] + factor[14];
-    sum[3] = sum[3] + factor[0] * factor[28] - factor[43] * point[15];
-    sum[4] = sum[4] + factor[1] * factor[28] - factor[43] * point[16];
-    sum[5] = sum[5] + factor[2] * factor[28] - factor[43] * point[17];
-    sum[6] = sum[6] + factor[3] * factor[28] - factor[43] * point[18];
-    sum[7] = sum[7] + factor[4] * factor[28] - factor[43] * point[19];
-    sum[8] = sum[8] + factor[5] * factor[28] - factor[43] * point[20];
-    sum[9] = sum[9] + factor[6] * factor[28] - factor[43] * point[21];
-    sum[10] = sum[10] + factor[7] * factor[28] - factor[43] * point[22];
-    sum[11] = sum[11] + factor[8] * factor[28] - factor[43] * point[23];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_2_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[9] * factor[28] - factor[43] * point[24];
-    sum[1] = sum[1] + factor[10] * factor[28] - factor[43] * point[25];
-    sum[2] = sum[2] + factor[11] * factor[28] - factor[43] * point[26];
-    sum[3] = sum[3] + factor[12] * factor[28] - factor[43] * point[27];
-    sum[4] = sum[4] + factor[13] * factor[28] - factor[43] * point[28];
-    sum[5] = sum[5] + factor[9] * factor[27] - factor[44] * point[24];
-    sum[6] = sum[6] + factor[10] * factor[27] - factor[44] * point[25];
-    sum[7] = sum[7] + factor[11] * factor[27] - factor[44] * point[26];
-    sum[8] = sum[8] + factor[12] * factor[27] - factor[44] * point[27];
-    sum[9] = sum[9] + factor[13] * factor[27] - factor[44] * point[28];
-    sum[10] = sum[10] + factor[0] * factor[27] - factor[44] * point[15];
-    sum[11] = sum[11] + factor[1] * factor[27] - factor[44] * point[16];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_3_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[2] * factor[27] - factor[44] * point[17];
-    sum[1] = sum[1] + factor[3] * factor[27] - factor[44] * point[18];
-    sum[2] = sum[2] + factor[4] * factor[27] - factor[44] * point[19];
-    sum[3] = sum[3] + factor[5] * factor[27] - factor[44] * point[20];
-    sum[4] = sum[4] + factor[6] * factor[27] - factor[44] * point[21];
-    sum[5] = sum[5] + factor[7] * factor[27] - factor[44] * point[22];
-    sum[6] = sum[6] + factor[8] * factor[27] - factor[44] * point[23];
-    sum[7] = sum[7] + factor[2] * factor[26] - factor[45] * point[17];
-    sum[8] = sum[8] + factor[3] * factor[26] - factor[45] * point[18];
-    sum[9] = sum[9] + factor[4] * factor[26] - factor[45] * point[19];
-    sum[10] = sum[10] + factor[5] * factor[26] - factor[45] * point[20];
-    sum[11] = sum[11] + factor[6] * factor[26] - factor[45] * point[21];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_4_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[0] * factor[26] - factor[45] * point[15];
-    sum[1] = sum[1] + factor[1] * factor[26] - factor[45] * point[16];
-    sum[2] = sum[2] + factor[7] * factor[26] - factor[45] * point[22];
-    sum[3] = sum[3] + factor[8] * factor[26] - factor[45] * point[23];
-    sum[4] = sum[4] + factor[9] * factor[26] - factor[45] * point[24];
-    sum[5] = sum[5] + factor[10] * factor[26] - factor[45] * point[25];
-    sum[6] = sum[6] + factor[11] * factor[26] - factor[45] * point[26];
-    sum[7] = sum[7] + factor[12] * factor[26] - factor[45] * point[27];
-    sum[8] = sum[8] + factor[13] * factor[26] - factor[45] * point[28];
-    sum[9] = sum[9] + factor[0] * factor[25] - factor[46] * point[15];
-    sum[10] = sum[10] + factor[1] * factor[25] - factor[46] * point[16];
-    sum[11] = sum[11] + factor[7] * factor[25] - factor[46] * point[22];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_5_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[2] * factor[25] - factor[46] * point[17];
-    sum[1] = sum[1] + factor[3] * factor[25] - factor[46] * point[18];
-    sum[2] = sum[2] + factor[4] * factor[25] - factor[46] * point[19];
-    sum[3] = sum[3] + factor[5] * factor[25] - factor[46] * point[20];
-    sum[4] = sum[4] + factor[6] * factor[25] - factor[46] * point[21];
-    sum[5] = sum[5] + factor[8] * factor[25] - factor[46] * point[23];
-    sum[6] = sum[6] + factor[9] * factor[25] - factor[46] * point[24];
-    sum[7] = sum[7] + factor[10] * factor[25] - factor[46] * point[25];
-    sum[8] = sum[8] + factor[11] * factor[25] - factor[46] * point[26];
-    sum[9] = sum[9] + factor[12] * factor[25] - factor[46] * point[27];
-    sum[10] = sum[10] + factor[13] * factor[25] - factor[46] * point[28];
-    sum[11] = sum[11] + factor[2] * factor[24] - factor[47] * point[17];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_6_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[0] * factor[24] - factor[47] * point[15];
-    sum[1] = sum[1] + factor[1] * factor[24] - factor[47] * point[16];
-    sum[2] = sum[2] + factor[3] * factor[24] - factor[47] * point[18];
-    sum[3] = sum[3] + factor[4] * factor[24] - factor[47] * point[19];
-    sum[4] = sum[4] + factor[5] * factor[24] - factor[47] * point[20];
-    sum[5] = sum[5] + factor[6] * factor[24] - factor[47] * point[21];
-    sum[6] = sum[6] + factor[7] * factor[24] - factor[47] * point[22];
-    sum[7] = sum[7] + factor[8] * factor[24] - factor[47] * point[23];
-    sum[8] = sum[8] + factor[9] * factor[24] - factor[47] * point[24];
-    sum[9] = sum[9] + factor[10] * factor[24] - factor[47] * point[25];
-    sum[10] = sum[10] + factor[11] * factor[24] - factor[47] * point[26];
-    sum[11] = sum[11] + factor[12] * factor[24] - factor[47] * point[27];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_7_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[13] * factor[24] - factor[47] * point[28];
-    sum[1] = sum[1] + factor[13] * factor[23] - factor[48] * point[28];
-    sum[2] = sum[2] + factor[0] * factor[23] - factor[48] * point[15];
-    sum[3] = sum[3] + factor[1] * factor[23] - factor[48] * point[16];
-    sum[4] = sum[4] + factor[2] * factor[23] - factor[48] * point[17];
-    sum[5] = sum[5] + factor[3] * factor[23] - factor[48] * point[18];
-    sum[6] = sum[6] + factor[4] * factor[23] - factor[48] * point[19];
-    sum[7] = sum[7] + factor[5] * factor[23] - factor[48] * point[20];
-    sum[8] = sum[8] + factor[6] * factor[23] - factor[48] * point[21];
-    sum[9] = sum[9] + factor[7] * factor[23] - factor[48] * point[22];
-    sum[10] = sum[10] + factor[8] * factor[23] - factor[48] * point[23];
-    sum[11] = sum[11] + factor[9] * factor[23] - factor[48] * point[24];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_8_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[10] * factor[23] - factor[48] * point[25];
-    sum[1] = sum[1] + factor[11] * factor[23] - factor[48] * point[26];
-    sum[2] = sum[2] + factor[12] * factor[23] - factor[48] * point[27];
-    sum[3] = sum[3] + factor[10] * factor[22] - factor[49] * point[25];
-    sum[4] = sum[4] + factor[11] * factor[22] - factor[49] * point[26];
-    sum[5] = sum[5] + factor[12] * factor[22] - factor[49] * point[27];
-    sum[6] = sum[6] + factor[0] * factor[22] - factor[49] * point[15];
-    sum[7] = sum[7] + factor[1] * factor[22] - factor[49] * point[16];
-    sum[8] = sum[8] + factor[2] * factor[22] - factor[49] * point[17];
-    sum[9] = sum[9] + factor[3] * factor[22] - factor[49] * point[18];
-    sum[10] = sum[10] + factor[4] * factor[22] - factor[49] * point[19];
-    sum[11] = sum[11] + factor[5] * factor[22] - factor[49] * point[20];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_9_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[6] * factor[22] - factor[49] * point[21];
-    sum[1] = sum[1] + factor[7] * factor[22] - factor[49] * point[22];
-    sum[2] = sum[2] + factor[8] * factor[22] - factor[49] * point[23];
-    sum[3] = sum[3] + factor[9] * factor[22] - factor[49] * point[24];
-    sum[4] = sum[4] + factor[13] * factor[22] - factor[49] * point[28];
-    sum[5] = sum[5] + factor[6] * factor[21] - factor[50] * point[21];
-    sum[6] = sum[6] + factor[7] * factor[21] - factor[50] * point[22];
-    sum[7] = sum[7] + factor[8] * factor[21] - factor[50] * point[23];
-    sum[8] = sum[8] + factor[9] * factor[21] - factor[50] * point[24];
-    sum[9] = sum[9] + factor[13] * factor[21] - factor[50] * point[28];
-    sum[10] = sum[10] + factor[0] * factor[21] - factor[50] * point[15];
-    sum[11] = sum[11] + factor[1] * factor[21] - factor[50] * point[16];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_10_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[2] * factor[21] - factor[50] * point[17];
-    sum[1] = sum[1] + factor[3] * factor[21] - factor[50] * point[18];
-    sum[2] = sum[2] + factor[4] * factor[21] - factor[50] * point[19];
-    sum[3] = sum[3] + factor[5] * factor[21] - factor[50] * point[20];
-    sum[4] = sum[4] + factor[10] * factor[21] - factor[50] * point[25];
-    sum[5] = sum[5] + factor[11] * factor[21] - factor[50] * point[26];
-    sum[6] = sum[6] + factor[12] * factor[21] - factor[50] * point[27];
-    sum[7] = sum[7] + factor[2] * factor[20] - factor[51] * point[17];
-    sum[8] = sum[8] + factor[3] * factor[20] - factor[51] * point[18];
-    sum[9] = sum[9] + factor[4] * factor[20] - factor[51] * point[19];
-    sum[10] = sum[10] + factor[5] * factor[20] - factor[51] * point[20];
-    sum[11] = sum[11] + factor[10] * factor[20] - factor[51] * point[25];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_11_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[0] * factor[20] - factor[51] * point[15];
-    sum[1] = sum[1] + factor[1] * factor[20] - factor[51] * point[16];
-    sum[2] = sum[2] + factor[6] * factor[20] - factor[51] * point[21];
-    sum[3] = sum[3] + factor[7] * factor[20] - factor[51] * point[22];
-    sum[4] = sum[4] + factor[8] * factor[20] - factor[51] * point[23];
-    sum[5] = sum[5] + factor[9] * factor[20] - factor[51] * point[24];
-    sum[6] = sum[6] + factor[11] * factor[20] - factor[51] * point[26];
-    sum[7] = sum[7] + factor[12] * factor[20] - factor[51] * point[27];
-    sum[8] = sum[8] + factor[13] * factor[20] - factor[51] * point[28];
-    sum[9] = sum[9] + factor[0] * factor[19] - factor[52] * point[15];
-    sum[10] = sum[10] + factor[1] * factor[19] - factor[52] * point[16];
-    sum[11] = sum[11] + factor[6] * factor[19] - factor[52] * point[21];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_12_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[2] * factor[19] - factor[52] * point[17];
-    sum[1] = sum[1] + factor[3] * factor[19] - factor[52] * point[18];
-    sum[2] = sum[2] + factor[4] * factor[19] - factor[52] * point[19];
-    sum[3] = sum[3] + factor[5] * factor[19] - factor[52] * point[20];
-    sum[4] = sum[4] + factor[7] * factor[19] - factor[52] * point[22];
-    sum[5] = sum[5] + factor[8] * factor[19] - factor[52] * point[23];
-    sum[6] = sum[6] + factor[9] * factor[19] - factor[52] * point[24];
-    sum[7] = sum[7] + factor[10] * factor[19] - factor[52] * point[25];
-    sum[8] = sum[8] + factor[11] * factor[19] - factor[52] * point[26];
-    sum[9] = sum[9] + factor[12] * factor[19] - factor[52] * point[27];
-    sum[10] = sum[10] + factor[13] * factor[19] - factor[52] * point[28];
-    sum[11] = sum[11] + factor[2] * factor[18] - factor[53] * point[17];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_13_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[0] * factor[18] - factor[53] * point[15];
-    sum[1] = sum[1] + factor[1] * factor[18] - factor[53] * point[16];
-    sum[2] = sum[2] + factor[3] * factor[18] - factor[53] * point[18];
-    sum[3] = sum[3] + factor[4] * factor[18] - factor[53] * point[19];
-    sum[4] = sum[4] + factor[5] * factor[18] - factor[53] * point[20];
-    sum[5] = sum[5] + factor[6] * factor[18] - factor[53] * point[21];
-    sum[6] = sum[6] + factor[7] * factor[18] - factor[53] * point[22];
-    sum[7] = sum[7] + factor[8] * factor[18] - factor[53] * point[23];
-    sum[8] = sum[8] + factor[9] * factor[18] - factor[53] * point[24];
-    sum[9] = sum[9] + factor[10] * factor[18] - factor[53] * point[25];
-    sum[10] = sum[10] + factor[11] * factor[18] - factor[53] * point[26];
-    sum[11] = sum[11] + factor[12] * factor[18] - factor[53] * point[27];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_14_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[13] * factor[18] - factor[53] * point[28];
-    sum[1] = sum[1] + factor[13] * factor[17] - factor[54] * point[28];
-    sum[2] = sum[2] + factor[0] * factor[17] - factor[54] * point[15];
-    sum[3] = sum[3] + factor[1] * factor[17] - factor[54] * point[16];
-    sum[4] = sum[4] + factor[2] * factor[17] - factor[54] * point[17];
-    sum[5] = sum[5] + factor[3] * factor[17] - factor[54] * point[18];
-    sum[6] = sum[6] + factor[4] * factor[17] - factor[54] * point[19];
-    sum[7] = sum[7] + factor[5] * factor[17] - factor[54] * point[20];
-    sum[8] = sum[8] + factor[6] * factor[17] - factor[54] * point[21];
-    sum[9] = sum[9] + factor[7] * factor[17] - factor[54] * point[22];
-    sum[10] = sum[10] + factor[8] * factor[17] - factor[54] * point[23];
-    sum[11] = sum[11] + factor[9] * factor[17] - factor[54] * point[24];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_15_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[10] * factor[17] - factor[54] * point[25];
-    sum[1] = sum[1] + factor[11] * factor[17] - factor[54] * point[26];
-    sum[2] = sum[2] + factor[12] * factor[17] - factor[54] * point[27];
-    sum[3] = sum[3] + factor[10] * factor[16] - factor[55] * point[25];
-    sum[4] = sum[4] + factor[11] * factor[16] - factor[55] * point[26];
-    sum[5] = sum[5] + factor[12] * factor[16] - factor[55] * point[27];
-    sum[6] = sum[6] + factor[0] * factor[16] - factor[55] * point[15];
-    sum[7] = sum[7] + factor[1] * factor[16] - factor[55] * point[16];
-    sum[8] = sum[8] + factor[2] * factor[16] - factor[55] * point[17];
-    sum[9] = sum[9] + factor[3] * factor[16] - factor[55] * point[18];
-    sum[10] = sum[10] + factor[4] * factor[16] - factor[55] * point[19];
-    sum[11] = sum[11] + factor[5] * factor[16] - factor[55] * point[20];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_16_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[6] * factor[16] - factor[55] * point[21];
-    sum[1] = sum[1] + factor[7] * factor[16] - factor[55] * point[22];
-    sum[2] = sum[2] + factor[8] * factor[16] - factor[55] * point[23];
-    sum[3] = sum[3] + factor[9] * factor[16] - factor[55] * point[24];
-    sum[4] = sum[4] + factor[13] * factor[16] - factor[55] * point[28];
-    sum[5] = sum[5] + factor[6] * factor[15] - factor[56] * point[21];
-    sum[6] = sum[6] + factor[7] * factor[15] - factor[56] * point[22];
-    sum[7] = sum[7] + factor[8] * factor[15] - factor[56] * point[23];
-    sum[8] = sum[8] + factor[9] * factor[15] - factor[56] * point[24];
-    sum[9] = sum[9] + factor[13] * factor[15] - factor[56] * point[28];
-    sum[10] = sum[10] + factor[0] * factor[15] - factor[56] * point[15];
-    sum[11] = sum[11] + factor[1] * factor[15] - factor[56] * point[16];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_17_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[2] * factor[15] - factor[56] * point[17];
-    sum[1] = sum[1] + factor[3] * factor[15] - factor[56] * point[18];
-    sum[2] = sum[2] + factor[4] * factor[15] - factor[56] * point[19];
-    sum[3] = sum[3] + factor[5] * factor[15] - factor[56] * point[20];
-    sum[4] = sum[4] + factor[10] * factor[15] - factor[56] * point[25];
-    sum[5] = sum[5] + factor[11] * factor[15] - factor[56] * point[26];
-    sum[6] = sum[6] + factor[12] * factor[15] - factor[56] * point[27];
-}
-
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
 OUTLINE void vector_rows_f(const float *rows, size_t count, size_t start, size_t size, vector_f *columns) {
     for (size_t i = 0; i < size; ++i) {
@@ -6727,7 +7499,7 @@ OUTLINE void splat_constants_f(
     vector_to_rows_f(S, constants, splat_count, start, 211, 211);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void dual_arm_splats_f(
     size_t count, size_t splat_count, const float *DUAL_ARM_RESTRICT x, const float *DUAL_ARM_RESTRICT mu, const float *DUAL_ARM_RESTRICT W, const float *DUAL_ARM_RESTRICT amplitude, const float *DUAL_ARM_RESTRICT width,
     float *DUAL_ARM_RESTRICT value, float *DUAL_ARM_RESTRICT gradient, float *DUAL_ARM_RESTRICT work, int threads) {
@@ -6742,27 +7514,26 @@ void dual_arm_splats_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[2][14], X[2][14], grad[14];
-            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][14] = {{ZERO}};
+            vector_f at[2][14], X[2 * 14], grad[14];
+            vector_f value_sum[2] = {ZERO}, slope_sum[2 * 14] = {ZERO};
             float place[14 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 14, at[b]);
-                pair_features_f(at[b], X[b]);
+                pair_features_f(at[b], X + 14 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 211 * near[i];
-                    pair_forward_f(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward_f(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward_f(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient_f(at[b], slope_sum[b], grad);
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                pair_gradient_f(at[b], slope_sum + 14 * b, grad);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
                 vector_to_rows_f(grad, gradient, count, start + b * LANES_f, 14, 14);
             }
         }
@@ -6784,25 +7555,24 @@ void dual_arm_splats_value_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[14], X[2][14], value_sum[2][1] = {{ZERO}};
+            vector_f at[14], X[2 * 14], value_sum[2] = {ZERO};
             float place[14 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 14, at);
-                pair_features_f(at, X[b]);
+                pair_features_f(at, X + 14 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 211 * near[i];
-                    pair_value_f(X[0], S, value_sum[0]);
-                    pair_value_f(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value_f(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -6821,14 +7591,14 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 14 + 1, point + 14);
 }
 
-/* Adds to sums what one vector of points adds to it. */
+/* Adds what makes the derivatives, of a splat at some vectors of points: their factors, then the products of these. */
 INLINE void pair_backward_f(
-    const vector_f *point, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
-    vector_f factor[57];
-    pair_factors_f(point, S, value_bar, slope_bar, factor);
+    size_t count, const vector_f *points, const uint32_t *near, const float *S, vector_f *sums) {
+    vector_f factor[6 * 57];
+    pair_factors_f(count, points, near, S, factor);
     {
         vector_f sum[12] = {ZERO};
-        pair_products_0_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_0_f(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[0] += sum[0];
         sums[1] += sum[1];
         sums[2] += sum[2];
@@ -6844,7 +7614,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_1_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_1_f(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[12] += sum[0];
         sums[13] += sum[1];
         sums[210] += sum[2];
@@ -6860,7 +7630,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_2_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_2_f(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[23] += sum[0];
         sums[24] += sum[1];
         sums[25] += sum[2];
@@ -6876,7 +7646,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_3_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_3_f(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[30] += sum[0];
         sums[31] += sum[1];
         sums[32] += sum[2];
@@ -6892,7 +7662,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_4_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_4_f(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[42] += sum[0];
         sums[43] += sum[1];
         sums[49] += sum[2];
@@ -6908,7 +7678,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_5_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_5_f(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[58] += sum[0];
         sums[59] += sum[1];
         sums[60] += sum[2];
@@ -6924,7 +7694,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_6_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_6_f(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[70] += sum[0];
         sums[71] += sum[1];
         sums[73] += sum[2];
@@ -6940,7 +7710,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_7_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_7_f(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[83] += sum[0];
         sums[97] += sum[1];
         sums[84] += sum[2];
@@ -6956,7 +7726,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_8_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_8_f(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[94] += sum[0];
         sums[95] += sum[1];
         sums[96] += sum[2];
@@ -6972,7 +7742,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_9_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_9_f(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[104] += sum[0];
         sums[105] += sum[1];
         sums[106] += sum[2];
@@ -6988,7 +7758,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_10_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_10_f(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[114] += sum[0];
         sums[115] += sum[1];
         sums[116] += sum[2];
@@ -7004,7 +7774,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_11_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_11_f(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[126] += sum[0];
         sums[127] += sum[1];
         sums[132] += sum[2];
@@ -7020,7 +7790,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_12_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_12_f(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[142] += sum[0];
         sums[143] += sum[1];
         sums[144] += sum[2];
@@ -7036,7 +7806,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_13_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_13_f(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[154] += sum[0];
         sums[155] += sum[1];
         sums[157] += sum[2];
@@ -7052,7 +7822,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_14_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_14_f(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[167] += sum[0];
         sums[181] += sum[1];
         sums[168] += sum[2];
@@ -7068,7 +7838,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_15_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_15_f(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[178] += sum[0];
         sums[179] += sum[1];
         sums[180] += sum[2];
@@ -7084,7 +7854,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_16_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_16_f(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[188] += sum[0];
         sums[189] += sum[1];
         sums[190] += sum[2];
@@ -7100,7 +7870,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[7] = {ZERO};
-        pair_products_17_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_17_f(factor + 57 * i, points + 29 * (size_t)near[i], sum);
         sums[198] += sum[0];
         sums[199] += sum[1];
         sums[200] += sum[2];
@@ -7111,303 +7881,12 @@ INLINE void pair_backward_f(
     }
 }
 
-/*
- * Adds to sums what some vectors of points add to it, those in the list: factors of 6 vectors at a time, then their
- * products.
- */
-OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t count, const float *S, float *sums) {
-    vector_f factor[6 * 57], total[211] = {ZERO};
-    for (size_t start = 0; start < count; start += 6, near += 6) {
-        const size_t size = count - start < 6 ? count - start : 6;
-        for (size_t b = 0; b < size; ++b) {
-            const vector_f *at = points + 29 * (size_t)near[b];
-            pair_factors_f(at, S, at + 14, at + 14 + 1, factor + 57 * b);
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_0_f(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[0] += sum[0];
-            total[1] += sum[1];
-            total[2] += sum[2];
-            total[3] += sum[3];
-            total[4] += sum[4];
-            total[5] += sum[5];
-            total[6] += sum[6];
-            total[7] += sum[7];
-            total[8] += sum[8];
-            total[9] += sum[9];
-            total[10] += sum[10];
-            total[11] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_1_f(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[12] += sum[0];
-            total[13] += sum[1];
-            total[210] += sum[2];
-            total[14] += sum[3];
-            total[15] += sum[4];
-            total[16] += sum[5];
-            total[17] += sum[6];
-            total[18] += sum[7];
-            total[19] += sum[8];
-            total[20] += sum[9];
-            total[21] += sum[10];
-            total[22] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_2_f(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[23] += sum[0];
-            total[24] += sum[1];
-            total[25] += sum[2];
-            total[26] += sum[3];
-            total[27] += sum[4];
-            total[37] += sum[5];
-            total[38] += sum[6];
-            total[39] += sum[7];
-            total[40] += sum[8];
-            total[41] += sum[9];
-            total[28] += sum[10];
-            total[29] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_3_f(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[30] += sum[0];
-            total[31] += sum[1];
-            total[32] += sum[2];
-            total[33] += sum[3];
-            total[34] += sum[4];
-            total[35] += sum[5];
-            total[36] += sum[6];
-            total[44] += sum[7];
-            total[45] += sum[8];
-            total[46] += sum[9];
-            total[47] += sum[10];
-            total[48] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_4_f(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[42] += sum[0];
-            total[43] += sum[1];
-            total[49] += sum[2];
-            total[50] += sum[3];
-            total[51] += sum[4];
-            total[52] += sum[5];
-            total[53] += sum[6];
-            total[54] += sum[7];
-            total[55] += sum[8];
-            total[56] += sum[9];
-            total[57] += sum[10];
-            total[63] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_5_f(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[58] += sum[0];
-            total[59] += sum[1];
-            total[60] += sum[2];
-            total[61] += sum[3];
-            total[62] += sum[4];
-            total[64] += sum[5];
-            total[65] += sum[6];
-            total[66] += sum[7];
-            total[67] += sum[8];
-            total[68] += sum[9];
-            total[69] += sum[10];
-            total[72] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_6_f(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[70] += sum[0];
-            total[71] += sum[1];
-            total[73] += sum[2];
-            total[74] += sum[3];
-            total[75] += sum[4];
-            total[76] += sum[5];
-            total[77] += sum[6];
-            total[78] += sum[7];
-            total[79] += sum[8];
-            total[80] += sum[9];
-            total[81] += sum[10];
-            total[82] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_7_f(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[83] += sum[0];
-            total[97] += sum[1];
-            total[84] += sum[2];
-            total[85] += sum[3];
-            total[86] += sum[4];
-            total[87] += sum[5];
-            total[88] += sum[6];
-            total[89] += sum[7];
-            total[90] += sum[8];
-            total[91] += sum[9];
-            total[92] += sum[10];
-            total[93] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_8_f(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[94] += sum[0];
-            total[95] += sum[1];
-            total[96] += sum[2];
-            total[108] += sum[3];
-            total[109] += sum[4];
-            total[110] += sum[5];
-            total[98] += sum[6];
-            total[99] += sum[7];
-            total[100] += sum[8];
-            total[101] += sum[9];
-            total[102] += sum[10];
-            total[103] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_9_f(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[104] += sum[0];
-            total[105] += sum[1];
-            total[106] += sum[2];
-            total[107] += sum[3];
-            total[111] += sum[4];
-            total[118] += sum[5];
-            total[119] += sum[6];
-            total[120] += sum[7];
-            total[121] += sum[8];
-            total[125] += sum[9];
-            total[112] += sum[10];
-            total[113] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_10_f(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[114] += sum[0];
-            total[115] += sum[1];
-            total[116] += sum[2];
-            total[117] += sum[3];
-            total[122] += sum[4];
-            total[123] += sum[5];
-            total[124] += sum[6];
-            total[128] += sum[7];
-            total[129] += sum[8];
-            total[130] += sum[9];
-            total[131] += sum[10];
-            total[136] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_11_f(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[126] += sum[0];
-            total[127] += sum[1];
-            total[132] += sum[2];
-            total[133] += sum[3];
-            total[134] += sum[4];
-            total[135] += sum[5];
-            total[137] += sum[6];
-            total[138] += sum[7];
-            total[139] += sum[8];
-            total[140] += sum[9];
-            total[141] += sum[10];
-            total[146] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_12_f(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[142] += sum[0];
-            total[143] += sum[1];
-            total[144] += sum[2];
-            total[145] += sum[3];
-            total[147] += sum[4];
-            total[148] += sum[5];
-            total[149] += sum[6];
-            total[150] += sum[7];
-            total[151] += sum[8];
-            total[152] += sum[9];
-            total[153] += sum[10];
-            total[156] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_13_f(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[154] += sum[0];
-            total[155] += sum[1];
-            total[157] += sum[2];
-            total[158] += sum[3];
-            total[159] += sum[4];
-            total[160] += sum[5];
-            total[161] += sum[6];
-            total[162] += sum[7];
-            total[163] += sum[8];
-            total[164] += sum[9];
-            total[165] += sum[10];
-            total[166] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_14_f(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[167] += sum[0];
-            total[181] += sum[1];
-            total[168] += sum[2];
-            total[169] += sum[3];
-            total[170] += sum[4];
-            total[171] += sum[5];
-            total[172] += sum[6];
-            total[173] += sum[7];
-            total[174] += sum[8];
-            total[175] += sum[9];
-            total[176] += sum[10];
-            total[177] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_15_f(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[178] += sum[0];
-            total[179] += sum[1];
-            total[180] += sum[2];
-            total[192] += sum[3];
-            total[193] += sum[4];
-            total[194] += sum[5];
-            total[182] += sum[6];
-            total[183] += sum[7];
-            total[184] += sum[8];
-            total[185] += sum[9];
-            total[186] += sum[10];
-            total[187] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_16_f(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[188] += sum[0];
-            total[189] += sum[1];
-            total[190] += sum[2];
-            total[191] += sum[3];
-            total[195] += sum[4];
-            total[202] += sum[5];
-            total[203] += sum[6];
-            total[204] += sum[7];
-            total[205] += sum[8];
-            total[209] += sum[9];
-            total[196] += sum[10];
-            total[197] += sum[11];
-        }
-        {
-            vector_f sum[7] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_17_f(factor + 57 * b, points + 29 * (size_t)near[b], sum);
-            total[198] += sum[0];
-            total[199] += sum[1];
-            total[200] += sum[2];
-            total[201] += sum[3];
-            total[206] += sum[4];
-            total[207] += sum[5];
-            total[208] += sum[6];
-        }
-    }
-    for (size_t i = 0; i < 211; ++i) sums[i] += vector_sum_f(total[i]);
+/* Adds to sums what some vectors of points add to them, those in the list. */
+OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *sums) {
+    vector_f sum[211] = {ZERO};
+    for (size_t b = 0; b < size; b += 6)
+        pair_backward_f(size - b < 6 ? size - b : 6, points, near + b, S, sum);
+    for (size_t i = 0; i < 211; ++i) sums[i] += vector_sum_f(sum[i]);
 }
 
 /*
@@ -7479,6 +7958,7 @@ void dual_arm_splats_rows_f(
     float *DUAL_ARM_RESTRICT rows, float *DUAL_ARM_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    const uint32_t only = 0;
     float *constants = work_constants_f(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -7495,7 +7975,7 @@ void dual_arm_splats_rows_f(
                 for (int i = 0; i < 14; ++i) own_mu[i] = vector_of_f(mu[14 * k + i]);
                 for (int i = 0; i < 196; ++i) own_W[i] = vector_of_f(W[196 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 211 * k, point + 14, point + 14 + 1, own_sums);
+                pair_backward_f(1, point, &only, constants + 211 * k, own_sums);
                 pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 14, bars + 14 + 196);
                 vector_to_rows_f(bars, rows + 211 * k, count, block * LANES_f, 211, 211 * splat_count);
             }

@@ -24,7 +24,6 @@
 #endif
 #define LANE(vector, i) (vector)[i]
 #define ZERO {0}
-#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
 typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
 typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
 typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
@@ -34,7 +33,6 @@ typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
 #else
 #define LANE(vector, i) (vector)
 #define ZERO 0
-#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
 typedef double vector;
 typedef float vector_f;
 typedef int64_t vector_mask;
@@ -49,6 +47,17 @@ typedef uint32_t vector_bits_f;
 #else
 #define INLINE static inline
 #define OUTLINE static
+#endif
+/* UNROLLED: the few turns of a loop one after another. EACH_LANE: of a loop that gcc makes one instruction, if it stays a loop. */
+#if defined(__clang__)
+#define UNROLLED _Pragma("clang loop unroll(full)")
+#define EACH_LANE
+#elif defined(__GNUC__) && __GNUC__ >= 8
+#define UNROLLED _Pragma("GCC unroll 8")
+#define EACH_LANE _Pragma("GCC unroll 1")
+#else
+#define UNROLLED
+#define EACH_LANE
 #endif
 #define LANES (sizeof(vector) / sizeof(double))
 #define LANES_f (sizeof(vector_f) / sizeof(float))
@@ -90,9 +99,14 @@ INLINE vector vector_of(double x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector vector_select(vector_mask mask, vector x, vector y) {
-    return SELECT(vector, vector_mask, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector)((mask & (vector_mask)x) | (~mask & (vector_mask)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -126,7 +140,7 @@ INLINE vector vector_from_bits(vector_bits bits) {
 
 /* sqrt of every lane; one instruction where the machine has it. */
 INLINE vector sqrt_each(vector x) {
-    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
     return x;
 }
 
@@ -182,73 +196,121 @@ OUTLINE void pair_constants(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_value(
-    const vector *X, const double *S, vector *value) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector x2 = X[2];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double mu2 = S[2];
-    const double W0_0 = S[3];
-    const double W0_1 = S[4];
-    const double W0_2 = S[5];
-    const double W1_0 = S[6];
-    const double W1_1 = S[7];
-    const double W1_2 = S[8];
-    const double W2_0 = S[9];
-    const double W2_1 = S[10];
-    const double W2_2 = S[11];
-    const double amplitude = S[12];
-    const vector v0 = x0 - mu0;
-    const vector v1 = x1 - mu1;
-    const vector v2 = x2 - mu2;
-    const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-    const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-    const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-    const vector phi = gaussian_each(z0 * z0 + z1 * z1 + z2 * z2);
-    value[0] = value[0] + amplitude * phi;
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values) {
+    struct { vector phi; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 13 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double mu2 = S[2];
+        const double W0_0 = S[3];
+        const double W0_1 = S[4];
+        const double W0_2 = S[5];
+        const double W1_0 = S[6];
+        const double W1_1 = S[7];
+        const double W1_2 = S[8];
+        const double W2_0 = S[9];
+        const double W2_1 = S[10];
+        const double W2_2 = S[11];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 3 * b;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector x2 = X[2];
+            const vector v0 = x0 - mu0;
+            const vector v1 = x1 - mu1;
+            const vector v2 = x2 - mu2;
+            const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+            const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+            const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
+            const vector phi = gaussian_each(z0 * z0 + z1 * z1 + z2 * z2);
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 13 * near[k];
+        const double amplitude = S[12];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector *value = values + b;
+            const vector phi = kept[k][b].phi;
+            value[0] = value[0] + amplitude * phi;
+        }
+    }
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_forward(
-    const vector *X, const double *S, vector *value, vector *slope) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector x2 = X[2];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double mu2 = S[2];
-    const double W0_0 = S[3];
-    const double W0_1 = S[4];
-    const double W0_2 = S[5];
-    const double W1_0 = S[6];
-    const double W1_1 = S[7];
-    const double W1_2 = S[8];
-    const double W2_0 = S[9];
-    const double W2_1 = S[10];
-    const double W2_2 = S[11];
-    const double amplitude = S[12];
-    const vector v0 = x0 - mu0;
-    const vector v1 = x1 - mu1;
-    const vector v2 = x2 - mu2;
-    const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-    const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-    const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-    const vector phi = gaussian_each(z0 * z0 + z1 * z1 + z2 * z2);
-    const vector phi_2 = amplitude * phi;
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] - phi_2 * (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0));
-    slope[1] = slope[1] - phi_2 * (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0));
-    slope[2] = slope[2] - phi_2 * (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0));
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values, vector *slopes) {
+    struct { vector z0, z1, z2, phi; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 13 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double mu2 = S[2];
+        const double W0_0 = S[3];
+        const double W0_1 = S[4];
+        const double W0_2 = S[5];
+        const double W1_0 = S[6];
+        const double W1_1 = S[7];
+        const double W1_2 = S[8];
+        const double W2_0 = S[9];
+        const double W2_1 = S[10];
+        const double W2_2 = S[11];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 3 * b;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector x2 = X[2];
+            const vector v0 = x0 - mu0;
+            const vector v1 = x1 - mu1;
+            const vector v2 = x2 - mu2;
+            const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+            const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+            const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
+            const vector phi = gaussian_each(z0 * z0 + z1 * z1 + z2 * z2);
+            kept[k][b].z0 = z0;
+            kept[k][b].z1 = z1;
+            kept[k][b].z2 = z2;
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 13 * near[k];
+        const double W0_0 = S[3];
+        const double W0_1 = S[4];
+        const double W0_2 = S[5];
+        const double W1_0 = S[6];
+        const double W1_1 = S[7];
+        const double W1_2 = S[8];
+        const double W2_0 = S[9];
+        const double W2_1 = S[10];
+        const double W2_2 = S[11];
+        const double amplitude = S[12];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector *value = values + b;
+            vector *slope = slopes + 3 * b;
+            const vector z0 = kept[k][b].z0;
+            const vector z1 = kept[k][b].z1;
+            const vector z2 = kept[k][b].z2;
+            const vector phi = kept[k][b].phi;
+            const vector phi_2 = amplitude * phi;
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] - phi_2 * (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0));
+            slope[1] = slope[1] - phi_2 * (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0));
+            slope[2] = slope[2] - phi_2 * (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0));
+        }
+    }
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -273,6 +335,94 @@ OUTLINE void pair_gradient_vjp(
     slope_bar[0] = gradient_bar0;
     slope_bar[1] = gradient_bar1;
     slope_bar[2] = gradient_bar2;
+}
+
+/*
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
+INLINE void pair_backward(
+    size_t count, const vector *points, const uint32_t *near, const double *S, vector *sums) {
+    struct { vector v0, v1, v2, z0, z1, z2, phi; } kept[16];
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 7 * (size_t)near[i];
+        const vector x0 = X[0];
+        const vector x1 = X[1];
+        const vector x2 = X[2];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double mu2 = S[2];
+        const double W0_0 = S[3];
+        const double W0_1 = S[4];
+        const double W0_2 = S[5];
+        const double W1_0 = S[6];
+        const double W1_1 = S[7];
+        const double W1_2 = S[8];
+        const double W2_0 = S[9];
+        const double W2_1 = S[10];
+        const double W2_2 = S[11];
+        const vector v0 = x0 - mu0;
+        const vector v1 = x1 - mu1;
+        const vector v2 = x2 - mu2;
+        const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+        const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+        const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
+        const vector phi = gaussian_each(z0 * z0 + z1 * z1 + z2 * z2);
+        kept[i].v0 = v0;
+        kept[i].v1 = v1;
+        kept[i].v2 = v2;
+        kept[i].z0 = z0;
+        kept[i].z1 = z1;
+        kept[i].z2 = z2;
+        kept[i].phi = phi;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *value_bar = points + 7 * (size_t)near[i] + 3;
+        const vector *slope_bar = points + 7 * (size_t)near[i] + 3 + 1;
+        const vector v0 = kept[i].v0;
+        const vector v1 = kept[i].v1;
+        const vector v2 = kept[i].v2;
+        const vector z0 = kept[i].z0;
+        const vector z1 = kept[i].z1;
+        const vector z2 = kept[i].z2;
+        const vector phi = kept[i].phi;
+        const double W0_0 = S[3];
+        const double W0_1 = S[4];
+        const double W0_2 = S[5];
+        const double W1_0 = S[6];
+        const double W1_1 = S[7];
+        const double W1_2 = S[8];
+        const double W2_0 = S[9];
+        const double W2_1 = S[10];
+        const double W2_2 = S[11];
+        const vector its_value_bar = value_bar[0];
+        const vector x0_bar = slope_bar[0];
+        const vector x1_bar = slope_bar[1];
+        const vector x2_bar = slope_bar[2];
+        const vector phi_product = phi * x0_bar;
+        const vector gap = its_value_bar - (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0)) * x2_bar;
+        const vector gap_2 = gap - (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0)) * x1_bar;
+        const vector by_phi = gap_2 - (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0)) * x0_bar;
+        const vector phi_product_2 = phi * by_phi;
+        const vector phi_product_3 = phi * x1_bar;
+        const vector phi_product_4 = phi * x2_bar;
+        const vector product = 0.5 * phi_product_2;
+        const vector gap_3 = -phi_product - v0 * product;
+        const vector gap_4 = -phi_product_3 - v1 * product;
+        const vector gap_5 = -phi_product_4 - v2 * product;
+        sums[0] = sums[0] + phi_product + v0 * phi_product_2;
+        sums[1] = sums[1] + phi_product_3 + v1 * phi_product_2;
+        sums[2] = sums[2] + phi_product_4 + v2 * phi_product_2;
+        sums[3] = sums[3] + phi_product_2;
+        sums[4] = sums[4] + v0 * gap_3;
+        sums[5] = sums[5] + v0 * gap_4 + v1 * gap_3;
+        sums[6] = sums[6] + v0 * gap_5 + v2 * gap_3;
+        sums[7] = sums[7] + v1 * gap_4;
+        sums[8] = sums[8] + v1 * gap_5 + v2 * gap_4;
+        sums[9] = sums[9] + v2 * gap_5;
+    }
 }
 
 /* The adjoints of some splats' parameters, of their sums over the points. */
@@ -336,62 +486,6 @@ OUTLINE void pair_distances(
     const vector log1 = q1 - p1;
     const vector log2 = q2 - p2;
     distance[0] = sqrt_each(log0 * log0 + log1 * log1 + log2 * log2);
-}
-
-/*
- * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
- *
- * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
- */
-INLINE void pair_backward(
-    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector x2 = X[2];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double mu2 = S[2];
-    const double W0_0 = S[3];
-    const double W0_1 = S[4];
-    const double W0_2 = S[5];
-    const double W1_0 = S[6];
-    const double W1_1 = S[7];
-    const double W1_2 = S[8];
-    const double W2_0 = S[9];
-    const double W2_1 = S[10];
-    const double W2_2 = S[11];
-    const vector its_value_bar = value_bar[0];
-    const vector x0_bar = slope_bar[0];
-    const vector x1_bar = slope_bar[1];
-    const vector x2_bar = slope_bar[2];
-    const vector v0 = x0 - mu0;
-    const vector v1 = x1 - mu1;
-    const vector v2 = x2 - mu2;
-    const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-    const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-    const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-    const vector phi = gaussian_each(z0 * z0 + z1 * z1 + z2 * z2);
-    const vector phi_product = phi * x0_bar;
-    const vector gap = its_value_bar - (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0)) * x2_bar;
-    const vector gap_2 = gap - (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0)) * x1_bar;
-    const vector by_phi = gap_2 - (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0)) * x0_bar;
-    const vector phi_product_2 = phi * by_phi;
-    const vector phi_product_3 = phi * x1_bar;
-    const vector phi_product_4 = phi * x2_bar;
-    const vector product = 0.5 * phi_product_2;
-    const vector gap_3 = -phi_product - v0 * product;
-    const vector gap_4 = -phi_product_3 - v1 * product;
-    const vector gap_5 = -phi_product_4 - v2 * product;
-    sums[0] = sums[0] + phi_product + v0 * phi_product_2;
-    sums[1] = sums[1] + phi_product_3 + v1 * phi_product_2;
-    sums[2] = sums[2] + phi_product_4 + v2 * phi_product_2;
-    sums[3] = sums[3] + phi_product_2;
-    sums[4] = sums[4] + v0 * gap_3;
-    sums[5] = sums[5] + v0 * gap_4 + v1 * gap_3;
-    sums[6] = sums[6] + v0 * gap_5 + v2 * gap_3;
-    sums[7] = sums[7] + v1 * gap_4;
-    sums[8] = sums[8] + v1 * gap_5 + v2 * gap_4;
-    sums[9] = sums[9] + v2 * gap_5;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -553,7 +647,7 @@ OUTLINE void splat_constants(
     vector_to_rows(S, constants, splat_count, start, 13, 13);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void euclidean_splats(
     size_t count, size_t splat_count, const double *EUCLIDEAN_RESTRICT x, const double *EUCLIDEAN_RESTRICT mu, const double *EUCLIDEAN_RESTRICT W, const double *EUCLIDEAN_RESTRICT amplitude, const double *EUCLIDEAN_RESTRICT width,
     double *EUCLIDEAN_RESTRICT value, double *EUCLIDEAN_RESTRICT gradient, double *EUCLIDEAN_RESTRICT work, int threads) {
@@ -568,27 +662,26 @@ void euclidean_splats(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[2][3], X[2][3], grad[3];
-            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][3] = {{ZERO}};
+            vector at[2][3], X[2 * 3], grad[3];
+            vector value_sum[2] = {ZERO}, slope_sum[2 * 3] = {ZERO};
             double place[3 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 3, at[b]);
-                pair_features(at[b], X[b]);
+                pair_features(at[b], X + 3 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 13 * near[i];
-                    pair_forward(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient(at[b], slope_sum[b], grad);
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                pair_gradient(at[b], slope_sum + 3 * b, grad);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
                 vector_to_rows(grad, gradient, count, start + b * LANES, 3, 3);
             }
         }
@@ -610,25 +703,24 @@ void euclidean_splats_value(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[3], X[2][3], value_sum[2][1] = {{ZERO}};
+            vector at[3], X[2 * 3], value_sum[2] = {ZERO};
             double place[3 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 3, at);
-                pair_features(at, X[b]);
+                pair_features(at, X + 3 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 13 * near[i];
-                    pair_value(X[0], S, value_sum[0]);
-                    pair_value(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -647,19 +739,11 @@ OUTLINE void splat_points(
     vector_end(count, start, 3 + 1, point + 3);
 }
 
-/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+/* Adds to sums what some vectors of points add to them, those in the list. */
 OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *sums) {
     vector sum[10] = {ZERO};
-    size_t b = 0;
-    for (; b + 1 < size; b += 2) {
-        const vector *point = points + 7 * (size_t)near[b], *other = points + 7 * (size_t)near[b + 1];
-        pair_backward(point, S, point + 3, point + 3 + 1, sum);
-        pair_backward(other, S, other + 3, other + 3 + 1, sum);
-    }
-    if (b < size) {
-        const vector *point = points + 7 * (size_t)near[b];
-        pair_backward(point, S, point + 3, point + 3 + 1, sum);
-    }
+    for (size_t b = 0; b < size; b += 16)
+        pair_backward(size - b < 16 ? size - b : 16, points, near + b, S, sum);
     sums[0] += vector_sum(sum[0]);
     sums[1] += vector_sum(sum[1]);
     sums[2] += vector_sum(sum[2]);
@@ -741,6 +825,7 @@ void euclidean_splats_rows(
     double *EUCLIDEAN_RESTRICT rows, double *EUCLIDEAN_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES - 1) / LANES;
+    const uint32_t only = 0;
     double *constants = work_constants(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -757,7 +842,7 @@ void euclidean_splats_rows(
                 for (int i = 0; i < 3; ++i) own_mu[i] = vector_of(mu[3 * k + i]);
                 for (int i = 0; i < 9; ++i) own_W[i] = vector_of(W[9 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 13 * k, point + 3, point + 3 + 1, own_sums);
+                pair_backward(1, point, &only, constants + 13 * k, own_sums);
                 pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 3, bars + 3 + 9);
                 vector_to_rows(bars, rows + 13 * k, count, block * LANES, 13, 13 * splat_count);
             }
@@ -874,9 +959,14 @@ INLINE vector_f vector_of_f(float x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector_f vector_select_f(vector_mask_f mask, vector_f x, vector_f y) {
-    return SELECT(vector_f, vector_mask_f, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector_f)((mask & (vector_mask_f)x) | (~mask & (vector_mask_f)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -910,7 +1000,7 @@ INLINE vector_f vector_from_bits_f(vector_bits_f bits) {
 
 /* sqrt of every lane; one instruction where the machine has it. */
 INLINE vector_f sqrt_each_f(vector_f x) {
-    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
     return x;
 }
 
@@ -966,73 +1056,121 @@ OUTLINE void pair_constants_f(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_value_f(
-    const vector_f *X, const float *S, vector_f *value) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f x2 = X[2];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float mu2 = S[2];
-    const float W0_0 = S[3];
-    const float W0_1 = S[4];
-    const float W0_2 = S[5];
-    const float W1_0 = S[6];
-    const float W1_1 = S[7];
-    const float W1_2 = S[8];
-    const float W2_0 = S[9];
-    const float W2_1 = S[10];
-    const float W2_2 = S[11];
-    const float amplitude = S[12];
-    const vector_f v0 = x0 - mu0;
-    const vector_f v1 = x1 - mu1;
-    const vector_f v2 = x2 - mu2;
-    const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-    const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-    const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-    const vector_f phi = gaussian_each_f(z0 * z0 + z1 * z1 + z2 * z2);
-    value[0] = value[0] + amplitude * phi;
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values) {
+    struct { vector_f phi; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 13 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float mu2 = S[2];
+        const float W0_0 = S[3];
+        const float W0_1 = S[4];
+        const float W0_2 = S[5];
+        const float W1_0 = S[6];
+        const float W1_1 = S[7];
+        const float W1_2 = S[8];
+        const float W2_0 = S[9];
+        const float W2_1 = S[10];
+        const float W2_2 = S[11];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 3 * b;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f x2 = X[2];
+            const vector_f v0 = x0 - mu0;
+            const vector_f v1 = x1 - mu1;
+            const vector_f v2 = x2 - mu2;
+            const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+            const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+            const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
+            const vector_f phi = gaussian_each_f(z0 * z0 + z1 * z1 + z2 * z2);
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 13 * near[k];
+        const float amplitude = S[12];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector_f *value = values + b;
+            const vector_f phi = kept[k][b].phi;
+            value[0] = value[0] + amplitude * phi;
+        }
+    }
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_forward_f(
-    const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f x2 = X[2];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float mu2 = S[2];
-    const float W0_0 = S[3];
-    const float W0_1 = S[4];
-    const float W0_2 = S[5];
-    const float W1_0 = S[6];
-    const float W1_1 = S[7];
-    const float W1_2 = S[8];
-    const float W2_0 = S[9];
-    const float W2_1 = S[10];
-    const float W2_2 = S[11];
-    const float amplitude = S[12];
-    const vector_f v0 = x0 - mu0;
-    const vector_f v1 = x1 - mu1;
-    const vector_f v2 = x2 - mu2;
-    const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-    const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-    const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-    const vector_f phi = gaussian_each_f(z0 * z0 + z1 * z1 + z2 * z2);
-    const vector_f phi_2 = amplitude * phi;
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] - phi_2 * (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0));
-    slope[1] = slope[1] - phi_2 * (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0));
-    slope[2] = slope[2] - phi_2 * (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0));
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values, vector_f *slopes) {
+    struct { vector_f z0, z1, z2, phi; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 13 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float mu2 = S[2];
+        const float W0_0 = S[3];
+        const float W0_1 = S[4];
+        const float W0_2 = S[5];
+        const float W1_0 = S[6];
+        const float W1_1 = S[7];
+        const float W1_2 = S[8];
+        const float W2_0 = S[9];
+        const float W2_1 = S[10];
+        const float W2_2 = S[11];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 3 * b;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f x2 = X[2];
+            const vector_f v0 = x0 - mu0;
+            const vector_f v1 = x1 - mu1;
+            const vector_f v2 = x2 - mu2;
+            const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+            const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+            const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
+            const vector_f phi = gaussian_each_f(z0 * z0 + z1 * z1 + z2 * z2);
+            kept[k][b].z0 = z0;
+            kept[k][b].z1 = z1;
+            kept[k][b].z2 = z2;
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 13 * near[k];
+        const float W0_0 = S[3];
+        const float W0_1 = S[4];
+        const float W0_2 = S[5];
+        const float W1_0 = S[6];
+        const float W1_1 = S[7];
+        const float W1_2 = S[8];
+        const float W2_0 = S[9];
+        const float W2_1 = S[10];
+        const float W2_2 = S[11];
+        const float amplitude = S[12];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector_f *value = values + b;
+            vector_f *slope = slopes + 3 * b;
+            const vector_f z0 = kept[k][b].z0;
+            const vector_f z1 = kept[k][b].z1;
+            const vector_f z2 = kept[k][b].z2;
+            const vector_f phi = kept[k][b].phi;
+            const vector_f phi_2 = amplitude * phi;
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] - phi_2 * (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0));
+            slope[1] = slope[1] - phi_2 * (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0));
+            slope[2] = slope[2] - phi_2 * (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0));
+        }
+    }
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -1057,6 +1195,94 @@ OUTLINE void pair_gradient_vjp_f(
     slope_bar[0] = gradient_bar0;
     slope_bar[1] = gradient_bar1;
     slope_bar[2] = gradient_bar2;
+}
+
+/*
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
+INLINE void pair_backward_f(
+    size_t count, const vector_f *points, const uint32_t *near, const float *S, vector_f *sums) {
+    struct { vector_f v0, v1, v2, z0, z1, z2, phi; } kept[16];
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 7 * (size_t)near[i];
+        const vector_f x0 = X[0];
+        const vector_f x1 = X[1];
+        const vector_f x2 = X[2];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float mu2 = S[2];
+        const float W0_0 = S[3];
+        const float W0_1 = S[4];
+        const float W0_2 = S[5];
+        const float W1_0 = S[6];
+        const float W1_1 = S[7];
+        const float W1_2 = S[8];
+        const float W2_0 = S[9];
+        const float W2_1 = S[10];
+        const float W2_2 = S[11];
+        const vector_f v0 = x0 - mu0;
+        const vector_f v1 = x1 - mu1;
+        const vector_f v2 = x2 - mu2;
+        const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+        const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+        const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
+        const vector_f phi = gaussian_each_f(z0 * z0 + z1 * z1 + z2 * z2);
+        kept[i].v0 = v0;
+        kept[i].v1 = v1;
+        kept[i].v2 = v2;
+        kept[i].z0 = z0;
+        kept[i].z1 = z1;
+        kept[i].z2 = z2;
+        kept[i].phi = phi;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *value_bar = points + 7 * (size_t)near[i] + 3;
+        const vector_f *slope_bar = points + 7 * (size_t)near[i] + 3 + 1;
+        const vector_f v0 = kept[i].v0;
+        const vector_f v1 = kept[i].v1;
+        const vector_f v2 = kept[i].v2;
+        const vector_f z0 = kept[i].z0;
+        const vector_f z1 = kept[i].z1;
+        const vector_f z2 = kept[i].z2;
+        const vector_f phi = kept[i].phi;
+        const float W0_0 = S[3];
+        const float W0_1 = S[4];
+        const float W0_2 = S[5];
+        const float W1_0 = S[6];
+        const float W1_1 = S[7];
+        const float W1_2 = S[8];
+        const float W2_0 = S[9];
+        const float W2_1 = S[10];
+        const float W2_2 = S[11];
+        const vector_f its_value_bar = value_bar[0];
+        const vector_f x0_bar = slope_bar[0];
+        const vector_f x1_bar = slope_bar[1];
+        const vector_f x2_bar = slope_bar[2];
+        const vector_f phi_product = phi * x0_bar;
+        const vector_f gap = its_value_bar - (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0)) * x2_bar;
+        const vector_f gap_2 = gap - (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0)) * x1_bar;
+        const vector_f by_phi = gap_2 - (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0)) * x0_bar;
+        const vector_f phi_product_2 = phi * by_phi;
+        const vector_f phi_product_3 = phi * x1_bar;
+        const vector_f phi_product_4 = phi * x2_bar;
+        const vector_f product = 0.5f * phi_product_2;
+        const vector_f gap_3 = -phi_product - v0 * product;
+        const vector_f gap_4 = -phi_product_3 - v1 * product;
+        const vector_f gap_5 = -phi_product_4 - v2 * product;
+        sums[0] = sums[0] + phi_product + v0 * phi_product_2;
+        sums[1] = sums[1] + phi_product_3 + v1 * phi_product_2;
+        sums[2] = sums[2] + phi_product_4 + v2 * phi_product_2;
+        sums[3] = sums[3] + phi_product_2;
+        sums[4] = sums[4] + v0 * gap_3;
+        sums[5] = sums[5] + v0 * gap_4 + v1 * gap_3;
+        sums[6] = sums[6] + v0 * gap_5 + v2 * gap_3;
+        sums[7] = sums[7] + v1 * gap_4;
+        sums[8] = sums[8] + v1 * gap_5 + v2 * gap_4;
+        sums[9] = sums[9] + v2 * gap_5;
+    }
 }
 
 /* The adjoints of some splats' parameters, of their sums over the points. */
@@ -1120,62 +1346,6 @@ OUTLINE void pair_distances_f(
     const vector_f log1 = q1 - p1;
     const vector_f log2 = q2 - p2;
     distance[0] = sqrt_each_f(log0 * log0 + log1 * log1 + log2 * log2);
-}
-
-/*
- * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
- *
- * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
- */
-INLINE void pair_backward_f(
-    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f x2 = X[2];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float mu2 = S[2];
-    const float W0_0 = S[3];
-    const float W0_1 = S[4];
-    const float W0_2 = S[5];
-    const float W1_0 = S[6];
-    const float W1_1 = S[7];
-    const float W1_2 = S[8];
-    const float W2_0 = S[9];
-    const float W2_1 = S[10];
-    const float W2_2 = S[11];
-    const vector_f its_value_bar = value_bar[0];
-    const vector_f x0_bar = slope_bar[0];
-    const vector_f x1_bar = slope_bar[1];
-    const vector_f x2_bar = slope_bar[2];
-    const vector_f v0 = x0 - mu0;
-    const vector_f v1 = x1 - mu1;
-    const vector_f v2 = x2 - mu2;
-    const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-    const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-    const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-    const vector_f phi = gaussian_each_f(z0 * z0 + z1 * z1 + z2 * z2);
-    const vector_f phi_product = phi * x0_bar;
-    const vector_f gap = its_value_bar - (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0)) * x2_bar;
-    const vector_f gap_2 = gap - (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0)) * x1_bar;
-    const vector_f by_phi = gap_2 - (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0)) * x0_bar;
-    const vector_f phi_product_2 = phi * by_phi;
-    const vector_f phi_product_3 = phi * x1_bar;
-    const vector_f phi_product_4 = phi * x2_bar;
-    const vector_f product = 0.5f * phi_product_2;
-    const vector_f gap_3 = -phi_product - v0 * product;
-    const vector_f gap_4 = -phi_product_3 - v1 * product;
-    const vector_f gap_5 = -phi_product_4 - v2 * product;
-    sums[0] = sums[0] + phi_product + v0 * phi_product_2;
-    sums[1] = sums[1] + phi_product_3 + v1 * phi_product_2;
-    sums[2] = sums[2] + phi_product_4 + v2 * phi_product_2;
-    sums[3] = sums[3] + phi_product_2;
-    sums[4] = sums[4] + v0 * gap_3;
-    sums[5] = sums[5] + v0 * gap_4 + v1 * gap_3;
-    sums[6] = sums[6] + v0 * gap_5 + v2 * gap_3;
-    sums[7] = sums[7] + v1 * gap_4;
-    sums[8] = sums[8] + v1 * gap_5 + v2 * gap_4;
-    sums[9] = sums[9] + v2 * gap_5;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -1337,7 +1507,7 @@ OUTLINE void splat_constants_f(
     vector_to_rows_f(S, constants, splat_count, start, 13, 13);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void euclidean_splats_f(
     size_t count, size_t splat_count, const float *EUCLIDEAN_RESTRICT x, const float *EUCLIDEAN_RESTRICT mu, const float *EUCLIDEAN_RESTRICT W, const float *EUCLIDEAN_RESTRICT amplitude, const float *EUCLIDEAN_RESTRICT width,
     float *EUCLIDEAN_RESTRICT value, float *EUCLIDEAN_RESTRICT gradient, float *EUCLIDEAN_RESTRICT work, int threads) {
@@ -1352,27 +1522,26 @@ void euclidean_splats_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[2][3], X[2][3], grad[3];
-            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][3] = {{ZERO}};
+            vector_f at[2][3], X[2 * 3], grad[3];
+            vector_f value_sum[2] = {ZERO}, slope_sum[2 * 3] = {ZERO};
             float place[3 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 3, at[b]);
-                pair_features_f(at[b], X[b]);
+                pair_features_f(at[b], X + 3 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 13 * near[i];
-                    pair_forward_f(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward_f(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward_f(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient_f(at[b], slope_sum[b], grad);
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                pair_gradient_f(at[b], slope_sum + 3 * b, grad);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
                 vector_to_rows_f(grad, gradient, count, start + b * LANES_f, 3, 3);
             }
         }
@@ -1394,25 +1563,24 @@ void euclidean_splats_value_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[3], X[2][3], value_sum[2][1] = {{ZERO}};
+            vector_f at[3], X[2 * 3], value_sum[2] = {ZERO};
             float place[3 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 3, at);
-                pair_features_f(at, X[b]);
+                pair_features_f(at, X + 3 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 13 * near[i];
-                    pair_value_f(X[0], S, value_sum[0]);
-                    pair_value_f(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value_f(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -1431,19 +1599,11 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 3 + 1, point + 3);
 }
 
-/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+/* Adds to sums what some vectors of points add to them, those in the list. */
 OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *sums) {
     vector_f sum[10] = {ZERO};
-    size_t b = 0;
-    for (; b + 1 < size; b += 2) {
-        const vector_f *point = points + 7 * (size_t)near[b], *other = points + 7 * (size_t)near[b + 1];
-        pair_backward_f(point, S, point + 3, point + 3 + 1, sum);
-        pair_backward_f(other, S, other + 3, other + 3 + 1, sum);
-    }
-    if (b < size) {
-        const vector_f *point = points + 7 * (size_t)near[b];
-        pair_backward_f(point, S, point + 3, point + 3 + 1, sum);
-    }
+    for (size_t b = 0; b < size; b += 16)
+        pair_backward_f(size - b < 16 ? size - b : 16, points, near + b, S, sum);
     sums[0] += vector_sum_f(sum[0]);
     sums[1] += vector_sum_f(sum[1]);
     sums[2] += vector_sum_f(sum[2]);
@@ -1525,6 +1685,7 @@ void euclidean_splats_rows_f(
     float *EUCLIDEAN_RESTRICT rows, float *EUCLIDEAN_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    const uint32_t only = 0;
     float *constants = work_constants_f(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -1541,7 +1702,7 @@ void euclidean_splats_rows_f(
                 for (int i = 0; i < 3; ++i) own_mu[i] = vector_of_f(mu[3 * k + i]);
                 for (int i = 0; i < 9; ++i) own_W[i] = vector_of_f(W[9 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 13 * k, point + 3, point + 3 + 1, own_sums);
+                pair_backward_f(1, point, &only, constants + 13 * k, own_sums);
                 pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 3, bars + 3 + 9);
                 vector_to_rows_f(bars, rows + 13 * k, count, block * LANES_f, 13, 13 * splat_count);
             }

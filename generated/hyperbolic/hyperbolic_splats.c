@@ -24,7 +24,6 @@
 #endif
 #define LANE(vector, i) (vector)[i]
 #define ZERO {0}
-#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
 typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
 typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
 typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
@@ -34,7 +33,6 @@ typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
 #else
 #define LANE(vector, i) (vector)
 #define ZERO 0
-#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
 typedef double vector;
 typedef float vector_f;
 typedef int64_t vector_mask;
@@ -49,6 +47,17 @@ typedef uint32_t vector_bits_f;
 #else
 #define INLINE static inline
 #define OUTLINE static
+#endif
+/* UNROLLED: the few turns of a loop one after another. EACH_LANE: of a loop that gcc makes one instruction, if it stays a loop. */
+#if defined(__clang__)
+#define UNROLLED _Pragma("clang loop unroll(full)")
+#define EACH_LANE
+#elif defined(__GNUC__) && __GNUC__ >= 8
+#define UNROLLED _Pragma("GCC unroll 8")
+#define EACH_LANE _Pragma("GCC unroll 1")
+#else
+#define UNROLLED
+#define EACH_LANE
 #endif
 #define LANES (sizeof(vector) / sizeof(double))
 #define LANES_f (sizeof(vector_f) / sizeof(float))
@@ -90,9 +99,14 @@ INLINE vector vector_of(double x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector vector_select(vector_mask mask, vector x, vector y) {
-    return SELECT(vector, vector_mask, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector)((mask & (vector_mask)x) | (~mask & (vector_mask)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -131,13 +145,13 @@ INLINE vector signed_each(vector x, vector sign) {
 
 /* abs of every lane; one instruction where the machine has it. */
 INLINE vector abs_each(vector x) {
-    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
     return x;
 }
 
 /* sqrt of every lane; one instruction where the machine has it. */
 INLINE vector sqrt_each(vector x) {
-    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
     return x;
 }
 
@@ -251,7 +265,8 @@ OUTLINE void pair_constants(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
@@ -260,45 +275,110 @@ OUTLINE void pair_constants(
  * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_value(
-    const vector *X, const double *S, vector *value) {
-    const vector h0 = X[0];
-    const vector h1 = X[1];
-    const vector h2 = X[2];
-    const double amplitude = S[0];
-    const double M0 = S[1];
-    const double M1 = S[2];
-    const double M2 = S[3];
-    const double R0_0 = S[4];
-    const double R0_1 = S[5];
-    const double R0_2 = S[6];
-    const double R1_0 = S[7];
-    const double R1_1 = S[8];
-    const double R1_2 = S[9];
-    const vector gap = h0 - M0;
-    const vector minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
-    const vector u = vector_select(minus < 0.0, vector_of(0.0), minus);
-    const vector w = sqrt_each(1.0 + u);
-    const vector_mask near = w < 1.25;
-    const vector eta = vector_polynomial_eta(4.0 * vector_select(near, w - 1.0, vector_of(0.0)));
-    const vector near_chosen = vector_select(near, vector_of(1.0), u);
-    const vector sqrt_2 = sqrt_each(near_chosen);
-    const vector half_angle = log_each(w + sqrt_2);
-    const vector half_angle_product = sqrt_2 * half_angle;
-    const vector ratio = 1.0 / (near_chosen * half_angle_product);
-    const vector u_product = u * vector_select(near, eta, near_chosen * ratio - w * (half_angle_product *
-        ratio));
-    const vector a = 1.0 / (w * (w + u_product));
-    const vector a_squared = a * a;
-    const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
-    const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
-    const vector square = a_squared * (r0 * r0 + r1 * r1);
-    const vector gaussian = gaussian_each(square);
-    const vector phi = a * gaussian;
-    value[0] = value[0] + amplitude * phi;
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values) {
+    struct { vector u, w, near_chosen, sqrt_2, half_angle, half_angle_product, ratio, a, gaussian; }
+            kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 10 * near[k];
+        const double M0 = S[1];
+        const double M1 = S[2];
+        const double M2 = S[3];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 3 * b;
+            const vector h0 = X[0];
+            const vector h1 = X[1];
+            const vector h2 = X[2];
+            const vector gap = h0 - M0;
+            const vector minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
+            const vector u = vector_select(minus < 0.0, vector_of(0.0), minus);
+            const vector w = sqrt_each(1.0 + u);
+            kept[k][b].u = u;
+            kept[k][b].w = w;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector u = kept[k][b].u;
+            const vector w = kept[k][b].w;
+            const vector_mask its_near = w < 1.25;
+            const vector near_chosen = vector_select(its_near, vector_of(1.0), u);
+            const vector sqrt_2 = sqrt_each(near_chosen);
+            kept[k][b].near_chosen = near_chosen;
+            kept[k][b].sqrt_2 = sqrt_2;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector w = kept[k][b].w;
+            const vector sqrt_2 = kept[k][b].sqrt_2;
+            const vector half_angle = log_each(w + sqrt_2);
+            kept[k][b].half_angle = half_angle;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector near_chosen = kept[k][b].near_chosen;
+            const vector sqrt_2 = kept[k][b].sqrt_2;
+            const vector half_angle = kept[k][b].half_angle;
+            const vector half_angle_product = sqrt_2 * half_angle;
+            const vector ratio = 1.0 / (near_chosen * half_angle_product);
+            kept[k][b].half_angle_product = half_angle_product;
+            kept[k][b].ratio = ratio;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector u = kept[k][b].u;
+            const vector w = kept[k][b].w;
+            const vector near_chosen = kept[k][b].near_chosen;
+            const vector half_angle_product = kept[k][b].half_angle_product;
+            const vector ratio = kept[k][b].ratio;
+            const vector_mask its_near = w < 1.25;
+            const vector eta = vector_polynomial_eta(4.0 * vector_select(its_near, w - 1.0, vector_of(0.0)));
+            const vector u_product = u * vector_select(its_near, eta, near_chosen * ratio - w * (half_angle_product *
+                ratio));
+            const vector a = 1.0 / (w * (w + u_product));
+            kept[k][b].a = a;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 10 * near[k];
+        const double R0_0 = S[4];
+        const double R0_1 = S[5];
+        const double R0_2 = S[6];
+        const double R1_0 = S[7];
+        const double R1_1 = S[8];
+        const double R1_2 = S[9];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 3 * b;
+            const vector a = kept[k][b].a;
+            const vector h0 = X[0];
+            const vector h1 = X[1];
+            const vector h2 = X[2];
+            const vector a_squared = a * a;
+            const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
+            const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
+            const vector square = a_squared * (r0 * r0 + r1 * r1);
+            const vector gaussian = gaussian_each(square);
+            kept[k][b].gaussian = gaussian;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 10 * near[k];
+        const double amplitude = S[0];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector *value = values + b;
+            const vector a = kept[k][b].a;
+            const vector gaussian = kept[k][b].gaussian;
+            const vector phi = a * gaussian;
+            value[0] = value[0] + amplitude * phi;
+        }
+    }
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
@@ -307,51 +387,137 @@ INLINE void pair_value(
  * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_forward(
-    const vector *X, const double *S, vector *value, vector *slope) {
-    const vector h0 = X[0];
-    const vector h1 = X[1];
-    const vector h2 = X[2];
-    const double amplitude = S[0];
-    const double M0 = S[1];
-    const double M1 = S[2];
-    const double M2 = S[3];
-    const double R0_0 = S[4];
-    const double R0_1 = S[5];
-    const double R0_2 = S[6];
-    const double R1_0 = S[7];
-    const double R1_1 = S[8];
-    const double R1_2 = S[9];
-    const vector gap = h0 - M0;
-    const vector minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
-    const vector u = vector_select(minus < 0.0, vector_of(0.0), minus);
-    const vector w = sqrt_each(1.0 + u);
-    const vector_mask near = w < 1.25;
-    const vector eta = vector_polynomial_eta(4.0 * vector_select(near, w - 1.0, vector_of(0.0)));
-    const vector near_chosen = vector_select(near, vector_of(1.0), u);
-    const vector sqrt_2 = sqrt_each(near_chosen);
-    const vector half_angle = log_each(w + sqrt_2);
-    const vector half_angle_product = sqrt_2 * half_angle;
-    const vector ratio = 1.0 / (near_chosen * half_angle_product);
-    const vector near_chosen_2 = vector_select(near, eta, near_chosen * ratio - w * (half_angle_product *
-        ratio));
-    const vector w_total = w + u * near_chosen_2;
-    const vector a = 1.0 / (w * w_total);
-    const vector a_squared = a * a;
-    const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
-    const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
-    const vector square = a_squared * (r0 * r0 + r1 * r1);
-    const vector gaussian = gaussian_each(square);
-    const vector phi = a * gaussian;
-    const vector phi_2 = amplitude * phi;
-    const vector phi_product = phi_2 * a_squared;
-    const vector r1_product = r1 * phi_product;
-    const vector r0_product = r0 * phi_product;
-    const vector over_w = w_total * a;
-    const vector over_w_product = over_w * ((near_chosen_2 - over_w) * (phi_2 - phi_2 * square));
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] - R1_0 * r1_product - R0_0 * r0_product + M0 * over_w_product;
-    slope[1] = slope[1] - R1_1 * r1_product - R0_1 * r0_product - M1 * over_w_product;
-    slope[2] = slope[2] - R1_2 * r1_product - R0_2 * r0_product - M2 * over_w_product;
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values, vector *slopes) {
+    struct { vector u, w, near_chosen, sqrt_2, half_angle, half_angle_product, ratio, near_chosen_2, w_total,
+            a, a_squared, r0, r1, square, gaussian; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 10 * near[k];
+        const double M0 = S[1];
+        const double M1 = S[2];
+        const double M2 = S[3];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 3 * b;
+            const vector h0 = X[0];
+            const vector h1 = X[1];
+            const vector h2 = X[2];
+            const vector gap = h0 - M0;
+            const vector minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
+            const vector u = vector_select(minus < 0.0, vector_of(0.0), minus);
+            const vector w = sqrt_each(1.0 + u);
+            kept[k][b].u = u;
+            kept[k][b].w = w;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector u = kept[k][b].u;
+            const vector w = kept[k][b].w;
+            const vector_mask its_near = w < 1.25;
+            const vector near_chosen = vector_select(its_near, vector_of(1.0), u);
+            const vector sqrt_2 = sqrt_each(near_chosen);
+            kept[k][b].near_chosen = near_chosen;
+            kept[k][b].sqrt_2 = sqrt_2;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector w = kept[k][b].w;
+            const vector sqrt_2 = kept[k][b].sqrt_2;
+            const vector half_angle = log_each(w + sqrt_2);
+            kept[k][b].half_angle = half_angle;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector near_chosen = kept[k][b].near_chosen;
+            const vector sqrt_2 = kept[k][b].sqrt_2;
+            const vector half_angle = kept[k][b].half_angle;
+            const vector half_angle_product = sqrt_2 * half_angle;
+            const vector ratio = 1.0 / (near_chosen * half_angle_product);
+            kept[k][b].half_angle_product = half_angle_product;
+            kept[k][b].ratio = ratio;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector u = kept[k][b].u;
+            const vector w = kept[k][b].w;
+            const vector near_chosen = kept[k][b].near_chosen;
+            const vector half_angle_product = kept[k][b].half_angle_product;
+            const vector ratio = kept[k][b].ratio;
+            const vector_mask its_near = w < 1.25;
+            const vector eta = vector_polynomial_eta(4.0 * vector_select(its_near, w - 1.0, vector_of(0.0)));
+            const vector near_chosen_2 = vector_select(its_near, eta, near_chosen * ratio - w * (half_angle_product *
+                ratio));
+            const vector w_total = w + u * near_chosen_2;
+            const vector a = 1.0 / (w * w_total);
+            kept[k][b].near_chosen_2 = near_chosen_2;
+            kept[k][b].w_total = w_total;
+            kept[k][b].a = a;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 10 * near[k];
+        const double R0_0 = S[4];
+        const double R0_1 = S[5];
+        const double R0_2 = S[6];
+        const double R1_0 = S[7];
+        const double R1_1 = S[8];
+        const double R1_2 = S[9];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 3 * b;
+            const vector a = kept[k][b].a;
+            const vector h0 = X[0];
+            const vector h1 = X[1];
+            const vector h2 = X[2];
+            const vector a_squared = a * a;
+            const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
+            const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
+            const vector square = a_squared * (r0 * r0 + r1 * r1);
+            const vector gaussian = gaussian_each(square);
+            kept[k][b].a_squared = a_squared;
+            kept[k][b].r0 = r0;
+            kept[k][b].r1 = r1;
+            kept[k][b].square = square;
+            kept[k][b].gaussian = gaussian;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 10 * near[k];
+        const double amplitude = S[0];
+        const double M0 = S[1];
+        const double M1 = S[2];
+        const double M2 = S[3];
+        const double R0_0 = S[4];
+        const double R0_1 = S[5];
+        const double R0_2 = S[6];
+        const double R1_0 = S[7];
+        const double R1_1 = S[8];
+        const double R1_2 = S[9];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector *value = values + b;
+            vector *slope = slopes + 3 * b;
+            const vector near_chosen_2 = kept[k][b].near_chosen_2;
+            const vector w_total = kept[k][b].w_total;
+            const vector a = kept[k][b].a;
+            const vector a_squared = kept[k][b].a_squared;
+            const vector r0 = kept[k][b].r0;
+            const vector r1 = kept[k][b].r1;
+            const vector square = kept[k][b].square;
+            const vector gaussian = kept[k][b].gaussian;
+            const vector phi = a * gaussian;
+            const vector phi_2 = amplitude * phi;
+            const vector phi_product = phi_2 * a_squared;
+            const vector r1_product = r1 * phi_product;
+            const vector r0_product = r0 * phi_product;
+            const vector over_w = w_total * a;
+            const vector over_w_product = over_w * ((near_chosen_2 - over_w) * (phi_2 - phi_2 * square));
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] - R1_0 * r1_product - R0_0 * r0_product + M0 * over_w_product;
+            slope[1] = slope[1] - R1_1 * r1_product - R0_1 * r0_product - M1 * over_w_product;
+            slope[2] = slope[2] - R1_2 * r1_product - R0_2 * r0_product - M2 * over_w_product;
+        }
+    }
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -385,6 +551,181 @@ OUTLINE void pair_gradient_vjp(
     slope_bar[0] = 0.5 * (x0 * by_normal_part - gradient_bar0);
     slope_bar[1] = 0.5 * (gradient_bar1 + x1 * by_normal_part);
     slope_bar[2] = 0.5 * (gradient_bar2 + x2 * by_normal_part);
+}
+
+/*
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
+ *
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
+ * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
+ * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
+ * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
+ * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
+ */
+INLINE void pair_backward(
+    size_t count, const vector *points, const uint32_t *near, const double *S, vector *sums) {
+    struct { vector u, w, product, near_chosen, sqrt_2, half_angle, half_angle_product, ratio, product_2,
+            product_3, w_product, near_chosen_2, w_total, a, a_squared, r0, r1, square, gaussian; } kept[16];
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 7 * (size_t)near[i];
+        const vector h0 = X[0];
+        const vector h1 = X[1];
+        const vector h2 = X[2];
+        const double M0 = S[1];
+        const double M1 = S[2];
+        const double M2 = S[3];
+        const vector gap = h0 - M0;
+        const vector minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
+        const vector u = vector_select(minus < 0.0, vector_of(0.0), minus);
+        const vector w = sqrt_each(1.0 + u);
+        kept[i].u = u;
+        kept[i].w = w;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector u = kept[i].u;
+        const vector w = kept[i].w;
+        const vector_mask its_near = w < 1.25;
+        const vector near_chosen = vector_select(its_near, vector_of(1.0), u);
+        const vector sqrt_2 = sqrt_each(near_chosen);
+        kept[i].near_chosen = near_chosen;
+        kept[i].sqrt_2 = sqrt_2;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector w = kept[i].w;
+        const vector sqrt_2 = kept[i].sqrt_2;
+        const vector half_angle = log_each(w + sqrt_2);
+        kept[i].half_angle = half_angle;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector near_chosen = kept[i].near_chosen;
+        const vector sqrt_2 = kept[i].sqrt_2;
+        const vector half_angle = kept[i].half_angle;
+        const vector half_angle_product = sqrt_2 * half_angle;
+        const vector ratio = 1.0 / (near_chosen * half_angle_product);
+        kept[i].half_angle_product = half_angle_product;
+        kept[i].ratio = ratio;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector u = kept[i].u;
+        const vector w = kept[i].w;
+        const vector near_chosen = kept[i].near_chosen;
+        const vector half_angle_product = kept[i].half_angle_product;
+        const vector ratio = kept[i].ratio;
+        const vector_mask its_near = w < 1.25;
+        const vector product = 4.0 * vector_select(its_near, w - 1.0, vector_of(0.0));
+        const vector eta = vector_polynomial_eta(product);
+        const vector product_2 = near_chosen * ratio;
+        const vector product_3 = half_angle_product * ratio;
+        const vector w_product = w * product_3;
+        const vector near_chosen_2 = vector_select(its_near, eta, product_2 - w_product);
+        const vector w_total = w + u * near_chosen_2;
+        const vector a = 1.0 / (w * w_total);
+        kept[i].product = product;
+        kept[i].product_2 = product_2;
+        kept[i].product_3 = product_3;
+        kept[i].w_product = w_product;
+        kept[i].near_chosen_2 = near_chosen_2;
+        kept[i].w_total = w_total;
+        kept[i].a = a;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 7 * (size_t)near[i];
+        const vector a = kept[i].a;
+        const vector h0 = X[0];
+        const vector h1 = X[1];
+        const vector h2 = X[2];
+        const double R0_0 = S[4];
+        const double R0_1 = S[5];
+        const double R0_2 = S[6];
+        const double R1_0 = S[7];
+        const double R1_1 = S[8];
+        const double R1_2 = S[9];
+        const vector a_squared = a * a;
+        const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
+        const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
+        const vector square = a_squared * (r0 * r0 + r1 * r1);
+        const vector gaussian = gaussian_each(square);
+        kept[i].a_squared = a_squared;
+        kept[i].r0 = r0;
+        kept[i].r1 = r1;
+        kept[i].square = square;
+        kept[i].gaussian = gaussian;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 7 * (size_t)near[i];
+        const vector *value_bar = points + 7 * (size_t)near[i] + 3;
+        const vector *slope_bar = points + 7 * (size_t)near[i] + 3 + 1;
+        const vector w = kept[i].w;
+        const vector product = kept[i].product;
+        const vector near_chosen = kept[i].near_chosen;
+        const vector product_2 = kept[i].product_2;
+        const vector product_3 = kept[i].product_3;
+        const vector w_product = kept[i].w_product;
+        const vector near_chosen_2 = kept[i].near_chosen_2;
+        const vector w_total = kept[i].w_total;
+        const vector a = kept[i].a;
+        const vector a_squared = kept[i].a_squared;
+        const vector r0 = kept[i].r0;
+        const vector r1 = kept[i].r1;
+        const vector square = kept[i].square;
+        const vector gaussian = kept[i].gaussian;
+        const vector h0 = X[0];
+        const vector h1 = X[1];
+        const vector h2 = X[2];
+        const double M0 = S[1];
+        const double M1 = S[2];
+        const double M2 = S[3];
+        const double R0_0 = S[4];
+        const double R0_1 = S[5];
+        const double R0_2 = S[6];
+        const double R1_0 = S[7];
+        const double R1_1 = S[8];
+        const double R1_2 = S[9];
+        const vector its_value_bar = value_bar[0];
+        const vector h0_bar = slope_bar[0];
+        const vector h1_bar = slope_bar[1];
+        const vector h2_bar = slope_bar[2];
+        const vector_mask its_near = w < 1.25;
+        const vector phi = a * gaussian;
+        const vector over_w = w_total * a;
+        const vector over_w_gap = near_chosen_2 - over_w;
+        const vector gap_2 = M0 * h0_bar - M1 * h1_bar - M2 * h2_bar;
+        const vector over_w_product = over_w * gap_2;
+        const vector product_4 = over_w_gap * over_w_product;
+        const vector gap_3 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar;
+        const vector gap_4 = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar;
+        const vector total_2 = r1 * gap_3 + r0 * gap_4;
+        const vector by_phi = its_value_bar + product_4 + a_squared * total_2 - square * product_4;
+        const vector phi_product = phi * by_phi;
+        const vector phi_gap = phi - phi * square;
+        const vector product_5 = over_w_gap * phi_gap;
+        const vector over_w_product_2 = over_w * product_5;
+        const vector eta_slope = vector_polynomial_eta_slope(product);
+        const vector product_6 = phi_gap * over_w_product;
+        const vector product_7 = vector_select(its_near, eta_slope, (2.0 + near_chosen) * (product_3 * product_3)
+            - product_2 * (product_2 + w_product)) * product_6;
+        const vector gap_5 = -2.0 * (phi * product_4) - phi_product;
+        const vector product_8 = over_w_gap * (2.0 * a_squared * (phi * total_2) + phi_product + square * gap_5);
+        const vector total_3 = product_7 - over_w * over_w * (product_5 * gap_2 - product_6) + product_8;
+        const vector over_w_product_3 = over_w * total_3;
+        const vector phi_product_2 = phi * a_squared;
+        const vector a_squared_product = a_squared * gap_5;
+        const vector by_r0 = phi_product_2 * gap_4 + r0 * a_squared_product;
+        const vector r0_product = r0 * phi_product_2;
+        const vector by_r1 = phi_product_2 * gap_3 + r1 * a_squared_product;
+        const vector r1_product = r1 * phi_product_2;
+        sums[0] = sums[0] + phi_product;
+        sums[1] = sums[1] + over_w_product_2 * h0_bar + h0 * over_w_product_3;
+        sums[2] = sums[2] - over_w_product_2 * h1_bar - h1 * over_w_product_3;
+        sums[3] = sums[3] - over_w_product_2 * h2_bar - h2 * over_w_product_3;
+        sums[4] = sums[4] + h0 * by_r0 - r0_product * h0_bar;
+        sums[5] = sums[5] + h1 * by_r0 - r0_product * h1_bar;
+        sums[6] = sums[6] + h2 * by_r0 - r0_product * h2_bar;
+        sums[7] = sums[7] + h0 * by_r1 - r1_product * h0_bar;
+        sums[8] = sums[8] + h1 * by_r1 - r1_product * h1_bar;
+        sums[9] = sums[9] + h2 * by_r1 - r1_product * h2_bar;
+    }
 }
 
 /* The adjoints of some splats' parameters, of their sums over the points. */
@@ -470,96 +811,6 @@ OUTLINE void pair_distances(
     const vector asinh_sqrt_ww_over_2 = asinh_each(0.5 * sqrt_ww);
     const vector r = 2.0 * asinh_sqrt_ww_over_2;
     distance[0] = r;
-}
-
-/*
- * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
- *
- * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
- * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
- * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
- * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
- */
-INLINE void pair_backward(
-    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
-    const vector h0 = X[0];
-    const vector h1 = X[1];
-    const vector h2 = X[2];
-    const double M0 = S[1];
-    const double M1 = S[2];
-    const double M2 = S[3];
-    const double R0_0 = S[4];
-    const double R0_1 = S[5];
-    const double R0_2 = S[6];
-    const double R1_0 = S[7];
-    const double R1_1 = S[8];
-    const double R1_2 = S[9];
-    const vector its_value_bar = value_bar[0];
-    const vector h0_bar = slope_bar[0];
-    const vector h1_bar = slope_bar[1];
-    const vector h2_bar = slope_bar[2];
-    const vector gap = h0 - M0;
-    const vector minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
-    const vector u = vector_select(minus < 0.0, vector_of(0.0), minus);
-    const vector w = sqrt_each(1.0 + u);
-    const vector_mask near = w < 1.25;
-    const vector product = 4.0 * vector_select(near, w - 1.0, vector_of(0.0));
-    const vector eta = vector_polynomial_eta(product);
-    const vector near_chosen = vector_select(near, vector_of(1.0), u);
-    const vector sqrt_2 = sqrt_each(near_chosen);
-    const vector half_angle = log_each(w + sqrt_2);
-    const vector half_angle_product = sqrt_2 * half_angle;
-    const vector ratio = 1.0 / (near_chosen * half_angle_product);
-    const vector product_2 = near_chosen * ratio;
-    const vector product_3 = half_angle_product * ratio;
-    const vector w_product = w * product_3;
-    const vector near_chosen_2 = vector_select(near, eta, product_2 - w_product);
-    const vector w_total = w + u * near_chosen_2;
-    const vector a = 1.0 / (w * w_total);
-    const vector a_squared = a * a;
-    const vector r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
-    const vector r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
-    const vector square = a_squared * (r0 * r0 + r1 * r1);
-    const vector gaussian = gaussian_each(square);
-    const vector phi = a * gaussian;
-    const vector over_w = w_total * a;
-    const vector over_w_gap = near_chosen_2 - over_w;
-    const vector gap_2 = M0 * h0_bar - M1 * h1_bar - M2 * h2_bar;
-    const vector over_w_product = over_w * gap_2;
-    const vector product_4 = over_w_gap * over_w_product;
-    const vector gap_3 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar;
-    const vector gap_4 = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar;
-    const vector total_2 = r1 * gap_3 + r0 * gap_4;
-    const vector by_phi = its_value_bar + product_4 + a_squared * total_2 - square * product_4;
-    const vector phi_product = phi * by_phi;
-    const vector phi_gap = phi - phi * square;
-    const vector product_5 = over_w_gap * phi_gap;
-    const vector over_w_product_2 = over_w * product_5;
-    const vector eta_slope = vector_polynomial_eta_slope(product);
-    const vector product_6 = phi_gap * over_w_product;
-    const vector product_7 = vector_select(near, eta_slope, (2.0 + near_chosen) * (product_3 * product_3) -
-        product_2 * (product_2 + w_product)) * product_6;
-    const vector gap_5 = -2.0 * (phi * product_4) - phi_product;
-    const vector product_8 = over_w_gap * (2.0 * a_squared * (phi * total_2) + phi_product + square * gap_5);
-    const vector total_3 = product_7 - over_w * over_w * (product_5 * gap_2 - product_6) + product_8;
-    const vector over_w_product_3 = over_w * total_3;
-    const vector phi_product_2 = phi * a_squared;
-    const vector a_squared_product = a_squared * gap_5;
-    const vector by_r0 = phi_product_2 * gap_4 + r0 * a_squared_product;
-    const vector r0_product = r0 * phi_product_2;
-    const vector by_r1 = phi_product_2 * gap_3 + r1 * a_squared_product;
-    const vector r1_product = r1 * phi_product_2;
-    sums[0] = sums[0] + phi_product;
-    sums[1] = sums[1] + over_w_product_2 * h0_bar + h0 * over_w_product_3;
-    sums[2] = sums[2] - over_w_product_2 * h1_bar - h1 * over_w_product_3;
-    sums[3] = sums[3] - over_w_product_2 * h2_bar - h2 * over_w_product_3;
-    sums[4] = sums[4] + h0 * by_r0 - r0_product * h0_bar;
-    sums[5] = sums[5] + h1 * by_r0 - r0_product * h1_bar;
-    sums[6] = sums[6] + h2 * by_r0 - r0_product * h2_bar;
-    sums[7] = sums[7] + h0 * by_r1 - r1_product * h0_bar;
-    sums[8] = sums[8] + h1 * by_r1 - r1_product * h1_bar;
-    sums[9] = sums[9] + h2 * by_r1 - r1_product * h2_bar;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -721,7 +972,7 @@ OUTLINE void splat_constants(
     vector_to_rows(S, constants, splat_count, start, 10, 10);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void hyperbolic_splats(
     size_t count, size_t splat_count, const double *HYPERBOLIC_RESTRICT x, const double *HYPERBOLIC_RESTRICT mu, const double *HYPERBOLIC_RESTRICT W, const double *HYPERBOLIC_RESTRICT amplitude, const double *HYPERBOLIC_RESTRICT width,
     double *HYPERBOLIC_RESTRICT value, double *HYPERBOLIC_RESTRICT gradient, double *HYPERBOLIC_RESTRICT work, int threads) {
@@ -736,27 +987,26 @@ void hyperbolic_splats(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[2][3], X[2][3], grad[3];
-            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][3] = {{ZERO}};
+            vector at[2][3], X[2 * 3], grad[3];
+            vector value_sum[2] = {ZERO}, slope_sum[2 * 3] = {ZERO};
             double place[3 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 3, at[b]);
-                pair_features(at[b], X[b]);
+                pair_features(at[b], X + 3 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 10 * near[i];
-                    pair_forward(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient(at[b], slope_sum[b], grad);
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                pair_gradient(at[b], slope_sum + 3 * b, grad);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
                 vector_to_rows(grad, gradient, count, start + b * LANES, 3, 3);
             }
         }
@@ -778,25 +1028,24 @@ void hyperbolic_splats_value(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[3], X[2][3], value_sum[2][1] = {{ZERO}};
+            vector at[3], X[2 * 3], value_sum[2] = {ZERO};
             double place[3 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 3, at);
-                pair_features(at, X[b]);
+                pair_features(at, X + 3 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 10 * near[i];
-                    pair_value(X[0], S, value_sum[0]);
-                    pair_value(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -815,19 +1064,11 @@ OUTLINE void splat_points(
     vector_end(count, start, 3 + 1, point + 3);
 }
 
-/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+/* Adds to sums what some vectors of points add to them, those in the list. */
 OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *sums) {
     vector sum[10] = {ZERO};
-    size_t b = 0;
-    for (; b + 1 < size; b += 2) {
-        const vector *point = points + 7 * (size_t)near[b], *other = points + 7 * (size_t)near[b + 1];
-        pair_backward(point, S, point + 3, point + 3 + 1, sum);
-        pair_backward(other, S, other + 3, other + 3 + 1, sum);
-    }
-    if (b < size) {
-        const vector *point = points + 7 * (size_t)near[b];
-        pair_backward(point, S, point + 3, point + 3 + 1, sum);
-    }
+    for (size_t b = 0; b < size; b += 16)
+        pair_backward(size - b < 16 ? size - b : 16, points, near + b, S, sum);
     sums[0] += vector_sum(sum[0]);
     sums[1] += vector_sum(sum[1]);
     sums[2] += vector_sum(sum[2]);
@@ -909,6 +1150,7 @@ void hyperbolic_splats_rows(
     double *HYPERBOLIC_RESTRICT rows, double *HYPERBOLIC_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES - 1) / LANES;
+    const uint32_t only = 0;
     double *constants = work_constants(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -925,7 +1167,7 @@ void hyperbolic_splats_rows(
                 for (int i = 0; i < 3; ++i) own_mu[i] = vector_of(mu[3 * k + i]);
                 for (int i = 0; i < 6; ++i) own_W[i] = vector_of(W[6 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 10 * k, point + 3, point + 3 + 1, own_sums);
+                pair_backward(1, point, &only, constants + 10 * k, own_sums);
                 pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 3, bars + 3 + 6);
                 vector_to_rows(bars, rows + 10 * k, count, block * LANES, 10, 10 * splat_count);
             }
@@ -1042,9 +1284,14 @@ INLINE vector_f vector_of_f(float x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector_f vector_select_f(vector_mask_f mask, vector_f x, vector_f y) {
-    return SELECT(vector_f, vector_mask_f, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector_f)((mask & (vector_mask_f)x) | (~mask & (vector_mask_f)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -1083,13 +1330,13 @@ INLINE vector_f signed_each_f(vector_f x, vector_f sign) {
 
 /* abs of every lane; one instruction where the machine has it. */
 INLINE vector_f abs_each_f(vector_f x) {
-    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
     return x;
 }
 
 /* sqrt of every lane; one instruction where the machine has it. */
 INLINE vector_f sqrt_each_f(vector_f x) {
-    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
     return x;
 }
 
@@ -1200,7 +1447,8 @@ OUTLINE void pair_constants_f(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
@@ -1209,45 +1457,111 @@ OUTLINE void pair_constants_f(
  * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_value_f(
-    const vector_f *X, const float *S, vector_f *value) {
-    const vector_f h0 = X[0];
-    const vector_f h1 = X[1];
-    const vector_f h2 = X[2];
-    const float amplitude = S[0];
-    const float M0 = S[1];
-    const float M1 = S[2];
-    const float M2 = S[3];
-    const float R0_0 = S[4];
-    const float R0_1 = S[5];
-    const float R0_2 = S[6];
-    const float R1_0 = S[7];
-    const float R1_1 = S[8];
-    const float R1_2 = S[9];
-    const vector_f gap = h0 - M0;
-    const vector_f minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
-    const vector_f u = vector_select_f(minus < 0.0f, vector_of_f(0.0f), minus);
-    const vector_f w = sqrt_each_f(1.0f + u);
-    const vector_mask_f near = w < 1.25f;
-    const vector_f eta = vector_polynomial_eta_f(4.0f * vector_select_f(near, w - 1.0f, vector_of_f(0.0f)));
-    const vector_f near_chosen = vector_select_f(near, vector_of_f(1.0f), u);
-    const vector_f sqrt_2 = sqrt_each_f(near_chosen);
-    const vector_f half_angle = log_each_f(w + sqrt_2);
-    const vector_f half_angle_product = sqrt_2 * half_angle;
-    const vector_f ratio = 1.0f / (near_chosen * half_angle_product);
-    const vector_f u_product = u * vector_select_f(near, eta, near_chosen * ratio - w * (half_angle_product *
-        ratio));
-    const vector_f a = 1.0f / (w * (w + u_product));
-    const vector_f a_squared = a * a;
-    const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
-    const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
-    const vector_f square = a_squared * (r0 * r0 + r1 * r1);
-    const vector_f gaussian = gaussian_each_f(square);
-    const vector_f phi = a * gaussian;
-    value[0] = value[0] + amplitude * phi;
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values) {
+    struct { vector_f u, w, near_chosen, sqrt_2, half_angle, half_angle_product, ratio, a, gaussian; }
+            kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 10 * near[k];
+        const float M0 = S[1];
+        const float M1 = S[2];
+        const float M2 = S[3];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 3 * b;
+            const vector_f h0 = X[0];
+            const vector_f h1 = X[1];
+            const vector_f h2 = X[2];
+            const vector_f gap = h0 - M0;
+            const vector_f minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
+            const vector_f u = vector_select_f(minus < 0.0f, vector_of_f(0.0f), minus);
+            const vector_f w = sqrt_each_f(1.0f + u);
+            kept[k][b].u = u;
+            kept[k][b].w = w;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f u = kept[k][b].u;
+            const vector_f w = kept[k][b].w;
+            const vector_mask_f its_near = w < 1.25f;
+            const vector_f near_chosen = vector_select_f(its_near, vector_of_f(1.0f), u);
+            const vector_f sqrt_2 = sqrt_each_f(near_chosen);
+            kept[k][b].near_chosen = near_chosen;
+            kept[k][b].sqrt_2 = sqrt_2;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f w = kept[k][b].w;
+            const vector_f sqrt_2 = kept[k][b].sqrt_2;
+            const vector_f half_angle = log_each_f(w + sqrt_2);
+            kept[k][b].half_angle = half_angle;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f near_chosen = kept[k][b].near_chosen;
+            const vector_f sqrt_2 = kept[k][b].sqrt_2;
+            const vector_f half_angle = kept[k][b].half_angle;
+            const vector_f half_angle_product = sqrt_2 * half_angle;
+            const vector_f ratio = 1.0f / (near_chosen * half_angle_product);
+            kept[k][b].half_angle_product = half_angle_product;
+            kept[k][b].ratio = ratio;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f u = kept[k][b].u;
+            const vector_f w = kept[k][b].w;
+            const vector_f near_chosen = kept[k][b].near_chosen;
+            const vector_f half_angle_product = kept[k][b].half_angle_product;
+            const vector_f ratio = kept[k][b].ratio;
+            const vector_mask_f its_near = w < 1.25f;
+            const vector_f eta = vector_polynomial_eta_f(4.0f * vector_select_f(its_near, w - 1.0f,
+                vector_of_f(0.0f)));
+            const vector_f u_product = u * vector_select_f(its_near, eta, near_chosen * ratio - w *
+                (half_angle_product * ratio));
+            const vector_f a = 1.0f / (w * (w + u_product));
+            kept[k][b].a = a;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 10 * near[k];
+        const float R0_0 = S[4];
+        const float R0_1 = S[5];
+        const float R0_2 = S[6];
+        const float R1_0 = S[7];
+        const float R1_1 = S[8];
+        const float R1_2 = S[9];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 3 * b;
+            const vector_f a = kept[k][b].a;
+            const vector_f h0 = X[0];
+            const vector_f h1 = X[1];
+            const vector_f h2 = X[2];
+            const vector_f a_squared = a * a;
+            const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
+            const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
+            const vector_f square = a_squared * (r0 * r0 + r1 * r1);
+            const vector_f gaussian = gaussian_each_f(square);
+            kept[k][b].gaussian = gaussian;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 10 * near[k];
+        const float amplitude = S[0];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector_f *value = values + b;
+            const vector_f a = kept[k][b].a;
+            const vector_f gaussian = kept[k][b].gaussian;
+            const vector_f phi = a * gaussian;
+            value[0] = value[0] + amplitude * phi;
+        }
+    }
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
@@ -1256,51 +1570,138 @@ INLINE void pair_value_f(
  * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_forward_f(
-    const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
-    const vector_f h0 = X[0];
-    const vector_f h1 = X[1];
-    const vector_f h2 = X[2];
-    const float amplitude = S[0];
-    const float M0 = S[1];
-    const float M1 = S[2];
-    const float M2 = S[3];
-    const float R0_0 = S[4];
-    const float R0_1 = S[5];
-    const float R0_2 = S[6];
-    const float R1_0 = S[7];
-    const float R1_1 = S[8];
-    const float R1_2 = S[9];
-    const vector_f gap = h0 - M0;
-    const vector_f minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
-    const vector_f u = vector_select_f(minus < 0.0f, vector_of_f(0.0f), minus);
-    const vector_f w = sqrt_each_f(1.0f + u);
-    const vector_mask_f near = w < 1.25f;
-    const vector_f eta = vector_polynomial_eta_f(4.0f * vector_select_f(near, w - 1.0f, vector_of_f(0.0f)));
-    const vector_f near_chosen = vector_select_f(near, vector_of_f(1.0f), u);
-    const vector_f sqrt_2 = sqrt_each_f(near_chosen);
-    const vector_f half_angle = log_each_f(w + sqrt_2);
-    const vector_f half_angle_product = sqrt_2 * half_angle;
-    const vector_f ratio = 1.0f / (near_chosen * half_angle_product);
-    const vector_f near_chosen_2 = vector_select_f(near, eta, near_chosen * ratio - w * (half_angle_product *
-        ratio));
-    const vector_f w_total = w + u * near_chosen_2;
-    const vector_f a = 1.0f / (w * w_total);
-    const vector_f a_squared = a * a;
-    const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
-    const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
-    const vector_f square = a_squared * (r0 * r0 + r1 * r1);
-    const vector_f gaussian = gaussian_each_f(square);
-    const vector_f phi = a * gaussian;
-    const vector_f phi_2 = amplitude * phi;
-    const vector_f phi_product = phi_2 * a_squared;
-    const vector_f r1_product = r1 * phi_product;
-    const vector_f r0_product = r0 * phi_product;
-    const vector_f over_w = w_total * a;
-    const vector_f over_w_product = over_w * ((near_chosen_2 - over_w) * (phi_2 - phi_2 * square));
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] - R1_0 * r1_product - R0_0 * r0_product + M0 * over_w_product;
-    slope[1] = slope[1] - R1_1 * r1_product - R0_1 * r0_product - M1 * over_w_product;
-    slope[2] = slope[2] - R1_2 * r1_product - R0_2 * r0_product - M2 * over_w_product;
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values, vector_f *slopes) {
+    struct { vector_f u, w, near_chosen, sqrt_2, half_angle, half_angle_product, ratio, near_chosen_2,
+            w_total, a, a_squared, r0, r1, square, gaussian; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 10 * near[k];
+        const float M0 = S[1];
+        const float M1 = S[2];
+        const float M2 = S[3];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 3 * b;
+            const vector_f h0 = X[0];
+            const vector_f h1 = X[1];
+            const vector_f h2 = X[2];
+            const vector_f gap = h0 - M0;
+            const vector_f minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
+            const vector_f u = vector_select_f(minus < 0.0f, vector_of_f(0.0f), minus);
+            const vector_f w = sqrt_each_f(1.0f + u);
+            kept[k][b].u = u;
+            kept[k][b].w = w;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f u = kept[k][b].u;
+            const vector_f w = kept[k][b].w;
+            const vector_mask_f its_near = w < 1.25f;
+            const vector_f near_chosen = vector_select_f(its_near, vector_of_f(1.0f), u);
+            const vector_f sqrt_2 = sqrt_each_f(near_chosen);
+            kept[k][b].near_chosen = near_chosen;
+            kept[k][b].sqrt_2 = sqrt_2;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f w = kept[k][b].w;
+            const vector_f sqrt_2 = kept[k][b].sqrt_2;
+            const vector_f half_angle = log_each_f(w + sqrt_2);
+            kept[k][b].half_angle = half_angle;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f near_chosen = kept[k][b].near_chosen;
+            const vector_f sqrt_2 = kept[k][b].sqrt_2;
+            const vector_f half_angle = kept[k][b].half_angle;
+            const vector_f half_angle_product = sqrt_2 * half_angle;
+            const vector_f ratio = 1.0f / (near_chosen * half_angle_product);
+            kept[k][b].half_angle_product = half_angle_product;
+            kept[k][b].ratio = ratio;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f u = kept[k][b].u;
+            const vector_f w = kept[k][b].w;
+            const vector_f near_chosen = kept[k][b].near_chosen;
+            const vector_f half_angle_product = kept[k][b].half_angle_product;
+            const vector_f ratio = kept[k][b].ratio;
+            const vector_mask_f its_near = w < 1.25f;
+            const vector_f eta = vector_polynomial_eta_f(4.0f * vector_select_f(its_near, w - 1.0f,
+                vector_of_f(0.0f)));
+            const vector_f near_chosen_2 = vector_select_f(its_near, eta, near_chosen * ratio - w *
+                (half_angle_product * ratio));
+            const vector_f w_total = w + u * near_chosen_2;
+            const vector_f a = 1.0f / (w * w_total);
+            kept[k][b].near_chosen_2 = near_chosen_2;
+            kept[k][b].w_total = w_total;
+            kept[k][b].a = a;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 10 * near[k];
+        const float R0_0 = S[4];
+        const float R0_1 = S[5];
+        const float R0_2 = S[6];
+        const float R1_0 = S[7];
+        const float R1_1 = S[8];
+        const float R1_2 = S[9];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 3 * b;
+            const vector_f a = kept[k][b].a;
+            const vector_f h0 = X[0];
+            const vector_f h1 = X[1];
+            const vector_f h2 = X[2];
+            const vector_f a_squared = a * a;
+            const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
+            const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
+            const vector_f square = a_squared * (r0 * r0 + r1 * r1);
+            const vector_f gaussian = gaussian_each_f(square);
+            kept[k][b].a_squared = a_squared;
+            kept[k][b].r0 = r0;
+            kept[k][b].r1 = r1;
+            kept[k][b].square = square;
+            kept[k][b].gaussian = gaussian;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 10 * near[k];
+        const float amplitude = S[0];
+        const float M0 = S[1];
+        const float M1 = S[2];
+        const float M2 = S[3];
+        const float R0_0 = S[4];
+        const float R0_1 = S[5];
+        const float R0_2 = S[6];
+        const float R1_0 = S[7];
+        const float R1_1 = S[8];
+        const float R1_2 = S[9];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector_f *value = values + b;
+            vector_f *slope = slopes + 3 * b;
+            const vector_f near_chosen_2 = kept[k][b].near_chosen_2;
+            const vector_f w_total = kept[k][b].w_total;
+            const vector_f a = kept[k][b].a;
+            const vector_f a_squared = kept[k][b].a_squared;
+            const vector_f r0 = kept[k][b].r0;
+            const vector_f r1 = kept[k][b].r1;
+            const vector_f square = kept[k][b].square;
+            const vector_f gaussian = kept[k][b].gaussian;
+            const vector_f phi = a * gaussian;
+            const vector_f phi_2 = amplitude * phi;
+            const vector_f phi_product = phi_2 * a_squared;
+            const vector_f r1_product = r1 * phi_product;
+            const vector_f r0_product = r0 * phi_product;
+            const vector_f over_w = w_total * a;
+            const vector_f over_w_product = over_w * ((near_chosen_2 - over_w) * (phi_2 - phi_2 * square));
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] - R1_0 * r1_product - R0_0 * r0_product + M0 * over_w_product;
+            slope[1] = slope[1] - R1_1 * r1_product - R0_1 * r0_product - M1 * over_w_product;
+            slope[2] = slope[2] - R1_2 * r1_product - R0_2 * r0_product - M2 * over_w_product;
+        }
+    }
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -1334,6 +1735,182 @@ OUTLINE void pair_gradient_vjp_f(
     slope_bar[0] = 0.5f * (x0 * by_normal_part - gradient_bar0);
     slope_bar[1] = 0.5f * (gradient_bar1 + x1 * by_normal_part);
     slope_bar[2] = 0.5f * (gradient_bar2 + x2 * by_normal_part);
+}
+
+/*
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
+ *
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
+ * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
+ * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
+ * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
+ * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
+ */
+INLINE void pair_backward_f(
+    size_t count, const vector_f *points, const uint32_t *near, const float *S, vector_f *sums) {
+    struct { vector_f u, w, product, near_chosen, sqrt_2, half_angle, half_angle_product, ratio, product_2,
+            product_3, w_product, near_chosen_2, w_total, a, a_squared, r0, r1, square, gaussian; } kept[16];
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 7 * (size_t)near[i];
+        const vector_f h0 = X[0];
+        const vector_f h1 = X[1];
+        const vector_f h2 = X[2];
+        const float M0 = S[1];
+        const float M1 = S[2];
+        const float M2 = S[3];
+        const vector_f gap = h0 - M0;
+        const vector_f minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
+        const vector_f u = vector_select_f(minus < 0.0f, vector_of_f(0.0f), minus);
+        const vector_f w = sqrt_each_f(1.0f + u);
+        kept[i].u = u;
+        kept[i].w = w;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f u = kept[i].u;
+        const vector_f w = kept[i].w;
+        const vector_mask_f its_near = w < 1.25f;
+        const vector_f near_chosen = vector_select_f(its_near, vector_of_f(1.0f), u);
+        const vector_f sqrt_2 = sqrt_each_f(near_chosen);
+        kept[i].near_chosen = near_chosen;
+        kept[i].sqrt_2 = sqrt_2;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f w = kept[i].w;
+        const vector_f sqrt_2 = kept[i].sqrt_2;
+        const vector_f half_angle = log_each_f(w + sqrt_2);
+        kept[i].half_angle = half_angle;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f near_chosen = kept[i].near_chosen;
+        const vector_f sqrt_2 = kept[i].sqrt_2;
+        const vector_f half_angle = kept[i].half_angle;
+        const vector_f half_angle_product = sqrt_2 * half_angle;
+        const vector_f ratio = 1.0f / (near_chosen * half_angle_product);
+        kept[i].half_angle_product = half_angle_product;
+        kept[i].ratio = ratio;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f u = kept[i].u;
+        const vector_f w = kept[i].w;
+        const vector_f near_chosen = kept[i].near_chosen;
+        const vector_f half_angle_product = kept[i].half_angle_product;
+        const vector_f ratio = kept[i].ratio;
+        const vector_mask_f its_near = w < 1.25f;
+        const vector_f product = 4.0f * vector_select_f(its_near, w - 1.0f, vector_of_f(0.0f));
+        const vector_f eta = vector_polynomial_eta_f(product);
+        const vector_f product_2 = near_chosen * ratio;
+        const vector_f product_3 = half_angle_product * ratio;
+        const vector_f w_product = w * product_3;
+        const vector_f near_chosen_2 = vector_select_f(its_near, eta, product_2 - w_product);
+        const vector_f w_total = w + u * near_chosen_2;
+        const vector_f a = 1.0f / (w * w_total);
+        kept[i].product = product;
+        kept[i].product_2 = product_2;
+        kept[i].product_3 = product_3;
+        kept[i].w_product = w_product;
+        kept[i].near_chosen_2 = near_chosen_2;
+        kept[i].w_total = w_total;
+        kept[i].a = a;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 7 * (size_t)near[i];
+        const vector_f a = kept[i].a;
+        const vector_f h0 = X[0];
+        const vector_f h1 = X[1];
+        const vector_f h2 = X[2];
+        const float R0_0 = S[4];
+        const float R0_1 = S[5];
+        const float R0_2 = S[6];
+        const float R1_0 = S[7];
+        const float R1_1 = S[8];
+        const float R1_2 = S[9];
+        const vector_f a_squared = a * a;
+        const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
+        const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
+        const vector_f square = a_squared * (r0 * r0 + r1 * r1);
+        const vector_f gaussian = gaussian_each_f(square);
+        kept[i].a_squared = a_squared;
+        kept[i].r0 = r0;
+        kept[i].r1 = r1;
+        kept[i].square = square;
+        kept[i].gaussian = gaussian;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 7 * (size_t)near[i];
+        const vector_f *value_bar = points + 7 * (size_t)near[i] + 3;
+        const vector_f *slope_bar = points + 7 * (size_t)near[i] + 3 + 1;
+        const vector_f w = kept[i].w;
+        const vector_f product = kept[i].product;
+        const vector_f near_chosen = kept[i].near_chosen;
+        const vector_f product_2 = kept[i].product_2;
+        const vector_f product_3 = kept[i].product_3;
+        const vector_f w_product = kept[i].w_product;
+        const vector_f near_chosen_2 = kept[i].near_chosen_2;
+        const vector_f w_total = kept[i].w_total;
+        const vector_f a = kept[i].a;
+        const vector_f a_squared = kept[i].a_squared;
+        const vector_f r0 = kept[i].r0;
+        const vector_f r1 = kept[i].r1;
+        const vector_f square = kept[i].square;
+        const vector_f gaussian = kept[i].gaussian;
+        const vector_f h0 = X[0];
+        const vector_f h1 = X[1];
+        const vector_f h2 = X[2];
+        const float M0 = S[1];
+        const float M1 = S[2];
+        const float M2 = S[3];
+        const float R0_0 = S[4];
+        const float R0_1 = S[5];
+        const float R0_2 = S[6];
+        const float R1_0 = S[7];
+        const float R1_1 = S[8];
+        const float R1_2 = S[9];
+        const vector_f its_value_bar = value_bar[0];
+        const vector_f h0_bar = slope_bar[0];
+        const vector_f h1_bar = slope_bar[1];
+        const vector_f h2_bar = slope_bar[2];
+        const vector_mask_f its_near = w < 1.25f;
+        const vector_f phi = a * gaussian;
+        const vector_f over_w = w_total * a;
+        const vector_f over_w_gap = near_chosen_2 - over_w;
+        const vector_f gap_2 = M0 * h0_bar - M1 * h1_bar - M2 * h2_bar;
+        const vector_f over_w_product = over_w * gap_2;
+        const vector_f product_4 = over_w_gap * over_w_product;
+        const vector_f gap_3 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar;
+        const vector_f gap_4 = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar;
+        const vector_f total_2 = r1 * gap_3 + r0 * gap_4;
+        const vector_f by_phi = its_value_bar + product_4 + a_squared * total_2 - square * product_4;
+        const vector_f phi_product = phi * by_phi;
+        const vector_f phi_gap = phi - phi * square;
+        const vector_f product_5 = over_w_gap * phi_gap;
+        const vector_f over_w_product_2 = over_w * product_5;
+        const vector_f eta_slope = vector_polynomial_eta_slope_f(product);
+        const vector_f product_6 = phi_gap * over_w_product;
+        const vector_f product_7 = vector_select_f(its_near, eta_slope, (2.0f + near_chosen) * (product_3 *
+            product_3) - product_2 * (product_2 + w_product)) * product_6;
+        const vector_f gap_5 = -2.0f * (phi * product_4) - phi_product;
+        const vector_f product_8 = over_w_gap * (2.0f * a_squared * (phi * total_2) + phi_product + square *
+            gap_5);
+        const vector_f total_3 = product_7 - over_w * over_w * (product_5 * gap_2 - product_6) + product_8;
+        const vector_f over_w_product_3 = over_w * total_3;
+        const vector_f phi_product_2 = phi * a_squared;
+        const vector_f a_squared_product = a_squared * gap_5;
+        const vector_f by_r0 = phi_product_2 * gap_4 + r0 * a_squared_product;
+        const vector_f r0_product = r0 * phi_product_2;
+        const vector_f by_r1 = phi_product_2 * gap_3 + r1 * a_squared_product;
+        const vector_f r1_product = r1 * phi_product_2;
+        sums[0] = sums[0] + phi_product;
+        sums[1] = sums[1] + over_w_product_2 * h0_bar + h0 * over_w_product_3;
+        sums[2] = sums[2] - over_w_product_2 * h1_bar - h1 * over_w_product_3;
+        sums[3] = sums[3] - over_w_product_2 * h2_bar - h2 * over_w_product_3;
+        sums[4] = sums[4] + h0 * by_r0 - r0_product * h0_bar;
+        sums[5] = sums[5] + h1 * by_r0 - r0_product * h1_bar;
+        sums[6] = sums[6] + h2 * by_r0 - r0_product * h2_bar;
+        sums[7] = sums[7] + h0 * by_r1 - r1_product * h0_bar;
+        sums[8] = sums[8] + h1 * by_r1 - r1_product * h1_bar;
+        sums[9] = sums[9] + h2 * by_r1 - r1_product * h2_bar;
+    }
 }
 
 /* The adjoints of some splats' parameters, of their sums over the points. */
@@ -1420,97 +1997,6 @@ OUTLINE void pair_distances_f(
     const vector_f asinh_sqrt_ww_over_2 = asinh_each_f(0.5f * sqrt_ww);
     const vector_f r = 2.0f * asinh_sqrt_ww_over_2;
     distance[0] = r;
-}
-
-/*
- * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
- *
- * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
- * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
- * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
- * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
- */
-INLINE void pair_backward_f(
-    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
-    const vector_f h0 = X[0];
-    const vector_f h1 = X[1];
-    const vector_f h2 = X[2];
-    const float M0 = S[1];
-    const float M1 = S[2];
-    const float M2 = S[3];
-    const float R0_0 = S[4];
-    const float R0_1 = S[5];
-    const float R0_2 = S[6];
-    const float R1_0 = S[7];
-    const float R1_1 = S[8];
-    const float R1_2 = S[9];
-    const vector_f its_value_bar = value_bar[0];
-    const vector_f h0_bar = slope_bar[0];
-    const vector_f h1_bar = slope_bar[1];
-    const vector_f h2_bar = slope_bar[2];
-    const vector_f gap = h0 - M0;
-    const vector_f minus = -(gap * gap + (h1 - M1) * (M1 - h1) + (h2 - M2) * (M2 - h2));
-    const vector_f u = vector_select_f(minus < 0.0f, vector_of_f(0.0f), minus);
-    const vector_f w = sqrt_each_f(1.0f + u);
-    const vector_mask_f near = w < 1.25f;
-    const vector_f product = 4.0f * vector_select_f(near, w - 1.0f, vector_of_f(0.0f));
-    const vector_f eta = vector_polynomial_eta_f(product);
-    const vector_f near_chosen = vector_select_f(near, vector_of_f(1.0f), u);
-    const vector_f sqrt_2 = sqrt_each_f(near_chosen);
-    const vector_f half_angle = log_each_f(w + sqrt_2);
-    const vector_f half_angle_product = sqrt_2 * half_angle;
-    const vector_f ratio = 1.0f / (near_chosen * half_angle_product);
-    const vector_f product_2 = near_chosen * ratio;
-    const vector_f product_3 = half_angle_product * ratio;
-    const vector_f w_product = w * product_3;
-    const vector_f near_chosen_2 = vector_select_f(near, eta, product_2 - w_product);
-    const vector_f w_total = w + u * near_chosen_2;
-    const vector_f a = 1.0f / (w * w_total);
-    const vector_f a_squared = a * a;
-    const vector_f r0 = h0 * R0_0 + h1 * R0_1 + h2 * R0_2;
-    const vector_f r1 = h0 * R1_0 + h1 * R1_1 + h2 * R1_2;
-    const vector_f square = a_squared * (r0 * r0 + r1 * r1);
-    const vector_f gaussian = gaussian_each_f(square);
-    const vector_f phi = a * gaussian;
-    const vector_f over_w = w_total * a;
-    const vector_f over_w_gap = near_chosen_2 - over_w;
-    const vector_f gap_2 = M0 * h0_bar - M1 * h1_bar - M2 * h2_bar;
-    const vector_f over_w_product = over_w * gap_2;
-    const vector_f product_4 = over_w_gap * over_w_product;
-    const vector_f gap_3 = -(R1_0 * h0_bar) - R1_1 * h1_bar - R1_2 * h2_bar;
-    const vector_f gap_4 = -(R0_0 * h0_bar) - R0_1 * h1_bar - R0_2 * h2_bar;
-    const vector_f total_2 = r1 * gap_3 + r0 * gap_4;
-    const vector_f by_phi = its_value_bar + product_4 + a_squared * total_2 - square * product_4;
-    const vector_f phi_product = phi * by_phi;
-    const vector_f phi_gap = phi - phi * square;
-    const vector_f product_5 = over_w_gap * phi_gap;
-    const vector_f over_w_product_2 = over_w * product_5;
-    const vector_f eta_slope = vector_polynomial_eta_slope_f(product);
-    const vector_f product_6 = phi_gap * over_w_product;
-    const vector_f product_7 = vector_select_f(near, eta_slope, (2.0f + near_chosen) * (product_3 * product_3)
-        - product_2 * (product_2 + w_product)) * product_6;
-    const vector_f gap_5 = -2.0f * (phi * product_4) - phi_product;
-    const vector_f product_8 = over_w_gap * (2.0f * a_squared * (phi * total_2) + phi_product + square *
-        gap_5);
-    const vector_f total_3 = product_7 - over_w * over_w * (product_5 * gap_2 - product_6) + product_8;
-    const vector_f over_w_product_3 = over_w * total_3;
-    const vector_f phi_product_2 = phi * a_squared;
-    const vector_f a_squared_product = a_squared * gap_5;
-    const vector_f by_r0 = phi_product_2 * gap_4 + r0 * a_squared_product;
-    const vector_f r0_product = r0 * phi_product_2;
-    const vector_f by_r1 = phi_product_2 * gap_3 + r1 * a_squared_product;
-    const vector_f r1_product = r1 * phi_product_2;
-    sums[0] = sums[0] + phi_product;
-    sums[1] = sums[1] + over_w_product_2 * h0_bar + h0 * over_w_product_3;
-    sums[2] = sums[2] - over_w_product_2 * h1_bar - h1 * over_w_product_3;
-    sums[3] = sums[3] - over_w_product_2 * h2_bar - h2 * over_w_product_3;
-    sums[4] = sums[4] + h0 * by_r0 - r0_product * h0_bar;
-    sums[5] = sums[5] + h1 * by_r0 - r0_product * h1_bar;
-    sums[6] = sums[6] + h2 * by_r0 - r0_product * h2_bar;
-    sums[7] = sums[7] + h0 * by_r1 - r1_product * h0_bar;
-    sums[8] = sums[8] + h1 * by_r1 - r1_product * h1_bar;
-    sums[9] = sums[9] + h2 * by_r1 - r1_product * h2_bar;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -1672,7 +2158,7 @@ OUTLINE void splat_constants_f(
     vector_to_rows_f(S, constants, splat_count, start, 10, 10);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void hyperbolic_splats_f(
     size_t count, size_t splat_count, const float *HYPERBOLIC_RESTRICT x, const float *HYPERBOLIC_RESTRICT mu, const float *HYPERBOLIC_RESTRICT W, const float *HYPERBOLIC_RESTRICT amplitude, const float *HYPERBOLIC_RESTRICT width,
     float *HYPERBOLIC_RESTRICT value, float *HYPERBOLIC_RESTRICT gradient, float *HYPERBOLIC_RESTRICT work, int threads) {
@@ -1687,27 +2173,26 @@ void hyperbolic_splats_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[2][3], X[2][3], grad[3];
-            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][3] = {{ZERO}};
+            vector_f at[2][3], X[2 * 3], grad[3];
+            vector_f value_sum[2] = {ZERO}, slope_sum[2 * 3] = {ZERO};
             float place[3 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 3, at[b]);
-                pair_features_f(at[b], X[b]);
+                pair_features_f(at[b], X + 3 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 10 * near[i];
-                    pair_forward_f(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward_f(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward_f(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient_f(at[b], slope_sum[b], grad);
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                pair_gradient_f(at[b], slope_sum + 3 * b, grad);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
                 vector_to_rows_f(grad, gradient, count, start + b * LANES_f, 3, 3);
             }
         }
@@ -1729,25 +2214,24 @@ void hyperbolic_splats_value_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[3], X[2][3], value_sum[2][1] = {{ZERO}};
+            vector_f at[3], X[2 * 3], value_sum[2] = {ZERO};
             float place[3 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 3, at);
-                pair_features_f(at, X[b]);
+                pair_features_f(at, X + 3 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 10 * near[i];
-                    pair_value_f(X[0], S, value_sum[0]);
-                    pair_value_f(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value_f(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -1766,19 +2250,11 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 3 + 1, point + 3);
 }
 
-/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+/* Adds to sums what some vectors of points add to them, those in the list. */
 OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *sums) {
     vector_f sum[10] = {ZERO};
-    size_t b = 0;
-    for (; b + 1 < size; b += 2) {
-        const vector_f *point = points + 7 * (size_t)near[b], *other = points + 7 * (size_t)near[b + 1];
-        pair_backward_f(point, S, point + 3, point + 3 + 1, sum);
-        pair_backward_f(other, S, other + 3, other + 3 + 1, sum);
-    }
-    if (b < size) {
-        const vector_f *point = points + 7 * (size_t)near[b];
-        pair_backward_f(point, S, point + 3, point + 3 + 1, sum);
-    }
+    for (size_t b = 0; b < size; b += 16)
+        pair_backward_f(size - b < 16 ? size - b : 16, points, near + b, S, sum);
     sums[0] += vector_sum_f(sum[0]);
     sums[1] += vector_sum_f(sum[1]);
     sums[2] += vector_sum_f(sum[2]);
@@ -1860,6 +2336,7 @@ void hyperbolic_splats_rows_f(
     float *HYPERBOLIC_RESTRICT rows, float *HYPERBOLIC_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    const uint32_t only = 0;
     float *constants = work_constants_f(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -1876,7 +2353,7 @@ void hyperbolic_splats_rows_f(
                 for (int i = 0; i < 3; ++i) own_mu[i] = vector_of_f(mu[3 * k + i]);
                 for (int i = 0; i < 6; ++i) own_W[i] = vector_of_f(W[6 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 10 * k, point + 3, point + 3 + 1, own_sums);
+                pair_backward_f(1, point, &only, constants + 10 * k, own_sums);
                 pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 3, bars + 3 + 6);
                 vector_to_rows_f(bars, rows + 10 * k, count, block * LANES_f, 10, 10 * splat_count);
             }

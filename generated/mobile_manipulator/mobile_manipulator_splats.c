@@ -24,7 +24,6 @@
 #endif
 #define LANE(vector, i) (vector)[i]
 #define ZERO {0}
-#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
 typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
 typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
 typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
@@ -34,7 +33,6 @@ typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
 #else
 #define LANE(vector, i) (vector)
 #define ZERO 0
-#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
 typedef double vector;
 typedef float vector_f;
 typedef int64_t vector_mask;
@@ -49,6 +47,17 @@ typedef uint32_t vector_bits_f;
 #else
 #define INLINE static inline
 #define OUTLINE static
+#endif
+/* UNROLLED: the few turns of a loop one after another. EACH_LANE: of a loop that gcc makes one instruction, if it stays a loop. */
+#if defined(__clang__)
+#define UNROLLED _Pragma("clang loop unroll(full)")
+#define EACH_LANE
+#elif defined(__GNUC__) && __GNUC__ >= 8
+#define UNROLLED _Pragma("GCC unroll 8")
+#define EACH_LANE _Pragma("GCC unroll 1")
+#else
+#define UNROLLED
+#define EACH_LANE
 #endif
 #define LANES (sizeof(vector) / sizeof(double))
 #define LANES_f (sizeof(vector_f) / sizeof(float))
@@ -90,9 +99,14 @@ INLINE vector vector_of(double x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector vector_select(vector_mask mask, vector x, vector y) {
-    return SELECT(vector, vector_mask, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector)((mask & (vector_mask)x) | (~mask & (vector_mask)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -129,7 +143,7 @@ INLINE vector round_each(vector x) { return (x + 6755399441055744.0) - 675539944
 
 /* sqrt of every lane; one instruction where the machine has it. */
 INLINE vector sqrt_each(vector x) {
-    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
     return x;
 }
 
@@ -353,339 +367,471 @@ OUTLINE void pair_constants(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_value(
-    const vector *X, const double *S, vector *value) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector x2 = X[2];
-    const vector x3 = X[3];
-    const vector x4 = X[4];
-    const vector x5 = X[5];
-    const vector x6 = X[6];
-    const vector x7 = X[7];
-    const vector x8 = X[8];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double mu2 = S[2];
-    const double mu3 = S[3];
-    const double mu4 = S[4];
-    const double mu5 = S[5];
-    const double mu6 = S[6];
-    const double mu7 = S[7];
-    const double mu8 = S[8];
-    const double W0_0 = S[9];
-    const double W0_1 = S[10];
-    const double W0_2 = S[11];
-    const double W0_3 = S[12];
-    const double W0_4 = S[13];
-    const double W0_5 = S[14];
-    const double W0_6 = S[15];
-    const double W0_7 = S[16];
-    const double W0_8 = S[17];
-    const double W1_0 = S[18];
-    const double W1_1 = S[19];
-    const double W1_2 = S[20];
-    const double W1_3 = S[21];
-    const double W1_4 = S[22];
-    const double W1_5 = S[23];
-    const double W1_6 = S[24];
-    const double W1_7 = S[25];
-    const double W1_8 = S[26];
-    const double W2_0 = S[27];
-    const double W2_1 = S[28];
-    const double W2_2 = S[29];
-    const double W2_3 = S[30];
-    const double W2_4 = S[31];
-    const double W2_5 = S[32];
-    const double W2_6 = S[33];
-    const double W2_7 = S[34];
-    const double W2_8 = S[35];
-    const double W3_0 = S[36];
-    const double W3_1 = S[37];
-    const double W3_2 = S[38];
-    const double W3_3 = S[39];
-    const double W3_4 = S[40];
-    const double W3_5 = S[41];
-    const double W3_6 = S[42];
-    const double W3_7 = S[43];
-    const double W3_8 = S[44];
-    const double W4_0 = S[45];
-    const double W4_1 = S[46];
-    const double W4_2 = S[47];
-    const double W4_3 = S[48];
-    const double W4_4 = S[49];
-    const double W4_5 = S[50];
-    const double W4_6 = S[51];
-    const double W4_7 = S[52];
-    const double W4_8 = S[53];
-    const double W5_0 = S[54];
-    const double W5_1 = S[55];
-    const double W5_2 = S[56];
-    const double W5_3 = S[57];
-    const double W5_4 = S[58];
-    const double W5_5 = S[59];
-    const double W5_6 = S[60];
-    const double W5_7 = S[61];
-    const double W5_8 = S[62];
-    const double W6_0 = S[63];
-    const double W6_1 = S[64];
-    const double W6_2 = S[65];
-    const double W6_3 = S[66];
-    const double W6_4 = S[67];
-    const double W6_5 = S[68];
-    const double W6_6 = S[69];
-    const double W6_7 = S[70];
-    const double W6_8 = S[71];
-    const double W7_0 = S[72];
-    const double W7_1 = S[73];
-    const double W7_2 = S[74];
-    const double W7_3 = S[75];
-    const double W7_4 = S[76];
-    const double W7_5 = S[77];
-    const double W7_6 = S[78];
-    const double W7_7 = S[79];
-    const double W7_8 = S[80];
-    const double W8_0 = S[81];
-    const double W8_1 = S[82];
-    const double W8_2 = S[83];
-    const double W8_3 = S[84];
-    const double W8_4 = S[85];
-    const double W8_5 = S[86];
-    const double W8_6 = S[87];
-    const double W8_7 = S[88];
-    const double W8_8 = S[89];
-    const double amplitude = S[90];
-    const vector v0 = x0 - mu0;
-    const vector v1 = x1 - mu1;
-    const vector gap = x2 - mu2;
-    const vector round_2 = round_each(0.15915494309189535 * gap);
-    const vector v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
-    const vector gap_2 = x3 - mu3;
-    const vector round_3 = round_each(0.15915494309189535 * gap_2);
-    const vector v3 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
-    const vector gap_3 = x4 - mu4;
-    const vector round_4 = round_each(0.15915494309189535 * gap_3);
-    const vector v4 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
-    const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-    const vector gap_4 = x5 - mu5;
-    const vector round_5 = round_each(0.15915494309189535 * gap_4);
-    const vector v5 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
-    const vector gap_5 = x6 - mu6;
-    const vector round_6 = round_each(0.15915494309189535 * gap_5);
-    const vector v6 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
-    const vector gap_6 = x7 - mu7;
-    const vector round_7 = round_each(0.15915494309189535 * gap_6);
-    const vector v7 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
-    const vector gap_7 = x8 - mu8;
-    const vector round_8 = round_each(0.15915494309189535 * gap_7);
-    const vector v8 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
-    const vector z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
-    const vector total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-    const vector z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
-    const vector total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-    const vector z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
-    const vector total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-    const vector z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
-    const vector total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-    const vector z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
-    const vector total_7 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-    const vector total_8 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-    const vector z5 = total_8 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
-    const vector total_9 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
-    const vector z6 = total_9 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
-    const vector total_10 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
-    const vector z7 = total_10 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
-    const vector total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
-    const vector z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
-    const vector total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-    const vector phi = gaussian_each(total_12);
-    value[0] = value[0] + amplitude * phi;
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values) {
+    struct { vector phi; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 91 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double mu2 = S[2];
+        const double mu3 = S[3];
+        const double mu4 = S[4];
+        const double mu5 = S[5];
+        const double mu6 = S[6];
+        const double mu7 = S[7];
+        const double mu8 = S[8];
+        const double W0_0 = S[9];
+        const double W0_1 = S[10];
+        const double W0_2 = S[11];
+        const double W0_3 = S[12];
+        const double W0_4 = S[13];
+        const double W0_5 = S[14];
+        const double W0_6 = S[15];
+        const double W0_7 = S[16];
+        const double W0_8 = S[17];
+        const double W1_0 = S[18];
+        const double W1_1 = S[19];
+        const double W1_2 = S[20];
+        const double W1_3 = S[21];
+        const double W1_4 = S[22];
+        const double W1_5 = S[23];
+        const double W1_6 = S[24];
+        const double W1_7 = S[25];
+        const double W1_8 = S[26];
+        const double W2_0 = S[27];
+        const double W2_1 = S[28];
+        const double W2_2 = S[29];
+        const double W2_3 = S[30];
+        const double W2_4 = S[31];
+        const double W2_5 = S[32];
+        const double W2_6 = S[33];
+        const double W2_7 = S[34];
+        const double W2_8 = S[35];
+        const double W3_0 = S[36];
+        const double W3_1 = S[37];
+        const double W3_2 = S[38];
+        const double W3_3 = S[39];
+        const double W3_4 = S[40];
+        const double W3_5 = S[41];
+        const double W3_6 = S[42];
+        const double W3_7 = S[43];
+        const double W3_8 = S[44];
+        const double W4_0 = S[45];
+        const double W4_1 = S[46];
+        const double W4_2 = S[47];
+        const double W4_3 = S[48];
+        const double W4_4 = S[49];
+        const double W4_5 = S[50];
+        const double W4_6 = S[51];
+        const double W4_7 = S[52];
+        const double W4_8 = S[53];
+        const double W5_0 = S[54];
+        const double W5_1 = S[55];
+        const double W5_2 = S[56];
+        const double W5_3 = S[57];
+        const double W5_4 = S[58];
+        const double W5_5 = S[59];
+        const double W5_6 = S[60];
+        const double W5_7 = S[61];
+        const double W5_8 = S[62];
+        const double W6_0 = S[63];
+        const double W6_1 = S[64];
+        const double W6_2 = S[65];
+        const double W6_3 = S[66];
+        const double W6_4 = S[67];
+        const double W6_5 = S[68];
+        const double W6_6 = S[69];
+        const double W6_7 = S[70];
+        const double W6_8 = S[71];
+        const double W7_0 = S[72];
+        const double W7_1 = S[73];
+        const double W7_2 = S[74];
+        const double W7_3 = S[75];
+        const double W7_4 = S[76];
+        const double W7_5 = S[77];
+        const double W7_6 = S[78];
+        const double W7_7 = S[79];
+        const double W7_8 = S[80];
+        const double W8_0 = S[81];
+        const double W8_1 = S[82];
+        const double W8_2 = S[83];
+        const double W8_3 = S[84];
+        const double W8_4 = S[85];
+        const double W8_5 = S[86];
+        const double W8_6 = S[87];
+        const double W8_7 = S[88];
+        const double W8_8 = S[89];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 9 * b;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector x2 = X[2];
+            const vector x3 = X[3];
+            const vector x4 = X[4];
+            const vector x5 = X[5];
+            const vector x6 = X[6];
+            const vector x7 = X[7];
+            const vector x8 = X[8];
+            const vector v0 = x0 - mu0;
+            const vector v1 = x1 - mu1;
+            const vector gap = x2 - mu2;
+            const vector round_2 = round_each(0.15915494309189535 * gap);
+            const vector v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
+            const vector gap_2 = x3 - mu3;
+            const vector round_3 = round_each(0.15915494309189535 * gap_2);
+            const vector v3 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
+            const vector gap_3 = x4 - mu4;
+            const vector round_4 = round_each(0.15915494309189535 * gap_3);
+            const vector v4 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
+            const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+            const vector gap_4 = x5 - mu5;
+            const vector round_5 = round_each(0.15915494309189535 * gap_4);
+            const vector v5 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
+            const vector gap_5 = x6 - mu6;
+            const vector round_6 = round_each(0.15915494309189535 * gap_5);
+            const vector v6 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
+            const vector gap_6 = x7 - mu7;
+            const vector round_7 = round_each(0.15915494309189535 * gap_6);
+            const vector v7 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
+            const vector gap_7 = x8 - mu8;
+            const vector round_8 = round_each(0.15915494309189535 * gap_7);
+            const vector v8 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
+            const vector z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+            const vector total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+            const vector z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+            const vector total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+            const vector z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+            const vector total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+            const vector z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+            const vector total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+            const vector z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+            const vector total_7 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+            const vector total_8 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+            const vector z5 = total_8 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+            const vector total_9 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+            const vector z6 = total_9 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+            const vector total_10 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+            const vector z7 = total_10 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+            const vector total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+            const vector z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+            const vector total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+            const vector phi = gaussian_each(total_12);
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 91 * near[k];
+        const double amplitude = S[90];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector *value = values + b;
+            const vector phi = kept[k][b].phi;
+            value[0] = value[0] + amplitude * phi;
+        }
+    }
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_forward(
-    const vector *X, const double *S, vector *value, vector *slope) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector x2 = X[2];
-    const vector x3 = X[3];
-    const vector x4 = X[4];
-    const vector x5 = X[5];
-    const vector x6 = X[6];
-    const vector x7 = X[7];
-    const vector x8 = X[8];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double mu2 = S[2];
-    const double mu3 = S[3];
-    const double mu4 = S[4];
-    const double mu5 = S[5];
-    const double mu6 = S[6];
-    const double mu7 = S[7];
-    const double mu8 = S[8];
-    const double W0_0 = S[9];
-    const double W0_1 = S[10];
-    const double W0_2 = S[11];
-    const double W0_3 = S[12];
-    const double W0_4 = S[13];
-    const double W0_5 = S[14];
-    const double W0_6 = S[15];
-    const double W0_7 = S[16];
-    const double W0_8 = S[17];
-    const double W1_0 = S[18];
-    const double W1_1 = S[19];
-    const double W1_2 = S[20];
-    const double W1_3 = S[21];
-    const double W1_4 = S[22];
-    const double W1_5 = S[23];
-    const double W1_6 = S[24];
-    const double W1_7 = S[25];
-    const double W1_8 = S[26];
-    const double W2_0 = S[27];
-    const double W2_1 = S[28];
-    const double W2_2 = S[29];
-    const double W2_3 = S[30];
-    const double W2_4 = S[31];
-    const double W2_5 = S[32];
-    const double W2_6 = S[33];
-    const double W2_7 = S[34];
-    const double W2_8 = S[35];
-    const double W3_0 = S[36];
-    const double W3_1 = S[37];
-    const double W3_2 = S[38];
-    const double W3_3 = S[39];
-    const double W3_4 = S[40];
-    const double W3_5 = S[41];
-    const double W3_6 = S[42];
-    const double W3_7 = S[43];
-    const double W3_8 = S[44];
-    const double W4_0 = S[45];
-    const double W4_1 = S[46];
-    const double W4_2 = S[47];
-    const double W4_3 = S[48];
-    const double W4_4 = S[49];
-    const double W4_5 = S[50];
-    const double W4_6 = S[51];
-    const double W4_7 = S[52];
-    const double W4_8 = S[53];
-    const double W5_0 = S[54];
-    const double W5_1 = S[55];
-    const double W5_2 = S[56];
-    const double W5_3 = S[57];
-    const double W5_4 = S[58];
-    const double W5_5 = S[59];
-    const double W5_6 = S[60];
-    const double W5_7 = S[61];
-    const double W5_8 = S[62];
-    const double W6_0 = S[63];
-    const double W6_1 = S[64];
-    const double W6_2 = S[65];
-    const double W6_3 = S[66];
-    const double W6_4 = S[67];
-    const double W6_5 = S[68];
-    const double W6_6 = S[69];
-    const double W6_7 = S[70];
-    const double W6_8 = S[71];
-    const double W7_0 = S[72];
-    const double W7_1 = S[73];
-    const double W7_2 = S[74];
-    const double W7_3 = S[75];
-    const double W7_4 = S[76];
-    const double W7_5 = S[77];
-    const double W7_6 = S[78];
-    const double W7_7 = S[79];
-    const double W7_8 = S[80];
-    const double W8_0 = S[81];
-    const double W8_1 = S[82];
-    const double W8_2 = S[83];
-    const double W8_3 = S[84];
-    const double W8_4 = S[85];
-    const double W8_5 = S[86];
-    const double W8_6 = S[87];
-    const double W8_7 = S[88];
-    const double W8_8 = S[89];
-    const double amplitude = S[90];
-    const vector v0 = x0 - mu0;
-    const vector v1 = x1 - mu1;
-    const vector gap = x2 - mu2;
-    const vector round_2 = round_each(0.15915494309189535 * gap);
-    const vector v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
-    const vector gap_2 = x3 - mu3;
-    const vector round_3 = round_each(0.15915494309189535 * gap_2);
-    const vector v3 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
-    const vector gap_3 = x4 - mu4;
-    const vector round_4 = round_each(0.15915494309189535 * gap_3);
-    const vector v4 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
-    const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-    const vector gap_4 = x5 - mu5;
-    const vector round_5 = round_each(0.15915494309189535 * gap_4);
-    const vector v5 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
-    const vector gap_5 = x6 - mu6;
-    const vector round_6 = round_each(0.15915494309189535 * gap_5);
-    const vector v6 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
-    const vector gap_6 = x7 - mu7;
-    const vector round_7 = round_each(0.15915494309189535 * gap_6);
-    const vector v7 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
-    const vector gap_7 = x8 - mu8;
-    const vector round_8 = round_each(0.15915494309189535 * gap_7);
-    const vector v8 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
-    const vector z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
-    const vector total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-    const vector z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
-    const vector total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-    const vector z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
-    const vector total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-    const vector z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
-    const vector total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-    const vector z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
-    const vector total_7 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-    const vector total_8 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-    const vector z5 = total_8 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
-    const vector total_9 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
-    const vector z6 = total_9 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
-    const vector total_10 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
-    const vector z7 = total_10 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
-    const vector total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
-    const vector z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
-    const vector total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-    const vector phi = gaussian_each(total_12);
-    const vector phi_2 = amplitude * phi;
-    const vector z8_product = z8 * phi_2;
-    const vector z7_product = z7 * phi_2;
-    const vector z6_product = z6 * phi_2;
-    const vector z5_product = z5 * phi_2;
-    const vector z4_product = z4 * phi_2;
-    const vector z3_product = z3 * phi_2;
-    const vector z2_product = z2 * phi_2;
-    const vector z1_product = z1 * phi_2;
-    const vector z0_product = z0 * phi_2;
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] - W8_0 * z8_product - W7_0 * z7_product - W6_0 * z6_product - W5_0 * z5_product - W4_0
-            * z4_product - W3_0 * z3_product - W2_0 * z2_product - W1_0 * z1_product - W0_0 * z0_product;
-    slope[1] = slope[1] - W8_1 * z8_product - W7_1 * z7_product - W6_1 * z6_product - W5_1 * z5_product - W4_1
-            * z4_product - W3_1 * z3_product - W2_1 * z2_product - W1_1 * z1_product - W0_1 * z0_product;
-    slope[2] = slope[2] - W8_2 * z8_product - W7_2 * z7_product - W6_2 * z6_product - W5_2 * z5_product - W4_2
-            * z4_product - W3_2 * z3_product - W2_2 * z2_product - W1_2 * z1_product - W0_2 * z0_product;
-    slope[3] = slope[3] - W8_3 * z8_product - W7_3 * z7_product - W6_3 * z6_product - W5_3 * z5_product - W4_3
-            * z4_product - W3_3 * z3_product - W2_3 * z2_product - W1_3 * z1_product - W0_3 * z0_product;
-    slope[4] = slope[4] - W8_4 * z8_product - W7_4 * z7_product - W6_4 * z6_product - W5_4 * z5_product - W4_4
-            * z4_product - W3_4 * z3_product - W2_4 * z2_product - W1_4 * z1_product - W0_4 * z0_product;
-    slope[5] = slope[5] - W8_5 * z8_product - W7_5 * z7_product - W6_5 * z6_product - W5_5 * z5_product - W4_5
-            * z4_product - W3_5 * z3_product - W2_5 * z2_product - W1_5 * z1_product - W0_5 * z0_product;
-    slope[6] = slope[6] - W8_6 * z8_product - W7_6 * z7_product - W6_6 * z6_product - W5_6 * z5_product - W4_6
-            * z4_product - W3_6 * z3_product - W2_6 * z2_product - W1_6 * z1_product - W0_6 * z0_product;
-    slope[7] = slope[7] - W8_7 * z8_product - W7_7 * z7_product - W6_7 * z6_product - W5_7 * z5_product - W4_7
-            * z4_product - W3_7 * z3_product - W2_7 * z2_product - W1_7 * z1_product - W0_7 * z0_product;
-    slope[8] = slope[8] - W8_8 * z8_product - W7_8 * z7_product - W6_8 * z6_product - W5_8 * z5_product - W4_8
-            * z4_product - W3_8 * z3_product - W2_8 * z2_product - W1_8 * z1_product - W0_8 * z0_product;
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values, vector *slopes) {
+    struct { vector z0, z1, z2, z3, z4, z5, z6, z7, z8, phi; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 91 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double mu2 = S[2];
+        const double mu3 = S[3];
+        const double mu4 = S[4];
+        const double mu5 = S[5];
+        const double mu6 = S[6];
+        const double mu7 = S[7];
+        const double mu8 = S[8];
+        const double W0_0 = S[9];
+        const double W0_1 = S[10];
+        const double W0_2 = S[11];
+        const double W0_3 = S[12];
+        const double W0_4 = S[13];
+        const double W0_5 = S[14];
+        const double W0_6 = S[15];
+        const double W0_7 = S[16];
+        const double W0_8 = S[17];
+        const double W1_0 = S[18];
+        const double W1_1 = S[19];
+        const double W1_2 = S[20];
+        const double W1_3 = S[21];
+        const double W1_4 = S[22];
+        const double W1_5 = S[23];
+        const double W1_6 = S[24];
+        const double W1_7 = S[25];
+        const double W1_8 = S[26];
+        const double W2_0 = S[27];
+        const double W2_1 = S[28];
+        const double W2_2 = S[29];
+        const double W2_3 = S[30];
+        const double W2_4 = S[31];
+        const double W2_5 = S[32];
+        const double W2_6 = S[33];
+        const double W2_7 = S[34];
+        const double W2_8 = S[35];
+        const double W3_0 = S[36];
+        const double W3_1 = S[37];
+        const double W3_2 = S[38];
+        const double W3_3 = S[39];
+        const double W3_4 = S[40];
+        const double W3_5 = S[41];
+        const double W3_6 = S[42];
+        const double W3_7 = S[43];
+        const double W3_8 = S[44];
+        const double W4_0 = S[45];
+        const double W4_1 = S[46];
+        const double W4_2 = S[47];
+        const double W4_3 = S[48];
+        const double W4_4 = S[49];
+        const double W4_5 = S[50];
+        const double W4_6 = S[51];
+        const double W4_7 = S[52];
+        const double W4_8 = S[53];
+        const double W5_0 = S[54];
+        const double W5_1 = S[55];
+        const double W5_2 = S[56];
+        const double W5_3 = S[57];
+        const double W5_4 = S[58];
+        const double W5_5 = S[59];
+        const double W5_6 = S[60];
+        const double W5_7 = S[61];
+        const double W5_8 = S[62];
+        const double W6_0 = S[63];
+        const double W6_1 = S[64];
+        const double W6_2 = S[65];
+        const double W6_3 = S[66];
+        const double W6_4 = S[67];
+        const double W6_5 = S[68];
+        const double W6_6 = S[69];
+        const double W6_7 = S[70];
+        const double W6_8 = S[71];
+        const double W7_0 = S[72];
+        const double W7_1 = S[73];
+        const double W7_2 = S[74];
+        const double W7_3 = S[75];
+        const double W7_4 = S[76];
+        const double W7_5 = S[77];
+        const double W7_6 = S[78];
+        const double W7_7 = S[79];
+        const double W7_8 = S[80];
+        const double W8_0 = S[81];
+        const double W8_1 = S[82];
+        const double W8_2 = S[83];
+        const double W8_3 = S[84];
+        const double W8_4 = S[85];
+        const double W8_5 = S[86];
+        const double W8_6 = S[87];
+        const double W8_7 = S[88];
+        const double W8_8 = S[89];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 9 * b;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector x2 = X[2];
+            const vector x3 = X[3];
+            const vector x4 = X[4];
+            const vector x5 = X[5];
+            const vector x6 = X[6];
+            const vector x7 = X[7];
+            const vector x8 = X[8];
+            const vector v0 = x0 - mu0;
+            const vector v1 = x1 - mu1;
+            const vector gap = x2 - mu2;
+            const vector round_2 = round_each(0.15915494309189535 * gap);
+            const vector v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
+            const vector gap_2 = x3 - mu3;
+            const vector round_3 = round_each(0.15915494309189535 * gap_2);
+            const vector v3 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
+            const vector gap_3 = x4 - mu4;
+            const vector round_4 = round_each(0.15915494309189535 * gap_3);
+            const vector v4 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
+            const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+            const vector gap_4 = x5 - mu5;
+            const vector round_5 = round_each(0.15915494309189535 * gap_4);
+            const vector v5 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
+            const vector gap_5 = x6 - mu6;
+            const vector round_6 = round_each(0.15915494309189535 * gap_5);
+            const vector v6 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
+            const vector gap_6 = x7 - mu7;
+            const vector round_7 = round_each(0.15915494309189535 * gap_6);
+            const vector v7 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
+            const vector gap_7 = x8 - mu8;
+            const vector round_8 = round_each(0.15915494309189535 * gap_7);
+            const vector v8 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
+            const vector z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+            const vector total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+            const vector z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+            const vector total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+            const vector z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+            const vector total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+            const vector z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+            const vector total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+            const vector z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+            const vector total_7 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+            const vector total_8 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+            const vector z5 = total_8 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+            const vector total_9 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+            const vector z6 = total_9 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+            const vector total_10 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+            const vector z7 = total_10 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+            const vector total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+            const vector z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+            const vector total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+            const vector phi = gaussian_each(total_12);
+            kept[k][b].z0 = z0;
+            kept[k][b].z1 = z1;
+            kept[k][b].z2 = z2;
+            kept[k][b].z3 = z3;
+            kept[k][b].z4 = z4;
+            kept[k][b].z5 = z5;
+            kept[k][b].z6 = z6;
+            kept[k][b].z7 = z7;
+            kept[k][b].z8 = z8;
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 91 * near[k];
+        const double W0_0 = S[9];
+        const double W0_1 = S[10];
+        const double W0_2 = S[11];
+        const double W0_3 = S[12];
+        const double W0_4 = S[13];
+        const double W0_5 = S[14];
+        const double W0_6 = S[15];
+        const double W0_7 = S[16];
+        const double W0_8 = S[17];
+        const double W1_0 = S[18];
+        const double W1_1 = S[19];
+        const double W1_2 = S[20];
+        const double W1_3 = S[21];
+        const double W1_4 = S[22];
+        const double W1_5 = S[23];
+        const double W1_6 = S[24];
+        const double W1_7 = S[25];
+        const double W1_8 = S[26];
+        const double W2_0 = S[27];
+        const double W2_1 = S[28];
+        const double W2_2 = S[29];
+        const double W2_3 = S[30];
+        const double W2_4 = S[31];
+        const double W2_5 = S[32];
+        const double W2_6 = S[33];
+        const double W2_7 = S[34];
+        const double W2_8 = S[35];
+        const double W3_0 = S[36];
+        const double W3_1 = S[37];
+        const double W3_2 = S[38];
+        const double W3_3 = S[39];
+        const double W3_4 = S[40];
+        const double W3_5 = S[41];
+        const double W3_6 = S[42];
+        const double W3_7 = S[43];
+        const double W3_8 = S[44];
+        const double W4_0 = S[45];
+        const double W4_1 = S[46];
+        const double W4_2 = S[47];
+        const double W4_3 = S[48];
+        const double W4_4 = S[49];
+        const double W4_5 = S[50];
+        const double W4_6 = S[51];
+        const double W4_7 = S[52];
+        const double W4_8 = S[53];
+        const double W5_0 = S[54];
+        const double W5_1 = S[55];
+        const double W5_2 = S[56];
+        const double W5_3 = S[57];
+        const double W5_4 = S[58];
+        const double W5_5 = S[59];
+        const double W5_6 = S[60];
+        const double W5_7 = S[61];
+        const double W5_8 = S[62];
+        const double W6_0 = S[63];
+        const double W6_1 = S[64];
+        const double W6_2 = S[65];
+        const double W6_3 = S[66];
+        const double W6_4 = S[67];
+        const double W6_5 = S[68];
+        const double W6_6 = S[69];
+        const double W6_7 = S[70];
+        const double W6_8 = S[71];
+        const double W7_0 = S[72];
+        const double W7_1 = S[73];
+        const double W7_2 = S[74];
+        const double W7_3 = S[75];
+        const double W7_4 = S[76];
+        const double W7_5 = S[77];
+        const double W7_6 = S[78];
+        const double W7_7 = S[79];
+        const double W7_8 = S[80];
+        const double W8_0 = S[81];
+        const double W8_1 = S[82];
+        const double W8_2 = S[83];
+        const double W8_3 = S[84];
+        const double W8_4 = S[85];
+        const double W8_5 = S[86];
+        const double W8_6 = S[87];
+        const double W8_7 = S[88];
+        const double W8_8 = S[89];
+        const double amplitude = S[90];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector *value = values + b;
+            vector *slope = slopes + 9 * b;
+            const vector z0 = kept[k][b].z0;
+            const vector z1 = kept[k][b].z1;
+            const vector z2 = kept[k][b].z2;
+            const vector z3 = kept[k][b].z3;
+            const vector z4 = kept[k][b].z4;
+            const vector z5 = kept[k][b].z5;
+            const vector z6 = kept[k][b].z6;
+            const vector z7 = kept[k][b].z7;
+            const vector z8 = kept[k][b].z8;
+            const vector phi = kept[k][b].phi;
+            const vector phi_2 = amplitude * phi;
+            const vector z8_product = z8 * phi_2;
+            const vector z7_product = z7 * phi_2;
+            const vector z6_product = z6 * phi_2;
+            const vector z5_product = z5 * phi_2;
+            const vector z4_product = z4 * phi_2;
+            const vector z3_product = z3 * phi_2;
+            const vector z2_product = z2 * phi_2;
+            const vector z1_product = z1 * phi_2;
+            const vector z0_product = z0 * phi_2;
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] - W8_0 * z8_product - W7_0 * z7_product - W6_0 * z6_product - W5_0 * z5_product - W4_0
+                    * z4_product - W3_0 * z3_product - W2_0 * z2_product - W1_0 * z1_product - W0_0 * z0_product;
+            slope[1] = slope[1] - W8_1 * z8_product - W7_1 * z7_product - W6_1 * z6_product - W5_1 * z5_product - W4_1
+                    * z4_product - W3_1 * z3_product - W2_1 * z2_product - W1_1 * z1_product - W0_1 * z0_product;
+            slope[2] = slope[2] - W8_2 * z8_product - W7_2 * z7_product - W6_2 * z6_product - W5_2 * z5_product - W4_2
+                    * z4_product - W3_2 * z3_product - W2_2 * z2_product - W1_2 * z1_product - W0_2 * z0_product;
+            slope[3] = slope[3] - W8_3 * z8_product - W7_3 * z7_product - W6_3 * z6_product - W5_3 * z5_product - W4_3
+                    * z4_product - W3_3 * z3_product - W2_3 * z2_product - W1_3 * z1_product - W0_3 * z0_product;
+            slope[4] = slope[4] - W8_4 * z8_product - W7_4 * z7_product - W6_4 * z6_product - W5_4 * z5_product - W4_4
+                    * z4_product - W3_4 * z3_product - W2_4 * z2_product - W1_4 * z1_product - W0_4 * z0_product;
+            slope[5] = slope[5] - W8_5 * z8_product - W7_5 * z7_product - W6_5 * z6_product - W5_5 * z5_product - W4_5
+                    * z4_product - W3_5 * z3_product - W2_5 * z2_product - W1_5 * z1_product - W0_5 * z0_product;
+            slope[6] = slope[6] - W8_6 * z8_product - W7_6 * z7_product - W6_6 * z6_product - W5_6 * z5_product - W4_6
+                    * z4_product - W3_6 * z3_product - W2_6 * z2_product - W1_6 * z1_product - W0_6 * z0_product;
+            slope[7] = slope[7] - W8_7 * z8_product - W7_7 * z7_product - W6_7 * z6_product - W5_7 * z5_product - W4_7
+                    * z4_product - W3_7 * z3_product - W2_7 * z2_product - W1_7 * z1_product - W0_7 * z0_product;
+            slope[8] = slope[8] - W8_8 * z8_product - W7_8 * z7_product - W6_8 * z6_product - W5_8 * z5_product - W4_8
+                    * z4_product - W3_8 * z3_product - W2_8 * z2_product - W1_8 * z1_product - W0_8 * z0_product;
+        }
+    }
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -734,6 +880,540 @@ OUTLINE void pair_gradient_vjp(
     slope_bar[6] = 16.0 * gradient_bar6;
     slope_bar[7] = 16.0 * gradient_bar7;
     slope_bar[8] = 16.0 * gradient_bar8;
+}
+
+/*
+ * The factors of whose products are what is summed over the points, for some vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
+OUTLINE void pair_factors(
+    size_t count, const vector *points, const uint32_t *near, const double *S, vector *factors) {
+    struct { vector v0, v1, v2, v3, v4, v5, v6, v7, v8, z0, z1, z2, z3, z4, z5, z6, z7, z8, phi; } kept[10];
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 19 * (size_t)near[i];
+        const vector x0 = X[0];
+        const vector x1 = X[1];
+        const vector x2 = X[2];
+        const vector x3 = X[3];
+        const vector x4 = X[4];
+        const vector x5 = X[5];
+        const vector x6 = X[6];
+        const vector x7 = X[7];
+        const vector x8 = X[8];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double mu2 = S[2];
+        const double mu3 = S[3];
+        const double mu4 = S[4];
+        const double mu5 = S[5];
+        const double mu6 = S[6];
+        const double mu7 = S[7];
+        const double mu8 = S[8];
+        const double W0_0 = S[9];
+        const double W0_1 = S[10];
+        const double W0_2 = S[11];
+        const double W0_3 = S[12];
+        const double W0_4 = S[13];
+        const double W0_5 = S[14];
+        const double W0_6 = S[15];
+        const double W0_7 = S[16];
+        const double W0_8 = S[17];
+        const double W1_0 = S[18];
+        const double W1_1 = S[19];
+        const double W1_2 = S[20];
+        const double W1_3 = S[21];
+        const double W1_4 = S[22];
+        const double W1_5 = S[23];
+        const double W1_6 = S[24];
+        const double W1_7 = S[25];
+        const double W1_8 = S[26];
+        const double W2_0 = S[27];
+        const double W2_1 = S[28];
+        const double W2_2 = S[29];
+        const double W2_3 = S[30];
+        const double W2_4 = S[31];
+        const double W2_5 = S[32];
+        const double W2_6 = S[33];
+        const double W2_7 = S[34];
+        const double W2_8 = S[35];
+        const double W3_0 = S[36];
+        const double W3_1 = S[37];
+        const double W3_2 = S[38];
+        const double W3_3 = S[39];
+        const double W3_4 = S[40];
+        const double W3_5 = S[41];
+        const double W3_6 = S[42];
+        const double W3_7 = S[43];
+        const double W3_8 = S[44];
+        const double W4_0 = S[45];
+        const double W4_1 = S[46];
+        const double W4_2 = S[47];
+        const double W4_3 = S[48];
+        const double W4_4 = S[49];
+        const double W4_5 = S[50];
+        const double W4_6 = S[51];
+        const double W4_7 = S[52];
+        const double W4_8 = S[53];
+        const double W5_0 = S[54];
+        const double W5_1 = S[55];
+        const double W5_2 = S[56];
+        const double W5_3 = S[57];
+        const double W5_4 = S[58];
+        const double W5_5 = S[59];
+        const double W5_6 = S[60];
+        const double W5_7 = S[61];
+        const double W5_8 = S[62];
+        const double W6_0 = S[63];
+        const double W6_1 = S[64];
+        const double W6_2 = S[65];
+        const double W6_3 = S[66];
+        const double W6_4 = S[67];
+        const double W6_5 = S[68];
+        const double W6_6 = S[69];
+        const double W6_7 = S[70];
+        const double W6_8 = S[71];
+        const double W7_0 = S[72];
+        const double W7_1 = S[73];
+        const double W7_2 = S[74];
+        const double W7_3 = S[75];
+        const double W7_4 = S[76];
+        const double W7_5 = S[77];
+        const double W7_6 = S[78];
+        const double W7_7 = S[79];
+        const double W7_8 = S[80];
+        const double W8_0 = S[81];
+        const double W8_1 = S[82];
+        const double W8_2 = S[83];
+        const double W8_3 = S[84];
+        const double W8_4 = S[85];
+        const double W8_5 = S[86];
+        const double W8_6 = S[87];
+        const double W8_7 = S[88];
+        const double W8_8 = S[89];
+        const vector v0 = x0 - mu0;
+        const vector v1 = x1 - mu1;
+        const vector gap = x2 - mu2;
+        const vector round_2 = round_each(0.15915494309189535 * gap);
+        const vector v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
+        const vector gap_2 = x3 - mu3;
+        const vector round_3 = round_each(0.15915494309189535 * gap_2);
+        const vector v3 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
+        const vector gap_3 = x4 - mu4;
+        const vector round_4 = round_each(0.15915494309189535 * gap_3);
+        const vector v4 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
+        const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+        const vector gap_4 = x5 - mu5;
+        const vector round_5 = round_each(0.15915494309189535 * gap_4);
+        const vector v5 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
+        const vector gap_5 = x6 - mu6;
+        const vector round_6 = round_each(0.15915494309189535 * gap_5);
+        const vector v6 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
+        const vector gap_6 = x7 - mu7;
+        const vector round_7 = round_each(0.15915494309189535 * gap_6);
+        const vector v7 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
+        const vector gap_7 = x8 - mu8;
+        const vector round_8 = round_each(0.15915494309189535 * gap_7);
+        const vector v8 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
+        const vector z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+        const vector total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+        const vector z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+        const vector total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+        const vector z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+        const vector total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+        const vector z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+        const vector total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+        const vector z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+        const vector total_7 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+        const vector total_8 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+        const vector z5 = total_8 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+        const vector total_9 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+        const vector z6 = total_9 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+        const vector total_10 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+        const vector z7 = total_10 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+        const vector total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+        const vector z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+        const vector total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+        const vector phi = gaussian_each(total_12);
+        kept[i].v0 = v0;
+        kept[i].v1 = v1;
+        kept[i].v2 = v2;
+        kept[i].v3 = v3;
+        kept[i].v4 = v4;
+        kept[i].v5 = v5;
+        kept[i].v6 = v6;
+        kept[i].v7 = v7;
+        kept[i].v8 = v8;
+        kept[i].z0 = z0;
+        kept[i].z1 = z1;
+        kept[i].z2 = z2;
+        kept[i].z3 = z3;
+        kept[i].z4 = z4;
+        kept[i].z5 = z5;
+        kept[i].z6 = z6;
+        kept[i].z7 = z7;
+        kept[i].z8 = z8;
+        kept[i].phi = phi;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *value_bar = points + 19 * (size_t)near[i] + 9;
+        const vector *slope_bar = points + 19 * (size_t)near[i] + 9 + 1;
+        vector *factor = factors + 37 * i;
+        const vector v0 = kept[i].v0;
+        const vector v1 = kept[i].v1;
+        const vector v2 = kept[i].v2;
+        const vector v3 = kept[i].v3;
+        const vector v4 = kept[i].v4;
+        const vector v5 = kept[i].v5;
+        const vector v6 = kept[i].v6;
+        const vector v7 = kept[i].v7;
+        const vector v8 = kept[i].v8;
+        const vector z0 = kept[i].z0;
+        const vector z1 = kept[i].z1;
+        const vector z2 = kept[i].z2;
+        const vector z3 = kept[i].z3;
+        const vector z4 = kept[i].z4;
+        const vector z5 = kept[i].z5;
+        const vector z6 = kept[i].z6;
+        const vector z7 = kept[i].z7;
+        const vector z8 = kept[i].z8;
+        const vector phi = kept[i].phi;
+        const double W0_0 = S[9];
+        const double W0_1 = S[10];
+        const double W0_2 = S[11];
+        const double W0_3 = S[12];
+        const double W0_4 = S[13];
+        const double W0_5 = S[14];
+        const double W0_6 = S[15];
+        const double W0_7 = S[16];
+        const double W0_8 = S[17];
+        const double W1_0 = S[18];
+        const double W1_1 = S[19];
+        const double W1_2 = S[20];
+        const double W1_3 = S[21];
+        const double W1_4 = S[22];
+        const double W1_5 = S[23];
+        const double W1_6 = S[24];
+        const double W1_7 = S[25];
+        const double W1_8 = S[26];
+        const double W2_0 = S[27];
+        const double W2_1 = S[28];
+        const double W2_2 = S[29];
+        const double W2_3 = S[30];
+        const double W2_4 = S[31];
+        const double W2_5 = S[32];
+        const double W2_6 = S[33];
+        const double W2_7 = S[34];
+        const double W2_8 = S[35];
+        const double W3_0 = S[36];
+        const double W3_1 = S[37];
+        const double W3_2 = S[38];
+        const double W3_3 = S[39];
+        const double W3_4 = S[40];
+        const double W3_5 = S[41];
+        const double W3_6 = S[42];
+        const double W3_7 = S[43];
+        const double W3_8 = S[44];
+        const double W4_0 = S[45];
+        const double W4_1 = S[46];
+        const double W4_2 = S[47];
+        const double W4_3 = S[48];
+        const double W4_4 = S[49];
+        const double W4_5 = S[50];
+        const double W4_6 = S[51];
+        const double W4_7 = S[52];
+        const double W4_8 = S[53];
+        const double W5_0 = S[54];
+        const double W5_1 = S[55];
+        const double W5_2 = S[56];
+        const double W5_3 = S[57];
+        const double W5_4 = S[58];
+        const double W5_5 = S[59];
+        const double W5_6 = S[60];
+        const double W5_7 = S[61];
+        const double W5_8 = S[62];
+        const double W6_0 = S[63];
+        const double W6_1 = S[64];
+        const double W6_2 = S[65];
+        const double W6_3 = S[66];
+        const double W6_4 = S[67];
+        const double W6_5 = S[68];
+        const double W6_6 = S[69];
+        const double W6_7 = S[70];
+        const double W6_8 = S[71];
+        const double W7_0 = S[72];
+        const double W7_1 = S[73];
+        const double W7_2 = S[74];
+        const double W7_3 = S[75];
+        const double W7_4 = S[76];
+        const double W7_5 = S[77];
+        const double W7_6 = S[78];
+        const double W7_7 = S[79];
+        const double W7_8 = S[80];
+        const double W8_0 = S[81];
+        const double W8_1 = S[82];
+        const double W8_2 = S[83];
+        const double W8_3 = S[84];
+        const double W8_4 = S[85];
+        const double W8_5 = S[86];
+        const double W8_6 = S[87];
+        const double W8_7 = S[88];
+        const double W8_8 = S[89];
+        const vector its_value_bar = value_bar[0];
+        const vector x0_bar = slope_bar[0];
+        const vector x1_bar = slope_bar[1];
+        const vector x2_bar = slope_bar[2];
+        const vector x3_bar = slope_bar[3];
+        const vector x4_bar = slope_bar[4];
+        const vector x5_bar = slope_bar[5];
+        const vector x6_bar = slope_bar[6];
+        const vector x7_bar = slope_bar[7];
+        const vector x8_bar = slope_bar[8];
+        const vector gap_8 = -(W8_0 * x0_bar) - W8_1 * x1_bar - W8_2 * x2_bar - W8_3 * x3_bar;
+        const vector gap_9 = gap_8 - W8_4 * x4_bar - W8_5 * x5_bar - W8_6 * x6_bar - W8_7 * x7_bar;
+        const vector gap_10 = gap_9 - W8_8 * x8_bar;
+        const vector gap_11 = -(W0_0 * x0_bar) - W0_1 * x1_bar - W0_2 * x2_bar - W0_3 * x3_bar;
+        const vector gap_12 = gap_11 - W0_4 * x4_bar - W0_5 * x5_bar - W0_6 * x6_bar - W0_7 * x7_bar;
+        const vector gap_13 = gap_12 - W0_8 * x8_bar;
+        const vector gap_14 = -(W1_0 * x0_bar) - W1_1 * x1_bar - W1_2 * x2_bar - W1_3 * x3_bar;
+        const vector gap_15 = gap_14 - W1_4 * x4_bar - W1_5 * x5_bar - W1_6 * x6_bar - W1_7 * x7_bar;
+        const vector gap_16 = gap_15 - W1_8 * x8_bar;
+        const vector gap_17 = -(W2_0 * x0_bar) - W2_1 * x1_bar - W2_2 * x2_bar - W2_3 * x3_bar;
+        const vector gap_18 = gap_17 - W2_4 * x4_bar - W2_5 * x5_bar - W2_6 * x6_bar - W2_7 * x7_bar;
+        const vector gap_19 = gap_18 - W2_8 * x8_bar;
+        const vector gap_20 = -(W3_0 * x0_bar) - W3_1 * x1_bar - W3_2 * x2_bar - W3_3 * x3_bar;
+        const vector gap_21 = gap_20 - W3_4 * x4_bar - W3_5 * x5_bar - W3_6 * x6_bar - W3_7 * x7_bar;
+        const vector gap_22 = gap_21 - W3_8 * x8_bar;
+        const vector total_13 = its_value_bar + z0 * gap_13 + z1 * gap_16 + z2 * gap_19 + z3 * gap_22;
+        const vector gap_23 = -(W4_0 * x0_bar) - W4_1 * x1_bar - W4_2 * x2_bar - W4_3 * x3_bar;
+        const vector gap_24 = gap_23 - W4_4 * x4_bar - W4_5 * x5_bar - W4_6 * x6_bar - W4_7 * x7_bar;
+        const vector gap_25 = gap_24 - W4_8 * x8_bar;
+        const vector gap_26 = -(W5_0 * x0_bar) - W5_1 * x1_bar - W5_2 * x2_bar - W5_3 * x3_bar;
+        const vector gap_27 = gap_26 - W5_4 * x4_bar - W5_5 * x5_bar - W5_6 * x6_bar - W5_7 * x7_bar;
+        const vector gap_28 = gap_27 - W5_8 * x8_bar;
+        const vector gap_29 = -(W6_0 * x0_bar) - W6_1 * x1_bar - W6_2 * x2_bar - W6_3 * x3_bar;
+        const vector gap_30 = gap_29 - W6_4 * x4_bar - W6_5 * x5_bar - W6_6 * x6_bar - W6_7 * x7_bar;
+        const vector gap_31 = gap_30 - W6_8 * x8_bar;
+        const vector gap_32 = -(W7_0 * x0_bar) - W7_1 * x1_bar - W7_2 * x2_bar - W7_3 * x3_bar;
+        const vector gap_33 = gap_32 - W7_4 * x4_bar - W7_5 * x5_bar - W7_6 * x6_bar - W7_7 * x7_bar;
+        const vector gap_34 = gap_33 - W7_8 * x8_bar;
+        const vector total_14 = total_13 + z4 * gap_25 + z5 * gap_28 + z6 * gap_31 + z7 * gap_34;
+        const vector by_phi = total_14 + z8 * gap_10;
+        const vector phi_product = phi * by_phi;
+        const vector by_z8 = phi * gap_10 - z8 * phi_product;
+        const vector by_z7 = phi * gap_34 - z7 * phi_product;
+        const vector by_z6 = phi * gap_31 - z6 * phi_product;
+        const vector by_z5 = phi * gap_28 - z5 * phi_product;
+        const vector by_z4 = phi * gap_25 - z4 * phi_product;
+        const vector total_15 = W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5 + W4_0 * by_z4;
+        const vector by_z3 = phi * gap_22 - z3 * phi_product;
+        const vector by_z2 = phi * gap_19 - z2 * phi_product;
+        const vector by_z1 = phi * gap_16 - z1 * phi_product;
+        const vector by_z0 = phi * gap_13 - z0 * phi_product;
+        const vector by_v0 = total_15 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0;
+        const vector total_16 = W8_1 * by_z8 + W7_1 * by_z7 + W6_1 * by_z6 + W5_1 * by_z5 + W4_1 * by_z4;
+        const vector by_v1 = total_16 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
+        const vector total_17 = W8_2 * by_z8 + W7_2 * by_z7 + W6_2 * by_z6 + W5_2 * by_z5 + W4_2 * by_z4;
+        const vector by_v2 = total_17 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0;
+        const vector total_18 = W8_3 * by_z8 + W7_3 * by_z7 + W6_3 * by_z6 + W5_3 * by_z5 + W4_3 * by_z4;
+        const vector by_v3 = total_18 + W3_3 * by_z3 + W2_3 * by_z2 + W1_3 * by_z1 + W0_3 * by_z0;
+        const vector total_19 = W8_4 * by_z8 + W7_4 * by_z7 + W6_4 * by_z6 + W5_4 * by_z5 + W4_4 * by_z4;
+        const vector by_v4 = total_19 + W3_4 * by_z3 + W2_4 * by_z2 + W1_4 * by_z1 + W0_4 * by_z0;
+        const vector total_20 = W8_5 * by_z8 + W7_5 * by_z7 + W6_5 * by_z6 + W5_5 * by_z5 + W4_5 * by_z4;
+        const vector by_v5 = total_20 + W3_5 * by_z3 + W2_5 * by_z2 + W1_5 * by_z1 + W0_5 * by_z0;
+        const vector total_21 = W8_6 * by_z8 + W7_6 * by_z7 + W6_6 * by_z6 + W5_6 * by_z5 + W4_6 * by_z4;
+        const vector by_v6 = total_21 + W3_6 * by_z3 + W2_6 * by_z2 + W1_6 * by_z1 + W0_6 * by_z0;
+        const vector total_22 = W8_7 * by_z8 + W7_7 * by_z7 + W6_7 * by_z6 + W5_7 * by_z5 + W4_7 * by_z4;
+        const vector by_v7 = total_22 + W3_7 * by_z3 + W2_7 * by_z2 + W1_7 * by_z1 + W0_7 * by_z0;
+        const vector total_23 = W8_8 * by_z8 + W7_8 * by_z7 + W6_8 * by_z6 + W5_8 * by_z5 + W4_8 * by_z4;
+        const vector by_v8 = total_23 + W3_8 * by_z3 + W2_8 * by_z2 + W1_8 * by_z1 + W0_8 * by_z0;
+        const vector z0_product = z0 * phi;
+        const vector z1_product = z1 * phi;
+        const vector z2_product = z2 * phi;
+        const vector z3_product = z3 * phi;
+        const vector z4_product = z4 * phi;
+        const vector z5_product = z5 * phi;
+        const vector z6_product = z6 * phi;
+        const vector z7_product = z7 * phi;
+        const vector z8_product = z8 * phi;
+        factor[0] = v0;
+        factor[1] = v1;
+        factor[2] = v2;
+        factor[3] = v3;
+        factor[4] = v4;
+        factor[5] = v5;
+        factor[6] = v6;
+        factor[7] = v7;
+        factor[8] = v8;
+        factor[9] = phi_product;
+        factor[10] = by_z8;
+        factor[11] = by_z7;
+        factor[12] = by_z6;
+        factor[13] = by_z5;
+        factor[14] = by_z4;
+        factor[15] = by_z3;
+        factor[16] = by_z2;
+        factor[17] = by_z1;
+        factor[18] = by_z0;
+        factor[19] = -by_v0;
+        factor[20] = -by_v1;
+        factor[21] = -by_v2;
+        factor[22] = -by_v3;
+        factor[23] = -by_v4;
+        factor[24] = -by_v5;
+        factor[25] = -by_v6;
+        factor[26] = -by_v7;
+        factor[27] = -by_v8;
+        factor[28] = z0_product;
+        factor[29] = z1_product;
+        factor[30] = z2_product;
+        factor[31] = z3_product;
+        factor[32] = z4_product;
+        factor[33] = z5_product;
+        factor[34] = z6_product;
+        factor[35] = z7_product;
+        factor[36] = z8_product;
+    }
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_0(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[19];
+    sum[1] = sum[1] + factor[20];
+    sum[2] = sum[2] + factor[21];
+    sum[3] = sum[3] + factor[22];
+    sum[4] = sum[4] + factor[23];
+    sum[5] = sum[5] + factor[24];
+    sum[6] = sum[6] + factor[25];
+    sum[7] = sum[7] + factor[26];
+    sum[8] = sum[8] + factor[27];
+    sum[9] = sum[9] + factor[9];
+    sum[10] = sum[10] + factor[0] * factor[18] - factor[28] * point[10];
+    sum[11] = sum[11] + factor[1] * factor[18] - factor[28] * point[11];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_1(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[18] - factor[28] * point[12];
+    sum[1] = sum[1] + factor[3] * factor[18] - factor[28] * point[13];
+    sum[2] = sum[2] + factor[4] * factor[18] - factor[28] * point[14];
+    sum[3] = sum[3] + factor[5] * factor[18] - factor[28] * point[15];
+    sum[4] = sum[4] + factor[6] * factor[18] - factor[28] * point[16];
+    sum[5] = sum[5] + factor[7] * factor[18] - factor[28] * point[17];
+    sum[6] = sum[6] + factor[8] * factor[18] - factor[28] * point[18];
+    sum[7] = sum[7] + factor[2] * factor[17] - factor[29] * point[12];
+    sum[8] = sum[8] + factor[3] * factor[17] - factor[29] * point[13];
+    sum[9] = sum[9] + factor[4] * factor[17] - factor[29] * point[14];
+    sum[10] = sum[10] + factor[5] * factor[17] - factor[29] * point[15];
+    sum[11] = sum[11] + factor[6] * factor[17] - factor[29] * point[16];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_2(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[17] - factor[29] * point[10];
+    sum[1] = sum[1] + factor[1] * factor[17] - factor[29] * point[11];
+    sum[2] = sum[2] + factor[7] * factor[17] - factor[29] * point[17];
+    sum[3] = sum[3] + factor[8] * factor[17] - factor[29] * point[18];
+    sum[4] = sum[4] + factor[0] * factor[16] - factor[30] * point[10];
+    sum[5] = sum[5] + factor[1] * factor[16] - factor[30] * point[11];
+    sum[6] = sum[6] + factor[7] * factor[16] - factor[30] * point[17];
+    sum[7] = sum[7] + factor[8] * factor[16] - factor[30] * point[18];
+    sum[8] = sum[8] + factor[2] * factor[16] - factor[30] * point[12];
+    sum[9] = sum[9] + factor[3] * factor[16] - factor[30] * point[13];
+    sum[10] = sum[10] + factor[4] * factor[16] - factor[30] * point[14];
+    sum[11] = sum[11] + factor[5] * factor[16] - factor[30] * point[15];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_3(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[6] * factor[16] - factor[30] * point[16];
+    sum[1] = sum[1] + factor[6] * factor[15] - factor[31] * point[16];
+    sum[2] = sum[2] + factor[0] * factor[15] - factor[31] * point[10];
+    sum[3] = sum[3] + factor[1] * factor[15] - factor[31] * point[11];
+    sum[4] = sum[4] + factor[2] * factor[15] - factor[31] * point[12];
+    sum[5] = sum[5] + factor[3] * factor[15] - factor[31] * point[13];
+    sum[6] = sum[6] + factor[4] * factor[15] - factor[31] * point[14];
+    sum[7] = sum[7] + factor[5] * factor[15] - factor[31] * point[15];
+    sum[8] = sum[8] + factor[7] * factor[15] - factor[31] * point[17];
+    sum[9] = sum[9] + factor[8] * factor[15] - factor[31] * point[18];
+    sum[10] = sum[10] + factor[0] * factor[14] - factor[32] * point[10];
+    sum[11] = sum[11] + factor[1] * factor[14] - factor[32] * point[11];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_4(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[14] - factor[32] * point[12];
+    sum[1] = sum[1] + factor[3] * factor[14] - factor[32] * point[13];
+    sum[2] = sum[2] + factor[4] * factor[14] - factor[32] * point[14];
+    sum[3] = sum[3] + factor[5] * factor[14] - factor[32] * point[15];
+    sum[4] = sum[4] + factor[6] * factor[14] - factor[32] * point[16];
+    sum[5] = sum[5] + factor[7] * factor[14] - factor[32] * point[17];
+    sum[6] = sum[6] + factor[8] * factor[14] - factor[32] * point[18];
+    sum[7] = sum[7] + factor[2] * factor[13] - factor[33] * point[12];
+    sum[8] = sum[8] + factor[3] * factor[13] - factor[33] * point[13];
+    sum[9] = sum[9] + factor[4] * factor[13] - factor[33] * point[14];
+    sum[10] = sum[10] + factor[5] * factor[13] - factor[33] * point[15];
+    sum[11] = sum[11] + factor[6] * factor[13] - factor[33] * point[16];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_5(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[13] - factor[33] * point[10];
+    sum[1] = sum[1] + factor[1] * factor[13] - factor[33] * point[11];
+    sum[2] = sum[2] + factor[7] * factor[13] - factor[33] * point[17];
+    sum[3] = sum[3] + factor[8] * factor[13] - factor[33] * point[18];
+    sum[4] = sum[4] + factor[0] * factor[12] - factor[34] * point[10];
+    sum[5] = sum[5] + factor[1] * factor[12] - factor[34] * point[11];
+    sum[6] = sum[6] + factor[7] * factor[12] - factor[34] * point[17];
+    sum[7] = sum[7] + factor[8] * factor[12] - factor[34] * point[18];
+    sum[8] = sum[8] + factor[2] * factor[12] - factor[34] * point[12];
+    sum[9] = sum[9] + factor[3] * factor[12] - factor[34] * point[13];
+    sum[10] = sum[10] + factor[4] * factor[12] - factor[34] * point[14];
+    sum[11] = sum[11] + factor[5] * factor[12] - factor[34] * point[15];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_6(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[6] * factor[12] - factor[34] * point[16];
+    sum[1] = sum[1] + factor[6] * factor[11] - factor[35] * point[16];
+    sum[2] = sum[2] + factor[0] * factor[11] - factor[35] * point[10];
+    sum[3] = sum[3] + factor[1] * factor[11] - factor[35] * point[11];
+    sum[4] = sum[4] + factor[2] * factor[11] - factor[35] * point[12];
+    sum[5] = sum[5] + factor[3] * factor[11] - factor[35] * point[13];
+    sum[6] = sum[6] + factor[4] * factor[11] - factor[35] * point[14];
+    sum[7] = sum[7] + factor[5] * factor[11] - factor[35] * point[15];
+    sum[8] = sum[8] + factor[7] * factor[11] - factor[35] * point[17];
+    sum[9] = sum[9] + factor[8] * factor[11] - factor[35] * point[18];
+    sum[10] = sum[10] + factor[0] * factor[10] - factor[36] * point[10];
+    sum[11] = sum[11] + factor[1] * factor[10] - factor[36] * point[11];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_7(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[10] - factor[36] * point[12];
+    sum[1] = sum[1] + factor[3] * factor[10] - factor[36] * point[13];
+    sum[2] = sum[2] + factor[4] * factor[10] - factor[36] * point[14];
+    sum[3] = sum[3] + factor[5] * factor[10] - factor[36] * point[15];
+    sum[4] = sum[4] + factor[6] * factor[10] - factor[36] * point[16];
+    sum[5] = sum[5] + factor[7] * factor[10] - factor[36] * point[17];
+    sum[6] = sum[6] + factor[8] * factor[10] - factor[36] * point[18];
 }
 
 /* The adjoints of some splats' parameters, of their sums over the points. */
@@ -978,411 +1658,6 @@ OUTLINE void pair_distances(
     distance[0] = sqrt_each(total_3 + 0.0625 * (arm_log5 * arm_log5));
 }
 
-/*
- * The factors of whose products are what is summed over the points.
- *
- * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
- */
-OUTLINE void pair_factors(
-    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *factor) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector x2 = X[2];
-    const vector x3 = X[3];
-    const vector x4 = X[4];
-    const vector x5 = X[5];
-    const vector x6 = X[6];
-    const vector x7 = X[7];
-    const vector x8 = X[8];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double mu2 = S[2];
-    const double mu3 = S[3];
-    const double mu4 = S[4];
-    const double mu5 = S[5];
-    const double mu6 = S[6];
-    const double mu7 = S[7];
-    const double mu8 = S[8];
-    const double W0_0 = S[9];
-    const double W0_1 = S[10];
-    const double W0_2 = S[11];
-    const double W0_3 = S[12];
-    const double W0_4 = S[13];
-    const double W0_5 = S[14];
-    const double W0_6 = S[15];
-    const double W0_7 = S[16];
-    const double W0_8 = S[17];
-    const double W1_0 = S[18];
-    const double W1_1 = S[19];
-    const double W1_2 = S[20];
-    const double W1_3 = S[21];
-    const double W1_4 = S[22];
-    const double W1_5 = S[23];
-    const double W1_6 = S[24];
-    const double W1_7 = S[25];
-    const double W1_8 = S[26];
-    const double W2_0 = S[27];
-    const double W2_1 = S[28];
-    const double W2_2 = S[29];
-    const double W2_3 = S[30];
-    const double W2_4 = S[31];
-    const double W2_5 = S[32];
-    const double W2_6 = S[33];
-    const double W2_7 = S[34];
-    const double W2_8 = S[35];
-    const double W3_0 = S[36];
-    const double W3_1 = S[37];
-    const double W3_2 = S[38];
-    const double W3_3 = S[39];
-    const double W3_4 = S[40];
-    const double W3_5 = S[41];
-    const double W3_6 = S[42];
-    const double W3_7 = S[43];
-    const double W3_8 = S[44];
-    const double W4_0 = S[45];
-    const double W4_1 = S[46];
-    const double W4_2 = S[47];
-    const double W4_3 = S[48];
-    const double W4_4 = S[49];
-    const double W4_5 = S[50];
-    const double W4_6 = S[51];
-    const double W4_7 = S[52];
-    const double W4_8 = S[53];
-    const double W5_0 = S[54];
-    const double W5_1 = S[55];
-    const double W5_2 = S[56];
-    const double W5_3 = S[57];
-    const double W5_4 = S[58];
-    const double W5_5 = S[59];
-    const double W5_6 = S[60];
-    const double W5_7 = S[61];
-    const double W5_8 = S[62];
-    const double W6_0 = S[63];
-    const double W6_1 = S[64];
-    const double W6_2 = S[65];
-    const double W6_3 = S[66];
-    const double W6_4 = S[67];
-    const double W6_5 = S[68];
-    const double W6_6 = S[69];
-    const double W6_7 = S[70];
-    const double W6_8 = S[71];
-    const double W7_0 = S[72];
-    const double W7_1 = S[73];
-    const double W7_2 = S[74];
-    const double W7_3 = S[75];
-    const double W7_4 = S[76];
-    const double W7_5 = S[77];
-    const double W7_6 = S[78];
-    const double W7_7 = S[79];
-    const double W7_8 = S[80];
-    const double W8_0 = S[81];
-    const double W8_1 = S[82];
-    const double W8_2 = S[83];
-    const double W8_3 = S[84];
-    const double W8_4 = S[85];
-    const double W8_5 = S[86];
-    const double W8_6 = S[87];
-    const double W8_7 = S[88];
-    const double W8_8 = S[89];
-    const vector its_value_bar = value_bar[0];
-    const vector x0_bar = slope_bar[0];
-    const vector x1_bar = slope_bar[1];
-    const vector x2_bar = slope_bar[2];
-    const vector x3_bar = slope_bar[3];
-    const vector x4_bar = slope_bar[4];
-    const vector x5_bar = slope_bar[5];
-    const vector x6_bar = slope_bar[6];
-    const vector x7_bar = slope_bar[7];
-    const vector x8_bar = slope_bar[8];
-    const vector v0 = x0 - mu0;
-    const vector v1 = x1 - mu1;
-    const vector gap = x2 - mu2;
-    const vector round_2 = round_each(0.15915494309189535 * gap);
-    const vector v2 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
-    const vector gap_2 = x3 - mu3;
-    const vector round_3 = round_each(0.15915494309189535 * gap_2);
-    const vector v3 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
-    const vector gap_3 = x4 - mu4;
-    const vector round_4 = round_each(0.15915494309189535 * gap_3);
-    const vector v4 = gap_3 - 6.28125 * round_4 - 0.001935307179586477 * round_4;
-    const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-    const vector gap_4 = x5 - mu5;
-    const vector round_5 = round_each(0.15915494309189535 * gap_4);
-    const vector v5 = gap_4 - 6.28125 * round_5 - 0.001935307179586477 * round_5;
-    const vector gap_5 = x6 - mu6;
-    const vector round_6 = round_each(0.15915494309189535 * gap_5);
-    const vector v6 = gap_5 - 6.28125 * round_6 - 0.001935307179586477 * round_6;
-    const vector gap_6 = x7 - mu7;
-    const vector round_7 = round_each(0.15915494309189535 * gap_6);
-    const vector v7 = gap_6 - 6.28125 * round_7 - 0.001935307179586477 * round_7;
-    const vector gap_7 = x8 - mu8;
-    const vector round_8 = round_each(0.15915494309189535 * gap_7);
-    const vector v8 = gap_7 - 6.28125 * round_8 - 0.001935307179586477 * round_8;
-    const vector z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
-    const vector total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-    const vector z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
-    const vector total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-    const vector z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
-    const vector total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-    const vector z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
-    const vector total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-    const vector z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
-    const vector total_7 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-    const vector total_8 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-    const vector z5 = total_8 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
-    const vector total_9 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
-    const vector z6 = total_9 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
-    const vector total_10 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
-    const vector z7 = total_10 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
-    const vector total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
-    const vector z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
-    const vector total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-    const vector phi = gaussian_each(total_12);
-    const vector gap_8 = -(W8_0 * x0_bar) - W8_1 * x1_bar - W8_2 * x2_bar - W8_3 * x3_bar;
-    const vector gap_9 = gap_8 - W8_4 * x4_bar - W8_5 * x5_bar - W8_6 * x6_bar - W8_7 * x7_bar;
-    const vector gap_10 = gap_9 - W8_8 * x8_bar;
-    const vector gap_11 = -(W0_0 * x0_bar) - W0_1 * x1_bar - W0_2 * x2_bar - W0_3 * x3_bar;
-    const vector gap_12 = gap_11 - W0_4 * x4_bar - W0_5 * x5_bar - W0_6 * x6_bar - W0_7 * x7_bar;
-    const vector gap_13 = gap_12 - W0_8 * x8_bar;
-    const vector gap_14 = -(W1_0 * x0_bar) - W1_1 * x1_bar - W1_2 * x2_bar - W1_3 * x3_bar;
-    const vector gap_15 = gap_14 - W1_4 * x4_bar - W1_5 * x5_bar - W1_6 * x6_bar - W1_7 * x7_bar;
-    const vector gap_16 = gap_15 - W1_8 * x8_bar;
-    const vector gap_17 = -(W2_0 * x0_bar) - W2_1 * x1_bar - W2_2 * x2_bar - W2_3 * x3_bar;
-    const vector gap_18 = gap_17 - W2_4 * x4_bar - W2_5 * x5_bar - W2_6 * x6_bar - W2_7 * x7_bar;
-    const vector gap_19 = gap_18 - W2_8 * x8_bar;
-    const vector gap_20 = -(W3_0 * x0_bar) - W3_1 * x1_bar - W3_2 * x2_bar - W3_3 * x3_bar;
-    const vector gap_21 = gap_20 - W3_4 * x4_bar - W3_5 * x5_bar - W3_6 * x6_bar - W3_7 * x7_bar;
-    const vector gap_22 = gap_21 - W3_8 * x8_bar;
-    const vector total_13 = its_value_bar + z0 * gap_13 + z1 * gap_16 + z2 * gap_19 + z3 * gap_22;
-    const vector gap_23 = -(W4_0 * x0_bar) - W4_1 * x1_bar - W4_2 * x2_bar - W4_3 * x3_bar;
-    const vector gap_24 = gap_23 - W4_4 * x4_bar - W4_5 * x5_bar - W4_6 * x6_bar - W4_7 * x7_bar;
-    const vector gap_25 = gap_24 - W4_8 * x8_bar;
-    const vector gap_26 = -(W5_0 * x0_bar) - W5_1 * x1_bar - W5_2 * x2_bar - W5_3 * x3_bar;
-    const vector gap_27 = gap_26 - W5_4 * x4_bar - W5_5 * x5_bar - W5_6 * x6_bar - W5_7 * x7_bar;
-    const vector gap_28 = gap_27 - W5_8 * x8_bar;
-    const vector gap_29 = -(W6_0 * x0_bar) - W6_1 * x1_bar - W6_2 * x2_bar - W6_3 * x3_bar;
-    const vector gap_30 = gap_29 - W6_4 * x4_bar - W6_5 * x5_bar - W6_6 * x6_bar - W6_7 * x7_bar;
-    const vector gap_31 = gap_30 - W6_8 * x8_bar;
-    const vector gap_32 = -(W7_0 * x0_bar) - W7_1 * x1_bar - W7_2 * x2_bar - W7_3 * x3_bar;
-    const vector gap_33 = gap_32 - W7_4 * x4_bar - W7_5 * x5_bar - W7_6 * x6_bar - W7_7 * x7_bar;
-    const vector gap_34 = gap_33 - W7_8 * x8_bar;
-    const vector total_14 = total_13 + z4 * gap_25 + z5 * gap_28 + z6 * gap_31 + z7 * gap_34;
-    const vector by_phi = total_14 + z8 * gap_10;
-    const vector phi_product = phi * by_phi;
-    const vector by_z8 = phi * gap_10 - z8 * phi_product;
-    const vector by_z7 = phi * gap_34 - z7 * phi_product;
-    const vector by_z6 = phi * gap_31 - z6 * phi_product;
-    const vector by_z5 = phi * gap_28 - z5 * phi_product;
-    const vector by_z4 = phi * gap_25 - z4 * phi_product;
-    const vector total_15 = W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5 + W4_0 * by_z4;
-    const vector by_z3 = phi * gap_22 - z3 * phi_product;
-    const vector by_z2 = phi * gap_19 - z2 * phi_product;
-    const vector by_z1 = phi * gap_16 - z1 * phi_product;
-    const vector by_z0 = phi * gap_13 - z0 * phi_product;
-    const vector by_v0 = total_15 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0;
-    const vector total_16 = W8_1 * by_z8 + W7_1 * by_z7 + W6_1 * by_z6 + W5_1 * by_z5 + W4_1 * by_z4;
-    const vector by_v1 = total_16 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
-    const vector total_17 = W8_2 * by_z8 + W7_2 * by_z7 + W6_2 * by_z6 + W5_2 * by_z5 + W4_2 * by_z4;
-    const vector by_v2 = total_17 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0;
-    const vector total_18 = W8_3 * by_z8 + W7_3 * by_z7 + W6_3 * by_z6 + W5_3 * by_z5 + W4_3 * by_z4;
-    const vector by_v3 = total_18 + W3_3 * by_z3 + W2_3 * by_z2 + W1_3 * by_z1 + W0_3 * by_z0;
-    const vector total_19 = W8_4 * by_z8 + W7_4 * by_z7 + W6_4 * by_z6 + W5_4 * by_z5 + W4_4 * by_z4;
-    const vector by_v4 = total_19 + W3_4 * by_z3 + W2_4 * by_z2 + W1_4 * by_z1 + W0_4 * by_z0;
-    const vector total_20 = W8_5 * by_z8 + W7_5 * by_z7 + W6_5 * by_z6 + W5_5 * by_z5 + W4_5 * by_z4;
-    const vector by_v5 = total_20 + W3_5 * by_z3 + W2_5 * by_z2 + W1_5 * by_z1 + W0_5 * by_z0;
-    const vector total_21 = W8_6 * by_z8 + W7_6 * by_z7 + W6_6 * by_z6 + W5_6 * by_z5 + W4_6 * by_z4;
-    const vector by_v6 = total_21 + W3_6 * by_z3 + W2_6 * by_z2 + W1_6 * by_z1 + W0_6 * by_z0;
-    const vector total_22 = W8_7 * by_z8 + W7_7 * by_z7 + W6_7 * by_z6 + W5_7 * by_z5 + W4_7 * by_z4;
-    const vector by_v7 = total_22 + W3_7 * by_z3 + W2_7 * by_z2 + W1_7 * by_z1 + W0_7 * by_z0;
-    const vector total_23 = W8_8 * by_z8 + W7_8 * by_z7 + W6_8 * by_z6 + W5_8 * by_z5 + W4_8 * by_z4;
-    const vector by_v8 = total_23 + W3_8 * by_z3 + W2_8 * by_z2 + W1_8 * by_z1 + W0_8 * by_z0;
-    const vector z0_product = z0 * phi;
-    const vector z1_product = z1 * phi;
-    const vector z2_product = z2 * phi;
-    const vector z3_product = z3 * phi;
-    const vector z4_product = z4 * phi;
-    const vector z5_product = z5 * phi;
-    const vector z6_product = z6 * phi;
-    const vector z7_product = z7 * phi;
-    const vector z8_product = z8 * phi;
-    factor[0] = v0;
-    factor[1] = v1;
-    factor[2] = v2;
-    factor[3] = v3;
-    factor[4] = v4;
-    factor[5] = v5;
-    factor[6] = v6;
-    factor[7] = v7;
-    factor[8] = v8;
-    factor[9] = phi_product;
-    factor[10] = by_z8;
-    factor[11] = by_z7;
-    factor[12] = by_z6;
-    factor[13] = by_z5;
-    factor[14] = by_z4;
-    factor[15] = by_z3;
-    factor[16] = by_z2;
-    factor[17] = by_z1;
-    factor[18] = by_z0;
-    factor[19] = -by_v0;
-    factor[20] = -by_v1;
-    factor[21] = -by_v2;
-    factor[22] = -by_v3;
-    factor[23] = -by_v4;
-    factor[24] = -by_v5;
-    factor[25] = -by_v6;
-    factor[26] = -by_v7;
-    factor[27] = -by_v8;
-    factor[28] = z0_product;
-    factor[29] = z1_product;
-    factor[30] = z2_product;
-    factor[31] = z3_product;
-    factor[32] = z4_product;
-    factor[33] = z5_product;
-    factor[34] = z6_product;
-    factor[35] = z7_product;
-    factor[36] = z8_product;
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_0(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[19];
-    sum[1] = sum[1] + factor[20];
-    sum[2] = sum[2] + factor[21];
-    sum[3] = sum[3] + factor[22];
-    sum[4] = sum[4] + factor[23];
-    sum[5] = sum[5] + factor[24];
-    sum[6] = sum[6] + factor[25];
-    sum[7] = sum[7] + factor[26];
-    sum[8] = sum[8] + factor[27];
-    sum[9] = sum[9] + factor[9];
-    sum[10] = sum[10] + factor[0] * factor[18] - factor[28] * point[10];
-    sum[11] = sum[11] + factor[1] * factor[18] - factor[28] * point[11];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_1(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[2] * factor[18] - factor[28] * point[12];
-    sum[1] = sum[1] + factor[3] * factor[18] - factor[28] * point[13];
-    sum[2] = sum[2] + factor[4] * factor[18] - factor[28] * point[14];
-    sum[3] = sum[3] + factor[5] * factor[18] - factor[28] * point[15];
-    sum[4] = sum[4] + factor[6] * factor[18] - factor[28] * point[16];
-    sum[5] = sum[5] + factor[7] * factor[18] - factor[28] * point[17];
-    sum[6] = sum[6] + factor[8] * factor[18] - factor[28] * point[18];
-    sum[7] = sum[7] + factor[2] * factor[17] - factor[29] * point[12];
-    sum[8] = sum[8] + factor[3] * factor[17] - factor[29] * point[13];
-    sum[9] = sum[9] + factor[4] * factor[17] - factor[29] * point[14];
-    sum[10] = sum[10] + factor[5] * factor[17] - factor[29] * point[15];
-    sum[11] = sum[11] + factor[6] * factor[17] - factor[29] * point[16];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_2(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[0] * factor[17] - factor[29] * point[10];
-    sum[1] = sum[1] + factor[1] * factor[17] - factor[29] * point[11];
-    sum[2] = sum[2] + factor[7] * factor[17] - factor[29] * point[17];
-    sum[3] = sum[3] + factor[8] * factor[17] - factor[29] * point[18];
-    sum[4] = sum[4] + factor[0] * factor[16] - factor[30] * point[10];
-    sum[5] = sum[5] + factor[1] * factor[16] - factor[30] * point[11];
-    sum[6] = sum[6] + factor[7] * factor[16] - factor[30] * point[17];
-    sum[7] = sum[7] + factor[8] * factor[16] - factor[30] * point[18];
-    sum[8] = sum[8] + factor[2] * factor[16] - factor[30] * point[12];
-    sum[9] = sum[9] + factor[3] * factor[16] - factor[30] * point[13];
-    sum[10] = sum[10] + factor[4] * factor[16] - factor[30] * point[14];
-    sum[11] = sum[11] + factor[5] * factor[16] - factor[30] * point[15];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_3(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[6] * factor[16] - factor[30] * point[16];
-    sum[1] = sum[1] + factor[6] * factor[15] - factor[31] * point[16];
-    sum[2] = sum[2] + factor[0] * factor[15] - factor[31] * point[10];
-    sum[3] = sum[3] + factor[1] * factor[15] - factor[31] * point[11];
-    sum[4] = sum[4] + factor[2] * factor[15] - factor[31] * point[12];
-    sum[5] = sum[5] + factor[3] * factor[15] - factor[31] * point[13];
-    sum[6] = sum[6] + factor[4] * factor[15] - factor[31] * point[14];
-    sum[7] = sum[7] + factor[5] * factor[15] - factor[31] * point[15];
-    sum[8] = sum[8] + factor[7] * factor[15] - factor[31] * point[17];
-    sum[9] = sum[9] + factor[8] * factor[15] - factor[31] * point[18];
-    sum[10] = sum[10] + factor[0] * factor[14] - factor[32] * point[10];
-    sum[11] = sum[11] + factor[1] * factor[14] - factor[32] * point[11];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_4(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[2] * factor[14] - factor[32] * point[12];
-    sum[1] = sum[1] + factor[3] * factor[14] - factor[32] * point[13];
-    sum[2] = sum[2] + factor[4] * factor[14] - factor[32] * point[14];
-    sum[3] = sum[3] + factor[5] * factor[14] - factor[32] * point[15];
-    sum[4] = sum[4] + factor[6] * factor[14] - factor[32] * point[16];
-    sum[5] = sum[5] + factor[7] * factor[14] - factor[32] * point[17];
-    sum[6] = sum[6] + factor[8] * factor[14] - factor[32] * point[18];
-    sum[7] = sum[7] + factor[2] * factor[13] - factor[33] * point[12];
-    sum[8] = sum[8] + factor[3] * factor[13] - factor[33] * point[13];
-    sum[9] = sum[9] + factor[4] * factor[13] - factor[33] * point[14];
-    sum[10] = sum[10] + factor[5] * factor[13] - factor[33] * point[15];
-    sum[11] = sum[11] + factor[6] * factor[13] - factor[33] * point[16];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_5(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[0] * factor[13] - factor[33] * point[10];
-    sum[1] = sum[1] + factor[1] * factor[13] - factor[33] * point[11];
-    sum[2] = sum[2] + factor[7] * factor[13] - factor[33] * point[17];
-    sum[3] = sum[3] + factor[8] * factor[13] - factor[33] * point[18];
-    sum[4] = sum[4] + factor[0] * factor[12] - factor[34] * point[10];
-    sum[5] = sum[5] + factor[1] * factor[12] - factor[34] * point[11];
-    sum[6] = sum[6] + factor[7] * factor[12] - factor[34] * point[17];
-    sum[7] = sum[7] + factor[8] * factor[12] - factor[34] * point[18];
-    sum[8] = sum[8] + factor[2] * factor[12] - factor[34] * point[12];
-    sum[9] = sum[9] + factor[3] * factor[12] - factor[34] * point[13];
-    sum[10] = sum[10] + factor[4] * factor[12] - factor[34] * point[14];
-    sum[11] = sum[11] + factor[5] * factor[12] - factor[34] * point[15];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_6(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[6] * factor[12] - factor[34] * point[16];
-    sum[1] = sum[1] + factor[6] * factor[11] - factor[35] * point[16];
-    sum[2] = sum[2] + factor[0] * factor[11] - factor[35] * point[10];
-    sum[3] = sum[3] + factor[1] * factor[11] - factor[35] * point[11];
-    sum[4] = sum[4] + factor[2] * factor[11] - factor[35] * point[12];
-    sum[5] = sum[5] + factor[3] * factor[11] - factor[35] * point[13];
-    sum[6] = sum[6] + factor[4] * factor[11] - factor[35] * point[14];
-    sum[7] = sum[7] + factor[5] * factor[11] - factor[35] * point[15];
-    sum[8] = sum[8] + factor[7] * factor[11] - factor[35] * point[17];
-    sum[9] = sum[9] + factor[8] * factor[11] - factor[35] * point[18];
-    sum[10] = sum[10] + factor[0] * factor[10] - factor[36] * point[10];
-    sum[11] = sum[11] + factor[1] * factor[10] - factor[36] * point[11];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_7(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[2] * factor[10] - factor[36] * point[12];
-    sum[1] = sum[1] + factor[3] * factor[10] - factor[36] * point[13];
-    sum[2] = sum[2] + factor[4] * factor[10] - factor[36] * point[14];
-    sum[3] = sum[3] + factor[5] * factor[10] - factor[36] * point[15];
-    sum[4] = sum[4] + factor[6] * factor[10] - factor[36] * point[16];
-    sum[5] = sum[5] + factor[7] * factor[10] - factor[36] * point[17];
-    sum[6] = sum[6] + factor[8] * factor[10] - factor[36] * point[18];
-}
-
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
 OUTLINE void vector_rows(const double *rows, size_t count, size_t start, size_t size, vector *columns) {
     for (size_t i = 0; i < size; ++i) {
@@ -1542,7 +1817,7 @@ OUTLINE void splat_constants(
     vector_to_rows(S, constants, splat_count, start, 91, 91);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void mobile_manipulator_splats(
     size_t count, size_t splat_count, const double *MOBILE_MANIPULATOR_RESTRICT x, const double *MOBILE_MANIPULATOR_RESTRICT mu, const double *MOBILE_MANIPULATOR_RESTRICT W, const double *MOBILE_MANIPULATOR_RESTRICT amplitude, const double *MOBILE_MANIPULATOR_RESTRICT width,
     double *MOBILE_MANIPULATOR_RESTRICT value, double *MOBILE_MANIPULATOR_RESTRICT gradient, double *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
@@ -1557,27 +1832,26 @@ void mobile_manipulator_splats(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[2][9], X[2][9], grad[9];
-            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][9] = {{ZERO}};
+            vector at[2][9], X[2 * 9], grad[9];
+            vector value_sum[2] = {ZERO}, slope_sum[2 * 9] = {ZERO};
             double place[9 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 9, at[b]);
-                pair_features(at[b], X[b]);
+                pair_features(at[b], X + 9 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 91 * near[i];
-                    pair_forward(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient(at[b], slope_sum[b], grad);
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                pair_gradient(at[b], slope_sum + 9 * b, grad);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
                 vector_to_rows(grad, gradient, count, start + b * LANES, 9, 9);
             }
         }
@@ -1599,25 +1873,24 @@ void mobile_manipulator_splats_value(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[9], X[2][9], value_sum[2][1] = {{ZERO}};
+            vector at[9], X[2 * 9], value_sum[2] = {ZERO};
             double place[9 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 9, at);
-                pair_features(at, X[b]);
+                pair_features(at, X + 9 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 91 * near[i];
-                    pair_value(X[0], S, value_sum[0]);
-                    pair_value(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -1636,14 +1909,14 @@ OUTLINE void splat_points(
     vector_end(count, start, 9 + 1, point + 9);
 }
 
-/* Adds to sums what one vector of points adds to it. */
+/* Adds what makes the derivatives, of a splat at some vectors of points: their factors, then the products of these. */
 INLINE void pair_backward(
-    const vector *point, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
-    vector factor[37];
-    pair_factors(point, S, value_bar, slope_bar, factor);
+    size_t count, const vector *points, const uint32_t *near, const double *S, vector *sums) {
+    vector factor[10 * 37];
+    pair_factors(count, points, near, S, factor);
     {
         vector sum[12] = {ZERO};
-        pair_products_0(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_0(factor + 37 * i, points + 19 * (size_t)near[i], sum);
         sums[0] += sum[0];
         sums[1] += sum[1];
         sums[2] += sum[2];
@@ -1659,7 +1932,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_1(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_1(factor + 37 * i, points + 19 * (size_t)near[i], sum);
         sums[11] += sum[0];
         sums[12] += sum[1];
         sums[13] += sum[2];
@@ -1675,7 +1948,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_2(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_2(factor + 37 * i, points + 19 * (size_t)near[i], sum);
         sums[18] += sum[0];
         sums[19] += sum[1];
         sums[25] += sum[2];
@@ -1691,7 +1964,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_3(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_3(factor + 37 * i, points + 19 * (size_t)near[i], sum);
         sums[33] += sum[0];
         sums[42] += sum[1];
         sums[36] += sum[2];
@@ -1707,7 +1980,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_4(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_4(factor + 37 * i, points + 19 * (size_t)near[i], sum);
         sums[47] += sum[0];
         sums[48] += sum[1];
         sums[49] += sum[2];
@@ -1723,7 +1996,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_5(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_5(factor + 37 * i, points + 19 * (size_t)near[i], sum);
         sums[54] += sum[0];
         sums[55] += sum[1];
         sums[61] += sum[2];
@@ -1739,7 +2012,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_6(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_6(factor + 37 * i, points + 19 * (size_t)near[i], sum);
         sums[69] += sum[0];
         sums[78] += sum[1];
         sums[72] += sum[2];
@@ -1755,7 +2028,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[7] = {ZERO};
-        pair_products_7(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_7(factor + 37 * i, points + 19 * (size_t)near[i], sum);
         sums[83] += sum[0];
         sums[84] += sum[1];
         sums[85] += sum[2];
@@ -1766,143 +2039,12 @@ INLINE void pair_backward(
     }
 }
 
-/*
- * Adds to sums what some vectors of points add to it, those in the list: factors of 10 vectors at a time, then their
- * products.
- */
-OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t count, const double *S, double *sums) {
-    vector factor[10 * 37], total[91] = {ZERO};
-    for (size_t start = 0; start < count; start += 10, near += 10) {
-        const size_t size = count - start < 10 ? count - start : 10;
-        for (size_t b = 0; b < size; ++b) {
-            const vector *at = points + 19 * (size_t)near[b];
-            pair_factors(at, S, at + 9, at + 9 + 1, factor + 37 * b);
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_0(factor + 37 * b, points + 19 * (size_t)near[b], sum);
-            total[0] += sum[0];
-            total[1] += sum[1];
-            total[2] += sum[2];
-            total[3] += sum[3];
-            total[4] += sum[4];
-            total[5] += sum[5];
-            total[6] += sum[6];
-            total[7] += sum[7];
-            total[8] += sum[8];
-            total[90] += sum[9];
-            total[9] += sum[10];
-            total[10] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_1(factor + 37 * b, points + 19 * (size_t)near[b], sum);
-            total[11] += sum[0];
-            total[12] += sum[1];
-            total[13] += sum[2];
-            total[14] += sum[3];
-            total[15] += sum[4];
-            total[16] += sum[5];
-            total[17] += sum[6];
-            total[20] += sum[7];
-            total[21] += sum[8];
-            total[22] += sum[9];
-            total[23] += sum[10];
-            total[24] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_2(factor + 37 * b, points + 19 * (size_t)near[b], sum);
-            total[18] += sum[0];
-            total[19] += sum[1];
-            total[25] += sum[2];
-            total[26] += sum[3];
-            total[27] += sum[4];
-            total[28] += sum[5];
-            total[34] += sum[6];
-            total[35] += sum[7];
-            total[29] += sum[8];
-            total[30] += sum[9];
-            total[31] += sum[10];
-            total[32] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_3(factor + 37 * b, points + 19 * (size_t)near[b], sum);
-            total[33] += sum[0];
-            total[42] += sum[1];
-            total[36] += sum[2];
-            total[37] += sum[3];
-            total[38] += sum[4];
-            total[39] += sum[5];
-            total[40] += sum[6];
-            total[41] += sum[7];
-            total[43] += sum[8];
-            total[44] += sum[9];
-            total[45] += sum[10];
-            total[46] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_4(factor + 37 * b, points + 19 * (size_t)near[b], sum);
-            total[47] += sum[0];
-            total[48] += sum[1];
-            total[49] += sum[2];
-            total[50] += sum[3];
-            total[51] += sum[4];
-            total[52] += sum[5];
-            total[53] += sum[6];
-            total[56] += sum[7];
-            total[57] += sum[8];
-            total[58] += sum[9];
-            total[59] += sum[10];
-            total[60] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_5(factor + 37 * b, points + 19 * (size_t)near[b], sum);
-            total[54] += sum[0];
-            total[55] += sum[1];
-            total[61] += sum[2];
-            total[62] += sum[3];
-            total[63] += sum[4];
-            total[64] += sum[5];
-            total[70] += sum[6];
-            total[71] += sum[7];
-            total[65] += sum[8];
-            total[66] += sum[9];
-            total[67] += sum[10];
-            total[68] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_6(factor + 37 * b, points + 19 * (size_t)near[b], sum);
-            total[69] += sum[0];
-            total[78] += sum[1];
-            total[72] += sum[2];
-            total[73] += sum[3];
-            total[74] += sum[4];
-            total[75] += sum[5];
-            total[76] += sum[6];
-            total[77] += sum[7];
-            total[79] += sum[8];
-            total[80] += sum[9];
-            total[81] += sum[10];
-            total[82] += sum[11];
-        }
-        {
-            vector sum[7] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_7(factor + 37 * b, points + 19 * (size_t)near[b], sum);
-            total[83] += sum[0];
-            total[84] += sum[1];
-            total[85] += sum[2];
-            total[86] += sum[3];
-            total[87] += sum[4];
-            total[88] += sum[5];
-            total[89] += sum[6];
-        }
-    }
-    for (size_t i = 0; i < 91; ++i) sums[i] += vector_sum(total[i]);
+/* Adds to sums what some vectors of points add to them, those in the list. */
+OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *sums) {
+    vector sum[91] = {ZERO};
+    for (size_t b = 0; b < size; b += 10)
+        pair_backward(size - b < 10 ? size - b : 10, points, near + b, S, sum);
+    for (size_t i = 0; i < 91; ++i) sums[i] += vector_sum(sum[i]);
 }
 
 /*
@@ -1974,6 +2116,7 @@ void mobile_manipulator_splats_rows(
     double *MOBILE_MANIPULATOR_RESTRICT rows, double *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES - 1) / LANES;
+    const uint32_t only = 0;
     double *constants = work_constants(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -1990,7 +2133,7 @@ void mobile_manipulator_splats_rows(
                 for (int i = 0; i < 9; ++i) own_mu[i] = vector_of(mu[9 * k + i]);
                 for (int i = 0; i < 81; ++i) own_W[i] = vector_of(W[81 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 91 * k, point + 9, point + 9 + 1, own_sums);
+                pair_backward(1, point, &only, constants + 91 * k, own_sums);
                 pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 9, bars + 9 + 81);
                 vector_to_rows(bars, rows + 91 * k, count, block * LANES, 91, 91 * splat_count);
             }
@@ -2107,9 +2250,14 @@ INLINE vector_f vector_of_f(float x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector_f vector_select_f(vector_mask_f mask, vector_f x, vector_f y) {
-    return SELECT(vector_f, vector_mask_f, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector_f)((mask & (vector_mask_f)x) | (~mask & (vector_mask_f)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -2146,7 +2294,7 @@ INLINE vector_f round_each_f(vector_f x) { return (x + 12582912.0f) - 12582912.0
 
 /* sqrt of every lane; one instruction where the machine has it. */
 INLINE vector_f sqrt_each_f(vector_f x) {
-    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
     return x;
 }
 
@@ -2370,339 +2518,471 @@ OUTLINE void pair_constants_f(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_value_f(
-    const vector_f *X, const float *S, vector_f *value) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f x2 = X[2];
-    const vector_f x3 = X[3];
-    const vector_f x4 = X[4];
-    const vector_f x5 = X[5];
-    const vector_f x6 = X[6];
-    const vector_f x7 = X[7];
-    const vector_f x8 = X[8];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float mu2 = S[2];
-    const float mu3 = S[3];
-    const float mu4 = S[4];
-    const float mu5 = S[5];
-    const float mu6 = S[6];
-    const float mu7 = S[7];
-    const float mu8 = S[8];
-    const float W0_0 = S[9];
-    const float W0_1 = S[10];
-    const float W0_2 = S[11];
-    const float W0_3 = S[12];
-    const float W0_4 = S[13];
-    const float W0_5 = S[14];
-    const float W0_6 = S[15];
-    const float W0_7 = S[16];
-    const float W0_8 = S[17];
-    const float W1_0 = S[18];
-    const float W1_1 = S[19];
-    const float W1_2 = S[20];
-    const float W1_3 = S[21];
-    const float W1_4 = S[22];
-    const float W1_5 = S[23];
-    const float W1_6 = S[24];
-    const float W1_7 = S[25];
-    const float W1_8 = S[26];
-    const float W2_0 = S[27];
-    const float W2_1 = S[28];
-    const float W2_2 = S[29];
-    const float W2_3 = S[30];
-    const float W2_4 = S[31];
-    const float W2_5 = S[32];
-    const float W2_6 = S[33];
-    const float W2_7 = S[34];
-    const float W2_8 = S[35];
-    const float W3_0 = S[36];
-    const float W3_1 = S[37];
-    const float W3_2 = S[38];
-    const float W3_3 = S[39];
-    const float W3_4 = S[40];
-    const float W3_5 = S[41];
-    const float W3_6 = S[42];
-    const float W3_7 = S[43];
-    const float W3_8 = S[44];
-    const float W4_0 = S[45];
-    const float W4_1 = S[46];
-    const float W4_2 = S[47];
-    const float W4_3 = S[48];
-    const float W4_4 = S[49];
-    const float W4_5 = S[50];
-    const float W4_6 = S[51];
-    const float W4_7 = S[52];
-    const float W4_8 = S[53];
-    const float W5_0 = S[54];
-    const float W5_1 = S[55];
-    const float W5_2 = S[56];
-    const float W5_3 = S[57];
-    const float W5_4 = S[58];
-    const float W5_5 = S[59];
-    const float W5_6 = S[60];
-    const float W5_7 = S[61];
-    const float W5_8 = S[62];
-    const float W6_0 = S[63];
-    const float W6_1 = S[64];
-    const float W6_2 = S[65];
-    const float W6_3 = S[66];
-    const float W6_4 = S[67];
-    const float W6_5 = S[68];
-    const float W6_6 = S[69];
-    const float W6_7 = S[70];
-    const float W6_8 = S[71];
-    const float W7_0 = S[72];
-    const float W7_1 = S[73];
-    const float W7_2 = S[74];
-    const float W7_3 = S[75];
-    const float W7_4 = S[76];
-    const float W7_5 = S[77];
-    const float W7_6 = S[78];
-    const float W7_7 = S[79];
-    const float W7_8 = S[80];
-    const float W8_0 = S[81];
-    const float W8_1 = S[82];
-    const float W8_2 = S[83];
-    const float W8_3 = S[84];
-    const float W8_4 = S[85];
-    const float W8_5 = S[86];
-    const float W8_6 = S[87];
-    const float W8_7 = S[88];
-    const float W8_8 = S[89];
-    const float amplitude = S[90];
-    const vector_f v0 = x0 - mu0;
-    const vector_f v1 = x1 - mu1;
-    const vector_f gap = x2 - mu2;
-    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
-    const vector_f v2 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
-    const vector_f gap_2 = x3 - mu3;
-    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
-    const vector_f v3 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
-    const vector_f gap_3 = x4 - mu4;
-    const vector_f round_4 = round_each_f(0.15915494309189535f * gap_3);
-    const vector_f v4 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
-    const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-    const vector_f gap_4 = x5 - mu5;
-    const vector_f round_5 = round_each_f(0.15915494309189535f * gap_4);
-    const vector_f v5 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
-    const vector_f gap_5 = x6 - mu6;
-    const vector_f round_6 = round_each_f(0.15915494309189535f * gap_5);
-    const vector_f v6 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
-    const vector_f gap_6 = x7 - mu7;
-    const vector_f round_7 = round_each_f(0.15915494309189535f * gap_6);
-    const vector_f v7 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
-    const vector_f gap_7 = x8 - mu8;
-    const vector_f round_8 = round_each_f(0.15915494309189535f * gap_7);
-    const vector_f v8 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
-    const vector_f z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
-    const vector_f total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-    const vector_f z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
-    const vector_f total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-    const vector_f z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
-    const vector_f total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-    const vector_f z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
-    const vector_f total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-    const vector_f z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
-    const vector_f total_7 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-    const vector_f total_8 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-    const vector_f z5 = total_8 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
-    const vector_f total_9 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
-    const vector_f z6 = total_9 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
-    const vector_f total_10 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
-    const vector_f z7 = total_10 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
-    const vector_f total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
-    const vector_f z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
-    const vector_f total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-    const vector_f phi = gaussian_each_f(total_12);
-    value[0] = value[0] + amplitude * phi;
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values) {
+    struct { vector_f phi; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 91 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float mu2 = S[2];
+        const float mu3 = S[3];
+        const float mu4 = S[4];
+        const float mu5 = S[5];
+        const float mu6 = S[6];
+        const float mu7 = S[7];
+        const float mu8 = S[8];
+        const float W0_0 = S[9];
+        const float W0_1 = S[10];
+        const float W0_2 = S[11];
+        const float W0_3 = S[12];
+        const float W0_4 = S[13];
+        const float W0_5 = S[14];
+        const float W0_6 = S[15];
+        const float W0_7 = S[16];
+        const float W0_8 = S[17];
+        const float W1_0 = S[18];
+        const float W1_1 = S[19];
+        const float W1_2 = S[20];
+        const float W1_3 = S[21];
+        const float W1_4 = S[22];
+        const float W1_5 = S[23];
+        const float W1_6 = S[24];
+        const float W1_7 = S[25];
+        const float W1_8 = S[26];
+        const float W2_0 = S[27];
+        const float W2_1 = S[28];
+        const float W2_2 = S[29];
+        const float W2_3 = S[30];
+        const float W2_4 = S[31];
+        const float W2_5 = S[32];
+        const float W2_6 = S[33];
+        const float W2_7 = S[34];
+        const float W2_8 = S[35];
+        const float W3_0 = S[36];
+        const float W3_1 = S[37];
+        const float W3_2 = S[38];
+        const float W3_3 = S[39];
+        const float W3_4 = S[40];
+        const float W3_5 = S[41];
+        const float W3_6 = S[42];
+        const float W3_7 = S[43];
+        const float W3_8 = S[44];
+        const float W4_0 = S[45];
+        const float W4_1 = S[46];
+        const float W4_2 = S[47];
+        const float W4_3 = S[48];
+        const float W4_4 = S[49];
+        const float W4_5 = S[50];
+        const float W4_6 = S[51];
+        const float W4_7 = S[52];
+        const float W4_8 = S[53];
+        const float W5_0 = S[54];
+        const float W5_1 = S[55];
+        const float W5_2 = S[56];
+        const float W5_3 = S[57];
+        const float W5_4 = S[58];
+        const float W5_5 = S[59];
+        const float W5_6 = S[60];
+        const float W5_7 = S[61];
+        const float W5_8 = S[62];
+        const float W6_0 = S[63];
+        const float W6_1 = S[64];
+        const float W6_2 = S[65];
+        const float W6_3 = S[66];
+        const float W6_4 = S[67];
+        const float W6_5 = S[68];
+        const float W6_6 = S[69];
+        const float W6_7 = S[70];
+        const float W6_8 = S[71];
+        const float W7_0 = S[72];
+        const float W7_1 = S[73];
+        const float W7_2 = S[74];
+        const float W7_3 = S[75];
+        const float W7_4 = S[76];
+        const float W7_5 = S[77];
+        const float W7_6 = S[78];
+        const float W7_7 = S[79];
+        const float W7_8 = S[80];
+        const float W8_0 = S[81];
+        const float W8_1 = S[82];
+        const float W8_2 = S[83];
+        const float W8_3 = S[84];
+        const float W8_4 = S[85];
+        const float W8_5 = S[86];
+        const float W8_6 = S[87];
+        const float W8_7 = S[88];
+        const float W8_8 = S[89];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 9 * b;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f x2 = X[2];
+            const vector_f x3 = X[3];
+            const vector_f x4 = X[4];
+            const vector_f x5 = X[5];
+            const vector_f x6 = X[6];
+            const vector_f x7 = X[7];
+            const vector_f x8 = X[8];
+            const vector_f v0 = x0 - mu0;
+            const vector_f v1 = x1 - mu1;
+            const vector_f gap = x2 - mu2;
+            const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+            const vector_f v2 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
+            const vector_f gap_2 = x3 - mu3;
+            const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+            const vector_f v3 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
+            const vector_f gap_3 = x4 - mu4;
+            const vector_f round_4 = round_each_f(0.15915494309189535f * gap_3);
+            const vector_f v4 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
+            const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+            const vector_f gap_4 = x5 - mu5;
+            const vector_f round_5 = round_each_f(0.15915494309189535f * gap_4);
+            const vector_f v5 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
+            const vector_f gap_5 = x6 - mu6;
+            const vector_f round_6 = round_each_f(0.15915494309189535f * gap_5);
+            const vector_f v6 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
+            const vector_f gap_6 = x7 - mu7;
+            const vector_f round_7 = round_each_f(0.15915494309189535f * gap_6);
+            const vector_f v7 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
+            const vector_f gap_7 = x8 - mu8;
+            const vector_f round_8 = round_each_f(0.15915494309189535f * gap_7);
+            const vector_f v8 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
+            const vector_f z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+            const vector_f total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+            const vector_f z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+            const vector_f total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+            const vector_f z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+            const vector_f total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+            const vector_f z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+            const vector_f total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+            const vector_f z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+            const vector_f total_7 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+            const vector_f total_8 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+            const vector_f z5 = total_8 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+            const vector_f total_9 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+            const vector_f z6 = total_9 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+            const vector_f total_10 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+            const vector_f z7 = total_10 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+            const vector_f total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+            const vector_f z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+            const vector_f total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+            const vector_f phi = gaussian_each_f(total_12);
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 91 * near[k];
+        const float amplitude = S[90];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector_f *value = values + b;
+            const vector_f phi = kept[k][b].phi;
+            value[0] = value[0] + amplitude * phi;
+        }
+    }
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_forward_f(
-    const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f x2 = X[2];
-    const vector_f x3 = X[3];
-    const vector_f x4 = X[4];
-    const vector_f x5 = X[5];
-    const vector_f x6 = X[6];
-    const vector_f x7 = X[7];
-    const vector_f x8 = X[8];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float mu2 = S[2];
-    const float mu3 = S[3];
-    const float mu4 = S[4];
-    const float mu5 = S[5];
-    const float mu6 = S[6];
-    const float mu7 = S[7];
-    const float mu8 = S[8];
-    const float W0_0 = S[9];
-    const float W0_1 = S[10];
-    const float W0_2 = S[11];
-    const float W0_3 = S[12];
-    const float W0_4 = S[13];
-    const float W0_5 = S[14];
-    const float W0_6 = S[15];
-    const float W0_7 = S[16];
-    const float W0_8 = S[17];
-    const float W1_0 = S[18];
-    const float W1_1 = S[19];
-    const float W1_2 = S[20];
-    const float W1_3 = S[21];
-    const float W1_4 = S[22];
-    const float W1_5 = S[23];
-    const float W1_6 = S[24];
-    const float W1_7 = S[25];
-    const float W1_8 = S[26];
-    const float W2_0 = S[27];
-    const float W2_1 = S[28];
-    const float W2_2 = S[29];
-    const float W2_3 = S[30];
-    const float W2_4 = S[31];
-    const float W2_5 = S[32];
-    const float W2_6 = S[33];
-    const float W2_7 = S[34];
-    const float W2_8 = S[35];
-    const float W3_0 = S[36];
-    const float W3_1 = S[37];
-    const float W3_2 = S[38];
-    const float W3_3 = S[39];
-    const float W3_4 = S[40];
-    const float W3_5 = S[41];
-    const float W3_6 = S[42];
-    const float W3_7 = S[43];
-    const float W3_8 = S[44];
-    const float W4_0 = S[45];
-    const float W4_1 = S[46];
-    const float W4_2 = S[47];
-    const float W4_3 = S[48];
-    const float W4_4 = S[49];
-    const float W4_5 = S[50];
-    const float W4_6 = S[51];
-    const float W4_7 = S[52];
-    const float W4_8 = S[53];
-    const float W5_0 = S[54];
-    const float W5_1 = S[55];
-    const float W5_2 = S[56];
-    const float W5_3 = S[57];
-    const float W5_4 = S[58];
-    const float W5_5 = S[59];
-    const float W5_6 = S[60];
-    const float W5_7 = S[61];
-    const float W5_8 = S[62];
-    const float W6_0 = S[63];
-    const float W6_1 = S[64];
-    const float W6_2 = S[65];
-    const float W6_3 = S[66];
-    const float W6_4 = S[67];
-    const float W6_5 = S[68];
-    const float W6_6 = S[69];
-    const float W6_7 = S[70];
-    const float W6_8 = S[71];
-    const float W7_0 = S[72];
-    const float W7_1 = S[73];
-    const float W7_2 = S[74];
-    const float W7_3 = S[75];
-    const float W7_4 = S[76];
-    const float W7_5 = S[77];
-    const float W7_6 = S[78];
-    const float W7_7 = S[79];
-    const float W7_8 = S[80];
-    const float W8_0 = S[81];
-    const float W8_1 = S[82];
-    const float W8_2 = S[83];
-    const float W8_3 = S[84];
-    const float W8_4 = S[85];
-    const float W8_5 = S[86];
-    const float W8_6 = S[87];
-    const float W8_7 = S[88];
-    const float W8_8 = S[89];
-    const float amplitude = S[90];
-    const vector_f v0 = x0 - mu0;
-    const vector_f v1 = x1 - mu1;
-    const vector_f gap = x2 - mu2;
-    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
-    const vector_f v2 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
-    const vector_f gap_2 = x3 - mu3;
-    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
-    const vector_f v3 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
-    const vector_f gap_3 = x4 - mu4;
-    const vector_f round_4 = round_each_f(0.15915494309189535f * gap_3);
-    const vector_f v4 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
-    const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-    const vector_f gap_4 = x5 - mu5;
-    const vector_f round_5 = round_each_f(0.15915494309189535f * gap_4);
-    const vector_f v5 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
-    const vector_f gap_5 = x6 - mu6;
-    const vector_f round_6 = round_each_f(0.15915494309189535f * gap_5);
-    const vector_f v6 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
-    const vector_f gap_6 = x7 - mu7;
-    const vector_f round_7 = round_each_f(0.15915494309189535f * gap_6);
-    const vector_f v7 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
-    const vector_f gap_7 = x8 - mu8;
-    const vector_f round_8 = round_each_f(0.15915494309189535f * gap_7);
-    const vector_f v8 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
-    const vector_f z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
-    const vector_f total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-    const vector_f z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
-    const vector_f total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-    const vector_f z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
-    const vector_f total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-    const vector_f z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
-    const vector_f total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-    const vector_f z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
-    const vector_f total_7 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-    const vector_f total_8 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-    const vector_f z5 = total_8 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
-    const vector_f total_9 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
-    const vector_f z6 = total_9 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
-    const vector_f total_10 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
-    const vector_f z7 = total_10 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
-    const vector_f total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
-    const vector_f z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
-    const vector_f total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-    const vector_f phi = gaussian_each_f(total_12);
-    const vector_f phi_2 = amplitude * phi;
-    const vector_f z8_product = z8 * phi_2;
-    const vector_f z7_product = z7 * phi_2;
-    const vector_f z6_product = z6 * phi_2;
-    const vector_f z5_product = z5 * phi_2;
-    const vector_f z4_product = z4 * phi_2;
-    const vector_f z3_product = z3 * phi_2;
-    const vector_f z2_product = z2 * phi_2;
-    const vector_f z1_product = z1 * phi_2;
-    const vector_f z0_product = z0 * phi_2;
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] - W8_0 * z8_product - W7_0 * z7_product - W6_0 * z6_product - W5_0 * z5_product - W4_0
-            * z4_product - W3_0 * z3_product - W2_0 * z2_product - W1_0 * z1_product - W0_0 * z0_product;
-    slope[1] = slope[1] - W8_1 * z8_product - W7_1 * z7_product - W6_1 * z6_product - W5_1 * z5_product - W4_1
-            * z4_product - W3_1 * z3_product - W2_1 * z2_product - W1_1 * z1_product - W0_1 * z0_product;
-    slope[2] = slope[2] - W8_2 * z8_product - W7_2 * z7_product - W6_2 * z6_product - W5_2 * z5_product - W4_2
-            * z4_product - W3_2 * z3_product - W2_2 * z2_product - W1_2 * z1_product - W0_2 * z0_product;
-    slope[3] = slope[3] - W8_3 * z8_product - W7_3 * z7_product - W6_3 * z6_product - W5_3 * z5_product - W4_3
-            * z4_product - W3_3 * z3_product - W2_3 * z2_product - W1_3 * z1_product - W0_3 * z0_product;
-    slope[4] = slope[4] - W8_4 * z8_product - W7_4 * z7_product - W6_4 * z6_product - W5_4 * z5_product - W4_4
-            * z4_product - W3_4 * z3_product - W2_4 * z2_product - W1_4 * z1_product - W0_4 * z0_product;
-    slope[5] = slope[5] - W8_5 * z8_product - W7_5 * z7_product - W6_5 * z6_product - W5_5 * z5_product - W4_5
-            * z4_product - W3_5 * z3_product - W2_5 * z2_product - W1_5 * z1_product - W0_5 * z0_product;
-    slope[6] = slope[6] - W8_6 * z8_product - W7_6 * z7_product - W6_6 * z6_product - W5_6 * z5_product - W4_6
-            * z4_product - W3_6 * z3_product - W2_6 * z2_product - W1_6 * z1_product - W0_6 * z0_product;
-    slope[7] = slope[7] - W8_7 * z8_product - W7_7 * z7_product - W6_7 * z6_product - W5_7 * z5_product - W4_7
-            * z4_product - W3_7 * z3_product - W2_7 * z2_product - W1_7 * z1_product - W0_7 * z0_product;
-    slope[8] = slope[8] - W8_8 * z8_product - W7_8 * z7_product - W6_8 * z6_product - W5_8 * z5_product - W4_8
-            * z4_product - W3_8 * z3_product - W2_8 * z2_product - W1_8 * z1_product - W0_8 * z0_product;
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values, vector_f *slopes) {
+    struct { vector_f z0, z1, z2, z3, z4, z5, z6, z7, z8, phi; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 91 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float mu2 = S[2];
+        const float mu3 = S[3];
+        const float mu4 = S[4];
+        const float mu5 = S[5];
+        const float mu6 = S[6];
+        const float mu7 = S[7];
+        const float mu8 = S[8];
+        const float W0_0 = S[9];
+        const float W0_1 = S[10];
+        const float W0_2 = S[11];
+        const float W0_3 = S[12];
+        const float W0_4 = S[13];
+        const float W0_5 = S[14];
+        const float W0_6 = S[15];
+        const float W0_7 = S[16];
+        const float W0_8 = S[17];
+        const float W1_0 = S[18];
+        const float W1_1 = S[19];
+        const float W1_2 = S[20];
+        const float W1_3 = S[21];
+        const float W1_4 = S[22];
+        const float W1_5 = S[23];
+        const float W1_6 = S[24];
+        const float W1_7 = S[25];
+        const float W1_8 = S[26];
+        const float W2_0 = S[27];
+        const float W2_1 = S[28];
+        const float W2_2 = S[29];
+        const float W2_3 = S[30];
+        const float W2_4 = S[31];
+        const float W2_5 = S[32];
+        const float W2_6 = S[33];
+        const float W2_7 = S[34];
+        const float W2_8 = S[35];
+        const float W3_0 = S[36];
+        const float W3_1 = S[37];
+        const float W3_2 = S[38];
+        const float W3_3 = S[39];
+        const float W3_4 = S[40];
+        const float W3_5 = S[41];
+        const float W3_6 = S[42];
+        const float W3_7 = S[43];
+        const float W3_8 = S[44];
+        const float W4_0 = S[45];
+        const float W4_1 = S[46];
+        const float W4_2 = S[47];
+        const float W4_3 = S[48];
+        const float W4_4 = S[49];
+        const float W4_5 = S[50];
+        const float W4_6 = S[51];
+        const float W4_7 = S[52];
+        const float W4_8 = S[53];
+        const float W5_0 = S[54];
+        const float W5_1 = S[55];
+        const float W5_2 = S[56];
+        const float W5_3 = S[57];
+        const float W5_4 = S[58];
+        const float W5_5 = S[59];
+        const float W5_6 = S[60];
+        const float W5_7 = S[61];
+        const float W5_8 = S[62];
+        const float W6_0 = S[63];
+        const float W6_1 = S[64];
+        const float W6_2 = S[65];
+        const float W6_3 = S[66];
+        const float W6_4 = S[67];
+        const float W6_5 = S[68];
+        const float W6_6 = S[69];
+        const float W6_7 = S[70];
+        const float W6_8 = S[71];
+        const float W7_0 = S[72];
+        const float W7_1 = S[73];
+        const float W7_2 = S[74];
+        const float W7_3 = S[75];
+        const float W7_4 = S[76];
+        const float W7_5 = S[77];
+        const float W7_6 = S[78];
+        const float W7_7 = S[79];
+        const float W7_8 = S[80];
+        const float W8_0 = S[81];
+        const float W8_1 = S[82];
+        const float W8_2 = S[83];
+        const float W8_3 = S[84];
+        const float W8_4 = S[85];
+        const float W8_5 = S[86];
+        const float W8_6 = S[87];
+        const float W8_7 = S[88];
+        const float W8_8 = S[89];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 9 * b;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f x2 = X[2];
+            const vector_f x3 = X[3];
+            const vector_f x4 = X[4];
+            const vector_f x5 = X[5];
+            const vector_f x6 = X[6];
+            const vector_f x7 = X[7];
+            const vector_f x8 = X[8];
+            const vector_f v0 = x0 - mu0;
+            const vector_f v1 = x1 - mu1;
+            const vector_f gap = x2 - mu2;
+            const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+            const vector_f v2 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
+            const vector_f gap_2 = x3 - mu3;
+            const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+            const vector_f v3 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
+            const vector_f gap_3 = x4 - mu4;
+            const vector_f round_4 = round_each_f(0.15915494309189535f * gap_3);
+            const vector_f v4 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
+            const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+            const vector_f gap_4 = x5 - mu5;
+            const vector_f round_5 = round_each_f(0.15915494309189535f * gap_4);
+            const vector_f v5 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
+            const vector_f gap_5 = x6 - mu6;
+            const vector_f round_6 = round_each_f(0.15915494309189535f * gap_5);
+            const vector_f v6 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
+            const vector_f gap_6 = x7 - mu7;
+            const vector_f round_7 = round_each_f(0.15915494309189535f * gap_6);
+            const vector_f v7 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
+            const vector_f gap_7 = x8 - mu8;
+            const vector_f round_8 = round_each_f(0.15915494309189535f * gap_7);
+            const vector_f v8 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
+            const vector_f z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+            const vector_f total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+            const vector_f z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+            const vector_f total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+            const vector_f z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+            const vector_f total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+            const vector_f z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+            const vector_f total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+            const vector_f z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+            const vector_f total_7 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+            const vector_f total_8 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+            const vector_f z5 = total_8 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+            const vector_f total_9 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+            const vector_f z6 = total_9 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+            const vector_f total_10 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+            const vector_f z7 = total_10 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+            const vector_f total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+            const vector_f z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+            const vector_f total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+            const vector_f phi = gaussian_each_f(total_12);
+            kept[k][b].z0 = z0;
+            kept[k][b].z1 = z1;
+            kept[k][b].z2 = z2;
+            kept[k][b].z3 = z3;
+            kept[k][b].z4 = z4;
+            kept[k][b].z5 = z5;
+            kept[k][b].z6 = z6;
+            kept[k][b].z7 = z7;
+            kept[k][b].z8 = z8;
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 91 * near[k];
+        const float W0_0 = S[9];
+        const float W0_1 = S[10];
+        const float W0_2 = S[11];
+        const float W0_3 = S[12];
+        const float W0_4 = S[13];
+        const float W0_5 = S[14];
+        const float W0_6 = S[15];
+        const float W0_7 = S[16];
+        const float W0_8 = S[17];
+        const float W1_0 = S[18];
+        const float W1_1 = S[19];
+        const float W1_2 = S[20];
+        const float W1_3 = S[21];
+        const float W1_4 = S[22];
+        const float W1_5 = S[23];
+        const float W1_6 = S[24];
+        const float W1_7 = S[25];
+        const float W1_8 = S[26];
+        const float W2_0 = S[27];
+        const float W2_1 = S[28];
+        const float W2_2 = S[29];
+        const float W2_3 = S[30];
+        const float W2_4 = S[31];
+        const float W2_5 = S[32];
+        const float W2_6 = S[33];
+        const float W2_7 = S[34];
+        const float W2_8 = S[35];
+        const float W3_0 = S[36];
+        const float W3_1 = S[37];
+        const float W3_2 = S[38];
+        const float W3_3 = S[39];
+        const float W3_4 = S[40];
+        const float W3_5 = S[41];
+        const float W3_6 = S[42];
+        const float W3_7 = S[43];
+        const float W3_8 = S[44];
+        const float W4_0 = S[45];
+        const float W4_1 = S[46];
+        const float W4_2 = S[47];
+        const float W4_3 = S[48];
+        const float W4_4 = S[49];
+        const float W4_5 = S[50];
+        const float W4_6 = S[51];
+        const float W4_7 = S[52];
+        const float W4_8 = S[53];
+        const float W5_0 = S[54];
+        const float W5_1 = S[55];
+        const float W5_2 = S[56];
+        const float W5_3 = S[57];
+        const float W5_4 = S[58];
+        const float W5_5 = S[59];
+        const float W5_6 = S[60];
+        const float W5_7 = S[61];
+        const float W5_8 = S[62];
+        const float W6_0 = S[63];
+        const float W6_1 = S[64];
+        const float W6_2 = S[65];
+        const float W6_3 = S[66];
+        const float W6_4 = S[67];
+        const float W6_5 = S[68];
+        const float W6_6 = S[69];
+        const float W6_7 = S[70];
+        const float W6_8 = S[71];
+        const float W7_0 = S[72];
+        const float W7_1 = S[73];
+        const float W7_2 = S[74];
+        const float W7_3 = S[75];
+        const float W7_4 = S[76];
+        const float W7_5 = S[77];
+        const float W7_6 = S[78];
+        const float W7_7 = S[79];
+        const float W7_8 = S[80];
+        const float W8_0 = S[81];
+        const float W8_1 = S[82];
+        const float W8_2 = S[83];
+        const float W8_3 = S[84];
+        const float W8_4 = S[85];
+        const float W8_5 = S[86];
+        const float W8_6 = S[87];
+        const float W8_7 = S[88];
+        const float W8_8 = S[89];
+        const float amplitude = S[90];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector_f *value = values + b;
+            vector_f *slope = slopes + 9 * b;
+            const vector_f z0 = kept[k][b].z0;
+            const vector_f z1 = kept[k][b].z1;
+            const vector_f z2 = kept[k][b].z2;
+            const vector_f z3 = kept[k][b].z3;
+            const vector_f z4 = kept[k][b].z4;
+            const vector_f z5 = kept[k][b].z5;
+            const vector_f z6 = kept[k][b].z6;
+            const vector_f z7 = kept[k][b].z7;
+            const vector_f z8 = kept[k][b].z8;
+            const vector_f phi = kept[k][b].phi;
+            const vector_f phi_2 = amplitude * phi;
+            const vector_f z8_product = z8 * phi_2;
+            const vector_f z7_product = z7 * phi_2;
+            const vector_f z6_product = z6 * phi_2;
+            const vector_f z5_product = z5 * phi_2;
+            const vector_f z4_product = z4 * phi_2;
+            const vector_f z3_product = z3 * phi_2;
+            const vector_f z2_product = z2 * phi_2;
+            const vector_f z1_product = z1 * phi_2;
+            const vector_f z0_product = z0 * phi_2;
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] - W8_0 * z8_product - W7_0 * z7_product - W6_0 * z6_product - W5_0 * z5_product - W4_0
+                    * z4_product - W3_0 * z3_product - W2_0 * z2_product - W1_0 * z1_product - W0_0 * z0_product;
+            slope[1] = slope[1] - W8_1 * z8_product - W7_1 * z7_product - W6_1 * z6_product - W5_1 * z5_product - W4_1
+                    * z4_product - W3_1 * z3_product - W2_1 * z2_product - W1_1 * z1_product - W0_1 * z0_product;
+            slope[2] = slope[2] - W8_2 * z8_product - W7_2 * z7_product - W6_2 * z6_product - W5_2 * z5_product - W4_2
+                    * z4_product - W3_2 * z3_product - W2_2 * z2_product - W1_2 * z1_product - W0_2 * z0_product;
+            slope[3] = slope[3] - W8_3 * z8_product - W7_3 * z7_product - W6_3 * z6_product - W5_3 * z5_product - W4_3
+                    * z4_product - W3_3 * z3_product - W2_3 * z2_product - W1_3 * z1_product - W0_3 * z0_product;
+            slope[4] = slope[4] - W8_4 * z8_product - W7_4 * z7_product - W6_4 * z6_product - W5_4 * z5_product - W4_4
+                    * z4_product - W3_4 * z3_product - W2_4 * z2_product - W1_4 * z1_product - W0_4 * z0_product;
+            slope[5] = slope[5] - W8_5 * z8_product - W7_5 * z7_product - W6_5 * z6_product - W5_5 * z5_product - W4_5
+                    * z4_product - W3_5 * z3_product - W2_5 * z2_product - W1_5 * z1_product - W0_5 * z0_product;
+            slope[6] = slope[6] - W8_6 * z8_product - W7_6 * z7_product - W6_6 * z6_product - W5_6 * z5_product - W4_6
+                    * z4_product - W3_6 * z3_product - W2_6 * z2_product - W1_6 * z1_product - W0_6 * z0_product;
+            slope[7] = slope[7] - W8_7 * z8_product - W7_7 * z7_product - W6_7 * z6_product - W5_7 * z5_product - W4_7
+                    * z4_product - W3_7 * z3_product - W2_7 * z2_product - W1_7 * z1_product - W0_7 * z0_product;
+            slope[8] = slope[8] - W8_8 * z8_product - W7_8 * z7_product - W6_8 * z6_product - W5_8 * z5_product - W4_8
+                    * z4_product - W3_8 * z3_product - W2_8 * z2_product - W1_8 * z1_product - W0_8 * z0_product;
+        }
+    }
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -2751,6 +3031,540 @@ OUTLINE void pair_gradient_vjp_f(
     slope_bar[6] = 16.0f * gradient_bar6;
     slope_bar[7] = 16.0f * gradient_bar7;
     slope_bar[8] = 16.0f * gradient_bar8;
+}
+
+/*
+ * The factors of whose products are what is summed over the points, for some vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
+OUTLINE void pair_factors_f(
+    size_t count, const vector_f *points, const uint32_t *near, const float *S, vector_f *factors) {
+    struct { vector_f v0, v1, v2, v3, v4, v5, v6, v7, v8, z0, z1, z2, z3, z4, z5, z6, z7, z8, phi; } kept[10];
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 19 * (size_t)near[i];
+        const vector_f x0 = X[0];
+        const vector_f x1 = X[1];
+        const vector_f x2 = X[2];
+        const vector_f x3 = X[3];
+        const vector_f x4 = X[4];
+        const vector_f x5 = X[5];
+        const vector_f x6 = X[6];
+        const vector_f x7 = X[7];
+        const vector_f x8 = X[8];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float mu2 = S[2];
+        const float mu3 = S[3];
+        const float mu4 = S[4];
+        const float mu5 = S[5];
+        const float mu6 = S[6];
+        const float mu7 = S[7];
+        const float mu8 = S[8];
+        const float W0_0 = S[9];
+        const float W0_1 = S[10];
+        const float W0_2 = S[11];
+        const float W0_3 = S[12];
+        const float W0_4 = S[13];
+        const float W0_5 = S[14];
+        const float W0_6 = S[15];
+        const float W0_7 = S[16];
+        const float W0_8 = S[17];
+        const float W1_0 = S[18];
+        const float W1_1 = S[19];
+        const float W1_2 = S[20];
+        const float W1_3 = S[21];
+        const float W1_4 = S[22];
+        const float W1_5 = S[23];
+        const float W1_6 = S[24];
+        const float W1_7 = S[25];
+        const float W1_8 = S[26];
+        const float W2_0 = S[27];
+        const float W2_1 = S[28];
+        const float W2_2 = S[29];
+        const float W2_3 = S[30];
+        const float W2_4 = S[31];
+        const float W2_5 = S[32];
+        const float W2_6 = S[33];
+        const float W2_7 = S[34];
+        const float W2_8 = S[35];
+        const float W3_0 = S[36];
+        const float W3_1 = S[37];
+        const float W3_2 = S[38];
+        const float W3_3 = S[39];
+        const float W3_4 = S[40];
+        const float W3_5 = S[41];
+        const float W3_6 = S[42];
+        const float W3_7 = S[43];
+        const float W3_8 = S[44];
+        const float W4_0 = S[45];
+        const float W4_1 = S[46];
+        const float W4_2 = S[47];
+        const float W4_3 = S[48];
+        const float W4_4 = S[49];
+        const float W4_5 = S[50];
+        const float W4_6 = S[51];
+        const float W4_7 = S[52];
+        const float W4_8 = S[53];
+        const float W5_0 = S[54];
+        const float W5_1 = S[55];
+        const float W5_2 = S[56];
+        const float W5_3 = S[57];
+        const float W5_4 = S[58];
+        const float W5_5 = S[59];
+        const float W5_6 = S[60];
+        const float W5_7 = S[61];
+        const float W5_8 = S[62];
+        const float W6_0 = S[63];
+        const float W6_1 = S[64];
+        const float W6_2 = S[65];
+        const float W6_3 = S[66];
+        const float W6_4 = S[67];
+        const float W6_5 = S[68];
+        const float W6_6 = S[69];
+        const float W6_7 = S[70];
+        const float W6_8 = S[71];
+        const float W7_0 = S[72];
+        const float W7_1 = S[73];
+        const float W7_2 = S[74];
+        const float W7_3 = S[75];
+        const float W7_4 = S[76];
+        const float W7_5 = S[77];
+        const float W7_6 = S[78];
+        const float W7_7 = S[79];
+        const float W7_8 = S[80];
+        const float W8_0 = S[81];
+        const float W8_1 = S[82];
+        const float W8_2 = S[83];
+        const float W8_3 = S[84];
+        const float W8_4 = S[85];
+        const float W8_5 = S[86];
+        const float W8_6 = S[87];
+        const float W8_7 = S[88];
+        const float W8_8 = S[89];
+        const vector_f v0 = x0 - mu0;
+        const vector_f v1 = x1 - mu1;
+        const vector_f gap = x2 - mu2;
+        const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+        const vector_f v2 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
+        const vector_f gap_2 = x3 - mu3;
+        const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+        const vector_f v3 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
+        const vector_f gap_3 = x4 - mu4;
+        const vector_f round_4 = round_each_f(0.15915494309189535f * gap_3);
+        const vector_f v4 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
+        const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
+        const vector_f gap_4 = x5 - mu5;
+        const vector_f round_5 = round_each_f(0.15915494309189535f * gap_4);
+        const vector_f v5 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
+        const vector_f gap_5 = x6 - mu6;
+        const vector_f round_6 = round_each_f(0.15915494309189535f * gap_5);
+        const vector_f v6 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
+        const vector_f gap_6 = x7 - mu7;
+        const vector_f round_7 = round_each_f(0.15915494309189535f * gap_6);
+        const vector_f v7 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
+        const vector_f gap_7 = x8 - mu8;
+        const vector_f round_8 = round_each_f(0.15915494309189535f * gap_7);
+        const vector_f v8 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
+        const vector_f z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
+        const vector_f total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
+        const vector_f z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
+        const vector_f total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
+        const vector_f z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
+        const vector_f total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
+        const vector_f z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
+        const vector_f total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
+        const vector_f z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
+        const vector_f total_7 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
+        const vector_f total_8 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
+        const vector_f z5 = total_8 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
+        const vector_f total_9 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
+        const vector_f z6 = total_9 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
+        const vector_f total_10 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
+        const vector_f z7 = total_10 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
+        const vector_f total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
+        const vector_f z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
+        const vector_f total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
+        const vector_f phi = gaussian_each_f(total_12);
+        kept[i].v0 = v0;
+        kept[i].v1 = v1;
+        kept[i].v2 = v2;
+        kept[i].v3 = v3;
+        kept[i].v4 = v4;
+        kept[i].v5 = v5;
+        kept[i].v6 = v6;
+        kept[i].v7 = v7;
+        kept[i].v8 = v8;
+        kept[i].z0 = z0;
+        kept[i].z1 = z1;
+        kept[i].z2 = z2;
+        kept[i].z3 = z3;
+        kept[i].z4 = z4;
+        kept[i].z5 = z5;
+        kept[i].z6 = z6;
+        kept[i].z7 = z7;
+        kept[i].z8 = z8;
+        kept[i].phi = phi;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *value_bar = points + 19 * (size_t)near[i] + 9;
+        const vector_f *slope_bar = points + 19 * (size_t)near[i] + 9 + 1;
+        vector_f *factor = factors + 37 * i;
+        const vector_f v0 = kept[i].v0;
+        const vector_f v1 = kept[i].v1;
+        const vector_f v2 = kept[i].v2;
+        const vector_f v3 = kept[i].v3;
+        const vector_f v4 = kept[i].v4;
+        const vector_f v5 = kept[i].v5;
+        const vector_f v6 = kept[i].v6;
+        const vector_f v7 = kept[i].v7;
+        const vector_f v8 = kept[i].v8;
+        const vector_f z0 = kept[i].z0;
+        const vector_f z1 = kept[i].z1;
+        const vector_f z2 = kept[i].z2;
+        const vector_f z3 = kept[i].z3;
+        const vector_f z4 = kept[i].z4;
+        const vector_f z5 = kept[i].z5;
+        const vector_f z6 = kept[i].z6;
+        const vector_f z7 = kept[i].z7;
+        const vector_f z8 = kept[i].z8;
+        const vector_f phi = kept[i].phi;
+        const float W0_0 = S[9];
+        const float W0_1 = S[10];
+        const float W0_2 = S[11];
+        const float W0_3 = S[12];
+        const float W0_4 = S[13];
+        const float W0_5 = S[14];
+        const float W0_6 = S[15];
+        const float W0_7 = S[16];
+        const float W0_8 = S[17];
+        const float W1_0 = S[18];
+        const float W1_1 = S[19];
+        const float W1_2 = S[20];
+        const float W1_3 = S[21];
+        const float W1_4 = S[22];
+        const float W1_5 = S[23];
+        const float W1_6 = S[24];
+        const float W1_7 = S[25];
+        const float W1_8 = S[26];
+        const float W2_0 = S[27];
+        const float W2_1 = S[28];
+        const float W2_2 = S[29];
+        const float W2_3 = S[30];
+        const float W2_4 = S[31];
+        const float W2_5 = S[32];
+        const float W2_6 = S[33];
+        const float W2_7 = S[34];
+        const float W2_8 = S[35];
+        const float W3_0 = S[36];
+        const float W3_1 = S[37];
+        const float W3_2 = S[38];
+        const float W3_3 = S[39];
+        const float W3_4 = S[40];
+        const float W3_5 = S[41];
+        const float W3_6 = S[42];
+        const float W3_7 = S[43];
+        const float W3_8 = S[44];
+        const float W4_0 = S[45];
+        const float W4_1 = S[46];
+        const float W4_2 = S[47];
+        const float W4_3 = S[48];
+        const float W4_4 = S[49];
+        const float W4_5 = S[50];
+        const float W4_6 = S[51];
+        const float W4_7 = S[52];
+        const float W4_8 = S[53];
+        const float W5_0 = S[54];
+        const float W5_1 = S[55];
+        const float W5_2 = S[56];
+        const float W5_3 = S[57];
+        const float W5_4 = S[58];
+        const float W5_5 = S[59];
+        const float W5_6 = S[60];
+        const float W5_7 = S[61];
+        const float W5_8 = S[62];
+        const float W6_0 = S[63];
+        const float W6_1 = S[64];
+        const float W6_2 = S[65];
+        const float W6_3 = S[66];
+        const float W6_4 = S[67];
+        const float W6_5 = S[68];
+        const float W6_6 = S[69];
+        const float W6_7 = S[70];
+        const float W6_8 = S[71];
+        const float W7_0 = S[72];
+        const float W7_1 = S[73];
+        const float W7_2 = S[74];
+        const float W7_3 = S[75];
+        const float W7_4 = S[76];
+        const float W7_5 = S[77];
+        const float W7_6 = S[78];
+        const float W7_7 = S[79];
+        const float W7_8 = S[80];
+        const float W8_0 = S[81];
+        const float W8_1 = S[82];
+        const float W8_2 = S[83];
+        const float W8_3 = S[84];
+        const float W8_4 = S[85];
+        const float W8_5 = S[86];
+        const float W8_6 = S[87];
+        const float W8_7 = S[88];
+        const float W8_8 = S[89];
+        const vector_f its_value_bar = value_bar[0];
+        const vector_f x0_bar = slope_bar[0];
+        const vector_f x1_bar = slope_bar[1];
+        const vector_f x2_bar = slope_bar[2];
+        const vector_f x3_bar = slope_bar[3];
+        const vector_f x4_bar = slope_bar[4];
+        const vector_f x5_bar = slope_bar[5];
+        const vector_f x6_bar = slope_bar[6];
+        const vector_f x7_bar = slope_bar[7];
+        const vector_f x8_bar = slope_bar[8];
+        const vector_f gap_8 = -(W8_0 * x0_bar) - W8_1 * x1_bar - W8_2 * x2_bar - W8_3 * x3_bar;
+        const vector_f gap_9 = gap_8 - W8_4 * x4_bar - W8_5 * x5_bar - W8_6 * x6_bar - W8_7 * x7_bar;
+        const vector_f gap_10 = gap_9 - W8_8 * x8_bar;
+        const vector_f gap_11 = -(W0_0 * x0_bar) - W0_1 * x1_bar - W0_2 * x2_bar - W0_3 * x3_bar;
+        const vector_f gap_12 = gap_11 - W0_4 * x4_bar - W0_5 * x5_bar - W0_6 * x6_bar - W0_7 * x7_bar;
+        const vector_f gap_13 = gap_12 - W0_8 * x8_bar;
+        const vector_f gap_14 = -(W1_0 * x0_bar) - W1_1 * x1_bar - W1_2 * x2_bar - W1_3 * x3_bar;
+        const vector_f gap_15 = gap_14 - W1_4 * x4_bar - W1_5 * x5_bar - W1_6 * x6_bar - W1_7 * x7_bar;
+        const vector_f gap_16 = gap_15 - W1_8 * x8_bar;
+        const vector_f gap_17 = -(W2_0 * x0_bar) - W2_1 * x1_bar - W2_2 * x2_bar - W2_3 * x3_bar;
+        const vector_f gap_18 = gap_17 - W2_4 * x4_bar - W2_5 * x5_bar - W2_6 * x6_bar - W2_7 * x7_bar;
+        const vector_f gap_19 = gap_18 - W2_8 * x8_bar;
+        const vector_f gap_20 = -(W3_0 * x0_bar) - W3_1 * x1_bar - W3_2 * x2_bar - W3_3 * x3_bar;
+        const vector_f gap_21 = gap_20 - W3_4 * x4_bar - W3_5 * x5_bar - W3_6 * x6_bar - W3_7 * x7_bar;
+        const vector_f gap_22 = gap_21 - W3_8 * x8_bar;
+        const vector_f total_13 = its_value_bar + z0 * gap_13 + z1 * gap_16 + z2 * gap_19 + z3 * gap_22;
+        const vector_f gap_23 = -(W4_0 * x0_bar) - W4_1 * x1_bar - W4_2 * x2_bar - W4_3 * x3_bar;
+        const vector_f gap_24 = gap_23 - W4_4 * x4_bar - W4_5 * x5_bar - W4_6 * x6_bar - W4_7 * x7_bar;
+        const vector_f gap_25 = gap_24 - W4_8 * x8_bar;
+        const vector_f gap_26 = -(W5_0 * x0_bar) - W5_1 * x1_bar - W5_2 * x2_bar - W5_3 * x3_bar;
+        const vector_f gap_27 = gap_26 - W5_4 * x4_bar - W5_5 * x5_bar - W5_6 * x6_bar - W5_7 * x7_bar;
+        const vector_f gap_28 = gap_27 - W5_8 * x8_bar;
+        const vector_f gap_29 = -(W6_0 * x0_bar) - W6_1 * x1_bar - W6_2 * x2_bar - W6_3 * x3_bar;
+        const vector_f gap_30 = gap_29 - W6_4 * x4_bar - W6_5 * x5_bar - W6_6 * x6_bar - W6_7 * x7_bar;
+        const vector_f gap_31 = gap_30 - W6_8 * x8_bar;
+        const vector_f gap_32 = -(W7_0 * x0_bar) - W7_1 * x1_bar - W7_2 * x2_bar - W7_3 * x3_bar;
+        const vector_f gap_33 = gap_32 - W7_4 * x4_bar - W7_5 * x5_bar - W7_6 * x6_bar - W7_7 * x7_bar;
+        const vector_f gap_34 = gap_33 - W7_8 * x8_bar;
+        const vector_f total_14 = total_13 + z4 * gap_25 + z5 * gap_28 + z6 * gap_31 + z7 * gap_34;
+        const vector_f by_phi = total_14 + z8 * gap_10;
+        const vector_f phi_product = phi * by_phi;
+        const vector_f by_z8 = phi * gap_10 - z8 * phi_product;
+        const vector_f by_z7 = phi * gap_34 - z7 * phi_product;
+        const vector_f by_z6 = phi * gap_31 - z6 * phi_product;
+        const vector_f by_z5 = phi * gap_28 - z5 * phi_product;
+        const vector_f by_z4 = phi * gap_25 - z4 * phi_product;
+        const vector_f total_15 = W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5 + W4_0 * by_z4;
+        const vector_f by_z3 = phi * gap_22 - z3 * phi_product;
+        const vector_f by_z2 = phi * gap_19 - z2 * phi_product;
+        const vector_f by_z1 = phi * gap_16 - z1 * phi_product;
+        const vector_f by_z0 = phi * gap_13 - z0 * phi_product;
+        const vector_f by_v0 = total_15 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0;
+        const vector_f total_16 = W8_1 * by_z8 + W7_1 * by_z7 + W6_1 * by_z6 + W5_1 * by_z5 + W4_1 * by_z4;
+        const vector_f by_v1 = total_16 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
+        const vector_f total_17 = W8_2 * by_z8 + W7_2 * by_z7 + W6_2 * by_z6 + W5_2 * by_z5 + W4_2 * by_z4;
+        const vector_f by_v2 = total_17 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0;
+        const vector_f total_18 = W8_3 * by_z8 + W7_3 * by_z7 + W6_3 * by_z6 + W5_3 * by_z5 + W4_3 * by_z4;
+        const vector_f by_v3 = total_18 + W3_3 * by_z3 + W2_3 * by_z2 + W1_3 * by_z1 + W0_3 * by_z0;
+        const vector_f total_19 = W8_4 * by_z8 + W7_4 * by_z7 + W6_4 * by_z6 + W5_4 * by_z5 + W4_4 * by_z4;
+        const vector_f by_v4 = total_19 + W3_4 * by_z3 + W2_4 * by_z2 + W1_4 * by_z1 + W0_4 * by_z0;
+        const vector_f total_20 = W8_5 * by_z8 + W7_5 * by_z7 + W6_5 * by_z6 + W5_5 * by_z5 + W4_5 * by_z4;
+        const vector_f by_v5 = total_20 + W3_5 * by_z3 + W2_5 * by_z2 + W1_5 * by_z1 + W0_5 * by_z0;
+        const vector_f total_21 = W8_6 * by_z8 + W7_6 * by_z7 + W6_6 * by_z6 + W5_6 * by_z5 + W4_6 * by_z4;
+        const vector_f by_v6 = total_21 + W3_6 * by_z3 + W2_6 * by_z2 + W1_6 * by_z1 + W0_6 * by_z0;
+        const vector_f total_22 = W8_7 * by_z8 + W7_7 * by_z7 + W6_7 * by_z6 + W5_7 * by_z5 + W4_7 * by_z4;
+        const vector_f by_v7 = total_22 + W3_7 * by_z3 + W2_7 * by_z2 + W1_7 * by_z1 + W0_7 * by_z0;
+        const vector_f total_23 = W8_8 * by_z8 + W7_8 * by_z7 + W6_8 * by_z6 + W5_8 * by_z5 + W4_8 * by_z4;
+        const vector_f by_v8 = total_23 + W3_8 * by_z3 + W2_8 * by_z2 + W1_8 * by_z1 + W0_8 * by_z0;
+        const vector_f z0_product = z0 * phi;
+        const vector_f z1_product = z1 * phi;
+        const vector_f z2_product = z2 * phi;
+        const vector_f z3_product = z3 * phi;
+        const vector_f z4_product = z4 * phi;
+        const vector_f z5_product = z5 * phi;
+        const vector_f z6_product = z6 * phi;
+        const vector_f z7_product = z7 * phi;
+        const vector_f z8_product = z8 * phi;
+        factor[0] = v0;
+        factor[1] = v1;
+        factor[2] = v2;
+        factor[3] = v3;
+        factor[4] = v4;
+        factor[5] = v5;
+        factor[6] = v6;
+        factor[7] = v7;
+        factor[8] = v8;
+        factor[9] = phi_product;
+        factor[10] = by_z8;
+        factor[11] = by_z7;
+        factor[12] = by_z6;
+        factor[13] = by_z5;
+        factor[14] = by_z4;
+        factor[15] = by_z3;
+        factor[16] = by_z2;
+        factor[17] = by_z1;
+        factor[18] = by_z0;
+        factor[19] = -by_v0;
+        factor[20] = -by_v1;
+        factor[21] = -by_v2;
+        factor[22] = -by_v3;
+        factor[23] = -by_v4;
+        factor[24] = -by_v5;
+        factor[25] = -by_v6;
+        factor[26] = -by_v7;
+        factor[27] = -by_v8;
+        factor[28] = z0_product;
+        factor[29] = z1_product;
+        factor[30] = z2_product;
+        factor[31] = z3_product;
+        factor[32] = z4_product;
+        factor[33] = z5_product;
+        factor[34] = z6_product;
+        factor[35] = z7_product;
+        factor[36] = z8_product;
+    }
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_0_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[19];
+    sum[1] = sum[1] + factor[20];
+    sum[2] = sum[2] + factor[21];
+    sum[3] = sum[3] + factor[22];
+    sum[4] = sum[4] + factor[23];
+    sum[5] = sum[5] + factor[24];
+    sum[6] = sum[6] + factor[25];
+    sum[7] = sum[7] + factor[26];
+    sum[8] = sum[8] + factor[27];
+    sum[9] = sum[9] + factor[9];
+    sum[10] = sum[10] + factor[0] * factor[18] - factor[28] * point[10];
+    sum[11] = sum[11] + factor[1] * factor[18] - factor[28] * point[11];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_1_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[18] - factor[28] * point[12];
+    sum[1] = sum[1] + factor[3] * factor[18] - factor[28] * point[13];
+    sum[2] = sum[2] + factor[4] * factor[18] - factor[28] * point[14];
+    sum[3] = sum[3] + factor[5] * factor[18] - factor[28] * point[15];
+    sum[4] = sum[4] + factor[6] * factor[18] - factor[28] * point[16];
+    sum[5] = sum[5] + factor[7] * factor[18] - factor[28] * point[17];
+    sum[6] = sum[6] + factor[8] * factor[18] - factor[28] * point[18];
+    sum[7] = sum[7] + factor[2] * factor[17] - factor[29] * point[12];
+    sum[8] = sum[8] + factor[3] * factor[17] - factor[29] * point[13];
+    sum[9] = sum[9] + factor[4] * factor[17] - factor[29] * point[14];
+    sum[10] = sum[10] + factor[5] * factor[17] - factor[29] * point[15];
+    sum[11] = sum[11] + factor[6] * factor[17] - factor[29] * point[16];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_2_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[17] - factor[29] * point[10];
+    sum[1] = sum[1] + factor[1] * factor[17] - factor[29] * point[11];
+    sum[2] = sum[2] + factor[7] * factor[17] - factor[29] * point[17];
+    sum[3] = sum[3] + factor[8] * factor[17] - factor[29] * point[18];
+    sum[4] = sum[4] + factor[0] * factor[16] - factor[30] * point[10];
+    sum[5] = sum[5] + factor[1] * factor[16] - factor[30] * point[11];
+    sum[6] = sum[6] + factor[7] * factor[16] - factor[30] * point[17];
+    sum[7] = sum[7] + factor[8] * factor[16] - factor[30] * point[18];
+    sum[8] = sum[8] + factor[2] * factor[16] - factor[30] * point[12];
+    sum[9] = sum[9] + factor[3] * factor[16] - factor[30] * point[13];
+    sum[10] = sum[10] + factor[4] * factor[16] - factor[30] * point[14];
+    sum[11] = sum[11] + factor[5] * factor[16] - factor[30] * point[15];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_3_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[6] * factor[16] - factor[30] * point[16];
+    sum[1] = sum[1] + factor[6] * factor[15] - factor[31] * point[16];
+    sum[2] = sum[2] + factor[0] * factor[15] - factor[31] * point[10];
+    sum[3] = sum[3] + factor[1] * factor[15] - factor[31] * point[11];
+    sum[4] = sum[4] + factor[2] * factor[15] - factor[31] * point[12];
+    sum[5] = sum[5] + factor[3] * factor[15] - factor[31] * point[13];
+    sum[6] = sum[6] + factor[4] * factor[15] - factor[31] * point[14];
+    sum[7] = sum[7] + factor[5] * factor[15] - factor[31] * point[15];
+    sum[8] = sum[8] + factor[7] * factor[15] - factor[31] * point[17];
+    sum[9] = sum[9] + factor[8] * factor[15] - factor[31] * point[18];
+    sum[10] = sum[10] + factor[0] * factor[14] - factor[32] * point[10];
+    sum[11] = sum[11] + factor[1] * factor[14] - factor[32] * point[11];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_4_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[14] - factor[32] * point[12];
+    sum[1] = sum[1] + factor[3] * factor[14] - factor[32] * point[13];
+    sum[2] = sum[2] + factor[4] * factor[14] - factor[32] * point[14];
+    sum[3] = sum[3] + factor[5] * factor[14] - factor[32] * point[15];
+    sum[4] = sum[4] + factor[6] * factor[14] - factor[32] * point[16];
+    sum[5] = sum[5] + factor[7] * factor[14] - factor[32] * point[17];
+    sum[6] = sum[6] + factor[8] * factor[14] - factor[32] * point[18];
+    sum[7] = sum[7] + factor[2] * factor[13] - factor[33] * point[12];
+    sum[8] = sum[8] + factor[3] * factor[13] - factor[33] * point[13];
+    sum[9] = sum[9] + factor[4] * factor[13] - factor[33] * point[14];
+    sum[10] = sum[10] + factor[5] * factor[13] - factor[33] * point[15];
+    sum[11] = sum[11] + factor[6] * factor[13] - factor[33] * point[16];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_5_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[13] - factor[33] * point[10];
+    sum[1] = sum[1] + factor[1] * factor[13] - factor[33] * point[11];
+    sum[2] = sum[2] + factor[7] * factor[13] - factor[33] * point[17];
+    sum[3] = sum[3] + factor[8] * factor[13] - factor[33] * point[18];
+    sum[4] = sum[4] + factor[0] * factor[12] - factor[34] * point[10];
+    sum[5] = sum[5] + factor[1] * factor[12] - factor[34] * point[11];
+    sum[6] = sum[6] + factor[7] * factor[12] - factor[34] * point[17];
+    sum[7] = sum[7] + factor[8] * factor[12] - factor[34] * point[18];
+    sum[8] = sum[8] + factor[2] * factor[12] - factor[34] * point[12];
+    sum[9] = sum[9] + factor[3] * factor[12] - factor[34] * point[13];
+    sum[10] = sum[10] + factor[4] * factor[12] - factor[34] * point[14];
+    sum[11] = sum[11] + factor[5] * factor[12] - factor[34] * point[15];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_6_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[6] * factor[12] - factor[34] * point[16];
+    sum[1] = sum[1] + factor[6] * factor[11] - factor[35] * point[16];
+    sum[2] = sum[2] + factor[0] * factor[11] - factor[35] * point[10];
+    sum[3] = sum[3] + factor[1] * factor[11] - factor[35] * point[11];
+    sum[4] = sum[4] + factor[2] * factor[11] - factor[35] * point[12];
+    sum[5] = sum[5] + factor[3] * factor[11] - factor[35] * point[13];
+    sum[6] = sum[6] + factor[4] * factor[11] - factor[35] * point[14];
+    sum[7] = sum[7] + factor[5] * factor[11] - factor[35] * point[15];
+    sum[8] = sum[8] + factor[7] * factor[11] - factor[35] * point[17];
+    sum[9] = sum[9] + factor[8] * factor[11] - factor[35] * point[18];
+    sum[10] = sum[10] + factor[0] * factor[10] - factor[36] * point[10];
+    sum[11] = sum[11] + factor[1] * factor[10] - factor[36] * point[11];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_7_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[2] * factor[10] - factor[36] * point[12];
+    sum[1] = sum[1] + factor[3] * factor[10] - factor[36] * point[13];
+    sum[2] = sum[2] + factor[4] * factor[10] - factor[36] * point[14];
+    sum[3] = sum[3] + factor[5] * factor[10] - factor[36] * point[15];
+    sum[4] = sum[4] + factor[6] * factor[10] - factor[36] * point[16];
+    sum[5] = sum[5] + factor[7] * factor[10] - factor[36] * point[17];
+    sum[6] = sum[6] + factor[8] * factor[10] - factor[36] * point[18];
 }
 
 /* The adjoints of some splats' parameters, of their sums over the points. */
@@ -2995,411 +3809,6 @@ OUTLINE void pair_distances_f(
     distance[0] = sqrt_each_f(total_3 + 0.0625f * (arm_log5 * arm_log5));
 }
 
-/*
- * The factors of whose products are what is summed over the points.
- *
- * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
- */
-OUTLINE void pair_factors_f(
-    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *factor) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f x2 = X[2];
-    const vector_f x3 = X[3];
-    const vector_f x4 = X[4];
-    const vector_f x5 = X[5];
-    const vector_f x6 = X[6];
-    const vector_f x7 = X[7];
-    const vector_f x8 = X[8];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float mu2 = S[2];
-    const float mu3 = S[3];
-    const float mu4 = S[4];
-    const float mu5 = S[5];
-    const float mu6 = S[6];
-    const float mu7 = S[7];
-    const float mu8 = S[8];
-    const float W0_0 = S[9];
-    const float W0_1 = S[10];
-    const float W0_2 = S[11];
-    const float W0_3 = S[12];
-    const float W0_4 = S[13];
-    const float W0_5 = S[14];
-    const float W0_6 = S[15];
-    const float W0_7 = S[16];
-    const float W0_8 = S[17];
-    const float W1_0 = S[18];
-    const float W1_1 = S[19];
-    const float W1_2 = S[20];
-    const float W1_3 = S[21];
-    const float W1_4 = S[22];
-    const float W1_5 = S[23];
-    const float W1_6 = S[24];
-    const float W1_7 = S[25];
-    const float W1_8 = S[26];
-    const float W2_0 = S[27];
-    const float W2_1 = S[28];
-    const float W2_2 = S[29];
-    const float W2_3 = S[30];
-    const float W2_4 = S[31];
-    const float W2_5 = S[32];
-    const float W2_6 = S[33];
-    const float W2_7 = S[34];
-    const float W2_8 = S[35];
-    const float W3_0 = S[36];
-    const float W3_1 = S[37];
-    const float W3_2 = S[38];
-    const float W3_3 = S[39];
-    const float W3_4 = S[40];
-    const float W3_5 = S[41];
-    const float W3_6 = S[42];
-    const float W3_7 = S[43];
-    const float W3_8 = S[44];
-    const float W4_0 = S[45];
-    const float W4_1 = S[46];
-    const float W4_2 = S[47];
-    const float W4_3 = S[48];
-    const float W4_4 = S[49];
-    const float W4_5 = S[50];
-    const float W4_6 = S[51];
-    const float W4_7 = S[52];
-    const float W4_8 = S[53];
-    const float W5_0 = S[54];
-    const float W5_1 = S[55];
-    const float W5_2 = S[56];
-    const float W5_3 = S[57];
-    const float W5_4 = S[58];
-    const float W5_5 = S[59];
-    const float W5_6 = S[60];
-    const float W5_7 = S[61];
-    const float W5_8 = S[62];
-    const float W6_0 = S[63];
-    const float W6_1 = S[64];
-    const float W6_2 = S[65];
-    const float W6_3 = S[66];
-    const float W6_4 = S[67];
-    const float W6_5 = S[68];
-    const float W6_6 = S[69];
-    const float W6_7 = S[70];
-    const float W6_8 = S[71];
-    const float W7_0 = S[72];
-    const float W7_1 = S[73];
-    const float W7_2 = S[74];
-    const float W7_3 = S[75];
-    const float W7_4 = S[76];
-    const float W7_5 = S[77];
-    const float W7_6 = S[78];
-    const float W7_7 = S[79];
-    const float W7_8 = S[80];
-    const float W8_0 = S[81];
-    const float W8_1 = S[82];
-    const float W8_2 = S[83];
-    const float W8_3 = S[84];
-    const float W8_4 = S[85];
-    const float W8_5 = S[86];
-    const float W8_6 = S[87];
-    const float W8_7 = S[88];
-    const float W8_8 = S[89];
-    const vector_f its_value_bar = value_bar[0];
-    const vector_f x0_bar = slope_bar[0];
-    const vector_f x1_bar = slope_bar[1];
-    const vector_f x2_bar = slope_bar[2];
-    const vector_f x3_bar = slope_bar[3];
-    const vector_f x4_bar = slope_bar[4];
-    const vector_f x5_bar = slope_bar[5];
-    const vector_f x6_bar = slope_bar[6];
-    const vector_f x7_bar = slope_bar[7];
-    const vector_f x8_bar = slope_bar[8];
-    const vector_f v0 = x0 - mu0;
-    const vector_f v1 = x1 - mu1;
-    const vector_f gap = x2 - mu2;
-    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
-    const vector_f v2 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
-    const vector_f gap_2 = x3 - mu3;
-    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
-    const vector_f v3 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
-    const vector_f gap_3 = x4 - mu4;
-    const vector_f round_4 = round_each_f(0.15915494309189535f * gap_3);
-    const vector_f v4 = gap_3 - 6.28125f * round_4 - 0.001935307179586477f * round_4;
-    const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + W0_3 * v3 + W0_4 * v4;
-    const vector_f gap_4 = x5 - mu5;
-    const vector_f round_5 = round_each_f(0.15915494309189535f * gap_4);
-    const vector_f v5 = gap_4 - 6.28125f * round_5 - 0.001935307179586477f * round_5;
-    const vector_f gap_5 = x6 - mu6;
-    const vector_f round_6 = round_each_f(0.15915494309189535f * gap_5);
-    const vector_f v6 = gap_5 - 6.28125f * round_6 - 0.001935307179586477f * round_6;
-    const vector_f gap_6 = x7 - mu7;
-    const vector_f round_7 = round_each_f(0.15915494309189535f * gap_6);
-    const vector_f v7 = gap_6 - 6.28125f * round_7 - 0.001935307179586477f * round_7;
-    const vector_f gap_7 = x8 - mu8;
-    const vector_f round_8 = round_each_f(0.15915494309189535f * gap_7);
-    const vector_f v8 = gap_7 - 6.28125f * round_8 - 0.001935307179586477f * round_8;
-    const vector_f z0 = total_2 + W0_5 * v5 + W0_6 * v6 + W0_7 * v7 + W0_8 * v8;
-    const vector_f total_3 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + W1_3 * v3 + W1_4 * v4;
-    const vector_f z1 = total_3 + W1_5 * v5 + W1_6 * v6 + W1_7 * v7 + W1_8 * v8;
-    const vector_f total_4 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + W2_3 * v3 + W2_4 * v4;
-    const vector_f z2 = total_4 + W2_5 * v5 + W2_6 * v6 + W2_7 * v7 + W2_8 * v8;
-    const vector_f total_5 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + W3_3 * v3 + W3_4 * v4;
-    const vector_f z3 = total_5 + W3_5 * v5 + W3_6 * v6 + W3_7 * v7 + W3_8 * v8;
-    const vector_f total_6 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + W4_3 * v3 + W4_4 * v4;
-    const vector_f z4 = total_6 + W4_5 * v5 + W4_6 * v6 + W4_7 * v7 + W4_8 * v8;
-    const vector_f total_7 = z0 * z0 + z1 * z1 + z2 * z2 + z3 * z3 + z4 * z4;
-    const vector_f total_8 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + W5_3 * v3 + W5_4 * v4;
-    const vector_f z5 = total_8 + W5_5 * v5 + W5_6 * v6 + W5_7 * v7 + W5_8 * v8;
-    const vector_f total_9 = W6_0 * v0 + W6_1 * v1 + W6_2 * v2 + W6_3 * v3 + W6_4 * v4;
-    const vector_f z6 = total_9 + W6_5 * v5 + W6_6 * v6 + W6_7 * v7 + W6_8 * v8;
-    const vector_f total_10 = W7_0 * v0 + W7_1 * v1 + W7_2 * v2 + W7_3 * v3 + W7_4 * v4;
-    const vector_f z7 = total_10 + W7_5 * v5 + W7_6 * v6 + W7_7 * v7 + W7_8 * v8;
-    const vector_f total_11 = W8_0 * v0 + W8_1 * v1 + W8_2 * v2 + W8_3 * v3 + W8_4 * v4;
-    const vector_f z8 = total_11 + W8_5 * v5 + W8_6 * v6 + W8_7 * v7 + W8_8 * v8;
-    const vector_f total_12 = total_7 + z5 * z5 + z6 * z6 + z7 * z7 + z8 * z8;
-    const vector_f phi = gaussian_each_f(total_12);
-    const vector_f gap_8 = -(W8_0 * x0_bar) - W8_1 * x1_bar - W8_2 * x2_bar - W8_3 * x3_bar;
-    const vector_f gap_9 = gap_8 - W8_4 * x4_bar - W8_5 * x5_bar - W8_6 * x6_bar - W8_7 * x7_bar;
-    const vector_f gap_10 = gap_9 - W8_8 * x8_bar;
-    const vector_f gap_11 = -(W0_0 * x0_bar) - W0_1 * x1_bar - W0_2 * x2_bar - W0_3 * x3_bar;
-    const vector_f gap_12 = gap_11 - W0_4 * x4_bar - W0_5 * x5_bar - W0_6 * x6_bar - W0_7 * x7_bar;
-    const vector_f gap_13 = gap_12 - W0_8 * x8_bar;
-    const vector_f gap_14 = -(W1_0 * x0_bar) - W1_1 * x1_bar - W1_2 * x2_bar - W1_3 * x3_bar;
-    const vector_f gap_15 = gap_14 - W1_4 * x4_bar - W1_5 * x5_bar - W1_6 * x6_bar - W1_7 * x7_bar;
-    const vector_f gap_16 = gap_15 - W1_8 * x8_bar;
-    const vector_f gap_17 = -(W2_0 * x0_bar) - W2_1 * x1_bar - W2_2 * x2_bar - W2_3 * x3_bar;
-    const vector_f gap_18 = gap_17 - W2_4 * x4_bar - W2_5 * x5_bar - W2_6 * x6_bar - W2_7 * x7_bar;
-    const vector_f gap_19 = gap_18 - W2_8 * x8_bar;
-    const vector_f gap_20 = -(W3_0 * x0_bar) - W3_1 * x1_bar - W3_2 * x2_bar - W3_3 * x3_bar;
-    const vector_f gap_21 = gap_20 - W3_4 * x4_bar - W3_5 * x5_bar - W3_6 * x6_bar - W3_7 * x7_bar;
-    const vector_f gap_22 = gap_21 - W3_8 * x8_bar;
-    const vector_f total_13 = its_value_bar + z0 * gap_13 + z1 * gap_16 + z2 * gap_19 + z3 * gap_22;
-    const vector_f gap_23 = -(W4_0 * x0_bar) - W4_1 * x1_bar - W4_2 * x2_bar - W4_3 * x3_bar;
-    const vector_f gap_24 = gap_23 - W4_4 * x4_bar - W4_5 * x5_bar - W4_6 * x6_bar - W4_7 * x7_bar;
-    const vector_f gap_25 = gap_24 - W4_8 * x8_bar;
-    const vector_f gap_26 = -(W5_0 * x0_bar) - W5_1 * x1_bar - W5_2 * x2_bar - W5_3 * x3_bar;
-    const vector_f gap_27 = gap_26 - W5_4 * x4_bar - W5_5 * x5_bar - W5_6 * x6_bar - W5_7 * x7_bar;
-    const vector_f gap_28 = gap_27 - W5_8 * x8_bar;
-    const vector_f gap_29 = -(W6_0 * x0_bar) - W6_1 * x1_bar - W6_2 * x2_bar - W6_3 * x3_bar;
-    const vector_f gap_30 = gap_29 - W6_4 * x4_bar - W6_5 * x5_bar - W6_6 * x6_bar - W6_7 * x7_bar;
-    const vector_f gap_31 = gap_30 - W6_8 * x8_bar;
-    const vector_f gap_32 = -(W7_0 * x0_bar) - W7_1 * x1_bar - W7_2 * x2_bar - W7_3 * x3_bar;
-    const vector_f gap_33 = gap_32 - W7_4 * x4_bar - W7_5 * x5_bar - W7_6 * x6_bar - W7_7 * x7_bar;
-    const vector_f gap_34 = gap_33 - W7_8 * x8_bar;
-    const vector_f total_14 = total_13 + z4 * gap_25 + z5 * gap_28 + z6 * gap_31 + z7 * gap_34;
-    const vector_f by_phi = total_14 + z8 * gap_10;
-    const vector_f phi_product = phi * by_phi;
-    const vector_f by_z8 = phi * gap_10 - z8 * phi_product;
-    const vector_f by_z7 = phi * gap_34 - z7 * phi_product;
-    const vector_f by_z6 = phi * gap_31 - z6 * phi_product;
-    const vector_f by_z5 = phi * gap_28 - z5 * phi_product;
-    const vector_f by_z4 = phi * gap_25 - z4 * phi_product;
-    const vector_f total_15 = W8_0 * by_z8 + W7_0 * by_z7 + W6_0 * by_z6 + W5_0 * by_z5 + W4_0 * by_z4;
-    const vector_f by_z3 = phi * gap_22 - z3 * phi_product;
-    const vector_f by_z2 = phi * gap_19 - z2 * phi_product;
-    const vector_f by_z1 = phi * gap_16 - z1 * phi_product;
-    const vector_f by_z0 = phi * gap_13 - z0 * phi_product;
-    const vector_f by_v0 = total_15 + W3_0 * by_z3 + W2_0 * by_z2 + W1_0 * by_z1 + W0_0 * by_z0;
-    const vector_f total_16 = W8_1 * by_z8 + W7_1 * by_z7 + W6_1 * by_z6 + W5_1 * by_z5 + W4_1 * by_z4;
-    const vector_f by_v1 = total_16 + W3_1 * by_z3 + W2_1 * by_z2 + W1_1 * by_z1 + W0_1 * by_z0;
-    const vector_f total_17 = W8_2 * by_z8 + W7_2 * by_z7 + W6_2 * by_z6 + W5_2 * by_z5 + W4_2 * by_z4;
-    const vector_f by_v2 = total_17 + W3_2 * by_z3 + W2_2 * by_z2 + W1_2 * by_z1 + W0_2 * by_z0;
-    const vector_f total_18 = W8_3 * by_z8 + W7_3 * by_z7 + W6_3 * by_z6 + W5_3 * by_z5 + W4_3 * by_z4;
-    const vector_f by_v3 = total_18 + W3_3 * by_z3 + W2_3 * by_z2 + W1_3 * by_z1 + W0_3 * by_z0;
-    const vector_f total_19 = W8_4 * by_z8 + W7_4 * by_z7 + W6_4 * by_z6 + W5_4 * by_z5 + W4_4 * by_z4;
-    const vector_f by_v4 = total_19 + W3_4 * by_z3 + W2_4 * by_z2 + W1_4 * by_z1 + W0_4 * by_z0;
-    const vector_f total_20 = W8_5 * by_z8 + W7_5 * by_z7 + W6_5 * by_z6 + W5_5 * by_z5 + W4_5 * by_z4;
-    const vector_f by_v5 = total_20 + W3_5 * by_z3 + W2_5 * by_z2 + W1_5 * by_z1 + W0_5 * by_z0;
-    const vector_f total_21 = W8_6 * by_z8 + W7_6 * by_z7 + W6_6 * by_z6 + W5_6 * by_z5 + W4_6 * by_z4;
-    const vector_f by_v6 = total_21 + W3_6 * by_z3 + W2_6 * by_z2 + W1_6 * by_z1 + W0_6 * by_z0;
-    const vector_f total_22 = W8_7 * by_z8 + W7_7 * by_z7 + W6_7 * by_z6 + W5_7 * by_z5 + W4_7 * by_z4;
-    const vector_f by_v7 = total_22 + W3_7 * by_z3 + W2_7 * by_z2 + W1_7 * by_z1 + W0_7 * by_z0;
-    const vector_f total_23 = W8_8 * by_z8 + W7_8 * by_z7 + W6_8 * by_z6 + W5_8 * by_z5 + W4_8 * by_z4;
-    const vector_f by_v8 = total_23 + W3_8 * by_z3 + W2_8 * by_z2 + W1_8 * by_z1 + W0_8 * by_z0;
-    const vector_f z0_product = z0 * phi;
-    const vector_f z1_product = z1 * phi;
-    const vector_f z2_product = z2 * phi;
-    const vector_f z3_product = z3 * phi;
-    const vector_f z4_product = z4 * phi;
-    const vector_f z5_product = z5 * phi;
-    const vector_f z6_product = z6 * phi;
-    const vector_f z7_product = z7 * phi;
-    const vector_f z8_product = z8 * phi;
-    factor[0] = v0;
-    factor[1] = v1;
-    factor[2] = v2;
-    factor[3] = v3;
-    factor[4] = v4;
-    factor[5] = v5;
-    factor[6] = v6;
-    factor[7] = v7;
-    factor[8] = v8;
-    factor[9] = phi_product;
-    factor[10] = by_z8;
-    factor[11] = by_z7;
-    factor[12] = by_z6;
-    factor[13] = by_z5;
-    factor[14] = by_z4;
-    factor[15] = by_z3;
-    factor[16] = by_z2;
-    factor[17] = by_z1;
-    factor[18] = by_z0;
-    factor[19] = -by_v0;
-    factor[20] = -by_v1;
-    factor[21] = -by_v2;
-    factor[22] = -by_v3;
-    factor[23] = -by_v4;
-    factor[24] = -by_v5;
-    factor[25] = -by_v6;
-    factor[26] = -by_v7;
-    factor[27] = -by_v8;
-    factor[28] = z0_product;
-    factor[29] = z1_product;
-    factor[30] = z2_product;
-    factor[31] = z3_product;
-    factor[32] = z4_product;
-    factor[33] = z5_product;
-    factor[34] = z6_product;
-    factor[35] = z7_product;
-    factor[36] = z8_product;
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_0_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[19];
-    sum[1] = sum[1] + factor[20];
-    sum[2] = sum[2] + factor[21];
-    sum[3] = sum[3] + factor[22];
-    sum[4] = sum[4] + factor[23];
-    sum[5] = sum[5] + factor[24];
-    sum[6] = sum[6] + factor[25];
-    sum[7] = sum[7] + factor[26];
-    sum[8] = sum[8] + factor[27];
-    sum[9] = sum[9] + factor[9];
-    sum[10] = sum[10] + factor[0] * factor[18] - factor[28] * point[10];
-    sum[11] = sum[11] + factor[1] * factor[18] - factor[28] * point[11];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_1_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[2] * factor[18] - factor[28] * point[12];
-    sum[1] = sum[1] + factor[3] * factor[18] - factor[28] * point[13];
-    sum[2] = sum[2] + factor[4] * factor[18] - factor[28] * point[14];
-    sum[3] = sum[3] + factor[5] * factor[18] - factor[28] * point[15];
-    sum[4] = sum[4] + factor[6] * factor[18] - factor[28] * point[16];
-    sum[5] = sum[5] + factor[7] * factor[18] - factor[28] * point[17];
-    sum[6] = sum[6] + factor[8] * factor[18] - factor[28] * point[18];
-    sum[7] = sum[7] + factor[2] * factor[17] - factor[29] * point[12];
-    sum[8] = sum[8] + factor[3] * factor[17] - factor[29] * point[13];
-    sum[9] = sum[9] + factor[4] * factor[17] - factor[29] * point[14];
-    sum[10] = sum[10] + factor[5] * factor[17] - factor[29] * point[15];
-    sum[11] = sum[11] + factor[6] * factor[17] - factor[29] * point[16];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_2_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[0] * factor[17] - factor[29] * point[10];
-    sum[1] = sum[1] + factor[1] * factor[17] - factor[29] * point[11];
-    sum[2] = sum[2] + factor[7] * factor[17] - factor[29] * point[17];
-    sum[3] = sum[3] + factor[8] * factor[17] - factor[29] * point[18];
-    sum[4] = sum[4] + factor[0] * factor[16] - factor[30] * point[10];
-    sum[5] = sum[5] + factor[1] * factor[16] - factor[30] * point[11];
-    sum[6] = sum[6] + factor[7] * factor[16] - factor[30] * point[17];
-    sum[7] = sum[7] + factor[8] * factor[16] - factor[30] * point[18];
-    sum[8] = sum[8] + factor[2] * factor[16] - factor[30] * point[12];
-    sum[9] = sum[9] + factor[3] * factor[16] - factor[30] * point[13];
-    sum[10] = sum[10] + factor[4] * factor[16] - factor[30] * point[14];
-    sum[11] = sum[11] + factor[5] * factor[16] - factor[30] * point[15];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_3_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[6] * factor[16] - factor[30] * point[16];
-    sum[1] = sum[1] + factor[6] * factor[15] - factor[31] * point[16];
-    sum[2] = sum[2] + factor[0] * factor[15] - factor[31] * point[10];
-    sum[3] = sum[3] + factor[1] * factor[15] - factor[31] * point[11];
-    sum[4] = sum[4] + factor[2] * factor[15] - factor[31] * point[12];
-    sum[5] = sum[5] + factor[3] * factor[15] - factor[31] * point[13];
-    sum[6] = sum[6] + factor[4] * factor[15] - factor[31] * point[14];
-    sum[7] = sum[7] + factor[5] * factor[15] - factor[31] * point[15];
-    sum[8] = sum[8] + factor[7] * factor[15] - factor[31] * point[17];
-    sum[9] = sum[9] + factor[8] * factor[15] - factor[31] * point[18];
-    sum[10] = sum[10] + factor[0] * factor[14] - factor[32] * point[10];
-    sum[11] = sum[11] + factor[1] * factor[14] - factor[32] * point[11];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_4_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[2] * factor[14] - factor[32] * point[12];
-    sum[1] = sum[1] + factor[3] * factor[14] - factor[32] * point[13];
-    sum[2] = sum[2] + factor[4] * factor[14] - factor[32] * point[14];
-    sum[3] = sum[3] + factor[5] * factor[14] - factor[32] * point[15];
-    sum[4] = sum[4] + factor[6] * factor[14] - factor[32] * point[16];
-    sum[5] = sum[5] + factor[7] * factor[14] - factor[32] * point[17];
-    sum[6] = sum[6] + factor[8] * factor[14] - factor[32] * point[18];
-    sum[7] = sum[7] + factor[2] * factor[13] - factor[33] * point[12];
-    sum[8] = sum[8] + factor[3] * factor[13] - factor[33] * point[13];
-    sum[9] = sum[9] + factor[4] * factor[13] - factor[33] * point[14];
-    sum[10] = sum[10] + factor[5] * factor[13] - factor[33] * point[15];
-    sum[11] = sum[11] + factor[6] * factor[13] - factor[33] * point[16];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_5_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[0] * factor[13] - factor[33] * point[10];
-    sum[1] = sum[1] + factor[1] * factor[13] - factor[33] * point[11];
-    sum[2] = sum[2] + factor[7] * factor[13] - factor[33] * point[17];
-    sum[3] = sum[3] + factor[8] * factor[13] - factor[33] * point[18];
-    sum[4] = sum[4] + factor[0] * factor[12] - factor[34] * point[10];
-    sum[5] = sum[5] + factor[1] * factor[12] - factor[34] * point[11];
-    sum[6] = sum[6] + factor[7] * factor[12] - factor[34] * point[17];
-    sum[7] = sum[7] + factor[8] * factor[12] - factor[34] * point[18];
-    sum[8] = sum[8] + factor[2] * factor[12] - factor[34] * point[12];
-    sum[9] = sum[9] + factor[3] * factor[12] - factor[34] * point[13];
-    sum[10] = sum[10] + factor[4] * factor[12] - factor[34] * point[14];
-    sum[11] = sum[11] + factor[5] * factor[12] - factor[34] * point[15];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_6_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[6] * factor[12] - factor[34] * point[16];
-    sum[1] = sum[1] + factor[6] * factor[11] - factor[35] * point[16];
-    sum[2] = sum[2] + factor[0] * factor[11] - factor[35] * point[10];
-    sum[3] = sum[3] + factor[1] * factor[11] - factor[35] * point[11];
-    sum[4] = sum[4] + factor[2] * factor[11] - factor[35] * point[12];
-    sum[5] = sum[5] + factor[3] * factor[11] - factor[35] * point[13];
-    sum[6] = sum[6] + factor[4] * factor[11] - factor[35] * point[14];
-    sum[7] = sum[7] + factor[5] * factor[11] - factor[35] * point[15];
-    sum[8] = sum[8] + factor[7] * factor[11] - factor[35] * point[17];
-    sum[9] = sum[9] + factor[8] * factor[11] - factor[35] * point[18];
-    sum[10] = sum[10] + factor[0] * factor[10] - factor[36] * point[10];
-    sum[11] = sum[11] + factor[1] * factor[10] - factor[36] * point[11];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_7_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[2] * factor[10] - factor[36] * point[12];
-    sum[1] = sum[1] + factor[3] * factor[10] - factor[36] * point[13];
-    sum[2] = sum[2] + factor[4] * factor[10] - factor[36] * point[14];
-    sum[3] = sum[3] + factor[5] * factor[10] - factor[36] * point[15];
-    sum[4] = sum[4] + factor[6] * factor[10] - factor[36] * point[16];
-    sum[5] = sum[5] + factor[7] * factor[10] - factor[36] * point[17];
-    sum[6] = sum[6] + factor[8] * factor[10] - factor[36] * point[18];
-}
-
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
 OUTLINE void vector_rows_f(const float *rows, size_t count, size_t start, size_t size, vector_f *columns) {
     for (size_t i = 0; i < size; ++i) {
@@ -3559,7 +3968,7 @@ OUTLINE void splat_constants_f(
     vector_to_rows_f(S, constants, splat_count, start, 91, 91);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void mobile_manipulator_splats_f(
     size_t count, size_t splat_count, const float *MOBILE_MANIPULATOR_RESTRICT x, const float *MOBILE_MANIPULATOR_RESTRICT mu, const float *MOBILE_MANIPULATOR_RESTRICT W, const float *MOBILE_MANIPULATOR_RESTRICT amplitude, const float *MOBILE_MANIPULATOR_RESTRICT width,
     float *MOBILE_MANIPULATOR_RESTRICT value, float *MOBILE_MANIPULATOR_RESTRICT gradient, float *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
@@ -3574,27 +3983,26 @@ void mobile_manipulator_splats_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[2][9], X[2][9], grad[9];
-            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][9] = {{ZERO}};
+            vector_f at[2][9], X[2 * 9], grad[9];
+            vector_f value_sum[2] = {ZERO}, slope_sum[2 * 9] = {ZERO};
             float place[9 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 9, at[b]);
-                pair_features_f(at[b], X[b]);
+                pair_features_f(at[b], X + 9 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 91 * near[i];
-                    pair_forward_f(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward_f(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward_f(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient_f(at[b], slope_sum[b], grad);
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                pair_gradient_f(at[b], slope_sum + 9 * b, grad);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
                 vector_to_rows_f(grad, gradient, count, start + b * LANES_f, 9, 9);
             }
         }
@@ -3616,25 +4024,24 @@ void mobile_manipulator_splats_value_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[9], X[2][9], value_sum[2][1] = {{ZERO}};
+            vector_f at[9], X[2 * 9], value_sum[2] = {ZERO};
             float place[9 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 9, at);
-                pair_features_f(at, X[b]);
+                pair_features_f(at, X + 9 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 91 * near[i];
-                    pair_value_f(X[0], S, value_sum[0]);
-                    pair_value_f(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value_f(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -3653,14 +4060,14 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 9 + 1, point + 9);
 }
 
-/* Adds to sums what one vector of points adds to it. */
+/* Adds what makes the derivatives, of a splat at some vectors of points: their factors, then the products of these. */
 INLINE void pair_backward_f(
-    const vector_f *point, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
-    vector_f factor[37];
-    pair_factors_f(point, S, value_bar, slope_bar, factor);
+    size_t count, const vector_f *points, const uint32_t *near, const float *S, vector_f *sums) {
+    vector_f factor[10 * 37];
+    pair_factors_f(count, points, near, S, factor);
     {
         vector_f sum[12] = {ZERO};
-        pair_products_0_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_0_f(factor + 37 * i, points + 19 * (size_t)near[i], sum);
         sums[0] += sum[0];
         sums[1] += sum[1];
         sums[2] += sum[2];
@@ -3676,7 +4083,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_1_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_1_f(factor + 37 * i, points + 19 * (size_t)near[i], sum);
         sums[11] += sum[0];
         sums[12] += sum[1];
         sums[13] += sum[2];
@@ -3692,7 +4099,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_2_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_2_f(factor + 37 * i, points + 19 * (size_t)near[i], sum);
         sums[18] += sum[0];
         sums[19] += sum[1];
         sums[25] += sum[2];
@@ -3708,7 +4115,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_3_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_3_f(factor + 37 * i, points + 19 * (size_t)near[i], sum);
         sums[33] += sum[0];
         sums[42] += sum[1];
         sums[36] += sum[2];
@@ -3724,7 +4131,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_4_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_4_f(factor + 37 * i, points + 19 * (size_t)near[i], sum);
         sums[47] += sum[0];
         sums[48] += sum[1];
         sums[49] += sum[2];
@@ -3740,7 +4147,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_5_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_5_f(factor + 37 * i, points + 19 * (size_t)near[i], sum);
         sums[54] += sum[0];
         sums[55] += sum[1];
         sums[61] += sum[2];
@@ -3756,7 +4163,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_6_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_6_f(factor + 37 * i, points + 19 * (size_t)near[i], sum);
         sums[69] += sum[0];
         sums[78] += sum[1];
         sums[72] += sum[2];
@@ -3772,7 +4179,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[7] = {ZERO};
-        pair_products_7_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_7_f(factor + 37 * i, points + 19 * (size_t)near[i], sum);
         sums[83] += sum[0];
         sums[84] += sum[1];
         sums[85] += sum[2];
@@ -3783,143 +4190,12 @@ INLINE void pair_backward_f(
     }
 }
 
-/*
- * Adds to sums what some vectors of points add to it, those in the list: factors of 10 vectors at a time, then their
- * products.
- */
-OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t count, const float *S, float *sums) {
-    vector_f factor[10 * 37], total[91] = {ZERO};
-    for (size_t start = 0; start < count; start += 10, near += 10) {
-        const size_t size = count - start < 10 ? count - start : 10;
-        for (size_t b = 0; b < size; ++b) {
-            const vector_f *at = points + 19 * (size_t)near[b];
-            pair_factors_f(at, S, at + 9, at + 9 + 1, factor + 37 * b);
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_0_f(factor + 37 * b, points + 19 * (size_t)near[b], sum);
-            total[0] += sum[0];
-            total[1] += sum[1];
-            total[2] += sum[2];
-            total[3] += sum[3];
-            total[4] += sum[4];
-            total[5] += sum[5];
-            total[6] += sum[6];
-            total[7] += sum[7];
-            total[8] += sum[8];
-            total[90] += sum[9];
-            total[9] += sum[10];
-            total[10] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_1_f(factor + 37 * b, points + 19 * (size_t)near[b], sum);
-            total[11] += sum[0];
-            total[12] += sum[1];
-            total[13] += sum[2];
-            total[14] += sum[3];
-            total[15] += sum[4];
-            total[16] += sum[5];
-            total[17] += sum[6];
-            total[20] += sum[7];
-            total[21] += sum[8];
-            total[22] += sum[9];
-            total[23] += sum[10];
-            total[24] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_2_f(factor + 37 * b, points + 19 * (size_t)near[b], sum);
-            total[18] += sum[0];
-            total[19] += sum[1];
-            total[25] += sum[2];
-            total[26] += sum[3];
-            total[27] += sum[4];
-            total[28] += sum[5];
-            total[34] += sum[6];
-            total[35] += sum[7];
-            total[29] += sum[8];
-            total[30] += sum[9];
-            total[31] += sum[10];
-            total[32] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_3_f(factor + 37 * b, points + 19 * (size_t)near[b], sum);
-            total[33] += sum[0];
-            total[42] += sum[1];
-            total[36] += sum[2];
-            total[37] += sum[3];
-            total[38] += sum[4];
-            total[39] += sum[5];
-            total[40] += sum[6];
-            total[41] += sum[7];
-            total[43] += sum[8];
-            total[44] += sum[9];
-            total[45] += sum[10];
-            total[46] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_4_f(factor + 37 * b, points + 19 * (size_t)near[b], sum);
-            total[47] += sum[0];
-            total[48] += sum[1];
-            total[49] += sum[2];
-            total[50] += sum[3];
-            total[51] += sum[4];
-            total[52] += sum[5];
-            total[53] += sum[6];
-            total[56] += sum[7];
-            total[57] += sum[8];
-            total[58] += sum[9];
-            total[59] += sum[10];
-            total[60] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_5_f(factor + 37 * b, points + 19 * (size_t)near[b], sum);
-            total[54] += sum[0];
-            total[55] += sum[1];
-            total[61] += sum[2];
-            total[62] += sum[3];
-            total[63] += sum[4];
-            total[64] += sum[5];
-            total[70] += sum[6];
-            total[71] += sum[7];
-            total[65] += sum[8];
-            total[66] += sum[9];
-            total[67] += sum[10];
-            total[68] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_6_f(factor + 37 * b, points + 19 * (size_t)near[b], sum);
-            total[69] += sum[0];
-            total[78] += sum[1];
-            total[72] += sum[2];
-            total[73] += sum[3];
-            total[74] += sum[4];
-            total[75] += sum[5];
-            total[76] += sum[6];
-            total[77] += sum[7];
-            total[79] += sum[8];
-            total[80] += sum[9];
-            total[81] += sum[10];
-            total[82] += sum[11];
-        }
-        {
-            vector_f sum[7] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_7_f(factor + 37 * b, points + 19 * (size_t)near[b], sum);
-            total[83] += sum[0];
-            total[84] += sum[1];
-            total[85] += sum[2];
-            total[86] += sum[3];
-            total[87] += sum[4];
-            total[88] += sum[5];
-            total[89] += sum[6];
-        }
-    }
-    for (size_t i = 0; i < 91; ++i) sums[i] += vector_sum_f(total[i]);
+/* Adds to sums what some vectors of points add to them, those in the list. */
+OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *sums) {
+    vector_f sum[91] = {ZERO};
+    for (size_t b = 0; b < size; b += 10)
+        pair_backward_f(size - b < 10 ? size - b : 10, points, near + b, S, sum);
+    for (size_t i = 0; i < 91; ++i) sums[i] += vector_sum_f(sum[i]);
 }
 
 /*
@@ -3991,6 +4267,7 @@ void mobile_manipulator_splats_rows_f(
     float *MOBILE_MANIPULATOR_RESTRICT rows, float *MOBILE_MANIPULATOR_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    const uint32_t only = 0;
     float *constants = work_constants_f(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -4007,7 +4284,7 @@ void mobile_manipulator_splats_rows_f(
                 for (int i = 0; i < 9; ++i) own_mu[i] = vector_of_f(mu[9 * k + i]);
                 for (int i = 0; i < 81; ++i) own_W[i] = vector_of_f(W[81 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 91 * k, point + 9, point + 9 + 1, own_sums);
+                pair_backward_f(1, point, &only, constants + 91 * k, own_sums);
                 pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 9, bars + 9 + 81);
                 vector_to_rows_f(bars, rows + 91 * k, count, block * LANES_f, 91, 91 * splat_count);
             }

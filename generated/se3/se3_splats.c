@@ -24,7 +24,6 @@
 #endif
 #define LANE(vector, i) (vector)[i]
 #define ZERO {0}
-#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
 typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
 typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
 typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
@@ -34,7 +33,6 @@ typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
 #else
 #define LANE(vector, i) (vector)
 #define ZERO 0
-#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
 typedef double vector;
 typedef float vector_f;
 typedef int64_t vector_mask;
@@ -49,6 +47,17 @@ typedef uint32_t vector_bits_f;
 #else
 #define INLINE static inline
 #define OUTLINE static
+#endif
+/* UNROLLED: the few turns of a loop one after another. EACH_LANE: of a loop that gcc makes one instruction, if it stays a loop. */
+#if defined(__clang__)
+#define UNROLLED _Pragma("clang loop unroll(full)")
+#define EACH_LANE
+#elif defined(__GNUC__) && __GNUC__ >= 8
+#define UNROLLED _Pragma("GCC unroll 8")
+#define EACH_LANE _Pragma("GCC unroll 1")
+#else
+#define UNROLLED
+#define EACH_LANE
 #endif
 #define LANES (sizeof(vector) / sizeof(double))
 #define LANES_f (sizeof(vector_f) / sizeof(float))
@@ -90,9 +99,14 @@ INLINE vector vector_of(double x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector vector_select(vector_mask mask, vector x, vector y) {
-    return SELECT(vector, vector_mask, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector)((mask & (vector_mask)x) | (~mask & (vector_mask)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -131,13 +145,13 @@ INLINE vector signed_each(vector x, vector sign) {
 
 /* abs of every lane; one instruction where the machine has it. */
 INLINE vector abs_each(vector x) {
-    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
     return x;
 }
 
 /* sqrt of every lane; one instruction where the machine has it. */
 INLINE vector sqrt_each(vector x) {
-    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
     return x;
 }
 
@@ -445,7 +459,8 @@ OUTLINE void pair_constants(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
@@ -454,104 +469,135 @@ OUTLINE void pair_constants(
  * r = R h = W (tangent part of x), z = a r + what other factors add, phi = amplitude a^k exp(-|z|^2 / 2)
  */
 INLINE void pair_value(
-    const vector *X, const double *S, vector *value) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector x2 = X[2];
-    const vector x3 = X[3];
-    const vector x4 = X[4];
-    const vector x5 = X[5];
-    const vector x6 = X[6];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double mu2 = S[2];
-    const double mu3 = S[3];
-    const double mu4 = S[4];
-    const double mu5 = S[5];
-    const double mu6 = S[6];
-    const double W0_0 = S[7];
-    const double W0_1 = S[8];
-    const double W0_2 = S[9];
-    const double W1_0 = S[10];
-    const double W1_1 = S[11];
-    const double W1_2 = S[12];
-    const double W2_0 = S[13];
-    const double W2_1 = S[14];
-    const double W2_2 = S[15];
-    const double W3_0 = S[16];
-    const double W3_1 = S[17];
-    const double W3_2 = S[18];
-    const double W4_0 = S[19];
-    const double W4_1 = S[20];
-    const double W4_2 = S[21];
-    const double W5_0 = S[22];
-    const double W5_1 = S[23];
-    const double W5_2 = S[24];
-    const double amplitude = S[25];
-    const double rotation_R0_3 = S[32];
-    const double rotation_R0_0 = S[33];
-    const double rotation_R0_2 = S[34];
-    const double rotation_R0_1 = S[35];
-    const double rotation_R1_3 = S[36];
-    const double rotation_R1_0 = S[37];
-    const double rotation_R1_2 = S[38];
-    const double rotation_R1_1 = S[39];
-    const double rotation_R2_3 = S[40];
-    const double rotation_R2_0 = S[41];
-    const double rotation_R2_2 = S[42];
-    const double rotation_R2_1 = S[43];
-    const double rotation_R3_3 = S[44];
-    const double rotation_R3_0 = S[45];
-    const double rotation_R3_2 = S[46];
-    const double rotation_R3_1 = S[47];
-    const double rotation_R4_3 = S[48];
-    const double rotation_R4_0 = S[49];
-    const double rotation_R4_2 = S[50];
-    const double rotation_R4_1 = S[51];
-    const double rotation_R5_3 = S[52];
-    const double rotation_R5_0 = S[53];
-    const double rotation_R5_2 = S[54];
-    const double rotation_R5_1 = S[55];
-    const vector rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6;
-    const vector rotation_abs_g0 = abs_each(rotation_g0);
-    const vector rotation_eta = vector_polynomial_rotation_eta(1.0 - rotation_abs_g0);
-    const vector rotation_a = 1.0 / (rotation_abs_g0 - rotation_eta * (1.0 - rotation_abs_g0 *
-        rotation_abs_g0));
-    const vector v0 = x0 - mu0;
-    const vector v1 = x1 - mu1;
-    const vector v2 = x2 - mu2;
-    const vector rotation_a_chosen = vector_select(rotation_g0 < 0.0, -rotation_a, rotation_a);
-    const vector product = x3 * rotation_a_chosen;
-    const vector product_2 = x4 * rotation_a_chosen;
-    const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
-        product_2;
-    const vector product_3 = x5 * rotation_a_chosen;
-    const vector product_4 = x6 * rotation_a_chosen;
-    const vector total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
-    const vector total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
-        product_2;
-    const vector total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4;
-    const vector total_6 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_R2_0 * product + rotation_R2_1 *
-        product_2;
-    const vector total_7 = total_6 + rotation_R2_2 * product_3 + rotation_R2_3 * product_4;
-    const vector total_8 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_R3_0 * product + rotation_R3_1 *
-        product_2;
-    const vector total_9 = total_8 + rotation_R3_2 * product_3 + rotation_R3_3 * product_4;
-    const vector total_10 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_R4_0 * product + rotation_R4_1 *
-        product_2;
-    const vector total_11 = total_10 + rotation_R4_2 * product_3 + rotation_R4_3 * product_4;
-    const vector total_12 = total_3 * total_3 + total_5 * total_5 + total_7 * total_7 + total_9 * total_9 +
-        total_11 * total_11;
-    const vector total_13 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_R5_0 * product + rotation_R5_1 *
-        product_2;
-    const vector total_14 = total_13 + rotation_R5_2 * product_3 + rotation_R5_3 * product_4;
-    const vector gaussian = gaussian_each(total_12 + total_14 * total_14);
-    const vector phi = rotation_a * (rotation_a * gaussian);
-    value[0] = value[0] + amplitude * phi;
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values) {
+    struct { vector rotation_g0, rotation_a, gaussian; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 78 * near[k];
+        const double mu3 = S[3];
+        const double mu4 = S[4];
+        const double mu5 = S[5];
+        const double mu6 = S[6];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 7 * b;
+            const vector x3 = X[3];
+            const vector x4 = X[4];
+            const vector x5 = X[5];
+            const vector x6 = X[6];
+            const vector rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6;
+            const vector rotation_abs_g0 = abs_each(rotation_g0);
+            const vector rotation_eta = vector_polynomial_rotation_eta(1.0 - rotation_abs_g0);
+            const vector rotation_a = 1.0 / (rotation_abs_g0 - rotation_eta * (1.0 - rotation_abs_g0 *
+                rotation_abs_g0));
+            kept[k][b].rotation_g0 = rotation_g0;
+            kept[k][b].rotation_a = rotation_a;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 78 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double mu2 = S[2];
+        const double W0_0 = S[7];
+        const double W0_1 = S[8];
+        const double W0_2 = S[9];
+        const double W1_0 = S[10];
+        const double W1_1 = S[11];
+        const double W1_2 = S[12];
+        const double W2_0 = S[13];
+        const double W2_1 = S[14];
+        const double W2_2 = S[15];
+        const double W3_0 = S[16];
+        const double W3_1 = S[17];
+        const double W3_2 = S[18];
+        const double W4_0 = S[19];
+        const double W4_1 = S[20];
+        const double W4_2 = S[21];
+        const double W5_0 = S[22];
+        const double W5_1 = S[23];
+        const double W5_2 = S[24];
+        const double rotation_R0_3 = S[32];
+        const double rotation_R0_0 = S[33];
+        const double rotation_R0_2 = S[34];
+        const double rotation_R0_1 = S[35];
+        const double rotation_R1_3 = S[36];
+        const double rotation_R1_0 = S[37];
+        const double rotation_R1_2 = S[38];
+        const double rotation_R1_1 = S[39];
+        const double rotation_R2_3 = S[40];
+        const double rotation_R2_0 = S[41];
+        const double rotation_R2_2 = S[42];
+        const double rotation_R2_1 = S[43];
+        const double rotation_R3_3 = S[44];
+        const double rotation_R3_0 = S[45];
+        const double rotation_R3_2 = S[46];
+        const double rotation_R3_1 = S[47];
+        const double rotation_R4_3 = S[48];
+        const double rotation_R4_0 = S[49];
+        const double rotation_R4_2 = S[50];
+        const double rotation_R4_1 = S[51];
+        const double rotation_R5_3 = S[52];
+        const double rotation_R5_0 = S[53];
+        const double rotation_R5_2 = S[54];
+        const double rotation_R5_1 = S[55];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 7 * b;
+            const vector rotation_g0 = kept[k][b].rotation_g0;
+            const vector rotation_a = kept[k][b].rotation_a;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector x2 = X[2];
+            const vector x3 = X[3];
+            const vector x4 = X[4];
+            const vector x5 = X[5];
+            const vector x6 = X[6];
+            const vector v0 = x0 - mu0;
+            const vector v1 = x1 - mu1;
+            const vector v2 = x2 - mu2;
+            const vector rotation_a_chosen = vector_select(rotation_g0 < 0.0, -rotation_a, rotation_a);
+            const vector product = x3 * rotation_a_chosen;
+            const vector product_2 = x4 * rotation_a_chosen;
+            const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
+                product_2;
+            const vector product_3 = x5 * rotation_a_chosen;
+            const vector product_4 = x6 * rotation_a_chosen;
+            const vector total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
+            const vector total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
+                product_2;
+            const vector total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4;
+            const vector total_6 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_R2_0 * product + rotation_R2_1 *
+                product_2;
+            const vector total_7 = total_6 + rotation_R2_2 * product_3 + rotation_R2_3 * product_4;
+            const vector total_8 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_R3_0 * product + rotation_R3_1 *
+                product_2;
+            const vector total_9 = total_8 + rotation_R3_2 * product_3 + rotation_R3_3 * product_4;
+            const vector total_10 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_R4_0 * product + rotation_R4_1 *
+                product_2;
+            const vector total_11 = total_10 + rotation_R4_2 * product_3 + rotation_R4_3 * product_4;
+            const vector total_12 = total_3 * total_3 + total_5 * total_5 + total_7 * total_7 + total_9 * total_9 +
+                total_11 * total_11;
+            const vector total_13 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_R5_0 * product + rotation_R5_1 *
+                product_2;
+            const vector total_14 = total_13 + rotation_R5_2 * product_3 + rotation_R5_3 * product_4;
+            const vector gaussian = gaussian_each(total_12 + total_14 * total_14);
+            kept[k][b].gaussian = gaussian;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 78 * near[k];
+        const double amplitude = S[25];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector *value = values + b;
+            const vector rotation_a = kept[k][b].rotation_a;
+            const vector gaussian = kept[k][b].gaussian;
+            const vector phi = rotation_a * (rotation_a * gaussian);
+            value[0] = value[0] + amplitude * phi;
+        }
+    }
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
@@ -560,130 +606,231 @@ INLINE void pair_value(
  * r = R h = W (tangent part of x), z = a r + what other factors add, phi = amplitude a^k exp(-|z|^2 / 2)
  */
 INLINE void pair_forward(
-    const vector *X, const double *S, vector *value, vector *slope) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector x2 = X[2];
-    const vector x3 = X[3];
-    const vector x4 = X[4];
-    const vector x5 = X[5];
-    const vector x6 = X[6];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double mu2 = S[2];
-    const double mu3 = S[3];
-    const double mu4 = S[4];
-    const double mu5 = S[5];
-    const double mu6 = S[6];
-    const double W0_0 = S[7];
-    const double W0_1 = S[8];
-    const double W0_2 = S[9];
-    const double W1_0 = S[10];
-    const double W1_1 = S[11];
-    const double W1_2 = S[12];
-    const double W2_0 = S[13];
-    const double W2_1 = S[14];
-    const double W2_2 = S[15];
-    const double W3_0 = S[16];
-    const double W3_1 = S[17];
-    const double W3_2 = S[18];
-    const double W4_0 = S[19];
-    const double W4_1 = S[20];
-    const double W4_2 = S[21];
-    const double W5_0 = S[22];
-    const double W5_1 = S[23];
-    const double W5_2 = S[24];
-    const double amplitude = S[25];
-    const double rotation_R0_3 = S[32];
-    const double rotation_R0_0 = S[33];
-    const double rotation_R0_2 = S[34];
-    const double rotation_R0_1 = S[35];
-    const double rotation_R1_3 = S[36];
-    const double rotation_R1_0 = S[37];
-    const double rotation_R1_2 = S[38];
-    const double rotation_R1_1 = S[39];
-    const double rotation_R2_3 = S[40];
-    const double rotation_R2_0 = S[41];
-    const double rotation_R2_2 = S[42];
-    const double rotation_R2_1 = S[43];
-    const double rotation_R3_3 = S[44];
-    const double rotation_R3_0 = S[45];
-    const double rotation_R3_2 = S[46];
-    const double rotation_R3_1 = S[47];
-    const double rotation_R4_3 = S[48];
-    const double rotation_R4_0 = S[49];
-    const double rotation_R4_2 = S[50];
-    const double rotation_R4_1 = S[51];
-    const double rotation_R5_3 = S[52];
-    const double rotation_R5_0 = S[53];
-    const double rotation_R5_2 = S[54];
-    const double rotation_R5_1 = S[55];
-    const vector rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6;
-    const vector rotation_abs_g0 = abs_each(rotation_g0);
-    const vector rotation_eta = vector_polynomial_rotation_eta(1.0 - rotation_abs_g0);
-    const vector rotation_a = 1.0 / (rotation_abs_g0 - rotation_eta * (1.0 - rotation_abs_g0 *
-        rotation_abs_g0));
-    const vector v0 = x0 - mu0;
-    const vector v1 = x1 - mu1;
-    const vector v2 = x2 - mu2;
-    const vector_mask is_small = rotation_g0 < 0.0;
-    const vector rotation_a_chosen = vector_select(is_small, -rotation_a, rotation_a);
-    const vector product = x3 * rotation_a_chosen;
-    const vector product_2 = x4 * rotation_a_chosen;
-    const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
-        product_2;
-    const vector product_3 = x5 * rotation_a_chosen;
-    const vector product_4 = x6 * rotation_a_chosen;
-    const vector total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
-    const vector total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
-        product_2;
-    const vector total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4;
-    const vector total_6 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_R2_0 * product + rotation_R2_1 *
-        product_2;
-    const vector total_7 = total_6 + rotation_R2_2 * product_3 + rotation_R2_3 * product_4;
-    const vector total_8 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_R3_0 * product + rotation_R3_1 *
-        product_2;
-    const vector total_9 = total_8 + rotation_R3_2 * product_3 + rotation_R3_3 * product_4;
-    const vector total_10 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_R4_0 * product + rotation_R4_1 *
-        product_2;
-    const vector total_11 = total_10 + rotation_R4_2 * product_3 + rotation_R4_3 * product_4;
-    const vector total_12 = total_3 * total_3 + total_5 * total_5 + total_7 * total_7 + total_9 * total_9 +
-        total_11 * total_11;
-    const vector total_13 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_R5_0 * product + rotation_R5_1 *
-        product_2;
-    const vector total_14 = total_13 + rotation_R5_2 * product_3 + rotation_R5_3 * product_4;
-    const vector gaussian = gaussian_each(total_12 + total_14 * total_14);
-    const vector phi = rotation_a * (rotation_a * gaussian);
-    const vector phi_2 = amplitude * phi;
-    const vector total_15 = W0_0 * total_3 + W1_0 * total_5 + W2_0 * total_7 + W3_0 * total_9 + W4_0 *
-        total_11;
-    const vector total_16 = W0_1 * total_3 + W1_1 * total_5 + W2_1 * total_7 + W3_1 * total_9 + W4_1 *
-        total_11;
-    const vector total_17 = W0_2 * total_3 + W1_2 * total_5 + W2_2 * total_7 + W3_2 * total_9 + W4_2 *
-        total_11;
-    const vector total_18 = rotation_R0_3 * total_3 + rotation_R1_3 * total_5 + rotation_R2_3 * total_7 +
-        rotation_R3_3 * total_9 + rotation_R4_3 * total_11;
-    const vector phi_product = phi_2 * (total_18 + rotation_R5_3 * total_14);
-    const vector total_19 = rotation_R0_2 * total_3 + rotation_R1_2 * total_5 + rotation_R2_2 * total_7 +
-        rotation_R3_2 * total_9 + rotation_R4_2 * total_11;
-    const vector phi_product_2 = phi_2 * (total_19 + rotation_R5_2 * total_14);
-    const vector total_20 = rotation_R0_1 * total_3 + rotation_R1_1 * total_5 + rotation_R2_1 * total_7 +
-        rotation_R3_1 * total_9 + rotation_R4_1 * total_11;
-    const vector phi_product_3 = phi_2 * (total_20 + rotation_R5_1 * total_14);
-    const vector total_21 = rotation_R0_0 * total_3 + rotation_R1_0 * total_5 + rotation_R2_0 * total_7 +
-        rotation_R3_0 * total_9 + rotation_R4_0 * total_11;
-    const vector phi_product_4 = phi_2 * (total_21 + rotation_R5_0 * total_14);
-    const vector gap = -(x6 * phi_product) - x5 * phi_product_2 - x4 * phi_product_3 - x3 * phi_product_4;
-    const vector by_rotation_abs_g0 = rotation_eta * (2.0 * phi_2 + rotation_a_chosen * gap);
-    const vector by_rotation_g0 = vector_select(is_small, -by_rotation_abs_g0, by_rotation_abs_g0);
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] - phi_2 * (total_15 + W5_0 * total_14);
-    slope[1] = slope[1] - phi_2 * (total_16 + W5_1 * total_14);
-    slope[2] = slope[2] - phi_2 * (total_17 + W5_2 * total_14);
-    slope[3] = slope[3] + mu3 * by_rotation_g0 - rotation_a_chosen * phi_product_4;
-    slope[4] = slope[4] + mu4 * by_rotation_g0 - rotation_a_chosen * phi_product_3;
-    slope[5] = slope[5] + mu5 * by_rotation_g0 - rotation_a_chosen * phi_product_2;
-    slope[6] = slope[6] + mu6 * by_rotation_g0 - rotation_a_chosen * phi_product;
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values, vector *slopes) {
+    struct { vector rotation_g0, rotation_eta, rotation_a, rotation_a_chosen, total_3, total_5, total_7,
+            total_9, total_11, total_14, gaussian; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 78 * near[k];
+        const double mu3 = S[3];
+        const double mu4 = S[4];
+        const double mu5 = S[5];
+        const double mu6 = S[6];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 7 * b;
+            const vector x3 = X[3];
+            const vector x4 = X[4];
+            const vector x5 = X[5];
+            const vector x6 = X[6];
+            const vector rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6;
+            const vector rotation_abs_g0 = abs_each(rotation_g0);
+            const vector rotation_eta = vector_polynomial_rotation_eta(1.0 - rotation_abs_g0);
+            const vector rotation_a = 1.0 / (rotation_abs_g0 - rotation_eta * (1.0 - rotation_abs_g0 *
+                rotation_abs_g0));
+            kept[k][b].rotation_g0 = rotation_g0;
+            kept[k][b].rotation_eta = rotation_eta;
+            kept[k][b].rotation_a = rotation_a;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 78 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double mu2 = S[2];
+        const double W0_0 = S[7];
+        const double W0_1 = S[8];
+        const double W0_2 = S[9];
+        const double W1_0 = S[10];
+        const double W1_1 = S[11];
+        const double W1_2 = S[12];
+        const double W2_0 = S[13];
+        const double W2_1 = S[14];
+        const double W2_2 = S[15];
+        const double W3_0 = S[16];
+        const double W3_1 = S[17];
+        const double W3_2 = S[18];
+        const double W4_0 = S[19];
+        const double W4_1 = S[20];
+        const double W4_2 = S[21];
+        const double W5_0 = S[22];
+        const double W5_1 = S[23];
+        const double W5_2 = S[24];
+        const double rotation_R0_3 = S[32];
+        const double rotation_R0_0 = S[33];
+        const double rotation_R0_2 = S[34];
+        const double rotation_R0_1 = S[35];
+        const double rotation_R1_3 = S[36];
+        const double rotation_R1_0 = S[37];
+        const double rotation_R1_2 = S[38];
+        const double rotation_R1_1 = S[39];
+        const double rotation_R2_3 = S[40];
+        const double rotation_R2_0 = S[41];
+        const double rotation_R2_2 = S[42];
+        const double rotation_R2_1 = S[43];
+        const double rotation_R3_3 = S[44];
+        const double rotation_R3_0 = S[45];
+        const double rotation_R3_2 = S[46];
+        const double rotation_R3_1 = S[47];
+        const double rotation_R4_3 = S[48];
+        const double rotation_R4_0 = S[49];
+        const double rotation_R4_2 = S[50];
+        const double rotation_R4_1 = S[51];
+        const double rotation_R5_3 = S[52];
+        const double rotation_R5_0 = S[53];
+        const double rotation_R5_2 = S[54];
+        const double rotation_R5_1 = S[55];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 7 * b;
+            const vector rotation_g0 = kept[k][b].rotation_g0;
+            const vector rotation_a = kept[k][b].rotation_a;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector x2 = X[2];
+            const vector x3 = X[3];
+            const vector x4 = X[4];
+            const vector x5 = X[5];
+            const vector x6 = X[6];
+            const vector v0 = x0 - mu0;
+            const vector v1 = x1 - mu1;
+            const vector v2 = x2 - mu2;
+            const vector_mask is_small = rotation_g0 < 0.0;
+            const vector rotation_a_chosen = vector_select(is_small, -rotation_a, rotation_a);
+            const vector product = x3 * rotation_a_chosen;
+            const vector product_2 = x4 * rotation_a_chosen;
+            const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
+                product_2;
+            const vector product_3 = x5 * rotation_a_chosen;
+            const vector product_4 = x6 * rotation_a_chosen;
+            const vector total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
+            const vector total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
+                product_2;
+            const vector total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4;
+            const vector total_6 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_R2_0 * product + rotation_R2_1 *
+                product_2;
+            const vector total_7 = total_6 + rotation_R2_2 * product_3 + rotation_R2_3 * product_4;
+            const vector total_8 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_R3_0 * product + rotation_R3_1 *
+                product_2;
+            const vector total_9 = total_8 + rotation_R3_2 * product_3 + rotation_R3_3 * product_4;
+            const vector total_10 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_R4_0 * product + rotation_R4_1 *
+                product_2;
+            const vector total_11 = total_10 + rotation_R4_2 * product_3 + rotation_R4_3 * product_4;
+            const vector total_12 = total_3 * total_3 + total_5 * total_5 + total_7 * total_7 + total_9 * total_9 +
+                total_11 * total_11;
+            const vector total_13 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_R5_0 * product + rotation_R5_1 *
+                product_2;
+            const vector total_14 = total_13 + rotation_R5_2 * product_3 + rotation_R5_3 * product_4;
+            const vector gaussian = gaussian_each(total_12 + total_14 * total_14);
+            kept[k][b].rotation_a_chosen = rotation_a_chosen;
+            kept[k][b].total_3 = total_3;
+            kept[k][b].total_5 = total_5;
+            kept[k][b].total_7 = total_7;
+            kept[k][b].total_9 = total_9;
+            kept[k][b].total_11 = total_11;
+            kept[k][b].total_14 = total_14;
+            kept[k][b].gaussian = gaussian;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 78 * near[k];
+        const double mu3 = S[3];
+        const double mu4 = S[4];
+        const double mu5 = S[5];
+        const double mu6 = S[6];
+        const double W0_0 = S[7];
+        const double W0_1 = S[8];
+        const double W0_2 = S[9];
+        const double W1_0 = S[10];
+        const double W1_1 = S[11];
+        const double W1_2 = S[12];
+        const double W2_0 = S[13];
+        const double W2_1 = S[14];
+        const double W2_2 = S[15];
+        const double W3_0 = S[16];
+        const double W3_1 = S[17];
+        const double W3_2 = S[18];
+        const double W4_0 = S[19];
+        const double W4_1 = S[20];
+        const double W4_2 = S[21];
+        const double W5_0 = S[22];
+        const double W5_1 = S[23];
+        const double W5_2 = S[24];
+        const double amplitude = S[25];
+        const double rotation_R0_3 = S[32];
+        const double rotation_R0_0 = S[33];
+        const double rotation_R0_2 = S[34];
+        const double rotation_R0_1 = S[35];
+        const double rotation_R1_3 = S[36];
+        const double rotation_R1_0 = S[37];
+        const double rotation_R1_2 = S[38];
+        const double rotation_R1_1 = S[39];
+        const double rotation_R2_3 = S[40];
+        const double rotation_R2_0 = S[41];
+        const double rotation_R2_2 = S[42];
+        const double rotation_R2_1 = S[43];
+        const double rotation_R3_3 = S[44];
+        const double rotation_R3_0 = S[45];
+        const double rotation_R3_2 = S[46];
+        const double rotation_R3_1 = S[47];
+        const double rotation_R4_3 = S[48];
+        const double rotation_R4_0 = S[49];
+        const double rotation_R4_2 = S[50];
+        const double rotation_R4_1 = S[51];
+        const double rotation_R5_3 = S[52];
+        const double rotation_R5_0 = S[53];
+        const double rotation_R5_2 = S[54];
+        const double rotation_R5_1 = S[55];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 7 * b;
+            vector *value = values + b;
+            vector *slope = slopes + 7 * b;
+            const vector rotation_g0 = kept[k][b].rotation_g0;
+            const vector rotation_eta = kept[k][b].rotation_eta;
+            const vector rotation_a = kept[k][b].rotation_a;
+            const vector rotation_a_chosen = kept[k][b].rotation_a_chosen;
+            const vector total_3 = kept[k][b].total_3;
+            const vector total_5 = kept[k][b].total_5;
+            const vector total_7 = kept[k][b].total_7;
+            const vector total_9 = kept[k][b].total_9;
+            const vector total_11 = kept[k][b].total_11;
+            const vector total_14 = kept[k][b].total_14;
+            const vector gaussian = kept[k][b].gaussian;
+            const vector x3 = X[3];
+            const vector x4 = X[4];
+            const vector x5 = X[5];
+            const vector x6 = X[6];
+            const vector_mask is_small = rotation_g0 < 0.0;
+            const vector phi = rotation_a * (rotation_a * gaussian);
+            const vector phi_2 = amplitude * phi;
+            const vector total_15 = W0_0 * total_3 + W1_0 * total_5 + W2_0 * total_7 + W3_0 * total_9 + W4_0 *
+                total_11;
+            const vector total_16 = W0_1 * total_3 + W1_1 * total_5 + W2_1 * total_7 + W3_1 * total_9 + W4_1 *
+                total_11;
+            const vector total_17 = W0_2 * total_3 + W1_2 * total_5 + W2_2 * total_7 + W3_2 * total_9 + W4_2 *
+                total_11;
+            const vector total_18 = rotation_R0_3 * total_3 + rotation_R1_3 * total_5 + rotation_R2_3 * total_7 +
+                rotation_R3_3 * total_9 + rotation_R4_3 * total_11;
+            const vector phi_product = phi_2 * (total_18 + rotation_R5_3 * total_14);
+            const vector total_19 = rotation_R0_2 * total_3 + rotation_R1_2 * total_5 + rotation_R2_2 * total_7 +
+                rotation_R3_2 * total_9 + rotation_R4_2 * total_11;
+            const vector phi_product_2 = phi_2 * (total_19 + rotation_R5_2 * total_14);
+            const vector total_20 = rotation_R0_1 * total_3 + rotation_R1_1 * total_5 + rotation_R2_1 * total_7 +
+                rotation_R3_1 * total_9 + rotation_R4_1 * total_11;
+            const vector phi_product_3 = phi_2 * (total_20 + rotation_R5_1 * total_14);
+            const vector total_21 = rotation_R0_0 * total_3 + rotation_R1_0 * total_5 + rotation_R2_0 * total_7 +
+                rotation_R3_0 * total_9 + rotation_R4_0 * total_11;
+            const vector phi_product_4 = phi_2 * (total_21 + rotation_R5_0 * total_14);
+            const vector gap = -(x6 * phi_product) - x5 * phi_product_2 - x4 * phi_product_3 - x3 * phi_product_4;
+            const vector by_rotation_abs_g0 = rotation_eta * (2.0 * phi_2 + rotation_a_chosen * gap);
+            const vector by_rotation_g0 = vector_select(is_small, -by_rotation_abs_g0, by_rotation_abs_g0);
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] - phi_2 * (total_15 + W5_0 * total_14);
+            slope[1] = slope[1] - phi_2 * (total_16 + W5_1 * total_14);
+            slope[2] = slope[2] - phi_2 * (total_17 + W5_2 * total_14);
+            slope[3] = slope[3] + mu3 * by_rotation_g0 - rotation_a_chosen * phi_product_4;
+            slope[4] = slope[4] + mu4 * by_rotation_g0 - rotation_a_chosen * phi_product_3;
+            slope[5] = slope[5] + mu5 * by_rotation_g0 - rotation_a_chosen * phi_product_2;
+            slope[6] = slope[6] + mu6 * by_rotation_g0 - rotation_a_chosen * phi_product;
+        }
+    }
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -733,6 +880,427 @@ OUTLINE void pair_gradient_vjp(
     slope_bar[4] = 0.5 * (x5 * gradient_bar5 - x6 * gradient_bar4 + x3 * gradient_bar3);
     slope_bar[5] = 0.5 * (x3 * gradient_bar4 - x4 * gradient_bar5 + x6 * gradient_bar3);
     slope_bar[6] = 0.5 * (x3 * gradient_bar5 + x4 * gradient_bar4 - x5 * gradient_bar3);
+}
+
+/*
+ * The factors of whose products are what is summed over the points, for some vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
+ *
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
+ * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
+ * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
+ * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
+ * r = R h = W (tangent part of x), z = a r + what other factors add, phi = amplitude a^k exp(-|z|^2 / 2)
+ */
+OUTLINE void pair_factors(
+    size_t count, const vector *points, const uint32_t *near, const double *S, vector *factors) {
+    struct { vector v0, v1, v2, rotation_g0, gap, rotation_eta, rotation_a, rotation_a_chosen, product,
+            product_2, product_3, product_4, total_3, total_5, total_7, total_9, total_11, total_14, gaussian; }
+            kept[16];
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 15 * (size_t)near[i];
+        const vector x3 = X[3];
+        const vector x4 = X[4];
+        const vector x5 = X[5];
+        const vector x6 = X[6];
+        const double mu3 = S[3];
+        const double mu4 = S[4];
+        const double mu5 = S[5];
+        const double mu6 = S[6];
+        const vector rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6;
+        const vector rotation_abs_g0 = abs_each(rotation_g0);
+        const vector gap = 1.0 - rotation_abs_g0;
+        const vector rotation_eta = vector_polynomial_rotation_eta(gap);
+        const vector rotation_a = 1.0 / (rotation_abs_g0 - rotation_eta * (1.0 - rotation_abs_g0 *
+            rotation_abs_g0));
+        kept[i].rotation_g0 = rotation_g0;
+        kept[i].gap = gap;
+        kept[i].rotation_eta = rotation_eta;
+        kept[i].rotation_a = rotation_a;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 15 * (size_t)near[i];
+        const vector rotation_g0 = kept[i].rotation_g0;
+        const vector rotation_a = kept[i].rotation_a;
+        const vector x0 = X[0];
+        const vector x1 = X[1];
+        const vector x2 = X[2];
+        const vector x3 = X[3];
+        const vector x4 = X[4];
+        const vector x5 = X[5];
+        const vector x6 = X[6];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double mu2 = S[2];
+        const double W0_0 = S[7];
+        const double W0_1 = S[8];
+        const double W0_2 = S[9];
+        const double W1_0 = S[10];
+        const double W1_1 = S[11];
+        const double W1_2 = S[12];
+        const double W2_0 = S[13];
+        const double W2_1 = S[14];
+        const double W2_2 = S[15];
+        const double W3_0 = S[16];
+        const double W3_1 = S[17];
+        const double W3_2 = S[18];
+        const double W4_0 = S[19];
+        const double W4_1 = S[20];
+        const double W4_2 = S[21];
+        const double W5_0 = S[22];
+        const double W5_1 = S[23];
+        const double W5_2 = S[24];
+        const double rotation_R0_3 = S[32];
+        const double rotation_R0_0 = S[33];
+        const double rotation_R0_2 = S[34];
+        const double rotation_R0_1 = S[35];
+        const double rotation_R1_3 = S[36];
+        const double rotation_R1_0 = S[37];
+        const double rotation_R1_2 = S[38];
+        const double rotation_R1_1 = S[39];
+        const double rotation_R2_3 = S[40];
+        const double rotation_R2_0 = S[41];
+        const double rotation_R2_2 = S[42];
+        const double rotation_R2_1 = S[43];
+        const double rotation_R3_3 = S[44];
+        const double rotation_R3_0 = S[45];
+        const double rotation_R3_2 = S[46];
+        const double rotation_R3_1 = S[47];
+        const double rotation_R4_3 = S[48];
+        const double rotation_R4_0 = S[49];
+        const double rotation_R4_2 = S[50];
+        const double rotation_R4_1 = S[51];
+        const double rotation_R5_3 = S[52];
+        const double rotation_R5_0 = S[53];
+        const double rotation_R5_2 = S[54];
+        const double rotation_R5_1 = S[55];
+        const vector v0 = x0 - mu0;
+        const vector v1 = x1 - mu1;
+        const vector v2 = x2 - mu2;
+        const vector_mask is_small = rotation_g0 < 0.0;
+        const vector rotation_a_chosen = vector_select(is_small, -rotation_a, rotation_a);
+        const vector product = x3 * rotation_a_chosen;
+        const vector product_2 = x4 * rotation_a_chosen;
+        const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
+            product_2;
+        const vector product_3 = x5 * rotation_a_chosen;
+        const vector product_4 = x6 * rotation_a_chosen;
+        const vector total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
+        const vector total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
+            product_2;
+        const vector total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4;
+        const vector total_6 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_R2_0 * product + rotation_R2_1 *
+            product_2;
+        const vector total_7 = total_6 + rotation_R2_2 * product_3 + rotation_R2_3 * product_4;
+        const vector total_8 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_R3_0 * product + rotation_R3_1 *
+            product_2;
+        const vector total_9 = total_8 + rotation_R3_2 * product_3 + rotation_R3_3 * product_4;
+        const vector total_10 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_R4_0 * product + rotation_R4_1 *
+            product_2;
+        const vector total_11 = total_10 + rotation_R4_2 * product_3 + rotation_R4_3 * product_4;
+        const vector total_13 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_R5_0 * product + rotation_R5_1 *
+            product_2;
+        const vector total_14 = total_13 + rotation_R5_2 * product_3 + rotation_R5_3 * product_4;
+        const vector total_16 = total_3 * total_3 + total_5 * total_5 + total_7 * total_7 + total_9 * total_9 +
+            total_11 * total_11;
+        const vector gaussian = gaussian_each(total_16 + total_14 * total_14);
+        kept[i].v0 = v0;
+        kept[i].v1 = v1;
+        kept[i].v2 = v2;
+        kept[i].rotation_a_chosen = rotation_a_chosen;
+        kept[i].product = product;
+        kept[i].product_2 = product_2;
+        kept[i].product_3 = product_3;
+        kept[i].product_4 = product_4;
+        kept[i].total_3 = total_3;
+        kept[i].total_5 = total_5;
+        kept[i].total_7 = total_7;
+        kept[i].total_9 = total_9;
+        kept[i].total_11 = total_11;
+        kept[i].total_14 = total_14;
+        kept[i].gaussian = gaussian;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 15 * (size_t)near[i];
+        const vector *value_bar = points + 15 * (size_t)near[i] + 7;
+        const vector *slope_bar = points + 15 * (size_t)near[i] + 7 + 1;
+        vector *factor = factors + 20 * i;
+        const vector v0 = kept[i].v0;
+        const vector v1 = kept[i].v1;
+        const vector v2 = kept[i].v2;
+        const vector rotation_g0 = kept[i].rotation_g0;
+        const vector gap = kept[i].gap;
+        const vector rotation_eta = kept[i].rotation_eta;
+        const vector rotation_a = kept[i].rotation_a;
+        const vector rotation_a_chosen = kept[i].rotation_a_chosen;
+        const vector product = kept[i].product;
+        const vector product_2 = kept[i].product_2;
+        const vector product_3 = kept[i].product_3;
+        const vector product_4 = kept[i].product_4;
+        const vector total_3 = kept[i].total_3;
+        const vector total_5 = kept[i].total_5;
+        const vector total_7 = kept[i].total_7;
+        const vector total_9 = kept[i].total_9;
+        const vector total_11 = kept[i].total_11;
+        const vector total_14 = kept[i].total_14;
+        const vector gaussian = kept[i].gaussian;
+        const vector x3 = X[3];
+        const vector x4 = X[4];
+        const vector x5 = X[5];
+        const vector x6 = X[6];
+        const double mu3 = S[3];
+        const double mu4 = S[4];
+        const double mu5 = S[5];
+        const double mu6 = S[6];
+        const double W0_0 = S[7];
+        const double W0_1 = S[8];
+        const double W0_2 = S[9];
+        const double W1_0 = S[10];
+        const double W1_1 = S[11];
+        const double W1_2 = S[12];
+        const double W2_0 = S[13];
+        const double W2_1 = S[14];
+        const double W2_2 = S[15];
+        const double W3_0 = S[16];
+        const double W3_1 = S[17];
+        const double W3_2 = S[18];
+        const double W4_0 = S[19];
+        const double W4_1 = S[20];
+        const double W4_2 = S[21];
+        const double W5_0 = S[22];
+        const double W5_1 = S[23];
+        const double W5_2 = S[24];
+        const double M0_0 = S[26];
+        const double M0_1 = S[27];
+        const double M0_2 = S[28];
+        const double M1_1 = S[29];
+        const double M1_2 = S[30];
+        const double M2_2 = S[31];
+        const double rotation_R0_3 = S[32];
+        const double rotation_R0_0 = S[33];
+        const double rotation_R0_2 = S[34];
+        const double rotation_R0_1 = S[35];
+        const double rotation_R1_3 = S[36];
+        const double rotation_R1_0 = S[37];
+        const double rotation_R1_2 = S[38];
+        const double rotation_R1_1 = S[39];
+        const double rotation_R2_3 = S[40];
+        const double rotation_R2_0 = S[41];
+        const double rotation_R2_2 = S[42];
+        const double rotation_R2_1 = S[43];
+        const double rotation_R3_3 = S[44];
+        const double rotation_R3_0 = S[45];
+        const double rotation_R3_2 = S[46];
+        const double rotation_R3_1 = S[47];
+        const double rotation_R4_3 = S[48];
+        const double rotation_R4_0 = S[49];
+        const double rotation_R4_2 = S[50];
+        const double rotation_R4_1 = S[51];
+        const double rotation_R5_3 = S[52];
+        const double rotation_R5_0 = S[53];
+        const double rotation_R5_2 = S[54];
+        const double rotation_R5_1 = S[55];
+        const double M0_3 = S[56];
+        const double M0_4 = S[57];
+        const double M0_5 = S[58];
+        const double M0_6 = S[59];
+        const double M1_3 = S[60];
+        const double M1_4 = S[61];
+        const double M1_5 = S[62];
+        const double M1_6 = S[63];
+        const double M2_3 = S[64];
+        const double M2_4 = S[65];
+        const double M2_5 = S[66];
+        const double M2_6 = S[67];
+        const double M3_3 = S[68];
+        const double M3_4 = S[69];
+        const double M3_5 = S[70];
+        const double M3_6 = S[71];
+        const double M4_4 = S[72];
+        const double M4_5 = S[73];
+        const double M4_6 = S[74];
+        const double M5_5 = S[75];
+        const double M5_6 = S[76];
+        const double M6_6 = S[77];
+        const vector its_value_bar = value_bar[0];
+        const vector x0_bar = slope_bar[0];
+        const vector x1_bar = slope_bar[1];
+        const vector x2_bar = slope_bar[2];
+        const vector x3_bar = slope_bar[3];
+        const vector x4_bar = slope_bar[4];
+        const vector x5_bar = slope_bar[5];
+        const vector x6_bar = slope_bar[6];
+        const vector_mask is_small = rotation_g0 < 0.0;
+        const vector total_12 = W0_0 * total_3 + W1_0 * total_5 + W2_0 * total_7 + W3_0 * total_9 + W4_0 *
+            total_11;
+        const vector total_15 = total_12 + W5_0 * total_14;
+        const vector phi = rotation_a * (rotation_a * gaussian);
+        const vector total_17 = rotation_R0_3 * total_3 + rotation_R1_3 * total_5 + rotation_R2_3 * total_7 +
+            rotation_R3_3 * total_9 + rotation_R4_3 * total_11;
+        const vector total_18 = total_17 + rotation_R5_3 * total_14;
+        const vector by_by_rotation_g0 = mu3 * x3_bar + mu4 * x4_bar + mu5 * x5_bar + mu6 * x6_bar;
+        const vector by_by_rotation_abs_g0 = vector_select(is_small, vector_of(0.0), by_by_rotation_g0) -
+            vector_select(is_small, by_by_rotation_g0, vector_of(0.0));
+        const vector product_5 = rotation_eta * by_by_rotation_abs_g0;
+        const vector product_6 = rotation_a_chosen * product_5;
+        const vector gap_2 = -(x6 * product_6) - rotation_a_chosen * x6_bar;
+        const vector total_19 = rotation_R0_2 * total_3 + rotation_R1_2 * total_5 + rotation_R2_2 * total_7 +
+            rotation_R3_2 * total_9 + rotation_R4_2 * total_11;
+        const vector total_20 = total_19 + rotation_R5_2 * total_14;
+        const vector gap_3 = -(x5 * product_6) - rotation_a_chosen * x5_bar;
+        const vector total_21 = rotation_R0_1 * total_3 + rotation_R1_1 * total_5 + rotation_R2_1 * total_7 +
+            rotation_R3_1 * total_9 + rotation_R4_1 * total_11;
+        const vector total_22 = total_21 + rotation_R5_1 * total_14;
+        const vector gap_4 = -(x4 * product_6) - rotation_a_chosen * x4_bar;
+        const vector total_23 = rotation_R0_0 * total_3 + rotation_R1_0 * total_5 + rotation_R2_0 * total_7 +
+            rotation_R3_0 * total_9 + rotation_R4_0 * total_11;
+        const vector total_24 = total_23 + rotation_R5_0 * total_14;
+        const vector gap_5 = -(x3 * product_6) - rotation_a_chosen * x3_bar;
+        const vector total_25 = its_value_bar + total_18 * gap_2 + total_20 * gap_3 + total_22 * gap_4 + total_24
+            * gap_5;
+        const vector total_26 = W0_2 * total_3 + W1_2 * total_5 + W2_2 * total_7 + W3_2 * total_9 + W4_2 *
+            total_11;
+        const vector total_27 = total_26 + W5_2 * total_14;
+        const vector total_28 = W0_1 * total_3 + W1_1 * total_5 + W2_1 * total_7 + W3_1 * total_9 + W4_1 *
+            total_11;
+        const vector total_29 = total_28 + W5_1 * total_14;
+        const vector by_phi = total_25 - total_27 * x2_bar - total_29 * x1_bar - total_15 * x0_bar + 2.0 *
+            product_5;
+        const vector phi_product = phi * by_phi;
+        const vector phi_product_2 = phi * x0_bar;
+        const vector phi_product_3 = phi * x1_bar;
+        const vector phi_product_4 = phi * x2_bar;
+        const vector phi_product_5 = phi * gap_5;
+        const vector total_30 = -(M0_0 * phi_product_2) - M0_1 * phi_product_3 - M0_2 * phi_product_4 + M0_3 *
+            phi_product_5;
+        const vector phi_product_6 = phi * gap_4;
+        const vector phi_product_7 = phi * gap_3;
+        const vector phi_product_8 = phi * gap_2;
+        const vector gap_6 = total_15 * phi_product - (total_30 + M0_4 * phi_product_6 + M0_5 * phi_product_7 +
+            M0_6 * phi_product_8);
+        const vector total_31 = -(M0_1 * phi_product_2) - M1_1 * phi_product_3 - M1_2 * phi_product_4 + M1_3 *
+            phi_product_5;
+        const vector gap_7 = total_29 * phi_product - (total_31 + M1_4 * phi_product_6 + M1_5 * phi_product_7 +
+            M1_6 * phi_product_8);
+        const vector total_32 = -(M0_2 * phi_product_2) - M1_2 * phi_product_3 - M2_2 * phi_product_4 + M2_3 *
+            phi_product_5;
+        const vector gap_8 = total_27 * phi_product - (total_32 + M2_4 * phi_product_6 + M2_5 * phi_product_7 +
+            M2_6 * phi_product_8);
+        const vector phi_product_9 = phi * total_18;
+        const vector phi_product_10 = phi * total_20;
+        const vector phi_product_11 = phi * total_22;
+        const vector phi_product_12 = phi * total_24;
+        const vector gap_9 = -(x6 * phi_product_9) - x5 * phi_product_10 - x4 * phi_product_11 - x3 *
+            phi_product_12;
+        const vector total_33 = 2.0 * phi + rotation_a_chosen * gap_9;
+        const vector by_rotation_abs_g0 = rotation_eta * total_33;
+        const vector by_rotation_g0 = vector_select(is_small, -by_rotation_abs_g0, by_rotation_abs_g0);
+        const vector rotation_eta_slope = vector_polynomial_rotation_eta_slope(gap);
+        const vector gap_10 = gap_9 * product_5 - phi_product_12 * x3_bar - phi_product_11 * x4_bar -
+            phi_product_10 * x5_bar - phi_product_9 * x6_bar;
+        const vector total_34 = -(M0_6 * phi_product_2) - M1_6 * phi_product_3 - M2_6 * phi_product_4 + M3_6 *
+            phi_product_5;
+        const vector gap_11 = total_34 + M4_6 * phi_product_6 + M5_6 * phi_product_7 + M6_6 * phi_product_8 -
+            total_18 * phi_product;
+        const vector total_35 = -(M0_5 * phi_product_2) - M1_5 * phi_product_3 - M2_5 * phi_product_4 + M3_5 *
+            phi_product_5;
+        const vector gap_12 = total_35 + M4_5 * phi_product_6 + M5_5 * phi_product_7 + M5_6 * phi_product_8 -
+            total_20 * phi_product;
+        const vector total_36 = -(M0_4 * phi_product_2) - M1_4 * phi_product_3 - M2_4 * phi_product_4 + M3_4 *
+            phi_product_5;
+        const vector gap_13 = total_36 + M4_4 * phi_product_6 + M4_5 * phi_product_7 + M4_6 * phi_product_8 -
+            total_22 * phi_product;
+        const vector total_37 = -(M0_3 * phi_product_2) - M1_3 * phi_product_3 - M2_3 * phi_product_4 + M3_3 *
+            phi_product_5;
+        const vector gap_14 = total_37 + M3_4 * phi_product_6 + M3_5 * phi_product_7 + M3_6 * phi_product_8 -
+            total_24 * phi_product;
+        const vector total_38 = gap_10 + x6 * gap_11 + x5 * gap_12 + x4 * gap_13 + x3 * gap_14;
+        const vector by_rotation_abs_g0_2 = rotation_eta_slope * (total_33 * by_by_rotation_abs_g0) + rotation_eta
+            * (2.0 * phi_product + rotation_a_chosen * total_38);
+        const vector by_rotation_g0_2 = vector_select(is_small, -by_rotation_abs_g0_2, by_rotation_abs_g0_2);
+        const vector product_7 = 0.5 * phi_product;
+        const vector gap_15 = -phi_product_2 - v0 * product_7;
+        const vector gap_16 = -phi_product_3 - v1 * product_7;
+        const vector gap_17 = -phi_product_4 - v2 * product_7;
+        const vector gap_18 = phi_product_5 - product * product_7;
+        const vector gap_19 = phi_product_6 - product_2 * product_7;
+        const vector gap_20 = phi_product_7 - product_3 * product_7;
+        const vector gap_21 = phi_product_8 - product_4 * product_7;
+        factor[0] = v0;
+        factor[1] = v1;
+        factor[2] = v2;
+        factor[3] = product;
+        factor[4] = product_2;
+        factor[5] = product_3;
+        factor[6] = product_4;
+        factor[7] = phi_product;
+        factor[8] = gap_6;
+        factor[9] = gap_7;
+        factor[10] = gap_8;
+        factor[11] = by_rotation_g0;
+        factor[12] = by_rotation_g0_2;
+        factor[13] = gap_15;
+        factor[14] = gap_16;
+        factor[15] = gap_17;
+        factor[16] = gap_18;
+        factor[17] = gap_19;
+        factor[18] = gap_20;
+        factor[19] = gap_21;
+    }
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_0(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[8];
+    sum[1] = sum[1] + factor[9];
+    sum[2] = sum[2] + factor[10];
+    sum[3] = sum[3] + factor[7];
+    sum[4] = sum[4] + factor[0] * factor[13];
+    sum[5] = sum[5] + factor[0] * factor[14] + factor[1] * factor[13];
+    sum[6] = sum[6] + factor[1] * factor[14];
+    sum[7] = sum[7] + factor[0] * factor[15] + factor[2] * factor[13];
+    sum[8] = sum[8] + factor[1] * factor[15] + factor[2] * factor[14];
+    sum[9] = sum[9] + factor[2] * factor[15];
+    sum[10] = sum[10] + factor[0] * factor[16] + factor[3] * factor[13];
+    sum[11] = sum[11] + factor[1] * factor[16] + factor[3] * factor[14];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_1(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[11] * point[11] + point[3] * factor[12];
+    sum[1] = sum[1] + factor[11] * point[12] + point[4] * factor[12];
+    sum[2] = sum[2] + factor[11] * point[13] + point[5] * factor[12];
+    sum[3] = sum[3] + factor[11] * point[14] + point[6] * factor[12];
+    sum[4] = sum[4] + factor[3] * factor[16];
+    sum[5] = sum[5] + factor[2] * factor[16] + factor[3] * factor[15];
+    sum[6] = sum[6] + factor[2] * factor[17] + factor[4] * factor[15];
+    sum[7] = sum[7] + factor[3] * factor[17] + factor[4] * factor[16];
+    sum[8] = sum[8] + factor[4] * factor[17];
+    sum[9] = sum[9] + factor[0] * factor[17] + factor[4] * factor[13];
+    sum[10] = sum[10] + factor[0] * factor[18] + factor[5] * factor[13];
+    sum[11] = sum[11] + factor[2] * factor[18] + factor[5] * factor[15];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_2(const vector *factor, const vector *point, vector *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[19] + factor[6] * factor[13];
+    sum[1] = sum[1] + factor[6] * factor[19];
+    sum[2] = sum[2] + factor[1] * factor[19] + factor[6] * factor[14];
+    sum[3] = sum[3] + factor[1] * factor[17] + factor[4] * factor[14];
+    sum[4] = sum[4] + factor[4] * factor[19] + factor[6] * factor[17];
+    sum[5] = sum[5] + factor[1] * factor[18] + factor[5] * factor[14];
+    sum[6] = sum[6] + factor[4] * factor[18] + factor[5] * factor[17];
+    sum[7] = sum[7] + factor[5] * factor[18];
+    sum[8] = sum[8] + factor[5] * factor[19] + factor[6] * factor[18];
+    sum[9] = sum[9] + factor[2] * factor[19] + factor[6] * factor[15];
+    sum[10] = sum[10] + factor[3] * factor[18] + factor[5] * factor[16];
+    sum[11] = sum[11] + factor[3] * factor[19] + factor[6] * factor[16];
 }
 
 /* The adjoints of some splats' parameters, of their sums over the points. */
@@ -1111,316 +1679,6 @@ OUTLINE void pair_distances(
     distance[0] = length;
 }
 
-/*
- * The factors of whose products are what is summed over the points.
- *
- * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
- * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
- * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
- * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x), z = a r + what other factors add, phi = amplitude a^k exp(-|z|^2 / 2)
- */
-OUTLINE void pair_factors(
-    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *factor) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector x2 = X[2];
-    const vector x3 = X[3];
-    const vector x4 = X[4];
-    const vector x5 = X[5];
-    const vector x6 = X[6];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double mu2 = S[2];
-    const double mu3 = S[3];
-    const double mu4 = S[4];
-    const double mu5 = S[5];
-    const double mu6 = S[6];
-    const double W0_0 = S[7];
-    const double W0_1 = S[8];
-    const double W0_2 = S[9];
-    const double W1_0 = S[10];
-    const double W1_1 = S[11];
-    const double W1_2 = S[12];
-    const double W2_0 = S[13];
-    const double W2_1 = S[14];
-    const double W2_2 = S[15];
-    const double W3_0 = S[16];
-    const double W3_1 = S[17];
-    const double W3_2 = S[18];
-    const double W4_0 = S[19];
-    const double W4_1 = S[20];
-    const double W4_2 = S[21];
-    const double W5_0 = S[22];
-    const double W5_1 = S[23];
-    const double W5_2 = S[24];
-    const double M0_0 = S[26];
-    const double M0_1 = S[27];
-    const double M0_2 = S[28];
-    const double M1_1 = S[29];
-    const double M1_2 = S[30];
-    const double M2_2 = S[31];
-    const double rotation_R0_3 = S[32];
-    const double rotation_R0_0 = S[33];
-    const double rotation_R0_2 = S[34];
-    const double rotation_R0_1 = S[35];
-    const double rotation_R1_3 = S[36];
-    const double rotation_R1_0 = S[37];
-    const double rotation_R1_2 = S[38];
-    const double rotation_R1_1 = S[39];
-    const double rotation_R2_3 = S[40];
-    const double rotation_R2_0 = S[41];
-    const double rotation_R2_2 = S[42];
-    const double rotation_R2_1 = S[43];
-    const double rotation_R3_3 = S[44];
-    const double rotation_R3_0 = S[45];
-    const double rotation_R3_2 = S[46];
-    const double rotation_R3_1 = S[47];
-    const double rotation_R4_3 = S[48];
-    const double rotation_R4_0 = S[49];
-    const double rotation_R4_2 = S[50];
-    const double rotation_R4_1 = S[51];
-    const double rotation_R5_3 = S[52];
-    const double rotation_R5_0 = S[53];
-    const double rotation_R5_2 = S[54];
-    const double rotation_R5_1 = S[55];
-    const double M0_3 = S[56];
-    const double M0_4 = S[57];
-    const double M0_5 = S[58];
-    const double M0_6 = S[59];
-    const double M1_3 = S[60];
-    const double M1_4 = S[61];
-    const double M1_5 = S[62];
-    const double M1_6 = S[63];
-    const double M2_3 = S[64];
-    const double M2_4 = S[65];
-    const double M2_5 = S[66];
-    const double M2_6 = S[67];
-    const double M3_3 = S[68];
-    const double M3_4 = S[69];
-    const double M3_5 = S[70];
-    const double M3_6 = S[71];
-    const double M4_4 = S[72];
-    const double M4_5 = S[73];
-    const double M4_6 = S[74];
-    const double M5_5 = S[75];
-    const double M5_6 = S[76];
-    const double M6_6 = S[77];
-    const vector its_value_bar = value_bar[0];
-    const vector x0_bar = slope_bar[0];
-    const vector x1_bar = slope_bar[1];
-    const vector x2_bar = slope_bar[2];
-    const vector x3_bar = slope_bar[3];
-    const vector x4_bar = slope_bar[4];
-    const vector x5_bar = slope_bar[5];
-    const vector x6_bar = slope_bar[6];
-    const vector v0 = x0 - mu0;
-    const vector v1 = x1 - mu1;
-    const vector v2 = x2 - mu2;
-    const vector rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6;
-    const vector_mask is_small = rotation_g0 < 0.0;
-    const vector rotation_abs_g0 = abs_each(rotation_g0);
-    const vector gap = 1.0 - rotation_abs_g0;
-    const vector rotation_eta = vector_polynomial_rotation_eta(gap);
-    const vector rotation_a = 1.0 / (rotation_abs_g0 - rotation_eta * (1.0 - rotation_abs_g0 *
-        rotation_abs_g0));
-    const vector rotation_a_chosen = vector_select(is_small, -rotation_a, rotation_a);
-    const vector product = x3 * rotation_a_chosen;
-    const vector product_2 = x4 * rotation_a_chosen;
-    const vector total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
-        product_2;
-    const vector product_3 = x5 * rotation_a_chosen;
-    const vector product_4 = x6 * rotation_a_chosen;
-    const vector total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
-    const vector total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
-        product_2;
-    const vector total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4;
-    const vector total_6 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_R2_0 * product + rotation_R2_1 *
-        product_2;
-    const vector total_7 = total_6 + rotation_R2_2 * product_3 + rotation_R2_3 * product_4;
-    const vector total_8 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_R3_0 * product + rotation_R3_1 *
-        product_2;
-    const vector total_9 = total_8 + rotation_R3_2 * product_3 + rotation_R3_3 * product_4;
-    const vector total_10 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_R4_0 * product + rotation_R4_1 *
-        product_2;
-    const vector total_11 = total_10 + rotation_R4_2 * product_3 + rotation_R4_3 * product_4;
-    const vector total_12 = W0_0 * total_3 + W1_0 * total_5 + W2_0 * total_7 + W3_0 * total_9 + W4_0 *
-        total_11;
-    const vector total_13 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_R5_0 * product + rotation_R5_1 *
-        product_2;
-    const vector total_14 = total_13 + rotation_R5_2 * product_3 + rotation_R5_3 * product_4;
-    const vector total_15 = total_12 + W5_0 * total_14;
-    const vector total_16 = total_3 * total_3 + total_5 * total_5 + total_7 * total_7 + total_9 * total_9 +
-        total_11 * total_11;
-    const vector gaussian = gaussian_each(total_16 + total_14 * total_14);
-    const vector phi = rotation_a * (rotation_a * gaussian);
-    const vector total_17 = rotation_R0_3 * total_3 + rotation_R1_3 * total_5 + rotation_R2_3 * total_7 +
-        rotation_R3_3 * total_9 + rotation_R4_3 * total_11;
-    const vector total_18 = total_17 + rotation_R5_3 * total_14;
-    const vector by_by_rotation_g0 = mu3 * x3_bar + mu4 * x4_bar + mu5 * x5_bar + mu6 * x6_bar;
-    const vector by_by_rotation_abs_g0 = vector_select(is_small, vector_of(0.0), by_by_rotation_g0) -
-        vector_select(is_small, by_by_rotation_g0, vector_of(0.0));
-    const vector product_5 = rotation_eta * by_by_rotation_abs_g0;
-    const vector product_6 = rotation_a_chosen * product_5;
-    const vector gap_2 = -(x6 * product_6) - rotation_a_chosen * x6_bar;
-    const vector total_19 = rotation_R0_2 * total_3 + rotation_R1_2 * total_5 + rotation_R2_2 * total_7 +
-        rotation_R3_2 * total_9 + rotation_R4_2 * total_11;
-    const vector total_20 = total_19 + rotation_R5_2 * total_14;
-    const vector gap_3 = -(x5 * product_6) - rotation_a_chosen * x5_bar;
-    const vector total_21 = rotation_R0_1 * total_3 + rotation_R1_1 * total_5 + rotation_R2_1 * total_7 +
-        rotation_R3_1 * total_9 + rotation_R4_1 * total_11;
-    const vector total_22 = total_21 + rotation_R5_1 * total_14;
-    const vector gap_4 = -(x4 * product_6) - rotation_a_chosen * x4_bar;
-    const vector total_23 = rotation_R0_0 * total_3 + rotation_R1_0 * total_5 + rotation_R2_0 * total_7 +
-        rotation_R3_0 * total_9 + rotation_R4_0 * total_11;
-    const vector total_24 = total_23 + rotation_R5_0 * total_14;
-    const vector gap_5 = -(x3 * product_6) - rotation_a_chosen * x3_bar;
-    const vector total_25 = its_value_bar + total_18 * gap_2 + total_20 * gap_3 + total_22 * gap_4 + total_24
-        * gap_5;
-    const vector total_26 = W0_2 * total_3 + W1_2 * total_5 + W2_2 * total_7 + W3_2 * total_9 + W4_2 *
-        total_11;
-    const vector total_27 = total_26 + W5_2 * total_14;
-    const vector total_28 = W0_1 * total_3 + W1_1 * total_5 + W2_1 * total_7 + W3_1 * total_9 + W4_1 *
-        total_11;
-    const vector total_29 = total_28 + W5_1 * total_14;
-    const vector by_phi = total_25 - total_27 * x2_bar - total_29 * x1_bar - total_15 * x0_bar + 2.0 *
-        product_5;
-    const vector phi_product = phi * by_phi;
-    const vector phi_product_2 = phi * x0_bar;
-    const vector phi_product_3 = phi * x1_bar;
-    const vector phi_product_4 = phi * x2_bar;
-    const vector phi_product_5 = phi * gap_5;
-    const vector total_30 = -(M0_0 * phi_product_2) - M0_1 * phi_product_3 - M0_2 * phi_product_4 + M0_3 *
-        phi_product_5;
-    const vector phi_product_6 = phi * gap_4;
-    const vector phi_product_7 = phi * gap_3;
-    const vector phi_product_8 = phi * gap_2;
-    const vector gap_6 = total_15 * phi_product - (total_30 + M0_4 * phi_product_6 + M0_5 * phi_product_7 +
-        M0_6 * phi_product_8);
-    const vector total_31 = -(M0_1 * phi_product_2) - M1_1 * phi_product_3 - M1_2 * phi_product_4 + M1_3 *
-        phi_product_5;
-    const vector gap_7 = total_29 * phi_product - (total_31 + M1_4 * phi_product_6 + M1_5 * phi_product_7 +
-        M1_6 * phi_product_8);
-    const vector total_32 = -(M0_2 * phi_product_2) - M1_2 * phi_product_3 - M2_2 * phi_product_4 + M2_3 *
-        phi_product_5;
-    const vector gap_8 = total_27 * phi_product - (total_32 + M2_4 * phi_product_6 + M2_5 * phi_product_7 +
-        M2_6 * phi_product_8);
-    const vector phi_product_9 = phi * total_18;
-    const vector phi_product_10 = phi * total_20;
-    const vector phi_product_11 = phi * total_22;
-    const vector phi_product_12 = phi * total_24;
-    const vector gap_9 = -(x6 * phi_product_9) - x5 * phi_product_10 - x4 * phi_product_11 - x3 *
-        phi_product_12;
-    const vector total_33 = 2.0 * phi + rotation_a_chosen * gap_9;
-    const vector by_rotation_abs_g0 = rotation_eta * total_33;
-    const vector by_rotation_g0 = vector_select(is_small, -by_rotation_abs_g0, by_rotation_abs_g0);
-    const vector rotation_eta_slope = vector_polynomial_rotation_eta_slope(gap);
-    const vector gap_10 = gap_9 * product_5 - phi_product_12 * x3_bar - phi_product_11 * x4_bar -
-        phi_product_10 * x5_bar - phi_product_9 * x6_bar;
-    const vector total_34 = -(M0_6 * phi_product_2) - M1_6 * phi_product_3 - M2_6 * phi_product_4 + M3_6 *
-        phi_product_5;
-    const vector gap_11 = total_34 + M4_6 * phi_product_6 + M5_6 * phi_product_7 + M6_6 * phi_product_8 -
-        total_18 * phi_product;
-    const vector total_35 = -(M0_5 * phi_product_2) - M1_5 * phi_product_3 - M2_5 * phi_product_4 + M3_5 *
-        phi_product_5;
-    const vector gap_12 = total_35 + M4_5 * phi_product_6 + M5_5 * phi_product_7 + M5_6 * phi_product_8 -
-        total_20 * phi_product;
-    const vector total_36 = -(M0_4 * phi_product_2) - M1_4 * phi_product_3 - M2_4 * phi_product_4 + M3_4 *
-        phi_product_5;
-    const vector gap_13 = total_36 + M4_4 * phi_product_6 + M4_5 * phi_product_7 + M4_6 * phi_product_8 -
-        total_22 * phi_product;
-    const vector total_37 = -(M0_3 * phi_product_2) - M1_3 * phi_product_3 - M2_3 * phi_product_4 + M3_3 *
-        phi_product_5;
-    const vector gap_14 = total_37 + M3_4 * phi_product_6 + M3_5 * phi_product_7 + M3_6 * phi_product_8 -
-        total_24 * phi_product;
-    const vector total_38 = gap_10 + x6 * gap_11 + x5 * gap_12 + x4 * gap_13 + x3 * gap_14;
-    const vector by_rotation_abs_g0_2 = rotation_eta_slope * (total_33 * by_by_rotation_abs_g0) + rotation_eta
-        * (2.0 * phi_product + rotation_a_chosen * total_38);
-    const vector by_rotation_g0_2 = vector_select(is_small, -by_rotation_abs_g0_2, by_rotation_abs_g0_2);
-    const vector product_7 = 0.5 * phi_product;
-    const vector gap_15 = -phi_product_2 - v0 * product_7;
-    const vector gap_16 = -phi_product_3 - v1 * product_7;
-    const vector gap_17 = -phi_product_4 - v2 * product_7;
-    const vector gap_18 = phi_product_5 - product * product_7;
-    const vector gap_19 = phi_product_6 - product_2 * product_7;
-    const vector gap_20 = phi_product_7 - product_3 * product_7;
-    const vector gap_21 = phi_product_8 - product_4 * product_7;
-    factor[0] = v0;
-    factor[1] = v1;
-    factor[2] = v2;
-    factor[3] = product;
-    factor[4] = product_2;
-    factor[5] = product_3;
-    factor[6] = product_4;
-    factor[7] = phi_product;
-    factor[8] = gap_6;
-    factor[9] = gap_7;
-    factor[10] = gap_8;
-    factor[11] = by_rotation_g0;
-    factor[12] = by_rotation_g0_2;
-    factor[13] = gap_15;
-    factor[14] = gap_16;
-    factor[15] = gap_17;
-    factor[16] = gap_18;
-    factor[17] = gap_19;
-    factor[18] = gap_20;
-    factor[19] = gap_21;
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_0(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[8];
-    sum[1] = sum[1] + factor[9];
-    sum[2] = sum[2] + factor[10];
-    sum[3] = sum[3] + factor[7];
-    sum[4] = sum[4] + factor[0] * factor[13];
-    sum[5] = sum[5] + factor[0] * factor[14] + factor[1] * factor[13];
-    sum[6] = sum[6] + factor[1] * factor[14];
-    sum[7] = sum[7] + factor[0] * factor[15] + factor[2] * factor[13];
-    sum[8] = sum[8] + factor[1] * factor[15] + factor[2] * factor[14];
-    sum[9] = sum[9] + factor[2] * factor[15];
-    sum[10] = sum[10] + factor[0] * factor[16] + factor[3] * factor[13];
-    sum[11] = sum[11] + factor[1] * factor[16] + factor[3] * factor[14];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_1(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[11] * point[11] + point[3] * factor[12];
-    sum[1] = sum[1] + factor[11] * point[12] + point[4] * factor[12];
-    sum[2] = sum[2] + factor[11] * point[13] + point[5] * factor[12];
-    sum[3] = sum[3] + factor[11] * point[14] + point[6] * factor[12];
-    sum[4] = sum[4] + factor[3] * factor[16];
-    sum[5] = sum[5] + factor[2] * factor[16] + factor[3] * factor[15];
-    sum[6] = sum[6] + factor[2] * factor[17] + factor[4] * factor[15];
-    sum[7] = sum[7] + factor[3] * factor[17] + factor[4] * factor[16];
-    sum[8] = sum[8] + factor[4] * factor[17];
-    sum[9] = sum[9] + factor[0] * factor[17] + factor[4] * factor[13];
-    sum[10] = sum[10] + factor[0] * factor[18] + factor[5] * factor[13];
-    sum[11] = sum[11] + factor[2] * factor[18] + factor[5] * factor[15];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_2(const vector *factor, const vector *point, vector *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[0] * factor[19] + factor[6] * factor[13];
-    sum[1] = sum[1] + factor[6] * factor[19];
-    sum[2] = sum[2] + factor[1] * factor[19] + factor[6] * factor[14];
-    sum[3] = sum[3] + factor[1] * factor[17] + factor[4] * factor[14];
-    sum[4] = sum[4] + factor[4] * factor[19] + factor[6] * factor[17];
-    sum[5] = sum[5] + factor[1] * factor[18] + factor[5] * factor[14];
-    sum[6] = sum[6] + factor[4] * factor[18] + factor[5] * factor[17];
-    sum[7] = sum[7] + factor[5] * factor[18];
-    sum[8] = sum[8] + factor[5] * factor[19] + factor[6] * factor[18];
-    sum[9] = sum[9] + factor[2] * factor[19] + factor[6] * factor[15];
-    sum[10] = sum[10] + factor[3] * factor[18] + factor[5] * factor[16];
-    sum[11] = sum[11] + factor[3] * factor[19] + factor[6] * factor[16];
-}
-
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
 OUTLINE void vector_rows(const double *rows, size_t count, size_t start, size_t size, vector *columns) {
     for (size_t i = 0; i < size; ++i) {
@@ -1580,7 +1838,7 @@ OUTLINE void splat_constants(
     vector_to_rows(S, constants, splat_count, start, 78, 78);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void se3_splats(
     size_t count, size_t splat_count, const double *SE3_RESTRICT x, const double *SE3_RESTRICT mu, const double *SE3_RESTRICT W, const double *SE3_RESTRICT amplitude, const double *SE3_RESTRICT width,
     double *SE3_RESTRICT value, double *SE3_RESTRICT gradient, double *SE3_RESTRICT work, int threads) {
@@ -1595,27 +1853,26 @@ void se3_splats(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[2][7], X[2][7], grad[6];
-            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][7] = {{ZERO}};
+            vector at[2][7], X[2 * 7], grad[6];
+            vector value_sum[2] = {ZERO}, slope_sum[2 * 7] = {ZERO};
             double place[7 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 7, at[b]);
-                pair_features(at[b], X[b]);
+                pair_features(at[b], X + 7 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 78 * near[i];
-                    pair_forward(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient(at[b], slope_sum[b], grad);
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                pair_gradient(at[b], slope_sum + 7 * b, grad);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
                 vector_to_rows(grad, gradient, count, start + b * LANES, 6, 6);
             }
         }
@@ -1637,25 +1894,24 @@ void se3_splats_value(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[7], X[2][7], value_sum[2][1] = {{ZERO}};
+            vector at[7], X[2 * 7], value_sum[2] = {ZERO};
             double place[7 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 7, at);
-                pair_features(at, X[b]);
+                pair_features(at, X + 7 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 78 * near[i];
-                    pair_value(X[0], S, value_sum[0]);
-                    pair_value(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -1674,14 +1930,14 @@ OUTLINE void splat_points(
     vector_end(count, start, 7 + 1, point + 7);
 }
 
-/* Adds to sums what one vector of points adds to it. */
+/* Adds what makes the derivatives, of a splat at some vectors of points: their factors, then the products of these. */
 INLINE void pair_backward(
-    const vector *point, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
-    vector factor[20];
-    pair_factors(point, S, value_bar, slope_bar, factor);
+    size_t count, const vector *points, const uint32_t *near, const double *S, vector *sums) {
+    vector factor[16 * 20];
+    pair_factors(count, points, near, S, factor);
     {
         vector sum[12] = {ZERO};
-        pair_products_0(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_0(factor + 20 * i, points + 15 * (size_t)near[i], sum);
         sums[0] += sum[0];
         sums[1] += sum[1];
         sums[2] += sum[2];
@@ -1697,7 +1953,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_1(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_1(factor + 20 * i, points + 15 * (size_t)near[i], sum);
         sums[3] += sum[0];
         sums[4] += sum[1];
         sums[5] += sum[2];
@@ -1713,7 +1969,7 @@ INLINE void pair_backward(
     }
     {
         vector sum[12] = {ZERO};
-        pair_products_2(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_2(factor + 20 * i, points + 15 * (size_t)near[i], sum);
         sums[17] += sum[0];
         sums[35] += sum[1];
         sums[21] += sum[2];
@@ -1729,68 +1985,12 @@ INLINE void pair_backward(
     }
 }
 
-/*
- * Adds to sums what some vectors of points add to it, those in the list: factors of 16 vectors at a time, then their
- * products.
- */
-OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t count, const double *S, double *sums) {
-    vector factor[16 * 20], total[36] = {ZERO};
-    for (size_t start = 0; start < count; start += 16, near += 16) {
-        const size_t size = count - start < 16 ? count - start : 16;
-        for (size_t b = 0; b < size; ++b) {
-            const vector *at = points + 15 * (size_t)near[b];
-            pair_factors(at, S, at + 7, at + 7 + 1, factor + 20 * b);
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_0(factor + 20 * b, points + 15 * (size_t)near[b], sum);
-            total[0] += sum[0];
-            total[1] += sum[1];
-            total[2] += sum[2];
-            total[7] += sum[3];
-            total[8] += sum[4];
-            total[9] += sum[5];
-            total[11] += sum[6];
-            total[10] += sum[7];
-            total[12] += sum[8];
-            total[13] += sum[9];
-            total[14] += sum[10];
-            total[18] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_1(factor + 20 * b, points + 15 * (size_t)near[b], sum);
-            total[3] += sum[0];
-            total[4] += sum[1];
-            total[5] += sum[2];
-            total[6] += sum[3];
-            total[26] += sum[4];
-            total[22] += sum[5];
-            total[23] += sum[6];
-            total[27] += sum[7];
-            total[30] += sum[8];
-            total[15] += sum[9];
-            total[16] += sum[10];
-            total[24] += sum[11];
-        }
-        {
-            vector sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_2(factor + 20 * b, points + 15 * (size_t)near[b], sum);
-            total[17] += sum[0];
-            total[35] += sum[1];
-            total[21] += sum[2];
-            total[19] += sum[3];
-            total[32] += sum[4];
-            total[20] += sum[5];
-            total[31] += sum[6];
-            total[33] += sum[7];
-            total[34] += sum[8];
-            total[25] += sum[9];
-            total[28] += sum[10];
-            total[29] += sum[11];
-        }
-    }
-    for (size_t i = 0; i < 36; ++i) sums[i] += vector_sum(total[i]);
+/* Adds to sums what some vectors of points add to them, those in the list. */
+OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *sums) {
+    vector sum[36] = {ZERO};
+    for (size_t b = 0; b < size; b += 16)
+        pair_backward(size - b < 16 ? size - b : 16, points, near + b, S, sum);
+    for (size_t i = 0; i < 36; ++i) sums[i] += vector_sum(sum[i]);
 }
 
 /*
@@ -1862,6 +2062,7 @@ void se3_splats_rows(
     double *SE3_RESTRICT rows, double *SE3_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES - 1) / LANES;
+    const uint32_t only = 0;
     double *constants = work_constants(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -1878,7 +2079,7 @@ void se3_splats_rows(
                 for (int i = 0; i < 7; ++i) own_mu[i] = vector_of(mu[7 * k + i]);
                 for (int i = 0; i < 36; ++i) own_W[i] = vector_of(W[36 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 78 * k, point + 7, point + 7 + 1, own_sums);
+                pair_backward(1, point, &only, constants + 78 * k, own_sums);
                 pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 7, bars + 7 + 36);
                 vector_to_rows(bars, rows + 44 * k, count, block * LANES, 44, 44 * splat_count);
             }
@@ -1995,9 +2196,14 @@ INLINE vector_f vector_of_f(float x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector_f vector_select_f(vector_mask_f mask, vector_f x, vector_f y) {
-    return SELECT(vector_f, vector_mask_f, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector_f)((mask & (vector_mask_f)x) | (~mask & (vector_mask_f)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -2036,13 +2242,13 @@ INLINE vector_f signed_each_f(vector_f x, vector_f sign) {
 
 /* abs of every lane; one instruction where the machine has it. */
 INLINE vector_f abs_each_f(vector_f x) {
-    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
     return x;
 }
 
 /* sqrt of every lane; one instruction where the machine has it. */
 INLINE vector_f sqrt_each_f(vector_f x) {
-    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
     return x;
 }
 
@@ -2343,7 +2549,8 @@ OUTLINE void pair_constants_f(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
@@ -2352,104 +2559,135 @@ OUTLINE void pair_constants_f(
  * r = R h = W (tangent part of x), z = a r + what other factors add, phi = amplitude a^k exp(-|z|^2 / 2)
  */
 INLINE void pair_value_f(
-    const vector_f *X, const float *S, vector_f *value) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f x2 = X[2];
-    const vector_f x3 = X[3];
-    const vector_f x4 = X[4];
-    const vector_f x5 = X[5];
-    const vector_f x6 = X[6];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float mu2 = S[2];
-    const float mu3 = S[3];
-    const float mu4 = S[4];
-    const float mu5 = S[5];
-    const float mu6 = S[6];
-    const float W0_0 = S[7];
-    const float W0_1 = S[8];
-    const float W0_2 = S[9];
-    const float W1_0 = S[10];
-    const float W1_1 = S[11];
-    const float W1_2 = S[12];
-    const float W2_0 = S[13];
-    const float W2_1 = S[14];
-    const float W2_2 = S[15];
-    const float W3_0 = S[16];
-    const float W3_1 = S[17];
-    const float W3_2 = S[18];
-    const float W4_0 = S[19];
-    const float W4_1 = S[20];
-    const float W4_2 = S[21];
-    const float W5_0 = S[22];
-    const float W5_1 = S[23];
-    const float W5_2 = S[24];
-    const float amplitude = S[25];
-    const float rotation_R0_3 = S[32];
-    const float rotation_R0_0 = S[33];
-    const float rotation_R0_2 = S[34];
-    const float rotation_R0_1 = S[35];
-    const float rotation_R1_3 = S[36];
-    const float rotation_R1_0 = S[37];
-    const float rotation_R1_2 = S[38];
-    const float rotation_R1_1 = S[39];
-    const float rotation_R2_3 = S[40];
-    const float rotation_R2_0 = S[41];
-    const float rotation_R2_2 = S[42];
-    const float rotation_R2_1 = S[43];
-    const float rotation_R3_3 = S[44];
-    const float rotation_R3_0 = S[45];
-    const float rotation_R3_2 = S[46];
-    const float rotation_R3_1 = S[47];
-    const float rotation_R4_3 = S[48];
-    const float rotation_R4_0 = S[49];
-    const float rotation_R4_2 = S[50];
-    const float rotation_R4_1 = S[51];
-    const float rotation_R5_3 = S[52];
-    const float rotation_R5_0 = S[53];
-    const float rotation_R5_2 = S[54];
-    const float rotation_R5_1 = S[55];
-    const vector_f rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6;
-    const vector_f rotation_abs_g0 = abs_each_f(rotation_g0);
-    const vector_f rotation_eta = vector_polynomial_rotation_eta_f(1.0f - rotation_abs_g0);
-    const vector_f rotation_a = 1.0f / (rotation_abs_g0 - rotation_eta * (1.0f - rotation_abs_g0 *
-        rotation_abs_g0));
-    const vector_f v0 = x0 - mu0;
-    const vector_f v1 = x1 - mu1;
-    const vector_f v2 = x2 - mu2;
-    const vector_f rotation_a_chosen = vector_select_f(rotation_g0 < 0.0f, -rotation_a, rotation_a);
-    const vector_f product = x3 * rotation_a_chosen;
-    const vector_f product_2 = x4 * rotation_a_chosen;
-    const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
-        product_2;
-    const vector_f product_3 = x5 * rotation_a_chosen;
-    const vector_f product_4 = x6 * rotation_a_chosen;
-    const vector_f total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
-    const vector_f total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
-        product_2;
-    const vector_f total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4;
-    const vector_f total_6 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_R2_0 * product + rotation_R2_1 *
-        product_2;
-    const vector_f total_7 = total_6 + rotation_R2_2 * product_3 + rotation_R2_3 * product_4;
-    const vector_f total_8 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_R3_0 * product + rotation_R3_1 *
-        product_2;
-    const vector_f total_9 = total_8 + rotation_R3_2 * product_3 + rotation_R3_3 * product_4;
-    const vector_f total_10 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_R4_0 * product + rotation_R4_1 *
-        product_2;
-    const vector_f total_11 = total_10 + rotation_R4_2 * product_3 + rotation_R4_3 * product_4;
-    const vector_f total_12 = total_3 * total_3 + total_5 * total_5 + total_7 * total_7 + total_9 * total_9 +
-        total_11 * total_11;
-    const vector_f total_13 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_R5_0 * product + rotation_R5_1 *
-        product_2;
-    const vector_f total_14 = total_13 + rotation_R5_2 * product_3 + rotation_R5_3 * product_4;
-    const vector_f gaussian = gaussian_each_f(total_12 + total_14 * total_14);
-    const vector_f phi = rotation_a * (rotation_a * gaussian);
-    value[0] = value[0] + amplitude * phi;
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values) {
+    struct { vector_f rotation_g0, rotation_a, gaussian; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 78 * near[k];
+        const float mu3 = S[3];
+        const float mu4 = S[4];
+        const float mu5 = S[5];
+        const float mu6 = S[6];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 7 * b;
+            const vector_f x3 = X[3];
+            const vector_f x4 = X[4];
+            const vector_f x5 = X[5];
+            const vector_f x6 = X[6];
+            const vector_f rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6;
+            const vector_f rotation_abs_g0 = abs_each_f(rotation_g0);
+            const vector_f rotation_eta = vector_polynomial_rotation_eta_f(1.0f - rotation_abs_g0);
+            const vector_f rotation_a = 1.0f / (rotation_abs_g0 - rotation_eta * (1.0f - rotation_abs_g0 *
+                rotation_abs_g0));
+            kept[k][b].rotation_g0 = rotation_g0;
+            kept[k][b].rotation_a = rotation_a;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 78 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float mu2 = S[2];
+        const float W0_0 = S[7];
+        const float W0_1 = S[8];
+        const float W0_2 = S[9];
+        const float W1_0 = S[10];
+        const float W1_1 = S[11];
+        const float W1_2 = S[12];
+        const float W2_0 = S[13];
+        const float W2_1 = S[14];
+        const float W2_2 = S[15];
+        const float W3_0 = S[16];
+        const float W3_1 = S[17];
+        const float W3_2 = S[18];
+        const float W4_0 = S[19];
+        const float W4_1 = S[20];
+        const float W4_2 = S[21];
+        const float W5_0 = S[22];
+        const float W5_1 = S[23];
+        const float W5_2 = S[24];
+        const float rotation_R0_3 = S[32];
+        const float rotation_R0_0 = S[33];
+        const float rotation_R0_2 = S[34];
+        const float rotation_R0_1 = S[35];
+        const float rotation_R1_3 = S[36];
+        const float rotation_R1_0 = S[37];
+        const float rotation_R1_2 = S[38];
+        const float rotation_R1_1 = S[39];
+        const float rotation_R2_3 = S[40];
+        const float rotation_R2_0 = S[41];
+        const float rotation_R2_2 = S[42];
+        const float rotation_R2_1 = S[43];
+        const float rotation_R3_3 = S[44];
+        const float rotation_R3_0 = S[45];
+        const float rotation_R3_2 = S[46];
+        const float rotation_R3_1 = S[47];
+        const float rotation_R4_3 = S[48];
+        const float rotation_R4_0 = S[49];
+        const float rotation_R4_2 = S[50];
+        const float rotation_R4_1 = S[51];
+        const float rotation_R5_3 = S[52];
+        const float rotation_R5_0 = S[53];
+        const float rotation_R5_2 = S[54];
+        const float rotation_R5_1 = S[55];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 7 * b;
+            const vector_f rotation_g0 = kept[k][b].rotation_g0;
+            const vector_f rotation_a = kept[k][b].rotation_a;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f x2 = X[2];
+            const vector_f x3 = X[3];
+            const vector_f x4 = X[4];
+            const vector_f x5 = X[5];
+            const vector_f x6 = X[6];
+            const vector_f v0 = x0 - mu0;
+            const vector_f v1 = x1 - mu1;
+            const vector_f v2 = x2 - mu2;
+            const vector_f rotation_a_chosen = vector_select_f(rotation_g0 < 0.0f, -rotation_a, rotation_a);
+            const vector_f product = x3 * rotation_a_chosen;
+            const vector_f product_2 = x4 * rotation_a_chosen;
+            const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
+                product_2;
+            const vector_f product_3 = x5 * rotation_a_chosen;
+            const vector_f product_4 = x6 * rotation_a_chosen;
+            const vector_f total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
+            const vector_f total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
+                product_2;
+            const vector_f total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4;
+            const vector_f total_6 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_R2_0 * product + rotation_R2_1 *
+                product_2;
+            const vector_f total_7 = total_6 + rotation_R2_2 * product_3 + rotation_R2_3 * product_4;
+            const vector_f total_8 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_R3_0 * product + rotation_R3_1 *
+                product_2;
+            const vector_f total_9 = total_8 + rotation_R3_2 * product_3 + rotation_R3_3 * product_4;
+            const vector_f total_10 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_R4_0 * product + rotation_R4_1 *
+                product_2;
+            const vector_f total_11 = total_10 + rotation_R4_2 * product_3 + rotation_R4_3 * product_4;
+            const vector_f total_12 = total_3 * total_3 + total_5 * total_5 + total_7 * total_7 + total_9 * total_9 +
+                total_11 * total_11;
+            const vector_f total_13 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_R5_0 * product + rotation_R5_1 *
+                product_2;
+            const vector_f total_14 = total_13 + rotation_R5_2 * product_3 + rotation_R5_3 * product_4;
+            const vector_f gaussian = gaussian_each_f(total_12 + total_14 * total_14);
+            kept[k][b].gaussian = gaussian;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 78 * near[k];
+        const float amplitude = S[25];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector_f *value = values + b;
+            const vector_f rotation_a = kept[k][b].rotation_a;
+            const vector_f gaussian = kept[k][b].gaussian;
+            const vector_f phi = rotation_a * (rotation_a * gaussian);
+            value[0] = value[0] + amplitude * phi;
+        }
+    }
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
@@ -2458,130 +2696,231 @@ INLINE void pair_value_f(
  * r = R h = W (tangent part of x), z = a r + what other factors add, phi = amplitude a^k exp(-|z|^2 / 2)
  */
 INLINE void pair_forward_f(
-    const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f x2 = X[2];
-    const vector_f x3 = X[3];
-    const vector_f x4 = X[4];
-    const vector_f x5 = X[5];
-    const vector_f x6 = X[6];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float mu2 = S[2];
-    const float mu3 = S[3];
-    const float mu4 = S[4];
-    const float mu5 = S[5];
-    const float mu6 = S[6];
-    const float W0_0 = S[7];
-    const float W0_1 = S[8];
-    const float W0_2 = S[9];
-    const float W1_0 = S[10];
-    const float W1_1 = S[11];
-    const float W1_2 = S[12];
-    const float W2_0 = S[13];
-    const float W2_1 = S[14];
-    const float W2_2 = S[15];
-    const float W3_0 = S[16];
-    const float W3_1 = S[17];
-    const float W3_2 = S[18];
-    const float W4_0 = S[19];
-    const float W4_1 = S[20];
-    const float W4_2 = S[21];
-    const float W5_0 = S[22];
-    const float W5_1 = S[23];
-    const float W5_2 = S[24];
-    const float amplitude = S[25];
-    const float rotation_R0_3 = S[32];
-    const float rotation_R0_0 = S[33];
-    const float rotation_R0_2 = S[34];
-    const float rotation_R0_1 = S[35];
-    const float rotation_R1_3 = S[36];
-    const float rotation_R1_0 = S[37];
-    const float rotation_R1_2 = S[38];
-    const float rotation_R1_1 = S[39];
-    const float rotation_R2_3 = S[40];
-    const float rotation_R2_0 = S[41];
-    const float rotation_R2_2 = S[42];
-    const float rotation_R2_1 = S[43];
-    const float rotation_R3_3 = S[44];
-    const float rotation_R3_0 = S[45];
-    const float rotation_R3_2 = S[46];
-    const float rotation_R3_1 = S[47];
-    const float rotation_R4_3 = S[48];
-    const float rotation_R4_0 = S[49];
-    const float rotation_R4_2 = S[50];
-    const float rotation_R4_1 = S[51];
-    const float rotation_R5_3 = S[52];
-    const float rotation_R5_0 = S[53];
-    const float rotation_R5_2 = S[54];
-    const float rotation_R5_1 = S[55];
-    const vector_f rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6;
-    const vector_f rotation_abs_g0 = abs_each_f(rotation_g0);
-    const vector_f rotation_eta = vector_polynomial_rotation_eta_f(1.0f - rotation_abs_g0);
-    const vector_f rotation_a = 1.0f / (rotation_abs_g0 - rotation_eta * (1.0f - rotation_abs_g0 *
-        rotation_abs_g0));
-    const vector_f v0 = x0 - mu0;
-    const vector_f v1 = x1 - mu1;
-    const vector_f v2 = x2 - mu2;
-    const vector_mask_f is_small = rotation_g0 < 0.0f;
-    const vector_f rotation_a_chosen = vector_select_f(is_small, -rotation_a, rotation_a);
-    const vector_f product = x3 * rotation_a_chosen;
-    const vector_f product_2 = x4 * rotation_a_chosen;
-    const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
-        product_2;
-    const vector_f product_3 = x5 * rotation_a_chosen;
-    const vector_f product_4 = x6 * rotation_a_chosen;
-    const vector_f total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
-    const vector_f total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
-        product_2;
-    const vector_f total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4;
-    const vector_f total_6 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_R2_0 * product + rotation_R2_1 *
-        product_2;
-    const vector_f total_7 = total_6 + rotation_R2_2 * product_3 + rotation_R2_3 * product_4;
-    const vector_f total_8 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_R3_0 * product + rotation_R3_1 *
-        product_2;
-    const vector_f total_9 = total_8 + rotation_R3_2 * product_3 + rotation_R3_3 * product_4;
-    const vector_f total_10 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_R4_0 * product + rotation_R4_1 *
-        product_2;
-    const vector_f total_11 = total_10 + rotation_R4_2 * product_3 + rotation_R4_3 * product_4;
-    const vector_f total_12 = total_3 * total_3 + total_5 * total_5 + total_7 * total_7 + total_9 * total_9 +
-        total_11 * total_11;
-    const vector_f total_13 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_R5_0 * product + rotation_R5_1 *
-        product_2;
-    const vector_f total_14 = total_13 + rotation_R5_2 * product_3 + rotation_R5_3 * product_4;
-    const vector_f gaussian = gaussian_each_f(total_12 + total_14 * total_14);
-    const vector_f phi = rotation_a * (rotation_a * gaussian);
-    const vector_f phi_2 = amplitude * phi;
-    const vector_f total_15 = W0_0 * total_3 + W1_0 * total_5 + W2_0 * total_7 + W3_0 * total_9 + W4_0 *
-        total_11;
-    const vector_f total_16 = W0_1 * total_3 + W1_1 * total_5 + W2_1 * total_7 + W3_1 * total_9 + W4_1 *
-        total_11;
-    const vector_f total_17 = W0_2 * total_3 + W1_2 * total_5 + W2_2 * total_7 + W3_2 * total_9 + W4_2 *
-        total_11;
-    const vector_f total_18 = rotation_R0_3 * total_3 + rotation_R1_3 * total_5 + rotation_R2_3 * total_7 +
-        rotation_R3_3 * total_9 + rotation_R4_3 * total_11;
-    const vector_f phi_product = phi_2 * (total_18 + rotation_R5_3 * total_14);
-    const vector_f total_19 = rotation_R0_2 * total_3 + rotation_R1_2 * total_5 + rotation_R2_2 * total_7 +
-        rotation_R3_2 * total_9 + rotation_R4_2 * total_11;
-    const vector_f phi_product_2 = phi_2 * (total_19 + rotation_R5_2 * total_14);
-    const vector_f total_20 = rotation_R0_1 * total_3 + rotation_R1_1 * total_5 + rotation_R2_1 * total_7 +
-        rotation_R3_1 * total_9 + rotation_R4_1 * total_11;
-    const vector_f phi_product_3 = phi_2 * (total_20 + rotation_R5_1 * total_14);
-    const vector_f total_21 = rotation_R0_0 * total_3 + rotation_R1_0 * total_5 + rotation_R2_0 * total_7 +
-        rotation_R3_0 * total_9 + rotation_R4_0 * total_11;
-    const vector_f phi_product_4 = phi_2 * (total_21 + rotation_R5_0 * total_14);
-    const vector_f gap = -(x6 * phi_product) - x5 * phi_product_2 - x4 * phi_product_3 - x3 * phi_product_4;
-    const vector_f by_rotation_abs_g0 = rotation_eta * (2.0f * phi_2 + rotation_a_chosen * gap);
-    const vector_f by_rotation_g0 = vector_select_f(is_small, -by_rotation_abs_g0, by_rotation_abs_g0);
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] - phi_2 * (total_15 + W5_0 * total_14);
-    slope[1] = slope[1] - phi_2 * (total_16 + W5_1 * total_14);
-    slope[2] = slope[2] - phi_2 * (total_17 + W5_2 * total_14);
-    slope[3] = slope[3] + mu3 * by_rotation_g0 - rotation_a_chosen * phi_product_4;
-    slope[4] = slope[4] + mu4 * by_rotation_g0 - rotation_a_chosen * phi_product_3;
-    slope[5] = slope[5] + mu5 * by_rotation_g0 - rotation_a_chosen * phi_product_2;
-    slope[6] = slope[6] + mu6 * by_rotation_g0 - rotation_a_chosen * phi_product;
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values, vector_f *slopes) {
+    struct { vector_f rotation_g0, rotation_eta, rotation_a, rotation_a_chosen, total_3, total_5, total_7,
+            total_9, total_11, total_14, gaussian; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 78 * near[k];
+        const float mu3 = S[3];
+        const float mu4 = S[4];
+        const float mu5 = S[5];
+        const float mu6 = S[6];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 7 * b;
+            const vector_f x3 = X[3];
+            const vector_f x4 = X[4];
+            const vector_f x5 = X[5];
+            const vector_f x6 = X[6];
+            const vector_f rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6;
+            const vector_f rotation_abs_g0 = abs_each_f(rotation_g0);
+            const vector_f rotation_eta = vector_polynomial_rotation_eta_f(1.0f - rotation_abs_g0);
+            const vector_f rotation_a = 1.0f / (rotation_abs_g0 - rotation_eta * (1.0f - rotation_abs_g0 *
+                rotation_abs_g0));
+            kept[k][b].rotation_g0 = rotation_g0;
+            kept[k][b].rotation_eta = rotation_eta;
+            kept[k][b].rotation_a = rotation_a;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 78 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float mu2 = S[2];
+        const float W0_0 = S[7];
+        const float W0_1 = S[8];
+        const float W0_2 = S[9];
+        const float W1_0 = S[10];
+        const float W1_1 = S[11];
+        const float W1_2 = S[12];
+        const float W2_0 = S[13];
+        const float W2_1 = S[14];
+        const float W2_2 = S[15];
+        const float W3_0 = S[16];
+        const float W3_1 = S[17];
+        const float W3_2 = S[18];
+        const float W4_0 = S[19];
+        const float W4_1 = S[20];
+        const float W4_2 = S[21];
+        const float W5_0 = S[22];
+        const float W5_1 = S[23];
+        const float W5_2 = S[24];
+        const float rotation_R0_3 = S[32];
+        const float rotation_R0_0 = S[33];
+        const float rotation_R0_2 = S[34];
+        const float rotation_R0_1 = S[35];
+        const float rotation_R1_3 = S[36];
+        const float rotation_R1_0 = S[37];
+        const float rotation_R1_2 = S[38];
+        const float rotation_R1_1 = S[39];
+        const float rotation_R2_3 = S[40];
+        const float rotation_R2_0 = S[41];
+        const float rotation_R2_2 = S[42];
+        const float rotation_R2_1 = S[43];
+        const float rotation_R3_3 = S[44];
+        const float rotation_R3_0 = S[45];
+        const float rotation_R3_2 = S[46];
+        const float rotation_R3_1 = S[47];
+        const float rotation_R4_3 = S[48];
+        const float rotation_R4_0 = S[49];
+        const float rotation_R4_2 = S[50];
+        const float rotation_R4_1 = S[51];
+        const float rotation_R5_3 = S[52];
+        const float rotation_R5_0 = S[53];
+        const float rotation_R5_2 = S[54];
+        const float rotation_R5_1 = S[55];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 7 * b;
+            const vector_f rotation_g0 = kept[k][b].rotation_g0;
+            const vector_f rotation_a = kept[k][b].rotation_a;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f x2 = X[2];
+            const vector_f x3 = X[3];
+            const vector_f x4 = X[4];
+            const vector_f x5 = X[5];
+            const vector_f x6 = X[6];
+            const vector_f v0 = x0 - mu0;
+            const vector_f v1 = x1 - mu1;
+            const vector_f v2 = x2 - mu2;
+            const vector_mask_f is_small = rotation_g0 < 0.0f;
+            const vector_f rotation_a_chosen = vector_select_f(is_small, -rotation_a, rotation_a);
+            const vector_f product = x3 * rotation_a_chosen;
+            const vector_f product_2 = x4 * rotation_a_chosen;
+            const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
+                product_2;
+            const vector_f product_3 = x5 * rotation_a_chosen;
+            const vector_f product_4 = x6 * rotation_a_chosen;
+            const vector_f total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
+            const vector_f total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
+                product_2;
+            const vector_f total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4;
+            const vector_f total_6 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_R2_0 * product + rotation_R2_1 *
+                product_2;
+            const vector_f total_7 = total_6 + rotation_R2_2 * product_3 + rotation_R2_3 * product_4;
+            const vector_f total_8 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_R3_0 * product + rotation_R3_1 *
+                product_2;
+            const vector_f total_9 = total_8 + rotation_R3_2 * product_3 + rotation_R3_3 * product_4;
+            const vector_f total_10 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_R4_0 * product + rotation_R4_1 *
+                product_2;
+            const vector_f total_11 = total_10 + rotation_R4_2 * product_3 + rotation_R4_3 * product_4;
+            const vector_f total_12 = total_3 * total_3 + total_5 * total_5 + total_7 * total_7 + total_9 * total_9 +
+                total_11 * total_11;
+            const vector_f total_13 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_R5_0 * product + rotation_R5_1 *
+                product_2;
+            const vector_f total_14 = total_13 + rotation_R5_2 * product_3 + rotation_R5_3 * product_4;
+            const vector_f gaussian = gaussian_each_f(total_12 + total_14 * total_14);
+            kept[k][b].rotation_a_chosen = rotation_a_chosen;
+            kept[k][b].total_3 = total_3;
+            kept[k][b].total_5 = total_5;
+            kept[k][b].total_7 = total_7;
+            kept[k][b].total_9 = total_9;
+            kept[k][b].total_11 = total_11;
+            kept[k][b].total_14 = total_14;
+            kept[k][b].gaussian = gaussian;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 78 * near[k];
+        const float mu3 = S[3];
+        const float mu4 = S[4];
+        const float mu5 = S[5];
+        const float mu6 = S[6];
+        const float W0_0 = S[7];
+        const float W0_1 = S[8];
+        const float W0_2 = S[9];
+        const float W1_0 = S[10];
+        const float W1_1 = S[11];
+        const float W1_2 = S[12];
+        const float W2_0 = S[13];
+        const float W2_1 = S[14];
+        const float W2_2 = S[15];
+        const float W3_0 = S[16];
+        const float W3_1 = S[17];
+        const float W3_2 = S[18];
+        const float W4_0 = S[19];
+        const float W4_1 = S[20];
+        const float W4_2 = S[21];
+        const float W5_0 = S[22];
+        const float W5_1 = S[23];
+        const float W5_2 = S[24];
+        const float amplitude = S[25];
+        const float rotation_R0_3 = S[32];
+        const float rotation_R0_0 = S[33];
+        const float rotation_R0_2 = S[34];
+        const float rotation_R0_1 = S[35];
+        const float rotation_R1_3 = S[36];
+        const float rotation_R1_0 = S[37];
+        const float rotation_R1_2 = S[38];
+        const float rotation_R1_1 = S[39];
+        const float rotation_R2_3 = S[40];
+        const float rotation_R2_0 = S[41];
+        const float rotation_R2_2 = S[42];
+        const float rotation_R2_1 = S[43];
+        const float rotation_R3_3 = S[44];
+        const float rotation_R3_0 = S[45];
+        const float rotation_R3_2 = S[46];
+        const float rotation_R3_1 = S[47];
+        const float rotation_R4_3 = S[48];
+        const float rotation_R4_0 = S[49];
+        const float rotation_R4_2 = S[50];
+        const float rotation_R4_1 = S[51];
+        const float rotation_R5_3 = S[52];
+        const float rotation_R5_0 = S[53];
+        const float rotation_R5_2 = S[54];
+        const float rotation_R5_1 = S[55];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 7 * b;
+            vector_f *value = values + b;
+            vector_f *slope = slopes + 7 * b;
+            const vector_f rotation_g0 = kept[k][b].rotation_g0;
+            const vector_f rotation_eta = kept[k][b].rotation_eta;
+            const vector_f rotation_a = kept[k][b].rotation_a;
+            const vector_f rotation_a_chosen = kept[k][b].rotation_a_chosen;
+            const vector_f total_3 = kept[k][b].total_3;
+            const vector_f total_5 = kept[k][b].total_5;
+            const vector_f total_7 = kept[k][b].total_7;
+            const vector_f total_9 = kept[k][b].total_9;
+            const vector_f total_11 = kept[k][b].total_11;
+            const vector_f total_14 = kept[k][b].total_14;
+            const vector_f gaussian = kept[k][b].gaussian;
+            const vector_f x3 = X[3];
+            const vector_f x4 = X[4];
+            const vector_f x5 = X[5];
+            const vector_f x6 = X[6];
+            const vector_mask_f is_small = rotation_g0 < 0.0f;
+            const vector_f phi = rotation_a * (rotation_a * gaussian);
+            const vector_f phi_2 = amplitude * phi;
+            const vector_f total_15 = W0_0 * total_3 + W1_0 * total_5 + W2_0 * total_7 + W3_0 * total_9 + W4_0 *
+                total_11;
+            const vector_f total_16 = W0_1 * total_3 + W1_1 * total_5 + W2_1 * total_7 + W3_1 * total_9 + W4_1 *
+                total_11;
+            const vector_f total_17 = W0_2 * total_3 + W1_2 * total_5 + W2_2 * total_7 + W3_2 * total_9 + W4_2 *
+                total_11;
+            const vector_f total_18 = rotation_R0_3 * total_3 + rotation_R1_3 * total_5 + rotation_R2_3 * total_7 +
+                rotation_R3_3 * total_9 + rotation_R4_3 * total_11;
+            const vector_f phi_product = phi_2 * (total_18 + rotation_R5_3 * total_14);
+            const vector_f total_19 = rotation_R0_2 * total_3 + rotation_R1_2 * total_5 + rotation_R2_2 * total_7 +
+                rotation_R3_2 * total_9 + rotation_R4_2 * total_11;
+            const vector_f phi_product_2 = phi_2 * (total_19 + rotation_R5_2 * total_14);
+            const vector_f total_20 = rotation_R0_1 * total_3 + rotation_R1_1 * total_5 + rotation_R2_1 * total_7 +
+                rotation_R3_1 * total_9 + rotation_R4_1 * total_11;
+            const vector_f phi_product_3 = phi_2 * (total_20 + rotation_R5_1 * total_14);
+            const vector_f total_21 = rotation_R0_0 * total_3 + rotation_R1_0 * total_5 + rotation_R2_0 * total_7 +
+                rotation_R3_0 * total_9 + rotation_R4_0 * total_11;
+            const vector_f phi_product_4 = phi_2 * (total_21 + rotation_R5_0 * total_14);
+            const vector_f gap = -(x6 * phi_product) - x5 * phi_product_2 - x4 * phi_product_3 - x3 * phi_product_4;
+            const vector_f by_rotation_abs_g0 = rotation_eta * (2.0f * phi_2 + rotation_a_chosen * gap);
+            const vector_f by_rotation_g0 = vector_select_f(is_small, -by_rotation_abs_g0, by_rotation_abs_g0);
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] - phi_2 * (total_15 + W5_0 * total_14);
+            slope[1] = slope[1] - phi_2 * (total_16 + W5_1 * total_14);
+            slope[2] = slope[2] - phi_2 * (total_17 + W5_2 * total_14);
+            slope[3] = slope[3] + mu3 * by_rotation_g0 - rotation_a_chosen * phi_product_4;
+            slope[4] = slope[4] + mu4 * by_rotation_g0 - rotation_a_chosen * phi_product_3;
+            slope[5] = slope[5] + mu5 * by_rotation_g0 - rotation_a_chosen * phi_product_2;
+            slope[6] = slope[6] + mu6 * by_rotation_g0 - rotation_a_chosen * phi_product;
+        }
+    }
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -2631,6 +2970,427 @@ OUTLINE void pair_gradient_vjp_f(
     slope_bar[4] = 0.5f * (x5 * gradient_bar5 - x6 * gradient_bar4 + x3 * gradient_bar3);
     slope_bar[5] = 0.5f * (x3 * gradient_bar4 - x4 * gradient_bar5 + x6 * gradient_bar3);
     slope_bar[6] = 0.5f * (x3 * gradient_bar5 + x4 * gradient_bar4 - x5 * gradient_bar3);
+}
+
+/*
+ * The factors of whose products are what is summed over the points, for some vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
+ *
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
+ * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
+ * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
+ * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
+ * r = R h = W (tangent part of x), z = a r + what other factors add, phi = amplitude a^k exp(-|z|^2 / 2)
+ */
+OUTLINE void pair_factors_f(
+    size_t count, const vector_f *points, const uint32_t *near, const float *S, vector_f *factors) {
+    struct { vector_f v0, v1, v2, rotation_g0, gap, rotation_eta, rotation_a, rotation_a_chosen, product,
+            product_2, product_3, product_4, total_3, total_5, total_7, total_9, total_11, total_14, gaussian; }
+            kept[16];
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 15 * (size_t)near[i];
+        const vector_f x3 = X[3];
+        const vector_f x4 = X[4];
+        const vector_f x5 = X[5];
+        const vector_f x6 = X[6];
+        const float mu3 = S[3];
+        const float mu4 = S[4];
+        const float mu5 = S[5];
+        const float mu6 = S[6];
+        const vector_f rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6;
+        const vector_f rotation_abs_g0 = abs_each_f(rotation_g0);
+        const vector_f gap = 1.0f - rotation_abs_g0;
+        const vector_f rotation_eta = vector_polynomial_rotation_eta_f(gap);
+        const vector_f rotation_a = 1.0f / (rotation_abs_g0 - rotation_eta * (1.0f - rotation_abs_g0 *
+            rotation_abs_g0));
+        kept[i].rotation_g0 = rotation_g0;
+        kept[i].gap = gap;
+        kept[i].rotation_eta = rotation_eta;
+        kept[i].rotation_a = rotation_a;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 15 * (size_t)near[i];
+        const vector_f rotation_g0 = kept[i].rotation_g0;
+        const vector_f rotation_a = kept[i].rotation_a;
+        const vector_f x0 = X[0];
+        const vector_f x1 = X[1];
+        const vector_f x2 = X[2];
+        const vector_f x3 = X[3];
+        const vector_f x4 = X[4];
+        const vector_f x5 = X[5];
+        const vector_f x6 = X[6];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float mu2 = S[2];
+        const float W0_0 = S[7];
+        const float W0_1 = S[8];
+        const float W0_2 = S[9];
+        const float W1_0 = S[10];
+        const float W1_1 = S[11];
+        const float W1_2 = S[12];
+        const float W2_0 = S[13];
+        const float W2_1 = S[14];
+        const float W2_2 = S[15];
+        const float W3_0 = S[16];
+        const float W3_1 = S[17];
+        const float W3_2 = S[18];
+        const float W4_0 = S[19];
+        const float W4_1 = S[20];
+        const float W4_2 = S[21];
+        const float W5_0 = S[22];
+        const float W5_1 = S[23];
+        const float W5_2 = S[24];
+        const float rotation_R0_3 = S[32];
+        const float rotation_R0_0 = S[33];
+        const float rotation_R0_2 = S[34];
+        const float rotation_R0_1 = S[35];
+        const float rotation_R1_3 = S[36];
+        const float rotation_R1_0 = S[37];
+        const float rotation_R1_2 = S[38];
+        const float rotation_R1_1 = S[39];
+        const float rotation_R2_3 = S[40];
+        const float rotation_R2_0 = S[41];
+        const float rotation_R2_2 = S[42];
+        const float rotation_R2_1 = S[43];
+        const float rotation_R3_3 = S[44];
+        const float rotation_R3_0 = S[45];
+        const float rotation_R3_2 = S[46];
+        const float rotation_R3_1 = S[47];
+        const float rotation_R4_3 = S[48];
+        const float rotation_R4_0 = S[49];
+        const float rotation_R4_2 = S[50];
+        const float rotation_R4_1 = S[51];
+        const float rotation_R5_3 = S[52];
+        const float rotation_R5_0 = S[53];
+        const float rotation_R5_2 = S[54];
+        const float rotation_R5_1 = S[55];
+        const vector_f v0 = x0 - mu0;
+        const vector_f v1 = x1 - mu1;
+        const vector_f v2 = x2 - mu2;
+        const vector_mask_f is_small = rotation_g0 < 0.0f;
+        const vector_f rotation_a_chosen = vector_select_f(is_small, -rotation_a, rotation_a);
+        const vector_f product = x3 * rotation_a_chosen;
+        const vector_f product_2 = x4 * rotation_a_chosen;
+        const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
+            product_2;
+        const vector_f product_3 = x5 * rotation_a_chosen;
+        const vector_f product_4 = x6 * rotation_a_chosen;
+        const vector_f total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
+        const vector_f total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
+            product_2;
+        const vector_f total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4;
+        const vector_f total_6 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_R2_0 * product + rotation_R2_1 *
+            product_2;
+        const vector_f total_7 = total_6 + rotation_R2_2 * product_3 + rotation_R2_3 * product_4;
+        const vector_f total_8 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_R3_0 * product + rotation_R3_1 *
+            product_2;
+        const vector_f total_9 = total_8 + rotation_R3_2 * product_3 + rotation_R3_3 * product_4;
+        const vector_f total_10 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_R4_0 * product + rotation_R4_1 *
+            product_2;
+        const vector_f total_11 = total_10 + rotation_R4_2 * product_3 + rotation_R4_3 * product_4;
+        const vector_f total_13 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_R5_0 * product + rotation_R5_1 *
+            product_2;
+        const vector_f total_14 = total_13 + rotation_R5_2 * product_3 + rotation_R5_3 * product_4;
+        const vector_f total_16 = total_3 * total_3 + total_5 * total_5 + total_7 * total_7 + total_9 * total_9 +
+            total_11 * total_11;
+        const vector_f gaussian = gaussian_each_f(total_16 + total_14 * total_14);
+        kept[i].v0 = v0;
+        kept[i].v1 = v1;
+        kept[i].v2 = v2;
+        kept[i].rotation_a_chosen = rotation_a_chosen;
+        kept[i].product = product;
+        kept[i].product_2 = product_2;
+        kept[i].product_3 = product_3;
+        kept[i].product_4 = product_4;
+        kept[i].total_3 = total_3;
+        kept[i].total_5 = total_5;
+        kept[i].total_7 = total_7;
+        kept[i].total_9 = total_9;
+        kept[i].total_11 = total_11;
+        kept[i].total_14 = total_14;
+        kept[i].gaussian = gaussian;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 15 * (size_t)near[i];
+        const vector_f *value_bar = points + 15 * (size_t)near[i] + 7;
+        const vector_f *slope_bar = points + 15 * (size_t)near[i] + 7 + 1;
+        vector_f *factor = factors + 20 * i;
+        const vector_f v0 = kept[i].v0;
+        const vector_f v1 = kept[i].v1;
+        const vector_f v2 = kept[i].v2;
+        const vector_f rotation_g0 = kept[i].rotation_g0;
+        const vector_f gap = kept[i].gap;
+        const vector_f rotation_eta = kept[i].rotation_eta;
+        const vector_f rotation_a = kept[i].rotation_a;
+        const vector_f rotation_a_chosen = kept[i].rotation_a_chosen;
+        const vector_f product = kept[i].product;
+        const vector_f product_2 = kept[i].product_2;
+        const vector_f product_3 = kept[i].product_3;
+        const vector_f product_4 = kept[i].product_4;
+        const vector_f total_3 = kept[i].total_3;
+        const vector_f total_5 = kept[i].total_5;
+        const vector_f total_7 = kept[i].total_7;
+        const vector_f total_9 = kept[i].total_9;
+        const vector_f total_11 = kept[i].total_11;
+        const vector_f total_14 = kept[i].total_14;
+        const vector_f gaussian = kept[i].gaussian;
+        const vector_f x3 = X[3];
+        const vector_f x4 = X[4];
+        const vector_f x5 = X[5];
+        const vector_f x6 = X[6];
+        const float mu3 = S[3];
+        const float mu4 = S[4];
+        const float mu5 = S[5];
+        const float mu6 = S[6];
+        const float W0_0 = S[7];
+        const float W0_1 = S[8];
+        const float W0_2 = S[9];
+        const float W1_0 = S[10];
+        const float W1_1 = S[11];
+        const float W1_2 = S[12];
+        const float W2_0 = S[13];
+        const float W2_1 = S[14];
+        const float W2_2 = S[15];
+        const float W3_0 = S[16];
+        const float W3_1 = S[17];
+        const float W3_2 = S[18];
+        const float W4_0 = S[19];
+        const float W4_1 = S[20];
+        const float W4_2 = S[21];
+        const float W5_0 = S[22];
+        const float W5_1 = S[23];
+        const float W5_2 = S[24];
+        const float M0_0 = S[26];
+        const float M0_1 = S[27];
+        const float M0_2 = S[28];
+        const float M1_1 = S[29];
+        const float M1_2 = S[30];
+        const float M2_2 = S[31];
+        const float rotation_R0_3 = S[32];
+        const float rotation_R0_0 = S[33];
+        const float rotation_R0_2 = S[34];
+        const float rotation_R0_1 = S[35];
+        const float rotation_R1_3 = S[36];
+        const float rotation_R1_0 = S[37];
+        const float rotation_R1_2 = S[38];
+        const float rotation_R1_1 = S[39];
+        const float rotation_R2_3 = S[40];
+        const float rotation_R2_0 = S[41];
+        const float rotation_R2_2 = S[42];
+        const float rotation_R2_1 = S[43];
+        const float rotation_R3_3 = S[44];
+        const float rotation_R3_0 = S[45];
+        const float rotation_R3_2 = S[46];
+        const float rotation_R3_1 = S[47];
+        const float rotation_R4_3 = S[48];
+        const float rotation_R4_0 = S[49];
+        const float rotation_R4_2 = S[50];
+        const float rotation_R4_1 = S[51];
+        const float rotation_R5_3 = S[52];
+        const float rotation_R5_0 = S[53];
+        const float rotation_R5_2 = S[54];
+        const float rotation_R5_1 = S[55];
+        const float M0_3 = S[56];
+        const float M0_4 = S[57];
+        const float M0_5 = S[58];
+        const float M0_6 = S[59];
+        const float M1_3 = S[60];
+        const float M1_4 = S[61];
+        const float M1_5 = S[62];
+        const float M1_6 = S[63];
+        const float M2_3 = S[64];
+        const float M2_4 = S[65];
+        const float M2_5 = S[66];
+        const float M2_6 = S[67];
+        const float M3_3 = S[68];
+        const float M3_4 = S[69];
+        const float M3_5 = S[70];
+        const float M3_6 = S[71];
+        const float M4_4 = S[72];
+        const float M4_5 = S[73];
+        const float M4_6 = S[74];
+        const float M5_5 = S[75];
+        const float M5_6 = S[76];
+        const float M6_6 = S[77];
+        const vector_f its_value_bar = value_bar[0];
+        const vector_f x0_bar = slope_bar[0];
+        const vector_f x1_bar = slope_bar[1];
+        const vector_f x2_bar = slope_bar[2];
+        const vector_f x3_bar = slope_bar[3];
+        const vector_f x4_bar = slope_bar[4];
+        const vector_f x5_bar = slope_bar[5];
+        const vector_f x6_bar = slope_bar[6];
+        const vector_mask_f is_small = rotation_g0 < 0.0f;
+        const vector_f total_12 = W0_0 * total_3 + W1_0 * total_5 + W2_0 * total_7 + W3_0 * total_9 + W4_0 *
+            total_11;
+        const vector_f total_15 = total_12 + W5_0 * total_14;
+        const vector_f phi = rotation_a * (rotation_a * gaussian);
+        const vector_f total_17 = rotation_R0_3 * total_3 + rotation_R1_3 * total_5 + rotation_R2_3 * total_7 +
+            rotation_R3_3 * total_9 + rotation_R4_3 * total_11;
+        const vector_f total_18 = total_17 + rotation_R5_3 * total_14;
+        const vector_f by_by_rotation_g0 = mu3 * x3_bar + mu4 * x4_bar + mu5 * x5_bar + mu6 * x6_bar;
+        const vector_f by_by_rotation_abs_g0 = vector_select_f(is_small, vector_of_f(0.0f), by_by_rotation_g0) -
+            vector_select_f(is_small, by_by_rotation_g0, vector_of_f(0.0f));
+        const vector_f product_5 = rotation_eta * by_by_rotation_abs_g0;
+        const vector_f product_6 = rotation_a_chosen * product_5;
+        const vector_f gap_2 = -(x6 * product_6) - rotation_a_chosen * x6_bar;
+        const vector_f total_19 = rotation_R0_2 * total_3 + rotation_R1_2 * total_5 + rotation_R2_2 * total_7 +
+            rotation_R3_2 * total_9 + rotation_R4_2 * total_11;
+        const vector_f total_20 = total_19 + rotation_R5_2 * total_14;
+        const vector_f gap_3 = -(x5 * product_6) - rotation_a_chosen * x5_bar;
+        const vector_f total_21 = rotation_R0_1 * total_3 + rotation_R1_1 * total_5 + rotation_R2_1 * total_7 +
+            rotation_R3_1 * total_9 + rotation_R4_1 * total_11;
+        const vector_f total_22 = total_21 + rotation_R5_1 * total_14;
+        const vector_f gap_4 = -(x4 * product_6) - rotation_a_chosen * x4_bar;
+        const vector_f total_23 = rotation_R0_0 * total_3 + rotation_R1_0 * total_5 + rotation_R2_0 * total_7 +
+            rotation_R3_0 * total_9 + rotation_R4_0 * total_11;
+        const vector_f total_24 = total_23 + rotation_R5_0 * total_14;
+        const vector_f gap_5 = -(x3 * product_6) - rotation_a_chosen * x3_bar;
+        const vector_f total_25 = its_value_bar + total_18 * gap_2 + total_20 * gap_3 + total_22 * gap_4 +
+            total_24 * gap_5;
+        const vector_f total_26 = W0_2 * total_3 + W1_2 * total_5 + W2_2 * total_7 + W3_2 * total_9 + W4_2 *
+            total_11;
+        const vector_f total_27 = total_26 + W5_2 * total_14;
+        const vector_f total_28 = W0_1 * total_3 + W1_1 * total_5 + W2_1 * total_7 + W3_1 * total_9 + W4_1 *
+            total_11;
+        const vector_f total_29 = total_28 + W5_1 * total_14;
+        const vector_f by_phi = total_25 - total_27 * x2_bar - total_29 * x1_bar - total_15 * x0_bar + 2.0f *
+            product_5;
+        const vector_f phi_product = phi * by_phi;
+        const vector_f phi_product_2 = phi * x0_bar;
+        const vector_f phi_product_3 = phi * x1_bar;
+        const vector_f phi_product_4 = phi * x2_bar;
+        const vector_f phi_product_5 = phi * gap_5;
+        const vector_f total_30 = -(M0_0 * phi_product_2) - M0_1 * phi_product_3 - M0_2 * phi_product_4 + M0_3 *
+            phi_product_5;
+        const vector_f phi_product_6 = phi * gap_4;
+        const vector_f phi_product_7 = phi * gap_3;
+        const vector_f phi_product_8 = phi * gap_2;
+        const vector_f gap_6 = total_15 * phi_product - (total_30 + M0_4 * phi_product_6 + M0_5 * phi_product_7 +
+            M0_6 * phi_product_8);
+        const vector_f total_31 = -(M0_1 * phi_product_2) - M1_1 * phi_product_3 - M1_2 * phi_product_4 + M1_3 *
+            phi_product_5;
+        const vector_f gap_7 = total_29 * phi_product - (total_31 + M1_4 * phi_product_6 + M1_5 * phi_product_7 +
+            M1_6 * phi_product_8);
+        const vector_f total_32 = -(M0_2 * phi_product_2) - M1_2 * phi_product_3 - M2_2 * phi_product_4 + M2_3 *
+            phi_product_5;
+        const vector_f gap_8 = total_27 * phi_product - (total_32 + M2_4 * phi_product_6 + M2_5 * phi_product_7 +
+            M2_6 * phi_product_8);
+        const vector_f phi_product_9 = phi * total_18;
+        const vector_f phi_product_10 = phi * total_20;
+        const vector_f phi_product_11 = phi * total_22;
+        const vector_f phi_product_12 = phi * total_24;
+        const vector_f gap_9 = -(x6 * phi_product_9) - x5 * phi_product_10 - x4 * phi_product_11 - x3 *
+            phi_product_12;
+        const vector_f total_33 = 2.0f * phi + rotation_a_chosen * gap_9;
+        const vector_f by_rotation_abs_g0 = rotation_eta * total_33;
+        const vector_f by_rotation_g0 = vector_select_f(is_small, -by_rotation_abs_g0, by_rotation_abs_g0);
+        const vector_f rotation_eta_slope = vector_polynomial_rotation_eta_slope_f(gap);
+        const vector_f gap_10 = gap_9 * product_5 - phi_product_12 * x3_bar - phi_product_11 * x4_bar -
+            phi_product_10 * x5_bar - phi_product_9 * x6_bar;
+        const vector_f total_34 = -(M0_6 * phi_product_2) - M1_6 * phi_product_3 - M2_6 * phi_product_4 + M3_6 *
+            phi_product_5;
+        const vector_f gap_11 = total_34 + M4_6 * phi_product_6 + M5_6 * phi_product_7 + M6_6 * phi_product_8 -
+            total_18 * phi_product;
+        const vector_f total_35 = -(M0_5 * phi_product_2) - M1_5 * phi_product_3 - M2_5 * phi_product_4 + M3_5 *
+            phi_product_5;
+        const vector_f gap_12 = total_35 + M4_5 * phi_product_6 + M5_5 * phi_product_7 + M5_6 * phi_product_8 -
+            total_20 * phi_product;
+        const vector_f total_36 = -(M0_4 * phi_product_2) - M1_4 * phi_product_3 - M2_4 * phi_product_4 + M3_4 *
+            phi_product_5;
+        const vector_f gap_13 = total_36 + M4_4 * phi_product_6 + M4_5 * phi_product_7 + M4_6 * phi_product_8 -
+            total_22 * phi_product;
+        const vector_f total_37 = -(M0_3 * phi_product_2) - M1_3 * phi_product_3 - M2_3 * phi_product_4 + M3_3 *
+            phi_product_5;
+        const vector_f gap_14 = total_37 + M3_4 * phi_product_6 + M3_5 * phi_product_7 + M3_6 * phi_product_8 -
+            total_24 * phi_product;
+        const vector_f total_38 = gap_10 + x6 * gap_11 + x5 * gap_12 + x4 * gap_13 + x3 * gap_14;
+        const vector_f by_rotation_abs_g0_2 = rotation_eta_slope * (total_33 * by_by_rotation_abs_g0) +
+            rotation_eta * (2.0f * phi_product + rotation_a_chosen * total_38);
+        const vector_f by_rotation_g0_2 = vector_select_f(is_small, -by_rotation_abs_g0_2, by_rotation_abs_g0_2);
+        const vector_f product_7 = 0.5f * phi_product;
+        const vector_f gap_15 = -phi_product_2 - v0 * product_7;
+        const vector_f gap_16 = -phi_product_3 - v1 * product_7;
+        const vector_f gap_17 = -phi_product_4 - v2 * product_7;
+        const vector_f gap_18 = phi_product_5 - product * product_7;
+        const vector_f gap_19 = phi_product_6 - product_2 * product_7;
+        const vector_f gap_20 = phi_product_7 - product_3 * product_7;
+        const vector_f gap_21 = phi_product_8 - product_4 * product_7;
+        factor[0] = v0;
+        factor[1] = v1;
+        factor[2] = v2;
+        factor[3] = product;
+        factor[4] = product_2;
+        factor[5] = product_3;
+        factor[6] = product_4;
+        factor[7] = phi_product;
+        factor[8] = gap_6;
+        factor[9] = gap_7;
+        factor[10] = gap_8;
+        factor[11] = by_rotation_g0;
+        factor[12] = by_rotation_g0_2;
+        factor[13] = gap_15;
+        factor[14] = gap_16;
+        factor[15] = gap_17;
+        factor[16] = gap_18;
+        factor[17] = gap_19;
+        factor[18] = gap_20;
+        factor[19] = gap_21;
+    }
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_0_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[8];
+    sum[1] = sum[1] + factor[9];
+    sum[2] = sum[2] + factor[10];
+    sum[3] = sum[3] + factor[7];
+    sum[4] = sum[4] + factor[0] * factor[13];
+    sum[5] = sum[5] + factor[0] * factor[14] + factor[1] * factor[13];
+    sum[6] = sum[6] + factor[1] * factor[14];
+    sum[7] = sum[7] + factor[0] * factor[15] + factor[2] * factor[13];
+    sum[8] = sum[8] + factor[1] * factor[15] + factor[2] * factor[14];
+    sum[9] = sum[9] + factor[2] * factor[15];
+    sum[10] = sum[10] + factor[0] * factor[16] + factor[3] * factor[13];
+    sum[11] = sum[11] + factor[1] * factor[16] + factor[3] * factor[14];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_1_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[11] * point[11] + point[3] * factor[12];
+    sum[1] = sum[1] + factor[11] * point[12] + point[4] * factor[12];
+    sum[2] = sum[2] + factor[11] * point[13] + point[5] * factor[12];
+    sum[3] = sum[3] + factor[11] * point[14] + point[6] * factor[12];
+    sum[4] = sum[4] + factor[3] * factor[16];
+    sum[5] = sum[5] + factor[2] * factor[16] + factor[3] * factor[15];
+    sum[6] = sum[6] + factor[2] * factor[17] + factor[4] * factor[15];
+    sum[7] = sum[7] + factor[3] * factor[17] + factor[4] * factor[16];
+    sum[8] = sum[8] + factor[4] * factor[17];
+    sum[9] = sum[9] + factor[0] * factor[17] + factor[4] * factor[13];
+    sum[10] = sum[10] + factor[0] * factor[18] + factor[5] * factor[13];
+    sum[11] = sum[11] + factor[2] * factor[18] + factor[5] * factor[15];
+}
+
+/* Adds some of the sums, as products. */
+INLINE void pair_products_2_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
+    (void)factor;
+    (void)point;
+    sum[0] = sum[0] + factor[0] * factor[19] + factor[6] * factor[13];
+    sum[1] = sum[1] + factor[6] * factor[19];
+    sum[2] = sum[2] + factor[1] * factor[19] + factor[6] * factor[14];
+    sum[3] = sum[3] + factor[1] * factor[17] + factor[4] * factor[14];
+    sum[4] = sum[4] + factor[4] * factor[19] + factor[6] * factor[17];
+    sum[5] = sum[5] + factor[1] * factor[18] + factor[5] * factor[14];
+    sum[6] = sum[6] + factor[4] * factor[18] + factor[5] * factor[17];
+    sum[7] = sum[7] + factor[5] * factor[18];
+    sum[8] = sum[8] + factor[5] * factor[19] + factor[6] * factor[18];
+    sum[9] = sum[9] + factor[2] * factor[19] + factor[6] * factor[15];
+    sum[10] = sum[10] + factor[3] * factor[18] + factor[5] * factor[16];
+    sum[11] = sum[11] + factor[3] * factor[19] + factor[6] * factor[16];
 }
 
 /* The adjoints of some splats' parameters, of their sums over the points. */
@@ -3009,316 +3769,6 @@ OUTLINE void pair_distances_f(
     distance[0] = length;
 }
 
-/*
- * The factors of whose products are what is summed over the points.
- *
- * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
- * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
- * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
- * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x), z = a r + what other factors add, phi = amplitude a^k exp(-|z|^2 / 2)
- */
-OUTLINE void pair_factors_f(
-    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *factor) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f x2 = X[2];
-    const vector_f x3 = X[3];
-    const vector_f x4 = X[4];
-    const vector_f x5 = X[5];
-    const vector_f x6 = X[6];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float mu2 = S[2];
-    const float mu3 = S[3];
-    const float mu4 = S[4];
-    const float mu5 = S[5];
-    const float mu6 = S[6];
-    const float W0_0 = S[7];
-    const float W0_1 = S[8];
-    const float W0_2 = S[9];
-    const float W1_0 = S[10];
-    const float W1_1 = S[11];
-    const float W1_2 = S[12];
-    const float W2_0 = S[13];
-    const float W2_1 = S[14];
-    const float W2_2 = S[15];
-    const float W3_0 = S[16];
-    const float W3_1 = S[17];
-    const float W3_2 = S[18];
-    const float W4_0 = S[19];
-    const float W4_1 = S[20];
-    const float W4_2 = S[21];
-    const float W5_0 = S[22];
-    const float W5_1 = S[23];
-    const float W5_2 = S[24];
-    const float M0_0 = S[26];
-    const float M0_1 = S[27];
-    const float M0_2 = S[28];
-    const float M1_1 = S[29];
-    const float M1_2 = S[30];
-    const float M2_2 = S[31];
-    const float rotation_R0_3 = S[32];
-    const float rotation_R0_0 = S[33];
-    const float rotation_R0_2 = S[34];
-    const float rotation_R0_1 = S[35];
-    const float rotation_R1_3 = S[36];
-    const float rotation_R1_0 = S[37];
-    const float rotation_R1_2 = S[38];
-    const float rotation_R1_1 = S[39];
-    const float rotation_R2_3 = S[40];
-    const float rotation_R2_0 = S[41];
-    const float rotation_R2_2 = S[42];
-    const float rotation_R2_1 = S[43];
-    const float rotation_R3_3 = S[44];
-    const float rotation_R3_0 = S[45];
-    const float rotation_R3_2 = S[46];
-    const float rotation_R3_1 = S[47];
-    const float rotation_R4_3 = S[48];
-    const float rotation_R4_0 = S[49];
-    const float rotation_R4_2 = S[50];
-    const float rotation_R4_1 = S[51];
-    const float rotation_R5_3 = S[52];
-    const float rotation_R5_0 = S[53];
-    const float rotation_R5_2 = S[54];
-    const float rotation_R5_1 = S[55];
-    const float M0_3 = S[56];
-    const float M0_4 = S[57];
-    const float M0_5 = S[58];
-    const float M0_6 = S[59];
-    const float M1_3 = S[60];
-    const float M1_4 = S[61];
-    const float M1_5 = S[62];
-    const float M1_6 = S[63];
-    const float M2_3 = S[64];
-    const float M2_4 = S[65];
-    const float M2_5 = S[66];
-    const float M2_6 = S[67];
-    const float M3_3 = S[68];
-    const float M3_4 = S[69];
-    const float M3_5 = S[70];
-    const float M3_6 = S[71];
-    const float M4_4 = S[72];
-    const float M4_5 = S[73];
-    const float M4_6 = S[74];
-    const float M5_5 = S[75];
-    const float M5_6 = S[76];
-    const float M6_6 = S[77];
-    const vector_f its_value_bar = value_bar[0];
-    const vector_f x0_bar = slope_bar[0];
-    const vector_f x1_bar = slope_bar[1];
-    const vector_f x2_bar = slope_bar[2];
-    const vector_f x3_bar = slope_bar[3];
-    const vector_f x4_bar = slope_bar[4];
-    const vector_f x5_bar = slope_bar[5];
-    const vector_f x6_bar = slope_bar[6];
-    const vector_f v0 = x0 - mu0;
-    const vector_f v1 = x1 - mu1;
-    const vector_f v2 = x2 - mu2;
-    const vector_f rotation_g0 = x3 * mu3 + x4 * mu4 + x5 * mu5 + x6 * mu6;
-    const vector_mask_f is_small = rotation_g0 < 0.0f;
-    const vector_f rotation_abs_g0 = abs_each_f(rotation_g0);
-    const vector_f gap = 1.0f - rotation_abs_g0;
-    const vector_f rotation_eta = vector_polynomial_rotation_eta_f(gap);
-    const vector_f rotation_a = 1.0f / (rotation_abs_g0 - rotation_eta * (1.0f - rotation_abs_g0 *
-        rotation_abs_g0));
-    const vector_f rotation_a_chosen = vector_select_f(is_small, -rotation_a, rotation_a);
-    const vector_f product = x3 * rotation_a_chosen;
-    const vector_f product_2 = x4 * rotation_a_chosen;
-    const vector_f total_2 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2 + rotation_R0_0 * product + rotation_R0_1 *
-        product_2;
-    const vector_f product_3 = x5 * rotation_a_chosen;
-    const vector_f product_4 = x6 * rotation_a_chosen;
-    const vector_f total_3 = total_2 + rotation_R0_2 * product_3 + rotation_R0_3 * product_4;
-    const vector_f total_4 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2 + rotation_R1_0 * product + rotation_R1_1 *
-        product_2;
-    const vector_f total_5 = total_4 + rotation_R1_2 * product_3 + rotation_R1_3 * product_4;
-    const vector_f total_6 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2 + rotation_R2_0 * product + rotation_R2_1 *
-        product_2;
-    const vector_f total_7 = total_6 + rotation_R2_2 * product_3 + rotation_R2_3 * product_4;
-    const vector_f total_8 = W3_0 * v0 + W3_1 * v1 + W3_2 * v2 + rotation_R3_0 * product + rotation_R3_1 *
-        product_2;
-    const vector_f total_9 = total_8 + rotation_R3_2 * product_3 + rotation_R3_3 * product_4;
-    const vector_f total_10 = W4_0 * v0 + W4_1 * v1 + W4_2 * v2 + rotation_R4_0 * product + rotation_R4_1 *
-        product_2;
-    const vector_f total_11 = total_10 + rotation_R4_2 * product_3 + rotation_R4_3 * product_4;
-    const vector_f total_12 = W0_0 * total_3 + W1_0 * total_5 + W2_0 * total_7 + W3_0 * total_9 + W4_0 *
-        total_11;
-    const vector_f total_13 = W5_0 * v0 + W5_1 * v1 + W5_2 * v2 + rotation_R5_0 * product + rotation_R5_1 *
-        product_2;
-    const vector_f total_14 = total_13 + rotation_R5_2 * product_3 + rotation_R5_3 * product_4;
-    const vector_f total_15 = total_12 + W5_0 * total_14;
-    const vector_f total_16 = total_3 * total_3 + total_5 * total_5 + total_7 * total_7 + total_9 * total_9 +
-        total_11 * total_11;
-    const vector_f gaussian = gaussian_each_f(total_16 + total_14 * total_14);
-    const vector_f phi = rotation_a * (rotation_a * gaussian);
-    const vector_f total_17 = rotation_R0_3 * total_3 + rotation_R1_3 * total_5 + rotation_R2_3 * total_7 +
-        rotation_R3_3 * total_9 + rotation_R4_3 * total_11;
-    const vector_f total_18 = total_17 + rotation_R5_3 * total_14;
-    const vector_f by_by_rotation_g0 = mu3 * x3_bar + mu4 * x4_bar + mu5 * x5_bar + mu6 * x6_bar;
-    const vector_f by_by_rotation_abs_g0 = vector_select_f(is_small, vector_of_f(0.0f), by_by_rotation_g0) -
-        vector_select_f(is_small, by_by_rotation_g0, vector_of_f(0.0f));
-    const vector_f product_5 = rotation_eta * by_by_rotation_abs_g0;
-    const vector_f product_6 = rotation_a_chosen * product_5;
-    const vector_f gap_2 = -(x6 * product_6) - rotation_a_chosen * x6_bar;
-    const vector_f total_19 = rotation_R0_2 * total_3 + rotation_R1_2 * total_5 + rotation_R2_2 * total_7 +
-        rotation_R3_2 * total_9 + rotation_R4_2 * total_11;
-    const vector_f total_20 = total_19 + rotation_R5_2 * total_14;
-    const vector_f gap_3 = -(x5 * product_6) - rotation_a_chosen * x5_bar;
-    const vector_f total_21 = rotation_R0_1 * total_3 + rotation_R1_1 * total_5 + rotation_R2_1 * total_7 +
-        rotation_R3_1 * total_9 + rotation_R4_1 * total_11;
-    const vector_f total_22 = total_21 + rotation_R5_1 * total_14;
-    const vector_f gap_4 = -(x4 * product_6) - rotation_a_chosen * x4_bar;
-    const vector_f total_23 = rotation_R0_0 * total_3 + rotation_R1_0 * total_5 + rotation_R2_0 * total_7 +
-        rotation_R3_0 * total_9 + rotation_R4_0 * total_11;
-    const vector_f total_24 = total_23 + rotation_R5_0 * total_14;
-    const vector_f gap_5 = -(x3 * product_6) - rotation_a_chosen * x3_bar;
-    const vector_f total_25 = its_value_bar + total_18 * gap_2 + total_20 * gap_3 + total_22 * gap_4 +
-        total_24 * gap_5;
-    const vector_f total_26 = W0_2 * total_3 + W1_2 * total_5 + W2_2 * total_7 + W3_2 * total_9 + W4_2 *
-        total_11;
-    const vector_f total_27 = total_26 + W5_2 * total_14;
-    const vector_f total_28 = W0_1 * total_3 + W1_1 * total_5 + W2_1 * total_7 + W3_1 * total_9 + W4_1 *
-        total_11;
-    const vector_f total_29 = total_28 + W5_1 * total_14;
-    const vector_f by_phi = total_25 - total_27 * x2_bar - total_29 * x1_bar - total_15 * x0_bar + 2.0f *
-        product_5;
-    const vector_f phi_product = phi * by_phi;
-    const vector_f phi_product_2 = phi * x0_bar;
-    const vector_f phi_product_3 = phi * x1_bar;
-    const vector_f phi_product_4 = phi * x2_bar;
-    const vector_f phi_product_5 = phi * gap_5;
-    const vector_f total_30 = -(M0_0 * phi_product_2) - M0_1 * phi_product_3 - M0_2 * phi_product_4 + M0_3 *
-        phi_product_5;
-    const vector_f phi_product_6 = phi * gap_4;
-    const vector_f phi_product_7 = phi * gap_3;
-    const vector_f phi_product_8 = phi * gap_2;
-    const vector_f gap_6 = total_15 * phi_product - (total_30 + M0_4 * phi_product_6 + M0_5 * phi_product_7 +
-        M0_6 * phi_product_8);
-    const vector_f total_31 = -(M0_1 * phi_product_2) - M1_1 * phi_product_3 - M1_2 * phi_product_4 + M1_3 *
-        phi_product_5;
-    const vector_f gap_7 = total_29 * phi_product - (total_31 + M1_4 * phi_product_6 + M1_5 * phi_product_7 +
-        M1_6 * phi_product_8);
-    const vector_f total_32 = -(M0_2 * phi_product_2) - M1_2 * phi_product_3 - M2_2 * phi_product_4 + M2_3 *
-        phi_product_5;
-    const vector_f gap_8 = total_27 * phi_product - (total_32 + M2_4 * phi_product_6 + M2_5 * phi_product_7 +
-        M2_6 * phi_product_8);
-    const vector_f phi_product_9 = phi * total_18;
-    const vector_f phi_product_10 = phi * total_20;
-    const vector_f phi_product_11 = phi * total_22;
-    const vector_f phi_product_12 = phi * total_24;
-    const vector_f gap_9 = -(x6 * phi_product_9) - x5 * phi_product_10 - x4 * phi_product_11 - x3 *
-        phi_product_12;
-    const vector_f total_33 = 2.0f * phi + rotation_a_chosen * gap_9;
-    const vector_f by_rotation_abs_g0 = rotation_eta * total_33;
-    const vector_f by_rotation_g0 = vector_select_f(is_small, -by_rotation_abs_g0, by_rotation_abs_g0);
-    const vector_f rotation_eta_slope = vector_polynomial_rotation_eta_slope_f(gap);
-    const vector_f gap_10 = gap_9 * product_5 - phi_product_12 * x3_bar - phi_product_11 * x4_bar -
-        phi_product_10 * x5_bar - phi_product_9 * x6_bar;
-    const vector_f total_34 = -(M0_6 * phi_product_2) - M1_6 * phi_product_3 - M2_6 * phi_product_4 + M3_6 *
-        phi_product_5;
-    const vector_f gap_11 = total_34 + M4_6 * phi_product_6 + M5_6 * phi_product_7 + M6_6 * phi_product_8 -
-        total_18 * phi_product;
-    const vector_f total_35 = -(M0_5 * phi_product_2) - M1_5 * phi_product_3 - M2_5 * phi_product_4 + M3_5 *
-        phi_product_5;
-    const vector_f gap_12 = total_35 + M4_5 * phi_product_6 + M5_5 * phi_product_7 + M5_6 * phi_product_8 -
-        total_20 * phi_product;
-    const vector_f total_36 = -(M0_4 * phi_product_2) - M1_4 * phi_product_3 - M2_4 * phi_product_4 + M3_4 *
-        phi_product_5;
-    const vector_f gap_13 = total_36 + M4_4 * phi_product_6 + M4_5 * phi_product_7 + M4_6 * phi_product_8 -
-        total_22 * phi_product;
-    const vector_f total_37 = -(M0_3 * phi_product_2) - M1_3 * phi_product_3 - M2_3 * phi_product_4 + M3_3 *
-        phi_product_5;
-    const vector_f gap_14 = total_37 + M3_4 * phi_product_6 + M3_5 * phi_product_7 + M3_6 * phi_product_8 -
-        total_24 * phi_product;
-    const vector_f total_38 = gap_10 + x6 * gap_11 + x5 * gap_12 + x4 * gap_13 + x3 * gap_14;
-    const vector_f by_rotation_abs_g0_2 = rotation_eta_slope * (total_33 * by_by_rotation_abs_g0) +
-        rotation_eta * (2.0f * phi_product + rotation_a_chosen * total_38);
-    const vector_f by_rotation_g0_2 = vector_select_f(is_small, -by_rotation_abs_g0_2, by_rotation_abs_g0_2);
-    const vector_f product_7 = 0.5f * phi_product;
-    const vector_f gap_15 = -phi_product_2 - v0 * product_7;
-    const vector_f gap_16 = -phi_product_3 - v1 * product_7;
-    const vector_f gap_17 = -phi_product_4 - v2 * product_7;
-    const vector_f gap_18 = phi_product_5 - product * product_7;
-    const vector_f gap_19 = phi_product_6 - product_2 * product_7;
-    const vector_f gap_20 = phi_product_7 - product_3 * product_7;
-    const vector_f gap_21 = phi_product_8 - product_4 * product_7;
-    factor[0] = v0;
-    factor[1] = v1;
-    factor[2] = v2;
-    factor[3] = product;
-    factor[4] = product_2;
-    factor[5] = product_3;
-    factor[6] = product_4;
-    factor[7] = phi_product;
-    factor[8] = gap_6;
-    factor[9] = gap_7;
-    factor[10] = gap_8;
-    factor[11] = by_rotation_g0;
-    factor[12] = by_rotation_g0_2;
-    factor[13] = gap_15;
-    factor[14] = gap_16;
-    factor[15] = gap_17;
-    factor[16] = gap_18;
-    factor[17] = gap_19;
-    factor[18] = gap_20;
-    factor[19] = gap_21;
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_0_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[8];
-    sum[1] = sum[1] + factor[9];
-    sum[2] = sum[2] + factor[10];
-    sum[3] = sum[3] + factor[7];
-    sum[4] = sum[4] + factor[0] * factor[13];
-    sum[5] = sum[5] + factor[0] * factor[14] + factor[1] * factor[13];
-    sum[6] = sum[6] + factor[1] * factor[14];
-    sum[7] = sum[7] + factor[0] * factor[15] + factor[2] * factor[13];
-    sum[8] = sum[8] + factor[1] * factor[15] + factor[2] * factor[14];
-    sum[9] = sum[9] + factor[2] * factor[15];
-    sum[10] = sum[10] + factor[0] * factor[16] + factor[3] * factor[13];
-    sum[11] = sum[11] + factor[1] * factor[16] + factor[3] * factor[14];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_1_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[11] * point[11] + point[3] * factor[12];
-    sum[1] = sum[1] + factor[11] * point[12] + point[4] * factor[12];
-    sum[2] = sum[2] + factor[11] * point[13] + point[5] * factor[12];
-    sum[3] = sum[3] + factor[11] * point[14] + point[6] * factor[12];
-    sum[4] = sum[4] + factor[3] * factor[16];
-    sum[5] = sum[5] + factor[2] * factor[16] + factor[3] * factor[15];
-    sum[6] = sum[6] + factor[2] * factor[17] + factor[4] * factor[15];
-    sum[7] = sum[7] + factor[3] * factor[17] + factor[4] * factor[16];
-    sum[8] = sum[8] + factor[4] * factor[17];
-    sum[9] = sum[9] + factor[0] * factor[17] + factor[4] * factor[13];
-    sum[10] = sum[10] + factor[0] * factor[18] + factor[5] * factor[13];
-    sum[11] = sum[11] + factor[2] * factor[18] + factor[5] * factor[15];
-}
-
-/* Adds some of the sums, as products. */
-INLINE void pair_products_2_f(const vector_f *factor, const vector_f *point, vector_f *sum) {
-    (void)factor;
-    (void)point;
-    sum[0] = sum[0] + factor[0] * factor[19] + factor[6] * factor[13];
-    sum[1] = sum[1] + factor[6] * factor[19];
-    sum[2] = sum[2] + factor[1] * factor[19] + factor[6] * factor[14];
-    sum[3] = sum[3] + factor[1] * factor[17] + factor[4] * factor[14];
-    sum[4] = sum[4] + factor[4] * factor[19] + factor[6] * factor[17];
-    sum[5] = sum[5] + factor[1] * factor[18] + factor[5] * factor[14];
-    sum[6] = sum[6] + factor[4] * factor[18] + factor[5] * factor[17];
-    sum[7] = sum[7] + factor[5] * factor[18];
-    sum[8] = sum[8] + factor[5] * factor[19] + factor[6] * factor[18];
-    sum[9] = sum[9] + factor[2] * factor[19] + factor[6] * factor[15];
-    sum[10] = sum[10] + factor[3] * factor[18] + factor[5] * factor[16];
-    sum[11] = sum[11] + factor[3] * factor[19] + factor[6] * factor[16];
-}
-
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
 OUTLINE void vector_rows_f(const float *rows, size_t count, size_t start, size_t size, vector_f *columns) {
     for (size_t i = 0; i < size; ++i) {
@@ -3478,7 +3928,7 @@ OUTLINE void splat_constants_f(
     vector_to_rows_f(S, constants, splat_count, start, 78, 78);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void se3_splats_f(
     size_t count, size_t splat_count, const float *SE3_RESTRICT x, const float *SE3_RESTRICT mu, const float *SE3_RESTRICT W, const float *SE3_RESTRICT amplitude, const float *SE3_RESTRICT width,
     float *SE3_RESTRICT value, float *SE3_RESTRICT gradient, float *SE3_RESTRICT work, int threads) {
@@ -3493,27 +3943,26 @@ void se3_splats_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[2][7], X[2][7], grad[6];
-            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][7] = {{ZERO}};
+            vector_f at[2][7], X[2 * 7], grad[6];
+            vector_f value_sum[2] = {ZERO}, slope_sum[2 * 7] = {ZERO};
             float place[7 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 7, at[b]);
-                pair_features_f(at[b], X[b]);
+                pair_features_f(at[b], X + 7 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 78 * near[i];
-                    pair_forward_f(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward_f(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward_f(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient_f(at[b], slope_sum[b], grad);
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                pair_gradient_f(at[b], slope_sum + 7 * b, grad);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
                 vector_to_rows_f(grad, gradient, count, start + b * LANES_f, 6, 6);
             }
         }
@@ -3535,25 +3984,24 @@ void se3_splats_value_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[7], X[2][7], value_sum[2][1] = {{ZERO}};
+            vector_f at[7], X[2 * 7], value_sum[2] = {ZERO};
             float place[7 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 7, at);
-                pair_features_f(at, X[b]);
+                pair_features_f(at, X + 7 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 78 * near[i];
-                    pair_value_f(X[0], S, value_sum[0]);
-                    pair_value_f(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value_f(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -3572,14 +4020,14 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 7 + 1, point + 7);
 }
 
-/* Adds to sums what one vector of points adds to it. */
+/* Adds what makes the derivatives, of a splat at some vectors of points: their factors, then the products of these. */
 INLINE void pair_backward_f(
-    const vector_f *point, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
-    vector_f factor[20];
-    pair_factors_f(point, S, value_bar, slope_bar, factor);
+    size_t count, const vector_f *points, const uint32_t *near, const float *S, vector_f *sums) {
+    vector_f factor[16 * 20];
+    pair_factors_f(count, points, near, S, factor);
     {
         vector_f sum[12] = {ZERO};
-        pair_products_0_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_0_f(factor + 20 * i, points + 15 * (size_t)near[i], sum);
         sums[0] += sum[0];
         sums[1] += sum[1];
         sums[2] += sum[2];
@@ -3595,7 +4043,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_1_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_1_f(factor + 20 * i, points + 15 * (size_t)near[i], sum);
         sums[3] += sum[0];
         sums[4] += sum[1];
         sums[5] += sum[2];
@@ -3611,7 +4059,7 @@ INLINE void pair_backward_f(
     }
     {
         vector_f sum[12] = {ZERO};
-        pair_products_2_f(factor, point, sum);
+        for (size_t i = 0; i < count; ++i) pair_products_2_f(factor + 20 * i, points + 15 * (size_t)near[i], sum);
         sums[17] += sum[0];
         sums[35] += sum[1];
         sums[21] += sum[2];
@@ -3627,68 +4075,12 @@ INLINE void pair_backward_f(
     }
 }
 
-/*
- * Adds to sums what some vectors of points add to it, those in the list: factors of 16 vectors at a time, then their
- * products.
- */
-OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t count, const float *S, float *sums) {
-    vector_f factor[16 * 20], total[36] = {ZERO};
-    for (size_t start = 0; start < count; start += 16, near += 16) {
-        const size_t size = count - start < 16 ? count - start : 16;
-        for (size_t b = 0; b < size; ++b) {
-            const vector_f *at = points + 15 * (size_t)near[b];
-            pair_factors_f(at, S, at + 7, at + 7 + 1, factor + 20 * b);
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_0_f(factor + 20 * b, points + 15 * (size_t)near[b], sum);
-            total[0] += sum[0];
-            total[1] += sum[1];
-            total[2] += sum[2];
-            total[7] += sum[3];
-            total[8] += sum[4];
-            total[9] += sum[5];
-            total[11] += sum[6];
-            total[10] += sum[7];
-            total[12] += sum[8];
-            total[13] += sum[9];
-            total[14] += sum[10];
-            total[18] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_1_f(factor + 20 * b, points + 15 * (size_t)near[b], sum);
-            total[3] += sum[0];
-            total[4] += sum[1];
-            total[5] += sum[2];
-            total[6] += sum[3];
-            total[26] += sum[4];
-            total[22] += sum[5];
-            total[23] += sum[6];
-            total[27] += sum[7];
-            total[30] += sum[8];
-            total[15] += sum[9];
-            total[16] += sum[10];
-            total[24] += sum[11];
-        }
-        {
-            vector_f sum[12] = {ZERO};
-            for (size_t b = 0; b < size; ++b) pair_products_2_f(factor + 20 * b, points + 15 * (size_t)near[b], sum);
-            total[17] += sum[0];
-            total[35] += sum[1];
-            total[21] += sum[2];
-            total[19] += sum[3];
-            total[32] += sum[4];
-            total[20] += sum[5];
-            total[31] += sum[6];
-            total[33] += sum[7];
-            total[34] += sum[8];
-            total[25] += sum[9];
-            total[28] += sum[10];
-            total[29] += sum[11];
-        }
-    }
-    for (size_t i = 0; i < 36; ++i) sums[i] += vector_sum_f(total[i]);
+/* Adds to sums what some vectors of points add to them, those in the list. */
+OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *sums) {
+    vector_f sum[36] = {ZERO};
+    for (size_t b = 0; b < size; b += 16)
+        pair_backward_f(size - b < 16 ? size - b : 16, points, near + b, S, sum);
+    for (size_t i = 0; i < 36; ++i) sums[i] += vector_sum_f(sum[i]);
 }
 
 /*
@@ -3760,6 +4152,7 @@ void se3_splats_rows_f(
     float *SE3_RESTRICT rows, float *SE3_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    const uint32_t only = 0;
     float *constants = work_constants_f(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -3776,7 +4169,7 @@ void se3_splats_rows_f(
                 for (int i = 0; i < 7; ++i) own_mu[i] = vector_of_f(mu[7 * k + i]);
                 for (int i = 0; i < 36; ++i) own_W[i] = vector_of_f(W[36 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 78 * k, point + 7, point + 7 + 1, own_sums);
+                pair_backward_f(1, point, &only, constants + 78 * k, own_sums);
                 pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 7, bars + 7 + 36);
                 vector_to_rows_f(bars, rows + 44 * k, count, block * LANES_f, 44, 44 * splat_count);
             }

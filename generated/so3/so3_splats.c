@@ -24,7 +24,6 @@
 #endif
 #define LANE(vector, i) (vector)[i]
 #define ZERO {0}
-#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
 typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
 typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
 typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
@@ -34,7 +33,6 @@ typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
 #else
 #define LANE(vector, i) (vector)
 #define ZERO 0
-#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
 typedef double vector;
 typedef float vector_f;
 typedef int64_t vector_mask;
@@ -49,6 +47,17 @@ typedef uint32_t vector_bits_f;
 #else
 #define INLINE static inline
 #define OUTLINE static
+#endif
+/* UNROLLED: the few turns of a loop one after another. EACH_LANE: of a loop that gcc makes one instruction, if it stays a loop. */
+#if defined(__clang__)
+#define UNROLLED _Pragma("clang loop unroll(full)")
+#define EACH_LANE
+#elif defined(__GNUC__) && __GNUC__ >= 8
+#define UNROLLED _Pragma("GCC unroll 8")
+#define EACH_LANE _Pragma("GCC unroll 1")
+#else
+#define UNROLLED
+#define EACH_LANE
 #endif
 #define LANES (sizeof(vector) / sizeof(double))
 #define LANES_f (sizeof(vector_f) / sizeof(float))
@@ -90,9 +99,14 @@ INLINE vector vector_of(double x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector vector_select(vector_mask mask, vector x, vector y) {
-    return SELECT(vector, vector_mask, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector)((mask & (vector_mask)x) | (~mask & (vector_mask)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -131,13 +145,13 @@ INLINE vector signed_each(vector x, vector sign) {
 
 /* abs of every lane; one instruction where the machine has it. */
 INLINE vector abs_each(vector x) {
-    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
     return x;
 }
 
 /* sqrt of every lane; one instruction where the machine has it. */
 INLINE vector sqrt_each(vector x) {
-    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
     return x;
 }
 
@@ -258,7 +272,8 @@ OUTLINE void pair_constants(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
@@ -267,44 +282,73 @@ OUTLINE void pair_constants(
  * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_value(
-    const vector *X, const double *S, vector *value) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector x2 = X[2];
-    const vector x3 = X[3];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double mu2 = S[2];
-    const double mu3 = S[3];
-    const double amplitude = S[4];
-    const double R0_3 = S[5];
-    const double R0_0 = S[6];
-    const double R0_2 = S[7];
-    const double R0_1 = S[8];
-    const double R1_3 = S[9];
-    const double R1_0 = S[10];
-    const double R1_2 = S[11];
-    const double R1_1 = S[12];
-    const double R2_3 = S[13];
-    const double R2_0 = S[14];
-    const double R2_2 = S[15];
-    const double R2_1 = S[16];
-    const vector g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
-    const vector abs_g0 = abs_each(g0);
-    const vector eta = vector_polynomial_eta(1.0 - abs_g0);
-    const vector a = 1.0 / (abs_g0 - eta * (1.0 - abs_g0 * abs_g0));
-    const vector a_squared = a * a;
-    const vector r0 = x0 * R0_0 + x1 * R0_1 + x2 * R0_2 + x3 * R0_3;
-    const vector r1 = x0 * R1_0 + x1 * R1_1 + x2 * R1_2 + x3 * R1_3;
-    const vector r2 = x0 * R2_0 + x1 * R2_1 + x2 * R2_2 + x3 * R2_3;
-    const vector square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
-    const vector gaussian = gaussian_each(square);
-    const vector phi = a * (a * gaussian);
-    value[0] = value[0] + amplitude * phi;
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values) {
+    struct { vector a, gaussian; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 17 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double mu2 = S[2];
+        const double mu3 = S[3];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 4 * b;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector x2 = X[2];
+            const vector x3 = X[3];
+            const vector g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
+            const vector abs_g0 = abs_each(g0);
+            const vector eta = vector_polynomial_eta(1.0 - abs_g0);
+            const vector a = 1.0 / (abs_g0 - eta * (1.0 - abs_g0 * abs_g0));
+            kept[k][b].a = a;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 17 * near[k];
+        const double R0_3 = S[5];
+        const double R0_0 = S[6];
+        const double R0_2 = S[7];
+        const double R0_1 = S[8];
+        const double R1_3 = S[9];
+        const double R1_0 = S[10];
+        const double R1_2 = S[11];
+        const double R1_1 = S[12];
+        const double R2_3 = S[13];
+        const double R2_0 = S[14];
+        const double R2_2 = S[15];
+        const double R2_1 = S[16];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 4 * b;
+            const vector a = kept[k][b].a;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector x2 = X[2];
+            const vector x3 = X[3];
+            const vector a_squared = a * a;
+            const vector r0 = x0 * R0_0 + x1 * R0_1 + x2 * R0_2 + x3 * R0_3;
+            const vector r1 = x0 * R1_0 + x1 * R1_1 + x2 * R1_2 + x3 * R1_3;
+            const vector r2 = x0 * R2_0 + x1 * R2_1 + x2 * R2_2 + x3 * R2_3;
+            const vector square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
+            const vector gaussian = gaussian_each(square);
+            kept[k][b].gaussian = gaussian;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 17 * near[k];
+        const double amplitude = S[4];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector *value = values + b;
+            const vector a = kept[k][b].a;
+            const vector gaussian = kept[k][b].gaussian;
+            const vector phi = a * (a * gaussian);
+            value[0] = value[0] + amplitude * phi;
+        }
+    }
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
@@ -313,48 +357,107 @@ INLINE void pair_value(
  * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_forward(
-    const vector *X, const double *S, vector *value, vector *slope) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector x2 = X[2];
-    const vector x3 = X[3];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double mu2 = S[2];
-    const double mu3 = S[3];
-    const double amplitude = S[4];
-    const double R0_3 = S[5];
-    const double R0_0 = S[6];
-    const double R0_2 = S[7];
-    const double R0_1 = S[8];
-    const double R1_3 = S[9];
-    const double R1_0 = S[10];
-    const double R1_2 = S[11];
-    const double R1_1 = S[12];
-    const double R2_3 = S[13];
-    const double R2_0 = S[14];
-    const double R2_2 = S[15];
-    const double R2_1 = S[16];
-    const vector g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
-    const vector abs_g0 = abs_each(g0);
-    const vector eta = vector_polynomial_eta(1.0 - abs_g0);
-    const vector a = 1.0 / (abs_g0 - eta * (1.0 - abs_g0 * abs_g0));
-    const vector a_squared = a * a;
-    const vector r0 = x0 * R0_0 + x1 * R0_1 + x2 * R0_2 + x3 * R0_3;
-    const vector r1 = x0 * R1_0 + x1 * R1_1 + x2 * R1_2 + x3 * R1_3;
-    const vector r2 = x0 * R2_0 + x1 * R2_1 + x2 * R2_2 + x3 * R2_3;
-    const vector square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
-    const vector gaussian = gaussian_each(square);
-    const vector phi = a * (a * gaussian);
-    const vector phi_2 = amplitude * phi;
-    const vector by_abs_g0 = eta * (2.0 * phi_2 - phi_2 * square);
-    const vector by_g0 = vector_select(g0 < 0.0, -by_abs_g0, by_abs_g0);
-    const vector phi_product = phi_2 * a_squared;
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] + mu0 * by_g0 - (R0_0 * r0 + R1_0 * r1 + R2_0 * r2) * phi_product;
-    slope[1] = slope[1] + mu1 * by_g0 - (R0_1 * r0 + R1_1 * r1 + R2_1 * r2) * phi_product;
-    slope[2] = slope[2] + mu2 * by_g0 - (R0_2 * r0 + R1_2 * r1 + R2_2 * r2) * phi_product;
-    slope[3] = slope[3] + mu3 * by_g0 - (R0_3 * r0 + R1_3 * r1 + R2_3 * r2) * phi_product;
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values, vector *slopes) {
+    struct { vector g0, eta, a, a_squared, r0, r1, r2, square, gaussian; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 17 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double mu2 = S[2];
+        const double mu3 = S[3];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 4 * b;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector x2 = X[2];
+            const vector x3 = X[3];
+            const vector g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
+            const vector abs_g0 = abs_each(g0);
+            const vector eta = vector_polynomial_eta(1.0 - abs_g0);
+            const vector a = 1.0 / (abs_g0 - eta * (1.0 - abs_g0 * abs_g0));
+            kept[k][b].g0 = g0;
+            kept[k][b].eta = eta;
+            kept[k][b].a = a;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 17 * near[k];
+        const double R0_3 = S[5];
+        const double R0_0 = S[6];
+        const double R0_2 = S[7];
+        const double R0_1 = S[8];
+        const double R1_3 = S[9];
+        const double R1_0 = S[10];
+        const double R1_2 = S[11];
+        const double R1_1 = S[12];
+        const double R2_3 = S[13];
+        const double R2_0 = S[14];
+        const double R2_2 = S[15];
+        const double R2_1 = S[16];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 4 * b;
+            const vector a = kept[k][b].a;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector x2 = X[2];
+            const vector x3 = X[3];
+            const vector a_squared = a * a;
+            const vector r0 = x0 * R0_0 + x1 * R0_1 + x2 * R0_2 + x3 * R0_3;
+            const vector r1 = x0 * R1_0 + x1 * R1_1 + x2 * R1_2 + x3 * R1_3;
+            const vector r2 = x0 * R2_0 + x1 * R2_1 + x2 * R2_2 + x3 * R2_3;
+            const vector square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
+            const vector gaussian = gaussian_each(square);
+            kept[k][b].a_squared = a_squared;
+            kept[k][b].r0 = r0;
+            kept[k][b].r1 = r1;
+            kept[k][b].r2 = r2;
+            kept[k][b].square = square;
+            kept[k][b].gaussian = gaussian;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 17 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double mu2 = S[2];
+        const double mu3 = S[3];
+        const double amplitude = S[4];
+        const double R0_3 = S[5];
+        const double R0_0 = S[6];
+        const double R0_2 = S[7];
+        const double R0_1 = S[8];
+        const double R1_3 = S[9];
+        const double R1_0 = S[10];
+        const double R1_2 = S[11];
+        const double R1_1 = S[12];
+        const double R2_3 = S[13];
+        const double R2_0 = S[14];
+        const double R2_2 = S[15];
+        const double R2_1 = S[16];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector *value = values + b;
+            vector *slope = slopes + 4 * b;
+            const vector g0 = kept[k][b].g0;
+            const vector eta = kept[k][b].eta;
+            const vector a = kept[k][b].a;
+            const vector a_squared = kept[k][b].a_squared;
+            const vector r0 = kept[k][b].r0;
+            const vector r1 = kept[k][b].r1;
+            const vector r2 = kept[k][b].r2;
+            const vector square = kept[k][b].square;
+            const vector gaussian = kept[k][b].gaussian;
+            const vector phi = a * (a * gaussian);
+            const vector phi_2 = amplitude * phi;
+            const vector by_abs_g0 = eta * (2.0 * phi_2 - phi_2 * square);
+            const vector by_g0 = vector_select(g0 < 0.0, -by_abs_g0, by_abs_g0);
+            const vector phi_product = phi_2 * a_squared;
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] + mu0 * by_g0 - (R0_0 * r0 + R1_0 * r1 + R2_0 * r2) * phi_product;
+            slope[1] = slope[1] + mu1 * by_g0 - (R0_1 * r0 + R1_1 * r1 + R2_1 * r2) * phi_product;
+            slope[2] = slope[2] + mu2 * by_g0 - (R0_2 * r0 + R1_2 * r1 + R2_2 * r2) * phi_product;
+            slope[3] = slope[3] + mu3 * by_g0 - (R0_3 * r0 + R1_3 * r1 + R2_3 * r2) * phi_product;
+        }
+    }
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -392,6 +495,154 @@ OUTLINE void pair_gradient_vjp(
     slope_bar[1] = 0.5 * (x2 * gradient_bar2 - x3 * gradient_bar1 + x0 * gradient_bar0);
     slope_bar[2] = 0.5 * (x0 * gradient_bar1 - x1 * gradient_bar2 + x3 * gradient_bar0);
     slope_bar[3] = 0.5 * (x0 * gradient_bar2 + x1 * gradient_bar1 - x2 * gradient_bar0);
+}
+
+/*
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
+ *
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
+ * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
+ * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
+ * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
+ * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
+ */
+INLINE void pair_backward(
+    size_t count, const vector *points, const uint32_t *near, const double *S, vector *sums) {
+    struct { vector g0, abs_g0_gap, eta, a, a_squared, r0, r1, r2, square, gaussian; } kept[16];
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 9 * (size_t)near[i];
+        const vector x0 = X[0];
+        const vector x1 = X[1];
+        const vector x2 = X[2];
+        const vector x3 = X[3];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double mu2 = S[2];
+        const double mu3 = S[3];
+        const vector g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
+        const vector abs_g0 = abs_each(g0);
+        const vector abs_g0_gap = 1.0 - abs_g0;
+        const vector eta = vector_polynomial_eta(abs_g0_gap);
+        const vector a = 1.0 / (abs_g0 - eta * (1.0 - abs_g0 * abs_g0));
+        kept[i].g0 = g0;
+        kept[i].abs_g0_gap = abs_g0_gap;
+        kept[i].eta = eta;
+        kept[i].a = a;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 9 * (size_t)near[i];
+        const vector a = kept[i].a;
+        const vector x0 = X[0];
+        const vector x1 = X[1];
+        const vector x2 = X[2];
+        const vector x3 = X[3];
+        const double R0_3 = S[5];
+        const double R0_0 = S[6];
+        const double R0_2 = S[7];
+        const double R0_1 = S[8];
+        const double R1_3 = S[9];
+        const double R1_0 = S[10];
+        const double R1_2 = S[11];
+        const double R1_1 = S[12];
+        const double R2_3 = S[13];
+        const double R2_0 = S[14];
+        const double R2_2 = S[15];
+        const double R2_1 = S[16];
+        const vector a_squared = a * a;
+        const vector r0 = x0 * R0_0 + x1 * R0_1 + x2 * R0_2 + x3 * R0_3;
+        const vector r1 = x0 * R1_0 + x1 * R1_1 + x2 * R1_2 + x3 * R1_3;
+        const vector r2 = x0 * R2_0 + x1 * R2_1 + x2 * R2_2 + x3 * R2_3;
+        const vector square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
+        const vector gaussian = gaussian_each(square);
+        kept[i].a_squared = a_squared;
+        kept[i].r0 = r0;
+        kept[i].r1 = r1;
+        kept[i].r2 = r2;
+        kept[i].square = square;
+        kept[i].gaussian = gaussian;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 9 * (size_t)near[i];
+        const vector *value_bar = points + 9 * (size_t)near[i] + 4;
+        const vector *slope_bar = points + 9 * (size_t)near[i] + 4 + 1;
+        const vector g0 = kept[i].g0;
+        const vector abs_g0_gap = kept[i].abs_g0_gap;
+        const vector eta = kept[i].eta;
+        const vector a = kept[i].a;
+        const vector a_squared = kept[i].a_squared;
+        const vector r0 = kept[i].r0;
+        const vector r1 = kept[i].r1;
+        const vector r2 = kept[i].r2;
+        const vector square = kept[i].square;
+        const vector gaussian = kept[i].gaussian;
+        const vector x0 = X[0];
+        const vector x1 = X[1];
+        const vector x2 = X[2];
+        const vector x3 = X[3];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double mu2 = S[2];
+        const double mu3 = S[3];
+        const double R0_3 = S[5];
+        const double R0_0 = S[6];
+        const double R0_2 = S[7];
+        const double R0_1 = S[8];
+        const double R1_3 = S[9];
+        const double R1_0 = S[10];
+        const double R1_2 = S[11];
+        const double R1_1 = S[12];
+        const double R2_3 = S[13];
+        const double R2_0 = S[14];
+        const double R2_2 = S[15];
+        const double R2_1 = S[16];
+        const vector its_value_bar = value_bar[0];
+        const vector x0_bar = slope_bar[0];
+        const vector x1_bar = slope_bar[1];
+        const vector x2_bar = slope_bar[2];
+        const vector x3_bar = slope_bar[3];
+        const vector_mask is_small = g0 < 0.0;
+        const vector phi = a * (a * gaussian);
+        const vector gap = 2.0 * phi - phi * square;
+        const vector by_abs_g0 = eta * gap;
+        const vector by_g0 = vector_select(is_small, -by_abs_g0, by_abs_g0);
+        const vector eta_slope = vector_polynomial_eta_slope(abs_g0_gap);
+        const vector by_by_g0 = mu0 * x0_bar + mu1 * x1_bar + mu2 * x2_bar + mu3 * x3_bar;
+        const vector by_by_abs_g0 = vector_select(is_small, vector_of(0.0), by_by_g0) - vector_select(is_small,
+            by_by_g0, vector_of(0.0));
+        const vector minus = -((R0_3 * r0 + R1_3 * r1 + R2_3 * r2) * x3_bar);
+        const vector gap_2 = minus - (R0_2 * r0 + R1_2 * r1 + R2_2 * r2) * x2_bar;
+        const vector gap_3 = gap_2 - (R0_1 * r0 + R1_1 * r1 + R2_1 * r2) * x1_bar;
+        const vector gap_4 = gap_3 - (R0_0 * r0 + R1_0 * r1 + R2_0 * r2) * x0_bar;
+        const vector eta_product = eta * by_by_abs_g0;
+        const vector by_phi = its_value_bar + a_squared * gap_4 - square * eta_product + 2.0 * eta_product;
+        const vector phi_product = phi * by_phi;
+        const vector gap_5 = -2.0 * (phi * eta_product) - phi_product;
+        const vector eta_product_2 = eta * (2.0 * a_squared * (phi * gap_4) + 2.0 * phi_product + square * gap_5);
+        const vector by_abs_g0_2 = eta_slope * (gap * by_by_abs_g0) + eta_product_2;
+        const vector by_g0_2 = vector_select(is_small, -by_abs_g0_2, by_abs_g0_2);
+        const vector product = 0.5 * (a_squared * gap_5);
+        const vector phi_product_2 = phi * a_squared;
+        const vector gap_6 = x0 * product - phi_product_2 * x0_bar;
+        const vector gap_7 = x1 * product - phi_product_2 * x1_bar;
+        const vector gap_8 = x2 * product - phi_product_2 * x2_bar;
+        const vector gap_9 = x3 * product - phi_product_2 * x3_bar;
+        sums[0] = sums[0] + by_g0 * x0_bar + x0 * by_g0_2;
+        sums[1] = sums[1] + by_g0 * x1_bar + x1 * by_g0_2;
+        sums[2] = sums[2] + by_g0 * x2_bar + x2 * by_g0_2;
+        sums[3] = sums[3] + by_g0 * x3_bar + x3 * by_g0_2;
+        sums[4] = sums[4] + phi_product;
+        sums[5] = sums[5] + x0 * gap_6;
+        sums[6] = sums[6] + x0 * gap_7 + x1 * gap_6;
+        sums[7] = sums[7] + x0 * gap_8 + x2 * gap_6;
+        sums[8] = sums[8] + x0 * gap_9 + x3 * gap_6;
+        sums[9] = sums[9] + x1 * gap_7;
+        sums[10] = sums[10] + x1 * gap_8 + x2 * gap_7;
+        sums[11] = sums[11] + x1 * gap_9 + x3 * gap_7;
+        sums[12] = sums[12] + x2 * gap_8;
+        sums[13] = sums[13] + x2 * gap_9 + x3 * gap_8;
+        sums[14] = sums[14] + x3 * gap_9;
+    }
 }
 
 /* The adjoints of some splats' parameters, of their sums over the points. */
@@ -524,96 +775,6 @@ OUTLINE void pair_distances(
     const vector atan2_norm_s_abs_g0 = atan2_each(norm_s, abs_g0);
     const vector t = 2.0 * atan2_norm_s_abs_g0;
     distance[0] = t;
-}
-
-/*
- * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
- *
- * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
- * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
- * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
- * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
- */
-INLINE void pair_backward(
-    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector x2 = X[2];
-    const vector x3 = X[3];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double mu2 = S[2];
-    const double mu3 = S[3];
-    const double R0_3 = S[5];
-    const double R0_0 = S[6];
-    const double R0_2 = S[7];
-    const double R0_1 = S[8];
-    const double R1_3 = S[9];
-    const double R1_0 = S[10];
-    const double R1_2 = S[11];
-    const double R1_1 = S[12];
-    const double R2_3 = S[13];
-    const double R2_0 = S[14];
-    const double R2_2 = S[15];
-    const double R2_1 = S[16];
-    const vector its_value_bar = value_bar[0];
-    const vector x0_bar = slope_bar[0];
-    const vector x1_bar = slope_bar[1];
-    const vector x2_bar = slope_bar[2];
-    const vector x3_bar = slope_bar[3];
-    const vector g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
-    const vector_mask is_small = g0 < 0.0;
-    const vector abs_g0 = abs_each(g0);
-    const vector abs_g0_gap = 1.0 - abs_g0;
-    const vector eta = vector_polynomial_eta(abs_g0_gap);
-    const vector a = 1.0 / (abs_g0 - eta * (1.0 - abs_g0 * abs_g0));
-    const vector a_squared = a * a;
-    const vector r0 = x0 * R0_0 + x1 * R0_1 + x2 * R0_2 + x3 * R0_3;
-    const vector r1 = x0 * R1_0 + x1 * R1_1 + x2 * R1_2 + x3 * R1_3;
-    const vector r2 = x0 * R2_0 + x1 * R2_1 + x2 * R2_2 + x3 * R2_3;
-    const vector square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
-    const vector gaussian = gaussian_each(square);
-    const vector phi = a * (a * gaussian);
-    const vector gap = 2.0 * phi - phi * square;
-    const vector by_abs_g0 = eta * gap;
-    const vector by_g0 = vector_select(is_small, -by_abs_g0, by_abs_g0);
-    const vector eta_slope = vector_polynomial_eta_slope(abs_g0_gap);
-    const vector by_by_g0 = mu0 * x0_bar + mu1 * x1_bar + mu2 * x2_bar + mu3 * x3_bar;
-    const vector by_by_abs_g0 = vector_select(is_small, vector_of(0.0), by_by_g0) - vector_select(is_small,
-        by_by_g0, vector_of(0.0));
-    const vector minus = -((R0_3 * r0 + R1_3 * r1 + R2_3 * r2) * x3_bar);
-    const vector gap_2 = minus - (R0_2 * r0 + R1_2 * r1 + R2_2 * r2) * x2_bar;
-    const vector gap_3 = gap_2 - (R0_1 * r0 + R1_1 * r1 + R2_1 * r2) * x1_bar;
-    const vector gap_4 = gap_3 - (R0_0 * r0 + R1_0 * r1 + R2_0 * r2) * x0_bar;
-    const vector eta_product = eta * by_by_abs_g0;
-    const vector by_phi = its_value_bar + a_squared * gap_4 - square * eta_product + 2.0 * eta_product;
-    const vector phi_product = phi * by_phi;
-    const vector gap_5 = -2.0 * (phi * eta_product) - phi_product;
-    const vector eta_product_2 = eta * (2.0 * a_squared * (phi * gap_4) + 2.0 * phi_product + square * gap_5);
-    const vector by_abs_g0_2 = eta_slope * (gap * by_by_abs_g0) + eta_product_2;
-    const vector by_g0_2 = vector_select(is_small, -by_abs_g0_2, by_abs_g0_2);
-    const vector product = 0.5 * (a_squared * gap_5);
-    const vector phi_product_2 = phi * a_squared;
-    const vector gap_6 = x0 * product - phi_product_2 * x0_bar;
-    const vector gap_7 = x1 * product - phi_product_2 * x1_bar;
-    const vector gap_8 = x2 * product - phi_product_2 * x2_bar;
-    const vector gap_9 = x3 * product - phi_product_2 * x3_bar;
-    sums[0] = sums[0] + by_g0 * x0_bar + x0 * by_g0_2;
-    sums[1] = sums[1] + by_g0 * x1_bar + x1 * by_g0_2;
-    sums[2] = sums[2] + by_g0 * x2_bar + x2 * by_g0_2;
-    sums[3] = sums[3] + by_g0 * x3_bar + x3 * by_g0_2;
-    sums[4] = sums[4] + phi_product;
-    sums[5] = sums[5] + x0 * gap_6;
-    sums[6] = sums[6] + x0 * gap_7 + x1 * gap_6;
-    sums[7] = sums[7] + x0 * gap_8 + x2 * gap_6;
-    sums[8] = sums[8] + x0 * gap_9 + x3 * gap_6;
-    sums[9] = sums[9] + x1 * gap_7;
-    sums[10] = sums[10] + x1 * gap_8 + x2 * gap_7;
-    sums[11] = sums[11] + x1 * gap_9 + x3 * gap_7;
-    sums[12] = sums[12] + x2 * gap_8;
-    sums[13] = sums[13] + x2 * gap_9 + x3 * gap_8;
-    sums[14] = sums[14] + x3 * gap_9;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -775,7 +936,7 @@ OUTLINE void splat_constants(
     vector_to_rows(S, constants, splat_count, start, 17, 17);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void so3_splats(
     size_t count, size_t splat_count, const double *SO3_RESTRICT x, const double *SO3_RESTRICT mu, const double *SO3_RESTRICT W, const double *SO3_RESTRICT amplitude, const double *SO3_RESTRICT width,
     double *SO3_RESTRICT value, double *SO3_RESTRICT gradient, double *SO3_RESTRICT work, int threads) {
@@ -790,27 +951,26 @@ void so3_splats(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[2][4], X[2][4], grad[3];
-            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][4] = {{ZERO}};
+            vector at[2][4], X[2 * 4], grad[3];
+            vector value_sum[2] = {ZERO}, slope_sum[2 * 4] = {ZERO};
             double place[4 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 4, at[b]);
-                pair_features(at[b], X[b]);
+                pair_features(at[b], X + 4 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 17 * near[i];
-                    pair_forward(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient(at[b], slope_sum[b], grad);
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                pair_gradient(at[b], slope_sum + 4 * b, grad);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
                 vector_to_rows(grad, gradient, count, start + b * LANES, 3, 3);
             }
         }
@@ -832,25 +992,24 @@ void so3_splats_value(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[4], X[2][4], value_sum[2][1] = {{ZERO}};
+            vector at[4], X[2 * 4], value_sum[2] = {ZERO};
             double place[4 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 4, at);
-                pair_features(at, X[b]);
+                pair_features(at, X + 4 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 17 * near[i];
-                    pair_value(X[0], S, value_sum[0]);
-                    pair_value(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -869,19 +1028,11 @@ OUTLINE void splat_points(
     vector_end(count, start, 4 + 1, point + 4);
 }
 
-/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+/* Adds to sums what some vectors of points add to them, those in the list. */
 OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *sums) {
     vector sum[15] = {ZERO};
-    size_t b = 0;
-    for (; b + 1 < size; b += 2) {
-        const vector *point = points + 9 * (size_t)near[b], *other = points + 9 * (size_t)near[b + 1];
-        pair_backward(point, S, point + 4, point + 4 + 1, sum);
-        pair_backward(other, S, other + 4, other + 4 + 1, sum);
-    }
-    if (b < size) {
-        const vector *point = points + 9 * (size_t)near[b];
-        pair_backward(point, S, point + 4, point + 4 + 1, sum);
-    }
+    for (size_t b = 0; b < size; b += 16)
+        pair_backward(size - b < 16 ? size - b : 16, points, near + b, S, sum);
     sums[0] += vector_sum(sum[0]);
     sums[1] += vector_sum(sum[1]);
     sums[2] += vector_sum(sum[2]);
@@ -968,6 +1119,7 @@ void so3_splats_rows(
     double *SO3_RESTRICT rows, double *SO3_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES - 1) / LANES;
+    const uint32_t only = 0;
     double *constants = work_constants(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -984,7 +1136,7 @@ void so3_splats_rows(
                 for (int i = 0; i < 4; ++i) own_mu[i] = vector_of(mu[4 * k + i]);
                 for (int i = 0; i < 9; ++i) own_W[i] = vector_of(W[9 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 17 * k, point + 4, point + 4 + 1, own_sums);
+                pair_backward(1, point, &only, constants + 17 * k, own_sums);
                 pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 4, bars + 4 + 9);
                 vector_to_rows(bars, rows + 14 * k, count, block * LANES, 14, 14 * splat_count);
             }
@@ -1101,9 +1253,14 @@ INLINE vector_f vector_of_f(float x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector_f vector_select_f(vector_mask_f mask, vector_f x, vector_f y) {
-    return SELECT(vector_f, vector_mask_f, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector_f)((mask & (vector_mask_f)x) | (~mask & (vector_mask_f)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -1142,13 +1299,13 @@ INLINE vector_f signed_each_f(vector_f x, vector_f sign) {
 
 /* abs of every lane; one instruction where the machine has it. */
 INLINE vector_f abs_each_f(vector_f x) {
-    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
     return x;
 }
 
 /* sqrt of every lane; one instruction where the machine has it. */
 INLINE vector_f sqrt_each_f(vector_f x) {
-    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
     return x;
 }
 
@@ -1262,7 +1419,8 @@ OUTLINE void pair_constants_f(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
@@ -1271,44 +1429,73 @@ OUTLINE void pair_constants_f(
  * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_value_f(
-    const vector_f *X, const float *S, vector_f *value) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f x2 = X[2];
-    const vector_f x3 = X[3];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float mu2 = S[2];
-    const float mu3 = S[3];
-    const float amplitude = S[4];
-    const float R0_3 = S[5];
-    const float R0_0 = S[6];
-    const float R0_2 = S[7];
-    const float R0_1 = S[8];
-    const float R1_3 = S[9];
-    const float R1_0 = S[10];
-    const float R1_2 = S[11];
-    const float R1_1 = S[12];
-    const float R2_3 = S[13];
-    const float R2_0 = S[14];
-    const float R2_2 = S[15];
-    const float R2_1 = S[16];
-    const vector_f g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
-    const vector_f abs_g0 = abs_each_f(g0);
-    const vector_f eta = vector_polynomial_eta_f(1.0f - abs_g0);
-    const vector_f a = 1.0f / (abs_g0 - eta * (1.0f - abs_g0 * abs_g0));
-    const vector_f a_squared = a * a;
-    const vector_f r0 = x0 * R0_0 + x1 * R0_1 + x2 * R0_2 + x3 * R0_3;
-    const vector_f r1 = x0 * R1_0 + x1 * R1_1 + x2 * R1_2 + x3 * R1_3;
-    const vector_f r2 = x0 * R2_0 + x1 * R2_1 + x2 * R2_2 + x3 * R2_3;
-    const vector_f square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
-    const vector_f gaussian = gaussian_each_f(square);
-    const vector_f phi = a * (a * gaussian);
-    value[0] = value[0] + amplitude * phi;
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values) {
+    struct { vector_f a, gaussian; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 17 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float mu2 = S[2];
+        const float mu3 = S[3];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 4 * b;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f x2 = X[2];
+            const vector_f x3 = X[3];
+            const vector_f g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
+            const vector_f abs_g0 = abs_each_f(g0);
+            const vector_f eta = vector_polynomial_eta_f(1.0f - abs_g0);
+            const vector_f a = 1.0f / (abs_g0 - eta * (1.0f - abs_g0 * abs_g0));
+            kept[k][b].a = a;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 17 * near[k];
+        const float R0_3 = S[5];
+        const float R0_0 = S[6];
+        const float R0_2 = S[7];
+        const float R0_1 = S[8];
+        const float R1_3 = S[9];
+        const float R1_0 = S[10];
+        const float R1_2 = S[11];
+        const float R1_1 = S[12];
+        const float R2_3 = S[13];
+        const float R2_0 = S[14];
+        const float R2_2 = S[15];
+        const float R2_1 = S[16];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 4 * b;
+            const vector_f a = kept[k][b].a;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f x2 = X[2];
+            const vector_f x3 = X[3];
+            const vector_f a_squared = a * a;
+            const vector_f r0 = x0 * R0_0 + x1 * R0_1 + x2 * R0_2 + x3 * R0_3;
+            const vector_f r1 = x0 * R1_0 + x1 * R1_1 + x2 * R1_2 + x3 * R1_3;
+            const vector_f r2 = x0 * R2_0 + x1 * R2_1 + x2 * R2_2 + x3 * R2_3;
+            const vector_f square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
+            const vector_f gaussian = gaussian_each_f(square);
+            kept[k][b].gaussian = gaussian;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 17 * near[k];
+        const float amplitude = S[4];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector_f *value = values + b;
+            const vector_f a = kept[k][b].a;
+            const vector_f gaussian = kept[k][b].gaussian;
+            const vector_f phi = a * (a * gaussian);
+            value[0] = value[0] + amplitude * phi;
+        }
+    }
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
  * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
@@ -1317,48 +1504,107 @@ INLINE void pair_value_f(
  * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
  */
 INLINE void pair_forward_f(
-    const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f x2 = X[2];
-    const vector_f x3 = X[3];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float mu2 = S[2];
-    const float mu3 = S[3];
-    const float amplitude = S[4];
-    const float R0_3 = S[5];
-    const float R0_0 = S[6];
-    const float R0_2 = S[7];
-    const float R0_1 = S[8];
-    const float R1_3 = S[9];
-    const float R1_0 = S[10];
-    const float R1_2 = S[11];
-    const float R1_1 = S[12];
-    const float R2_3 = S[13];
-    const float R2_0 = S[14];
-    const float R2_2 = S[15];
-    const float R2_1 = S[16];
-    const vector_f g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
-    const vector_f abs_g0 = abs_each_f(g0);
-    const vector_f eta = vector_polynomial_eta_f(1.0f - abs_g0);
-    const vector_f a = 1.0f / (abs_g0 - eta * (1.0f - abs_g0 * abs_g0));
-    const vector_f a_squared = a * a;
-    const vector_f r0 = x0 * R0_0 + x1 * R0_1 + x2 * R0_2 + x3 * R0_3;
-    const vector_f r1 = x0 * R1_0 + x1 * R1_1 + x2 * R1_2 + x3 * R1_3;
-    const vector_f r2 = x0 * R2_0 + x1 * R2_1 + x2 * R2_2 + x3 * R2_3;
-    const vector_f square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
-    const vector_f gaussian = gaussian_each_f(square);
-    const vector_f phi = a * (a * gaussian);
-    const vector_f phi_2 = amplitude * phi;
-    const vector_f by_abs_g0 = eta * (2.0f * phi_2 - phi_2 * square);
-    const vector_f by_g0 = vector_select_f(g0 < 0.0f, -by_abs_g0, by_abs_g0);
-    const vector_f phi_product = phi_2 * a_squared;
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] + mu0 * by_g0 - (R0_0 * r0 + R1_0 * r1 + R2_0 * r2) * phi_product;
-    slope[1] = slope[1] + mu1 * by_g0 - (R0_1 * r0 + R1_1 * r1 + R2_1 * r2) * phi_product;
-    slope[2] = slope[2] + mu2 * by_g0 - (R0_2 * r0 + R1_2 * r1 + R2_2 * r2) * phi_product;
-    slope[3] = slope[3] + mu3 * by_g0 - (R0_3 * r0 + R1_3 * r1 + R2_3 * r2) * phi_product;
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values, vector_f *slopes) {
+    struct { vector_f g0, eta, a, a_squared, r0, r1, r2, square, gaussian; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 17 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float mu2 = S[2];
+        const float mu3 = S[3];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 4 * b;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f x2 = X[2];
+            const vector_f x3 = X[3];
+            const vector_f g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
+            const vector_f abs_g0 = abs_each_f(g0);
+            const vector_f eta = vector_polynomial_eta_f(1.0f - abs_g0);
+            const vector_f a = 1.0f / (abs_g0 - eta * (1.0f - abs_g0 * abs_g0));
+            kept[k][b].g0 = g0;
+            kept[k][b].eta = eta;
+            kept[k][b].a = a;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 17 * near[k];
+        const float R0_3 = S[5];
+        const float R0_0 = S[6];
+        const float R0_2 = S[7];
+        const float R0_1 = S[8];
+        const float R1_3 = S[9];
+        const float R1_0 = S[10];
+        const float R1_2 = S[11];
+        const float R1_1 = S[12];
+        const float R2_3 = S[13];
+        const float R2_0 = S[14];
+        const float R2_2 = S[15];
+        const float R2_1 = S[16];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 4 * b;
+            const vector_f a = kept[k][b].a;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f x2 = X[2];
+            const vector_f x3 = X[3];
+            const vector_f a_squared = a * a;
+            const vector_f r0 = x0 * R0_0 + x1 * R0_1 + x2 * R0_2 + x3 * R0_3;
+            const vector_f r1 = x0 * R1_0 + x1 * R1_1 + x2 * R1_2 + x3 * R1_3;
+            const vector_f r2 = x0 * R2_0 + x1 * R2_1 + x2 * R2_2 + x3 * R2_3;
+            const vector_f square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
+            const vector_f gaussian = gaussian_each_f(square);
+            kept[k][b].a_squared = a_squared;
+            kept[k][b].r0 = r0;
+            kept[k][b].r1 = r1;
+            kept[k][b].r2 = r2;
+            kept[k][b].square = square;
+            kept[k][b].gaussian = gaussian;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 17 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float mu2 = S[2];
+        const float mu3 = S[3];
+        const float amplitude = S[4];
+        const float R0_3 = S[5];
+        const float R0_0 = S[6];
+        const float R0_2 = S[7];
+        const float R0_1 = S[8];
+        const float R1_3 = S[9];
+        const float R1_0 = S[10];
+        const float R1_2 = S[11];
+        const float R1_1 = S[12];
+        const float R2_3 = S[13];
+        const float R2_0 = S[14];
+        const float R2_2 = S[15];
+        const float R2_1 = S[16];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector_f *value = values + b;
+            vector_f *slope = slopes + 4 * b;
+            const vector_f g0 = kept[k][b].g0;
+            const vector_f eta = kept[k][b].eta;
+            const vector_f a = kept[k][b].a;
+            const vector_f a_squared = kept[k][b].a_squared;
+            const vector_f r0 = kept[k][b].r0;
+            const vector_f r1 = kept[k][b].r1;
+            const vector_f r2 = kept[k][b].r2;
+            const vector_f square = kept[k][b].square;
+            const vector_f gaussian = kept[k][b].gaussian;
+            const vector_f phi = a * (a * gaussian);
+            const vector_f phi_2 = amplitude * phi;
+            const vector_f by_abs_g0 = eta * (2.0f * phi_2 - phi_2 * square);
+            const vector_f by_g0 = vector_select_f(g0 < 0.0f, -by_abs_g0, by_abs_g0);
+            const vector_f phi_product = phi_2 * a_squared;
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] + mu0 * by_g0 - (R0_0 * r0 + R1_0 * r1 + R2_0 * r2) * phi_product;
+            slope[1] = slope[1] + mu1 * by_g0 - (R0_1 * r0 + R1_1 * r1 + R2_1 * r2) * phi_product;
+            slope[2] = slope[2] + mu2 * by_g0 - (R0_2 * r0 + R1_2 * r1 + R2_2 * r2) * phi_product;
+            slope[3] = slope[3] + mu3 * by_g0 - (R0_3 * r0 + R1_3 * r1 + R2_3 * r2) * phi_product;
+        }
+    }
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -1396,6 +1642,155 @@ OUTLINE void pair_gradient_vjp_f(
     slope_bar[1] = 0.5f * (x2 * gradient_bar2 - x3 * gradient_bar1 + x0 * gradient_bar0);
     slope_bar[2] = 0.5f * (x0 * gradient_bar1 - x1 * gradient_bar2 + x3 * gradient_bar0);
     slope_bar[3] = 0.5f * (x0 * gradient_bar2 + x1 * gradient_bar1 - x2 * gradient_bar0);
+}
+
+/*
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
+ *
+ * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
+ * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
+ * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
+ * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
+ * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
+ */
+INLINE void pair_backward_f(
+    size_t count, const vector_f *points, const uint32_t *near, const float *S, vector_f *sums) {
+    struct { vector_f g0, abs_g0_gap, eta, a, a_squared, r0, r1, r2, square, gaussian; } kept[16];
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 9 * (size_t)near[i];
+        const vector_f x0 = X[0];
+        const vector_f x1 = X[1];
+        const vector_f x2 = X[2];
+        const vector_f x3 = X[3];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float mu2 = S[2];
+        const float mu3 = S[3];
+        const vector_f g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
+        const vector_f abs_g0 = abs_each_f(g0);
+        const vector_f abs_g0_gap = 1.0f - abs_g0;
+        const vector_f eta = vector_polynomial_eta_f(abs_g0_gap);
+        const vector_f a = 1.0f / (abs_g0 - eta * (1.0f - abs_g0 * abs_g0));
+        kept[i].g0 = g0;
+        kept[i].abs_g0_gap = abs_g0_gap;
+        kept[i].eta = eta;
+        kept[i].a = a;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 9 * (size_t)near[i];
+        const vector_f a = kept[i].a;
+        const vector_f x0 = X[0];
+        const vector_f x1 = X[1];
+        const vector_f x2 = X[2];
+        const vector_f x3 = X[3];
+        const float R0_3 = S[5];
+        const float R0_0 = S[6];
+        const float R0_2 = S[7];
+        const float R0_1 = S[8];
+        const float R1_3 = S[9];
+        const float R1_0 = S[10];
+        const float R1_2 = S[11];
+        const float R1_1 = S[12];
+        const float R2_3 = S[13];
+        const float R2_0 = S[14];
+        const float R2_2 = S[15];
+        const float R2_1 = S[16];
+        const vector_f a_squared = a * a;
+        const vector_f r0 = x0 * R0_0 + x1 * R0_1 + x2 * R0_2 + x3 * R0_3;
+        const vector_f r1 = x0 * R1_0 + x1 * R1_1 + x2 * R1_2 + x3 * R1_3;
+        const vector_f r2 = x0 * R2_0 + x1 * R2_1 + x2 * R2_2 + x3 * R2_3;
+        const vector_f square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
+        const vector_f gaussian = gaussian_each_f(square);
+        kept[i].a_squared = a_squared;
+        kept[i].r0 = r0;
+        kept[i].r1 = r1;
+        kept[i].r2 = r2;
+        kept[i].square = square;
+        kept[i].gaussian = gaussian;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 9 * (size_t)near[i];
+        const vector_f *value_bar = points + 9 * (size_t)near[i] + 4;
+        const vector_f *slope_bar = points + 9 * (size_t)near[i] + 4 + 1;
+        const vector_f g0 = kept[i].g0;
+        const vector_f abs_g0_gap = kept[i].abs_g0_gap;
+        const vector_f eta = kept[i].eta;
+        const vector_f a = kept[i].a;
+        const vector_f a_squared = kept[i].a_squared;
+        const vector_f r0 = kept[i].r0;
+        const vector_f r1 = kept[i].r1;
+        const vector_f r2 = kept[i].r2;
+        const vector_f square = kept[i].square;
+        const vector_f gaussian = kept[i].gaussian;
+        const vector_f x0 = X[0];
+        const vector_f x1 = X[1];
+        const vector_f x2 = X[2];
+        const vector_f x3 = X[3];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float mu2 = S[2];
+        const float mu3 = S[3];
+        const float R0_3 = S[5];
+        const float R0_0 = S[6];
+        const float R0_2 = S[7];
+        const float R0_1 = S[8];
+        const float R1_3 = S[9];
+        const float R1_0 = S[10];
+        const float R1_2 = S[11];
+        const float R1_1 = S[12];
+        const float R2_3 = S[13];
+        const float R2_0 = S[14];
+        const float R2_2 = S[15];
+        const float R2_1 = S[16];
+        const vector_f its_value_bar = value_bar[0];
+        const vector_f x0_bar = slope_bar[0];
+        const vector_f x1_bar = slope_bar[1];
+        const vector_f x2_bar = slope_bar[2];
+        const vector_f x3_bar = slope_bar[3];
+        const vector_mask_f is_small = g0 < 0.0f;
+        const vector_f phi = a * (a * gaussian);
+        const vector_f gap = 2.0f * phi - phi * square;
+        const vector_f by_abs_g0 = eta * gap;
+        const vector_f by_g0 = vector_select_f(is_small, -by_abs_g0, by_abs_g0);
+        const vector_f eta_slope = vector_polynomial_eta_slope_f(abs_g0_gap);
+        const vector_f by_by_g0 = mu0 * x0_bar + mu1 * x1_bar + mu2 * x2_bar + mu3 * x3_bar;
+        const vector_f by_by_abs_g0 = vector_select_f(is_small, vector_of_f(0.0f), by_by_g0) -
+            vector_select_f(is_small, by_by_g0, vector_of_f(0.0f));
+        const vector_f minus = -((R0_3 * r0 + R1_3 * r1 + R2_3 * r2) * x3_bar);
+        const vector_f gap_2 = minus - (R0_2 * r0 + R1_2 * r1 + R2_2 * r2) * x2_bar;
+        const vector_f gap_3 = gap_2 - (R0_1 * r0 + R1_1 * r1 + R2_1 * r2) * x1_bar;
+        const vector_f gap_4 = gap_3 - (R0_0 * r0 + R1_0 * r1 + R2_0 * r2) * x0_bar;
+        const vector_f eta_product = eta * by_by_abs_g0;
+        const vector_f by_phi = its_value_bar + a_squared * gap_4 - square * eta_product + 2.0f * eta_product;
+        const vector_f phi_product = phi * by_phi;
+        const vector_f gap_5 = -2.0f * (phi * eta_product) - phi_product;
+        const vector_f eta_product_2 = eta * (2.0f * a_squared * (phi * gap_4) + 2.0f * phi_product + square *
+            gap_5);
+        const vector_f by_abs_g0_2 = eta_slope * (gap * by_by_abs_g0) + eta_product_2;
+        const vector_f by_g0_2 = vector_select_f(is_small, -by_abs_g0_2, by_abs_g0_2);
+        const vector_f product = 0.5f * (a_squared * gap_5);
+        const vector_f phi_product_2 = phi * a_squared;
+        const vector_f gap_6 = x0 * product - phi_product_2 * x0_bar;
+        const vector_f gap_7 = x1 * product - phi_product_2 * x1_bar;
+        const vector_f gap_8 = x2 * product - phi_product_2 * x2_bar;
+        const vector_f gap_9 = x3 * product - phi_product_2 * x3_bar;
+        sums[0] = sums[0] + by_g0 * x0_bar + x0 * by_g0_2;
+        sums[1] = sums[1] + by_g0 * x1_bar + x1 * by_g0_2;
+        sums[2] = sums[2] + by_g0 * x2_bar + x2 * by_g0_2;
+        sums[3] = sums[3] + by_g0 * x3_bar + x3 * by_g0_2;
+        sums[4] = sums[4] + phi_product;
+        sums[5] = sums[5] + x0 * gap_6;
+        sums[6] = sums[6] + x0 * gap_7 + x1 * gap_6;
+        sums[7] = sums[7] + x0 * gap_8 + x2 * gap_6;
+        sums[8] = sums[8] + x0 * gap_9 + x3 * gap_6;
+        sums[9] = sums[9] + x1 * gap_7;
+        sums[10] = sums[10] + x1 * gap_8 + x2 * gap_7;
+        sums[11] = sums[11] + x1 * gap_9 + x3 * gap_7;
+        sums[12] = sums[12] + x2 * gap_8;
+        sums[13] = sums[13] + x2 * gap_9 + x3 * gap_8;
+        sums[14] = sums[14] + x3 * gap_9;
+    }
 }
 
 /* The adjoints of some splats' parameters, of their sums over the points. */
@@ -1529,97 +1924,6 @@ OUTLINE void pair_distances_f(
     const vector_f atan2_norm_s_abs_g0 = atan2_each_f(norm_s, abs_g0);
     const vector_f t = 2.0f * atan2_norm_s_abs_g0;
     distance[0] = t;
-}
-
-/*
- * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
- *
- * h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
- * w = cos(t / 2), or cosh, of the distance t: w^2 = <h + M, h + M>, or w = |<M, h>| where x and -x are one point
- * eta = d log A / dw, 1 / A = w - (1 - w^2) eta, a = A / w (A where x and -x are one point)
- * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
- * r = R h = W (tangent part of x), phi = amplitude a^k exp(-a^2 |r|^2 / 2)
- */
-INLINE void pair_backward_f(
-    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f x2 = X[2];
-    const vector_f x3 = X[3];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float mu2 = S[2];
-    const float mu3 = S[3];
-    const float R0_3 = S[5];
-    const float R0_0 = S[6];
-    const float R0_2 = S[7];
-    const float R0_1 = S[8];
-    const float R1_3 = S[9];
-    const float R1_0 = S[10];
-    const float R1_2 = S[11];
-    const float R1_1 = S[12];
-    const float R2_3 = S[13];
-    const float R2_0 = S[14];
-    const float R2_2 = S[15];
-    const float R2_1 = S[16];
-    const vector_f its_value_bar = value_bar[0];
-    const vector_f x0_bar = slope_bar[0];
-    const vector_f x1_bar = slope_bar[1];
-    const vector_f x2_bar = slope_bar[2];
-    const vector_f x3_bar = slope_bar[3];
-    const vector_f g0 = x0 * mu0 + x1 * mu1 + x2 * mu2 + x3 * mu3;
-    const vector_mask_f is_small = g0 < 0.0f;
-    const vector_f abs_g0 = abs_each_f(g0);
-    const vector_f abs_g0_gap = 1.0f - abs_g0;
-    const vector_f eta = vector_polynomial_eta_f(abs_g0_gap);
-    const vector_f a = 1.0f / (abs_g0 - eta * (1.0f - abs_g0 * abs_g0));
-    const vector_f a_squared = a * a;
-    const vector_f r0 = x0 * R0_0 + x1 * R0_1 + x2 * R0_2 + x3 * R0_3;
-    const vector_f r1 = x0 * R1_0 + x1 * R1_1 + x2 * R1_2 + x3 * R1_3;
-    const vector_f r2 = x0 * R2_0 + x1 * R2_1 + x2 * R2_2 + x3 * R2_3;
-    const vector_f square = a_squared * (r0 * r0 + r1 * r1 + r2 * r2);
-    const vector_f gaussian = gaussian_each_f(square);
-    const vector_f phi = a * (a * gaussian);
-    const vector_f gap = 2.0f * phi - phi * square;
-    const vector_f by_abs_g0 = eta * gap;
-    const vector_f by_g0 = vector_select_f(is_small, -by_abs_g0, by_abs_g0);
-    const vector_f eta_slope = vector_polynomial_eta_slope_f(abs_g0_gap);
-    const vector_f by_by_g0 = mu0 * x0_bar + mu1 * x1_bar + mu2 * x2_bar + mu3 * x3_bar;
-    const vector_f by_by_abs_g0 = vector_select_f(is_small, vector_of_f(0.0f), by_by_g0) -
-        vector_select_f(is_small, by_by_g0, vector_of_f(0.0f));
-    const vector_f minus = -((R0_3 * r0 + R1_3 * r1 + R2_3 * r2) * x3_bar);
-    const vector_f gap_2 = minus - (R0_2 * r0 + R1_2 * r1 + R2_2 * r2) * x2_bar;
-    const vector_f gap_3 = gap_2 - (R0_1 * r0 + R1_1 * r1 + R2_1 * r2) * x1_bar;
-    const vector_f gap_4 = gap_3 - (R0_0 * r0 + R1_0 * r1 + R2_0 * r2) * x0_bar;
-    const vector_f eta_product = eta * by_by_abs_g0;
-    const vector_f by_phi = its_value_bar + a_squared * gap_4 - square * eta_product + 2.0f * eta_product;
-    const vector_f phi_product = phi * by_phi;
-    const vector_f gap_5 = -2.0f * (phi * eta_product) - phi_product;
-    const vector_f eta_product_2 = eta * (2.0f * a_squared * (phi * gap_4) + 2.0f * phi_product + square *
-        gap_5);
-    const vector_f by_abs_g0_2 = eta_slope * (gap * by_by_abs_g0) + eta_product_2;
-    const vector_f by_g0_2 = vector_select_f(is_small, -by_abs_g0_2, by_abs_g0_2);
-    const vector_f product = 0.5f * (a_squared * gap_5);
-    const vector_f phi_product_2 = phi * a_squared;
-    const vector_f gap_6 = x0 * product - phi_product_2 * x0_bar;
-    const vector_f gap_7 = x1 * product - phi_product_2 * x1_bar;
-    const vector_f gap_8 = x2 * product - phi_product_2 * x2_bar;
-    const vector_f gap_9 = x3 * product - phi_product_2 * x3_bar;
-    sums[0] = sums[0] + by_g0 * x0_bar + x0 * by_g0_2;
-    sums[1] = sums[1] + by_g0 * x1_bar + x1 * by_g0_2;
-    sums[2] = sums[2] + by_g0 * x2_bar + x2 * by_g0_2;
-    sums[3] = sums[3] + by_g0 * x3_bar + x3 * by_g0_2;
-    sums[4] = sums[4] + phi_product;
-    sums[5] = sums[5] + x0 * gap_6;
-    sums[6] = sums[6] + x0 * gap_7 + x1 * gap_6;
-    sums[7] = sums[7] + x0 * gap_8 + x2 * gap_6;
-    sums[8] = sums[8] + x0 * gap_9 + x3 * gap_6;
-    sums[9] = sums[9] + x1 * gap_7;
-    sums[10] = sums[10] + x1 * gap_8 + x2 * gap_7;
-    sums[11] = sums[11] + x1 * gap_9 + x3 * gap_7;
-    sums[12] = sums[12] + x2 * gap_8;
-    sums[13] = sums[13] + x2 * gap_9 + x3 * gap_8;
-    sums[14] = sums[14] + x3 * gap_9;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -1781,7 +2085,7 @@ OUTLINE void splat_constants_f(
     vector_to_rows_f(S, constants, splat_count, start, 17, 17);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void so3_splats_f(
     size_t count, size_t splat_count, const float *SO3_RESTRICT x, const float *SO3_RESTRICT mu, const float *SO3_RESTRICT W, const float *SO3_RESTRICT amplitude, const float *SO3_RESTRICT width,
     float *SO3_RESTRICT value, float *SO3_RESTRICT gradient, float *SO3_RESTRICT work, int threads) {
@@ -1796,27 +2100,26 @@ void so3_splats_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[2][4], X[2][4], grad[3];
-            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][4] = {{ZERO}};
+            vector_f at[2][4], X[2 * 4], grad[3];
+            vector_f value_sum[2] = {ZERO}, slope_sum[2 * 4] = {ZERO};
             float place[4 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 4, at[b]);
-                pair_features_f(at[b], X[b]);
+                pair_features_f(at[b], X + 4 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 17 * near[i];
-                    pair_forward_f(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward_f(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward_f(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient_f(at[b], slope_sum[b], grad);
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                pair_gradient_f(at[b], slope_sum + 4 * b, grad);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
                 vector_to_rows_f(grad, gradient, count, start + b * LANES_f, 3, 3);
             }
         }
@@ -1838,25 +2141,24 @@ void so3_splats_value_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[4], X[2][4], value_sum[2][1] = {{ZERO}};
+            vector_f at[4], X[2 * 4], value_sum[2] = {ZERO};
             float place[4 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 4, at);
-                pair_features_f(at, X[b]);
+                pair_features_f(at, X + 4 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 17 * near[i];
-                    pair_value_f(X[0], S, value_sum[0]);
-                    pair_value_f(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value_f(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -1875,19 +2177,11 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 4 + 1, point + 4);
 }
 
-/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+/* Adds to sums what some vectors of points add to them, those in the list. */
 OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *sums) {
     vector_f sum[15] = {ZERO};
-    size_t b = 0;
-    for (; b + 1 < size; b += 2) {
-        const vector_f *point = points + 9 * (size_t)near[b], *other = points + 9 * (size_t)near[b + 1];
-        pair_backward_f(point, S, point + 4, point + 4 + 1, sum);
-        pair_backward_f(other, S, other + 4, other + 4 + 1, sum);
-    }
-    if (b < size) {
-        const vector_f *point = points + 9 * (size_t)near[b];
-        pair_backward_f(point, S, point + 4, point + 4 + 1, sum);
-    }
+    for (size_t b = 0; b < size; b += 16)
+        pair_backward_f(size - b < 16 ? size - b : 16, points, near + b, S, sum);
     sums[0] += vector_sum_f(sum[0]);
     sums[1] += vector_sum_f(sum[1]);
     sums[2] += vector_sum_f(sum[2]);
@@ -1974,6 +2268,7 @@ void so3_splats_rows_f(
     float *SO3_RESTRICT rows, float *SO3_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    const uint32_t only = 0;
     float *constants = work_constants_f(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -1990,7 +2285,7 @@ void so3_splats_rows_f(
                 for (int i = 0; i < 4; ++i) own_mu[i] = vector_of_f(mu[4 * k + i]);
                 for (int i = 0; i < 9; ++i) own_W[i] = vector_of_f(W[9 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 17 * k, point + 4, point + 4 + 1, own_sums);
+                pair_backward_f(1, point, &only, constants + 17 * k, own_sums);
                 pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 4, bars + 4 + 9);
                 vector_to_rows_f(bars, rows + 14 * k, count, block * LANES_f, 14, 14 * splat_count);
             }

@@ -24,7 +24,6 @@
 #endif
 #define LANE(vector, i) (vector)[i]
 #define ZERO {0}
-#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
 typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
 typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
 typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
@@ -34,7 +33,6 @@ typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
 #else
 #define LANE(vector, i) (vector)
 #define ZERO 0
-#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
 typedef double vector;
 typedef float vector_f;
 typedef int64_t vector_mask;
@@ -49,6 +47,17 @@ typedef uint32_t vector_bits_f;
 #else
 #define INLINE static inline
 #define OUTLINE static
+#endif
+/* UNROLLED: the few turns of a loop one after another. EACH_LANE: of a loop that gcc makes one instruction, if it stays a loop. */
+#if defined(__clang__)
+#define UNROLLED _Pragma("clang loop unroll(full)")
+#define EACH_LANE
+#elif defined(__GNUC__) && __GNUC__ >= 8
+#define UNROLLED _Pragma("GCC unroll 8")
+#define EACH_LANE _Pragma("GCC unroll 1")
+#else
+#define UNROLLED
+#define EACH_LANE
 #endif
 #define LANES (sizeof(vector) / sizeof(double))
 #define LANES_f (sizeof(vector_f) / sizeof(float))
@@ -90,9 +99,14 @@ INLINE vector vector_of(double x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector vector_select(vector_mask mask, vector x, vector y) {
-    return SELECT(vector, vector_mask, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector)((mask & (vector_mask)x) | (~mask & (vector_mask)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -131,13 +145,13 @@ INLINE vector signed_each(vector x, vector sign) {
 
 /* abs of every lane; one instruction where the machine has it. */
 INLINE vector abs_each(vector x) {
-    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
     return x;
 }
 
 /* sqrt of every lane; one instruction where the machine has it. */
 INLINE vector sqrt_each(vector x) {
-    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
     return x;
 }
 
@@ -317,293 +331,602 @@ OUTLINE void pair_constants(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_value(
-    const vector *X, const double *S, vector *value) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector x2 = X[2];
-    const vector x3 = X[3];
-    const vector x4 = X[4];
-    const vector x5 = X[5];
-    const vector x6 = X[6];
-    const vector x7 = X[7];
-    const vector x8 = X[8];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double mu2 = S[2];
-    const double mu3 = S[3];
-    const double mu4 = S[4];
-    const double mu5 = S[5];
-    const double mu6 = S[6];
-    const double mu7 = S[7];
-    const double mu8 = S[8];
-    const double W0_0 = S[9];
-    const double W0_1 = S[10];
-    const double W0_2 = S[11];
-    const double W1_0 = S[12];
-    const double W1_1 = S[13];
-    const double W1_2 = S[14];
-    const double W2_0 = S[15];
-    const double W2_1 = S[16];
-    const double W2_2 = S[17];
-    const double amplitude = S[18];
-    const vector R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8;
-    const vector R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7;
-    const vector R0_0 = x0 * mu0 + x3 * mu3 + x6 * mu6;
-    const vector R0_0_total = 1.0 + R0_0;
-    const vector square0 = R2_2 + (R1_1 + R0_0_total);
-    const vector square1 = R0_0_total - R1_1 - R2_2;
-    const vector_mask is_less = square0 < square1;
-    const vector largest = vector_select(is_less, square1, square0);
-    const vector square2 = 1.0 + R1_1 - R0_0 - R2_2;
-    const vector_mask is_less_2 = largest < square2;
-    const vector largest_2 = vector_select(is_less_2, square2, largest);
-    const vector square3 = 1.0 + R2_2 - R0_0 - R1_1;
-    const vector_mask is_less_3 = largest_2 < square3;
-    const vector R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6;
-    const vector R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8;
-    const vector R0_2_total = R0_2 + R2_0;
-    const vector R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6;
-    const vector R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7;
-    const vector R0_1_total = R0_1 + R1_0;
-    const vector R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8;
-    const vector R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7;
-    const vector R2_1_gap = R2_1 - R1_2;
-    const vector row_2 = vector_select(is_less, square1, R2_1_gap);
-    const vector row_6 = vector_select(is_less_2, R0_1_total, row_2);
-    const vector row_10 = vector_select(is_less_3, R0_2_total, row_6);
-    const vector R1_2_total = R1_2 + R2_1;
-    const vector R0_2_gap = R0_2 - R2_0;
-    const vector row_3 = vector_select(is_less, R0_1_total, R0_2_gap);
-    const vector row_7 = vector_select(is_less_2, square2, row_3);
-    const vector row_11 = vector_select(is_less_3, R1_2_total, row_7);
-    const vector R1_0_gap = R1_0 - R0_1;
-    const vector row_4 = vector_select(is_less, R0_2_total, R1_0_gap);
-    const vector row_8 = vector_select(is_less_2, R1_2_total, row_4);
-    const vector row_12 = vector_select(is_less_3, square3, row_8);
-    const vector row = vector_select(is_less, R2_1_gap, square0);
-    const vector row_5 = vector_select(is_less_2, R0_2_gap, row);
-    const vector row_9 = vector_select(is_less_3, R1_0_gap, row_5);
-    const vector row_length = sqrt_each(row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9);
-    const vector g1 = row_10 / row_length;
-    const vector g2 = row_11 / row_length;
-    const vector g3 = row_12 / row_length;
-    const vector norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
-    const vector_mask near = norm_s_squared < 0.249287;
-    const vector near_chosen = vector_select(near, 4.011440628672975 * norm_s_squared, vector_of(0.0));
-    const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
-    const vector log_det_near = norm_s_squared * log_det_series;
-    const vector norm_s = sqrt_each(vector_select(near, vector_of(1.0), norm_s_squared));
-    const vector g0 = row_9 / row_length;
-    const vector abs_g0 = abs_each(g0);
-    const vector atan2_norm_s_abs_g0 = atan2_each(norm_s, abs_g0);
-    const vector t = 2.0 * atan2_norm_s_abs_g0;
-    const vector t_ratio = t / norm_s;
-    const vector log_det = vector_select(near, log_det_near, 2.0 * log_each(0.5 * t_ratio));
-    const vector t_over_norm_s_near = vector_polynomial_t_over_norm_s_near(near_chosen);
-    const vector t_over_norm_s = vector_select(near, t_over_norm_s_near, t_ratio);
-    const vector scale = t_over_norm_s * vector_select(g0 < 0.0, vector_of(-1.0), vector_of(1.0));
-    const vector v0 = g1 * scale;
-    const vector v1 = g2 * scale;
-    const vector v2 = g3 * scale;
-    const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-    const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-    const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-    const vector log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector phi = exp_each(log_det_gap);
-    value[0] = value[0] + amplitude * phi;
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values) {
+    struct { vector row_10, row_11, row_12, row_9, row_length, g1, g2, g3, norm_s_squared, near_chosen,
+            norm_s, g0, atan2_norm_s_abs_g0, t_ratio, log_det, phi; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 25 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double mu2 = S[2];
+        const double mu3 = S[3];
+        const double mu4 = S[4];
+        const double mu5 = S[5];
+        const double mu6 = S[6];
+        const double mu7 = S[7];
+        const double mu8 = S[8];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 9 * b;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector x2 = X[2];
+            const vector x3 = X[3];
+            const vector x4 = X[4];
+            const vector x5 = X[5];
+            const vector x6 = X[6];
+            const vector x7 = X[7];
+            const vector x8 = X[8];
+            const vector R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8;
+            const vector R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7;
+            const vector R0_0 = x0 * mu0 + x3 * mu3 + x6 * mu6;
+            const vector R0_0_total = 1.0 + R0_0;
+            const vector square0 = R2_2 + (R1_1 + R0_0_total);
+            const vector square1 = R0_0_total - R1_1 - R2_2;
+            const vector_mask is_less = square0 < square1;
+            const vector largest = vector_select(is_less, square1, square0);
+            const vector square2 = 1.0 + R1_1 - R0_0 - R2_2;
+            const vector_mask is_less_2 = largest < square2;
+            const vector largest_2 = vector_select(is_less_2, square2, largest);
+            const vector square3 = 1.0 + R2_2 - R0_0 - R1_1;
+            const vector_mask is_less_3 = largest_2 < square3;
+            const vector R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6;
+            const vector R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8;
+            const vector R0_2_total = R0_2 + R2_0;
+            const vector R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6;
+            const vector R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7;
+            const vector R0_1_total = R0_1 + R1_0;
+            const vector R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8;
+            const vector R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7;
+            const vector R2_1_gap = R2_1 - R1_2;
+            const vector row_2 = vector_select(is_less, square1, R2_1_gap);
+            const vector row_6 = vector_select(is_less_2, R0_1_total, row_2);
+            const vector row_10 = vector_select(is_less_3, R0_2_total, row_6);
+            const vector R1_2_total = R1_2 + R2_1;
+            const vector R0_2_gap = R0_2 - R2_0;
+            const vector row_3 = vector_select(is_less, R0_1_total, R0_2_gap);
+            const vector row_7 = vector_select(is_less_2, square2, row_3);
+            const vector row_11 = vector_select(is_less_3, R1_2_total, row_7);
+            const vector R1_0_gap = R1_0 - R0_1;
+            const vector row_4 = vector_select(is_less, R0_2_total, R1_0_gap);
+            const vector row_8 = vector_select(is_less_2, R1_2_total, row_4);
+            const vector row_12 = vector_select(is_less_3, square3, row_8);
+            const vector row = vector_select(is_less, R2_1_gap, square0);
+            const vector row_5 = vector_select(is_less_2, R0_2_gap, row);
+            const vector row_9 = vector_select(is_less_3, R1_0_gap, row_5);
+            const vector row_length = sqrt_each(row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9);
+            kept[k][b].row_10 = row_10;
+            kept[k][b].row_11 = row_11;
+            kept[k][b].row_12 = row_12;
+            kept[k][b].row_9 = row_9;
+            kept[k][b].row_length = row_length;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector row_10 = kept[k][b].row_10;
+            const vector row_11 = kept[k][b].row_11;
+            const vector row_12 = kept[k][b].row_12;
+            const vector row_length = kept[k][b].row_length;
+            const vector g1 = row_10 / row_length;
+            const vector g2 = row_11 / row_length;
+            const vector g3 = row_12 / row_length;
+            kept[k][b].g1 = g1;
+            kept[k][b].g2 = g2;
+            kept[k][b].g3 = g3;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector row_9 = kept[k][b].row_9;
+            const vector row_length = kept[k][b].row_length;
+            const vector g1 = kept[k][b].g1;
+            const vector g2 = kept[k][b].g2;
+            const vector g3 = kept[k][b].g3;
+            const vector norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+            const vector_mask its_near = norm_s_squared < 0.249287;
+            const vector norm_s = sqrt_each(vector_select(its_near, vector_of(1.0), norm_s_squared));
+            const vector g0 = row_9 / row_length;
+            kept[k][b].norm_s_squared = norm_s_squared;
+            kept[k][b].norm_s = norm_s;
+            kept[k][b].g0 = g0;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector norm_s = kept[k][b].norm_s;
+            const vector g0 = kept[k][b].g0;
+            const vector abs_g0 = abs_each(g0);
+            const vector atan2_norm_s_abs_g0 = atan2_each(norm_s, abs_g0);
+            kept[k][b].atan2_norm_s_abs_g0 = atan2_norm_s_abs_g0;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector norm_s = kept[k][b].norm_s;
+            const vector atan2_norm_s_abs_g0 = kept[k][b].atan2_norm_s_abs_g0;
+            const vector t = 2.0 * atan2_norm_s_abs_g0;
+            const vector t_ratio = t / norm_s;
+            kept[k][b].t_ratio = t_ratio;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector norm_s_squared = kept[k][b].norm_s_squared;
+            const vector t_ratio = kept[k][b].t_ratio;
+            const vector_mask its_near = norm_s_squared < 0.249287;
+            const vector near_chosen = vector_select(its_near, 4.011440628672975 * norm_s_squared, vector_of(0.0));
+            const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
+            const vector log_det_near = norm_s_squared * log_det_series;
+            const vector log_det = vector_select(its_near, log_det_near, 2.0 * log_each(0.5 * t_ratio));
+            kept[k][b].near_chosen = near_chosen;
+            kept[k][b].log_det = log_det;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 25 * near[k];
+        const double W0_0 = S[9];
+        const double W0_1 = S[10];
+        const double W0_2 = S[11];
+        const double W1_0 = S[12];
+        const double W1_1 = S[13];
+        const double W1_2 = S[14];
+        const double W2_0 = S[15];
+        const double W2_1 = S[16];
+        const double W2_2 = S[17];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector g1 = kept[k][b].g1;
+            const vector g2 = kept[k][b].g2;
+            const vector g3 = kept[k][b].g3;
+            const vector norm_s_squared = kept[k][b].norm_s_squared;
+            const vector near_chosen = kept[k][b].near_chosen;
+            const vector g0 = kept[k][b].g0;
+            const vector t_ratio = kept[k][b].t_ratio;
+            const vector log_det = kept[k][b].log_det;
+            const vector_mask its_near = norm_s_squared < 0.249287;
+            const vector t_over_norm_s_near = vector_polynomial_t_over_norm_s_near(near_chosen);
+            const vector t_over_norm_s = vector_select(its_near, t_over_norm_s_near, t_ratio);
+            const vector scale = t_over_norm_s * vector_select(g0 < 0.0, vector_of(-1.0), vector_of(1.0));
+            const vector v0 = g1 * scale;
+            const vector v1 = g2 * scale;
+            const vector v2 = g3 * scale;
+            const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+            const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+            const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
+            const vector log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
+            const vector phi = exp_each(log_det_gap);
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 25 * near[k];
+        const double amplitude = S[18];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector *value = values + b;
+            const vector phi = kept[k][b].phi;
+            value[0] = value[0] + amplitude * phi;
+        }
+    }
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 OUTLINE void pair_forward(
-    const vector *X, const double *S, vector *value, vector *slope) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector x2 = X[2];
-    const vector x3 = X[3];
-    const vector x4 = X[4];
-    const vector x5 = X[5];
-    const vector x6 = X[6];
-    const vector x7 = X[7];
-    const vector x8 = X[8];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double mu2 = S[2];
-    const double mu3 = S[3];
-    const double mu4 = S[4];
-    const double mu5 = S[5];
-    const double mu6 = S[6];
-    const double mu7 = S[7];
-    const double mu8 = S[8];
-    const double W0_0 = S[9];
-    const double W0_1 = S[10];
-    const double W0_2 = S[11];
-    const double W1_0 = S[12];
-    const double W1_1 = S[13];
-    const double W1_2 = S[14];
-    const double W2_0 = S[15];
-    const double W2_1 = S[16];
-    const double W2_2 = S[17];
-    const double amplitude = S[18];
-    const vector R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8;
-    const vector R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7;
-    const vector R0_0 = x0 * mu0 + x3 * mu3 + x6 * mu6;
-    const vector R0_0_total = 1.0 + R0_0;
-    const vector square0 = R2_2 + (R1_1 + R0_0_total);
-    const vector square1 = R0_0_total - R1_1 - R2_2;
-    const vector_mask is_less = square0 < square1;
-    const vector largest = vector_select(is_less, square1, square0);
-    const vector square2 = 1.0 + R1_1 - R0_0 - R2_2;
-    const vector_mask is_less_2 = largest < square2;
-    const vector largest_2 = vector_select(is_less_2, square2, largest);
-    const vector square3 = 1.0 + R2_2 - R0_0 - R1_1;
-    const vector_mask is_less_3 = largest_2 < square3;
-    const vector R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6;
-    const vector R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8;
-    const vector R0_2_total = R0_2 + R2_0;
-    const vector R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6;
-    const vector R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7;
-    const vector R0_1_total = R0_1 + R1_0;
-    const vector R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8;
-    const vector R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7;
-    const vector R2_1_gap = R2_1 - R1_2;
-    const vector row_2 = vector_select(is_less, square1, R2_1_gap);
-    const vector row_6 = vector_select(is_less_2, R0_1_total, row_2);
-    const vector row_10 = vector_select(is_less_3, R0_2_total, row_6);
-    const vector R1_2_total = R1_2 + R2_1;
-    const vector R0_2_gap = R0_2 - R2_0;
-    const vector row_3 = vector_select(is_less, R0_1_total, R0_2_gap);
-    const vector row_7 = vector_select(is_less_2, square2, row_3);
-    const vector row_11 = vector_select(is_less_3, R1_2_total, row_7);
-    const vector R1_0_gap = R1_0 - R0_1;
-    const vector row_4 = vector_select(is_less, R0_2_total, R1_0_gap);
-    const vector row_8 = vector_select(is_less_2, R1_2_total, row_4);
-    const vector row_12 = vector_select(is_less_3, square3, row_8);
-    const vector row = vector_select(is_less, R2_1_gap, square0);
-    const vector row_5 = vector_select(is_less_2, R0_2_gap, row);
-    const vector row_9 = vector_select(is_less_3, R1_0_gap, row_5);
-    const vector total_2 = row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9;
-    const vector row_length = sqrt_each(total_2);
-    const vector g1 = row_10 / row_length;
-    const vector g2 = row_11 / row_length;
-    const vector g3 = row_12 / row_length;
-    const vector norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
-    const vector_mask near = norm_s_squared < 0.249287;
-    const vector near_chosen = vector_select(near, 4.011440628672975 * norm_s_squared, vector_of(0.0));
-    const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
-    const vector log_det_near = norm_s_squared * log_det_series;
-    const vector near_chosen_2 = vector_select(near, vector_of(1.0), norm_s_squared);
-    const vector norm_s = sqrt_each(near_chosen_2);
-    const vector g0 = row_9 / row_length;
-    const vector abs_g0 = abs_each(g0);
-    const vector atan2_norm_s_abs_g0 = atan2_each(norm_s, abs_g0);
-    const vector t = 2.0 * atan2_norm_s_abs_g0;
-    const vector t_ratio = t / norm_s;
-    const vector product = 0.5 * t_ratio;
-    const vector log_det = vector_select(near, log_det_near, 2.0 * log_each(product));
-    const vector t_over_norm_s_near = vector_polynomial_t_over_norm_s_near(near_chosen);
-    const vector t_over_norm_s = vector_select(near, t_over_norm_s_near, t_ratio);
-    const vector_mask is_small = g0 < 0.0;
-    const vector chosen = vector_select(is_small, vector_of(-1.0), vector_of(1.0));
-    const vector scale = t_over_norm_s * chosen;
-    const vector v0 = g1 * scale;
-    const vector v1 = g2 * scale;
-    const vector v2 = g3 * scale;
-    const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-    const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-    const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-    const vector log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector phi = exp_each(log_det_gap);
-    const vector phi_2 = amplitude * phi;
-    const vector phi_product = phi_2 * (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0));
-    const vector phi_product_2 = phi_2 * (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0));
-    const vector phi_product_3 = phi_2 * (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0));
-    const vector by_scale = -(g3 * phi_product) - g2 * phi_product_2 - g1 * phi_product_3;
-    const vector by_t_over_norm_s = chosen * by_scale;
-    const vector total_3 = vector_select(near, vector_of(0.0), by_t_over_norm_s) + 0.5 * (2.0 *
-        vector_select(near, vector_of(0.0), phi_2) / product);
-    const vector by_t = total_3 / norm_s;
-    const vector by_atan2_norm_s_abs_g0 = 2.0 * by_t;
-    const vector ratio = by_atan2_norm_s_abs_g0 / (near_chosen_2 + abs_g0 * abs_g0);
-    const vector norm_s_product = norm_s * ratio;
-    const vector by_abs_g0 = -norm_s_product;
-    const vector by_g0 = vector_select(is_small, norm_s_product, by_abs_g0);
-    const vector by_g0_ratio = by_g0 / row_length;
-    const vector_mask is_small_2 = total_2 == 0.0;
-    const vector by_norm_s = abs_g0 * ratio - t_ratio * by_t;
-    const vector by_log_det_near = vector_select(near, phi_2, vector_of(0.0));
-    const vector by_t_over_norm_s_near = vector_select(near, by_t_over_norm_s, vector_of(0.0));
-    const vector t_over_norm_s_near_slope = vector_polynomial_t_over_norm_s_near_slope(near_chosen);
-    const vector by_log_det_series = norm_s_squared * by_log_det_near;
-    const vector log_det_series_slope = vector_polynomial_log_det_series_slope(near_chosen);
-    const vector by_norm_s_squared = vector_select(near, vector_of(0.0), by_norm_s / (2.0 * norm_s)) +
-        log_det_series * by_log_det_near + 4.011440628672975 * vector_select(near, by_t_over_norm_s_near *
-        t_over_norm_s_near_slope + by_log_det_series * log_det_series_slope, vector_of(0.0));
-    const vector product_2 = 2.0 * by_norm_s_squared;
-    const vector by_g3 = g3 * product_2 - scale * phi_product;
-    const vector by_g3_ratio = by_g3 / row_length;
-    const vector by_g2 = g2 * product_2 - scale * phi_product_2;
-    const vector by_g2_ratio = by_g2 / row_length;
-    const vector by_g1 = g1 * product_2 - scale * phi_product_3;
-    const vector by_g1_ratio = by_g1 / row_length;
-    const vector by_row_length = -(g0 * by_g0_ratio) - g3 * by_g3_ratio - g2 * by_g2_ratio - g1 * by_g1_ratio;
-    const vector product_3 = 2.0 * vector_select(is_small_2, vector_of(0.0), by_row_length / (2.0 *
-        vector_select(is_small_2, vector_of(1.0), row_length)));
-    const vector by_row_9 = by_g0_ratio + row_9 * product_3;
-    const vector by_row_12 = by_g3_ratio + row_12 * product_3;
-    const vector by_row_8 = vector_select(is_less_3, vector_of(0.0), by_row_12);
-    const vector by_row_4 = vector_select(is_less_2, vector_of(0.0), by_row_8);
-    const vector total_4 = vector_select(is_less_3, by_row_9, vector_of(0.0)) + vector_select(is_less,
-        vector_of(0.0), by_row_4);
-    const vector by_row_11 = by_g2_ratio + row_11 * product_3;
-    const vector by_row_7 = vector_select(is_less_3, vector_of(0.0), by_row_11);
-    const vector by_row_3 = vector_select(is_less_2, vector_of(0.0), by_row_7);
-    const vector by_row_10 = by_g1_ratio + row_10 * product_3;
-    const vector by_row_6 = vector_select(is_less_3, vector_of(0.0), by_row_10);
-    const vector total_5 = vector_select(is_less, by_row_3, vector_of(0.0)) + vector_select(is_less_2,
-        by_row_6, vector_of(0.0));
-    const vector by_R1_0 = total_4 + total_5;
-    const vector total_6 = vector_select(is_less, by_row_4, vector_of(0.0)) + vector_select(is_less_3,
-        by_row_10, vector_of(0.0));
-    const vector by_row_5 = vector_select(is_less_3, vector_of(0.0), by_row_9);
-    const vector total_7 = vector_select(is_less_2, by_row_5, vector_of(0.0)) + vector_select(is_less,
-        vector_of(0.0), by_row_3);
-    const vector by_R2_0 = total_6 - total_7;
-    const vector by_square3 = vector_select(is_less_3, by_row_12, vector_of(0.0));
-    const vector by_square2 = vector_select(is_less_2, by_row_7, vector_of(0.0));
-    const vector by_row = vector_select(is_less_2, vector_of(0.0), by_row_5);
-    const vector by_square0 = vector_select(is_less, vector_of(0.0), by_row);
-    const vector by_row_2 = vector_select(is_less_2, vector_of(0.0), by_row_6);
-    const vector by_square1 = vector_select(is_less, by_row_2, vector_of(0.0));
-    const vector by_R0_0 = -by_square3 - by_square2 + (by_square0 + by_square1);
-    const vector total_8 = vector_select(is_less_2, by_row_8, vector_of(0.0)) + vector_select(is_less_3,
-        by_row_11, vector_of(0.0));
-    const vector total_9 = vector_select(is_less, by_row, vector_of(0.0)) + vector_select(is_less,
-        vector_of(0.0), by_row_2);
-    const vector by_R2_1 = total_8 + total_9;
-    const vector by_R0_1 = total_5 - total_4;
-    const vector by_R1_1 = by_square0 + (by_square2 - by_square3 - by_square1);
-    const vector by_R1_2 = total_8 - total_9;
-    const vector by_R0_2 = total_7 + total_6;
-    const vector by_R2_2 = by_square0 + (by_square3 - by_square2 - by_square1);
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] + mu1 * by_R1_0 + mu2 * by_R2_0 + mu0 * by_R0_0;
-    slope[1] = slope[1] + mu2 * by_R2_1 + mu0 * by_R0_1 + mu1 * by_R1_1;
-    slope[2] = slope[2] + mu1 * by_R1_2 + mu0 * by_R0_2 + mu2 * by_R2_2;
-    slope[3] = slope[3] + mu4 * by_R1_0 + mu5 * by_R2_0 + mu3 * by_R0_0;
-    slope[4] = slope[4] + mu5 * by_R2_1 + mu3 * by_R0_1 + mu4 * by_R1_1;
-    slope[5] = slope[5] + mu4 * by_R1_2 + mu3 * by_R0_2 + mu5 * by_R2_2;
-    slope[6] = slope[6] + mu7 * by_R1_0 + mu8 * by_R2_0 + mu6 * by_R0_0;
-    slope[7] = slope[7] + mu8 * by_R2_1 + mu6 * by_R0_1 + mu7 * by_R1_1;
-    slope[8] = slope[8] + mu7 * by_R1_2 + mu6 * by_R0_2 + mu8 * by_R2_2;
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values, vector *slopes) {
+    struct { vector square0, square1, largest, square2, largest_2, square3, row_10, row_11, row_12, row_9,
+            total_2, row_length, g1, g2, g3, norm_s_squared, near_chosen, log_det_series, near_chosen_2, norm_s,
+            g0, abs_g0, atan2_norm_s_abs_g0, t_ratio, product, log_det, chosen, scale, z0, z1, z2, phi, phi_2,
+            phi_product, phi_product_2, phi_product_3, by_t_over_norm_s, total_3, by_t, ratio, by_g0_ratio,
+            by_norm_s_squared, by_g3_ratio, by_g2_ratio, by_g1_ratio, product_3; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 25 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double mu2 = S[2];
+        const double mu3 = S[3];
+        const double mu4 = S[4];
+        const double mu5 = S[5];
+        const double mu6 = S[6];
+        const double mu7 = S[7];
+        const double mu8 = S[8];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 9 * b;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector x2 = X[2];
+            const vector x3 = X[3];
+            const vector x4 = X[4];
+            const vector x5 = X[5];
+            const vector x6 = X[6];
+            const vector x7 = X[7];
+            const vector x8 = X[8];
+            const vector R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8;
+            const vector R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7;
+            const vector R0_0 = x0 * mu0 + x3 * mu3 + x6 * mu6;
+            const vector R0_0_total = 1.0 + R0_0;
+            const vector square0 = R2_2 + (R1_1 + R0_0_total);
+            const vector square1 = R0_0_total - R1_1 - R2_2;
+            const vector_mask is_less = square0 < square1;
+            const vector largest = vector_select(is_less, square1, square0);
+            const vector square2 = 1.0 + R1_1 - R0_0 - R2_2;
+            const vector_mask is_less_2 = largest < square2;
+            const vector largest_2 = vector_select(is_less_2, square2, largest);
+            const vector square3 = 1.0 + R2_2 - R0_0 - R1_1;
+            const vector_mask is_less_3 = largest_2 < square3;
+            const vector R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6;
+            const vector R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8;
+            const vector R0_2_total = R0_2 + R2_0;
+            const vector R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6;
+            const vector R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7;
+            const vector R0_1_total = R0_1 + R1_0;
+            const vector R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8;
+            const vector R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7;
+            const vector R2_1_gap = R2_1 - R1_2;
+            const vector row_2 = vector_select(is_less, square1, R2_1_gap);
+            const vector row_6 = vector_select(is_less_2, R0_1_total, row_2);
+            const vector row_10 = vector_select(is_less_3, R0_2_total, row_6);
+            const vector R1_2_total = R1_2 + R2_1;
+            const vector R0_2_gap = R0_2 - R2_0;
+            const vector row_3 = vector_select(is_less, R0_1_total, R0_2_gap);
+            const vector row_7 = vector_select(is_less_2, square2, row_3);
+            const vector row_11 = vector_select(is_less_3, R1_2_total, row_7);
+            const vector R1_0_gap = R1_0 - R0_1;
+            const vector row_4 = vector_select(is_less, R0_2_total, R1_0_gap);
+            const vector row_8 = vector_select(is_less_2, R1_2_total, row_4);
+            const vector row_12 = vector_select(is_less_3, square3, row_8);
+            const vector row = vector_select(is_less, R2_1_gap, square0);
+            const vector row_5 = vector_select(is_less_2, R0_2_gap, row);
+            const vector row_9 = vector_select(is_less_3, R1_0_gap, row_5);
+            const vector total_2 = row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9;
+            const vector row_length = sqrt_each(total_2);
+            kept[k][b].square0 = square0;
+            kept[k][b].square1 = square1;
+            kept[k][b].largest = largest;
+            kept[k][b].square2 = square2;
+            kept[k][b].largest_2 = largest_2;
+            kept[k][b].square3 = square3;
+            kept[k][b].row_10 = row_10;
+            kept[k][b].row_11 = row_11;
+            kept[k][b].row_12 = row_12;
+            kept[k][b].row_9 = row_9;
+            kept[k][b].total_2 = total_2;
+            kept[k][b].row_length = row_length;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector row_10 = kept[k][b].row_10;
+            const vector row_11 = kept[k][b].row_11;
+            const vector row_12 = kept[k][b].row_12;
+            const vector row_length = kept[k][b].row_length;
+            const vector g1 = row_10 / row_length;
+            const vector g2 = row_11 / row_length;
+            const vector g3 = row_12 / row_length;
+            kept[k][b].g1 = g1;
+            kept[k][b].g2 = g2;
+            kept[k][b].g3 = g3;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector row_9 = kept[k][b].row_9;
+            const vector row_length = kept[k][b].row_length;
+            const vector g1 = kept[k][b].g1;
+            const vector g2 = kept[k][b].g2;
+            const vector g3 = kept[k][b].g3;
+            const vector norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+            const vector_mask its_near = norm_s_squared < 0.249287;
+            const vector near_chosen_2 = vector_select(its_near, vector_of(1.0), norm_s_squared);
+            const vector norm_s = sqrt_each(near_chosen_2);
+            const vector g0 = row_9 / row_length;
+            kept[k][b].norm_s_squared = norm_s_squared;
+            kept[k][b].near_chosen_2 = near_chosen_2;
+            kept[k][b].norm_s = norm_s;
+            kept[k][b].g0 = g0;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector norm_s = kept[k][b].norm_s;
+            const vector g0 = kept[k][b].g0;
+            const vector abs_g0 = abs_each(g0);
+            const vector atan2_norm_s_abs_g0 = atan2_each(norm_s, abs_g0);
+            kept[k][b].abs_g0 = abs_g0;
+            kept[k][b].atan2_norm_s_abs_g0 = atan2_norm_s_abs_g0;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector norm_s = kept[k][b].norm_s;
+            const vector atan2_norm_s_abs_g0 = kept[k][b].atan2_norm_s_abs_g0;
+            const vector t = 2.0 * atan2_norm_s_abs_g0;
+            const vector t_ratio = t / norm_s;
+            kept[k][b].t_ratio = t_ratio;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector norm_s_squared = kept[k][b].norm_s_squared;
+            const vector t_ratio = kept[k][b].t_ratio;
+            const vector_mask its_near = norm_s_squared < 0.249287;
+            const vector near_chosen = vector_select(its_near, 4.011440628672975 * norm_s_squared, vector_of(0.0));
+            const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
+            const vector log_det_near = norm_s_squared * log_det_series;
+            const vector product = 0.5 * t_ratio;
+            const vector log_det = vector_select(its_near, log_det_near, 2.0 * log_each(product));
+            kept[k][b].near_chosen = near_chosen;
+            kept[k][b].log_det_series = log_det_series;
+            kept[k][b].product = product;
+            kept[k][b].log_det = log_det;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 25 * near[k];
+        const double W0_0 = S[9];
+        const double W0_1 = S[10];
+        const double W0_2 = S[11];
+        const double W1_0 = S[12];
+        const double W1_1 = S[13];
+        const double W1_2 = S[14];
+        const double W2_0 = S[15];
+        const double W2_1 = S[16];
+        const double W2_2 = S[17];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector g1 = kept[k][b].g1;
+            const vector g2 = kept[k][b].g2;
+            const vector g3 = kept[k][b].g3;
+            const vector norm_s_squared = kept[k][b].norm_s_squared;
+            const vector near_chosen = kept[k][b].near_chosen;
+            const vector g0 = kept[k][b].g0;
+            const vector t_ratio = kept[k][b].t_ratio;
+            const vector log_det = kept[k][b].log_det;
+            const vector_mask its_near = norm_s_squared < 0.249287;
+            const vector t_over_norm_s_near = vector_polynomial_t_over_norm_s_near(near_chosen);
+            const vector t_over_norm_s = vector_select(its_near, t_over_norm_s_near, t_ratio);
+            const vector_mask is_small = g0 < 0.0;
+            const vector chosen = vector_select(is_small, vector_of(-1.0), vector_of(1.0));
+            const vector scale = t_over_norm_s * chosen;
+            const vector v0 = g1 * scale;
+            const vector v1 = g2 * scale;
+            const vector v2 = g3 * scale;
+            const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+            const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+            const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
+            const vector log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
+            const vector phi = exp_each(log_det_gap);
+            kept[k][b].chosen = chosen;
+            kept[k][b].scale = scale;
+            kept[k][b].z0 = z0;
+            kept[k][b].z1 = z1;
+            kept[k][b].z2 = z2;
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 25 * near[k];
+        const double W0_0 = S[9];
+        const double W0_1 = S[10];
+        const double W0_2 = S[11];
+        const double W1_0 = S[12];
+        const double W1_1 = S[13];
+        const double W1_2 = S[14];
+        const double W2_0 = S[15];
+        const double W2_1 = S[16];
+        const double W2_2 = S[17];
+        const double amplitude = S[18];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector g1 = kept[k][b].g1;
+            const vector g2 = kept[k][b].g2;
+            const vector g3 = kept[k][b].g3;
+            const vector norm_s_squared = kept[k][b].norm_s_squared;
+            const vector product = kept[k][b].product;
+            const vector chosen = kept[k][b].chosen;
+            const vector z0 = kept[k][b].z0;
+            const vector z1 = kept[k][b].z1;
+            const vector z2 = kept[k][b].z2;
+            const vector phi = kept[k][b].phi;
+            const vector_mask its_near = norm_s_squared < 0.249287;
+            const vector phi_2 = amplitude * phi;
+            const vector phi_product = phi_2 * (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0));
+            const vector phi_product_2 = phi_2 * (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0));
+            const vector phi_product_3 = phi_2 * (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0));
+            const vector by_scale = -(g3 * phi_product) - g2 * phi_product_2 - g1 * phi_product_3;
+            const vector by_t_over_norm_s = chosen * by_scale;
+            const vector total_3 = vector_select(its_near, vector_of(0.0), by_t_over_norm_s) + 0.5 * (2.0 *
+                vector_select(its_near, vector_of(0.0), phi_2) / product);
+            kept[k][b].phi_2 = phi_2;
+            kept[k][b].phi_product = phi_product;
+            kept[k][b].phi_product_2 = phi_product_2;
+            kept[k][b].phi_product_3 = phi_product_3;
+            kept[k][b].by_t_over_norm_s = by_t_over_norm_s;
+            kept[k][b].total_3 = total_3;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector norm_s = kept[k][b].norm_s;
+            const vector total_3 = kept[k][b].total_3;
+            const vector by_t = total_3 / norm_s;
+            kept[k][b].by_t = by_t;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector near_chosen_2 = kept[k][b].near_chosen_2;
+            const vector abs_g0 = kept[k][b].abs_g0;
+            const vector by_t = kept[k][b].by_t;
+            const vector by_atan2_norm_s_abs_g0 = 2.0 * by_t;
+            const vector ratio = by_atan2_norm_s_abs_g0 / (near_chosen_2 + abs_g0 * abs_g0);
+            kept[k][b].ratio = ratio;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector norm_s_squared = kept[k][b].norm_s_squared;
+            const vector near_chosen = kept[k][b].near_chosen;
+            const vector log_det_series = kept[k][b].log_det_series;
+            const vector norm_s = kept[k][b].norm_s;
+            const vector abs_g0 = kept[k][b].abs_g0;
+            const vector t_ratio = kept[k][b].t_ratio;
+            const vector phi_2 = kept[k][b].phi_2;
+            const vector by_t_over_norm_s = kept[k][b].by_t_over_norm_s;
+            const vector by_t = kept[k][b].by_t;
+            const vector ratio = kept[k][b].ratio;
+            const vector_mask its_near = norm_s_squared < 0.249287;
+            const vector by_norm_s = abs_g0 * ratio - t_ratio * by_t;
+            const vector by_log_det_near = vector_select(its_near, phi_2, vector_of(0.0));
+            const vector by_t_over_norm_s_near = vector_select(its_near, by_t_over_norm_s, vector_of(0.0));
+            const vector t_over_norm_s_near_slope = vector_polynomial_t_over_norm_s_near_slope(near_chosen);
+            const vector by_log_det_series = norm_s_squared * by_log_det_near;
+            const vector log_det_series_slope = vector_polynomial_log_det_series_slope(near_chosen);
+            const vector by_norm_s_squared = vector_select(its_near, vector_of(0.0), by_norm_s / (2.0 * norm_s)) +
+                log_det_series * by_log_det_near + 4.011440628672975 * vector_select(its_near, by_t_over_norm_s_near *
+                t_over_norm_s_near_slope + by_log_det_series * log_det_series_slope, vector_of(0.0));
+            kept[k][b].by_norm_s_squared = by_norm_s_squared;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector row_length = kept[k][b].row_length;
+            const vector g1 = kept[k][b].g1;
+            const vector g2 = kept[k][b].g2;
+            const vector g3 = kept[k][b].g3;
+            const vector norm_s = kept[k][b].norm_s;
+            const vector g0 = kept[k][b].g0;
+            const vector scale = kept[k][b].scale;
+            const vector phi_product = kept[k][b].phi_product;
+            const vector phi_product_2 = kept[k][b].phi_product_2;
+            const vector phi_product_3 = kept[k][b].phi_product_3;
+            const vector ratio = kept[k][b].ratio;
+            const vector by_norm_s_squared = kept[k][b].by_norm_s_squared;
+            const vector_mask is_small = g0 < 0.0;
+            const vector norm_s_product = norm_s * ratio;
+            const vector by_abs_g0 = -norm_s_product;
+            const vector by_g0 = vector_select(is_small, norm_s_product, by_abs_g0);
+            const vector by_g0_ratio = by_g0 / row_length;
+            const vector product_2 = 2.0 * by_norm_s_squared;
+            const vector by_g3 = g3 * product_2 - scale * phi_product;
+            const vector by_g3_ratio = by_g3 / row_length;
+            const vector by_g2 = g2 * product_2 - scale * phi_product_2;
+            const vector by_g2_ratio = by_g2 / row_length;
+            const vector by_g1 = g1 * product_2 - scale * phi_product_3;
+            const vector by_g1_ratio = by_g1 / row_length;
+            kept[k][b].by_g0_ratio = by_g0_ratio;
+            kept[k][b].by_g3_ratio = by_g3_ratio;
+            kept[k][b].by_g2_ratio = by_g2_ratio;
+            kept[k][b].by_g1_ratio = by_g1_ratio;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector total_2 = kept[k][b].total_2;
+            const vector row_length = kept[k][b].row_length;
+            const vector g1 = kept[k][b].g1;
+            const vector g2 = kept[k][b].g2;
+            const vector g3 = kept[k][b].g3;
+            const vector g0 = kept[k][b].g0;
+            const vector by_g0_ratio = kept[k][b].by_g0_ratio;
+            const vector by_g3_ratio = kept[k][b].by_g3_ratio;
+            const vector by_g2_ratio = kept[k][b].by_g2_ratio;
+            const vector by_g1_ratio = kept[k][b].by_g1_ratio;
+            const vector_mask is_small_2 = total_2 == 0.0;
+            const vector by_row_length = -(g0 * by_g0_ratio) - g3 * by_g3_ratio - g2 * by_g2_ratio - g1 * by_g1_ratio;
+            const vector product_3 = 2.0 * vector_select(is_small_2, vector_of(0.0), by_row_length / (2.0 *
+                vector_select(is_small_2, vector_of(1.0), row_length)));
+            kept[k][b].product_3 = product_3;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 25 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double mu2 = S[2];
+        const double mu3 = S[3];
+        const double mu4 = S[4];
+        const double mu5 = S[5];
+        const double mu6 = S[6];
+        const double mu7 = S[7];
+        const double mu8 = S[8];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector *value = values + b;
+            vector *slope = slopes + 9 * b;
+            const vector square0 = kept[k][b].square0;
+            const vector square1 = kept[k][b].square1;
+            const vector largest = kept[k][b].largest;
+            const vector square2 = kept[k][b].square2;
+            const vector largest_2 = kept[k][b].largest_2;
+            const vector square3 = kept[k][b].square3;
+            const vector row_10 = kept[k][b].row_10;
+            const vector row_11 = kept[k][b].row_11;
+            const vector row_12 = kept[k][b].row_12;
+            const vector row_9 = kept[k][b].row_9;
+            const vector phi_2 = kept[k][b].phi_2;
+            const vector by_g0_ratio = kept[k][b].by_g0_ratio;
+            const vector by_g3_ratio = kept[k][b].by_g3_ratio;
+            const vector by_g2_ratio = kept[k][b].by_g2_ratio;
+            const vector by_g1_ratio = kept[k][b].by_g1_ratio;
+            const vector product_3 = kept[k][b].product_3;
+            const vector_mask is_less = square0 < square1;
+            const vector_mask is_less_2 = largest < square2;
+            const vector_mask is_less_3 = largest_2 < square3;
+            const vector by_row_9 = by_g0_ratio + row_9 * product_3;
+            const vector by_row_12 = by_g3_ratio + row_12 * product_3;
+            const vector by_row_8 = vector_select(is_less_3, vector_of(0.0), by_row_12);
+            const vector by_row_4 = vector_select(is_less_2, vector_of(0.0), by_row_8);
+            const vector total_4 = vector_select(is_less_3, by_row_9, vector_of(0.0)) + vector_select(is_less,
+                vector_of(0.0), by_row_4);
+            const vector by_row_11 = by_g2_ratio + row_11 * product_3;
+            const vector by_row_7 = vector_select(is_less_3, vector_of(0.0), by_row_11);
+            const vector by_row_3 = vector_select(is_less_2, vector_of(0.0), by_row_7);
+            const vector by_row_10 = by_g1_ratio + row_10 * product_3;
+            const vector by_row_6 = vector_select(is_less_3, vector_of(0.0), by_row_10);
+            const vector total_5 = vector_select(is_less, by_row_3, vector_of(0.0)) + vector_select(is_less_2,
+                by_row_6, vector_of(0.0));
+            const vector by_R1_0 = total_4 + total_5;
+            const vector total_6 = vector_select(is_less, by_row_4, vector_of(0.0)) + vector_select(is_less_3,
+                by_row_10, vector_of(0.0));
+            const vector by_row_5 = vector_select(is_less_3, vector_of(0.0), by_row_9);
+            const vector total_7 = vector_select(is_less_2, by_row_5, vector_of(0.0)) + vector_select(is_less,
+                vector_of(0.0), by_row_3);
+            const vector by_R2_0 = total_6 - total_7;
+            const vector by_square3 = vector_select(is_less_3, by_row_12, vector_of(0.0));
+            const vector by_square2 = vector_select(is_less_2, by_row_7, vector_of(0.0));
+            const vector by_row = vector_select(is_less_2, vector_of(0.0), by_row_5);
+            const vector by_square0 = vector_select(is_less, vector_of(0.0), by_row);
+            const vector by_row_2 = vector_select(is_less_2, vector_of(0.0), by_row_6);
+            const vector by_square1 = vector_select(is_less, by_row_2, vector_of(0.0));
+            const vector by_R0_0 = -by_square3 - by_square2 + (by_square0 + by_square1);
+            const vector total_8 = vector_select(is_less_2, by_row_8, vector_of(0.0)) + vector_select(is_less_3,
+                by_row_11, vector_of(0.0));
+            const vector total_9 = vector_select(is_less, by_row, vector_of(0.0)) + vector_select(is_less,
+                vector_of(0.0), by_row_2);
+            const vector by_R2_1 = total_8 + total_9;
+            const vector by_R0_1 = total_5 - total_4;
+            const vector by_R1_1 = by_square0 + (by_square2 - by_square3 - by_square1);
+            const vector by_R1_2 = total_8 - total_9;
+            const vector by_R0_2 = total_7 + total_6;
+            const vector by_R2_2 = by_square0 + (by_square3 - by_square2 - by_square1);
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] + mu1 * by_R1_0 + mu2 * by_R2_0 + mu0 * by_R0_0;
+            slope[1] = slope[1] + mu2 * by_R2_1 + mu0 * by_R0_1 + mu1 * by_R1_1;
+            slope[2] = slope[2] + mu1 * by_R1_2 + mu0 * by_R0_2 + mu2 * by_R2_2;
+            slope[3] = slope[3] + mu4 * by_R1_0 + mu5 * by_R2_0 + mu3 * by_R0_0;
+            slope[4] = slope[4] + mu5 * by_R2_1 + mu3 * by_R0_1 + mu4 * by_R1_1;
+            slope[5] = slope[5] + mu4 * by_R1_2 + mu3 * by_R0_2 + mu5 * by_R2_2;
+            slope[6] = slope[6] + mu7 * by_R1_0 + mu8 * by_R2_0 + mu6 * by_R0_0;
+            slope[7] = slope[7] + mu8 * by_R2_1 + mu6 * by_R0_1 + mu7 * by_R1_1;
+            slope[8] = slope[8] + mu7 * by_R1_2 + mu6 * by_R0_2 + mu8 * by_R2_2;
+        }
+    }
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -661,6 +984,851 @@ OUTLINE void pair_gradient_vjp(
     slope_bar[8] = x6 * gradient_bar1 - x7 * gradient_bar0;
 }
 
+/*
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
+OUTLINE void pair_backward(
+    size_t count, const vector *points, const uint32_t *near, const double *S, vector *sums) {
+    struct { vector square0, square1, largest, square2, largest_2, square3, row_12, row_10, row_11, row_9,
+            total_2, row_length, g3, g1, g2, norm_s_squared, g0, abs_g0, chosen, near_chosen, log_det_series,
+            near_chosen_2, norm_s, atan2_norm_s_abs_g0, t_ratio, product, log_det, scale, v0, v1, v2, z0, z1, z2,
+            phi, total_3, phi_product, total_4, phi_product_2, total_5, phi_product_3, by_t_over_norm_s, ratio,
+            by_t, total_6, ratio_2, norm_s_product, by_norm_s_ratio, by_log_det_near, by_t_over_norm_s_near,
+            t_over_norm_s_near_slope, by_log_det_series, log_det_series_slope, product_2, by_g3_ratio,
+            by_g0_ratio, by_g2_ratio, by_g1_ratio, product_3, ratio_3, by_by_row_11, by_by_row_10, by_by_row_12,
+            by_by_row_9, by_by_row_length, by_by_g2, by_by_g0, gap, by_by_g1, by_by_g3, total_11,
+            by_by_norm_s_squared, by_by_norm_s, by_by_atan2_norm_s_abs_g0, by_by_t_ratio, near_chosen_3,
+            by_by_scale, gap_2, phi_product_4, gap_3, phi_product_5, gap_4, phi_product_6, ratio_4,
+            by_by_log_det_series, by_log_det, by_v1, by_v2, by_v0, by_t_over_norm_s_2, product_6, by_t_2, ratio_5,
+            product_7, by_log_det_near_2, total_14, by_g2_ratio_2, by_g0_ratio_2, by_g3_ratio_2, by_g1_ratio_2,
+            product_9; } kept[16];
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 19 * (size_t)near[i];
+        const vector x0 = X[0];
+        const vector x1 = X[1];
+        const vector x2 = X[2];
+        const vector x3 = X[3];
+        const vector x4 = X[4];
+        const vector x5 = X[5];
+        const vector x6 = X[6];
+        const vector x7 = X[7];
+        const vector x8 = X[8];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double mu2 = S[2];
+        const double mu3 = S[3];
+        const double mu4 = S[4];
+        const double mu5 = S[5];
+        const double mu6 = S[6];
+        const double mu7 = S[7];
+        const double mu8 = S[8];
+        const vector R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8;
+        const vector R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7;
+        const vector R0_0 = x0 * mu0 + x3 * mu3 + x6 * mu6;
+        const vector R0_0_total = 1.0 + R0_0;
+        const vector square0 = R2_2 + (R1_1 + R0_0_total);
+        const vector square1 = R0_0_total - R1_1 - R2_2;
+        const vector_mask is_less = square0 < square1;
+        const vector largest = vector_select(is_less, square1, square0);
+        const vector square2 = 1.0 + R1_1 - R0_0 - R2_2;
+        const vector_mask is_less_2 = largest < square2;
+        const vector largest_2 = vector_select(is_less_2, square2, largest);
+        const vector square3 = 1.0 + R2_2 - R0_0 - R1_1;
+        const vector_mask is_less_3 = largest_2 < square3;
+        const vector R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7;
+        const vector R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8;
+        const vector R1_2_total = R1_2 + R2_1;
+        const vector R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6;
+        const vector R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8;
+        const vector R0_2_total = R0_2 + R2_0;
+        const vector R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7;
+        const vector R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6;
+        const vector R1_0_gap = R1_0 - R0_1;
+        const vector row_4 = vector_select(is_less, R0_2_total, R1_0_gap);
+        const vector row_8 = vector_select(is_less_2, R1_2_total, row_4);
+        const vector row_12 = vector_select(is_less_3, square3, row_8);
+        const vector R0_1_total = R0_1 + R1_0;
+        const vector R2_1_gap = R2_1 - R1_2;
+        const vector row_2 = vector_select(is_less, square1, R2_1_gap);
+        const vector row_6 = vector_select(is_less_2, R0_1_total, row_2);
+        const vector row_10 = vector_select(is_less_3, R0_2_total, row_6);
+        const vector R0_2_gap = R0_2 - R2_0;
+        const vector row_3 = vector_select(is_less, R0_1_total, R0_2_gap);
+        const vector row_7 = vector_select(is_less_2, square2, row_3);
+        const vector row_11 = vector_select(is_less_3, R1_2_total, row_7);
+        const vector row = vector_select(is_less, R2_1_gap, square0);
+        const vector row_5 = vector_select(is_less_2, R0_2_gap, row);
+        const vector row_9 = vector_select(is_less_3, R1_0_gap, row_5);
+        const vector total_2 = row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9;
+        const vector row_length = sqrt_each(total_2);
+        kept[i].square0 = square0;
+        kept[i].square1 = square1;
+        kept[i].largest = largest;
+        kept[i].square2 = square2;
+        kept[i].largest_2 = largest_2;
+        kept[i].square3 = square3;
+        kept[i].row_12 = row_12;
+        kept[i].row_10 = row_10;
+        kept[i].row_11 = row_11;
+        kept[i].row_9 = row_9;
+        kept[i].total_2 = total_2;
+        kept[i].row_length = row_length;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector row_12 = kept[i].row_12;
+        const vector row_10 = kept[i].row_10;
+        const vector row_11 = kept[i].row_11;
+        const vector row_length = kept[i].row_length;
+        const vector g3 = row_12 / row_length;
+        const vector g1 = row_10 / row_length;
+        const vector g2 = row_11 / row_length;
+        kept[i].g3 = g3;
+        kept[i].g1 = g1;
+        kept[i].g2 = g2;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *slope_bar = points + 19 * (size_t)near[i] + 9 + 1;
+        const vector square0 = kept[i].square0;
+        const vector square1 = kept[i].square1;
+        const vector largest = kept[i].largest;
+        const vector square2 = kept[i].square2;
+        const vector largest_2 = kept[i].largest_2;
+        const vector square3 = kept[i].square3;
+        const vector row_12 = kept[i].row_12;
+        const vector row_10 = kept[i].row_10;
+        const vector row_11 = kept[i].row_11;
+        const vector row_9 = kept[i].row_9;
+        const vector total_2 = kept[i].total_2;
+        const vector row_length = kept[i].row_length;
+        const vector g3 = kept[i].g3;
+        const vector g1 = kept[i].g1;
+        const vector g2 = kept[i].g2;
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double mu2 = S[2];
+        const double mu3 = S[3];
+        const double mu4 = S[4];
+        const double mu5 = S[5];
+        const double mu6 = S[6];
+        const double mu7 = S[7];
+        const double mu8 = S[8];
+        const vector x0_bar = slope_bar[0];
+        const vector x1_bar = slope_bar[1];
+        const vector x2_bar = slope_bar[2];
+        const vector x3_bar = slope_bar[3];
+        const vector x4_bar = slope_bar[4];
+        const vector x5_bar = slope_bar[5];
+        const vector x6_bar = slope_bar[6];
+        const vector x7_bar = slope_bar[7];
+        const vector x8_bar = slope_bar[8];
+        const vector_mask is_less = square0 < square1;
+        const vector_mask is_less_2 = largest < square2;
+        const vector_mask is_less_3 = largest_2 < square3;
+        const vector norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+        const vector_mask its_near = norm_s_squared < 0.249287;
+        const vector g0 = row_9 / row_length;
+        const vector near_chosen_2 = vector_select(its_near, vector_of(1.0), norm_s_squared);
+        const vector norm_s = sqrt_each(near_chosen_2);
+        const vector_mask is_small_2 = total_2 == 0.0;
+        const vector product_3 = 2.0 * vector_select(is_small_2, vector_of(1.0), row_length);
+        const vector by_by_R0_2 = mu0 * x2_bar + mu3 * x5_bar + mu6 * x8_bar;
+        const vector by_by_R2_0 = mu2 * x0_bar + mu5 * x3_bar + mu8 * x6_bar;
+        const vector by_by_R0_2_gap = by_by_R0_2 - by_by_R2_0;
+        const vector by_by_R0_1 = mu0 * x1_bar + mu3 * x4_bar + mu6 * x7_bar;
+        const vector by_by_R1_0 = mu1 * x0_bar + mu4 * x3_bar + mu7 * x6_bar;
+        const vector by_by_R0_1_total = by_by_R0_1 + by_by_R1_0;
+        const vector by_by_row_3 = vector_select(is_less, vector_of(0.0), by_by_R0_2_gap) + vector_select(is_less,
+            by_by_R0_1_total, vector_of(0.0));
+        const vector by_by_R1_1 = mu1 * x1_bar + mu4 * x4_bar + mu7 * x7_bar;
+        const vector by_by_R0_0 = mu0 * x0_bar + mu3 * x3_bar + mu6 * x6_bar;
+        const vector by_by_R2_2 = mu2 * x2_bar + mu5 * x5_bar + mu8 * x8_bar;
+        const vector by_by_square2 = by_by_R1_1 - by_by_R0_0 - by_by_R2_2;
+        const vector by_by_row_7 = vector_select(is_less_2, vector_of(0.0), by_by_row_3) +
+            vector_select(is_less_2, by_by_square2, vector_of(0.0));
+        const vector by_by_R2_1 = mu2 * x1_bar + mu5 * x4_bar + mu8 * x7_bar;
+        const vector by_by_R1_2 = mu1 * x2_bar + mu4 * x5_bar + mu7 * x8_bar;
+        const vector by_by_R2_1_total = by_by_R2_1 + by_by_R1_2;
+        const vector by_by_row_11 = vector_select(is_less_3, vector_of(0.0), by_by_row_7) +
+            vector_select(is_less_3, by_by_R2_1_total, vector_of(0.0));
+        const vector by_by_R2_1_gap = by_by_R2_1 - by_by_R1_2;
+        const vector by_by_square1 = by_by_R0_0 - by_by_R1_1 - by_by_R2_2;
+        const vector by_by_row_2 = vector_select(is_less, vector_of(0.0), by_by_R2_1_gap) + vector_select(is_less,
+            by_by_square1, vector_of(0.0));
+        const vector by_by_row_6 = vector_select(is_less_2, vector_of(0.0), by_by_row_2) +
+            vector_select(is_less_2, by_by_R0_1_total, vector_of(0.0));
+        const vector by_by_R0_2_total = by_by_R0_2 + by_by_R2_0;
+        const vector by_by_row_10 = vector_select(is_less_3, vector_of(0.0), by_by_row_6) +
+            vector_select(is_less_3, by_by_R0_2_total, vector_of(0.0));
+        const vector by_by_R1_0_gap = by_by_R1_0 - by_by_R0_1;
+        const vector by_by_row_4 = vector_select(is_less, vector_of(0.0), by_by_R1_0_gap) + vector_select(is_less,
+            by_by_R0_2_total, vector_of(0.0));
+        const vector by_by_row_8 = vector_select(is_less_2, vector_of(0.0), by_by_row_4) +
+            vector_select(is_less_2, by_by_R2_1_total, vector_of(0.0));
+        const vector by_by_square3 = by_by_R2_2 - by_by_R1_1 - by_by_R0_0;
+        const vector by_by_row_12 = vector_select(is_less_3, vector_of(0.0), by_by_row_8) +
+            vector_select(is_less_3, by_by_square3, vector_of(0.0));
+        const vector by_by_square0 = by_by_R2_2 + (by_by_R1_1 + by_by_R0_0);
+        const vector by_by_row = vector_select(is_less, by_by_R2_1_gap, vector_of(0.0)) + vector_select(is_less,
+            vector_of(0.0), by_by_square0);
+        const vector by_by_row_5 = vector_select(is_less_2, vector_of(0.0), by_by_row) + vector_select(is_less_2,
+            by_by_R0_2_gap, vector_of(0.0));
+        const vector by_by_row_9 = vector_select(is_less_3, vector_of(0.0), by_by_row_5) +
+            vector_select(is_less_3, by_by_R1_0_gap, vector_of(0.0));
+        const vector product_5 = 2.0 * (row_10 * by_by_row_10 + row_11 * by_by_row_11 + row_12 * by_by_row_12 +
+            row_9 * by_by_row_9);
+        const vector by_by_row_length = vector_select(is_small_2, vector_of(0.0), product_5) / product_3;
+        kept[i].norm_s_squared = norm_s_squared;
+        kept[i].g0 = g0;
+        kept[i].near_chosen_2 = near_chosen_2;
+        kept[i].norm_s = norm_s;
+        kept[i].product_3 = product_3;
+        kept[i].by_by_row_11 = by_by_row_11;
+        kept[i].by_by_row_10 = by_by_row_10;
+        kept[i].by_by_row_12 = by_by_row_12;
+        kept[i].by_by_row_9 = by_by_row_9;
+        kept[i].by_by_row_length = by_by_row_length;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector row_length = kept[i].row_length;
+        const vector g3 = kept[i].g3;
+        const vector g1 = kept[i].g1;
+        const vector g2 = kept[i].g2;
+        const vector g0 = kept[i].g0;
+        const vector norm_s = kept[i].norm_s;
+        const vector by_by_row_11 = kept[i].by_by_row_11;
+        const vector by_by_row_10 = kept[i].by_by_row_10;
+        const vector by_by_row_12 = kept[i].by_by_row_12;
+        const vector by_by_row_length = kept[i].by_by_row_length;
+        const vector abs_g0 = abs_each(g0);
+        const vector atan2_norm_s_abs_g0 = atan2_each(norm_s, abs_g0);
+        const vector by_by_g2 = (by_by_row_11 - g2 * by_by_row_length) / row_length;
+        const vector by_by_g1 = (by_by_row_10 - g1 * by_by_row_length) / row_length;
+        const vector by_by_g3 = (by_by_row_12 - g3 * by_by_row_length) / row_length;
+        kept[i].abs_g0 = abs_g0;
+        kept[i].atan2_norm_s_abs_g0 = atan2_norm_s_abs_g0;
+        kept[i].by_by_g2 = by_by_g2;
+        kept[i].by_by_g1 = by_by_g1;
+        kept[i].by_by_g3 = by_by_g3;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector row_length = kept[i].row_length;
+        const vector g3 = kept[i].g3;
+        const vector g1 = kept[i].g1;
+        const vector g2 = kept[i].g2;
+        const vector norm_s_squared = kept[i].norm_s_squared;
+        const vector g0 = kept[i].g0;
+        const vector norm_s = kept[i].norm_s;
+        const vector atan2_norm_s_abs_g0 = kept[i].atan2_norm_s_abs_g0;
+        const vector by_by_row_9 = kept[i].by_by_row_9;
+        const vector by_by_row_length = kept[i].by_by_row_length;
+        const vector by_by_g2 = kept[i].by_by_g2;
+        const vector by_by_g1 = kept[i].by_by_g1;
+        const vector by_by_g3 = kept[i].by_by_g3;
+        const vector_mask its_near = norm_s_squared < 0.249287;
+        const vector t = 2.0 * atan2_norm_s_abs_g0;
+        const vector t_ratio = t / norm_s;
+        const vector norm_s_product = 2.0 * norm_s;
+        const vector by_by_g0 = (by_by_row_9 - g0 * by_by_row_length) / row_length;
+        const vector total_11 = g1 * by_by_g1 + g2 * by_by_g2 + g3 * by_by_g3;
+        const vector by_by_norm_s_squared = 2.0 * total_11;
+        const vector by_by_norm_s = vector_select(its_near, vector_of(0.0), by_by_norm_s_squared) /
+            norm_s_product;
+        kept[i].t_ratio = t_ratio;
+        kept[i].norm_s_product = norm_s_product;
+        kept[i].by_by_g0 = by_by_g0;
+        kept[i].total_11 = total_11;
+        kept[i].by_by_norm_s_squared = by_by_norm_s_squared;
+        kept[i].by_by_norm_s = by_by_norm_s;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector norm_s_squared = kept[i].norm_s_squared;
+        const vector g0 = kept[i].g0;
+        const vector abs_g0 = kept[i].abs_g0;
+        const vector near_chosen_2 = kept[i].near_chosen_2;
+        const vector norm_s = kept[i].norm_s;
+        const vector t_ratio = kept[i].t_ratio;
+        const vector by_by_g0 = kept[i].by_by_g0;
+        const vector by_by_norm_s = kept[i].by_by_norm_s;
+        const vector_mask its_near = norm_s_squared < 0.249287;
+        const vector_mask is_small = g0 < 0.0;
+        const vector near_chosen = vector_select(its_near, 4.011440628672975 * norm_s_squared, vector_of(0.0));
+        const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
+        const vector log_det_near = norm_s_squared * log_det_series;
+        const vector product = 0.5 * t_ratio;
+        const vector log_det = vector_select(its_near, log_det_near, 2.0 * log_each(product));
+        const vector total_6 = near_chosen_2 + abs_g0 * abs_g0;
+        const vector by_by_abs_g0 = vector_select(is_small, vector_of(0.0), by_by_g0);
+        const vector gap = vector_select(is_small, by_by_g0, vector_of(0.0)) - by_by_abs_g0;
+        const vector by_by_atan2_norm_s_abs_g0 = (norm_s * gap + abs_g0 * by_by_norm_s) / total_6;
+        kept[i].near_chosen = near_chosen;
+        kept[i].log_det_series = log_det_series;
+        kept[i].product = product;
+        kept[i].log_det = log_det;
+        kept[i].total_6 = total_6;
+        kept[i].gap = gap;
+        kept[i].by_by_atan2_norm_s_abs_g0 = by_by_atan2_norm_s_abs_g0;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector g3 = kept[i].g3;
+        const vector g1 = kept[i].g1;
+        const vector g2 = kept[i].g2;
+        const vector norm_s_squared = kept[i].norm_s_squared;
+        const vector g0 = kept[i].g0;
+        const vector near_chosen = kept[i].near_chosen;
+        const vector norm_s = kept[i].norm_s;
+        const vector t_ratio = kept[i].t_ratio;
+        const vector log_det = kept[i].log_det;
+        const vector by_by_norm_s = kept[i].by_by_norm_s;
+        const vector by_by_atan2_norm_s_abs_g0 = kept[i].by_by_atan2_norm_s_abs_g0;
+        const double W0_0 = S[9];
+        const double W0_1 = S[10];
+        const double W0_2 = S[11];
+        const double W1_0 = S[12];
+        const double W1_1 = S[13];
+        const double W1_2 = S[14];
+        const double W2_0 = S[15];
+        const double W2_1 = S[16];
+        const double W2_2 = S[17];
+        const vector_mask its_near = norm_s_squared < 0.249287;
+        const vector_mask is_small = g0 < 0.0;
+        const vector chosen = vector_select(is_small, vector_of(-1.0), vector_of(1.0));
+        const vector t_over_norm_s_near = vector_polynomial_t_over_norm_s_near(near_chosen);
+        const vector t_over_norm_s = vector_select(its_near, t_over_norm_s_near, t_ratio);
+        const vector scale = t_over_norm_s * chosen;
+        const vector v0 = g1 * scale;
+        const vector v1 = g2 * scale;
+        const vector v2 = g3 * scale;
+        const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+        const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+        const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
+        const vector log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
+        const vector phi = exp_each(log_det_gap);
+        const vector by_by_t = 2.0 * by_by_atan2_norm_s_abs_g0 - t_ratio * by_by_norm_s;
+        const vector by_by_t_ratio = by_by_t / norm_s;
+        kept[i].chosen = chosen;
+        kept[i].scale = scale;
+        kept[i].v0 = v0;
+        kept[i].v1 = v1;
+        kept[i].v2 = v2;
+        kept[i].z0 = z0;
+        kept[i].z1 = z1;
+        kept[i].z2 = z2;
+        kept[i].phi = phi;
+        kept[i].by_by_t_ratio = by_by_t_ratio;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector norm_s_squared = kept[i].norm_s_squared;
+        const vector product = kept[i].product;
+        const vector phi = kept[i].phi;
+        const vector by_by_t_ratio = kept[i].by_by_t_ratio;
+        const vector_mask its_near = norm_s_squared < 0.249287;
+        const vector ratio = 2.0 * vector_select(its_near, vector_of(0.0), phi) / product;
+        const vector ratio_4 = 0.5 * by_by_t_ratio / product;
+        kept[i].ratio = ratio;
+        kept[i].ratio_4 = ratio_4;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *value_bar = points + 19 * (size_t)near[i] + 9;
+        const vector g3 = kept[i].g3;
+        const vector g1 = kept[i].g1;
+        const vector g2 = kept[i].g2;
+        const vector norm_s_squared = kept[i].norm_s_squared;
+        const vector chosen = kept[i].chosen;
+        const vector near_chosen = kept[i].near_chosen;
+        const vector log_det_series = kept[i].log_det_series;
+        const vector norm_s = kept[i].norm_s;
+        const vector product = kept[i].product;
+        const vector scale = kept[i].scale;
+        const vector z0 = kept[i].z0;
+        const vector z1 = kept[i].z1;
+        const vector z2 = kept[i].z2;
+        const vector phi = kept[i].phi;
+        const vector ratio = kept[i].ratio;
+        const vector by_by_g2 = kept[i].by_by_g2;
+        const vector by_by_g1 = kept[i].by_by_g1;
+        const vector by_by_g3 = kept[i].by_by_g3;
+        const vector total_11 = kept[i].total_11;
+        const vector by_by_norm_s_squared = kept[i].by_by_norm_s_squared;
+        const vector by_by_t_ratio = kept[i].by_by_t_ratio;
+        const vector ratio_4 = kept[i].ratio_4;
+        const double W0_0 = S[9];
+        const double W0_1 = S[10];
+        const double W0_2 = S[11];
+        const double W1_0 = S[12];
+        const double W1_1 = S[13];
+        const double W1_2 = S[14];
+        const double W2_0 = S[15];
+        const double W2_1 = S[16];
+        const double W2_2 = S[17];
+        const vector its_value_bar = value_bar[0];
+        const vector_mask its_near = norm_s_squared < 0.249287;
+        const vector total_3 = W2_2 * z2 + (W1_2 * z1 + W0_2 * z0);
+        const vector phi_product = phi * total_3;
+        const vector total_4 = W2_1 * z2 + (W1_1 * z1 + W0_1 * z0);
+        const vector phi_product_2 = phi * total_4;
+        const vector total_5 = W2_0 * z2 + (W1_0 * z1 + W0_0 * z0);
+        const vector phi_product_3 = phi * total_5;
+        const vector by_scale = -(g3 * phi_product) - g2 * phi_product_2 - g1 * phi_product_3;
+        const vector by_t_over_norm_s = chosen * by_scale;
+        const vector by_t = (vector_select(its_near, vector_of(0.0), by_t_over_norm_s) + 0.5 * ratio) / norm_s;
+        const vector t_over_norm_s_near_slope = vector_polynomial_t_over_norm_s_near_slope(near_chosen);
+        const vector log_det_series_slope = vector_polynomial_log_det_series_slope(near_chosen);
+        const vector near_chosen_3 = vector_select(its_near, 8.02288125734595 * total_11, vector_of(0.0));
+        const vector by_by_t_over_norm_s_near = t_over_norm_s_near_slope * near_chosen_3;
+        const vector by_by_t_over_norm_s = vector_select(its_near, vector_of(0.0), by_by_t_ratio) +
+            vector_select(its_near, by_by_t_over_norm_s_near, vector_of(0.0));
+        const vector by_by_scale = chosen * by_by_t_over_norm_s;
+        const vector gap_2 = -(g1 * by_by_scale) - scale * by_by_g1;
+        const vector gap_3 = -(g2 * by_by_scale) - scale * by_by_g2;
+        const vector gap_4 = -(g3 * by_by_scale) - scale * by_by_g3;
+        const vector by_by_log_det_series = log_det_series_slope * near_chosen_3;
+        const vector by_by_log_det_near = norm_s_squared * by_by_log_det_series + log_det_series *
+            by_by_norm_s_squared;
+        const vector total_12 = its_value_bar + vector_select(its_near, vector_of(0.0), 2.0 * ratio_4) +
+            vector_select(its_near, by_by_log_det_near, vector_of(0.0)) + total_3 * gap_4;
+        const vector by_phi = total_12 + total_4 * gap_3 + total_5 * gap_2;
+        const vector by_log_det = phi * by_phi;
+        const vector product_6 = 0.5 * (2.0 * vector_select(its_near, vector_of(0.0), by_log_det) / product -
+            ratio * ratio_4);
+        kept[i].total_3 = total_3;
+        kept[i].phi_product = phi_product;
+        kept[i].total_4 = total_4;
+        kept[i].phi_product_2 = phi_product_2;
+        kept[i].total_5 = total_5;
+        kept[i].phi_product_3 = phi_product_3;
+        kept[i].by_t_over_norm_s = by_t_over_norm_s;
+        kept[i].by_t = by_t;
+        kept[i].t_over_norm_s_near_slope = t_over_norm_s_near_slope;
+        kept[i].log_det_series_slope = log_det_series_slope;
+        kept[i].near_chosen_3 = near_chosen_3;
+        kept[i].by_by_scale = by_by_scale;
+        kept[i].gap_2 = gap_2;
+        kept[i].gap_3 = gap_3;
+        kept[i].gap_4 = gap_4;
+        kept[i].by_by_log_det_series = by_by_log_det_series;
+        kept[i].by_log_det = by_log_det;
+        kept[i].product_6 = product_6;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector g3 = kept[i].g3;
+        const vector g1 = kept[i].g1;
+        const vector g2 = kept[i].g2;
+        const vector norm_s_squared = kept[i].norm_s_squared;
+        const vector chosen = kept[i].chosen;
+        const vector norm_s = kept[i].norm_s;
+        const vector phi = kept[i].phi;
+        const vector total_3 = kept[i].total_3;
+        const vector phi_product = kept[i].phi_product;
+        const vector total_4 = kept[i].total_4;
+        const vector phi_product_2 = kept[i].phi_product_2;
+        const vector total_5 = kept[i].total_5;
+        const vector phi_product_3 = kept[i].phi_product_3;
+        const vector by_t = kept[i].by_t;
+        const vector total_6 = kept[i].total_6;
+        const vector by_by_g2 = kept[i].by_by_g2;
+        const vector by_by_g1 = kept[i].by_by_g1;
+        const vector by_by_g3 = kept[i].by_by_g3;
+        const vector by_by_norm_s = kept[i].by_by_norm_s;
+        const vector gap_2 = kept[i].gap_2;
+        const vector gap_3 = kept[i].gap_3;
+        const vector gap_4 = kept[i].gap_4;
+        const vector by_log_det = kept[i].by_log_det;
+        const vector product_6 = kept[i].product_6;
+        const double M0_0 = S[19];
+        const double M0_1 = S[20];
+        const double M0_2 = S[21];
+        const double M1_1 = S[22];
+        const double M1_2 = S[23];
+        const double M2_2 = S[24];
+        const vector_mask its_near = norm_s_squared < 0.249287;
+        const vector by_atan2_norm_s_abs_g0 = 2.0 * by_t;
+        const vector ratio_2 = by_atan2_norm_s_abs_g0 / total_6;
+        const vector phi_product_4 = phi * gap_2;
+        const vector phi_product_5 = phi * gap_3;
+        const vector phi_product_6 = phi * gap_4;
+        const vector by_v1 = M0_1 * phi_product_4 + M1_1 * phi_product_5 + M1_2 * phi_product_6 - total_4 *
+            by_log_det;
+        const vector by_v2 = M0_2 * phi_product_4 + M1_2 * phi_product_5 + M2_2 * phi_product_6 - total_3 *
+            by_log_det;
+        const vector total_13 = -(phi_product_3 * by_by_g1) - phi_product_2 * by_by_g2 - phi_product * by_by_g3 +
+            g3 * by_v2;
+        const vector by_v0 = M0_0 * phi_product_4 + M0_1 * phi_product_5 + M0_2 * phi_product_6 - total_5 *
+            by_log_det;
+        const vector by_scale_2 = total_13 + g2 * by_v1 + g1 * by_v0;
+        const vector by_t_over_norm_s_2 = chosen * by_scale_2;
+        const vector by_t_2 = (vector_select(its_near, vector_of(0.0), by_t_over_norm_s_2) - by_t * by_by_norm_s +
+            product_6) / norm_s;
+        kept[i].ratio_2 = ratio_2;
+        kept[i].phi_product_4 = phi_product_4;
+        kept[i].phi_product_5 = phi_product_5;
+        kept[i].phi_product_6 = phi_product_6;
+        kept[i].by_v1 = by_v1;
+        kept[i].by_v2 = by_v2;
+        kept[i].by_v0 = by_v0;
+        kept[i].by_t_over_norm_s_2 = by_t_over_norm_s_2;
+        kept[i].by_t_2 = by_t_2;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector abs_g0 = kept[i].abs_g0;
+        const vector t_ratio = kept[i].t_ratio;
+        const vector by_t = kept[i].by_t;
+        const vector total_6 = kept[i].total_6;
+        const vector ratio_2 = kept[i].ratio_2;
+        const vector norm_s_product = kept[i].norm_s_product;
+        const vector by_t_2 = kept[i].by_t_2;
+        const vector by_norm_s = abs_g0 * ratio_2 - t_ratio * by_t;
+        const vector by_norm_s_ratio = by_norm_s / norm_s_product;
+        const vector by_atan2_norm_s_abs_g0_2 = 2.0 * by_t_2;
+        const vector ratio_5 = by_atan2_norm_s_abs_g0_2 / total_6;
+        kept[i].by_norm_s_ratio = by_norm_s_ratio;
+        kept[i].ratio_5 = ratio_5;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector row_length = kept[i].row_length;
+        const vector g3 = kept[i].g3;
+        const vector g1 = kept[i].g1;
+        const vector g2 = kept[i].g2;
+        const vector norm_s_squared = kept[i].norm_s_squared;
+        const vector g0 = kept[i].g0;
+        const vector abs_g0 = kept[i].abs_g0;
+        const vector log_det_series = kept[i].log_det_series;
+        const vector norm_s = kept[i].norm_s;
+        const vector t_ratio = kept[i].t_ratio;
+        const vector scale = kept[i].scale;
+        const vector phi = kept[i].phi;
+        const vector phi_product = kept[i].phi_product;
+        const vector phi_product_2 = kept[i].phi_product_2;
+        const vector phi_product_3 = kept[i].phi_product_3;
+        const vector by_t_over_norm_s = kept[i].by_t_over_norm_s;
+        const vector by_t = kept[i].by_t;
+        const vector ratio_2 = kept[i].ratio_2;
+        const vector norm_s_product = kept[i].norm_s_product;
+        const vector by_norm_s_ratio = kept[i].by_norm_s_ratio;
+        const vector t_over_norm_s_near_slope = kept[i].t_over_norm_s_near_slope;
+        const vector log_det_series_slope = kept[i].log_det_series_slope;
+        const vector gap = kept[i].gap;
+        const vector by_by_norm_s = kept[i].by_by_norm_s;
+        const vector by_by_atan2_norm_s_abs_g0 = kept[i].by_by_atan2_norm_s_abs_g0;
+        const vector by_by_t_ratio = kept[i].by_by_t_ratio;
+        const vector by_by_log_det_series = kept[i].by_by_log_det_series;
+        const vector by_log_det = kept[i].by_log_det;
+        const vector by_t_2 = kept[i].by_t_2;
+        const vector ratio_5 = kept[i].ratio_5;
+        const vector_mask its_near = norm_s_squared < 0.249287;
+        const vector_mask is_small = g0 < 0.0;
+        const vector by_log_det_near = vector_select(its_near, phi, vector_of(0.0));
+        const vector by_t_over_norm_s_near = vector_select(its_near, by_t_over_norm_s, vector_of(0.0));
+        const vector by_log_det_series = norm_s_squared * by_log_det_near;
+        const vector by_norm_s_squared = vector_select(its_near, vector_of(0.0), by_norm_s_ratio) + log_det_series
+            * by_log_det_near + 4.011440628672975 * vector_select(its_near, by_t_over_norm_s_near *
+            t_over_norm_s_near_slope + by_log_det_series * log_det_series_slope, vector_of(0.0));
+        const vector product_2 = 2.0 * by_norm_s_squared;
+        const vector by_g3 = g3 * product_2 - scale * phi_product;
+        const vector by_g3_ratio = by_g3 / row_length;
+        const vector norm_s_product_2 = norm_s * ratio_2;
+        const vector by_abs_g0 = -norm_s_product_2;
+        const vector by_g0 = vector_select(is_small, norm_s_product_2, by_abs_g0);
+        const vector by_g0_ratio = by_g0 / row_length;
+        const vector by_g2 = g2 * product_2 - scale * phi_product_2;
+        const vector by_g2_ratio = by_g2 / row_length;
+        const vector by_g1 = g1 * product_2 - scale * phi_product_3;
+        const vector by_g1_ratio = by_g1 / row_length;
+        const vector gap_5 = ratio_2 * gap - 2.0 * (by_norm_s_ratio * by_by_norm_s) - by_t * by_by_t_ratio -
+            t_ratio * by_t_2;
+        const vector by_norm_s_2 = gap_5 + abs_g0 * ratio_5;
+        const vector product_7 = ratio_2 * by_by_atan2_norm_s_abs_g0;
+        const vector by_log_det_near_2 = vector_select(its_near, by_log_det, vector_of(0.0));
+        const vector total_14 = by_log_det_near * by_by_log_det_series + vector_select(its_near, vector_of(0.0),
+            by_norm_s_2 / norm_s_product - product_7) + log_det_series * by_log_det_near_2;
+        kept[i].by_log_det_near = by_log_det_near;
+        kept[i].by_t_over_norm_s_near = by_t_over_norm_s_near;
+        kept[i].by_log_det_series = by_log_det_series;
+        kept[i].product_2 = product_2;
+        kept[i].by_g3_ratio = by_g3_ratio;
+        kept[i].by_g0_ratio = by_g0_ratio;
+        kept[i].by_g2_ratio = by_g2_ratio;
+        kept[i].by_g1_ratio = by_g1_ratio;
+        kept[i].product_7 = product_7;
+        kept[i].by_log_det_near_2 = by_log_det_near_2;
+        kept[i].total_14 = total_14;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector row_length = kept[i].row_length;
+        const vector g3 = kept[i].g3;
+        const vector g1 = kept[i].g1;
+        const vector g2 = kept[i].g2;
+        const vector norm_s_squared = kept[i].norm_s_squared;
+        const vector g0 = kept[i].g0;
+        const vector abs_g0 = kept[i].abs_g0;
+        const vector near_chosen = kept[i].near_chosen;
+        const vector norm_s = kept[i].norm_s;
+        const vector scale = kept[i].scale;
+        const vector phi_product = kept[i].phi_product;
+        const vector phi_product_2 = kept[i].phi_product_2;
+        const vector phi_product_3 = kept[i].phi_product_3;
+        const vector ratio_2 = kept[i].ratio_2;
+        const vector by_log_det_near = kept[i].by_log_det_near;
+        const vector by_t_over_norm_s_near = kept[i].by_t_over_norm_s_near;
+        const vector t_over_norm_s_near_slope = kept[i].t_over_norm_s_near_slope;
+        const vector by_log_det_series = kept[i].by_log_det_series;
+        const vector log_det_series_slope = kept[i].log_det_series_slope;
+        const vector product_2 = kept[i].product_2;
+        const vector by_g3_ratio = kept[i].by_g3_ratio;
+        const vector by_g0_ratio = kept[i].by_g0_ratio;
+        const vector by_g2_ratio = kept[i].by_g2_ratio;
+        const vector by_g1_ratio = kept[i].by_g1_ratio;
+        const vector product_3 = kept[i].product_3;
+        const vector by_by_row_length = kept[i].by_by_row_length;
+        const vector by_by_g2 = kept[i].by_by_g2;
+        const vector by_by_g1 = kept[i].by_by_g1;
+        const vector by_by_g3 = kept[i].by_by_g3;
+        const vector by_by_norm_s_squared = kept[i].by_by_norm_s_squared;
+        const vector by_by_norm_s = kept[i].by_by_norm_s;
+        const vector near_chosen_3 = kept[i].near_chosen_3;
+        const vector by_by_scale = kept[i].by_by_scale;
+        const vector by_v1 = kept[i].by_v1;
+        const vector by_v2 = kept[i].by_v2;
+        const vector by_v0 = kept[i].by_v0;
+        const vector by_t_over_norm_s_2 = kept[i].by_t_over_norm_s_2;
+        const vector ratio_5 = kept[i].ratio_5;
+        const vector product_7 = kept[i].product_7;
+        const vector by_log_det_near_2 = kept[i].by_log_det_near_2;
+        const vector total_14 = kept[i].total_14;
+        const vector_mask its_near = norm_s_squared < 0.249287;
+        const vector_mask is_small = g0 < 0.0;
+        const vector by_row_length = -(g0 * by_g0_ratio) - g3 * by_g3_ratio - g2 * by_g2_ratio - g1 * by_g1_ratio;
+        const vector ratio_3 = by_row_length / product_3;
+        const vector by_log_det_series_slope = by_log_det_series * near_chosen_3;
+        const vector log_det_series_slope_slope = vector_polynomial_log_det_series_slope_slope(near_chosen);
+        const vector by_t_over_norm_s_near_slope = by_t_over_norm_s_near * near_chosen_3;
+        const vector t_over_norm_s_near_slope_slope =
+            vector_polynomial_t_over_norm_s_near_slope_slope(near_chosen);
+        const vector by_t_over_norm_s_near_2 = vector_select(its_near, by_t_over_norm_s_2, vector_of(0.0));
+        const vector by_log_det_series_2 = by_log_det_near * by_by_norm_s_squared + norm_s_squared *
+            by_log_det_near_2;
+        const vector near_chosen_4 = vector_select(its_near, by_log_det_series_slope * log_det_series_slope_slope
+            + by_t_over_norm_s_near_slope * t_over_norm_s_near_slope_slope + t_over_norm_s_near_slope *
+            by_t_over_norm_s_near_2 + log_det_series_slope * by_log_det_series_2, vector_of(0.0));
+        const vector by_norm_s_squared_2 = total_14 + 4.011440628672975 * near_chosen_4;
+        const vector product_8 = 2.0 * by_norm_s_squared_2;
+        const vector by_g2_2 = product_2 * by_by_g2 - by_g2_ratio * by_by_row_length - phi_product_2 * by_by_scale
+            + scale * by_v1 + g2 * product_8;
+        const vector by_g2_ratio_2 = by_g2_2 / row_length;
+        const vector norm_s_product_3 = norm_s * ratio_5;
+        const vector gap_7 = ratio_2 * by_by_norm_s - abs_g0 * (2.0 * product_7);
+        const vector by_abs_g0_2 = gap_7 - norm_s_product_3;
+        const vector by_g0_2 = vector_select(is_small, norm_s_product_3 - gap_7, by_abs_g0_2) - by_g0_ratio *
+            by_by_row_length;
+        const vector by_g0_ratio_2 = by_g0_2 / row_length;
+        const vector by_g3_2 = product_2 * by_by_g3 - by_g3_ratio * by_by_row_length - phi_product * by_by_scale +
+            scale * by_v2 + g3 * product_8;
+        const vector by_g3_ratio_2 = by_g3_2 / row_length;
+        const vector by_g1_2 = product_2 * by_by_g1 - by_g1_ratio * by_by_row_length - phi_product_3 * by_by_scale
+            + scale * by_v0 + g1 * product_8;
+        const vector by_g1_ratio_2 = by_g1_2 / row_length;
+        kept[i].ratio_3 = ratio_3;
+        kept[i].by_g2_ratio_2 = by_g2_ratio_2;
+        kept[i].by_g0_ratio_2 = by_g0_ratio_2;
+        kept[i].by_g3_ratio_2 = by_g3_ratio_2;
+        kept[i].by_g1_ratio_2 = by_g1_ratio_2;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector total_2 = kept[i].total_2;
+        const vector g3 = kept[i].g3;
+        const vector g1 = kept[i].g1;
+        const vector g2 = kept[i].g2;
+        const vector g0 = kept[i].g0;
+        const vector by_g3_ratio = kept[i].by_g3_ratio;
+        const vector by_g0_ratio = kept[i].by_g0_ratio;
+        const vector by_g2_ratio = kept[i].by_g2_ratio;
+        const vector by_g1_ratio = kept[i].by_g1_ratio;
+        const vector product_3 = kept[i].product_3;
+        const vector ratio_3 = kept[i].ratio_3;
+        const vector by_by_row_length = kept[i].by_by_row_length;
+        const vector by_by_g2 = kept[i].by_by_g2;
+        const vector by_by_g0 = kept[i].by_by_g0;
+        const vector by_by_g1 = kept[i].by_by_g1;
+        const vector by_by_g3 = kept[i].by_by_g3;
+        const vector by_g2_ratio_2 = kept[i].by_g2_ratio_2;
+        const vector by_g0_ratio_2 = kept[i].by_g0_ratio_2;
+        const vector by_g3_ratio_2 = kept[i].by_g3_ratio_2;
+        const vector by_g1_ratio_2 = kept[i].by_g1_ratio_2;
+        const vector_mask is_small_2 = total_2 == 0.0;
+        const vector gap_6 = vector_select(is_small_2, vector_of(0.0), -2.0 * (ratio_3 * by_by_row_length)) -
+            by_g1_ratio * by_by_g1;
+        const vector gap_8 = gap_6 - by_g2_ratio * by_by_g2 - by_g3_ratio * by_by_g3 - by_g0_ratio * by_by_g0 - g0
+            * by_g0_ratio_2;
+        const vector by_row_length_2 = gap_8 - g3 * by_g3_ratio_2 - g2 * by_g2_ratio_2 - g1 * by_g1_ratio_2;
+        const vector product_9 = 2.0 * vector_select(is_small_2, vector_of(0.0), by_row_length_2 / product_3);
+        kept[i].product_9 = product_9;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 19 * (size_t)near[i];
+        const vector *slope_bar = points + 19 * (size_t)near[i] + 9 + 1;
+        const vector square0 = kept[i].square0;
+        const vector square1 = kept[i].square1;
+        const vector largest = kept[i].largest;
+        const vector square2 = kept[i].square2;
+        const vector largest_2 = kept[i].largest_2;
+        const vector square3 = kept[i].square3;
+        const vector row_12 = kept[i].row_12;
+        const vector row_10 = kept[i].row_10;
+        const vector row_11 = kept[i].row_11;
+        const vector row_9 = kept[i].row_9;
+        const vector total_2 = kept[i].total_2;
+        const vector v0 = kept[i].v0;
+        const vector v1 = kept[i].v1;
+        const vector v2 = kept[i].v2;
+        const vector by_g3_ratio = kept[i].by_g3_ratio;
+        const vector by_g0_ratio = kept[i].by_g0_ratio;
+        const vector by_g2_ratio = kept[i].by_g2_ratio;
+        const vector by_g1_ratio = kept[i].by_g1_ratio;
+        const vector ratio_3 = kept[i].ratio_3;
+        const vector by_by_row_11 = kept[i].by_by_row_11;
+        const vector by_by_row_10 = kept[i].by_by_row_10;
+        const vector by_by_row_12 = kept[i].by_by_row_12;
+        const vector by_by_row_9 = kept[i].by_by_row_9;
+        const vector phi_product_4 = kept[i].phi_product_4;
+        const vector phi_product_5 = kept[i].phi_product_5;
+        const vector phi_product_6 = kept[i].phi_product_6;
+        const vector by_log_det = kept[i].by_log_det;
+        const vector by_g2_ratio_2 = kept[i].by_g2_ratio_2;
+        const vector by_g0_ratio_2 = kept[i].by_g0_ratio_2;
+        const vector by_g3_ratio_2 = kept[i].by_g3_ratio_2;
+        const vector by_g1_ratio_2 = kept[i].by_g1_ratio_2;
+        const vector product_9 = kept[i].product_9;
+        const vector x0 = X[0];
+        const vector x1 = X[1];
+        const vector x2 = X[2];
+        const vector x3 = X[3];
+        const vector x4 = X[4];
+        const vector x5 = X[5];
+        const vector x6 = X[6];
+        const vector x7 = X[7];
+        const vector x8 = X[8];
+        const vector x0_bar = slope_bar[0];
+        const vector x1_bar = slope_bar[1];
+        const vector x2_bar = slope_bar[2];
+        const vector x3_bar = slope_bar[3];
+        const vector x4_bar = slope_bar[4];
+        const vector x5_bar = slope_bar[5];
+        const vector x6_bar = slope_bar[6];
+        const vector x7_bar = slope_bar[7];
+        const vector x8_bar = slope_bar[8];
+        const vector_mask is_less = square0 < square1;
+        const vector_mask is_less_2 = largest < square2;
+        const vector_mask is_less_3 = largest_2 < square3;
+        const vector_mask is_small_2 = total_2 == 0.0;
+        const vector product_4 = 2.0 * vector_select(is_small_2, vector_of(0.0), ratio_3);
+        const vector by_row_12 = by_g3_ratio + row_12 * product_4;
+        const vector by_square3 = vector_select(is_less_3, by_row_12, vector_of(0.0));
+        const vector by_row_11 = by_g2_ratio + row_11 * product_4;
+        const vector by_row_7 = vector_select(is_less_3, vector_of(0.0), by_row_11);
+        const vector by_square2 = vector_select(is_less_2, by_row_7, vector_of(0.0));
+        const vector by_row_9 = by_g0_ratio + row_9 * product_4;
+        const vector by_row_5 = vector_select(is_less_3, vector_of(0.0), by_row_9);
+        const vector by_row = vector_select(is_less_2, vector_of(0.0), by_row_5);
+        const vector by_square0 = vector_select(is_less, vector_of(0.0), by_row);
+        const vector by_row_10 = by_g1_ratio + row_10 * product_4;
+        const vector by_row_6 = vector_select(is_less_3, vector_of(0.0), by_row_10);
+        const vector by_row_2 = vector_select(is_less_2, vector_of(0.0), by_row_6);
+        const vector by_square1 = vector_select(is_less, by_row_2, vector_of(0.0));
+        const vector by_R0_0 = -by_square3 - by_square2 + (by_square0 + by_square1);
+        const vector by_row_3 = vector_select(is_less_2, vector_of(0.0), by_row_7);
+        const vector total_7 = vector_select(is_less_2, by_row_5, vector_of(0.0)) + vector_select(is_less,
+            vector_of(0.0), by_row_3);
+        const vector by_row_8 = vector_select(is_less_3, vector_of(0.0), by_row_12);
+        const vector by_row_4 = vector_select(is_less_2, vector_of(0.0), by_row_8);
+        const vector total_8 = vector_select(is_less, by_row_4, vector_of(0.0)) + vector_select(is_less_3,
+            by_row_10, vector_of(0.0));
+        const vector by_R0_2 = total_7 + total_8;
+        const vector total_9 = vector_select(is_less, by_row_3, vector_of(0.0)) + vector_select(is_less_2,
+            by_row_6, vector_of(0.0));
+        const vector total_10 = vector_select(is_less_3, by_row_9, vector_of(0.0)) + vector_select(is_less,
+            vector_of(0.0), by_row_4);
+        const vector by_R0_1 = total_9 - total_10;
+        const vector by_row_11_2 = product_4 * by_by_row_11 + by_g2_ratio_2 + row_11 * product_9;
+        const vector by_row_7_2 = vector_select(is_less_3, vector_of(0.0), by_row_11_2);
+        const vector by_row_3_2 = vector_select(is_less_2, vector_of(0.0), by_row_7_2);
+        const vector by_row_10_2 = product_4 * by_by_row_10 + by_g1_ratio_2 + row_10 * product_9;
+        const vector by_row_6_2 = vector_select(is_less_3, vector_of(0.0), by_row_10_2);
+        const vector total_15 = vector_select(is_less, by_row_3_2, vector_of(0.0)) + vector_select(is_less_2,
+            by_row_6_2, vector_of(0.0));
+        const vector by_row_9_2 = product_4 * by_by_row_9 + by_g0_ratio_2 + row_9 * product_9;
+        const vector by_row_12_2 = product_4 * by_by_row_12 + by_g3_ratio_2 + row_12 * product_9;
+        const vector by_row_8_2 = vector_select(is_less_3, vector_of(0.0), by_row_12_2);
+        const vector by_row_4_2 = vector_select(is_less_2, vector_of(0.0), by_row_8_2);
+        const vector total_16 = vector_select(is_less_3, by_row_9_2, vector_of(0.0)) + vector_select(is_less,
+            vector_of(0.0), by_row_4_2);
+        const vector by_R0_1_2 = total_15 - total_16;
+        const vector by_row_5_2 = vector_select(is_less_3, vector_of(0.0), by_row_9_2);
+        const vector total_17 = vector_select(is_less_2, by_row_5_2, vector_of(0.0)) + vector_select(is_less,
+            vector_of(0.0), by_row_3_2);
+        const vector total_18 = vector_select(is_less, by_row_4_2, vector_of(0.0)) + vector_select(is_less_3,
+            by_row_10_2, vector_of(0.0));
+        const vector by_R0_2_2 = total_17 + total_18;
+        const vector by_square3_2 = vector_select(is_less_3, by_row_12_2, vector_of(0.0));
+        const vector by_square2_2 = vector_select(is_less_2, by_row_7_2, vector_of(0.0));
+        const vector by_row_13 = vector_select(is_less_2, vector_of(0.0), by_row_5_2);
+        const vector by_square0_2 = vector_select(is_less, vector_of(0.0), by_row_13);
+        const vector by_row_2_2 = vector_select(is_less_2, vector_of(0.0), by_row_6_2);
+        const vector by_square1_2 = vector_select(is_less, by_row_2_2, vector_of(0.0));
+        const vector by_R0_0_2 = -by_square3_2 - by_square2_2 + (by_square0_2 + by_square1_2);
+        const vector by_R1_1 = by_square0 + (by_square2 - by_square3 - by_square1);
+        const vector by_R1_0 = total_10 + total_9;
+        const vector total_20 = vector_select(is_less_2, by_row_8, vector_of(0.0)) + vector_select(is_less_3,
+            by_row_11, vector_of(0.0));
+        const vector total_21 = vector_select(is_less, by_row, vector_of(0.0)) + vector_select(is_less,
+            vector_of(0.0), by_row_2);
+        const vector by_R1_2 = total_20 - total_21;
+        const vector total_22 = vector_select(is_less_2, by_row_8_2, vector_of(0.0)) + vector_select(is_less_3,
+            by_row_11_2, vector_of(0.0));
+        const vector total_23 = vector_select(is_less, by_row_13, vector_of(0.0)) + vector_select(is_less,
+            vector_of(0.0), by_row_2_2);
+        const vector by_R1_2_2 = total_22 - total_23;
+        const vector by_R1_0_2 = total_16 + total_15;
+        const vector by_R1_1_2 = by_square0_2 + (by_square2_2 - by_square3_2 - by_square1_2);
+        const vector by_R2_2 = by_square0 + (by_square3 - by_square2 - by_square1);
+        const vector by_R2_0 = total_8 - total_7;
+        const vector by_R2_1 = total_20 + total_21;
+        const vector by_R2_1_2 = total_22 + total_23;
+        const vector by_R2_0_2 = total_18 - total_17;
+        const vector by_R2_2_2 = by_square0_2 + (by_square3_2 - by_square2_2 - by_square1_2);
+        const vector by_log_det_product = 0.5 * by_log_det;
+        const vector gap_9 = phi_product_4 - v0 * by_log_det_product;
+        const vector gap_10 = phi_product_5 - v1 * by_log_det_product;
+        const vector gap_11 = phi_product_6 - v2 * by_log_det_product;
+        sums[0] = sums[0] + by_R0_0 * x0_bar + by_R0_2 * x2_bar + by_R0_1 * x1_bar + x1 * by_R0_1_2 + x2 *
+                by_R0_2_2 + x0 * by_R0_0_2;
+        sums[1] = sums[1] + by_R1_1 * x1_bar + by_R1_0 * x0_bar + by_R1_2 * x2_bar + x2 * by_R1_2_2 + x0 *
+                by_R1_0_2 + x1 * by_R1_1_2;
+        sums[2] = sums[2] + by_R2_2 * x2_bar + by_R2_0 * x0_bar + by_R2_1 * x1_bar + x1 * by_R2_1_2 + x0 *
+                by_R2_0_2 + x2 * by_R2_2_2;
+        sums[3] = sums[3] + by_R0_0 * x3_bar + by_R0_2 * x5_bar + by_R0_1 * x4_bar + x4 * by_R0_1_2 + x5 *
+                by_R0_2_2 + x3 * by_R0_0_2;
+        sums[4] = sums[4] + by_R1_1 * x4_bar + by_R1_0 * x3_bar + by_R1_2 * x5_bar + x5 * by_R1_2_2 + x3 *
+                by_R1_0_2 + x4 * by_R1_1_2;
+        sums[5] = sums[5] + by_R2_2 * x5_bar + by_R2_0 * x3_bar + by_R2_1 * x4_bar + x4 * by_R2_1_2 + x3 *
+                by_R2_0_2 + x5 * by_R2_2_2;
+        sums[6] = sums[6] + by_R0_0 * x6_bar + by_R0_2 * x8_bar + by_R0_1 * x7_bar + x7 * by_R0_1_2 + x8 *
+                by_R0_2_2 + x6 * by_R0_0_2;
+        sums[7] = sums[7] + by_R1_1 * x7_bar + by_R1_0 * x6_bar + by_R1_2 * x8_bar + x8 * by_R1_2_2 + x6 *
+                by_R1_0_2 + x7 * by_R1_1_2;
+        sums[8] = sums[8] + by_R2_2 * x8_bar + by_R2_0 * x6_bar + by_R2_1 * x7_bar + x7 * by_R2_1_2 + x6 *
+                by_R2_0_2 + x8 * by_R2_2_2;
+        sums[9] = sums[9] + by_log_det;
+        sums[10] = sums[10] + v0 * gap_9;
+        sums[11] = sums[11] + v0 * gap_10 + v1 * gap_9;
+        sums[12] = sums[12] + v0 * gap_11 + v2 * gap_9;
+        sums[13] = sums[13] + v1 * gap_10;
+        sums[14] = sums[14] + v1 * gap_11 + v2 * gap_10;
+        sums[15] = sums[15] + v2 * gap_11;
+    }
+}
+
 /* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp(
     const vector *mu, const vector *W, const vector *amplitude, const vector *sums, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
@@ -713,404 +1881,6 @@ OUTLINE void pair_constants_vjp(
     W_bar[7] = its_amplitude * (W2_0 * sum11 + W2_1 * product_2 + W2_2 * sum14);
     W_bar[8] = its_amplitude * (W2_0 * sum12 + W2_1 * sum14 + W2_2 * product_3);
     amplitude_bar[0] = sum9;
-}
-
-/*
- * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
- *
- * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
- */
-OUTLINE void pair_backward(
-    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector x2 = X[2];
-    const vector x3 = X[3];
-    const vector x4 = X[4];
-    const vector x5 = X[5];
-    const vector x6 = X[6];
-    const vector x7 = X[7];
-    const vector x8 = X[8];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double mu2 = S[2];
-    const double mu3 = S[3];
-    const double mu4 = S[4];
-    const double mu5 = S[5];
-    const double mu6 = S[6];
-    const double mu7 = S[7];
-    const double mu8 = S[8];
-    const double W0_0 = S[9];
-    const double W0_1 = S[10];
-    const double W0_2 = S[11];
-    const double W1_0 = S[12];
-    const double W1_1 = S[13];
-    const double W1_2 = S[14];
-    const double W2_0 = S[15];
-    const double W2_1 = S[16];
-    const double W2_2 = S[17];
-    const double M0_0 = S[19];
-    const double M0_1 = S[20];
-    const double M0_2 = S[21];
-    const double M1_1 = S[22];
-    const double M1_2 = S[23];
-    const double M2_2 = S[24];
-    const vector its_value_bar = value_bar[0];
-    const vector x0_bar = slope_bar[0];
-    const vector x1_bar = slope_bar[1];
-    const vector x2_bar = slope_bar[2];
-    const vector x3_bar = slope_bar[3];
-    const vector x4_bar = slope_bar[4];
-    const vector x5_bar = slope_bar[5];
-    const vector x6_bar = slope_bar[6];
-    const vector x7_bar = slope_bar[7];
-    const vector x8_bar = slope_bar[8];
-    const vector R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8;
-    const vector R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7;
-    const vector R0_0 = x0 * mu0 + x3 * mu3 + x6 * mu6;
-    const vector R0_0_total = 1.0 + R0_0;
-    const vector square0 = R2_2 + (R1_1 + R0_0_total);
-    const vector square1 = R0_0_total - R1_1 - R2_2;
-    const vector_mask is_less = square0 < square1;
-    const vector largest = vector_select(is_less, square1, square0);
-    const vector square2 = 1.0 + R1_1 - R0_0 - R2_2;
-    const vector_mask is_less_2 = largest < square2;
-    const vector largest_2 = vector_select(is_less_2, square2, largest);
-    const vector square3 = 1.0 + R2_2 - R0_0 - R1_1;
-    const vector_mask is_less_3 = largest_2 < square3;
-    const vector R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7;
-    const vector R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8;
-    const vector R1_2_total = R1_2 + R2_1;
-    const vector R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6;
-    const vector R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8;
-    const vector R0_2_total = R0_2 + R2_0;
-    const vector R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7;
-    const vector R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6;
-    const vector R1_0_gap = R1_0 - R0_1;
-    const vector row_4 = vector_select(is_less, R0_2_total, R1_0_gap);
-    const vector row_8 = vector_select(is_less_2, R1_2_total, row_4);
-    const vector row_12 = vector_select(is_less_3, square3, row_8);
-    const vector R0_1_total = R0_1 + R1_0;
-    const vector R2_1_gap = R2_1 - R1_2;
-    const vector row_2 = vector_select(is_less, square1, R2_1_gap);
-    const vector row_6 = vector_select(is_less_2, R0_1_total, row_2);
-    const vector row_10 = vector_select(is_less_3, R0_2_total, row_6);
-    const vector R0_2_gap = R0_2 - R2_0;
-    const vector row_3 = vector_select(is_less, R0_1_total, R0_2_gap);
-    const vector row_7 = vector_select(is_less_2, square2, row_3);
-    const vector row_11 = vector_select(is_less_3, R1_2_total, row_7);
-    const vector row = vector_select(is_less, R2_1_gap, square0);
-    const vector row_5 = vector_select(is_less_2, R0_2_gap, row);
-    const vector row_9 = vector_select(is_less_3, R1_0_gap, row_5);
-    const vector total_2 = row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9;
-    const vector row_length = sqrt_each(total_2);
-    const vector g3 = row_12 / row_length;
-    const vector g1 = row_10 / row_length;
-    const vector g2 = row_11 / row_length;
-    const vector norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
-    const vector_mask near = norm_s_squared < 0.249287;
-    const vector g0 = row_9 / row_length;
-    const vector abs_g0 = abs_each(g0);
-    const vector_mask is_small = g0 < 0.0;
-    const vector chosen = vector_select(is_small, vector_of(-1.0), vector_of(1.0));
-    const vector near_chosen = vector_select(near, 4.011440628672975 * norm_s_squared, vector_of(0.0));
-    const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
-    const vector log_det_near = norm_s_squared * log_det_series;
-    const vector near_chosen_2 = vector_select(near, vector_of(1.0), norm_s_squared);
-    const vector norm_s = sqrt_each(near_chosen_2);
-    const vector atan2_norm_s_abs_g0 = atan2_each(norm_s, abs_g0);
-    const vector t = 2.0 * atan2_norm_s_abs_g0;
-    const vector t_ratio = t / norm_s;
-    const vector product = 0.5 * t_ratio;
-    const vector log_det = vector_select(near, log_det_near, 2.0 * log_each(product));
-    const vector t_over_norm_s_near = vector_polynomial_t_over_norm_s_near(near_chosen);
-    const vector t_over_norm_s = vector_select(near, t_over_norm_s_near, t_ratio);
-    const vector scale = t_over_norm_s * chosen;
-    const vector v0 = g1 * scale;
-    const vector v1 = g2 * scale;
-    const vector v2 = g3 * scale;
-    const vector z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-    const vector z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-    const vector z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-    const vector log_det_gap = log_det - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector phi = exp_each(log_det_gap);
-    const vector total_3 = W2_2 * z2 + (W1_2 * z1 + W0_2 * z0);
-    const vector phi_product = phi * total_3;
-    const vector total_4 = W2_1 * z2 + (W1_1 * z1 + W0_1 * z0);
-    const vector phi_product_2 = phi * total_4;
-    const vector total_5 = W2_0 * z2 + (W1_0 * z1 + W0_0 * z0);
-    const vector phi_product_3 = phi * total_5;
-    const vector by_scale = -(g3 * phi_product) - g2 * phi_product_2 - g1 * phi_product_3;
-    const vector by_t_over_norm_s = chosen * by_scale;
-    const vector ratio = 2.0 * vector_select(near, vector_of(0.0), phi) / product;
-    const vector by_t = (vector_select(near, vector_of(0.0), by_t_over_norm_s) + 0.5 * ratio) / norm_s;
-    const vector by_atan2_norm_s_abs_g0 = 2.0 * by_t;
-    const vector total_6 = near_chosen_2 + abs_g0 * abs_g0;
-    const vector ratio_2 = by_atan2_norm_s_abs_g0 / total_6;
-    const vector by_norm_s = abs_g0 * ratio_2 - t_ratio * by_t;
-    const vector norm_s_product = 2.0 * norm_s;
-    const vector by_norm_s_ratio = by_norm_s / norm_s_product;
-    const vector by_log_det_near = vector_select(near, phi, vector_of(0.0));
-    const vector by_t_over_norm_s_near = vector_select(near, by_t_over_norm_s, vector_of(0.0));
-    const vector t_over_norm_s_near_slope = vector_polynomial_t_over_norm_s_near_slope(near_chosen);
-    const vector by_log_det_series = norm_s_squared * by_log_det_near;
-    const vector log_det_series_slope = vector_polynomial_log_det_series_slope(near_chosen);
-    const vector by_norm_s_squared = vector_select(near, vector_of(0.0), by_norm_s_ratio) + log_det_series *
-        by_log_det_near + 4.011440628672975 * vector_select(near, by_t_over_norm_s_near *
-        t_over_norm_s_near_slope + by_log_det_series * log_det_series_slope, vector_of(0.0));
-    const vector product_2 = 2.0 * by_norm_s_squared;
-    const vector by_g3 = g3 * product_2 - scale * phi_product;
-    const vector by_g3_ratio = by_g3 / row_length;
-    const vector_mask is_small_2 = total_2 == 0.0;
-    const vector norm_s_product_2 = norm_s * ratio_2;
-    const vector by_abs_g0 = -norm_s_product_2;
-    const vector by_g0 = vector_select(is_small, norm_s_product_2, by_abs_g0);
-    const vector by_g0_ratio = by_g0 / row_length;
-    const vector by_g2 = g2 * product_2 - scale * phi_product_2;
-    const vector by_g2_ratio = by_g2 / row_length;
-    const vector by_g1 = g1 * product_2 - scale * phi_product_3;
-    const vector by_g1_ratio = by_g1 / row_length;
-    const vector by_row_length = -(g0 * by_g0_ratio) - g3 * by_g3_ratio - g2 * by_g2_ratio - g1 * by_g1_ratio;
-    const vector product_3 = 2.0 * vector_select(is_small_2, vector_of(1.0), row_length);
-    const vector ratio_3 = by_row_length / product_3;
-    const vector product_4 = 2.0 * vector_select(is_small_2, vector_of(0.0), ratio_3);
-    const vector by_row_12 = by_g3_ratio + row_12 * product_4;
-    const vector by_square3 = vector_select(is_less_3, by_row_12, vector_of(0.0));
-    const vector by_row_11 = by_g2_ratio + row_11 * product_4;
-    const vector by_row_7 = vector_select(is_less_3, vector_of(0.0), by_row_11);
-    const vector by_square2 = vector_select(is_less_2, by_row_7, vector_of(0.0));
-    const vector by_row_9 = by_g0_ratio + row_9 * product_4;
-    const vector by_row_5 = vector_select(is_less_3, vector_of(0.0), by_row_9);
-    const vector by_row = vector_select(is_less_2, vector_of(0.0), by_row_5);
-    const vector by_square0 = vector_select(is_less, vector_of(0.0), by_row);
-    const vector by_row_10 = by_g1_ratio + row_10 * product_4;
-    const vector by_row_6 = vector_select(is_less_3, vector_of(0.0), by_row_10);
-    const vector by_row_2 = vector_select(is_less_2, vector_of(0.0), by_row_6);
-    const vector by_square1 = vector_select(is_less, by_row_2, vector_of(0.0));
-    const vector by_R0_0 = -by_square3 - by_square2 + (by_square0 + by_square1);
-    const vector by_row_3 = vector_select(is_less_2, vector_of(0.0), by_row_7);
-    const vector total_7 = vector_select(is_less_2, by_row_5, vector_of(0.0)) + vector_select(is_less,
-        vector_of(0.0), by_row_3);
-    const vector by_row_8 = vector_select(is_less_3, vector_of(0.0), by_row_12);
-    const vector by_row_4 = vector_select(is_less_2, vector_of(0.0), by_row_8);
-    const vector total_8 = vector_select(is_less, by_row_4, vector_of(0.0)) + vector_select(is_less_3,
-        by_row_10, vector_of(0.0));
-    const vector by_R0_2 = total_7 + total_8;
-    const vector total_9 = vector_select(is_less, by_row_3, vector_of(0.0)) + vector_select(is_less_2,
-        by_row_6, vector_of(0.0));
-    const vector total_10 = vector_select(is_less_3, by_row_9, vector_of(0.0)) + vector_select(is_less,
-        vector_of(0.0), by_row_4);
-    const vector by_R0_1 = total_9 - total_10;
-    const vector by_by_R0_2 = mu0 * x2_bar + mu3 * x5_bar + mu6 * x8_bar;
-    const vector by_by_R2_0 = mu2 * x0_bar + mu5 * x3_bar + mu8 * x6_bar;
-    const vector by_by_R0_2_gap = by_by_R0_2 - by_by_R2_0;
-    const vector by_by_R0_1 = mu0 * x1_bar + mu3 * x4_bar + mu6 * x7_bar;
-    const vector by_by_R1_0 = mu1 * x0_bar + mu4 * x3_bar + mu7 * x6_bar;
-    const vector by_by_R0_1_total = by_by_R0_1 + by_by_R1_0;
-    const vector by_by_row_3 = vector_select(is_less, vector_of(0.0), by_by_R0_2_gap) + vector_select(is_less,
-        by_by_R0_1_total, vector_of(0.0));
-    const vector by_by_R1_1 = mu1 * x1_bar + mu4 * x4_bar + mu7 * x7_bar;
-    const vector by_by_R0_0 = mu0 * x0_bar + mu3 * x3_bar + mu6 * x6_bar;
-    const vector by_by_R2_2 = mu2 * x2_bar + mu5 * x5_bar + mu8 * x8_bar;
-    const vector by_by_square2 = by_by_R1_1 - by_by_R0_0 - by_by_R2_2;
-    const vector by_by_row_7 = vector_select(is_less_2, vector_of(0.0), by_by_row_3) +
-        vector_select(is_less_2, by_by_square2, vector_of(0.0));
-    const vector by_by_R2_1 = mu2 * x1_bar + mu5 * x4_bar + mu8 * x7_bar;
-    const vector by_by_R1_2 = mu1 * x2_bar + mu4 * x5_bar + mu7 * x8_bar;
-    const vector by_by_R2_1_total = by_by_R2_1 + by_by_R1_2;
-    const vector by_by_row_11 = vector_select(is_less_3, vector_of(0.0), by_by_row_7) +
-        vector_select(is_less_3, by_by_R2_1_total, vector_of(0.0));
-    const vector by_by_R2_1_gap = by_by_R2_1 - by_by_R1_2;
-    const vector by_by_square1 = by_by_R0_0 - by_by_R1_1 - by_by_R2_2;
-    const vector by_by_row_2 = vector_select(is_less, vector_of(0.0), by_by_R2_1_gap) + vector_select(is_less,
-        by_by_square1, vector_of(0.0));
-    const vector by_by_row_6 = vector_select(is_less_2, vector_of(0.0), by_by_row_2) +
-        vector_select(is_less_2, by_by_R0_1_total, vector_of(0.0));
-    const vector by_by_R0_2_total = by_by_R0_2 + by_by_R2_0;
-    const vector by_by_row_10 = vector_select(is_less_3, vector_of(0.0), by_by_row_6) +
-        vector_select(is_less_3, by_by_R0_2_total, vector_of(0.0));
-    const vector by_by_R1_0_gap = by_by_R1_0 - by_by_R0_1;
-    const vector by_by_row_4 = vector_select(is_less, vector_of(0.0), by_by_R1_0_gap) + vector_select(is_less,
-        by_by_R0_2_total, vector_of(0.0));
-    const vector by_by_row_8 = vector_select(is_less_2, vector_of(0.0), by_by_row_4) +
-        vector_select(is_less_2, by_by_R2_1_total, vector_of(0.0));
-    const vector by_by_square3 = by_by_R2_2 - by_by_R1_1 - by_by_R0_0;
-    const vector by_by_row_12 = vector_select(is_less_3, vector_of(0.0), by_by_row_8) +
-        vector_select(is_less_3, by_by_square3, vector_of(0.0));
-    const vector by_by_square0 = by_by_R2_2 + (by_by_R1_1 + by_by_R0_0);
-    const vector by_by_row = vector_select(is_less, by_by_R2_1_gap, vector_of(0.0)) + vector_select(is_less,
-        vector_of(0.0), by_by_square0);
-    const vector by_by_row_5 = vector_select(is_less_2, vector_of(0.0), by_by_row) + vector_select(is_less_2,
-        by_by_R0_2_gap, vector_of(0.0));
-    const vector by_by_row_9 = vector_select(is_less_3, vector_of(0.0), by_by_row_5) +
-        vector_select(is_less_3, by_by_R1_0_gap, vector_of(0.0));
-    const vector product_5 = 2.0 * (row_10 * by_by_row_10 + row_11 * by_by_row_11 + row_12 * by_by_row_12 +
-        row_9 * by_by_row_9);
-    const vector by_by_row_length = vector_select(is_small_2, vector_of(0.0), product_5) / product_3;
-    const vector by_by_g2 = (by_by_row_11 - g2 * by_by_row_length) / row_length;
-    const vector by_by_g0 = (by_by_row_9 - g0 * by_by_row_length) / row_length;
-    const vector by_by_abs_g0 = vector_select(is_small, vector_of(0.0), by_by_g0);
-    const vector gap = vector_select(is_small, by_by_g0, vector_of(0.0)) - by_by_abs_g0;
-    const vector by_by_g1 = (by_by_row_10 - g1 * by_by_row_length) / row_length;
-    const vector by_by_g3 = (by_by_row_12 - g3 * by_by_row_length) / row_length;
-    const vector total_11 = g1 * by_by_g1 + g2 * by_by_g2 + g3 * by_by_g3;
-    const vector by_by_norm_s_squared = 2.0 * total_11;
-    const vector by_by_norm_s = vector_select(near, vector_of(0.0), by_by_norm_s_squared) / norm_s_product;
-    const vector by_by_atan2_norm_s_abs_g0 = (norm_s * gap + abs_g0 * by_by_norm_s) / total_6;
-    const vector by_by_t = 2.0 * by_by_atan2_norm_s_abs_g0 - t_ratio * by_by_norm_s;
-    const vector by_by_t_ratio = by_by_t / norm_s;
-    const vector near_chosen_3 = vector_select(near, 8.02288125734595 * total_11, vector_of(0.0));
-    const vector by_by_t_over_norm_s_near = t_over_norm_s_near_slope * near_chosen_3;
-    const vector by_by_t_over_norm_s = vector_select(near, vector_of(0.0), by_by_t_ratio) +
-        vector_select(near, by_by_t_over_norm_s_near, vector_of(0.0));
-    const vector by_by_scale = chosen * by_by_t_over_norm_s;
-    const vector gap_2 = -(g1 * by_by_scale) - scale * by_by_g1;
-    const vector phi_product_4 = phi * gap_2;
-    const vector gap_3 = -(g2 * by_by_scale) - scale * by_by_g2;
-    const vector phi_product_5 = phi * gap_3;
-    const vector gap_4 = -(g3 * by_by_scale) - scale * by_by_g3;
-    const vector phi_product_6 = phi * gap_4;
-    const vector ratio_4 = 0.5 * by_by_t_ratio / product;
-    const vector by_by_log_det_series = log_det_series_slope * near_chosen_3;
-    const vector by_by_log_det_near = norm_s_squared * by_by_log_det_series + log_det_series *
-        by_by_norm_s_squared;
-    const vector total_12 = its_value_bar + vector_select(near, vector_of(0.0), 2.0 * ratio_4) +
-        vector_select(near, by_by_log_det_near, vector_of(0.0)) + total_3 * gap_4;
-    const vector by_phi = total_12 + total_4 * gap_3 + total_5 * gap_2;
-    const vector by_log_det = phi * by_phi;
-    const vector by_v1 = M0_1 * phi_product_4 + M1_1 * phi_product_5 + M1_2 * phi_product_6 - total_4 *
-        by_log_det;
-    const vector by_v2 = M0_2 * phi_product_4 + M1_2 * phi_product_5 + M2_2 * phi_product_6 - total_3 *
-        by_log_det;
-    const vector total_13 = -(phi_product_3 * by_by_g1) - phi_product_2 * by_by_g2 - phi_product * by_by_g3 +
-        g3 * by_v2;
-    const vector by_v0 = M0_0 * phi_product_4 + M0_1 * phi_product_5 + M0_2 * phi_product_6 - total_5 *
-        by_log_det;
-    const vector by_scale_2 = total_13 + g2 * by_v1 + g1 * by_v0;
-    const vector by_t_over_norm_s_2 = chosen * by_scale_2;
-    const vector product_6 = 0.5 * (2.0 * vector_select(near, vector_of(0.0), by_log_det) / product - ratio *
-        ratio_4);
-    const vector by_t_2 = (vector_select(near, vector_of(0.0), by_t_over_norm_s_2) - by_t * by_by_norm_s +
-        product_6) / norm_s;
-    const vector gap_5 = ratio_2 * gap - 2.0 * (by_norm_s_ratio * by_by_norm_s) - by_t * by_by_t_ratio -
-        t_ratio * by_t_2;
-    const vector by_atan2_norm_s_abs_g0_2 = 2.0 * by_t_2;
-    const vector ratio_5 = by_atan2_norm_s_abs_g0_2 / total_6;
-    const vector by_norm_s_2 = gap_5 + abs_g0 * ratio_5;
-    const vector product_7 = ratio_2 * by_by_atan2_norm_s_abs_g0;
-    const vector by_log_det_near_2 = vector_select(near, by_log_det, vector_of(0.0));
-    const vector total_14 = by_log_det_near * by_by_log_det_series + vector_select(near, vector_of(0.0),
-        by_norm_s_2 / norm_s_product - product_7) + log_det_series * by_log_det_near_2;
-    const vector by_log_det_series_slope = by_log_det_series * near_chosen_3;
-    const vector log_det_series_slope_slope = vector_polynomial_log_det_series_slope_slope(near_chosen);
-    const vector by_t_over_norm_s_near_slope = by_t_over_norm_s_near * near_chosen_3;
-    const vector t_over_norm_s_near_slope_slope =
-        vector_polynomial_t_over_norm_s_near_slope_slope(near_chosen);
-    const vector by_t_over_norm_s_near_2 = vector_select(near, by_t_over_norm_s_2, vector_of(0.0));
-    const vector by_log_det_series_2 = by_log_det_near * by_by_norm_s_squared + norm_s_squared *
-        by_log_det_near_2;
-    const vector near_chosen_4 = vector_select(near, by_log_det_series_slope * log_det_series_slope_slope +
-        by_t_over_norm_s_near_slope * t_over_norm_s_near_slope_slope + t_over_norm_s_near_slope *
-        by_t_over_norm_s_near_2 + log_det_series_slope * by_log_det_series_2, vector_of(0.0));
-    const vector by_norm_s_squared_2 = total_14 + 4.011440628672975 * near_chosen_4;
-    const vector product_8 = 2.0 * by_norm_s_squared_2;
-    const vector by_g2_2 = product_2 * by_by_g2 - by_g2_ratio * by_by_row_length - phi_product_2 * by_by_scale
-        + scale * by_v1 + g2 * product_8;
-    const vector by_g2_ratio_2 = by_g2_2 / row_length;
-    const vector gap_6 = vector_select(is_small_2, vector_of(0.0), -2.0 * (ratio_3 * by_by_row_length)) -
-        by_g1_ratio * by_by_g1;
-    const vector norm_s_product_3 = norm_s * ratio_5;
-    const vector gap_7 = ratio_2 * by_by_norm_s - abs_g0 * (2.0 * product_7);
-    const vector by_abs_g0_2 = gap_7 - norm_s_product_3;
-    const vector by_g0_2 = vector_select(is_small, norm_s_product_3 - gap_7, by_abs_g0_2) - by_g0_ratio *
-        by_by_row_length;
-    const vector by_g0_ratio_2 = by_g0_2 / row_length;
-    const vector gap_8 = gap_6 - by_g2_ratio * by_by_g2 - by_g3_ratio * by_by_g3 - by_g0_ratio * by_by_g0 - g0
-        * by_g0_ratio_2;
-    const vector by_g3_2 = product_2 * by_by_g3 - by_g3_ratio * by_by_row_length - phi_product * by_by_scale +
-        scale * by_v2 + g3 * product_8;
-    const vector by_g3_ratio_2 = by_g3_2 / row_length;
-    const vector by_g1_2 = product_2 * by_by_g1 - by_g1_ratio * by_by_row_length - phi_product_3 * by_by_scale
-        + scale * by_v0 + g1 * product_8;
-    const vector by_g1_ratio_2 = by_g1_2 / row_length;
-    const vector by_row_length_2 = gap_8 - g3 * by_g3_ratio_2 - g2 * by_g2_ratio_2 - g1 * by_g1_ratio_2;
-    const vector product_9 = 2.0 * vector_select(is_small_2, vector_of(0.0), by_row_length_2 / product_3);
-    const vector by_row_11_2 = product_4 * by_by_row_11 + by_g2_ratio_2 + row_11 * product_9;
-    const vector by_row_7_2 = vector_select(is_less_3, vector_of(0.0), by_row_11_2);
-    const vector by_row_3_2 = vector_select(is_less_2, vector_of(0.0), by_row_7_2);
-    const vector by_row_10_2 = product_4 * by_by_row_10 + by_g1_ratio_2 + row_10 * product_9;
-    const vector by_row_6_2 = vector_select(is_less_3, vector_of(0.0), by_row_10_2);
-    const vector total_15 = vector_select(is_less, by_row_3_2, vector_of(0.0)) + vector_select(is_less_2,
-        by_row_6_2, vector_of(0.0));
-    const vector by_row_9_2 = product_4 * by_by_row_9 + by_g0_ratio_2 + row_9 * product_9;
-    const vector by_row_12_2 = product_4 * by_by_row_12 + by_g3_ratio_2 + row_12 * product_9;
-    const vector by_row_8_2 = vector_select(is_less_3, vector_of(0.0), by_row_12_2);
-    const vector by_row_4_2 = vector_select(is_less_2, vector_of(0.0), by_row_8_2);
-    const vector total_16 = vector_select(is_less_3, by_row_9_2, vector_of(0.0)) + vector_select(is_less,
-        vector_of(0.0), by_row_4_2);
-    const vector by_R0_1_2 = total_15 - total_16;
-    const vector by_row_5_2 = vector_select(is_less_3, vector_of(0.0), by_row_9_2);
-    const vector total_17 = vector_select(is_less_2, by_row_5_2, vector_of(0.0)) + vector_select(is_less,
-        vector_of(0.0), by_row_3_2);
-    const vector total_18 = vector_select(is_less, by_row_4_2, vector_of(0.0)) + vector_select(is_less_3,
-        by_row_10_2, vector_of(0.0));
-    const vector by_R0_2_2 = total_17 + total_18;
-    const vector by_square3_2 = vector_select(is_less_3, by_row_12_2, vector_of(0.0));
-    const vector by_square2_2 = vector_select(is_less_2, by_row_7_2, vector_of(0.0));
-    const vector by_row_13 = vector_select(is_less_2, vector_of(0.0), by_row_5_2);
-    const vector by_square0_2 = vector_select(is_less, vector_of(0.0), by_row_13);
-    const vector by_row_2_2 = vector_select(is_less_2, vector_of(0.0), by_row_6_2);
-    const vector by_square1_2 = vector_select(is_less, by_row_2_2, vector_of(0.0));
-    const vector by_R0_0_2 = -by_square3_2 - by_square2_2 + (by_square0_2 + by_square1_2);
-    const vector by_R1_1 = by_square0 + (by_square2 - by_square3 - by_square1);
-    const vector by_R1_0 = total_10 + total_9;
-    const vector total_20 = vector_select(is_less_2, by_row_8, vector_of(0.0)) + vector_select(is_less_3,
-        by_row_11, vector_of(0.0));
-    const vector total_21 = vector_select(is_less, by_row, vector_of(0.0)) + vector_select(is_less,
-        vector_of(0.0), by_row_2);
-    const vector by_R1_2 = total_20 - total_21;
-    const vector total_22 = vector_select(is_less_2, by_row_8_2, vector_of(0.0)) + vector_select(is_less_3,
-        by_row_11_2, vector_of(0.0));
-    const vector total_23 = vector_select(is_less, by_row_13, vector_of(0.0)) + vector_select(is_less,
-        vector_of(0.0), by_row_2_2);
-    const vector by_R1_2_2 = total_22 - total_23;
-    const vector by_R1_0_2 = total_16 + total_15;
-    const vector by_R1_1_2 = by_square0_2 + (by_square2_2 - by_square3_2 - by_square1_2);
-    const vector by_R2_2 = by_square0 + (by_square3 - by_square2 - by_square1);
-    const vector by_R2_0 = total_8 - total_7;
-    const vector by_R2_1 = total_20 + total_21;
-    const vector by_R2_1_2 = total_22 + total_23;
-    const vector by_R2_0_2 = total_18 - total_17;
-    const vector by_R2_2_2 = by_square0_2 + (by_square3_2 - by_square2_2 - by_square1_2);
-    const vector by_log_det_product = 0.5 * by_log_det;
-    const vector gap_9 = phi_product_4 - v0 * by_log_det_product;
-    const vector gap_10 = phi_product_5 - v1 * by_log_det_product;
-    const vector gap_11 = phi_product_6 - v2 * by_log_det_product;
-    sums[0] = sums[0] + by_R0_0 * x0_bar + by_R0_2 * x2_bar + by_R0_1 * x1_bar + x1 * by_R0_1_2 + x2 *
-            by_R0_2_2 + x0 * by_R0_0_2;
-    sums[1] = sums[1] + by_R1_1 * x1_bar + by_R1_0 * x0_bar + by_R1_2 * x2_bar + x2 * by_R1_2_2 + x0 *
-            by_R1_0_2 + x1 * by_R1_1_2;
-    sums[2] = sums[2] + by_R2_2 * x2_bar + by_R2_0 * x0_bar + by_R2_1 * x1_bar + x1 * by_R2_1_2 + x0 *
-            by_R2_0_2 + x2 * by_R2_2_2;
-    sums[3] = sums[3] + by_R0_0 * x3_bar + by_R0_2 * x5_bar + by_R0_1 * x4_bar + x4 * by_R0_1_2 + x5 *
-            by_R0_2_2 + x3 * by_R0_0_2;
-    sums[4] = sums[4] + by_R1_1 * x4_bar + by_R1_0 * x3_bar + by_R1_2 * x5_bar + x5 * by_R1_2_2 + x3 *
-            by_R1_0_2 + x4 * by_R1_1_2;
-    sums[5] = sums[5] + by_R2_2 * x5_bar + by_R2_0 * x3_bar + by_R2_1 * x4_bar + x4 * by_R2_1_2 + x3 *
-            by_R2_0_2 + x5 * by_R2_2_2;
-    sums[6] = sums[6] + by_R0_0 * x6_bar + by_R0_2 * x8_bar + by_R0_1 * x7_bar + x7 * by_R0_1_2 + x8 *
-            by_R0_2_2 + x6 * by_R0_0_2;
-    sums[7] = sums[7] + by_R1_1 * x7_bar + by_R1_0 * x6_bar + by_R1_2 * x8_bar + x8 * by_R1_2_2 + x6 *
-            by_R1_0_2 + x7 * by_R1_1_2;
-    sums[8] = sums[8] + by_R2_2 * x8_bar + by_R2_0 * x6_bar + by_R2_1 * x7_bar + x7 * by_R2_1_2 + x6 *
-            by_R2_0_2 + x8 * by_R2_2_2;
-    sums[9] = sums[9] + by_log_det;
-    sums[10] = sums[10] + v0 * gap_9;
-    sums[11] = sums[11] + v0 * gap_10 + v1 * gap_9;
-    sums[12] = sums[12] + v0 * gap_11 + v2 * gap_9;
-    sums[13] = sums[13] + v1 * gap_10;
-    sums[14] = sums[14] + v1 * gap_11 + v2 * gap_10;
-    sums[15] = sums[15] + v2 * gap_11;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -1202,7 +1972,7 @@ OUTLINE void splat_constants(
     vector_to_rows(S, constants, splat_count, start, 25, 25);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void so3_matrix_splats(
     size_t count, size_t splat_count, const double *SO3_MATRIX_RESTRICT x, const double *SO3_MATRIX_RESTRICT mu, const double *SO3_MATRIX_RESTRICT W, const double *SO3_MATRIX_RESTRICT amplitude, const double *SO3_MATRIX_RESTRICT width,
     double *SO3_MATRIX_RESTRICT value, double *SO3_MATRIX_RESTRICT gradient, double *SO3_MATRIX_RESTRICT work, int threads) {
@@ -1217,27 +1987,26 @@ void so3_matrix_splats(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[2][9], X[2][9], grad[3];
-            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][9] = {{ZERO}};
+            vector at[2][9], X[2 * 9], grad[3];
+            vector value_sum[2] = {ZERO}, slope_sum[2 * 9] = {ZERO};
             double place[9 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 9, at[b]);
-                pair_features(at[b], X[b]);
+                pair_features(at[b], X + 9 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 25 * near[i];
-                    pair_forward(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient(at[b], slope_sum[b], grad);
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                pair_gradient(at[b], slope_sum + 9 * b, grad);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
                 vector_to_rows(grad, gradient, count, start + b * LANES, 3, 3);
             }
         }
@@ -1259,25 +2028,24 @@ void so3_matrix_splats_value(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[9], X[2][9], value_sum[2][1] = {{ZERO}};
+            vector at[9], X[2 * 9], value_sum[2] = {ZERO};
             double place[9 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 9, at);
-                pair_features(at, X[b]);
+                pair_features(at, X + 9 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 25 * near[i];
-                    pair_value(X[0], S, value_sum[0]);
-                    pair_value(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -1296,19 +2064,11 @@ OUTLINE void splat_points(
     vector_end(count, start, 9 + 1, point + 9);
 }
 
-/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+/* Adds to sums what some vectors of points add to them, those in the list. */
 OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *sums) {
     vector sum[16] = {ZERO};
-    size_t b = 0;
-    for (; b + 1 < size; b += 2) {
-        const vector *point = points + 19 * (size_t)near[b], *other = points + 19 * (size_t)near[b + 1];
-        pair_backward(point, S, point + 9, point + 9 + 1, sum);
-        pair_backward(other, S, other + 9, other + 9 + 1, sum);
-    }
-    if (b < size) {
-        const vector *point = points + 19 * (size_t)near[b];
-        pair_backward(point, S, point + 9, point + 9 + 1, sum);
-    }
+    for (size_t b = 0; b < size; b += 16)
+        pair_backward(size - b < 16 ? size - b : 16, points, near + b, S, sum);
     sums[0] += vector_sum(sum[0]);
     sums[1] += vector_sum(sum[1]);
     sums[2] += vector_sum(sum[2]);
@@ -1396,6 +2156,7 @@ void so3_matrix_splats_rows(
     double *SO3_MATRIX_RESTRICT rows, double *SO3_MATRIX_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES - 1) / LANES;
+    const uint32_t only = 0;
     double *constants = work_constants(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -1412,7 +2173,7 @@ void so3_matrix_splats_rows(
                 for (int i = 0; i < 9; ++i) own_mu[i] = vector_of(mu[9 * k + i]);
                 for (int i = 0; i < 9; ++i) own_W[i] = vector_of(W[9 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 25 * k, point + 9, point + 9 + 1, own_sums);
+                pair_backward(1, point, &only, constants + 25 * k, own_sums);
                 pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 9, bars + 9 + 9);
                 vector_to_rows(bars, rows + 19 * k, count, block * LANES, 19, 19 * splat_count);
             }
@@ -1440,9 +2201,14 @@ INLINE vector_f vector_of_f(float x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector_f vector_select_f(vector_mask_f mask, vector_f x, vector_f y) {
-    return SELECT(vector_f, vector_mask_f, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector_f)((mask & (vector_mask_f)x) | (~mask & (vector_mask_f)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -1481,13 +2247,13 @@ INLINE vector_f signed_each_f(vector_f x, vector_f sign) {
 
 /* abs of every lane; one instruction where the machine has it. */
 INLINE vector_f abs_each_f(vector_f x) {
-    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
     return x;
 }
 
 /* sqrt of every lane; one instruction where the machine has it. */
 INLINE vector_f sqrt_each_f(vector_f x) {
-    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
     return x;
 }
 
@@ -1656,297 +2422,607 @@ OUTLINE void pair_constants_f(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_value_f(
-    const vector_f *X, const float *S, vector_f *value) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f x2 = X[2];
-    const vector_f x3 = X[3];
-    const vector_f x4 = X[4];
-    const vector_f x5 = X[5];
-    const vector_f x6 = X[6];
-    const vector_f x7 = X[7];
-    const vector_f x8 = X[8];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float mu2 = S[2];
-    const float mu3 = S[3];
-    const float mu4 = S[4];
-    const float mu5 = S[5];
-    const float mu6 = S[6];
-    const float mu7 = S[7];
-    const float mu8 = S[8];
-    const float W0_0 = S[9];
-    const float W0_1 = S[10];
-    const float W0_2 = S[11];
-    const float W1_0 = S[12];
-    const float W1_1 = S[13];
-    const float W1_2 = S[14];
-    const float W2_0 = S[15];
-    const float W2_1 = S[16];
-    const float W2_2 = S[17];
-    const float amplitude = S[18];
-    const vector_f R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8;
-    const vector_f R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7;
-    const vector_f R0_0 = x0 * mu0 + x3 * mu3 + x6 * mu6;
-    const vector_f R0_0_total = 1.0f + R0_0;
-    const vector_f square0 = R2_2 + (R1_1 + R0_0_total);
-    const vector_f square1 = R0_0_total - R1_1 - R2_2;
-    const vector_mask_f is_less = square0 < square1;
-    const vector_f largest = vector_select_f(is_less, square1, square0);
-    const vector_f square2 = 1.0f + R1_1 - R0_0 - R2_2;
-    const vector_mask_f is_less_2 = largest < square2;
-    const vector_f largest_2 = vector_select_f(is_less_2, square2, largest);
-    const vector_f square3 = 1.0f + R2_2 - R0_0 - R1_1;
-    const vector_mask_f is_less_3 = largest_2 < square3;
-    const vector_f R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6;
-    const vector_f R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8;
-    const vector_f R0_2_total = R0_2 + R2_0;
-    const vector_f R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6;
-    const vector_f R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7;
-    const vector_f R0_1_total = R0_1 + R1_0;
-    const vector_f R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8;
-    const vector_f R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7;
-    const vector_f R2_1_gap = R2_1 - R1_2;
-    const vector_f row_2 = vector_select_f(is_less, square1, R2_1_gap);
-    const vector_f row_6 = vector_select_f(is_less_2, R0_1_total, row_2);
-    const vector_f row_10 = vector_select_f(is_less_3, R0_2_total, row_6);
-    const vector_f R1_2_total = R1_2 + R2_1;
-    const vector_f R0_2_gap = R0_2 - R2_0;
-    const vector_f row_3 = vector_select_f(is_less, R0_1_total, R0_2_gap);
-    const vector_f row_7 = vector_select_f(is_less_2, square2, row_3);
-    const vector_f row_11 = vector_select_f(is_less_3, R1_2_total, row_7);
-    const vector_f R1_0_gap = R1_0 - R0_1;
-    const vector_f row_4 = vector_select_f(is_less, R0_2_total, R1_0_gap);
-    const vector_f row_8 = vector_select_f(is_less_2, R1_2_total, row_4);
-    const vector_f row_12 = vector_select_f(is_less_3, square3, row_8);
-    const vector_f row = vector_select_f(is_less, R2_1_gap, square0);
-    const vector_f row_5 = vector_select_f(is_less_2, R0_2_gap, row);
-    const vector_f row_9 = vector_select_f(is_less_3, R1_0_gap, row_5);
-    const vector_f row_length = sqrt_each_f(row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 *
-        row_9);
-    const vector_f g1 = row_10 / row_length;
-    const vector_f g2 = row_11 / row_length;
-    const vector_f g3 = row_12 / row_length;
-    const vector_f norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
-    const vector_mask_f near = norm_s_squared < 0.249287f;
-    const vector_f near_chosen = vector_select_f(near, 4.011440628672975f * norm_s_squared,
-        vector_of_f(0.0f));
-    const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
-    const vector_f log_det_near = norm_s_squared * log_det_series;
-    const vector_f norm_s = sqrt_each_f(vector_select_f(near, vector_of_f(1.0f), norm_s_squared));
-    const vector_f g0 = row_9 / row_length;
-    const vector_f abs_g0 = abs_each_f(g0);
-    const vector_f atan2_norm_s_abs_g0 = atan2_each_f(norm_s, abs_g0);
-    const vector_f t = 2.0f * atan2_norm_s_abs_g0;
-    const vector_f t_ratio = t / norm_s;
-    const vector_f log_det = vector_select_f(near, log_det_near, 2.0f * log_each_f(0.5f * t_ratio));
-    const vector_f t_over_norm_s_near = vector_polynomial_t_over_norm_s_near_f(near_chosen);
-    const vector_f t_over_norm_s = vector_select_f(near, t_over_norm_s_near, t_ratio);
-    const vector_f scale = t_over_norm_s * vector_select_f(g0 < 0.0f, vector_of_f(-1.0f), vector_of_f(1.0f));
-    const vector_f v0 = g1 * scale;
-    const vector_f v1 = g2 * scale;
-    const vector_f v2 = g3 * scale;
-    const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-    const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-    const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-    const vector_f log_det_gap = log_det - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector_f phi = exp_each_f(log_det_gap);
-    value[0] = value[0] + amplitude * phi;
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values) {
+    struct { vector_f row_10, row_11, row_12, row_9, row_length, g1, g2, g3, norm_s_squared, near_chosen,
+            norm_s, g0, atan2_norm_s_abs_g0, t_ratio, log_det, phi; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 25 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float mu2 = S[2];
+        const float mu3 = S[3];
+        const float mu4 = S[4];
+        const float mu5 = S[5];
+        const float mu6 = S[6];
+        const float mu7 = S[7];
+        const float mu8 = S[8];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 9 * b;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f x2 = X[2];
+            const vector_f x3 = X[3];
+            const vector_f x4 = X[4];
+            const vector_f x5 = X[5];
+            const vector_f x6 = X[6];
+            const vector_f x7 = X[7];
+            const vector_f x8 = X[8];
+            const vector_f R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8;
+            const vector_f R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7;
+            const vector_f R0_0 = x0 * mu0 + x3 * mu3 + x6 * mu6;
+            const vector_f R0_0_total = 1.0f + R0_0;
+            const vector_f square0 = R2_2 + (R1_1 + R0_0_total);
+            const vector_f square1 = R0_0_total - R1_1 - R2_2;
+            const vector_mask_f is_less = square0 < square1;
+            const vector_f largest = vector_select_f(is_less, square1, square0);
+            const vector_f square2 = 1.0f + R1_1 - R0_0 - R2_2;
+            const vector_mask_f is_less_2 = largest < square2;
+            const vector_f largest_2 = vector_select_f(is_less_2, square2, largest);
+            const vector_f square3 = 1.0f + R2_2 - R0_0 - R1_1;
+            const vector_mask_f is_less_3 = largest_2 < square3;
+            const vector_f R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6;
+            const vector_f R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8;
+            const vector_f R0_2_total = R0_2 + R2_0;
+            const vector_f R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6;
+            const vector_f R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7;
+            const vector_f R0_1_total = R0_1 + R1_0;
+            const vector_f R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8;
+            const vector_f R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7;
+            const vector_f R2_1_gap = R2_1 - R1_2;
+            const vector_f row_2 = vector_select_f(is_less, square1, R2_1_gap);
+            const vector_f row_6 = vector_select_f(is_less_2, R0_1_total, row_2);
+            const vector_f row_10 = vector_select_f(is_less_3, R0_2_total, row_6);
+            const vector_f R1_2_total = R1_2 + R2_1;
+            const vector_f R0_2_gap = R0_2 - R2_0;
+            const vector_f row_3 = vector_select_f(is_less, R0_1_total, R0_2_gap);
+            const vector_f row_7 = vector_select_f(is_less_2, square2, row_3);
+            const vector_f row_11 = vector_select_f(is_less_3, R1_2_total, row_7);
+            const vector_f R1_0_gap = R1_0 - R0_1;
+            const vector_f row_4 = vector_select_f(is_less, R0_2_total, R1_0_gap);
+            const vector_f row_8 = vector_select_f(is_less_2, R1_2_total, row_4);
+            const vector_f row_12 = vector_select_f(is_less_3, square3, row_8);
+            const vector_f row = vector_select_f(is_less, R2_1_gap, square0);
+            const vector_f row_5 = vector_select_f(is_less_2, R0_2_gap, row);
+            const vector_f row_9 = vector_select_f(is_less_3, R1_0_gap, row_5);
+            const vector_f row_length = sqrt_each_f(row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 *
+                row_9);
+            kept[k][b].row_10 = row_10;
+            kept[k][b].row_11 = row_11;
+            kept[k][b].row_12 = row_12;
+            kept[k][b].row_9 = row_9;
+            kept[k][b].row_length = row_length;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f row_10 = kept[k][b].row_10;
+            const vector_f row_11 = kept[k][b].row_11;
+            const vector_f row_12 = kept[k][b].row_12;
+            const vector_f row_length = kept[k][b].row_length;
+            const vector_f g1 = row_10 / row_length;
+            const vector_f g2 = row_11 / row_length;
+            const vector_f g3 = row_12 / row_length;
+            kept[k][b].g1 = g1;
+            kept[k][b].g2 = g2;
+            kept[k][b].g3 = g3;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f row_9 = kept[k][b].row_9;
+            const vector_f row_length = kept[k][b].row_length;
+            const vector_f g1 = kept[k][b].g1;
+            const vector_f g2 = kept[k][b].g2;
+            const vector_f g3 = kept[k][b].g3;
+            const vector_f norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+            const vector_mask_f its_near = norm_s_squared < 0.249287f;
+            const vector_f norm_s = sqrt_each_f(vector_select_f(its_near, vector_of_f(1.0f), norm_s_squared));
+            const vector_f g0 = row_9 / row_length;
+            kept[k][b].norm_s_squared = norm_s_squared;
+            kept[k][b].norm_s = norm_s;
+            kept[k][b].g0 = g0;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f norm_s = kept[k][b].norm_s;
+            const vector_f g0 = kept[k][b].g0;
+            const vector_f abs_g0 = abs_each_f(g0);
+            const vector_f atan2_norm_s_abs_g0 = atan2_each_f(norm_s, abs_g0);
+            kept[k][b].atan2_norm_s_abs_g0 = atan2_norm_s_abs_g0;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f norm_s = kept[k][b].norm_s;
+            const vector_f atan2_norm_s_abs_g0 = kept[k][b].atan2_norm_s_abs_g0;
+            const vector_f t = 2.0f * atan2_norm_s_abs_g0;
+            const vector_f t_ratio = t / norm_s;
+            kept[k][b].t_ratio = t_ratio;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f norm_s_squared = kept[k][b].norm_s_squared;
+            const vector_f t_ratio = kept[k][b].t_ratio;
+            const vector_mask_f its_near = norm_s_squared < 0.249287f;
+            const vector_f near_chosen = vector_select_f(its_near, 4.011440628672975f * norm_s_squared,
+                vector_of_f(0.0f));
+            const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
+            const vector_f log_det_near = norm_s_squared * log_det_series;
+            const vector_f log_det = vector_select_f(its_near, log_det_near, 2.0f * log_each_f(0.5f * t_ratio));
+            kept[k][b].near_chosen = near_chosen;
+            kept[k][b].log_det = log_det;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 25 * near[k];
+        const float W0_0 = S[9];
+        const float W0_1 = S[10];
+        const float W0_2 = S[11];
+        const float W1_0 = S[12];
+        const float W1_1 = S[13];
+        const float W1_2 = S[14];
+        const float W2_0 = S[15];
+        const float W2_1 = S[16];
+        const float W2_2 = S[17];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f g1 = kept[k][b].g1;
+            const vector_f g2 = kept[k][b].g2;
+            const vector_f g3 = kept[k][b].g3;
+            const vector_f norm_s_squared = kept[k][b].norm_s_squared;
+            const vector_f near_chosen = kept[k][b].near_chosen;
+            const vector_f g0 = kept[k][b].g0;
+            const vector_f t_ratio = kept[k][b].t_ratio;
+            const vector_f log_det = kept[k][b].log_det;
+            const vector_mask_f its_near = norm_s_squared < 0.249287f;
+            const vector_f t_over_norm_s_near = vector_polynomial_t_over_norm_s_near_f(near_chosen);
+            const vector_f t_over_norm_s = vector_select_f(its_near, t_over_norm_s_near, t_ratio);
+            const vector_f scale = t_over_norm_s * vector_select_f(g0 < 0.0f, vector_of_f(-1.0f), vector_of_f(1.0f));
+            const vector_f v0 = g1 * scale;
+            const vector_f v1 = g2 * scale;
+            const vector_f v2 = g3 * scale;
+            const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+            const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+            const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
+            const vector_f log_det_gap = log_det - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
+            const vector_f phi = exp_each_f(log_det_gap);
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 25 * near[k];
+        const float amplitude = S[18];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector_f *value = values + b;
+            const vector_f phi = kept[k][b].phi;
+            value[0] = value[0] + amplitude * phi;
+        }
+    }
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 OUTLINE void pair_forward_f(
-    const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f x2 = X[2];
-    const vector_f x3 = X[3];
-    const vector_f x4 = X[4];
-    const vector_f x5 = X[5];
-    const vector_f x6 = X[6];
-    const vector_f x7 = X[7];
-    const vector_f x8 = X[8];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float mu2 = S[2];
-    const float mu3 = S[3];
-    const float mu4 = S[4];
-    const float mu5 = S[5];
-    const float mu6 = S[6];
-    const float mu7 = S[7];
-    const float mu8 = S[8];
-    const float W0_0 = S[9];
-    const float W0_1 = S[10];
-    const float W0_2 = S[11];
-    const float W1_0 = S[12];
-    const float W1_1 = S[13];
-    const float W1_2 = S[14];
-    const float W2_0 = S[15];
-    const float W2_1 = S[16];
-    const float W2_2 = S[17];
-    const float amplitude = S[18];
-    const vector_f R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8;
-    const vector_f R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7;
-    const vector_f R0_0 = x0 * mu0 + x3 * mu3 + x6 * mu6;
-    const vector_f R0_0_total = 1.0f + R0_0;
-    const vector_f square0 = R2_2 + (R1_1 + R0_0_total);
-    const vector_f square1 = R0_0_total - R1_1 - R2_2;
-    const vector_mask_f is_less = square0 < square1;
-    const vector_f largest = vector_select_f(is_less, square1, square0);
-    const vector_f square2 = 1.0f + R1_1 - R0_0 - R2_2;
-    const vector_mask_f is_less_2 = largest < square2;
-    const vector_f largest_2 = vector_select_f(is_less_2, square2, largest);
-    const vector_f square3 = 1.0f + R2_2 - R0_0 - R1_1;
-    const vector_mask_f is_less_3 = largest_2 < square3;
-    const vector_f R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6;
-    const vector_f R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8;
-    const vector_f R0_2_total = R0_2 + R2_0;
-    const vector_f R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6;
-    const vector_f R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7;
-    const vector_f R0_1_total = R0_1 + R1_0;
-    const vector_f R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8;
-    const vector_f R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7;
-    const vector_f R2_1_gap = R2_1 - R1_2;
-    const vector_f row_2 = vector_select_f(is_less, square1, R2_1_gap);
-    const vector_f row_6 = vector_select_f(is_less_2, R0_1_total, row_2);
-    const vector_f row_10 = vector_select_f(is_less_3, R0_2_total, row_6);
-    const vector_f R1_2_total = R1_2 + R2_1;
-    const vector_f R0_2_gap = R0_2 - R2_0;
-    const vector_f row_3 = vector_select_f(is_less, R0_1_total, R0_2_gap);
-    const vector_f row_7 = vector_select_f(is_less_2, square2, row_3);
-    const vector_f row_11 = vector_select_f(is_less_3, R1_2_total, row_7);
-    const vector_f R1_0_gap = R1_0 - R0_1;
-    const vector_f row_4 = vector_select_f(is_less, R0_2_total, R1_0_gap);
-    const vector_f row_8 = vector_select_f(is_less_2, R1_2_total, row_4);
-    const vector_f row_12 = vector_select_f(is_less_3, square3, row_8);
-    const vector_f row = vector_select_f(is_less, R2_1_gap, square0);
-    const vector_f row_5 = vector_select_f(is_less_2, R0_2_gap, row);
-    const vector_f row_9 = vector_select_f(is_less_3, R1_0_gap, row_5);
-    const vector_f total_2 = row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9;
-    const vector_f row_length = sqrt_each_f(total_2);
-    const vector_f g1 = row_10 / row_length;
-    const vector_f g2 = row_11 / row_length;
-    const vector_f g3 = row_12 / row_length;
-    const vector_f norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
-    const vector_mask_f near = norm_s_squared < 0.249287f;
-    const vector_f near_chosen = vector_select_f(near, 4.011440628672975f * norm_s_squared,
-        vector_of_f(0.0f));
-    const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
-    const vector_f log_det_near = norm_s_squared * log_det_series;
-    const vector_f near_chosen_2 = vector_select_f(near, vector_of_f(1.0f), norm_s_squared);
-    const vector_f norm_s = sqrt_each_f(near_chosen_2);
-    const vector_f g0 = row_9 / row_length;
-    const vector_f abs_g0 = abs_each_f(g0);
-    const vector_f atan2_norm_s_abs_g0 = atan2_each_f(norm_s, abs_g0);
-    const vector_f t = 2.0f * atan2_norm_s_abs_g0;
-    const vector_f t_ratio = t / norm_s;
-    const vector_f product = 0.5f * t_ratio;
-    const vector_f log_det = vector_select_f(near, log_det_near, 2.0f * log_each_f(product));
-    const vector_f t_over_norm_s_near = vector_polynomial_t_over_norm_s_near_f(near_chosen);
-    const vector_f t_over_norm_s = vector_select_f(near, t_over_norm_s_near, t_ratio);
-    const vector_mask_f is_small = g0 < 0.0f;
-    const vector_f chosen = vector_select_f(is_small, vector_of_f(-1.0f), vector_of_f(1.0f));
-    const vector_f scale = t_over_norm_s * chosen;
-    const vector_f v0 = g1 * scale;
-    const vector_f v1 = g2 * scale;
-    const vector_f v2 = g3 * scale;
-    const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-    const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-    const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-    const vector_f log_det_gap = log_det - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector_f phi = exp_each_f(log_det_gap);
-    const vector_f phi_2 = amplitude * phi;
-    const vector_f phi_product = phi_2 * (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0));
-    const vector_f phi_product_2 = phi_2 * (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0));
-    const vector_f phi_product_3 = phi_2 * (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0));
-    const vector_f by_scale = -(g3 * phi_product) - g2 * phi_product_2 - g1 * phi_product_3;
-    const vector_f by_t_over_norm_s = chosen * by_scale;
-    const vector_f total_3 = vector_select_f(near, vector_of_f(0.0f), by_t_over_norm_s) + 0.5f * (2.0f *
-        vector_select_f(near, vector_of_f(0.0f), phi_2) / product);
-    const vector_f by_t = total_3 / norm_s;
-    const vector_f by_atan2_norm_s_abs_g0 = 2.0f * by_t;
-    const vector_f ratio = by_atan2_norm_s_abs_g0 / (near_chosen_2 + abs_g0 * abs_g0);
-    const vector_f norm_s_product = norm_s * ratio;
-    const vector_f by_abs_g0 = -norm_s_product;
-    const vector_f by_g0 = vector_select_f(is_small, norm_s_product, by_abs_g0);
-    const vector_f by_g0_ratio = by_g0 / row_length;
-    const vector_mask_f is_small_2 = total_2 == 0.0f;
-    const vector_f by_norm_s = abs_g0 * ratio - t_ratio * by_t;
-    const vector_f by_log_det_near = vector_select_f(near, phi_2, vector_of_f(0.0f));
-    const vector_f by_t_over_norm_s_near = vector_select_f(near, by_t_over_norm_s, vector_of_f(0.0f));
-    const vector_f t_over_norm_s_near_slope = vector_polynomial_t_over_norm_s_near_slope_f(near_chosen);
-    const vector_f by_log_det_series = norm_s_squared * by_log_det_near;
-    const vector_f log_det_series_slope = vector_polynomial_log_det_series_slope_f(near_chosen);
-    const vector_f by_norm_s_squared = vector_select_f(near, vector_of_f(0.0f), by_norm_s / (2.0f * norm_s)) +
-        log_det_series * by_log_det_near + 4.011440628672975f * vector_select_f(near, by_t_over_norm_s_near *
-        t_over_norm_s_near_slope + by_log_det_series * log_det_series_slope, vector_of_f(0.0f));
-    const vector_f product_2 = 2.0f * by_norm_s_squared;
-    const vector_f by_g3 = g3 * product_2 - scale * phi_product;
-    const vector_f by_g3_ratio = by_g3 / row_length;
-    const vector_f by_g2 = g2 * product_2 - scale * phi_product_2;
-    const vector_f by_g2_ratio = by_g2 / row_length;
-    const vector_f by_g1 = g1 * product_2 - scale * phi_product_3;
-    const vector_f by_g1_ratio = by_g1 / row_length;
-    const vector_f by_row_length = -(g0 * by_g0_ratio) - g3 * by_g3_ratio - g2 * by_g2_ratio - g1 *
-        by_g1_ratio;
-    const vector_f product_3 = 2.0f * vector_select_f(is_small_2, vector_of_f(0.0f), by_row_length / (2.0f *
-        vector_select_f(is_small_2, vector_of_f(1.0f), row_length)));
-    const vector_f by_row_9 = by_g0_ratio + row_9 * product_3;
-    const vector_f by_row_12 = by_g3_ratio + row_12 * product_3;
-    const vector_f by_row_8 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_12);
-    const vector_f by_row_4 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_8);
-    const vector_f total_4 = vector_select_f(is_less_3, by_row_9, vector_of_f(0.0f)) +
-        vector_select_f(is_less, vector_of_f(0.0f), by_row_4);
-    const vector_f by_row_11 = by_g2_ratio + row_11 * product_3;
-    const vector_f by_row_7 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_11);
-    const vector_f by_row_3 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_7);
-    const vector_f by_row_10 = by_g1_ratio + row_10 * product_3;
-    const vector_f by_row_6 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_10);
-    const vector_f total_5 = vector_select_f(is_less, by_row_3, vector_of_f(0.0f)) +
-        vector_select_f(is_less_2, by_row_6, vector_of_f(0.0f));
-    const vector_f by_R1_0 = total_4 + total_5;
-    const vector_f total_6 = vector_select_f(is_less, by_row_4, vector_of_f(0.0f)) +
-        vector_select_f(is_less_3, by_row_10, vector_of_f(0.0f));
-    const vector_f by_row_5 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_9);
-    const vector_f total_7 = vector_select_f(is_less_2, by_row_5, vector_of_f(0.0f)) +
-        vector_select_f(is_less, vector_of_f(0.0f), by_row_3);
-    const vector_f by_R2_0 = total_6 - total_7;
-    const vector_f by_square3 = vector_select_f(is_less_3, by_row_12, vector_of_f(0.0f));
-    const vector_f by_square2 = vector_select_f(is_less_2, by_row_7, vector_of_f(0.0f));
-    const vector_f by_row = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_5);
-    const vector_f by_square0 = vector_select_f(is_less, vector_of_f(0.0f), by_row);
-    const vector_f by_row_2 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_6);
-    const vector_f by_square1 = vector_select_f(is_less, by_row_2, vector_of_f(0.0f));
-    const vector_f by_R0_0 = -by_square3 - by_square2 + (by_square0 + by_square1);
-    const vector_f total_8 = vector_select_f(is_less_2, by_row_8, vector_of_f(0.0f)) +
-        vector_select_f(is_less_3, by_row_11, vector_of_f(0.0f));
-    const vector_f total_9 = vector_select_f(is_less, by_row, vector_of_f(0.0f)) + vector_select_f(is_less,
-        vector_of_f(0.0f), by_row_2);
-    const vector_f by_R2_1 = total_8 + total_9;
-    const vector_f by_R0_1 = total_5 - total_4;
-    const vector_f by_R1_1 = by_square0 + (by_square2 - by_square3 - by_square1);
-    const vector_f by_R1_2 = total_8 - total_9;
-    const vector_f by_R0_2 = total_7 + total_6;
-    const vector_f by_R2_2 = by_square0 + (by_square3 - by_square2 - by_square1);
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] + mu1 * by_R1_0 + mu2 * by_R2_0 + mu0 * by_R0_0;
-    slope[1] = slope[1] + mu2 * by_R2_1 + mu0 * by_R0_1 + mu1 * by_R1_1;
-    slope[2] = slope[2] + mu1 * by_R1_2 + mu0 * by_R0_2 + mu2 * by_R2_2;
-    slope[3] = slope[3] + mu4 * by_R1_0 + mu5 * by_R2_0 + mu3 * by_R0_0;
-    slope[4] = slope[4] + mu5 * by_R2_1 + mu3 * by_R0_1 + mu4 * by_R1_1;
-    slope[5] = slope[5] + mu4 * by_R1_2 + mu3 * by_R0_2 + mu5 * by_R2_2;
-    slope[6] = slope[6] + mu7 * by_R1_0 + mu8 * by_R2_0 + mu6 * by_R0_0;
-    slope[7] = slope[7] + mu8 * by_R2_1 + mu6 * by_R0_1 + mu7 * by_R1_1;
-    slope[8] = slope[8] + mu7 * by_R1_2 + mu6 * by_R0_2 + mu8 * by_R2_2;
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values, vector_f *slopes) {
+    struct { vector_f square0, square1, largest, square2, largest_2, square3, row_10, row_11, row_12, row_9,
+            total_2, row_length, g1, g2, g3, norm_s_squared, near_chosen, log_det_series, near_chosen_2, norm_s,
+            g0, abs_g0, atan2_norm_s_abs_g0, t_ratio, product, log_det, chosen, scale, z0, z1, z2, phi, phi_2,
+            phi_product, phi_product_2, phi_product_3, by_t_over_norm_s, total_3, by_t, ratio, by_g0_ratio,
+            by_norm_s_squared, by_g3_ratio, by_g2_ratio, by_g1_ratio, product_3; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 25 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float mu2 = S[2];
+        const float mu3 = S[3];
+        const float mu4 = S[4];
+        const float mu5 = S[5];
+        const float mu6 = S[6];
+        const float mu7 = S[7];
+        const float mu8 = S[8];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 9 * b;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f x2 = X[2];
+            const vector_f x3 = X[3];
+            const vector_f x4 = X[4];
+            const vector_f x5 = X[5];
+            const vector_f x6 = X[6];
+            const vector_f x7 = X[7];
+            const vector_f x8 = X[8];
+            const vector_f R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8;
+            const vector_f R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7;
+            const vector_f R0_0 = x0 * mu0 + x3 * mu3 + x6 * mu6;
+            const vector_f R0_0_total = 1.0f + R0_0;
+            const vector_f square0 = R2_2 + (R1_1 + R0_0_total);
+            const vector_f square1 = R0_0_total - R1_1 - R2_2;
+            const vector_mask_f is_less = square0 < square1;
+            const vector_f largest = vector_select_f(is_less, square1, square0);
+            const vector_f square2 = 1.0f + R1_1 - R0_0 - R2_2;
+            const vector_mask_f is_less_2 = largest < square2;
+            const vector_f largest_2 = vector_select_f(is_less_2, square2, largest);
+            const vector_f square3 = 1.0f + R2_2 - R0_0 - R1_1;
+            const vector_mask_f is_less_3 = largest_2 < square3;
+            const vector_f R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6;
+            const vector_f R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8;
+            const vector_f R0_2_total = R0_2 + R2_0;
+            const vector_f R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6;
+            const vector_f R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7;
+            const vector_f R0_1_total = R0_1 + R1_0;
+            const vector_f R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8;
+            const vector_f R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7;
+            const vector_f R2_1_gap = R2_1 - R1_2;
+            const vector_f row_2 = vector_select_f(is_less, square1, R2_1_gap);
+            const vector_f row_6 = vector_select_f(is_less_2, R0_1_total, row_2);
+            const vector_f row_10 = vector_select_f(is_less_3, R0_2_total, row_6);
+            const vector_f R1_2_total = R1_2 + R2_1;
+            const vector_f R0_2_gap = R0_2 - R2_0;
+            const vector_f row_3 = vector_select_f(is_less, R0_1_total, R0_2_gap);
+            const vector_f row_7 = vector_select_f(is_less_2, square2, row_3);
+            const vector_f row_11 = vector_select_f(is_less_3, R1_2_total, row_7);
+            const vector_f R1_0_gap = R1_0 - R0_1;
+            const vector_f row_4 = vector_select_f(is_less, R0_2_total, R1_0_gap);
+            const vector_f row_8 = vector_select_f(is_less_2, R1_2_total, row_4);
+            const vector_f row_12 = vector_select_f(is_less_3, square3, row_8);
+            const vector_f row = vector_select_f(is_less, R2_1_gap, square0);
+            const vector_f row_5 = vector_select_f(is_less_2, R0_2_gap, row);
+            const vector_f row_9 = vector_select_f(is_less_3, R1_0_gap, row_5);
+            const vector_f total_2 = row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9;
+            const vector_f row_length = sqrt_each_f(total_2);
+            kept[k][b].square0 = square0;
+            kept[k][b].square1 = square1;
+            kept[k][b].largest = largest;
+            kept[k][b].square2 = square2;
+            kept[k][b].largest_2 = largest_2;
+            kept[k][b].square3 = square3;
+            kept[k][b].row_10 = row_10;
+            kept[k][b].row_11 = row_11;
+            kept[k][b].row_12 = row_12;
+            kept[k][b].row_9 = row_9;
+            kept[k][b].total_2 = total_2;
+            kept[k][b].row_length = row_length;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f row_10 = kept[k][b].row_10;
+            const vector_f row_11 = kept[k][b].row_11;
+            const vector_f row_12 = kept[k][b].row_12;
+            const vector_f row_length = kept[k][b].row_length;
+            const vector_f g1 = row_10 / row_length;
+            const vector_f g2 = row_11 / row_length;
+            const vector_f g3 = row_12 / row_length;
+            kept[k][b].g1 = g1;
+            kept[k][b].g2 = g2;
+            kept[k][b].g3 = g3;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f row_9 = kept[k][b].row_9;
+            const vector_f row_length = kept[k][b].row_length;
+            const vector_f g1 = kept[k][b].g1;
+            const vector_f g2 = kept[k][b].g2;
+            const vector_f g3 = kept[k][b].g3;
+            const vector_f norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+            const vector_mask_f its_near = norm_s_squared < 0.249287f;
+            const vector_f near_chosen_2 = vector_select_f(its_near, vector_of_f(1.0f), norm_s_squared);
+            const vector_f norm_s = sqrt_each_f(near_chosen_2);
+            const vector_f g0 = row_9 / row_length;
+            kept[k][b].norm_s_squared = norm_s_squared;
+            kept[k][b].near_chosen_2 = near_chosen_2;
+            kept[k][b].norm_s = norm_s;
+            kept[k][b].g0 = g0;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f norm_s = kept[k][b].norm_s;
+            const vector_f g0 = kept[k][b].g0;
+            const vector_f abs_g0 = abs_each_f(g0);
+            const vector_f atan2_norm_s_abs_g0 = atan2_each_f(norm_s, abs_g0);
+            kept[k][b].abs_g0 = abs_g0;
+            kept[k][b].atan2_norm_s_abs_g0 = atan2_norm_s_abs_g0;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f norm_s = kept[k][b].norm_s;
+            const vector_f atan2_norm_s_abs_g0 = kept[k][b].atan2_norm_s_abs_g0;
+            const vector_f t = 2.0f * atan2_norm_s_abs_g0;
+            const vector_f t_ratio = t / norm_s;
+            kept[k][b].t_ratio = t_ratio;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f norm_s_squared = kept[k][b].norm_s_squared;
+            const vector_f t_ratio = kept[k][b].t_ratio;
+            const vector_mask_f its_near = norm_s_squared < 0.249287f;
+            const vector_f near_chosen = vector_select_f(its_near, 4.011440628672975f * norm_s_squared,
+                vector_of_f(0.0f));
+            const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
+            const vector_f log_det_near = norm_s_squared * log_det_series;
+            const vector_f product = 0.5f * t_ratio;
+            const vector_f log_det = vector_select_f(its_near, log_det_near, 2.0f * log_each_f(product));
+            kept[k][b].near_chosen = near_chosen;
+            kept[k][b].log_det_series = log_det_series;
+            kept[k][b].product = product;
+            kept[k][b].log_det = log_det;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 25 * near[k];
+        const float W0_0 = S[9];
+        const float W0_1 = S[10];
+        const float W0_2 = S[11];
+        const float W1_0 = S[12];
+        const float W1_1 = S[13];
+        const float W1_2 = S[14];
+        const float W2_0 = S[15];
+        const float W2_1 = S[16];
+        const float W2_2 = S[17];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f g1 = kept[k][b].g1;
+            const vector_f g2 = kept[k][b].g2;
+            const vector_f g3 = kept[k][b].g3;
+            const vector_f norm_s_squared = kept[k][b].norm_s_squared;
+            const vector_f near_chosen = kept[k][b].near_chosen;
+            const vector_f g0 = kept[k][b].g0;
+            const vector_f t_ratio = kept[k][b].t_ratio;
+            const vector_f log_det = kept[k][b].log_det;
+            const vector_mask_f its_near = norm_s_squared < 0.249287f;
+            const vector_f t_over_norm_s_near = vector_polynomial_t_over_norm_s_near_f(near_chosen);
+            const vector_f t_over_norm_s = vector_select_f(its_near, t_over_norm_s_near, t_ratio);
+            const vector_mask_f is_small = g0 < 0.0f;
+            const vector_f chosen = vector_select_f(is_small, vector_of_f(-1.0f), vector_of_f(1.0f));
+            const vector_f scale = t_over_norm_s * chosen;
+            const vector_f v0 = g1 * scale;
+            const vector_f v1 = g2 * scale;
+            const vector_f v2 = g3 * scale;
+            const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+            const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+            const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
+            const vector_f log_det_gap = log_det - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
+            const vector_f phi = exp_each_f(log_det_gap);
+            kept[k][b].chosen = chosen;
+            kept[k][b].scale = scale;
+            kept[k][b].z0 = z0;
+            kept[k][b].z1 = z1;
+            kept[k][b].z2 = z2;
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 25 * near[k];
+        const float W0_0 = S[9];
+        const float W0_1 = S[10];
+        const float W0_2 = S[11];
+        const float W1_0 = S[12];
+        const float W1_1 = S[13];
+        const float W1_2 = S[14];
+        const float W2_0 = S[15];
+        const float W2_1 = S[16];
+        const float W2_2 = S[17];
+        const float amplitude = S[18];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f g1 = kept[k][b].g1;
+            const vector_f g2 = kept[k][b].g2;
+            const vector_f g3 = kept[k][b].g3;
+            const vector_f norm_s_squared = kept[k][b].norm_s_squared;
+            const vector_f product = kept[k][b].product;
+            const vector_f chosen = kept[k][b].chosen;
+            const vector_f z0 = kept[k][b].z0;
+            const vector_f z1 = kept[k][b].z1;
+            const vector_f z2 = kept[k][b].z2;
+            const vector_f phi = kept[k][b].phi;
+            const vector_mask_f its_near = norm_s_squared < 0.249287f;
+            const vector_f phi_2 = amplitude * phi;
+            const vector_f phi_product = phi_2 * (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0));
+            const vector_f phi_product_2 = phi_2 * (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0));
+            const vector_f phi_product_3 = phi_2 * (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0));
+            const vector_f by_scale = -(g3 * phi_product) - g2 * phi_product_2 - g1 * phi_product_3;
+            const vector_f by_t_over_norm_s = chosen * by_scale;
+            const vector_f total_3 = vector_select_f(its_near, vector_of_f(0.0f), by_t_over_norm_s) + 0.5f * (2.0f *
+                vector_select_f(its_near, vector_of_f(0.0f), phi_2) / product);
+            kept[k][b].phi_2 = phi_2;
+            kept[k][b].phi_product = phi_product;
+            kept[k][b].phi_product_2 = phi_product_2;
+            kept[k][b].phi_product_3 = phi_product_3;
+            kept[k][b].by_t_over_norm_s = by_t_over_norm_s;
+            kept[k][b].total_3 = total_3;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f norm_s = kept[k][b].norm_s;
+            const vector_f total_3 = kept[k][b].total_3;
+            const vector_f by_t = total_3 / norm_s;
+            kept[k][b].by_t = by_t;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f near_chosen_2 = kept[k][b].near_chosen_2;
+            const vector_f abs_g0 = kept[k][b].abs_g0;
+            const vector_f by_t = kept[k][b].by_t;
+            const vector_f by_atan2_norm_s_abs_g0 = 2.0f * by_t;
+            const vector_f ratio = by_atan2_norm_s_abs_g0 / (near_chosen_2 + abs_g0 * abs_g0);
+            kept[k][b].ratio = ratio;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f norm_s_squared = kept[k][b].norm_s_squared;
+            const vector_f near_chosen = kept[k][b].near_chosen;
+            const vector_f log_det_series = kept[k][b].log_det_series;
+            const vector_f norm_s = kept[k][b].norm_s;
+            const vector_f abs_g0 = kept[k][b].abs_g0;
+            const vector_f t_ratio = kept[k][b].t_ratio;
+            const vector_f phi_2 = kept[k][b].phi_2;
+            const vector_f by_t_over_norm_s = kept[k][b].by_t_over_norm_s;
+            const vector_f by_t = kept[k][b].by_t;
+            const vector_f ratio = kept[k][b].ratio;
+            const vector_mask_f its_near = norm_s_squared < 0.249287f;
+            const vector_f by_norm_s = abs_g0 * ratio - t_ratio * by_t;
+            const vector_f by_log_det_near = vector_select_f(its_near, phi_2, vector_of_f(0.0f));
+            const vector_f by_t_over_norm_s_near = vector_select_f(its_near, by_t_over_norm_s, vector_of_f(0.0f));
+            const vector_f t_over_norm_s_near_slope = vector_polynomial_t_over_norm_s_near_slope_f(near_chosen);
+            const vector_f by_log_det_series = norm_s_squared * by_log_det_near;
+            const vector_f log_det_series_slope = vector_polynomial_log_det_series_slope_f(near_chosen);
+            const vector_f by_norm_s_squared = vector_select_f(its_near, vector_of_f(0.0f), by_norm_s / (2.0f *
+                norm_s)) + log_det_series * by_log_det_near + 4.011440628672975f * vector_select_f(its_near,
+                by_t_over_norm_s_near * t_over_norm_s_near_slope + by_log_det_series * log_det_series_slope,
+                vector_of_f(0.0f));
+            kept[k][b].by_norm_s_squared = by_norm_s_squared;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f row_length = kept[k][b].row_length;
+            const vector_f g1 = kept[k][b].g1;
+            const vector_f g2 = kept[k][b].g2;
+            const vector_f g3 = kept[k][b].g3;
+            const vector_f norm_s = kept[k][b].norm_s;
+            const vector_f g0 = kept[k][b].g0;
+            const vector_f scale = kept[k][b].scale;
+            const vector_f phi_product = kept[k][b].phi_product;
+            const vector_f phi_product_2 = kept[k][b].phi_product_2;
+            const vector_f phi_product_3 = kept[k][b].phi_product_3;
+            const vector_f ratio = kept[k][b].ratio;
+            const vector_f by_norm_s_squared = kept[k][b].by_norm_s_squared;
+            const vector_mask_f is_small = g0 < 0.0f;
+            const vector_f norm_s_product = norm_s * ratio;
+            const vector_f by_abs_g0 = -norm_s_product;
+            const vector_f by_g0 = vector_select_f(is_small, norm_s_product, by_abs_g0);
+            const vector_f by_g0_ratio = by_g0 / row_length;
+            const vector_f product_2 = 2.0f * by_norm_s_squared;
+            const vector_f by_g3 = g3 * product_2 - scale * phi_product;
+            const vector_f by_g3_ratio = by_g3 / row_length;
+            const vector_f by_g2 = g2 * product_2 - scale * phi_product_2;
+            const vector_f by_g2_ratio = by_g2 / row_length;
+            const vector_f by_g1 = g1 * product_2 - scale * phi_product_3;
+            const vector_f by_g1_ratio = by_g1 / row_length;
+            kept[k][b].by_g0_ratio = by_g0_ratio;
+            kept[k][b].by_g3_ratio = by_g3_ratio;
+            kept[k][b].by_g2_ratio = by_g2_ratio;
+            kept[k][b].by_g1_ratio = by_g1_ratio;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f total_2 = kept[k][b].total_2;
+            const vector_f row_length = kept[k][b].row_length;
+            const vector_f g1 = kept[k][b].g1;
+            const vector_f g2 = kept[k][b].g2;
+            const vector_f g3 = kept[k][b].g3;
+            const vector_f g0 = kept[k][b].g0;
+            const vector_f by_g0_ratio = kept[k][b].by_g0_ratio;
+            const vector_f by_g3_ratio = kept[k][b].by_g3_ratio;
+            const vector_f by_g2_ratio = kept[k][b].by_g2_ratio;
+            const vector_f by_g1_ratio = kept[k][b].by_g1_ratio;
+            const vector_mask_f is_small_2 = total_2 == 0.0f;
+            const vector_f by_row_length = -(g0 * by_g0_ratio) - g3 * by_g3_ratio - g2 * by_g2_ratio - g1 *
+                by_g1_ratio;
+            const vector_f product_3 = 2.0f * vector_select_f(is_small_2, vector_of_f(0.0f), by_row_length / (2.0f *
+                vector_select_f(is_small_2, vector_of_f(1.0f), row_length)));
+            kept[k][b].product_3 = product_3;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 25 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float mu2 = S[2];
+        const float mu3 = S[3];
+        const float mu4 = S[4];
+        const float mu5 = S[5];
+        const float mu6 = S[6];
+        const float mu7 = S[7];
+        const float mu8 = S[8];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector_f *value = values + b;
+            vector_f *slope = slopes + 9 * b;
+            const vector_f square0 = kept[k][b].square0;
+            const vector_f square1 = kept[k][b].square1;
+            const vector_f largest = kept[k][b].largest;
+            const vector_f square2 = kept[k][b].square2;
+            const vector_f largest_2 = kept[k][b].largest_2;
+            const vector_f square3 = kept[k][b].square3;
+            const vector_f row_10 = kept[k][b].row_10;
+            const vector_f row_11 = kept[k][b].row_11;
+            const vector_f row_12 = kept[k][b].row_12;
+            const vector_f row_9 = kept[k][b].row_9;
+            const vector_f phi_2 = kept[k][b].phi_2;
+            const vector_f by_g0_ratio = kept[k][b].by_g0_ratio;
+            const vector_f by_g3_ratio = kept[k][b].by_g3_ratio;
+            const vector_f by_g2_ratio = kept[k][b].by_g2_ratio;
+            const vector_f by_g1_ratio = kept[k][b].by_g1_ratio;
+            const vector_f product_3 = kept[k][b].product_3;
+            const vector_mask_f is_less = square0 < square1;
+            const vector_mask_f is_less_2 = largest < square2;
+            const vector_mask_f is_less_3 = largest_2 < square3;
+            const vector_f by_row_9 = by_g0_ratio + row_9 * product_3;
+            const vector_f by_row_12 = by_g3_ratio + row_12 * product_3;
+            const vector_f by_row_8 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_12);
+            const vector_f by_row_4 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_8);
+            const vector_f total_4 = vector_select_f(is_less_3, by_row_9, vector_of_f(0.0f)) +
+                vector_select_f(is_less, vector_of_f(0.0f), by_row_4);
+            const vector_f by_row_11 = by_g2_ratio + row_11 * product_3;
+            const vector_f by_row_7 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_11);
+            const vector_f by_row_3 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_7);
+            const vector_f by_row_10 = by_g1_ratio + row_10 * product_3;
+            const vector_f by_row_6 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_10);
+            const vector_f total_5 = vector_select_f(is_less, by_row_3, vector_of_f(0.0f)) +
+                vector_select_f(is_less_2, by_row_6, vector_of_f(0.0f));
+            const vector_f by_R1_0 = total_4 + total_5;
+            const vector_f total_6 = vector_select_f(is_less, by_row_4, vector_of_f(0.0f)) +
+                vector_select_f(is_less_3, by_row_10, vector_of_f(0.0f));
+            const vector_f by_row_5 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_9);
+            const vector_f total_7 = vector_select_f(is_less_2, by_row_5, vector_of_f(0.0f)) +
+                vector_select_f(is_less, vector_of_f(0.0f), by_row_3);
+            const vector_f by_R2_0 = total_6 - total_7;
+            const vector_f by_square3 = vector_select_f(is_less_3, by_row_12, vector_of_f(0.0f));
+            const vector_f by_square2 = vector_select_f(is_less_2, by_row_7, vector_of_f(0.0f));
+            const vector_f by_row = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_5);
+            const vector_f by_square0 = vector_select_f(is_less, vector_of_f(0.0f), by_row);
+            const vector_f by_row_2 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_6);
+            const vector_f by_square1 = vector_select_f(is_less, by_row_2, vector_of_f(0.0f));
+            const vector_f by_R0_0 = -by_square3 - by_square2 + (by_square0 + by_square1);
+            const vector_f total_8 = vector_select_f(is_less_2, by_row_8, vector_of_f(0.0f)) +
+                vector_select_f(is_less_3, by_row_11, vector_of_f(0.0f));
+            const vector_f total_9 = vector_select_f(is_less, by_row, vector_of_f(0.0f)) + vector_select_f(is_less,
+                vector_of_f(0.0f), by_row_2);
+            const vector_f by_R2_1 = total_8 + total_9;
+            const vector_f by_R0_1 = total_5 - total_4;
+            const vector_f by_R1_1 = by_square0 + (by_square2 - by_square3 - by_square1);
+            const vector_f by_R1_2 = total_8 - total_9;
+            const vector_f by_R0_2 = total_7 + total_6;
+            const vector_f by_R2_2 = by_square0 + (by_square3 - by_square2 - by_square1);
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] + mu1 * by_R1_0 + mu2 * by_R2_0 + mu0 * by_R0_0;
+            slope[1] = slope[1] + mu2 * by_R2_1 + mu0 * by_R0_1 + mu1 * by_R1_1;
+            slope[2] = slope[2] + mu1 * by_R1_2 + mu0 * by_R0_2 + mu2 * by_R2_2;
+            slope[3] = slope[3] + mu4 * by_R1_0 + mu5 * by_R2_0 + mu3 * by_R0_0;
+            slope[4] = slope[4] + mu5 * by_R2_1 + mu3 * by_R0_1 + mu4 * by_R1_1;
+            slope[5] = slope[5] + mu4 * by_R1_2 + mu3 * by_R0_2 + mu5 * by_R2_2;
+            slope[6] = slope[6] + mu7 * by_R1_0 + mu8 * by_R2_0 + mu6 * by_R0_0;
+            slope[7] = slope[7] + mu8 * by_R2_1 + mu6 * by_R0_1 + mu7 * by_R1_1;
+            slope[8] = slope[8] + mu7 * by_R1_2 + mu6 * by_R0_2 + mu8 * by_R2_2;
+        }
+    }
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -2004,6 +3080,857 @@ OUTLINE void pair_gradient_vjp_f(
     slope_bar[8] = x6 * gradient_bar1 - x7 * gradient_bar0;
 }
 
+/*
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
+OUTLINE void pair_backward_f(
+    size_t count, const vector_f *points, const uint32_t *near, const float *S, vector_f *sums) {
+    struct { vector_f square0, square1, largest, square2, largest_2, square3, row_12, row_10, row_11, row_9,
+            total_2, row_length, g3, g1, g2, norm_s_squared, g0, abs_g0, chosen, near_chosen, log_det_series,
+            near_chosen_2, norm_s, atan2_norm_s_abs_g0, t_ratio, product, log_det, scale, v0, v1, v2, z0, z1, z2,
+            phi, total_3, phi_product, total_4, phi_product_2, total_5, phi_product_3, by_t_over_norm_s, ratio,
+            by_t, total_6, ratio_2, norm_s_product, by_norm_s_ratio, by_log_det_near, by_t_over_norm_s_near,
+            t_over_norm_s_near_slope, by_log_det_series, log_det_series_slope, product_2, by_g3_ratio,
+            by_g0_ratio, by_g2_ratio, by_g1_ratio, product_3, ratio_3, by_by_row_11, by_by_row_10, by_by_row_12,
+            by_by_row_9, by_by_row_length, by_by_g2, by_by_g0, gap, by_by_g1, by_by_g3, total_11,
+            by_by_norm_s_squared, by_by_norm_s, by_by_atan2_norm_s_abs_g0, by_by_t_ratio, near_chosen_3,
+            by_by_scale, gap_2, phi_product_4, gap_3, phi_product_5, gap_4, phi_product_6, ratio_4,
+            by_by_log_det_series, by_log_det, by_v1, by_v2, by_v0, by_t_over_norm_s_2, product_6, by_t_2, ratio_5,
+            product_7, by_log_det_near_2, total_14, by_g2_ratio_2, by_g0_ratio_2, by_g3_ratio_2, by_g1_ratio_2,
+            product_9; } kept[16];
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 19 * (size_t)near[i];
+        const vector_f x0 = X[0];
+        const vector_f x1 = X[1];
+        const vector_f x2 = X[2];
+        const vector_f x3 = X[3];
+        const vector_f x4 = X[4];
+        const vector_f x5 = X[5];
+        const vector_f x6 = X[6];
+        const vector_f x7 = X[7];
+        const vector_f x8 = X[8];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float mu2 = S[2];
+        const float mu3 = S[3];
+        const float mu4 = S[4];
+        const float mu5 = S[5];
+        const float mu6 = S[6];
+        const float mu7 = S[7];
+        const float mu8 = S[8];
+        const vector_f R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8;
+        const vector_f R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7;
+        const vector_f R0_0 = x0 * mu0 + x3 * mu3 + x6 * mu6;
+        const vector_f R0_0_total = 1.0f + R0_0;
+        const vector_f square0 = R2_2 + (R1_1 + R0_0_total);
+        const vector_f square1 = R0_0_total - R1_1 - R2_2;
+        const vector_mask_f is_less = square0 < square1;
+        const vector_f largest = vector_select_f(is_less, square1, square0);
+        const vector_f square2 = 1.0f + R1_1 - R0_0 - R2_2;
+        const vector_mask_f is_less_2 = largest < square2;
+        const vector_f largest_2 = vector_select_f(is_less_2, square2, largest);
+        const vector_f square3 = 1.0f + R2_2 - R0_0 - R1_1;
+        const vector_mask_f is_less_3 = largest_2 < square3;
+        const vector_f R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7;
+        const vector_f R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8;
+        const vector_f R1_2_total = R1_2 + R2_1;
+        const vector_f R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6;
+        const vector_f R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8;
+        const vector_f R0_2_total = R0_2 + R2_0;
+        const vector_f R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7;
+        const vector_f R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6;
+        const vector_f R1_0_gap = R1_0 - R0_1;
+        const vector_f row_4 = vector_select_f(is_less, R0_2_total, R1_0_gap);
+        const vector_f row_8 = vector_select_f(is_less_2, R1_2_total, row_4);
+        const vector_f row_12 = vector_select_f(is_less_3, square3, row_8);
+        const vector_f R0_1_total = R0_1 + R1_0;
+        const vector_f R2_1_gap = R2_1 - R1_2;
+        const vector_f row_2 = vector_select_f(is_less, square1, R2_1_gap);
+        const vector_f row_6 = vector_select_f(is_less_2, R0_1_total, row_2);
+        const vector_f row_10 = vector_select_f(is_less_3, R0_2_total, row_6);
+        const vector_f R0_2_gap = R0_2 - R2_0;
+        const vector_f row_3 = vector_select_f(is_less, R0_1_total, R0_2_gap);
+        const vector_f row_7 = vector_select_f(is_less_2, square2, row_3);
+        const vector_f row_11 = vector_select_f(is_less_3, R1_2_total, row_7);
+        const vector_f row = vector_select_f(is_less, R2_1_gap, square0);
+        const vector_f row_5 = vector_select_f(is_less_2, R0_2_gap, row);
+        const vector_f row_9 = vector_select_f(is_less_3, R1_0_gap, row_5);
+        const vector_f total_2 = row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9;
+        const vector_f row_length = sqrt_each_f(total_2);
+        kept[i].square0 = square0;
+        kept[i].square1 = square1;
+        kept[i].largest = largest;
+        kept[i].square2 = square2;
+        kept[i].largest_2 = largest_2;
+        kept[i].square3 = square3;
+        kept[i].row_12 = row_12;
+        kept[i].row_10 = row_10;
+        kept[i].row_11 = row_11;
+        kept[i].row_9 = row_9;
+        kept[i].total_2 = total_2;
+        kept[i].row_length = row_length;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f row_12 = kept[i].row_12;
+        const vector_f row_10 = kept[i].row_10;
+        const vector_f row_11 = kept[i].row_11;
+        const vector_f row_length = kept[i].row_length;
+        const vector_f g3 = row_12 / row_length;
+        const vector_f g1 = row_10 / row_length;
+        const vector_f g2 = row_11 / row_length;
+        kept[i].g3 = g3;
+        kept[i].g1 = g1;
+        kept[i].g2 = g2;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *slope_bar = points + 19 * (size_t)near[i] + 9 + 1;
+        const vector_f square0 = kept[i].square0;
+        const vector_f square1 = kept[i].square1;
+        const vector_f largest = kept[i].largest;
+        const vector_f square2 = kept[i].square2;
+        const vector_f largest_2 = kept[i].largest_2;
+        const vector_f square3 = kept[i].square3;
+        const vector_f row_12 = kept[i].row_12;
+        const vector_f row_10 = kept[i].row_10;
+        const vector_f row_11 = kept[i].row_11;
+        const vector_f row_9 = kept[i].row_9;
+        const vector_f total_2 = kept[i].total_2;
+        const vector_f row_length = kept[i].row_length;
+        const vector_f g3 = kept[i].g3;
+        const vector_f g1 = kept[i].g1;
+        const vector_f g2 = kept[i].g2;
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float mu2 = S[2];
+        const float mu3 = S[3];
+        const float mu4 = S[4];
+        const float mu5 = S[5];
+        const float mu6 = S[6];
+        const float mu7 = S[7];
+        const float mu8 = S[8];
+        const vector_f x0_bar = slope_bar[0];
+        const vector_f x1_bar = slope_bar[1];
+        const vector_f x2_bar = slope_bar[2];
+        const vector_f x3_bar = slope_bar[3];
+        const vector_f x4_bar = slope_bar[4];
+        const vector_f x5_bar = slope_bar[5];
+        const vector_f x6_bar = slope_bar[6];
+        const vector_f x7_bar = slope_bar[7];
+        const vector_f x8_bar = slope_bar[8];
+        const vector_mask_f is_less = square0 < square1;
+        const vector_mask_f is_less_2 = largest < square2;
+        const vector_mask_f is_less_3 = largest_2 < square3;
+        const vector_f norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
+        const vector_mask_f its_near = norm_s_squared < 0.249287f;
+        const vector_f g0 = row_9 / row_length;
+        const vector_f near_chosen_2 = vector_select_f(its_near, vector_of_f(1.0f), norm_s_squared);
+        const vector_f norm_s = sqrt_each_f(near_chosen_2);
+        const vector_mask_f is_small_2 = total_2 == 0.0f;
+        const vector_f product_3 = 2.0f * vector_select_f(is_small_2, vector_of_f(1.0f), row_length);
+        const vector_f by_by_R0_2 = mu0 * x2_bar + mu3 * x5_bar + mu6 * x8_bar;
+        const vector_f by_by_R2_0 = mu2 * x0_bar + mu5 * x3_bar + mu8 * x6_bar;
+        const vector_f by_by_R0_2_gap = by_by_R0_2 - by_by_R2_0;
+        const vector_f by_by_R0_1 = mu0 * x1_bar + mu3 * x4_bar + mu6 * x7_bar;
+        const vector_f by_by_R1_0 = mu1 * x0_bar + mu4 * x3_bar + mu7 * x6_bar;
+        const vector_f by_by_R0_1_total = by_by_R0_1 + by_by_R1_0;
+        const vector_f by_by_row_3 = vector_select_f(is_less, vector_of_f(0.0f), by_by_R0_2_gap) +
+            vector_select_f(is_less, by_by_R0_1_total, vector_of_f(0.0f));
+        const vector_f by_by_R1_1 = mu1 * x1_bar + mu4 * x4_bar + mu7 * x7_bar;
+        const vector_f by_by_R0_0 = mu0 * x0_bar + mu3 * x3_bar + mu6 * x6_bar;
+        const vector_f by_by_R2_2 = mu2 * x2_bar + mu5 * x5_bar + mu8 * x8_bar;
+        const vector_f by_by_square2 = by_by_R1_1 - by_by_R0_0 - by_by_R2_2;
+        const vector_f by_by_row_7 = vector_select_f(is_less_2, vector_of_f(0.0f), by_by_row_3) +
+            vector_select_f(is_less_2, by_by_square2, vector_of_f(0.0f));
+        const vector_f by_by_R2_1 = mu2 * x1_bar + mu5 * x4_bar + mu8 * x7_bar;
+        const vector_f by_by_R1_2 = mu1 * x2_bar + mu4 * x5_bar + mu7 * x8_bar;
+        const vector_f by_by_R2_1_total = by_by_R2_1 + by_by_R1_2;
+        const vector_f by_by_row_11 = vector_select_f(is_less_3, vector_of_f(0.0f), by_by_row_7) +
+            vector_select_f(is_less_3, by_by_R2_1_total, vector_of_f(0.0f));
+        const vector_f by_by_R2_1_gap = by_by_R2_1 - by_by_R1_2;
+        const vector_f by_by_square1 = by_by_R0_0 - by_by_R1_1 - by_by_R2_2;
+        const vector_f by_by_row_2 = vector_select_f(is_less, vector_of_f(0.0f), by_by_R2_1_gap) +
+            vector_select_f(is_less, by_by_square1, vector_of_f(0.0f));
+        const vector_f by_by_row_6 = vector_select_f(is_less_2, vector_of_f(0.0f), by_by_row_2) +
+            vector_select_f(is_less_2, by_by_R0_1_total, vector_of_f(0.0f));
+        const vector_f by_by_R0_2_total = by_by_R0_2 + by_by_R2_0;
+        const vector_f by_by_row_10 = vector_select_f(is_less_3, vector_of_f(0.0f), by_by_row_6) +
+            vector_select_f(is_less_3, by_by_R0_2_total, vector_of_f(0.0f));
+        const vector_f by_by_R1_0_gap = by_by_R1_0 - by_by_R0_1;
+        const vector_f by_by_row_4 = vector_select_f(is_less, vector_of_f(0.0f), by_by_R1_0_gap) +
+            vector_select_f(is_less, by_by_R0_2_total, vector_of_f(0.0f));
+        const vector_f by_by_row_8 = vector_select_f(is_less_2, vector_of_f(0.0f), by_by_row_4) +
+            vector_select_f(is_less_2, by_by_R2_1_total, vector_of_f(0.0f));
+        const vector_f by_by_square3 = by_by_R2_2 - by_by_R1_1 - by_by_R0_0;
+        const vector_f by_by_row_12 = vector_select_f(is_less_3, vector_of_f(0.0f), by_by_row_8) +
+            vector_select_f(is_less_3, by_by_square3, vector_of_f(0.0f));
+        const vector_f by_by_square0 = by_by_R2_2 + (by_by_R1_1 + by_by_R0_0);
+        const vector_f by_by_row = vector_select_f(is_less, by_by_R2_1_gap, vector_of_f(0.0f)) +
+            vector_select_f(is_less, vector_of_f(0.0f), by_by_square0);
+        const vector_f by_by_row_5 = vector_select_f(is_less_2, vector_of_f(0.0f), by_by_row) +
+            vector_select_f(is_less_2, by_by_R0_2_gap, vector_of_f(0.0f));
+        const vector_f by_by_row_9 = vector_select_f(is_less_3, vector_of_f(0.0f), by_by_row_5) +
+            vector_select_f(is_less_3, by_by_R1_0_gap, vector_of_f(0.0f));
+        const vector_f product_5 = 2.0f * (row_10 * by_by_row_10 + row_11 * by_by_row_11 + row_12 * by_by_row_12 +
+            row_9 * by_by_row_9);
+        const vector_f by_by_row_length = vector_select_f(is_small_2, vector_of_f(0.0f), product_5) / product_3;
+        kept[i].norm_s_squared = norm_s_squared;
+        kept[i].g0 = g0;
+        kept[i].near_chosen_2 = near_chosen_2;
+        kept[i].norm_s = norm_s;
+        kept[i].product_3 = product_3;
+        kept[i].by_by_row_11 = by_by_row_11;
+        kept[i].by_by_row_10 = by_by_row_10;
+        kept[i].by_by_row_12 = by_by_row_12;
+        kept[i].by_by_row_9 = by_by_row_9;
+        kept[i].by_by_row_length = by_by_row_length;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f row_length = kept[i].row_length;
+        const vector_f g3 = kept[i].g3;
+        const vector_f g1 = kept[i].g1;
+        const vector_f g2 = kept[i].g2;
+        const vector_f g0 = kept[i].g0;
+        const vector_f norm_s = kept[i].norm_s;
+        const vector_f by_by_row_11 = kept[i].by_by_row_11;
+        const vector_f by_by_row_10 = kept[i].by_by_row_10;
+        const vector_f by_by_row_12 = kept[i].by_by_row_12;
+        const vector_f by_by_row_length = kept[i].by_by_row_length;
+        const vector_f abs_g0 = abs_each_f(g0);
+        const vector_f atan2_norm_s_abs_g0 = atan2_each_f(norm_s, abs_g0);
+        const vector_f by_by_g2 = (by_by_row_11 - g2 * by_by_row_length) / row_length;
+        const vector_f by_by_g1 = (by_by_row_10 - g1 * by_by_row_length) / row_length;
+        const vector_f by_by_g3 = (by_by_row_12 - g3 * by_by_row_length) / row_length;
+        kept[i].abs_g0 = abs_g0;
+        kept[i].atan2_norm_s_abs_g0 = atan2_norm_s_abs_g0;
+        kept[i].by_by_g2 = by_by_g2;
+        kept[i].by_by_g1 = by_by_g1;
+        kept[i].by_by_g3 = by_by_g3;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f row_length = kept[i].row_length;
+        const vector_f g3 = kept[i].g3;
+        const vector_f g1 = kept[i].g1;
+        const vector_f g2 = kept[i].g2;
+        const vector_f norm_s_squared = kept[i].norm_s_squared;
+        const vector_f g0 = kept[i].g0;
+        const vector_f norm_s = kept[i].norm_s;
+        const vector_f atan2_norm_s_abs_g0 = kept[i].atan2_norm_s_abs_g0;
+        const vector_f by_by_row_9 = kept[i].by_by_row_9;
+        const vector_f by_by_row_length = kept[i].by_by_row_length;
+        const vector_f by_by_g2 = kept[i].by_by_g2;
+        const vector_f by_by_g1 = kept[i].by_by_g1;
+        const vector_f by_by_g3 = kept[i].by_by_g3;
+        const vector_mask_f its_near = norm_s_squared < 0.249287f;
+        const vector_f t = 2.0f * atan2_norm_s_abs_g0;
+        const vector_f t_ratio = t / norm_s;
+        const vector_f norm_s_product = 2.0f * norm_s;
+        const vector_f by_by_g0 = (by_by_row_9 - g0 * by_by_row_length) / row_length;
+        const vector_f total_11 = g1 * by_by_g1 + g2 * by_by_g2 + g3 * by_by_g3;
+        const vector_f by_by_norm_s_squared = 2.0f * total_11;
+        const vector_f by_by_norm_s = vector_select_f(its_near, vector_of_f(0.0f), by_by_norm_s_squared) /
+            norm_s_product;
+        kept[i].t_ratio = t_ratio;
+        kept[i].norm_s_product = norm_s_product;
+        kept[i].by_by_g0 = by_by_g0;
+        kept[i].total_11 = total_11;
+        kept[i].by_by_norm_s_squared = by_by_norm_s_squared;
+        kept[i].by_by_norm_s = by_by_norm_s;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f norm_s_squared = kept[i].norm_s_squared;
+        const vector_f g0 = kept[i].g0;
+        const vector_f abs_g0 = kept[i].abs_g0;
+        const vector_f near_chosen_2 = kept[i].near_chosen_2;
+        const vector_f norm_s = kept[i].norm_s;
+        const vector_f t_ratio = kept[i].t_ratio;
+        const vector_f by_by_g0 = kept[i].by_by_g0;
+        const vector_f by_by_norm_s = kept[i].by_by_norm_s;
+        const vector_mask_f its_near = norm_s_squared < 0.249287f;
+        const vector_mask_f is_small = g0 < 0.0f;
+        const vector_f near_chosen = vector_select_f(its_near, 4.011440628672975f * norm_s_squared,
+            vector_of_f(0.0f));
+        const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
+        const vector_f log_det_near = norm_s_squared * log_det_series;
+        const vector_f product = 0.5f * t_ratio;
+        const vector_f log_det = vector_select_f(its_near, log_det_near, 2.0f * log_each_f(product));
+        const vector_f total_6 = near_chosen_2 + abs_g0 * abs_g0;
+        const vector_f by_by_abs_g0 = vector_select_f(is_small, vector_of_f(0.0f), by_by_g0);
+        const vector_f gap = vector_select_f(is_small, by_by_g0, vector_of_f(0.0f)) - by_by_abs_g0;
+        const vector_f by_by_atan2_norm_s_abs_g0 = (norm_s * gap + abs_g0 * by_by_norm_s) / total_6;
+        kept[i].near_chosen = near_chosen;
+        kept[i].log_det_series = log_det_series;
+        kept[i].product = product;
+        kept[i].log_det = log_det;
+        kept[i].total_6 = total_6;
+        kept[i].gap = gap;
+        kept[i].by_by_atan2_norm_s_abs_g0 = by_by_atan2_norm_s_abs_g0;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f g3 = kept[i].g3;
+        const vector_f g1 = kept[i].g1;
+        const vector_f g2 = kept[i].g2;
+        const vector_f norm_s_squared = kept[i].norm_s_squared;
+        const vector_f g0 = kept[i].g0;
+        const vector_f near_chosen = kept[i].near_chosen;
+        const vector_f norm_s = kept[i].norm_s;
+        const vector_f t_ratio = kept[i].t_ratio;
+        const vector_f log_det = kept[i].log_det;
+        const vector_f by_by_norm_s = kept[i].by_by_norm_s;
+        const vector_f by_by_atan2_norm_s_abs_g0 = kept[i].by_by_atan2_norm_s_abs_g0;
+        const float W0_0 = S[9];
+        const float W0_1 = S[10];
+        const float W0_2 = S[11];
+        const float W1_0 = S[12];
+        const float W1_1 = S[13];
+        const float W1_2 = S[14];
+        const float W2_0 = S[15];
+        const float W2_1 = S[16];
+        const float W2_2 = S[17];
+        const vector_mask_f its_near = norm_s_squared < 0.249287f;
+        const vector_mask_f is_small = g0 < 0.0f;
+        const vector_f chosen = vector_select_f(is_small, vector_of_f(-1.0f), vector_of_f(1.0f));
+        const vector_f t_over_norm_s_near = vector_polynomial_t_over_norm_s_near_f(near_chosen);
+        const vector_f t_over_norm_s = vector_select_f(its_near, t_over_norm_s_near, t_ratio);
+        const vector_f scale = t_over_norm_s * chosen;
+        const vector_f v0 = g1 * scale;
+        const vector_f v1 = g2 * scale;
+        const vector_f v2 = g3 * scale;
+        const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
+        const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
+        const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
+        const vector_f log_det_gap = log_det - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
+        const vector_f phi = exp_each_f(log_det_gap);
+        const vector_f by_by_t = 2.0f * by_by_atan2_norm_s_abs_g0 - t_ratio * by_by_norm_s;
+        const vector_f by_by_t_ratio = by_by_t / norm_s;
+        kept[i].chosen = chosen;
+        kept[i].scale = scale;
+        kept[i].v0 = v0;
+        kept[i].v1 = v1;
+        kept[i].v2 = v2;
+        kept[i].z0 = z0;
+        kept[i].z1 = z1;
+        kept[i].z2 = z2;
+        kept[i].phi = phi;
+        kept[i].by_by_t_ratio = by_by_t_ratio;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f norm_s_squared = kept[i].norm_s_squared;
+        const vector_f product = kept[i].product;
+        const vector_f phi = kept[i].phi;
+        const vector_f by_by_t_ratio = kept[i].by_by_t_ratio;
+        const vector_mask_f its_near = norm_s_squared < 0.249287f;
+        const vector_f ratio = 2.0f * vector_select_f(its_near, vector_of_f(0.0f), phi) / product;
+        const vector_f ratio_4 = 0.5f * by_by_t_ratio / product;
+        kept[i].ratio = ratio;
+        kept[i].ratio_4 = ratio_4;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *value_bar = points + 19 * (size_t)near[i] + 9;
+        const vector_f g3 = kept[i].g3;
+        const vector_f g1 = kept[i].g1;
+        const vector_f g2 = kept[i].g2;
+        const vector_f norm_s_squared = kept[i].norm_s_squared;
+        const vector_f chosen = kept[i].chosen;
+        const vector_f near_chosen = kept[i].near_chosen;
+        const vector_f log_det_series = kept[i].log_det_series;
+        const vector_f norm_s = kept[i].norm_s;
+        const vector_f product = kept[i].product;
+        const vector_f scale = kept[i].scale;
+        const vector_f z0 = kept[i].z0;
+        const vector_f z1 = kept[i].z1;
+        const vector_f z2 = kept[i].z2;
+        const vector_f phi = kept[i].phi;
+        const vector_f ratio = kept[i].ratio;
+        const vector_f by_by_g2 = kept[i].by_by_g2;
+        const vector_f by_by_g1 = kept[i].by_by_g1;
+        const vector_f by_by_g3 = kept[i].by_by_g3;
+        const vector_f total_11 = kept[i].total_11;
+        const vector_f by_by_norm_s_squared = kept[i].by_by_norm_s_squared;
+        const vector_f by_by_t_ratio = kept[i].by_by_t_ratio;
+        const vector_f ratio_4 = kept[i].ratio_4;
+        const float W0_0 = S[9];
+        const float W0_1 = S[10];
+        const float W0_2 = S[11];
+        const float W1_0 = S[12];
+        const float W1_1 = S[13];
+        const float W1_2 = S[14];
+        const float W2_0 = S[15];
+        const float W2_1 = S[16];
+        const float W2_2 = S[17];
+        const vector_f its_value_bar = value_bar[0];
+        const vector_mask_f its_near = norm_s_squared < 0.249287f;
+        const vector_f total_3 = W2_2 * z2 + (W1_2 * z1 + W0_2 * z0);
+        const vector_f phi_product = phi * total_3;
+        const vector_f total_4 = W2_1 * z2 + (W1_1 * z1 + W0_1 * z0);
+        const vector_f phi_product_2 = phi * total_4;
+        const vector_f total_5 = W2_0 * z2 + (W1_0 * z1 + W0_0 * z0);
+        const vector_f phi_product_3 = phi * total_5;
+        const vector_f by_scale = -(g3 * phi_product) - g2 * phi_product_2 - g1 * phi_product_3;
+        const vector_f by_t_over_norm_s = chosen * by_scale;
+        const vector_f by_t = (vector_select_f(its_near, vector_of_f(0.0f), by_t_over_norm_s) + 0.5f * ratio) /
+            norm_s;
+        const vector_f t_over_norm_s_near_slope = vector_polynomial_t_over_norm_s_near_slope_f(near_chosen);
+        const vector_f log_det_series_slope = vector_polynomial_log_det_series_slope_f(near_chosen);
+        const vector_f near_chosen_3 = vector_select_f(its_near, 8.02288125734595f * total_11, vector_of_f(0.0f));
+        const vector_f by_by_t_over_norm_s_near = t_over_norm_s_near_slope * near_chosen_3;
+        const vector_f by_by_t_over_norm_s = vector_select_f(its_near, vector_of_f(0.0f), by_by_t_ratio) +
+            vector_select_f(its_near, by_by_t_over_norm_s_near, vector_of_f(0.0f));
+        const vector_f by_by_scale = chosen * by_by_t_over_norm_s;
+        const vector_f gap_2 = -(g1 * by_by_scale) - scale * by_by_g1;
+        const vector_f gap_3 = -(g2 * by_by_scale) - scale * by_by_g2;
+        const vector_f gap_4 = -(g3 * by_by_scale) - scale * by_by_g3;
+        const vector_f by_by_log_det_series = log_det_series_slope * near_chosen_3;
+        const vector_f by_by_log_det_near = norm_s_squared * by_by_log_det_series + log_det_series *
+            by_by_norm_s_squared;
+        const vector_f total_12 = its_value_bar + vector_select_f(its_near, vector_of_f(0.0f), 2.0f * ratio_4) +
+            vector_select_f(its_near, by_by_log_det_near, vector_of_f(0.0f)) + total_3 * gap_4;
+        const vector_f by_phi = total_12 + total_4 * gap_3 + total_5 * gap_2;
+        const vector_f by_log_det = phi * by_phi;
+        const vector_f product_6 = 0.5f * (2.0f * vector_select_f(its_near, vector_of_f(0.0f), by_log_det) /
+            product - ratio * ratio_4);
+        kept[i].total_3 = total_3;
+        kept[i].phi_product = phi_product;
+        kept[i].total_4 = total_4;
+        kept[i].phi_product_2 = phi_product_2;
+        kept[i].total_5 = total_5;
+        kept[i].phi_product_3 = phi_product_3;
+        kept[i].by_t_over_norm_s = by_t_over_norm_s;
+        kept[i].by_t = by_t;
+        kept[i].t_over_norm_s_near_slope = t_over_norm_s_near_slope;
+        kept[i].log_det_series_slope = log_det_series_slope;
+        kept[i].near_chosen_3 = near_chosen_3;
+        kept[i].by_by_scale = by_by_scale;
+        kept[i].gap_2 = gap_2;
+        kept[i].gap_3 = gap_3;
+        kept[i].gap_4 = gap_4;
+        kept[i].by_by_log_det_series = by_by_log_det_series;
+        kept[i].by_log_det = by_log_det;
+        kept[i].product_6 = product_6;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f g3 = kept[i].g3;
+        const vector_f g1 = kept[i].g1;
+        const vector_f g2 = kept[i].g2;
+        const vector_f norm_s_squared = kept[i].norm_s_squared;
+        const vector_f chosen = kept[i].chosen;
+        const vector_f norm_s = kept[i].norm_s;
+        const vector_f phi = kept[i].phi;
+        const vector_f total_3 = kept[i].total_3;
+        const vector_f phi_product = kept[i].phi_product;
+        const vector_f total_4 = kept[i].total_4;
+        const vector_f phi_product_2 = kept[i].phi_product_2;
+        const vector_f total_5 = kept[i].total_5;
+        const vector_f phi_product_3 = kept[i].phi_product_3;
+        const vector_f by_t = kept[i].by_t;
+        const vector_f total_6 = kept[i].total_6;
+        const vector_f by_by_g2 = kept[i].by_by_g2;
+        const vector_f by_by_g1 = kept[i].by_by_g1;
+        const vector_f by_by_g3 = kept[i].by_by_g3;
+        const vector_f by_by_norm_s = kept[i].by_by_norm_s;
+        const vector_f gap_2 = kept[i].gap_2;
+        const vector_f gap_3 = kept[i].gap_3;
+        const vector_f gap_4 = kept[i].gap_4;
+        const vector_f by_log_det = kept[i].by_log_det;
+        const vector_f product_6 = kept[i].product_6;
+        const float M0_0 = S[19];
+        const float M0_1 = S[20];
+        const float M0_2 = S[21];
+        const float M1_1 = S[22];
+        const float M1_2 = S[23];
+        const float M2_2 = S[24];
+        const vector_mask_f its_near = norm_s_squared < 0.249287f;
+        const vector_f by_atan2_norm_s_abs_g0 = 2.0f * by_t;
+        const vector_f ratio_2 = by_atan2_norm_s_abs_g0 / total_6;
+        const vector_f phi_product_4 = phi * gap_2;
+        const vector_f phi_product_5 = phi * gap_3;
+        const vector_f phi_product_6 = phi * gap_4;
+        const vector_f by_v1 = M0_1 * phi_product_4 + M1_1 * phi_product_5 + M1_2 * phi_product_6 - total_4 *
+            by_log_det;
+        const vector_f by_v2 = M0_2 * phi_product_4 + M1_2 * phi_product_5 + M2_2 * phi_product_6 - total_3 *
+            by_log_det;
+        const vector_f total_13 = -(phi_product_3 * by_by_g1) - phi_product_2 * by_by_g2 - phi_product * by_by_g3
+            + g3 * by_v2;
+        const vector_f by_v0 = M0_0 * phi_product_4 + M0_1 * phi_product_5 + M0_2 * phi_product_6 - total_5 *
+            by_log_det;
+        const vector_f by_scale_2 = total_13 + g2 * by_v1 + g1 * by_v0;
+        const vector_f by_t_over_norm_s_2 = chosen * by_scale_2;
+        const vector_f by_t_2 = (vector_select_f(its_near, vector_of_f(0.0f), by_t_over_norm_s_2) - by_t *
+            by_by_norm_s + product_6) / norm_s;
+        kept[i].ratio_2 = ratio_2;
+        kept[i].phi_product_4 = phi_product_4;
+        kept[i].phi_product_5 = phi_product_5;
+        kept[i].phi_product_6 = phi_product_6;
+        kept[i].by_v1 = by_v1;
+        kept[i].by_v2 = by_v2;
+        kept[i].by_v0 = by_v0;
+        kept[i].by_t_over_norm_s_2 = by_t_over_norm_s_2;
+        kept[i].by_t_2 = by_t_2;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f abs_g0 = kept[i].abs_g0;
+        const vector_f t_ratio = kept[i].t_ratio;
+        const vector_f by_t = kept[i].by_t;
+        const vector_f total_6 = kept[i].total_6;
+        const vector_f ratio_2 = kept[i].ratio_2;
+        const vector_f norm_s_product = kept[i].norm_s_product;
+        const vector_f by_t_2 = kept[i].by_t_2;
+        const vector_f by_norm_s = abs_g0 * ratio_2 - t_ratio * by_t;
+        const vector_f by_norm_s_ratio = by_norm_s / norm_s_product;
+        const vector_f by_atan2_norm_s_abs_g0_2 = 2.0f * by_t_2;
+        const vector_f ratio_5 = by_atan2_norm_s_abs_g0_2 / total_6;
+        kept[i].by_norm_s_ratio = by_norm_s_ratio;
+        kept[i].ratio_5 = ratio_5;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f row_length = kept[i].row_length;
+        const vector_f g3 = kept[i].g3;
+        const vector_f g1 = kept[i].g1;
+        const vector_f g2 = kept[i].g2;
+        const vector_f norm_s_squared = kept[i].norm_s_squared;
+        const vector_f g0 = kept[i].g0;
+        const vector_f abs_g0 = kept[i].abs_g0;
+        const vector_f log_det_series = kept[i].log_det_series;
+        const vector_f norm_s = kept[i].norm_s;
+        const vector_f t_ratio = kept[i].t_ratio;
+        const vector_f scale = kept[i].scale;
+        const vector_f phi = kept[i].phi;
+        const vector_f phi_product = kept[i].phi_product;
+        const vector_f phi_product_2 = kept[i].phi_product_2;
+        const vector_f phi_product_3 = kept[i].phi_product_3;
+        const vector_f by_t_over_norm_s = kept[i].by_t_over_norm_s;
+        const vector_f by_t = kept[i].by_t;
+        const vector_f ratio_2 = kept[i].ratio_2;
+        const vector_f norm_s_product = kept[i].norm_s_product;
+        const vector_f by_norm_s_ratio = kept[i].by_norm_s_ratio;
+        const vector_f t_over_norm_s_near_slope = kept[i].t_over_norm_s_near_slope;
+        const vector_f log_det_series_slope = kept[i].log_det_series_slope;
+        const vector_f gap = kept[i].gap;
+        const vector_f by_by_norm_s = kept[i].by_by_norm_s;
+        const vector_f by_by_atan2_norm_s_abs_g0 = kept[i].by_by_atan2_norm_s_abs_g0;
+        const vector_f by_by_t_ratio = kept[i].by_by_t_ratio;
+        const vector_f by_by_log_det_series = kept[i].by_by_log_det_series;
+        const vector_f by_log_det = kept[i].by_log_det;
+        const vector_f by_t_2 = kept[i].by_t_2;
+        const vector_f ratio_5 = kept[i].ratio_5;
+        const vector_mask_f its_near = norm_s_squared < 0.249287f;
+        const vector_mask_f is_small = g0 < 0.0f;
+        const vector_f by_log_det_near = vector_select_f(its_near, phi, vector_of_f(0.0f));
+        const vector_f by_t_over_norm_s_near = vector_select_f(its_near, by_t_over_norm_s, vector_of_f(0.0f));
+        const vector_f by_log_det_series = norm_s_squared * by_log_det_near;
+        const vector_f by_norm_s_squared = vector_select_f(its_near, vector_of_f(0.0f), by_norm_s_ratio) +
+            log_det_series * by_log_det_near + 4.011440628672975f * vector_select_f(its_near,
+            by_t_over_norm_s_near * t_over_norm_s_near_slope + by_log_det_series * log_det_series_slope,
+            vector_of_f(0.0f));
+        const vector_f product_2 = 2.0f * by_norm_s_squared;
+        const vector_f by_g3 = g3 * product_2 - scale * phi_product;
+        const vector_f by_g3_ratio = by_g3 / row_length;
+        const vector_f norm_s_product_2 = norm_s * ratio_2;
+        const vector_f by_abs_g0 = -norm_s_product_2;
+        const vector_f by_g0 = vector_select_f(is_small, norm_s_product_2, by_abs_g0);
+        const vector_f by_g0_ratio = by_g0 / row_length;
+        const vector_f by_g2 = g2 * product_2 - scale * phi_product_2;
+        const vector_f by_g2_ratio = by_g2 / row_length;
+        const vector_f by_g1 = g1 * product_2 - scale * phi_product_3;
+        const vector_f by_g1_ratio = by_g1 / row_length;
+        const vector_f gap_5 = ratio_2 * gap - 2.0f * (by_norm_s_ratio * by_by_norm_s) - by_t * by_by_t_ratio -
+            t_ratio * by_t_2;
+        const vector_f by_norm_s_2 = gap_5 + abs_g0 * ratio_5;
+        const vector_f product_7 = ratio_2 * by_by_atan2_norm_s_abs_g0;
+        const vector_f by_log_det_near_2 = vector_select_f(its_near, by_log_det, vector_of_f(0.0f));
+        const vector_f total_14 = by_log_det_near * by_by_log_det_series + vector_select_f(its_near,
+            vector_of_f(0.0f), by_norm_s_2 / norm_s_product - product_7) + log_det_series * by_log_det_near_2;
+        kept[i].by_log_det_near = by_log_det_near;
+        kept[i].by_t_over_norm_s_near = by_t_over_norm_s_near;
+        kept[i].by_log_det_series = by_log_det_series;
+        kept[i].product_2 = product_2;
+        kept[i].by_g3_ratio = by_g3_ratio;
+        kept[i].by_g0_ratio = by_g0_ratio;
+        kept[i].by_g2_ratio = by_g2_ratio;
+        kept[i].by_g1_ratio = by_g1_ratio;
+        kept[i].product_7 = product_7;
+        kept[i].by_log_det_near_2 = by_log_det_near_2;
+        kept[i].total_14 = total_14;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f row_length = kept[i].row_length;
+        const vector_f g3 = kept[i].g3;
+        const vector_f g1 = kept[i].g1;
+        const vector_f g2 = kept[i].g2;
+        const vector_f norm_s_squared = kept[i].norm_s_squared;
+        const vector_f g0 = kept[i].g0;
+        const vector_f abs_g0 = kept[i].abs_g0;
+        const vector_f near_chosen = kept[i].near_chosen;
+        const vector_f norm_s = kept[i].norm_s;
+        const vector_f scale = kept[i].scale;
+        const vector_f phi_product = kept[i].phi_product;
+        const vector_f phi_product_2 = kept[i].phi_product_2;
+        const vector_f phi_product_3 = kept[i].phi_product_3;
+        const vector_f ratio_2 = kept[i].ratio_2;
+        const vector_f by_log_det_near = kept[i].by_log_det_near;
+        const vector_f by_t_over_norm_s_near = kept[i].by_t_over_norm_s_near;
+        const vector_f t_over_norm_s_near_slope = kept[i].t_over_norm_s_near_slope;
+        const vector_f by_log_det_series = kept[i].by_log_det_series;
+        const vector_f log_det_series_slope = kept[i].log_det_series_slope;
+        const vector_f product_2 = kept[i].product_2;
+        const vector_f by_g3_ratio = kept[i].by_g3_ratio;
+        const vector_f by_g0_ratio = kept[i].by_g0_ratio;
+        const vector_f by_g2_ratio = kept[i].by_g2_ratio;
+        const vector_f by_g1_ratio = kept[i].by_g1_ratio;
+        const vector_f product_3 = kept[i].product_3;
+        const vector_f by_by_row_length = kept[i].by_by_row_length;
+        const vector_f by_by_g2 = kept[i].by_by_g2;
+        const vector_f by_by_g1 = kept[i].by_by_g1;
+        const vector_f by_by_g3 = kept[i].by_by_g3;
+        const vector_f by_by_norm_s_squared = kept[i].by_by_norm_s_squared;
+        const vector_f by_by_norm_s = kept[i].by_by_norm_s;
+        const vector_f near_chosen_3 = kept[i].near_chosen_3;
+        const vector_f by_by_scale = kept[i].by_by_scale;
+        const vector_f by_v1 = kept[i].by_v1;
+        const vector_f by_v2 = kept[i].by_v2;
+        const vector_f by_v0 = kept[i].by_v0;
+        const vector_f by_t_over_norm_s_2 = kept[i].by_t_over_norm_s_2;
+        const vector_f ratio_5 = kept[i].ratio_5;
+        const vector_f product_7 = kept[i].product_7;
+        const vector_f by_log_det_near_2 = kept[i].by_log_det_near_2;
+        const vector_f total_14 = kept[i].total_14;
+        const vector_mask_f its_near = norm_s_squared < 0.249287f;
+        const vector_mask_f is_small = g0 < 0.0f;
+        const vector_f by_row_length = -(g0 * by_g0_ratio) - g3 * by_g3_ratio - g2 * by_g2_ratio - g1 *
+            by_g1_ratio;
+        const vector_f ratio_3 = by_row_length / product_3;
+        const vector_f by_log_det_series_slope = by_log_det_series * near_chosen_3;
+        const vector_f log_det_series_slope_slope = vector_polynomial_log_det_series_slope_slope_f(near_chosen);
+        const vector_f by_t_over_norm_s_near_slope = by_t_over_norm_s_near * near_chosen_3;
+        const vector_f t_over_norm_s_near_slope_slope =
+            vector_polynomial_t_over_norm_s_near_slope_slope_f(near_chosen);
+        const vector_f by_t_over_norm_s_near_2 = vector_select_f(its_near, by_t_over_norm_s_2, vector_of_f(0.0f));
+        const vector_f by_log_det_series_2 = by_log_det_near * by_by_norm_s_squared + norm_s_squared *
+            by_log_det_near_2;
+        const vector_f near_chosen_4 = vector_select_f(its_near, by_log_det_series_slope *
+            log_det_series_slope_slope + by_t_over_norm_s_near_slope * t_over_norm_s_near_slope_slope +
+            t_over_norm_s_near_slope * by_t_over_norm_s_near_2 + log_det_series_slope * by_log_det_series_2,
+            vector_of_f(0.0f));
+        const vector_f by_norm_s_squared_2 = total_14 + 4.011440628672975f * near_chosen_4;
+        const vector_f product_8 = 2.0f * by_norm_s_squared_2;
+        const vector_f by_g2_2 = product_2 * by_by_g2 - by_g2_ratio * by_by_row_length - phi_product_2 *
+            by_by_scale + scale * by_v1 + g2 * product_8;
+        const vector_f by_g2_ratio_2 = by_g2_2 / row_length;
+        const vector_f norm_s_product_3 = norm_s * ratio_5;
+        const vector_f gap_7 = ratio_2 * by_by_norm_s - abs_g0 * (2.0f * product_7);
+        const vector_f by_abs_g0_2 = gap_7 - norm_s_product_3;
+        const vector_f by_g0_2 = vector_select_f(is_small, norm_s_product_3 - gap_7, by_abs_g0_2) - by_g0_ratio *
+            by_by_row_length;
+        const vector_f by_g0_ratio_2 = by_g0_2 / row_length;
+        const vector_f by_g3_2 = product_2 * by_by_g3 - by_g3_ratio * by_by_row_length - phi_product * by_by_scale
+            + scale * by_v2 + g3 * product_8;
+        const vector_f by_g3_ratio_2 = by_g3_2 / row_length;
+        const vector_f by_g1_2 = product_2 * by_by_g1 - by_g1_ratio * by_by_row_length - phi_product_3 *
+            by_by_scale + scale * by_v0 + g1 * product_8;
+        const vector_f by_g1_ratio_2 = by_g1_2 / row_length;
+        kept[i].ratio_3 = ratio_3;
+        kept[i].by_g2_ratio_2 = by_g2_ratio_2;
+        kept[i].by_g0_ratio_2 = by_g0_ratio_2;
+        kept[i].by_g3_ratio_2 = by_g3_ratio_2;
+        kept[i].by_g1_ratio_2 = by_g1_ratio_2;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f total_2 = kept[i].total_2;
+        const vector_f g3 = kept[i].g3;
+        const vector_f g1 = kept[i].g1;
+        const vector_f g2 = kept[i].g2;
+        const vector_f g0 = kept[i].g0;
+        const vector_f by_g3_ratio = kept[i].by_g3_ratio;
+        const vector_f by_g0_ratio = kept[i].by_g0_ratio;
+        const vector_f by_g2_ratio = kept[i].by_g2_ratio;
+        const vector_f by_g1_ratio = kept[i].by_g1_ratio;
+        const vector_f product_3 = kept[i].product_3;
+        const vector_f ratio_3 = kept[i].ratio_3;
+        const vector_f by_by_row_length = kept[i].by_by_row_length;
+        const vector_f by_by_g2 = kept[i].by_by_g2;
+        const vector_f by_by_g0 = kept[i].by_by_g0;
+        const vector_f by_by_g1 = kept[i].by_by_g1;
+        const vector_f by_by_g3 = kept[i].by_by_g3;
+        const vector_f by_g2_ratio_2 = kept[i].by_g2_ratio_2;
+        const vector_f by_g0_ratio_2 = kept[i].by_g0_ratio_2;
+        const vector_f by_g3_ratio_2 = kept[i].by_g3_ratio_2;
+        const vector_f by_g1_ratio_2 = kept[i].by_g1_ratio_2;
+        const vector_mask_f is_small_2 = total_2 == 0.0f;
+        const vector_f gap_6 = vector_select_f(is_small_2, vector_of_f(0.0f), -2.0f * (ratio_3 *
+            by_by_row_length)) - by_g1_ratio * by_by_g1;
+        const vector_f gap_8 = gap_6 - by_g2_ratio * by_by_g2 - by_g3_ratio * by_by_g3 - by_g0_ratio * by_by_g0 -
+            g0 * by_g0_ratio_2;
+        const vector_f by_row_length_2 = gap_8 - g3 * by_g3_ratio_2 - g2 * by_g2_ratio_2 - g1 * by_g1_ratio_2;
+        const vector_f product_9 = 2.0f * vector_select_f(is_small_2, vector_of_f(0.0f), by_row_length_2 /
+            product_3);
+        kept[i].product_9 = product_9;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 19 * (size_t)near[i];
+        const vector_f *slope_bar = points + 19 * (size_t)near[i] + 9 + 1;
+        const vector_f square0 = kept[i].square0;
+        const vector_f square1 = kept[i].square1;
+        const vector_f largest = kept[i].largest;
+        const vector_f square2 = kept[i].square2;
+        const vector_f largest_2 = kept[i].largest_2;
+        const vector_f square3 = kept[i].square3;
+        const vector_f row_12 = kept[i].row_12;
+        const vector_f row_10 = kept[i].row_10;
+        const vector_f row_11 = kept[i].row_11;
+        const vector_f row_9 = kept[i].row_9;
+        const vector_f total_2 = kept[i].total_2;
+        const vector_f v0 = kept[i].v0;
+        const vector_f v1 = kept[i].v1;
+        const vector_f v2 = kept[i].v2;
+        const vector_f by_g3_ratio = kept[i].by_g3_ratio;
+        const vector_f by_g0_ratio = kept[i].by_g0_ratio;
+        const vector_f by_g2_ratio = kept[i].by_g2_ratio;
+        const vector_f by_g1_ratio = kept[i].by_g1_ratio;
+        const vector_f ratio_3 = kept[i].ratio_3;
+        const vector_f by_by_row_11 = kept[i].by_by_row_11;
+        const vector_f by_by_row_10 = kept[i].by_by_row_10;
+        const vector_f by_by_row_12 = kept[i].by_by_row_12;
+        const vector_f by_by_row_9 = kept[i].by_by_row_9;
+        const vector_f phi_product_4 = kept[i].phi_product_4;
+        const vector_f phi_product_5 = kept[i].phi_product_5;
+        const vector_f phi_product_6 = kept[i].phi_product_6;
+        const vector_f by_log_det = kept[i].by_log_det;
+        const vector_f by_g2_ratio_2 = kept[i].by_g2_ratio_2;
+        const vector_f by_g0_ratio_2 = kept[i].by_g0_ratio_2;
+        const vector_f by_g3_ratio_2 = kept[i].by_g3_ratio_2;
+        const vector_f by_g1_ratio_2 = kept[i].by_g1_ratio_2;
+        const vector_f product_9 = kept[i].product_9;
+        const vector_f x0 = X[0];
+        const vector_f x1 = X[1];
+        const vector_f x2 = X[2];
+        const vector_f x3 = X[3];
+        const vector_f x4 = X[4];
+        const vector_f x5 = X[5];
+        const vector_f x6 = X[6];
+        const vector_f x7 = X[7];
+        const vector_f x8 = X[8];
+        const vector_f x0_bar = slope_bar[0];
+        const vector_f x1_bar = slope_bar[1];
+        const vector_f x2_bar = slope_bar[2];
+        const vector_f x3_bar = slope_bar[3];
+        const vector_f x4_bar = slope_bar[4];
+        const vector_f x5_bar = slope_bar[5];
+        const vector_f x6_bar = slope_bar[6];
+        const vector_f x7_bar = slope_bar[7];
+        const vector_f x8_bar = slope_bar[8];
+        const vector_mask_f is_less = square0 < square1;
+        const vector_mask_f is_less_2 = largest < square2;
+        const vector_mask_f is_less_3 = largest_2 < square3;
+        const vector_mask_f is_small_2 = total_2 == 0.0f;
+        const vector_f product_4 = 2.0f * vector_select_f(is_small_2, vector_of_f(0.0f), ratio_3);
+        const vector_f by_row_12 = by_g3_ratio + row_12 * product_4;
+        const vector_f by_square3 = vector_select_f(is_less_3, by_row_12, vector_of_f(0.0f));
+        const vector_f by_row_11 = by_g2_ratio + row_11 * product_4;
+        const vector_f by_row_7 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_11);
+        const vector_f by_square2 = vector_select_f(is_less_2, by_row_7, vector_of_f(0.0f));
+        const vector_f by_row_9 = by_g0_ratio + row_9 * product_4;
+        const vector_f by_row_5 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_9);
+        const vector_f by_row = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_5);
+        const vector_f by_square0 = vector_select_f(is_less, vector_of_f(0.0f), by_row);
+        const vector_f by_row_10 = by_g1_ratio + row_10 * product_4;
+        const vector_f by_row_6 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_10);
+        const vector_f by_row_2 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_6);
+        const vector_f by_square1 = vector_select_f(is_less, by_row_2, vector_of_f(0.0f));
+        const vector_f by_R0_0 = -by_square3 - by_square2 + (by_square0 + by_square1);
+        const vector_f by_row_3 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_7);
+        const vector_f total_7 = vector_select_f(is_less_2, by_row_5, vector_of_f(0.0f)) +
+            vector_select_f(is_less, vector_of_f(0.0f), by_row_3);
+        const vector_f by_row_8 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_12);
+        const vector_f by_row_4 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_8);
+        const vector_f total_8 = vector_select_f(is_less, by_row_4, vector_of_f(0.0f)) +
+            vector_select_f(is_less_3, by_row_10, vector_of_f(0.0f));
+        const vector_f by_R0_2 = total_7 + total_8;
+        const vector_f total_9 = vector_select_f(is_less, by_row_3, vector_of_f(0.0f)) +
+            vector_select_f(is_less_2, by_row_6, vector_of_f(0.0f));
+        const vector_f total_10 = vector_select_f(is_less_3, by_row_9, vector_of_f(0.0f)) +
+            vector_select_f(is_less, vector_of_f(0.0f), by_row_4);
+        const vector_f by_R0_1 = total_9 - total_10;
+        const vector_f by_row_11_2 = product_4 * by_by_row_11 + by_g2_ratio_2 + row_11 * product_9;
+        const vector_f by_row_7_2 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_11_2);
+        const vector_f by_row_3_2 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_7_2);
+        const vector_f by_row_10_2 = product_4 * by_by_row_10 + by_g1_ratio_2 + row_10 * product_9;
+        const vector_f by_row_6_2 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_10_2);
+        const vector_f total_15 = vector_select_f(is_less, by_row_3_2, vector_of_f(0.0f)) +
+            vector_select_f(is_less_2, by_row_6_2, vector_of_f(0.0f));
+        const vector_f by_row_9_2 = product_4 * by_by_row_9 + by_g0_ratio_2 + row_9 * product_9;
+        const vector_f by_row_12_2 = product_4 * by_by_row_12 + by_g3_ratio_2 + row_12 * product_9;
+        const vector_f by_row_8_2 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_12_2);
+        const vector_f by_row_4_2 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_8_2);
+        const vector_f total_16 = vector_select_f(is_less_3, by_row_9_2, vector_of_f(0.0f)) +
+            vector_select_f(is_less, vector_of_f(0.0f), by_row_4_2);
+        const vector_f by_R0_1_2 = total_15 - total_16;
+        const vector_f by_row_5_2 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_9_2);
+        const vector_f total_17 = vector_select_f(is_less_2, by_row_5_2, vector_of_f(0.0f)) +
+            vector_select_f(is_less, vector_of_f(0.0f), by_row_3_2);
+        const vector_f total_18 = vector_select_f(is_less, by_row_4_2, vector_of_f(0.0f)) +
+            vector_select_f(is_less_3, by_row_10_2, vector_of_f(0.0f));
+        const vector_f by_R0_2_2 = total_17 + total_18;
+        const vector_f by_square3_2 = vector_select_f(is_less_3, by_row_12_2, vector_of_f(0.0f));
+        const vector_f by_square2_2 = vector_select_f(is_less_2, by_row_7_2, vector_of_f(0.0f));
+        const vector_f by_row_13 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_5_2);
+        const vector_f by_square0_2 = vector_select_f(is_less, vector_of_f(0.0f), by_row_13);
+        const vector_f by_row_2_2 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_6_2);
+        const vector_f by_square1_2 = vector_select_f(is_less, by_row_2_2, vector_of_f(0.0f));
+        const vector_f by_R0_0_2 = -by_square3_2 - by_square2_2 + (by_square0_2 + by_square1_2);
+        const vector_f by_R1_1 = by_square0 + (by_square2 - by_square3 - by_square1);
+        const vector_f by_R1_0 = total_10 + total_9;
+        const vector_f total_20 = vector_select_f(is_less_2, by_row_8, vector_of_f(0.0f)) +
+            vector_select_f(is_less_3, by_row_11, vector_of_f(0.0f));
+        const vector_f total_21 = vector_select_f(is_less, by_row, vector_of_f(0.0f)) + vector_select_f(is_less,
+            vector_of_f(0.0f), by_row_2);
+        const vector_f by_R1_2 = total_20 - total_21;
+        const vector_f total_22 = vector_select_f(is_less_2, by_row_8_2, vector_of_f(0.0f)) +
+            vector_select_f(is_less_3, by_row_11_2, vector_of_f(0.0f));
+        const vector_f total_23 = vector_select_f(is_less, by_row_13, vector_of_f(0.0f)) +
+            vector_select_f(is_less, vector_of_f(0.0f), by_row_2_2);
+        const vector_f by_R1_2_2 = total_22 - total_23;
+        const vector_f by_R1_0_2 = total_16 + total_15;
+        const vector_f by_R1_1_2 = by_square0_2 + (by_square2_2 - by_square3_2 - by_square1_2);
+        const vector_f by_R2_2 = by_square0 + (by_square3 - by_square2 - by_square1);
+        const vector_f by_R2_0 = total_8 - total_7;
+        const vector_f by_R2_1 = total_20 + total_21;
+        const vector_f by_R2_1_2 = total_22 + total_23;
+        const vector_f by_R2_0_2 = total_18 - total_17;
+        const vector_f by_R2_2_2 = by_square0_2 + (by_square3_2 - by_square2_2 - by_square1_2);
+        const vector_f by_log_det_product = 0.5f * by_log_det;
+        const vector_f gap_9 = phi_product_4 - v0 * by_log_det_product;
+        const vector_f gap_10 = phi_product_5 - v1 * by_log_det_product;
+        const vector_f gap_11 = phi_product_6 - v2 * by_log_det_product;
+        sums[0] = sums[0] + by_R0_0 * x0_bar + by_R0_2 * x2_bar + by_R0_1 * x1_bar + x1 * by_R0_1_2 + x2 *
+                by_R0_2_2 + x0 * by_R0_0_2;
+        sums[1] = sums[1] + by_R1_1 * x1_bar + by_R1_0 * x0_bar + by_R1_2 * x2_bar + x2 * by_R1_2_2 + x0 *
+                by_R1_0_2 + x1 * by_R1_1_2;
+        sums[2] = sums[2] + by_R2_2 * x2_bar + by_R2_0 * x0_bar + by_R2_1 * x1_bar + x1 * by_R2_1_2 + x0 *
+                by_R2_0_2 + x2 * by_R2_2_2;
+        sums[3] = sums[3] + by_R0_0 * x3_bar + by_R0_2 * x5_bar + by_R0_1 * x4_bar + x4 * by_R0_1_2 + x5 *
+                by_R0_2_2 + x3 * by_R0_0_2;
+        sums[4] = sums[4] + by_R1_1 * x4_bar + by_R1_0 * x3_bar + by_R1_2 * x5_bar + x5 * by_R1_2_2 + x3 *
+                by_R1_0_2 + x4 * by_R1_1_2;
+        sums[5] = sums[5] + by_R2_2 * x5_bar + by_R2_0 * x3_bar + by_R2_1 * x4_bar + x4 * by_R2_1_2 + x3 *
+                by_R2_0_2 + x5 * by_R2_2_2;
+        sums[6] = sums[6] + by_R0_0 * x6_bar + by_R0_2 * x8_bar + by_R0_1 * x7_bar + x7 * by_R0_1_2 + x8 *
+                by_R0_2_2 + x6 * by_R0_0_2;
+        sums[7] = sums[7] + by_R1_1 * x7_bar + by_R1_0 * x6_bar + by_R1_2 * x8_bar + x8 * by_R1_2_2 + x6 *
+                by_R1_0_2 + x7 * by_R1_1_2;
+        sums[8] = sums[8] + by_R2_2 * x8_bar + by_R2_0 * x6_bar + by_R2_1 * x7_bar + x7 * by_R2_1_2 + x6 *
+                by_R2_0_2 + x8 * by_R2_2_2;
+        sums[9] = sums[9] + by_log_det;
+        sums[10] = sums[10] + v0 * gap_9;
+        sums[11] = sums[11] + v0 * gap_10 + v1 * gap_9;
+        sums[12] = sums[12] + v0 * gap_11 + v2 * gap_9;
+        sums[13] = sums[13] + v1 * gap_10;
+        sums[14] = sums[14] + v1 * gap_11 + v2 * gap_10;
+        sums[15] = sums[15] + v2 * gap_11;
+    }
+}
+
 /* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp_f(
     const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *sums, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
@@ -2056,409 +3983,6 @@ OUTLINE void pair_constants_vjp_f(
     W_bar[7] = its_amplitude * (W2_0 * sum11 + W2_1 * product_2 + W2_2 * sum14);
     W_bar[8] = its_amplitude * (W2_0 * sum12 + W2_1 * sum14 + W2_2 * product_3);
     amplitude_bar[0] = sum9;
-}
-
-/*
- * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
- *
- * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
- */
-OUTLINE void pair_backward_f(
-    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f x2 = X[2];
-    const vector_f x3 = X[3];
-    const vector_f x4 = X[4];
-    const vector_f x5 = X[5];
-    const vector_f x6 = X[6];
-    const vector_f x7 = X[7];
-    const vector_f x8 = X[8];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float mu2 = S[2];
-    const float mu3 = S[3];
-    const float mu4 = S[4];
-    const float mu5 = S[5];
-    const float mu6 = S[6];
-    const float mu7 = S[7];
-    const float mu8 = S[8];
-    const float W0_0 = S[9];
-    const float W0_1 = S[10];
-    const float W0_2 = S[11];
-    const float W1_0 = S[12];
-    const float W1_1 = S[13];
-    const float W1_2 = S[14];
-    const float W2_0 = S[15];
-    const float W2_1 = S[16];
-    const float W2_2 = S[17];
-    const float M0_0 = S[19];
-    const float M0_1 = S[20];
-    const float M0_2 = S[21];
-    const float M1_1 = S[22];
-    const float M1_2 = S[23];
-    const float M2_2 = S[24];
-    const vector_f its_value_bar = value_bar[0];
-    const vector_f x0_bar = slope_bar[0];
-    const vector_f x1_bar = slope_bar[1];
-    const vector_f x2_bar = slope_bar[2];
-    const vector_f x3_bar = slope_bar[3];
-    const vector_f x4_bar = slope_bar[4];
-    const vector_f x5_bar = slope_bar[5];
-    const vector_f x6_bar = slope_bar[6];
-    const vector_f x7_bar = slope_bar[7];
-    const vector_f x8_bar = slope_bar[8];
-    const vector_f R2_2 = x2 * mu2 + x5 * mu5 + x8 * mu8;
-    const vector_f R1_1 = x1 * mu1 + x4 * mu4 + x7 * mu7;
-    const vector_f R0_0 = x0 * mu0 + x3 * mu3 + x6 * mu6;
-    const vector_f R0_0_total = 1.0f + R0_0;
-    const vector_f square0 = R2_2 + (R1_1 + R0_0_total);
-    const vector_f square1 = R0_0_total - R1_1 - R2_2;
-    const vector_mask_f is_less = square0 < square1;
-    const vector_f largest = vector_select_f(is_less, square1, square0);
-    const vector_f square2 = 1.0f + R1_1 - R0_0 - R2_2;
-    const vector_mask_f is_less_2 = largest < square2;
-    const vector_f largest_2 = vector_select_f(is_less_2, square2, largest);
-    const vector_f square3 = 1.0f + R2_2 - R0_0 - R1_1;
-    const vector_mask_f is_less_3 = largest_2 < square3;
-    const vector_f R1_2 = x2 * mu1 + x5 * mu4 + x8 * mu7;
-    const vector_f R2_1 = x1 * mu2 + x4 * mu5 + x7 * mu8;
-    const vector_f R1_2_total = R1_2 + R2_1;
-    const vector_f R0_2 = x2 * mu0 + x5 * mu3 + x8 * mu6;
-    const vector_f R2_0 = x0 * mu2 + x3 * mu5 + x6 * mu8;
-    const vector_f R0_2_total = R0_2 + R2_0;
-    const vector_f R1_0 = x0 * mu1 + x3 * mu4 + x6 * mu7;
-    const vector_f R0_1 = x1 * mu0 + x4 * mu3 + x7 * mu6;
-    const vector_f R1_0_gap = R1_0 - R0_1;
-    const vector_f row_4 = vector_select_f(is_less, R0_2_total, R1_0_gap);
-    const vector_f row_8 = vector_select_f(is_less_2, R1_2_total, row_4);
-    const vector_f row_12 = vector_select_f(is_less_3, square3, row_8);
-    const vector_f R0_1_total = R0_1 + R1_0;
-    const vector_f R2_1_gap = R2_1 - R1_2;
-    const vector_f row_2 = vector_select_f(is_less, square1, R2_1_gap);
-    const vector_f row_6 = vector_select_f(is_less_2, R0_1_total, row_2);
-    const vector_f row_10 = vector_select_f(is_less_3, R0_2_total, row_6);
-    const vector_f R0_2_gap = R0_2 - R2_0;
-    const vector_f row_3 = vector_select_f(is_less, R0_1_total, R0_2_gap);
-    const vector_f row_7 = vector_select_f(is_less_2, square2, row_3);
-    const vector_f row_11 = vector_select_f(is_less_3, R1_2_total, row_7);
-    const vector_f row = vector_select_f(is_less, R2_1_gap, square0);
-    const vector_f row_5 = vector_select_f(is_less_2, R0_2_gap, row);
-    const vector_f row_9 = vector_select_f(is_less_3, R1_0_gap, row_5);
-    const vector_f total_2 = row_10 * row_10 + row_11 * row_11 + row_12 * row_12 + row_9 * row_9;
-    const vector_f row_length = sqrt_each_f(total_2);
-    const vector_f g3 = row_12 / row_length;
-    const vector_f g1 = row_10 / row_length;
-    const vector_f g2 = row_11 / row_length;
-    const vector_f norm_s_squared = g1 * g1 + g2 * g2 + g3 * g3;
-    const vector_mask_f near = norm_s_squared < 0.249287f;
-    const vector_f g0 = row_9 / row_length;
-    const vector_f abs_g0 = abs_each_f(g0);
-    const vector_mask_f is_small = g0 < 0.0f;
-    const vector_f chosen = vector_select_f(is_small, vector_of_f(-1.0f), vector_of_f(1.0f));
-    const vector_f near_chosen = vector_select_f(near, 4.011440628672975f * norm_s_squared,
-        vector_of_f(0.0f));
-    const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
-    const vector_f log_det_near = norm_s_squared * log_det_series;
-    const vector_f near_chosen_2 = vector_select_f(near, vector_of_f(1.0f), norm_s_squared);
-    const vector_f norm_s = sqrt_each_f(near_chosen_2);
-    const vector_f atan2_norm_s_abs_g0 = atan2_each_f(norm_s, abs_g0);
-    const vector_f t = 2.0f * atan2_norm_s_abs_g0;
-    const vector_f t_ratio = t / norm_s;
-    const vector_f product = 0.5f * t_ratio;
-    const vector_f log_det = vector_select_f(near, log_det_near, 2.0f * log_each_f(product));
-    const vector_f t_over_norm_s_near = vector_polynomial_t_over_norm_s_near_f(near_chosen);
-    const vector_f t_over_norm_s = vector_select_f(near, t_over_norm_s_near, t_ratio);
-    const vector_f scale = t_over_norm_s * chosen;
-    const vector_f v0 = g1 * scale;
-    const vector_f v1 = g2 * scale;
-    const vector_f v2 = g3 * scale;
-    const vector_f z0 = W0_0 * v0 + W0_1 * v1 + W0_2 * v2;
-    const vector_f z1 = W1_0 * v0 + W1_1 * v1 + W1_2 * v2;
-    const vector_f z2 = W2_0 * v0 + W2_1 * v1 + W2_2 * v2;
-    const vector_f log_det_gap = log_det - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector_f phi = exp_each_f(log_det_gap);
-    const vector_f total_3 = W2_2 * z2 + (W1_2 * z1 + W0_2 * z0);
-    const vector_f phi_product = phi * total_3;
-    const vector_f total_4 = W2_1 * z2 + (W1_1 * z1 + W0_1 * z0);
-    const vector_f phi_product_2 = phi * total_4;
-    const vector_f total_5 = W2_0 * z2 + (W1_0 * z1 + W0_0 * z0);
-    const vector_f phi_product_3 = phi * total_5;
-    const vector_f by_scale = -(g3 * phi_product) - g2 * phi_product_2 - g1 * phi_product_3;
-    const vector_f by_t_over_norm_s = chosen * by_scale;
-    const vector_f ratio = 2.0f * vector_select_f(near, vector_of_f(0.0f), phi) / product;
-    const vector_f by_t = (vector_select_f(near, vector_of_f(0.0f), by_t_over_norm_s) + 0.5f * ratio) /
-        norm_s;
-    const vector_f by_atan2_norm_s_abs_g0 = 2.0f * by_t;
-    const vector_f total_6 = near_chosen_2 + abs_g0 * abs_g0;
-    const vector_f ratio_2 = by_atan2_norm_s_abs_g0 / total_6;
-    const vector_f by_norm_s = abs_g0 * ratio_2 - t_ratio * by_t;
-    const vector_f norm_s_product = 2.0f * norm_s;
-    const vector_f by_norm_s_ratio = by_norm_s / norm_s_product;
-    const vector_f by_log_det_near = vector_select_f(near, phi, vector_of_f(0.0f));
-    const vector_f by_t_over_norm_s_near = vector_select_f(near, by_t_over_norm_s, vector_of_f(0.0f));
-    const vector_f t_over_norm_s_near_slope = vector_polynomial_t_over_norm_s_near_slope_f(near_chosen);
-    const vector_f by_log_det_series = norm_s_squared * by_log_det_near;
-    const vector_f log_det_series_slope = vector_polynomial_log_det_series_slope_f(near_chosen);
-    const vector_f by_norm_s_squared = vector_select_f(near, vector_of_f(0.0f), by_norm_s_ratio) +
-        log_det_series * by_log_det_near + 4.011440628672975f * vector_select_f(near, by_t_over_norm_s_near *
-        t_over_norm_s_near_slope + by_log_det_series * log_det_series_slope, vector_of_f(0.0f));
-    const vector_f product_2 = 2.0f * by_norm_s_squared;
-    const vector_f by_g3 = g3 * product_2 - scale * phi_product;
-    const vector_f by_g3_ratio = by_g3 / row_length;
-    const vector_mask_f is_small_2 = total_2 == 0.0f;
-    const vector_f norm_s_product_2 = norm_s * ratio_2;
-    const vector_f by_abs_g0 = -norm_s_product_2;
-    const vector_f by_g0 = vector_select_f(is_small, norm_s_product_2, by_abs_g0);
-    const vector_f by_g0_ratio = by_g0 / row_length;
-    const vector_f by_g2 = g2 * product_2 - scale * phi_product_2;
-    const vector_f by_g2_ratio = by_g2 / row_length;
-    const vector_f by_g1 = g1 * product_2 - scale * phi_product_3;
-    const vector_f by_g1_ratio = by_g1 / row_length;
-    const vector_f by_row_length = -(g0 * by_g0_ratio) - g3 * by_g3_ratio - g2 * by_g2_ratio - g1 *
-        by_g1_ratio;
-    const vector_f product_3 = 2.0f * vector_select_f(is_small_2, vector_of_f(1.0f), row_length);
-    const vector_f ratio_3 = by_row_length / product_3;
-    const vector_f product_4 = 2.0f * vector_select_f(is_small_2, vector_of_f(0.0f), ratio_3);
-    const vector_f by_row_12 = by_g3_ratio + row_12 * product_4;
-    const vector_f by_square3 = vector_select_f(is_less_3, by_row_12, vector_of_f(0.0f));
-    const vector_f by_row_11 = by_g2_ratio + row_11 * product_4;
-    const vector_f by_row_7 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_11);
-    const vector_f by_square2 = vector_select_f(is_less_2, by_row_7, vector_of_f(0.0f));
-    const vector_f by_row_9 = by_g0_ratio + row_9 * product_4;
-    const vector_f by_row_5 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_9);
-    const vector_f by_row = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_5);
-    const vector_f by_square0 = vector_select_f(is_less, vector_of_f(0.0f), by_row);
-    const vector_f by_row_10 = by_g1_ratio + row_10 * product_4;
-    const vector_f by_row_6 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_10);
-    const vector_f by_row_2 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_6);
-    const vector_f by_square1 = vector_select_f(is_less, by_row_2, vector_of_f(0.0f));
-    const vector_f by_R0_0 = -by_square3 - by_square2 + (by_square0 + by_square1);
-    const vector_f by_row_3 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_7);
-    const vector_f total_7 = vector_select_f(is_less_2, by_row_5, vector_of_f(0.0f)) +
-        vector_select_f(is_less, vector_of_f(0.0f), by_row_3);
-    const vector_f by_row_8 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_12);
-    const vector_f by_row_4 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_8);
-    const vector_f total_8 = vector_select_f(is_less, by_row_4, vector_of_f(0.0f)) +
-        vector_select_f(is_less_3, by_row_10, vector_of_f(0.0f));
-    const vector_f by_R0_2 = total_7 + total_8;
-    const vector_f total_9 = vector_select_f(is_less, by_row_3, vector_of_f(0.0f)) +
-        vector_select_f(is_less_2, by_row_6, vector_of_f(0.0f));
-    const vector_f total_10 = vector_select_f(is_less_3, by_row_9, vector_of_f(0.0f)) +
-        vector_select_f(is_less, vector_of_f(0.0f), by_row_4);
-    const vector_f by_R0_1 = total_9 - total_10;
-    const vector_f by_by_R0_2 = mu0 * x2_bar + mu3 * x5_bar + mu6 * x8_bar;
-    const vector_f by_by_R2_0 = mu2 * x0_bar + mu5 * x3_bar + mu8 * x6_bar;
-    const vector_f by_by_R0_2_gap = by_by_R0_2 - by_by_R2_0;
-    const vector_f by_by_R0_1 = mu0 * x1_bar + mu3 * x4_bar + mu6 * x7_bar;
-    const vector_f by_by_R1_0 = mu1 * x0_bar + mu4 * x3_bar + mu7 * x6_bar;
-    const vector_f by_by_R0_1_total = by_by_R0_1 + by_by_R1_0;
-    const vector_f by_by_row_3 = vector_select_f(is_less, vector_of_f(0.0f), by_by_R0_2_gap) +
-        vector_select_f(is_less, by_by_R0_1_total, vector_of_f(0.0f));
-    const vector_f by_by_R1_1 = mu1 * x1_bar + mu4 * x4_bar + mu7 * x7_bar;
-    const vector_f by_by_R0_0 = mu0 * x0_bar + mu3 * x3_bar + mu6 * x6_bar;
-    const vector_f by_by_R2_2 = mu2 * x2_bar + mu5 * x5_bar + mu8 * x8_bar;
-    const vector_f by_by_square2 = by_by_R1_1 - by_by_R0_0 - by_by_R2_2;
-    const vector_f by_by_row_7 = vector_select_f(is_less_2, vector_of_f(0.0f), by_by_row_3) +
-        vector_select_f(is_less_2, by_by_square2, vector_of_f(0.0f));
-    const vector_f by_by_R2_1 = mu2 * x1_bar + mu5 * x4_bar + mu8 * x7_bar;
-    const vector_f by_by_R1_2 = mu1 * x2_bar + mu4 * x5_bar + mu7 * x8_bar;
-    const vector_f by_by_R2_1_total = by_by_R2_1 + by_by_R1_2;
-    const vector_f by_by_row_11 = vector_select_f(is_less_3, vector_of_f(0.0f), by_by_row_7) +
-        vector_select_f(is_less_3, by_by_R2_1_total, vector_of_f(0.0f));
-    const vector_f by_by_R2_1_gap = by_by_R2_1 - by_by_R1_2;
-    const vector_f by_by_square1 = by_by_R0_0 - by_by_R1_1 - by_by_R2_2;
-    const vector_f by_by_row_2 = vector_select_f(is_less, vector_of_f(0.0f), by_by_R2_1_gap) +
-        vector_select_f(is_less, by_by_square1, vector_of_f(0.0f));
-    const vector_f by_by_row_6 = vector_select_f(is_less_2, vector_of_f(0.0f), by_by_row_2) +
-        vector_select_f(is_less_2, by_by_R0_1_total, vector_of_f(0.0f));
-    const vector_f by_by_R0_2_total = by_by_R0_2 + by_by_R2_0;
-    const vector_f by_by_row_10 = vector_select_f(is_less_3, vector_of_f(0.0f), by_by_row_6) +
-        vector_select_f(is_less_3, by_by_R0_2_total, vector_of_f(0.0f));
-    const vector_f by_by_R1_0_gap = by_by_R1_0 - by_by_R0_1;
-    const vector_f by_by_row_4 = vector_select_f(is_less, vector_of_f(0.0f), by_by_R1_0_gap) +
-        vector_select_f(is_less, by_by_R0_2_total, vector_of_f(0.0f));
-    const vector_f by_by_row_8 = vector_select_f(is_less_2, vector_of_f(0.0f), by_by_row_4) +
-        vector_select_f(is_less_2, by_by_R2_1_total, vector_of_f(0.0f));
-    const vector_f by_by_square3 = by_by_R2_2 - by_by_R1_1 - by_by_R0_0;
-    const vector_f by_by_row_12 = vector_select_f(is_less_3, vector_of_f(0.0f), by_by_row_8) +
-        vector_select_f(is_less_3, by_by_square3, vector_of_f(0.0f));
-    const vector_f by_by_square0 = by_by_R2_2 + (by_by_R1_1 + by_by_R0_0);
-    const vector_f by_by_row = vector_select_f(is_less, by_by_R2_1_gap, vector_of_f(0.0f)) +
-        vector_select_f(is_less, vector_of_f(0.0f), by_by_square0);
-    const vector_f by_by_row_5 = vector_select_f(is_less_2, vector_of_f(0.0f), by_by_row) +
-        vector_select_f(is_less_2, by_by_R0_2_gap, vector_of_f(0.0f));
-    const vector_f by_by_row_9 = vector_select_f(is_less_3, vector_of_f(0.0f), by_by_row_5) +
-        vector_select_f(is_less_3, by_by_R1_0_gap, vector_of_f(0.0f));
-    const vector_f product_5 = 2.0f * (row_10 * by_by_row_10 + row_11 * by_by_row_11 + row_12 * by_by_row_12 +
-        row_9 * by_by_row_9);
-    const vector_f by_by_row_length = vector_select_f(is_small_2, vector_of_f(0.0f), product_5) / product_3;
-    const vector_f by_by_g2 = (by_by_row_11 - g2 * by_by_row_length) / row_length;
-    const vector_f by_by_g0 = (by_by_row_9 - g0 * by_by_row_length) / row_length;
-    const vector_f by_by_abs_g0 = vector_select_f(is_small, vector_of_f(0.0f), by_by_g0);
-    const vector_f gap = vector_select_f(is_small, by_by_g0, vector_of_f(0.0f)) - by_by_abs_g0;
-    const vector_f by_by_g1 = (by_by_row_10 - g1 * by_by_row_length) / row_length;
-    const vector_f by_by_g3 = (by_by_row_12 - g3 * by_by_row_length) / row_length;
-    const vector_f total_11 = g1 * by_by_g1 + g2 * by_by_g2 + g3 * by_by_g3;
-    const vector_f by_by_norm_s_squared = 2.0f * total_11;
-    const vector_f by_by_norm_s = vector_select_f(near, vector_of_f(0.0f), by_by_norm_s_squared) /
-        norm_s_product;
-    const vector_f by_by_atan2_norm_s_abs_g0 = (norm_s * gap + abs_g0 * by_by_norm_s) / total_6;
-    const vector_f by_by_t = 2.0f * by_by_atan2_norm_s_abs_g0 - t_ratio * by_by_norm_s;
-    const vector_f by_by_t_ratio = by_by_t / norm_s;
-    const vector_f near_chosen_3 = vector_select_f(near, 8.02288125734595f * total_11, vector_of_f(0.0f));
-    const vector_f by_by_t_over_norm_s_near = t_over_norm_s_near_slope * near_chosen_3;
-    const vector_f by_by_t_over_norm_s = vector_select_f(near, vector_of_f(0.0f), by_by_t_ratio) +
-        vector_select_f(near, by_by_t_over_norm_s_near, vector_of_f(0.0f));
-    const vector_f by_by_scale = chosen * by_by_t_over_norm_s;
-    const vector_f gap_2 = -(g1 * by_by_scale) - scale * by_by_g1;
-    const vector_f phi_product_4 = phi * gap_2;
-    const vector_f gap_3 = -(g2 * by_by_scale) - scale * by_by_g2;
-    const vector_f phi_product_5 = phi * gap_3;
-    const vector_f gap_4 = -(g3 * by_by_scale) - scale * by_by_g3;
-    const vector_f phi_product_6 = phi * gap_4;
-    const vector_f ratio_4 = 0.5f * by_by_t_ratio / product;
-    const vector_f by_by_log_det_series = log_det_series_slope * near_chosen_3;
-    const vector_f by_by_log_det_near = norm_s_squared * by_by_log_det_series + log_det_series *
-        by_by_norm_s_squared;
-    const vector_f total_12 = its_value_bar + vector_select_f(near, vector_of_f(0.0f), 2.0f * ratio_4) +
-        vector_select_f(near, by_by_log_det_near, vector_of_f(0.0f)) + total_3 * gap_4;
-    const vector_f by_phi = total_12 + total_4 * gap_3 + total_5 * gap_2;
-    const vector_f by_log_det = phi * by_phi;
-    const vector_f by_v1 = M0_1 * phi_product_4 + M1_1 * phi_product_5 + M1_2 * phi_product_6 - total_4 *
-        by_log_det;
-    const vector_f by_v2 = M0_2 * phi_product_4 + M1_2 * phi_product_5 + M2_2 * phi_product_6 - total_3 *
-        by_log_det;
-    const vector_f total_13 = -(phi_product_3 * by_by_g1) - phi_product_2 * by_by_g2 - phi_product * by_by_g3
-        + g3 * by_v2;
-    const vector_f by_v0 = M0_0 * phi_product_4 + M0_1 * phi_product_5 + M0_2 * phi_product_6 - total_5 *
-        by_log_det;
-    const vector_f by_scale_2 = total_13 + g2 * by_v1 + g1 * by_v0;
-    const vector_f by_t_over_norm_s_2 = chosen * by_scale_2;
-    const vector_f product_6 = 0.5f * (2.0f * vector_select_f(near, vector_of_f(0.0f), by_log_det) / product -
-        ratio * ratio_4);
-    const vector_f by_t_2 = (vector_select_f(near, vector_of_f(0.0f), by_t_over_norm_s_2) - by_t *
-        by_by_norm_s + product_6) / norm_s;
-    const vector_f gap_5 = ratio_2 * gap - 2.0f * (by_norm_s_ratio * by_by_norm_s) - by_t * by_by_t_ratio -
-        t_ratio * by_t_2;
-    const vector_f by_atan2_norm_s_abs_g0_2 = 2.0f * by_t_2;
-    const vector_f ratio_5 = by_atan2_norm_s_abs_g0_2 / total_6;
-    const vector_f by_norm_s_2 = gap_5 + abs_g0 * ratio_5;
-    const vector_f product_7 = ratio_2 * by_by_atan2_norm_s_abs_g0;
-    const vector_f by_log_det_near_2 = vector_select_f(near, by_log_det, vector_of_f(0.0f));
-    const vector_f total_14 = by_log_det_near * by_by_log_det_series + vector_select_f(near,
-        vector_of_f(0.0f), by_norm_s_2 / norm_s_product - product_7) + log_det_series * by_log_det_near_2;
-    const vector_f by_log_det_series_slope = by_log_det_series * near_chosen_3;
-    const vector_f log_det_series_slope_slope = vector_polynomial_log_det_series_slope_slope_f(near_chosen);
-    const vector_f by_t_over_norm_s_near_slope = by_t_over_norm_s_near * near_chosen_3;
-    const vector_f t_over_norm_s_near_slope_slope =
-        vector_polynomial_t_over_norm_s_near_slope_slope_f(near_chosen);
-    const vector_f by_t_over_norm_s_near_2 = vector_select_f(near, by_t_over_norm_s_2, vector_of_f(0.0f));
-    const vector_f by_log_det_series_2 = by_log_det_near * by_by_norm_s_squared + norm_s_squared *
-        by_log_det_near_2;
-    const vector_f near_chosen_4 = vector_select_f(near, by_log_det_series_slope * log_det_series_slope_slope
-        + by_t_over_norm_s_near_slope * t_over_norm_s_near_slope_slope + t_over_norm_s_near_slope *
-        by_t_over_norm_s_near_2 + log_det_series_slope * by_log_det_series_2, vector_of_f(0.0f));
-    const vector_f by_norm_s_squared_2 = total_14 + 4.011440628672975f * near_chosen_4;
-    const vector_f product_8 = 2.0f * by_norm_s_squared_2;
-    const vector_f by_g2_2 = product_2 * by_by_g2 - by_g2_ratio * by_by_row_length - phi_product_2 *
-        by_by_scale + scale * by_v1 + g2 * product_8;
-    const vector_f by_g2_ratio_2 = by_g2_2 / row_length;
-    const vector_f gap_6 = vector_select_f(is_small_2, vector_of_f(0.0f), -2.0f * (ratio_3 *
-        by_by_row_length)) - by_g1_ratio * by_by_g1;
-    const vector_f norm_s_product_3 = norm_s * ratio_5;
-    const vector_f gap_7 = ratio_2 * by_by_norm_s - abs_g0 * (2.0f * product_7);
-    const vector_f by_abs_g0_2 = gap_7 - norm_s_product_3;
-    const vector_f by_g0_2 = vector_select_f(is_small, norm_s_product_3 - gap_7, by_abs_g0_2) - by_g0_ratio *
-        by_by_row_length;
-    const vector_f by_g0_ratio_2 = by_g0_2 / row_length;
-    const vector_f gap_8 = gap_6 - by_g2_ratio * by_by_g2 - by_g3_ratio * by_by_g3 - by_g0_ratio * by_by_g0 -
-        g0 * by_g0_ratio_2;
-    const vector_f by_g3_2 = product_2 * by_by_g3 - by_g3_ratio * by_by_row_length - phi_product * by_by_scale
-        + scale * by_v2 + g3 * product_8;
-    const vector_f by_g3_ratio_2 = by_g3_2 / row_length;
-    const vector_f by_g1_2 = product_2 * by_by_g1 - by_g1_ratio * by_by_row_length - phi_product_3 *
-        by_by_scale + scale * by_v0 + g1 * product_8;
-    const vector_f by_g1_ratio_2 = by_g1_2 / row_length;
-    const vector_f by_row_length_2 = gap_8 - g3 * by_g3_ratio_2 - g2 * by_g2_ratio_2 - g1 * by_g1_ratio_2;
-    const vector_f product_9 = 2.0f * vector_select_f(is_small_2, vector_of_f(0.0f), by_row_length_2 /
-        product_3);
-    const vector_f by_row_11_2 = product_4 * by_by_row_11 + by_g2_ratio_2 + row_11 * product_9;
-    const vector_f by_row_7_2 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_11_2);
-    const vector_f by_row_3_2 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_7_2);
-    const vector_f by_row_10_2 = product_4 * by_by_row_10 + by_g1_ratio_2 + row_10 * product_9;
-    const vector_f by_row_6_2 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_10_2);
-    const vector_f total_15 = vector_select_f(is_less, by_row_3_2, vector_of_f(0.0f)) +
-        vector_select_f(is_less_2, by_row_6_2, vector_of_f(0.0f));
-    const vector_f by_row_9_2 = product_4 * by_by_row_9 + by_g0_ratio_2 + row_9 * product_9;
-    const vector_f by_row_12_2 = product_4 * by_by_row_12 + by_g3_ratio_2 + row_12 * product_9;
-    const vector_f by_row_8_2 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_12_2);
-    const vector_f by_row_4_2 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_8_2);
-    const vector_f total_16 = vector_select_f(is_less_3, by_row_9_2, vector_of_f(0.0f)) +
-        vector_select_f(is_less, vector_of_f(0.0f), by_row_4_2);
-    const vector_f by_R0_1_2 = total_15 - total_16;
-    const vector_f by_row_5_2 = vector_select_f(is_less_3, vector_of_f(0.0f), by_row_9_2);
-    const vector_f total_17 = vector_select_f(is_less_2, by_row_5_2, vector_of_f(0.0f)) +
-        vector_select_f(is_less, vector_of_f(0.0f), by_row_3_2);
-    const vector_f total_18 = vector_select_f(is_less, by_row_4_2, vector_of_f(0.0f)) +
-        vector_select_f(is_less_3, by_row_10_2, vector_of_f(0.0f));
-    const vector_f by_R0_2_2 = total_17 + total_18;
-    const vector_f by_square3_2 = vector_select_f(is_less_3, by_row_12_2, vector_of_f(0.0f));
-    const vector_f by_square2_2 = vector_select_f(is_less_2, by_row_7_2, vector_of_f(0.0f));
-    const vector_f by_row_13 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_5_2);
-    const vector_f by_square0_2 = vector_select_f(is_less, vector_of_f(0.0f), by_row_13);
-    const vector_f by_row_2_2 = vector_select_f(is_less_2, vector_of_f(0.0f), by_row_6_2);
-    const vector_f by_square1_2 = vector_select_f(is_less, by_row_2_2, vector_of_f(0.0f));
-    const vector_f by_R0_0_2 = -by_square3_2 - by_square2_2 + (by_square0_2 + by_square1_2);
-    const vector_f by_R1_1 = by_square0 + (by_square2 - by_square3 - by_square1);
-    const vector_f by_R1_0 = total_10 + total_9;
-    const vector_f total_20 = vector_select_f(is_less_2, by_row_8, vector_of_f(0.0f)) +
-        vector_select_f(is_less_3, by_row_11, vector_of_f(0.0f));
-    const vector_f total_21 = vector_select_f(is_less, by_row, vector_of_f(0.0f)) + vector_select_f(is_less,
-        vector_of_f(0.0f), by_row_2);
-    const vector_f by_R1_2 = total_20 - total_21;
-    const vector_f total_22 = vector_select_f(is_less_2, by_row_8_2, vector_of_f(0.0f)) +
-        vector_select_f(is_less_3, by_row_11_2, vector_of_f(0.0f));
-    const vector_f total_23 = vector_select_f(is_less, by_row_13, vector_of_f(0.0f)) +
-        vector_select_f(is_less, vector_of_f(0.0f), by_row_2_2);
-    const vector_f by_R1_2_2 = total_22 - total_23;
-    const vector_f by_R1_0_2 = total_16 + total_15;
-    const vector_f by_R1_1_2 = by_square0_2 + (by_square2_2 - by_square3_2 - by_square1_2);
-    const vector_f by_R2_2 = by_square0 + (by_square3 - by_square2 - by_square1);
-    const vector_f by_R2_0 = total_8 - total_7;
-    const vector_f by_R2_1 = total_20 + total_21;
-    const vector_f by_R2_1_2 = total_22 + total_23;
-    const vector_f by_R2_0_2 = total_18 - total_17;
-    const vector_f by_R2_2_2 = by_square0_2 + (by_square3_2 - by_square2_2 - by_square1_2);
-    const vector_f by_log_det_product = 0.5f * by_log_det;
-    const vector_f gap_9 = phi_product_4 - v0 * by_log_det_product;
-    const vector_f gap_10 = phi_product_5 - v1 * by_log_det_product;
-    const vector_f gap_11 = phi_product_6 - v2 * by_log_det_product;
-    sums[0] = sums[0] + by_R0_0 * x0_bar + by_R0_2 * x2_bar + by_R0_1 * x1_bar + x1 * by_R0_1_2 + x2 *
-            by_R0_2_2 + x0 * by_R0_0_2;
-    sums[1] = sums[1] + by_R1_1 * x1_bar + by_R1_0 * x0_bar + by_R1_2 * x2_bar + x2 * by_R1_2_2 + x0 *
-            by_R1_0_2 + x1 * by_R1_1_2;
-    sums[2] = sums[2] + by_R2_2 * x2_bar + by_R2_0 * x0_bar + by_R2_1 * x1_bar + x1 * by_R2_1_2 + x0 *
-            by_R2_0_2 + x2 * by_R2_2_2;
-    sums[3] = sums[3] + by_R0_0 * x3_bar + by_R0_2 * x5_bar + by_R0_1 * x4_bar + x4 * by_R0_1_2 + x5 *
-            by_R0_2_2 + x3 * by_R0_0_2;
-    sums[4] = sums[4] + by_R1_1 * x4_bar + by_R1_0 * x3_bar + by_R1_2 * x5_bar + x5 * by_R1_2_2 + x3 *
-            by_R1_0_2 + x4 * by_R1_1_2;
-    sums[5] = sums[5] + by_R2_2 * x5_bar + by_R2_0 * x3_bar + by_R2_1 * x4_bar + x4 * by_R2_1_2 + x3 *
-            by_R2_0_2 + x5 * by_R2_2_2;
-    sums[6] = sums[6] + by_R0_0 * x6_bar + by_R0_2 * x8_bar + by_R0_1 * x7_bar + x7 * by_R0_1_2 + x8 *
-            by_R0_2_2 + x6 * by_R0_0_2;
-    sums[7] = sums[7] + by_R1_1 * x7_bar + by_R1_0 * x6_bar + by_R1_2 * x8_bar + x8 * by_R1_2_2 + x6 *
-            by_R1_0_2 + x7 * by_R1_1_2;
-    sums[8] = sums[8] + by_R2_2 * x8_bar + by_R2_0 * x6_bar + by_R2_1 * x7_bar + x7 * by_R2_1_2 + x6 *
-            by_R2_0_2 + x8 * by_R2_2_2;
-    sums[9] = sums[9] + by_log_det;
-    sums[10] = sums[10] + v0 * gap_9;
-    sums[11] = sums[11] + v0 * gap_10 + v1 * gap_9;
-    sums[12] = sums[12] + v0 * gap_11 + v2 * gap_9;
-    sums[13] = sums[13] + v1 * gap_10;
-    sums[14] = sums[14] + v1 * gap_11 + v2 * gap_10;
-    sums[15] = sums[15] + v2 * gap_11;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -2550,7 +4074,7 @@ OUTLINE void splat_constants_f(
     vector_to_rows_f(S, constants, splat_count, start, 25, 25);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void so3_matrix_splats_f(
     size_t count, size_t splat_count, const float *SO3_MATRIX_RESTRICT x, const float *SO3_MATRIX_RESTRICT mu, const float *SO3_MATRIX_RESTRICT W, const float *SO3_MATRIX_RESTRICT amplitude, const float *SO3_MATRIX_RESTRICT width,
     float *SO3_MATRIX_RESTRICT value, float *SO3_MATRIX_RESTRICT gradient, float *SO3_MATRIX_RESTRICT work, int threads) {
@@ -2565,27 +4089,26 @@ void so3_matrix_splats_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[2][9], X[2][9], grad[3];
-            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][9] = {{ZERO}};
+            vector_f at[2][9], X[2 * 9], grad[3];
+            vector_f value_sum[2] = {ZERO}, slope_sum[2 * 9] = {ZERO};
             float place[9 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 9, at[b]);
-                pair_features_f(at[b], X[b]);
+                pair_features_f(at[b], X + 9 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 25 * near[i];
-                    pair_forward_f(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward_f(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward_f(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient_f(at[b], slope_sum[b], grad);
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                pair_gradient_f(at[b], slope_sum + 9 * b, grad);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
                 vector_to_rows_f(grad, gradient, count, start + b * LANES_f, 3, 3);
             }
         }
@@ -2607,25 +4130,24 @@ void so3_matrix_splats_value_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[9], X[2][9], value_sum[2][1] = {{ZERO}};
+            vector_f at[9], X[2 * 9], value_sum[2] = {ZERO};
             float place[9 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 9, at);
-                pair_features_f(at, X[b]);
+                pair_features_f(at, X + 9 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 25 * near[i];
-                    pair_value_f(X[0], S, value_sum[0]);
-                    pair_value_f(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value_f(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -2644,19 +4166,11 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 9 + 1, point + 9);
 }
 
-/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+/* Adds to sums what some vectors of points add to them, those in the list. */
 OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *sums) {
     vector_f sum[16] = {ZERO};
-    size_t b = 0;
-    for (; b + 1 < size; b += 2) {
-        const vector_f *point = points + 19 * (size_t)near[b], *other = points + 19 * (size_t)near[b + 1];
-        pair_backward_f(point, S, point + 9, point + 9 + 1, sum);
-        pair_backward_f(other, S, other + 9, other + 9 + 1, sum);
-    }
-    if (b < size) {
-        const vector_f *point = points + 19 * (size_t)near[b];
-        pair_backward_f(point, S, point + 9, point + 9 + 1, sum);
-    }
+    for (size_t b = 0; b < size; b += 16)
+        pair_backward_f(size - b < 16 ? size - b : 16, points, near + b, S, sum);
     sums[0] += vector_sum_f(sum[0]);
     sums[1] += vector_sum_f(sum[1]);
     sums[2] += vector_sum_f(sum[2]);
@@ -2744,6 +4258,7 @@ void so3_matrix_splats_rows_f(
     float *SO3_MATRIX_RESTRICT rows, float *SO3_MATRIX_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    const uint32_t only = 0;
     float *constants = work_constants_f(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -2760,7 +4275,7 @@ void so3_matrix_splats_rows_f(
                 for (int i = 0; i < 9; ++i) own_mu[i] = vector_of_f(mu[9 * k + i]);
                 for (int i = 0; i < 9; ++i) own_W[i] = vector_of_f(W[9 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 25 * k, point + 9, point + 9 + 1, own_sums);
+                pair_backward_f(1, point, &only, constants + 25 * k, own_sums);
                 pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 9, bars + 9 + 9);
                 vector_to_rows_f(bars, rows + 19 * k, count, block * LANES_f, 19, 19 * splat_count);
             }

@@ -24,7 +24,6 @@
 #endif
 #define LANE(vector, i) (vector)[i]
 #define ZERO {0}
-#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
 typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
 typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
 typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
@@ -34,7 +33,6 @@ typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
 #else
 #define LANE(vector, i) (vector)
 #define ZERO 0
-#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
 typedef double vector;
 typedef float vector_f;
 typedef int64_t vector_mask;
@@ -49,6 +47,17 @@ typedef uint32_t vector_bits_f;
 #else
 #define INLINE static inline
 #define OUTLINE static
+#endif
+/* UNROLLED: the few turns of a loop one after another. EACH_LANE: of a loop that gcc makes one instruction, if it stays a loop. */
+#if defined(__clang__)
+#define UNROLLED _Pragma("clang loop unroll(full)")
+#define EACH_LANE
+#elif defined(__GNUC__) && __GNUC__ >= 8
+#define UNROLLED _Pragma("GCC unroll 8")
+#define EACH_LANE _Pragma("GCC unroll 1")
+#else
+#define UNROLLED
+#define EACH_LANE
 #endif
 #define LANES (sizeof(vector) / sizeof(double))
 #define LANES_f (sizeof(vector_f) / sizeof(float))
@@ -90,9 +99,14 @@ INLINE vector vector_of(double x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector vector_select(vector_mask mask, vector x, vector y) {
-    return SELECT(vector, vector_mask, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector)((mask & (vector_mask)x) | (~mask & (vector_mask)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -601,249 +615,264 @@ OUTLINE void pair_constants(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 OUTLINE void pair_value(
-    const vector *X, const double *S, vector *value) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector x2 = X[2];
-    const vector x3 = X[3];
-    const double W0_0 = S[0];
-    const double W0_1 = S[1];
-    const double W0_2 = S[2];
-    const double W1_0 = S[3];
-    const double W1_1 = S[4];
-    const double W1_2 = S[5];
-    const double W2_0 = S[6];
-    const double W2_1 = S[7];
-    const double W2_2 = S[8];
-    const double amplitude = S[9];
-    const double r0_0 = S[10];
-    const double r0_1 = S[11];
-    const double r1_1 = S[12];
-    const double mul_of_one = S[13];
-    const double mul_of_one_2 = S[14];
-    const double mul_of_one_3 = S[15];
-    const vector total_2 = x0 * r0_0 + x2 * r0_1;
-    const vector total_3 = x1 * r0_0 + x3 * r0_1;
-    const vector entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
-    const vector total_4 = x0 * r0_1 + x2 * r1_1;
-    const vector total_5 = x1 * r0_1 + x3 * r1_1;
-    const vector entry_0_1 = mul_of_one * total_4 + total_2 * mul_of_one_2 + mul_of_one_2 * total_5 + total_3
-        * mul_of_one_3;
-    const vector entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
-    vector entry_0_0_eigh[6];
-    {
-        const vector given_lanes[3] = {entry_0_0, entry_0_1, entry_1_1};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            double given[3];
-            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
-            double found[6];
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values) {
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 22 * near[k];
+        const double W0_0 = S[0];
+        const double W0_1 = S[1];
+        const double W0_2 = S[2];
+        const double W1_0 = S[3];
+        const double W1_1 = S[4];
+        const double W1_2 = S[5];
+        const double W2_0 = S[6];
+        const double W2_1 = S[7];
+        const double W2_2 = S[8];
+        const double amplitude = S[9];
+        const double r0_0 = S[10];
+        const double r0_1 = S[11];
+        const double r1_1 = S[12];
+        const double mul_of_one = S[13];
+        const double mul_of_one_2 = S[14];
+        const double mul_of_one_3 = S[15];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 4 * b;
+            vector *value = values + b;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector x2 = X[2];
+            const vector x3 = X[3];
+            const vector total_2 = x0 * r0_0 + x2 * r0_1;
+            const vector total_3 = x1 * r0_0 + x3 * r0_1;
+            const vector entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
+            const vector total_4 = x0 * r0_1 + x2 * r1_1;
+            const vector total_5 = x1 * r0_1 + x3 * r1_1;
+            const vector entry_0_1 = mul_of_one * total_4 + total_2 * mul_of_one_2 + mul_of_one_2 * total_5 + total_3
+                * mul_of_one_3;
+            const vector entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
+            vector entry_0_0_eigh[6];
             {
-                const double in_0[3] = {given[0], given[1], given[2]};
-                symmetric_eigh_2(in_0, found);
+                const vector given_lanes[3] = {entry_0_0, entry_0_1, entry_1_1};
+                for (size_t lane = 0; lane < LANES; ++lane) {
+                    double given[3];
+                    for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+                    double found[6];
+                    {
+                        const double in_0[3] = {given[0], given[1], given[2]};
+                        symmetric_eigh_2(in_0, found);
+                    }
+                    for (int i = 0; i < 6; ++i) LANE(entry_0_0_eigh[i], lane) = found[i];
+                }
             }
-            for (int i = 0; i < 6; ++i) LANE(entry_0_0_eigh[i], lane) = found[i];
-        }
-    }
-    vector logm[3];
-    {
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            double whole[6];
-            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
-            double found[3];
-            symmetric_log_2(whole, found);
-            for (int i = 0; i < 3; ++i) LANE(logm[i], lane) = found[i];
-        }
-    }
-    const vector L0_1 = logm[1];
-    const vector L0_0 = logm[0];
-    const vector L1_1 = logm[2];
-    const vector L0_0_gap = L0_0 - L1_1;
-    const vector entry_0_0_2 = L0_1 * L0_1 + 0.25 * (L0_0_gap * L0_0_gap);
-    vector entry_0_0_2_eigh[2];
-    {
-        const vector given_lanes[1] = {entry_0_0_2};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            double given[1];
-            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
-            double found[2];
+            vector logm[3];
             {
-                const double in_0[1] = {given[0]};
-                symmetric_eigh_1(in_0, found);
+                for (size_t lane = 0; lane < LANES; ++lane) {
+                    double whole[6];
+                    for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+                    double found[3];
+                    symmetric_log_2(whole, found);
+                    for (int i = 0; i < 3; ++i) LANE(logm[i], lane) = found[i];
+                }
             }
-            for (int i = 0; i < 2; ++i) LANE(entry_0_0_2_eigh[i], lane) = found[i];
+            const vector L0_1 = logm[1];
+            const vector L0_0 = logm[0];
+            const vector L1_1 = logm[2];
+            const vector L0_0_gap = L0_0 - L1_1;
+            const vector entry_0_0_2 = L0_1 * L0_1 + 0.25 * (L0_0_gap * L0_0_gap);
+            vector entry_0_0_2_eigh[2];
+            {
+                const vector given_lanes[1] = {entry_0_0_2};
+                for (size_t lane = 0; lane < LANES; ++lane) {
+                    double given[1];
+                    for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+                    double found[2];
+                    {
+                        const double in_0[1] = {given[0]};
+                        symmetric_eigh_1(in_0, found);
+                    }
+                    for (int i = 0; i < 2; ++i) LANE(entry_0_0_2_eigh[i], lane) = found[i];
+                }
+            }
+            vector log_sinhc_sqrtm[1];
+            {
+                for (size_t lane = 0; lane < LANES; ++lane) {
+                    double whole[2];
+                    for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+                    double found[1];
+                    symmetric_log_sinhc_sqrt_1(whole, found);
+                    for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm[i], lane) = found[i];
+                }
+            }
+            const vector log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[0];
+            const vector v1 = 1.4142135623730951 * L0_1;
+            const vector z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1;
+            const vector z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
+            const vector z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
+            const vector gap = -log_sinhc_sqrtm_value0_0 - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
+            const vector phi = exp_each(gap);
+            value[0] = value[0] + amplitude * phi;
         }
     }
-    vector log_sinhc_sqrtm[1];
-    {
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            double whole[2];
-            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
-            double found[1];
-            symmetric_log_sinhc_sqrt_1(whole, found);
-            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm[i], lane) = found[i];
-        }
-    }
-    const vector log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[0];
-    const vector v1 = 1.4142135623730951 * L0_1;
-    const vector z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1;
-    const vector z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
-    const vector z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
-    const vector gap = -log_sinhc_sqrtm_value0_0 - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector phi = exp_each(gap);
-    value[0] = value[0] + amplitude * phi;
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 OUTLINE void pair_forward(
-    const vector *X, const double *S, vector *value, vector *slope) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector x2 = X[2];
-    const vector x3 = X[3];
-    const double W0_0 = S[0];
-    const double W0_1 = S[1];
-    const double W0_2 = S[2];
-    const double W1_0 = S[3];
-    const double W1_1 = S[4];
-    const double W1_2 = S[5];
-    const double W2_0 = S[6];
-    const double W2_1 = S[7];
-    const double W2_2 = S[8];
-    const double amplitude = S[9];
-    const double r0_0 = S[10];
-    const double r0_1 = S[11];
-    const double r1_1 = S[12];
-    const double mul_of_one = S[13];
-    const double mul_of_one_2 = S[14];
-    const double mul_of_one_3 = S[15];
-    const vector total_2 = x0 * r0_0 + x2 * r0_1;
-    const vector total_3 = x1 * r0_0 + x3 * r0_1;
-    const vector entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
-    const vector total_4 = x0 * r0_1 + x2 * r1_1;
-    const vector total_5 = x1 * r0_1 + x3 * r1_1;
-    const vector entry_0_1 = mul_of_one * total_4 + total_2 * mul_of_one_2 + mul_of_one_2 * total_5 + total_3
-        * mul_of_one_3;
-    const vector entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
-    vector entry_0_0_eigh[6];
-    {
-        const vector given_lanes[3] = {entry_0_0, entry_0_1, entry_1_1};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            double given[3];
-            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
-            double found[6];
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values, vector *slopes) {
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 22 * near[k];
+        const double W0_0 = S[0];
+        const double W0_1 = S[1];
+        const double W0_2 = S[2];
+        const double W1_0 = S[3];
+        const double W1_1 = S[4];
+        const double W1_2 = S[5];
+        const double W2_0 = S[6];
+        const double W2_1 = S[7];
+        const double W2_2 = S[8];
+        const double amplitude = S[9];
+        const double r0_0 = S[10];
+        const double r0_1 = S[11];
+        const double r1_1 = S[12];
+        const double mul_of_one = S[13];
+        const double mul_of_one_2 = S[14];
+        const double mul_of_one_3 = S[15];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 4 * b;
+            vector *value = values + b;
+            vector *slope = slopes + 4 * b;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector x2 = X[2];
+            const vector x3 = X[3];
+            const vector total_2 = x0 * r0_0 + x2 * r0_1;
+            const vector total_3 = x1 * r0_0 + x3 * r0_1;
+            const vector entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
+            const vector total_4 = x0 * r0_1 + x2 * r1_1;
+            const vector total_5 = x1 * r0_1 + x3 * r1_1;
+            const vector entry_0_1 = mul_of_one * total_4 + total_2 * mul_of_one_2 + mul_of_one_2 * total_5 + total_3
+                * mul_of_one_3;
+            const vector entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
+            vector entry_0_0_eigh[6];
             {
-                const double in_0[3] = {given[0], given[1], given[2]};
-                symmetric_eigh_2(in_0, found);
+                const vector given_lanes[3] = {entry_0_0, entry_0_1, entry_1_1};
+                for (size_t lane = 0; lane < LANES; ++lane) {
+                    double given[3];
+                    for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+                    double found[6];
+                    {
+                        const double in_0[3] = {given[0], given[1], given[2]};
+                        symmetric_eigh_2(in_0, found);
+                    }
+                    for (int i = 0; i < 6; ++i) LANE(entry_0_0_eigh[i], lane) = found[i];
+                }
             }
-            for (int i = 0; i < 6; ++i) LANE(entry_0_0_eigh[i], lane) = found[i];
-        }
-    }
-    vector logm[3];
-    {
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            double whole[6];
-            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
-            double found[3];
-            symmetric_log_2(whole, found);
-            for (int i = 0; i < 3; ++i) LANE(logm[i], lane) = found[i];
-        }
-    }
-    const vector L0_1 = logm[1];
-    const vector L0_0 = logm[0];
-    const vector L1_1 = logm[2];
-    const vector L0_0_gap = L0_0 - L1_1;
-    const vector entry_0_0_2 = L0_1 * L0_1 + 0.25 * (L0_0_gap * L0_0_gap);
-    vector entry_0_0_2_eigh[2];
-    {
-        const vector given_lanes[1] = {entry_0_0_2};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            double given[1];
-            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
-            double found[2];
+            vector logm[3];
             {
-                const double in_0[1] = {given[0]};
-                symmetric_eigh_1(in_0, found);
+                for (size_t lane = 0; lane < LANES; ++lane) {
+                    double whole[6];
+                    for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+                    double found[3];
+                    symmetric_log_2(whole, found);
+                    for (int i = 0; i < 3; ++i) LANE(logm[i], lane) = found[i];
+                }
             }
-            for (int i = 0; i < 2; ++i) LANE(entry_0_0_2_eigh[i], lane) = found[i];
-        }
-    }
-    vector log_sinhc_sqrtm[1];
-    {
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            double whole[2];
-            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
-            double found[1];
-            symmetric_log_sinhc_sqrt_1(whole, found);
-            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm[i], lane) = found[i];
-        }
-    }
-    const vector log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[0];
-    const vector v1 = 1.4142135623730951 * L0_1;
-    const vector z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1;
-    const vector z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
-    const vector z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
-    const vector gap = -log_sinhc_sqrtm_value0_0 - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector phi = exp_each(gap);
-    const vector phi_2 = amplitude * phi;
-    vector log_sinhc_sqrtm_slope[1];
-    {
-        const vector given_lanes[1] = {-phi_2};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            double given[1];
-            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
-            double whole[2];
-            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
-            double found[1];
+            const vector L0_1 = logm[1];
+            const vector L0_0 = logm[0];
+            const vector L1_1 = logm[2];
+            const vector L0_0_gap = L0_0 - L1_1;
+            const vector entry_0_0_2 = L0_1 * L0_1 + 0.25 * (L0_0_gap * L0_0_gap);
+            vector entry_0_0_2_eigh[2];
             {
-                const double in_0[1] = {given[0]};
-                symmetric_log_sinhc_sqrt_1_derivative1(whole, in_0, found);
+                const vector given_lanes[1] = {entry_0_0_2};
+                for (size_t lane = 0; lane < LANES; ++lane) {
+                    double given[1];
+                    for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+                    double found[2];
+                    {
+                        const double in_0[1] = {given[0]};
+                        symmetric_eigh_1(in_0, found);
+                    }
+                    for (int i = 0; i < 2; ++i) LANE(entry_0_0_2_eigh[i], lane) = found[i];
+                }
             }
-            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope[i], lane) = found[i];
-        }
-    }
-    const vector by_entry_0_0_2 = log_sinhc_sqrtm_slope[0];
-    const vector product = L0_0_gap * (0.5 * by_entry_0_0_2);
-    const vector gap_2 = product - phi_2 * (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0));
-    const vector product_2 = 1.4142135623730951 * (phi_2 * (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0)));
-    const vector minus = -(phi_2 * (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0)));
-    vector logm_slope[3];
-    {
-        const vector given_lanes[3] = {gap_2, 0.5 * (L0_1 * (2.0 * by_entry_0_0_2) - product_2), minus - product};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            double given[3];
-            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
-            double whole[6];
-            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
-            double found[3];
+            vector log_sinhc_sqrtm[1];
             {
-                const double in_0[3] = {given[0], given[1], given[2]};
-                symmetric_log_2_derivative1(whole, in_0, found);
+                for (size_t lane = 0; lane < LANES; ++lane) {
+                    double whole[2];
+                    for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+                    double found[1];
+                    symmetric_log_sinhc_sqrt_1(whole, found);
+                    for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm[i], lane) = found[i];
+                }
             }
-            for (int i = 0; i < 3; ++i) LANE(logm_slope[i], lane) = found[i];
+            const vector log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[0];
+            const vector v1 = 1.4142135623730951 * L0_1;
+            const vector z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1;
+            const vector z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
+            const vector z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
+            const vector gap = -log_sinhc_sqrtm_value0_0 - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
+            const vector phi = exp_each(gap);
+            const vector phi_2 = amplitude * phi;
+            vector log_sinhc_sqrtm_slope[1];
+            {
+                const vector given_lanes[1] = {-phi_2};
+                for (size_t lane = 0; lane < LANES; ++lane) {
+                    double given[1];
+                    for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+                    double whole[2];
+                    for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+                    double found[1];
+                    {
+                        const double in_0[1] = {given[0]};
+                        symmetric_log_sinhc_sqrt_1_derivative1(whole, in_0, found);
+                    }
+                    for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope[i], lane) = found[i];
+                }
+            }
+            const vector by_entry_0_0_2 = log_sinhc_sqrtm_slope[0];
+            const vector product = L0_0_gap * (0.5 * by_entry_0_0_2);
+            const vector gap_2 = product - phi_2 * (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0));
+            const vector product_2 = 1.4142135623730951 * (phi_2 * (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0)));
+            const vector minus = -(phi_2 * (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0)));
+            vector logm_slope[3];
+            {
+                const vector given_lanes[3] = {gap_2, 0.5 * (L0_1 * (2.0 * by_entry_0_0_2) - product_2), minus - product};
+                for (size_t lane = 0; lane < LANES; ++lane) {
+                    double given[3];
+                    for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+                    double whole[6];
+                    for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+                    double found[3];
+                    {
+                        const double in_0[3] = {given[0], given[1], given[2]};
+                        symmetric_log_2_derivative1(whole, in_0, found);
+                    }
+                    for (int i = 0; i < 3; ++i) LANE(logm_slope[i], lane) = found[i];
+                }
+            }
+            const vector by_entry_1_1 = logm_slope[2];
+            const vector by_entry_0_1 = 2.0 * logm_slope[1];
+            const vector total_6 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1;
+            const vector product_3 = mul_of_one_2 * by_entry_0_1;
+            const vector by_entry_0_0 = logm_slope[0];
+            const vector total_7 = product_3 + r0_0 * by_entry_0_0;
+            const vector total_8 = r1_1 * by_entry_1_1 + product_3;
+            const vector total_9 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0;
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] + r0_1 * total_6 + r0_0 * total_7;
+            slope[1] = slope[1] + r0_1 * total_8 + r0_0 * total_9;
+            slope[2] = slope[2] + r1_1 * total_6 + r0_1 * total_7;
+            slope[3] = slope[3] + r1_1 * total_8 + r0_1 * total_9;
         }
     }
-    const vector by_entry_1_1 = logm_slope[2];
-    const vector by_entry_0_1 = 2.0 * logm_slope[1];
-    const vector total_6 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1;
-    const vector product_3 = mul_of_one_2 * by_entry_0_1;
-    const vector by_entry_0_0 = logm_slope[0];
-    const vector total_7 = product_3 + r0_0 * by_entry_0_0;
-    const vector total_8 = r1_1 * by_entry_1_1 + product_3;
-    const vector total_9 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0;
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] + r0_1 * total_6 + r0_0 * total_7;
-    slope[1] = slope[1] + r0_1 * total_8 + r0_0 * total_9;
-    slope[2] = slope[2] + r1_1 * total_6 + r0_1 * total_7;
-    slope[3] = slope[3] + r1_1 * total_8 + r0_1 * total_9;
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -951,6 +980,321 @@ OUTLINE void pair_gradient_vjp(
             sqrtm_p0_1_squared * gradient_bar0;
 }
 
+/*
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some vectors of points.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
+OUTLINE void pair_backward(
+    size_t count, const vector *points, const uint32_t *near, const double *S, vector *sums) {
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 9 * (size_t)near[i];
+        const vector *value_bar = points + 9 * (size_t)near[i] + 4;
+        const vector *slope_bar = points + 9 * (size_t)near[i] + 4 + 1;
+        const vector x0 = X[0];
+        const vector x1 = X[1];
+        const vector x2 = X[2];
+        const vector x3 = X[3];
+        const double W0_0 = S[0];
+        const double W0_1 = S[1];
+        const double W0_2 = S[2];
+        const double W1_0 = S[3];
+        const double W1_1 = S[4];
+        const double W1_2 = S[5];
+        const double W2_0 = S[6];
+        const double W2_1 = S[7];
+        const double W2_2 = S[8];
+        const double r0_0 = S[10];
+        const double r0_1 = S[11];
+        const double r1_1 = S[12];
+        const double mul_of_one = S[13];
+        const double mul_of_one_2 = S[14];
+        const double mul_of_one_3 = S[15];
+        const double M0_0 = S[16];
+        const double M0_1 = S[17];
+        const double M0_2 = S[18];
+        const double M1_1 = S[19];
+        const double M1_2 = S[20];
+        const double M2_2 = S[21];
+        const vector its_value_bar = value_bar[0];
+        const vector x0_bar = slope_bar[0];
+        const vector x1_bar = slope_bar[1];
+        const vector x2_bar = slope_bar[2];
+        const vector x3_bar = slope_bar[3];
+        const vector total_2 = x0 * r0_0 + x2 * r0_1;
+        const vector total_3 = x1 * r0_0 + x3 * r0_1;
+        const vector entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
+        const vector total_4 = x0 * r0_1 + x2 * r1_1;
+        const vector total_5 = x1 * r0_1 + x3 * r1_1;
+        const vector entry_0_1 = mul_of_one * total_4 + total_2 * mul_of_one_2 + mul_of_one_2 * total_5 + total_3
+            * mul_of_one_3;
+        const vector entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
+        vector entry_0_0_eigh[6];
+        {
+            const vector given_lanes[3] = {entry_0_0, entry_0_1, entry_1_1};
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                double given[3];
+                for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+                double found[6];
+                {
+                    const double in_0[3] = {given[0], given[1], given[2]};
+                    symmetric_eigh_2(in_0, found);
+                }
+                for (int i = 0; i < 6; ++i) LANE(entry_0_0_eigh[i], lane) = found[i];
+            }
+        }
+        vector logm[3];
+        {
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                double whole[6];
+                for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+                double found[3];
+                symmetric_log_2(whole, found);
+                for (int i = 0; i < 3; ++i) LANE(logm[i], lane) = found[i];
+            }
+        }
+        const vector L0_1 = logm[1];
+        const vector L0_0 = logm[0];
+        const vector L1_1 = logm[2];
+        const vector L0_0_gap = L0_0 - L1_1;
+        const vector entry_0_0_2 = L0_1 * L0_1 + 0.25 * (L0_0_gap * L0_0_gap);
+        vector entry_0_0_2_eigh[2];
+        {
+            const vector given_lanes[1] = {entry_0_0_2};
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                double given[1];
+                for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+                double found[2];
+                {
+                    const double in_0[1] = {given[0]};
+                    symmetric_eigh_1(in_0, found);
+                }
+                for (int i = 0; i < 2; ++i) LANE(entry_0_0_2_eigh[i], lane) = found[i];
+            }
+        }
+        vector log_sinhc_sqrtm[1];
+        {
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                double whole[2];
+                for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+                double found[1];
+                symmetric_log_sinhc_sqrt_1(whole, found);
+                for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm[i], lane) = found[i];
+            }
+        }
+        const vector log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[0];
+        const vector v1 = 1.4142135623730951 * L0_1;
+        const vector z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1;
+        const vector z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
+        const vector z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
+        const vector gap = -log_sinhc_sqrtm_value0_0 - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
+        const vector phi = exp_each(gap);
+        const vector total_6 = W2_2 * z2 + (W1_2 * z1 + W0_2 * z0);
+        const vector total_7 = r0_0 * x0_bar + r0_1 * x2_bar;
+        const vector total_8 = r0_0 * x1_bar + r0_1 * x3_bar;
+        const vector total_9 = r0_0 * total_7 + r0_1 * total_8;
+        const vector total_10 = r0_1 * x0_bar + r1_1 * x2_bar;
+        const vector total_11 = r0_1 * x1_bar + r1_1 * x3_bar;
+        const vector total_12 = total_7 + total_11;
+        const vector by_by_entry_0_1 = mul_of_one * total_10 + mul_of_one_2 * total_12 + mul_of_one_3 * total_8;
+        const vector total_13 = r0_1 * total_10 + r1_1 * total_11;
+        vector logm_slope[3];
+        {
+            const vector given_lanes[3] = {total_9, by_by_entry_0_1, total_13};
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                double given[3];
+                for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+                double whole[6];
+                for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+                double found[3];
+                {
+                    const double in_0[3] = {given[0], given[1], given[2]};
+                    symmetric_log_2_derivative1(whole, in_0, found);
+                }
+                for (int i = 0; i < 3; ++i) LANE(logm_slope[i], lane) = found[i];
+            }
+        }
+        const vector total_14 = W2_1 * z2 + (W1_1 * z1 + W0_1 * z0);
+        const vector product = 1.4142135623730951 * logm_slope[1];
+        const vector total_15 = W2_0 * z2 + (W1_0 * z1 + W0_0 * z0);
+        const vector gap_2 = logm_slope[0] - logm_slope[2];
+        const vector total_16 = 2.0 * (L0_1 * logm_slope[1]) + 0.5 * (L0_0_gap * gap_2);
+        vector log_sinhc_sqrtm_slope[1];
+        {
+            const vector given_lanes[1] = {total_16};
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                double given[1];
+                for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+                double whole[2];
+                for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+                double found[1];
+                {
+                    const double in_0[1] = {given[0]};
+                    symmetric_log_sinhc_sqrt_1_derivative1(whole, in_0, found);
+                }
+                for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope[i], lane) = found[i];
+            }
+        }
+        const vector by_phi = its_value_bar - total_6 * logm_slope[2] - total_14 * product - total_15 *
+            logm_slope[0] - log_sinhc_sqrtm_slope[0];
+        const vector phi_product = phi * by_phi;
+        const vector phi_minus = -phi;
+        vector log_sinhc_sqrtm_slope_2[1];
+        {
+            const vector given_lanes[1] = {phi_minus};
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                double given[1];
+                for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+                double whole[2];
+                for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+                double found[1];
+                {
+                    const double in_0[1] = {given[0]};
+                    symmetric_log_sinhc_sqrt_1_derivative1(whole, in_0, found);
+                }
+                for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope_2[i], lane) = found[i];
+            }
+        }
+        const vector by_entry_0_0_2 = log_sinhc_sqrtm_slope_2[0];
+        const vector product_2 = 0.5 * by_entry_0_0_2;
+        const vector product_3 = L0_0_gap * product_2;
+        const vector gap_3 = product_3 - phi * total_15;
+        const vector product_4 = 2.0 * by_entry_0_0_2;
+        const vector product_5 = 0.5 * (L0_1 * product_4 - 1.4142135623730951 * (phi * total_14));
+        const vector gap_4 = -(phi * total_6) - product_3;
+        vector logm_slope_2[3];
+        {
+            const vector given_lanes[3] = {gap_3, product_5, gap_4};
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                double given[3];
+                for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+                double whole[6];
+                for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+                double found[3];
+                {
+                    const double in_0[3] = {given[0], given[1], given[2]};
+                    symmetric_log_2_derivative1(whole, in_0, found);
+                }
+                for (int i = 0; i < 3; ++i) LANE(logm_slope_2[i], lane) = found[i];
+            }
+        }
+        const vector by_entry_0_1 = 2.0 * logm_slope_2[1];
+        const vector product_6 = mul_of_one_2 * by_entry_0_1;
+        const vector by_entry_0_0 = logm_slope_2[0];
+        const vector total_17 = product_6 + r0_0 * by_entry_0_0;
+        const vector total_18 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0;
+        vector logm_derivative2[3];
+        {
+            const vector given_lanes[6] = {gap_3, product_5, gap_4, total_9, by_by_entry_0_1, total_13};
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                double given[6];
+                for (int i = 0; i < 6; ++i) given[i] = LANE(given_lanes[i], lane);
+                double whole[6];
+                for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+                double found[3];
+                {
+                    const double in_0[3] = {given[0], given[1], given[2]};
+                    const double in_1[3] = {given[3], given[4], given[5]};
+                    symmetric_log_2_derivative2(whole, in_0, in_1, found);
+                }
+                for (int i = 0; i < 3; ++i) LANE(logm_derivative2[i], lane) = found[i];
+            }
+        }
+        const vector phi_product_2 = phi * logm_slope[0];
+        const vector phi_product_3 = phi * product;
+        const vector phi_product_4 = phi * logm_slope[2];
+        const vector gap_5 = -(M0_0 * phi_product_2) - M0_1 * phi_product_3 - M0_2 * phi_product_4 - total_15 *
+            phi_product;
+        vector log_sinhc_sqrtm_derivative2[1];
+        {
+            const vector given_lanes[2] = {phi_minus, total_16};
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                double given[2];
+                for (int i = 0; i < 2; ++i) given[i] = LANE(given_lanes[i], lane);
+                double whole[2];
+                for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+                double found[1];
+                {
+                    const double in_0[1] = {given[0]};
+                    const double in_1[1] = {given[1]};
+                    symmetric_log_sinhc_sqrt_1_derivative2(whole, in_0, in_1, found);
+                }
+                for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_derivative2[i], lane) = found[i];
+            }
+        }
+        vector log_sinhc_sqrtm_slope_3[1];
+        {
+            const vector given_lanes[1] = {-phi_product};
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                double given[1];
+                for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+                double whole[2];
+                for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+                double found[1];
+                {
+                    const double in_0[1] = {given[0]};
+                    symmetric_log_sinhc_sqrt_1_derivative1(whole, in_0, found);
+                }
+                for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope_3[i], lane) = found[i];
+            }
+        }
+        const vector by_entry_0_0_2_2 = log_sinhc_sqrtm_derivative2[0] + log_sinhc_sqrtm_slope_3[0];
+        const vector total_19 = product_2 * gap_2 + L0_0_gap * (0.5 * by_entry_0_0_2_2);
+        const vector by_v1 = -(M0_1 * phi_product_2) - M1_1 * phi_product_3 - M1_2 * phi_product_4 - total_14 *
+            phi_product;
+        const vector gap_6 = -(M0_2 * phi_product_2) - M1_2 * phi_product_3 - M2_2 * phi_product_4 - total_6 *
+            phi_product;
+        vector logm_slope_3[3];
+        {
+            const vector given_lanes[3] = {gap_5 + total_19, 0.5 * (product_4 * logm_slope[1] + 1.4142135623730951 * by_v1 + L0_1 * (2.0 * by_entry_0_0_2_2)), gap_6 - total_19};
+            for (size_t lane = 0; lane < LANES; ++lane) {
+                double given[3];
+                for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+                double whole[6];
+                for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+                double found[3];
+                {
+                    const double in_0[3] = {given[0], given[1], given[2]};
+                    symmetric_log_2_derivative1(whole, in_0, found);
+                }
+                for (int i = 0; i < 3; ++i) LANE(logm_slope_3[i], lane) = found[i];
+            }
+        }
+        const vector by_entry_0_1_2 = 2.0 * logm_derivative2[1] + 2.0 * logm_slope_3[1];
+        const vector by_entry_0_0_3 = logm_derivative2[0] + logm_slope_3[0];
+        const vector total_20 = mul_of_one_3 * by_entry_0_1_2 + r0_1 * by_entry_0_0_3;
+        const vector product_7 = mul_of_one_2 * by_entry_0_1_2;
+        const vector total_22 = product_7 + r0_0 * by_entry_0_0_3;
+        const vector by_entry_1_1 = logm_slope_2[2];
+        const vector total_23 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1;
+        const vector total_24 = r1_1 * by_entry_1_1 + product_6;
+        const vector by_entry_1_1_2 = logm_derivative2[2] + logm_slope_3[2];
+        const vector total_26 = r1_1 * by_entry_1_1_2 + product_7;
+        const vector total_27 = r0_1 * by_entry_1_1_2 + mul_of_one * by_entry_0_1_2;
+        const vector product_8 = 0.5 * phi_product;
+        const vector gap_7 = -phi_product_2 - L0_0 * product_8;
+        const vector gap_8 = -phi_product_3 - v1 * product_8;
+        const vector gap_9 = -phi_product_4 - L1_1 * product_8;
+        sums[0] = sums[0] + phi_product;
+        sums[1] = sums[1] + total_17 * x0_bar + by_entry_0_0 * total_7 + total_18 * x1_bar + x1 * total_20 +
+                total_2 * by_entry_0_0_3 + x0 * total_22;
+        sums[2] = sums[2] + total_17 * x2_bar + total_18 * x3_bar + by_entry_0_0 * total_8 + total_23 * x0_bar +
+                total_24 * x1_bar + by_entry_1_1 * total_10 + total_4 * by_entry_1_1_2 + x1 * total_26 + x0 * total_27
+                + total_3 * by_entry_0_0_3 + x3 * total_20 + x2 * total_22;
+        sums[3] = sums[3] + total_23 * x2_bar + total_24 * x3_bar + by_entry_1_1 * total_11 + total_5 *
+                by_entry_1_1_2 + x3 * total_26 + x2 * total_27;
+        sums[4] = sums[4] + by_entry_0_1 * total_10 + total_4 * by_entry_0_1_2;
+        sums[5] = sums[5] + by_entry_0_1 * total_12 + total_5 * by_entry_0_1_2 + total_2 * by_entry_0_1_2;
+        sums[6] = sums[6] + by_entry_0_1 * total_8 + total_3 * by_entry_0_1_2;
+        sums[7] = sums[7] + L0_0 * gap_7;
+        sums[8] = sums[8] + L0_0 * gap_8 + v1 * gap_7;
+        sums[9] = sums[9] + L0_0 * gap_9 + L1_1 * gap_7;
+        sums[10] = sums[10] + v1 * gap_8;
+        sums[11] = sums[11] + v1 * gap_9 + L1_1 * gap_8;
+        sums[12] = sums[12] + L1_1 * gap_9;
+    }
+}
+
 /* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp(
     const vector *mu, const vector *W, const vector *amplitude, const vector *sums, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
@@ -1030,316 +1374,6 @@ OUTLINE void pair_constants_vjp(
     W_bar[7] = its_amplitude * (W2_0 * sum8 + W2_1 * product_3 + W2_2 * sum11);
     W_bar[8] = its_amplitude * (W2_0 * sum9 + W2_1 * sum11 + W2_2 * product_4);
     amplitude_bar[0] = sum0;
-}
-
-/*
- * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
- *
- * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
- */
-OUTLINE void pair_backward(
-    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector x2 = X[2];
-    const vector x3 = X[3];
-    const double W0_0 = S[0];
-    const double W0_1 = S[1];
-    const double W0_2 = S[2];
-    const double W1_0 = S[3];
-    const double W1_1 = S[4];
-    const double W1_2 = S[5];
-    const double W2_0 = S[6];
-    const double W2_1 = S[7];
-    const double W2_2 = S[8];
-    const double r0_0 = S[10];
-    const double r0_1 = S[11];
-    const double r1_1 = S[12];
-    const double mul_of_one = S[13];
-    const double mul_of_one_2 = S[14];
-    const double mul_of_one_3 = S[15];
-    const double M0_0 = S[16];
-    const double M0_1 = S[17];
-    const double M0_2 = S[18];
-    const double M1_1 = S[19];
-    const double M1_2 = S[20];
-    const double M2_2 = S[21];
-    const vector its_value_bar = value_bar[0];
-    const vector x0_bar = slope_bar[0];
-    const vector x1_bar = slope_bar[1];
-    const vector x2_bar = slope_bar[2];
-    const vector x3_bar = slope_bar[3];
-    const vector total_2 = x0 * r0_0 + x2 * r0_1;
-    const vector total_3 = x1 * r0_0 + x3 * r0_1;
-    const vector entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
-    const vector total_4 = x0 * r0_1 + x2 * r1_1;
-    const vector total_5 = x1 * r0_1 + x3 * r1_1;
-    const vector entry_0_1 = mul_of_one * total_4 + total_2 * mul_of_one_2 + mul_of_one_2 * total_5 + total_3
-        * mul_of_one_3;
-    const vector entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
-    vector entry_0_0_eigh[6];
-    {
-        const vector given_lanes[3] = {entry_0_0, entry_0_1, entry_1_1};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            double given[3];
-            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
-            double found[6];
-            {
-                const double in_0[3] = {given[0], given[1], given[2]};
-                symmetric_eigh_2(in_0, found);
-            }
-            for (int i = 0; i < 6; ++i) LANE(entry_0_0_eigh[i], lane) = found[i];
-        }
-    }
-    vector logm[3];
-    {
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            double whole[6];
-            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
-            double found[3];
-            symmetric_log_2(whole, found);
-            for (int i = 0; i < 3; ++i) LANE(logm[i], lane) = found[i];
-        }
-    }
-    const vector L0_1 = logm[1];
-    const vector L0_0 = logm[0];
-    const vector L1_1 = logm[2];
-    const vector L0_0_gap = L0_0 - L1_1;
-    const vector entry_0_0_2 = L0_1 * L0_1 + 0.25 * (L0_0_gap * L0_0_gap);
-    vector entry_0_0_2_eigh[2];
-    {
-        const vector given_lanes[1] = {entry_0_0_2};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            double given[1];
-            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
-            double found[2];
-            {
-                const double in_0[1] = {given[0]};
-                symmetric_eigh_1(in_0, found);
-            }
-            for (int i = 0; i < 2; ++i) LANE(entry_0_0_2_eigh[i], lane) = found[i];
-        }
-    }
-    vector log_sinhc_sqrtm[1];
-    {
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            double whole[2];
-            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
-            double found[1];
-            symmetric_log_sinhc_sqrt_1(whole, found);
-            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm[i], lane) = found[i];
-        }
-    }
-    const vector log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[0];
-    const vector v1 = 1.4142135623730951 * L0_1;
-    const vector z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1;
-    const vector z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
-    const vector z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
-    const vector gap = -log_sinhc_sqrtm_value0_0 - 0.5 * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector phi = exp_each(gap);
-    const vector total_6 = W2_2 * z2 + (W1_2 * z1 + W0_2 * z0);
-    const vector total_7 = r0_0 * x0_bar + r0_1 * x2_bar;
-    const vector total_8 = r0_0 * x1_bar + r0_1 * x3_bar;
-    const vector total_9 = r0_0 * total_7 + r0_1 * total_8;
-    const vector total_10 = r0_1 * x0_bar + r1_1 * x2_bar;
-    const vector total_11 = r0_1 * x1_bar + r1_1 * x3_bar;
-    const vector total_12 = total_7 + total_11;
-    const vector by_by_entry_0_1 = mul_of_one * total_10 + mul_of_one_2 * total_12 + mul_of_one_3 * total_8;
-    const vector total_13 = r0_1 * total_10 + r1_1 * total_11;
-    vector logm_slope[3];
-    {
-        const vector given_lanes[3] = {total_9, by_by_entry_0_1, total_13};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            double given[3];
-            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
-            double whole[6];
-            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
-            double found[3];
-            {
-                const double in_0[3] = {given[0], given[1], given[2]};
-                symmetric_log_2_derivative1(whole, in_0, found);
-            }
-            for (int i = 0; i < 3; ++i) LANE(logm_slope[i], lane) = found[i];
-        }
-    }
-    const vector total_14 = W2_1 * z2 + (W1_1 * z1 + W0_1 * z0);
-    const vector product = 1.4142135623730951 * logm_slope[1];
-    const vector total_15 = W2_0 * z2 + (W1_0 * z1 + W0_0 * z0);
-    const vector gap_2 = logm_slope[0] - logm_slope[2];
-    const vector total_16 = 2.0 * (L0_1 * logm_slope[1]) + 0.5 * (L0_0_gap * gap_2);
-    vector log_sinhc_sqrtm_slope[1];
-    {
-        const vector given_lanes[1] = {total_16};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            double given[1];
-            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
-            double whole[2];
-            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
-            double found[1];
-            {
-                const double in_0[1] = {given[0]};
-                symmetric_log_sinhc_sqrt_1_derivative1(whole, in_0, found);
-            }
-            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope[i], lane) = found[i];
-        }
-    }
-    const vector by_phi = its_value_bar - total_6 * logm_slope[2] - total_14 * product - total_15 *
-        logm_slope[0] - log_sinhc_sqrtm_slope[0];
-    const vector phi_product = phi * by_phi;
-    const vector phi_minus = -phi;
-    vector log_sinhc_sqrtm_slope_2[1];
-    {
-        const vector given_lanes[1] = {phi_minus};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            double given[1];
-            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
-            double whole[2];
-            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
-            double found[1];
-            {
-                const double in_0[1] = {given[0]};
-                symmetric_log_sinhc_sqrt_1_derivative1(whole, in_0, found);
-            }
-            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope_2[i], lane) = found[i];
-        }
-    }
-    const vector by_entry_0_0_2 = log_sinhc_sqrtm_slope_2[0];
-    const vector product_2 = 0.5 * by_entry_0_0_2;
-    const vector product_3 = L0_0_gap * product_2;
-    const vector gap_3 = product_3 - phi * total_15;
-    const vector product_4 = 2.0 * by_entry_0_0_2;
-    const vector product_5 = 0.5 * (L0_1 * product_4 - 1.4142135623730951 * (phi * total_14));
-    const vector gap_4 = -(phi * total_6) - product_3;
-    vector logm_slope_2[3];
-    {
-        const vector given_lanes[3] = {gap_3, product_5, gap_4};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            double given[3];
-            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
-            double whole[6];
-            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
-            double found[3];
-            {
-                const double in_0[3] = {given[0], given[1], given[2]};
-                symmetric_log_2_derivative1(whole, in_0, found);
-            }
-            for (int i = 0; i < 3; ++i) LANE(logm_slope_2[i], lane) = found[i];
-        }
-    }
-    const vector by_entry_0_1 = 2.0 * logm_slope_2[1];
-    const vector product_6 = mul_of_one_2 * by_entry_0_1;
-    const vector by_entry_0_0 = logm_slope_2[0];
-    const vector total_17 = product_6 + r0_0 * by_entry_0_0;
-    const vector total_18 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0;
-    vector logm_derivative2[3];
-    {
-        const vector given_lanes[6] = {gap_3, product_5, gap_4, total_9, by_by_entry_0_1, total_13};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            double given[6];
-            for (int i = 0; i < 6; ++i) given[i] = LANE(given_lanes[i], lane);
-            double whole[6];
-            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
-            double found[3];
-            {
-                const double in_0[3] = {given[0], given[1], given[2]};
-                const double in_1[3] = {given[3], given[4], given[5]};
-                symmetric_log_2_derivative2(whole, in_0, in_1, found);
-            }
-            for (int i = 0; i < 3; ++i) LANE(logm_derivative2[i], lane) = found[i];
-        }
-    }
-    const vector phi_product_2 = phi * logm_slope[0];
-    const vector phi_product_3 = phi * product;
-    const vector phi_product_4 = phi * logm_slope[2];
-    const vector gap_5 = -(M0_0 * phi_product_2) - M0_1 * phi_product_3 - M0_2 * phi_product_4 - total_15 *
-        phi_product;
-    vector log_sinhc_sqrtm_derivative2[1];
-    {
-        const vector given_lanes[2] = {phi_minus, total_16};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            double given[2];
-            for (int i = 0; i < 2; ++i) given[i] = LANE(given_lanes[i], lane);
-            double whole[2];
-            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
-            double found[1];
-            {
-                const double in_0[1] = {given[0]};
-                const double in_1[1] = {given[1]};
-                symmetric_log_sinhc_sqrt_1_derivative2(whole, in_0, in_1, found);
-            }
-            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_derivative2[i], lane) = found[i];
-        }
-    }
-    vector log_sinhc_sqrtm_slope_3[1];
-    {
-        const vector given_lanes[1] = {-phi_product};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            double given[1];
-            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
-            double whole[2];
-            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
-            double found[1];
-            {
-                const double in_0[1] = {given[0]};
-                symmetric_log_sinhc_sqrt_1_derivative1(whole, in_0, found);
-            }
-            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope_3[i], lane) = found[i];
-        }
-    }
-    const vector by_entry_0_0_2_2 = log_sinhc_sqrtm_derivative2[0] + log_sinhc_sqrtm_slope_3[0];
-    const vector total_19 = product_2 * gap_2 + L0_0_gap * (0.5 * by_entry_0_0_2_2);
-    const vector by_v1 = -(M0_1 * phi_product_2) - M1_1 * phi_product_3 - M1_2 * phi_product_4 - total_14 *
-        phi_product;
-    const vector gap_6 = -(M0_2 * phi_product_2) - M1_2 * phi_product_3 - M2_2 * phi_product_4 - total_6 *
-        phi_product;
-    vector logm_slope_3[3];
-    {
-        const vector given_lanes[3] = {gap_5 + total_19, 0.5 * (product_4 * logm_slope[1] + 1.4142135623730951 * by_v1 + L0_1 * (2.0 * by_entry_0_0_2_2)), gap_6 - total_19};
-        for (size_t lane = 0; lane < LANES; ++lane) {
-            double given[3];
-            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
-            double whole[6];
-            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
-            double found[3];
-            {
-                const double in_0[3] = {given[0], given[1], given[2]};
-                symmetric_log_2_derivative1(whole, in_0, found);
-            }
-            for (int i = 0; i < 3; ++i) LANE(logm_slope_3[i], lane) = found[i];
-        }
-    }
-    const vector by_entry_0_1_2 = 2.0 * logm_derivative2[1] + 2.0 * logm_slope_3[1];
-    const vector by_entry_0_0_3 = logm_derivative2[0] + logm_slope_3[0];
-    const vector total_20 = mul_of_one_3 * by_entry_0_1_2 + r0_1 * by_entry_0_0_3;
-    const vector product_7 = mul_of_one_2 * by_entry_0_1_2;
-    const vector total_22 = product_7 + r0_0 * by_entry_0_0_3;
-    const vector by_entry_1_1 = logm_slope_2[2];
-    const vector total_23 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1;
-    const vector total_24 = r1_1 * by_entry_1_1 + product_6;
-    const vector by_entry_1_1_2 = logm_derivative2[2] + logm_slope_3[2];
-    const vector total_26 = r1_1 * by_entry_1_1_2 + product_7;
-    const vector total_27 = r0_1 * by_entry_1_1_2 + mul_of_one * by_entry_0_1_2;
-    const vector product_8 = 0.5 * phi_product;
-    const vector gap_7 = -phi_product_2 - L0_0 * product_8;
-    const vector gap_8 = -phi_product_3 - v1 * product_8;
-    const vector gap_9 = -phi_product_4 - L1_1 * product_8;
-    sums[0] = sums[0] + phi_product;
-    sums[1] = sums[1] + total_17 * x0_bar + by_entry_0_0 * total_7 + total_18 * x1_bar + x1 * total_20 +
-            total_2 * by_entry_0_0_3 + x0 * total_22;
-    sums[2] = sums[2] + total_17 * x2_bar + total_18 * x3_bar + by_entry_0_0 * total_8 + total_23 * x0_bar +
-            total_24 * x1_bar + by_entry_1_1 * total_10 + total_4 * by_entry_1_1_2 + x1 * total_26 + x0 * total_27
-            + total_3 * by_entry_0_0_3 + x3 * total_20 + x2 * total_22;
-    sums[3] = sums[3] + total_23 * x2_bar + total_24 * x3_bar + by_entry_1_1 * total_11 + total_5 *
-            by_entry_1_1_2 + x3 * total_26 + x2 * total_27;
-    sums[4] = sums[4] + by_entry_0_1 * total_10 + total_4 * by_entry_0_1_2;
-    sums[5] = sums[5] + by_entry_0_1 * total_12 + total_5 * by_entry_0_1_2 + total_2 * by_entry_0_1_2;
-    sums[6] = sums[6] + by_entry_0_1 * total_8 + total_3 * by_entry_0_1_2;
-    sums[7] = sums[7] + L0_0 * gap_7;
-    sums[8] = sums[8] + L0_0 * gap_8 + v1 * gap_7;
-    sums[9] = sums[9] + L0_0 * gap_9 + L1_1 * gap_7;
-    sums[10] = sums[10] + v1 * gap_8;
-    sums[11] = sums[11] + v1 * gap_9 + L1_1 * gap_8;
-    sums[12] = sums[12] + L1_1 * gap_9;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -1431,7 +1465,7 @@ OUTLINE void splat_constants(
     vector_to_rows(S, constants, splat_count, start, 22, 22);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void spd_splats(
     size_t count, size_t splat_count, const double *SPD_RESTRICT x, const double *SPD_RESTRICT mu, const double *SPD_RESTRICT W, const double *SPD_RESTRICT amplitude, const double *SPD_RESTRICT width,
     double *SPD_RESTRICT value, double *SPD_RESTRICT gradient, double *SPD_RESTRICT work, int threads) {
@@ -1446,27 +1480,26 @@ void spd_splats(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[2][4], X[2][4], grad[3];
-            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][4] = {{ZERO}};
+            vector at[2][4], X[2 * 4], grad[3];
+            vector value_sum[2] = {ZERO}, slope_sum[2 * 4] = {ZERO};
             double place[4 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 4, at[b]);
-                pair_features(at[b], X[b]);
+                pair_features(at[b], X + 4 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 22 * near[i];
-                    pair_forward(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient(at[b], slope_sum[b], grad);
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                pair_gradient(at[b], slope_sum + 4 * b, grad);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
                 vector_to_rows(grad, gradient, count, start + b * LANES, 3, 3);
             }
         }
@@ -1488,25 +1521,24 @@ void spd_splats_value(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[4], X[2][4], value_sum[2][1] = {{ZERO}};
+            vector at[4], X[2 * 4], value_sum[2] = {ZERO};
             double place[4 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 4, at);
-                pair_features(at, X[b]);
+                pair_features(at, X + 4 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 22 * near[i];
-                    pair_value(X[0], S, value_sum[0]);
-                    pair_value(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -1525,19 +1557,11 @@ OUTLINE void splat_points(
     vector_end(count, start, 4 + 1, point + 4);
 }
 
-/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+/* Adds to sums what some vectors of points add to them, those in the list. */
 OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *sums) {
     vector sum[13] = {ZERO};
-    size_t b = 0;
-    for (; b + 1 < size; b += 2) {
-        const vector *point = points + 9 * (size_t)near[b], *other = points + 9 * (size_t)near[b + 1];
-        pair_backward(point, S, point + 4, point + 4 + 1, sum);
-        pair_backward(other, S, other + 4, other + 4 + 1, sum);
-    }
-    if (b < size) {
-        const vector *point = points + 9 * (size_t)near[b];
-        pair_backward(point, S, point + 4, point + 4 + 1, sum);
-    }
+    for (size_t b = 0; b < size; b += 16)
+        pair_backward(size - b < 16 ? size - b : 16, points, near + b, S, sum);
     sums[0] += vector_sum(sum[0]);
     sums[1] += vector_sum(sum[1]);
     sums[2] += vector_sum(sum[2]);
@@ -1622,6 +1646,7 @@ void spd_splats_rows(
     double *SPD_RESTRICT rows, double *SPD_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES - 1) / LANES;
+    const uint32_t only = 0;
     double *constants = work_constants(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -1638,7 +1663,7 @@ void spd_splats_rows(
                 for (int i = 0; i < 4; ++i) own_mu[i] = vector_of(mu[4 * k + i]);
                 for (int i = 0; i < 9; ++i) own_W[i] = vector_of(W[9 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 22 * k, point + 4, point + 4 + 1, own_sums);
+                pair_backward(1, point, &only, constants + 22 * k, own_sums);
                 pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 4, bars + 4 + 9);
                 vector_to_rows(bars, rows + 14 * k, count, block * LANES, 14, 14 * splat_count);
             }
@@ -1666,9 +1691,14 @@ INLINE vector_f vector_of_f(float x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector_f vector_select_f(vector_mask_f mask, vector_f x, vector_f y) {
-    return SELECT(vector_f, vector_mask_f, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector_f)((mask & (vector_mask_f)x) | (~mask & (vector_mask_f)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -2177,249 +2207,264 @@ OUTLINE void pair_constants_f(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 OUTLINE void pair_value_f(
-    const vector_f *X, const float *S, vector_f *value) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f x2 = X[2];
-    const vector_f x3 = X[3];
-    const float W0_0 = S[0];
-    const float W0_1 = S[1];
-    const float W0_2 = S[2];
-    const float W1_0 = S[3];
-    const float W1_1 = S[4];
-    const float W1_2 = S[5];
-    const float W2_0 = S[6];
-    const float W2_1 = S[7];
-    const float W2_2 = S[8];
-    const float amplitude = S[9];
-    const float r0_0 = S[10];
-    const float r0_1 = S[11];
-    const float r1_1 = S[12];
-    const float mul_of_one = S[13];
-    const float mul_of_one_2 = S[14];
-    const float mul_of_one_3 = S[15];
-    const vector_f total_2 = x0 * r0_0 + x2 * r0_1;
-    const vector_f total_3 = x1 * r0_0 + x3 * r0_1;
-    const vector_f entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
-    const vector_f total_4 = x0 * r0_1 + x2 * r1_1;
-    const vector_f total_5 = x1 * r0_1 + x3 * r1_1;
-    const vector_f entry_0_1 = mul_of_one * total_4 + total_2 * mul_of_one_2 + mul_of_one_2 * total_5 +
-        total_3 * mul_of_one_3;
-    const vector_f entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
-    vector_f entry_0_0_eigh[6];
-    {
-        const vector_f given_lanes[3] = {entry_0_0, entry_0_1, entry_1_1};
-        for (size_t lane = 0; lane < LANES_f; ++lane) {
-            float given[3];
-            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
-            float found[6];
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values) {
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 22 * near[k];
+        const float W0_0 = S[0];
+        const float W0_1 = S[1];
+        const float W0_2 = S[2];
+        const float W1_0 = S[3];
+        const float W1_1 = S[4];
+        const float W1_2 = S[5];
+        const float W2_0 = S[6];
+        const float W2_1 = S[7];
+        const float W2_2 = S[8];
+        const float amplitude = S[9];
+        const float r0_0 = S[10];
+        const float r0_1 = S[11];
+        const float r1_1 = S[12];
+        const float mul_of_one = S[13];
+        const float mul_of_one_2 = S[14];
+        const float mul_of_one_3 = S[15];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 4 * b;
+            vector_f *value = values + b;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f x2 = X[2];
+            const vector_f x3 = X[3];
+            const vector_f total_2 = x0 * r0_0 + x2 * r0_1;
+            const vector_f total_3 = x1 * r0_0 + x3 * r0_1;
+            const vector_f entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
+            const vector_f total_4 = x0 * r0_1 + x2 * r1_1;
+            const vector_f total_5 = x1 * r0_1 + x3 * r1_1;
+            const vector_f entry_0_1 = mul_of_one * total_4 + total_2 * mul_of_one_2 + mul_of_one_2 * total_5 +
+                total_3 * mul_of_one_3;
+            const vector_f entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
+            vector_f entry_0_0_eigh[6];
             {
-                const float in_0[3] = {given[0], given[1], given[2]};
-                symmetric_eigh_2_f(in_0, found);
+                const vector_f given_lanes[3] = {entry_0_0, entry_0_1, entry_1_1};
+                for (size_t lane = 0; lane < LANES_f; ++lane) {
+                    float given[3];
+                    for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+                    float found[6];
+                    {
+                        const float in_0[3] = {given[0], given[1], given[2]};
+                        symmetric_eigh_2_f(in_0, found);
+                    }
+                    for (int i = 0; i < 6; ++i) LANE(entry_0_0_eigh[i], lane) = found[i];
+                }
             }
-            for (int i = 0; i < 6; ++i) LANE(entry_0_0_eigh[i], lane) = found[i];
-        }
-    }
-    vector_f logm[3];
-    {
-        for (size_t lane = 0; lane < LANES_f; ++lane) {
-            float whole[6];
-            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
-            float found[3];
-            symmetric_log_2_f(whole, found);
-            for (int i = 0; i < 3; ++i) LANE(logm[i], lane) = found[i];
-        }
-    }
-    const vector_f L0_1 = logm[1];
-    const vector_f L0_0 = logm[0];
-    const vector_f L1_1 = logm[2];
-    const vector_f L0_0_gap = L0_0 - L1_1;
-    const vector_f entry_0_0_2 = L0_1 * L0_1 + 0.25f * (L0_0_gap * L0_0_gap);
-    vector_f entry_0_0_2_eigh[2];
-    {
-        const vector_f given_lanes[1] = {entry_0_0_2};
-        for (size_t lane = 0; lane < LANES_f; ++lane) {
-            float given[1];
-            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
-            float found[2];
+            vector_f logm[3];
             {
-                const float in_0[1] = {given[0]};
-                symmetric_eigh_1_f(in_0, found);
+                for (size_t lane = 0; lane < LANES_f; ++lane) {
+                    float whole[6];
+                    for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+                    float found[3];
+                    symmetric_log_2_f(whole, found);
+                    for (int i = 0; i < 3; ++i) LANE(logm[i], lane) = found[i];
+                }
             }
-            for (int i = 0; i < 2; ++i) LANE(entry_0_0_2_eigh[i], lane) = found[i];
+            const vector_f L0_1 = logm[1];
+            const vector_f L0_0 = logm[0];
+            const vector_f L1_1 = logm[2];
+            const vector_f L0_0_gap = L0_0 - L1_1;
+            const vector_f entry_0_0_2 = L0_1 * L0_1 + 0.25f * (L0_0_gap * L0_0_gap);
+            vector_f entry_0_0_2_eigh[2];
+            {
+                const vector_f given_lanes[1] = {entry_0_0_2};
+                for (size_t lane = 0; lane < LANES_f; ++lane) {
+                    float given[1];
+                    for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+                    float found[2];
+                    {
+                        const float in_0[1] = {given[0]};
+                        symmetric_eigh_1_f(in_0, found);
+                    }
+                    for (int i = 0; i < 2; ++i) LANE(entry_0_0_2_eigh[i], lane) = found[i];
+                }
+            }
+            vector_f log_sinhc_sqrtm[1];
+            {
+                for (size_t lane = 0; lane < LANES_f; ++lane) {
+                    float whole[2];
+                    for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+                    float found[1];
+                    symmetric_log_sinhc_sqrt_1_f(whole, found);
+                    for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm[i], lane) = found[i];
+                }
+            }
+            const vector_f log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[0];
+            const vector_f v1 = 1.4142135623730951f * L0_1;
+            const vector_f z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1;
+            const vector_f z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
+            const vector_f z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
+            const vector_f gap = -log_sinhc_sqrtm_value0_0 - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
+            const vector_f phi = exp_each_f(gap);
+            value[0] = value[0] + amplitude * phi;
         }
     }
-    vector_f log_sinhc_sqrtm[1];
-    {
-        for (size_t lane = 0; lane < LANES_f; ++lane) {
-            float whole[2];
-            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
-            float found[1];
-            symmetric_log_sinhc_sqrt_1_f(whole, found);
-            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm[i], lane) = found[i];
-        }
-    }
-    const vector_f log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[0];
-    const vector_f v1 = 1.4142135623730951f * L0_1;
-    const vector_f z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1;
-    const vector_f z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
-    const vector_f z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
-    const vector_f gap = -log_sinhc_sqrtm_value0_0 - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector_f phi = exp_each_f(gap);
-    value[0] = value[0] + amplitude * phi;
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 OUTLINE void pair_forward_f(
-    const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f x2 = X[2];
-    const vector_f x3 = X[3];
-    const float W0_0 = S[0];
-    const float W0_1 = S[1];
-    const float W0_2 = S[2];
-    const float W1_0 = S[3];
-    const float W1_1 = S[4];
-    const float W1_2 = S[5];
-    const float W2_0 = S[6];
-    const float W2_1 = S[7];
-    const float W2_2 = S[8];
-    const float amplitude = S[9];
-    const float r0_0 = S[10];
-    const float r0_1 = S[11];
-    const float r1_1 = S[12];
-    const float mul_of_one = S[13];
-    const float mul_of_one_2 = S[14];
-    const float mul_of_one_3 = S[15];
-    const vector_f total_2 = x0 * r0_0 + x2 * r0_1;
-    const vector_f total_3 = x1 * r0_0 + x3 * r0_1;
-    const vector_f entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
-    const vector_f total_4 = x0 * r0_1 + x2 * r1_1;
-    const vector_f total_5 = x1 * r0_1 + x3 * r1_1;
-    const vector_f entry_0_1 = mul_of_one * total_4 + total_2 * mul_of_one_2 + mul_of_one_2 * total_5 +
-        total_3 * mul_of_one_3;
-    const vector_f entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
-    vector_f entry_0_0_eigh[6];
-    {
-        const vector_f given_lanes[3] = {entry_0_0, entry_0_1, entry_1_1};
-        for (size_t lane = 0; lane < LANES_f; ++lane) {
-            float given[3];
-            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
-            float found[6];
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values, vector_f *slopes) {
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 22 * near[k];
+        const float W0_0 = S[0];
+        const float W0_1 = S[1];
+        const float W0_2 = S[2];
+        const float W1_0 = S[3];
+        const float W1_1 = S[4];
+        const float W1_2 = S[5];
+        const float W2_0 = S[6];
+        const float W2_1 = S[7];
+        const float W2_2 = S[8];
+        const float amplitude = S[9];
+        const float r0_0 = S[10];
+        const float r0_1 = S[11];
+        const float r1_1 = S[12];
+        const float mul_of_one = S[13];
+        const float mul_of_one_2 = S[14];
+        const float mul_of_one_3 = S[15];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 4 * b;
+            vector_f *value = values + b;
+            vector_f *slope = slopes + 4 * b;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f x2 = X[2];
+            const vector_f x3 = X[3];
+            const vector_f total_2 = x0 * r0_0 + x2 * r0_1;
+            const vector_f total_3 = x1 * r0_0 + x3 * r0_1;
+            const vector_f entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
+            const vector_f total_4 = x0 * r0_1 + x2 * r1_1;
+            const vector_f total_5 = x1 * r0_1 + x3 * r1_1;
+            const vector_f entry_0_1 = mul_of_one * total_4 + total_2 * mul_of_one_2 + mul_of_one_2 * total_5 +
+                total_3 * mul_of_one_3;
+            const vector_f entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
+            vector_f entry_0_0_eigh[6];
             {
-                const float in_0[3] = {given[0], given[1], given[2]};
-                symmetric_eigh_2_f(in_0, found);
+                const vector_f given_lanes[3] = {entry_0_0, entry_0_1, entry_1_1};
+                for (size_t lane = 0; lane < LANES_f; ++lane) {
+                    float given[3];
+                    for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+                    float found[6];
+                    {
+                        const float in_0[3] = {given[0], given[1], given[2]};
+                        symmetric_eigh_2_f(in_0, found);
+                    }
+                    for (int i = 0; i < 6; ++i) LANE(entry_0_0_eigh[i], lane) = found[i];
+                }
             }
-            for (int i = 0; i < 6; ++i) LANE(entry_0_0_eigh[i], lane) = found[i];
-        }
-    }
-    vector_f logm[3];
-    {
-        for (size_t lane = 0; lane < LANES_f; ++lane) {
-            float whole[6];
-            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
-            float found[3];
-            symmetric_log_2_f(whole, found);
-            for (int i = 0; i < 3; ++i) LANE(logm[i], lane) = found[i];
-        }
-    }
-    const vector_f L0_1 = logm[1];
-    const vector_f L0_0 = logm[0];
-    const vector_f L1_1 = logm[2];
-    const vector_f L0_0_gap = L0_0 - L1_1;
-    const vector_f entry_0_0_2 = L0_1 * L0_1 + 0.25f * (L0_0_gap * L0_0_gap);
-    vector_f entry_0_0_2_eigh[2];
-    {
-        const vector_f given_lanes[1] = {entry_0_0_2};
-        for (size_t lane = 0; lane < LANES_f; ++lane) {
-            float given[1];
-            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
-            float found[2];
+            vector_f logm[3];
             {
-                const float in_0[1] = {given[0]};
-                symmetric_eigh_1_f(in_0, found);
+                for (size_t lane = 0; lane < LANES_f; ++lane) {
+                    float whole[6];
+                    for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+                    float found[3];
+                    symmetric_log_2_f(whole, found);
+                    for (int i = 0; i < 3; ++i) LANE(logm[i], lane) = found[i];
+                }
             }
-            for (int i = 0; i < 2; ++i) LANE(entry_0_0_2_eigh[i], lane) = found[i];
-        }
-    }
-    vector_f log_sinhc_sqrtm[1];
-    {
-        for (size_t lane = 0; lane < LANES_f; ++lane) {
-            float whole[2];
-            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
-            float found[1];
-            symmetric_log_sinhc_sqrt_1_f(whole, found);
-            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm[i], lane) = found[i];
-        }
-    }
-    const vector_f log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[0];
-    const vector_f v1 = 1.4142135623730951f * L0_1;
-    const vector_f z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1;
-    const vector_f z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
-    const vector_f z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
-    const vector_f gap = -log_sinhc_sqrtm_value0_0 - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector_f phi = exp_each_f(gap);
-    const vector_f phi_2 = amplitude * phi;
-    vector_f log_sinhc_sqrtm_slope[1];
-    {
-        const vector_f given_lanes[1] = {-phi_2};
-        for (size_t lane = 0; lane < LANES_f; ++lane) {
-            float given[1];
-            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
-            float whole[2];
-            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
-            float found[1];
+            const vector_f L0_1 = logm[1];
+            const vector_f L0_0 = logm[0];
+            const vector_f L1_1 = logm[2];
+            const vector_f L0_0_gap = L0_0 - L1_1;
+            const vector_f entry_0_0_2 = L0_1 * L0_1 + 0.25f * (L0_0_gap * L0_0_gap);
+            vector_f entry_0_0_2_eigh[2];
             {
-                const float in_0[1] = {given[0]};
-                symmetric_log_sinhc_sqrt_1_derivative1_f(whole, in_0, found);
+                const vector_f given_lanes[1] = {entry_0_0_2};
+                for (size_t lane = 0; lane < LANES_f; ++lane) {
+                    float given[1];
+                    for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+                    float found[2];
+                    {
+                        const float in_0[1] = {given[0]};
+                        symmetric_eigh_1_f(in_0, found);
+                    }
+                    for (int i = 0; i < 2; ++i) LANE(entry_0_0_2_eigh[i], lane) = found[i];
+                }
             }
-            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope[i], lane) = found[i];
-        }
-    }
-    const vector_f by_entry_0_0_2 = log_sinhc_sqrtm_slope[0];
-    const vector_f product = L0_0_gap * (0.5f * by_entry_0_0_2);
-    const vector_f gap_2 = product - phi_2 * (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0));
-    const vector_f product_2 = 1.4142135623730951f * (phi_2 * (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0)));
-    const vector_f minus = -(phi_2 * (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0)));
-    vector_f logm_slope[3];
-    {
-        const vector_f given_lanes[3] = {gap_2, 0.5f * (L0_1 * (2.0f * by_entry_0_0_2) - product_2), minus - product};
-        for (size_t lane = 0; lane < LANES_f; ++lane) {
-            float given[3];
-            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
-            float whole[6];
-            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
-            float found[3];
+            vector_f log_sinhc_sqrtm[1];
             {
-                const float in_0[3] = {given[0], given[1], given[2]};
-                symmetric_log_2_derivative1_f(whole, in_0, found);
+                for (size_t lane = 0; lane < LANES_f; ++lane) {
+                    float whole[2];
+                    for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+                    float found[1];
+                    symmetric_log_sinhc_sqrt_1_f(whole, found);
+                    for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm[i], lane) = found[i];
+                }
             }
-            for (int i = 0; i < 3; ++i) LANE(logm_slope[i], lane) = found[i];
+            const vector_f log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[0];
+            const vector_f v1 = 1.4142135623730951f * L0_1;
+            const vector_f z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1;
+            const vector_f z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
+            const vector_f z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
+            const vector_f gap = -log_sinhc_sqrtm_value0_0 - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
+            const vector_f phi = exp_each_f(gap);
+            const vector_f phi_2 = amplitude * phi;
+            vector_f log_sinhc_sqrtm_slope[1];
+            {
+                const vector_f given_lanes[1] = {-phi_2};
+                for (size_t lane = 0; lane < LANES_f; ++lane) {
+                    float given[1];
+                    for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+                    float whole[2];
+                    for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+                    float found[1];
+                    {
+                        const float in_0[1] = {given[0]};
+                        symmetric_log_sinhc_sqrt_1_derivative1_f(whole, in_0, found);
+                    }
+                    for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope[i], lane) = found[i];
+                }
+            }
+            const vector_f by_entry_0_0_2 = log_sinhc_sqrtm_slope[0];
+            const vector_f product = L0_0_gap * (0.5f * by_entry_0_0_2);
+            const vector_f gap_2 = product - phi_2 * (W2_0 * z2 + (W1_0 * z1 + W0_0 * z0));
+            const vector_f product_2 = 1.4142135623730951f * (phi_2 * (W2_1 * z2 + (W1_1 * z1 + W0_1 * z0)));
+            const vector_f minus = -(phi_2 * (W2_2 * z2 + (W1_2 * z1 + W0_2 * z0)));
+            vector_f logm_slope[3];
+            {
+                const vector_f given_lanes[3] = {gap_2, 0.5f * (L0_1 * (2.0f * by_entry_0_0_2) - product_2), minus - product};
+                for (size_t lane = 0; lane < LANES_f; ++lane) {
+                    float given[3];
+                    for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+                    float whole[6];
+                    for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+                    float found[3];
+                    {
+                        const float in_0[3] = {given[0], given[1], given[2]};
+                        symmetric_log_2_derivative1_f(whole, in_0, found);
+                    }
+                    for (int i = 0; i < 3; ++i) LANE(logm_slope[i], lane) = found[i];
+                }
+            }
+            const vector_f by_entry_1_1 = logm_slope[2];
+            const vector_f by_entry_0_1 = 2.0f * logm_slope[1];
+            const vector_f total_6 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1;
+            const vector_f product_3 = mul_of_one_2 * by_entry_0_1;
+            const vector_f by_entry_0_0 = logm_slope[0];
+            const vector_f total_7 = product_3 + r0_0 * by_entry_0_0;
+            const vector_f total_8 = r1_1 * by_entry_1_1 + product_3;
+            const vector_f total_9 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0;
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] + r0_1 * total_6 + r0_0 * total_7;
+            slope[1] = slope[1] + r0_1 * total_8 + r0_0 * total_9;
+            slope[2] = slope[2] + r1_1 * total_6 + r0_1 * total_7;
+            slope[3] = slope[3] + r1_1 * total_8 + r0_1 * total_9;
         }
     }
-    const vector_f by_entry_1_1 = logm_slope[2];
-    const vector_f by_entry_0_1 = 2.0f * logm_slope[1];
-    const vector_f total_6 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1;
-    const vector_f product_3 = mul_of_one_2 * by_entry_0_1;
-    const vector_f by_entry_0_0 = logm_slope[0];
-    const vector_f total_7 = product_3 + r0_0 * by_entry_0_0;
-    const vector_f total_8 = r1_1 * by_entry_1_1 + product_3;
-    const vector_f total_9 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0;
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] + r0_1 * total_6 + r0_0 * total_7;
-    slope[1] = slope[1] + r0_1 * total_8 + r0_0 * total_9;
-    slope[2] = slope[2] + r1_1 * total_6 + r0_1 * total_7;
-    slope[3] = slope[3] + r1_1 * total_8 + r0_1 * total_9;
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -2527,6 +2572,321 @@ OUTLINE void pair_gradient_vjp_f(
             sqrtm_p0_1_squared * gradient_bar0;
 }
 
+/*
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some vectors of points.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
+OUTLINE void pair_backward_f(
+    size_t count, const vector_f *points, const uint32_t *near, const float *S, vector_f *sums) {
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 9 * (size_t)near[i];
+        const vector_f *value_bar = points + 9 * (size_t)near[i] + 4;
+        const vector_f *slope_bar = points + 9 * (size_t)near[i] + 4 + 1;
+        const vector_f x0 = X[0];
+        const vector_f x1 = X[1];
+        const vector_f x2 = X[2];
+        const vector_f x3 = X[3];
+        const float W0_0 = S[0];
+        const float W0_1 = S[1];
+        const float W0_2 = S[2];
+        const float W1_0 = S[3];
+        const float W1_1 = S[4];
+        const float W1_2 = S[5];
+        const float W2_0 = S[6];
+        const float W2_1 = S[7];
+        const float W2_2 = S[8];
+        const float r0_0 = S[10];
+        const float r0_1 = S[11];
+        const float r1_1 = S[12];
+        const float mul_of_one = S[13];
+        const float mul_of_one_2 = S[14];
+        const float mul_of_one_3 = S[15];
+        const float M0_0 = S[16];
+        const float M0_1 = S[17];
+        const float M0_2 = S[18];
+        const float M1_1 = S[19];
+        const float M1_2 = S[20];
+        const float M2_2 = S[21];
+        const vector_f its_value_bar = value_bar[0];
+        const vector_f x0_bar = slope_bar[0];
+        const vector_f x1_bar = slope_bar[1];
+        const vector_f x2_bar = slope_bar[2];
+        const vector_f x3_bar = slope_bar[3];
+        const vector_f total_2 = x0 * r0_0 + x2 * r0_1;
+        const vector_f total_3 = x1 * r0_0 + x3 * r0_1;
+        const vector_f entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
+        const vector_f total_4 = x0 * r0_1 + x2 * r1_1;
+        const vector_f total_5 = x1 * r0_1 + x3 * r1_1;
+        const vector_f entry_0_1 = mul_of_one * total_4 + total_2 * mul_of_one_2 + mul_of_one_2 * total_5 +
+            total_3 * mul_of_one_3;
+        const vector_f entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
+        vector_f entry_0_0_eigh[6];
+        {
+            const vector_f given_lanes[3] = {entry_0_0, entry_0_1, entry_1_1};
+            for (size_t lane = 0; lane < LANES_f; ++lane) {
+                float given[3];
+                for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+                float found[6];
+                {
+                    const float in_0[3] = {given[0], given[1], given[2]};
+                    symmetric_eigh_2_f(in_0, found);
+                }
+                for (int i = 0; i < 6; ++i) LANE(entry_0_0_eigh[i], lane) = found[i];
+            }
+        }
+        vector_f logm[3];
+        {
+            for (size_t lane = 0; lane < LANES_f; ++lane) {
+                float whole[6];
+                for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+                float found[3];
+                symmetric_log_2_f(whole, found);
+                for (int i = 0; i < 3; ++i) LANE(logm[i], lane) = found[i];
+            }
+        }
+        const vector_f L0_1 = logm[1];
+        const vector_f L0_0 = logm[0];
+        const vector_f L1_1 = logm[2];
+        const vector_f L0_0_gap = L0_0 - L1_1;
+        const vector_f entry_0_0_2 = L0_1 * L0_1 + 0.25f * (L0_0_gap * L0_0_gap);
+        vector_f entry_0_0_2_eigh[2];
+        {
+            const vector_f given_lanes[1] = {entry_0_0_2};
+            for (size_t lane = 0; lane < LANES_f; ++lane) {
+                float given[1];
+                for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+                float found[2];
+                {
+                    const float in_0[1] = {given[0]};
+                    symmetric_eigh_1_f(in_0, found);
+                }
+                for (int i = 0; i < 2; ++i) LANE(entry_0_0_2_eigh[i], lane) = found[i];
+            }
+        }
+        vector_f log_sinhc_sqrtm[1];
+        {
+            for (size_t lane = 0; lane < LANES_f; ++lane) {
+                float whole[2];
+                for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+                float found[1];
+                symmetric_log_sinhc_sqrt_1_f(whole, found);
+                for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm[i], lane) = found[i];
+            }
+        }
+        const vector_f log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[0];
+        const vector_f v1 = 1.4142135623730951f * L0_1;
+        const vector_f z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1;
+        const vector_f z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
+        const vector_f z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
+        const vector_f gap = -log_sinhc_sqrtm_value0_0 - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
+        const vector_f phi = exp_each_f(gap);
+        const vector_f total_6 = W2_2 * z2 + (W1_2 * z1 + W0_2 * z0);
+        const vector_f total_7 = r0_0 * x0_bar + r0_1 * x2_bar;
+        const vector_f total_8 = r0_0 * x1_bar + r0_1 * x3_bar;
+        const vector_f total_9 = r0_0 * total_7 + r0_1 * total_8;
+        const vector_f total_10 = r0_1 * x0_bar + r1_1 * x2_bar;
+        const vector_f total_11 = r0_1 * x1_bar + r1_1 * x3_bar;
+        const vector_f total_12 = total_7 + total_11;
+        const vector_f by_by_entry_0_1 = mul_of_one * total_10 + mul_of_one_2 * total_12 + mul_of_one_3 * total_8;
+        const vector_f total_13 = r0_1 * total_10 + r1_1 * total_11;
+        vector_f logm_slope[3];
+        {
+            const vector_f given_lanes[3] = {total_9, by_by_entry_0_1, total_13};
+            for (size_t lane = 0; lane < LANES_f; ++lane) {
+                float given[3];
+                for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+                float whole[6];
+                for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+                float found[3];
+                {
+                    const float in_0[3] = {given[0], given[1], given[2]};
+                    symmetric_log_2_derivative1_f(whole, in_0, found);
+                }
+                for (int i = 0; i < 3; ++i) LANE(logm_slope[i], lane) = found[i];
+            }
+        }
+        const vector_f total_14 = W2_1 * z2 + (W1_1 * z1 + W0_1 * z0);
+        const vector_f product = 1.4142135623730951f * logm_slope[1];
+        const vector_f total_15 = W2_0 * z2 + (W1_0 * z1 + W0_0 * z0);
+        const vector_f gap_2 = logm_slope[0] - logm_slope[2];
+        const vector_f total_16 = 2.0f * (L0_1 * logm_slope[1]) + 0.5f * (L0_0_gap * gap_2);
+        vector_f log_sinhc_sqrtm_slope[1];
+        {
+            const vector_f given_lanes[1] = {total_16};
+            for (size_t lane = 0; lane < LANES_f; ++lane) {
+                float given[1];
+                for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+                float whole[2];
+                for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+                float found[1];
+                {
+                    const float in_0[1] = {given[0]};
+                    symmetric_log_sinhc_sqrt_1_derivative1_f(whole, in_0, found);
+                }
+                for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope[i], lane) = found[i];
+            }
+        }
+        const vector_f by_phi = its_value_bar - total_6 * logm_slope[2] - total_14 * product - total_15 *
+            logm_slope[0] - log_sinhc_sqrtm_slope[0];
+        const vector_f phi_product = phi * by_phi;
+        const vector_f phi_minus = -phi;
+        vector_f log_sinhc_sqrtm_slope_2[1];
+        {
+            const vector_f given_lanes[1] = {phi_minus};
+            for (size_t lane = 0; lane < LANES_f; ++lane) {
+                float given[1];
+                for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+                float whole[2];
+                for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+                float found[1];
+                {
+                    const float in_0[1] = {given[0]};
+                    symmetric_log_sinhc_sqrt_1_derivative1_f(whole, in_0, found);
+                }
+                for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope_2[i], lane) = found[i];
+            }
+        }
+        const vector_f by_entry_0_0_2 = log_sinhc_sqrtm_slope_2[0];
+        const vector_f product_2 = 0.5f * by_entry_0_0_2;
+        const vector_f product_3 = L0_0_gap * product_2;
+        const vector_f gap_3 = product_3 - phi * total_15;
+        const vector_f product_4 = 2.0f * by_entry_0_0_2;
+        const vector_f product_5 = 0.5f * (L0_1 * product_4 - 1.4142135623730951f * (phi * total_14));
+        const vector_f gap_4 = -(phi * total_6) - product_3;
+        vector_f logm_slope_2[3];
+        {
+            const vector_f given_lanes[3] = {gap_3, product_5, gap_4};
+            for (size_t lane = 0; lane < LANES_f; ++lane) {
+                float given[3];
+                for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+                float whole[6];
+                for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+                float found[3];
+                {
+                    const float in_0[3] = {given[0], given[1], given[2]};
+                    symmetric_log_2_derivative1_f(whole, in_0, found);
+                }
+                for (int i = 0; i < 3; ++i) LANE(logm_slope_2[i], lane) = found[i];
+            }
+        }
+        const vector_f by_entry_0_1 = 2.0f * logm_slope_2[1];
+        const vector_f product_6 = mul_of_one_2 * by_entry_0_1;
+        const vector_f by_entry_0_0 = logm_slope_2[0];
+        const vector_f total_17 = product_6 + r0_0 * by_entry_0_0;
+        const vector_f total_18 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0;
+        vector_f logm_derivative2[3];
+        {
+            const vector_f given_lanes[6] = {gap_3, product_5, gap_4, total_9, by_by_entry_0_1, total_13};
+            for (size_t lane = 0; lane < LANES_f; ++lane) {
+                float given[6];
+                for (int i = 0; i < 6; ++i) given[i] = LANE(given_lanes[i], lane);
+                float whole[6];
+                for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+                float found[3];
+                {
+                    const float in_0[3] = {given[0], given[1], given[2]};
+                    const float in_1[3] = {given[3], given[4], given[5]};
+                    symmetric_log_2_derivative2_f(whole, in_0, in_1, found);
+                }
+                for (int i = 0; i < 3; ++i) LANE(logm_derivative2[i], lane) = found[i];
+            }
+        }
+        const vector_f phi_product_2 = phi * logm_slope[0];
+        const vector_f phi_product_3 = phi * product;
+        const vector_f phi_product_4 = phi * logm_slope[2];
+        const vector_f gap_5 = -(M0_0 * phi_product_2) - M0_1 * phi_product_3 - M0_2 * phi_product_4 - total_15 *
+            phi_product;
+        vector_f log_sinhc_sqrtm_derivative2[1];
+        {
+            const vector_f given_lanes[2] = {phi_minus, total_16};
+            for (size_t lane = 0; lane < LANES_f; ++lane) {
+                float given[2];
+                for (int i = 0; i < 2; ++i) given[i] = LANE(given_lanes[i], lane);
+                float whole[2];
+                for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+                float found[1];
+                {
+                    const float in_0[1] = {given[0]};
+                    const float in_1[1] = {given[1]};
+                    symmetric_log_sinhc_sqrt_1_derivative2_f(whole, in_0, in_1, found);
+                }
+                for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_derivative2[i], lane) = found[i];
+            }
+        }
+        vector_f log_sinhc_sqrtm_slope_3[1];
+        {
+            const vector_f given_lanes[1] = {-phi_product};
+            for (size_t lane = 0; lane < LANES_f; ++lane) {
+                float given[1];
+                for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
+                float whole[2];
+                for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
+                float found[1];
+                {
+                    const float in_0[1] = {given[0]};
+                    symmetric_log_sinhc_sqrt_1_derivative1_f(whole, in_0, found);
+                }
+                for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope_3[i], lane) = found[i];
+            }
+        }
+        const vector_f by_entry_0_0_2_2 = log_sinhc_sqrtm_derivative2[0] + log_sinhc_sqrtm_slope_3[0];
+        const vector_f total_19 = product_2 * gap_2 + L0_0_gap * (0.5f * by_entry_0_0_2_2);
+        const vector_f by_v1 = -(M0_1 * phi_product_2) - M1_1 * phi_product_3 - M1_2 * phi_product_4 - total_14 *
+            phi_product;
+        const vector_f gap_6 = -(M0_2 * phi_product_2) - M1_2 * phi_product_3 - M2_2 * phi_product_4 - total_6 *
+            phi_product;
+        vector_f logm_slope_3[3];
+        {
+            const vector_f given_lanes[3] = {gap_5 + total_19, 0.5f * (product_4 * logm_slope[1] + 1.4142135623730951f * by_v1 + L0_1 * (2.0f * by_entry_0_0_2_2)), gap_6 - total_19};
+            for (size_t lane = 0; lane < LANES_f; ++lane) {
+                float given[3];
+                for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
+                float whole[6];
+                for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
+                float found[3];
+                {
+                    const float in_0[3] = {given[0], given[1], given[2]};
+                    symmetric_log_2_derivative1_f(whole, in_0, found);
+                }
+                for (int i = 0; i < 3; ++i) LANE(logm_slope_3[i], lane) = found[i];
+            }
+        }
+        const vector_f by_entry_0_1_2 = 2.0f * logm_derivative2[1] + 2.0f * logm_slope_3[1];
+        const vector_f by_entry_0_0_3 = logm_derivative2[0] + logm_slope_3[0];
+        const vector_f total_20 = mul_of_one_3 * by_entry_0_1_2 + r0_1 * by_entry_0_0_3;
+        const vector_f product_7 = mul_of_one_2 * by_entry_0_1_2;
+        const vector_f total_22 = product_7 + r0_0 * by_entry_0_0_3;
+        const vector_f by_entry_1_1 = logm_slope_2[2];
+        const vector_f total_23 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1;
+        const vector_f total_24 = r1_1 * by_entry_1_1 + product_6;
+        const vector_f by_entry_1_1_2 = logm_derivative2[2] + logm_slope_3[2];
+        const vector_f total_26 = r1_1 * by_entry_1_1_2 + product_7;
+        const vector_f total_27 = r0_1 * by_entry_1_1_2 + mul_of_one * by_entry_0_1_2;
+        const vector_f product_8 = 0.5f * phi_product;
+        const vector_f gap_7 = -phi_product_2 - L0_0 * product_8;
+        const vector_f gap_8 = -phi_product_3 - v1 * product_8;
+        const vector_f gap_9 = -phi_product_4 - L1_1 * product_8;
+        sums[0] = sums[0] + phi_product;
+        sums[1] = sums[1] + total_17 * x0_bar + by_entry_0_0 * total_7 + total_18 * x1_bar + x1 * total_20 +
+                total_2 * by_entry_0_0_3 + x0 * total_22;
+        sums[2] = sums[2] + total_17 * x2_bar + total_18 * x3_bar + by_entry_0_0 * total_8 + total_23 * x0_bar +
+                total_24 * x1_bar + by_entry_1_1 * total_10 + total_4 * by_entry_1_1_2 + x1 * total_26 + x0 * total_27
+                + total_3 * by_entry_0_0_3 + x3 * total_20 + x2 * total_22;
+        sums[3] = sums[3] + total_23 * x2_bar + total_24 * x3_bar + by_entry_1_1 * total_11 + total_5 *
+                by_entry_1_1_2 + x3 * total_26 + x2 * total_27;
+        sums[4] = sums[4] + by_entry_0_1 * total_10 + total_4 * by_entry_0_1_2;
+        sums[5] = sums[5] + by_entry_0_1 * total_12 + total_5 * by_entry_0_1_2 + total_2 * by_entry_0_1_2;
+        sums[6] = sums[6] + by_entry_0_1 * total_8 + total_3 * by_entry_0_1_2;
+        sums[7] = sums[7] + L0_0 * gap_7;
+        sums[8] = sums[8] + L0_0 * gap_8 + v1 * gap_7;
+        sums[9] = sums[9] + L0_0 * gap_9 + L1_1 * gap_7;
+        sums[10] = sums[10] + v1 * gap_8;
+        sums[11] = sums[11] + v1 * gap_9 + L1_1 * gap_8;
+        sums[12] = sums[12] + L1_1 * gap_9;
+    }
+}
+
 /* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp_f(
     const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *sums, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
@@ -2606,316 +2966,6 @@ OUTLINE void pair_constants_vjp_f(
     W_bar[7] = its_amplitude * (W2_0 * sum8 + W2_1 * product_3 + W2_2 * sum11);
     W_bar[8] = its_amplitude * (W2_0 * sum9 + W2_1 * sum11 + W2_2 * product_4);
     amplitude_bar[0] = sum0;
-}
-
-/*
- * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
- *
- * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
- */
-OUTLINE void pair_backward_f(
-    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f x2 = X[2];
-    const vector_f x3 = X[3];
-    const float W0_0 = S[0];
-    const float W0_1 = S[1];
-    const float W0_2 = S[2];
-    const float W1_0 = S[3];
-    const float W1_1 = S[4];
-    const float W1_2 = S[5];
-    const float W2_0 = S[6];
-    const float W2_1 = S[7];
-    const float W2_2 = S[8];
-    const float r0_0 = S[10];
-    const float r0_1 = S[11];
-    const float r1_1 = S[12];
-    const float mul_of_one = S[13];
-    const float mul_of_one_2 = S[14];
-    const float mul_of_one_3 = S[15];
-    const float M0_0 = S[16];
-    const float M0_1 = S[17];
-    const float M0_2 = S[18];
-    const float M1_1 = S[19];
-    const float M1_2 = S[20];
-    const float M2_2 = S[21];
-    const vector_f its_value_bar = value_bar[0];
-    const vector_f x0_bar = slope_bar[0];
-    const vector_f x1_bar = slope_bar[1];
-    const vector_f x2_bar = slope_bar[2];
-    const vector_f x3_bar = slope_bar[3];
-    const vector_f total_2 = x0 * r0_0 + x2 * r0_1;
-    const vector_f total_3 = x1 * r0_0 + x3 * r0_1;
-    const vector_f entry_0_0 = r0_0 * total_2 + r0_1 * total_3;
-    const vector_f total_4 = x0 * r0_1 + x2 * r1_1;
-    const vector_f total_5 = x1 * r0_1 + x3 * r1_1;
-    const vector_f entry_0_1 = mul_of_one * total_4 + total_2 * mul_of_one_2 + mul_of_one_2 * total_5 +
-        total_3 * mul_of_one_3;
-    const vector_f entry_1_1 = r0_1 * total_4 + r1_1 * total_5;
-    vector_f entry_0_0_eigh[6];
-    {
-        const vector_f given_lanes[3] = {entry_0_0, entry_0_1, entry_1_1};
-        for (size_t lane = 0; lane < LANES_f; ++lane) {
-            float given[3];
-            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
-            float found[6];
-            {
-                const float in_0[3] = {given[0], given[1], given[2]};
-                symmetric_eigh_2_f(in_0, found);
-            }
-            for (int i = 0; i < 6; ++i) LANE(entry_0_0_eigh[i], lane) = found[i];
-        }
-    }
-    vector_f logm[3];
-    {
-        for (size_t lane = 0; lane < LANES_f; ++lane) {
-            float whole[6];
-            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
-            float found[3];
-            symmetric_log_2_f(whole, found);
-            for (int i = 0; i < 3; ++i) LANE(logm[i], lane) = found[i];
-        }
-    }
-    const vector_f L0_1 = logm[1];
-    const vector_f L0_0 = logm[0];
-    const vector_f L1_1 = logm[2];
-    const vector_f L0_0_gap = L0_0 - L1_1;
-    const vector_f entry_0_0_2 = L0_1 * L0_1 + 0.25f * (L0_0_gap * L0_0_gap);
-    vector_f entry_0_0_2_eigh[2];
-    {
-        const vector_f given_lanes[1] = {entry_0_0_2};
-        for (size_t lane = 0; lane < LANES_f; ++lane) {
-            float given[1];
-            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
-            float found[2];
-            {
-                const float in_0[1] = {given[0]};
-                symmetric_eigh_1_f(in_0, found);
-            }
-            for (int i = 0; i < 2; ++i) LANE(entry_0_0_2_eigh[i], lane) = found[i];
-        }
-    }
-    vector_f log_sinhc_sqrtm[1];
-    {
-        for (size_t lane = 0; lane < LANES_f; ++lane) {
-            float whole[2];
-            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
-            float found[1];
-            symmetric_log_sinhc_sqrt_1_f(whole, found);
-            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm[i], lane) = found[i];
-        }
-    }
-    const vector_f log_sinhc_sqrtm_value0_0 = log_sinhc_sqrtm[0];
-    const vector_f v1 = 1.4142135623730951f * L0_1;
-    const vector_f z0 = W0_0 * L0_0 + W0_1 * v1 + W0_2 * L1_1;
-    const vector_f z1 = W1_0 * L0_0 + W1_1 * v1 + W1_2 * L1_1;
-    const vector_f z2 = W2_0 * L0_0 + W2_1 * v1 + W2_2 * L1_1;
-    const vector_f gap = -log_sinhc_sqrtm_value0_0 - 0.5f * (z0 * z0 + z1 * z1 + z2 * z2);
-    const vector_f phi = exp_each_f(gap);
-    const vector_f total_6 = W2_2 * z2 + (W1_2 * z1 + W0_2 * z0);
-    const vector_f total_7 = r0_0 * x0_bar + r0_1 * x2_bar;
-    const vector_f total_8 = r0_0 * x1_bar + r0_1 * x3_bar;
-    const vector_f total_9 = r0_0 * total_7 + r0_1 * total_8;
-    const vector_f total_10 = r0_1 * x0_bar + r1_1 * x2_bar;
-    const vector_f total_11 = r0_1 * x1_bar + r1_1 * x3_bar;
-    const vector_f total_12 = total_7 + total_11;
-    const vector_f by_by_entry_0_1 = mul_of_one * total_10 + mul_of_one_2 * total_12 + mul_of_one_3 * total_8;
-    const vector_f total_13 = r0_1 * total_10 + r1_1 * total_11;
-    vector_f logm_slope[3];
-    {
-        const vector_f given_lanes[3] = {total_9, by_by_entry_0_1, total_13};
-        for (size_t lane = 0; lane < LANES_f; ++lane) {
-            float given[3];
-            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
-            float whole[6];
-            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
-            float found[3];
-            {
-                const float in_0[3] = {given[0], given[1], given[2]};
-                symmetric_log_2_derivative1_f(whole, in_0, found);
-            }
-            for (int i = 0; i < 3; ++i) LANE(logm_slope[i], lane) = found[i];
-        }
-    }
-    const vector_f total_14 = W2_1 * z2 + (W1_1 * z1 + W0_1 * z0);
-    const vector_f product = 1.4142135623730951f * logm_slope[1];
-    const vector_f total_15 = W2_0 * z2 + (W1_0 * z1 + W0_0 * z0);
-    const vector_f gap_2 = logm_slope[0] - logm_slope[2];
-    const vector_f total_16 = 2.0f * (L0_1 * logm_slope[1]) + 0.5f * (L0_0_gap * gap_2);
-    vector_f log_sinhc_sqrtm_slope[1];
-    {
-        const vector_f given_lanes[1] = {total_16};
-        for (size_t lane = 0; lane < LANES_f; ++lane) {
-            float given[1];
-            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
-            float whole[2];
-            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
-            float found[1];
-            {
-                const float in_0[1] = {given[0]};
-                symmetric_log_sinhc_sqrt_1_derivative1_f(whole, in_0, found);
-            }
-            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope[i], lane) = found[i];
-        }
-    }
-    const vector_f by_phi = its_value_bar - total_6 * logm_slope[2] - total_14 * product - total_15 *
-        logm_slope[0] - log_sinhc_sqrtm_slope[0];
-    const vector_f phi_product = phi * by_phi;
-    const vector_f phi_minus = -phi;
-    vector_f log_sinhc_sqrtm_slope_2[1];
-    {
-        const vector_f given_lanes[1] = {phi_minus};
-        for (size_t lane = 0; lane < LANES_f; ++lane) {
-            float given[1];
-            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
-            float whole[2];
-            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
-            float found[1];
-            {
-                const float in_0[1] = {given[0]};
-                symmetric_log_sinhc_sqrt_1_derivative1_f(whole, in_0, found);
-            }
-            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope_2[i], lane) = found[i];
-        }
-    }
-    const vector_f by_entry_0_0_2 = log_sinhc_sqrtm_slope_2[0];
-    const vector_f product_2 = 0.5f * by_entry_0_0_2;
-    const vector_f product_3 = L0_0_gap * product_2;
-    const vector_f gap_3 = product_3 - phi * total_15;
-    const vector_f product_4 = 2.0f * by_entry_0_0_2;
-    const vector_f product_5 = 0.5f * (L0_1 * product_4 - 1.4142135623730951f * (phi * total_14));
-    const vector_f gap_4 = -(phi * total_6) - product_3;
-    vector_f logm_slope_2[3];
-    {
-        const vector_f given_lanes[3] = {gap_3, product_5, gap_4};
-        for (size_t lane = 0; lane < LANES_f; ++lane) {
-            float given[3];
-            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
-            float whole[6];
-            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
-            float found[3];
-            {
-                const float in_0[3] = {given[0], given[1], given[2]};
-                symmetric_log_2_derivative1_f(whole, in_0, found);
-            }
-            for (int i = 0; i < 3; ++i) LANE(logm_slope_2[i], lane) = found[i];
-        }
-    }
-    const vector_f by_entry_0_1 = 2.0f * logm_slope_2[1];
-    const vector_f product_6 = mul_of_one_2 * by_entry_0_1;
-    const vector_f by_entry_0_0 = logm_slope_2[0];
-    const vector_f total_17 = product_6 + r0_0 * by_entry_0_0;
-    const vector_f total_18 = mul_of_one_3 * by_entry_0_1 + r0_1 * by_entry_0_0;
-    vector_f logm_derivative2[3];
-    {
-        const vector_f given_lanes[6] = {gap_3, product_5, gap_4, total_9, by_by_entry_0_1, total_13};
-        for (size_t lane = 0; lane < LANES_f; ++lane) {
-            float given[6];
-            for (int i = 0; i < 6; ++i) given[i] = LANE(given_lanes[i], lane);
-            float whole[6];
-            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
-            float found[3];
-            {
-                const float in_0[3] = {given[0], given[1], given[2]};
-                const float in_1[3] = {given[3], given[4], given[5]};
-                symmetric_log_2_derivative2_f(whole, in_0, in_1, found);
-            }
-            for (int i = 0; i < 3; ++i) LANE(logm_derivative2[i], lane) = found[i];
-        }
-    }
-    const vector_f phi_product_2 = phi * logm_slope[0];
-    const vector_f phi_product_3 = phi * product;
-    const vector_f phi_product_4 = phi * logm_slope[2];
-    const vector_f gap_5 = -(M0_0 * phi_product_2) - M0_1 * phi_product_3 - M0_2 * phi_product_4 - total_15 *
-        phi_product;
-    vector_f log_sinhc_sqrtm_derivative2[1];
-    {
-        const vector_f given_lanes[2] = {phi_minus, total_16};
-        for (size_t lane = 0; lane < LANES_f; ++lane) {
-            float given[2];
-            for (int i = 0; i < 2; ++i) given[i] = LANE(given_lanes[i], lane);
-            float whole[2];
-            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
-            float found[1];
-            {
-                const float in_0[1] = {given[0]};
-                const float in_1[1] = {given[1]};
-                symmetric_log_sinhc_sqrt_1_derivative2_f(whole, in_0, in_1, found);
-            }
-            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_derivative2[i], lane) = found[i];
-        }
-    }
-    vector_f log_sinhc_sqrtm_slope_3[1];
-    {
-        const vector_f given_lanes[1] = {-phi_product};
-        for (size_t lane = 0; lane < LANES_f; ++lane) {
-            float given[1];
-            for (int i = 0; i < 1; ++i) given[i] = LANE(given_lanes[i], lane);
-            float whole[2];
-            for (int i = 0; i < 2; ++i) whole[i] = LANE(entry_0_0_2_eigh[i], lane);
-            float found[1];
-            {
-                const float in_0[1] = {given[0]};
-                symmetric_log_sinhc_sqrt_1_derivative1_f(whole, in_0, found);
-            }
-            for (int i = 0; i < 1; ++i) LANE(log_sinhc_sqrtm_slope_3[i], lane) = found[i];
-        }
-    }
-    const vector_f by_entry_0_0_2_2 = log_sinhc_sqrtm_derivative2[0] + log_sinhc_sqrtm_slope_3[0];
-    const vector_f total_19 = product_2 * gap_2 + L0_0_gap * (0.5f * by_entry_0_0_2_2);
-    const vector_f by_v1 = -(M0_1 * phi_product_2) - M1_1 * phi_product_3 - M1_2 * phi_product_4 - total_14 *
-        phi_product;
-    const vector_f gap_6 = -(M0_2 * phi_product_2) - M1_2 * phi_product_3 - M2_2 * phi_product_4 - total_6 *
-        phi_product;
-    vector_f logm_slope_3[3];
-    {
-        const vector_f given_lanes[3] = {gap_5 + total_19, 0.5f * (product_4 * logm_slope[1] + 1.4142135623730951f * by_v1 + L0_1 * (2.0f * by_entry_0_0_2_2)), gap_6 - total_19};
-        for (size_t lane = 0; lane < LANES_f; ++lane) {
-            float given[3];
-            for (int i = 0; i < 3; ++i) given[i] = LANE(given_lanes[i], lane);
-            float whole[6];
-            for (int i = 0; i < 6; ++i) whole[i] = LANE(entry_0_0_eigh[i], lane);
-            float found[3];
-            {
-                const float in_0[3] = {given[0], given[1], given[2]};
-                symmetric_log_2_derivative1_f(whole, in_0, found);
-            }
-            for (int i = 0; i < 3; ++i) LANE(logm_slope_3[i], lane) = found[i];
-        }
-    }
-    const vector_f by_entry_0_1_2 = 2.0f * logm_derivative2[1] + 2.0f * logm_slope_3[1];
-    const vector_f by_entry_0_0_3 = logm_derivative2[0] + logm_slope_3[0];
-    const vector_f total_20 = mul_of_one_3 * by_entry_0_1_2 + r0_1 * by_entry_0_0_3;
-    const vector_f product_7 = mul_of_one_2 * by_entry_0_1_2;
-    const vector_f total_22 = product_7 + r0_0 * by_entry_0_0_3;
-    const vector_f by_entry_1_1 = logm_slope_2[2];
-    const vector_f total_23 = r0_1 * by_entry_1_1 + mul_of_one * by_entry_0_1;
-    const vector_f total_24 = r1_1 * by_entry_1_1 + product_6;
-    const vector_f by_entry_1_1_2 = logm_derivative2[2] + logm_slope_3[2];
-    const vector_f total_26 = r1_1 * by_entry_1_1_2 + product_7;
-    const vector_f total_27 = r0_1 * by_entry_1_1_2 + mul_of_one * by_entry_0_1_2;
-    const vector_f product_8 = 0.5f * phi_product;
-    const vector_f gap_7 = -phi_product_2 - L0_0 * product_8;
-    const vector_f gap_8 = -phi_product_3 - v1 * product_8;
-    const vector_f gap_9 = -phi_product_4 - L1_1 * product_8;
-    sums[0] = sums[0] + phi_product;
-    sums[1] = sums[1] + total_17 * x0_bar + by_entry_0_0 * total_7 + total_18 * x1_bar + x1 * total_20 +
-            total_2 * by_entry_0_0_3 + x0 * total_22;
-    sums[2] = sums[2] + total_17 * x2_bar + total_18 * x3_bar + by_entry_0_0 * total_8 + total_23 * x0_bar +
-            total_24 * x1_bar + by_entry_1_1 * total_10 + total_4 * by_entry_1_1_2 + x1 * total_26 + x0 * total_27
-            + total_3 * by_entry_0_0_3 + x3 * total_20 + x2 * total_22;
-    sums[3] = sums[3] + total_23 * x2_bar + total_24 * x3_bar + by_entry_1_1 * total_11 + total_5 *
-            by_entry_1_1_2 + x3 * total_26 + x2 * total_27;
-    sums[4] = sums[4] + by_entry_0_1 * total_10 + total_4 * by_entry_0_1_2;
-    sums[5] = sums[5] + by_entry_0_1 * total_12 + total_5 * by_entry_0_1_2 + total_2 * by_entry_0_1_2;
-    sums[6] = sums[6] + by_entry_0_1 * total_8 + total_3 * by_entry_0_1_2;
-    sums[7] = sums[7] + L0_0 * gap_7;
-    sums[8] = sums[8] + L0_0 * gap_8 + v1 * gap_7;
-    sums[9] = sums[9] + L0_0 * gap_9 + L1_1 * gap_7;
-    sums[10] = sums[10] + v1 * gap_8;
-    sums[11] = sums[11] + v1 * gap_9 + L1_1 * gap_8;
-    sums[12] = sums[12] + L1_1 * gap_9;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -3007,7 +3057,7 @@ OUTLINE void splat_constants_f(
     vector_to_rows_f(S, constants, splat_count, start, 22, 22);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void spd_splats_f(
     size_t count, size_t splat_count, const float *SPD_RESTRICT x, const float *SPD_RESTRICT mu, const float *SPD_RESTRICT W, const float *SPD_RESTRICT amplitude, const float *SPD_RESTRICT width,
     float *SPD_RESTRICT value, float *SPD_RESTRICT gradient, float *SPD_RESTRICT work, int threads) {
@@ -3022,27 +3072,26 @@ void spd_splats_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[2][4], X[2][4], grad[3];
-            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][4] = {{ZERO}};
+            vector_f at[2][4], X[2 * 4], grad[3];
+            vector_f value_sum[2] = {ZERO}, slope_sum[2 * 4] = {ZERO};
             float place[4 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 4, at[b]);
-                pair_features_f(at[b], X[b]);
+                pair_features_f(at[b], X + 4 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 22 * near[i];
-                    pair_forward_f(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward_f(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward_f(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient_f(at[b], slope_sum[b], grad);
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                pair_gradient_f(at[b], slope_sum + 4 * b, grad);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
                 vector_to_rows_f(grad, gradient, count, start + b * LANES_f, 3, 3);
             }
         }
@@ -3064,25 +3113,24 @@ void spd_splats_value_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[4], X[2][4], value_sum[2][1] = {{ZERO}};
+            vector_f at[4], X[2 * 4], value_sum[2] = {ZERO};
             float place[4 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 4, at);
-                pair_features_f(at, X[b]);
+                pair_features_f(at, X + 4 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 22 * near[i];
-                    pair_value_f(X[0], S, value_sum[0]);
-                    pair_value_f(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value_f(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -3101,19 +3149,11 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 4 + 1, point + 4);
 }
 
-/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+/* Adds to sums what some vectors of points add to them, those in the list. */
 OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *sums) {
     vector_f sum[13] = {ZERO};
-    size_t b = 0;
-    for (; b + 1 < size; b += 2) {
-        const vector_f *point = points + 9 * (size_t)near[b], *other = points + 9 * (size_t)near[b + 1];
-        pair_backward_f(point, S, point + 4, point + 4 + 1, sum);
-        pair_backward_f(other, S, other + 4, other + 4 + 1, sum);
-    }
-    if (b < size) {
-        const vector_f *point = points + 9 * (size_t)near[b];
-        pair_backward_f(point, S, point + 4, point + 4 + 1, sum);
-    }
+    for (size_t b = 0; b < size; b += 16)
+        pair_backward_f(size - b < 16 ? size - b : 16, points, near + b, S, sum);
     sums[0] += vector_sum_f(sum[0]);
     sums[1] += vector_sum_f(sum[1]);
     sums[2] += vector_sum_f(sum[2]);
@@ -3198,6 +3238,7 @@ void spd_splats_rows_f(
     float *SPD_RESTRICT rows, float *SPD_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    const uint32_t only = 0;
     float *constants = work_constants_f(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -3214,7 +3255,7 @@ void spd_splats_rows_f(
                 for (int i = 0; i < 4; ++i) own_mu[i] = vector_of_f(mu[4 * k + i]);
                 for (int i = 0; i < 9; ++i) own_W[i] = vector_of_f(W[9 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 22 * k, point + 4, point + 4 + 1, own_sums);
+                pair_backward_f(1, point, &only, constants + 22 * k, own_sums);
                 pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 4, bars + 4 + 9);
                 vector_to_rows_f(bars, rows + 14 * k, count, block * LANES_f, 14, 14 * splat_count);
             }

@@ -24,7 +24,6 @@
 #endif
 #define LANE(vector, i) (vector)[i]
 #define ZERO {0}
-#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
 typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
 typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
 typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
@@ -34,7 +33,6 @@ typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
 #else
 #define LANE(vector, i) (vector)
 #define ZERO 0
-#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
 typedef double vector;
 typedef float vector_f;
 typedef int64_t vector_mask;
@@ -49,6 +47,17 @@ typedef uint32_t vector_bits_f;
 #else
 #define INLINE static inline
 #define OUTLINE static
+#endif
+/* UNROLLED: the few turns of a loop one after another. EACH_LANE: of a loop that gcc makes one instruction, if it stays a loop. */
+#if defined(__clang__)
+#define UNROLLED _Pragma("clang loop unroll(full)")
+#define EACH_LANE
+#elif defined(__GNUC__) && __GNUC__ >= 8
+#define UNROLLED _Pragma("GCC unroll 8")
+#define EACH_LANE _Pragma("GCC unroll 1")
+#else
+#define UNROLLED
+#define EACH_LANE
 #endif
 #define LANES (sizeof(vector) / sizeof(double))
 #define LANES_f (sizeof(vector_f) / sizeof(float))
@@ -90,9 +99,14 @@ INLINE vector vector_of(double x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector vector_select(vector_mask mask, vector x, vector y) {
-    return SELECT(vector, vector_mask, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector)((mask & (vector_mask)x) | (~mask & (vector_mask)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -129,7 +143,7 @@ INLINE vector round_each(vector x) { return (x + 6755399441055744.0) - 675539944
 
 /* sqrt of every lane; one instruction where the machine has it. */
 INLINE vector sqrt_each(vector x) {
-    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
     return x;
 }
 
@@ -171,62 +185,103 @@ OUTLINE void pair_constants(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_value(
-    const vector *X, const double *S, vector *value) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double W0_0 = S[2];
-    const double W0_1 = S[3];
-    const double W1_0 = S[4];
-    const double W1_1 = S[5];
-    const double amplitude = S[6];
-    const vector gap = x0 - mu0;
-    const vector round_2 = round_each(0.15915494309189535 * gap);
-    const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
-    const vector gap_2 = x1 - mu1;
-    const vector round_3 = round_each(0.15915494309189535 * gap_2);
-    const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
-    const vector z0 = W0_0 * v0 + W0_1 * v1;
-    const vector z1 = W1_0 * v0 + W1_1 * v1;
-    const vector phi = gaussian_each(z0 * z0 + z1 * z1);
-    value[0] = value[0] + amplitude * phi;
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values) {
+    struct { vector phi; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 7 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double W0_0 = S[2];
+        const double W0_1 = S[3];
+        const double W1_0 = S[4];
+        const double W1_1 = S[5];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 2 * b;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector gap = x0 - mu0;
+            const vector round_2 = round_each(0.15915494309189535 * gap);
+            const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
+            const vector gap_2 = x1 - mu1;
+            const vector round_3 = round_each(0.15915494309189535 * gap_2);
+            const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
+            const vector z0 = W0_0 * v0 + W0_1 * v1;
+            const vector z1 = W1_0 * v0 + W1_1 * v1;
+            const vector phi = gaussian_each(z0 * z0 + z1 * z1);
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 7 * near[k];
+        const double amplitude = S[6];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector *value = values + b;
+            const vector phi = kept[k][b].phi;
+            value[0] = value[0] + amplitude * phi;
+        }
+    }
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_forward(
-    const vector *X, const double *S, vector *value, vector *slope) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double W0_0 = S[2];
-    const double W0_1 = S[3];
-    const double W1_0 = S[4];
-    const double W1_1 = S[5];
-    const double amplitude = S[6];
-    const vector gap = x0 - mu0;
-    const vector round_2 = round_each(0.15915494309189535 * gap);
-    const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
-    const vector gap_2 = x1 - mu1;
-    const vector round_3 = round_each(0.15915494309189535 * gap_2);
-    const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
-    const vector z0 = W0_0 * v0 + W0_1 * v1;
-    const vector z1 = W1_0 * v0 + W1_1 * v1;
-    const vector phi = gaussian_each(z0 * z0 + z1 * z1);
-    const vector phi_2 = amplitude * phi;
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] - phi_2 * (W1_0 * z1 + W0_0 * z0);
-    slope[1] = slope[1] - phi_2 * (W1_1 * z1 + W0_1 * z0);
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values, vector *slopes) {
+    struct { vector z0, z1, phi; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 7 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double W0_0 = S[2];
+        const double W0_1 = S[3];
+        const double W1_0 = S[4];
+        const double W1_1 = S[5];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 2 * b;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector gap = x0 - mu0;
+            const vector round_2 = round_each(0.15915494309189535 * gap);
+            const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
+            const vector gap_2 = x1 - mu1;
+            const vector round_3 = round_each(0.15915494309189535 * gap_2);
+            const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
+            const vector z0 = W0_0 * v0 + W0_1 * v1;
+            const vector z1 = W1_0 * v0 + W1_1 * v1;
+            const vector phi = gaussian_each(z0 * z0 + z1 * z1);
+            kept[k][b].z0 = z0;
+            kept[k][b].z1 = z1;
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 7 * near[k];
+        const double W0_0 = S[2];
+        const double W0_1 = S[3];
+        const double W1_0 = S[4];
+        const double W1_1 = S[5];
+        const double amplitude = S[6];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector *value = values + b;
+            vector *slope = slopes + 2 * b;
+            const vector z0 = kept[k][b].z0;
+            const vector z1 = kept[k][b].z1;
+            const vector phi = kept[k][b].phi;
+            const vector phi_2 = amplitude * phi;
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] - phi_2 * (W1_0 * z1 + W0_0 * z0);
+            slope[1] = slope[1] - phi_2 * (W1_1 * z1 + W0_1 * z0);
+        }
+    }
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -247,6 +302,71 @@ OUTLINE void pair_gradient_vjp(
     const vector gradient_bar1 = gradient_bar[1];
     slope_bar[0] = gradient_bar0;
     slope_bar[1] = gradient_bar1;
+}
+
+/*
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
+INLINE void pair_backward(
+    size_t count, const vector *points, const uint32_t *near, const double *S, vector *sums) {
+    struct { vector v0, v1, z0, z1, phi; } kept[16];
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 5 * (size_t)near[i];
+        const vector x0 = X[0];
+        const vector x1 = X[1];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double W0_0 = S[2];
+        const double W0_1 = S[3];
+        const double W1_0 = S[4];
+        const double W1_1 = S[5];
+        const vector gap = x0 - mu0;
+        const vector round_2 = round_each(0.15915494309189535 * gap);
+        const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
+        const vector gap_2 = x1 - mu1;
+        const vector round_3 = round_each(0.15915494309189535 * gap_2);
+        const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
+        const vector z0 = W0_0 * v0 + W0_1 * v1;
+        const vector z1 = W1_0 * v0 + W1_1 * v1;
+        const vector phi = gaussian_each(z0 * z0 + z1 * z1);
+        kept[i].v0 = v0;
+        kept[i].v1 = v1;
+        kept[i].z0 = z0;
+        kept[i].z1 = z1;
+        kept[i].phi = phi;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *value_bar = points + 5 * (size_t)near[i] + 2;
+        const vector *slope_bar = points + 5 * (size_t)near[i] + 2 + 1;
+        const vector v0 = kept[i].v0;
+        const vector v1 = kept[i].v1;
+        const vector z0 = kept[i].z0;
+        const vector z1 = kept[i].z1;
+        const vector phi = kept[i].phi;
+        const double W0_0 = S[2];
+        const double W0_1 = S[3];
+        const double W1_0 = S[4];
+        const double W1_1 = S[5];
+        const vector its_value_bar = value_bar[0];
+        const vector x0_bar = slope_bar[0];
+        const vector x1_bar = slope_bar[1];
+        const vector phi_product = phi * x0_bar;
+        const vector by_phi = its_value_bar - (W1_1 * z1 + W0_1 * z0) * x1_bar - (W1_0 * z1 + W0_0 * z0) * x0_bar;
+        const vector phi_product_2 = phi * by_phi;
+        const vector phi_product_3 = phi * x1_bar;
+        const vector product = 0.5 * phi_product_2;
+        const vector gap_3 = -phi_product - v0 * product;
+        const vector gap_4 = -phi_product_3 - v1 * product;
+        sums[0] = sums[0] + phi_product + v0 * phi_product_2;
+        sums[1] = sums[1] + phi_product_3 + v1 * phi_product_2;
+        sums[2] = sums[2] + phi_product_2;
+        sums[3] = sums[3] + v0 * gap_3;
+        sums[4] = sums[4] + v0 * gap_4 + v1 * gap_3;
+        sums[5] = sums[5] + v1 * gap_4;
+    }
 }
 
 /* The adjoints of some splats' parameters, of their sums over the points. */
@@ -292,48 +412,6 @@ OUTLINE void pair_distances(
     const vector round_3 = round_each(0.15915494309189535 * gap_2);
     const vector log1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
     distance[0] = sqrt_each(log0 * log0 + log1 * log1);
-}
-
-/*
- * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
- *
- * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
- */
-INLINE void pair_backward(
-    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double W0_0 = S[2];
-    const double W0_1 = S[3];
-    const double W1_0 = S[4];
-    const double W1_1 = S[5];
-    const vector its_value_bar = value_bar[0];
-    const vector x0_bar = slope_bar[0];
-    const vector x1_bar = slope_bar[1];
-    const vector gap = x0 - mu0;
-    const vector round_2 = round_each(0.15915494309189535 * gap);
-    const vector v0 = gap - 6.28125 * round_2 - 0.001935307179586477 * round_2;
-    const vector gap_2 = x1 - mu1;
-    const vector round_3 = round_each(0.15915494309189535 * gap_2);
-    const vector v1 = gap_2 - 6.28125 * round_3 - 0.001935307179586477 * round_3;
-    const vector z0 = W0_0 * v0 + W0_1 * v1;
-    const vector z1 = W1_0 * v0 + W1_1 * v1;
-    const vector phi = gaussian_each(z0 * z0 + z1 * z1);
-    const vector phi_product = phi * x0_bar;
-    const vector by_phi = its_value_bar - (W1_1 * z1 + W0_1 * z0) * x1_bar - (W1_0 * z1 + W0_0 * z0) * x0_bar;
-    const vector phi_product_2 = phi * by_phi;
-    const vector phi_product_3 = phi * x1_bar;
-    const vector product = 0.5 * phi_product_2;
-    const vector gap_3 = -phi_product - v0 * product;
-    const vector gap_4 = -phi_product_3 - v1 * product;
-    sums[0] = sums[0] + phi_product + v0 * phi_product_2;
-    sums[1] = sums[1] + phi_product_3 + v1 * phi_product_2;
-    sums[2] = sums[2] + phi_product_2;
-    sums[3] = sums[3] + v0 * gap_3;
-    sums[4] = sums[4] + v0 * gap_4 + v1 * gap_3;
-    sums[5] = sums[5] + v1 * gap_4;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -495,7 +573,7 @@ OUTLINE void splat_constants(
     vector_to_rows(S, constants, splat_count, start, 7, 7);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void torus_splats(
     size_t count, size_t splat_count, const double *TORUS_RESTRICT x, const double *TORUS_RESTRICT mu, const double *TORUS_RESTRICT W, const double *TORUS_RESTRICT amplitude, const double *TORUS_RESTRICT width,
     double *TORUS_RESTRICT value, double *TORUS_RESTRICT gradient, double *TORUS_RESTRICT work, int threads) {
@@ -510,27 +588,26 @@ void torus_splats(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[2][2], X[2][2], grad[2];
-            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][2] = {{ZERO}};
+            vector at[2][2], X[2 * 2], grad[2];
+            vector value_sum[2] = {ZERO}, slope_sum[2 * 2] = {ZERO};
             double place[2 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 2, at[b]);
-                pair_features(at[b], X[b]);
+                pair_features(at[b], X + 2 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 7 * near[i];
-                    pair_forward(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient(at[b], slope_sum[b], grad);
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                pair_gradient(at[b], slope_sum + 2 * b, grad);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
                 vector_to_rows(grad, gradient, count, start + b * LANES, 2, 2);
             }
         }
@@ -552,25 +629,24 @@ void torus_splats_value(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[2], X[2][2], value_sum[2][1] = {{ZERO}};
+            vector at[2], X[2 * 2], value_sum[2] = {ZERO};
             double place[2 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 2, at);
-                pair_features(at, X[b]);
+                pair_features(at, X + 2 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 7 * near[i];
-                    pair_value(X[0], S, value_sum[0]);
-                    pair_value(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -589,19 +665,11 @@ OUTLINE void splat_points(
     vector_end(count, start, 2 + 1, point + 2);
 }
 
-/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+/* Adds to sums what some vectors of points add to them, those in the list. */
 OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *sums) {
     vector sum[6] = {ZERO};
-    size_t b = 0;
-    for (; b + 1 < size; b += 2) {
-        const vector *point = points + 5 * (size_t)near[b], *other = points + 5 * (size_t)near[b + 1];
-        pair_backward(point, S, point + 2, point + 2 + 1, sum);
-        pair_backward(other, S, other + 2, other + 2 + 1, sum);
-    }
-    if (b < size) {
-        const vector *point = points + 5 * (size_t)near[b];
-        pair_backward(point, S, point + 2, point + 2 + 1, sum);
-    }
+    for (size_t b = 0; b < size; b += 16)
+        pair_backward(size - b < 16 ? size - b : 16, points, near + b, S, sum);
     sums[0] += vector_sum(sum[0]);
     sums[1] += vector_sum(sum[1]);
     sums[2] += vector_sum(sum[2]);
@@ -679,6 +747,7 @@ void torus_splats_rows(
     double *TORUS_RESTRICT rows, double *TORUS_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES - 1) / LANES;
+    const uint32_t only = 0;
     double *constants = work_constants(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -695,7 +764,7 @@ void torus_splats_rows(
                 for (int i = 0; i < 2; ++i) own_mu[i] = vector_of(mu[2 * k + i]);
                 for (int i = 0; i < 4; ++i) own_W[i] = vector_of(W[4 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 7 * k, point + 2, point + 2 + 1, own_sums);
+                pair_backward(1, point, &only, constants + 7 * k, own_sums);
                 pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 4);
                 vector_to_rows(bars, rows + 7 * k, count, block * LANES, 7, 7 * splat_count);
             }
@@ -812,9 +881,14 @@ INLINE vector_f vector_of_f(float x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector_f vector_select_f(vector_mask_f mask, vector_f x, vector_f y) {
-    return SELECT(vector_f, vector_mask_f, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector_f)((mask & (vector_mask_f)x) | (~mask & (vector_mask_f)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -851,7 +925,7 @@ INLINE vector_f round_each_f(vector_f x) { return (x + 12582912.0f) - 12582912.0
 
 /* sqrt of every lane; one instruction where the machine has it. */
 INLINE vector_f sqrt_each_f(vector_f x) {
-    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
     return x;
 }
 
@@ -893,62 +967,103 @@ OUTLINE void pair_constants_f(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_value_f(
-    const vector_f *X, const float *S, vector_f *value) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float W0_0 = S[2];
-    const float W0_1 = S[3];
-    const float W1_0 = S[4];
-    const float W1_1 = S[5];
-    const float amplitude = S[6];
-    const vector_f gap = x0 - mu0;
-    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
-    const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
-    const vector_f gap_2 = x1 - mu1;
-    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
-    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
-    const vector_f z0 = W0_0 * v0 + W0_1 * v1;
-    const vector_f z1 = W1_0 * v0 + W1_1 * v1;
-    const vector_f phi = gaussian_each_f(z0 * z0 + z1 * z1);
-    value[0] = value[0] + amplitude * phi;
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values) {
+    struct { vector_f phi; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 7 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float W0_0 = S[2];
+        const float W0_1 = S[3];
+        const float W1_0 = S[4];
+        const float W1_1 = S[5];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 2 * b;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f gap = x0 - mu0;
+            const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+            const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
+            const vector_f gap_2 = x1 - mu1;
+            const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+            const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
+            const vector_f z0 = W0_0 * v0 + W0_1 * v1;
+            const vector_f z1 = W1_0 * v0 + W1_1 * v1;
+            const vector_f phi = gaussian_each_f(z0 * z0 + z1 * z1);
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 7 * near[k];
+        const float amplitude = S[6];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector_f *value = values + b;
+            const vector_f phi = kept[k][b].phi;
+            value[0] = value[0] + amplitude * phi;
+        }
+    }
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_forward_f(
-    const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float W0_0 = S[2];
-    const float W0_1 = S[3];
-    const float W1_0 = S[4];
-    const float W1_1 = S[5];
-    const float amplitude = S[6];
-    const vector_f gap = x0 - mu0;
-    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
-    const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
-    const vector_f gap_2 = x1 - mu1;
-    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
-    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
-    const vector_f z0 = W0_0 * v0 + W0_1 * v1;
-    const vector_f z1 = W1_0 * v0 + W1_1 * v1;
-    const vector_f phi = gaussian_each_f(z0 * z0 + z1 * z1);
-    const vector_f phi_2 = amplitude * phi;
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] - phi_2 * (W1_0 * z1 + W0_0 * z0);
-    slope[1] = slope[1] - phi_2 * (W1_1 * z1 + W0_1 * z0);
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values, vector_f *slopes) {
+    struct { vector_f z0, z1, phi; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 7 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float W0_0 = S[2];
+        const float W0_1 = S[3];
+        const float W1_0 = S[4];
+        const float W1_1 = S[5];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 2 * b;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f gap = x0 - mu0;
+            const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+            const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
+            const vector_f gap_2 = x1 - mu1;
+            const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+            const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
+            const vector_f z0 = W0_0 * v0 + W0_1 * v1;
+            const vector_f z1 = W1_0 * v0 + W1_1 * v1;
+            const vector_f phi = gaussian_each_f(z0 * z0 + z1 * z1);
+            kept[k][b].z0 = z0;
+            kept[k][b].z1 = z1;
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 7 * near[k];
+        const float W0_0 = S[2];
+        const float W0_1 = S[3];
+        const float W1_0 = S[4];
+        const float W1_1 = S[5];
+        const float amplitude = S[6];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector_f *value = values + b;
+            vector_f *slope = slopes + 2 * b;
+            const vector_f z0 = kept[k][b].z0;
+            const vector_f z1 = kept[k][b].z1;
+            const vector_f phi = kept[k][b].phi;
+            const vector_f phi_2 = amplitude * phi;
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] - phi_2 * (W1_0 * z1 + W0_0 * z0);
+            slope[1] = slope[1] - phi_2 * (W1_1 * z1 + W0_1 * z0);
+        }
+    }
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -969,6 +1084,72 @@ OUTLINE void pair_gradient_vjp_f(
     const vector_f gradient_bar1 = gradient_bar[1];
     slope_bar[0] = gradient_bar0;
     slope_bar[1] = gradient_bar1;
+}
+
+/*
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
+INLINE void pair_backward_f(
+    size_t count, const vector_f *points, const uint32_t *near, const float *S, vector_f *sums) {
+    struct { vector_f v0, v1, z0, z1, phi; } kept[16];
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 5 * (size_t)near[i];
+        const vector_f x0 = X[0];
+        const vector_f x1 = X[1];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float W0_0 = S[2];
+        const float W0_1 = S[3];
+        const float W1_0 = S[4];
+        const float W1_1 = S[5];
+        const vector_f gap = x0 - mu0;
+        const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
+        const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
+        const vector_f gap_2 = x1 - mu1;
+        const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
+        const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
+        const vector_f z0 = W0_0 * v0 + W0_1 * v1;
+        const vector_f z1 = W1_0 * v0 + W1_1 * v1;
+        const vector_f phi = gaussian_each_f(z0 * z0 + z1 * z1);
+        kept[i].v0 = v0;
+        kept[i].v1 = v1;
+        kept[i].z0 = z0;
+        kept[i].z1 = z1;
+        kept[i].phi = phi;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *value_bar = points + 5 * (size_t)near[i] + 2;
+        const vector_f *slope_bar = points + 5 * (size_t)near[i] + 2 + 1;
+        const vector_f v0 = kept[i].v0;
+        const vector_f v1 = kept[i].v1;
+        const vector_f z0 = kept[i].z0;
+        const vector_f z1 = kept[i].z1;
+        const vector_f phi = kept[i].phi;
+        const float W0_0 = S[2];
+        const float W0_1 = S[3];
+        const float W1_0 = S[4];
+        const float W1_1 = S[5];
+        const vector_f its_value_bar = value_bar[0];
+        const vector_f x0_bar = slope_bar[0];
+        const vector_f x1_bar = slope_bar[1];
+        const vector_f phi_product = phi * x0_bar;
+        const vector_f by_phi = its_value_bar - (W1_1 * z1 + W0_1 * z0) * x1_bar - (W1_0 * z1 + W0_0 * z0) *
+            x0_bar;
+        const vector_f phi_product_2 = phi * by_phi;
+        const vector_f phi_product_3 = phi * x1_bar;
+        const vector_f product = 0.5f * phi_product_2;
+        const vector_f gap_3 = -phi_product - v0 * product;
+        const vector_f gap_4 = -phi_product_3 - v1 * product;
+        sums[0] = sums[0] + phi_product + v0 * phi_product_2;
+        sums[1] = sums[1] + phi_product_3 + v1 * phi_product_2;
+        sums[2] = sums[2] + phi_product_2;
+        sums[3] = sums[3] + v0 * gap_3;
+        sums[4] = sums[4] + v0 * gap_4 + v1 * gap_3;
+        sums[5] = sums[5] + v1 * gap_4;
+    }
 }
 
 /* The adjoints of some splats' parameters, of their sums over the points. */
@@ -1014,49 +1195,6 @@ OUTLINE void pair_distances_f(
     const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
     const vector_f log1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
     distance[0] = sqrt_each_f(log0 * log0 + log1 * log1);
-}
-
-/*
- * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
- *
- * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
- */
-INLINE void pair_backward_f(
-    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float W0_0 = S[2];
-    const float W0_1 = S[3];
-    const float W1_0 = S[4];
-    const float W1_1 = S[5];
-    const vector_f its_value_bar = value_bar[0];
-    const vector_f x0_bar = slope_bar[0];
-    const vector_f x1_bar = slope_bar[1];
-    const vector_f gap = x0 - mu0;
-    const vector_f round_2 = round_each_f(0.15915494309189535f * gap);
-    const vector_f v0 = gap - 6.28125f * round_2 - 0.001935307179586477f * round_2;
-    const vector_f gap_2 = x1 - mu1;
-    const vector_f round_3 = round_each_f(0.15915494309189535f * gap_2);
-    const vector_f v1 = gap_2 - 6.28125f * round_3 - 0.001935307179586477f * round_3;
-    const vector_f z0 = W0_0 * v0 + W0_1 * v1;
-    const vector_f z1 = W1_0 * v0 + W1_1 * v1;
-    const vector_f phi = gaussian_each_f(z0 * z0 + z1 * z1);
-    const vector_f phi_product = phi * x0_bar;
-    const vector_f by_phi = its_value_bar - (W1_1 * z1 + W0_1 * z0) * x1_bar - (W1_0 * z1 + W0_0 * z0) *
-        x0_bar;
-    const vector_f phi_product_2 = phi * by_phi;
-    const vector_f phi_product_3 = phi * x1_bar;
-    const vector_f product = 0.5f * phi_product_2;
-    const vector_f gap_3 = -phi_product - v0 * product;
-    const vector_f gap_4 = -phi_product_3 - v1 * product;
-    sums[0] = sums[0] + phi_product + v0 * phi_product_2;
-    sums[1] = sums[1] + phi_product_3 + v1 * phi_product_2;
-    sums[2] = sums[2] + phi_product_2;
-    sums[3] = sums[3] + v0 * gap_3;
-    sums[4] = sums[4] + v0 * gap_4 + v1 * gap_3;
-    sums[5] = sums[5] + v1 * gap_4;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -1218,7 +1356,7 @@ OUTLINE void splat_constants_f(
     vector_to_rows_f(S, constants, splat_count, start, 7, 7);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void torus_splats_f(
     size_t count, size_t splat_count, const float *TORUS_RESTRICT x, const float *TORUS_RESTRICT mu, const float *TORUS_RESTRICT W, const float *TORUS_RESTRICT amplitude, const float *TORUS_RESTRICT width,
     float *TORUS_RESTRICT value, float *TORUS_RESTRICT gradient, float *TORUS_RESTRICT work, int threads) {
@@ -1233,27 +1371,26 @@ void torus_splats_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[2][2], X[2][2], grad[2];
-            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][2] = {{ZERO}};
+            vector_f at[2][2], X[2 * 2], grad[2];
+            vector_f value_sum[2] = {ZERO}, slope_sum[2 * 2] = {ZERO};
             float place[2 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 2, at[b]);
-                pair_features_f(at[b], X[b]);
+                pair_features_f(at[b], X + 2 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 7 * near[i];
-                    pair_forward_f(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward_f(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward_f(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient_f(at[b], slope_sum[b], grad);
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                pair_gradient_f(at[b], slope_sum + 2 * b, grad);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
                 vector_to_rows_f(grad, gradient, count, start + b * LANES_f, 2, 2);
             }
         }
@@ -1275,25 +1412,24 @@ void torus_splats_value_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[2], X[2][2], value_sum[2][1] = {{ZERO}};
+            vector_f at[2], X[2 * 2], value_sum[2] = {ZERO};
             float place[2 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 2, at);
-                pair_features_f(at, X[b]);
+                pair_features_f(at, X + 2 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 7 * near[i];
-                    pair_value_f(X[0], S, value_sum[0]);
-                    pair_value_f(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value_f(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -1312,19 +1448,11 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 2 + 1, point + 2);
 }
 
-/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+/* Adds to sums what some vectors of points add to them, those in the list. */
 OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *sums) {
     vector_f sum[6] = {ZERO};
-    size_t b = 0;
-    for (; b + 1 < size; b += 2) {
-        const vector_f *point = points + 5 * (size_t)near[b], *other = points + 5 * (size_t)near[b + 1];
-        pair_backward_f(point, S, point + 2, point + 2 + 1, sum);
-        pair_backward_f(other, S, other + 2, other + 2 + 1, sum);
-    }
-    if (b < size) {
-        const vector_f *point = points + 5 * (size_t)near[b];
-        pair_backward_f(point, S, point + 2, point + 2 + 1, sum);
-    }
+    for (size_t b = 0; b < size; b += 16)
+        pair_backward_f(size - b < 16 ? size - b : 16, points, near + b, S, sum);
     sums[0] += vector_sum_f(sum[0]);
     sums[1] += vector_sum_f(sum[1]);
     sums[2] += vector_sum_f(sum[2]);
@@ -1402,6 +1530,7 @@ void torus_splats_rows_f(
     float *TORUS_RESTRICT rows, float *TORUS_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    const uint32_t only = 0;
     float *constants = work_constants_f(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -1418,7 +1547,7 @@ void torus_splats_rows_f(
                 for (int i = 0; i < 2; ++i) own_mu[i] = vector_of_f(mu[2 * k + i]);
                 for (int i = 0; i < 4; ++i) own_W[i] = vector_of_f(W[4 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 7 * k, point + 2, point + 2 + 1, own_sums);
+                pair_backward_f(1, point, &only, constants + 7 * k, own_sums);
                 pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 4);
                 vector_to_rows_f(bars, rows + 7 * k, count, block * LANES_f, 7, 7 * splat_count);
             }

@@ -9,6 +9,7 @@ of threads: forward they share the points, backward the splats.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -40,7 +41,8 @@ from rsrm_gen.compiler.lower.ir import Result, reachable
 REGISTERS = 20  # sums that stay in registers; of more, products are added up in groups
 INLINED = 400  # operations of a routine beyond which a call costs nothing
 BUFFER = 24576  # bytes of factors that stay in the first cache
-BLOCK = 2  # vectors of points that pass together forward, so that one waits while the other computes
+BLOCK = 2  # vectors of points that pass together forward
+PAIRS = 16  # of a vector of points and a splat, that a processor computes together: a multiple of BLOCK
 CHUNK = 1 << 17  # bytes of points that pass together backward: what stays in the second cache with room to spare
 
 # With one of these defined, the functions of the other precision are left out: who wants one need not wait for both.
@@ -162,31 +164,93 @@ def _signature(program: Program, name: str, precision: Precision) -> str:
     )
 
 
-# What each routine is for, and whether it adds to its results.
-ROUTINES = {
-    "features": ("What pairs read of points x.", False),
-    "constants": ("What pairs read of a splat, of some splats.", False),
-    "value": ("Adds the values phi of a splat at some points.", True),
-    "forward": ("Adds the values phi of a splat at some points, and slope = d phi / d X.", True),
-    "gradient": ("The Riemannian gradient at some points, of the sums of slopes.", False),
-    "factors": ("The factors of whose products are what is summed over the points.", False),
-    "gradient_vjp": ("The adjoint of slope at some points, of that of the gradient.", False),
-    "backward": (
-        "Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.",
-        True,
+# What each routine is for.
+TITLES = {
+    "features": "What pairs read of points x.",
+    "constants": "What pairs read of a splat, of some splats.",
+    "value": "Adds the values phi of some splats at $BLOCK vectors of points.",
+    "forward": "Adds the values phi of some splats at $BLOCK vectors of points, and slope = d phi / d X.",
+    "gradient": "The Riemannian gradient at some points, of the sums of slopes.",
+    "factors": "The factors of whose products are what is summed over the points, for some vectors of points.",
+    "gradient_vjp": "The adjoint of slope at some points, of that of the gradient.",
+    "backward": "Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some vectors of points.",
+    "constants_vjp": "The adjoints of some splats' parameters, of their sums over the points.",
+    "distance": "The distances of some points q from one point p.",
+}
+STEPS = [
+    "In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read."
+]
+
+
+@dataclass(frozen=True)
+class Form:
+    """How a routine of pairs is called, and how it passes over them: a splat's with some points, or those of some splats."""
+
+    arguments: str
+    places: Mapping[str, str]  # the numbers of a pair, by the array that they are in
+    splats: bool  # whether the splats differ
+    adds: bool  # whether the results are added to what is there
+    may_be_unread: tuple[str, ...]
+
+    @property
+    def over(self) -> str:
+        """The loop over splats, or over vectors of points."""
+        return "for (size_t k = 0; k < count; ++k) {" if self.splats else "for (size_t i = 0; i < count; ++i) {"
+
+    @property
+    def over_points(self) -> str:
+        """The loop within that over splats."""
+        return "UNROLLED for (size_t b = 0; b < $BLOCK; ++b) {"
+
+    @property
+    def kept(self) -> str:
+        """Where what is kept of a pair is."""
+        return "kept[k][b]" if self.splats else "kept[i]"
+
+    def located(self, lines: Sequence[str]) -> list[str]:
+        """Lines, after those that say where the arrays are that they read or write."""
+        return [place for name, place in self.places.items() if any(f"{name}[" in line for line in lines)] + [*lines]
+
+
+SPLATS_AT = "size_t count, const vector@ *points, const T_*splats, const uint32_t *near, vector@ *values"
+POINTS_AT = "size_t count, const vector@ *points, const uint32_t *near, const T_*S"
+OF_SPLATS = {
+    " X": "const vector@ *X = points + $nX * b;",
+    " S": "const T_*S = splats + $nS * near[k];",
+    "value": "vector@ *value = values + b;",
+}
+OF_POINTS = {
+    " X": "const vector@ *X = points + $nB * (size_t)near[i];",
+    "value_bar": "const vector@ *value_bar = points + $nB * (size_t)near[i] + $nX;",
+    "slope_bar": "const vector@ *slope_bar = points + $nB * (size_t)near[i] + $nX + 1;",
+}
+WITH_SLOPE = {**OF_SPLATS, "slope": "vector@ *slope = slopes + $nX * b;"}
+FORMS = {
+    "value": Form(SPLATS_AT, OF_SPLATS, True, True, ("points", "splats", "near")),
+    "forward": Form(f"{SPLATS_AT}, vector@ *slopes", WITH_SLOPE, True, True, ("points", "splats", "near", "slopes")),
+    "backward": Form(f"{POINTS_AT}, vector@ *sums", OF_POINTS, False, True, ("points", "near", "S")),
+    "factors": Form(
+        f"{POINTS_AT}, vector@ *factors",
+        {**OF_POINTS, "factor": "vector@ *factor = factors + $nF * i;"},
+        False,
+        False,
+        ("points", "near", "S"),
     ),
-    "constants_vjp": ("The adjoints of some splats' parameters, of their sums over the points.", False),
-    "distance": ("The distances of some points q from one point p.", False),
 }
 
 
 def _routines(program: Program, series: dict[Coefficients, str], precision: Precision) -> list[str]:
     pairs = program.pairs
-    texts = [_routine(routine, series, precision) for routine in _all(program) if routine.name != "backward"]
-    products = _products(pairs.backward)
-    if products is None:
-        return [*texts, _routine(pairs.backward, series, precision)]
-    return [*texts, *_factored(pairs.backward, products, series, precision)]
+    sizes, products = _sizes(program), _products(pairs.backward)
+    texts = []
+    for routine in _all(program):
+        if routine is pairs.backward and products is not None:
+            texts += _factored(routine, products, sizes, series, precision)
+        elif routine.name in FORMS:
+            texts.append(_pair_routine(routine, PAIRS, sizes, series, precision))
+        else:
+            texts.append(_routine(routine, series, precision))
+    return texts
 
 
 def _products(backward: Routine) -> Products | None:
@@ -200,7 +264,9 @@ def _products(backward: Routine) -> Products | None:
     return products_of(backward, vectors)
 
 
-def _factored(routine: Routine, products: Products, series: dict[Coefficients, str], precision: Precision) -> list[str]:
+def _factored(
+    routine: Routine, products: Products, sizes: Sizes, series: dict[Coefficients, str], precision: Precision
+) -> list[str]:
     """Backward in two steps: the factors of a pair, then their products."""
     v = f"vector{precision.tag}"
     results = (Result("factor", (len(products.factors),), products.factors),)
@@ -212,7 +278,7 @@ def _factored(routine: Routine, products: Products, series: dict[Coefficients, s
         if parameter.name != "S":
             names |= {node: f"point[{offset + i}]" for i, node in enumerate(parameter.nodes)}
             offset += len(parameter.nodes)
-    texts = [_routine(first, series, precision)]
+    texts = [_pair_routine(first, _buffer(products), sizes, series, precision)]
     for number, group in enumerate(products.groups):
         sums = [f"sum[{j}] = sum[{j}]{_sum_of(products.terms[i], names)};" for j, i in enumerate(group)]
         texts.append(
@@ -220,6 +286,11 @@ def _factored(routine: Routine, products: Products, series: dict[Coefficients, s
             f"const {v} *factor, const {v} *point, {v} *sum) {{\n    (void)factor;\n    (void)point;\n{indented(sums, 4)}\n}}"
         )
     return texts
+
+
+def _buffer(products: Products) -> int:
+    """How many pairs' factors stay in the first cache."""
+    return max(4, min(16, BUFFER // (64 * len(products.factors))))
 
 
 def _needed(routine: Routine, nodes: Sequence[Node]) -> tuple[tuple[str, Node], ...]:
@@ -237,41 +308,87 @@ def _sum_of(terms: Sequence[Term], names: Mapping[Node, str]) -> str:
 
 
 def _routine(routine: Routine, series: dict[Coefficients, str], precision: Precision) -> str:
-    """A routine on vectors; what is the same for all lanes, the constants S of a splat beside points, is numbers."""
-    title, adds = ROUTINES[routine.name]
+    """A routine on vectors, of what belongs to points alone, or to splats alone."""
     v, t = f"vector{precision.tag}", precision.type
-    of_pair = routine.name in ("value", "forward", "backward", "factors")
     arguments: list[str] = []
     inputs: dict[Node, str] = {}
     vectors: set[Node] = set()
     unread: list[str] = []
     for parameter in routine.parameters:
-        is_vector = (routine.name, parameter.name) != ("distance", "p") and not (of_pair and parameter.name == "S")
+        is_vector = (routine.name, parameter.name) != ("distance", "p")
         arguments.append(f"const {v if is_vector else t} *{parameter.name}")
         inputs |= {node: f"{parameter.name}[{i}]" for i, node in enumerate(parameter.nodes)}
         vectors |= set(parameter.nodes) if is_vector else set()
         if not routine.inputs & {str(n.value) for n in parameter.nodes}:
             unread.append(f"(void){parameter.name};")
-    sums = _as_sums(routine) if adds else {}
-    read = [f for terms in sums.values() for _, factors in terms for f in factors]
-    body = Body(replace(routine, body=_needed(routine, read)) if adds else routine, inputs, vectors, precision, series)
+    body = Body(routine, inputs, vectors, precision, series)
     stores = []
     for result in routine.results:
         arguments.append(f"{v} *{result.name}")
-        kept = [(i, node) for i, node in enumerate(result.nodes) if not (adds and node.is_number(0))]
-        if adds:  # term by term, so that each is one instruction that multiplies and adds
-            texts = [f"{result.name}[{i}]{body.sum_of(sums[node])}" for i, node in kept]
-        else:
-            texts = [body.result(node) for _, node in kept]
-        stores += [wrapped(f"{result.name}[{i}] = {text};").strip() for (i, _), text in zip(kept, texts, strict=True)]
-        if not kept:
-            unread.append(f"(void){result.name};")
-    lines = indented([*unread, *body.lines, *stores], 4)
-    kind = "INLINE" if of_pair and routine.operations <= INLINED else "OUTLINE"
+        stores += [_stored(result.name, i, body.result(node)) for i, node in enumerate(result.nodes)]
+    lines = indented([*unread, *body.lines(), *stores], 4)
     name = "distances" if routine.name == "distance" else routine.name  # `pair_distance` is public on a manifold `pair`
-    head = f"{kind} void pair_{name}{precision.tag}("
-    says = comment([title, "", *routine.formula.splitlines()]) if of_pair else f"/* {title} */"
-    return f"{says}\n{head}\n    {', '.join(arguments)}) {{\n{lines}\n}}"
+    head = f"OUTLINE void pair_{name}{precision.tag}("
+    return f"/* {TITLES[routine.name]} */\n{head}\n    {', '.join(arguments)}) {{\n{lines}\n}}"
+
+
+def _stored(result: str, i: int, text: str) -> str:
+    return wrapped(f"{result}[{i}] = {text};").strip()
+
+
+def _pair_routine(
+    routine: Routine, pairs: int, sizes: Sizes, series: dict[Coefficients, str], precision: Precision
+) -> str:
+    """A routine of some pairs of a vector of points and a splat, of which the constants S are numbers; in steps."""
+    form = FORMS[routine.name]
+    inputs = {n: f"{p.name}[{i}]" for p in routine.parameters for i, n in enumerate(p.nodes)}
+    vectors = {node for p in routine.parameters if p.name != "S" for node in p.nodes}
+    sums = _as_sums(routine) if form.adds else {}
+    read = [f for terms in sums.values() for _, factors in terms for f in factors]
+    results = read if form.adds else list(routine.results[0].nodes)
+    body = Body(replace(routine, body=_needed(routine, results)), inputs, vectors, precision, series)
+    steps = body.steps(results)
+    later = {node for step in steps for node in step.kept}
+    kept = {node: body.printer.names[node] for _, node in body.named if node in later}
+    loops: list[str] = []
+    for step in steps:
+        is_last = step is steps[-1]
+        loaded = body.read_by(step.nodes, results if is_last else ())
+        own = [n for n in loaded if form.splats and n not in vectors]
+        lines = [f"const {body.kind(n)} {kept[n]} = {form.kept}.{kept[n]};" for n in step.kept]
+        lines += body.statements(step.nodes, [n for n in loaded if n not in own])
+        lines += [f"{form.kept}.{kept[n]} = {kept[n]};" for n in step.nodes if n in kept]
+        lines += _stores(routine, body, sums) if is_last else []
+        lines = form.located(lines)
+        if form.splats:
+            lines = [*form.located(body.statements((), own)), form.over_points, indented(lines, 4), "}"]
+        loops += [form.over, indented(lines, 4), "}"]
+    text = "\n".join(loops)
+    first = [f"(void){name};" for name in form.may_be_unread if not re.search(rf"\b{name}\b", text)]
+    if kept:
+        kinds = {kind: [kept[n] for n in kept if body.kind(n) == kind] for kind in map(body.kind, kept)}
+        fields = " ".join(f"{kind} {', '.join(names)};" for kind, names in kinds.items())
+        first.append(
+            wrapped(f"struct {{ {fields} }} kept{'[$SPLATS][$BLOCK]' if form.splats else f'[{pairs}]'};").strip()
+        )
+    kind = "INLINE" if routine.operations <= INLINED else "OUTLINE"
+    says = comment([TITLES[routine.name], *(STEPS if len(steps) > 1 else []), "", *routine.formula.splitlines()])
+    head = f"{kind} void pair_{routine.name}@(\n    {form.arguments}) {{"
+    parts = {"nX": sizes.X, "nB": sizes.point, "nS": sizes.S, "nF": len(routine.results[0].nodes)}
+    parts |= {"BLOCK": BLOCK, "SPLATS": PAIRS // BLOCK}
+    return _filled(f"{says}\n{head}\n{indented([*first, text], 4)}\n}}", parts, precision)
+
+
+def _stores(routine: Routine, body: Body, sums: Mapping[Node, list[Term]]) -> list[str]:
+    """The results of a routine of pairs; sums term by term, so that each is one instruction that multiplies and adds."""
+    stores = []
+    for result in routine.results:
+        for i, node in enumerate(result.nodes):
+            if node not in sums:
+                stores.append(_stored(result.name, i, body.result(node)))
+            elif not node.is_number(0):
+                stores.append(_stored(result.name, i, f"{result.name}[{i}]{body.sum_of(sums[node])}"))
+    return stores
 
 
 def _loops(program: Program, precision: Precision) -> list[str]:
@@ -279,7 +396,8 @@ def _loops(program: Program, precision: Precision) -> list[str]:
     products, culls = _products(backward), program.culling is not None
     texts = [ROWS, WORK, c_culling.NEAR if culls else c_culling.NONE, CONSTANTS, FORWARD, VALUE, POINTS]
     texts += [
-        SUMS if products is None else PRODUCTS,
+        *([] if products is None else [PRODUCTS]),
+        SUMS,
         BACKWARD,
         ROWWISE,
         c_culling.ORDER if culls else c_culling.ORDER_NONE,
@@ -290,31 +408,24 @@ def _loops(program: Program, precision: Precision) -> list[str]:
         "BLOCK": BLOCK, "CHUNK": CHUNK, "nNEAR": z.x + 1 if culls else 0,
         **c_culling.numbers(program.culling, precision),
     }  # fmt: skip
-    calls = [f"pair_forward@(X[{b}], S, value_sum[{b}], slope_sum[{b}]);" for b in range(BLOCK)]
-    parts["FORWARD$"] = indented(calls, 20).strip()
-    calls = [f"pair_value@(X[{b}], S, value_sum[{b}]);" for b in range(BLOCK)]
-    parts["VALUE$"] = indented(calls, 20).strip()
+    parts["SPLATS"], parts["PAIRS"] = PAIRS // BLOCK, PAIRS if products is None else _buffer(products)
     for name in PROMISES:
         parts[f"SIGNATURE_{name}$"] = _signature(program, name, precision)
     if products is None:
         sums = [f"sums[{i}] += vector_sum@(sum[{i}]);" for i in _kept(backward.results[0])]
         parts["SUMS$"] = indented(sums, 4).strip()
     else:
-        size = len(products.factors)
-        parts["nF"], parts["BUFFER"] = size, max(4, min(16, BUFFER // (64 * size)))
-        parts["GROUPS$"] = indented([_group(products, g, z, True) for g in range(len(products.groups))], 8).strip()
-        parts["GROUPS1$"] = indented([_group(products, g, z, False) for g in range(len(products.groups))], 4).strip()
+        parts["SUMS$"] = f"for (size_t i = 0; i < {z.sums}; ++i) sums[i] += vector_sum@(sum[i]);"
+        parts["nF"] = len(products.factors)
+        parts["GROUPS$"] = indented([_group(products, g, z) for g in range(len(products.groups))], 4).strip()
     return [_filled(text, parts, precision) for text in texts]
 
 
-def _group(products: Products, number: int, z: Sizes, over_points: bool) -> str:
-    """The sums of a group of products over a buffer of points, or the products of one."""
+def _group(products: Products, number: int, z: Sizes) -> str:
+    """The sums of a group of products over some vectors of points."""
     group, call = products.groups[number], f"pair_products_{number}@"
-    target = "total" if over_points else "sums"
-    step = f"{call}(factor, point, sum);"
-    if over_points:
-        step = f"for (size_t b = 0; b < size; ++b) {call}(factor + $nF * b, points + {z.point} * (size_t)near[b], sum);"
-    adds = [f"{target}[{i}] += sum[{j}];" for j, i in enumerate(group)]
+    step = f"for (size_t i = 0; i < count; ++i) {call}(factor + $nF * i, points + {z.point} * (size_t)near[i], sum);"
+    adds = [f"sums[{i}] += sum[{j}];" for j, i in enumerate(group)]
     return "{\n" + indented([f"vector@ sum[{len(group)}] = {{ZERO}};", step, *adds], 4) + "\n}"
 
 
@@ -322,7 +433,7 @@ def _kept(result: Result) -> list[int]:
     return [i for i, node in enumerate(result.nodes) if not node.is_number(0)]
 
 
-def _filled(text: str, parts: dict[str, object], precision: Precision) -> str:
+def _filled(text: str, parts: Mapping[str, object], precision: Precision) -> str:
     for name in sorted(parts, key=len, reverse=True):
         text = text.replace(f"${name}", str(parts[name]))
     return spelled(text, precision)

@@ -108,7 +108,7 @@ OUTLINE void splat_constants@(
 }"""
 
 FORWARD = """
-/* $BLOCK vectors of points at a time stay in registers while all splats pass. */
+/* $BLOCK vectors of points at a time while all splats pass, some at a time. */
 $SIGNATURE_splats$ {
     (void)threads;
     T_*constants = work_constants@(work, 0, splat_count);
@@ -121,26 +121,26 @@ $SIGNATURE_splats$ {
             splat_constants@(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += $BLOCK * LANES@) {
-            vector@ at[$BLOCK][$nx], X[$BLOCK][$nX], grad[$nG];
-            vector@ value_sum[$BLOCK][1] = {{ZERO}}, slope_sum[$BLOCK][$nX] = {{ZERO}};
+            vector@ at[$BLOCK][$nx], X[$BLOCK * $nX], grad[$nG];
+            vector@ value_sum[$BLOCK] = {ZERO}, slope_sum[$BLOCK * $nX] = {ZERO};
             T_place[$nx + 1];
             uint32_t near[$PART];
             for (size_t b = 0; b < $BLOCK; ++b) {
                 vector_rows@(x, count, start + b * LANES@, $nx, at[b]);
-                pair_features@(at[b], X[b]);
+                pair_features@(at[b], X + $nX * b);
             }
             if (width) block_place@(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += $PART) {
                 const size_t end = splat_count - first < $PART ? splat_count : first + $PART;
                 const size_t size = splats_near@(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const T_*S = constants + $nS * near[i];
-                    $FORWARD$
+                for (size_t i = 0; i < size; i += $SPLATS) {
+                    const size_t some = size - i < $SPLATS ? size - i : $SPLATS;
+                    pair_forward@(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < $BLOCK; ++b) {
-                pair_gradient@(at[b], slope_sum[b], grad);
-                vector_to_rows@(value_sum[b], value, count, start + b * LANES@, 1, 1);
+                pair_gradient@(at[b], slope_sum + $nX * b, grad);
+                vector_to_rows@(value_sum + b, value, count, start + b * LANES@, 1, 1);
                 vector_to_rows@(grad, gradient, count, start + b * LANES@, $nG, $nG);
             }
         }
@@ -161,24 +161,24 @@ $SIGNATURE_splats_value$ {
             splat_constants@(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += $BLOCK * LANES@) {
-            vector@ at[$nx], X[$BLOCK][$nX], value_sum[$BLOCK][1] = {{ZERO}};
+            vector@ at[$nx], X[$BLOCK * $nX], value_sum[$BLOCK] = {ZERO};
             T_place[$nx + 1];
             uint32_t near[$PART];
             for (size_t b = 0; b < $BLOCK; ++b) {
                 vector_rows@(x, count, start + b * LANES@, $nx, at);
-                pair_features@(at, X[b]);
+                pair_features@(at, X + $nX * b);
             }
             if (width) block_place@(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += $PART) {
                 const size_t end = splat_count - first < $PART ? splat_count : first + $PART;
                 const size_t size = splats_near@(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const T_*S = constants + $nS * near[i];
-                    $VALUE$
+                for (size_t i = 0; i < size; i += $SPLATS) {
+                    const size_t some = size - i < $SPLATS ? size - i : $SPLATS;
+                    pair_value@(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < $BLOCK; ++b)
-                vector_to_rows@(value_sum[b], value, count, start + b * LANES@, 1, 1);
+                vector_to_rows@(value_sum + b, value, count, start + b * LANES@, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -198,47 +198,22 @@ OUTLINE void splat_points@(
     vector_end@(count, start, $nX + 1, point + $nX);
 }"""
 
-SUMS = """
-/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
-OUTLINE void splat_sums@(const vector@ *points, const uint32_t *near, size_t size, const T_*S, T_*sums) {
-    vector@ sum[$nU] = {ZERO};
-    size_t b = 0;
-    for (; b + 1 < size; b += 2) {
-        const vector@ *point = points + $nB * (size_t)near[b], *other = points + $nB * (size_t)near[b + 1];
-        pair_backward@(point, S, point + $nX, point + $nX + 1, sum);
-        pair_backward@(other, S, other + $nX, other + $nX + 1, sum);
-    }
-    if (b < size) {
-        const vector@ *point = points + $nB * (size_t)near[b];
-        pair_backward@(point, S, point + $nX, point + $nX + 1, sum);
-    }
-    $SUMS$
+PRODUCTS = """
+/* Adds what makes the derivatives, of a splat at some vectors of points: their factors, then the products of these. */
+INLINE void pair_backward@(
+    size_t count, const vector@ *points, const uint32_t *near, const T_*S, vector@ *sums) {
+    vector@ factor[$PAIRS * $nF];
+    pair_factors@(count, points, near, S, factor);
+    $GROUPS$
 }"""
 
-PRODUCTS = """
-/* Adds to sums what one vector of points adds to it. */
-INLINE void pair_backward@(
-    const vector@ *point, const T_*S, const vector@ *value_bar, const vector@ *slope_bar, vector@ *sums) {
-    vector@ factor[$nF];
-    pair_factors@(point, S, value_bar, slope_bar, factor);
-    $GROUPS1$
-}
-
-/*
- * Adds to sums what some vectors of points add to it, those in the list: factors of $BUFFER vectors at a time, then their
- * products.
- */
-OUTLINE void splat_sums@(const vector@ *points, const uint32_t *near, size_t count, const T_*S, T_*sums) {
-    vector@ factor[$BUFFER * $nF], total[$nU] = {ZERO};
-    for (size_t start = 0; start < count; start += $BUFFER, near += $BUFFER) {
-        const size_t size = count - start < $BUFFER ? count - start : $BUFFER;
-        for (size_t b = 0; b < size; ++b) {
-            const vector@ *at = points + $nB * (size_t)near[b];
-            pair_factors@(at, S, at + $nX, at + $nX + 1, factor + $nF * b);
-        }
-        $GROUPS$
-    }
-    for (size_t i = 0; i < $nU; ++i) sums[i] += vector_sum@(total[i]);
+SUMS = """
+/* Adds to sums what some vectors of points add to them, those in the list. */
+OUTLINE void splat_sums@(const vector@ *points, const uint32_t *near, size_t size, const T_*S, T_*sums) {
+    vector@ sum[$nU] = {ZERO};
+    for (size_t b = 0; b < size; b += $PAIRS)
+        pair_backward@(size - b < $PAIRS ? size - b : $PAIRS, points, near + b, S, sum);
+    $SUMS$
 }"""
 
 BACKWARD = """
@@ -308,6 +283,7 @@ ROWWISE = """
 $SIGNATURE_splats_rows$ {
     (void)threads;
     const size_t blocks = (count + LANES@ - 1) / LANES@;
+    const uint32_t only = 0;
     T_*constants = work_constants@(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -324,7 +300,7 @@ $SIGNATURE_splats_rows$ {
                 for (int i = 0; i < $nmu; ++i) own_mu[i] = vector_of@(mu[$nmu * k + i]);
                 for (int i = 0; i < $nW; ++i) own_W[i] = vector_of@(W[$nW * k + i]);
                 own_amplitude[0] = vector_of@(amplitude[k]);
-                pair_backward@(point, constants + $nS * k, point + $nX, point + $nX + 1, own_sums);
+                pair_backward@(1, point, &only, constants + $nS * k, own_sums);
                 pair_constants_vjp@(own_mu, own_W, own_amplitude, own_sums, bars, bars + $nmu, bars + $nmu + $nW);
                 vector_to_rows@(bars, rows + $nP * k, count, block * LANES@, $nP, $nP * splat_count);
             }

@@ -19,6 +19,7 @@ from rsrm_gen.compiler.emit.c_language import WIDTH, series_body, spelling, wrap
 from rsrm_gen.compiler.emit.c_precision import Precision
 from rsrm_gen.compiler.emit.expression import ATOM, COMPARISONS, PRODUCT, SUM, UNARY, Printer
 from rsrm_gen.compiler.emit.series import Coefficients
+from rsrm_gen.compiler.emit.steps import Step, expression, steps
 from rsrm_gen.compiler.lower import Node, Routine
 from rsrm_gen.compiler.lower.ir import CONDITIONS, FUNCTIONS, SEVERAL
 from rsrm_gen.compiler.lower.protect import arguments_first, never_negative
@@ -37,7 +38,6 @@ TYPES = """/*
 #endif
 #define LANE(vector, i) (vector)[i]
 #define ZERO {0}
-#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
 typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
 typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
 typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
@@ -47,7 +47,6 @@ typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
 #else
 #define LANE(vector, i) (vector)
 #define ZERO 0
-#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
 typedef double vector;
 typedef float vector_f;
 typedef int64_t vector_mask;
@@ -63,6 +62,17 @@ typedef uint32_t vector_bits_f;
 #define INLINE static inline
 #define OUTLINE static
 #endif
+/* UNROLLED: the few turns of a loop one after another. EACH_LANE: of a loop that gcc makes one instruction, if it stays a loop. */
+#if defined(__clang__)
+#define UNROLLED _Pragma("clang loop unroll(full)")
+#define EACH_LANE
+#elif defined(__GNUC__) && __GNUC__ >= 8
+#define UNROLLED _Pragma("GCC unroll 8")
+#define EACH_LANE _Pragma("GCC unroll 1")
+#else
+#define UNROLLED
+#define EACH_LANE
+#endif
 #define LANES (sizeof(vector) / sizeof(double))
 #define LANES_f (sizeof(vector_f) / sizeof(float))"""
 
@@ -73,9 +83,14 @@ INLINE vector@ vector_of@(T_x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector@ vector_select@(vector_mask@ mask, vector@ x, vector@ y) {
-    return SELECT(vector@, vector_mask@, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector@)((mask & (vector_mask@)x) | (~mask & (vector_mask@)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES@; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -96,8 +111,10 @@ INLINE T_vector_sum@(vector@ x) {
 }"""
 
 # Names that the text around a routine uses, or the compiler.
-TAKEN = {"LANES", "LANES_f", "LANE", "SELECT", "INLINE", "OUTLINE", "OMP", "ZERO", "memcpy", "vector", "vector_f", "vector_mask",
-         "vector_mask_f", "lane", "whole", "given", "found"}  # fmt: skip
+TAKEN = {"LANES", "LANES_f", "LANE", "INLINE", "OUTLINE", "UNROLLED", "EACH_LANE",
+         "OMP", "ZERO", "memcpy", "vector", "vector_f", "vector_mask",
+         "vector_mask_f", "lane", "whole", "given", "found",
+         "points", "splats", "near", "values", "slopes", "factors", "kept"}  # fmt: skip
 
 
 def spelled(text: str, precision: Precision) -> str:
@@ -148,7 +165,7 @@ def function_of(node: Node) -> tuple[str, Sequence[Node]]:
     return {"root": "sqrt"}.get(node.op, node.op), node.arguments
 
 
-def _reads(node: Node) -> Sequence[Node]:
+def reads(node: Node) -> Sequence[Node]:
     """What the function or the operation of a node reads."""
     return function_of(node)[1] if node.op in FUNCTIONS else node.arguments
 
@@ -211,23 +228,38 @@ class Body:
         self.precision = precision
         self.taken = TAKEN | {p.name for p in routine.parameters} | {r.name for r in routine.results}
         self.printer = VectorPrinter(precision, {}, series)
-        self.lines: list[str] = []
-        depends = self._depends(routine, vectors)
-        self.printer.vectors = depends
+        self.printer.vectors = self._depends(routine, vectors)
         read = {node for node in routine.nodes if node.op == "input"}
-        for node, text in inputs.items():
-            if node in read:
-                name = self._fresh(str(node.value))
-                kind = self._kind(node)
-                self.lines.append(f"const {kind} {name} = {text};")
-                self.printer.names[node] = name
+        self.inputs = {node: text for node, text in inputs.items() if node in read}
+        self.roots = [node for result in routine.results for node in result.nodes]
         needed: dict[Node, None] = {}
-        for root in (node for result in routine.results for node in result.nodes):
-            for node in arguments_first(root, _reads, needed):
+        for root in self.roots:
+            for node in arguments_first(root, reads, needed):
                 needed[node] = None
-        for name, node in routine.body:
-            if node in needed:
-                self._statement(self._fresh(name), node)
+        self.named = [(name, node) for name, node in routine.body if node in needed]
+        for name, node in (*((str(node.value), node) for node in self.inputs), *self.named):
+            self.printer.names[node] = self._fresh(name)
+
+    def lines(self) -> list[str]:
+        """All statements."""
+        return self.statements([node for _, node in self.named], self.inputs)
+
+    def steps(self, results: Sequence[Node]) -> list[Step]:
+        """The statements in steps."""
+        return steps([node for _, node in self.named], results, reads, self.printer.vectors)
+
+    def statements(self, nodes: Iterable[Node], inputs: Iterable[Node]) -> list[str]:
+        """Some of the statements, after those that load what they read."""
+        lines = [f"const {self.kind(node)} {self.printer.names[node]} = {self.inputs[node]};" for node in inputs]
+        for node in nodes:
+            lines += self._statement(node)
+        return lines
+
+    def read_by(self, nodes: Iterable[Node], results: Iterable[Node]) -> list[Node]:
+        """The inputs that some statements read, and some results."""
+        roots = [*(argument for node in nodes for argument in reads(node)), *results]
+        found = set(expression(roots, reads, self.printer.names))
+        return [node for node in self.inputs if node in found]
 
     def result(self, node: Node) -> str:
         """A result as a vector."""
@@ -247,20 +279,21 @@ class Body:
                 found.add(node)
         return found
 
-    def _kind(self, node: Node) -> str:
+    def kind(self, node: Node) -> str:
+        """The type of a node."""
         if node not in self.printer.vectors:
             return "int" if node.op in CONDITIONS else self.precision.type
         return f"vector_mask{self.precision.tag}" if node.op in CONDITIONS else f"vector{self.precision.tag}"
 
-    def _statement(self, name: str, node: Node) -> None:
+    def _statement(self, node: Node) -> list[str]:
+        name = self.printer.names[node]
         if node.op in SEVERAL:
-            self.lines += self._matrix(name, node).splitlines()
-        else:
-            text = f"const {self._kind(node)} {name} = {self.printer.definition(node)[0]};"
-            self.lines.append(
-                textwrap.fill(text, WIDTH - 4, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False)
-            )
-        self.printer.names[node] = name
+            return self._matrix(name, node).splitlines()
+        text = f"const {self.kind(node)} {name} = {self.printer.definition(node)[0]};"
+        folded = textwrap.fill(
+            text, WIDTH - 4, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False
+        )
+        return [folded]
 
     def _matrix(self, name: str, node: Node) -> str:
         """A function of a matrix, one lane after another."""

@@ -21,7 +21,7 @@ DIGITS = 40
 BY_LANES = """
 /* {name} of every lane; one instruction where the machine has it. */
 INLINE vector@ {name}_each@(vector@ x) {{
-    for (size_t i = 0; i < LANES@; ++i) LANE(x, i) = {function}%(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES@; ++i) LANE(x, i) = {function}%(LANE(x, i));
     return x;
 }}"""
 
