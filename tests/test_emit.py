@@ -38,6 +38,7 @@ from rsrm_gen.compiler.emit import Measurement, emit
 from rsrm_gen.compiler.lower import Node, Parameter, Routine, interpret, lower
 from rsrm_gen.compiler.lower.ir import CONDITIONS, FUNCTIONS, Graph, Result, reachable
 from rsrm_gen.compiler.lower.schedule import schedule
+from rsrm_gen.compiler.native import TRIED, compiled
 from rsrm_gen.compiler.spec import read_spec
 from rsrm_gen.manifold import Manifold
 from rsrm_gen.version import __version__
@@ -372,3 +373,16 @@ def test_no_name_of_a_manifold_is_in_the_way_of_what_the_sums_are_made_of(name: 
         (tmp_path / file).write_text(content, encoding="utf-8")
     command = [str(CC), "-std=c99", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", f"{name}_splats.c"]
     subprocess.run(command, cwd=tmp_path, check=True)
+
+
+@needs_compiler
+def test_names_of_a_file_do_not_meet_those_of_the_loops_around_a_pair() -> None:
+    """A formula's own names become variables of functions that have arguments and loops of their own."""
+    text = (MANIFOLDS / "poincare.yaml").read_text()
+    formulas = text.index("log:")
+    ours = {"a": "b", "b": "kept", "d": "near", "dd": "points", "h": "splats", "t": "values", "sinh_t": "slopes"}
+    renamed = re.sub(r"\b[a-z_]+\b", lambda name: ours.get(name[0], name[0]), text[formulas:])
+    geometry = derive(spec_of(text[:formulas] + renamed))
+    texts = emit(geometry, lower(geometry))
+    assert all(f"its_{name} =" in texts["poincare_splats.c"] for name in ("kept", "near", "points"))
+    compiled(texts, "poincare_splats.c", TRIED)

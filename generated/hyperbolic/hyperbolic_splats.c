@@ -48,7 +48,7 @@ typedef uint32_t vector_bits_f;
 #define INLINE static inline
 #define OUTLINE static
 #endif
-/* UNROLLED: the few turns of a loop one after another. EACH_LANE: of a loop that gcc makes one instruction, if it stays a loop. */
+/* UNROLLED: the few turns of a loop, one after another. EACH_LANE: what gcc makes one instruction as long as it is a loop. */
 #if defined(__clang__)
 #define UNROLLED _Pragma("clang loop unroll(full)")
 #define EACH_LANE
@@ -796,13 +796,13 @@ OUTLINE void pair_distances(
     const double dot_ps_ps = p1 * p1 + p2 * p2;
     const vector a = sqrt_each(vector_of(1.0 + dot_ps_ps));
     const vector dot_qs_qs = q1 * q1 + q2 * q2;
-    const vector b = sqrt_each(1.0 + dot_qs_qs);
-    const vector a_total = a + b;
+    const vector its_b = sqrt_each(1.0 + dot_qs_qs);
+    const vector a_total = a + its_b;
     const vector e = dot_D_S / a_total;
     const vector_mask is_small = dot_S_S < 1.0;
     const vector dot_D_S_ratio = dot_D_S / vector_select(is_small, vector_of(1.0), dot_S_S);
     const vector dot_ps_qs = p1 * q1 + p2 * q2;
-    const vector c = (2.0 + b * (2.0 * a) - 2.0 * dot_ps_qs) / (a_total * a_total);
+    const vector c = (2.0 + its_b * (2.0 * a) - 2.0 * dot_ps_qs) / (a_total * a_total);
     const vector rest0 = D0 - S0 * dot_D_S_ratio;
     const vector rest1 = D1 - S1 * dot_D_S_ratio;
     const vector dot_rest_rest = rest0 * rest0 + rest1 * rest1;
@@ -1981,13 +1981,13 @@ OUTLINE void pair_distances_f(
     const float dot_ps_ps = p1 * p1 + p2 * p2;
     const vector_f a = sqrt_each_f(vector_of_f(1.0f + dot_ps_ps));
     const vector_f dot_qs_qs = q1 * q1 + q2 * q2;
-    const vector_f b = sqrt_each_f(1.0f + dot_qs_qs);
-    const vector_f a_total = a + b;
+    const vector_f its_b = sqrt_each_f(1.0f + dot_qs_qs);
+    const vector_f a_total = a + its_b;
     const vector_f e = dot_D_S / a_total;
     const vector_mask_f is_small = dot_S_S < 1.0f;
     const vector_f dot_D_S_ratio = dot_D_S / vector_select_f(is_small, vector_of_f(1.0f), dot_S_S);
     const vector_f dot_ps_qs = p1 * q1 + p2 * q2;
-    const vector_f c = (2.0f + b * (2.0f * a) - 2.0f * dot_ps_qs) / (a_total * a_total);
+    const vector_f c = (2.0f + its_b * (2.0f * a) - 2.0f * dot_ps_qs) / (a_total * a_total);
     const vector_f rest0 = D0 - S0 * dot_D_S_ratio;
     const vector_f rest1 = D1 - S1 * dot_D_S_ratio;
     const vector_f dot_rest_rest = rest0 * rest0 + rest1 * rest1;

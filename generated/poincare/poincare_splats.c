@@ -24,7 +24,6 @@
 #endif
 #define LANE(vector, i) (vector)[i]
 #define ZERO {0}
-#define SELECT(vector, mask, condition, x, y) ((vector)(((condition) & (mask)(x)) | (~(condition) & (mask)(y))))
 typedef double vector __attribute__((vector_size(VECTOR_BYTES)));
 typedef float vector_f __attribute__((vector_size(VECTOR_BYTES)));
 typedef int64_t vector_mask __attribute__((vector_size(VECTOR_BYTES)));
@@ -34,7 +33,6 @@ typedef uint32_t vector_bits_f __attribute__((vector_size(VECTOR_BYTES)));
 #else
 #define LANE(vector, i) (vector)
 #define ZERO 0
-#define SELECT(vector, mask, condition, x, y) ((condition) ? (x) : (y))
 typedef double vector;
 typedef float vector_f;
 typedef int64_t vector_mask;
@@ -49,6 +47,17 @@ typedef uint32_t vector_bits_f;
 #else
 #define INLINE static inline
 #define OUTLINE static
+#endif
+/* UNROLLED: the few turns of a loop, one after another. EACH_LANE: what gcc makes one instruction as long as it is a loop. */
+#if defined(__clang__)
+#define UNROLLED _Pragma("clang loop unroll(full)")
+#define EACH_LANE
+#elif defined(__GNUC__) && __GNUC__ >= 8
+#define UNROLLED _Pragma("GCC unroll 8")
+#define EACH_LANE _Pragma("GCC unroll 1")
+#else
+#define UNROLLED
+#define EACH_LANE
 #endif
 #define LANES (sizeof(vector) / sizeof(double))
 #define LANES_f (sizeof(vector_f) / sizeof(float))
@@ -90,9 +99,14 @@ INLINE vector vector_of(double x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector vector_select(vector_mask mask, vector x, vector y) {
-    return SELECT(vector, vector_mask, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector)((mask & (vector_mask)x) | (~mask & (vector_mask)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -131,13 +145,13 @@ INLINE vector signed_each(vector x, vector sign) {
 
 /* abs of every lane; one instruction where the machine has it. */
 INLINE vector abs_each(vector x) {
-    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = fabs(LANE(x, i));
     return x;
 }
 
 /* sqrt of every lane; one instruction where the machine has it. */
 INLINE vector sqrt_each(vector x) {
-    for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES; ++i) LANE(x, i) = sqrt(LANE(x, i));
     return x;
 }
 
@@ -235,10 +249,10 @@ OUTLINE void pair_features(
     const vector x0 = x[0];
     const vector x1 = x[1];
     const vector dot_q_q = x0 * x0 + x1 * x1;
-    const vector b = 1.0 - dot_q_q;
+    const vector its_b = 1.0 - dot_q_q;
     X[0] = x0;
     X[1] = x1;
-    X[2] = b;
+    X[2] = its_b;
 }
 
 /* What pairs read of a splat, of some splats. */
@@ -270,141 +284,391 @@ OUTLINE void pair_constants(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_value(
-    const vector *X, const double *S, vector *value) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector b = X[2];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double W0_0 = S[2];
-    const double W0_1 = S[3];
-    const double W1_0 = S[4];
-    const double W1_1 = S[5];
-    const double amplitude = S[6];
-    const double a = S[7];
-    const vector d0 = x0 - mu0;
-    const vector sqrt_a_times_b = sqrt_each(a * b);
-    const vector scale = 1.0 / sqrt_a_times_b;
-    const vector part0 = d0 * scale;
-    const vector d1 = x1 - mu1;
-    const vector part1 = d1 * scale;
-    const vector h_squared = part0 * part0 + part1 * part1;
-    const vector_mask near = h_squared < 0.11468;
-    const vector near_chosen = vector_select(near, 8.719916288803628 * h_squared, vector_of(0.0));
-    const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
-    const vector log_det_near = h_squared * log_det_series;
-    const vector h = sqrt_each(vector_select(near, vector_of(1.0), h_squared));
-    const vector asinh_h = asinh_each(h);
-    const vector t = 2.0 * asinh_h;
-    const vector sqrt_1_plus_h_to_2 = sqrt_each(1.0 + h_squared);
-    const vector sinh_t = sqrt_1_plus_h_to_2 * (2.0 * h);
-    const vector t_ratio = t / sinh_t;
-    const vector log_det = vector_select(near, log_det_near, log_each(t_ratio));
-    const vector t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near(near_chosen);
-    const vector t_over_sinh_t = vector_select(near, t_over_sinh_t_near, t_ratio);
-    const vector scale_2 = t_over_sinh_t / b;
-    const vector dd = d0 * d0 + d1 * d1;
-    const vector v0 = scale_2 * (d0 * a - mu0 * dd);
-    const vector v1 = scale_2 * (d1 * a - mu1 * dd);
-    const vector z0 = W0_0 * v0 + W0_1 * v1;
-    const vector z1 = W1_0 * v0 + W1_1 * v1;
-    const vector phi = exp_each(log_det - 0.5 * (z0 * z0 + z1 * z1));
-    value[0] = value[0] + amplitude * phi;
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values) {
+    struct { vector d0, sqrt_a_times_b, scale, d1, h_squared, h, asinh_h, sqrt_1_plus_h_to_2, t_ratio,
+            log_det, scale_2, phi; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 11 * near[k];
+        const double a = S[7];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 3 * b;
+            const vector its_b = X[2];
+            const vector sqrt_a_times_b = sqrt_each(a * its_b);
+            kept[k][b].sqrt_a_times_b = sqrt_a_times_b;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector sqrt_a_times_b = kept[k][b].sqrt_a_times_b;
+            const vector scale = 1.0 / sqrt_a_times_b;
+            kept[k][b].scale = scale;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 11 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 3 * b;
+            const vector scale = kept[k][b].scale;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector d0 = x0 - mu0;
+            const vector part0 = d0 * scale;
+            const vector d1 = x1 - mu1;
+            const vector part1 = d1 * scale;
+            const vector h_squared = part0 * part0 + part1 * part1;
+            const vector_mask its_near = h_squared < 0.11468;
+            const vector h = sqrt_each(vector_select(its_near, vector_of(1.0), h_squared));
+            kept[k][b].d0 = d0;
+            kept[k][b].d1 = d1;
+            kept[k][b].h_squared = h_squared;
+            kept[k][b].h = h;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector h_squared = kept[k][b].h_squared;
+            const vector h = kept[k][b].h;
+            const vector asinh_h = asinh_each(h);
+            const vector sqrt_1_plus_h_to_2 = sqrt_each(1.0 + h_squared);
+            kept[k][b].asinh_h = asinh_h;
+            kept[k][b].sqrt_1_plus_h_to_2 = sqrt_1_plus_h_to_2;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector h = kept[k][b].h;
+            const vector asinh_h = kept[k][b].asinh_h;
+            const vector sqrt_1_plus_h_to_2 = kept[k][b].sqrt_1_plus_h_to_2;
+            const vector t = 2.0 * asinh_h;
+            const vector sinh_t = sqrt_1_plus_h_to_2 * (2.0 * h);
+            const vector t_ratio = t / sinh_t;
+            kept[k][b].t_ratio = t_ratio;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 3 * b;
+            const vector h_squared = kept[k][b].h_squared;
+            const vector t_ratio = kept[k][b].t_ratio;
+            const vector its_b = X[2];
+            const vector_mask its_near = h_squared < 0.11468;
+            const vector near_chosen = vector_select(its_near, 8.719916288803628 * h_squared, vector_of(0.0));
+            const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
+            const vector log_det_near = h_squared * log_det_series;
+            const vector log_det = vector_select(its_near, log_det_near, log_each(t_ratio));
+            const vector t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near(near_chosen);
+            const vector t_over_sinh_t = vector_select(its_near, t_over_sinh_t_near, t_ratio);
+            const vector scale_2 = t_over_sinh_t / its_b;
+            kept[k][b].log_det = log_det;
+            kept[k][b].scale_2 = scale_2;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 11 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double W0_0 = S[2];
+        const double W0_1 = S[3];
+        const double W1_0 = S[4];
+        const double W1_1 = S[5];
+        const double a = S[7];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector d0 = kept[k][b].d0;
+            const vector d1 = kept[k][b].d1;
+            const vector log_det = kept[k][b].log_det;
+            const vector scale_2 = kept[k][b].scale_2;
+            const vector dd = d0 * d0 + d1 * d1;
+            const vector v0 = scale_2 * (d0 * a - mu0 * dd);
+            const vector v1 = scale_2 * (d1 * a - mu1 * dd);
+            const vector z0 = W0_0 * v0 + W0_1 * v1;
+            const vector z1 = W1_0 * v0 + W1_1 * v1;
+            const vector phi = exp_each(log_det - 0.5 * (z0 * z0 + z1 * z1));
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 11 * near[k];
+        const double amplitude = S[6];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector *value = values + b;
+            const vector phi = kept[k][b].phi;
+            value[0] = value[0] + amplitude * phi;
+        }
+    }
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_forward(
-    const vector *X, const double *S, vector *value, vector *slope) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector b = X[2];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double W0_0 = S[2];
-    const double W0_1 = S[3];
-    const double W1_0 = S[4];
-    const double W1_1 = S[5];
-    const double amplitude = S[6];
-    const double a = S[7];
-    const vector d0 = x0 - mu0;
-    const vector product = a * b;
-    const vector sqrt_a_times_b = sqrt_each(product);
-    const vector scale = 1.0 / sqrt_a_times_b;
-    const vector part0 = d0 * scale;
-    const vector d1 = x1 - mu1;
-    const vector part1 = d1 * scale;
-    const vector h_squared = part0 * part0 + part1 * part1;
-    const vector_mask near = h_squared < 0.11468;
-    const vector near_chosen = vector_select(near, 8.719916288803628 * h_squared, vector_of(0.0));
-    const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
-    const vector log_det_near = h_squared * log_det_series;
-    const vector near_chosen_2 = vector_select(near, vector_of(1.0), h_squared);
-    const vector h = sqrt_each(near_chosen_2);
-    const vector asinh_h = asinh_each(h);
-    const vector t = 2.0 * asinh_h;
-    const vector h_squared_total = 1.0 + h_squared;
-    const vector sqrt_1_plus_h_to_2 = sqrt_each(h_squared_total);
-    const vector h_product = 2.0 * h;
-    const vector sinh_t = sqrt_1_plus_h_to_2 * h_product;
-    const vector t_ratio = t / sinh_t;
-    const vector log_det = vector_select(near, log_det_near, log_each(t_ratio));
-    const vector t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near(near_chosen);
-    const vector t_over_sinh_t = vector_select(near, t_over_sinh_t_near, t_ratio);
-    const vector scale_2 = t_over_sinh_t / b;
-    const vector dd = d0 * d0 + d1 * d1;
-    const vector gap = d0 * a - mu0 * dd;
-    const vector v0 = scale_2 * gap;
-    const vector gap_2 = d1 * a - mu1 * dd;
-    const vector v1 = scale_2 * gap_2;
-    const vector z0 = W0_0 * v0 + W0_1 * v1;
-    const vector z1 = W1_0 * v0 + W1_1 * v1;
-    const vector phi = exp_each(log_det - 0.5 * (z0 * z0 + z1 * z1));
-    const vector phi_2 = amplitude * phi;
-    const vector phi_product = phi_2 * (W1_1 * z1 + W0_1 * z0);
-    const vector scale_2_product = scale_2 * phi_product;
-    const vector phi_product_2 = phi_2 * (W1_0 * z1 + W0_0 * z0);
-    const vector scale_2_product_2 = scale_2 * phi_product_2;
-    const vector by_dd = mu1 * scale_2_product + mu0 * scale_2_product_2;
-    const vector by_dd_product = 2.0 * by_dd;
-    const vector_mask is_small = h_squared_total == 0.0;
-    const vector by_scale_2 = -(gap_2 * phi_product) - gap * phi_product_2;
-    const vector by_t_over_sinh_t = by_scale_2 / b;
-    const vector by_t = (vector_select(near, vector_of(0.0), by_t_over_sinh_t) + vector_select(near,
-        vector_of(0.0), phi_2) / t_ratio) / sinh_t;
-    const vector by_t_product = t_ratio * by_t;
-    const vector chosen = vector_select(is_small, vector_of(0.0), -(h_product * by_t_product / (2.0 *
-        vector_select(is_small, vector_of(1.0), sqrt_1_plus_h_to_2))));
-    const vector by_asinh_h = 2.0 * by_t;
-    const vector by_h = by_asinh_h / sqrt_each(1.0 + near_chosen_2) - 2.0 * (sqrt_1_plus_h_to_2 *
-        by_t_product);
-    const vector by_log_det_near = vector_select(near, phi_2, vector_of(0.0));
-    const vector by_t_over_sinh_t_near = vector_select(near, by_t_over_sinh_t, vector_of(0.0));
-    const vector t_over_sinh_t_near_slope = vector_polynomial_t_over_sinh_t_near_slope(near_chosen);
-    const vector by_log_det_series = h_squared * by_log_det_near;
-    const vector log_det_series_slope = vector_polynomial_log_det_series_slope(near_chosen);
-    const vector by_h_squared = chosen + vector_select(near, vector_of(0.0), by_h / h_product) +
-        log_det_series * by_log_det_near + 8.719916288803628 * vector_select(near, by_t_over_sinh_t_near *
-        t_over_sinh_t_near_slope + by_log_det_series * log_det_series_slope, vector_of(0.0));
-    const vector product_2 = 2.0 * by_h_squared;
-    const vector by_part0 = part0 * product_2;
-    const vector by_part1 = part1 * product_2;
-    const vector_mask is_small_2 = product == 0.0;
-    const vector by_scale = d1 * by_part1 + d0 * by_part0;
-    const vector chosen_2 = vector_select(is_small_2, vector_of(0.0), -(scale * (by_scale / sqrt_a_times_b) /
-        (2.0 * vector_select(is_small_2, vector_of(1.0), sqrt_a_times_b))));
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] + d0 * by_dd_product - a * scale_2_product_2 + scale * by_part0;
-    slope[1] = slope[1] + d1 * by_dd_product - a * scale_2_product + scale * by_part1;
-    slope[2] = slope[2] + a * chosen_2 - scale_2 * by_t_over_sinh_t;
+    size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values, vector *slopes) {
+    struct { vector d0, product, sqrt_a_times_b, scale, part0, d1, part1, h_squared, near_chosen,
+            log_det_series, near_chosen_2, h, asinh_h, h_squared_total, sqrt_1_plus_h_to_2, h_product, sinh_t,
+            t_ratio, log_det, scale_2, gap, gap_2, z0, z1, phi, phi_2, phi_product, phi_product_2,
+            by_t_over_sinh_t, by_t, chosen, by_h, by_h_squared, by_part0, by_part1, chosen_2; }
+            kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 11 * near[k];
+        const double a = S[7];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 3 * b;
+            const vector its_b = X[2];
+            const vector product = a * its_b;
+            const vector sqrt_a_times_b = sqrt_each(product);
+            kept[k][b].product = product;
+            kept[k][b].sqrt_a_times_b = sqrt_a_times_b;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector sqrt_a_times_b = kept[k][b].sqrt_a_times_b;
+            const vector scale = 1.0 / sqrt_a_times_b;
+            kept[k][b].scale = scale;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 11 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 3 * b;
+            const vector scale = kept[k][b].scale;
+            const vector x0 = X[0];
+            const vector x1 = X[1];
+            const vector d0 = x0 - mu0;
+            const vector part0 = d0 * scale;
+            const vector d1 = x1 - mu1;
+            const vector part1 = d1 * scale;
+            const vector h_squared = part0 * part0 + part1 * part1;
+            const vector_mask its_near = h_squared < 0.11468;
+            const vector near_chosen_2 = vector_select(its_near, vector_of(1.0), h_squared);
+            const vector h = sqrt_each(near_chosen_2);
+            kept[k][b].d0 = d0;
+            kept[k][b].part0 = part0;
+            kept[k][b].d1 = d1;
+            kept[k][b].part1 = part1;
+            kept[k][b].h_squared = h_squared;
+            kept[k][b].near_chosen_2 = near_chosen_2;
+            kept[k][b].h = h;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector h_squared = kept[k][b].h_squared;
+            const vector h = kept[k][b].h;
+            const vector asinh_h = asinh_each(h);
+            const vector h_squared_total = 1.0 + h_squared;
+            const vector sqrt_1_plus_h_to_2 = sqrt_each(h_squared_total);
+            kept[k][b].asinh_h = asinh_h;
+            kept[k][b].h_squared_total = h_squared_total;
+            kept[k][b].sqrt_1_plus_h_to_2 = sqrt_1_plus_h_to_2;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector h = kept[k][b].h;
+            const vector asinh_h = kept[k][b].asinh_h;
+            const vector sqrt_1_plus_h_to_2 = kept[k][b].sqrt_1_plus_h_to_2;
+            const vector t = 2.0 * asinh_h;
+            const vector h_product = 2.0 * h;
+            const vector sinh_t = sqrt_1_plus_h_to_2 * h_product;
+            const vector t_ratio = t / sinh_t;
+            kept[k][b].h_product = h_product;
+            kept[k][b].sinh_t = sinh_t;
+            kept[k][b].t_ratio = t_ratio;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 3 * b;
+            const vector h_squared = kept[k][b].h_squared;
+            const vector t_ratio = kept[k][b].t_ratio;
+            const vector its_b = X[2];
+            const vector_mask its_near = h_squared < 0.11468;
+            const vector near_chosen = vector_select(its_near, 8.719916288803628 * h_squared, vector_of(0.0));
+            const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
+            const vector log_det_near = h_squared * log_det_series;
+            const vector log_det = vector_select(its_near, log_det_near, log_each(t_ratio));
+            const vector t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near(near_chosen);
+            const vector t_over_sinh_t = vector_select(its_near, t_over_sinh_t_near, t_ratio);
+            const vector scale_2 = t_over_sinh_t / its_b;
+            kept[k][b].near_chosen = near_chosen;
+            kept[k][b].log_det_series = log_det_series;
+            kept[k][b].log_det = log_det;
+            kept[k][b].scale_2 = scale_2;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 11 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double W0_0 = S[2];
+        const double W0_1 = S[3];
+        const double W1_0 = S[4];
+        const double W1_1 = S[5];
+        const double a = S[7];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector d0 = kept[k][b].d0;
+            const vector d1 = kept[k][b].d1;
+            const vector log_det = kept[k][b].log_det;
+            const vector scale_2 = kept[k][b].scale_2;
+            const vector dd = d0 * d0 + d1 * d1;
+            const vector gap = d0 * a - mu0 * dd;
+            const vector v0 = scale_2 * gap;
+            const vector gap_2 = d1 * a - mu1 * dd;
+            const vector v1 = scale_2 * gap_2;
+            const vector z0 = W0_0 * v0 + W0_1 * v1;
+            const vector z1 = W1_0 * v0 + W1_1 * v1;
+            const vector phi = exp_each(log_det - 0.5 * (z0 * z0 + z1 * z1));
+            kept[k][b].gap = gap;
+            kept[k][b].gap_2 = gap_2;
+            kept[k][b].z0 = z0;
+            kept[k][b].z1 = z1;
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 11 * near[k];
+        const double W0_0 = S[2];
+        const double W0_1 = S[3];
+        const double W1_0 = S[4];
+        const double W1_1 = S[5];
+        const double amplitude = S[6];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector *X = points + 3 * b;
+            const vector gap = kept[k][b].gap;
+            const vector gap_2 = kept[k][b].gap_2;
+            const vector z0 = kept[k][b].z0;
+            const vector z1 = kept[k][b].z1;
+            const vector phi = kept[k][b].phi;
+            const vector its_b = X[2];
+            const vector phi_2 = amplitude * phi;
+            const vector phi_product = phi_2 * (W1_1 * z1 + W0_1 * z0);
+            const vector phi_product_2 = phi_2 * (W1_0 * z1 + W0_0 * z0);
+            const vector by_scale_2 = -(gap_2 * phi_product) - gap * phi_product_2;
+            const vector by_t_over_sinh_t = by_scale_2 / its_b;
+            kept[k][b].phi_2 = phi_2;
+            kept[k][b].phi_product = phi_product;
+            kept[k][b].phi_product_2 = phi_product_2;
+            kept[k][b].by_t_over_sinh_t = by_t_over_sinh_t;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector h_squared = kept[k][b].h_squared;
+            const vector sinh_t = kept[k][b].sinh_t;
+            const vector t_ratio = kept[k][b].t_ratio;
+            const vector phi_2 = kept[k][b].phi_2;
+            const vector by_t_over_sinh_t = kept[k][b].by_t_over_sinh_t;
+            const vector_mask its_near = h_squared < 0.11468;
+            const vector by_t = (vector_select(its_near, vector_of(0.0), by_t_over_sinh_t) + vector_select(its_near,
+                vector_of(0.0), phi_2) / t_ratio) / sinh_t;
+            kept[k][b].by_t = by_t;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector near_chosen_2 = kept[k][b].near_chosen_2;
+            const vector h_squared_total = kept[k][b].h_squared_total;
+            const vector sqrt_1_plus_h_to_2 = kept[k][b].sqrt_1_plus_h_to_2;
+            const vector h_product = kept[k][b].h_product;
+            const vector t_ratio = kept[k][b].t_ratio;
+            const vector by_t = kept[k][b].by_t;
+            const vector_mask is_small = h_squared_total == 0.0;
+            const vector by_t_product = t_ratio * by_t;
+            const vector chosen = vector_select(is_small, vector_of(0.0), -(h_product * by_t_product / (2.0 *
+                vector_select(is_small, vector_of(1.0), sqrt_1_plus_h_to_2))));
+            const vector by_asinh_h = 2.0 * by_t;
+            const vector by_h = by_asinh_h / sqrt_each(1.0 + near_chosen_2) - 2.0 * (sqrt_1_plus_h_to_2 *
+                by_t_product);
+            kept[k][b].chosen = chosen;
+            kept[k][b].by_h = by_h;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector h_squared = kept[k][b].h_squared;
+            const vector near_chosen = kept[k][b].near_chosen;
+            const vector log_det_series = kept[k][b].log_det_series;
+            const vector h_product = kept[k][b].h_product;
+            const vector phi_2 = kept[k][b].phi_2;
+            const vector by_t_over_sinh_t = kept[k][b].by_t_over_sinh_t;
+            const vector chosen = kept[k][b].chosen;
+            const vector by_h = kept[k][b].by_h;
+            const vector_mask its_near = h_squared < 0.11468;
+            const vector by_log_det_near = vector_select(its_near, phi_2, vector_of(0.0));
+            const vector by_t_over_sinh_t_near = vector_select(its_near, by_t_over_sinh_t, vector_of(0.0));
+            const vector t_over_sinh_t_near_slope = vector_polynomial_t_over_sinh_t_near_slope(near_chosen);
+            const vector by_log_det_series = h_squared * by_log_det_near;
+            const vector log_det_series_slope = vector_polynomial_log_det_series_slope(near_chosen);
+            const vector by_h_squared = chosen + vector_select(its_near, vector_of(0.0), by_h / h_product) +
+                log_det_series * by_log_det_near + 8.719916288803628 * vector_select(its_near, by_t_over_sinh_t_near *
+                t_over_sinh_t_near_slope + by_log_det_series * log_det_series_slope, vector_of(0.0));
+            kept[k][b].by_h_squared = by_h_squared;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector d0 = kept[k][b].d0;
+            const vector product = kept[k][b].product;
+            const vector sqrt_a_times_b = kept[k][b].sqrt_a_times_b;
+            const vector scale = kept[k][b].scale;
+            const vector part0 = kept[k][b].part0;
+            const vector d1 = kept[k][b].d1;
+            const vector part1 = kept[k][b].part1;
+            const vector by_h_squared = kept[k][b].by_h_squared;
+            const vector product_2 = 2.0 * by_h_squared;
+            const vector by_part0 = part0 * product_2;
+            const vector by_part1 = part1 * product_2;
+            const vector_mask is_small_2 = product == 0.0;
+            const vector by_scale = d1 * by_part1 + d0 * by_part0;
+            const vector chosen_2 = vector_select(is_small_2, vector_of(0.0), -(scale * (by_scale / sqrt_a_times_b) /
+                (2.0 * vector_select(is_small_2, vector_of(1.0), sqrt_a_times_b))));
+            kept[k][b].by_part0 = by_part0;
+            kept[k][b].by_part1 = by_part1;
+            kept[k][b].chosen_2 = chosen_2;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const double *S = splats + 11 * near[k];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double a = S[7];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector *value = values + b;
+            vector *slope = slopes + 3 * b;
+            const vector d0 = kept[k][b].d0;
+            const vector scale = kept[k][b].scale;
+            const vector d1 = kept[k][b].d1;
+            const vector scale_2 = kept[k][b].scale_2;
+            const vector phi_2 = kept[k][b].phi_2;
+            const vector phi_product = kept[k][b].phi_product;
+            const vector phi_product_2 = kept[k][b].phi_product_2;
+            const vector by_t_over_sinh_t = kept[k][b].by_t_over_sinh_t;
+            const vector by_part0 = kept[k][b].by_part0;
+            const vector by_part1 = kept[k][b].by_part1;
+            const vector chosen_2 = kept[k][b].chosen_2;
+            const vector scale_2_product = scale_2 * phi_product;
+            const vector scale_2_product_2 = scale_2 * phi_product_2;
+            const vector by_dd = mu1 * scale_2_product + mu0 * scale_2_product_2;
+            const vector by_dd_product = 2.0 * by_dd;
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] + d0 * by_dd_product - a * scale_2_product_2 + scale * by_part0;
+            slope[1] = slope[1] + d1 * by_dd_product - a * scale_2_product + scale * by_part1;
+            slope[2] = slope[2] + a * chosen_2 - scale_2 * by_t_over_sinh_t;
+        }
+    }
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -438,6 +702,553 @@ OUTLINE void pair_gradient_vjp(
     slope_bar[2] = 2.0 * (-(x0 * product) - x1 * product_2);
 }
 
+/*
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
+OUTLINE void pair_backward(
+    size_t count, const vector *points, const uint32_t *near, const double *S, vector *sums) {
+    struct { vector d0, product, sqrt_a_times_b, scale, part0, d1, part1, h_squared, near_chosen,
+            near_chosen_2, h, asinh_h, h_squared_total, sqrt_1_plus_h_to_2, h_product, sinh_t, t_ratio, scale_2,
+            log_det_series, log_det, dd, gap, v0, gap_2, v1, z0, z1, phi, total_2, phi_product, by_by_dd,
+            product_2, ratio, ratio_2, by_by_part0, by_by_part1, total_3, by_by_h_squared, by_by_h, sqrt_2,
+            by_by_asinh_h, by_by_h_product, product_3, ratio_3, gap_3, by_by_t_ratio, t_over_sinh_t_near_slope,
+            near_chosen_3, by_by_scale_2, phi_product_2, phi_product_3, ratio_4, log_det_series_slope,
+            by_by_log_det_series, total_4, by_log_det, by_v0, phi_product_4, by_t_over_sinh_t, ratio_5, by_t,
+            by_t_product, ratio_6, by_asinh_h_ratio, by_h_ratio, by_log_det_near, by_t_over_sinh_t_near,
+            by_log_det_series, product_5, by_part0, by_v1, by_t_over_sinh_t_2, by_t_2, by_sinh_t, by_h_2, total_5,
+            by_part0_2, by_part1, by_part1_2, by_scale_ratio, ratio_7, by_sqrt_a_times_b; } kept[16];
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 7 * (size_t)near[i];
+        const vector its_b = X[2];
+        const double a = S[7];
+        const vector product = a * its_b;
+        const vector sqrt_a_times_b = sqrt_each(product);
+        kept[i].product = product;
+        kept[i].sqrt_a_times_b = sqrt_a_times_b;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector sqrt_a_times_b = kept[i].sqrt_a_times_b;
+        const vector scale = 1.0 / sqrt_a_times_b;
+        kept[i].scale = scale;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 7 * (size_t)near[i];
+        const vector scale = kept[i].scale;
+        const vector x0 = X[0];
+        const vector x1 = X[1];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const vector d0 = x0 - mu0;
+        const vector part0 = d0 * scale;
+        const vector d1 = x1 - mu1;
+        const vector part1 = d1 * scale;
+        const vector h_squared = part0 * part0 + part1 * part1;
+        const vector_mask its_near = h_squared < 0.11468;
+        const vector near_chosen_2 = vector_select(its_near, vector_of(1.0), h_squared);
+        const vector h = sqrt_each(near_chosen_2);
+        kept[i].d0 = d0;
+        kept[i].part0 = part0;
+        kept[i].d1 = d1;
+        kept[i].part1 = part1;
+        kept[i].h_squared = h_squared;
+        kept[i].near_chosen_2 = near_chosen_2;
+        kept[i].h = h;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *slope_bar = points + 7 * (size_t)near[i] + 3 + 1;
+        const vector product = kept[i].product;
+        const vector sqrt_a_times_b = kept[i].sqrt_a_times_b;
+        const vector h_squared = kept[i].h_squared;
+        const vector h = kept[i].h;
+        const double a = S[7];
+        const vector b_bar = slope_bar[2];
+        const vector asinh_h = asinh_each(h);
+        const vector h_squared_total = 1.0 + h_squared;
+        const vector sqrt_1_plus_h_to_2 = sqrt_each(h_squared_total);
+        const vector_mask is_small = product == 0.0;
+        const vector product_2 = 2.0 * vector_select(is_small, vector_of(1.0), sqrt_a_times_b);
+        const vector ratio = vector_select(is_small, vector_of(0.0), a * b_bar) / product_2;
+        kept[i].asinh_h = asinh_h;
+        kept[i].h_squared_total = h_squared_total;
+        kept[i].sqrt_1_plus_h_to_2 = sqrt_1_plus_h_to_2;
+        kept[i].product_2 = product_2;
+        kept[i].ratio = ratio;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector sqrt_a_times_b = kept[i].sqrt_a_times_b;
+        const vector scale = kept[i].scale;
+        const vector h = kept[i].h;
+        const vector asinh_h = kept[i].asinh_h;
+        const vector sqrt_1_plus_h_to_2 = kept[i].sqrt_1_plus_h_to_2;
+        const vector ratio = kept[i].ratio;
+        const vector t = 2.0 * asinh_h;
+        const vector h_product = 2.0 * h;
+        const vector sinh_t = sqrt_1_plus_h_to_2 * h_product;
+        const vector t_ratio = t / sinh_t;
+        const vector ratio_2 = scale * ratio / sqrt_a_times_b;
+        kept[i].h_product = h_product;
+        kept[i].sinh_t = sinh_t;
+        kept[i].t_ratio = t_ratio;
+        kept[i].ratio_2 = ratio_2;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 7 * (size_t)near[i];
+        const vector *slope_bar = points + 7 * (size_t)near[i] + 3 + 1;
+        const vector d0 = kept[i].d0;
+        const vector scale = kept[i].scale;
+        const vector part0 = kept[i].part0;
+        const vector d1 = kept[i].d1;
+        const vector part1 = kept[i].part1;
+        const vector h_squared = kept[i].h_squared;
+        const vector near_chosen_2 = kept[i].near_chosen_2;
+        const vector h_product = kept[i].h_product;
+        const vector t_ratio = kept[i].t_ratio;
+        const vector ratio_2 = kept[i].ratio_2;
+        const vector its_b = X[2];
+        const vector x0_bar = slope_bar[0];
+        const vector x1_bar = slope_bar[1];
+        const vector_mask its_near = h_squared < 0.11468;
+        const vector near_chosen = vector_select(its_near, 8.719916288803628 * h_squared, vector_of(0.0));
+        const vector t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near(near_chosen);
+        const vector t_over_sinh_t = vector_select(its_near, t_over_sinh_t_near, t_ratio);
+        const vector scale_2 = t_over_sinh_t / its_b;
+        const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
+        const vector log_det_near = h_squared * log_det_series;
+        const vector log_det = vector_select(its_near, log_det_near, log_each(t_ratio));
+        const vector by_by_part0 = scale * x0_bar - d0 * ratio_2;
+        const vector by_by_part1 = scale * x1_bar - d1 * ratio_2;
+        const vector total_3 = part0 * by_by_part0 + part1 * by_by_part1;
+        const vector by_by_h_squared = 2.0 * total_3;
+        const vector by_by_h = vector_select(its_near, vector_of(0.0), by_by_h_squared) / h_product;
+        const vector sqrt_2 = sqrt_each(1.0 + near_chosen_2);
+        kept[i].near_chosen = near_chosen;
+        kept[i].scale_2 = scale_2;
+        kept[i].log_det_series = log_det_series;
+        kept[i].log_det = log_det;
+        kept[i].by_by_part0 = by_by_part0;
+        kept[i].by_by_part1 = by_by_part1;
+        kept[i].total_3 = total_3;
+        kept[i].by_by_h_squared = by_by_h_squared;
+        kept[i].by_by_h = by_by_h;
+        kept[i].sqrt_2 = sqrt_2;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector d0 = kept[i].d0;
+        const vector d1 = kept[i].d1;
+        const vector h_squared_total = kept[i].h_squared_total;
+        const vector sqrt_1_plus_h_to_2 = kept[i].sqrt_1_plus_h_to_2;
+        const vector scale_2 = kept[i].scale_2;
+        const vector log_det = kept[i].log_det;
+        const vector by_by_h_squared = kept[i].by_by_h_squared;
+        const vector by_by_h = kept[i].by_by_h;
+        const vector sqrt_2 = kept[i].sqrt_2;
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double W0_0 = S[2];
+        const double W0_1 = S[3];
+        const double W1_0 = S[4];
+        const double W1_1 = S[5];
+        const double a = S[7];
+        const vector dd = d0 * d0 + d1 * d1;
+        const vector gap = d0 * a - mu0 * dd;
+        const vector v0 = scale_2 * gap;
+        const vector gap_2 = d1 * a - mu1 * dd;
+        const vector v1 = scale_2 * gap_2;
+        const vector z0 = W0_0 * v0 + W0_1 * v1;
+        const vector z1 = W1_0 * v0 + W1_1 * v1;
+        const vector phi = exp_each(log_det - 0.5 * (z0 * z0 + z1 * z1));
+        const vector by_by_asinh_h = by_by_h / sqrt_2;
+        const vector_mask is_small_2 = h_squared_total == 0.0;
+        const vector product_3 = 2.0 * vector_select(is_small_2, vector_of(1.0), sqrt_1_plus_h_to_2);
+        const vector ratio_3 = vector_select(is_small_2, vector_of(0.0), by_by_h_squared) / product_3;
+        kept[i].dd = dd;
+        kept[i].gap = gap;
+        kept[i].v0 = v0;
+        kept[i].gap_2 = gap_2;
+        kept[i].v1 = v1;
+        kept[i].z0 = z0;
+        kept[i].z1 = z1;
+        kept[i].phi = phi;
+        kept[i].by_by_asinh_h = by_by_asinh_h;
+        kept[i].product_3 = product_3;
+        kept[i].ratio_3 = ratio_3;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 7 * (size_t)near[i];
+        const vector h_squared = kept[i].h_squared;
+        const vector sqrt_1_plus_h_to_2 = kept[i].sqrt_1_plus_h_to_2;
+        const vector h_product = kept[i].h_product;
+        const vector sinh_t = kept[i].sinh_t;
+        const vector t_ratio = kept[i].t_ratio;
+        const vector gap = kept[i].gap;
+        const vector gap_2 = kept[i].gap_2;
+        const vector z0 = kept[i].z0;
+        const vector z1 = kept[i].z1;
+        const vector phi = kept[i].phi;
+        const vector by_by_h = kept[i].by_by_h;
+        const vector by_by_asinh_h = kept[i].by_by_asinh_h;
+        const vector ratio_3 = kept[i].ratio_3;
+        const vector its_b = X[2];
+        const double W0_0 = S[2];
+        const double W0_1 = S[3];
+        const double W1_0 = S[4];
+        const double W1_1 = S[5];
+        const vector_mask its_near = h_squared < 0.11468;
+        const vector total_2 = W1_0 * z1 + W0_0 * z0;
+        const vector phi_product = phi * total_2;
+        const vector by_by_h_product = 2.0 * by_by_h;
+        const vector gap_3 = -(sqrt_1_plus_h_to_2 * by_by_h_product) - h_product * ratio_3;
+        const vector by_by_t = 2.0 * by_by_asinh_h + t_ratio * gap_3;
+        const vector by_by_t_ratio = by_by_t / sinh_t;
+        const vector total_4 = W1_1 * z1 + W0_1 * z0;
+        const vector phi_product_4 = phi * total_4;
+        const vector by_scale_2 = -(gap_2 * phi_product_4) - gap * phi_product;
+        const vector by_t_over_sinh_t = by_scale_2 / its_b;
+        const vector ratio_5 = vector_select(its_near, vector_of(0.0), phi) / t_ratio;
+        kept[i].total_2 = total_2;
+        kept[i].phi_product = phi_product;
+        kept[i].by_by_h_product = by_by_h_product;
+        kept[i].gap_3 = gap_3;
+        kept[i].by_by_t_ratio = by_by_t_ratio;
+        kept[i].total_4 = total_4;
+        kept[i].phi_product_4 = phi_product_4;
+        kept[i].by_t_over_sinh_t = by_t_over_sinh_t;
+        kept[i].ratio_5 = ratio_5;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 7 * (size_t)near[i];
+        const vector *slope_bar = points + 7 * (size_t)near[i] + 3 + 1;
+        const vector h_squared = kept[i].h_squared;
+        const vector near_chosen = kept[i].near_chosen;
+        const vector sinh_t = kept[i].sinh_t;
+        const vector t_ratio = kept[i].t_ratio;
+        const vector scale_2 = kept[i].scale_2;
+        const vector total_3 = kept[i].total_3;
+        const vector by_by_t_ratio = kept[i].by_by_t_ratio;
+        const vector by_t_over_sinh_t = kept[i].by_t_over_sinh_t;
+        const vector ratio_5 = kept[i].ratio_5;
+        const vector its_b = X[2];
+        const vector b_bar = slope_bar[2];
+        const vector_mask its_near = h_squared < 0.11468;
+        const vector t_over_sinh_t_near_slope = vector_polynomial_t_over_sinh_t_near_slope(near_chosen);
+        const vector near_chosen_3 = vector_select(its_near, 17.439832577607255 * total_3, vector_of(0.0));
+        const vector by_by_t_over_sinh_t_near = t_over_sinh_t_near_slope * near_chosen_3;
+        const vector by_by_t_over_sinh_t = vector_select(its_near, vector_of(0.0), by_by_t_ratio) +
+            vector_select(its_near, by_by_t_over_sinh_t_near, vector_of(0.0)) - scale_2 * b_bar;
+        const vector by_by_scale_2 = by_by_t_over_sinh_t / its_b;
+        const vector ratio_4 = by_by_t_ratio / t_ratio;
+        const vector by_t = (vector_select(its_near, vector_of(0.0), by_t_over_sinh_t) + ratio_5) / sinh_t;
+        kept[i].t_over_sinh_t_near_slope = t_over_sinh_t_near_slope;
+        kept[i].near_chosen_3 = near_chosen_3;
+        kept[i].by_by_scale_2 = by_by_scale_2;
+        kept[i].ratio_4 = ratio_4;
+        kept[i].by_t = by_t;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 7 * (size_t)near[i];
+        const vector *value_bar = points + 7 * (size_t)near[i] + 3;
+        const vector *slope_bar = points + 7 * (size_t)near[i] + 3 + 1;
+        const vector d0 = kept[i].d0;
+        const vector d1 = kept[i].d1;
+        const vector h_squared = kept[i].h_squared;
+        const vector near_chosen = kept[i].near_chosen;
+        const vector scale_2 = kept[i].scale_2;
+        const vector log_det_series = kept[i].log_det_series;
+        const vector gap = kept[i].gap;
+        const vector gap_2 = kept[i].gap_2;
+        const vector phi = kept[i].phi;
+        const vector total_2 = kept[i].total_2;
+        const vector phi_product = kept[i].phi_product;
+        const vector by_by_h_squared = kept[i].by_by_h_squared;
+        const vector sqrt_2 = kept[i].sqrt_2;
+        const vector near_chosen_3 = kept[i].near_chosen_3;
+        const vector by_by_scale_2 = kept[i].by_by_scale_2;
+        const vector ratio_4 = kept[i].ratio_4;
+        const vector total_4 = kept[i].total_4;
+        const vector phi_product_4 = kept[i].phi_product_4;
+        const vector by_t_over_sinh_t = kept[i].by_t_over_sinh_t;
+        const vector by_t = kept[i].by_t;
+        const vector its_b = X[2];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double a = S[7];
+        const double M0_0 = S[8];
+        const double M0_1 = S[9];
+        const double M1_1 = S[10];
+        const vector its_value_bar = value_bar[0];
+        const vector x0_bar = slope_bar[0];
+        const vector x1_bar = slope_bar[1];
+        const vector b_bar = slope_bar[2];
+        const vector_mask its_near = h_squared < 0.11468;
+        const vector by_by_dd = 2.0 * (d0 * x0_bar + d1 * x1_bar);
+        const vector gap_4 = mu0 * by_by_dd - a * x0_bar;
+        const vector gap_5 = scale_2 * gap_4 - gap * by_by_scale_2;
+        const vector phi_product_2 = phi * gap_5;
+        const vector gap_6 = mu1 * by_by_dd - a * x1_bar;
+        const vector gap_7 = scale_2 * gap_6 - gap_2 * by_by_scale_2;
+        const vector phi_product_3 = phi * gap_7;
+        const vector log_det_series_slope = vector_polynomial_log_det_series_slope(near_chosen);
+        const vector by_by_log_det_series = log_det_series_slope * near_chosen_3;
+        const vector by_by_log_det_near = h_squared * by_by_log_det_series + log_det_series * by_by_h_squared;
+        const vector by_phi = its_value_bar + vector_select(its_near, vector_of(0.0), ratio_4) +
+            vector_select(its_near, by_by_log_det_near, vector_of(0.0)) + total_4 * gap_7 + total_2 * gap_5;
+        const vector by_log_det = phi * by_phi;
+        const vector by_v0 = M0_0 * phi_product_2 + M0_1 * phi_product_3 - total_2 * by_log_det;
+        const vector by_asinh_h = 2.0 * by_t;
+        const vector by_asinh_h_ratio = by_asinh_h / sqrt_2;
+        const vector by_v1 = M0_1 * phi_product_2 + M1_1 * phi_product_3 - total_4 * by_log_det;
+        const vector by_scale_2_2 = phi_product * gap_4 - by_t_over_sinh_t * b_bar + phi_product_4 * gap_6 + gap_2
+            * by_v1 + gap * by_v0;
+        const vector by_t_over_sinh_t_2 = by_scale_2_2 / its_b;
+        kept[i].by_by_dd = by_by_dd;
+        kept[i].phi_product_2 = phi_product_2;
+        kept[i].phi_product_3 = phi_product_3;
+        kept[i].log_det_series_slope = log_det_series_slope;
+        kept[i].by_by_log_det_series = by_by_log_det_series;
+        kept[i].by_log_det = by_log_det;
+        kept[i].by_v0 = by_v0;
+        kept[i].by_asinh_h_ratio = by_asinh_h_ratio;
+        kept[i].by_v1 = by_v1;
+        kept[i].by_t_over_sinh_t_2 = by_t_over_sinh_t_2;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector h_squared = kept[i].h_squared;
+        const vector sqrt_1_plus_h_to_2 = kept[i].sqrt_1_plus_h_to_2;
+        const vector h_product = kept[i].h_product;
+        const vector sinh_t = kept[i].sinh_t;
+        const vector t_ratio = kept[i].t_ratio;
+        const vector product_3 = kept[i].product_3;
+        const vector gap_3 = kept[i].gap_3;
+        const vector ratio_4 = kept[i].ratio_4;
+        const vector by_log_det = kept[i].by_log_det;
+        const vector ratio_5 = kept[i].ratio_5;
+        const vector by_t = kept[i].by_t;
+        const vector by_asinh_h_ratio = kept[i].by_asinh_h_ratio;
+        const vector by_t_over_sinh_t_2 = kept[i].by_t_over_sinh_t_2;
+        const vector_mask its_near = h_squared < 0.11468;
+        const vector by_t_product = t_ratio * by_t;
+        const vector ratio_6 = h_product * by_t_product / product_3;
+        const vector by_h = by_asinh_h_ratio - 2.0 * (sqrt_1_plus_h_to_2 * by_t_product);
+        const vector by_h_ratio = by_h / h_product;
+        const vector by_t_2 = (by_t * gap_3 - ratio_5 * ratio_4 + vector_select(its_near, vector_of(0.0),
+            by_t_over_sinh_t_2) + vector_select(its_near, vector_of(0.0), by_log_det) / t_ratio) / sinh_t;
+        kept[i].by_t_product = by_t_product;
+        kept[i].ratio_6 = ratio_6;
+        kept[i].by_h_ratio = by_h_ratio;
+        kept[i].by_t_2 = by_t_2;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector d0 = kept[i].d0;
+        const vector sqrt_a_times_b = kept[i].sqrt_a_times_b;
+        const vector part0 = kept[i].part0;
+        const vector d1 = kept[i].d1;
+        const vector part1 = kept[i].part1;
+        const vector h_squared = kept[i].h_squared;
+        const vector h_squared_total = kept[i].h_squared_total;
+        const vector sqrt_1_plus_h_to_2 = kept[i].sqrt_1_plus_h_to_2;
+        const vector t_ratio = kept[i].t_ratio;
+        const vector log_det_series = kept[i].log_det_series;
+        const vector phi = kept[i].phi;
+        const vector by_by_h = kept[i].by_by_h;
+        const vector sqrt_2 = kept[i].sqrt_2;
+        const vector ratio_3 = kept[i].ratio_3;
+        const vector by_by_t_ratio = kept[i].by_by_t_ratio;
+        const vector t_over_sinh_t_near_slope = kept[i].t_over_sinh_t_near_slope;
+        const vector log_det_series_slope = kept[i].log_det_series_slope;
+        const vector by_t_over_sinh_t = kept[i].by_t_over_sinh_t;
+        const vector by_t = kept[i].by_t;
+        const vector by_t_product = kept[i].by_t_product;
+        const vector ratio_6 = kept[i].ratio_6;
+        const vector by_h_ratio = kept[i].by_h_ratio;
+        const vector by_t_2 = kept[i].by_t_2;
+        const vector_mask its_near = h_squared < 0.11468;
+        const vector_mask is_small_2 = h_squared_total == 0.0;
+        const vector by_log_det_near = vector_select(its_near, phi, vector_of(0.0));
+        const vector by_t_over_sinh_t_near = vector_select(its_near, by_t_over_sinh_t, vector_of(0.0));
+        const vector by_log_det_series = h_squared * by_log_det_near;
+        const vector by_h_squared = vector_select(is_small_2, vector_of(0.0), -ratio_6) + vector_select(its_near,
+            vector_of(0.0), by_h_ratio) + log_det_series * by_log_det_near + 8.719916288803628 *
+            vector_select(its_near, by_t_over_sinh_t_near * t_over_sinh_t_near_slope + by_log_det_series *
+            log_det_series_slope, vector_of(0.0));
+        const vector product_5 = 2.0 * by_h_squared;
+        const vector by_part0 = part0 * product_5;
+        const vector by_sinh_t = -(by_t * by_by_t_ratio) - t_ratio * by_t_2;
+        const vector product_7 = 2.0 * (-(by_h_ratio * by_by_h) - by_t_product * ratio_3 + sqrt_1_plus_h_to_2 *
+            by_sinh_t);
+        const vector by_asinh_h_2 = 2.0 * by_t_2;
+        const vector by_h_2 = product_7 + by_asinh_h_2 / sqrt_2;
+        const vector by_part1 = part1 * product_5;
+        const vector by_scale = d1 * by_part1 + d0 * by_part0;
+        const vector by_scale_ratio = by_scale / sqrt_a_times_b;
+        kept[i].by_log_det_near = by_log_det_near;
+        kept[i].by_t_over_sinh_t_near = by_t_over_sinh_t_near;
+        kept[i].by_log_det_series = by_log_det_series;
+        kept[i].product_5 = product_5;
+        kept[i].by_part0 = by_part0;
+        kept[i].by_sinh_t = by_sinh_t;
+        kept[i].by_h_2 = by_h_2;
+        kept[i].by_part1 = by_part1;
+        kept[i].by_scale_ratio = by_scale_ratio;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector scale = kept[i].scale;
+        const vector h_squared = kept[i].h_squared;
+        const vector h_squared_total = kept[i].h_squared_total;
+        const vector h_product = kept[i].h_product;
+        const vector product_2 = kept[i].product_2;
+        const vector sqrt_2 = kept[i].sqrt_2;
+        const vector by_by_asinh_h = kept[i].by_by_asinh_h;
+        const vector by_by_h_product = kept[i].by_by_h_product;
+        const vector product_3 = kept[i].product_3;
+        const vector ratio_3 = kept[i].ratio_3;
+        const vector by_by_log_det_series = kept[i].by_by_log_det_series;
+        const vector by_t_product = kept[i].by_t_product;
+        const vector ratio_6 = kept[i].ratio_6;
+        const vector by_asinh_h_ratio = kept[i].by_asinh_h_ratio;
+        const vector by_log_det_near = kept[i].by_log_det_near;
+        const vector by_sinh_t = kept[i].by_sinh_t;
+        const vector by_h_2 = kept[i].by_h_2;
+        const vector by_scale_ratio = kept[i].by_scale_ratio;
+        const vector_mask its_near = h_squared < 0.11468;
+        const vector_mask is_small_2 = h_squared_total == 0.0;
+        const vector by_sqrt_1_plus_h_to_2 = vector_select(is_small_2, vector_of(0.0), 2.0 * (ratio_6 * ratio_3))
+            - by_t_product * by_by_h_product + h_product * by_sinh_t;
+        const vector total_5 = by_log_det_near * by_by_log_det_series + vector_select(is_small_2, vector_of(0.0),
+            by_sqrt_1_plus_h_to_2 / product_3) + vector_select(its_near, vector_of(0.0), by_h_2 / h_product -
+            by_asinh_h_ratio * by_by_asinh_h / (2.0 * sqrt_2));
+        const vector ratio_7 = scale * by_scale_ratio / product_2;
+        kept[i].total_5 = total_5;
+        kept[i].ratio_7 = ratio_7;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *slope_bar = points + 7 * (size_t)near[i] + 3 + 1;
+        const vector d0 = kept[i].d0;
+        const vector product = kept[i].product;
+        const vector sqrt_a_times_b = kept[i].sqrt_a_times_b;
+        const vector scale = kept[i].scale;
+        const vector part0 = kept[i].part0;
+        const vector d1 = kept[i].d1;
+        const vector part1 = kept[i].part1;
+        const vector h_squared = kept[i].h_squared;
+        const vector near_chosen = kept[i].near_chosen;
+        const vector log_det_series = kept[i].log_det_series;
+        const vector ratio = kept[i].ratio;
+        const vector ratio_2 = kept[i].ratio_2;
+        const vector by_by_part0 = kept[i].by_by_part0;
+        const vector by_by_part1 = kept[i].by_by_part1;
+        const vector by_by_h_squared = kept[i].by_by_h_squared;
+        const vector t_over_sinh_t_near_slope = kept[i].t_over_sinh_t_near_slope;
+        const vector near_chosen_3 = kept[i].near_chosen_3;
+        const vector log_det_series_slope = kept[i].log_det_series_slope;
+        const vector by_log_det = kept[i].by_log_det;
+        const vector by_log_det_near = kept[i].by_log_det_near;
+        const vector by_t_over_sinh_t_near = kept[i].by_t_over_sinh_t_near;
+        const vector by_log_det_series = kept[i].by_log_det_series;
+        const vector product_5 = kept[i].product_5;
+        const vector by_part0 = kept[i].by_part0;
+        const vector by_t_over_sinh_t_2 = kept[i].by_t_over_sinh_t_2;
+        const vector total_5 = kept[i].total_5;
+        const vector by_part1 = kept[i].by_part1;
+        const vector by_scale_ratio = kept[i].by_scale_ratio;
+        const vector ratio_7 = kept[i].ratio_7;
+        const vector x0_bar = slope_bar[0];
+        const vector x1_bar = slope_bar[1];
+        const vector_mask its_near = h_squared < 0.11468;
+        const vector_mask is_small = product == 0.0;
+        const vector by_log_det_near_2 = vector_select(its_near, by_log_det, vector_of(0.0));
+        const vector by_log_det_series_slope = by_log_det_series * near_chosen_3;
+        const vector log_det_series_slope_slope = vector_polynomial_log_det_series_slope_slope(near_chosen);
+        const vector by_t_over_sinh_t_near_slope = by_t_over_sinh_t_near * near_chosen_3;
+        const vector t_over_sinh_t_near_slope_slope =
+            vector_polynomial_t_over_sinh_t_near_slope_slope(near_chosen);
+        const vector by_t_over_sinh_t_near_2 = vector_select(its_near, by_t_over_sinh_t_2, vector_of(0.0));
+        const vector by_log_det_series_2 = by_log_det_near * by_by_h_squared + h_squared * by_log_det_near_2;
+        const vector near_chosen_4 = vector_select(its_near, by_log_det_series_slope * log_det_series_slope_slope
+            + by_t_over_sinh_t_near_slope * t_over_sinh_t_near_slope_slope + t_over_sinh_t_near_slope *
+            by_t_over_sinh_t_near_2 + log_det_series_slope * by_log_det_series_2, vector_of(0.0));
+        const vector by_h_squared_2 = total_5 + log_det_series * by_log_det_near_2 + 8.719916288803628 *
+            near_chosen_4;
+        const vector product_8 = 2.0 * by_h_squared_2;
+        const vector by_part0_2 = product_5 * by_by_part0 + part0 * product_8;
+        const vector by_part1_2 = product_5 * by_by_part1 + part1 * product_8;
+        const vector by_scale_3 = by_part0 * x0_bar - by_scale_ratio * ratio + by_part1 * x1_bar + d1 * by_part1_2
+            + d0 * by_part0_2;
+        const vector by_sqrt_a_times_b = vector_select(is_small, vector_of(0.0), 2.0 * (ratio_7 * ratio)) +
+            by_scale_ratio * ratio_2 - scale * (by_scale_3 / sqrt_a_times_b);
+        kept[i].by_part0_2 = by_part0_2;
+        kept[i].by_part1_2 = by_part1_2;
+        kept[i].by_sqrt_a_times_b = by_sqrt_a_times_b;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector *X = points + 7 * (size_t)near[i];
+        const vector *slope_bar = points + 7 * (size_t)near[i] + 3 + 1;
+        const vector d0 = kept[i].d0;
+        const vector product = kept[i].product;
+        const vector scale = kept[i].scale;
+        const vector d1 = kept[i].d1;
+        const vector scale_2 = kept[i].scale_2;
+        const vector dd = kept[i].dd;
+        const vector v0 = kept[i].v0;
+        const vector v1 = kept[i].v1;
+        const vector phi_product = kept[i].phi_product;
+        const vector by_by_dd = kept[i].by_by_dd;
+        const vector product_2 = kept[i].product_2;
+        const vector ratio_2 = kept[i].ratio_2;
+        const vector by_by_scale_2 = kept[i].by_by_scale_2;
+        const vector phi_product_2 = kept[i].phi_product_2;
+        const vector phi_product_3 = kept[i].phi_product_3;
+        const vector by_log_det = kept[i].by_log_det;
+        const vector by_v0 = kept[i].by_v0;
+        const vector phi_product_4 = kept[i].phi_product_4;
+        const vector by_part0 = kept[i].by_part0;
+        const vector by_v1 = kept[i].by_v1;
+        const vector by_part0_2 = kept[i].by_part0_2;
+        const vector by_part1 = kept[i].by_part1;
+        const vector by_part1_2 = kept[i].by_part1_2;
+        const vector ratio_7 = kept[i].ratio_7;
+        const vector by_sqrt_a_times_b = kept[i].by_sqrt_a_times_b;
+        const vector its_b = X[2];
+        const double mu0 = S[0];
+        const double mu1 = S[1];
+        const double a = S[7];
+        const vector x0_bar = slope_bar[0];
+        const vector x1_bar = slope_bar[1];
+        const vector b_bar = slope_bar[2];
+        const vector scale_2_product = scale_2 * phi_product;
+        const vector_mask is_small = product == 0.0;
+        const vector product_4 = phi_product * by_by_scale_2;
+        const vector scale_2_product_2 = scale_2 * by_v0;
+        const vector gap_8 = product_4 - scale_2_product_2;
+        const vector scale_2_product_3 = scale_2 * phi_product_4;
+        const vector by_dd = mu1 * scale_2_product_3 + mu0 * scale_2_product;
+        const vector by_dd_product = 2.0 * by_dd;
+        const vector product_6 = phi_product_4 * by_by_scale_2;
+        const vector scale_2_product_4 = scale_2 * by_v1;
+        const vector gap_9 = product_6 - scale_2_product_4;
+        const vector by_dd_2 = mu1 * gap_9 + mu0 * gap_8;
+        const vector by_dd_product_2 = 2.0 * by_dd_2;
+        const vector gap_10 = scale_2_product_2 - product_4;
+        const vector gap_11 = scale_2_product_4 - product_6;
+        const vector by_log_det_product = 0.5 * by_log_det;
+        const vector gap_13 = phi_product_2 - v0 * by_log_det_product;
+        const vector gap_14 = phi_product_3 - v1 * by_log_det_product;
+        sums[0] = sums[0] + scale_2_product * by_by_dd + dd * gap_8 - by_dd_product * x0_bar + by_part0 * ratio_2
+                - d0 * by_dd_product_2 - a * gap_10 - scale * by_part0_2;
+        sums[1] = sums[1] + scale_2_product_3 * by_by_dd + dd * gap_9 - by_dd_product * x1_bar + by_part1 *
+                ratio_2 - a * gap_11 - d1 * by_dd_product_2 - scale * by_part1_2;
+        sums[2] = sums[2] + by_log_det;
+        sums[3] = sums[3] + vector_select(is_small, vector_of(0.0), -ratio_7) * b_bar - scale_2_product * x0_bar -
+                scale_2_product_3 * x1_bar + d1 * gap_11 + d0 * gap_10 + its_b * vector_select(is_small,
+                vector_of(0.0), by_sqrt_a_times_b / product_2);
+        sums[4] = sums[4] + v0 * gap_13;
+        sums[5] = sums[5] + v0 * gap_14 + v1 * gap_13;
+        sums[6] = sums[6] + v1 * gap_14;
+    }
+}
+
 /* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp(
     const vector *mu, const vector *W, const vector *amplitude, const vector *sums, vector *mu_bar, vector *W_bar, vector *amplitude_bar) {
@@ -465,195 +1276,6 @@ OUTLINE void pair_constants_vjp(
     W_bar[2] = its_amplitude * (W1_0 * product_2 + W1_1 * sum5);
     W_bar[3] = its_amplitude * (W1_0 * sum5 + W1_1 * product_3);
     amplitude_bar[0] = sum2;
-}
-
-/*
- * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
- *
- * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
- */
-OUTLINE void pair_backward(
-    const vector *X, const double *S, const vector *value_bar, const vector *slope_bar, vector *sums) {
-    const vector x0 = X[0];
-    const vector x1 = X[1];
-    const vector b = X[2];
-    const double mu0 = S[0];
-    const double mu1 = S[1];
-    const double W0_0 = S[2];
-    const double W0_1 = S[3];
-    const double W1_0 = S[4];
-    const double W1_1 = S[5];
-    const double a = S[7];
-    const double M0_0 = S[8];
-    const double M0_1 = S[9];
-    const double M1_1 = S[10];
-    const vector its_value_bar = value_bar[0];
-    const vector x0_bar = slope_bar[0];
-    const vector x1_bar = slope_bar[1];
-    const vector b_bar = slope_bar[2];
-    const vector d0 = x0 - mu0;
-    const vector product = a * b;
-    const vector sqrt_a_times_b = sqrt_each(product);
-    const vector scale = 1.0 / sqrt_a_times_b;
-    const vector part0 = d0 * scale;
-    const vector d1 = x1 - mu1;
-    const vector part1 = d1 * scale;
-    const vector h_squared = part0 * part0 + part1 * part1;
-    const vector_mask near = h_squared < 0.11468;
-    const vector near_chosen = vector_select(near, 8.719916288803628 * h_squared, vector_of(0.0));
-    const vector t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near(near_chosen);
-    const vector near_chosen_2 = vector_select(near, vector_of(1.0), h_squared);
-    const vector h = sqrt_each(near_chosen_2);
-    const vector asinh_h = asinh_each(h);
-    const vector t = 2.0 * asinh_h;
-    const vector h_squared_total = 1.0 + h_squared;
-    const vector sqrt_1_plus_h_to_2 = sqrt_each(h_squared_total);
-    const vector h_product = 2.0 * h;
-    const vector sinh_t = sqrt_1_plus_h_to_2 * h_product;
-    const vector t_ratio = t / sinh_t;
-    const vector t_over_sinh_t = vector_select(near, t_over_sinh_t_near, t_ratio);
-    const vector scale_2 = t_over_sinh_t / b;
-    const vector log_det_series = vector_polynomial_log_det_series(near_chosen);
-    const vector log_det_near = h_squared * log_det_series;
-    const vector log_det = vector_select(near, log_det_near, log_each(t_ratio));
-    const vector dd = d0 * d0 + d1 * d1;
-    const vector gap = d0 * a - mu0 * dd;
-    const vector v0 = scale_2 * gap;
-    const vector gap_2 = d1 * a - mu1 * dd;
-    const vector v1 = scale_2 * gap_2;
-    const vector z0 = W0_0 * v0 + W0_1 * v1;
-    const vector z1 = W1_0 * v0 + W1_1 * v1;
-    const vector phi = exp_each(log_det - 0.5 * (z0 * z0 + z1 * z1));
-    const vector total_2 = W1_0 * z1 + W0_0 * z0;
-    const vector phi_product = phi * total_2;
-    const vector scale_2_product = scale_2 * phi_product;
-    const vector by_by_dd = 2.0 * (d0 * x0_bar + d1 * x1_bar);
-    const vector_mask is_small = product == 0.0;
-    const vector product_2 = 2.0 * vector_select(is_small, vector_of(1.0), sqrt_a_times_b);
-    const vector ratio = vector_select(is_small, vector_of(0.0), a * b_bar) / product_2;
-    const vector ratio_2 = scale * ratio / sqrt_a_times_b;
-    const vector by_by_part0 = scale * x0_bar - d0 * ratio_2;
-    const vector by_by_part1 = scale * x1_bar - d1 * ratio_2;
-    const vector total_3 = part0 * by_by_part0 + part1 * by_by_part1;
-    const vector by_by_h_squared = 2.0 * total_3;
-    const vector by_by_h = vector_select(near, vector_of(0.0), by_by_h_squared) / h_product;
-    const vector sqrt_2 = sqrt_each(1.0 + near_chosen_2);
-    const vector by_by_asinh_h = by_by_h / sqrt_2;
-    const vector by_by_h_product = 2.0 * by_by_h;
-    const vector_mask is_small_2 = h_squared_total == 0.0;
-    const vector product_3 = 2.0 * vector_select(is_small_2, vector_of(1.0), sqrt_1_plus_h_to_2);
-    const vector ratio_3 = vector_select(is_small_2, vector_of(0.0), by_by_h_squared) / product_3;
-    const vector gap_3 = -(sqrt_1_plus_h_to_2 * by_by_h_product) - h_product * ratio_3;
-    const vector by_by_t = 2.0 * by_by_asinh_h + t_ratio * gap_3;
-    const vector by_by_t_ratio = by_by_t / sinh_t;
-    const vector t_over_sinh_t_near_slope = vector_polynomial_t_over_sinh_t_near_slope(near_chosen);
-    const vector near_chosen_3 = vector_select(near, 17.439832577607255 * total_3, vector_of(0.0));
-    const vector by_by_t_over_sinh_t_near = t_over_sinh_t_near_slope * near_chosen_3;
-    const vector by_by_t_over_sinh_t = vector_select(near, vector_of(0.0), by_by_t_ratio) +
-        vector_select(near, by_by_t_over_sinh_t_near, vector_of(0.0)) - scale_2 * b_bar;
-    const vector by_by_scale_2 = by_by_t_over_sinh_t / b;
-    const vector product_4 = phi_product * by_by_scale_2;
-    const vector gap_4 = mu0 * by_by_dd - a * x0_bar;
-    const vector gap_5 = scale_2 * gap_4 - gap * by_by_scale_2;
-    const vector phi_product_2 = phi * gap_5;
-    const vector gap_6 = mu1 * by_by_dd - a * x1_bar;
-    const vector gap_7 = scale_2 * gap_6 - gap_2 * by_by_scale_2;
-    const vector phi_product_3 = phi * gap_7;
-    const vector ratio_4 = by_by_t_ratio / t_ratio;
-    const vector log_det_series_slope = vector_polynomial_log_det_series_slope(near_chosen);
-    const vector by_by_log_det_series = log_det_series_slope * near_chosen_3;
-    const vector by_by_log_det_near = h_squared * by_by_log_det_series + log_det_series * by_by_h_squared;
-    const vector total_4 = W1_1 * z1 + W0_1 * z0;
-    const vector by_phi = its_value_bar + vector_select(near, vector_of(0.0), ratio_4) + vector_select(near,
-        by_by_log_det_near, vector_of(0.0)) + total_4 * gap_7 + total_2 * gap_5;
-    const vector by_log_det = phi * by_phi;
-    const vector by_v0 = M0_0 * phi_product_2 + M0_1 * phi_product_3 - total_2 * by_log_det;
-    const vector scale_2_product_2 = scale_2 * by_v0;
-    const vector gap_8 = product_4 - scale_2_product_2;
-    const vector phi_product_4 = phi * total_4;
-    const vector scale_2_product_3 = scale_2 * phi_product_4;
-    const vector by_dd = mu1 * scale_2_product_3 + mu0 * scale_2_product;
-    const vector by_dd_product = 2.0 * by_dd;
-    const vector by_scale_2 = -(gap_2 * phi_product_4) - gap * phi_product;
-    const vector by_t_over_sinh_t = by_scale_2 / b;
-    const vector ratio_5 = vector_select(near, vector_of(0.0), phi) / t_ratio;
-    const vector by_t = (vector_select(near, vector_of(0.0), by_t_over_sinh_t) + ratio_5) / sinh_t;
-    const vector by_t_product = t_ratio * by_t;
-    const vector ratio_6 = h_product * by_t_product / product_3;
-    const vector by_asinh_h = 2.0 * by_t;
-    const vector by_asinh_h_ratio = by_asinh_h / sqrt_2;
-    const vector by_h = by_asinh_h_ratio - 2.0 * (sqrt_1_plus_h_to_2 * by_t_product);
-    const vector by_h_ratio = by_h / h_product;
-    const vector by_log_det_near = vector_select(near, phi, vector_of(0.0));
-    const vector by_t_over_sinh_t_near = vector_select(near, by_t_over_sinh_t, vector_of(0.0));
-    const vector by_log_det_series = h_squared * by_log_det_near;
-    const vector by_h_squared = vector_select(is_small_2, vector_of(0.0), -ratio_6) + vector_select(near,
-        vector_of(0.0), by_h_ratio) + log_det_series * by_log_det_near + 8.719916288803628 *
-        vector_select(near, by_t_over_sinh_t_near * t_over_sinh_t_near_slope + by_log_det_series *
-        log_det_series_slope, vector_of(0.0));
-    const vector product_5 = 2.0 * by_h_squared;
-    const vector by_part0 = part0 * product_5;
-    const vector product_6 = phi_product_4 * by_by_scale_2;
-    const vector by_v1 = M0_1 * phi_product_2 + M1_1 * phi_product_3 - total_4 * by_log_det;
-    const vector scale_2_product_4 = scale_2 * by_v1;
-    const vector gap_9 = product_6 - scale_2_product_4;
-    const vector by_dd_2 = mu1 * gap_9 + mu0 * gap_8;
-    const vector by_dd_product_2 = 2.0 * by_dd_2;
-    const vector gap_10 = scale_2_product_2 - product_4;
-    const vector by_scale_2_2 = phi_product * gap_4 - by_t_over_sinh_t * b_bar + phi_product_4 * gap_6 + gap_2
-        * by_v1 + gap * by_v0;
-    const vector by_t_over_sinh_t_2 = by_scale_2_2 / b;
-    const vector by_t_2 = (by_t * gap_3 - ratio_5 * ratio_4 + vector_select(near, vector_of(0.0),
-        by_t_over_sinh_t_2) + vector_select(near, vector_of(0.0), by_log_det) / t_ratio) / sinh_t;
-    const vector by_sinh_t = -(by_t * by_by_t_ratio) - t_ratio * by_t_2;
-    const vector by_sqrt_1_plus_h_to_2 = vector_select(is_small_2, vector_of(0.0), 2.0 * (ratio_6 * ratio_3))
-        - by_t_product * by_by_h_product + h_product * by_sinh_t;
-    const vector product_7 = 2.0 * (-(by_h_ratio * by_by_h) - by_t_product * ratio_3 + sqrt_1_plus_h_to_2 *
-        by_sinh_t);
-    const vector by_asinh_h_2 = 2.0 * by_t_2;
-    const vector by_h_2 = product_7 + by_asinh_h_2 / sqrt_2;
-    const vector total_5 = by_log_det_near * by_by_log_det_series + vector_select(is_small_2, vector_of(0.0),
-        by_sqrt_1_plus_h_to_2 / product_3) + vector_select(near, vector_of(0.0), by_h_2 / h_product -
-        by_asinh_h_ratio * by_by_asinh_h / (2.0 * sqrt_2));
-    const vector by_log_det_near_2 = vector_select(near, by_log_det, vector_of(0.0));
-    const vector by_log_det_series_slope = by_log_det_series * near_chosen_3;
-    const vector log_det_series_slope_slope = vector_polynomial_log_det_series_slope_slope(near_chosen);
-    const vector by_t_over_sinh_t_near_slope = by_t_over_sinh_t_near * near_chosen_3;
-    const vector t_over_sinh_t_near_slope_slope =
-        vector_polynomial_t_over_sinh_t_near_slope_slope(near_chosen);
-    const vector by_t_over_sinh_t_near_2 = vector_select(near, by_t_over_sinh_t_2, vector_of(0.0));
-    const vector by_log_det_series_2 = by_log_det_near * by_by_h_squared + h_squared * by_log_det_near_2;
-    const vector near_chosen_4 = vector_select(near, by_log_det_series_slope * log_det_series_slope_slope +
-        by_t_over_sinh_t_near_slope * t_over_sinh_t_near_slope_slope + t_over_sinh_t_near_slope *
-        by_t_over_sinh_t_near_2 + log_det_series_slope * by_log_det_series_2, vector_of(0.0));
-    const vector by_h_squared_2 = total_5 + log_det_series * by_log_det_near_2 + 8.719916288803628 *
-        near_chosen_4;
-    const vector product_8 = 2.0 * by_h_squared_2;
-    const vector by_part0_2 = product_5 * by_by_part0 + part0 * product_8;
-    const vector by_part1 = part1 * product_5;
-    const vector gap_11 = scale_2_product_4 - product_6;
-    const vector by_part1_2 = product_5 * by_by_part1 + part1 * product_8;
-    const vector by_scale = d1 * by_part1 + d0 * by_part0;
-    const vector by_scale_ratio = by_scale / sqrt_a_times_b;
-    const vector ratio_7 = scale * by_scale_ratio / product_2;
-    const vector by_scale_3 = by_part0 * x0_bar - by_scale_ratio * ratio + by_part1 * x1_bar + d1 * by_part1_2
-        + d0 * by_part0_2;
-    const vector by_sqrt_a_times_b = vector_select(is_small, vector_of(0.0), 2.0 * (ratio_7 * ratio)) +
-        by_scale_ratio * ratio_2 - scale * (by_scale_3 / sqrt_a_times_b);
-    const vector by_log_det_product = 0.5 * by_log_det;
-    const vector gap_13 = phi_product_2 - v0 * by_log_det_product;
-    const vector gap_14 = phi_product_3 - v1 * by_log_det_product;
-    sums[0] = sums[0] + scale_2_product * by_by_dd + dd * gap_8 - by_dd_product * x0_bar + by_part0 * ratio_2
-            - d0 * by_dd_product_2 - a * gap_10 - scale * by_part0_2;
-    sums[1] = sums[1] + scale_2_product_3 * by_by_dd + dd * gap_9 - by_dd_product * x1_bar + by_part1 *
-            ratio_2 - a * gap_11 - d1 * by_dd_product_2 - scale * by_part1_2;
-    sums[2] = sums[2] + by_log_det;
-    sums[3] = sums[3] + vector_select(is_small, vector_of(0.0), -ratio_7) * b_bar - scale_2_product * x0_bar -
-            scale_2_product_3 * x1_bar + d1 * gap_11 + d0 * gap_10 + b * vector_select(is_small, vector_of(0.0),
-            by_sqrt_a_times_b / product_2);
-    sums[4] = sums[4] + v0 * gap_13;
-    sums[5] = sums[5] + v0 * gap_14 + v1 * gap_13;
-    sums[6] = sums[6] + v1 * gap_14;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -745,7 +1367,7 @@ OUTLINE void splat_constants(
     vector_to_rows(S, constants, splat_count, start, 11, 11);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void poincare_splats(
     size_t count, size_t splat_count, const double *POINCARE_RESTRICT x, const double *POINCARE_RESTRICT mu, const double *POINCARE_RESTRICT W, const double *POINCARE_RESTRICT amplitude, const double *POINCARE_RESTRICT width,
     double *POINCARE_RESTRICT value, double *POINCARE_RESTRICT gradient, double *POINCARE_RESTRICT work, int threads) {
@@ -760,27 +1382,26 @@ void poincare_splats(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[2][2], X[2][3], grad[2];
-            vector value_sum[2][1] = {{ZERO}}, slope_sum[2][3] = {{ZERO}};
+            vector at[2][2], X[2 * 3], grad[2];
+            vector value_sum[2] = {ZERO}, slope_sum[2 * 3] = {ZERO};
             double place[2 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 2, at[b]);
-                pair_features(at[b], X[b]);
+                pair_features(at[b], X + 3 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 11 * near[i];
-                    pair_forward(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient(at[b], slope_sum[b], grad);
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                pair_gradient(at[b], slope_sum + 3 * b, grad);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
                 vector_to_rows(grad, gradient, count, start + b * LANES, 2, 2);
             }
         }
@@ -802,25 +1423,24 @@ void poincare_splats_value(
             splat_constants(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES) {
-            vector at[2], X[2][3], value_sum[2][1] = {{ZERO}};
+            vector at[2], X[2 * 3], value_sum[2] = {ZERO};
             double place[2 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows(x, count, start + b * LANES, 2, at);
-                pair_features(at, X[b]);
+                pair_features(at, X + 3 * b);
             }
             if (width) block_place(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const double *S = constants + 11 * near[i];
-                    pair_value(X[0], S, value_sum[0]);
-                    pair_value(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows(value_sum[b], value, count, start + b * LANES, 1, 1);
+                vector_to_rows(value_sum + b, value, count, start + b * LANES, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -839,19 +1459,11 @@ OUTLINE void splat_points(
     vector_end(count, start, 3 + 1, point + 3);
 }
 
-/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+/* Adds to sums what some vectors of points add to them, those in the list. */
 OUTLINE void splat_sums(const vector *points, const uint32_t *near, size_t size, const double *S, double *sums) {
     vector sum[7] = {ZERO};
-    size_t b = 0;
-    for (; b + 1 < size; b += 2) {
-        const vector *point = points + 7 * (size_t)near[b], *other = points + 7 * (size_t)near[b + 1];
-        pair_backward(point, S, point + 3, point + 3 + 1, sum);
-        pair_backward(other, S, other + 3, other + 3 + 1, sum);
-    }
-    if (b < size) {
-        const vector *point = points + 7 * (size_t)near[b];
-        pair_backward(point, S, point + 3, point + 3 + 1, sum);
-    }
+    for (size_t b = 0; b < size; b += 16)
+        pair_backward(size - b < 16 ? size - b : 16, points, near + b, S, sum);
     sums[0] += vector_sum(sum[0]);
     sums[1] += vector_sum(sum[1]);
     sums[2] += vector_sum(sum[2]);
@@ -930,6 +1542,7 @@ void poincare_splats_rows(
     double *POINCARE_RESTRICT rows, double *POINCARE_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES - 1) / LANES;
+    const uint32_t only = 0;
     double *constants = work_constants(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -946,7 +1559,7 @@ void poincare_splats_rows(
                 for (int i = 0; i < 2; ++i) own_mu[i] = vector_of(mu[2 * k + i]);
                 for (int i = 0; i < 4; ++i) own_W[i] = vector_of(W[4 * k + i]);
                 own_amplitude[0] = vector_of(amplitude[k]);
-                pair_backward(point, constants + 11 * k, point + 3, point + 3 + 1, own_sums);
+                pair_backward(1, point, &only, constants + 11 * k, own_sums);
                 pair_constants_vjp(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 4);
                 vector_to_rows(bars, rows + 7 * k, count, block * LANES, 7, 7 * splat_count);
             }
@@ -974,9 +1587,14 @@ INLINE vector_f vector_of_f(float x) {
     return x - zero;
 }
 
-/* x in the lanes of the mask, y in the others. */
+/* x in the lanes of the mask, y in the others; clang knows this by its bits, gcc as a loop. */
 INLINE vector_f vector_select_f(vector_mask_f mask, vector_f x, vector_f y) {
-    return SELECT(vector_f, vector_mask_f, mask, x, y);
+#if defined(__clang__) && !defined(RSRM_NO_VECTORS)
+    return (vector_f)((mask & (vector_mask_f)x) | (~mask & (vector_mask_f)y));
+#else
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = LANE(mask, i) ? LANE(x, i) : LANE(y, i);
+    return x;
+#endif
 }
 
 /* Numbers in memory to a vector, and back. */
@@ -1015,13 +1633,13 @@ INLINE vector_f signed_each_f(vector_f x, vector_f sign) {
 
 /* abs of every lane; one instruction where the machine has it. */
 INLINE vector_f abs_each_f(vector_f x) {
-    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = fabsf(LANE(x, i));
     return x;
 }
 
 /* sqrt of every lane; one instruction where the machine has it. */
 INLINE vector_f sqrt_each_f(vector_f x) {
-    for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
+    EACH_LANE for (size_t i = 0; i < LANES_f; ++i) LANE(x, i) = sqrtf(LANE(x, i));
     return x;
 }
 
@@ -1111,10 +1729,10 @@ OUTLINE void pair_features_f(
     const vector_f x0 = x[0];
     const vector_f x1 = x[1];
     const vector_f dot_q_q = x0 * x0 + x1 * x1;
-    const vector_f b = 1.0f - dot_q_q;
+    const vector_f its_b = 1.0f - dot_q_q;
     X[0] = x0;
     X[1] = x1;
-    X[2] = b;
+    X[2] = its_b;
 }
 
 /* What pairs read of a splat, of some splats. */
@@ -1146,141 +1764,392 @@ OUTLINE void pair_constants_f(
 }
 
 /*
- * Adds the values phi of a splat at some points.
+ * Adds the values phi of some splats at 2 vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_value_f(
-    const vector_f *X, const float *S, vector_f *value) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f b = X[2];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float W0_0 = S[2];
-    const float W0_1 = S[3];
-    const float W1_0 = S[4];
-    const float W1_1 = S[5];
-    const float amplitude = S[6];
-    const float a = S[7];
-    const vector_f d0 = x0 - mu0;
-    const vector_f sqrt_a_times_b = sqrt_each_f(a * b);
-    const vector_f scale = 1.0f / sqrt_a_times_b;
-    const vector_f part0 = d0 * scale;
-    const vector_f d1 = x1 - mu1;
-    const vector_f part1 = d1 * scale;
-    const vector_f h_squared = part0 * part0 + part1 * part1;
-    const vector_mask_f near = h_squared < 0.11468f;
-    const vector_f near_chosen = vector_select_f(near, 8.719916288803628f * h_squared, vector_of_f(0.0f));
-    const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
-    const vector_f log_det_near = h_squared * log_det_series;
-    const vector_f h = sqrt_each_f(vector_select_f(near, vector_of_f(1.0f), h_squared));
-    const vector_f asinh_h = asinh_each_f(h);
-    const vector_f t = 2.0f * asinh_h;
-    const vector_f sqrt_1_plus_h_to_2 = sqrt_each_f(1.0f + h_squared);
-    const vector_f sinh_t = sqrt_1_plus_h_to_2 * (2.0f * h);
-    const vector_f t_ratio = t / sinh_t;
-    const vector_f log_det = vector_select_f(near, log_det_near, log_each_f(t_ratio));
-    const vector_f t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near_f(near_chosen);
-    const vector_f t_over_sinh_t = vector_select_f(near, t_over_sinh_t_near, t_ratio);
-    const vector_f scale_2 = t_over_sinh_t / b;
-    const vector_f dd = d0 * d0 + d1 * d1;
-    const vector_f v0 = scale_2 * (d0 * a - mu0 * dd);
-    const vector_f v1 = scale_2 * (d1 * a - mu1 * dd);
-    const vector_f z0 = W0_0 * v0 + W0_1 * v1;
-    const vector_f z1 = W1_0 * v0 + W1_1 * v1;
-    const vector_f phi = exp_each_f(log_det - 0.5f * (z0 * z0 + z1 * z1));
-    value[0] = value[0] + amplitude * phi;
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values) {
+    struct { vector_f d0, sqrt_a_times_b, scale, d1, h_squared, h, asinh_h, sqrt_1_plus_h_to_2, t_ratio,
+            log_det, scale_2, phi; } kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 11 * near[k];
+        const float a = S[7];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 3 * b;
+            const vector_f its_b = X[2];
+            const vector_f sqrt_a_times_b = sqrt_each_f(a * its_b);
+            kept[k][b].sqrt_a_times_b = sqrt_a_times_b;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f sqrt_a_times_b = kept[k][b].sqrt_a_times_b;
+            const vector_f scale = 1.0f / sqrt_a_times_b;
+            kept[k][b].scale = scale;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 11 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 3 * b;
+            const vector_f scale = kept[k][b].scale;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f d0 = x0 - mu0;
+            const vector_f part0 = d0 * scale;
+            const vector_f d1 = x1 - mu1;
+            const vector_f part1 = d1 * scale;
+            const vector_f h_squared = part0 * part0 + part1 * part1;
+            const vector_mask_f its_near = h_squared < 0.11468f;
+            const vector_f h = sqrt_each_f(vector_select_f(its_near, vector_of_f(1.0f), h_squared));
+            kept[k][b].d0 = d0;
+            kept[k][b].d1 = d1;
+            kept[k][b].h_squared = h_squared;
+            kept[k][b].h = h;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f h_squared = kept[k][b].h_squared;
+            const vector_f h = kept[k][b].h;
+            const vector_f asinh_h = asinh_each_f(h);
+            const vector_f sqrt_1_plus_h_to_2 = sqrt_each_f(1.0f + h_squared);
+            kept[k][b].asinh_h = asinh_h;
+            kept[k][b].sqrt_1_plus_h_to_2 = sqrt_1_plus_h_to_2;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f h = kept[k][b].h;
+            const vector_f asinh_h = kept[k][b].asinh_h;
+            const vector_f sqrt_1_plus_h_to_2 = kept[k][b].sqrt_1_plus_h_to_2;
+            const vector_f t = 2.0f * asinh_h;
+            const vector_f sinh_t = sqrt_1_plus_h_to_2 * (2.0f * h);
+            const vector_f t_ratio = t / sinh_t;
+            kept[k][b].t_ratio = t_ratio;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 3 * b;
+            const vector_f h_squared = kept[k][b].h_squared;
+            const vector_f t_ratio = kept[k][b].t_ratio;
+            const vector_f its_b = X[2];
+            const vector_mask_f its_near = h_squared < 0.11468f;
+            const vector_f near_chosen = vector_select_f(its_near, 8.719916288803628f * h_squared, vector_of_f(0.0f));
+            const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
+            const vector_f log_det_near = h_squared * log_det_series;
+            const vector_f log_det = vector_select_f(its_near, log_det_near, log_each_f(t_ratio));
+            const vector_f t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near_f(near_chosen);
+            const vector_f t_over_sinh_t = vector_select_f(its_near, t_over_sinh_t_near, t_ratio);
+            const vector_f scale_2 = t_over_sinh_t / its_b;
+            kept[k][b].log_det = log_det;
+            kept[k][b].scale_2 = scale_2;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 11 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float W0_0 = S[2];
+        const float W0_1 = S[3];
+        const float W1_0 = S[4];
+        const float W1_1 = S[5];
+        const float a = S[7];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f d0 = kept[k][b].d0;
+            const vector_f d1 = kept[k][b].d1;
+            const vector_f log_det = kept[k][b].log_det;
+            const vector_f scale_2 = kept[k][b].scale_2;
+            const vector_f dd = d0 * d0 + d1 * d1;
+            const vector_f v0 = scale_2 * (d0 * a - mu0 * dd);
+            const vector_f v1 = scale_2 * (d1 * a - mu1 * dd);
+            const vector_f z0 = W0_0 * v0 + W0_1 * v1;
+            const vector_f z1 = W1_0 * v0 + W1_1 * v1;
+            const vector_f phi = exp_each_f(log_det - 0.5f * (z0 * z0 + z1 * z1));
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 11 * near[k];
+        const float amplitude = S[6];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector_f *value = values + b;
+            const vector_f phi = kept[k][b].phi;
+            value[0] = value[0] + amplitude * phi;
+        }
+    }
 }
 
 /*
- * Adds the values phi of a splat at some points, and slope = d phi / d X.
+ * Adds the values phi of some splats at 2 vectors of points, and slope = d phi / d X.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
 INLINE void pair_forward_f(
-    const vector_f *X, const float *S, vector_f *value, vector_f *slope) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f b = X[2];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float W0_0 = S[2];
-    const float W0_1 = S[3];
-    const float W1_0 = S[4];
-    const float W1_1 = S[5];
-    const float amplitude = S[6];
-    const float a = S[7];
-    const vector_f d0 = x0 - mu0;
-    const vector_f product = a * b;
-    const vector_f sqrt_a_times_b = sqrt_each_f(product);
-    const vector_f scale = 1.0f / sqrt_a_times_b;
-    const vector_f part0 = d0 * scale;
-    const vector_f d1 = x1 - mu1;
-    const vector_f part1 = d1 * scale;
-    const vector_f h_squared = part0 * part0 + part1 * part1;
-    const vector_mask_f near = h_squared < 0.11468f;
-    const vector_f near_chosen = vector_select_f(near, 8.719916288803628f * h_squared, vector_of_f(0.0f));
-    const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
-    const vector_f log_det_near = h_squared * log_det_series;
-    const vector_f near_chosen_2 = vector_select_f(near, vector_of_f(1.0f), h_squared);
-    const vector_f h = sqrt_each_f(near_chosen_2);
-    const vector_f asinh_h = asinh_each_f(h);
-    const vector_f t = 2.0f * asinh_h;
-    const vector_f h_squared_total = 1.0f + h_squared;
-    const vector_f sqrt_1_plus_h_to_2 = sqrt_each_f(h_squared_total);
-    const vector_f h_product = 2.0f * h;
-    const vector_f sinh_t = sqrt_1_plus_h_to_2 * h_product;
-    const vector_f t_ratio = t / sinh_t;
-    const vector_f log_det = vector_select_f(near, log_det_near, log_each_f(t_ratio));
-    const vector_f t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near_f(near_chosen);
-    const vector_f t_over_sinh_t = vector_select_f(near, t_over_sinh_t_near, t_ratio);
-    const vector_f scale_2 = t_over_sinh_t / b;
-    const vector_f dd = d0 * d0 + d1 * d1;
-    const vector_f gap = d0 * a - mu0 * dd;
-    const vector_f v0 = scale_2 * gap;
-    const vector_f gap_2 = d1 * a - mu1 * dd;
-    const vector_f v1 = scale_2 * gap_2;
-    const vector_f z0 = W0_0 * v0 + W0_1 * v1;
-    const vector_f z1 = W1_0 * v0 + W1_1 * v1;
-    const vector_f phi = exp_each_f(log_det - 0.5f * (z0 * z0 + z1 * z1));
-    const vector_f phi_2 = amplitude * phi;
-    const vector_f phi_product = phi_2 * (W1_1 * z1 + W0_1 * z0);
-    const vector_f scale_2_product = scale_2 * phi_product;
-    const vector_f phi_product_2 = phi_2 * (W1_0 * z1 + W0_0 * z0);
-    const vector_f scale_2_product_2 = scale_2 * phi_product_2;
-    const vector_f by_dd = mu1 * scale_2_product + mu0 * scale_2_product_2;
-    const vector_f by_dd_product = 2.0f * by_dd;
-    const vector_mask_f is_small = h_squared_total == 0.0f;
-    const vector_f by_scale_2 = -(gap_2 * phi_product) - gap * phi_product_2;
-    const vector_f by_t_over_sinh_t = by_scale_2 / b;
-    const vector_f by_t = (vector_select_f(near, vector_of_f(0.0f), by_t_over_sinh_t) + vector_select_f(near,
-        vector_of_f(0.0f), phi_2) / t_ratio) / sinh_t;
-    const vector_f by_t_product = t_ratio * by_t;
-    const vector_f chosen = vector_select_f(is_small, vector_of_f(0.0f), -(h_product * by_t_product / (2.0f *
-        vector_select_f(is_small, vector_of_f(1.0f), sqrt_1_plus_h_to_2))));
-    const vector_f by_asinh_h = 2.0f * by_t;
-    const vector_f by_h = by_asinh_h / sqrt_each_f(1.0f + near_chosen_2) - 2.0f * (sqrt_1_plus_h_to_2 *
-        by_t_product);
-    const vector_f by_log_det_near = vector_select_f(near, phi_2, vector_of_f(0.0f));
-    const vector_f by_t_over_sinh_t_near = vector_select_f(near, by_t_over_sinh_t, vector_of_f(0.0f));
-    const vector_f t_over_sinh_t_near_slope = vector_polynomial_t_over_sinh_t_near_slope_f(near_chosen);
-    const vector_f by_log_det_series = h_squared * by_log_det_near;
-    const vector_f log_det_series_slope = vector_polynomial_log_det_series_slope_f(near_chosen);
-    const vector_f by_h_squared = chosen + vector_select_f(near, vector_of_f(0.0f), by_h / h_product) +
-        log_det_series * by_log_det_near + 8.719916288803628f * vector_select_f(near, by_t_over_sinh_t_near *
-        t_over_sinh_t_near_slope + by_log_det_series * log_det_series_slope, vector_of_f(0.0f));
-    const vector_f product_2 = 2.0f * by_h_squared;
-    const vector_f by_part0 = part0 * product_2;
-    const vector_f by_part1 = part1 * product_2;
-    const vector_mask_f is_small_2 = product == 0.0f;
-    const vector_f by_scale = d1 * by_part1 + d0 * by_part0;
-    const vector_f chosen_2 = vector_select_f(is_small_2, vector_of_f(0.0f), -(scale * (by_scale /
-        sqrt_a_times_b) / (2.0f * vector_select_f(is_small_2, vector_of_f(1.0f), sqrt_a_times_b))));
-    value[0] = value[0] + phi_2;
-    slope[0] = slope[0] + d0 * by_dd_product - a * scale_2_product_2 + scale * by_part0;
-    slope[1] = slope[1] + d1 * by_dd_product - a * scale_2_product + scale * by_part1;
-    slope[2] = slope[2] + a * chosen_2 - scale_2 * by_t_over_sinh_t;
+    size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values, vector_f *slopes) {
+    struct { vector_f d0, product, sqrt_a_times_b, scale, part0, d1, part1, h_squared, near_chosen,
+            log_det_series, near_chosen_2, h, asinh_h, h_squared_total, sqrt_1_plus_h_to_2, h_product, sinh_t,
+            t_ratio, log_det, scale_2, gap, gap_2, z0, z1, phi, phi_2, phi_product, phi_product_2,
+            by_t_over_sinh_t, by_t, chosen, by_h, by_h_squared, by_part0, by_part1, chosen_2; }
+            kept[8][2];
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 11 * near[k];
+        const float a = S[7];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 3 * b;
+            const vector_f its_b = X[2];
+            const vector_f product = a * its_b;
+            const vector_f sqrt_a_times_b = sqrt_each_f(product);
+            kept[k][b].product = product;
+            kept[k][b].sqrt_a_times_b = sqrt_a_times_b;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f sqrt_a_times_b = kept[k][b].sqrt_a_times_b;
+            const vector_f scale = 1.0f / sqrt_a_times_b;
+            kept[k][b].scale = scale;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 11 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 3 * b;
+            const vector_f scale = kept[k][b].scale;
+            const vector_f x0 = X[0];
+            const vector_f x1 = X[1];
+            const vector_f d0 = x0 - mu0;
+            const vector_f part0 = d0 * scale;
+            const vector_f d1 = x1 - mu1;
+            const vector_f part1 = d1 * scale;
+            const vector_f h_squared = part0 * part0 + part1 * part1;
+            const vector_mask_f its_near = h_squared < 0.11468f;
+            const vector_f near_chosen_2 = vector_select_f(its_near, vector_of_f(1.0f), h_squared);
+            const vector_f h = sqrt_each_f(near_chosen_2);
+            kept[k][b].d0 = d0;
+            kept[k][b].part0 = part0;
+            kept[k][b].d1 = d1;
+            kept[k][b].part1 = part1;
+            kept[k][b].h_squared = h_squared;
+            kept[k][b].near_chosen_2 = near_chosen_2;
+            kept[k][b].h = h;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f h_squared = kept[k][b].h_squared;
+            const vector_f h = kept[k][b].h;
+            const vector_f asinh_h = asinh_each_f(h);
+            const vector_f h_squared_total = 1.0f + h_squared;
+            const vector_f sqrt_1_plus_h_to_2 = sqrt_each_f(h_squared_total);
+            kept[k][b].asinh_h = asinh_h;
+            kept[k][b].h_squared_total = h_squared_total;
+            kept[k][b].sqrt_1_plus_h_to_2 = sqrt_1_plus_h_to_2;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f h = kept[k][b].h;
+            const vector_f asinh_h = kept[k][b].asinh_h;
+            const vector_f sqrt_1_plus_h_to_2 = kept[k][b].sqrt_1_plus_h_to_2;
+            const vector_f t = 2.0f * asinh_h;
+            const vector_f h_product = 2.0f * h;
+            const vector_f sinh_t = sqrt_1_plus_h_to_2 * h_product;
+            const vector_f t_ratio = t / sinh_t;
+            kept[k][b].h_product = h_product;
+            kept[k][b].sinh_t = sinh_t;
+            kept[k][b].t_ratio = t_ratio;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 3 * b;
+            const vector_f h_squared = kept[k][b].h_squared;
+            const vector_f t_ratio = kept[k][b].t_ratio;
+            const vector_f its_b = X[2];
+            const vector_mask_f its_near = h_squared < 0.11468f;
+            const vector_f near_chosen = vector_select_f(its_near, 8.719916288803628f * h_squared, vector_of_f(0.0f));
+            const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
+            const vector_f log_det_near = h_squared * log_det_series;
+            const vector_f log_det = vector_select_f(its_near, log_det_near, log_each_f(t_ratio));
+            const vector_f t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near_f(near_chosen);
+            const vector_f t_over_sinh_t = vector_select_f(its_near, t_over_sinh_t_near, t_ratio);
+            const vector_f scale_2 = t_over_sinh_t / its_b;
+            kept[k][b].near_chosen = near_chosen;
+            kept[k][b].log_det_series = log_det_series;
+            kept[k][b].log_det = log_det;
+            kept[k][b].scale_2 = scale_2;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 11 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float W0_0 = S[2];
+        const float W0_1 = S[3];
+        const float W1_0 = S[4];
+        const float W1_1 = S[5];
+        const float a = S[7];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f d0 = kept[k][b].d0;
+            const vector_f d1 = kept[k][b].d1;
+            const vector_f log_det = kept[k][b].log_det;
+            const vector_f scale_2 = kept[k][b].scale_2;
+            const vector_f dd = d0 * d0 + d1 * d1;
+            const vector_f gap = d0 * a - mu0 * dd;
+            const vector_f v0 = scale_2 * gap;
+            const vector_f gap_2 = d1 * a - mu1 * dd;
+            const vector_f v1 = scale_2 * gap_2;
+            const vector_f z0 = W0_0 * v0 + W0_1 * v1;
+            const vector_f z1 = W1_0 * v0 + W1_1 * v1;
+            const vector_f phi = exp_each_f(log_det - 0.5f * (z0 * z0 + z1 * z1));
+            kept[k][b].gap = gap;
+            kept[k][b].gap_2 = gap_2;
+            kept[k][b].z0 = z0;
+            kept[k][b].z1 = z1;
+            kept[k][b].phi = phi;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 11 * near[k];
+        const float W0_0 = S[2];
+        const float W0_1 = S[3];
+        const float W1_0 = S[4];
+        const float W1_1 = S[5];
+        const float amplitude = S[6];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f *X = points + 3 * b;
+            const vector_f gap = kept[k][b].gap;
+            const vector_f gap_2 = kept[k][b].gap_2;
+            const vector_f z0 = kept[k][b].z0;
+            const vector_f z1 = kept[k][b].z1;
+            const vector_f phi = kept[k][b].phi;
+            const vector_f its_b = X[2];
+            const vector_f phi_2 = amplitude * phi;
+            const vector_f phi_product = phi_2 * (W1_1 * z1 + W0_1 * z0);
+            const vector_f phi_product_2 = phi_2 * (W1_0 * z1 + W0_0 * z0);
+            const vector_f by_scale_2 = -(gap_2 * phi_product) - gap * phi_product_2;
+            const vector_f by_t_over_sinh_t = by_scale_2 / its_b;
+            kept[k][b].phi_2 = phi_2;
+            kept[k][b].phi_product = phi_product;
+            kept[k][b].phi_product_2 = phi_product_2;
+            kept[k][b].by_t_over_sinh_t = by_t_over_sinh_t;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f h_squared = kept[k][b].h_squared;
+            const vector_f sinh_t = kept[k][b].sinh_t;
+            const vector_f t_ratio = kept[k][b].t_ratio;
+            const vector_f phi_2 = kept[k][b].phi_2;
+            const vector_f by_t_over_sinh_t = kept[k][b].by_t_over_sinh_t;
+            const vector_mask_f its_near = h_squared < 0.11468f;
+            const vector_f by_t = (vector_select_f(its_near, vector_of_f(0.0f), by_t_over_sinh_t) +
+                vector_select_f(its_near, vector_of_f(0.0f), phi_2) / t_ratio) / sinh_t;
+            kept[k][b].by_t = by_t;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f near_chosen_2 = kept[k][b].near_chosen_2;
+            const vector_f h_squared_total = kept[k][b].h_squared_total;
+            const vector_f sqrt_1_plus_h_to_2 = kept[k][b].sqrt_1_plus_h_to_2;
+            const vector_f h_product = kept[k][b].h_product;
+            const vector_f t_ratio = kept[k][b].t_ratio;
+            const vector_f by_t = kept[k][b].by_t;
+            const vector_mask_f is_small = h_squared_total == 0.0f;
+            const vector_f by_t_product = t_ratio * by_t;
+            const vector_f chosen = vector_select_f(is_small, vector_of_f(0.0f), -(h_product * by_t_product / (2.0f *
+                vector_select_f(is_small, vector_of_f(1.0f), sqrt_1_plus_h_to_2))));
+            const vector_f by_asinh_h = 2.0f * by_t;
+            const vector_f by_h = by_asinh_h / sqrt_each_f(1.0f + near_chosen_2) - 2.0f * (sqrt_1_plus_h_to_2 *
+                by_t_product);
+            kept[k][b].chosen = chosen;
+            kept[k][b].by_h = by_h;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f h_squared = kept[k][b].h_squared;
+            const vector_f near_chosen = kept[k][b].near_chosen;
+            const vector_f log_det_series = kept[k][b].log_det_series;
+            const vector_f h_product = kept[k][b].h_product;
+            const vector_f phi_2 = kept[k][b].phi_2;
+            const vector_f by_t_over_sinh_t = kept[k][b].by_t_over_sinh_t;
+            const vector_f chosen = kept[k][b].chosen;
+            const vector_f by_h = kept[k][b].by_h;
+            const vector_mask_f its_near = h_squared < 0.11468f;
+            const vector_f by_log_det_near = vector_select_f(its_near, phi_2, vector_of_f(0.0f));
+            const vector_f by_t_over_sinh_t_near = vector_select_f(its_near, by_t_over_sinh_t, vector_of_f(0.0f));
+            const vector_f t_over_sinh_t_near_slope = vector_polynomial_t_over_sinh_t_near_slope_f(near_chosen);
+            const vector_f by_log_det_series = h_squared * by_log_det_near;
+            const vector_f log_det_series_slope = vector_polynomial_log_det_series_slope_f(near_chosen);
+            const vector_f by_h_squared = chosen + vector_select_f(its_near, vector_of_f(0.0f), by_h / h_product) +
+                log_det_series * by_log_det_near + 8.719916288803628f * vector_select_f(its_near,
+                by_t_over_sinh_t_near * t_over_sinh_t_near_slope + by_log_det_series * log_det_series_slope,
+                vector_of_f(0.0f));
+            kept[k][b].by_h_squared = by_h_squared;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            const vector_f d0 = kept[k][b].d0;
+            const vector_f product = kept[k][b].product;
+            const vector_f sqrt_a_times_b = kept[k][b].sqrt_a_times_b;
+            const vector_f scale = kept[k][b].scale;
+            const vector_f part0 = kept[k][b].part0;
+            const vector_f d1 = kept[k][b].d1;
+            const vector_f part1 = kept[k][b].part1;
+            const vector_f by_h_squared = kept[k][b].by_h_squared;
+            const vector_f product_2 = 2.0f * by_h_squared;
+            const vector_f by_part0 = part0 * product_2;
+            const vector_f by_part1 = part1 * product_2;
+            const vector_mask_f is_small_2 = product == 0.0f;
+            const vector_f by_scale = d1 * by_part1 + d0 * by_part0;
+            const vector_f chosen_2 = vector_select_f(is_small_2, vector_of_f(0.0f), -(scale * (by_scale /
+                sqrt_a_times_b) / (2.0f * vector_select_f(is_small_2, vector_of_f(1.0f), sqrt_a_times_b))));
+            kept[k][b].by_part0 = by_part0;
+            kept[k][b].by_part1 = by_part1;
+            kept[k][b].chosen_2 = chosen_2;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const float *S = splats + 11 * near[k];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float a = S[7];
+        UNROLLED for (size_t b = 0; b < 2; ++b) {
+            vector_f *value = values + b;
+            vector_f *slope = slopes + 3 * b;
+            const vector_f d0 = kept[k][b].d0;
+            const vector_f scale = kept[k][b].scale;
+            const vector_f d1 = kept[k][b].d1;
+            const vector_f scale_2 = kept[k][b].scale_2;
+            const vector_f phi_2 = kept[k][b].phi_2;
+            const vector_f phi_product = kept[k][b].phi_product;
+            const vector_f phi_product_2 = kept[k][b].phi_product_2;
+            const vector_f by_t_over_sinh_t = kept[k][b].by_t_over_sinh_t;
+            const vector_f by_part0 = kept[k][b].by_part0;
+            const vector_f by_part1 = kept[k][b].by_part1;
+            const vector_f chosen_2 = kept[k][b].chosen_2;
+            const vector_f scale_2_product = scale_2 * phi_product;
+            const vector_f scale_2_product_2 = scale_2 * phi_product_2;
+            const vector_f by_dd = mu1 * scale_2_product + mu0 * scale_2_product_2;
+            const vector_f by_dd_product = 2.0f * by_dd;
+            value[0] = value[0] + phi_2;
+            slope[0] = slope[0] + d0 * by_dd_product - a * scale_2_product_2 + scale * by_part0;
+            slope[1] = slope[1] + d1 * by_dd_product - a * scale_2_product + scale * by_part1;
+            slope[2] = slope[2] + a * chosen_2 - scale_2 * by_t_over_sinh_t;
+        }
+    }
 }
 
 /* The Riemannian gradient at some points, of the sums of slopes. */
@@ -1314,6 +2183,555 @@ OUTLINE void pair_gradient_vjp_f(
     slope_bar[2] = 2.0f * (-(x0 * product) - x1 * product_2);
 }
 
+/*
+ * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some vectors of points.
+ * In steps, each for all pairs before the next, so that what is slow overlaps; `kept` is what later steps read.
+ *
+ * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
+ */
+OUTLINE void pair_backward_f(
+    size_t count, const vector_f *points, const uint32_t *near, const float *S, vector_f *sums) {
+    struct { vector_f d0, product, sqrt_a_times_b, scale, part0, d1, part1, h_squared, near_chosen,
+            near_chosen_2, h, asinh_h, h_squared_total, sqrt_1_plus_h_to_2, h_product, sinh_t, t_ratio, scale_2,
+            log_det_series, log_det, dd, gap, v0, gap_2, v1, z0, z1, phi, total_2, phi_product, by_by_dd,
+            product_2, ratio, ratio_2, by_by_part0, by_by_part1, total_3, by_by_h_squared, by_by_h, sqrt_2,
+            by_by_asinh_h, by_by_h_product, product_3, ratio_3, gap_3, by_by_t_ratio, t_over_sinh_t_near_slope,
+            near_chosen_3, by_by_scale_2, phi_product_2, phi_product_3, ratio_4, log_det_series_slope,
+            by_by_log_det_series, total_4, by_log_det, by_v0, phi_product_4, by_t_over_sinh_t, ratio_5, by_t,
+            by_t_product, ratio_6, by_asinh_h_ratio, by_h_ratio, by_log_det_near, by_t_over_sinh_t_near,
+            by_log_det_series, product_5, by_part0, by_v1, by_t_over_sinh_t_2, by_t_2, by_sinh_t, by_h_2, total_5,
+            by_part0_2, by_part1, by_part1_2, by_scale_ratio, ratio_7, by_sqrt_a_times_b; } kept[16];
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 7 * (size_t)near[i];
+        const vector_f its_b = X[2];
+        const float a = S[7];
+        const vector_f product = a * its_b;
+        const vector_f sqrt_a_times_b = sqrt_each_f(product);
+        kept[i].product = product;
+        kept[i].sqrt_a_times_b = sqrt_a_times_b;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f sqrt_a_times_b = kept[i].sqrt_a_times_b;
+        const vector_f scale = 1.0f / sqrt_a_times_b;
+        kept[i].scale = scale;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 7 * (size_t)near[i];
+        const vector_f scale = kept[i].scale;
+        const vector_f x0 = X[0];
+        const vector_f x1 = X[1];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const vector_f d0 = x0 - mu0;
+        const vector_f part0 = d0 * scale;
+        const vector_f d1 = x1 - mu1;
+        const vector_f part1 = d1 * scale;
+        const vector_f h_squared = part0 * part0 + part1 * part1;
+        const vector_mask_f its_near = h_squared < 0.11468f;
+        const vector_f near_chosen_2 = vector_select_f(its_near, vector_of_f(1.0f), h_squared);
+        const vector_f h = sqrt_each_f(near_chosen_2);
+        kept[i].d0 = d0;
+        kept[i].part0 = part0;
+        kept[i].d1 = d1;
+        kept[i].part1 = part1;
+        kept[i].h_squared = h_squared;
+        kept[i].near_chosen_2 = near_chosen_2;
+        kept[i].h = h;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *slope_bar = points + 7 * (size_t)near[i] + 3 + 1;
+        const vector_f product = kept[i].product;
+        const vector_f sqrt_a_times_b = kept[i].sqrt_a_times_b;
+        const vector_f h_squared = kept[i].h_squared;
+        const vector_f h = kept[i].h;
+        const float a = S[7];
+        const vector_f b_bar = slope_bar[2];
+        const vector_f asinh_h = asinh_each_f(h);
+        const vector_f h_squared_total = 1.0f + h_squared;
+        const vector_f sqrt_1_plus_h_to_2 = sqrt_each_f(h_squared_total);
+        const vector_mask_f is_small = product == 0.0f;
+        const vector_f product_2 = 2.0f * vector_select_f(is_small, vector_of_f(1.0f), sqrt_a_times_b);
+        const vector_f ratio = vector_select_f(is_small, vector_of_f(0.0f), a * b_bar) / product_2;
+        kept[i].asinh_h = asinh_h;
+        kept[i].h_squared_total = h_squared_total;
+        kept[i].sqrt_1_plus_h_to_2 = sqrt_1_plus_h_to_2;
+        kept[i].product_2 = product_2;
+        kept[i].ratio = ratio;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f sqrt_a_times_b = kept[i].sqrt_a_times_b;
+        const vector_f scale = kept[i].scale;
+        const vector_f h = kept[i].h;
+        const vector_f asinh_h = kept[i].asinh_h;
+        const vector_f sqrt_1_plus_h_to_2 = kept[i].sqrt_1_plus_h_to_2;
+        const vector_f ratio = kept[i].ratio;
+        const vector_f t = 2.0f * asinh_h;
+        const vector_f h_product = 2.0f * h;
+        const vector_f sinh_t = sqrt_1_plus_h_to_2 * h_product;
+        const vector_f t_ratio = t / sinh_t;
+        const vector_f ratio_2 = scale * ratio / sqrt_a_times_b;
+        kept[i].h_product = h_product;
+        kept[i].sinh_t = sinh_t;
+        kept[i].t_ratio = t_ratio;
+        kept[i].ratio_2 = ratio_2;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 7 * (size_t)near[i];
+        const vector_f *slope_bar = points + 7 * (size_t)near[i] + 3 + 1;
+        const vector_f d0 = kept[i].d0;
+        const vector_f scale = kept[i].scale;
+        const vector_f part0 = kept[i].part0;
+        const vector_f d1 = kept[i].d1;
+        const vector_f part1 = kept[i].part1;
+        const vector_f h_squared = kept[i].h_squared;
+        const vector_f near_chosen_2 = kept[i].near_chosen_2;
+        const vector_f h_product = kept[i].h_product;
+        const vector_f t_ratio = kept[i].t_ratio;
+        const vector_f ratio_2 = kept[i].ratio_2;
+        const vector_f its_b = X[2];
+        const vector_f x0_bar = slope_bar[0];
+        const vector_f x1_bar = slope_bar[1];
+        const vector_mask_f its_near = h_squared < 0.11468f;
+        const vector_f near_chosen = vector_select_f(its_near, 8.719916288803628f * h_squared, vector_of_f(0.0f));
+        const vector_f t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near_f(near_chosen);
+        const vector_f t_over_sinh_t = vector_select_f(its_near, t_over_sinh_t_near, t_ratio);
+        const vector_f scale_2 = t_over_sinh_t / its_b;
+        const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
+        const vector_f log_det_near = h_squared * log_det_series;
+        const vector_f log_det = vector_select_f(its_near, log_det_near, log_each_f(t_ratio));
+        const vector_f by_by_part0 = scale * x0_bar - d0 * ratio_2;
+        const vector_f by_by_part1 = scale * x1_bar - d1 * ratio_2;
+        const vector_f total_3 = part0 * by_by_part0 + part1 * by_by_part1;
+        const vector_f by_by_h_squared = 2.0f * total_3;
+        const vector_f by_by_h = vector_select_f(its_near, vector_of_f(0.0f), by_by_h_squared) / h_product;
+        const vector_f sqrt_2 = sqrt_each_f(1.0f + near_chosen_2);
+        kept[i].near_chosen = near_chosen;
+        kept[i].scale_2 = scale_2;
+        kept[i].log_det_series = log_det_series;
+        kept[i].log_det = log_det;
+        kept[i].by_by_part0 = by_by_part0;
+        kept[i].by_by_part1 = by_by_part1;
+        kept[i].total_3 = total_3;
+        kept[i].by_by_h_squared = by_by_h_squared;
+        kept[i].by_by_h = by_by_h;
+        kept[i].sqrt_2 = sqrt_2;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f d0 = kept[i].d0;
+        const vector_f d1 = kept[i].d1;
+        const vector_f h_squared_total = kept[i].h_squared_total;
+        const vector_f sqrt_1_plus_h_to_2 = kept[i].sqrt_1_plus_h_to_2;
+        const vector_f scale_2 = kept[i].scale_2;
+        const vector_f log_det = kept[i].log_det;
+        const vector_f by_by_h_squared = kept[i].by_by_h_squared;
+        const vector_f by_by_h = kept[i].by_by_h;
+        const vector_f sqrt_2 = kept[i].sqrt_2;
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float W0_0 = S[2];
+        const float W0_1 = S[3];
+        const float W1_0 = S[4];
+        const float W1_1 = S[5];
+        const float a = S[7];
+        const vector_f dd = d0 * d0 + d1 * d1;
+        const vector_f gap = d0 * a - mu0 * dd;
+        const vector_f v0 = scale_2 * gap;
+        const vector_f gap_2 = d1 * a - mu1 * dd;
+        const vector_f v1 = scale_2 * gap_2;
+        const vector_f z0 = W0_0 * v0 + W0_1 * v1;
+        const vector_f z1 = W1_0 * v0 + W1_1 * v1;
+        const vector_f phi = exp_each_f(log_det - 0.5f * (z0 * z0 + z1 * z1));
+        const vector_f by_by_asinh_h = by_by_h / sqrt_2;
+        const vector_mask_f is_small_2 = h_squared_total == 0.0f;
+        const vector_f product_3 = 2.0f * vector_select_f(is_small_2, vector_of_f(1.0f), sqrt_1_plus_h_to_2);
+        const vector_f ratio_3 = vector_select_f(is_small_2, vector_of_f(0.0f), by_by_h_squared) / product_3;
+        kept[i].dd = dd;
+        kept[i].gap = gap;
+        kept[i].v0 = v0;
+        kept[i].gap_2 = gap_2;
+        kept[i].v1 = v1;
+        kept[i].z0 = z0;
+        kept[i].z1 = z1;
+        kept[i].phi = phi;
+        kept[i].by_by_asinh_h = by_by_asinh_h;
+        kept[i].product_3 = product_3;
+        kept[i].ratio_3 = ratio_3;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 7 * (size_t)near[i];
+        const vector_f h_squared = kept[i].h_squared;
+        const vector_f sqrt_1_plus_h_to_2 = kept[i].sqrt_1_plus_h_to_2;
+        const vector_f h_product = kept[i].h_product;
+        const vector_f sinh_t = kept[i].sinh_t;
+        const vector_f t_ratio = kept[i].t_ratio;
+        const vector_f gap = kept[i].gap;
+        const vector_f gap_2 = kept[i].gap_2;
+        const vector_f z0 = kept[i].z0;
+        const vector_f z1 = kept[i].z1;
+        const vector_f phi = kept[i].phi;
+        const vector_f by_by_h = kept[i].by_by_h;
+        const vector_f by_by_asinh_h = kept[i].by_by_asinh_h;
+        const vector_f ratio_3 = kept[i].ratio_3;
+        const vector_f its_b = X[2];
+        const float W0_0 = S[2];
+        const float W0_1 = S[3];
+        const float W1_0 = S[4];
+        const float W1_1 = S[5];
+        const vector_mask_f its_near = h_squared < 0.11468f;
+        const vector_f total_2 = W1_0 * z1 + W0_0 * z0;
+        const vector_f phi_product = phi * total_2;
+        const vector_f by_by_h_product = 2.0f * by_by_h;
+        const vector_f gap_3 = -(sqrt_1_plus_h_to_2 * by_by_h_product) - h_product * ratio_3;
+        const vector_f by_by_t = 2.0f * by_by_asinh_h + t_ratio * gap_3;
+        const vector_f by_by_t_ratio = by_by_t / sinh_t;
+        const vector_f total_4 = W1_1 * z1 + W0_1 * z0;
+        const vector_f phi_product_4 = phi * total_4;
+        const vector_f by_scale_2 = -(gap_2 * phi_product_4) - gap * phi_product;
+        const vector_f by_t_over_sinh_t = by_scale_2 / its_b;
+        const vector_f ratio_5 = vector_select_f(its_near, vector_of_f(0.0f), phi) / t_ratio;
+        kept[i].total_2 = total_2;
+        kept[i].phi_product = phi_product;
+        kept[i].by_by_h_product = by_by_h_product;
+        kept[i].gap_3 = gap_3;
+        kept[i].by_by_t_ratio = by_by_t_ratio;
+        kept[i].total_4 = total_4;
+        kept[i].phi_product_4 = phi_product_4;
+        kept[i].by_t_over_sinh_t = by_t_over_sinh_t;
+        kept[i].ratio_5 = ratio_5;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 7 * (size_t)near[i];
+        const vector_f *slope_bar = points + 7 * (size_t)near[i] + 3 + 1;
+        const vector_f h_squared = kept[i].h_squared;
+        const vector_f near_chosen = kept[i].near_chosen;
+        const vector_f sinh_t = kept[i].sinh_t;
+        const vector_f t_ratio = kept[i].t_ratio;
+        const vector_f scale_2 = kept[i].scale_2;
+        const vector_f total_3 = kept[i].total_3;
+        const vector_f by_by_t_ratio = kept[i].by_by_t_ratio;
+        const vector_f by_t_over_sinh_t = kept[i].by_t_over_sinh_t;
+        const vector_f ratio_5 = kept[i].ratio_5;
+        const vector_f its_b = X[2];
+        const vector_f b_bar = slope_bar[2];
+        const vector_mask_f its_near = h_squared < 0.11468f;
+        const vector_f t_over_sinh_t_near_slope = vector_polynomial_t_over_sinh_t_near_slope_f(near_chosen);
+        const vector_f near_chosen_3 = vector_select_f(its_near, 17.439832577607255f * total_3,
+            vector_of_f(0.0f));
+        const vector_f by_by_t_over_sinh_t_near = t_over_sinh_t_near_slope * near_chosen_3;
+        const vector_f by_by_t_over_sinh_t = vector_select_f(its_near, vector_of_f(0.0f), by_by_t_ratio) +
+            vector_select_f(its_near, by_by_t_over_sinh_t_near, vector_of_f(0.0f)) - scale_2 * b_bar;
+        const vector_f by_by_scale_2 = by_by_t_over_sinh_t / its_b;
+        const vector_f ratio_4 = by_by_t_ratio / t_ratio;
+        const vector_f by_t = (vector_select_f(its_near, vector_of_f(0.0f), by_t_over_sinh_t) + ratio_5) / sinh_t;
+        kept[i].t_over_sinh_t_near_slope = t_over_sinh_t_near_slope;
+        kept[i].near_chosen_3 = near_chosen_3;
+        kept[i].by_by_scale_2 = by_by_scale_2;
+        kept[i].ratio_4 = ratio_4;
+        kept[i].by_t = by_t;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 7 * (size_t)near[i];
+        const vector_f *value_bar = points + 7 * (size_t)near[i] + 3;
+        const vector_f *slope_bar = points + 7 * (size_t)near[i] + 3 + 1;
+        const vector_f d0 = kept[i].d0;
+        const vector_f d1 = kept[i].d1;
+        const vector_f h_squared = kept[i].h_squared;
+        const vector_f near_chosen = kept[i].near_chosen;
+        const vector_f scale_2 = kept[i].scale_2;
+        const vector_f log_det_series = kept[i].log_det_series;
+        const vector_f gap = kept[i].gap;
+        const vector_f gap_2 = kept[i].gap_2;
+        const vector_f phi = kept[i].phi;
+        const vector_f total_2 = kept[i].total_2;
+        const vector_f phi_product = kept[i].phi_product;
+        const vector_f by_by_h_squared = kept[i].by_by_h_squared;
+        const vector_f sqrt_2 = kept[i].sqrt_2;
+        const vector_f near_chosen_3 = kept[i].near_chosen_3;
+        const vector_f by_by_scale_2 = kept[i].by_by_scale_2;
+        const vector_f ratio_4 = kept[i].ratio_4;
+        const vector_f total_4 = kept[i].total_4;
+        const vector_f phi_product_4 = kept[i].phi_product_4;
+        const vector_f by_t_over_sinh_t = kept[i].by_t_over_sinh_t;
+        const vector_f by_t = kept[i].by_t;
+        const vector_f its_b = X[2];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float a = S[7];
+        const float M0_0 = S[8];
+        const float M0_1 = S[9];
+        const float M1_1 = S[10];
+        const vector_f its_value_bar = value_bar[0];
+        const vector_f x0_bar = slope_bar[0];
+        const vector_f x1_bar = slope_bar[1];
+        const vector_f b_bar = slope_bar[2];
+        const vector_mask_f its_near = h_squared < 0.11468f;
+        const vector_f by_by_dd = 2.0f * (d0 * x0_bar + d1 * x1_bar);
+        const vector_f gap_4 = mu0 * by_by_dd - a * x0_bar;
+        const vector_f gap_5 = scale_2 * gap_4 - gap * by_by_scale_2;
+        const vector_f phi_product_2 = phi * gap_5;
+        const vector_f gap_6 = mu1 * by_by_dd - a * x1_bar;
+        const vector_f gap_7 = scale_2 * gap_6 - gap_2 * by_by_scale_2;
+        const vector_f phi_product_3 = phi * gap_7;
+        const vector_f log_det_series_slope = vector_polynomial_log_det_series_slope_f(near_chosen);
+        const vector_f by_by_log_det_series = log_det_series_slope * near_chosen_3;
+        const vector_f by_by_log_det_near = h_squared * by_by_log_det_series + log_det_series * by_by_h_squared;
+        const vector_f by_phi = its_value_bar + vector_select_f(its_near, vector_of_f(0.0f), ratio_4) +
+            vector_select_f(its_near, by_by_log_det_near, vector_of_f(0.0f)) + total_4 * gap_7 + total_2 * gap_5;
+        const vector_f by_log_det = phi * by_phi;
+        const vector_f by_v0 = M0_0 * phi_product_2 + M0_1 * phi_product_3 - total_2 * by_log_det;
+        const vector_f by_asinh_h = 2.0f * by_t;
+        const vector_f by_asinh_h_ratio = by_asinh_h / sqrt_2;
+        const vector_f by_v1 = M0_1 * phi_product_2 + M1_1 * phi_product_3 - total_4 * by_log_det;
+        const vector_f by_scale_2_2 = phi_product * gap_4 - by_t_over_sinh_t * b_bar + phi_product_4 * gap_6 +
+            gap_2 * by_v1 + gap * by_v0;
+        const vector_f by_t_over_sinh_t_2 = by_scale_2_2 / its_b;
+        kept[i].by_by_dd = by_by_dd;
+        kept[i].phi_product_2 = phi_product_2;
+        kept[i].phi_product_3 = phi_product_3;
+        kept[i].log_det_series_slope = log_det_series_slope;
+        kept[i].by_by_log_det_series = by_by_log_det_series;
+        kept[i].by_log_det = by_log_det;
+        kept[i].by_v0 = by_v0;
+        kept[i].by_asinh_h_ratio = by_asinh_h_ratio;
+        kept[i].by_v1 = by_v1;
+        kept[i].by_t_over_sinh_t_2 = by_t_over_sinh_t_2;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f h_squared = kept[i].h_squared;
+        const vector_f sqrt_1_plus_h_to_2 = kept[i].sqrt_1_plus_h_to_2;
+        const vector_f h_product = kept[i].h_product;
+        const vector_f sinh_t = kept[i].sinh_t;
+        const vector_f t_ratio = kept[i].t_ratio;
+        const vector_f product_3 = kept[i].product_3;
+        const vector_f gap_3 = kept[i].gap_3;
+        const vector_f ratio_4 = kept[i].ratio_4;
+        const vector_f by_log_det = kept[i].by_log_det;
+        const vector_f ratio_5 = kept[i].ratio_5;
+        const vector_f by_t = kept[i].by_t;
+        const vector_f by_asinh_h_ratio = kept[i].by_asinh_h_ratio;
+        const vector_f by_t_over_sinh_t_2 = kept[i].by_t_over_sinh_t_2;
+        const vector_mask_f its_near = h_squared < 0.11468f;
+        const vector_f by_t_product = t_ratio * by_t;
+        const vector_f ratio_6 = h_product * by_t_product / product_3;
+        const vector_f by_h = by_asinh_h_ratio - 2.0f * (sqrt_1_plus_h_to_2 * by_t_product);
+        const vector_f by_h_ratio = by_h / h_product;
+        const vector_f by_t_2 = (by_t * gap_3 - ratio_5 * ratio_4 + vector_select_f(its_near, vector_of_f(0.0f),
+            by_t_over_sinh_t_2) + vector_select_f(its_near, vector_of_f(0.0f), by_log_det) / t_ratio) / sinh_t;
+        kept[i].by_t_product = by_t_product;
+        kept[i].ratio_6 = ratio_6;
+        kept[i].by_h_ratio = by_h_ratio;
+        kept[i].by_t_2 = by_t_2;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f d0 = kept[i].d0;
+        const vector_f sqrt_a_times_b = kept[i].sqrt_a_times_b;
+        const vector_f part0 = kept[i].part0;
+        const vector_f d1 = kept[i].d1;
+        const vector_f part1 = kept[i].part1;
+        const vector_f h_squared = kept[i].h_squared;
+        const vector_f h_squared_total = kept[i].h_squared_total;
+        const vector_f sqrt_1_plus_h_to_2 = kept[i].sqrt_1_plus_h_to_2;
+        const vector_f t_ratio = kept[i].t_ratio;
+        const vector_f log_det_series = kept[i].log_det_series;
+        const vector_f phi = kept[i].phi;
+        const vector_f by_by_h = kept[i].by_by_h;
+        const vector_f sqrt_2 = kept[i].sqrt_2;
+        const vector_f ratio_3 = kept[i].ratio_3;
+        const vector_f by_by_t_ratio = kept[i].by_by_t_ratio;
+        const vector_f t_over_sinh_t_near_slope = kept[i].t_over_sinh_t_near_slope;
+        const vector_f log_det_series_slope = kept[i].log_det_series_slope;
+        const vector_f by_t_over_sinh_t = kept[i].by_t_over_sinh_t;
+        const vector_f by_t = kept[i].by_t;
+        const vector_f by_t_product = kept[i].by_t_product;
+        const vector_f ratio_6 = kept[i].ratio_6;
+        const vector_f by_h_ratio = kept[i].by_h_ratio;
+        const vector_f by_t_2 = kept[i].by_t_2;
+        const vector_mask_f its_near = h_squared < 0.11468f;
+        const vector_mask_f is_small_2 = h_squared_total == 0.0f;
+        const vector_f by_log_det_near = vector_select_f(its_near, phi, vector_of_f(0.0f));
+        const vector_f by_t_over_sinh_t_near = vector_select_f(its_near, by_t_over_sinh_t, vector_of_f(0.0f));
+        const vector_f by_log_det_series = h_squared * by_log_det_near;
+        const vector_f by_h_squared = vector_select_f(is_small_2, vector_of_f(0.0f), -ratio_6) +
+            vector_select_f(its_near, vector_of_f(0.0f), by_h_ratio) + log_det_series * by_log_det_near +
+            8.719916288803628f * vector_select_f(its_near, by_t_over_sinh_t_near * t_over_sinh_t_near_slope +
+            by_log_det_series * log_det_series_slope, vector_of_f(0.0f));
+        const vector_f product_5 = 2.0f * by_h_squared;
+        const vector_f by_part0 = part0 * product_5;
+        const vector_f by_sinh_t = -(by_t * by_by_t_ratio) - t_ratio * by_t_2;
+        const vector_f product_7 = 2.0f * (-(by_h_ratio * by_by_h) - by_t_product * ratio_3 + sqrt_1_plus_h_to_2 *
+            by_sinh_t);
+        const vector_f by_asinh_h_2 = 2.0f * by_t_2;
+        const vector_f by_h_2 = product_7 + by_asinh_h_2 / sqrt_2;
+        const vector_f by_part1 = part1 * product_5;
+        const vector_f by_scale = d1 * by_part1 + d0 * by_part0;
+        const vector_f by_scale_ratio = by_scale / sqrt_a_times_b;
+        kept[i].by_log_det_near = by_log_det_near;
+        kept[i].by_t_over_sinh_t_near = by_t_over_sinh_t_near;
+        kept[i].by_log_det_series = by_log_det_series;
+        kept[i].product_5 = product_5;
+        kept[i].by_part0 = by_part0;
+        kept[i].by_sinh_t = by_sinh_t;
+        kept[i].by_h_2 = by_h_2;
+        kept[i].by_part1 = by_part1;
+        kept[i].by_scale_ratio = by_scale_ratio;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f scale = kept[i].scale;
+        const vector_f h_squared = kept[i].h_squared;
+        const vector_f h_squared_total = kept[i].h_squared_total;
+        const vector_f h_product = kept[i].h_product;
+        const vector_f product_2 = kept[i].product_2;
+        const vector_f sqrt_2 = kept[i].sqrt_2;
+        const vector_f by_by_asinh_h = kept[i].by_by_asinh_h;
+        const vector_f by_by_h_product = kept[i].by_by_h_product;
+        const vector_f product_3 = kept[i].product_3;
+        const vector_f ratio_3 = kept[i].ratio_3;
+        const vector_f by_by_log_det_series = kept[i].by_by_log_det_series;
+        const vector_f by_t_product = kept[i].by_t_product;
+        const vector_f ratio_6 = kept[i].ratio_6;
+        const vector_f by_asinh_h_ratio = kept[i].by_asinh_h_ratio;
+        const vector_f by_log_det_near = kept[i].by_log_det_near;
+        const vector_f by_sinh_t = kept[i].by_sinh_t;
+        const vector_f by_h_2 = kept[i].by_h_2;
+        const vector_f by_scale_ratio = kept[i].by_scale_ratio;
+        const vector_mask_f its_near = h_squared < 0.11468f;
+        const vector_mask_f is_small_2 = h_squared_total == 0.0f;
+        const vector_f by_sqrt_1_plus_h_to_2 = vector_select_f(is_small_2, vector_of_f(0.0f), 2.0f * (ratio_6 *
+            ratio_3)) - by_t_product * by_by_h_product + h_product * by_sinh_t;
+        const vector_f total_5 = by_log_det_near * by_by_log_det_series + vector_select_f(is_small_2,
+            vector_of_f(0.0f), by_sqrt_1_plus_h_to_2 / product_3) + vector_select_f(its_near, vector_of_f(0.0f),
+            by_h_2 / h_product - by_asinh_h_ratio * by_by_asinh_h / (2.0f * sqrt_2));
+        const vector_f ratio_7 = scale * by_scale_ratio / product_2;
+        kept[i].total_5 = total_5;
+        kept[i].ratio_7 = ratio_7;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *slope_bar = points + 7 * (size_t)near[i] + 3 + 1;
+        const vector_f d0 = kept[i].d0;
+        const vector_f product = kept[i].product;
+        const vector_f sqrt_a_times_b = kept[i].sqrt_a_times_b;
+        const vector_f scale = kept[i].scale;
+        const vector_f part0 = kept[i].part0;
+        const vector_f d1 = kept[i].d1;
+        const vector_f part1 = kept[i].part1;
+        const vector_f h_squared = kept[i].h_squared;
+        const vector_f near_chosen = kept[i].near_chosen;
+        const vector_f log_det_series = kept[i].log_det_series;
+        const vector_f ratio = kept[i].ratio;
+        const vector_f ratio_2 = kept[i].ratio_2;
+        const vector_f by_by_part0 = kept[i].by_by_part0;
+        const vector_f by_by_part1 = kept[i].by_by_part1;
+        const vector_f by_by_h_squared = kept[i].by_by_h_squared;
+        const vector_f t_over_sinh_t_near_slope = kept[i].t_over_sinh_t_near_slope;
+        const vector_f near_chosen_3 = kept[i].near_chosen_3;
+        const vector_f log_det_series_slope = kept[i].log_det_series_slope;
+        const vector_f by_log_det = kept[i].by_log_det;
+        const vector_f by_log_det_near = kept[i].by_log_det_near;
+        const vector_f by_t_over_sinh_t_near = kept[i].by_t_over_sinh_t_near;
+        const vector_f by_log_det_series = kept[i].by_log_det_series;
+        const vector_f product_5 = kept[i].product_5;
+        const vector_f by_part0 = kept[i].by_part0;
+        const vector_f by_t_over_sinh_t_2 = kept[i].by_t_over_sinh_t_2;
+        const vector_f total_5 = kept[i].total_5;
+        const vector_f by_part1 = kept[i].by_part1;
+        const vector_f by_scale_ratio = kept[i].by_scale_ratio;
+        const vector_f ratio_7 = kept[i].ratio_7;
+        const vector_f x0_bar = slope_bar[0];
+        const vector_f x1_bar = slope_bar[1];
+        const vector_mask_f its_near = h_squared < 0.11468f;
+        const vector_mask_f is_small = product == 0.0f;
+        const vector_f by_log_det_near_2 = vector_select_f(its_near, by_log_det, vector_of_f(0.0f));
+        const vector_f by_log_det_series_slope = by_log_det_series * near_chosen_3;
+        const vector_f log_det_series_slope_slope = vector_polynomial_log_det_series_slope_slope_f(near_chosen);
+        const vector_f by_t_over_sinh_t_near_slope = by_t_over_sinh_t_near * near_chosen_3;
+        const vector_f t_over_sinh_t_near_slope_slope =
+            vector_polynomial_t_over_sinh_t_near_slope_slope_f(near_chosen);
+        const vector_f by_t_over_sinh_t_near_2 = vector_select_f(its_near, by_t_over_sinh_t_2, vector_of_f(0.0f));
+        const vector_f by_log_det_series_2 = by_log_det_near * by_by_h_squared + h_squared * by_log_det_near_2;
+        const vector_f near_chosen_4 = vector_select_f(its_near, by_log_det_series_slope *
+            log_det_series_slope_slope + by_t_over_sinh_t_near_slope * t_over_sinh_t_near_slope_slope +
+            t_over_sinh_t_near_slope * by_t_over_sinh_t_near_2 + log_det_series_slope * by_log_det_series_2,
+            vector_of_f(0.0f));
+        const vector_f by_h_squared_2 = total_5 + log_det_series * by_log_det_near_2 + 8.719916288803628f *
+            near_chosen_4;
+        const vector_f product_8 = 2.0f * by_h_squared_2;
+        const vector_f by_part0_2 = product_5 * by_by_part0 + part0 * product_8;
+        const vector_f by_part1_2 = product_5 * by_by_part1 + part1 * product_8;
+        const vector_f by_scale_3 = by_part0 * x0_bar - by_scale_ratio * ratio + by_part1 * x1_bar + d1 *
+            by_part1_2 + d0 * by_part0_2;
+        const vector_f by_sqrt_a_times_b = vector_select_f(is_small, vector_of_f(0.0f), 2.0f * (ratio_7 * ratio))
+            + by_scale_ratio * ratio_2 - scale * (by_scale_3 / sqrt_a_times_b);
+        kept[i].by_part0_2 = by_part0_2;
+        kept[i].by_part1_2 = by_part1_2;
+        kept[i].by_sqrt_a_times_b = by_sqrt_a_times_b;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const vector_f *X = points + 7 * (size_t)near[i];
+        const vector_f *slope_bar = points + 7 * (size_t)near[i] + 3 + 1;
+        const vector_f d0 = kept[i].d0;
+        const vector_f product = kept[i].product;
+        const vector_f scale = kept[i].scale;
+        const vector_f d1 = kept[i].d1;
+        const vector_f scale_2 = kept[i].scale_2;
+        const vector_f dd = kept[i].dd;
+        const vector_f v0 = kept[i].v0;
+        const vector_f v1 = kept[i].v1;
+        const vector_f phi_product = kept[i].phi_product;
+        const vector_f by_by_dd = kept[i].by_by_dd;
+        const vector_f product_2 = kept[i].product_2;
+        const vector_f ratio_2 = kept[i].ratio_2;
+        const vector_f by_by_scale_2 = kept[i].by_by_scale_2;
+        const vector_f phi_product_2 = kept[i].phi_product_2;
+        const vector_f phi_product_3 = kept[i].phi_product_3;
+        const vector_f by_log_det = kept[i].by_log_det;
+        const vector_f by_v0 = kept[i].by_v0;
+        const vector_f phi_product_4 = kept[i].phi_product_4;
+        const vector_f by_part0 = kept[i].by_part0;
+        const vector_f by_v1 = kept[i].by_v1;
+        const vector_f by_part0_2 = kept[i].by_part0_2;
+        const vector_f by_part1 = kept[i].by_part1;
+        const vector_f by_part1_2 = kept[i].by_part1_2;
+        const vector_f ratio_7 = kept[i].ratio_7;
+        const vector_f by_sqrt_a_times_b = kept[i].by_sqrt_a_times_b;
+        const vector_f its_b = X[2];
+        const float mu0 = S[0];
+        const float mu1 = S[1];
+        const float a = S[7];
+        const vector_f x0_bar = slope_bar[0];
+        const vector_f x1_bar = slope_bar[1];
+        const vector_f b_bar = slope_bar[2];
+        const vector_f scale_2_product = scale_2 * phi_product;
+        const vector_mask_f is_small = product == 0.0f;
+        const vector_f product_4 = phi_product * by_by_scale_2;
+        const vector_f scale_2_product_2 = scale_2 * by_v0;
+        const vector_f gap_8 = product_4 - scale_2_product_2;
+        const vector_f scale_2_product_3 = scale_2 * phi_product_4;
+        const vector_f by_dd = mu1 * scale_2_product_3 + mu0 * scale_2_product;
+        const vector_f by_dd_product = 2.0f * by_dd;
+        const vector_f product_6 = phi_product_4 * by_by_scale_2;
+        const vector_f scale_2_product_4 = scale_2 * by_v1;
+        const vector_f gap_9 = product_6 - scale_2_product_4;
+        const vector_f by_dd_2 = mu1 * gap_9 + mu0 * gap_8;
+        const vector_f by_dd_product_2 = 2.0f * by_dd_2;
+        const vector_f gap_10 = scale_2_product_2 - product_4;
+        const vector_f gap_11 = scale_2_product_4 - product_6;
+        const vector_f by_log_det_product = 0.5f * by_log_det;
+        const vector_f gap_13 = phi_product_2 - v0 * by_log_det_product;
+        const vector_f gap_14 = phi_product_3 - v1 * by_log_det_product;
+        sums[0] = sums[0] + scale_2_product * by_by_dd + dd * gap_8 - by_dd_product * x0_bar + by_part0 * ratio_2
+                - d0 * by_dd_product_2 - a * gap_10 - scale * by_part0_2;
+        sums[1] = sums[1] + scale_2_product_3 * by_by_dd + dd * gap_9 - by_dd_product * x1_bar + by_part1 *
+                ratio_2 - a * gap_11 - d1 * by_dd_product_2 - scale * by_part1_2;
+        sums[2] = sums[2] + by_log_det;
+        sums[3] = sums[3] + vector_select_f(is_small, vector_of_f(0.0f), -ratio_7) * b_bar - scale_2_product *
+                x0_bar - scale_2_product_3 * x1_bar + d1 * gap_11 + d0 * gap_10 + its_b * vector_select_f(is_small,
+                vector_of_f(0.0f), by_sqrt_a_times_b / product_2);
+        sums[4] = sums[4] + v0 * gap_13;
+        sums[5] = sums[5] + v0 * gap_14 + v1 * gap_13;
+        sums[6] = sums[6] + v1 * gap_14;
+    }
+}
+
 /* The adjoints of some splats' parameters, of their sums over the points. */
 OUTLINE void pair_constants_vjp_f(
     const vector_f *mu, const vector_f *W, const vector_f *amplitude, const vector_f *sums, vector_f *mu_bar, vector_f *W_bar, vector_f *amplitude_bar) {
@@ -1341,195 +2759,6 @@ OUTLINE void pair_constants_vjp_f(
     W_bar[2] = its_amplitude * (W1_0 * product_2 + W1_1 * sum5);
     W_bar[3] = its_amplitude * (W1_0 * sum5 + W1_1 * product_3);
     amplitude_bar[0] = sum2;
-}
-
-/*
- * Adds what makes the derivatives of phi value_bar + slope . slope_bar, of a splat at some points.
- *
- * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
- */
-OUTLINE void pair_backward_f(
-    const vector_f *X, const float *S, const vector_f *value_bar, const vector_f *slope_bar, vector_f *sums) {
-    const vector_f x0 = X[0];
-    const vector_f x1 = X[1];
-    const vector_f b = X[2];
-    const float mu0 = S[0];
-    const float mu1 = S[1];
-    const float W0_0 = S[2];
-    const float W0_1 = S[3];
-    const float W1_0 = S[4];
-    const float W1_1 = S[5];
-    const float a = S[7];
-    const float M0_0 = S[8];
-    const float M0_1 = S[9];
-    const float M1_1 = S[10];
-    const vector_f its_value_bar = value_bar[0];
-    const vector_f x0_bar = slope_bar[0];
-    const vector_f x1_bar = slope_bar[1];
-    const vector_f b_bar = slope_bar[2];
-    const vector_f d0 = x0 - mu0;
-    const vector_f product = a * b;
-    const vector_f sqrt_a_times_b = sqrt_each_f(product);
-    const vector_f scale = 1.0f / sqrt_a_times_b;
-    const vector_f part0 = d0 * scale;
-    const vector_f d1 = x1 - mu1;
-    const vector_f part1 = d1 * scale;
-    const vector_f h_squared = part0 * part0 + part1 * part1;
-    const vector_mask_f near = h_squared < 0.11468f;
-    const vector_f near_chosen = vector_select_f(near, 8.719916288803628f * h_squared, vector_of_f(0.0f));
-    const vector_f t_over_sinh_t_near = vector_polynomial_t_over_sinh_t_near_f(near_chosen);
-    const vector_f near_chosen_2 = vector_select_f(near, vector_of_f(1.0f), h_squared);
-    const vector_f h = sqrt_each_f(near_chosen_2);
-    const vector_f asinh_h = asinh_each_f(h);
-    const vector_f t = 2.0f * asinh_h;
-    const vector_f h_squared_total = 1.0f + h_squared;
-    const vector_f sqrt_1_plus_h_to_2 = sqrt_each_f(h_squared_total);
-    const vector_f h_product = 2.0f * h;
-    const vector_f sinh_t = sqrt_1_plus_h_to_2 * h_product;
-    const vector_f t_ratio = t / sinh_t;
-    const vector_f t_over_sinh_t = vector_select_f(near, t_over_sinh_t_near, t_ratio);
-    const vector_f scale_2 = t_over_sinh_t / b;
-    const vector_f log_det_series = vector_polynomial_log_det_series_f(near_chosen);
-    const vector_f log_det_near = h_squared * log_det_series;
-    const vector_f log_det = vector_select_f(near, log_det_near, log_each_f(t_ratio));
-    const vector_f dd = d0 * d0 + d1 * d1;
-    const vector_f gap = d0 * a - mu0 * dd;
-    const vector_f v0 = scale_2 * gap;
-    const vector_f gap_2 = d1 * a - mu1 * dd;
-    const vector_f v1 = scale_2 * gap_2;
-    const vector_f z0 = W0_0 * v0 + W0_1 * v1;
-    const vector_f z1 = W1_0 * v0 + W1_1 * v1;
-    const vector_f phi = exp_each_f(log_det - 0.5f * (z0 * z0 + z1 * z1));
-    const vector_f total_2 = W1_0 * z1 + W0_0 * z0;
-    const vector_f phi_product = phi * total_2;
-    const vector_f scale_2_product = scale_2 * phi_product;
-    const vector_f by_by_dd = 2.0f * (d0 * x0_bar + d1 * x1_bar);
-    const vector_mask_f is_small = product == 0.0f;
-    const vector_f product_2 = 2.0f * vector_select_f(is_small, vector_of_f(1.0f), sqrt_a_times_b);
-    const vector_f ratio = vector_select_f(is_small, vector_of_f(0.0f), a * b_bar) / product_2;
-    const vector_f ratio_2 = scale * ratio / sqrt_a_times_b;
-    const vector_f by_by_part0 = scale * x0_bar - d0 * ratio_2;
-    const vector_f by_by_part1 = scale * x1_bar - d1 * ratio_2;
-    const vector_f total_3 = part0 * by_by_part0 + part1 * by_by_part1;
-    const vector_f by_by_h_squared = 2.0f * total_3;
-    const vector_f by_by_h = vector_select_f(near, vector_of_f(0.0f), by_by_h_squared) / h_product;
-    const vector_f sqrt_2 = sqrt_each_f(1.0f + near_chosen_2);
-    const vector_f by_by_asinh_h = by_by_h / sqrt_2;
-    const vector_f by_by_h_product = 2.0f * by_by_h;
-    const vector_mask_f is_small_2 = h_squared_total == 0.0f;
-    const vector_f product_3 = 2.0f * vector_select_f(is_small_2, vector_of_f(1.0f), sqrt_1_plus_h_to_2);
-    const vector_f ratio_3 = vector_select_f(is_small_2, vector_of_f(0.0f), by_by_h_squared) / product_3;
-    const vector_f gap_3 = -(sqrt_1_plus_h_to_2 * by_by_h_product) - h_product * ratio_3;
-    const vector_f by_by_t = 2.0f * by_by_asinh_h + t_ratio * gap_3;
-    const vector_f by_by_t_ratio = by_by_t / sinh_t;
-    const vector_f t_over_sinh_t_near_slope = vector_polynomial_t_over_sinh_t_near_slope_f(near_chosen);
-    const vector_f near_chosen_3 = vector_select_f(near, 17.439832577607255f * total_3, vector_of_f(0.0f));
-    const vector_f by_by_t_over_sinh_t_near = t_over_sinh_t_near_slope * near_chosen_3;
-    const vector_f by_by_t_over_sinh_t = vector_select_f(near, vector_of_f(0.0f), by_by_t_ratio) +
-        vector_select_f(near, by_by_t_over_sinh_t_near, vector_of_f(0.0f)) - scale_2 * b_bar;
-    const vector_f by_by_scale_2 = by_by_t_over_sinh_t / b;
-    const vector_f product_4 = phi_product * by_by_scale_2;
-    const vector_f gap_4 = mu0 * by_by_dd - a * x0_bar;
-    const vector_f gap_5 = scale_2 * gap_4 - gap * by_by_scale_2;
-    const vector_f phi_product_2 = phi * gap_5;
-    const vector_f gap_6 = mu1 * by_by_dd - a * x1_bar;
-    const vector_f gap_7 = scale_2 * gap_6 - gap_2 * by_by_scale_2;
-    const vector_f phi_product_3 = phi * gap_7;
-    const vector_f ratio_4 = by_by_t_ratio / t_ratio;
-    const vector_f log_det_series_slope = vector_polynomial_log_det_series_slope_f(near_chosen);
-    const vector_f by_by_log_det_series = log_det_series_slope * near_chosen_3;
-    const vector_f by_by_log_det_near = h_squared * by_by_log_det_series + log_det_series * by_by_h_squared;
-    const vector_f total_4 = W1_1 * z1 + W0_1 * z0;
-    const vector_f by_phi = its_value_bar + vector_select_f(near, vector_of_f(0.0f), ratio_4) +
-        vector_select_f(near, by_by_log_det_near, vector_of_f(0.0f)) + total_4 * gap_7 + total_2 * gap_5;
-    const vector_f by_log_det = phi * by_phi;
-    const vector_f by_v0 = M0_0 * phi_product_2 + M0_1 * phi_product_3 - total_2 * by_log_det;
-    const vector_f scale_2_product_2 = scale_2 * by_v0;
-    const vector_f gap_8 = product_4 - scale_2_product_2;
-    const vector_f phi_product_4 = phi * total_4;
-    const vector_f scale_2_product_3 = scale_2 * phi_product_4;
-    const vector_f by_dd = mu1 * scale_2_product_3 + mu0 * scale_2_product;
-    const vector_f by_dd_product = 2.0f * by_dd;
-    const vector_f by_scale_2 = -(gap_2 * phi_product_4) - gap * phi_product;
-    const vector_f by_t_over_sinh_t = by_scale_2 / b;
-    const vector_f ratio_5 = vector_select_f(near, vector_of_f(0.0f), phi) / t_ratio;
-    const vector_f by_t = (vector_select_f(near, vector_of_f(0.0f), by_t_over_sinh_t) + ratio_5) / sinh_t;
-    const vector_f by_t_product = t_ratio * by_t;
-    const vector_f ratio_6 = h_product * by_t_product / product_3;
-    const vector_f by_asinh_h = 2.0f * by_t;
-    const vector_f by_asinh_h_ratio = by_asinh_h / sqrt_2;
-    const vector_f by_h = by_asinh_h_ratio - 2.0f * (sqrt_1_plus_h_to_2 * by_t_product);
-    const vector_f by_h_ratio = by_h / h_product;
-    const vector_f by_log_det_near = vector_select_f(near, phi, vector_of_f(0.0f));
-    const vector_f by_t_over_sinh_t_near = vector_select_f(near, by_t_over_sinh_t, vector_of_f(0.0f));
-    const vector_f by_log_det_series = h_squared * by_log_det_near;
-    const vector_f by_h_squared = vector_select_f(is_small_2, vector_of_f(0.0f), -ratio_6) +
-        vector_select_f(near, vector_of_f(0.0f), by_h_ratio) + log_det_series * by_log_det_near +
-        8.719916288803628f * vector_select_f(near, by_t_over_sinh_t_near * t_over_sinh_t_near_slope +
-        by_log_det_series * log_det_series_slope, vector_of_f(0.0f));
-    const vector_f product_5 = 2.0f * by_h_squared;
-    const vector_f by_part0 = part0 * product_5;
-    const vector_f product_6 = phi_product_4 * by_by_scale_2;
-    const vector_f by_v1 = M0_1 * phi_product_2 + M1_1 * phi_product_3 - total_4 * by_log_det;
-    const vector_f scale_2_product_4 = scale_2 * by_v1;
-    const vector_f gap_9 = product_6 - scale_2_product_4;
-    const vector_f by_dd_2 = mu1 * gap_9 + mu0 * gap_8;
-    const vector_f by_dd_product_2 = 2.0f * by_dd_2;
-    const vector_f gap_10 = scale_2_product_2 - product_4;
-    const vector_f by_scale_2_2 = phi_product * gap_4 - by_t_over_sinh_t * b_bar + phi_product_4 * gap_6 +
-        gap_2 * by_v1 + gap * by_v0;
-    const vector_f by_t_over_sinh_t_2 = by_scale_2_2 / b;
-    const vector_f by_t_2 = (by_t * gap_3 - ratio_5 * ratio_4 + vector_select_f(near, vector_of_f(0.0f),
-        by_t_over_sinh_t_2) + vector_select_f(near, vector_of_f(0.0f), by_log_det) / t_ratio) / sinh_t;
-    const vector_f by_sinh_t = -(by_t * by_by_t_ratio) - t_ratio * by_t_2;
-    const vector_f by_sqrt_1_plus_h_to_2 = vector_select_f(is_small_2, vector_of_f(0.0f), 2.0f * (ratio_6 *
-        ratio_3)) - by_t_product * by_by_h_product + h_product * by_sinh_t;
-    const vector_f product_7 = 2.0f * (-(by_h_ratio * by_by_h) - by_t_product * ratio_3 + sqrt_1_plus_h_to_2 *
-        by_sinh_t);
-    const vector_f by_asinh_h_2 = 2.0f * by_t_2;
-    const vector_f by_h_2 = product_7 + by_asinh_h_2 / sqrt_2;
-    const vector_f total_5 = by_log_det_near * by_by_log_det_series + vector_select_f(is_small_2,
-        vector_of_f(0.0f), by_sqrt_1_plus_h_to_2 / product_3) + vector_select_f(near, vector_of_f(0.0f),
-        by_h_2 / h_product - by_asinh_h_ratio * by_by_asinh_h / (2.0f * sqrt_2));
-    const vector_f by_log_det_near_2 = vector_select_f(near, by_log_det, vector_of_f(0.0f));
-    const vector_f by_log_det_series_slope = by_log_det_series * near_chosen_3;
-    const vector_f log_det_series_slope_slope = vector_polynomial_log_det_series_slope_slope_f(near_chosen);
-    const vector_f by_t_over_sinh_t_near_slope = by_t_over_sinh_t_near * near_chosen_3;
-    const vector_f t_over_sinh_t_near_slope_slope =
-        vector_polynomial_t_over_sinh_t_near_slope_slope_f(near_chosen);
-    const vector_f by_t_over_sinh_t_near_2 = vector_select_f(near, by_t_over_sinh_t_2, vector_of_f(0.0f));
-    const vector_f by_log_det_series_2 = by_log_det_near * by_by_h_squared + h_squared * by_log_det_near_2;
-    const vector_f near_chosen_4 = vector_select_f(near, by_log_det_series_slope * log_det_series_slope_slope
-        + by_t_over_sinh_t_near_slope * t_over_sinh_t_near_slope_slope + t_over_sinh_t_near_slope *
-        by_t_over_sinh_t_near_2 + log_det_series_slope * by_log_det_series_2, vector_of_f(0.0f));
-    const vector_f by_h_squared_2 = total_5 + log_det_series * by_log_det_near_2 + 8.719916288803628f *
-        near_chosen_4;
-    const vector_f product_8 = 2.0f * by_h_squared_2;
-    const vector_f by_part0_2 = product_5 * by_by_part0 + part0 * product_8;
-    const vector_f by_part1 = part1 * product_5;
-    const vector_f gap_11 = scale_2_product_4 - product_6;
-    const vector_f by_part1_2 = product_5 * by_by_part1 + part1 * product_8;
-    const vector_f by_scale = d1 * by_part1 + d0 * by_part0;
-    const vector_f by_scale_ratio = by_scale / sqrt_a_times_b;
-    const vector_f ratio_7 = scale * by_scale_ratio / product_2;
-    const vector_f by_scale_3 = by_part0 * x0_bar - by_scale_ratio * ratio + by_part1 * x1_bar + d1 *
-        by_part1_2 + d0 * by_part0_2;
-    const vector_f by_sqrt_a_times_b = vector_select_f(is_small, vector_of_f(0.0f), 2.0f * (ratio_7 * ratio))
-        + by_scale_ratio * ratio_2 - scale * (by_scale_3 / sqrt_a_times_b);
-    const vector_f by_log_det_product = 0.5f * by_log_det;
-    const vector_f gap_13 = phi_product_2 - v0 * by_log_det_product;
-    const vector_f gap_14 = phi_product_3 - v1 * by_log_det_product;
-    sums[0] = sums[0] + scale_2_product * by_by_dd + dd * gap_8 - by_dd_product * x0_bar + by_part0 * ratio_2
-            - d0 * by_dd_product_2 - a * gap_10 - scale * by_part0_2;
-    sums[1] = sums[1] + scale_2_product_3 * by_by_dd + dd * gap_9 - by_dd_product * x1_bar + by_part1 *
-            ratio_2 - a * gap_11 - d1 * by_dd_product_2 - scale * by_part1_2;
-    sums[2] = sums[2] + by_log_det;
-    sums[3] = sums[3] + vector_select_f(is_small, vector_of_f(0.0f), -ratio_7) * b_bar - scale_2_product *
-            x0_bar - scale_2_product_3 * x1_bar + d1 * gap_11 + d0 * gap_10 + b * vector_select_f(is_small,
-            vector_of_f(0.0f), by_sqrt_a_times_b / product_2);
-    sums[4] = sums[4] + v0 * gap_13;
-    sums[5] = sums[5] + v0 * gap_14 + v1 * gap_13;
-    sums[6] = sums[6] + v1 * gap_14;
 }
 
 /* The numbers of LANES rows from `start` on, transposed; past the end, the last row again. */
@@ -1621,7 +2850,7 @@ OUTLINE void splat_constants_f(
     vector_to_rows_f(S, constants, splat_count, start, 11, 11);
 }
 
-/* 2 vectors of points at a time stay in registers while all splats pass. */
+/* 2 vectors of points at a time while all splats pass, some at a time. */
 void poincare_splats_f(
     size_t count, size_t splat_count, const float *POINCARE_RESTRICT x, const float *POINCARE_RESTRICT mu, const float *POINCARE_RESTRICT W, const float *POINCARE_RESTRICT amplitude, const float *POINCARE_RESTRICT width,
     float *POINCARE_RESTRICT value, float *POINCARE_RESTRICT gradient, float *POINCARE_RESTRICT work, int threads) {
@@ -1636,27 +2865,26 @@ void poincare_splats_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[2][2], X[2][3], grad[2];
-            vector_f value_sum[2][1] = {{ZERO}}, slope_sum[2][3] = {{ZERO}};
+            vector_f at[2][2], X[2 * 3], grad[2];
+            vector_f value_sum[2] = {ZERO}, slope_sum[2 * 3] = {ZERO};
             float place[2 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 2, at[b]);
-                pair_features_f(at[b], X[b]);
+                pair_features_f(at[b], X + 3 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 11 * near[i];
-                    pair_forward_f(X[0], S, value_sum[0], slope_sum[0]);
-                    pair_forward_f(X[1], S, value_sum[1], slope_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_forward_f(some, X, constants, near + i, value_sum, slope_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b) {
-                pair_gradient_f(at[b], slope_sum[b], grad);
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                pair_gradient_f(at[b], slope_sum + 3 * b, grad);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
                 vector_to_rows_f(grad, gradient, count, start + b * LANES_f, 2, 2);
             }
         }
@@ -1678,25 +2906,24 @@ void poincare_splats_value_f(
             splat_constants_f(splat_count, start, mu, W, amplitude, width, constants, splats);
         OMP(omp for schedule(dynamic))
         for (size_t start = 0; start < count; start += 2 * LANES_f) {
-            vector_f at[2], X[2][3], value_sum[2][1] = {{ZERO}};
+            vector_f at[2], X[2 * 3], value_sum[2] = {ZERO};
             float place[2 + 1];
             uint32_t near[256];
             for (size_t b = 0; b < 2; ++b) {
                 vector_rows_f(x, count, start + b * LANES_f, 2, at);
-                pair_features_f(at, X[b]);
+                pair_features_f(at, X + 3 * b);
             }
             if (width) block_place_f(x, count, start, place);
             for (size_t first = 0; first < splat_count; first += 256) {
                 const size_t end = splat_count - first < 256 ? splat_count : first + 256;
                 const size_t size = splats_near_f(width ? place : NULL, splats, first, end, near);
-                for (size_t i = 0; i < size; ++i) {
-                    const float *S = constants + 11 * near[i];
-                    pair_value_f(X[0], S, value_sum[0]);
-                    pair_value_f(X[1], S, value_sum[1]);
+                for (size_t i = 0; i < size; i += 8) {
+                    const size_t some = size - i < 8 ? size - i : 8;
+                    pair_value_f(some, X, constants, near + i, value_sum);
                 }
             }
             for (size_t b = 0; b < 2; ++b)
-                vector_to_rows_f(value_sum[b], value, count, start + b * LANES_f, 1, 1);
+                vector_to_rows_f(value_sum + b, value, count, start + b * LANES_f, 1, 1);
         }
         restore_denormals(mode);
     }
@@ -1715,19 +2942,11 @@ OUTLINE void splat_points_f(
     vector_end_f(count, start, 3 + 1, point + 3);
 }
 
-/* Adds to sums what some vectors of points add to them, those in the list: two at a time, one waits while the other computes. */
+/* Adds to sums what some vectors of points add to them, those in the list. */
 OUTLINE void splat_sums_f(const vector_f *points, const uint32_t *near, size_t size, const float *S, float *sums) {
     vector_f sum[7] = {ZERO};
-    size_t b = 0;
-    for (; b + 1 < size; b += 2) {
-        const vector_f *point = points + 7 * (size_t)near[b], *other = points + 7 * (size_t)near[b + 1];
-        pair_backward_f(point, S, point + 3, point + 3 + 1, sum);
-        pair_backward_f(other, S, other + 3, other + 3 + 1, sum);
-    }
-    if (b < size) {
-        const vector_f *point = points + 7 * (size_t)near[b];
-        pair_backward_f(point, S, point + 3, point + 3 + 1, sum);
-    }
+    for (size_t b = 0; b < size; b += 16)
+        pair_backward_f(size - b < 16 ? size - b : 16, points, near + b, S, sum);
     sums[0] += vector_sum_f(sum[0]);
     sums[1] += vector_sum_f(sum[1]);
     sums[2] += vector_sum_f(sum[2]);
@@ -1806,6 +3025,7 @@ void poincare_splats_rows_f(
     float *POINCARE_RESTRICT rows, float *POINCARE_RESTRICT work, int threads) {
     (void)threads;
     const size_t blocks = (count + LANES_f - 1) / LANES_f;
+    const uint32_t only = 0;
     float *constants = work_constants_f(work, 0, splat_count);
     OMP(omp parallel num_threads(threads) if(threads > 1))
     {
@@ -1822,7 +3042,7 @@ void poincare_splats_rows_f(
                 for (int i = 0; i < 2; ++i) own_mu[i] = vector_of_f(mu[2 * k + i]);
                 for (int i = 0; i < 4; ++i) own_W[i] = vector_of_f(W[4 * k + i]);
                 own_amplitude[0] = vector_of_f(amplitude[k]);
-                pair_backward_f(point, constants + 11 * k, point + 3, point + 3 + 1, own_sums);
+                pair_backward_f(1, point, &only, constants + 11 * k, own_sums);
                 pair_constants_vjp_f(own_mu, own_W, own_amplitude, own_sums, bars, bars + 2, bars + 2 + 4);
                 vector_to_rows_f(bars, rows + 7 * k, count, block * LANES_f, 7, 7 * splat_count);
             }

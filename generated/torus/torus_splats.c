@@ -48,7 +48,7 @@ typedef uint32_t vector_bits_f;
 #define INLINE static inline
 #define OUTLINE static
 #endif
-/* UNROLLED: the few turns of a loop one after another. EACH_LANE: of a loop that gcc makes one instruction, if it stays a loop. */
+/* UNROLLED: the few turns of a loop, one after another. EACH_LANE: what gcc makes one instruction as long as it is a loop. */
 #if defined(__clang__)
 #define UNROLLED _Pragma("clang loop unroll(full)")
 #define EACH_LANE

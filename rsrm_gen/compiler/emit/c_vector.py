@@ -62,7 +62,7 @@ typedef uint32_t vector_bits_f;
 #define INLINE static inline
 #define OUTLINE static
 #endif
-/* UNROLLED: the few turns of a loop one after another. EACH_LANE: of a loop that gcc makes one instruction, if it stays a loop. */
+/* UNROLLED: the few turns of a loop, one after another. EACH_LANE: what gcc makes one instruction as long as it is a loop. */
 #if defined(__clang__)
 #define UNROLLED _Pragma("clang loop unroll(full)")
 #define EACH_LANE
@@ -114,7 +114,7 @@ INLINE T_vector_sum@(vector@ x) {
 TAKEN = {"LANES", "LANES_f", "LANE", "INLINE", "OUTLINE", "UNROLLED", "EACH_LANE",
          "OMP", "ZERO", "memcpy", "vector", "vector_f", "vector_mask",
          "vector_mask_f", "lane", "whole", "given", "found",
-         "points", "splats", "near", "values", "slopes", "factors", "kept"}  # fmt: skip
+         "b", "points", "splats", "near", "values", "slopes", "factors", "kept"}  # fmt: skip
 
 
 def spelled(text: str, precision: Precision) -> str:
