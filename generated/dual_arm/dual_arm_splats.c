@@ -42,10 +42,15 @@ typedef uint32_t vector_bits_f;
 #endif
 #if defined(__GNUC__)
 #define INLINE static inline __attribute__((always_inline, unused))
-/* `used` keeps signatures: clang 14 at -O3 passes vectors of AVX-512 by value where caller and callee disagree how. */
-#define OUTLINE static __attribute__((noinline, used))
 #else
 #define INLINE static inline
+#endif
+/* `used` keeps signatures: clang 14 at -O3 passes vectors of AVX-512 by value where caller and callee disagree how. */
+#if defined(__clang__)
+#define OUTLINE static __attribute__((noinline, used))
+#elif defined(__GNUC__)
+#define OUTLINE static __attribute__((noinline, noclone, used))
+#else
 #define OUTLINE static
 #endif
 /* UNROLLED: the few turns of a loop, one after another. EACH_LANE: what gcc makes one instruction as long as it is a loop. */
@@ -622,7 +627,7 @@ OUTLINE void pair_constants(
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
-OUTLINE void pair_value(
+INLINE void pair_value(
     size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values) {
     struct { vector phi; } kept[8][2];
     for (size_t k = 0; k < count; ++k) {
@@ -837,7 +842,7 @@ OUTLINE void pair_value(
         const double W13_11 = S[207];
         const double W13_12 = S[208];
         const double W13_13 = S[209];
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector *X = points + 14 * b;
             const vector x0 = X[0];
             const vector x1 = X[1];
@@ -961,7 +966,7 @@ OUTLINE void pair_value(
     for (size_t k = 0; k < count; ++k) {
         const double *S = splats + 211 * near[k];
         const double amplitude = S[210];
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             vector *value = values + b;
             const vector phi = kept[k][b].phi;
             value[0] = value[0] + amplitude * phi;
@@ -1190,7 +1195,7 @@ OUTLINE void pair_forward(
         const double W13_11 = S[207];
         const double W13_12 = S[208];
         const double W13_13 = S[209];
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector *X = points + 14 * b;
             const vector x0 = X[0];
             const vector x1 = X[1];
@@ -1524,7 +1529,7 @@ OUTLINE void pair_forward(
         const double W13_12 = S[208];
         const double W13_13 = S[209];
         const double amplitude = S[210];
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             vector *value = values + b;
             vector *slope = slopes + 14 * b;
             const vector z0 = kept[k][b].z0;
@@ -4613,7 +4618,7 @@ OUTLINE void pair_constants_f(
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
-OUTLINE void pair_value_f(
+INLINE void pair_value_f(
     size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values) {
     struct { vector_f phi; } kept[8][2];
     for (size_t k = 0; k < count; ++k) {
@@ -4828,7 +4833,7 @@ OUTLINE void pair_value_f(
         const float W13_11 = S[207];
         const float W13_12 = S[208];
         const float W13_13 = S[209];
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector_f *X = points + 14 * b;
             const vector_f x0 = X[0];
             const vector_f x1 = X[1];
@@ -4952,7 +4957,7 @@ OUTLINE void pair_value_f(
     for (size_t k = 0; k < count; ++k) {
         const float *S = splats + 211 * near[k];
         const float amplitude = S[210];
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             vector_f *value = values + b;
             const vector_f phi = kept[k][b].phi;
             value[0] = value[0] + amplitude * phi;
@@ -5182,7 +5187,7 @@ OUTLINE void pair_forward_f(
         const float W13_11 = S[207];
         const float W13_12 = S[208];
         const float W13_13 = S[209];
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector_f *X = points + 14 * b;
             const vector_f x0 = X[0];
             const vector_f x1 = X[1];
@@ -5516,7 +5521,7 @@ OUTLINE void pair_forward_f(
         const float W13_12 = S[208];
         const float W13_13 = S[209];
         const float amplitude = S[210];
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             vector_f *value = values + b;
             vector_f *slope = slopes + 14 * b;
             const vector_f z0 = kept[k][b].z0;

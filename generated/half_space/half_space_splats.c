@@ -42,10 +42,15 @@ typedef uint32_t vector_bits_f;
 #endif
 #if defined(__GNUC__)
 #define INLINE static inline __attribute__((always_inline, unused))
-/* `used` keeps signatures: clang 14 at -O3 passes vectors of AVX-512 by value where caller and callee disagree how. */
-#define OUTLINE static __attribute__((noinline, used))
 #else
 #define INLINE static inline
+#endif
+/* `used` keeps signatures: clang 14 at -O3 passes vectors of AVX-512 by value where caller and callee disagree how. */
+#if defined(__clang__)
+#define OUTLINE static __attribute__((noinline, used))
+#elif defined(__GNUC__)
+#define OUTLINE static __attribute__((noinline, noclone, used))
+#else
 #define OUTLINE static
 #endif
 /* UNROLLED: the few turns of a loop, one after another. EACH_LANE: what gcc makes one instruction as long as it is a loop. */
@@ -699,7 +704,7 @@ OUTLINE void pair_gradient_vjp(
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
-OUTLINE void pair_backward(
+INLINE void pair_backward(
     size_t count, const vector *points, const uint32_t *near, const double *S, vector *sums) {
     struct { vector d0, product, length, sqrt_value, scale, part0, d1, part1, h_squared, h_squared_total,
             near_chosen, h, h_product, asinh_h, sqrt_1_plus_h_to_2, sinh_t, t_ratio, d1_product, total_2, up,
@@ -2159,7 +2164,7 @@ OUTLINE void pair_gradient_vjp_f(
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
-OUTLINE void pair_backward_f(
+INLINE void pair_backward_f(
     size_t count, const vector_f *points, const uint32_t *near, const float *S, vector_f *sums) {
     struct { vector_f d0, product, length, sqrt_value, scale, part0, d1, part1, h_squared, h_squared_total,
             near_chosen, h, h_product, asinh_h, sqrt_1_plus_h_to_2, sinh_t, t_ratio, d1_product, total_2, up,

@@ -42,10 +42,15 @@ typedef uint32_t vector_bits_f;
 #endif
 #if defined(__GNUC__)
 #define INLINE static inline __attribute__((always_inline, unused))
-/* `used` keeps signatures: clang 14 at -O3 passes vectors of AVX-512 by value where caller and callee disagree how. */
-#define OUTLINE static __attribute__((noinline, used))
 #else
 #define INLINE static inline
+#endif
+/* `used` keeps signatures: clang 14 at -O3 passes vectors of AVX-512 by value where caller and callee disagree how. */
+#if defined(__clang__)
+#define OUTLINE static __attribute__((noinline, used))
+#elif defined(__GNUC__)
+#define OUTLINE static __attribute__((noinline, noclone, used))
+#else
 #define OUTLINE static
 #endif
 /* UNROLLED: the few turns of a loop, one after another. EACH_LANE: what gcc makes one instruction as long as it is a loop. */
@@ -888,7 +893,7 @@ OUTLINE void pair_gradient_vjp(
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
-OUTLINE void pair_factors(
+INLINE void pair_factors(
     size_t count, const vector *points, const uint32_t *near, const double *S, vector *factors) {
     struct { vector v0, v1, v2, v3, v4, v5, v6, v7, v8, z0, z1, z2, z3, z4, z5, z6, z7, z8, phi; } kept[10];
     for (size_t i = 0; i < count; ++i) {
@@ -3039,7 +3044,7 @@ OUTLINE void pair_gradient_vjp_f(
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
-OUTLINE void pair_factors_f(
+INLINE void pair_factors_f(
     size_t count, const vector_f *points, const uint32_t *near, const float *S, vector_f *factors) {
     struct { vector_f v0, v1, v2, v3, v4, v5, v6, v7, v8, z0, z1, z2, z3, z4, z5, z6, z7, z8, phi; } kept[10];
     for (size_t i = 0; i < count; ++i) {

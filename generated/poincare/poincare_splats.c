@@ -42,10 +42,15 @@ typedef uint32_t vector_bits_f;
 #endif
 #if defined(__GNUC__)
 #define INLINE static inline __attribute__((always_inline, unused))
-/* `used` keeps signatures: clang 14 at -O3 passes vectors of AVX-512 by value where caller and callee disagree how. */
-#define OUTLINE static __attribute__((noinline, used))
 #else
 #define INLINE static inline
+#endif
+/* `used` keeps signatures: clang 14 at -O3 passes vectors of AVX-512 by value where caller and callee disagree how. */
+#if defined(__clang__)
+#define OUTLINE static __attribute__((noinline, used))
+#elif defined(__GNUC__)
+#define OUTLINE static __attribute__((noinline, noclone, used))
+#else
 #define OUTLINE static
 #endif
 /* UNROLLED: the few turns of a loop, one after another. EACH_LANE: what gcc makes one instruction as long as it is a loop. */
@@ -708,7 +713,7 @@ OUTLINE void pair_gradient_vjp(
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
-OUTLINE void pair_backward(
+INLINE void pair_backward(
     size_t count, const vector *points, const uint32_t *near, const double *S, vector *sums) {
     struct { vector d0, product, sqrt_a_times_b, scale, part0, d1, part1, h_squared, near_chosen,
             near_chosen_2, h, asinh_h, h_squared_total, sqrt_1_plus_h_to_2, h_product, sinh_t, t_ratio, scale_2,
@@ -2189,7 +2194,7 @@ OUTLINE void pair_gradient_vjp_f(
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
-OUTLINE void pair_backward_f(
+INLINE void pair_backward_f(
     size_t count, const vector_f *points, const uint32_t *near, const float *S, vector_f *sums) {
     struct { vector_f d0, product, sqrt_a_times_b, scale, part0, d1, part1, h_squared, near_chosen,
             near_chosen_2, h, asinh_h, h_squared_total, sqrt_1_plus_h_to_2, h_product, sinh_t, t_ratio, scale_2,

@@ -42,10 +42,15 @@ typedef uint32_t vector_bits_f;
 #endif
 #if defined(__GNUC__)
 #define INLINE static inline __attribute__((always_inline, unused))
-/* `used` keeps signatures: clang 14 at -O3 passes vectors of AVX-512 by value where caller and callee disagree how. */
-#define OUTLINE static __attribute__((noinline, used))
 #else
 #define INLINE static inline
+#endif
+/* `used` keeps signatures: clang 14 at -O3 passes vectors of AVX-512 by value where caller and callee disagree how. */
+#if defined(__clang__)
+#define OUTLINE static __attribute__((noinline, used))
+#elif defined(__GNUC__)
+#define OUTLINE static __attribute__((noinline, noclone, used))
+#else
 #define OUTLINE static
 #endif
 /* UNROLLED: the few turns of a loop, one after another. EACH_LANE: what gcc makes one instruction as long as it is a loop. */
@@ -892,7 +897,7 @@ OUTLINE void pair_gradient_vjp(
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
  * r = R h = W (tangent part of x), z = a r + what other factors add, phi = amplitude a^k exp(-|z|^2 / 2)
  */
-OUTLINE void pair_factors(
+INLINE void pair_factors(
     size_t count, const vector *points, const uint32_t *near, const double *S, vector *factors) {
     struct { vector v0, v1, v2, rotation_g0, gap, rotation_eta, rotation_a, rotation_a_chosen, product,
             product_2, product_3, product_4, total_3, total_5, total_7, total_9, total_11, total_14, gaussian; }
@@ -2982,7 +2987,7 @@ OUTLINE void pair_gradient_vjp_f(
  * Log_mu(x) = a (tangent part of x), |det D Log_mu(x)| = a^k
  * r = R h = W (tangent part of x), z = a r + what other factors add, phi = amplitude a^k exp(-|z|^2 / 2)
  */
-OUTLINE void pair_factors_f(
+INLINE void pair_factors_f(
     size_t count, const vector_f *points, const uint32_t *near, const float *S, vector_f *factors) {
     struct { vector_f v0, v1, v2, rotation_g0, gap, rotation_eta, rotation_a, rotation_a_chosen, product,
             product_2, product_3, product_4, total_3, total_5, total_7, total_9, total_11, total_14, gaussian; }

@@ -42,10 +42,15 @@ typedef uint32_t vector_bits_f;
 #endif
 #if defined(__GNUC__)
 #define INLINE static inline __attribute__((always_inline, unused))
-/* `used` keeps signatures: clang 14 at -O3 passes vectors of AVX-512 by value where caller and callee disagree how. */
-#define OUTLINE static __attribute__((noinline, used))
 #else
 #define INLINE static inline
+#endif
+/* `used` keeps signatures: clang 14 at -O3 passes vectors of AVX-512 by value where caller and callee disagree how. */
+#if defined(__clang__)
+#define OUTLINE static __attribute__((noinline, used))
+#elif defined(__GNUC__)
+#define OUTLINE static __attribute__((noinline, noclone, used))
+#else
 #define OUTLINE static
 #endif
 /* UNROLLED: the few turns of a loop, one after another. EACH_LANE: what gcc makes one instruction as long as it is a loop. */
@@ -520,7 +525,7 @@ INLINE void pair_value(
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
-OUTLINE void pair_forward(
+INLINE void pair_forward(
     size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values, vector *slopes) {
     struct { vector square0, square1, largest, square2, largest_2, square3, row_10, row_11, row_12, row_9,
             total_2, row_length, g1, g2, g3, norm_s_squared, near_chosen, log_det_series, near_chosen_2, norm_s,
@@ -538,7 +543,7 @@ OUTLINE void pair_forward(
         const double mu6 = S[6];
         const double mu7 = S[7];
         const double mu8 = S[8];
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector *X = points + 9 * b;
             const vector x0 = X[0];
             const vector x1 = X[1];
@@ -603,7 +608,7 @@ OUTLINE void pair_forward(
         }
     }
     for (size_t k = 0; k < count; ++k) {
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector row_10 = kept[k][b].row_10;
             const vector row_11 = kept[k][b].row_11;
             const vector row_12 = kept[k][b].row_12;
@@ -617,7 +622,7 @@ OUTLINE void pair_forward(
         }
     }
     for (size_t k = 0; k < count; ++k) {
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector row_9 = kept[k][b].row_9;
             const vector row_length = kept[k][b].row_length;
             const vector g1 = kept[k][b].g1;
@@ -635,7 +640,7 @@ OUTLINE void pair_forward(
         }
     }
     for (size_t k = 0; k < count; ++k) {
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector norm_s = kept[k][b].norm_s;
             const vector g0 = kept[k][b].g0;
             const vector abs_g0 = abs_each(g0);
@@ -645,7 +650,7 @@ OUTLINE void pair_forward(
         }
     }
     for (size_t k = 0; k < count; ++k) {
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector norm_s = kept[k][b].norm_s;
             const vector atan2_norm_s_abs_g0 = kept[k][b].atan2_norm_s_abs_g0;
             const vector t = 2.0 * atan2_norm_s_abs_g0;
@@ -654,7 +659,7 @@ OUTLINE void pair_forward(
         }
     }
     for (size_t k = 0; k < count; ++k) {
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector norm_s_squared = kept[k][b].norm_s_squared;
             const vector t_ratio = kept[k][b].t_ratio;
             const vector_mask its_near = norm_s_squared < 0.249287;
@@ -680,7 +685,7 @@ OUTLINE void pair_forward(
         const double W2_0 = S[15];
         const double W2_1 = S[16];
         const double W2_2 = S[17];
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector g1 = kept[k][b].g1;
             const vector g2 = kept[k][b].g2;
             const vector g3 = kept[k][b].g3;
@@ -723,7 +728,7 @@ OUTLINE void pair_forward(
         const double W2_1 = S[16];
         const double W2_2 = S[17];
         const double amplitude = S[18];
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector g1 = kept[k][b].g1;
             const vector g2 = kept[k][b].g2;
             const vector g3 = kept[k][b].g3;
@@ -752,7 +757,7 @@ OUTLINE void pair_forward(
         }
     }
     for (size_t k = 0; k < count; ++k) {
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector norm_s = kept[k][b].norm_s;
             const vector total_3 = kept[k][b].total_3;
             const vector by_t = total_3 / norm_s;
@@ -760,7 +765,7 @@ OUTLINE void pair_forward(
         }
     }
     for (size_t k = 0; k < count; ++k) {
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector near_chosen_2 = kept[k][b].near_chosen_2;
             const vector abs_g0 = kept[k][b].abs_g0;
             const vector by_t = kept[k][b].by_t;
@@ -770,7 +775,7 @@ OUTLINE void pair_forward(
         }
     }
     for (size_t k = 0; k < count; ++k) {
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector norm_s_squared = kept[k][b].norm_s_squared;
             const vector near_chosen = kept[k][b].near_chosen;
             const vector log_det_series = kept[k][b].log_det_series;
@@ -795,7 +800,7 @@ OUTLINE void pair_forward(
         }
     }
     for (size_t k = 0; k < count; ++k) {
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector row_length = kept[k][b].row_length;
             const vector g1 = kept[k][b].g1;
             const vector g2 = kept[k][b].g2;
@@ -827,7 +832,7 @@ OUTLINE void pair_forward(
         }
     }
     for (size_t k = 0; k < count; ++k) {
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector total_2 = kept[k][b].total_2;
             const vector row_length = kept[k][b].row_length;
             const vector g1 = kept[k][b].g1;
@@ -856,7 +861,7 @@ OUTLINE void pair_forward(
         const double mu6 = S[6];
         const double mu7 = S[7];
         const double mu8 = S[8];
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             vector *value = values + b;
             vector *slope = slopes + 9 * b;
             const vector square0 = kept[k][b].square0;
@@ -2613,7 +2618,7 @@ INLINE void pair_value_f(
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
-OUTLINE void pair_forward_f(
+INLINE void pair_forward_f(
     size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values, vector_f *slopes) {
     struct { vector_f square0, square1, largest, square2, largest_2, square3, row_10, row_11, row_12, row_9,
             total_2, row_length, g1, g2, g3, norm_s_squared, near_chosen, log_det_series, near_chosen_2, norm_s,
@@ -2631,7 +2636,7 @@ OUTLINE void pair_forward_f(
         const float mu6 = S[6];
         const float mu7 = S[7];
         const float mu8 = S[8];
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector_f *X = points + 9 * b;
             const vector_f x0 = X[0];
             const vector_f x1 = X[1];
@@ -2696,7 +2701,7 @@ OUTLINE void pair_forward_f(
         }
     }
     for (size_t k = 0; k < count; ++k) {
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector_f row_10 = kept[k][b].row_10;
             const vector_f row_11 = kept[k][b].row_11;
             const vector_f row_12 = kept[k][b].row_12;
@@ -2710,7 +2715,7 @@ OUTLINE void pair_forward_f(
         }
     }
     for (size_t k = 0; k < count; ++k) {
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector_f row_9 = kept[k][b].row_9;
             const vector_f row_length = kept[k][b].row_length;
             const vector_f g1 = kept[k][b].g1;
@@ -2728,7 +2733,7 @@ OUTLINE void pair_forward_f(
         }
     }
     for (size_t k = 0; k < count; ++k) {
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector_f norm_s = kept[k][b].norm_s;
             const vector_f g0 = kept[k][b].g0;
             const vector_f abs_g0 = abs_each_f(g0);
@@ -2738,7 +2743,7 @@ OUTLINE void pair_forward_f(
         }
     }
     for (size_t k = 0; k < count; ++k) {
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector_f norm_s = kept[k][b].norm_s;
             const vector_f atan2_norm_s_abs_g0 = kept[k][b].atan2_norm_s_abs_g0;
             const vector_f t = 2.0f * atan2_norm_s_abs_g0;
@@ -2747,7 +2752,7 @@ OUTLINE void pair_forward_f(
         }
     }
     for (size_t k = 0; k < count; ++k) {
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector_f norm_s_squared = kept[k][b].norm_s_squared;
             const vector_f t_ratio = kept[k][b].t_ratio;
             const vector_mask_f its_near = norm_s_squared < 0.249287f;
@@ -2774,7 +2779,7 @@ OUTLINE void pair_forward_f(
         const float W2_0 = S[15];
         const float W2_1 = S[16];
         const float W2_2 = S[17];
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector_f g1 = kept[k][b].g1;
             const vector_f g2 = kept[k][b].g2;
             const vector_f g3 = kept[k][b].g3;
@@ -2817,7 +2822,7 @@ OUTLINE void pair_forward_f(
         const float W2_1 = S[16];
         const float W2_2 = S[17];
         const float amplitude = S[18];
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector_f g1 = kept[k][b].g1;
             const vector_f g2 = kept[k][b].g2;
             const vector_f g3 = kept[k][b].g3;
@@ -2846,7 +2851,7 @@ OUTLINE void pair_forward_f(
         }
     }
     for (size_t k = 0; k < count; ++k) {
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector_f norm_s = kept[k][b].norm_s;
             const vector_f total_3 = kept[k][b].total_3;
             const vector_f by_t = total_3 / norm_s;
@@ -2854,7 +2859,7 @@ OUTLINE void pair_forward_f(
         }
     }
     for (size_t k = 0; k < count; ++k) {
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector_f near_chosen_2 = kept[k][b].near_chosen_2;
             const vector_f abs_g0 = kept[k][b].abs_g0;
             const vector_f by_t = kept[k][b].by_t;
@@ -2864,7 +2869,7 @@ OUTLINE void pair_forward_f(
         }
     }
     for (size_t k = 0; k < count; ++k) {
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector_f norm_s_squared = kept[k][b].norm_s_squared;
             const vector_f near_chosen = kept[k][b].near_chosen;
             const vector_f log_det_series = kept[k][b].log_det_series;
@@ -2890,7 +2895,7 @@ OUTLINE void pair_forward_f(
         }
     }
     for (size_t k = 0; k < count; ++k) {
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector_f row_length = kept[k][b].row_length;
             const vector_f g1 = kept[k][b].g1;
             const vector_f g2 = kept[k][b].g2;
@@ -2922,7 +2927,7 @@ OUTLINE void pair_forward_f(
         }
     }
     for (size_t k = 0; k < count; ++k) {
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector_f total_2 = kept[k][b].total_2;
             const vector_f row_length = kept[k][b].row_length;
             const vector_f g1 = kept[k][b].g1;
@@ -2952,7 +2957,7 @@ OUTLINE void pair_forward_f(
         const float mu6 = S[6];
         const float mu7 = S[7];
         const float mu8 = S[8];
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             vector_f *value = values + b;
             vector_f *slope = slopes + 9 * b;
             const vector_f square0 = kept[k][b].square0;

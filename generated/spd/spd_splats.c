@@ -42,10 +42,15 @@ typedef uint32_t vector_bits_f;
 #endif
 #if defined(__GNUC__)
 #define INLINE static inline __attribute__((always_inline, unused))
-/* `used` keeps signatures: clang 14 at -O3 passes vectors of AVX-512 by value where caller and callee disagree how. */
-#define OUTLINE static __attribute__((noinline, used))
 #else
 #define INLINE static inline
+#endif
+/* `used` keeps signatures: clang 14 at -O3 passes vectors of AVX-512 by value where caller and callee disagree how. */
+#if defined(__clang__)
+#define OUTLINE static __attribute__((noinline, used))
+#elif defined(__GNUC__)
+#define OUTLINE static __attribute__((noinline, noclone, used))
+#else
 #define OUTLINE static
 #endif
 /* UNROLLED: the few turns of a loop, one after another. EACH_LANE: what gcc makes one instruction as long as it is a loop. */
@@ -619,7 +624,7 @@ OUTLINE void pair_constants(
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
-OUTLINE void pair_value(
+INLINE void pair_value(
     size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values) {
     for (size_t k = 0; k < count; ++k) {
         const double *S = splats + 22 * near[k];
@@ -639,7 +644,7 @@ OUTLINE void pair_value(
         const double mul_of_one = S[13];
         const double mul_of_one_2 = S[14];
         const double mul_of_one_3 = S[15];
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector *X = points + 4 * b;
             vector *value = values + b;
             const vector x0 = X[0];
@@ -724,7 +729,7 @@ OUTLINE void pair_value(
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
-OUTLINE void pair_forward(
+INLINE void pair_forward(
     size_t count, const vector *points, const double *splats, const uint32_t *near, vector *values, vector *slopes) {
     for (size_t k = 0; k < count; ++k) {
         const double *S = splats + 22 * near[k];
@@ -744,7 +749,7 @@ OUTLINE void pair_forward(
         const double mul_of_one = S[13];
         const double mul_of_one_2 = S[14];
         const double mul_of_one_3 = S[15];
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector *X = points + 4 * b;
             vector *value = values + b;
             vector *slope = slopes + 4 * b;
@@ -2211,7 +2216,7 @@ OUTLINE void pair_constants_f(
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
-OUTLINE void pair_value_f(
+INLINE void pair_value_f(
     size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values) {
     for (size_t k = 0; k < count; ++k) {
         const float *S = splats + 22 * near[k];
@@ -2231,7 +2236,7 @@ OUTLINE void pair_value_f(
         const float mul_of_one = S[13];
         const float mul_of_one_2 = S[14];
         const float mul_of_one_3 = S[15];
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector_f *X = points + 4 * b;
             vector_f *value = values + b;
             const vector_f x0 = X[0];
@@ -2316,7 +2321,7 @@ OUTLINE void pair_value_f(
  *
  * phi = amplitude |det D Log_mu(x)| exp(-|z|^2 / 2), z = W Log_mu(x)
  */
-OUTLINE void pair_forward_f(
+INLINE void pair_forward_f(
     size_t count, const vector_f *points, const float *splats, const uint32_t *near, vector_f *values, vector_f *slopes) {
     for (size_t k = 0; k < count; ++k) {
         const float *S = splats + 22 * near[k];
@@ -2336,7 +2341,7 @@ OUTLINE void pair_forward_f(
         const float mul_of_one = S[13];
         const float mul_of_one_2 = S[14];
         const float mul_of_one_3 = S[15];
-        UNROLLED for (size_t b = 0; b < 2; ++b) {
+        for (size_t b = 0; b < 2; ++b) {
             const vector_f *X = points + 4 * b;
             vector_f *value = values + b;
             vector_f *slope = slopes + 4 * b;

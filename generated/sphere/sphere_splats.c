@@ -42,10 +42,15 @@ typedef uint32_t vector_bits_f;
 #endif
 #if defined(__GNUC__)
 #define INLINE static inline __attribute__((always_inline, unused))
-/* `used` keeps signatures: clang 14 at -O3 passes vectors of AVX-512 by value where caller and callee disagree how. */
-#define OUTLINE static __attribute__((noinline, used))
 #else
 #define INLINE static inline
+#endif
+/* `used` keeps signatures: clang 14 at -O3 passes vectors of AVX-512 by value where caller and callee disagree how. */
+#if defined(__clang__)
+#define OUTLINE static __attribute__((noinline, used))
+#elif defined(__GNUC__)
+#define OUTLINE static __attribute__((noinline, noclone, used))
+#else
 #define OUTLINE static
 #endif
 /* UNROLLED: the few turns of a loop, one after another. EACH_LANE: what gcc makes one instruction as long as it is a loop. */

@@ -39,7 +39,10 @@ from rsrm_gen.compiler.lower import Node, Program, Routine
 from rsrm_gen.compiler.lower.ir import Result, reachable
 
 REGISTERS = 20  # sums that stay in registers; of more, products are added up in groups
-INLINED = 400  # operations of a routine beyond which a call costs nothing
+INLINED = 700  # operations of a routine beyond which a call costs nothing
+UNROLLED = (
+    400  # operations of a routine beyond which a loop over points costs nothing, and its turns, written out, seconds
+)
 BUFFER = 24576  # bytes of factors that stay in the first cache
 BLOCK = 2  # vectors of points that pass together forward
 PAIRS = 16  # of a vector of points and a splat, that a processor computes together: a multiple of BLOCK
@@ -196,11 +199,6 @@ class Form:
     def over(self) -> str:
         """The loop over splats, or over vectors of points."""
         return "for (size_t k = 0; k < count; ++k) {" if self.splats else "for (size_t i = 0; i < count; ++i) {"
-
-    @property
-    def over_points(self) -> str:
-        """The loop within that over splats."""
-        return "UNROLLED for (size_t b = 0; b < $BLOCK; ++b) {"
 
     @property
     def kept(self) -> str:
@@ -361,7 +359,8 @@ def _pair_routine(
         lines += _stores(routine, body, sums) if is_last else []
         lines = form.located(lines)
         if form.splats:
-            lines = [*form.located(body.statements((), own)), form.over_points, indented(lines, 4), "}"]
+            over = "UNROLLED " * (routine.operations <= UNROLLED) + "for (size_t b = 0; b < $BLOCK; ++b) {"
+            lines = [*form.located(body.statements((), own)), over, indented(lines, 4), "}"]
         loops += [form.over, indented(lines, 4), "}"]
     text = "\n".join(loops)
     first = [f"(void){name};" for name in form.may_be_unread if not re.search(rf"\b{name}\b", text)]
