@@ -70,6 +70,25 @@ class Schedule:
     bounds: tuple[float, float] = (1e-3, math.inf)  # of the singular values of A
 
 
+# A long fit is in two parts, the first on fewer points: this part of the iterations; and in each, after which of its
+# iterations, as parts of it, what share of the splats is moved.
+FIRST = 0.4
+MOVED = (
+    {0.14: 0.1, 0.28: 0.08, 0.42: 0.07, 0.56: 0.06, 0.7: 0.05, 0.85: 0.04},
+    {0.1: 0.04, 0.3: 0.03, 0.5: 0.02},
+)
+
+
+def two_parts(iterations: int) -> tuple[tuple[int, dict[int, float]], tuple[int, dict[int, float]]]:
+    """Of each part of a fit: how many iterations, and after which of them (from 1) what share of the splats is moved."""
+    first = math.ceil(FIRST * iterations)
+    early, late = (
+        (count, {max(round(part * count), 1): share for part, share in moved.items()})
+        for count, moved in zip((first, iterations - first), MOVED, strict=True)
+    )
+    return early, late
+
+
 def shape_bounds(manifold: Manifold, x: Tensor) -> tuple[float, float]:
     """How narrow and how wide splats may be that are fitted to values at points x (N, D)."""
     some = x[:: max(len(x) // 512, 1)][:512]

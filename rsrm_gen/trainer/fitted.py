@@ -9,14 +9,12 @@ from collections.abc import Callable
 
 from torch import Tensor
 
-from rsrm_gen.trainer.fit import Fit, Schedule, Targets, shape_bounds
+from rsrm_gen.trainer.fit import Fit, Schedule, Targets, shape_bounds, two_parts
 from rsrm_gen.trainer.gauss_newton import effective_count
 from rsrm_gen.trainer.model import ArrivalTime, SplatField
 from rsrm_gen.trainer.response import Arrival
 
 ITERATIONS = 34  # as many as `objective: paths` takes
-# After which iterations, what share of the splats.
-MOVED = {2: 0.1, 4: 0.08, 6: 0.07, 8: 0.06, 10: 0.05, 12: 0.04, 16: 0.04, 20: 0.03, 24: 0.02}
 MOST = 5000  # parameters, beyond which an iteration takes seconds
 
 
@@ -37,7 +35,9 @@ def fitted(arrival: ArrivalTime, x: Tensor, time: Tensor, tell: Callable[[int, i
     field = SplatField(manifold, old.count, dtype)
     model = ArrivalTime(field, arrival.link, manifold, arrival.goal, arrival.base)
     targets = Targets(x, time.to(dtype), x.new_ones(len(x)))
-    fit = Fit(field, Arrival(model), targets, Schedule(ITERATIONS, MOVED, shape_bounds(manifold, x)))
+    (first, early), (_, late) = two_parts(ITERATIONS)
+    moved = early | {first + iteration: share for iteration, share in late.items()}
+    fit = Fit(field, Arrival(model), targets, Schedule(ITERATIONS, moved, shape_bounds(manifold, x)))
     fit.place(old.count)
     while not fit.done:
         tell(fit.iteration, ITERATIONS)

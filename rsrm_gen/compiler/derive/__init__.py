@@ -189,7 +189,10 @@ class _Derivation:
         to_tangent, norm = self.operators.to_tangent(), self.operators.norm()
         exp, free = self.plain_exp[0], is_free(spec)
         bounded = spec.injectivity_radius is not None
-        sampler = Sampler(project, self.domain, to_tangent, norm, exp, spec.point_size, reach, free, bounded)
+        written_at = (spec.norm or spec.metric).value.span
+        sampler = Sampler(
+            project, self.domain, to_tangent, norm, exp, spec.point_size, reach, free, bounded, written_at
+        )
         self.check_positive(sampler)
         return sampler
 

@@ -14,7 +14,7 @@ from mpmath import libmp
 from rsrm_gen.compiler.derive.geometry import Choose, Function, Geometry
 from rsrm_gen.compiler.derive.numeric import DIGITS, PRECISION, run, value
 from rsrm_gen.compiler.spec import ManifoldSpec, Spec
-from rsrm_gen.errors import UserError
+from rsrm_gen.errors import Span, UserError
 
 Numbers = list[Any]
 
@@ -35,6 +35,7 @@ class Sampler:
     reach: Any
     free: bool = False  # whether any numbers are a tangent vector, as components in a chart or a frame are
     bounded: bool = False  # whether there is a finite injectivity radius, twice the reach
+    norm_written_at: Span | None = None
 
     def gaussian(self, rng: random.Random, size: int) -> Numbers:
         """`size` numbers, each of three doubles' worth of random digits."""
@@ -65,6 +66,8 @@ class Sampler:
             else:
                 v = run(self.to_tangent, p, self.gaussian(rng, self.point_size))[0]
             length = run(self.norm, p, v)[0][0]
+            if length == 0:
+                raise UserError("`norm` is not positive for a tangent vector v", self.norm_written_at)
             return [c / length for c in v]
 
     def along(self, p: Sequence[Any], u: Sequence[Any], r: Any) -> Numbers:

@@ -20,7 +20,7 @@ import torch
 from torch import Tensor
 
 from rsrm_gen.trainer.curves import Curves, Terrain
-from rsrm_gen.trainer.fit import Fit, Schedule, Targets
+from rsrm_gen.trainer.fit import Fit, Schedule, Targets, two_parts
 from rsrm_gen.trainer.labels import Labels, exchanged, extended, label, offered, weighed
 from rsrm_gen.trainer.objectives.objective import Tell, random_numbers, width_bounds
 from rsrm_gen.trainer.plan import plan
@@ -30,10 +30,6 @@ from rsrm_gen.trainer.sampling import sample_points
 from rsrm_gen.trainer.scene import Scene
 from rsrm_gen.trainer.settings import PathsTraining
 
-FIRST = 0.4  # part of the iterations on half of the points
-# Iterations of a part, as parts of it, after which this share of the splats is moved.
-MOVED_FIRST = {0.14: 0.1, 0.28: 0.08, 0.42: 0.07, 0.56: 0.06, 0.7: 0.05, 0.85: 0.04}
-MOVED_THEN = {0.1: 0.04, 0.3: 0.03, 0.5: 0.02}
 STEP = 0.1  # of a descent whose path is relaxed afterwards; a length
 LED = 4096  # descents at a time
 
@@ -57,7 +53,7 @@ class Paths:
     @property
     def first(self) -> int:
         """How many iterations the first part has."""
-        return math.ceil(FIRST * self.steps)
+        return two_parts(self.steps)[0][0]
 
     def begin(self) -> None:
         """Nothing yet: labels take long, and belong to the first step."""
@@ -98,10 +94,7 @@ class Paths:
         return Targets(*(t.to(self.scene.goal.dtype) for t in (x, torch.from_numpy(self.labels.time), weight)))
 
     def _schedule(self, step: int, targets: Targets) -> Schedule:
-        first = step < self.first
-        count = self.first if first else self.steps - self.first
-        moved = MOVED_FIRST if first else MOVED_THEN
-        relocate = {max(round(part * count), 1): share for part, share in moved.items()}
+        count, relocate = two_parts(self.steps)[step >= self.first]
         return Schedule(count, relocate, width_bounds(self.scene.manifold, self.settings.splats, targets.x))
 
     @cached_property
