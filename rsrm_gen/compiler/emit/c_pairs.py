@@ -85,19 +85,19 @@ class Form:
 
     def located(self, lines: Sequence[str]) -> list[str]:
         """Lines, after those that say where the arrays are that they read or write."""
-        return [place for name, place in self.places.items() if any(f"{name}[" in line for line in lines)] + [*lines]
+        text = "\n".join(lines)
+        return [place for name, place in self.places.items() if re.search(rf"\b{name}\[", text)] + [*lines]
 
 
 SPLATS_AT = "size_t count, const vector@ *points, const T_*splats, const uint32_t *near, vector@ *values"
 POINTS_AT = "size_t count, const vector@ *points, const uint32_t *near, const T_*S"
-# By how they are read or written: the space tells X[ from slopes of X.
 OF_SPLATS = {
-    " X": "const vector@ *X = points + $nX * b;",
-    " S": "const T_*S = splats + $nS * near[k];",
+    "X": "const vector@ *X = points + $nX * b;",
+    "S": "const T_*S = splats + $nS * near[k];",
     "value": "vector@ *value = values + b;",
 }
 OF_POINTS = {
-    " X": "const vector@ *X = points + $nB * (size_t)near[i];",
+    "X": "const vector@ *X = points + $nB * (size_t)near[i];",
     "value_bar": "const vector@ *value_bar = points + $nB * (size_t)near[i] + $nX;",
     "slope_bar": "const vector@ *slope_bar = points + $nB * (size_t)near[i] + $nX + 1;",
 }
