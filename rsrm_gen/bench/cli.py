@@ -166,7 +166,7 @@ def kernels_command(
     """The time of a training step by the generated kernel, beside torch and JAX in one run.
 
     \b
-    rsrm bench kernels                           T^2, S^2, H^2, SO(3), T^6, S^5, SE(3): an hour or more
+    rsrm bench kernels                           T^2, S^2, H^2, SO(3), T^6, S^5, SE(3): hours
     rsrm bench kernels sphere --size 4096,512 --threads 2 --precision float32
     rsrm bench kernels sphere --size 4096,512 --sigma 0.05 --contender kernel --contender culled
     rsrm bench kernels --markdown kernels.md --json kernels.json --plot kernels.png
