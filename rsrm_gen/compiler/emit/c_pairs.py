@@ -23,7 +23,7 @@ from rsrm_gen.compiler.lower.ir import Result, reachable
 REGISTERS = 20  # sums that stay in registers; of more, products are added up in groups
 INLINED = 700  # operations of a routine beyond which a call costs nothing
 UNROLLED = (
-    400  # operations beyond which a loop over points costs nothing, and writing out its turns compiles for seconds
+    400  # operations beyond which a loop over points costs nothing, and its turns, written out, take seconds to compile
 )
 BUFFER = 24576  # bytes of factors that stay in the first cache
 BLOCK = 2  # vectors of points that pass together forward
@@ -166,7 +166,7 @@ def _factored(
 
 def buffered(products: Products) -> int:
     """How many pairs' factors stay in the first cache."""
-    return max(4, min(16, BUFFER // (64 * len(products.factors))))
+    return max(4, min(PAIRS, BUFFER // (64 * len(products.factors))))
 
 
 def _needed(routine: Routine, nodes: Sequence[Node]) -> tuple[tuple[str, Node], ...]:

@@ -1,7 +1,7 @@
 """The sums of splats in C: N points times K splats, values and gradients forward, their adjoints backward.
 
 Every routine of `program.pairs` becomes a function of vectors. Forward, the lanes of some vectors are points, and all
-splats pass over them while the sums stay in registers. Backward, the points pass over each splat, whose sums stay in
+splats pass over them, some at a time (see `c_pairs.py`). Backward, the points pass over each splat, whose sums stay in
 registers, and are added up over the lanes once a chunk. Nothing of size N x K is stored, and no sum depends on the number
 of threads: forward they share the points, backward the splats.
 """

@@ -236,9 +236,8 @@ class Body:
         self.printer.vectors = self._depends(routine, vectors)
         read = {node for node in routine.nodes if node.op == "input"}
         self.inputs = {node: text for node, text in inputs.items() if node in read}
-        self.roots = [node for result in routine.results for node in result.nodes]
         needed: dict[Node, None] = {}
-        for root in self.roots:
+        for root in (node for result in routine.results for node in result.nodes):
             for node in arguments_first(root, reads, needed):
                 needed[node] = None
         self.named = [(name, node) for name, node in routine.body if node in needed]

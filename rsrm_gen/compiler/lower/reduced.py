@@ -25,10 +25,8 @@ from rsrm_gen.compiler.lower.differentiate import gradient
 from rsrm_gen.compiler.lower.from_sympy import inline
 from rsrm_gen.compiler.lower.ir import Graph, Node, Packed, dot
 from rsrm_gen.compiler.lower.pairs import SplatNodes
-from rsrm_gen.compiler.lower.quadratic import half_square, pays, quadratic
+from rsrm_gen.compiler.lower.quadratic import HALF, half_square, pays, quadratic
 from rsrm_gen.compiler.spec import ProductSpec
-
-HALF = sp.Rational(1, 2)
 
 # What is said of a pair's function in generated code.
 FORMULA = """h = x / 2, M = mu / 2 (x and mu where x and -x are one point)
